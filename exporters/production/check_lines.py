@@ -100,7 +100,7 @@ def caption_lines(checks: dict[str, Any], language: str, names: Mapping[str, str
         return lines
     told, mates = words(language), checks.get("mates", [])
     bad = [mate for mate in mates if has_bad_verdict({"mates": [mate]})]
-    held = {key: checks[key] for key in ("axles", "in_a_row", "solids") if key in checks}
+    held = {key: found for key, found in checks.items() if key in ("axles", "in_a_row", "solids")}
     lines = check_lines({**held, "mates": bad}, language, names, brief=True)
     counts = Counter(mate["verdict"] for mate in mates if "verdict" in mate and mate not in bad)
     for verdict, count in counts.items():

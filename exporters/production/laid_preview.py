@@ -45,9 +45,7 @@ def laid_previews(plan: Plan, folder: Path) -> list[Path]:
     fills = dict(zip(plan.parts, np.resize(FILLS, len(plan.parts)).tolist(), strict=True))
     fills |= {name: part.colour for name, part in plan.parts.items() if part.colour}
     title = plan.scene.scene.title or plan.scene.name
-    return [
-        _preview(jobs[0], title, fills, folder / f"{name}.preview.svg") for name, jobs in laid_jobs(plan).items()
-    ]
+    return [_preview(jobs[0], title, fills, folder / f"{name}.preview.svg") for name, jobs in laid_jobs(plan).items()]
 
 
 def _preview(job: LaidJob, title: str, fills: Mapping[str, str], file: Path) -> Path:
@@ -93,7 +91,9 @@ def _drawn(part: Part, job: LaidJob, number: str, fill: str) -> _Drawn:
     around = (Contour(hull, np.zeros(len(hull))),)
     own, seen = _box(samples(section[-1])), _box(hull)
     # a section may be less than what is seen, and a development is no view
-    layers = (section,) if np.allclose(own, seen, rtol=0.02) else (around, section) if max(own / seen) < 1 else (around,)
+    layers = (
+        (section,) if np.allclose(own, seen, rtol=0.02) else (around, section) if max(own / seen) < 1 else (around,)
+    )
     return _Drawn(layers, (), (f"{number} {part.title or part.id}", number), fill)
 
 

@@ -51,7 +51,9 @@ def _files(plan: Plan, told: Words) -> Iterator[str]:
     rows = [
         (
             ", ".join((jobs[0].path, *(f".{job.export.format}" for job in jobs[1:]))),
-            "; ".join((", ".join(lying_on(jobs[0]).values()), *(told.say(finding_message(f)) for f in several(jobs[0].times)))),
+            "; ".join(
+                (", ".join(lying_on(jobs[0]).values()), *(told.say(finding_message(f)) for f in several(jobs[0].times)))
+            ),
         )
         for jobs in laid.values()
     ]
@@ -61,10 +63,9 @@ def _files(plan: Plan, told: Words) -> Iterator[str]:
             rows.append((job.path, told.text(_MODEL)))
         elif job.export.purpose in empty:
             rows.append((job.path, told.text(_EMPTY if job.export.cells == "empty" else _FILLED)))
-    boards = [jobs[0].board for jobs in laid.values() if jobs[0].export.purpose == "board"]
-    if boards:
+    if any(jobs[0].export.purpose == "board" for jobs in laid.values()):
         text = told.text("Cut the boards: blue is engraved first, then green is cut, red last.")
-        if any(board.kerf for board in boards):
+        if any(jobs[0].export.kerf for jobs in laid.values()):
             text += " " + told.text(
                 "Where what is put together sits too loose or too tight, cut `{coupon}` and write what it tells into "
                 "`kerf` of the board.",

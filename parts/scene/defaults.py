@@ -78,7 +78,7 @@ def filled_in(raw: Table, source: str, export_keys: type[Struct], takes: Takes) 
 
 def as_thick_as_board(raw: Table) -> tuple[Table, dict[str, str]]:
     """The tables of a scene with one board: what does not say how thick it is, is as thick; and where that is said."""
-    (name, board), = raw["boards"].items()
+    ((name, board),) = raw["boards"].items()
     tables, origins = dict(raw), dict[str, str]()
     if "thickness" not in board:
         return raw, origins

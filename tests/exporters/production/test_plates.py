@@ -111,7 +111,8 @@ def test_parts_too_large_for_a_bed_are_named_with_their_scale(
     assert words.rsplit(" and ", maxsplit=1)[-1] in told
     assert not (tmp_path / "set").exists()
     # the bed that it names is the least one, to 1 mm
-    bed = dict(zip(("width", "depth", "height"), map(int, re.findall(r"(\d+) x (\d+) x (\d+) mm", told)[0]), strict=True))
+    (sides,) = re.findall(r"(\d+) x (\d+) x (\d+) mm", told)
+    bed = dict(zip(("width", "depth", "height"), map(int, sides), strict=True))
     text = (tmp_path / "set.toml").read_text("utf-8")
     for less, code in ((0, 0), (1, 2)):
         for key, side in bed.items():
