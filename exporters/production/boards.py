@@ -13,8 +13,7 @@ from msgspec.structs import replace as with_keys
 from exporters.boards.cuts import in_order
 from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, nest
 from exporters.formats.registry import strokes_of
-from exporters.production.jobs import Job, Made, PartsJob
-from exporters.production.laid import several
+from exporters.production.jobs import Job, Made, PartsJob, several
 from exporters.verification.board import BoardPiece, ExpectedBoard, verify_board
 from exporters.verification.verdict import Verdict
 from geometry.approximation.chords import approximate_profile

@@ -248,6 +248,11 @@ class AssemblyJob(Record, PartsJob):
         return judge.signed(file, kind, self.export.author, self.export.organisation, verdict)
 
 
+def several(times: int) -> tuple[Finding, ...]:
+    """What there is to tell of a board or bed that is made so many times."""
+    return (Finding("made_several_times", float(times), 1.0),) if times > 1 else ()
+
+
 def assembly_name(scene: str) -> str:
     """A scene's name in the letters that every program reads, for the title of its assembly."""
     text = re.sub(r"[^A-Za-z0-9._-]", "_", scene)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from typing import TYPE_CHECKING, TypeAlias
 
-from geometry.base.findings import Finding
 from parts.keys.boards import PURPOSES_LAID
 
 if TYPE_CHECKING:
@@ -23,11 +22,6 @@ def laid_jobs(plan: Plan) -> dict[str, list[LaidJob]]:
         if job.export.purpose in PURPOSES_LAID.values():
             found.setdefault(job.path.rpartition(".")[0], []).append(job)  # type: ignore[arg-type]
     return found
-
-
-def several(times: int) -> tuple[Finding, ...]:
-    """What there is to tell of a board or bed that is made so many times."""
-    return (Finding("made_several_times", float(times), 1.0),) if times > 1 else ()
 
 
 def lying_on(job: LaidJob) -> dict[str, str]:

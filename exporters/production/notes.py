@@ -9,7 +9,8 @@ from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from exporters.production.check_lines import in_rows, names_of
-from exporters.production.laid import laid_jobs, lying_on, several
+from exporters.production.jobs import several
+from exporters.production.laid import laid_jobs, lying_on
 from exporters.production.order import steps_told
 from parts.base.texts import N_, Words, words
 from parts.scene.stock import StockRow, stock_rows

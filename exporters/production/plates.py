@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from exporters.boards.nest import QUARTERS, Laid, Room, largest_scale, nest
 from exporters.production.boards import different_boards
-from exporters.production.jobs import AssemblyJob, Job, Made, assembly_name
-from exporters.production.laid import several
+from exporters.production.jobs import AssemblyJob, Job, Made, assembly_name, several
 from exporters.verification.assembly import expected_of
 from exporters.verification.board import BoardPiece
 from exporters.verification.plate import ExpectedPlate, verify_plate
