@@ -39,3 +39,10 @@ def tensor_poles(degree: int, u_knots: Real, v_knots: Real, points: P) -> P:
     turned = np.swapaxes(half, 0, 1)
     poles = np.linalg.solve(across, turned.reshape(len(across), -1)).reshape(turned.shape)
     return cast("P", np.swapaxes(poles, 0, 1))
+
+
+def axis_poles(degree: int, knots: Real, points: Real, axis: int) -> Real:
+    """Poles of splines through points at Greville's places along one axis of theirs."""
+    moved = np.moveaxis(points, axis, 0)
+    found = np.linalg.solve(basis_matrix(degree, knots, greville(degree, knots)), moved.reshape(len(moved), -1))
+    return np.asarray(np.moveaxis(np.asarray(found.reshape(moved.shape), float), 0, axis))

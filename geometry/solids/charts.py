@@ -192,10 +192,10 @@ class Chart(Record, eq=False):
         """By which surfaces of a solid that are one are told."""
         axis, s = self.axes[2], self.surface
         origin = self.origin
+        side = np.sign(axis[np.argmax(np.abs(axis))])
         if isinstance(s, Plane):
-            return ("plane", *_digits(axis), *_digits(origin @ axis))
+            return ("plane", *_digits(axis * side), *_digits(origin @ axis * side))
         if isinstance(s, Cylinder):
-            side = np.sign(axis[np.argmax(np.abs(axis))])
             return ("cylinder", s.radius, *_digits(axis * side), *_digits(origin - origin @ axis * axis))
         if isinstance(s, Sphere):
             return ("sphere", s.radius, *_digits(origin))

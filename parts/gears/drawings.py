@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -115,9 +116,11 @@ def _engraved(keys: SpurGearSpec | RingGearSpec, subject: Subject) -> tuple[str,
 
 def _thread_words(keys: WormSpec, subject: Subject) -> tuple[str, ...]:
     """How the thread ends, and where a keyway stands beside it."""
-    ends = sheet_words(subject.language, "thread_ends", angle=subject.say(keys.end_angle_deg))
+    words = {"cut": "thread_ends", "blunt": "thread_ends_blunt", "run_out": "thread_run_out"}[keys.thread_ends]
+    angle = keys.run_out_deg if keys.thread_ends == "run_out" else keys.end_angle_deg
+    ends = sheet_words(subject.language, words, angle=subject.say(angle), length=subject.say(keys.thread_length))
     found = directions(hub_holes(bore_of(keys), None, None), subject, "zero_thread", keys.number_of_starts)
-    return ((ends,) if keys.end_angle_deg else ()) + found
+    return (() if keys.thread_ends == "cut" and not keys.end_angle_deg else (ends,)) + found
 
 
 def _spur(keys: SpurGearSpec, subject: Subject) -> Wheel:
@@ -216,15 +219,14 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
     """The worm with its shaft from outside, and its bore where that is not round."""
     worm, half, wishes = body.thread.worm, body.length / 2, subject.wishes
     top = float(body.end_height(worm.tip_radius))
-    lower, upper = ([complex(z, r) for z, r in body.outline(above=side)] for side in (False, True))
-    points = [complex(lower[-1].real, 0), *lower[::-1], complex(-top, worm.tip_radius), complex(top, worm.tip_radius),
-              *upper, complex(upper[-1].real, 0)]  # fmt: skip
-    loop = closed(points)
+    outside = [complex(z, r) for z, r in body.envelope()]
+    loop = closed([complex(outside[0].real, 0), *outside, complex(outside[-1].real, 0)])
     strokes: list[Stroke] = []
     for way, side in ((1, loop), (-1, below(loop))):
         strokes += outlined(side)
         strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=False)]
-        strokes.append((THIN, Line(complex(-half, way * worm.root_radius), complex(half, way * worm.root_radius))))
+        roots = [complex(z, way * r) for z, r in body.root_line()]
+        strokes += [(THIN, Line(a, b)) for a, b in pairwise(roots)]
         strokes.append(
             (AXIS, Line(complex(-half, way * worm.reference_radius), complex(half, way * worm.reference_radius)))
         )

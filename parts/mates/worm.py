@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import cmath
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.nearest import nearest
 from geometry.base.placement import Vector
 from parts.base.mate import End, MateKind, Pose, Standing, Touching
 from parts.keys.mate import GearPairKeys
@@ -105,7 +107,8 @@ class WormMating(Touching):
 
         field = self.field
         used = 0.0 if field is None else field.length_used(math.tan(self.body.end_angle))
-        return (Finding("worm_not_long_enough", self.body.length, used),) if self.body.length < used else ()
+        whole = self.body.length - self.body.lost
+        return (Finding("worm_not_long_enough", whole, used),) if whole < used else ()
 
     def quantities(self) -> dict[str, Any]:
         """Centre distance, ratio, and how much of the worm the wheel touches."""
@@ -129,6 +132,7 @@ class WormPair(MateKind[WormPairSpec, "WheelThing", "WormBody"]):
 
         drive, worm = first.thing.drive, second.thing.thread.worm
         _check(first, second)
+        _check_room(first.thing, second.thing, first.thing.drive.centre_distance + keys.centre_distance_error)
         angle = math.radians(keys.axis_angle_error_deg)
         errors = AxisErrors(keys.centre_distance_error, angle, keys.wheel_axial_error)
         return WormMating(
@@ -160,6 +164,26 @@ def _check(first: End[WheelThing], second: End[WormBody]) -> None:
         if own.lead_angle_deg is not None:
             key, wanted = "lead_angle_deg", math.degrees(math.atan2(wheel.number_of_starts, wheel.diameter_quotient))
         raise ParameterError(key, getattr(own, key), "not_of_its_mate", Nearest(wanted))
+
+
+def _check_room(wheel: WheelThing, body: WormBody, distance: float) -> None:
+    """Refuse a shaft, or a thread too short for its run-out, into which the wheel's teeth run."""
+    for key, away, radius in body.beside():
+        room = wheel.teeth.room(away, distance)
+        if radius <= room:
+            continue
+        if key == "thread_length":
+            raise ParameterError(key, body.length, "worm_run_out_in_wheel", partial(_long, wheel, body, distance))
+        raise ParameterError(key, 2 * radius, "worm_shaft_in_wheel", limit(2 * room, 2 * radius))
+
+
+def _long(wheel: WheelThing, body: WormBody, distance: float) -> Nearest | None:
+    """How long the thread has to be for the wheel's teeth to stay off what is beyond it."""
+
+    def clear(length: float) -> bool:
+        return wheel.teeth.room((length - body.lost) / 2, distance) >= body.start[1]
+
+    return nearest(clear, body.length, body.length + 2 * wheel.teeth.outer_radius)
 
 
 WORM_PAIR = WormPair()

@@ -131,7 +131,11 @@ REASONS = {
     "worm_wheel_undercut": N_("undercut leaves no flank at the ends of the face"),
     "worm_not_moved": N_("would be no worm of its form: thin the thread by axial_thinning"),
     "worm_root_under_axis": N_("leaves no root: the threads reach the axis"),
-    "worm_shaft_over_root": N_("is thicker than the root of the thread, {root} mm: the thread would end in it"),
+    "worm_run_out_in_wheel": N_("the teeth of the wheel run into the worm where its tool leaves"),
+    "worm_shaft_in_wheel": N_("the teeth of the wheel run into this step of the shaft"),
+    "worm_shaft_over_root": N_(
+        "is thicker than the root of the thread, {root} mm: the thread would end in it, but for thread_ends = 'run_out'"
+    ),
     "worm_spaces_closed": N_("the spaces between the threads close above the root; take more q or fewer starts"),
     "worm_step_chamfer": N_("leaves nothing of its step of the shaft"),
     "worm_thread_too_short": N_("leaves no whole thread between its ends"),

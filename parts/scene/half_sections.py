@@ -424,7 +424,7 @@ def _chords(piece: Piece) -> Complex:
 
 def _worm_outline(worm: WormBody) -> Complex:
     """Half a section about a worm, its thread whole up to the tips."""
-    half, tip = worm.length / 2, worm.thread.worm.tip_radius
+    half, tip = worm.start[0], worm.thread.worm.tip_radius
     below, above = ([complex(r, z) for z, r in worm.outline(above=side)[1:]] for side in (False, True))
     ends = [complex(0.0, z) for z in worm.ends()]
     return np.array([ends[0], *below[::-1], complex(tip, -half), complex(tip, half), *above, ends[1]])

@@ -135,6 +135,8 @@ SHEETS: dict[str, Text] = {
     "edges_rounded": N_("{edges}: rounded R {size}."),
     "square_keyways": N_("Keyways in section {letter}-{letter}: square ends."),
     "thread_ends": N_("Ends of the thread: cut by cones at {angle}° to the end planes."),
+    "thread_ends_blunt": N_("Ends of the thread: its thin part cut off by an axial plane."),
+    "thread_run_out": N_("Spaces of the thread: whole over {length}, the tool leaves within {angle}° of turn."),
     "tooth_marked": N_("A mark at a tooth and the number {teeth} engraved {depth} deep, digits {height} high."),
     "space_marked": N_("A mark at a space and the number {teeth} engraved {depth} deep, digits {height} high."),
     "view_a": in_context("drawing, name of a view", "A"),

@@ -9,14 +9,15 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
 from geometry.curves.curve import Real
-from geometry.curves.line_arc import Arc, Line
-from geometry.gears.worms.thread import SectionLine, Thread, line_step
+from geometry.gears.worms.band import CLEAR, Band
+from geometry.gears.worms.thread import FlankLine, SectionLine, Thread, line_offset, line_step
 from geometry.plane.measure import gauss_rule
 from geometry.plane.profile import Label, Profile, circle
 from geometry.solids.mass import Moments, column_integrals, moments_of, section_moments
@@ -27,6 +28,9 @@ _POINTS = 40
 _SAME = 1e-9
 # places on a line at which the ends of a thread are looked at
 _SAMPLES = 65
+
+
+Ends = Literal["cut", "blunt", "run_out"]
 
 
 class Step(Record):
@@ -52,20 +56,12 @@ class Screwed(Record):
         pitch = math.pi * worm.module
         away = side * (points[:, 2] - worm.parameter * angle)
         away = away - pitch * np.round((away - self._height(radius)) / pitch)
-        line, below = self.line, np.zeros(len(radius))
-        if isinstance(line, Arc):
-            spoke = radius + 1j * away - line.centre
-            off, rise = np.abs(spoke) - line.radius, spoke.imag / np.abs(spoke)
-        elif isinstance(line, Line):
-            off, rise = away - line.start.imag, np.ones(len(radius))
-        else:
-            inside = np.maximum(radius, worm.flank.least_radius * (1 + 1e-12))
-            steep = np.hypot(1.0, worm.flank.slope(inside))
-            off, rise, below = (away - worm.half_thickness(inside)) / steep, 1 / steep, inside - radius
+        off, normal = line_offset(self.line, radius + 1j * away)
+        least = worm.flank.least_radius if isinstance(self.line, FlankLine) else 0.0
+        below = np.maximum(least - radius, 0.0)
         # the screw leans what stands across the axial section
-        return np.asarray(
-            np.hypot(np.abs(off) / np.hypot(1.0, rise * worm.parameter / np.maximum(radius, _SAME)), below)
-        )
+        lean = normal.imag * worm.parameter / np.maximum(radius, _SAME)
+        return np.asarray(np.hypot(np.abs(off) / np.hypot(1.0, lean), below))
 
     def _height(self, radius: Real) -> Real:
         """z of the line near a radius, mm."""
@@ -77,6 +73,8 @@ class Screwed(Record):
 class WormBody(Record):
     """A worm as a solid; ``length`` of the thread at its root, mm, ``end_angle`` of the cone from the end plane, rad.
 
+    ``ending``: cut by those cones; blunt, where an axial plane cuts off all that is no whole thread; or the tool leaves
+    its spaces within ``run_out`` rad, from ``length`` between the middles of theirs on, into a cylinder of the tips.
     ``below`` and ``above``: steps of the shaft from the thread outwards; ``bore``: its profile, clockwise.
     """
 
@@ -86,6 +84,37 @@ class WormBody(Record):
     below: tuple[Step, ...] = ()
     above: tuple[Step, ...] = ()
     bore: Profile | None = None
+    ending: Ends = "cut"
+    run_out: float = 0.0
+
+    @property
+    def band(self) -> Band | None:
+        """The threads between axial planes, or the spaces out of which the tool leaves; none that a cone cuts."""
+        p = self.thread.worm.parameter
+        if self.ending == "cut":
+            return None
+        if self.ending == "blunt":
+            return Band(self.thread, 1, (self.length - self.lost / 2) / 2 / p)
+        return Band(self.thread, -1, self.length / 2 / p, self.run_out)
+
+    @property
+    def start(self) -> tuple[float, float]:
+        """Half the length of the cylinder that ends in the shaft, and its radius, mm."""
+        band = self.band
+        return (self.length / 2, self.root_radius) if band is None else (band.height(), band.radius)
+
+    @property
+    def lost(self) -> float:
+        """By how much the length between whole flanks falls short of ``length`` at the root, mm."""
+        thread, module = self.thread, self.thread.worm.module
+        if self.ending == "cut":
+            return 0.0
+        # a flank of a blunt thread ends as far within its end as the other one at its foot
+        return (
+            4 * (thread.root_half + CLEAR * module)
+            if self.ending == "blunt"
+            else math.pi * module - 2 * thread.tip_half
+        )
 
     @property
     def root_radius(self) -> float:
@@ -97,10 +126,10 @@ class WormBody(Record):
         return np.asarray(self.length / 2 - (np.asarray(radius) - self.root_radius) * math.tan(self.end_angle))
 
     def outline(self, *, above: bool) -> list[tuple[float, float]]:
-        """(z, r) of a shaft from the root's end on, outwards, to its last edge, mm; without a shaft the root's end."""
+        """(z, r) of a shaft from the end of the thread's cylinder on, outwards, to its last edge, mm; or that end."""
         sign = 1.0 if above else -1.0
-        z = self.length / 2
-        found = [(sign * z, self.root_radius)]
+        z, radius = self.start
+        found = [(sign * z, radius)]
         for step in self.above if above else self.below:
             radius = step.diameter / 2
             if abs(radius - found[-1][1]) <= _SAME:
@@ -114,9 +143,41 @@ class WormBody(Record):
             found.append((sign * z, radius))
         return [p for k, p in enumerate(found) if k == 0 or math.dist(p, found[k - 1]) > _SAME]
 
+    def envelope(self) -> list[tuple[float, float]]:
+        """(z, r) of all corners from the lower end to the upper one, the thread whole up to its tips, mm."""
+        below, above = self.outline(above=False)[::-1], self.outline(above=True)
+        worm, thread = self.thread.worm, []
+        if self.ending == "cut":
+            thread = [(float(self.end_height(worm.tip_radius)), worm.tip_radius)]
+        elif self.ending == "blunt":
+            foot = self.start[0] - CLEAR * worm.module
+            thread = [(foot, worm.tip_radius), (foot, worm.root_radius)]
+        return [*below, *((-z, r) for z, r in reversed(thread)), *thread, *above]
+
+    def root_line(self) -> list[tuple[float, float]]:
+        """(z, r) of the corners of a line along the roots of the spaces, mm."""
+        band, half = self.band, self.length / 2
+        found = [(half, self.root_radius)]
+        if band is not None and band.run_out:
+            found.append((self.thread.worm.parameter * band.end, band.radius))
+        return [*((-z, r) for z, r in reversed(found)), *found]
+
     def ends(self) -> tuple[float, float]:
         """Lowest and highest z, mm."""
         return self.outline(above=False)[-1][0], self.outline(above=True)[-1][0]
+
+    def beside(self) -> list[tuple[str, float, float]]:
+        """Where it is solid beside its whole thread: the key of each piece, how far off it begins, its radius, mm."""
+        start, radius = self.start
+        band, found = self.band, []
+        if band is not None and band.run_out:
+            found.append(("thread_length", (self.length - self.lost) / 2, radius))
+        for key, steps in (("shaft_below", self.below), ("shaft_above", self.above)):
+            away = start
+            for number, step in enumerate(steps, 1):
+                found.append((f"{key}[{number}].diameter", away, step.diameter / 2))
+                away += step.length
+        return found
 
     def checked(self) -> WormBody:
         """The solid itself, where it exists.
@@ -136,6 +197,8 @@ class WormBody(Record):
     def least_length(self) -> float:
         """Length at which the ends of all lines still leave a whole axial section between them, mm."""
         worm = self.thread.worm
+        if self.ending != "cut":
+            return self.lost * (1 + 1e-6)
         places = np.concatenate([line.point(np.linspace(*line.domain, _SAMPLES)) for _, line in self.thread.lines])
         away = np.abs(places.imag) + (places.real - worm.root_radius) * math.tan(self.end_angle)
         return 2 * float(away.max()) * (1 + 1e-6)
@@ -147,20 +210,9 @@ def worm_moments(body: WormBody) -> Moments:
     At a radius the thread spans a half angle a about the polar angle z / p, from one end to the other: the integrals of
     its powers of x, y and z are closed there, and analytic over each line of the axial section.
     """
-    total = np.zeros(10)
-    worm = body.thread.worm
-    n, p, sign = worm.number_of_starts, worm.parameter, worm.sign
-    nodes, weights = gauss_rule(_POINTS)
-    for _, line in body.thread.lines:
-        low, high = line.domain
-        t = (low + high) / 2 + (high - low) / 2 * nodes
-        place = line.point(t)
-        radii = place.real
-        total += _rings(radii, place.imag / p, np.asarray(body.end_height(radii), float), n, p, sign) @ (
-            weights * (high - low) / 2 * line_step(line, t).real
-        )
-    half = body.length / 2
-    columns = [(circle(worm.root_radius, Label.BODY), -half, half)]
+    half, radius = body.start
+    columns = [(circle(radius, Label.BODY), -half, half)]
+    total = _cut_threads(body) if body.band is None else body.band.integrals()
     for above in (False, True):
         points = body.outline(above=above)
         for (z0, r0), (z1, r1) in pairwise(points):
@@ -170,6 +222,22 @@ def worm_moments(body: WormBody) -> Moments:
     for profile, base, top in columns:
         total += column_integrals(section_moments(profile), base, top)
     return moments_of(total)
+
+
+def _cut_threads(body: WormBody) -> Real:
+    """The same integrals over threads between the cones."""
+    worm = body.thread.worm
+    n, p, sign = worm.number_of_starts, worm.parameter, worm.sign
+    total, (nodes, weights) = np.zeros(10), gauss_rule(_POINTS)
+    for _, line in body.thread.lines:
+        low, high = line.domain
+        t = (low + high) / 2 + (high - low) / 2 * nodes
+        place = line.point(t)
+        radii = place.real
+        total += _rings(radii, place.imag / p, np.asarray(body.end_height(radii), float), n, p, sign) @ (
+            weights * (high - low) / 2 * line_step(line, t).real
+        )
+    return total
 
 
 def _rings(r: Real, a: Real, h: Real, n: int, p: float, sign: int) -> Real:

@@ -19,9 +19,8 @@ _SAME, _THROAT = 1e-7, 12
 def sketch_of_worm(worm: WormBody) -> Sketch:
     """A worm as the cylinder of its tips, its shaft beside."""
     thread = worm.thread.worm
-    below, above = worm.outline(above=False)[::-1], worm.outline(above=True)
-    end = float(worm.end_height(thread.tip_radius))
-    outline = [complex(r, z) for z, r in (*below, (-end, thread.tip_radius), (end, thread.tip_radius), *above)]
+    outline = [complex(r, z) for z, r in worm.envelope()]
+    end = max(p.imag for p in outline[len(outline) // 2 :] if p.real == thread.tip_radius and p.imag <= worm.start[0])
     layers = []
     for layer in lathe(list(pairwise(outline))):
         is_thread = abs(layer.low + end) < _SAME

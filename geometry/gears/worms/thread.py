@@ -65,6 +65,20 @@ def line_step(line: SectionLine, t: ArrayLike) -> Complex:
     return np.asarray(np.asarray(t, float) / line.radius(t) * (1 - 1j * slope))
 
 
+def line_offset(line: SectionLine, place: Complex) -> tuple[Real, Complex]:
+    """How far places of the axial section lie from a line that goes on beyond its ends, mm, and its unit normals."""
+    if isinstance(line, Arc):
+        spoke = place - line.centre
+        return np.abs(spoke) - line.radius, spoke / np.abs(spoke)
+    if isinstance(line, Line):
+        return place.imag - line.start.imag, np.full(place.shape, 1j)
+    worm = line.worm
+    inside = np.maximum(place.real, worm.flank.least_radius * (1 + 1e-12))
+    slope = worm.flank.slope(inside)
+    normal = (slope + 1j) / np.hypot(1.0, slope)
+    return (place.imag - worm.half_thickness(inside)) / np.hypot(1.0, slope), np.asarray(normal)
+
+
 class Thread(Record):
     """A worm with the corners of its thread; ``tip_rounding``: radius of the arc in the axial section, mm.
 

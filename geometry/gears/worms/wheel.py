@@ -127,6 +127,14 @@ class WormTeeth(Record, dict=True):
         throat = self.centre_distance - np.sqrt((self.throat_radius - y) * (self.throat_radius + y))
         return np.where(np.abs(heights) >= self.throat_height, np.minimum(throat, self.outer_radius), throat)
 
+    def room(self, along: float, centre_distance: float) -> float:
+        """How thick a shaft may be ``along`` mm from the middle of the worm, in radius: so near come the tips, mm."""
+        heights = np.linspace(0.0, self.width / 2, _LEVELS)
+        tips = self.tip_radius(heights)
+        inside = tips > abs(along)
+        out = centre_distance - np.sqrt(np.maximum(tips**2 - along**2, 0.0))
+        return float(np.hypot(out, heights)[inside].min(initial=math.inf))
+
     def reach(self) -> float:
         """Greatest distance of the teeth from the axis, mm."""
         if self.lessened is None:

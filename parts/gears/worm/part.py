@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct, field
 from msgspec.structs import replace as changed
@@ -89,6 +89,16 @@ class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field
         float,
         degrees("cone that cuts the thread at both ends, from the end's plane; 0 cuts it plainly", least=0, most=60),
     ] = 20.0
+    thread_ends: Annotated[
+        Literal["cut", "blunt", "run_out"],
+        Meta(
+            description="how the thread ends: cut by a cone (end_angle_deg), thin in the end; blunt, by an axial plane "
+            "where it is whole; run_out, where the tool leaves the spaces: then the shaft may be of any diameter"
+        ),
+    ] = "cut"
+    run_out_deg: Annotated[
+        float, degrees("turn of the worm within which the tool leaves, of thread_ends run_out", least=10, most=120)
+    ] = 90.0
     shaft_below: Steps = field(default_factory=list)
     shaft_above: Steps = field(default_factory=list)
     bore_diameter: BoreDiameter = 0.0
@@ -162,7 +172,7 @@ def _check_shaft(keys: WormSpec, root: float) -> None:
         steps: list[StepTable] = getattr(keys, key)
         for number, step in enumerate(steps, 1):
             place = f"{key}[{number}]"
-            if number == 1 and step.diameter > 2 * root:
+            if number == 1 and step.diameter > 2 * root and keys.thread_ends != "run_out":
                 most = limit(2 * root, step.diameter)
                 raise ParameterError(f"{place}.diameter", step.diameter, "worm_shaft_over_root", most, root=2 * root)
             most_chamfer = min(step.length, step.diameter / 2 - least_wall(step.diameter / 2))
@@ -209,8 +219,10 @@ class WormKind(Kind[WormSpec, "WormBody"]):
             tuple(Step(s.diameter, s.length, s.chamfer) for s in steps)
             for steps in (keys.shaft_below, keys.shaft_above)
         )
-        angle = math.radians(keys.end_angle_deg)
-        return WormBody(thread, keys.thread_length, angle, below, above, bores[0] if bores else None).checked()
+        angle = math.radians(keys.end_angle_deg) if keys.thread_ends == "cut" else 0.0
+        bore, run_out = (bores[0] if bores else None), math.radians(keys.run_out_deg)
+        body = WormBody(thread, keys.thread_length, angle, below, above, bore, keys.thread_ends, run_out)
+        return body.checked()
 
     def section(self, keys: WormSpec, thing: WormBody, offset: float) -> OffsetRegion:
         """The section across the axis in the middle of the thread."""

@@ -226,8 +226,8 @@ def _draw_worm(canvas: Canvas, mating: WormMating, paper: Paper) -> None:
     """Its thread's outline, seen along the line of centres, and its axis."""
     worm, body = mating.worm, mating.body
     foot = complex(body.length / 2, worm.root_radius)
-    head = complex(float(body.end_height(worm.tip_radius)), worm.tip_radius)
-    corners = [foot, head, -head.conjugate(), -foot.conjugate(), -foot, -head, head.conjugate(), foot.conjugate()]
+    above = [complex(z, r) for z, r in reversed(body.envelope()) if abs(z) <= body.start[0]]
+    corners = [*above, *(p.conjugate() for p in reversed(above))]
     for start, end in zip(corners, (*corners[1:], corners[0]), strict=True):
         canvas.line(_TOOTH, paper.point(start), paper.point(end))
     for side in (1, -1):

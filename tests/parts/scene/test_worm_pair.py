@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import manifold3d
@@ -95,6 +96,28 @@ def test_a_worm_of_another_diameter_is_told_the_one_that_fits(
     code, said = _checked(file, capsys)
     assert code == 2
     assert told in said
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [("thread_length = 20.0\nthread_ends = 'run_out'", "parts.worm.thread_length = 20.0: the teeth of the wheel run"),
+     ("shaft_above = [{diameter = 14.0, length = 3.0}, {diameter = 40.0, length = 3.0}]\nthread_length = 20.0",
+      "parts.worm.shaft_above.item 2.diameter = 40.0: the teeth of the wheel run")],
+)  # fmt: skip
+def test_teeth_that_run_into_what_stands_beside_the_thread_are_refused_with_what_is_clear_of_them(
+    given: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = _scene(tmp_path)
+    bad = file.read_text().replace("thread_length = 36.0", given)
+    file.write_text(bad)
+    code, said = _checked(file, capsys)
+    assert code == 2
+    assert told in said
+    value = re.search(r"at (?:least|most) ([0-9.]+) mm works", said)
+    assert value is not None
+    wrong = "diameter = 40.0" if "40.0" in given else "thread_length = 20.0"
+    file.write_text(bad.replace(wrong, wrong.partition("=")[0] + f"= {value[1]}"))
+    assert _checked(file, capsys)[0] == 0
 
 
 @pytest.mark.parametrize("hand", [pytest.param("right", marks=pytest.mark.heavy), "left"])

@@ -36,6 +36,13 @@ BODIES = {
     "plane ends and a keyway": body_of(Worm(5.0, 2, 10.0, "ZA", hand="left"), 40.0, 0.0, 0.0, bore=KEYED),
     "ten starts": body_of(Worm(3.0, 10, 30.0, "ZN2"), 30.0, below=SHAFT, above=SHAFT),
     "no whole step between the ends": body_of(Worm(1.0, 4, 43.0, "ZA"), 8.0, 0.0, math.radians(45)),
+    "blunt": body_of(Worm(2.0, 2, 10.0, "ZN1", hand="left"), 20.0, 0.1, 0.0, below=(Step(12.0, 4.0),), ending="blunt"),
+    "run out into a thicker shaft": body_of(
+        Worm(2.0, 1, 10.0), 16.0, 0.2, 0.0, above=(Step(30.0, 4.0, 1.0),), ending="run_out", run_out=math.pi / 2
+    ),
+    "run out of four starts, without fillets": body_of(
+        Worm(2.0, 4, 10.0, "ZA", hand="left", fillet_coefficient=0.0), 16.0, 0.0, 0.0, ending="run_out", run_out=0.6
+    ),
     "slim": body_of(Worm(2.0, 1, 4.0, "ZA"), 16.0, 0.0, math.radians(45)),
 }
 
@@ -119,6 +126,51 @@ def test_moments_are_those_of_the_thread_cut_into_cells(starts: int) -> None:
     zz = total[3] + math.pi * (root**2 * 40.0**3 / 12 + shaft**2 * (27.0**3 - 20.0**3) / 3)
     assert found.inertia[1, 1] == pytest.approx(xx + zz, rel=2e-3)
     assert found.inertia[1, 2] == pytest.approx(-total[4], abs=2e-3 * zz)
+
+
+@pytest.mark.parametrize("name", ["blunt", "run out into a thicker shaft"])
+def test_thread_ends_are_where_the_tool_leaves_them(name: str) -> None:
+    body = BODIES[name]
+    worm, band = body.thread.worm, body.band
+    assert band is not None
+    # the solid by its definition, at random places about the thread: inside the section that stands at their angle
+    rng = np.random.default_rng(4)
+    z = rng.uniform(-band.height(), band.height(), 60_000)
+    r = rng.uniform(worm.root_radius, worm.tip_radius, len(z))
+    phi = rng.uniform(-math.pi, math.pi, len(z))
+    pitch, p = math.pi * worm.module, worm.parameter
+    inside = np.zeros(len(z), dtype=bool)
+    lines = [line for _, line in body.thread.lines]
+    profile = np.concatenate([line.point(np.linspace(*line.domain, 400)) for line in lines])
+    if name == "blunt":
+        for k in range(-30, 31):
+            angle = worm.sign * phi + math.tau * k / worm.number_of_starts
+            # thread by thread, whole up to the angle at which its foot is 0.1 modules from the end
+            last = (body.length / 2 - 0.1 * worm.module - body.thread.root_half) / p
+            inside |= (np.abs(angle) < last) & (np.abs(z - p * angle) < np.interp(r, profile.real, profile.imag))
+    else:
+        inside[:] = True
+        for k in range(-30, 31):
+            angle = worm.sign * phi + math.tau * k / worm.number_of_starts
+            away = np.abs(angle + math.pi / worm.number_of_starts) - body.length / 2 / p
+            lifted = np.maximum(away, 0.0) / body.run_out * (worm.tip_radius - worm.root_radius)
+            gap = pitch / 2 - np.interp(r - lifted, profile.real, profile.imag)
+            inside &= ~(
+                (np.abs(z - p * angle - pitch / 2) < gap) & (r - lifted > worm.root_radius) & (away < body.run_out)
+            )
+    shell = math.pi * (worm.tip_radius**2 - worm.root_radius**2) * 2 * band.height()
+    # r is drawn evenly
+    share = float(np.mean(inside * r)) / float(np.mean(r))
+    added = worm_moments(replace(body, above=(), below=())).volume - math.pi * worm.root_radius**2 * 2 * band.height()
+    assert added / shell == pytest.approx(share, abs=8e-3)
+
+
+def test_a_file_whose_tool_leaves_at_another_angle_is_caught(tmp_path: Path) -> None:
+    body = BODIES["run out into a thicker shaft"]
+    file = tmp_path / "worm.step"
+    file.write_text(step_text(StepPart("worm", worm_solid(body, 1e-4).geometry), StepForm(10)))
+    held = verify_faced_solid(read_step(file), faced_worm(replace(body, run_out=body.run_out + 0.01)), 1e-4, 1e-4)
+    assert any("deviates" in failure for failure in held.failures)
 
 
 def test_a_thread_shorter_than_its_ends_is_refused_with_the_least_that_works() -> None:

@@ -1,0 +1,154 @@
+"""What every worm has beside its thread: its frame, the shaft beyond both ends, the end faces, and the bore."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+
+from geometry.approximation.outline import Outline
+from geometry.curves.curve import Real
+from geometry.curves.line_arc import Arc
+from geometry.gears.worms.body import WormBody
+from geometry.solids import faces as kinds
+from geometry.solids.faces import Circular, Faces, Frame, Index, Straight
+from geometry.solids.rings import AHEAD, UP, Ring, RingBuilder
+
+# an edge of every thread (n,), and whether it runs forwards
+Use = tuple[Index, bool]
+
+
+class WormRings(RingBuilder):
+    """Vertices, edges and faces of one worm; angles are those of a right-hand one.
+
+    ``rims``: by end (-1, 1) the edges of the circle in which the threaded part ends.
+    """
+
+    def __init__(self, body: WormBody) -> None:
+        super().__init__()
+        self.body, self.thread, self.worm = body, body.thread, body.thread.worm
+        self.starts = np.arange(self.worm.number_of_starts)
+        self.rims: dict[int, list[Use]] = {}
+
+    def placed(self, points: Real) -> Index:
+        """Numbers of points (..., 3) of thread 0 on all threads, (n, ...)."""
+        turn = np.exp(1j * self.worm.sign * math.tau * self.starts / len(self.starts))
+        plane = points[..., 0] + 1j * points[..., 1]
+        shape = (len(self.starts),) + (1,) * plane.ndim
+        return self.add_points(
+            turn.reshape(shape) * plane, np.broadcast_to(points[..., 2], (len(self.starts), *plane.shape))
+        )
+
+    def face(self, surface: kinds.Surface, around: list[Use], *, along: bool = True, threaded: bool = False) -> None:
+        """Faces within edges that turn left about their surfaces' normals outwards, of a right-hand worm.
+
+        ``along``: those point outwards; ``threaded``: a left-hand worm has them turned over.
+        """
+        if self.worm.sign < 0:
+            around = [(edge, not way) for edge, way in reversed(around)]
+            along = along != threaded
+        loop = np.stack([edge for edge, _ in around], axis=1), np.array([way for _, way in around])
+        self.faces.append(Faces(surface, (loop,), along))
+
+    def arc(self, radius: float, z: float, start: Index, end: Index) -> Use:
+        """Arcs about the axis towards growing angles of a right-hand worm."""
+        frame = Frame(self.add_points(np.zeros(1, complex), z), UP, AHEAD)
+        if self.worm.sign < 0:
+            return self.add_edges(end, start, Circular(frame, radius)), False
+        return self.add_edges(start, end, Circular(frame, radius)), True
+
+    def pipe(self, radius: float) -> kinds.Cylinder:
+        return kinds.Cylinder(Frame(self.add_points(np.zeros(1, complex), 0.0), UP, AHEAD), radius)
+
+    def arcs(self, radius: float, z: float, nodes: list[Index]) -> tuple[list[Use], list[Index]]:
+        """Arcs from node to node; and the nodes."""
+        return [self.arc(radius, z, a, b) for a, b in pairwise(nodes)], nodes
+
+    # shafts -----------------------------------------------------------------------------------------------------
+
+    def shafts(self, bore: Outline | None) -> None:
+        """The shaft beyond both ends, the end faces, and the bore through all of it."""
+        hole = None
+        if bore is not None:
+            low, high = self.body.ends()
+            hole = {-1: self.ring(bore, low), 1: self.ring(bore, high)}
+            self.swept(hole[-1], hole[1], UP)
+        for end in (-1, 1):
+            points = self.body.outline(above=end > 0)
+            # as seen from the end
+            outer: list[Use] = (
+                self.rims[end] if self.worm.sign > 0 else [(e, not w) for e, w in reversed(self.rims[end])]
+            )
+            for before, after in pairwise(points):
+                ring = self.ring(_whole(after[1]), after[0], self._first_angle(outer))
+                if before[0] == after[0]:
+                    self._level(
+                        after[0], outer, [(e, True) for e in ring.edges], up=(after[1] < before[1]) == (end > 0)
+                    )
+                else:
+                    self._round(before, after, outer, ring, end)
+                outer = [(e, True) for e in ring.edges]
+            inner = None if hole is None else hole[end].loop(forwards=end > 0)
+            loops = [_loop(outer, left=end > 0)]
+            self.cap(points[-1][0], loops if inner is None else [*loops, inner], up=end > 0)
+
+    def _first_angle(self, outer: list[Use]) -> float:
+        x, y, _ = self.place(self._first(outer))[0]
+        return math.atan2(y, x)
+
+    def _first(self, outer: list[Use]) -> Index:
+        """The vertex (1,) at which a ring begins."""
+        number, way = outer[0]
+        place = int(number[0])
+        for bundle in self.edges:
+            if place < len(bundle.start):
+                return (bundle.start if way else bundle.end)[place : place + 1]
+            place -= len(bundle.start)
+        raise IndexError(number)
+
+    def _level(self, z: float, outer: list[Use], inner: list[Use], *, up: bool) -> None:
+        """A plane ring between two circles."""
+        wide, narrow = outer, inner
+        if self._radius(outer) < self._radius(inner):
+            wide, narrow = inner, outer
+        self.cap(z, [_loop(wide, left=up), _loop(narrow, left=not up)], up=up)
+
+    def _radius(self, outer: list[Use]) -> float:
+        x, y, _ = self.place(self._first(outer))[0]
+        return math.hypot(x, y)
+
+    def _round(
+        self, before: tuple[float, float], after: tuple[float, float], outer: list[Use], ring: Ring, end: int
+    ) -> None:
+        """A cylinder or a cone from a circle to the next one, outwards."""
+        (z0, r0), (z1, r1) = before, after
+        surface: kinds.Surface
+        if r0 == r1:
+            surface = kinds.Cylinder(Frame(self.add_points(np.zeros(1, complex), z0), UP, AHEAD), r0)
+        else:
+            # towards the wider end
+            way = math.copysign(1.0, (r1 - r0) * (z1 - z0))
+            z, r = (z0, r0) if r0 < r1 else (z1, r1)
+            frame = Frame(self.add_points(np.zeros(1, complex), z), way * UP, AHEAD)
+            surface = kinds.Cone(frame, r, math.atan2(abs(r1 - r0), abs(z1 - z0)))
+        first = self._first(outer)
+        straight = self.place(ring.starts[0]) - self.place(first)
+        seam = self.add_edges(first, ring.starts[0], Straight(straight / np.linalg.norm(straight)))
+        rim = [(e, True) for e in ring.edges]
+        around = [*outer, (seam, True), *((e, not w) for e, w in reversed(rim)), (seam, False)]
+        if end < 0:
+            around = [(e, not w) for e, w in reversed(around)]
+        edges, ways = zip(*around, strict=True)
+        self.faces.append(Faces(surface, ((np.stack(edges, axis=1), np.array(ways)),)))
+
+
+def _whole(radius: float) -> Outline:
+    return Outline((Arc(0j, radius, 0.0, math.tau),), 1, 0.0, "exact")
+
+
+def _loop(outer: list[Use], *, left: bool) -> kinds.Loop:
+    """A ring, which turns left as seen from above, as the loop of a face."""
+    around = outer if left else [(e, not w) for e, w in reversed(outer)]
+    edges, ways = zip(*around, strict=True)
+    return np.stack(edges, axis=1), np.array(ways)
