@@ -102,7 +102,7 @@ def test_a_worm_of_another_diameter_is_told_the_one_that_fits(
     ("given", "told"),
     [("thread_length = 20.0\nthread_ends = 'run_out'", "parts.worm.thread_length = 20.0: the teeth of the wheel run"),
      ("shaft_above = [{diameter = 14.0, length = 3.0}, {diameter = 40.0, length = 3.0}]\nthread_length = 20.0",
-      "parts.worm.shaft_above.item 2.diameter = 40.0: the teeth of the wheel run")],
+      "parts.worm.shaft_above[2].diameter = 40.0: the teeth of the wheel run")],
 )  # fmt: skip
 def test_teeth_that_run_into_what_stands_beside_the_thread_are_refused_with_what_is_clear_of_them(
     given: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -80,7 +80,9 @@ def _place(text: str) -> str:
 
 
 @pytest.mark.sampled(1)
-@pytest.mark.parametrize("name", ["left with a base above the root", "plane ends and a keyway"])
+@pytest.mark.parametrize(
+    "name", ["left with a base above the root", "plane ends and a keyway", "run out into a thicker shaft", "blunt"]
+)
 def test_the_kernel_finds_the_worm_valid_and_of_its_volume(name: str) -> None:
     pytest.importorskip("OCP")
     from OCP.BRepCheck import BRepCheck_Analyzer
