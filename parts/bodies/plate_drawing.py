@@ -6,15 +6,17 @@ import cmath
 import math
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from geometry.curves.curve import Curve, start_point
 from geometry.curves.line_arc import Arc, Line
-from geometry.plane.profile import Profile, Region
+from geometry.plane.profile import Label, Profile, Region
 from parts.drawing.extent import farthest
 from parts.drawing.wheel_views import circle_of
 from parts.drawing.working import VISIBLE, Note, PartDrawing, Round, Size, Stroke, Subject, View, requirements
 from parts.texts.sheets import sheet_words
 
-_DIGITS, _SAME = 9, 1e-9
+_DIGITS, _SAME, _SAMPLES = 9, 1e-9, 9
 # sine of the angle between two curves that make a corner
 _SMOOTH = 1e-6
 
@@ -49,9 +51,20 @@ def part_drawing(subject: Subject) -> PartDrawing:
         rounds.append(Round("diameter", *whole, angles=(-45.0, -135.0, 135.0)))
     edge = max((c for c in curves if isinstance(c, Line)), key=lambda c: c.end.real + c.start.real, default=None)
     at = farthest(curves, 1) if edge is None else (edge.start + edge.end) / 2
-    notes = (Note(at, f"s {subject.say(subject.part.face_width)}"),)
-    view = View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), notes)
+    notes = [Note(at, f"s {subject.say(subject.part.face_width)}")]
+    worked = [s.curve for profile in (region.outer, *slots) for s in profile.segments() if s.label is Label.CAM]
+    if worked:
+        # in the middle of the longest piece
+        curve = max(worked, key=_length)
+        words = f"Ra {subject.say(subject.wishes.flank_roughness)}"
+        notes.append(Note(complex(curve.point(sum(curve.domain) / 2)), words, is_rough=True))
+    view = View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), tuple(notes))
     return PartDrawing((view,), requirements(subject))
+
+
+def _length(curve: Curve) -> float:
+    """About how long a curve is, mm."""
+    return float(np.abs(np.diff(curve.point(np.linspace(*curve.domain, _SAMPLES)))).sum())
 
 
 def extent(region: Region) -> tuple[complex, complex]:

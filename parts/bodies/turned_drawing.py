@@ -16,7 +16,7 @@ from parts.bodies.turned import TurnedSpec
 from parts.drawing.directions import directions
 from parts.drawing.revolved import Loop, below, closed, outer_of, outlined, seen_edges
 from parts.drawing.turned_sizes import Fits, SectionCorner, bores, listed_corners, turned_sizes
-from parts.drawing.wheel_views import axis_cross, circle_of
+from parts.drawing.wheel_views import axis_along, axis_cross, circle_of, circle_size, section_sides
 from parts.drawing.working import (
     AXIS,
     HIDDEN,
@@ -120,13 +120,18 @@ def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: boo
         ends = complex(first), complex(last)
         sizes.append(Size(f"keyway.{k}.length", *ends, "above"))
         sizes.append(Size(f"keyway.{k}.at", complex(low), ends[0], "above"))
+    drilled: list[Loop] = []
     for radius in sorted({round(abs(hole.centre), 9) for hole in half.holes}):
         found = [hole for hole in half.holes if abs(abs(hole.centre) - radius) < _SAME * 10]
-        for way in (1, -1):
-            strokes += [(VISIBLE, line if way > 0 else line.mirrored()) for line in _walls(loop, found[0])]
+        centres = [hole.centre for hole in found]
+        for way in section_sides(centres):
+            for near, far in _walls(loop, found[0]):
+                bar = closed([near.start, near.end, far.end, far.start])
+                drilled.append(bar if way > 0 else below(bar))
+                strokes += [(VISIBLE, wall if way > 0 else wall.mirrored()) for wall in (near, far)]
             axes.append(Line(complex(low, way * radius), complex(high, way * radius)))
-        sizes.append(Size("holes.pitch_circle_diameter", complex(low, -radius), complex(low, radius), "left", "Ø"))
-    hatched = (tuple(upper), below(lower)) if cut else ()
+        sizes.append(circle_size("holes", centres, low))
+    hatched = (tuple(upper), below(lower), *map(tuple, drilled)) if cut else ()
     cuts = tuple(Cut(at, letter) for at, letter in zip(_planes(half), _LETTERS, strict=False))
     # the first two tell from where on and which way round corners are counted
     numbers = (Note(corner.at, str(k)) for k, corner in enumerate(listed[:2], 1))
@@ -175,8 +180,9 @@ def _rough(drilled: Sequence[Line], loop: Loop, subject: Subject) -> Iterator[No
         yield Note(complex(at, -bore.start.imag), words, is_rough=True)
 
 
-def _walls(loop: Loop, hole: Hole) -> Iterator[Line]:
-    """The walls of an axial hole in the plane of the section."""
+def _walls(loop: Loop, hole: Hole) -> Iterator[tuple[Line, Line]]:
+    """The walls of an axial hole in the section's plane, the nearer and the farther one, in each wall of the part."""
+    sides: list[list[Line]] = []
     for radius in (abs(hole.centre) - hole.radius, abs(hole.centre) + hole.radius):
         places = []
         for curve in loop:
@@ -184,8 +190,11 @@ def _walls(loop: Loop, hole: Hole) -> Iterator[Line]:
             for a, b in zip(points[:-1].tolist(), points[1:].tolist(), strict=True):
                 if (a.imag > radius) != (b.imag > radius):
                     places.append(a.real + (b.real - a.real) * (radius - a.imag) / (b.imag - a.imag))
-        if len(places) >= 2:
-            yield Line(complex(min(places), radius), complex(max(places), radius))
+        places.sort()
+        sides.append(
+            [Line(complex(a, radius), complex(b, radius)) for a, b in zip(places[::2], places[1::2], strict=True)]
+        )
+    yield from zip(*sides, strict=False)
 
 
 def _face(half: HalfSection, subject: Subject) -> View:
@@ -194,7 +203,7 @@ def _face(half: HalfSection, subject: Subject) -> View:
     strokes: list[Stroke] = [(VISIBLE, circle_of(outer))]
     strokes += [(VISIBLE, circle_of(inner))] if inner > 0 else []
     strokes += [(VISIBLE, circle_of(hole.radius, hole.centre)) for hole in half.holes]
-    axes = [*axis_cross(outer)]
+    axes = [*axis_cross(outer), *(axis_along(hole.centre, hole.radius) for hole in half.holes)]
     rounds = []
     for pitch in sorted({round(abs(hole.centre), 9) for hole in half.holes}):
         strokes.append((AXIS, circle_of(pitch)))

@@ -16,7 +16,7 @@ from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing, reach
 from parts.drawing.revolved import below, closed
 from parts.drawing.wheel_views import Wheel, wheel_views
-from parts.drawing.working import VISIBLE, PartDrawing, Size, Stroke, Subject, requirements
+from parts.drawing.working import VISIBLE, Note, PartDrawing, Size, Stroke, Subject, requirements
 
 
 def part_drawing(subject: Subject) -> PartDrawing:
@@ -52,10 +52,16 @@ def _groove(subject: Subject, disk: GrooveDisk) -> PartDrawing:
         ]
         if way > 0:
             depth = Size("groove_depth", complex(floor, high), complex(top, high), "above")
+            words = f"Ra {subject.say(subject.wishes.flank_roughness)}"
+            rough = tuple(Note(complex((floor + top) / 2, wall), words, is_rough=True) for wall in (low, high))
     return PartDrawing(
         (
             replace(
-                section, strokes=(*section.strokes, *strokes), hatched=tuple(hatched), sizes=(*section.sizes, depth)
+                section,
+                strokes=(*section.strokes, *strokes),
+                hatched=tuple(hatched),
+                sizes=(*section.sizes, depth),
+                notes=(*section.notes, *rough),
             ),
             replace(face, strokes=(*face.strokes, *((VISIBLE, s.curve) for wall in walls for s in wall.segments()))),
             *others,

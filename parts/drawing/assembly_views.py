@@ -19,10 +19,11 @@ from geometry.base.record import Record
 from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.sketch import Ring, Sketch, crossing, hatched, reaching, round_ring, stacked
+from parts.drawing.shown import SAMPLES, shown_pieces
 from parts.drawing.working import AXIS, VISIBLE
 
-# what is parallel, what is one place, mm; samples of an edge, steps of a halving
-_PARALLEL, _SAME, _SAMPLES, _HALVINGS = 1e-9, 1e-6, 65, 24
+# what is parallel, what is one place, mm
+_PARALLEL, _SAME = 1e-9, 1e-6
 # places that are tried for a leader's end, across a part
 _GRID, _FEW, _ENOUGH = 17, 12, 48
 Stroke = tuple[str, Curve]
@@ -312,9 +313,8 @@ def _axes(one: Shown) -> Iterator[Line]:
 
 def _visible(curve: Curve, height: float, one: Shown, covers: _Covers) -> Iterator[Curve]:
     """The pieces of an edge that nothing hides."""
-
-    t = np.linspace(*curve.domain, _SAMPLES)
-    near = [cover for cover in covers.near(curve.point(t), height) if cover.one.stands or cover.one is not one]
+    points = curve.point(np.linspace(*curve.domain, SAMPLES))
+    near = [cover for cover in covers.near(points, height) if cover.one.stands or cover.one is not one]
 
     def hidden(t: np.ndarray) -> np.ndarray:
         points = curve.point(t)
@@ -323,23 +323,7 @@ def _visible(curve: Curve, height: float, one: Shown, covers: _Covers) -> Iterat
             found |= cover.hides(points, height)
         return found
 
-    mask = hidden(t)
-    if not mask.any():
-        yield curve
-        return
-    ends = [float(t[0])]
-    at = np.flatnonzero(mask[1:] != mask[:-1])
-    low, high, before = t[at], t[at + 1], mask[at]
-    for _ in range(_HALVINGS):
-        middle = (low + high) / 2
-        same = hidden(middle) == before if len(middle) else before
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    ends += [*low.tolist(), float(t[-1])]
-    shows = not mask[0]
-    for a, b in pairwise(ends):
-        if shows and b - a > _SAME * (t[-1] - t[0]):
-            yield curve.trimmed(a, b)
-        shows = not shows
+    return shown_pieces(curve, hidden)
 
 
 def cut(shown: Sequence[Shown]) -> Drawn:
@@ -416,7 +400,7 @@ def _plain(curve: Curve) -> list[Line | Arc]:
 
 def _samples(strokes: Sequence[Stroke]) -> Complex:
     """Points all along the lines of a view."""
-    rows = [curve.point(np.linspace(*curve.domain, _SAMPLES)) for _, curve in strokes]
+    rows = [curve.point(np.linspace(*curve.domain, SAMPLES)) for _, curve in strokes]
     return np.concatenate(rows) if rows else np.zeros(0, dtype=complex)
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
@@ -16,6 +16,7 @@ from geometry.plane.profile import Profile
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
+from geometry.solids.windows import RoundHoles
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
 from parts.drawing.working import AXIS, THIN, VISIBLE, Note, Round, Size, Stroke, Subject, View
 from parts.texts.sheets import sheet_words
@@ -23,6 +24,8 @@ from parts.texts.sheets import sheet_words
 # a view of a bore is so high on paper at least, mm
 _LEAST_BORE = 25.0
 _UP = math.pi / 2
+# mm, what is no length
+_NONE = 1e-9
 
 
 class Crown(Record):
@@ -113,6 +116,14 @@ def bore_radii(bore: Bore | None) -> tuple[float, float]:
             return bore.reach, bore.reach
 
 
+def keyway_edges(bore: Bore | None, low: float, high: float) -> Iterator[Line]:
+    """The edges between keyways and their bore, once it stands upright, from end to end of it, mm."""
+    if isinstance(bore, KeywayBore):
+        rim = math.sqrt((bore.diameter - bore.width) * (bore.diameter + bore.width)) / 2
+        for way in (1, -1)[: bore.keys]:
+            yield Line(complex(low, way * rim), complex(high, way * rim))
+
+
 def _half(wheel: Wheel, bore: float, outer: float, *, toothed: bool) -> list[complex]:
     """Corners of half a section, x + iy = height + i radius, from the bore upwards on the upper face and back."""
     shape, at = wheel.shape, levels(wheel.shape)
@@ -178,18 +189,14 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
         if wheel.pitch is not None:
             pitch = wheel.pitch
             axes.append(Line(*(complex(e.real, e.imag * pitch) for e in ends)))
-        for low, high, is_hole in _openings(holes):
+        for low, high, is_hole in _openings(holes, wheel.turn if wheel.stands else 0.0, way):
             sides = [Line(complex(at.web[0], way * y), complex(at.web[1], way * y)) for y in (low, high)]
             hatched.append(closed([sides[0].start, sides[0].end, sides[1].end, sides[1].start]))
             strokes += [(VISIBLE, side) for side in sides]
             if is_hole:
                 middle = way * (low + high) / 2
                 axes.append(Line(complex(at.web[0], middle), complex(at.web[1], middle)))
-    if isinstance(keyed := holes.bore, KeywayBore):
-        # edges of the keyway along the bore
-        rim = math.sqrt((keyed.diameter - keyed.width) * (keyed.diameter + keyed.width)) / 2
-        for way in (1, -1)[: keyed.keys]:
-            strokes.append((VISIBLE, Line(complex(at.hub[0], way * rim), complex(at.hub[1], way * rim))))
+    strokes += [(VISIBLE, edge) for edge in keyway_edges(holes.bore, *at.hub)]
     sizes, notes = tuple(_section_sizes(wheel, subject)), _section_notes(wheel, subject, at, wishes.flank_roughness)
     return View(tuple(strokes), tuple(hatched), tuple(axes), sizes, tuple(_crown_rounds(wheel)), notes)
 
@@ -202,9 +209,23 @@ def _crown_rounds(wheel: Wheel) -> Iterator[Round]:
         yield Round("throat_radius", centre, crown.throat, "R", is_radius=True, angles=angles, inward=True)
 
 
-def _openings(holes: HubHoles) -> list[tuple[float, float, bool]]:
-    """Holes and windows as the section shows them: nearest to and farthest from the axis, mm; whether it is round."""
-    found = [((g.pitch_circle_diameter - g.diameter) / 2, g.reach, True) for g in holes.round_holes]
+def section_sides(centres: Sequence[complex]) -> tuple[int, ...]:
+    """In which halves of a section holes on one circle are shown: turned into its plane, one alone in its own half."""
+    return (1, -1) if len(centres) > 1 else (1 if centres[0].imag > -_NONE else -1,)
+
+
+def circle_size(name: str, centres: Sequence[complex], z: float) -> Size:
+    """The diameter of the circle that holes stand on, of one alone how far it is from the axis."""
+    radius = abs(centres[0])
+    if len(centres) > 1:
+        return Size(f"{name}.pitch_circle_diameter", complex(z, -radius), complex(z, radius), "left", "Ø")
+    return Size(f"{name}.distance", complex(z), complex(z, section_sides(centres)[0] * radius), "left")
+
+
+def _openings(holes: HubHoles, turn: float, way: int) -> list[tuple[float, float, bool]]:
+    """Holes and windows as a half of the section shows them: nearest to and farthest from the axis, mm; if round."""
+    found = [((g.pitch_circle_diameter - g.diameter) / 2, g.reach, True) for g in holes.round_holes
+             if way in section_sides(_turned(g, turn))]  # fmt: skip
     spokes = holes.spokes
     return found if spokes is None else [*found, (spokes.inner_diameter / 2, spokes.reach, False)]
 
@@ -220,7 +241,9 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
     if up == down and (wheel.stands or wheel.outline is None):
         diameter("tip_diameter", 2 * up, shape.chamfer_below, "left", wishes.tip)
     if (crown := wheel.crown) is not None:
-        diameter("throat_diameter", 2 * (crown.distance - crown.throat), width / 2, "right")
+        throat = crown.distance - crown.throat
+        diameter("throat_diameter", 2 * throat, width / 2, "right")
+        found.append(Size("throat_plane", 1j * up, complex(width / 2, throat), "above"))
     if shape.web is not None:
         diameter("web.rim_diameter", shape.web.rim_diameter, 0.0, "left")
         found.append(Size("web.thickness", complex(at.web[0], shape.web.rim_diameter / 2),
@@ -228,9 +251,9 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
         if at.web[0] > 0:
             inner = 1j * shape.web.rim_diameter / 2
             found.append(Size("web.below", inner, at.web[0] + inner, "above"))
+    turn = wheel.turn if wheel.stands else 0.0
     for index, (_, group) in enumerate(wheel.holes.groups(), 1):
-        name = f"holes.{index}.pitch_circle_diameter"
-        diameter(name, group.pitch_circle_diameter, at.web[0], "left")
+        found.append(circle_size(f"holes.{index}", _turned(group, turn), at.web[0]))
     if (spokes := wheel.holes.spokes) is not None:
         diameter("spokes.inner_diameter", spokes.inner_diameter, at.web[0], "left")
         diameter("spokes.outer_diameter", spokes.outer_diameter, at.web[0], "left")
@@ -319,17 +342,27 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
     return View(tuple(strokes), (), axes, (), tuple(rounds), tuple(notes))
 
 
+def _turned(group: RoundHoles, turn: float = 0.0) -> list[complex]:
+    """The centres of holes in a view that is turned."""
+    return [centre * cmath.exp(1j * turn) for centre in group.centres()]
+
+
 def hole_axes(holes: HubHoles, turn: float) -> tuple[Line, ...]:
     """Short axes of round holes, along the radius."""
-    centres = [(c * cmath.exp(1j * turn), g.diameter / 2) for _, g in holes.groups() for c in g.centres()]
-    return tuple(Line(c - c / abs(c) * r, c + c / abs(c) * r) for c, r in centres)
+    return tuple(axis_along(c, g.diameter / 2) for _, g in holes.groups() for c in _turned(g, turn))
+
+
+def axis_along(centre: complex, radius: float) -> Line:
+    """The axis of a hole, along the radius to it."""
+    way = centre / abs(centre) * radius
+    return Line(centre - way, centre + way)
 
 
 def group_rounds(holes: HubHoles, turn: float, subject: Subject) -> tuple[Round, ...]:
     """The diameters of groups of round holes, with how many there are."""
     found = []
     for index, (_, group) in enumerate(holes.groups(), 1):
-        best = max((c * cmath.exp(1j * turn) for c in group.centres()), key=lambda c: c.real + c.imag)
+        best = max(_turned(group, turn), key=lambda c: c.real + c.imag)
         words = sheet_words(subject.language, "holes_of", count=group.count) if group.count > 1 else ""
         found.append(Round(f"holes.{index}.diameter", best, group.diameter / 2, f"{words}Ø"))
     return tuple(found)
@@ -382,7 +415,7 @@ def ring_section(width: float, radii: tuple[float, float, float], holes: HubHole
         side = loop if way > 0 else below(loop)
         strokes += [*outlined(side), (VISIBLE, Line(complex(0, way * begins), complex(width, way * begins)))]
         strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=True)]
-        for group in holes.round_holes:
+        for group in (g for g in holes.round_holes if way in section_sides(_turned(g))):
             middle, half = group.pitch_circle_diameter / 2, group.diameter / 2
             walls = [Line(complex(0, way * y), complex(width, way * y)) for y in (middle - half, middle + half)]
             strokes += [(VISIBLE, wall) for wall in walls]
@@ -393,9 +426,7 @@ def ring_section(width: float, radii: tuple[float, float, float], holes: HubHole
         Size("outer_diameter", complex(0, -outer), complex(0, outer), "left", "Ø", wishes.tip),
         Size("face_width", complex(0, -outer), complex(width, -outer), "below", "", wishes.width),
     ]
-    for index, (_, group) in enumerate(holes.groups(), 1):
-        middle = group.pitch_circle_diameter / 2
-        sizes.append(Size(f"holes.{index}.pitch_circle_diameter", -1j * middle, 1j * middle, "left", "Ø"))
+    sizes += [circle_size(f"holes.{index}", _turned(group), 0.0) for index, (_, group) in enumerate(holes.groups(), 1)]
     return View(tuple(strokes), tuple(hatched), tuple(axes), tuple(sizes))
 
 

@@ -21,9 +21,11 @@ from parts.drawing.turned_sizes import Fits, turned_sizes
 from parts.drawing.wheel_views import (
     Crown,
     Wheel,
+    bore_radii,
     bore_view,
     circle_of,
     exact_teeth,
+    keyway_edges,
     ring_face,
     ring_section,
     seen_along,
@@ -173,7 +175,12 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
         left, right = max(x for x in tips if x < 0), min(x for x in tips if x > 0)
         strokes += [(VISIBLE, Line(complex(left, tip), complex(right, tip))),
                     (THIN, Line(complex(-half + shown, root), complex(half - shown, root)))]  # fmt: skip
-    sizes = [Size("length", complex(-half, foot), complex(half, foot), "below")]
+    first = complex(-half + pitch / 2)
+    sizes = [
+        Size("length", complex(-half, foot), complex(half, foot), "below"),
+        Size("first_tooth", complex(-half, root), first + 1j * tip, "above"),
+    ]
+    axes = Line(complex(-half), complex(half)), Line(first + 1j * root, first + 1j * tip)
     rounds = []
     if rack.holes is not None:
         holes, y = rack.holes, root - rack.holes.depth
@@ -188,7 +195,7 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
         sizes.append(Size("holes.first", complex(-half, foot), centres[0], "below"))
         rounds.append(Round("holes.diameter", centres[-1], holes.diameter / 2, _count(holes.count, subject)))
     rough = Note(complex(half), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True, goes_on=True)
-    front = View(tuple(strokes), (), (Line(complex(-half), complex(half)),), tuple(sizes), tuple(rounds), (rough,))
+    front = View(tuple(strokes), (), axes, tuple(sizes), tuple(rounds), (rough,))
     width = keys.face_width
     whole = closed([complex(0, foot), complex(width, foot), complex(width, tip), complex(0, tip)])
     solid = closed([complex(0, foot), complex(width, foot), complex(width, root), complex(0, root)])
@@ -239,13 +246,14 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
     bore = bore_of(keys)
     made = None if bore is None else bore.bore()
     if made is not None:
-        reach = made.reach
-        strokes += [(HIDDEN, Line(complex(low, y), complex(high, y))) for y in (-reach, reach)]
+        up, down = bore_radii(made)
+        strokes += [(HIDDEN, Line(complex(low, y), complex(high, y))) for y in (-down, up)]
+        strokes += [(HIDDEN, edge) for edge in keyway_edges(made, low, high)]
         if isinstance(made, RoundBore):
-            sizes.append(Size("bore_diameter", complex(high, -reach), complex(high, reach), "right", "Ø", wishes.bore))
+            sizes.append(Size("bore_diameter", complex(high, -down), complex(high, up), "right", "Ø", wishes.bore))
     rough = [Note(complex(top / 2, worm.tip_radius), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)]
     if made is not None:
-        rough.append(Note(complex(high, -made.reach), f"Ra {subject.say(wishes.bore_roughness)}", is_rough=True))
+        rough.append(Note(complex(high, -down), f"Ra {subject.say(wishes.bore_roughness)}", is_rough=True))
     view = View(tuple(strokes), (), (Line(complex(low), complex(high)),), tuple(sizes), notes=tuple(rough))
     if made is None or isinstance(made, RoundBore):
         return (view,)

@@ -6,23 +6,32 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from geometry.base.record import Record
+from geometry.base.series import Series, exponential
 from geometry.cams.barrel.body import BarrelBody
 from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam
+from geometry.curves.curve import Curve, Real, SeriesSpan, end_point, start_point
 from geometry.curves.line_arc import Line
+from geometry.laws.piece import LawPiece
 from geometry.solids.bores import RoundBore
 from geometry.solids.hub_holes import HubHoles
 from parts.cams.barrel_cam.part import BarrelCamSpec
 from parts.drawing.directions import directions
 from parts.drawing.extent import farthest
 from parts.drawing.revolved import below, closed, outlined, seen_edges
-from parts.drawing.wheel_views import bore_radii, bore_view, seen_along
+from parts.drawing.shown import shown_pieces
+from parts.drawing.wheel_views import bore_radii, bore_view, keyway_edges, seen_along
 from parts.drawing.working import VISIBLE, Note, PartDrawing, Size, Stroke, Subject, View, requirements
 from parts.keys.holes import bore_of, hub_holes
 from parts.texts.sheets import sheet_words
 
 # pieces of a wall in the plane of the section; steps to the cam angle at which it passes there, rad that are none
 _PIECES, _STEPS, _SETTLED = 24, 60, 1e-13
+# mm that are none; sine of the angle to the section's plane within which an edge behind it is not drawn: 0.05 of a
+# thousandth of its radius, where it would end in a point at which it stands still
+_SAME, _EDGE_ON = 1e-6, 0.01
 
 
 def part_drawing(subject: Subject) -> PartDrawing:
@@ -46,17 +55,19 @@ def _ends(body: BarrelBody) -> tuple[float, float]:
 
 
 def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
-    """The axial section; edges of the walls behind it are left to the development."""
+    """The axial section; of a groove the edges behind it are left to the development."""
     strokes: list[Stroke] = []
     hatched, sizes = [], list[Size]()
     for way, polar, bore in zip((1, -1), (0.0, math.pi), bore_radii(holes.bore), strict=True):
         whole, cut = closed([*_outline(body, bore)]), closed([*_outline(body, bore, polar)])
         side = cut if way > 0 else below(cut)
         strokes += outlined(side)
-        if body.cam.is_groove:
-            strokes += [(VISIBLE, e if way > 0 else e.mirrored()) for e in seen_edges(whole, cut=True)]
+        # an end cam has no upper end that is plane
+        edges = (e for e in seen_edges(whole, cut=True) if body.cam.is_groove or e.start.real < body.length - _SAME)
+        strokes += [(VISIBLE, e if way > 0 else e.mirrored()) for e in edges]
         hatched.append(side)
     low, high = _ends(body)
+    strokes += [(VISIBLE, edge) for edge in (*keyway_edges(holes.bore, low, high), *_track_edges(body))]
     cam, wishes = body.cam, subject.wishes
     outer, inner, length = cam.outer, cam.inner, body.length
 
@@ -113,15 +124,63 @@ def _outline(body: BarrelBody, bore: float, polar: float | None = None) -> Itera
 
 
 def _wall(cam: BarrelCam, side: int, radius: float, polar: float) -> float:
-    """The height of a wall on a cylinder at a polar angle, mm: its polar angle falls as the cam angle grows."""
-    angle = -polar % math.tau
+    """The height of a wall on a cylinder at a polar angle, mm."""
+    return float(_walls(cam, side, radius, polar))
+
+
+def _walls(cam: BarrelCam, side: int, radius: ArrayLike, polar: ArrayLike) -> Real:
+    """The same of many: the polar angle falls as the cam angle grows."""
+    wanted = np.asarray(polar, dtype=float)
+    angle = -wanted
     for _ in range(_STEPS):
-        x, y, z = cam.wall(angle % math.tau, side, radius).tolist()
-        off = math.remainder(math.atan2(y, x) - polar, math.tau)
-        angle += off
-        if abs(off) < _SETTLED:
+        x, y, z = np.moveaxis(cam.wall(angle % math.tau, side, radius), -1, 0)
+        off = np.angle(np.exp(1j * (np.arctan2(y, x) - wanted)))
+        angle = angle + off
+        if np.abs(off).max() < _SETTLED:
             break
-    return float(z)
+    return np.asarray(z)
+
+
+class _TrackEdge(SeriesSpan, Record):
+    """An edge of an end cam's track on a cylinder, as it is seen across the axis, over the cam angle t: z + ix."""
+
+    cam: BarrelCam
+    piece: LawPiece
+    radius: float
+    start: float
+    end: float
+
+    def series(self, t: ArrayLike, order: int) -> Series:
+        """Taylor coefficients at ``t``."""
+        turns, heights = self.turns(t, order)
+        return [z + 1j * self.radius * turn.real for z, turn in zip(heights, turns, strict=True)]
+
+    def turns(self, t: ArrayLike, order: int) -> tuple[Series, Series]:
+        """Of the direction from the axis, a complex number of modulus 1, and of the height."""
+        polar, heights = self.cam.edge_series(self.piece, LOWER, self.radius, np.asarray(t, dtype=float), order)
+        return exponential([1j * x for x in polar]), heights
+
+
+def _track_edges(body: BarrelBody) -> Iterator[Curve]:
+    """Both edges of an end cam's track behind the section, as far as neither tube nor hub stands before them."""
+    cam, hub = body.cam, body.hub
+    for radius in (cam.inner, cam.outer) if not cam.is_groove else ():
+        for piece in cam.motion.pieces:
+            edge = _TrackEdge(cam, piece, radius, piece.start, piece.end)
+
+            def hidden(t: Real, edge: _TrackEdge = edge) -> np.ndarray:
+                (turn, *_), (height, *_) = edge.turns(t, 0)
+                across = edge.radius * turn.real
+                # what is nearer stands at the inner cylinder, or in the plane of the section
+                near = np.maximum(np.abs(across), cam.inner)
+                over = _walls(cam, LOWER, near, -np.arccos(np.clip(across / near, -1.0, 1.0)))
+                found = (turn.imag > -_EDGE_ON) | (height < over - _SAME)
+                if hub is not None:
+                    found |= (np.abs(across) < hub[0]) & (height < body.web + hub[2])
+                return np.asarray(found)
+
+            for seen in shown_pieces(edge, hidden):
+                yield Line(start_point(seen), end_point(seen)) if piece.is_constant else seen
 
 
 def _development(subject: Subject) -> View:

@@ -89,10 +89,10 @@ SIZES: dict[str, list[float]] = {
     "gear": [84, 20, 25, 64, 49, 34, 8, 6, 1, 20, 22.8, 6, 0.25, 9],
     "helical": [50 / math.cos(math.radians(15)) + 4, 14, 18],
     "ring": [112, 77, 15, 100, 5],
-    "rack": [15 * 2 * math.pi, 15, 12 + 2.5 + 2, 12 + 2.5],
+    "rack": [15 * 2 * math.pi, math.pi, 15, 12 + 2.5 + 2, 12 + 2.5],
     "cam": [80, 10, 18, 30, 12],
     "worm": [48, 25, 8, 50, 70, 1],
-    "wheel": [136, 128, 25, 30, 16],
+    "wheel": [136, 128, 25, 30, 15, 16],
     "bearing": [62, 40, 16, 1, 3.5, 5, 6],
     # the cone of a centre hole opens to 2.12 d at 60 degrees, its tip is that of a drill of 120 degrees
     "shaft": [20, 30, 30, 70, 1, 20, 5, 6, 16.5, 2, 4.24, *(np.cumsum([1.12 * math.sqrt(3), 2, 1 / math.sqrt(3)]))],

@@ -1,0 +1,101 @@
+"""What sections show: hidden bores where they are, edges behind an end cam's track, holes once and without hatching."""
+
+from __future__ import annotations
+
+import math
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+import pytest
+
+from parts.drawing.hatching import hatching
+from parts.drawing.working import HIDDEN, VISIBLE, PartDrawing, Subject, View
+from parts.keys.working import WorkingTable
+from parts.scene.load import make_parts, scene_from_dict
+
+WAVE = [{"move": "rise", "angle_deg": 180.0, "law": "sine"}, {"move": "return_", "angle_deg": 180.0, "law": "sine"}]
+
+
+def drawing_of(keys: dict[str, Any], **wishes: Any) -> PartDrawing:
+    parts, _ = make_parts(scene_from_dict({"parts": {"p": keys}, "exports": [{"format": "svg"}]}, "t", "t"), "t")
+    made = import_module(str(parts["p"].made_by.drawing)).part_drawing(
+        Subject(parts["p"], WorkingTable(**wishes), "en")
+    )
+    assert isinstance(made, PartDrawing)
+    return made
+
+
+def levels(view: View, layer: str) -> set[float]:
+    """Heights of lines along the axis."""
+    ends = [curve.point(np.array(curve.domain)) for name, curve in view.strokes if name == layer]
+    return {round(float(a.imag), 6) for a, b in ends if abs(a.imag - b.imag) < 1e-9 < abs(a.real - b.real)}
+
+
+def test_hidden_lines_of_a_keyed_worm_stand_where_its_bore_is() -> None:
+    """DIN 6885: the key of a bore of 12 is 4 wide, its way 1.8 deep; before, the keyway lay on both sides."""
+    keyed = {"kind": "worm", "module": 4.0, "thread_length": 50.0, "bore": {"shape": "keyway", "diameter": 12.0}}
+    assert levels(drawing_of(keyed).views[0], HIDDEN) == {-6.0, 7.8, round(math.sqrt(6**2 - 2**2), 6)}
+
+
+@pytest.mark.parametrize("hub", [None, {"diameter": 30.0, "above": 8.0, "below": 4.0}])
+def test_the_section_of_an_end_cam_has_the_edges_behind_it(hub: dict[str, float] | None) -> None:
+    """Mouths of the bore, and both edges of the track, from which the roller's axis is never nearer than its radius."""
+    lift, start, radius = 18.0, 10.0, 5.0
+    made = {"kind": "barrel_cam", "form": "end", "outer_diameter": 70.0, "groove_depth": 10.0, "lift": lift,
+            "roller_diameter": 2 * radius, "web_thickness": 4.0, "bore_diameter": 12.0, "phases": WAVE,
+            **({"hub": hub} if hub else {})}  # fmt: skip
+    view = drawing_of(made).views[0]
+    ends = [(curve, curve.point(np.linspace(*curve.domain, 9))) for _, curve in view.strokes]
+    mouths = {round(float(p[0].real), 6) for _, p in ends if np.ptp(p.real) < 1e-9 and np.abs(p.imag).min() < 1e-9}
+    assert mouths == ({-4.0, 12.0} if hub else {0.0, 4.0})
+    phi = np.linspace(0, 2 * math.pi, 3601)
+    part = phi % math.pi / math.pi
+    wave = part - np.sin(2 * math.pi * part) / (2 * math.pi)
+    axis = start + lift * np.where(phi < math.pi, wave, 1 - wave)
+    seen = 0
+    for curve, points in ends:
+        if type(curve).__name__ != "_TrackEdge":
+            continue
+        reach = curve.radius  # type: ignore[attr-defined]
+        for point in points:
+            polar = -math.acos(point.imag / reach)
+            y, ahead = reach * np.sin(polar + phi), np.cos(polar + phi) > 0
+            assert np.hypot(y, axis - point.real)[ahead].min() == pytest.approx(radius, abs=1e-3)
+            # nothing is drawn over the hub that stands before it
+            assert not hub or abs(point.imag) > 15 - 1e-3 or point.real > 12 - 1e-3
+        seen += 1
+    assert seen >= 2
+
+
+RING = {"kind": "turned", "points": [{"r": 5.0, "z": 0.0}, {"r": 31.0, "z": 0.0}, {"r": 31.0, "z": 16.0},
+                                     {"r": 5.0, "z": 16.0}]}  # fmt: skip
+GEAR = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 40, "face_width": 16.0, "bore_diameter": 10.0}
+
+
+@pytest.mark.parametrize("part", [RING, GEAR], ids=["turned", "gear"])
+@pytest.mark.parametrize(("count", "start"), [(1, 90.0), (1, -90.0), (3, 90.0)])
+def test_a_hole_alone_is_shown_once_and_no_hole_is_hatched(part: dict[str, Any], count: int, start: float) -> None:
+    """One that stands off the axis alone was drawn in both halves; those of turned parts were hatched."""
+    holes = {"count": count, "diameter": 6.0, "pitch_circle_diameter": 40.0, "start_deg": start}
+    view = drawing_of(part | {"holes": holes}).views[0]
+    sides = (1,) if count == 1 and start > 0 else (-1,) if count == 1 else (1, -1)
+    walls = {level for level in levels(view, VISIBLE) if 16 < abs(level) < 24}
+    assert walls == {way * level for way in sides for level in (17.0, 23.0)}
+    assert {axis.start.imag for axis in view.axes} >= {way * 20.0 for way in sides}
+    lines = [line.point(np.linspace(*line.domain, 65)) for line in hatching(view.hatched, 1.0)]
+    inside = [p for points in lines for p in points if min(abs(p.imag - way * 20.0) for way in sides) < 2.99]
+    assert lines
+    assert inside == []
+    (told,) = (size for size in view.sizes if "holes" in size.name)
+    assert (told.value, told.before) == ((20.0, "") if count == 1 else (40.0, "Ø"))
+
+
+@pytest.mark.parametrize("kind", ["groove", "wedge"])
+def test_working_surfaces_of_cams_have_their_own_roughness(kind: str) -> None:
+    groove = {"kind": "groove_cam", "follower_radius": 8.0, "base_circle_radius": 40.0, "lift": 20.0, "phases": WAVE,
+              "face_width": 12.0, "groove_depth": 6.0, "outer_diameter": 160.0}  # fmt: skip
+    wedge = {"kind": "wedge_cam", "follower": "roller", "follower_radius": 8.0, "base_height": 15.0, "lift": 20.0,
+             "phases": [{"move": "rise", "travel": 60.0, "law": "sine"}]}  # fmt: skip
+    views = drawing_of(groove if kind == "groove" else wedge, flank_roughness=0.8).views
+    assert "Ra 0.8" in {note.text for note in views[0].notes if note.is_rough}
