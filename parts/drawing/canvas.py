@@ -38,6 +38,8 @@ SCALES = tuple(map(scale_value, get_args(Scale)))
 # steps of the scales of diagrams; GOST 2.319 leaves them to the drawer, who takes round ones
 _STEPS, _ROUNDING = (1.0, 2.0, 2.5, 4.0, 5.0), 1e-9
 _INDEX = re.compile(r"_\{([^}]*)\}")
+# programs that read DXF take %% for the start of a sign, and know no way to write it: the two stand in two pieces
+_PER_CENT = re.compile("(?<=%)(?=%)")
 # how far an index stands lower, and what hangs below a line, parts of its height
 _DROP, _HANG = 0.2, 0.3
 
@@ -220,7 +222,8 @@ def rising_text(
 def _pieces(text: str, height: float) -> list[tuple[str, float]]:
     """The pieces of a line, each with its height."""
     index = max((h for h in HEIGHTS if h < height), default=LEAST_TEXT)
-    return [(p, index if k % 2 else height) for k, p in enumerate(_INDEX.split(text)) if p]
+    found = ((p, index if k % 2 else height) for k, p in enumerate(_INDEX.split(text)))
+    return [(part, size) for p, size in found for part in _PER_CENT.split(p) if part]
 
 
 def text_width(text: str, height: float = TEXT_HEIGHT) -> float:

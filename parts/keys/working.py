@@ -6,19 +6,19 @@ from typing import Annotated
 
 from msgspec import Meta, Struct
 
-# fundamental deviations of holes by ISO 286-1, JS as GOST writes it too; those of shafts are the same in lower case
-_HOLES = r"(A|B|CD?|D|EF?|FG?|G|H|J[Ss]?|[KMNPR-VXY]|Z[ABC]?)"
-# programs that read DXF take %% for the start of a sign
-_WORDS = r"^(?!.*%%).*\S"
-_GRADES = r"(01|[0-9]|1[0-8])"
+# fundamental deviations by tables 2 to 5 of ISO 286-1, JS as GOST writes it too: J and K of holes, j of shafts have one
+# in some grades alone
+_ALL, _GRADES = "A|B|CD?|D|EF?|FG?|G|H|J[Ss]|[MNPR-VXY]|Z[ABC]?", "(01|[0-9]|1[0-8])"
 
 
 def _hole(meaning: str) -> Meta:
-    return Meta(pattern=f"^{_HOLES}{_GRADES}$", description=f"tolerance zone of {meaning}")
+    told = f"tolerance zone of {meaning}, A to ZC with a grade of 01 to 18, of J6 to J8 and up to K8 (ISO 286-1)"
+    return Meta(pattern=f"^(({_ALL}){_GRADES}|J[678]|K(01|[0-8]))$", description=told)
 
 
 def _shaft(meaning: str) -> Meta:
-    return Meta(pattern=f"^{_HOLES.lower()}{_GRADES}$", description=f"tolerance zone of {meaning}")
+    told = f"tolerance zone of {meaning}, a to zc with a grade of 01 to 18, of j5 to j8 (ISO 286-1)"
+    return Meta(pattern=f"^(({_ALL.lower()}|k){_GRADES}|j[5-8])$", description=told)
 
 
 def _rough(meaning: str) -> Meta:
@@ -40,6 +40,6 @@ class WorkingTable(Struct, forbid_unknown_fields=True, frozen=True):
     bore_roughness: Annotated[float, _rough("bores")] = 1.6
     teeth: Annotated[int, Meta(ge=0, le=10_000, description="teeth drawn exactly; the others are circles")] = 0
     requirements: Annotated[
-        list[Annotated[str, Meta(pattern=_WORDS, max_length=300, description="words without %%")]],
+        list[Annotated[str, Meta(pattern=r"\S", max_length=300, description="words")]],
         Meta(max_length=12, description="technical requirements, a line each, beside those of the drawing"),
     ] = []

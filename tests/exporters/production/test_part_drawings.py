@@ -371,6 +371,22 @@ def test_a_requirement_that_stands_alone_has_no_number(tmp_path: Path) -> None:
         assert numbered == ({"1.", "2."} if more else set())
 
 
+def test_two_per_cent_signs_begin_no_sign_of_another_program(tmp_path: Path) -> None:
+    """AutoCAD and LibreCAD read %%c as the sign of a diameter: a title 5%%c was shown as 5Ø, a requirement refused."""
+    job = jobs(PARTS["bearing"] | {"title": "5%%c"}, formats=("dxf",), drawing={"requirements": ["a%%%d"]})[0]
+    job.write({}, tmp_path / job.path)
+    assert job.verify(tmp_path / job.path, 0.0).failures == ()
+    space = ezdxf.readfile(tmp_path / job.path).modelspace()
+    pieces = sorted((t.dxf.insert.x, t.dxf.text) for t in space.query("TEXT") if "%" in t.dxf.text)
+    assert [text for _, text in pieces if "." not in text] in (["5%", "%c", "%", "%d"], ["%", "%d", "5%", "%c"])
+    assert not any("%%" in text for _, text in pieces)
+
+
+@pytest.mark.parametrize("zones", [{"bore": "J7", "keyway": "ZC10"}, {"bore": "K8", "tip": "k9"}, {"tip": "j5"}])
+def test_zones_that_exist_pass(zones: dict[str, str]) -> None:
+    assert jobs(PARTS["bearing"], formats=("dxf",), drawing=zones)
+
+
 def test_a_drawing_is_named_as_all_files_of_its_part_and_a_pdf_as_its_scene() -> None:
     formats = ("dxf", "svg", "pdf")
     assert [job.path for job in jobs(PARTS["bearing"], formats=formats)] == ["p.part.dxf", "p.part.svg", "t.part.pdf"]

@@ -351,13 +351,12 @@ def test_slips_of_the_keyboard_are_told_as_such(part: Keys, code: str, told: str
 
 @pytest.mark.parametrize(("export", "told"), [
     ({"drawing": "{ teeth = 2 }"}, 'exports[1].drawing: only for purpose = "part"'),
-    ({"purpose": '"part"', "drawing": '{ bore = "H77" }'}, 'tolerance zone of bores: like "H7"'),
-    ({"purpose": '"part"', "drawing": '{ bore = "h7" }'}, 'tolerance zone of bores: like "H7"'),
-    ({"purpose": '"part"', "drawing": '{ bore = "Q7" }'}, 'tolerance zone of bores: like "H7"'),
-    ({"purpose": '"part"', "drawing": '{ tip = "H7" }'}, 'tolerance zone of the outer diameter: like "h11"'),
-    ({"purpose": '"part"', "drawing": '{ requirements = [""] }'}, "words without %%"),
-    ({"purpose": '"part"', "drawing": '{ requirements = ["   "] }'}, "words without %%"),
-    ({"purpose": '"part"', "drawing": '{ requirements = ["%%c20"] }'}, "words without %%"),
+    *(({"purpose": '"part"', "drawing": f'{{ bore = "{zone}" }}'}, "tolerance zone of bores, A to ZC with a grade of "
+       '01 to 18, of J6 to J8 and up to K8 (ISO 286-1): like "H7"') for zone in ("H77", "h7", "Q7", "J9", "K9")),
+    *(({"purpose": '"part"', "drawing": f'{{ tip = "{zone}" }}'}, "tolerance zone of the outer diameter, a to zc with "
+       'a grade of 01 to 18, of j5 to j8 (ISO 286-1): like "h11"') for zone in ("H7", "j9", "j4")),
+    ({"purpose": '"part"', "drawing": '{ requirements = [""] }'}, "words"),
+    ({"purpose": '"part"', "drawing": '{ requirements = ["   "] }'}, "words"),
     ({"purpose": '"part"', "drawing": f'{{ requirements = ["{"a" * 301}"] }}'}, "at most 300 characters"),
     ({"purpose": '"part"', "drawing": f"{{ requirements = {['a'] * 13} }}"}, "at most 12"),
 ])  # fmt: skip
