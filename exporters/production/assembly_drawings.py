@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
 
+from exporters.production.request import Request
 from geometry.base.placement import Placement3
 from parts.base.mate import Touching
-from parts.base.part import Part
-from parts.base.refusal import SceneError
 from parts.drawing.assembly_sheet import AssemblyView, assembly_sheet
 from parts.drawing.assembly_views import Drawn, Shown, along_axes, cut, seen
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.drawing.extent import farthest
 from parts.drawing.working import VISIBLE, Size
-from parts.scene.load import ExportSpec
 from parts.scene.parts_list import list_rows
 from parts.scene.placing import Placing
 
@@ -26,9 +24,7 @@ _SAME = 1e-6
 _TITLE = "A–A"
 
 
-def assembly_drawing(
-    placing: Placing, parts: Mapping[str, Part], export: ExportSpec, asked: Asked, where: str, source: str
-) -> Expected:
+def assembly_drawings(request: Request, asked: Asked) -> list[tuple[str, Expected]]:
     """The drawing of all instances of the parts that the export names.
 
     Raises
@@ -36,13 +32,12 @@ def assembly_drawing(
     SceneError
         A part whose kind has no view in an assembly, or an axis that is oblique to the views.
     """
-    wanted = {key: parts[key] for key in export.parts or parts}
+    placing, wanted = request.placing, {key: request.parts[key] for key in request.wanted}
     sketches = {}
     for part in (wanted[key] for key in dict.fromkeys(i.part for i in placing.instances) if key in wanted):
         sketch = part.made_by.sketch(part.keys, part.thing)
         if sketch is None:
-            raise SceneError(source, f"{where}.purpose", export.purpose, "no_assembly_view", None, kind=part.kind,
-                             part=part.id)  # fmt: skip
+            raise request.refused("purpose", request.export.purpose, "no_assembly_view", kind=part.kind, part=part.id)
         sketches[part.id] = sketch
     shown = [Shown(i.id, i.part, sketches[i.part], i.scene_from_part) for i in placing.instances if i.part in wanted]
     centre, way = _line_of_centres(placing, set(wanted))
@@ -55,7 +50,7 @@ def assembly_drawing(
         AssemblyView(across, (*_between(front, across, placing), *_over_all(across, across=False)), title=_TITLE),
         AssemblyView(main, (*_beside(front, placing), *_over_all(main, across=True)), marked=True),
     ]
-    return assembly_sheet(views, list_rows(placing.instances, wanted, asked.language), asked)
+    return [("", assembly_sheet(views, list_rows(placing.instances, wanted, asked.language), asked))]
 
 
 def _line_of_centres(placing: Placing, wanted: set[str]) -> tuple[complex, complex]:

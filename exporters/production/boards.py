@@ -14,6 +14,7 @@ from exporters.boards.cuts import in_order
 from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, nest
 from exporters.formats.registry import strokes_of
 from exporters.production.jobs import Job, Made, PartsJob, several
+from exporters.production.request import Request
 from exporters.verification.board import BoardPiece, ExpectedBoard, verify_board
 from exporters.verification.verdict import Verdict
 from geometry.approximation.chords import approximate_profile
@@ -26,7 +27,7 @@ from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.keys.boards import BoardSpec
 from parts.scene.boards import parts_of_board, pieces_of
-from parts.scene.load import ExportSpec, SceneFile
+from parts.scene.load import ExportSpec
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -101,13 +102,7 @@ class BoardJob(Record, PartsJob):
 
 
 def board_jobs(
-    scene: SceneFile,
-    parts: Mapping[str, Part],
-    export: ExportSpec,
-    section: Callable[[Part, ExportSpec, str, str], OffsetRegion],
-    layouts: dict[object, list[Laid]],
-    where: str,
-    source: str,
+    asked: Request, section: Callable[[Part, ExportSpec, str, str], OffsetRegion], layouts: dict[object, list[Laid]]
 ) -> list[BoardJob]:
     """The files of one export: every board of every table, counted through.
 
@@ -119,20 +114,21 @@ def board_jobs(
         A board has no part, or a part is larger than its board; or a kerf that an outline does not survive.
     """
     found: list[BoardJob] = []
-    for name, board in scene.boards.items():
+    parts, export, source = asked.parts, asked.export, asked.source
+    for name, board in asked.scene.boards.items():
         place = f"boards.{name}"
         own = with_keys(export, kerf=board.kerf)
-        wanted = [p for p in parts_of_board(board, parts, source, place) if p in (export.parts or parts)]
-        counts = pieces_of(board, wanted, scene.instances, source, f"boards.{name}")
-        jobs = {p: Job(parts[p], own, section(parts[p], own, source, place), "", where) for p in counts}
+        wanted = [p for p in parts_of_board(board, parts, source, place) if p in asked.wanted]
+        counts = pieces_of(board, wanted, asked.scene.instances, source, place)
+        jobs = {p: Job(parts[p], own, section(parts[p], own, source, place), "", asked.where) for p in counts}
         key = (name, tuple(counts), export.tolerance)
         if key not in layouts:
             layouts[key] = _laid_out(board, jobs, counts, source, place)
         laid = layouts[key]
         for pieces, times in different_boards(laid):
             members = tuple(jobs[p] for p in dict.fromkeys(piece.part for piece in pieces))
-            path = f"{scene.name}.{export.name or export.purpose}.{len(found) + 1}.{export.format}"
-            found.append(BoardJob(own, name, board, members, pieces, times, path, where))
+            path = f"{asked.stem}.{len(found) + 1}.{export.format}"
+            found.append(BoardJob(own, name, board, members, pieces, times, path, asked.where))
     return found
 
 

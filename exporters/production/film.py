@@ -10,12 +10,12 @@ from typing import Any, ClassVar
 import numpy as np
 
 from exporters.production.jobs import FileJob
+from exporters.production.request import Request
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from parts.base.part import Part
-from parts.base.refusal import SceneError
-from parts.scene.load import ExportSpec, SceneFile
-from parts.scene.placing import Instance, Placing
+from parts.scene.load import ExportSpec
+from parts.scene.placing import Instance
 from parts.scene.relative_path import Course, common_period, course_of
 from parts.scene.shapes import Shape
 
@@ -90,15 +90,7 @@ def fill(index: int) -> str:
     return _FILLS[index % len(_FILLS)]
 
 
-def film(
-    made: type[Film],
-    scene: SceneFile,
-    placing: Placing,
-    parts: dict[str, Part],
-    export: ExportSpec,
-    where: str,
-    source: str,
-) -> Film:
+def film(made: type[Film], asked: Request) -> Film:
     """The film of one export.
 
     Raises
@@ -106,18 +98,18 @@ def film(
     SceneError
         Nothing is driven.
     """
-    if placing.train is None:
-        raise SceneError(source, f"{where}.format", export.format, "shows_what_moves")
-    instances = tuple(i for i in placing.instances if export.parts is None or i.part in export.parts)
-    used = {name: parts[name] for name in dict.fromkeys(i.part for i in instances)}
-    course = course_of(placing.train, [i.id for i in instances])
+    export, train = asked.export, asked.placing.train
+    if train is None:
+        raise asked.refused("format", export.format, "shows_what_moves")
+    instances = tuple(i for i in asked.placing.instances if export.parts is None or i.part in export.parts)
+    used = {name: asked.parts[name] for name in dict.fromkeys(i.part for i in instances)}
+    course = course_of(train, [i.id for i in instances])
     loop, closes = _loop(course, instances, used)
-    drive = scene.drives[0]
-    asked = drive.turns if drive.travel is None else drive.travel
-    title = scene.scene.title or scene.name
+    drive = asked.scene.drives[0]
+    turns = float(loop) * (drive.turns if drive.travel is None else drive.travel)
     unnamed, ending = made.ending
-    path = scene.name + (f".{export.name}" if export.name else unnamed) + ending
-    return made(export, title, used, instances, course, loop, closes, float(loop) * asked, path, where)
+    path = asked.scene.name + (f".{export.name}" if export.name else unnamed) + ending
+    return made(export, asked.title, used, instances, course, loop, closes, turns, path, asked.where)
 
 
 def _loop(course: Course, instances: Sequence[Instance], parts: dict[str, Part]) -> tuple[Fraction, bool]:

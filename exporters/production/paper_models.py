@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-
 import numpy as np
 
+from exporters.production.request import Request
 from geometry.approximation.chords import approximate_profile
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.contour import Contour
-from parts.base.part import Part
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.drawing.tiles import Edge, model_pages
@@ -18,10 +16,10 @@ from parts.drawing.tiles import Edge, model_pages
 _FLAT = 1e-8
 
 
-def paper_models(title: str, parts: Mapping[str, Part], wanted: Sequence[str] | None, asked: Asked) -> list[Expected]:
+def paper_models(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
     """The sheets of the parts that are wanted, all of them by default."""
     outlines, errors = {}, {}
-    for part in (parts[name] for name in wanted or parts):
+    for part in (wanted.parts[name] for name in wanted.wanted):
         name = (
             part.id if part.title is None else part.title if part.title not in outlines else f"{part.title} {part.id}"
         )
@@ -29,7 +27,8 @@ def paper_models(title: str, parts: Mapping[str, Part], wanted: Sequence[str] | 
         made = [approximate_profile(p, asked.tolerance, arcs=True) for p in profiles]
         outlines[name] = [edge for one in made for edge in _edges(one.geometry)]
         errors[name] = max(one.max_error for one in made)
-    return model_pages(title, outlines, errors, asked.paper or "A4", asked.language)
+    pages = model_pages(wanted.title, outlines, errors, asked.paper or "A4", asked.language)
+    return [("", page) for page in pages]
 
 
 def _edges(contour: Contour) -> list[Edge]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import partial
 from importlib import import_module
 
+from exporters.production.request import Request
 from geometry.base.errors import ParameterError
-from parts.base.part import Part
-from parts.base.refusal import SceneError, placed
+from parts.base.refusal import placed
 from parts.base.registry import KINDS
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
@@ -17,19 +16,9 @@ from parts.drawing.working import Subject
 from parts.keys.working import WorkingTable
 from parts.pages.data_table import WIDTH, draw_data_table, table_height
 from parts.scene.data_tables import part_table
-from parts.scene.load import ExportSpec, SceneFile
-from parts.scene.placing import Placing
 
 
-def part_drawings(
-    scene: SceneFile,
-    placing: Placing,
-    parts: Mapping[str, Part],
-    export: ExportSpec,
-    asked: Asked,
-    where: str,
-    source: str,
-) -> list[tuple[str, Expected]]:
+def part_drawings(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
     """The drawings of the parts that the export names, of all that have one by default, with the part's id.
 
     Raises
@@ -37,21 +26,22 @@ def part_drawings(
     SceneError
         A named part's kind has no drawing, or no part has one.
     """
+    parts, export = wanted.parts, wanted.export
     known = [key for key, part in parts.items() if part.made_by.drawing]
     for name in export.parts or []:
         if name not in known:
-            raise SceneError(source, f"{where}.parts", name, "no_working_drawing", None, kind=parts[name].kind)
+            raise wanted.refused("parts", name, "no_working_drawing", kind=parts[name].kind)
     if not known:
         drawn = [name for name, kind in KINDS.items() if kind.drawing]
-        raise SceneError(source, f"{where}.purpose", export.purpose, "draws_only_what_is_not_here", None, kinds=drawn)
+        raise wanted.refused("purpose", export.purpose, "draws_only_what_is_not_here", kinds=drawn)
     found = []
     for name in export.parts or known:
         part, wishes = parts[name], export.drawing or WorkingTable()
         drawing = import_module(str(part.made_by.drawing)).part_drawing(Subject(part, wishes, asked.language))
         try:
-            table, block = part_table(part, scene, placing, parts), None
+            table, block = part_table(part, wanted.scene, wanted.placing, parts), None
         except ParameterError as error:
-            raise placed(source, f"parts.{name}", error) from error
+            raise placed(wanted.source, f"parts.{name}", error) from error
         if table is not None:
             size = WIDTH, table_height(table, asked.language)
             block = Block(size, partial(draw_data_table, table=table, language=asked.language))

@@ -7,14 +7,15 @@ from pathlib import Path
 from typing import Any
 
 from exporters.production.jobs import FileJob, Made
+from exporters.production.request import Request
 from exporters.verification.verdict import Verdict
 from geometry.base.record import Record
-from parts.base.part import Part
 from parts.base.texts import in_context, words
-from parts.drawing.parts_list import SECTIONS, ListRow
-from parts.scene.load import ExportSpec, SceneFile
+from parts.drawing.choice import Asked
+from parts.drawing.expected import Expected
+from parts.drawing.parts_list import SECTIONS, ListRow, list_sheets
+from parts.scene.load import ExportSpec
 from parts.scene.parts_list import list_rows
-from parts.scene.placing import Placing
 
 # the columns, with what stands in them
 _HEADS = (
@@ -72,13 +73,17 @@ class ListJob(Record, FileJob):
         return 0.0, "exact"
 
 
-def rows_of(scene: SceneFile, placing: Placing, parts: dict[str, Part], export: ExportSpec) -> tuple[ListRow, ...]:
+def rows_of(wanted: Request) -> tuple[ListRow, ...]:
     """The list of the parts that an export names."""
-    wanted = {key: parts[key] for key in export.parts or parts}
-    return list_rows(placing.instances, wanted, scene.scene.language)
+    return list_rows(wanted.placing.instances, {key: wanted.parts[key] for key in wanted.wanted}, wanted.language)
 
 
-def list_job(scene: SceneFile, placing: Placing, parts: dict[str, Part], export: ExportSpec, where: str) -> ListJob:
+def list_job(wanted: Request) -> ListJob:
     """The CSV of one export."""
-    path = f"{scene.name}.{export.name or export.purpose}.csv"
-    return ListJob(export, scene.scene.language, rows_of(scene, placing, parts, export), path, where)
+    return ListJob(wanted.export, wanted.language, rows_of(wanted), f"{wanted.stem}.csv", wanted.where)
+
+
+def list_pages(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
+    """The list as sheets, numbered where there are several."""
+    pages = list_sheets(rows_of(wanted), asked.language)
+    return [(str(n) if len(pages) > 1 else "", page) for n, page in enumerate(pages, 1)]

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from msgspec.structs import replace
+from msgspec.structs import replace as with_keys
 
 from exporters.production.jobs import AssemblyJob, FileJob, Job, assembly_name
+from exporters.production.request import Request
 from geometry.base.errors import GeometryError, OffsetError, ParameterError
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.plane.offset_region import OffsetRegion
 from parts.base.part import Part
 from parts.base.reasons import reason
@@ -107,24 +108,25 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             why = alone if export.assembly else N_("a sheet of several parts was not asked for")
             left_out.append(LeftOut(where, why))
             continue
+        asked = Request(scene, placing, parts, export, where, source)
         if on_sheet(export.format, export.purpose):
-            sheets += _sheets(scene, placing, parts, _of_cams(export, parts, only_parts), where, source, taken)
+            sheets += _sheets(replace(asked, export=_of_cams(export, parts, only_parts)), taken)
             continue
         if export.purpose in PURPOSES_LAID.values():
-            laid = _laid(scene, parts, export, layouts, where, source)
+            laid = _laid(asked, layouts)
             for one in laid:
                 _take(one.path, where, taken, source)
             assemblies += laid
             lying = {m.part.id for one in laid for m in one.members}
-            over = ", ".join(p for p in export.parts or parts if p not in lying)
+            over = ", ".join(p for p in asked.wanted if p not in lying)
             left_out += [LeftOut(f"{where}: {over}", N_("lies on none of its boards or beds"))] if over else []
             continue
         if export.format in OF_SCENES:
-            sheets.append(_of_scene(scene, placing, parts, export, where, source))
+            sheets.append(_of_scene(asked))
             _take(sheets[-1].path, where, taken, source)
             continue
         made = []
-        for part_id in export.parts or list(parts):
+        for part_id in asked.wanted:
             if only_parts and part_id not in only_parts:
                 continue
             if not (export.parts or file_kind(export.format, export.purpose).is_solid or _is_flat(parts[part_id])):
@@ -141,46 +143,41 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
         else:
             path = _assembly_path(scene, export, [e for _, e in exports])
             _take(path, where, taken, source)
-            stand = tuple(i for i in placing.instances if i.part in (export.parts or parts))
+            stand = tuple(i for i in placing.instances if i.part in asked.wanted)
             assemblies.append(AssemblyJob(assembly_name(scene.name), export, tuple(made), stand, path, where))
     return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out), tuple(sheets))
 
 
-def _of_scene(
-    scene: SceneFile, placing: Placing, parts: dict[str, Part], export: ExportSpec, where: str, source: str
-) -> Film | ListJob:
+def _of_scene(asked: Request) -> Film | ListJob:
     """The parts list, or what drives move, as the format shows it."""
-    if export.format == "csv":
+    if asked.export.format == "csv":
         from exporters.production.parts_lists import list_job
 
-        return list_job(scene, placing, parts, export, where)
+        return list_job(asked)
     from exporters.production.film import film
 
     made: type[Film]
-    if export.format == "glb":
+    if asked.export.format == "glb":
         from exporters.production.motion_solids import SolidFilm as made
     else:
         from exporters.production.motion import MotionJob as made
-    return film(made, scene, placing, parts, export, where, source)
+    return film(made, asked)
 
 
-def _laid(
-    scene: SceneFile, parts: dict[str, Part], export: ExportSpec, layouts: dict[object, list[Any]], where: str,
-    source: str,
-) -> Sequence[BoardJob | PlateJob]:  # fmt: skip
+def _laid(asked: Request, layouts: dict[object, list[Any]]) -> Sequence[BoardJob | PlateJob]:
     """The boards or plates of an export; ``layouts``: of boards, which exports share."""
-    if export.purpose == "board":
+    if asked.export.purpose == "board":
         from exporters.production.boards import board_jobs
 
-        return board_jobs(scene, parts, export, _section, layouts, where, source)
+        return board_jobs(asked, _section, layouts)
     from exporters.production.plates import plate_jobs
 
     def solid(part: Part) -> Job:
-        job = Job(part, export, _section(part, export, source, where), "", where)
-        _check_body(job, source)
+        job = Job(part, asked.export, _section(part, asked.export, asked.source, asked.where), "", asked.where)
+        _check_body(job, asked.source)
         return job
 
-    return plate_jobs(scene, parts, export, solid, where, source)
+    return plate_jobs(asked, solid)
 
 
 # the purposes of sheets that show one part each
@@ -204,25 +201,17 @@ def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) 
     if not only_parts:
         return export
     asked = [p for p in export.parts or parts if p in only_parts]
-    return replace(export, parts=[p for p in asked if export.purpose in ("model", "part") or parts[p].kind == "cam"])
+    return with_keys(export, parts=[p for p in asked if export.purpose in ("model", "part") or parts[p].kind == "cam"])
 
 
-def _sheets(
-    scene: SceneFile,
-    placing: Placing,
-    parts: dict[str, Part],
-    export: ExportSpec,
-    where: str,
-    source: str,
-    taken: dict[str, Text],
-) -> list[SheetJob]:
-    if export.parts == []:
+def _sheets(asked: Request, taken: dict[str, Text]) -> list[SheetJob]:
+    if asked.export.parts == []:
         return []
     from exporters.production.sheets import sheet_jobs
 
-    found = sheet_jobs(scene, placing, parts, export, where, source)
+    found = sheet_jobs(asked)
     for job in found:
-        _take(job.path, where, taken, source)
+        _take(job.path, asked.where, taken, asked.source)
     return found
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from exporters.boards.nest import QUARTERS, Laid, Room, largest_scale, nest
 from exporters.production.boards import different_boards
 from exporters.production.jobs import AssemblyJob, Job, Made, assembly_name, several
+from exporters.production.request import Request
 from exporters.verification.assembly import expected_of
 from exporters.verification.board import BoardPiece
 from exporters.verification.plate import ExpectedPlate, verify_plate
@@ -21,7 +22,6 @@ from parts.base.refusal import SceneError
 from parts.base.texts import Message, listed
 from parts.keys.boards import BedSpec
 from parts.scene.boards import pieces_of
-from parts.scene.load import ExportSpec, SceneFile
 from parts.scene.placing import Instance
 
 if TYPE_CHECKING:
@@ -69,14 +69,7 @@ class PlateJob(AssemblyJob):
         return verify_plate(file, self.members[0].kind, expected, declared, self.members[0].tolerance)
 
 
-def plate_jobs(
-    scene: SceneFile,
-    parts: Mapping[str, Part],
-    export: ExportSpec,
-    job_of: Callable[[Part], Job],
-    where: str,
-    source: str,
-) -> list[PlateJob]:
+def plate_jobs(asked: Request, job_of: Callable[[Part], Job]) -> list[PlateJob]:
     """The files of one export: every plate of every bed, counted through.
 
     Raises
@@ -85,23 +78,24 @@ def plate_jobs(
         Parts are larger than their bed.
     """
     found: list[PlateJob] = []
+    scene, export = asked.scene, asked.export
     for name, bed in scene.beds.items():
-        wanted = [p for p in bed.parts or parts if p in (export.parts or parts)]
-        counts = pieces_of(bed, wanted, scene.instances, source, f"beds.{name}")
-        jobs = {p: job_of(parts[p]) for p in counts}
+        place = f"beds.{name}"
+        wanted = [p for p in bed.parts or asked.parts if p in asked.wanted]
+        counts = pieces_of(bed, wanted, scene.instances, asked.source, place)
+        jobs = {p: job_of(asked.parts[p]) for p in counts}
         feet = {p: _footprint(job) for p, job in jobs.items()}
-        laid = _laid_out(bed, feet, counts, source, f"beds.{name}")
+        laid = _laid_out(bed, feet, counts, asked.source, place)
         for pieces, times in different_boards(laid):
             stand = tuple(
                 Instance(p.id, p.part, (p.at.real, p.at.imag, -feet[p.part][1]), math.radians(p.turn_deg), "plate")
                 for p in pieces
             )
             members = tuple(jobs[p] for p in dict.fromkeys(piece.part for piece in pieces))
-            path = f"{scene.name}.{export.name or export.purpose}.{len(found) + 1}.{export.format}"
+            path = f"{asked.stem}.{len(found) + 1}.{export.format}"
             hulls = {p: feet[p][0] for p in counts}
-            found.append(
-                PlateJob(assembly_name(scene.name), export, members, stand, path, where, name, bed, times, hulls)
-            )
+            of_scene = assembly_name(scene.name), export, members, stand, path, asked.where
+            found.append(PlateJob(*of_scene, name, bed, times, hulls))
     return found
 
 

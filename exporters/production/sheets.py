@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from msgspec.structs import asdict, replace
 from exporters.drawings.sheets import sheet_rounding, write_sheets
 from exporters.drawings.verify import verify_sheets
 from exporters.production.jobs import FileJob, Made
-from exporters.production.parts_lists import rows_of
+from exporters.production.request import Request
 from exporters.verification.verdict import Verdict
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
@@ -32,7 +33,7 @@ from parts.drawing.canvas import Canvas, decimal, scale_text
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Circle, Expected, Meshing
 from parts.drawing.font import missing_letters
-from parts.drawing.parts_list import form_of, list_sheets
+from parts.drawing.parts_list import form_of
 from parts.drawing.table import Row
 from parts.drawing.title_block import FORM_1, TITLE_BLOCK, check_held, draw_title_block, draw_turned, title_block_of
 from parts.drawing.view import TEETH
@@ -42,7 +43,6 @@ from parts.keys.title import TitleBlockTable
 from parts.mates.sheets.meshing import Facts, meshing_canvas
 from parts.mates.worm import WormMating
 from parts.scene.load import ExportSpec, SceneFile
-from parts.scene.placing import Placing
 from parts.texts.sheets import sheet_words
 
 # by how much the device moves its rack at each press of the key, mm: 4 to 5 in practicum, lesson 1; on wheels that are
@@ -97,9 +97,20 @@ class SheetJob(Record, FileJob):
         return worst, "sampled" if any(canvas.sampled for canvas in canvases) else "certified"
 
 
-def sheet_jobs(
-    scene: SceneFile, placing: Placing, parts: dict[str, Part], export: ExportSpec, where: str, source: str
-) -> list[SheetJob]:
+# what makes the sheets of a purpose, in this room: made(request, asked) gives each with the word of its name
+_MAKERS = {
+    "model": ("paper_models", "paper_models"),
+    "generating": ("sheets", "generating_sheets"),
+    "cam": ("cam_sheets", "cam_sheets"),
+    "parts_list": ("parts_lists", "list_pages"),
+    "part": ("part_drawings", "part_drawings"),
+    "assembly": ("assembly_drawings", "assembly_drawings"),
+    "train": ("train_sheets", "train_sheets"),
+    "meshing": ("sheets", "meshing_sheets"),
+}
+
+
+def sheet_jobs(wanted: Request) -> list[SheetJob]:
     """The files of one export.
 
     Raises
@@ -107,44 +118,21 @@ def sheet_jobs(
     SceneError
         The scene has no such pair, there is nothing to draw of it, or the paper is too small.
     """
-    tolerance, language = float(export.tolerance or 0.0), scene.scene.language
+    export, parts, language = wanted.export, wanted.parts, wanted.language
+    tolerance = float(export.tolerance or 0.0)
     # the rounding of the file's numbers takes its share first
     share = sheet_rounding(Path(f"sheet.{export.format}"))
     asked = Asked(language, tolerance - share, _band(export), export.paper, export.scale, export.cells == "empty")
+    module, name = _MAKERS[export.purpose or "meshing"]
+    made: list[tuple[str, Expected]]
     try:
         if export.format == "pdf":
             from exporters.drawings.pdf import check_pdf
 
             check_pdf(tolerance)
-        if export.purpose == "model":
-            from exporters.production.paper_models import paper_models
-
-            made = [("", page) for page in paper_models(scene.scene.title or scene.name, parts, export.parts, asked)]
-        elif export.purpose == "generating":
-            made = [("", _generating(scene, export, asked, where, source))]
-        elif export.purpose == "cam":
-            from exporters.production.cam_sheets import cam_sheets
-
-            made = cam_sheets(scene, export, asked, where, source)
-        elif export.purpose == "parts_list":
-            pages = list_sheets(rows_of(scene, placing, parts, export), language)
-            made = [(str(n) if len(pages) > 1 else "", page) for n, page in enumerate(pages, 1)]
-        elif export.purpose == "part":
-            from exporters.production.part_drawings import part_drawings
-
-            made = part_drawings(scene, placing, parts, export, asked, where, source)
-        elif export.purpose == "assembly":
-            from exporters.production.assembly_drawings import assembly_drawing
-
-            made = [("", assembly_drawing(placing, parts, export, asked, where, source))]
-        elif export.purpose == "train":
-            from exporters.production.train_sheets import scene_train_sheet
-
-            made = [("", scene_train_sheet(scene, placing, export, asked, where, source))]
-        else:
-            made = _meshings(scene, placing, export, asked, where, source)
+        made = getattr(import_module(f"exporters.production.{module}"), name)(wanted, asked)
     except ParameterError as error:
-        raise placed(source, where, error, unit_of(ExportSpec, error.name)) from error
+        raise placed(wanted.source, wanted.where, error, unit_of(ExportSpec, error.name)) from error
     for number, (word, expected) in enumerate(made, 1):
         shown = [word.partition(".")[0]] if export.purpose in ("cam", "part") else export.parts or []
         part = parts[shown[0]] if len(shown) == 1 and export.purpose not in ("parts_list", "assembly") else None
@@ -152,48 +140,52 @@ def sheet_jobs(
         count = (1, 1) if export.purpose == "part" else (number, len(made))
         weighed = [part] if part is not None else []
         if export.purpose == "assembly":
-            weighed = [parts[i.part] for i in placing.instances if not export.parts or i.part in export.parts]
-        _add_title_block(expected, scene, export, part, _mass(weighed, language), count, where, source)
+            weighed = [parts[i.part] for i in wanted.placing.instances if i.part in wanted.wanted]
+        _add_title_block(expected, wanted, part, _mass(weighed, language), count)
         if export.cells == "empty":
             expected.canvas.texts[:] = [seen for text in expected.canvas.texts for seen in text.asked()]
-    name, title = f"{scene.name}.{export.name or export.purpose}", scene.scene.title or scene.name
     endings = ENDINGS if export.format == "sheet" else (export.format,)
     if export.format == "pdf":
-        _check_letters([expected.canvas for _, expected in made], scene, export, where, source)
-        return [SheetJob(export, title, tuple(expected for _, expected in made), f"{name}.pdf", where)]
+        _check_letters([expected.canvas for _, expected in made], wanted)
+        pages = tuple(expected for _, expected in made)
+        return [SheetJob(export, wanted.title, pages, f"{wanted.stem}.pdf", wanted.where)]
 
     def stem(word: str) -> str:
         # a part's drawing is named as all files of a part are
-        own = [word, export.name or export.purpose] if export.purpose == "part" else [name, word]
+        own = [word, export.name or export.purpose] if export.purpose == "part" else [wanted.stem, word]
         return ".".join(filter(None, own))
 
     return [
-        SheetJob(export, title, (expected,), f"{stem(word)}.{ending}", where)
+        SheetJob(export, wanted.title, (expected,), f"{stem(word)}.{ending}", wanted.where)
         for word, expected in made
         for ending in endings
     ]
 
 
-def _check_letters(canvases: list[Canvas], scene: SceneFile, export: ExportSpec, where: str, source: str) -> None:
+def _check_letters(canvases: list[Canvas], wanted: Request) -> None:
     """Refuse a title that the font of a PDF cannot write."""
     if not missing_letters("".join(run.text for canvas in canvases for text in canvas.texts for run in text.runs)):
         return
+    scene, block = wanted.scene, wanted.export.title_block
     given: dict[str, str | None] = {"scene.title": scene.scene.title}
-    given |= {
-        f"parts.{key}.title": told_in(scene.scene.language, spec.title or "") for key, spec in scene.parts.items()
-    }
-    if isinstance(export.title_block, TitleBlockTable):
-        given |= {f"{where}.title_block.{key}": str(text) for key, text in asdict(export.title_block).items()}
+    given |= {f"parts.{key}.title": told_in(wanted.language, spec.title or "") for key, spec in scene.parts.items()}
+    if isinstance(block, TitleBlockTable):
+        given |= {f"{wanted.where}.title_block.{key}": str(text) for key, text in asdict(block).items()}
     for place, text in given.items():
         if letters := missing_letters(text or ""):
-            raise SceneError(source, place, text, "no_such_letter_on_paper", REMOVED, letters=letters)
+            raise SceneError(wanted.source, place, text, "no_such_letter_on_paper", REMOVED, letters=letters)
 
 
-def _meshings(
-    scene: SceneFile, placing: Placing, export: ExportSpec, asked: Asked, where: str, source: str
-) -> list[tuple[str, Expected]]:
-    """The sheets of the pairs that an export names, by their numbers."""
-    matings = [mate.mating for mate in placing.mates]
+def meshing_sheets(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
+    """The sheets of the pairs that an export names, by their numbers.
+
+    Raises
+    ------
+    SceneError
+        The scene has no such pair, or what it has cannot be drawn.
+    """
+    scene, export, source = wanted.scene, wanted.export, wanted.source
+    matings = [mate.mating for mate in wanted.placing.mates]
     gears = {
         n: m
         for n, m in enumerate(matings, 1)
@@ -202,14 +194,14 @@ def _meshings(
     if not gears:
         has_cam = any(isinstance(spec, CamSpec | LinkageCamSpec) for spec in scene.parts.values())
         code = "shows_gear_pairs" if matings or has_cam else "shows_gear_pairs_of_mates"
-        raise SceneError(source, f"{where}.purpose", export.purpose, code, Nearest("cam") if has_cam else None)
+        raise wanted.refused("purpose", export.purpose, code, Nearest("cam") if has_cam else None)
     if export.mate is not None and export.mate not in gears:
         given = export.mate
         works = Nearest(min(gears, key=lambda number: abs(number - given)))
         if 1 <= given <= len(matings):
             kind = matings[given - 1].kind
-            raise SceneError(source, f"{where}.mate", given, "mate_of_no_gears", works, kind=kind)
-        raise SceneError(source, f"{where}.mate", given, "no_such_mate", works)
+            raise wanted.refused("mate", given, "mate_of_no_gears", works, kind=kind)
+        raise wanted.refused("mate", given, "no_such_mate", works)
     found = []
     for index, mating in gears.items():
         if export.mate not in (None, index):
@@ -236,18 +228,25 @@ def _worm(mating: WormMating, scene: SceneFile, asked: Asked, place: str, source
     return worm_sheet(mating, field, scene.scene.title or f"{mating.first}, {mating.second}", asked)
 
 
-def _generating(scene: SceneFile, export: ExportSpec, asked: Asked, where: str, source: str) -> Expected:
-    """The sheet of the device TMM-42 for one or two wheels of a scene."""
+def generating_sheets(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
+    """The sheet of the device TMM-42 for one or two wheels of a scene.
+
+    Raises
+    ------
+    SceneError
+        The scene has none, or one that the device does not cut.
+    """
     from parts.gears.spur_gear import device_page as tmm42
     from parts.gears.spur_gear.device_sheet import generating_sheet
 
+    scene, export, source = wanted.scene, wanted.export, wanted.source
     ids = export.parts or [key for key, spec in scene.parts.items() if isinstance(spec, SpurGearSpec)]
     for part in ids:
         if not isinstance(scene.parts[part], SpurGearSpec):
-            raise SceneError(source, f"{where}.parts", part, "device_draws_external_gears")
+            raise wanted.refused("parts", part, "device_draws_external_gears")
         _check_wheel(scene.parts[part], f"parts.{part}", source)
     if not ids:
-        raise SceneError(source, f"{where}.purpose", export.purpose, "shows_external_gears")
+        raise wanted.refused("purpose", export.purpose, "shows_external_gears")
     gears = [checked_spur_gear(scene.parts[part]) for part in ids]
     table = tmm42.table_from(scene, source, {"part": _most_shifted(ids, gears)})
     if abs(table.get("profile_shift_coefficient", math.inf) - practicum_undercut(gears[0]).limit) < 1e-12:
@@ -256,7 +255,7 @@ def _generating(scene: SceneFile, export: ExportSpec, asked: Asked, where: str, 
     tables = tmm42.sheet(table, zero_only=all(g.profile_shift_coefficient == 0 for g in gears))
     pitch = math.pi * gears[0].module
     step = export.rack_step or min(max(RACK_STEP, _LEAST_STEP * pitch), _MOST_STEP * pitch)
-    return generating_sheet(gears, step, tables, asked)
+    return [("", generating_sheet(gears, step, tables, asked))]
 
 
 def _band(export: ExportSpec) -> float:
@@ -265,21 +264,14 @@ def _band(export: ExportSpec) -> float:
 
 
 def _add_title_block(
-    expected: Expected,
-    scene: SceneFile,
-    export: ExportSpec,
-    part: Part | None,
-    mass: str,
-    number: tuple[int, int],
-    where: str,
-    source: str,
+    expected: Expected, wanted: Request, part: Part | None, mass: str, number: tuple[int, int]
 ) -> None:
     """The title block on a sheet, where the export asks for one; of a single ``part`` with its material."""
+    export, language = wanted.export, wanted.language
     if not export.title_block and export.purpose not in _WITH_BLOCK:
         return
-    language = scene.scene.language
     given = export.title_block if isinstance(export.title_block, TitleBlockTable) else TitleBlockTable()
-    more = {"name": given.name or (part and part.title) or scene.scene.title or scene.name}
+    more = {"name": given.name or (part and part.title) or wanted.title}
     more["mass"] = given.mass or mass
     if part is not None:
         more["material"] = given.material or material_told(part.material, words(language))
@@ -295,8 +287,8 @@ def _add_title_block(
         # what the block does not say itself is the part's or the scene's
         owner = f"parts.{part.id}" if part is not None and (error.name != "name" or part.title) else "scene"
         key = f"{owner}.{'title' if error.name == 'name' else error.name}"
-        place = f"{where}.title_block.{error.name}" if getattr(given, error.name) else key
-        raise SceneError(source, place, error.value, error.code, None, most=error.numbers["most"]) from error
+        place = f"{wanted.where}.title_block.{error.name}" if getattr(given, error.name) else key
+        raise SceneError(wanted.source, place, error.value, error.code, None, most=error.numbers["most"]) from error
     draw_title_block(expected.canvas, block, language, form)
     if export.purpose in WORKING:
         draw_turned(expected.canvas, block.designation)

@@ -4,22 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from exporters.production.request import Request
 from geometry.base.tolerance import PLACED_MM
 from geometry.kinematics.mechanism import FRAME, Revolute, Rolling, Tree
 from parts.base.mate import Toothed
-from parts.base.refusal import SceneError
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.mates.sheets.train_picture import Link, Rim, TrainPicture
 from parts.mates.sheets.train_sheet import train_sheet
-from parts.scene.load import ExportSpec, SceneFile
 from parts.scene.placing import Instance, Placing
 from parts.scene.train import Train
 
 
-def scene_train_sheet(
-    scene: SceneFile, placing: Placing, export: ExportSpec, asked: Asked, where: str, source: str
-) -> Expected:
+def train_sheets(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
     """The sheet of the gears that the drives of a scene move.
 
     Raises
@@ -27,11 +24,12 @@ def scene_train_sheet(
     SceneError
         No drive moves gears on parallel axes.
     """
+    placing = wanted.placing
     meshes = _meshes(placing)
     if placing.train is None or not meshes:
-        raise SceneError(source, f"{where}.purpose", export.purpose, "shows_driven_gears")
+        raise wanted.refused("purpose", wanted.export.purpose, "shows_driven_gears")
     picture, rims = train_picture(placing.train, meshes, placing.instances)
-    return train_sheet(scene.scene.title or scene.name, picture, rims, asked)
+    return [("", train_sheet(wanted.title, picture, rims, asked))]
 
 
 def _meshes(placing: Placing) -> list[Rolling]:
