@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,6 +51,8 @@ _MOST_TRIES = 24
 # poles are rounded to 1/128 to 1/64 of the tolerance, end legs of so many steps and more too: along the curve they are
 # known to some 1e-11 mm only, and each machine's own noise takes a few of ten thousand over a finer grid's edges
 _GRID_BITS, _LEAST_ROUNDED = 7, 16
+# errors below this part of the greatest coordinate are those of rounding
+_NOISE = 1e-13
 # how often a correction is solved for, each time with what is left
 _SOLUTIONS = 2
 # least length of an end leg of the control polygon, in distances from the origin: its direction is then good to
@@ -71,7 +74,7 @@ class SplineFit(Record):
     draft: _Draft | None = None
 
 
-class _Layout(Record):
+class _Layout(Record, dict=True):
     """Knots, and samples x (spans, samples) with their basis values (.., degree + 1) and poles at work (spans, ..)."""
 
     degree: int
@@ -84,6 +87,22 @@ class _Layout(Record):
     @property
     def count(self) -> int:
         return len(self.knots) - self.degree - 1
+
+    @cached_property
+    def columns(self) -> Index:
+        """Of each span the unknowns at work, (spans, 2 (degree + 1)): real parts of poles, then imaginary ones."""
+        return np.concatenate([self.index, self.count + self.index], axis=1)
+
+    @cached_property
+    def cells(self) -> Index:
+        """Where the products of two of them stand in the normal equations, row by row."""
+        return np.asarray((2 * self.count * self.columns[:, :, None] + self.columns[:, None, :]).ravel())
+
+    @cached_property
+    def free(self) -> Index:
+        """The unknowns without those of the end poles, and with one of each end leg."""
+        n = self.count
+        return np.concatenate([np.arange(1, n - 1), np.arange(n + 2, 2 * n - 2)])
 
     def points(self, poles: Complex) -> Complex:
         """The spline's points at the samples."""
@@ -255,7 +274,9 @@ def _first_parameter(curve: Curve, degree: int, continuity: int, tolerance: floa
         raise CuspError(float(t[backwards[0]]), 0.0)
     maps = [m for m in (_natural(curve), _arc_and_turning(curve)) if m is not None]
     drafts = [_fitted(curve, m, _PILOT_SPANS, degree, continuity, tolerance) for m in maps]
-    best = min(range(len(maps)), key=lambda i: drafts[i].error)
+    # errors of rounding choose nothing: each machine has its own
+    floor = _NOISE * float(np.abs(drafts[0].poles).max())
+    best = min(range(len(maps)), key=lambda i: max(drafts[i].error, floor))
     return maps[best], drafts[best]
 
 
@@ -400,25 +421,22 @@ def _correction(ends: Ends, layout: _Layout, off: Complex, tangent: Complex, wei
     sliding = weight * np.concatenate([turned.real, -turned.imag], axis=2)
     rows = np.concatenate([normal, sliding], axis=1)
     known = np.concatenate([residual.imag, weight * residual.real], axis=1)
-    n = layout.count
-    columns = np.concatenate([layout.index, n + layout.index], axis=1)
-    cells = (2 * n * columns[:, :, None] + columns[:, None, :]).ravel()
+    n, columns, kept = layout.count, layout.columns, layout.free
     blocks = rows.transpose(0, 2, 1) @ rows
-    matrix = _summed(cells, blocks, 4 * n * n).reshape(2 * n, 2 * n)
+    matrix = _summed(layout.cells, blocks, 4 * n * n).reshape(2 * n, 2 * n)
     # the end legs' directions become unknowns in place of the real parts of their poles
     _, _, leave, arrive = ends
     ways = ((1, leave), (n - 2, arrive))
     for line in (matrix, matrix.T):
         _along(line, n, ways)
-    kept = np.concatenate([np.arange(1, n - 1), np.arange(n + 2, 2 * n - 2)])
     reduced = matrix[np.ix_(kept, kept)]
     reduced.ravel()[:: len(reduced) + 1] += 1e-15 * np.trace(reduced) / len(reduced)
-    inverse, change = np.linalg.inv(reduced), np.zeros(n, dtype=complex)
+    inverse, change, left = np.linalg.inv(reduced), np.zeros(n, dtype=complex), known
     # what the squared matrix has rounded away is found from the residuals of its rows: the same poles on any machine
-    for _ in range(_SOLUTIONS):
-        moved = np.concatenate([change.real, change.imag])[columns]
-        shares = np.einsum("jqk,jq->jk", rows, known - np.einsum("jqk,jk->jq", rows, moved))
-        right = _summed(columns.ravel(), shares, 2 * n)
+    for again in range(_SOLUTIONS):
+        if again:
+            left = known - np.einsum("jqk,jk->jq", rows, np.concatenate([change.real, change.imag])[columns])
+        right = _summed(columns.ravel(), np.einsum("jqk,jq->jk", rows, left), 2 * n)
         _along(right, n, ways)
         solved = np.zeros(2 * n)
         solved[kept] = inverse @ right[kept]

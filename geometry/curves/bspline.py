@@ -142,7 +142,7 @@ def _mirrored_knots(knots: Real) -> Real:
 
 def span_index(degree: int, knots: Real, t: Real) -> Index:
     """Index i with knots[i] <= t < knots[i + 1], the last span closed; shape of ``t``."""
-    return np.clip(np.searchsorted(knots, t, side="right") - 1, degree, len(knots) - degree - 2)
+    return np.minimum(np.maximum(np.searchsorted(knots, t, side="right") - 1, degree), len(knots) - degree - 2)
 
 
 def basis(degree: int, knots: Real, t: Real) -> tuple[Index, Real]:
@@ -172,7 +172,7 @@ def feet(curve: Curve, points: Complex, guess: Real, steps: int = _FOOT_STEPS) -
     for _ in range(steps):
         at, first = curve.with_derivative(t)
         square = np.maximum(np.abs(first) ** 2, 1e-300)
-        t = np.clip(t + (np.conj(first) * (points - at)).real / square, low, high)
+        t = np.minimum(np.maximum(t + (np.conj(first) * (points - at)).real / square, low), high)
     return t
 
 

@@ -93,6 +93,8 @@ class TrochoidFillet(Fillet, Record):
 def _tangent_derivatives(tan: Real, order: int) -> list[Real]:
     """tan u and its derivatives up to ``order`` (at most 4), from the value of tan u."""
     square = 1 + tan * tan
+    if order == 1:
+        return [tan, square]
     table = [tan, square, 2 * tan * square, square * (2 + 6 * tan**2), square * (16 * tan + 24 * tan**3)]
     return table[: order + 1]
 
@@ -100,6 +102,8 @@ def _tangent_derivatives(tan: Real, order: int) -> list[Real]:
 def _speed_derivatives(constant: float, square: float, cube: float, tan: list[Real]) -> list[Real]:
     """constant + square sec^2 u + cube sec^3 u and its derivatives, from tan u and its derivatives."""
     t, secant_cubed = tan[0], tan[1] ** 1.5
+    if len(tan) == 2:
+        return [constant + (square * tan[1] + cube * secant_cubed)]
     cubes = [np.ones_like(t), 3 * t, 12 * t**2 + 3, 60 * t**3 + 33 * t]
     result = [square * d + cube * secant_cubed * c for d, c in zip(tan[1:], cubes, strict=False)]
     return [constant + result[0], *result[1:]]

@@ -393,3 +393,13 @@ def test_a_part_of_a_spline_is_the_spline() -> None:
         t = np.linspace(low, high, 41)
         assert part.domain == (low, high)
         assert np.abs(part.point(t) - [complex(p.x, p.y) for p in whole.points(t)]).max() < 1e-13
+
+
+def test_rounding_chooses_nothing() -> None:
+    """A short fillet, which every parameter fits to rounding, has the same poles wherever it is turned to."""
+    fillet, poles = TrochoidFillet(40.0, 2.0, 1.0, 0.0, 0.3, 0.4), []
+    for turn in np.arange(12) * 1e-3:
+        made = fit_spline(fillet.placed(Placement2(turn, 0j)), 1e-6, degree=7, continuity=6)
+        poles.append(made.spline.poles * np.exp(-1j * turn))
+    assert np.ptp(np.array(poles).real, axis=0).max() < 1e-7
+    assert np.ptp(np.array(poles).imag, axis=0).max() < 1e-7
