@@ -89,7 +89,7 @@ class TwoDisk(Record):
             way = at / abs(at) if at else 1j
             near = way * min(max(abs(at), least), most)
             raise ParameterError(
-                "point", [at.real, at.imag], "out_of_reach", Nearest([near.real, near.imag]),
+                "x, y", [at.real, at.imag], "out_of_reach", Nearest([near.real, near.imag]),
                 least=least, most=most, distance=abs(at),
             )  # fmt: skip
 

@@ -80,7 +80,7 @@ class LoadKeys(TwoDiskKeys, kw_only=True):
     load_height: Annotated[float, mm("where the force acts, over the platform's face", least=-1e4, most=1e4)] = 0.0
     x: _Place | None = None
     y: _Place | None = None
-    elbow: Annotated[Literal[1, -1], Meta(description="sign of beta at the place x, y")] = 1
+    elbow: Annotated[Literal[1, -1], Meta(description="sign of beta at the place x, y; default: 1")] | None = None
     groove_radius: Annotated[float, mm("radius of the grooves", above=0, most=1000)] = 4.16
     ball_diameter: _Length = 8.0
     ball_pressure_limit: Annotated[
@@ -110,8 +110,10 @@ class LoadKeys(TwoDiskKeys, kw_only=True):
                 "x" if self.x is None else "y", None, "missing_key", None, what=message("x and y of a point")
             )
         if self.x is None or self.y is None:
+            if self.elbow is not None:
+                raise ParameterError("elbow", self.elbow, "needs_other", None, other="x, y")
             return None
-        delta, beta = self.table.inverse(complex(self.x, self.y), self.elbow)
+        delta, beta = self.table.inverse(complex(self.x, self.y), self.elbow or 1)
         return float(delta), float(beta)
 
     @property

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 import numpy as np
 from msgspec import Meta
 
 from geometry.base import hertz
-from geometry.base.errors import ParameterError
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.two_disk import TwoDisk
@@ -54,10 +55,24 @@ class PowerModuleKeys(LoadKeys, kw_only=True):
     worm_backlash: Annotated[_Play, Meta(description="on the reference circle of either worm wheel")] = 0.05
     pair_backlash: Annotated[_Play, Meta(description="on the pitch circles of the pair 11-12")] = 0.05
     pitch_error: Annotated[_Play, Meta(description="total pitch error of each of the three wheels")] = 0.0
-    wheel_backlash: Annotated[_Play, Meta(description="of each mesh that turns the platform, m 2, z 24")] = 0.05
+    wheel_backlash: Annotated[_Play, Meta(description="of each mesh of the idlers")] = 0.05
     pin_clearance: Annotated[_Play, Meta(description="of each pin of a crank, diametral")] = 0.02
-    pivot_circle: Annotated[float, mm("radius of the circle of the cranks' pivots", above=0, most=1e4)] = 51.0
+    pivot_circle: (
+        Annotated[float, mm("radius of the circle of the cranks' pivots; default: r_pivots of the assembly", above=0,
+                            most=1e4, example=51.0)] | None
+    ) = None  # fmt: skip
     picture: Annotated[str, Meta(description="SVG file of the error map to write")] | None = None
+
+    @property
+    def lengths(self) -> tuple[float, float]:
+        """L1, which ring and pinion give, and L2, as long where none is given, mm."""
+        arm = self.module * (self.pair_teeth[1] - self.pair_teeth[0]) / 2
+        first, second = self.arms or (arm, arm)
+        if abs(first - arm) > 1e-9:
+            raise ParameterError(
+                "arms", [first, second], "arm_of_ring_and_pinion", Nearest([arm, second]), arm=arm
+            )  # fmt: skip
+        return first, second
 
 
 def sheet(table: dict[str, Any]) -> Sheet:
@@ -73,11 +88,11 @@ def sheet(table: dict[str, Any]) -> Sheet:
             raise ParameterError("groove_radius", keys.groove_radius, "groove_below_ball", None,
                                  least=keys.ball_diameter / 2)  # fmt: skip
         given(page, keys)
-        found = _found(keys)
+        found = _found(keys, keys.orientation)
         carried = load_sections(page, keys, found)
         _worms(page, keys, carried.torques)
         _pair(page, keys, carried.torques[1])
-        _ball_ring(page, keys, carried)
+        _ball_ring(page, keys, carried, found)
         _orientation(page, keys)
         _play(page, keys)
         if keys.orientation != "idlers":
@@ -87,7 +102,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
     return page
 
 
-def _found(keys: PowerModuleKeys) -> dict[str, float]:
+def _found(keys: PowerModuleKeys, orientation: str) -> dict[str, float]:
     """Sizes of the assembly ``power_module`` with these drivers; with idlers it is not built: its disks, by cranks."""
     own = {
         "module": keys.module, "teeth_19": keys.pair_teeth[0], "teeth_21": keys.pair_teeth[1],
@@ -95,7 +110,7 @@ def _found(keys: PowerModuleKeys) -> dict[str, float]:
         "worm_teeth_23": keys.worm_ratios[1], "worm_wheel_width": keys.rim_width, "face_width": keys.face_width,
         "balls": keys.balls, "ball": keys.ball_diameter,
     }  # fmt: skip
-    return sizes({**DRIVERS, **own}, "cranks" if keys.orientation == "idlers" else keys.orientation)
+    return sizes({**DRIVERS, **own}, "cranks" if orientation == "idlers" else orientation)
 
 
 def _sizes(page: Sheet, keys: PowerModuleKeys, found: dict[str, float]) -> None:
@@ -190,7 +205,7 @@ def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
         page.notes.append(N_("the contact stress of the pair 11-12 is more than allowed"))
 
 
-def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried) -> None:
+def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapping[str, float]) -> None:
     """Section 2.4 as the thesis has it, with the right radial force of the worm, and with all forces as vectors where
     they are most; then Hertz for the groove.
     """
@@ -215,19 +230,22 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried) -> None:
              ("right", N_("right"), gear + right, "{F_RZ} + {F_RC_right}")]  # fmt: skip
     if carried.ring_radial:
         cases.append(("most", N_("under all forces where they are most"), carried.ring_radial, ""))
-    hold = axial / (1.5 * share)
+    hold, balls, row = axial / (1.5 * share), keys.balls, "z_b"
     for key, title, force, formula in cases:
         page.section(message(N_("Ring of balls: stiffness, {what}"), what=filled(title)))
         if key == "most":
             page.add("lifting_force", carried.ring_lift)
             hold = carried.ring_lift / (1.5 * share)
             page.add("preload", hold, f"{{F_l}} / {1.5 * share:g}")
+            # as many as the assembly has in this row
+            balls, row = int(found["large_balls"]), "z_r"
+            page.add("balls", balls, symbol="z_r", key=row)
         angle = math.atan(axial / force)
         source, mark = (_BALLS, _marked(page)) if key == "thesis" else ("", lambda name: None)
         page.add("bearing_radial_force", force, formula, source)
         page.add("contact_angle_deg", math.degrees(angle), "arctan({F_a} / {F_R})", source)
-        load = 1e5 * keys.balls * math.sin(angle) ** 2.5 * math.sqrt(1.25 * keys.ball_diameter)
-        formula = "100000 * {z_b} * sin({alpha_b})**2 * sqrt(sin({alpha_b}) * 1.25 * {d_b})"
+        load = 1e5 * balls * math.sin(angle) ** 2.5 * math.sqrt(1.25 * keys.ball_diameter)
+        formula = f"100000 * {{{row}}} * sin({{alpha_b}})**2 * sqrt(sin({{alpha_b}}) * 1.25 * {{d_b}})"
         page.add("turn_capacity", load, formula, source)
         mark("turn_capacity")
         along = 1.5 * load ** (2 / 3) * hold ** (1 / 3) * share
@@ -245,7 +263,7 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried) -> None:
     page.add("groove_radius", keys.groove_radius)
     ball = keys.ball_diameter / 2
     flat = 1 / ball - 1 / keys.groove_radius
-    inner, outer = (1 / ball + sense / (least / 2 - sense * ball) for sense in (1, -1))
+    inner, outer = (1 / ball + sense / (found["r_large"] - sense * ball) for sense in (1, -1))
     both = [hertz.stiffness((flat, sharp), MODULUS) for sharp in (inner, outer)]
     # two contacts one behind the other under the same load
     hertzian = sum(k ** (-2 / 3) for k in both) ** -1.5
@@ -269,10 +287,13 @@ def _orientation(page: Sheet, keys: PowerModuleKeys) -> None:
     """By how much the platform can turn in its play, with idlers and with cranks: why cranks are the default."""
     page.section(N_("Play of the platform's turn"))
     page.add("wheel_backlash", keys.wheel_backlash)
-    page.add("platform_play_deg", math.degrees(4 * keys.wheel_backlash / 24), "4 * {j_6} / 24", of=N_("idlers"))
+    # each mesh at half an arm, the idler half as large as the wheels beside it
+    play = 6 * keys.wheel_backlash * sum(1 / arm for arm in keys.lengths)
+    page.add("platform_play_deg", math.degrees(play), "6 * {j_6} * (1 / {L1} + 1 / {L2})", of=N_("idlers"))
     page.add("crank_pin_clearance", keys.pin_clearance)
-    page.add("pivot_circle", keys.pivot_circle)
-    play = 4 * keys.pin_clearance / (math.cos(math.pi / 6) * keys.pivot_circle)
+    circle = keys.pivot_circle or _found(keys, "cranks")["r_pivots"]
+    page.add("pivot_circle", circle)
+    play = 4 * keys.pin_clearance / (math.cos(math.pi / 6) * circle)
     page.add("platform_play_deg", math.degrees(play), "4 * {c_p} / ({r_p} * cos(pi / 6))", of=N_("cranks"))
 
 

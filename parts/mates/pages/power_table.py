@@ -36,7 +36,7 @@ _Place = Annotated[float, mm("coordinate", least=-_MOST, most=_MOST)]
 class TwoDiskKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     """Keys of the mechanism."""
 
-    arms: Annotated[tuple[_Arm, _Arm], mm("L1 = O1O2 and L2 = O2O3")] = (72.0, 72.0)
+    arms: Annotated[tuple[_Arm, _Arm], mm("L1 = O1O2 and L2 = O2O3", example=[72.0, 72.0])] | None = None
     pair_teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="teeth of disk 3's pinion and of the ring")] = (
         96, 144,
     )  # fmt: skip
@@ -49,11 +49,16 @@ class TwoDiskKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     ] = (36, 36)
 
     @property
+    def lengths(self) -> tuple[float, float]:
+        """L1 and L2, mm; the thesis's where none are given."""
+        return self.arms or TwoDisk().arms
+
+    @property
     def table(self) -> TwoDisk:
         """The mechanism; its ring is larger than the pinion."""
         if self.pair_teeth[0] >= self.pair_teeth[1]:
             raise ParameterError("pair_teeth", list(self.pair_teeth), "ring_as_its_wheel")
-        return TwoDisk(arms=self.arms, teeth=self.pair_teeth, worm_ratios=self.worm_ratios)
+        return TwoDisk(arms=self.lengths, teeth=self.pair_teeth, worm_ratios=self.worm_ratios)
 
 
 class PowerTableKeys(TwoDiskKeys, kw_only=True):
@@ -69,7 +74,7 @@ class PowerTableKeys(TwoDiskKeys, kw_only=True):
         | None
     ) = None
     tolerance: Annotated[float, mm("how far the platform may leave the path", least=1e-6, most=10)] = 0.01
-    elbow: Annotated[Literal[1, -1], Meta(description="with which sign of beta the path begins")] = 1
+    elbow: Annotated[Literal[1, -1], Meta(description="with which sign of beta the path begins")] | None = None
     picture: Annotated[str, Meta(description="SVG file of the scheme to write")] | None = None
     start_deg: Annotated[float, degrees("delta before the path begins", least=-36_000, most=36_000)] | None = None
 
@@ -81,6 +86,9 @@ def sheet(table: dict[str, Any]) -> Sheet:
     page = Sheet(TOPIC, N_("Two-disk power table"), picture_file=keys.picture)
     try:
         if keys.path is not None:
+            for name, given_too in (("x", keys.x), ("y", keys.y)):
+                if given_too is not None:
+                    raise ParameterError(name, given_too, "either_of", None, other="path")
             _path(page, keys)
         else:
             _points(page, keys)
@@ -92,8 +100,8 @@ def sheet(table: dict[str, Any]) -> Sheet:
 def given(page: Sheet, keys: TwoDiskKeys) -> None:
     """The mechanism's own sizes."""
     page.section(N_("Given"))
-    page.add("first_arm", keys.arms[0])
-    page.add("second_arm", keys.arms[1])
+    page.add("first_arm", keys.lengths[0])
+    page.add("second_arm", keys.lengths[1])
     page.add("number_of_teeth", keys.pair_teeth[0], symbol="z_11", key="z11")
     page.add("number_of_teeth", keys.pair_teeth[1], symbol="z_12", key="z12")
     page.add("pair_ratio", keys.table.ratio, "{z12} / {z11}", _THESIS)
@@ -109,6 +117,8 @@ def _points(page: Sheet, keys: PowerTableKeys) -> None:
     if keys.x is None or keys.y is None:
         missing = "x" if keys.x is None else "y"
         raise ParameterError(missing, None, "missing_key", None, what=message("x and y of a point, or path=FILE"))
+    if keys.elbow is not None:
+        raise ParameterError("elbow", keys.elbow, "needs_other", None, other="path")
     x, y = np.atleast_1d(keys.x), np.atleast_1d(keys.y)
     if len(x) != len(y) or not len(x):
         raise ParameterError("y", keys.y, "as_many_as_x")
@@ -191,7 +201,7 @@ def _path(page: Sheet, keys: PowerTableKeys) -> None:
     if not pieces:
         raise ParameterError("path", None, "no_path")
     start = None if keys.start_deg is None else math.radians(keys.start_deg)
-    rows = followed(table, pieces, keys.tolerance, keys.elbow, start)
+    rows = followed(table, pieces, keys.tolerance, keys.elbow or 1, start)
     given(page, keys)
     page.section(N_("Path"))
     page.add("path_length", float(rows.way[-1]))

@@ -74,6 +74,8 @@ def test_what_is_refused() -> None:
         (("x=100", "y=120"), "x = 100"),
         (("x=50",), "y: is missing"),
         (("x=[1,2]", "y=1"), "as many as x has"),
+        (("x=50", "y=80", "elbow=-1"), "elbow = -1: needs path too"),
+        (("path=[[0,0,9,9,0]]", "y=80"), "y = 80.0: is given beside path"),
         (("path=nothing.dxf",), "no such file"),
         (("path=[[0,0,0,0,1]]",), "begins where it ends"),
         (("x=1", "y=1", "pair_teeth=[96,96]"), "a ring has more teeth"),
@@ -277,7 +279,10 @@ def test_loads_that_are_refused_or_too_much() -> None:
     for keys, told in (
         (("load=100", "force_x=3"), "is given beside force_x, force_y"),
         (("x=100",), "y: is missing"),
-        (("x=100", "y=120"), "156.205 mm from O1"),
+        (("x=100", "y=120"), "x, y = [100.0, 120.0]: is 156.205 mm from O1"),
+        (("elbow=-1",), "elbow = -1: needs x, y too"),
+        (("x=50", "y=80", "elbow=2"), "one of 1, -1"),
+        (("arms=[70,60]",), "72 mm apart; [72.0, 60.0] works"),
         (("moment=3", "orientation=idlers"), "is carried by cranks"),
     ):
         with pytest.raises(SceneError) as refused:
@@ -339,6 +344,20 @@ def test_sizes_of_the_module_stand_with_their_rules_on_one_page(module: dict[str
     found = {row["size"]: row["value"] for row in module["sizes"] if row["rule"] and row["reason"]}
     # the thesis's axes, and half the circle on which the list's 2 x 58 balls run
     assert (found["arm"], found["a_1"], found["a_2"], found["r_large"]) == (72.0, 345.0, 290.0, 280.0)
+
+
+@pytest.mark.parametrize("keys", [(), ("orientation=thesis",), ("module=3.1",)], ids=str)
+def test_no_default_stands_beside_what_the_page_finds(keys: tuple[str, ...], module: dict[str, Any]) -> None:
+    """The circle of the pivots, the axes of ring and pinion, the balls of the ring's row: as the sizes have them."""
+    data = calculated("power-module", *keys) if keys else module
+    found = {row["size"]: row["value"] for row in data["sizes"]}
+    # the thesis's wheels have none: that of the cranks in their place
+    circle = found.get("r_pivots", 53.0)
+    assert data["values"]["pivot_circle"] == circle
+    play = math.degrees(4 * 0.02 / (circle * math.cos(math.pi / 6)))
+    assert step(data, "platform_play_deg", "cranks")["value"] == pytest.approx(play, rel=1e-12)
+    assert (data["values"]["first_arm"], data["values"]["second_arm"]) == (found["arm"], found["arm"])
+    assert [s["value"] for s in data["steps"] if s["name"] == "balls"] == [180, found["large_balls"]]
 
 
 def test_limits_of_the_module_stand_beside_them_with_what_is_left(module: dict[str, Any]) -> None:
