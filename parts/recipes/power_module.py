@@ -88,7 +88,7 @@ PARTS: Mapping[str, tuple[int, str, str, str]] = {
     "crank": (34, N_("Crank"), STEEL, "#d98880"),
     "crank_pin": (35, N_("Crank pin"), STEEL, "#d0d4d8"),
 }
-# standard items: position, name, standard; those with "_down" are the same, laid the other way round
+# standard items: position, name, standard; those with "_down" and "_up" are the same, laid the other way round
 STANDARD: Mapping[str, tuple[int, str, str]] = {
     "bolt_41": (41, N_("Bolt M8-6g x 40"), "7805-70"),
     "bolt_42": (42, N_("Bolt M12-6g x 45"), "7805-70"),
@@ -96,6 +96,7 @@ STANDARD: Mapping[str, tuple[int, str, str]] = {
     "nut_46": (46, N_("Nut M20x1.5-6H"), "11871-88"),
     "nut_47": (47, N_("Nut M45x1.5-6H"), "11871-88"),
     "screw_49": (49, N_("Screw M8-6g x 12"), "8878-83"),
+    "screw_49_up": (49, N_("Screw M8-6g x 12"), "8878-83"),
     "screw_51": (51, N_("Screw M8-6g x 16"), "11738-84"),
     "screw_51_down": (51, N_("Screw M8-6g x 16"), "11738-84"),
     "screw_52": (52, N_("Screw M8-6g x 25"), "11738-84"),
@@ -359,20 +360,21 @@ class _Making(Making):
         for k, at in enumerate(_around(out), 1):
             self._set("body", f"bolt_42_{k}", "bolt_42", s["z_floor"] - 45, at)
             self._set("body", f"nut_44_{k}", "nut_44", self.low["body"] - _HEX_12[2], at)
-        flange, plug = 5.0, 20.0
-        self._turned("plug", [(0, 0), (15, 0), (15, flange), (10, flange), (10, flange + plug), (0, flange + plug)])
+        flange, top = 5.0, 5.0 + s["h_plug"]
+        self._turned("plug", [(0, 0), (15, 0), (15, flange), (10, flange), (10, top), (0, top)])
         for k, at in enumerate(self._plugs(), 1):
             self._set("body", f"plug_{k}", "plug", self.low["body"] - flange, at)
 
     def _plugs(self) -> list[complex]:
-        """Holes in the floor of the casting."""
-        return [complex(side * (self.s["half_room"] - 30)) for side in (1, -1)]
+        """Holes in the floor of the casting: under the set screws of worm II, and where it is drained."""
+        return [sum(self._set_screws(2)) / 2, complex(self.s["half_room"] - 30)]
 
     def _casting(self) -> list[tuple[float, Table]]:
         """The body's layers from the flange to the lip."""
         s = self.s
         top = s["h_5"] - _FLANGE
-        levels = {self.low["body"], s["z_floor"], s["z_boss"], s["z_lip"], top - _DEEP, top}
+        levels = {self.low["body"], self.low["body"] + s["h_plug"], s["z_floor"], s["z_boss"], s["z_lip"]}
+        levels |= {top - _DEEP, top}
         seats = [seat for worm in (1, 2) for seat in self._seats(worm)]
         for _, _, bottom, above, cap in seats:
             levels |= {bottom, above, cap}
@@ -384,7 +386,9 @@ class _Making(Making):
             if high <= s["z_floor"]:
                 polygons = [_square(s["half"] + 40)]
                 circles += [_round(M12[0], at) for at in _around(s["half"] + 20)]
-                circles += [_round(20, at) for at in self._plugs()]
+                under, drain = self._plugs()
+                circles.append(_round(20, drain))
+                circles += [_round(20, under)] if high <= self.low["body"] + s["h_plug"] else []
             elif high <= s["z_lip"]:
                 polygons = self._wall((low + high) / 2)
                 if high <= s["z_boss"]:
@@ -396,9 +400,11 @@ class _Making(Making):
                 circles.append(_round(2 * s["r_open"]))
                 if high > top - _DEEP:
                     circles += [_round(8, at) for at in _on_circle(_GUIDE_SCREWS, s["r_6_screws"])]
-            for worm in (1, 2):
-                if low >= s[f"z_{worm}"] + s["h_seat"]:
-                    circles += [_round(8, at) for at in self._set_screws(worm) if worm == 1 or high <= self._cap(2)]
+            # set screws: of worm I from the front, of worm II, which lies under wheel 25, through the floor
+            if low >= s["z_1"] + s["h_seat"]:
+                circles += [_round(8, at) for at in self._set_screws(1)]
+            if self.low["body"] + s["h_plug"] <= low and high <= s["z_2"] - s["h_seat"]:
+                circles += [_round(8, at) for at in self._set_screws(2)]
             found.append((high - low, {"polygons": polygons, "circles": circles}))
         return found
 
@@ -442,7 +448,7 @@ class _Making(Making):
         return found
 
     def _set_screws(self, worm: int) -> list[complex]:
-        """Holes over a cover."""
+        """Holes over a cover, or under it."""
         s, side = self.s, 1 if worm == 1 else -1
         return [complex(side * (s["x_seat"] + x), side * s[f"a_{worm}"]) for x in (6, 16)]
 
@@ -766,6 +772,7 @@ class _Making(Making):
         self._tube("spacer_28", bore, r + 3, cover - start - 2)
         self._tube("snap_ring", r - _SNAP + _PLAY, r + 4, 1.8)
         self._turned("screw_49", [(0, 0), (3, 0), (4, 1), (4, 12), (0, 12)])
+        self._turned("screw_49_up", [(0, 0), (4, 0), (4, 11), (3, 12), (0, 12)])
         for worm, wheel, direction in ((1, "worm_wheel_25", 90.0), (2, "worm_wheel_23", -90.0)):
             self.within = f"worm_{worm}_unit"
             self.found.instances[f"worm_{worm}"] = {"part": "worm", "subassembly": self.within}
@@ -776,8 +783,9 @@ class _Making(Making):
                     "part": part, "at": [round(way * x, 6), round(way * s[f"a_{worm}"], 6), round(s[f"z_{worm}"], 6)],
                     "axis": [float(way), 0.0, 0.0], "held": True, "subassembly": self.within,
                 }  # fmt: skip
+            low = s["z_1"] + seat if worm == 1 else s["z_2"] - seat - 12
             for k, at in enumerate(self._set_screws(worm), 1):
-                self._set("body", f"set_screw_{worm}_{k}", "screw_49", s[f"z_{worm}"] + seat, at)
+                self._set("body", f"set_screw_{worm}_{k}", f"screw_49{'_up' * (worm == 2)}", low, at)
 
     # -- how it is put together
 
@@ -798,10 +806,8 @@ class _Making(Making):
         cranks = [("front", *(f"first_crank_{k}" for k in (1, 2, 3)))] if self.cranks else []
         held = [("front", "body_plate"), ("front", "body_plate_pin")] if self.cranks else [("front", "central_wheel")]
         self.bring(
-            "body", ("front", *bolts), ("behind", *nuts), ("behind", "plug_1", "plug_2"), ("front", "spacer_18"),
-            *held, ("front", "central_screw"), *cranks,
-            # under wheel 25 these are out of reach later
-            ("front", "set_screw_2_1", "set_screw_2_2"), ("front", "ring"), ("front", "guide_6"),
+            "body", ("front", *bolts), ("behind", *nuts), ("behind", "plug_2"), ("front", "spacer_18"),
+            *held, ("front", "central_screw"), *cranks, ("front", "ring"), ("front", "guide_6"),
             ("front", "guide_6_screw"), ("front", "large_cage_1"),
         )  # fmt: skip
         # down inside of the ring of balls, then out into the groove of guide 6
@@ -816,7 +822,10 @@ class _Making(Making):
             self.bring("body", (side, f"end_cover_{worm}"))
             # over the shaft beyond its groove
             self.bring("body", (side, f"snap_ring_{worm}"), opened=_SNAP)
-        self.bring("body", ("front", "set_screw_1_1", "set_screw_1_2"))
+        self.bring(
+            "body", ("front", "set_screw_1_1", "set_screw_1_2"), ("behind", "set_screw_2_1", "set_screw_2_2"),
+            ("behind", "plug_1"),
+        )  # fmt: skip
 
     def _order_within(self) -> None:
         """What is within ring 21 and disk 2; guide 13 is wider than the tips of the ring: it comes in from behind."""
