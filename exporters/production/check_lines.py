@@ -83,12 +83,13 @@ def check_lines(
     if "motion" in checks and not brief:
         lines += _motion(checks["motion"], told)
     if "workspace" in checks and not brief:
-        lines += _workspace(checks["workspace"], told)
+        lines += _workspace(checks["workspace"], told, names)
     if "order" in checks:
-        from exporters.production.order import order_lines
+        from exporters.production.order import hindered_told, order_lines
 
         lines += order_lines(checks["order"], told)
-        lines += [f"{told.text(VERDICTS[found['verdict']])}: {found['text']}" for found in checks["order"]["hindered"]]
+        for found in checks["order"]["hindered"]:
+            lines.append(f"{told.text(VERDICTS[found['verdict']])}: {hindered_told(found, told, names)}")
     lines += _drives(checks, names, told)
     return lines
 
@@ -150,13 +151,14 @@ def _motion(motion: dict[str, Any], told: Words) -> list[str]:
     return [*lines, *_uncovered(motion, told)]
 
 
-def _workspace(found: dict[str, Any], told: Words) -> list[str]:
+def _workspace(found: dict[str, Any], told: Words, names: Mapping[str, str]) -> list[str]:
     """How solids were held wherever the drives may stand, and why the rest cannot meet."""
     counts = Counter(drives for *_, drives in found["tested"])
     poses = counted("{poses} pose", "{poses} poses", by="poses", poses=found["poses"])
     over, still = N_("{pairs} over {drives}"), N_("{pairs} as they stand")
     held = [
-        _pairs(count, over if drives else still, told, drives=", ".join(drives)) for drives, count in counts.items()
+        _pairs(count, over if drives else still, told, drives=", ".join(names.get(d, d) for d in drives))
+        for drives, count in counts.items()
     ]
     rest = [_pairs(len(pairs), _REST[why], told) for why, pairs in found["rest"].items() if pairs]
     head = message("solids wherever drives may stand: {held}; {poses}", held=", ".join(held), poses=poses)

@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 # the longer side of the picture of all parts, and the height of its letters; lines, all in its units
 _SIZE, _TEXT, _EDGE, _OUTLINE = 1200.0, 13.0, 0.3, 0.6
 _COLUMN = 4 * _TEXT
-# width of a letter in parts of its height
-_LETTER = 0.52
+# width of a letter in parts of its height, of Cyrillic and bold ones too
+_LETTER = 0.62
 # of arcs and outlines; instances that are tried for a leader's end; how much lighter what faces the viewer is
 _TOLERANCE, _TRIED, _LIGHT = 0.2, 6, 1.08
 _STYLE = (
@@ -84,7 +84,9 @@ def exploded_preview(plan: Plan, folder: Path) -> Path:
     rows = list_rows(placing.instances, parts, plan.scene.scene.language, weighed=False)
     lines = list(_drawn(ordered, drawings, parts, origin, scale))
     width, numbered, leaders = _leaders(ordered, drawings, rows, origin, scale, scale * complex(wide, high))
-    caption = list(_caption(plan, rows, {row.position for row in rows} - set(numbered), complex(width, high * scale)))
+    covered = {row.position for row in rows} - set(numbered)
+    caption, reach = _caption(plan, rows, covered, complex(width, high * scale))
+    width = max(width, reach)
     deep = high * scale + _TEXT * (len(caption) and 3 + max(len(column) for column in caption)) * 1.4
     file = folder / f"{plan.scene.name}.exploded.preview.svg"
     margin = 4 * _TEXT
@@ -293,20 +295,21 @@ def _spread(wanted: Sequence[float], step: float, most: float) -> list[float]:
     return found
 
 
-def _caption(plan: Plan, rows: Sequence[ListRow], covered: set[int], size: complex) -> Iterator[list[str]]:
-    """The title, and under the picture what the numbers are, in columns."""
+def _caption(plan: Plan, rows: Sequence[ListRow], covered: set[int], size: complex) -> tuple[list[list[str]], float]:
+    """The title, and under the picture what the numbers are, in columns; and how far to the right that goes."""
     title = plan.scene.scene.title or plan.scene.name
     top = size.imag + 2.5 * _TEXT
-    yield [f'<text x="0" y="{-1.6 * _TEXT:g}" style="font-weight:bold">{escaped(title)}</text>']
     told = [f"{row.position}  {row.name}" + (f" × {row.count}" if row.count > 1 else "") for row in rows]
     if covered:
         names = ", ".join(map(str, sorted(covered)))
         told.append(words(plan.scene.scene.language).text("covered in the picture: {names}", names=names))
     wide = _LETTER * _TEXT * (max(map(len, told)) + 2)
-    columns = max(1, round(size.real / wide))
+    columns = max(1, int(size.real / wide))
     deep = -(-len(told) // columns)
+    found = [[f'<text x="0" y="{-1.6 * _TEXT:g}" style="font-weight:bold">{escaped(title)}</text>']]
     for k in range(columns):
-        yield [
+        found.append([
             f'<text x="{k * wide:.0f}" y="{top + 1.4 * _TEXT * n:.0f}">{escaped(text)}</text>'
             for n, text in enumerate(told[k * deep : (k + 1) * deep])
-        ]
+        ])  # fmt: skip
+    return found, max(columns * wide, _LETTER * _TEXT * len(title))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from parts.base.part import Part
 from parts.base.texts import N_, Message, Words, counted, filled, message, words
-from parts.scene.assembly_order import Hindrance, order_found
+from parts.scene.assembly_order import order_found
 from parts.scene.placing import Placing
 from parts.scene.steps import StepSpec
 
@@ -34,18 +35,22 @@ def order_checks(
 ) -> dict[str, Any]:
     """What holding the order of a scene has shown: pairs by how they were decided, what is hindered."""
     found = order_found(steps, placing, parts)
+    rows = [
+        {"step": x.step, "coming": x.coming, "standing": x.standing, "volume": x.volume,
+         "verdict": "undecided" if x.volume is None else "overlap"}
+        for x in found.hindered
+    ]  # fmt: skip
     told = words(language)
-    return {"steps": found.steps, "pairs": found.pairs, "hindered": [_hindered(x, told) for x in found.hindered]}
+    return {"steps": found.steps, "pairs": found.pairs, "hindered": [{**x, "text": hindered_told(x, told)} for x in rows]}
 
 
-def _hindered(found: Hindrance, told: Words) -> dict[str, Any]:
-    verdict = "undecided" if found.volume is None else "overlap"
+def hindered_told(found: Mapping[str, Any], told: Words, names: Mapping[str, str] = MappingProxyType({})) -> str:
+    """What does not reach its place, in words; ``names`` of instances."""
     text = N_("step {step}: {coming} does not reach its place past {standing}: {value:.4g} mm^3 in its way")
-    if found.volume is None:
+    if found["volume"] is None:
         text = N_("step {step}: a wall is too thin to tell whether {coming} reaches its place past {standing}")
-    row = {"step": found.step, "coming": found.coming, "standing": found.standing, "volume": found.volume}
-    said = told.text(text, **{**row, "value": found.volume})
-    return {**row, "verdict": verdict, "text": said}
+    coming, standing = (names.get(found[key], found[key]) for key in ("coming", "standing"))
+    return told.text(text, step=found["step"], coming=coming, standing=standing, value=found["volume"])
 
 
 def order_lines(found: Mapping[str, Any], told: Words) -> Iterator[str]:

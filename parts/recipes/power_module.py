@@ -110,6 +110,29 @@ STANDARD: Mapping[str, tuple[int, str, str]] = {
     "screw_59_down": (59, N_("Screw M4-6g x 6"), "17473-80"),
     "ball": (61, N_("Ball 8"), "3722-81"),
 }
+# of instances, where their parts are several of one name, or one part is in several places
+INSTANCES: Mapping[str, str] = {
+    "small_cage_1": N_("Front small cage"), "small_cage_2": N_("Rear small cage"),
+    "large_cage_1": N_("Large cage in the housing"), "large_cage_2": N_("Large cage of ring 22"),
+    "small_ball_1": N_("Ball of the front small cage"), "small_ball_2": N_("Ball of the rear small cage"),
+    "large_ball_1": N_("Ball of the large cage in the housing"), "large_ball_2": N_("Ball of the large cage of ring 22"),
+    "protective_ring_1": N_("Front protective ring"), "protective_ring_2": N_("Rear protective ring"),
+    "front_clip": N_("Screw of the front protective ring"), "rear_clip": N_("Screw of the rear protective ring"),
+    "guide_5": N_("Clip-on guide 5"), "guide_5_screw": N_("Screw of guide 5"),
+    "guide_6": N_("Clip-on guide 6"), "guide_6_screw": N_("Screw of guide 6"),
+    "shield_7": N_("Protective disk 7"), "shield_7_screw": N_("Screw of disk 7"),
+    "shield_8": N_("Protective disk 8"), "shield_8_screw": N_("Screw of disk 8"),
+    "spacer_10": N_("Spacer ring 10"), "spacer_15": N_("Spacer ring 15"), "spacer_18": N_("Spacer ring 18"),
+    "spacer_22": N_("Spacer ring 22"), "spacer_24": N_("Spacer ring 24"), "spacer_24_screw": N_("Screw of ring 24"),
+    "bearing_screw": N_("Screw of both bearing rings"), "ring_screw": N_("Screw of wheel 21"),
+    "worm_wheel_23_screw": N_("Screw of worm wheel 23"), "worm_wheel_25_bolt": N_("Bolt of worm wheel 25"),
+    "disk_3_screw": N_("Screw of the inner disk"), "cover_12_screw": N_("Screw of cover 12"),
+    "central_screw": N_("Screw of position 16"), "platform_screw": N_("Screw of the platform"),
+    "body_plate_pin": N_("Pin of plate 16"), "platform_plate_pin_rear": N_("Pin of plate 11"),
+    "free_ring_pin": N_("Front pin of the free ring"), "free_ring_pin_rear": N_("Rear pin of the free ring"),
+    "first_crank": N_("First crank"), "second_crank": N_("Second crank"),
+    "set_screw_1": N_("Set screw of worm I"), "set_screw_2": N_("Set screw of worm II"),
+}  # fmt: skip
 _DESIGNATION, _STANDARD = N_("KRB.PM.25.33.13.00.{number}"), N_("GOST {number}")
 
 
@@ -287,6 +310,7 @@ class _Making(Making):
                 position, title, standard = STANDARD[name]
                 table |= {"standard": told.text(_STANDARD, number=standard), "material": STEEL, "colour": "#5f6870"}
             table |= {"position": position, "title": in_every_language(title)}
+        self.found.name_instances(INSTANCES)
 
     def _set(self, first: str, instance: str, part: str, z: float, at: complex = 0j, **more: object) -> None:
         """An instance or a group of them (``count``), one body with another; ``z``: its lower face."""

@@ -46,9 +46,15 @@ class Expansion(Draft):
         """Give parts their titles (msgids, by id), and instances theirs whose id is not their part's."""
         for part, table in self.parts.items():
             table["title"] = in_every_language(titles[part])
+        self.name_instances(titles)
+
+    def name_instances(self, titles: Mapping[str, str]) -> None:
+        """Give instances their titles (msgids), by id or by what it is without its number, if that is not their part's."""
         for name, table in self.instances.items():
             stem, number = _NUMBERED.fullmatch(name).groups()  # type: ignore[union-attr]
-            if stem != table["part"] and stem in titles:
+            if name in titles:
+                table["title"] = in_every_language(titles[name])
+            elif stem != table["part"] and stem in titles:
                 told = in_every_language(titles[stem])
                 table["title"] = {key: f"{title} {number}" if number else title for key, title in told.items()}
 

@@ -46,7 +46,8 @@ def _held(
     scene: SceneFile, parts: Mapping[str, Part], purpose: str | None, named: Sequence[str] | None
 ) -> Sequence[str]:
     """The parts that an export's files hold, where they are a machine's."""
-    if purpose not in _MACHINES:
+    # a laser's file of all parts holds rods as their ends alone
+    if purpose not in _MACHINES or (purpose == "laser" and named is None):
         return ()
     own = [key for key in parts if key in (named or parts)]
     if purpose == "board":

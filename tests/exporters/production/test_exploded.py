@@ -115,6 +115,21 @@ def test_numbers_stand_on_what_is_seen(language: str, words: tuple[str, ...], tm
         assert seen[-1].startswith(own[number])
 
 
+def test_a_plate_of_one_part_has_the_view_of_all_and_long_names_stay_within_it(tmp_path: Path) -> None:
+    file, name = tmp_path / "stack.toml", "Кільце " + "дуже широке " * 8
+    bed = "[beds.b]\nwidth = 200.0\ndepth = 200.0\nheight = 100.0\n[[exports]]\n"
+    plate = f'{bed}format = "3mf"\npurpose = "plate"\nparts = ["pin"]\n'
+    text = SCENE.format(language="uk").replace("Кільце", name).replace('[[exports]]\nformat = "stl"\n', plate)
+    file.write_text(text, encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path), "--no-verify", "-q"]) == 0
+    picture = (tmp_path / "stack" / "stack.exploded.preview.svg").read_text(encoding="utf-8")
+    left, _, width, _ = map(float, re.findall(r'viewBox="([^"]+)"', picture)[0].split())
+    texts = re.findall(r'<text x="(\d+)" y="[-\d.]+"[^>]*>([^<]+)<', picture)
+    assert any(name.strip() in words for _, words in texts)
+    # letters of 13 are 0.6 of that wide
+    assert max(float(x) + 0.6 * 13 * len(words) for x, words in texts) < left + width
+
+
 def test_without_an_order_there_is_no_such_view(tmp_path: Path) -> None:
     file = tmp_path / "stack.toml"
     file.write_text(re.sub(r"\[\[steps\]\](.|\n)*(?=\[\[exports)", "", SCENE.format(language="en")), encoding="utf-8")

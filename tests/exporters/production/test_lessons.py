@@ -192,17 +192,21 @@ at = [50.0, 0.0, 0.0]
     bed = '[beds.b]\nwidth = 200.0\ndepth = 200.0\nheight = 100.0\n[[exports]]\nformat = "3mf"\npurpose = "plate"\n'
     point = "." if language == "en" else ","
     rows = ["6 × Ø5 × 10.5", "2 × Ø8/Ø5.2 × 20", "0.063 m" if language == "en" else "0.063 м"]
-    for name, more, cut in (("laser", board, True), ("printer", board + bed, False)):
+    flat = '[[exports]]\nformat = "svg"\n'
+    for name, more, cut in (("laser", board, True), ("printer", board + bed, False), ("flat", flat, None)):
         (tmp_path / f"{name}.toml").write_text(text + more, encoding="utf-8")
         assert (
             main(["build", str(tmp_path / f"{name}.toml"), "--out", str(tmp_path), "--language", language, "-q"]) == 0
         )
         told = (tmp_path / name / f"{name}.notes.txt").read_text("utf-8")
         assert ("Glue the crank" if language == "en" else "Приклейте ручку") in told
-        assert [row.replace(".", point) in told for row in rows] == [cut] * 3, told
+        # a laser's file of all parts has rods as their ends alone; no sheet asks for two sets
+        rows = rows if cut is not None else ["3 × Ø5 × 10.5", "1 × Ø8/Ø5.2 × 20"]
+        assert [row.replace(".", point) in told for row in rows] == [cut is not False] * len(rows), told
         # whatever the scene's file is called
-        assert f"{name}.board.1.svg: 2 × plate" in told
-        assert (f"{name}.plate.1.3mf: 1 × plate, " in told) != cut
+        if cut is not None:
+            assert f"{name}.board.1.svg: 2 × plate" in told
+            assert (f"{name}.plate.1.3mf: 1 × plate, " in told) != cut
 
 
 def test_lessons_and_coupons_have_notes_in_every_language() -> None:
