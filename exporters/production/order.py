@@ -41,7 +41,8 @@ def order_checks(
         for x in found.hindered
     ]  # fmt: skip
     told = words(language)
-    return {"steps": found.steps, "pairs": found.pairs, "hindered": [{**x, "text": hindered_told(x, told)} for x in rows]}
+    hindered = [{**row, "text": hindered_told(row, told)} for row in rows]
+    return {"steps": found.steps, "pairs": found.pairs, "hindered": hindered}
 
 
 def hindered_told(found: Mapping[str, Any], told: Words, names: Mapping[str, str] = MappingProxyType({})) -> str:

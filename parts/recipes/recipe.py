@@ -49,7 +49,7 @@ class Expansion(Draft):
         self.name_instances(titles)
 
     def name_instances(self, titles: Mapping[str, str]) -> None:
-        """Give instances their titles (msgids), by id or by what it is without its number, if that is not their part's."""
+        """Give instances their titles (msgids), by id, or by what it is without its number and is not their part's."""
         for name, table in self.instances.items():
             stem, number = _NUMBERED.fullmatch(name).groups()  # type: ignore[union-attr]
             if name in titles:
