@@ -80,10 +80,8 @@ def build(
         wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
         outlines = {p: outlines_of(plan.parts[p].section(0.0).region) for p in wanted}
         previews = [part_preview(plan.parts[p], o, staging, plan.scene.scene.language) for p, o in outlines.items()]
-        boards, plates = (
-            any(assembly.export.purpose == purpose for assembly in plan.assemblies) for purpose in ("board", "plate")
-        )
-        if len(plan.placing.instances) > 1 and (boards or plates or len(wanted) == len(plan.parts)):
+        laid = any(assembly.export.purpose in PURPOSES_LAID.values() for assembly in plan.assemblies)
+        if len(plan.placing.instances) > 1 and (laid or len(wanted) == len(plan.parts)):
             # what is not cut from boards or printed on plates belongs to the model all the same
             rest = {p: outlines_of(plan.parts[p].section(0.0).region) for p in plan.parts if p not in wanted}
             previews.append(scene_preview(plan, {**outlines, **rest}, checks, staging))
@@ -91,7 +89,6 @@ def build(
                 from exporters.production.exploded_preview import exploded_preview
 
                 previews.append(exploded_preview(plan, staging))
-        laid = any(assembly.export.purpose in PURPOSES_LAID.values() for assembly in plan.assemblies)
         if laid:
             from exporters.production.laid_preview import laid_previews
 
