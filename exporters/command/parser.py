@@ -51,9 +51,10 @@ class Parser(argparse.ArgumentParser):
 @contextmanager
 def speaking(words: Words) -> Iterator[None]:
     """Let argparse speak a language while parsers are made and used."""
-    before = argparse._, argparse.ngettext  # type: ignore[attr-defined]
-    argparse._, argparse.ngettext = words.text, words.plural  # type: ignore[attr-defined]
+    own = vars(argparse)
+    before = {name: own[name] for name in ("_", "ngettext")}
+    own.update(_=words.text, ngettext=words.plural)
     try:
         yield
     finally:
-        argparse._, argparse.ngettext = before  # type: ignore[attr-defined]
+        own.update(before)

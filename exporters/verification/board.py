@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from exporters.formats.readback import Loop
+from exporters.formats.readback import Loop, ReadOutlines
 from exporters.formats.reading import READERS
 from exporters.verification.outlines import stroke_failures, verify_loops
 from exporters.verification.verdict import Verdict
@@ -31,7 +31,6 @@ from parts.scene.formats import FileKind
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-    from exporters.formats.readback import ReadOutlines
 
 # quarter turns are exact
 _QUARTERS = (1 + 0j, 1j, -1 + 0j, -1j)
@@ -89,7 +88,8 @@ class ExpectedBoard(Record):
 def verify_board(file: Path, kind: FileKind, expected: ExpectedBoard, declared: float, tolerance: float) -> Verdict:
     """Read a board's file back and hold it against what it must be, within a declared error, mm."""
     try:
-        found: ReadOutlines = READERS[kind.name](file)  # type: ignore[assignment]
+        found = READERS[kind.name](file)
+        assert isinstance(found, ReadOutlines)
         board = expected.board
         # an SVG is read about its middle
         corner = 0j if kind.format == "dxf" else complex(board.width, board.height) / 2

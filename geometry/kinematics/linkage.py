@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -320,10 +320,11 @@ class Linkage(Record):
         far = joint + self.coupler_length * turn
         if name == "coupler":
             return joint, cmath.phase(turn)
-        of: Any = self.drive if name == "driven" else self.guide
+        of = self.drive if name == "driven" else self.guide
         at = joint if name == "driven" else far
         if isinstance(of, RockerDrive | RockerGuide):
             return of.pivot, cmath.phase(at - of.pivot)
+        assert isinstance(of, SliderDrive | SliderGuide)
         return at, of.direction
 
     def length(self, name: str) -> float | None:

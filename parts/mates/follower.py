@@ -130,9 +130,8 @@ class CamFollower(MateKind[CamFollowerSpec, "DiskCam | GrooveDisk", "FollowerEnd
         else:
             check_end(cam, end)
             _check_arm(cam, end)
-            mount: Any = cam.mount
             # to the pivot, or to the line of motion
-            distance = mount.centre_distance if cam.swings else abs(mount.offset)
+            distance = cam.swing.centre_distance if cam.swings else abs(cam.slide.offset)
         _check_reach(cam, end)
         return (LinkageFollowerMating if carried else CamFollowerMating)(
             *self.joined(keys),
@@ -190,8 +189,8 @@ def check_plate(end: FollowerEnd, least: float) -> None:
 
 def _check_arm(cam: DiskCam, end: FollowerEnd) -> None:
     check_mount(cam.swings, end)
-    mount: Any = cam.mount
     if end.arm_length is not None:
+        mount = cam.swing
         check_sense(end, mount.sense)
         if cam.is_flat:
             same_as_cam("face_offset", end.face_offset, mount.face_offset)

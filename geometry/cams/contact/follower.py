@@ -117,7 +117,7 @@ def follower_pose(cam: DiskCam, end: FollowerEnd, angle: float) -> tuple[complex
 
 def reach_from_pivot(cam: DiskCam) -> float:
     """Greatest distance along a flat arm at which the cam touches it, from the pivot, mm (4 097 angles)."""
-    mount: Any = cam.mount
+    mount = cam.swing
     angles = np.linspace(0, TURN, _REACH_SAMPLES)[:-1]
     swung = mount.start_angle + cam.motion.value(angles)
     local = (cam.contact(angles) - mount.centre_distance) * np.exp(-1j * (math.pi - mount.sense * swung))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import cmath
-from typing import Any
 
 import numpy as np
 
@@ -25,11 +24,9 @@ _SAMPLES = 257
 
 def between_rollers(first: DiskCam, pair: Conjugate) -> float:
     """Distance of both rollers' centres on a translating follower, mm, or angle between its arms, rad."""
-    one: Any = first.mount
-    two: Any = pair.cam.mount
-    if isinstance(one, Translating):
-        return float(one.start_height + two.start_height)
-    return float(TURN - one.start_angle - two.start_angle)
+    if first.swings:
+        return TURN - first.swing.start_angle - pair.cam.swing.start_angle
+    return first.slide.start_height + pair.cam.slide.start_height
 
 
 def second_centres(first: DiskCam, distance: float, angles: Real) -> Complex:
@@ -38,11 +35,10 @@ def second_centres(first: DiskCam, distance: float, angles: Real) -> Complex:
     ``distance`` between the rollers as of ``between_rollers``; the second cam is not asked.
     """
     centre = first.reference_point(angles)
-    mount: Any = first.mount
-    if isinstance(mount, Translating):
+    if not first.swings:
         return np.asarray(centre - 1j * distance)
-    pivot = mount.centre_distance
-    return np.asarray(pivot + (centre - pivot) * cmath.exp(-1j * mount.sense * distance))
+    pivot = first.swing.centre_distance
+    return np.asarray(pivot + (centre - pivot) * cmath.exp(-1j * first.swing.sense * distance))
 
 
 def conjugate_contact(

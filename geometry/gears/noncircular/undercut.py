@@ -8,9 +8,10 @@ allows, (x - s) kappa cos(a) = sin(a): undercut. Fillet and flank then cross, as
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from geometry.base.errors import UndercutError
 from geometry.base.tolerance import TOLERANCES
@@ -37,7 +38,7 @@ class Flanks(NamedTuple):
     radius: float
     at_tip: Real
 
-    def chosen(self, rows: Any) -> Flanks:
+    def chosen(self, rows: NDArray[np.intp] | tuple[slice, None]) -> Flanks:
         """Some of them."""
         return self._replace(
             crossing=self.crossing[rows], sign=self.sign[rows], centre=self.centre[rows], at_tip=self.at_tip[rows]

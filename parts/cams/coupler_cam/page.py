@@ -10,7 +10,7 @@ import numpy as np
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.plane.coupler import LinkageCam
 from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
-from geometry.kinematics.linkage import RockerDrive, RockerGuide, SliderGuide
+from geometry.kinematics.linkage import RockerDrive, RockerGuide, SliderDrive, SliderGuide
 from parts.base.texts import N_, message
 from parts.cams.coupler_cam.part import LINKAGE_CAM, LinkageCamSpec, linkage_findings
 from parts.cams.coupler_cam.position_page import position_at, position_steps
@@ -19,6 +19,7 @@ from parts.cams.disk_cam.page import roller_section
 from parts.cams.disk_cam.speed_page import speed_section
 from parts.cams.wheel import inner_radius
 from parts.keys.base import degrees
+from parts.keys.linkage import DrivenSlider
 from parts.pages.cam_steps import (
     DEFAULT_INTERVALS,
     TOPIC,
@@ -115,10 +116,10 @@ def _linkage(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
         page.add("driven_pivot_y", drive.pivot.imag)
         page.add("driven_length", drive.length)
         page.add("driven_start_angle_deg", math.degrees(drive.start_angle))
-    else:
-        page.add("driven_start_x", drive.start.real)  # type: ignore[attr-defined]
-        page.add("driven_start_y", drive.start.imag)  # type: ignore[attr-defined]
-        page.add("driven_direction_deg", keys.driven.direction_deg)  # type: ignore[union-attr]
+    elif isinstance(drive, SliderDrive) and isinstance(keys.driven, DrivenSlider):
+        page.add("driven_start_x", drive.start.real)
+        page.add("driven_start_y", drive.start.imag)
+        page.add("driven_direction_deg", keys.driven.direction_deg)
     page.add("coupler_length", linkage.coupler_length)
     if isinstance(guide, RockerGuide):
         page.add("guide_pivot_x", guide.pivot.real)

@@ -104,11 +104,12 @@ def _circles(second: SecondCam) -> dict[str, float]:
 
 def _between_rollers(second: SecondCam) -> dict[str, float]:
     """How both rollers stand on their follower."""
+    from geometry.cams.contact.positive import between_rollers
+
+    between = between_rollers(second.first, second.pair)
     if second.keys.oscillating is None:
-        return {"roller_distance": second.first.slide.start_height + second.cam.slide.start_height}
-    two = second.cam.swing.start_angle
-    between = 2 * math.pi - second.first.swing.start_angle - two
-    lowest = two + second.cam.motion.extremes()[0]
+        return {"roller_distance": between}
+    lowest = second.cam.swing.start_angle + second.cam.motion.extremes()[0]
     return {"roller_angle_deg": math.degrees(between), "start_angle_deg": math.degrees(lowest)}
 
 

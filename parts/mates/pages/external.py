@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
@@ -25,7 +26,8 @@ from parts.gears.spur_gear.page import addendum_formula, dedendum_formula, given
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, section_of
 from parts.keys.base import in_modules, mm
 from parts.keys.helix import in_keys
-from parts.mates.pages.internal import internal_sheet, merged, rack_sheet
+from parts.mates.pages.internal import InternalKeys, RackKeys, internal_sheet, rack_sheet
+from parts.mates.pages.pair_keys import GEARS, merged, pair_table
 from parts.mates.pages.wishes import wish_refused
 from parts.pages.contact_steps import (
     backlash_steps,
@@ -40,7 +42,6 @@ from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
 TOPIC = "gear-pair"
-GEARS = ("first", "second")
 
 
 class PairKeys(Struct, forbid_unknown_fields=True):
@@ -93,25 +94,7 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
         specs.reverse()
     known = {"kind": kind, **{name: given(spec) for name, spec in zip(GEARS, specs, strict=True)}}
     wishes = {key: getattr(mate, key) for key in ("working_centre_distance", "normal_backlash")}
-    if kind == "external_gear_pair":
-        return _merged(known | {k: v for k, v in wishes.items() if v is not None}, table)
-    return merged(known | {k: v for k, v in wishes.items() if v is not None}, table, kind)
-
-
-def _merged(under: dict[str, Any], over: dict[str, Any]) -> dict[str, Any]:
-    """Tables laid over each other, gear keys that name no gear over both gears."""
-    result = {key: dict(value) if isinstance(value, dict) else value for key, value in under.items()}
-    for key, value in over.items():
-        if key in GEARS and isinstance(value, dict):
-            result[key] = result.get(key, {}) | value
-        elif key in keys_of(SpurGearSpec) and key != "kind":
-            for name in GEARS:
-                mine = over.get(name)
-                if not (isinstance(mine, dict) and key in mine):
-                    result[name] = {**result.get(name, {}), key: value}
-        else:
-            result[key] = value
-    return result
+    return merged(known | {k: v for k, v in wishes.items() if v is not None}, table, PAIRS[kind][0])
 
 
 def sheet(table: dict[str, Any]) -> Sheet:
@@ -119,19 +102,12 @@ def sheet(table: dict[str, Any]) -> Sheet:
     kind = table.pop("kind", "external_gear_pair")
     if kind not in PAIRS:
         raise SceneError(PLACE, f"{TOPIC}.kind", kind, "unknown_pair", meant(kind, PAIRS), known=list(PAIRS))
-    return PAIRS[kind](table)
+    return PAIRS[kind][1](table)
 
 
 def external_sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of an external pair."""
-    table = _merged({}, table)
-    for name in GEARS:
-        if name not in table:
-            raise SceneError(PLACE, f"{TOPIC}.{name}", None, "gear_missing", None, name=name)
-    known = [*keys_of(PairKeys), *keys_of(SpurGearSpec), "kind"]
-    for key in table:
-        if key not in known:
-            raise SceneError(PLACE, f"{TOPIC}.{key}", table[key], "unknown_key", meant(key, known), known=known)
+    table = pair_table(table, PairKeys, TOPIC)
     keys: PairKeys = checked(table, PairKeys, TOPIC)
     shifts_given = tuple("profile_shift_coefficient" in table[name] for name in GEARS)
 
@@ -369,5 +345,9 @@ def _thicknesses(page: Sheet, asked: Asked) -> None:
         page.add("tip_thickness", limits.tip_thickness(gear), formula, "ISO 21771", index)
 
 
-# the kinds of pairs that have a sheet; each takes the table of its keys
-PAIRS = {"external_gear_pair": external_sheet, "internal_gear_pair": internal_sheet, "rack_pair": rack_sheet}
+# the kinds of pairs that have a sheet: their keys, and what makes it of a table of them
+PAIRS: dict[str, tuple[type[Struct], Callable[[dict[str, Any]], Sheet]]] = {
+    "external_gear_pair": (PairKeys, external_sheet),
+    "internal_gear_pair": (InternalKeys, internal_sheet),
+    "rack_pair": (RackKeys, rack_sheet),
+}

@@ -16,7 +16,7 @@ from geometry.gears.teeth import limits, ring_limits
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.transverse_ring import transverse_ring
 from parts.base.mate import End
-from parts.base.refusal import SceneError, meant
+from parts.base.refusal import SceneError
 from parts.base.texts import N_
 from parts.gears.rack.part import RackSpec, checked_rack_part
 from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear
@@ -24,7 +24,8 @@ from parts.gears.spur_gear.page import given_data, shift_data
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, rack_findings, rounding_finding
 from parts.keys.base import mm
 from parts.keys.helix import common_face
-from parts.mates.involute import InternalGearPairSpec, RackPairSpec
+from parts.mates.involute import InternalGearPairSpec, InternalMating, RackMating, RackPairSpec
+from parts.mates.pages.pair_keys import GEARS, pair_table
 from parts.mates.pages.rack import (
     ISO,
     Helical,
@@ -38,14 +39,13 @@ from parts.mates.pages.rack import (
 )
 from parts.mates.pages.wishes import wish_refused
 from parts.mates.pairing import mated
-from parts.pages.inputs import PLACE, checked, keys_of, refusal
+from parts.pages.inputs import checked, keys_of, refusal
 from parts.pages.misprints import printed_for_internal
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
 TOPIC = "gear-pair"
-_GEARS = ("first", "second")
-_SAME = {name: name for name in _GEARS}
+_SAME = {name: name for name in GEARS}
 
 
 class InternalKeys(Struct, forbid_unknown_fields=True):
@@ -68,35 +68,10 @@ class RackKeys(Struct, forbid_unknown_fields=True):
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
 
 
-_KINDS: dict[str, tuple[type[Struct], type[Struct]]] = {
-    "internal_gear_pair": (InternalKeys, RingGearSpec),
-    "rack_pair": (RackKeys, RackSpec),
-}
-
-
-def merged(under: dict[str, Any], over: dict[str, Any], kind: str) -> dict[str, Any]:
-    """Tables laid over each other; a key of both bodies without first. or second. goes to both of them."""
-    pair_keys, second = _KINDS[kind]
-    result = {key: dict(value) if isinstance(value, dict) else value for key, value in under.items()}
-    owners = {"first": keys_of(SpurGearSpec), "second": keys_of(second)}
-    for key, value in over.items():
-        if key in _GEARS and isinstance(value, dict):
-            result[key] = result.get(key, {}) | value
-        elif key in keys_of(pair_keys) or key == "kind":
-            result[key] = value
-        elif any(key in known for known in owners.values()):
-            for name, known in owners.items():
-                mine = over.get(name)
-                if key in known and not (isinstance(mine, dict) and key in mine):
-                    result[name] = {**result.get(name, {}), key: value}
-        else:
-            result[key] = value
-    return result
-
-
 def internal_sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of a pinion in a ring."""
-    keys, table = _keys(table, "internal_gear_pair")
+    table = pair_table(table, InternalKeys, TOPIC)
+    keys: InternalKeys = checked(table, InternalKeys, TOPIC)
     given_shift = "profile_shift_coefficient" in table["second"]
     try:
         pair = _internal_pair(keys, given_shift)
@@ -130,8 +105,9 @@ def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
         "first": End(keys.first, pinion),
         "second": End(ring_keys, checked_ring_gear(ring_keys)),
     }
-    pair: InternalPair = mated(ends, [mate], _SAME)[1][0].pair  # type: ignore[attr-defined]
-    return pair
+    mating = mated(ends, [mate], _SAME)[1][0]
+    assert isinstance(mating, InternalMating)
+    return mating.pair
 
 
 def _helix(keys: InternalKeys | RackKeys) -> float:
@@ -156,7 +132,7 @@ def _helical(keys: InternalKeys | RackKeys) -> Helical:
 
 def rack_sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of a gear on a rack."""
-    keys, _ = _keys(table, "rack_pair")
+    keys: RackKeys = checked(pair_table(table, RackKeys, TOPIC), RackKeys, TOPIC)
     mate = RackPairSpec(
         first="first",
         second="second",
@@ -169,26 +145,14 @@ def rack_sheet(table: dict[str, Any]) -> Sheet:
             "first": End(keys.first, checked_spur_gear(keys.first)),
             "second": End(keys.second, checked_rack_part(keys.second)),
         }
-        mating: Any = mated(ends, [mate], _SAME)[1][0]
+        mating = mated(ends, [mate], _SAME)[1][0]
+        assert isinstance(mating, RackMating)
         page = rack_page(mating.pair, TOPIC, _helical(keys))
     except ParameterError as error:
         raise _refused(error, keys) from error
     for index, found in ((1, rack_findings(keys.first, mating.pair.gear)), (2, rounding_finding(keys.second))):
         page.notes += [finding_of(index, f) for f in found]
     return page
-
-
-def _keys(table: dict[str, Any], kind: str) -> tuple[Any, dict[str, Any]]:
-    pair_keys, second = _KINDS[kind]
-    table = merged({}, {k: v for k, v in table.items() if k != "kind"}, kind)
-    known = list(dict.fromkeys([*keys_of(pair_keys), *keys_of(SpurGearSpec), *keys_of(second)]))
-    for key in table:
-        if key not in keys_of(pair_keys):
-            raise SceneError(PLACE, f"{TOPIC}.{key}", table[key], "unknown_key", meant(key, known), known=known)
-    for name in _GEARS:
-        if name not in table:
-            raise SceneError(PLACE, f"{TOPIC}.{name}", None, "gear_missing", None, name=name)
-    return checked(table, pair_keys, TOPIC), table
 
 
 def _refused(error: ParameterError, keys: Struct) -> SceneError:

@@ -24,12 +24,12 @@ from geometry.gears.shifts.internal_shifts import InternalShiftPair, internal_st
 from geometry.gears.teeth.cutter import PinionCutter, checked_cutter
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.spur import SpurGear
-from parts.base.refusal import SceneError, meant
+from parts.base.refusal import SceneError
 from parts.base.texts import N_, Message, counted, listed, message
 from parts.gears.ring_gear.part import RingGearSpec, RoundedRootTable, settled_section, tip_finding
 from parts.gears.spur_gear.part import RackTable, basic_rack_of
 from parts.keys.base import degrees, in_modules, mm
-from parts.keys.cutter import CutterTable, cutter_of
+from parts.keys.cutter import CutterTable, RackName, cutter_of
 from parts.keys.helix import in_keys
 from parts.mates.pages.contour_marks import checked_picture, contour_data, contour_pictures
 from parts.pages.contour_picture import line_name
@@ -41,7 +41,6 @@ TOPIC = "shift-choice"
 KIND = "internal_gear_pair"
 # modules between a line of the picture and its chords
 _TOLERANCE = 5e-4
-RACKS = ("ISO 53 A", "ISO 53 B", "ISO 53 C", "ISO 53 D", "GOST 13755")
 
 
 class PinionKeys(Struct, forbid_unknown_fields=True):
@@ -70,7 +69,7 @@ class InternalShiftKeys(Struct, forbid_unknown_fields=True):
     second: RingKeys
     module: Annotated[float, mm("module, for a centre distance", least=0.01, most=1000)] = 1.0
     pressure_angle_deg: Annotated[float, degrees("pressure angle", least=5, most=45)] = 20.0
-    basic_rack: str | RackTable = "ISO 53 A"
+    basic_rack: RackName | RackTable = "ISO 53 A"
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     least_contact_ratio: Annotated[float, Meta(ge=0.5, le=3, description="contact ratio to keep")] = 1.1
     least_tip_thickness: Annotated[float, in_modules("tip thickness to keep", least=0, most=1)] = 0.3
@@ -112,8 +111,6 @@ def internal_sheet(table: dict[str, Any]) -> Sheet:
     """The choices and the contour of a pinion in a ring."""
     keys: InternalShiftKeys = checked(table, InternalShiftKeys, TOPIC)
     checked_picture(TOPIC, keys.picture)
-    if isinstance(keys.basic_rack, str) and keys.basic_rack not in RACKS:
-        raise unknown_rack(keys.basic_rack)
     teeth = keys.first.number_of_teeth, keys.second.number_of_teeth
     if teeth[0] >= teeth[1]:
         works = Nearest(teeth[0] + 1, "at_least")
@@ -133,11 +130,6 @@ def internal_sheet(table: dict[str, Any]) -> Sheet:
         raise refusal(TOPIC, in_keys(error), keys=keys) from error
 
 
-def unknown_rack(name: str) -> SceneError:
-    """The refusal of a basic rack that is none of those with a name."""
-    return SceneError(PLACE, f"{TOPIC}.basic_rack", name, "not_one_of", meant(name, RACKS), known=RACKS)
-
-
 def shift_pair(keys: InternalShiftKeys) -> InternalShiftPair:
     """The pair of the keys, module 1.
 
@@ -148,7 +140,7 @@ def shift_pair(keys: InternalShiftKeys) -> InternalShiftPair:
     """
     angle, owner = math.radians(keys.pressure_angle_deg), ""
     try:
-        rack = basic_rack_of(keys.basic_rack, angle)  # type: ignore[arg-type]
+        rack = basic_rack_of(keys.basic_rack, angle)
         owner = "first"
         shaper = None if keys.first.cutter is None else checked_cutter(cutter_of(keys.first.cutter, 1.0, angle))
         owner = "second"

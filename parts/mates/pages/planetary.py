@@ -27,7 +27,7 @@ from geometry.gears.shifts.external import Requirements
 from parts.base.texts import N_, Message, Text, listed, message
 from parts.gears.spur_gear.part import RackTable, basic_rack_of
 from parts.keys.base import degrees, in_modules, mm
-from parts.mates.pages.internal_shift_choice import RACKS, unknown_rack
+from parts.keys.cutter import RackName
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet, Table
 
@@ -98,7 +98,7 @@ class PlanetaryKeys(Struct, forbid_unknown_fields=True):
     least_gap: Annotated[float, mm("gap to keep between satellites' tips", least=0, most=10_000)] = 0.0
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     pressure_angle_deg: Annotated[float, degrees("pressure angle", least=5, most=45)] = 20.0
-    basic_rack: str | RackTable = "ISO 53 A"
+    basic_rack: RackName | RackTable = "ISO 53 A"
     least_contact_ratio: Annotated[float, Meta(ge=0.5, le=3, description="contact ratio to keep")] = 1.1
     least_tip_thickness: Annotated[float, in_modules("tip thickness to keep", least=0, most=1)] = 0.25
     rows: Annotated[int, Meta(ge=1, le=1000, description="how many of the sets found are shown")] = 20
@@ -107,8 +107,6 @@ class PlanetaryKeys(Struct, forbid_unknown_fields=True):
 @calculation(TOPIC, PlanetaryKeys)
 def sheet(keys: PlanetaryKeys) -> Sheet:
     """The sets found, or the one that is given, and all about the first of them."""
-    if isinstance(keys.basic_rack, str) and keys.basic_rack not in RACKS:
-        raise unknown_rack(keys.basic_rack)
     return _Page(keys).made()
 
 
@@ -139,7 +137,7 @@ class _Page:
         if keys.second_module is not None and not self.scheme.double:
             raise ParameterError("second_module", keys.second_module, "one_rim_one_module", Nearest(None))
         self.modules = _exact(keys.module), _exact(keys.second_module or keys.module)
-        rack = basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg))  # type: ignore[arg-type]
+        rack = basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg))
         wish = Requirements(keys.least_tip_thickness, keys.least_contact_ratio)
         apart = Fraction(1, keys.satellites) if keys.satellites > 1 else None
         self.fitting = Fitting(rack, wish, apart, keys.least_gap, keys.working_centre_distance)

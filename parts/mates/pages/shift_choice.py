@@ -26,12 +26,12 @@ from parts.base.refusal import SceneError, meant
 from parts.base.texts import N_, Message, message
 from parts.gears.spur_gear.part import RackTable, SpurGearSpec, gear_of
 from parts.keys.base import in_modules, mm
-from parts.keys.cutter import PressureAngle
+from parts.keys.cutter import PressureAngle, RackName
 from parts.keys.helix import in_keys
 from parts.mates.pages import external as gear_pair
 from parts.mates.pages import internal_shift_choice
 from parts.mates.pages.contour_marks import checked_picture, contour_data, contour_pictures
-from parts.mates.pages.internal_shift_choice import RACKS, unknown_rack
+from parts.mates.pages.pair_keys import GEARS
 from parts.pages.inputs import PLACE, SceneKeys, checked, refusal, told
 from parts.pages.page import Printed, Sheet
 
@@ -52,7 +52,7 @@ class ShiftChoiceKeys(Struct, forbid_unknown_fields=True):
     second: Teeth
     module: Annotated[float, mm("module, for a centre distance", least=0.01, most=1000)] = 1.0
     pressure_angle_deg: PressureAngle = 20.0
-    basic_rack: str | RackTable = "ISO 53 A"
+    basic_rack: RackName | RackTable = "ISO 53 A"
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     least_contact_ratio: Annotated[float, Meta(ge=0.5, le=3, description="contact ratio to keep")] = 1.1
     least_tip_thickness: Annotated[float, in_modules("tip thickness to keep", least=0, most=1)] = 0.3
@@ -79,11 +79,11 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
         return internal_shift_choice.table_from(pair, table, source)
     if kind not in _KINDS:
         raise SceneError(source, "mate", kind, "shifts_of_gear_pairs")
-    if any(pair[name].get("helix_angle_deg") for name in gear_pair.GEARS):
+    if any(pair[name].get("helix_angle_deg") for name in GEARS):
         angle = first.get("helix_angle_deg", 0.0)
         raise SceneError(source, "helix_angle_deg", angle, "shifts_of_spur_gears")
     known = {k: first[k] for k in ("module", "pressure_angle_deg", "basic_rack") if k in first}
-    teeth = {name: {"number_of_teeth": pair[name]["number_of_teeth"]} for name in gear_pair.GEARS}
+    teeth = {name: {"number_of_teeth": pair[name]["number_of_teeth"]} for name in GEARS}
     return {**known, **teeth, **table}
 
 
@@ -96,15 +96,13 @@ def sheet(table: dict[str, Any]) -> Sheet:
         return internal_shift_choice.internal_sheet(table)
     keys: ShiftChoiceKeys = checked(table, ShiftChoiceKeys, TOPIC)
     checked_picture(TOPIC, keys.picture)
-    if isinstance(keys.basic_rack, str) and keys.basic_rack not in RACKS:
-        raise unknown_rack(keys.basic_rack)
     try:
         gear = gear_of(
             SpurGearSpec(
                 module=keys.module,
                 number_of_teeth=keys.first.number_of_teeth,
                 pressure_angle_deg=keys.pressure_angle_deg,
-                basic_rack=keys.basic_rack,  # type: ignore[arg-type]
+                basic_rack=keys.basic_rack,
             )
         )
         pair = ShiftPair(gear.number_of_teeth, keys.second.number_of_teeth, gear.rack, keys.shortened_tips)
