@@ -565,18 +565,16 @@ def _list(options: argparse.Namespace) -> int:
     if options.json:
         _print_json([""], [{"parts": kinds, "mates": mates, "assemblies": assemblies, "scenes": scenes}])
         return DONE
-    print(told.text("kinds of parts (higherpair new KIND):"))
-    for kind, meaning in kinds.items():
-        print(f"  {kind:<22} {meaning}.")
-    print(told.text("kinds of mates between instances (higherpair new KIND prints a table to add to a scene):"))
-    for kind, meaning in mates.items():
-        print(f"  {kind:<22} {meaning}.")
-    print(told.text("assemblies, which become parts and mates (higherpair new KIND, --expand shows them):"))
-    for kind, meaning in assemblies.items():
-        print(f"  {kind:<22} {meaning}.")
-    print(told.text("built-in scenes (higherpair build NAME; higherpair new NAME.toml prints one to change):"))
-    for name, title in scenes.items():
-        print(f"  {name:<22} {title}")
+    listed = {
+        told.text("kinds of parts (higherpair new KIND):"): kinds,
+        told.text("kinds of mates between instances (higherpair new KIND prints a table to add to a scene):"): mates,
+        told.text("assemblies, which become parts and mates (higherpair new KIND, --expand shows them):"): assemblies,
+        told.text("built-in scenes (higherpair build NAME; higherpair new NAME.toml prints one to change):"): scenes,
+    }
+    for title, rows in listed.items():
+        print(title)
+        for name, meaning in rows.items():
+            print(f"  {name:<22} {meaning}{'' if rows is scenes else '.'}")
     return DONE
 
 

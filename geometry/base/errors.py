@@ -58,7 +58,20 @@ def limit(value: float, given: float, *, digits: int = 4) -> Nearest:
 Cure = Nearest | Callable[[], "Nearest | None"] | None
 
 
-class ParameterError(GeometryError, ValueError):
+class Curable:
+    """What may know the value that works, or how to find it, which is done when somebody asks and only then."""
+
+    _cure: Cure = None
+
+    @property
+    def nearest(self) -> Nearest | None:
+        """The value nearest to the given one that works; None where it alone cannot cure what is wrong."""
+        if callable(self._cure):
+            self._cure = self._cure()
+        return self._cure
+
+
+class ParameterError(Curable, GeometryError, ValueError):
     """A parameter has a value that cannot be built: data, the words for it stand at the edge.
 
     ``name``: the parameter as its owner names it (``tip_relief.depth``), ``value``: what was given, ``code``: what is
@@ -70,13 +83,6 @@ class ParameterError(GeometryError, ValueError):
         self.name, self.value, self.code, self.numbers = name, value, code, numbers
         self._cure = nearest
         super().__init__(name, value, code)
-
-    @property
-    def nearest(self) -> Nearest | None:
-        """The value nearest to the given one that works; None where this parameter alone cannot cure it."""
-        if callable(self._cure):
-            self._cure = self._cure()
-        return self._cure
 
     @property
     def allowed(self) -> str:

@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from typing import TypeVar
 
 from geometry.base.errors import GeometryError, Nearest, limit
 from geometry.base.record import Record
 
+V = TypeVar("V")
 # trials of one search, those of the ends included: 2^-40 of the way is below what is printed
 MOST_TRIALS = 40
+
+
+def kept(holds: Callable[[V], bool], value: V) -> bool:
+    """What ``holds`` judges of a value; a ``GeometryError`` of it is a no."""
+    try:
+        return holds(value)
+    except GeometryError:
+        return False
 
 
 def nearest(
@@ -26,10 +36,7 @@ def nearest(
     def tried(value: float) -> bool:
         nonlocal left
         left -= 1
-        try:
-            return holds(value)
-        except GeometryError:
-            return False
+        return kept(holds, value)
 
     ends = [toward] if isinstance(toward, int | float) else toward
     good: float | None = None

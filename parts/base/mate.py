@@ -99,11 +99,17 @@ class Mating(Joined, kw_only=True):
     uneven = False
     # whether a second that stands already must stand at ``height``
     asks_height = True
+    # how the second hangs on the first: "fixed" to it, "turning" about an axis of it; "": ``joints`` tells
+    bond = ""
 
     @property
     def joints(self) -> tuple[Joint, ...]:
         """How both move: joints of the kinematic layer between instances, their places left to the scene."""
-        return ()
+        if not self.bond:
+            return ()
+        from geometry.kinematics.mechanism import Fixed, Revolute
+
+        return ((Fixed if self.bond == "fixed" else Revolute)(self.second, on=self.first),)
 
     @property
     def holds(self) -> tuple[str, ...]:

@@ -6,13 +6,13 @@ from collections.abc import Collection
 
 from msgspec import Struct
 
-from geometry.base.errors import Cure, Nearest, ParameterError, format_value
+from geometry.base.errors import Curable, Cure, Nearest, ParameterError, format_value
 from parts.base.lookalikes import in_latin, look_alike
 from parts.base.reasons import REMEDIES, reason
 from parts.base.texts import ENGLISH, Message, Text, filled, listed, message, words
 
 
-class SceneError(ValueError):
+class SceneError(Curable, ValueError):
     """A scene cannot be read or built.
 
     ``source``: the file, ``key``: the place in it, ``value``: what stands there (None: nothing), ``code``: what is
@@ -25,13 +25,6 @@ class SceneError(ValueError):
         self.source, self.key, self.value, self.code, self.numbers, self.unit = source, key, value, code, numbers, unit
         self._cure = nearest
         super().__init__(source, key, value, code)
-
-    @property
-    def nearest(self) -> Nearest | None:
-        """The value nearest to the given one that works; None where this key alone cannot cure it."""
-        if callable(self._cure):
-            self._cure = self._cure()
-        return self._cure
 
     def offer(self, cure: Cure) -> None:
         """Another value that works, or how to find it."""

@@ -17,10 +17,10 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape, check_wheel
 from parts.base.kind import Others, Report
 from parts.bodies.plate import Extruded, FlatKeys, HolesAt, Slots, checked_outline
-from parts.cams.wheel import Turned, body_of
+from parts.cams.wheel import Turned
 from parts.keys.base import degrees, mm
 from parts.keys.holes import BoredKeys, wide_bore
-from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable
+from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, shape_of
 
 if TYPE_CHECKING:
     from geometry.cams.contact.outlines import FollowerEnd
@@ -255,12 +255,12 @@ class Roller(Turned[RollerSpec, "FollowerEnd"]):
         holes = self.holes(keys, end)
         if not holes.bore_reach < end.radius:
             raise wide_bore(keys, end.radius, "no_wall_in_roller")
-        check_wheel(body_of(keys), keys.diameter, holes)
+        check_wheel(shape_of(keys), keys.diameter, holes)
         return end
 
     def body(self, keys: RollerSpec, thing: FollowerEnd) -> WheelShape:
         """By the keys."""
-        return body_of(keys)
+        return shape_of(keys)
 
     def holes(self, keys: RollerSpec, thing: FollowerEnd) -> HubHoles:
         """The bore."""

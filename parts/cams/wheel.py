@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, Protocol, TypeVar
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError
 from geometry.base.findings import Finding
@@ -15,7 +15,7 @@ from parts.base.kind import Kind
 from parts.base.part_keys import MaterialKeys
 from parts.keys.holes import wide_bore
 from parts.keys.timing_mark import TimingMarkTable, with_timing_mark
-from parts.keys.wheel import FaceChamferTable, HubbedKeys, HubTable, wheel_shape
+from parts.keys.wheel import HubbedKeys, shape_of
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
@@ -34,19 +34,6 @@ class DiskKeys(HubbedKeys, kw_only=True):
     """Keys of the body of a cam."""
 
     timing_mark: TimingMarkTable | None = None
-
-
-class Bodied(Protocol):
-    """Keys of a part with a hub and chamfers."""
-
-    face_width: float
-    hub: HubTable | None
-    face_chamfer: float | FaceChamferTable
-
-
-def body_of(keys: Bodied) -> WheelShape:
-    """Thickness, hub and chamfers."""
-    return wheel_shape(keys.face_width, None, keys.hub, keys.face_chamfer)
 
 
 def inner_radius(cam: DiskCam) -> float:
@@ -72,7 +59,7 @@ def check_disk(keys: DiskKeys, cam: DiskCam, within: Within = "base_circle") -> 
     if holes.reach > inside:
         raise ParameterError("holes", 2 * holes.reach, beyond, Nearest(None), inside=inside)
     marked = with_timing_mark(holes, keys.timing_mark, cam, inside)
-    check_wheel(body_of(keys), 2 * inside, marked)
+    check_wheel(shape_of(keys), 2 * inside, marked)
     return marked
 
 

@@ -54,7 +54,7 @@ from parts.gears.worm_wheel.part import WheelThing, WormWheelSpec
 from parts.keys.engraving import digits_height
 from parts.keys.helix import ToothedKeys
 from parts.keys.holes import bore_of, hub_holes
-from parts.keys.wheel import wheel_shape
+from parts.keys.wheel import shape_of, wheel_shape
 from parts.texts.sheets import sheet_words
 
 # mm, what is no length
@@ -73,7 +73,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
             views = wheel_views(_spur(keys, subject), subject)
             more = _engraved(keys, subject) + directions(thing.holes, subject, "zero_tooth", keys.number_of_teeth)
         case NoncircularGearSpec() as keys:
-            shape = wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer)
+            shape = shape_of(keys)
             circles = ("inner_root_diameter", "outer_tip_diameter")
             return disk_drawing(subject, shape, thing.holes, "zero_x", circles)
         case WormWheelSpec() as keys:
@@ -127,7 +127,7 @@ def _thread_words(keys: WormSpec, subject: Subject) -> tuple[str, ...]:
 
 def _spur(keys: SpurGearSpec, subject: Subject) -> Wheel:
     gear: SpurGear = subject.part.thing
-    shape = wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer)
+    shape = shape_of(keys)
     tip, outline = gear.tip_radius, subject.part.section(0.0).region.outer
     return Wheel(shape, gear.holes, (tip, tip), outline, gear.root_radius, gear.reference_radius)
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct
+from msgspec.structs import astuple
 
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.texts import N_
@@ -305,22 +307,11 @@ def _drawn(tables: list[StretchTable] | None) -> list[Stretch]:
     return [s for table in tables or () for s in _stretches(table)]
 
 
-def _stretches(table: StretchTable) -> list[Stretch]:
+def _stretches(table: StretchTable) -> Sequence[Stretch]:
     from geometry.laws import diagram
 
-    width = table.width
-    if isinstance(table, ConstantTable):
-        return [diagram.constant(width, table.ordinate)]
-    if isinstance(table, LinearTable):
-        return [diagram.linear(width, table.first, table.last)]
-    if isinstance(table, HalfSineTable):
-        return [diagram.half_sine(width, table.peak)]
-    if isinstance(table, QuarterSineTable):
-        return [diagram.quarter_sine(width, table.peak)]
-    if isinstance(table, QuarterCosineTable):
-        return [diagram.quarter_cosine(width, table.peak)]
-    if isinstance(table, HalfCosineTable):
-        return [diagram.half_cosine(width, table.first, table.last)]
-    if isinstance(table, TrapezoidTable):
-        return diagram.trapezoid(width, table.ordinate, table.up, table.down)
-    return diagram.tabulated(width, [p for p, _ in table.points], [a for _, a in table.points])
+    if isinstance(table, PointsTable):
+        return diagram.tabulated(table.width, *zip(*table.points, strict=True))
+    # the shape is the name of what makes it of its sizes
+    made: Stretch | list[Stretch] = getattr(diagram, str(table.__struct_config__.tag))(*astuple(table))
+    return made if isinstance(made, list) else [made]

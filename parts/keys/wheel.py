@@ -59,27 +59,21 @@ class WheelKeys(HubbedKeys, kw_only=True):
         return hub_holes(bore_of(self), self.holes, self.spokes)
 
 
-class Wheel(Protocol):
-    """A wheel's body."""
+class Bodied(Protocol):
+    """Keys of a part with a hub and chamfers; those of wheels have a ``web`` too."""
 
-    @property
-    def face_width(self) -> float:
-        """Of the rim, mm."""
-
-    @property
-    def web(self) -> WebTable | None:
-        """Thin disk."""
-
-    @property
-    def hub(self) -> HubTable | None:
-        """About the bore."""
-
-    @property
-    def face_chamfer(self) -> float | FaceChamferTable:
-        """Of both faces, or of each."""
+    face_width: float
+    hub: HubTable | None
+    face_chamfer: float | FaceChamferTable
 
 
-def checked_wheel(keys: Wheel, root_diameter: float, holes: HubHoles) -> WheelShape:
+def shape_of(keys: Bodied, chamfer: float | None = None) -> WheelShape:
+    """Thickness, web, hub and chamfers; ``chamfer``: in place of those of the keys, mm."""
+    given = keys.face_chamfer if chamfer is None else chamfer
+    return wheel_shape(keys.face_width, getattr(keys, "web", None), keys.hub, given)
+
+
+def checked_wheel(keys: Bodied, root_diameter: float, holes: HubHoles) -> WheelShape:
     """The shape of a wheel whose diameters fit between bore, holes and root circle, mm.
 
     Raises
@@ -89,10 +83,10 @@ def checked_wheel(keys: Wheel, root_diameter: float, holes: HubHoles) -> WheelSh
     """
 
     def fits(chamfer: float) -> bool:
-        check_wheel(wheel_shape(keys.face_width, keys.web, keys.hub, chamfer), root_diameter, holes)
+        check_wheel(shape_of(keys, chamfer), root_diameter, holes)
         return True
 
-    shape, given = wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer), keys.face_chamfer
+    shape, given = shape_of(keys), keys.face_chamfer
     try:
         check_wheel(shape, root_diameter, holes)
     except ParameterError as refusal:

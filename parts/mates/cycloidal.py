@@ -132,12 +132,7 @@ class BearingMating(Touching):
     disc: CycloidalDisc
     bore_diameter: float
 
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """The disc turns about the eccentric's middle."""
-        from geometry.kinematics.mechanism import Revolute
-
-        return (Revolute(self.second, on=self.first),)
+    bond = "turning"
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The disc about the eccentric's middle, turned as in a ring whose first pin is on +x."""

@@ -15,7 +15,6 @@ from parts.keys.mate import AboveKeys, Height
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
-    from geometry.kinematics.mechanism import Joint
     from geometry.solids.pin_plates import PinPlate, RoundDisc
     from geometry.solids.pin_ring import PinRing
 
@@ -72,12 +71,7 @@ class FixedMating(Mating):
     offset: complex
     rotation: float = 0.0
 
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """One body."""
-        from geometry.kinematics.mechanism import Fixed
-
-        return (Fixed(self.second, on=self.first),)
+    bond = "fixed"
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """Carried along by the first; it has no direction of its own."""
@@ -102,12 +96,7 @@ class CoaxialMating(Mating):
 
     rotation: float
 
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """The second turns about the axis of the first, and goes where that goes."""
-        from geometry.kinematics.mechanism import Revolute
-
-        return (Revolute(self.second, on=self.first),)
+    bond = "turning"
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """On the axis of the first."""
@@ -123,12 +112,7 @@ class CarriedMating(Mating):
 
     offset: complex | None
 
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """The second turns about its axis, and goes where the first goes."""
-        from geometry.kinematics.mechanism import Revolute
-
-        return (Revolute(self.second, on=self.first),)
+    bond = "turning"
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """About its place on the carrier, turned with it as it is placed."""

@@ -15,7 +15,6 @@ from parts.keys.mate import direction, height
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
     from geometry.gears.mesh.search import PairContact
-    from geometry.kinematics.mechanism import Joint
     from parts.cams.positive.conjugate import SecondCam
     from parts.cams.positive.yoke import YokeFrame
 
@@ -47,12 +46,7 @@ class ConjugateMating(Touching):
     cam: DiskCam
     other: SecondCam
 
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """One shaft."""
-        from geometry.kinematics.mechanism import Fixed
-
-        return (Fixed(self.second, on=self.first),)
+    bond = "fixed"
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """On the same axis, turned alike: the profile is drawn as it sits on the shaft."""

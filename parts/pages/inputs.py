@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
-from functools import wraps
+from functools import partial, wraps
 from typing import Any, Protocol, TypeVar
 
 import msgspec
@@ -120,8 +120,13 @@ def told(error: ParameterError) -> Message:
     return explained(placed("", "", error))
 
 
-def part_of_kind(scene: SceneKeys, source: str, table: dict[str, Any], kind: str) -> dict[str, Any]:
-    """The keys of the scene's one part of a kind, or of the one that ``part`` names, changed by those of ``table``."""
+def part_of_kind(kind: str) -> Callable[[SceneKeys, str, dict[str, Any]], dict[str, Any]]:
+    """How a scene gives a page the keys of its one part of a kind, or of the one that ``part`` names."""
+    return partial(_of_part, kind)
+
+
+def _of_part(kind: str, scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a part of a scene, changed by those of ``table``."""
     fitting = [key for key, spec in scene.parts.items() if spec.__struct_config__.tag == kind]
     part = table.pop("part", None)
     if part is None and len(fitting) != 1:

@@ -13,13 +13,13 @@ from geometry.base.errors import Nearest, OffsetError, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
-from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
+from geometry.solids.wheel import wheel_body, wheel_sections
 from geometry.solids.windows import RoundHoles
 from parts.base.kind import Kind, Others, Report
 from parts.keys.base import mm
 from parts.keys.holes import Direction
 from parts.keys.pins import MARGIN, MOST, LobeCount, PinCircle, PinDiameter, check_holes, holes_of, most_of
-from parts.keys.wheel import HubbedKeys, checked_wheel, wheel_shape
+from parts.keys.wheel import HubbedKeys, checked_wheel, shape_of
 
 if TYPE_CHECKING:
     from geometry.gears.pins.cycloidal import CycloidalDisc
@@ -52,11 +52,6 @@ class CycloidalDiscSpec(HubbedKeys, kw_only=True, tag_field="kind", tag="cycloid
         float, mm("radius of the generating pin circle less than the true one", least=-10, most=100)
     ] = 0.0
     output_holes: OutputHolesTable | None = None
-
-    @property
-    def web(self) -> None:
-        """None: the disc is as thick all over."""
-        return
 
 
 def _output_group(table: OutputHolesTable, eccentricity: float) -> RoundHoles:
@@ -119,11 +114,11 @@ class CycloidalDiscKind(Kind[CycloidalDiscSpec, "CycloidalDisc"]):
                 raise OffsetError(moved, "leaves_no_outline", most if moved > most else least)
             return thing.profile(moved)
 
-        return wheel_body(_shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
+        return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
 
     def is_plate(self, keys: CycloidalDiscSpec, thing: CycloidalDisc) -> bool:
         """Whether there is neither hub nor chamfer."""
-        return _shape_of(keys).is_plate
+        return shape_of(keys).is_plate
 
     def report(self, keys: CycloidalDiscSpec, thing: CycloidalDisc) -> Report:
         """Diameters, reduction and radii of curvature."""
@@ -146,10 +141,6 @@ class CycloidalDiscKind(Kind[CycloidalDiscSpec, "CycloidalDisc"]):
 
 
 CYCLOIDAL_DISC = CycloidalDiscKind()
-
-
-def _shape_of(keys: CycloidalDiscSpec) -> WheelShape:
-    return wheel_shape(keys.face_width, None, keys.hub, keys.face_chamfer)
 
 
 def _thinner(disc: CycloidalDisc) -> Nearest | None:

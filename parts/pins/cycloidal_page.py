@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 
@@ -13,12 +13,13 @@ from geometry.curves.cycloid import greatest_shortening
 from geometry.gears.pins.cycloidal import CycloidalDisc, disc_findings
 from parts.base.texts import N_
 from parts.keys.base import degrees
-from parts.pages.inputs import SceneKeys, calculation, part_of_kind
+from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.page import Sheet, Table
 from parts.pins.cycloidal_disc import CYCLOIDAL_DISC, CycloidalDiscSpec
 from parts.texts.findings import finding_message
 
 TOPIC = "cycloidal"
+table_from = part_of_kind("cycloidal_disc")
 _CURVE = "Shin, Kwon, Mech. Mach. Theory 41 (2006)"
 _ZOOMS, _SAMPLES = 8, 65
 
@@ -30,11 +31,6 @@ class DiscKeys(CycloidalDiscSpec, kw_only=True, tag=False, forbid_unknown_fields
         float,
         degrees("step of the table, eccentric's angle from a pin", least=0.1, most=90),
     ] = 10.0
-
-
-def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
-    """The keys of a disc of a scene, changed by those of the command line."""
-    return part_of_kind(scene, source, table, "cycloidal_disc")
 
 
 @calculation(TOPIC, DiscKeys)

@@ -33,7 +33,7 @@ from parts.drawing.working import (
     View,
     requirements,
 )
-from parts.keys.wheel import wheel_shape
+from parts.keys.wheel import shape_of
 from parts.pins.cycloidal_disc import CycloidalDiscSpec
 from parts.pins.lantern_gear import LanternGearSpec
 from parts.pins.pin import EccentricSpec, PinSpec
@@ -47,10 +47,10 @@ def part_drawing(subject: Subject) -> PartDrawing:
     thing = subject.part.thing
     match subject.part.keys:
         case CycloidalDiscSpec() as keys:
-            shape = wheel_shape(keys.face_width, None, keys.hub, keys.face_chamfer)
+            shape = shape_of(keys)
             return disk_drawing(subject, shape, thing.holes, "zero_lobe", ("tip_diameter", "root_diameter"))
         case LanternGearSpec() as keys:
-            shape, teeth = wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer), keys.number_of_teeth
+            shape, teeth = shape_of(keys), keys.number_of_teeth
             circles = "tip_diameter", "pitch_diameter", "root_diameter"
             return disk_drawing(subject, shape, thing.holes, "zero_tooth", circles, teeth)
         case OutputPlateSpec() | LanternWheelSpec():

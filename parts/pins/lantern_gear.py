@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 
 from geometry.base.record import replace
-from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
+from geometry.solids.wheel import wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
 from parts.keys.base import mm
 from parts.keys.pins import MOST, PinDiameter, check_holes, holes_of
-from parts.keys.wheel import WheelKeys, checked_wheel, wheel_shape
+from parts.keys.wheel import WheelKeys, checked_wheel, shape_of
 
 if TYPE_CHECKING:
     from geometry.gears.pins.lantern import LanternGear
@@ -80,11 +80,11 @@ class LanternGearKind(Kind[LanternGearSpec, "LanternGear"]):
         def outline(offset: float, depth: float) -> Profile:
             return lantern_side(thing, offset - depth).profile()
 
-        return wheel_body(_shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
+        return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
 
     def is_plate(self, keys: LanternGearSpec, thing: LanternGear) -> bool:
         """Whether there is nothing but the section."""
-        return _shape_of(keys).is_plate
+        return shape_of(keys).is_plate
 
     def report(self, keys: LanternGearSpec, thing: LanternGear) -> Report:
         """Diameters, pitch and what is poor."""
@@ -107,7 +107,3 @@ class LanternGearKind(Kind[LanternGearSpec, "LanternGear"]):
 
 
 LANTERN_GEAR = LanternGearKind()
-
-
-def _shape_of(keys: LanternGearSpec) -> WheelShape:
-    return wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer)

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 from msgspec import Meta
 
 from geometry.gears.pins.lantern import LanternGear, lantern_findings, limits_of
 from parts.base.texts import N_
-from parts.pages.inputs import SceneKeys, calculation, part_of_kind
+from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.page import Sheet, Table
 from parts.pins.lantern_gear import LANTERN_GEAR, LanternGearSpec
 from parts.texts.findings import finding_message
 
 TOPIC = "lantern"
+table_from = part_of_kind("lantern_gear")
 _SOURCE = "Litvin, Fuentes, Gear Geometry, 13"
 
 
@@ -23,11 +24,6 @@ class LanternKeys(LanternGearSpec, kw_only=True, tag=False, forbid_unknown_field
     """Keys of the gear of a lantern, and how long its table is."""
 
     rows: Annotated[int, Meta(ge=2, le=2000, description="rows of the table of the flank")] = 13
-
-
-def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
-    """The keys of a gear of a scene, changed by those of the command line."""
-    return part_of_kind(scene, source, table, "lantern_gear")
 
 
 @calculation(TOPIC, LanternKeys)

@@ -13,7 +13,7 @@ from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError, UndercutError
 from geometry.base.findings import Finding
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record
 from parts.base.kind import Others, Report
 from parts.base.schema import replaced
@@ -125,14 +125,7 @@ def _nearest(keys: LinkageCamSpec, key: Asked, whole: Callable[[LinkageCamSpec],
     if isinstance(key.value, float):
         return nearest(works, key.value, key.trials)
     # a word has nothing between
-    return next((Nearest(value) for value in key.trials if _holds(works, value)), None)
-
-
-def _holds(works: Callable[[object], bool], value: object) -> bool:
-    try:
-        return works(value)
-    except ParameterError:
-        return False
+    return next((Nearest(value) for value in key.trials if kept(works, value)), None)
 
 
 def _asked(keys: LinkageCamSpec, name: str, refusal: ParameterError) -> Asked | None:

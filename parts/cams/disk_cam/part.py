@@ -20,7 +20,7 @@ from geometry.solids.wheel import WheelShape
 from parts.base.kind import Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
-from parts.cams.wheel import DiskKeys, Turned, body_of, check_disk, inner_radius, marked_holes
+from parts.cams.wheel import DiskKeys, Turned, check_disk, inner_radius, marked_holes
 from parts.keys.base import degrees, mm, start
 from parts.keys.cam import (
     Follower,
@@ -36,6 +36,7 @@ from parts.keys.cam import (
     turn,
 )
 from parts.keys.law import with_own_laws
+from parts.keys.wheel import shape_of
 
 if TYPE_CHECKING:
     from geometry.cams.motion.follower_motion import FollowerMotion
@@ -362,7 +363,7 @@ class DiskKind(Turned[K, T]):
 
     def body(self, keys: K, thing: T) -> WheelShape:
         """By the keys."""
-        return body_of(keys)
+        return shape_of(keys)
 
     def holes(self, keys: K, thing: T) -> HubHoles:
         """Within the base circle."""

@@ -26,10 +26,11 @@ from parts.cams.disk_cam.part import (
     cam_quantities,
     larger_bases,
 )
-from parts.cams.wheel import DiskKeys, body_of, check_disk, inner_radius
+from parts.cams.wheel import DiskKeys, check_disk, inner_radius
 from parts.keys.base import degrees, mm, start
 from parts.keys.cam import FollowerOffset, Lift, MotionTable, Phases, Swing, turn
 from parts.keys.law import with_own_laws
+from parts.keys.wheel import shape_of
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
@@ -275,7 +276,7 @@ class GrooveCam(Kind[GrooveCamSpec, GrooveDisk]):
                     "face_width", width, "no_room_for_groove", limit((depth + _LEAST_WALL) * (1 + 1e-9), width)
                 )
             raise ParameterError("groove_depth", depth, "groove_goes_through", limit(width - _LEAST_WALL, depth))
-        shape = body_of(keys)
+        shape = shape_of(keys)
         reach = path_reach(cam) + cam.radius + keys.roller_clearance
         radius = _outer_radius(keys, reach, max(shape.chamfer_below, shape.chamfer_above))
         return GrooveDisk(cam, keys.roller_clearance, depth, radius, shape, check_disk(keys, cam, "groove"))

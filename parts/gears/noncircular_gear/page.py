@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import msgspec
 import numpy as np
@@ -17,11 +16,12 @@ from geometry.kinematics.centrodes import CentrodePair, FourierRatio, LobedEllip
 from parts.base.texts import N_, message
 from parts.gears.noncircular_gear.part import NONCIRCULAR_GEAR, NoncircularGearSpec
 from parts.pages.cam_steps import Step
-from parts.pages.inputs import SceneKeys, calculation, part_of_kind, told
+from parts.pages.inputs import calculation, part_of_kind, told
 from parts.pages.page import Sheet, Table
 from parts.texts.findings import finding_message
 
 TOPIC = "noncircular"
+table_from = part_of_kind("noncircular_gear")
 _SOURCE = "Litvin, Fuentes, Gear Geometry, 12"
 _NAMES = {
     "oval": N_("Oval gears"),
@@ -34,11 +34,6 @@ class NoncircularKeys(NoncircularGearSpec, kw_only=True, tag=False, forbid_unkno
     """Keys of a noncircular gear, and the step of its table."""
 
     step: Step = 10.0
-
-
-def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
-    """The keys of a gear of a scene, changed by those of the command line."""
-    return part_of_kind(scene, source, table, "noncircular_gear")
 
 
 @calculation(TOPIC, NoncircularKeys)

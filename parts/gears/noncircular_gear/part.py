@@ -13,14 +13,14 @@ from msgspec.structs import replace
 
 from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError, at_most, limit
 from geometry.base.nearest import Suspect, blamed, nearest
-from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
+from geometry.solids.wheel import wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
 from parts.gears.spur_gear.part import RackTable, basic_rack_of, rounding_finding
 from parts.keys.base import either, in_modules, mm, start
 from parts.keys.cutter import PressureAngle, RackName
 from parts.keys.holes import hub_holes, with_remedy
-from parts.keys.wheel import WheelKeys, checked_wheel, wheel_shape
+from parts.keys.wheel import WheelKeys, checked_wheel, shape_of
 
 if TYPE_CHECKING:
     from geometry.gears.noncircular.gear import NoncircularGear
@@ -168,11 +168,11 @@ class NoncircularGearKind(Kind[NoncircularGearSpec, "NoncircularGear"]):
         def outline(offset: float, depth: float) -> Profile:
             return section(offset).region.outer if depth == 0 else moved_outline(thing, offset - depth)
 
-        return wheel_body(_shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
+        return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
 
     def is_plate(self, keys: NoncircularGearSpec, thing: NoncircularGear) -> bool:
         """Whether there is nothing but the section."""
-        return _shape_of(keys).is_plate
+        return shape_of(keys).is_plate
 
     def report(self, keys: NoncircularGearSpec, thing: NoncircularGear) -> Report:
         """Radii of the centrode, pitch, what is poor."""
@@ -195,10 +195,6 @@ class NoncircularGearKind(Kind[NoncircularGearSpec, "NoncircularGear"]):
 
 
 NONCIRCULAR_GEAR = NoncircularGearKind()
-
-
-def _shape_of(keys: NoncircularGearSpec) -> WheelShape:
-    return wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer)
 
 
 def gear_of(keys: NoncircularGearSpec) -> NoncircularGear:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import Annotated
 
 from geometry.base.record import replace
 from geometry.gears.teeth import rack_measurement
@@ -13,11 +13,12 @@ from parts.gears.rack.part import RackSpec, checked_rack_part
 from parts.gears.spur_gear.page import section_data
 from parts.gears.spur_gear.part import rounding_finding
 from parts.keys.base import mm
-from parts.pages.inputs import SceneKeys, calculation, part_of_kind
+from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
 
 TOPIC = "rack"
+table_from = part_of_kind("rack")
 _ISO = "ISO 21771"
 
 
@@ -26,11 +27,6 @@ class RackKeys(RackSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
 
     pin_diameter: Annotated[float, mm("pin in a space", above=0, most=10_000)] | None = None
     kerf: Annotated[float, mm("full width of a cut that was not corrected for", least=0, most=10)] | None = None
-
-
-def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
-    """The keys of a part of a scene, changed by those of the command line."""
-    return part_of_kind(scene, source, table, "rack")
 
 
 @calculation(TOPIC, RackKeys)

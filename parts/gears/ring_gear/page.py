@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import Annotated
 
 from msgspec import Meta
 
@@ -15,12 +15,13 @@ from parts.base.texts import N_
 from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear, tip_finding
 from parts.gears.spur_gear.page import section_data, shift_data
 from parts.keys.base import mm
-from parts.pages.inputs import SceneKeys, calculation, part_of_kind
+from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.measured_steps import Asked, measured_steps
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
 TOPIC = "ring"
+table_from = part_of_kind("ring_gear")
 _GOST, _ISO = "GOST 19274", "ISO 21771"
 
 
@@ -35,11 +36,6 @@ class RingKeys(RingGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True
         Annotated[float, mm("size between pins or balls measured on the part", above=0, most=100_000)] | None
     ) = None
     diameter: Annotated[float, mm("circle on which the tooth is measured", above=0, most=100_000)] | None = None
-
-
-def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
-    """The keys of a part of a scene, changed by those of the command line."""
-    return part_of_kind(scene, source, table, "ring_gear")
 
 
 @calculation(TOPIC, RingKeys)

@@ -45,7 +45,7 @@ class Tmm42Keys(Struct, forbid_unknown_fields=True):
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
     """The keys of a part of a scene that the device knows, changed by those of the command line."""
     wanted = {"part": _part(scene, table.pop("part", None))}
-    part = part_of_kind(scene, source, wanted, "spur_gear")
+    part = part_of_kind("spur_gear")(scene, source, wanted)
     known = {
         k: part[k]
         for k in ("module", "number_of_teeth", "pressure_angle_deg", "profile_shift_coefficient")

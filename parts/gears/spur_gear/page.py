@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import Annotated
 
 from msgspec import Meta
 
@@ -16,12 +16,13 @@ from geometry.gears.teeth.transverse import base_helix_angle, transverse_angle
 from parts.base.texts import N_
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, rack_findings, section_of
 from parts.keys.base import mm
-from parts.pages.inputs import SceneKeys, calculation, part_of_kind
+from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.measured_steps import Asked, measured_steps
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
 
 TOPIC = "spur"
+table_from = part_of_kind("spur_gear")
 
 
 class SpurKeys(SpurGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
@@ -35,11 +36,6 @@ class SpurKeys(SpurGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True
         Annotated[float, mm("size over pins or balls measured on the part", above=0, most=100_000)] | None
     ) = None
     diameter: Annotated[float, mm("circle on which the tooth is measured", above=0, most=100_000)] | None = None
-
-
-def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
-    """The keys of a part of a scene, changed by those of the command line."""
-    return part_of_kind(scene, source, table, "spur_gear")
 
 
 @calculation(TOPIC, SpurKeys)

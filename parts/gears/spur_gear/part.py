@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
 from msgspec import Meta, Struct
 
-from geometry.base.errors import GeometryError, Nearest, ParameterError
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
 from geometry.gears.teeth.basic_rack import (
     ISO_53,
@@ -26,7 +25,7 @@ from geometry.gears.teeth.limits import checked_gear, exists, findings, root_for
 from geometry.gears.teeth.offset import chamfered_outline, gear_region
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
-from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
+from geometry.solids.wheel import wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
@@ -42,7 +41,7 @@ from parts.keys.helix import (
     told_in_keys,
 )
 from parts.keys.holes import BoreTable, HolesTable, SpokesTable, hub_holes, with_remedy
-from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, WebTable, checked_wheel, wheel_shape
+from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, WebTable, checked_wheel, shape_of
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
@@ -129,7 +128,7 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
 
 def _marks(keys: SpurGearSpec, gear: SpurGear) -> Marks:
     """What is engraved between the root circle and all that is within it."""
-    shape = _shape_of(keys)
+    shape = shape_of(keys)
     hub = 0.0 if shape.hub is None else shape.hub.diameter / 2
     inner = max(gear.holes.reach, hub, 0.0 if shape.web is None else shape.web.rim_diameter / 2)
     room = inner + shape.chamfer_above, gear.root_radius - shape.chamfer_above
@@ -147,18 +146,11 @@ def _whole(keys: SpurGearSpec, refusal: ParameterError) -> ParameterError:
 
     def cure() -> Nearest | None:
         own, given = refusal.nearest, refusal.value
-        if own is not None and (not isinstance(own.value, float) or _holds(builds, own.value)):
+        if own is not None and (not isinstance(own.value, float) or kept(builds, own.value)):
             return own
         return nearest(builds, given, (0.5, 0.0)) if isinstance(given, float) else None
 
     return type(refusal)(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
-
-
-def _holds(builds: Callable[[float], bool], value: float) -> bool:
-    try:
-        return builds(value)
-    except GeometryError:
-        return False
 
 
 @told_in_keys
@@ -195,7 +187,7 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
 
         section = lru_cache(maxsize=8)(partial(gear_region, thing))
 
-        shape = replace(_shape_of(keys), twist=helix_of(keys).twist(thing.reference_radius))
+        shape = replace(shape_of(keys), twist=helix_of(keys).twist(thing.reference_radius))
         deepest = max(shape.chamfer_below, shape.chamfer_above)
 
         def outline(moved: float, depth: float) -> Profile:
@@ -215,7 +207,7 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
 
     def is_plate(self, keys: SpurGearSpec, thing: SpurGear) -> bool:
         """Whether there is nothing but the section."""
-        return _shape_of(keys).is_plate
+        return shape_of(keys).is_plate
 
     def report(self, keys: SpurGearSpec, thing: SpurGear) -> Report:
         """Diameters and thicknesses, what is poor."""
@@ -225,10 +217,6 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
 
 
 SPUR_GEAR = SpurGearKind()
-
-
-def _shape_of(keys: SpurGearSpec) -> WheelShape:
-    return wheel_shape(keys.face_width, keys.web, keys.hub, keys.face_chamfer)
 
 
 def _check_face_chamfer(keys: SpurGearSpec) -> None:
