@@ -84,11 +84,6 @@ class ParameterError(Curable, GeometryError, ValueError):
         self._cure = nearest
         super().__init__(name, value, code)
 
-    @property
-    def allowed(self) -> str:
-        """The code; until every refusal is data, its sentence."""
-        return self.code
-
     def __str__(self) -> str:
         told = "".join(f", {name} {format_value(value)}" for name, value in self.numbers.items())
         return f"{self.name} = {format_value(self.value)}: {self.code}{told}"

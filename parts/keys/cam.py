@@ -20,6 +20,8 @@ _MOST = 100_000.0
 _CLOSING_DEG = 5e-8
 # a phase that is so many times shorter than the last one was mistyped
 _FAR_SHORTER = 4
+# usual limits of the pressure angle, degrees: sliding and swinging followers (practicum: 30 to 35, 40 to 50)
+USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 # velocities of a law of stroke and length 1 below this are none
 _ROUGH = 1e-9
 

@@ -134,3 +134,20 @@ def limit_steps(page: Sheet, pair: ExternalPair, face: CommonFace) -> None:
         found += [(f, index) for f in limits.findings(gear) if f.code != "thin_rim"]
     for finding, owner in found:
         page.notes.append(finding_of(owner, finding))
+
+
+def working_steps(page: Sheet, values: tuple[float, float, float], *, internal: bool, normal: bool) -> None:
+    """From the shifts to the working pressure angle (``values``: its involute, it in degrees) and the distance, mm.
+
+    ``normal``: shifts and angle of the formula are those of the normal section.
+    """
+    x, alpha = ("x_n", "alpha_n") if normal else ("x", "alpha")
+    shifts, teeth = f"{{{x}1}} + {{{x}2}}", "{z1} + {z2}"
+    sources = "practicum (3.3)", "practicum (3.4)"
+    if internal:
+        shifts, teeth, sources = f"{{{x}2}} - {{{x}1}}", "{z2} - {z1}", ("GOST 19274", "GOST 19274")
+    formula = f"2 * ({shifts}) * tan({{{alpha}}}) / ({teeth}) + inv({{alpha}})"
+    page.add("involute_of_working_pressure_angle", values[0], formula, sources[0])
+    page.add("working_pressure_angle_deg", values[1], "arcinv({inv_alpha_w})", sources[0])
+    formula = f"{{m}} * ({teeth}) / 2 * cos({{alpha}}) / cos({{alpha_w}})"
+    page.add("working_centre_distance", values[2], formula, sources[1])

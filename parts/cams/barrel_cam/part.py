@@ -26,7 +26,7 @@ from parts.cams.barrel_cam.roller import (
     thinnest,
 )
 from parts.keys.barrel import BarrelCamSpec, SwingingTable
-from parts.keys.cam import check_stroke, motion_of, rough_law
+from parts.keys.cam import USUAL_PRESSURE_ANGLE, check_stroke, motion_of, rough_law
 from parts.keys.holes import bore_of, hub_holes, wide_bore
 
 if TYPE_CHECKING:
@@ -36,8 +36,6 @@ if TYPE_CHECKING:
     from geometry.solids.faced import FacedBody
     from parts.base.readback import Probe
 
-# usual limits of the pressure angle: translating 30, swinging 45 degrees (practicum: 30 to 35, 40 to 50)
-_USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 # rollers are kept below this share of the one that undercuts
 _USUAL_ROLLER_SHARE = 0.8
 # an arm stays this far from the cam's axis, degrees
@@ -294,7 +292,7 @@ def _findings(keys: BarrelCamSpec, cam: BarrelCam) -> tuple[Finding, ...]:
     soft = [(abs(j.jumps[2]), math.degrees(j.angle)) for j in cam.motion.impacts()]
     if soft:
         found.append(Finding("soft_impact", *max(soft)))
-    usual = _USUAL_PRESSURE_ANGLE[keys.oscillating is not None]
+    usual = USUAL_PRESSURE_ANGLE[keys.oscillating is not None]
     # a groove pushes both ways, a spring takes the return of an end cam
     kinds = (PhaseKind.RISE, PhaseKind.RETURN) if cam.is_groove else (PhaseKind.RISE,)
     steepest = math.degrees(max(cam.greatest_pressure_angle(kind)[0] for kind in kinds))

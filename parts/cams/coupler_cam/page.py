@@ -9,13 +9,14 @@ import numpy as np
 
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.plane.coupler import LinkageCam
-from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
+from geometry.cams.plane.synthesis import least_convex_radius
 from geometry.kinematics.linkage import RockerDrive, RockerGuide, SliderDrive, SliderGuide
 from parts.base.texts import N_, message
 from parts.cams.coupler_cam.part import LINKAGE_CAM, LinkageCamSpec, linkage_findings
 from parts.cams.coupler_cam.position_page import position_at, position_steps
 from parts.cams.disk_cam.graphical_page import graphical_section
 from parts.cams.disk_cam.page import roller_section
+from parts.cams.disk_cam.part import pressure_angles
 from parts.cams.disk_cam.speed_page import speed_section
 from parts.cams.wheel import inner_radius
 from parts.keys.base import degrees
@@ -142,9 +143,8 @@ def _sizes(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
         page.add("curvature_reserve", keys.least_curvature_radius)
     page.add("least_cam_radius", inner_radius(cam))
     page.add("greatest_cam_radius", cam.greatest(lambda t: np.abs(cam.contact(t))))
-    for kind, name in ((PhaseKind.RISE, "rise"), (PhaseKind.RETURN, "return")):
-        if cam.motion.moving_pieces(kind):
-            page.add(f"pressure_angle_{name}_deg", math.degrees(greatest_pressure_angle(cam, kind).value))
+    for name, angle in pressure_angles(cam).items():
+        page.add(name, angle)
     if cam.radius:
         page.add("contact_pressure_angle_deg", math.degrees(cam.greatest(cam.contact_pressure_angle)))
     page.add("least_curvature_radius", least_convex_radius(cam).value)

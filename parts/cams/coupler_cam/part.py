@@ -22,7 +22,9 @@ from parts.cams.disk_cam.part import (
     DiskKind,
     cam_circles,
     check_face,
+    impact_findings,
     largest_roller_radius,
+    pressure_angles,
     undercut,
 )
 from parts.cams.wheel import DiskKeys, check_disk
@@ -37,7 +39,6 @@ if TYPE_CHECKING:
 _MOST = 100_000.0
 # usual limits, degrees: the pressure angle of a follower that turns, and the transmission angle of a linkage
 _USUAL_PRESSURE_ANGLE, _USUAL_TRANSMISSION_ANGLE = 45.0, 40.0
-# rollers are kept below this share of the least convex radius of the pitch curve
 
 
 class LinkageCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="linkage_cam"):
@@ -213,17 +214,13 @@ def _check_part(keys: LinkageCamSpec, cam: LinkageCam) -> None:
 
 def _quantities(keys: LinkageCamSpec, cam: LinkageCam) -> dict[str, float]:
     """Named results: sizes in mm, angles in degrees."""
-    from geometry.cams.motion.follower_motion import PhaseKind
-    from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
+    from geometry.cams.plane.synthesis import least_convex_radius
 
     travel = math.degrees(cam.motion.lift) if cam.swings else cam.motion.lift
     found = {"swing_deg" if cam.swings else "lift": travel}
     if cam.radius > 0:
         found["follower_radius"] = cam.radius
-    for kind in (PhaseKind.RISE, PhaseKind.RETURN):
-        if cam.motion.moving_pieces(kind):
-            name = f"pressure_angle_{'rise' if kind is PhaseKind.RISE else 'return'}_deg"
-            found[name] = math.degrees(greatest_pressure_angle(cam, kind).value)
+    found |= pressure_angles(cam)
     if cam.radius > 0:
         found["contact_pressure_angle_deg"] = math.degrees(cam.greatest(cam.contact_pressure_angle))
     found["least_curvature_radius"] = least_convex_radius(cam).value
@@ -244,11 +241,7 @@ def linkage_findings(keys: LinkageCamSpec, cam: LinkageCam) -> tuple[Finding, ..
     from geometry.cams.motion.follower_motion import PhaseKind
     from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
 
-    found = []
-    for impact, order in (("rigid", 1), ("soft", 2)):
-        jumps = [(abs(j.jumps[order]), math.degrees(j.angle)) for j in cam.motion.impacts() if j.impact == impact]
-        if jumps:
-            found.append(Finding(f"{impact}_impact", *max(jumps)))
+    found = impact_findings(cam.motion)
     steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
     if steepest > _USUAL_PRESSURE_ANGLE + 1e-9:
         found.append(Finding("steep_pressure_angle", steepest, _USUAL_PRESSURE_ANGLE))

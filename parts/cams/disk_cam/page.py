@@ -27,7 +27,14 @@ from geometry.cams.plane.synthesis import (
 from parts.base.refusal import SceneError, meant
 from parts.base.texts import N_
 from parts.cams.disk_cam.graphical_page import graphical_section
-from parts.cams.disk_cam.part import CAM, USUAL_ROLLER_SHARE, CamSpec, base_radius, largest_roller_radius
+from parts.cams.disk_cam.part import (
+    CAM,
+    USUAL_ROLLER_SHARE,
+    CamSpec,
+    base_radius,
+    largest_roller_radius,
+    pressure_angles,
+)
 from parts.cams.disk_cam.speed_page import speed_section
 from parts.pages.cam_steps import (
     DEFAULT_INTERVALS,
@@ -205,9 +212,8 @@ def reached(page: Sheet, cam: DiskCam) -> None:
     """Initial height, and the pressure angles that the cam has."""
     if isinstance(cam.mount, Translating):
         page.add("initial_height", cam.mount.start_height)
-    for kind, name in ((PhaseKind.RISE, "rise"), (PhaseKind.RETURN, "return")):
-        if cam.motion.moving_pieces(kind):
-            page.add(f"pressure_angle_{name}_deg", math.degrees(greatest_pressure_angle(cam, kind).value))
+    for name, angle in pressure_angles(cam).items():
+        page.add(name, angle)
     if not cam.is_flat and cam.motion.moving_pieces(PhaseKind.RISE):
         steep = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
         page.add("transmission_angle_reached_deg", 90 - steep, "", LESSON_5)

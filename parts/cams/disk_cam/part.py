@@ -23,6 +23,7 @@ from parts.base.texts import N_
 from parts.cams.wheel import DiskKeys, Turned, check_disk, inner_radius, marked_holes
 from parts.keys.base import degrees, mm, start
 from parts.keys.cam import (
+    USUAL_PRESSURE_ANGLE,
     Follower,
     FollowerOffset,
     Lift,
@@ -387,8 +388,6 @@ class DiskKind(Turned[K, T]):
         return (TurningProbe(thing, self.height(keys, thing) / 2),)
 
 
-# usual limits of the pressure angle: translating 30, swinging 45 degrees (practicum: 30 to 35, 40 to 50)
-_USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 # rollers are kept below this share of the least convex radius of the pitch curve
 USUAL_ROLLER_SHARE = 0.8
 # cam angles at which the greatest radius is looked for: off by a part in a million
@@ -406,10 +405,31 @@ def largest_roller_radius(cam: DiskCam, least_curvature_radius: float) -> float:
     return max(0.0, min(USUAL_ROLLER_SHARE * pitch, pitch - least_curvature_radius))
 
 
+def pressure_angles(cam: DiskCam) -> dict[str, float]:
+    """The greatest pressure angles of rise and return, degrees, where there are such."""
+    from geometry.cams.motion.follower_motion import PhaseKind
+    from geometry.cams.plane.synthesis import greatest_pressure_angle
+
+    return {
+        f"pressure_angle_{name}_deg": math.degrees(greatest_pressure_angle(cam, kind).value)
+        for kind, name in ((PhaseKind.RISE, "rise"), (PhaseKind.RETURN, "return"))
+        if cam.motion.moving_pieces(kind)
+    }
+
+
+def impact_findings(motion: FollowerMotion) -> list[Finding]:
+    """The greatest rigid and the greatest soft impact of a motion, with its cam angle, degrees."""
+    found = []
+    for impact, order in (("rigid", 1), ("soft", 2)):
+        jumps = [(abs(j.jumps[order]), math.degrees(j.angle)) for j in motion.impacts() if j.impact == impact]
+        if jumps:
+            found.append(Finding(f"{impact}_impact", *max(jumps)))
+    return found
+
+
 def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
     """Named results of a cam: sizes in mm, angles in degrees."""
-    from geometry.cams.motion.follower_motion import PhaseKind
-    from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
+    from geometry.cams.plane.synthesis import least_convex_radius
 
     found: dict[str, float] = {}
     if spec.oscillating is None:
@@ -421,10 +441,7 @@ def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
         found["follower_radius"] = cam.radius
     if spec.oscillating is None and not cam.is_flat:
         found["follower_offset"] = spec.follower_offset
-    for kind in (PhaseKind.RISE, PhaseKind.RETURN):
-        if cam.motion.moving_pieces(kind):
-            name = f"pressure_angle_{'rise' if kind is PhaseKind.RISE else 'return'}_deg"
-            found[name] = math.degrees(greatest_pressure_angle(cam, kind).value)
+    found |= pressure_angles(cam)
     found["least_curvature_radius"] = least_convex_radius(cam).value
     if cam.kind == "roller":
         found["largest_roller_radius"] = largest_roller_radius(cam, spec.least_curvature_radius)
@@ -443,15 +460,11 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
     found = []
     if all(piece.is_constant for piece in cam.motion.pieces):
         found.append(Finding("never_moves", 0.0, spec.lift or spec.swing_deg))
-    for impact, order in (("rigid", 1), ("soft", 2)):
-        jumps = [(abs(j.jumps[order]), math.degrees(j.angle)) for j in cam.motion.impacts() if j.impact == impact]
-        if jumps:
-            size, angle = max(jumps)
-            found.append(Finding(f"{impact}_impact", size, angle))
+    found += impact_findings(cam.motion)
     swings = spec.oscillating is not None
     steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
-    if steepest > _USUAL_PRESSURE_ANGLE[swings] + 1e-9:
-        found.append(Finding("steep_pressure_angle", steepest, _USUAL_PRESSURE_ANGLE[swings]))
+    if steepest > USUAL_PRESSURE_ANGLE[swings] + 1e-9:
+        found.append(Finding("steep_pressure_angle", steepest, USUAL_PRESSURE_ANGLE[swings]))
     asked = spec.least_transmission_angle_deg
     if asked is not None and not cam.is_flat:
         # a swinging follower's is kept both ways, a sliding one's on the rise

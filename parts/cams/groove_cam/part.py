@@ -24,11 +24,12 @@ from parts.cams.disk_cam.part import (
     cam_circles,
     cam_of,
     cam_quantities,
+    impact_findings,
     larger_bases,
 )
 from parts.cams.wheel import DiskKeys, check_disk, inner_radius
 from parts.keys.base import degrees, mm, start
-from parts.keys.cam import FollowerOffset, Lift, MotionTable, Phases, Swing, turn
+from parts.keys.cam import USUAL_PRESSURE_ANGLE, FollowerOffset, Lift, MotionTable, Phases, Swing, turn
 from parts.keys.law import with_own_laws
 from parts.keys.wheel import shape_of
 
@@ -39,8 +40,6 @@ if TYPE_CHECKING:
     from parts.base.readback import Probe
 
 _MOST = 100_000.0
-# a groove drives both ways: the limit holds for the return too; translating and swinging, degrees
-_USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 # default rim beyond the groove, part of the groove's width
 _RIM_SHARE = 0.5
 # thinner rims and floors are mistakes of the keyboard, mm
@@ -238,12 +237,9 @@ def _findings(spec: GrooveCamSpec, disk: GrooveDisk) -> tuple[Finding, ...]:
     from geometry.cams.motion.follower_motion import PhaseKind
     from geometry.cams.plane.synthesis import greatest_pressure_angle
 
-    found = []
-    for impact, order in (("rigid", 1), ("soft", 2)):
-        jumps = [(abs(j.jumps[order]), math.degrees(j.angle)) for j in disk.cam.motion.impacts() if j.impact == impact]
-        if jumps:
-            found.append(Finding(f"{impact}_impact", *max(jumps)))
-    usual = _USUAL_PRESSURE_ANGLE[spec.oscillating is not None]
+    found = impact_findings(disk.cam.motion)
+    # a groove drives both ways: the limit holds for the return too
+    usual = USUAL_PRESSURE_ANGLE[spec.oscillating is not None]
     for kind, code in ((PhaseKind.RISE, "steep_pressure_angle"), (PhaseKind.RETURN, "steep_return_pressure_angle")):
         if not disk.cam.motion.moving_pieces(kind):
             continue

@@ -17,7 +17,7 @@ from geometry.plane.profile import Label, Profile, Region, circle
 from geometry.solids.body import plate
 from parts.base.kind import Kind, Others, Report
 from parts.keys.base import LEAST_HOLE, MadeKeys, mm, start
-from parts.keys.cam import Swing, check_dwell, check_stroke, rough_law, stroke_key
+from parts.keys.cam import USUAL_PRESSURE_ANGLE, Swing, check_dwell, check_stroke, rough_law, stroke_key
 from parts.keys.law import LawTable, PhaseLaw, law_of, with_own_laws
 
 if TYPE_CHECKING:
@@ -34,8 +34,6 @@ _LEAST_WALL = 0.05
 # shares of a lift, and lengths over a least one, that are tried
 _SMALLER = (0.9, 0.75, 0.5, 0.25, 0.1, 0.03, 0.01, 0.001)
 _LONGER = (1.0001, 1.001, 1.01, 1.05, 1.2, 1.5, 2.0, 4.0)
-# usual limits of the pressure angle, degrees: sliding and swinging followers
-_USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 # jumps below this part of lift / travel^k are rounding
 _JUMP = 1e-9
 
@@ -355,7 +353,7 @@ def wedge_findings(keys: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
         if size > _JUMP * (high - low) / cam.motion.travel**order:
             found.append(Finding(f"wedge_{name}_impact", size, at))
             break
-    usual, steepest = _USUAL_PRESSURE_ANGLE[keys.oscillating is not None], math.degrees(_steepest(cam))
+    usual, steepest = USUAL_PRESSURE_ANGLE[keys.oscillating is not None], math.degrees(_steepest(cam))
     if steepest > usual + 1e-9:
         found.append(Finding("steep_pressure_angle", steepest, usual))
     return tuple(found)

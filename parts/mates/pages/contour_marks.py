@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from geometry.base.errors import Nearest
+from geometry.base.record import Record
 from geometry.gears.shifts.external import BlockingContour
 from geometry.gears.shifts.finder import Proposal
 from parts.base.refusal import SceneError
-from parts.base.texts import ENGLISH, Text, words
-from parts.pages.contour_picture import ContourPicture, Mark
+from parts.base.texts import ENGLISH, Message, words
+from parts.pages.contour_picture import ContourPicture
 from parts.pages.inputs import PLACE
-from parts.pages.page import Sheet
+from parts.pages.page import Printed, Sheet
 
 ENDINGS = (".svg", ".dxf")
 
@@ -38,22 +39,33 @@ def checked_picture(topic: str, name: str | None, endings: tuple[str, ...] = END
         raise SceneError(PLACE, f"{topic}.picture", name, "no_such_folder", Nearest(file.name))
 
 
-def contour_pictures(page: Sheet, contour: BlockingContour, marks: Sequence[Mark], picture: str | None) -> None:
-    """Put the contour on a sheet; ``marks`` are points x1, x2 with their words."""
-    page.picture = ContourPicture(contour, tuple(marks))
+class Choice(Record):
+    """Shifts of one rule: its name, its source, and a misprint that was mended."""
+
+    name: Message
+    found: Proposal
+    source: str = ""
+    printed: Printed | None = None
+
+
+def show_choices(page: Sheet, contour: BlockingContour, choices: Sequence[Choice], picture: str | None) -> None:
+    """Put the contour with its choices on a sheet, as a picture and for json; ``picture``: the file to write."""
+    page.picture = ContourPicture(contour, tuple((c.name, (c.found.first, c.found.second)) for c in choices))
     page.plain_picture = page.picture.letters()
     page.data["blocking_contour"] = [
         {"name": line.name, "level": line.level, "points": [[p.real, p.imag] for p in line.points]}
         for line in contour.lines
     ]
     page.picture_file = picture
+    page.data["choices"] = [_told(choice) for choice in choices]
 
 
-def contour_data(name: Text, source: str, found: Proposal) -> dict[str, Any]:
+def _told(choice: Choice) -> dict[str, Any]:
     """A choice as json has it."""
+    found = choice.found
     return {
-        "name": words(ENGLISH).say(name),
-        "source": source,
+        "name": words(ENGLISH).say(choice.name),
+        "source": choice.source,
         "profile_shift_coefficient": {"first": found.first, "second": found.second},
         "contact_ratio": _number(found.contact_ratio),
         "root_sliding": dict(zip(("first", "second"), map(_number, found.root_sliding), strict=True)),

@@ -35,6 +35,7 @@ from parts.pages.contact_steps import (
     limit_steps,
     measured_steps,
     sliding_steps,
+    working_steps,
 )
 from parts.pages.inputs import PLACE, SceneKeys, checked, given, keys_of, refusal
 from parts.pages.misprints import printed_for_pair
@@ -273,11 +274,8 @@ def _mesh(page: Sheet, asked: Asked) -> None:
             # with shifts of one's own the distance leaves backlash
             page.add("tight_profile_shift_sum", total, formula, "practicum (3.3)")
     else:
-        formula = "2 * ({x_n1} + {x_n2}) * tan({alpha_n}) / ({z1} + {z2}) + inv({alpha})"
-        page.add("involute_of_working_pressure_angle", involute_function(angle), formula, "practicum (3.3)")
-        page.add("working_pressure_angle_deg", math.degrees(angle), "arcinv({inv_alpha_w})", "practicum (3.3)")
-        formula = f"{reference} * cos({{alpha}}) / cos({{alpha_w}})"
-        page.add("working_centre_distance", pair.working_centre_distance, formula, "practicum (3.4)")
+        values = involute_function(angle), math.degrees(angle), pair.working_centre_distance
+        working_steps(page, values, internal=False, normal=True)
     page.add("cosine_of_working_pressure_angle", math.cos(angle), "cos({alpha_w})", "practicum, table Е.1")
     page.add("reference_centre_distance", pair.reference_centre_distance, reference, "ISO 21771")
     # of the pair in transverse modules, told in normal ones like the shifts

@@ -39,6 +39,7 @@ from parts.mates.pages.rack import (
 )
 from parts.mates.pages.wishes import wish_refused
 from parts.mates.pairing import mated
+from parts.pages.contact_steps import working_steps
 from parts.pages.inputs import checked, keys_of, refusal
 from parts.pages.misprints import printed_for_internal
 from parts.pages.page import Sheet
@@ -201,11 +202,8 @@ def _internal_mesh(page: Sheet, pair: InternalPair, wanted_distance: bool, helic
         formula = "({z2} - {z1}) * ({inv_alpha_w} - inv({alpha})) / (2 * tan({alpha_n}))"
         page.add("profile_shift_difference", value, formula, "GOST 19274")
     else:
-        formula = "2 * ({x_n2} - {x_n1}) * tan({alpha_n}) / ({z2} - {z1}) + inv({alpha})"
-        page.add("involute_of_working_pressure_angle", involute_function(angle), formula, "GOST 19274")
-        page.add("working_pressure_angle_deg", math.degrees(angle), "arcinv({inv_alpha_w})", "GOST 19274")
-        formula = f"{reference} * cos({{alpha}}) / cos({{alpha_w}})"
-        page.add("working_centre_distance", pair.working_centre_distance, formula, "GOST 19274")
+        values = involute_function(angle), math.degrees(angle), pair.working_centre_distance
+        working_steps(page, values, internal=True, normal=True)
     page.add("reference_centre_distance", pair.reference_centre_distance, reference, "ISO 21771")
     value = pair.centre_distance_coefficient / math.cos(helical.angle)
     page.add("centre_distance_coefficient", value, "({a_w} - {a}) / {m_n}", "ISO 21771")

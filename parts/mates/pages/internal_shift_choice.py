@@ -8,10 +8,9 @@ from typing import Annotated, Any, Literal
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError, at_least, at_most
-from geometry.base.record import Record, replace
+from geometry.base.record import replace
 from geometry.gears.pairs.internal import shift_difference
 from geometry.gears.shifts.finder import (
-    Proposal,
     for_sum,
     greatest_contact_ratio,
     least_sliding,
@@ -31,7 +30,8 @@ from parts.gears.spur_gear.part import RackTable, basic_rack_of
 from parts.keys.base import degrees, in_modules, mm
 from parts.keys.cutter import CutterTable, RackName, cutter_of
 from parts.keys.helix import in_keys
-from parts.mates.pages.contour_marks import checked_picture, contour_data, contour_pictures
+from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices
+from parts.pages.contact_steps import working_steps
 from parts.pages.contour_picture import line_name
 from parts.pages.inputs import PLACE, checked, refusal
 from parts.pages.page import Sheet
@@ -80,11 +80,9 @@ class InternalShiftKeys(Struct, forbid_unknown_fields=True):
     picture: Annotated[str, Meta(description="SVG or DXF file of the contour to write")] | None = None
 
 
-class Choice(Record):
-    """Shifts with the rule that gave them; ``pair``: whose numbers are told."""
+class BuiltChoice(Choice, kw_only=True):
+    """Shifts of a ring; ``pair``: whose numbers are told."""
 
-    name: Message
-    found: Proposal
     pair: InternalShiftPair
 
 
@@ -205,9 +203,7 @@ def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequir
         page.notes.append(N_("no shifts give a pair that turns"))
         return page
     contour = internal_contour(pair, wish, found.box, _TOLERANCE)
-    marks = [(c.name, (c.found.first, c.found.second)) for c in choices]
-    contour_pictures(page, contour, marks, keys.picture)
-    page.data["choices"] = [contour_data(c.name, "", c.found) for c in choices]
+    show_choices(page, contour, choices, keys.picture)
     return page
 
 
@@ -235,12 +231,12 @@ def _given(page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: 
     page.add("least_shift_without_undercut", least_pinion_shift(pair), formula, "ISO 21771", 1)
 
 
-def _own_choices(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> list[Choice]:
+def _own_choices(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> list[BuiltChoice]:
     """The shifts that were typed, or none at all."""
     shifts = keys.first.profile_shift_coefficient, keys.second.profile_shift_coefficient
     name = message("as given") if any(x is not None for x in shifts) else message("no shift")
     built = _as_built(keys, pair, shifts[1] or 0.0)
-    return [Choice(name, proposal(built, wish, shifts[0] or 0.0, shifts[1] or 0.0), built)]
+    return [BuiltChoice(name, proposal(built, wish, shifts[0] or 0.0, shifts[1] or 0.0), pair=built)]
 
 
 def _wanted_difference(keys: InternalShiftKeys, pair: InternalShiftPair) -> float | None:
@@ -254,7 +250,7 @@ def _wanted_difference(keys: InternalShiftKeys, pair: InternalShiftPair) -> floa
 
 def _found_choices(
     page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements, wanted: float | None
-) -> list[Choice]:
+) -> list[BuiltChoice]:
     """What the finder proposes inside the contour."""
     wear, name = least_wear(pair, wish), message("least wear: equal sliding")
     if wear is None:
@@ -269,7 +265,7 @@ def _found_choices(
     result = []
     for rule, found in proposals:
         if found is not None:
-            result.append(Choice(rule, found, pair))
+            result.append(BuiltChoice(rule, found, pair=pair))
             _tell_other_cutter(page, keys, pair, found.second, rule)
             continue
         page.notes.append(
@@ -312,7 +308,7 @@ def _nearest_distance(
     page.notes.append(message(works, distance=text))
 
 
-def _choice(page: Sheet, wish: InternalRequirements, choice: Choice, number: int) -> None:
+def _choice(page: Sheet, wish: InternalRequirements, choice: BuiltChoice, number: int) -> None:
     """One proposal and what it gives."""
     found, pair, module = choice.found, choice.pair, float(page.known["m"].value)
     page.section(message("{number}. {rule}", number=number, rule=choice.name))
@@ -321,12 +317,8 @@ def _choice(page: Sheet, wish: InternalRequirements, choice: Choice, number: int
     if not state.involute >= 0:
         page.notes.append(message("{number}: no working angle", number=number))
         return
-    formula = "2 * ({x2} - {x1}) * tan({alpha}) / ({z2} - {z1}) + inv({alpha})"
-    page.add("involute_of_working_pressure_angle", state.involute, formula, "GOST 19274")
-    angle = math.degrees(state.working_pressure_angle)
-    page.add("working_pressure_angle_deg", angle, "arcinv({inv_alpha_w})", "GOST 19274")
-    formula = "{m} * ({z2} - {z1}) / 2 * cos({alpha}) / cos({alpha_w})"
-    page.add("working_centre_distance", state.working_centre_distance * module, formula, "GOST 19274")
+    values = state.involute, math.degrees(state.working_pressure_angle), state.working_centre_distance * module
+    working_steps(page, values, internal=True, normal=False)
     iso = ("ISO 21771", "ISO 21771")
     if math.isfinite(state.contact_ratio):
         page.add("contact_ratio", state.contact_ratio, "", "GOST 19274")
@@ -345,7 +337,7 @@ def _limited_tip(page: Sheet, pair: InternalShiftPair, shift: float, number: int
         page.notes.append(message("{number}: {finding}", number=number, finding=finding_message(found)))
 
 
-def _broken(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, choice: Choice, number: int) -> None:
+def _broken(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, choice: BuiltChoice, number: int) -> None:
     """What a choice breaks, and whether the pinion goes in radially."""
     x1, x2 = choice.found.first, choice.found.second
     found = {m.name: m for m in margins(pair, replace(wish, radial_assembly=True), x1, x2)}

@@ -8,7 +8,6 @@ from typing import Annotated, Any
 from msgspec import Meta, Struct
 
 from geometry.base.errors import ParameterError, at_most
-from geometry.base.record import Record
 from geometry.gears.shifts import tables as shift_tables
 from geometry.gears.shifts.choice import shift_sum_for_distance
 from geometry.gears.shifts.external import (
@@ -20,18 +19,19 @@ from geometry.gears.shifts.external import (
     state_of,
     usual_box,
 )
-from geometry.gears.shifts.finder import Proposal, for_sum, greatest_contact_ratio, least_wear, proposal
+from geometry.gears.shifts.finder import for_sum, greatest_contact_ratio, least_wear, proposal
 from geometry.gears.teeth.spur import SpurGear
 from parts.base.refusal import SceneError, meant
-from parts.base.texts import N_, Message, message
+from parts.base.texts import N_, message
 from parts.gears.spur_gear.part import RackTable, SpurGearSpec, gear_of
 from parts.keys.base import in_modules, mm
 from parts.keys.cutter import PressureAngle, RackName
 from parts.keys.helix import in_keys
 from parts.mates.pages import external as gear_pair
 from parts.mates.pages import internal_shift_choice
-from parts.mates.pages.contour_marks import checked_picture, contour_data, contour_pictures
+from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices
 from parts.mates.pages.pair_keys import GEARS
+from parts.pages.contact_steps import working_steps
 from parts.pages.inputs import PLACE, SceneKeys, checked, refusal, told
 from parts.pages.page import Printed, Sheet
 
@@ -60,15 +60,6 @@ class ShiftChoiceKeys(Struct, forbid_unknown_fields=True):
     pole_inside: Annotated[bool, Meta(description="the pole must lie inside the active line of action")] = False
     shortened_tips: Annotated[bool, Meta(description="tips shortened by x1 + x2 - y")] = True
     picture: Annotated[str, Meta(description="SVG or DXF file of the contour to write")] | None = None
-
-
-class Choice(Record):
-    """Shifts of one rule: its name, the source, and a misprint that was mended."""
-
-    name: Message
-    source: str
-    found: Proposal
-    printed: Printed | None = None
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -135,9 +126,7 @@ def _page(keys: ShiftChoiceKeys, pair: ShiftPair, wish: Requirements) -> Sheet:
         page.notes.append(N_("no shifts give a pair that turns"))
         return page
     contour = blocking_contour(pair, wish, box)
-    marks = [(c.name, (c.found.first, c.found.second)) for c in choices]
-    contour_pictures(page, contour, marks, keys.picture)
-    page.data["choices"] = [contour_data(c.name, c.source, c.found) for c in choices]
+    show_choices(page, contour, choices, keys.picture)
     return page
 
 
@@ -155,14 +144,14 @@ def _table_choices(page: Sheet, pair: ShiftPair, wish: Requirements) -> list[Cho
             page.notes.append(message("{rule}: {why}", rule=rule, why=told(error)))
             continue
         source = f"{name}, table {shifts.table}"
-        found.append(Choice(rule, source, proposal(pair, wish, shifts.first, shifts.second), _mending(shifts)))
+        found.append(Choice(rule, proposal(pair, wish, shifts.first, shifts.second), source, _mending(shifts)))
     for kinematic, rule in (
         (False, message("GOST 16532, power drive")),
         (True, message("GOST 16532, kinematic drive")),
     ):
         try:
             for shifts in shift_tables.gost_16532(z1, z2, kinematic=kinematic):
-                found.append(Choice(rule, "GOST 16532-70", proposal(pair, wish, shifts.first, shifts.second)))
+                found.append(Choice(rule, proposal(pair, wish, shifts.first, shifts.second), "GOST 16532-70"))
         except ParameterError as error:
             page.notes.append(message("{rule}: {why}", rule=rule, why=told(error)))
     return found
@@ -191,7 +180,7 @@ def _found_choices(page: Sheet, keys: ShiftChoiceKeys, pair: ShiftPair, wish: Re
     result = []
     for rule, found in proposals:
         if found is not None:
-            result.append(Choice(rule, "", found))
+            result.append(Choice(rule, found))
             continue
         page.notes.append(
             message(
@@ -221,13 +210,9 @@ def _choice(page: Sheet, pair: ShiftPair, wish: Requirements, choice: Choice, nu
     if not state.involute >= 0:
         page.notes.append(message("{number}: no working angle", number=number))
         return
-    formula = "2 * ({x1} + {x2}) * tan({alpha}) / ({z1} + {z2}) + inv({alpha})"
-    page.add("involute_of_working_pressure_angle", state.involute, formula, "practicum (3.3)")
-    angle = math.degrees(state.working_pressure_angle)
-    page.add("working_pressure_angle_deg", angle, "arcinv({inv_alpha_w})", "practicum (3.3)")
-    formula = "{m} * ({z1} + {z2}) / 2 * cos({alpha}) / cos({alpha_w})"
-    module = float(page.known["m"].value)
-    page.add("working_centre_distance", state.working_centre_distance * module, formula, "practicum (3.4)")
+    module, angle = float(page.known["m"].value), math.degrees(state.working_pressure_angle)
+    values = state.involute, angle, state.working_centre_distance * module
+    working_steps(page, values, internal=False, normal=False)
     page.add("contact_ratio", found.contact_ratio, "", "practicum (3.20)")
     thick = state.tip_thicknesses
     page.both("tip_thickness", (thick[0] * module, thick[1] * module), "", ("practicum (1.3)", "practicum (1.3)"))
