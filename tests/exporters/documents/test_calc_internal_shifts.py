@@ -274,7 +274,7 @@ def test_the_pair_of_the_power_module(tmp_path: Path, capsys: pytest.CaptureFixt
         (f"{GIVEN} kind2=1", "shift-choice.kind2", "unknown_key", None),
         ("kind=internal_gear first.number_of_teeth=20", "shift-choice.kind", "unknown_pair", "internal_gear_pair"),
         (f"{GIVEN} least_tip_clearence=0.1", "shift-choice.least_tip_clearence", "unknown_key", "least_tip_clearance"),
-        (f"{GIVEN} basic_rack=ISO", "shift-choice.basic_rack", "not_one_of", "ISO 53 D"),
+        (f"{GIVEN} basic_rack=ISO", "shift-choice.basic_rack", "not_allowed", "ISO 53 D"),
         (
             "kind=internal_gear_pair first.number_of_teeth=60 second.number_of_teeth=60",
             "shift-choice.second.number_of_teeth",
