@@ -136,9 +136,7 @@ class CalculatedKeys(PolygonPlateKeys, kw_only=True, tag=False, forbid_unknown_f
     """Keys of the calculation."""
 
 
-def table_from(scene: Any, source: str, table: dict[str, Any]) -> dict[str, Any]:
-    """The keys of a plate of a scene, changed by those of the command line."""
-    return part_of_kind(scene, source, table, POLYGON_PLATE.name)
+table_from = part_of_kind(POLYGON_PLATE.name)
 
 
 def sheet(table: dict[str, Any]) -> Sheet:

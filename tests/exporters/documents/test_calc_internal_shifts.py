@@ -31,9 +31,18 @@ from parts.base.texts import words
 from parts.gears.ring_gear.part import checked_ring_gear
 from parts.gears.spur_gear.part import gear_of
 from parts.mates.pages import internal_shift_choice, shift_choice
-from parts.mates.pages.contour_marks import checked_picture, contour_pictures
+from parts.mates.pages.contour_marks import checked_picture
 from parts.mates.pages.internal_shift_choice import InternalShiftKeys, shift_pair
-from parts.pages.contour_picture import clipped, contour_svg, grid_step, kinds_shown, line_name, line_title, tool_texts
+from parts.pages.contour_picture import (
+    ContourPicture,
+    clipped,
+    contour_svg,
+    grid_step,
+    kinds_shown,
+    line_name,
+    line_title,
+    tool_texts,
+)
 from parts.pages.inputs import checked, table_of
 from parts.pages.page import Sheet
 from parts.scene.load import load_scene, make_parts
@@ -189,7 +198,8 @@ def test_lines_are_cut_off_at_the_box(contour: Any) -> None:
 def test_pictures_are_written_by_their_ending(contour: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for name, start in (("c.svg", "<svg"), ("c.DXF", "  0\nSECTION")):
         page = Sheet("shift-choice", "contour")
-        contour_pictures(page, contour, [("region: {conditions}", (0.1, 0.2))], str(tmp_path / name))
+        page.picture = ContourPicture(contour, (("region: {conditions}", (0.1, 0.2)),))
+        page.picture_file = str(tmp_path / name)
         monkeypatch.setattr(topics, "sheet_of", lambda _topic, _words, page=page: (page, "uk"))
         calculate("shift-choice", [], "text", "uk")
         text = (tmp_path / name).read_text(encoding="utf-8")
