@@ -339,7 +339,7 @@ def refused(topic: str, *arguments: str) -> SceneError:
         (
             ("shift-choice", "first.number_of_teeth=13", "second.number_of_teeth=21", "basic_rack=ISO"),
             "shift-choice.basic_rack",
-            "not_one_of",
+            "not_allowed",
             "ISO 53 D",
         ),
     ],
