@@ -30,6 +30,7 @@ from parts.base.texts import N_, Message, in_every_language, words
 from parts.keys.base import mm
 from parts.pages.module_rules import CONDITIONS, DRIVERS, M4, M8, M10, M12, Condition, of_orientation, sizes, valued
 from parts.recipes.making import Making, place
+from parts.recipes.power_module_kinematics import IDLER_SHIFT
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 _Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
@@ -38,6 +39,8 @@ _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 _NUT_20, _HEX_8, _HEX_12 = (17.0, 8.0), (13.0, 5.3), (18.0, 7.5, 10.8)
 # step of a casting from one level to the next, play of what is turned by hand, mm
 _STEP, _PLAY = 1.0, 0.05
+# radius of the platform axle's thread under nut 47, and a wall about it
+_THREAD_47, _WALL_47 = 22.5, 5.0
 # depth of the groove of a snap ring
 _SNAP = 1.5
 # guide 6: height of its flange, which screws M8x16 hold by as much, how many, how deep their holes are
@@ -141,10 +144,11 @@ class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
     """Keys of ``power_module``: its drivers."""
 
     orientation: Annotated[
-        Literal["cranks", "thesis"],
+        Literal["cranks", "thesis", "idlers"],
         Meta(
             description="cranks keep the platform parallel: plates 11 and 16, ring 14, its guide 13, cranks 34 and "
-            "pins 35, without 15 and 57; thesis: its wheels 11, 14, 16, axle 13"
+            "pins 35, without 15 and 57; thesis: its wheels 11, 14, 16, axle 13; idlers (power_module_kinematics) find "
+            "no room about nut 47"
         ),
     ] = "cranks"
     module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = DRIVERS["module"]
@@ -211,6 +215,14 @@ def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
     ParameterError
         A condition is not kept: its driver, what lacks and by how much.
     """
+    if keys.orientation == "idlers":
+        # an idler half as large as its neighbours, at half an arm: their roots, and a wall about the thread M45
+        arm = keys.module * (keys.teeth[1] - keys.teeth[0]) / 2
+        root = arm / 3 - (1.25 + IDLER_SHIFT) * keys.wheel_module
+        raise ParameterError(
+            "orientation", keys.orientation, "idlers_below_thread", Nearest("cranks"), root=root, thread=_THREAD_47,
+            wall=_WALL_47,
+        )  # fmt: skip
     found = sizes(drivers(keys), keys.orientation)
     for condition in of_orientation(CONDITIONS, keys.orientation):
         left = valued(condition.made_of, found)
@@ -740,7 +752,7 @@ class _Making(Making):
         recess, high, low = s["r_47"] + 3, s["h_11"], s["z_11"] + keys.wheel_width - s["h_11"]
         rear = high - keys.wheel_width
         self._turned("platform_plate", [
-            (recess, 0), (s["r_11"], 0), (s["r_11"], high), (22.5, high), (22.5, rear), (recess, rear),
+            (recess, 0), (s["r_11"], 0), (s["r_11"], high), (_THREAD_47, high), (_THREAD_47, rear), (recess, rear),
         ], _holes(3, 2 * s["r_35"], s["r_pivots"], 60.0))  # fmt: skip
         self._on_axle("platform_plate", low)
         self.mate("parallel", "free_ring", "platform_plate")
@@ -754,11 +766,11 @@ class _Making(Making):
         end, r = s["z_11"] - s["h_47"] - 2, s["r_journal"]
         shoulder, flange = s["z_11"] + keys.wheel_width - end, s["z_flange"] - end
         self._turned("platform_axle", [
-            (0, 0), (22.5, 0), (22.5, shoulder), (r, shoulder), (r, flange), (s["r_55"] + 10, flange),
+            (0, 0), (_THREAD_47, 0), (_THREAD_47, shoulder), (r, shoulder), (r, flange), (s["r_55"] + 10, flange),
             (s["r_55"] + 10, flange + 12), (r, flange + 12), (r, flange + 18), (0, flange + 18),
         ], _holes(6, 10, s["r_55"]))  # fmt: skip
         self._set(first, "platform_axle", "platform_axle", end)
-        self._tube("nut_47", 22.5, s["r_47"], s["h_47"])
+        self._tube("nut_47", _THREAD_47, s["r_47"], s["h_47"])
         self._set(first, "nut_47", "nut_47", s["z_11"] - s["h_47"])
         top = -s["h_24"] - 1
         self._tube("spacer_10", r, r + 6, top - s["z_11"] - keys.wheel_width)

@@ -31,7 +31,7 @@ from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 # room for the balls between both disks
 _WALL, _BOSS, _RIM, _LINK, _GUIDE = 8.0, 8.0, 20.0, 24.0, 2.0
 # shift of an idler, of its partners the same below 0: z 12 without undercut, each mesh at its plain distance
-_SHIFT = 0.3
+IDLER_SHIFT = 0.3
 _COLOURS = {
     "body": "#ece8df", "disk_2": "#d9a066", "disk_3": "#e6c08a", "spacer": "#e6c08a", "ring": "#9fb0c0",
     "pinion": "#4f8fc0", "hub": "#70a0d0", "platform": "#f2e2b6", "wheel": "#c08040", "idler": "#8c96a0",
@@ -149,7 +149,7 @@ class _Sizes(Record):
             if wall < _WALL / 2:
                 given = keys.satellite_axle_diameter
                 raise ParameterError("satellite_axle_diameter", given, "axles_meet", None, wall=wall)
-            shift = _SHIFT if keys.orientation == "idlers" else 0.0
+            shift = IDLER_SHIFT if keys.orientation == "idlers" else 0.0
             root = keys.wheel_module * (teeth - 2.5 - 2 * shift) - 2 * keys.wheel_module
             for name in ("platform_axle_diameter", "satellite_axle_diameter"):
                 if (given := getattr(keys, name)) > root:
@@ -292,10 +292,10 @@ class _Making(Making):
         front, rear, behind = self.planes[:3]
         turning = keys.satellite_axle_diameter + 2 * keys.clearance
         small = keys.pin_diameter + 2 * keys.clearance
-        self._wheel("central_wheel", teeth, keys.satellite_axle_diameter, keys.wheel_width, -_SHIFT)
-        self._wheel("satellite_wheel", teeth, turning, keys.wheel_width, -_SHIFT)
-        self._wheel("platform_wheel", teeth, keys.platform_axle_diameter, keys.wheel_width, -_SHIFT)
-        self._wheel("idler", few, small, keys.wheel_width, _SHIFT)
+        self._wheel("central_wheel", teeth, keys.satellite_axle_diameter, keys.wheel_width, -IDLER_SHIFT)
+        self._wheel("satellite_wheel", teeth, turning, keys.wheel_width, -IDLER_SHIFT)
+        self._wheel("platform_wheel", teeth, keys.platform_axle_diameter, keys.wheel_width, -IDLER_SHIFT)
+        self._wheel("idler", few, small, keys.wheel_width, IDLER_SHIFT)
         self._axles(behind, rear + keys.wheel_width)
         self.fix("body", "central_wheel", 0j, rear - self.low)
         self.put("external_gear_pair", "central_wheel", "idler_1", "idler")

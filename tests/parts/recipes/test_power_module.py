@@ -85,7 +85,7 @@ def test_every_position_has_its_rules() -> None:
         ({"module": 10.0}, "assemblies"),
         ({"wheel_module": 5.0, "orientation": "thesis"}, "wheel_module = 5"),
         ({"wheel_module": 3.0}, 'wheel_module = 3.* "thesis" only'),
-        ({"orientation": "idlers"}, "idlers"),
+        ({"orientation": "idlers"}, 'roots of 20.9 mm radius; the thread of nut 47, 22.5 mm.*"cranks" works'),
         ({"axial_gap": 1.0}, "axial_gap = 1.*collars of the pins 35.*at least"),
         ({"ball": 30.0}, "ball = 30.*at most"),
         ({"teeth": (40, 120)}, "teeth"),
