@@ -20,7 +20,7 @@ def sketch_of_worm(worm: WormBody) -> Sketch:
     """A worm as the cylinder of its tips, its shaft beside."""
     thread = worm.thread.worm
     outline = [complex(r, z) for z, r in worm.envelope()]
-    end = max(p.imag for p in outline[len(outline) // 2 :] if p.real == thread.tip_radius and p.imag <= worm.start[0])
+    end = max(p.imag for p in outline if p.real == thread.tip_radius and p.imag <= worm.start[0])
     layers = []
     for layer in lathe(list(pairwise(outline))):
         is_thread = abs(layer.low + end) < _SAME

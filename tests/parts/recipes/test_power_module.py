@@ -19,7 +19,7 @@ from parts.base.texts import told_in
 from parts.bodies.layered import Layered
 from parts.pages.module_rules import RULES
 from parts.recipes.power_module import PowerModuleKeys
-from parts.scene.load import SceneFile, scene_from_dict
+from parts.scene.load import SceneFile, make_parts, scene_from_dict
 from tests.oracles.clearances import overlaps
 from tests.parts.recipes.test_power_table import placed
 
@@ -67,6 +67,16 @@ def test_exactly_the_parts_list_of_the_thesis_but_for_what_the_cranks_change_by_
         assert names == expected
         sums = sum(n for k, n in count.items() if k < 40), sum(n for k, n in count.items() if k > 40)
         assert sums == {"thesis": (42, 417), "cranks": (59, 416)}[orientation]
+
+
+def test_worms_are_drawn_with_their_thread_whatever_their_shafts() -> None:
+    """The shaft is longer on one side: the thread stands as far on both."""
+    worm = make_parts(module(), "t")[0]["worm"]
+    sketch = worm.made_by.sketch(worm.keys, worm.thing)
+    assert sketch is not None
+    [thread] = [layer for layer in sketch.layers if any(ring.root for ring in (*layer.lower, *layer.upper))]
+    assert thread.low == pytest.approx(-thread.high)
+    assert 50 < thread.high < 60
 
 
 def test_every_position_has_its_rules() -> None:
