@@ -8,9 +8,11 @@ import os
 # spinning, and splines take twice as long
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+import gc
 import random
 import sys
-from collections.abc import Hashable
+from collections.abc import Generator, Hashable
+from inspect import isfunction
 from typing import Any
 
 import pytest
@@ -28,6 +30,16 @@ if _SEED := os.environ.get("HYPOTHESIS_SEED", ""):
     core.global_force_seed = int(_SEED)
 settings.register_profile("ours", derandomize=not _SEED, deadline=None)
 settings.load_profile("ours")
+
+
+# as much garbage as a heavy test makes: looked for sooner, it costs each run seconds and frees nothing
+gc.set_threshold(50_000, 20, 20)
+
+
+def pytest_collection_finish() -> None:
+    """What collection made stays to the end: garbage is not sought there any more."""
+    gc.collect()
+    gc.freeze()
 
 
 def pytest_sessionstart() -> None:
@@ -58,31 +70,45 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     return WorkStealingScheduling(config, log) if config.getoption("dist") == "load" else None
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Mark as heavy what is outside the sample of a test with ``@pytest.mark.sampled(count)``.
+@pytest.hookimpl(specname="pytest_pycollect_makeitem", tryfirst=True)
+def pytest_make_nothing_heavy(obj: object, collector: pytest.Collector) -> list[pytest.Item] | None:
+    """Heavy tests are not even made where only the others are asked for: half of all cases, and of their time."""
+    heavy = isfunction(obj) and any(mark.name == "heavy" for mark in getattr(obj, "pytestmark", []))
+    return [] if heavy and _without_heavy(collector.config) else None
+
+
+@pytest.hookimpl(specname="pytest_pycollect_makeitem", wrapper=True)
+def pytest_make_samples(name: str, collector: pytest.Collector) -> Generator[None, Any, Any]:
+    """Of the cases of a test those outside its ``sampled(count)`` are heavy.
 
     Where the heavy tests are asked for, the searches by hypothesis are among them, with all their examples.
     """
-    sweeps: dict[tuple[str, str], list[pytest.Function]] = {}
-    for item in items:
-        if _heavy_alone(config) and isinstance(item, pytest.Function) and is_hypothesis_test(item.obj):
-            item.add_marker(pytest.mark.heavy)
-        sampled, heavy = item.get_closest_marker("sampled"), item.get_closest_marker("heavy")
-        if isinstance(item, pytest.Function) and sampled and not heavy:
-            assert item.parent is not None
-            sweeps.setdefault((item.parent.nodeid, item.originalname), []).append(item)
-    for (_, name), cases in sweeps.items():
-        mark = cases[0].get_closest_marker("sampled")
-        assert mark is not None
-        keep = set(chosen([_values(case) for case in cases], mark.args[0], name))
-        for place, case in enumerate(cases):
+    found = yield
+    if not isinstance(found, list):
+        return found
+    cases = [item for item in found if isinstance(item, pytest.Function)]
+    if _heavy_alone(collector.config) and cases and is_hypothesis_test(cases[0].obj):
+        for case in cases:
+            case.add_marker(pytest.mark.heavy)
+    light = [case for case in cases if not case.get_closest_marker("heavy")]
+    sampled = light[0].get_closest_marker("sampled") if light else None
+    if sampled is not None:
+        keep = set(chosen([_values(case) for case in light], sampled.args[0], name))
+        for place, case in enumerate(light):
             if place not in keep:
                 case.add_marker(pytest.mark.heavy)
+    without = _without_heavy(collector.config)
+    return [item for item in found if not item.get_closest_marker("heavy")] if without else found
 
 
 def _heavy_alone(config: pytest.Config) -> bool:
     return str(config.getoption("markexpr")).strip() == "heavy"
+
+
+def _without_heavy(config: pytest.Config) -> bool:
+    """Whether nothing heavy can be among what is asked for, whatever else is: ``not heavy``, ``... and not heavy``."""
+    wanted = str(config.getoption("markexpr")).strip()
+    return wanted == "not heavy" or (wanted.endswith(" and not heavy") and " or " not in wanted)
 
 
 def _values(case: pytest.Function) -> dict[str, Hashable]:

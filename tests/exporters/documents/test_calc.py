@@ -107,7 +107,12 @@ def ident(words: tuple[str, ...]) -> str:
     return " ".join(words)
 
 
-@pytest.mark.parametrize("case", PRACTICUM, ids=lambda c: f"{c['id']} {c['name']} {c.get('gear', '')}")
+@pytest.mark.parametrize(
+    "case",
+    # one blocking contour by default: each takes as long as two hundred of the others
+    [pytest.param(c, marks=[pytest.mark.heavy] * (c["words"] == "shift-choice practicum_pair")) for c in PRACTICUM],
+    ids=lambda c: f"{c['id']} {c['name']} {c.get('gear', '')}",
+)
 def test_the_practicum_and_the_guidelines(case: dict[str, Any]) -> None:
     data = values_of(case["words"])
     found = data["values"][case["name"]]

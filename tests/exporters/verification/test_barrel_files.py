@@ -48,9 +48,9 @@ COUNT = 240
 faced = cache(barrel_faces)
 
 
-def mesh_of(body: BarrelBody) -> tuple[ReadMesh, float]:
+def mesh_of(body: BarrelBody, tolerance: float = TOLERANCE) -> tuple[ReadMesh, float]:
     exact = faced(body)
-    outlines = mesh_outlines(exact, TOLERANCE, 0.0)
+    outlines = mesh_outlines(exact, tolerance, 0.0)
     made = body_mesh(exact, outlines)
     # vertices stand on a grid
     return ReadMesh(made.vertices, made.triangles), outlines[0].max_error + 1e-8 * body.cam.outer
@@ -168,7 +168,8 @@ STEEP = {"as told": steep(), "mild": steep(20.0), "steeper": steep(angle=90.0), 
          "large drum": steep(80.0, outer_diameter=120.0), "swing": steep(**swinging()),
          "swing away": steep(**swinging(pivot_offset=-45.0)), "steep swing": steep(angle=80.0, **swinging()),
          "cone": steep(roller_form="conical"), "cone of its own": steep(roller_form="conical", cone_angle_deg=20.0),
-         "end": steep(form="end"), "hub as wide as the floor": steep(hub={"diameter": 43.0, "above": 3.0})}  # fmt: skip
+         "end": steep(form="end"), "cone end": steep(form="end", roller_form="conical", cone_angle_deg=20.0),
+         "hub as wide as the floor": steep(hub={"diameter": 43.0, "above": 3.0})}  # fmt: skip
 
 
 def sections(corners: np.ndarray, body: BarrelBody, angles: np.ndarray, depths: Sequence[float]) -> float:
@@ -212,13 +213,12 @@ def probed_mesh(keys: dict[str, object], mesh: ReadMesh, error: float) -> Verdic
     return probed(mesh, part_of(keys), 0.0, error, Verdict({}, ()))
 
 
-@pytest.mark.sampled(1)
-@pytest.mark.parametrize("name", STEEP)
+@pytest.mark.parametrize("name", [n if n == "cone end" else pytest.param(n, marks=pytest.mark.heavy) for n in STEEP])
 def test_steep_grooves_are_not_refused_and_spoiled_ones_are(name: str) -> None:
     """Of any steepness; the error that is told holds at every depth and is near to the greatest one."""
     keys = STEEP[name]
     body = body_of(keys)
-    mesh, error = mesh_of(body)
+    mesh, error = mesh_of(body, 0.1)
     good = probed_mesh(keys, mesh, error)
     assert good.failures == ()
     told, cam = good.measured["lift_error"], body.cam

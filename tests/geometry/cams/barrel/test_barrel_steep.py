@@ -27,20 +27,21 @@ CAMS = {"steep": STEEP, "tall": TALL, "cone": CONE, "arm": ARM}
 def test_bounds_of_steep_edges_hold_and_are_sharp(name: str) -> None:
     """Against derivatives at many places; on intervals as long as arcs are, the second one is near the truth."""
     cam = CAMS[name]
-    for piece in cam.motion.moving_pieces():
-        for side, parts in ((UPPER, 7), (LOWER, 120)):
-            edge = DevelopedEdge(cam, piece, side, 0.0, piece.start, piece.end)
-            sharpest = []
-            for low, high in pairwise(np.linspace(*piece.domain, parts + 1).tolist()):
-                inside = np.linspace(low, high, 33)
-                for order in (1, 2, 3):
-                    most = float(np.abs(edge.derivative(inside, order)).max())
-                    found = edge.derivative_bound(order, low, high)
-                    assert found is None or most <= found * (1 + 1e-12)
-                    if order == 2:
-                        sharpest.append(math.inf if found is None else found / most)
-            # before the slope itself was counted they were thousands of times too large
-            assert parts == 7 or np.median(sharpest) < 3
+    # the fall is the rise again
+    piece = cam.motion.moving_pieces()[0]
+    for side, parts in ((UPPER, 7), (LOWER, 120)):
+        edge = DevelopedEdge(cam, piece, side, 0.0, piece.start, piece.end)
+        sharpest = []
+        for low, high in pairwise(np.linspace(*piece.domain, parts + 1).tolist()):
+            inside = np.linspace(low, high, 33)
+            for order in (1, 2, 3):
+                most = float(np.abs(edge.derivative(inside, order)).max())
+                found = edge.derivative_bound(order, low, high)
+                assert found is None or most <= found * (1 + 1e-12)
+                if order == 2:
+                    sharpest.append(math.inf if found is None else found / most)
+        # before the slope itself was counted they were thousands of times too large
+        assert parts == 7 or np.median(sharpest) < 3
 
 
 def test_bounds_of_values_alone_hold() -> None:

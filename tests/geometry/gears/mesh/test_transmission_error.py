@@ -207,13 +207,9 @@ def test_a_rack_with_short_tips() -> None:
 def test_a_face_that_overlaps_by_a_pitch_evens_out() -> None:
     pair, _ = SPOILT["short tips"]
     spurs, _ = transmission_errors(GearMesh(pair))
-    last = spurs.peak_to_peak
-    for overlap in (0.2, 0.5):
-        helical, _ = transmission_errors(GearMesh(pair), overlap_ratio=overlap)
-        assert helical.peak_to_peak <= last + 1e-9
-        last = helical.peak_to_peak
+    half, _ = transmission_errors(GearMesh(pair), overlap_ratio=0.5)
+    assert half.peak_to_peak < 1e-6 < spurs.peak_to_peak
     assert transmission_errors(GearMesh(pair), overlap_ratio=1.0)[0].peak_to_peak == 0.0
-    assert last < 1e-6
     # contact ratio 0.69 and an overlap of 0.31 and a little: some section is always on its main flanks
     carried, _ = transmission_errors(GearMesh(pair), overlap_ratio=1.02 - pair.contact_ratio)
     assert carried.peak_to_peak < 3e-3 * spurs.peak_to_peak

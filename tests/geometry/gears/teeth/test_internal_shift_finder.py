@@ -35,7 +35,7 @@ def test_proposals_beat_random_legal_shifts(pair: InternalShiftPair, wish: Inter
     if wear is not None:
         assert wear.root_sliding[0] == pytest.approx(wear.root_sliding[1], rel=1e-6)
     rng, legal = random.Random(5), 0
-    for _ in range(700):
+    for _ in range(300):
         x1 = rng.uniform(found.box.left, found.box.right)
         x2 = x1 + rng.uniform(found.lowest, found.highest)
         if least_margin(pair, wish, x1, x2) < 0:
