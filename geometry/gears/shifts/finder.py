@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 
 from geometry.base.record import Record
@@ -161,24 +161,13 @@ def least_wear(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
     """The legal shifts with equal sliding of both feet and the least of it; None where no such pair is legal."""
 
     def shift(total: float) -> float | None:
-        parts = legal_shifts(pair, wish, total)
-        for low, high in parts:
+        for low, high in legal_shifts(pair, wish, total):
             x1 = equal_sliding_shift(pair, total, low, high)
-            if low < x1 < high and least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING:
+            if low < x1 < high and _is_legal(pair, wish, total, x1):
                 return x1
         return None
 
-    def wear(total: float) -> float:
-        x1 = shift(total)
-        if x1 is None:
-            return -math.inf
-        return min(state_of(pair, x1, second_shift(pair, total, x1)).root_sliding(pair.gear_ratio))
-
-    best = _greatest_of(pair, wear)
-    if best is None:
-        return None
-    x1 = shift(best)
-    return None if x1 is None else proposal(pair, wish, x1, second_shift(pair, best, x1))
+    return _best(pair, wish, shift, partial(_foot_sliding, pair))
 
 
 def least_sliding(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
@@ -187,43 +176,36 @@ def least_sliding(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
     For pairs whose legal shifts all lie on one side of equal sliding.
     """
 
-    def wear_at(total: float, x1: float) -> float:
-        return min(state_of(pair, x1, second_shift(pair, total, x1)).root_sliding(pair.gear_ratio))
-
     def shift(total: float) -> float | None:
         found = [equal_sliding_shift(pair, total, low, high) for low, high in legal_shifts(pair, wish, total)]
-        legal = [x1 for x1 in found if least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING]
-        return max(legal, key=lambda x1: wear_at(total, x1), default=None)
+        legal = [x1 for x1 in found if _is_legal(pair, wish, total, x1)]
+        return max(legal, key=partial(_foot_sliding, pair, total), default=None)
 
-    def wear(total: float) -> float:
-        x1 = shift(total)
-        return -math.inf if x1 is None else wear_at(total, x1)
-
-    best = _greatest_of(pair, wear)
-    x1 = None if best is None else shift(best)
-    return None if best is None or x1 is None else proposal(pair, wish, x1, second_shift(pair, best, x1))
+    return _best(pair, wish, shift, partial(_foot_sliding, pair))
 
 
 def greatest_contact_ratio(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
     """The legal shifts with the greatest contact ratio; None where no pair is legal."""
 
+    def ratio(total: float, x1: float) -> float:
+        return state_of(pair, x1, second_shift(pair, total, x1)).contact_ratio
+
     def shift(total: float) -> float | None:
-        parts = legal_shifts(pair, wish, total)
-        ratio: Callable[[float], float] = lambda x1: state_of(pair, x1, second_shift(pair, total, x1)).contact_ratio  # noqa: E731
-        found = [x1 for low, high in parts for x1 in (_golden(ratio, low, high), low, high)]
+        own = partial(ratio, total)
+        found = [x for low, high in legal_shifts(pair, wish, total) for x in (_golden(own, low, high), low, high)]
         # between marks a narrow gap in the legal shifts may have been overlooked
-        legal = [x1 for x1 in found if least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING]
-        return max(legal, key=ratio, default=None)
+        return max((x1 for x1 in found if _is_legal(pair, wish, total, x1)), key=own, default=None)
 
-    def ratio_of(total: float) -> float:
-        x1 = shift(total)
-        return -math.inf if x1 is None else state_of(pair, x1, second_shift(pair, total, x1)).contact_ratio
+    return _best(pair, wish, shift, ratio)
 
-    best = _greatest_of(pair, ratio_of)
-    if best is None:
-        return None
-    x1 = shift(best)
-    return None if x1 is None else proposal(pair, wish, x1, second_shift(pair, best, x1))
+
+def _is_legal(pair: AnyShiftPair, wish: Requirements, total: float, x1: float) -> bool:
+    return least_margin(pair, wish, x1, second_shift(pair, total, x1)) >= -_ROUNDING
+
+
+def _foot_sliding(pair: AnyShiftPair, total: float, x1: float) -> float:
+    """Of both feet the one that slides more: the lesser, below 0."""
+    return min(state_of(pair, x1, second_shift(pair, total, x1)).root_sliding(pair.gear_ratio))
 
 
 def proposal(pair: AnyShiftPair, wish: Requirements, x1: float, x2: float) -> Proposal:
@@ -232,8 +214,21 @@ def proposal(pair: AnyShiftPair, wish: Requirements, x1: float, x2: float) -> Pr
     return Proposal(x1, x2, state.contact_ratio, state.root_sliding(pair.gear_ratio), least_margin(pair, wish, x1, x2))
 
 
-def _greatest_of(pair: AnyShiftPair, function: Callable[[float], float]) -> float | None:
-    """The sum of shifts at which a function is greatest; -inf is outside its domain, whose ends are halved in on."""
+def _best(
+    pair: AnyShiftPair,
+    wish: Requirements,
+    shift: Callable[[float], float | None],
+    worth: Callable[[float, float], float],
+) -> Proposal | None:
+    """The shifts that are worth most, of those that ``shift`` chooses of each sum: their x1, None where there is none.
+
+    ``worth`` judges a sum and its x1. Where nothing is chosen the sums' domain ends, which is halved in on.
+    """
+
+    def function(total: float) -> float:
+        x1 = shift(total)
+        return -math.inf if x1 is None else worth(total, x1)
+
     sums = _sums(pair)
     if not sums:
         return None
@@ -245,7 +240,9 @@ def _greatest_of(pair: AnyShiftPair, function: Callable[[float], float]) -> floa
     for k in (best - 1, best + 1):
         end = sums[min(max(k, 0), len(sums) - 1)]
         ends.append(end if function(end) > -math.inf else _last_inside(function, sums[best], end))
-    return max((_golden(function, ends[0], ends[1], _OUTER_SECTIONS), sums[best]), key=function)
+    total = max((_golden(function, ends[0], ends[1], _OUTER_SECTIONS), sums[best]), key=function)
+    x1 = shift(total)
+    return None if x1 is None else proposal(pair, wish, x1, second_shift(pair, total, x1))
 
 
 def _last_inside(function: Callable[[float], float], inside: float, outside: float) -> float:
