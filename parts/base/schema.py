@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 from inspect import get_annotations
 from typing import Any, Literal, TypeVar, get_args, get_origin
 
@@ -44,6 +44,17 @@ def converted(table: object, kind: type[Struct], source: str, place: str) -> Any
         return msgspec.convert(table, kind)
     except msgspec.ValidationError as error:
         raise _explained(str(error), table, kind, source, place) from None
+
+
+def kind_of(
+    table: Mapping[str, Any], known: Collection[str], source: str, place: str, code: str = "unknown_kind"
+) -> str:
+    """What a table says that it is, one of the ``known``; ``code``: of a refusal of another."""
+    kind = table.get("kind")
+    if isinstance(kind, str) and kind in known:
+        return kind
+    code = "missing_kind" if kind is None else code
+    raise SceneError(source, f"{place}.kind", kind, code, meant(kind, known), known=list(known))
 
 
 def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str, place: str) -> SceneError:

@@ -18,7 +18,7 @@ from parts.base.content import NotAFileError, content
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.registry import KINDS
-from parts.base.schema import converted, refuse_infinite, value_at
+from parts.base.schema import converted, kind_of, refuse_infinite, value_at
 from parts.base.texts import ENGLISH, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid
@@ -403,10 +403,7 @@ def _mate_spec(
 
     if not isinstance(table, dict):
         raise SceneError(source, place, table, "not_a_list", None, key="mates")
-    kind = table.get("kind")
-    if not isinstance(kind, str) or kind not in MATES:
-        code = "missing_kind" if kind is None else "unknown_mate"
-        raise SceneError(source, f"{place}.kind", kind, code, meant(kind, MATES), known=list(MATES))
+    kind = kind_of(table, MATES, source, place, "unknown_mate")
     mate: MateKeys = converted(table, MATES[kind].keys, source, place)
     for key in ("first", "second"):
         if getattr(mate, key) not in groups:
@@ -422,10 +419,7 @@ def _part_spec(key: str, table: dict[str, Any], source: str) -> MaterialKeys:
         raise SceneError(source, place, None, "device_name", Nearest(f"{key}_1"))
     if not re.fullmatch(IDENTIFIER, key):
         raise SceneError(source, place, None, "not_a_name", Nearest("part_1"))
-    kind = table.get("kind")
-    if not isinstance(kind, str) or kind not in KINDS:
-        code = "missing_kind" if kind is None else "unknown_kind"
-        raise SceneError(source, f"{place}.kind", kind, code, meant(kind, KINDS), known=list(KINDS))
+    kind = kind_of(table, KINDS, source, place)
     try:
         spec: MaterialKeys = KINDS[kind].gathered(
             converted(table, KINDS[kind].keys, source, place), Path(source).parent

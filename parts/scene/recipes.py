@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from geometry.base.errors import ParameterError
-from parts.base.refusal import SceneError, meant, placed
-from parts.base.schema import converted, unit_of
+from parts.base.refusal import SceneError, placed
+from parts.base.schema import converted, kind_of, unit_of
 from parts.recipes.recipe import Expansion, Table
 from parts.scene.language import in_one
 
@@ -66,11 +66,7 @@ def _made(table: object, source: str, place: str) -> tuple[str, Expansion]:
 
     if not isinstance(table, dict):
         raise SceneError(source, place, table, "not_a_list", None, key="assemblies")
-    kind = table.get("kind")
-    if not isinstance(kind, str) or kind not in RECIPES:
-        code = "missing_kind" if kind is None else "unknown_kind"
-        raise SceneError(source, f"{place}.kind", kind, code, meant(kind, RECIPES), known=list(RECIPES))
-    recipe = RECIPES[kind]
+    recipe = RECIPES[kind_of(table, RECIPES, source, place)]
     keys = converted(table, recipe.keys, source, place)
     try:
         made = recipe.expanded(keys)

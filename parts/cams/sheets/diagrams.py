@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from itertools import pairwise
 
@@ -98,10 +99,10 @@ def _axes(
     low, high = reach
     right = zero + width + 9.0
     canvas.line("AXIS", zero, right)
-    _arrow(canvas, right, 1.0)
+    arrow(canvas, "AXIS", right, 1.0)
     top = zero + 1j * (high + 6.0)
     canvas.line("AXIS", zero + 1j * min(low - 2.0, 0.0), top)
-    _arrow(canvas, top, 1j)
+    arrow(canvas, "AXIS", top, 1j)
     unit = ("deg" if picture.swings else "mm") + ("", "/rad", "/rad2")[order]
     name = ("ψ" if picture.swings else "S") + "'" * order
     # on the left, where no line of a phase runs
@@ -121,9 +122,10 @@ def _axes(
     canvas.line("AXIS", zero + width + 1j * min(low, 0.0), zero + width + 1j * high)
 
 
-def _arrow(canvas: Canvas, tip: complex, way: complex) -> None:
+def arrow(canvas: Canvas, layer: str, tip: complex, way: complex, length: float = 3.0, half: float = 12.0) -> None:
+    """The head of an arrow that points a ``way`` (of length 1), its sides ``half`` degrees from it."""
     for side in (1, -1):
-        canvas.line("AXIS", tip, tip - 3.0 * way * np.exp(1j * side * math.radians(12)))
+        canvas.line(layer, tip, tip - length * way * cmath.exp(1j * side * math.radians(half)))
 
 
 def _ordinates(canvas: Canvas, drawn: Drawn, picture: CamPicture, zero: complex, scales: Scales, order: int) -> None:
@@ -199,8 +201,7 @@ def _phases(
         y = low + 2.0
         canvas.line("DIMENSION", complex(at, y), complex(at + length, y))
         for tip, way in ((complex(at, y), -1.0), (complex(at + length, y), 1.0)):
-            for side in (1, -1):
-                canvas.line("DIMENSION", tip, tip - 2.5 * way * np.exp(1j * side * math.radians(12)))
+            arrow(canvas, "DIMENSION", tip, way, 2.5)
         symbol = sheet_words(picture.language, f"phase_{kind}")
         symbol += str(number) if counts[kind] > 1 else ""
         angle = words(picture.language).decimal(f"{math.degrees(phase.angle):.6g}°")

@@ -13,15 +13,14 @@ from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.motion.guides import Translating
 from geometry.cams.plane.synthesis import AxisRegion, axis_region, flat_base_radius
 from geometry.curves.line_arc import Arc
-from parts.cams.sheets.diagrams import Drawn
+from parts.cams.sheets.diagrams import Drawn, arrow
 from parts.cams.sheets.picture import CamPicture
+from parts.cams.sheets.rocker import numbered
 from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper
 from parts.drawing.labels import Labeller
 
 # strokes of the hatching along a border, mm
 _HATCH, _HATCH_STEP = 4.0, 2.5
-# points that lie nearer than this on paper are one, mm
-_ONE = 0.7
 _MARK = 0.7
 
 
@@ -93,8 +92,7 @@ def draw_joint(canvas: Canvas, picture: CamPicture, joint: Joint, paper: Paper, 
     canvas.line("AXIS", to(1j * window.low), to(1j * window.high))
     canvas.line("AXIS", to(complex(window.left, 0)), to(complex(window.right, 0)))
     for tip, way in ((to(1j * window.high), 1j), (to(complex(window.right, 0)), 1.0)):
-        for side in (1, -1):
-            canvas.line("AXIS", tip, tip - 3.0 * way * cmath.exp(1j * side * math.radians(12)))
+        arrow(canvas, "AXIS", tip, way)
     for piece in picture.cam.motion.pieces:
         curve = joint_diagram(piece, joint.order, paper.origin, paper.scale)
         if curve is not None:
@@ -153,24 +151,10 @@ def name_joint(labels: Labeller, picture: CamPicture, joint: Joint, paper: Paper
         centre, arc = _angle_arc(joint, paper, picture.gamma)
         text = f"{symbol} = {say(math.degrees(picture.gamma)).rstrip('0').rstrip(',.')}°"
         labels.name(text, centre + arc, prefer=arc, answer=False if picture.asked else None)
-    for text, point in _numbers(picture, joint, paper):
+    angles = np.array([p.angle for p in picture.positions])
+    points = picture.cam.motion.value(angles, joint.order) + 1j * picture.cam.motion.value(angles)
+    for text, point in numbered(picture, [to(point) for point in points.tolist()]):
         labels.name(text, point, SMALL_TEXT, prefer=complex(point.real - paper.origin.real, 0.1))
-
-
-def _numbers(picture: CamPicture, joint: Joint, paper: Paper) -> list[tuple[str, complex]]:
-    """Numbers of positions on paper; those that fall on one point share a name."""
-    found: list[tuple[list[int], complex]] = []
-    motion = picture.cam.motion
-    for position in picture.positions:
-        at = position.angle
-        point = paper.point(complex(float(motion.value(at, joint.order)), float(motion.value(at))))
-        for numbers, place in found:
-            if abs(place - point) < _ONE:
-                numbers.append(position.number)
-                break
-        else:
-            found.append(([position.number], point))
-    return [(", ".join(map(str, numbers)), point) for numbers, point in found]
 
 
 def _clipped(point: complex, way: complex, box: Box) -> tuple[complex, complex]:

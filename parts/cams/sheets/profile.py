@@ -14,7 +14,7 @@ from geometry.cams.plane.shape import cam_shape, whole_profile
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc
 from parts.cams.disk_cam.part import base_radius
-from parts.cams.sheets.diagrams import Drawn
+from parts.cams.sheets.diagrams import Drawn, arrow
 from parts.cams.sheets.links import draw_links, frame_ray, linkage_cam_of, links_reach, name_links, pivots
 from parts.cams.sheets.picture import CamPicture, thinned
 from parts.drawing.canvas import SCALES, SMALL_TEXT, Box, Canvas, Paper, Stroke, draw, fitted, text_width
@@ -196,10 +196,7 @@ def _turning(canvas: Canvas, paper: Paper, reach: Reach) -> None:
     radius = 0.45 * paper.scale * reach.base
     arc = Arc(paper.point(0j), radius, math.radians(200), math.radians(60))
     canvas.arc("DIMENSION", arc)
-    tip = complex(arc.point(arc.sweep))
-    way = complex(arc.tangent(arc.sweep))
-    for side in (1, -1):
-        canvas.line("DIMENSION", tip, tip - 3.0 * way * cmath.exp(1j * side * math.radians(14)))
+    arrow(canvas, "DIMENSION", complex(arc.point(arc.sweep)), complex(arc.tangent(arc.sweep)), half=14.0)
 
 
 def number_positions(canvas: Canvas, picture: CamPicture, paper: Paper) -> None:

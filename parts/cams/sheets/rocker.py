@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from parts.drawing.labels import Labeller
 
 # half-planes of the region's border on each piece of the motion
 _PLANES = 91
+# places that lie nearer than this on paper are one, mm
+_ONE = 0.7
 
 
 def rocker_region(
@@ -76,17 +79,22 @@ def name_rocker(labels: Labeller, picture: CamPicture, paper: Paper, least: comp
     name_numbers(labels, picture, [to(contact) for _, contact in faces(picture)], to(least))
 
 
-def name_numbers(labels: Labeller, picture: CamPicture, places: list[complex], centre: complex) -> None:
+def name_numbers(labels: Labeller, picture: CamPicture, places: Sequence[complex], centre: complex) -> None:
     """The numbers of the positions at their places on paper, away from a centre; those of one place together."""
+    for text, place in numbered(picture, places):
+        labels.name(text, place, SMALL_TEXT, prefer=place - centre)
+
+
+def numbered(picture: CamPicture, places: Sequence[complex]) -> list[tuple[str, complex]]:
+    """The numbers of the positions at their places on paper, those of one place together."""
     found: list[tuple[list[int], complex]] = []
     for position, place in zip(picture.positions, places, strict=True):
-        near = next((numbers for numbers, other in found if abs(other - place) < 0.7), None)
+        near = next((numbers for numbers, other in found if abs(other - place) < _ONE), None)
         if near is None:
             found.append(([position.number], place))
         else:
             near.append(position.number)
-    for numbers, place in found:
-        labels.name(", ".join(map(str, numbers)), place, SMALL_TEXT, prefer=place - centre)
+    return [(", ".join(map(str, numbers)), place) for numbers, place in found]
 
 
 def faces_box(picture: CamPicture) -> Box:
