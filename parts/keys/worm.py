@@ -49,43 +49,20 @@ WheelShift = Annotated[float, in_modules("profile shift of the wheel", least=-3,
 
 
 class Threaded(Protocol):
-    """Keys that tell a worm."""
+    """Keys that tell a worm, which other worms and their wheels have too."""
 
-    @property
-    def module(self) -> float:
-        """Axial, mm."""
-
-    @property
-    def number_of_starts(self) -> int:
-        """z1."""
+    module: float
+    number_of_starts: int
+    form: Literal["ZA", "ZI", "ZN1", "ZN2", "ZK1"]
+    pressure_angle_deg: float
+    hand: Literal["right", "left"]
+    addendum_coefficient: float
+    tip_clearance_coefficient: float
+    grinding_wheel_diameter: float
 
     @property
     def diameter_quotient(self) -> float | None:
         """d1 / m; the usual one where it is not given."""
-
-    @property
-    def form(self) -> str:
-        """Of the flanks."""
-
-    @property
-    def pressure_angle_deg(self) -> float:
-        """By the form."""
-
-    @property
-    def hand(self) -> Literal["right", "left"]:
-        """Of the thread."""
-
-    @property
-    def addendum_coefficient(self) -> float:
-        """In modules."""
-
-    @property
-    def tip_clearance_coefficient(self) -> float:
-        """In modules."""
-
-    @property
-    def grinding_wheel_diameter(self) -> float:
-        """Of ZK1, mm."""
 
 
 def worm_of(keys: Threaded, fillet_coefficient: float = 0.2, thinning: float = 0.0) -> Worm:
