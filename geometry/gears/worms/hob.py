@@ -23,6 +23,8 @@ from geometry.gears.worms.worm import Worm
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
 
+# half the tip between its roundings is no narrower, modules: faces less wide are turned over by rounding
+_LEAST_LAND = 1e-3
 # Newton's steps to a plane across the wheel's axis, each good to the step of its slope, rad
 _STEPS, _STEP = 4, 1e-6
 
@@ -102,13 +104,14 @@ class Hob(Record, dict=True):
         Raises
         ------
         ParameterError
-            The roundings of its tip meet.
+            The roundings of its tip all but meet.
         """
-        if self.half_land > 0:
+        least = _LEAST_LAND * self.worm.module
+        if self.half_land > least:
             return self
 
         def left(rounding: float) -> float:
-            return replace(self, rounding=rounding).half_land
+            return replace(self, rounding=rounding).half_land - least
 
         if left(0.0) <= 0:
             raise ParameterError("tip_clearance_coefficient", self.worm.tip_clearance_coefficient, "hob_pointed")

@@ -31,12 +31,15 @@ Real = NDArray[np.float64]
 # radii of the thread and angles of its rounding at which a side is looked for
 _RADII, _ANGLES, _FIRST_STEP = 257, 129, 1e-7
 # of a fillet that cuts a flank: radii from which their crossing is sought, Newton's steps, the step of slopes (mm and
-# rad), how near both end at least and when that is enough, and what undercut is only beginning, of the hob's size
-_CROSSINGS, _NEWTON_STEPS, _SLOPE, _MET, _SURE, _BARELY = 65, 8, 1e-6, 1e-10, 1e-14, 3e-4
+# rad), how near both end at least and when that is enough; up to which depth, of the hob's size, undercut is none, and
+# to which so shallow that its crossing lies by the first terms of both curves half as far again as the turning
+_CROSSINGS, _NEWTON_STEPS, _SLOPE, _MET, _SURE, _BARELY, _SHALLOW, _CROSSED = 65, 8, 1e-6, 1e-10, 1e-14, 1e-6, 3e-4, 1.5
 # shares of each part of both sides between which a ridge is sought
 _RIDGE = np.linspace(0.0, 1.0, 65)[:, None]
 # steps of the golden section
 _GOLDEN, _GOLDEN_STEPS = (math.sqrt(5) - 1) / 2, 40
+# of the radius at which a thread's form begins, where no spline follows it: from there on it is asked for
+_ABOVE = 1.01
 # a thread's point that near the plane of its axis is not asked for, part of its radius
 _LEAST_SHARE = 1e-9
 # a space between two teeth is no shallower, a whole tooth's flank no narrower, modules
@@ -316,7 +319,7 @@ class WormTeeth(Record, dict=True):
     def _least_radius(self) -> float:
         """Down to which a thread has its form, mm; an involute one goes on as a radial screw surface."""
         flank = self.hob.worm.flank
-        return max(flank.least_radius if self.hob.worm.form != "ZI" else 0.0, 1e-3 * self.hob.tip_radius)
+        return max(_ABOVE * flank.least_radius if self.hob.worm.form != "ZI" else 0.0, 1e-3 * self.hob.tip_radius)
 
     def _reach(self, radius: Real, heights: Real) -> Real:
         """Distance from the wheel's axis of what the flank leaves, mm; infinite from where it stands upright on."""
@@ -353,8 +356,12 @@ class WormTeeth(Record, dict=True):
         # about where both are at one angle at one distance, column by column; then Newton's steps, slopes by difference
         radii = low + (high - low) * np.linspace(0.0, 1.0, _CROSSINGS)[:, None] ** 3
         lines, curves = flank(radii), fillet(normals[:, None])
-        radius, normal = np.empty(len(heights)), np.empty(len(heights))
+        radius, normal = hob.form_radius + _CROSSED * (low - hob.form_radius), np.empty(len(heights))
+        shallow, sizes = hob.form_radius - low < _SHALLOW * hob.tip_radius, np.abs(flank(radius))
         for k, last in enumerate((top + 1).tolist()):
+            if shallow[k]:
+                normal[k] = np.interp(sizes[k], reach[:last, k], normals[:last])
+                continue
             own = np.interp(np.abs(lines[:, k]), reach[:last, k], np.angle(curves[:last, k]), right=np.nan)
             ahead = np.angle(lines[:, k]) - own
             change = np.flatnonzero(ahead[1:] * ahead[:-1] <= 0)
@@ -365,11 +372,13 @@ class WormTeeth(Record, dict=True):
             radius[k] = radii[at, k] + share * (radii[at + 1, k] - radii[at, k])
             size = np.abs(lines[at, k]) + share * (np.abs(lines[at + 1, k]) - np.abs(lines[at, k]))
             normal[k] = np.interp(size, reach[:last, k], normals[:last])
+        # the shallowest meet as they are: a step of theirs would be rounding
+        goes = ~(shallow & (np.abs(flank(radius) - fillet(normal)) <= _SURE * hob.tip_radius))
         for _ in range(_NEWTON_STEPS):
             off = flank(radius) - fillet(normal)
             one = (flank(radius + _SLOPE) - flank(radius - _SLOPE)) / (2 * _SLOPE)
             two = (fillet(normal + _SLOPE) - fillet(normal - _SLOPE)) / (2 * _SLOPE)
-            cross = (np.conj(one) * two).imag
+            cross = np.where(goes, (np.conj(one) * two).imag, np.inf)
             radius = radius - (np.conj(off) * two).imag / cross
             normal = normal - (np.conj(off) * one).imag / cross
         if not float(np.abs(flank(radius) - fillet(normal)).max()) <= _MET * hob.tip_radius:
@@ -379,7 +388,8 @@ class WormTeeth(Record, dict=True):
     def flank(self, side: Side, share: Real | float) -> Cut:
         """The lower flank at shares (m, 1) from fillet (0) to tip (1), at the side's heights: (m, n)."""
         share = _hurried(share, side.hurry[1])
-        own = self.hob.flank(side.inner + (side.outer - side.inner) * share)
+        # feet of perpendiculars are sought beyond the tip too
+        own = self.hob.flank(np.maximum(side.inner + (side.outer - side.inner) * share, self._least_radius))
         if side.all_fillet.any():
             # the end of the fillet
             end = self.hob.round(side.normal + 0 * share)

@@ -194,11 +194,10 @@ def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
 
     def stands(key: str, value: float) -> bool:
         less = changed(keys, **{key: value})
-        _asked_teeth(less, drive_of(less))
-        return True
+        return not _asked_teeth(less, drive_of(less)).narrowed().is_creased
 
     key: str = "addendum_coefficient"
-    ends: tuple[float, ...] = (0.8, 0.6, 0.4)
+    ends: tuple[float, ...] = (0.8, 0.6, 0.4, 0.2, 0.1)
     if keys.axial_thinning:
         with suppress(GeometryError):
             stands("axial_thinning", 0.0)
@@ -220,7 +219,12 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         from geometry.plane.profile import Label, circle
         from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 
-        drive = drive_of(keys)
+        try:
+            drive = drive_of(keys)
+        except ParameterError as refusal:
+            if refusal.code != "worm_pointed":
+                raise
+            raise _toothless(keys, refusal.code) from refusal
         teeth, holes = teeth_of(keys, drive), keys.hub_holes()
         shape = wheel_shape(teeth.width, keys.web, keys.hub, 0.0)
         room = drive.root_radius - least_wall(drive.root_radius)

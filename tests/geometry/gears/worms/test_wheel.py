@@ -200,3 +200,16 @@ def test_a_worm_pushed_in_overlaps_and_one_pulled_off_does_not_touch(hob: float)
     assert abs(one.worst.point.imag) < 40.0
     thin = replace(THESIS.worm, thinning=0.1)
     assert worm_contact(thin, teeth, 1e-3, 0.0, None).verdict is Verdict.CLEAR
+
+
+def test_a_fillet_cuts_a_flank_from_where_undercut_begins_and_not_a_step_later() -> None:
+    drive = WormDrive(Worm(10.0, 2, 23.51), 14)
+    teeth = _teeth(drive, 60.0)
+    (_, end) = teeth.undercut_ends
+    side = teeth.side(end - np.linspace(0.0, 0.6, 61))
+    steps = -np.diff(side.inner)
+    # before: none at first, then 0.06 mm at once, over which splines went unseen
+    assert steps.min() >= 0.0
+    assert steps.max() < 1.5 * steps.mean()
+    apart = np.abs(teeth.flank(side, 0.0).plane - teeth.fillet(side, 1.0).plane)
+    assert float(apart.max()) < 1e-8
