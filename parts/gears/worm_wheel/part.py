@@ -55,6 +55,8 @@ _LEAST_TEETH = 8
 _SEEN = 33
 # part of a width that is told apart from none
 _SLIVER = 0.02
+# and what a wheel is of use with; its tip in the middle, modules
+_USEFUL, _TIP = 0.25, 0.02
 
 
 class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="worm_wheel"):
@@ -200,7 +202,7 @@ def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
     ends: tuple[float, ...] = (0.8, 0.6, 0.4, 0.2, 0.1)
     if keys.axial_thinning:
         with suppress(GeometryError):
-            stands("axial_thinning", 0.0)
+            _asked_teeth(changed(keys, axial_thinning=0.0), drive_of(keys))
             key, ends = "axial_thinning", (0.0,)
     given = getattr(keys, key)
     return ParameterError(key, given, code, partial(nearest, partial(stands, key), given, ends))
