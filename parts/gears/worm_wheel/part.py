@@ -196,7 +196,10 @@ def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
 
     def stands(key: str, value: float) -> bool:
         less = changed(keys, **{key: value})
-        return not _asked_teeth(less, drive_of(less)).narrowed().is_creased
+        asked = _asked_teeth(less, drive_of(less))
+        teeth = asked.narrowed()
+        tip = float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0])
+        return teeth.width > _USEFUL * asked.width and tip > _TIP * keys.module and not teeth.is_creased
 
     key: str = "addendum_coefficient"
     ends: tuple[float, ...] = (0.8, 0.6, 0.4, 0.2, 0.1)
