@@ -198,6 +198,9 @@ def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
         less = changed(keys, **{key: value})
         asked = _asked_teeth(less, drive_of(less))
         teeth = asked.narrowed()
+        # what is not whole anywhere has no tip to ask for
+        if not teeth.is_whole:
+            return False
         tip = float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0])
         return teeth.width > _USEFUL * asked.width and tip > _TIP * keys.module and not teeth.is_creased
 
