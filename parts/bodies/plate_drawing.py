@@ -49,7 +49,9 @@ def part_drawing(subject: Subject) -> PartDrawing:
     rounds = [*_diameters(round_holes, subject), *_radii([*([] if whole else [curves]), *chains], subject)]
     if whole:
         rounds.append(Round("diameter", *whole, angles=(-45.0, -135.0, 135.0)))
-    edge = max((c for c in curves if isinstance(c, Line)), key=lambda c: c.end.real + c.start.real, default=None)
+    # sizes stand below and on the left
+    straight = (c for c in curves if isinstance(c, Line))
+    edge = max(straight, key=lambda c: (round((c.end + c.start).real, 6), (c.end + c.start).imag), default=None)
     at = farthest(curves, 1) if edge is None else (edge.start + edge.end) / 2
     notes = [Note(at, f"s {subject.say(subject.part.face_width)}")]
     worked = [s.curve for profile in (region.outer, *slots) for s in profile.segments() if s.label is Label.CAM]
@@ -115,7 +117,16 @@ def _radii(chains: list[list[Curve]], subject: Subject) -> Iterator[Round]:
     for curve in (c for chain in chains for c in chain if isinstance(c, Arc)):
         groups.setdefault(round(curve.radius, _DIGITS), []).append(curve)
     for k, arcs in enumerate(groups.values(), 1):
-        arc = arcs[0]
+        arc = max(arcs, key=_up_right)
         way = math.degrees(cmath.phase(complex(arc.point(abs(arc.sweep) / 2)) - arc.centre))
-        after = sheet_words(subject.language, "places_of", count=len(arcs)) if len(arcs) > 1 else ""
-        yield Round(f"radius.{k}", arc.centre, arc.radius, "R", after, is_radius=True, angles=(way, way + 20, way - 20))
+        # what rounds the outline is told within it, which needs no more paper; arcs about one centre are one place
+        count = len({complex(round(a.centre.real, 6), round(a.centre.imag, 6)) for a in arcs})
+        after = sheet_words(subject.language, "places_of", count=count) if count > 1 else ""
+        yield Round(f"radius.{k}", arc.centre, arc.radius, "R", after, is_radius=True, inward=arc.sweep > 0,
+                    angles=(way, way + 20, way - 20))  # fmt: skip
+
+
+def _up_right(arc: Arc) -> float:
+    """How far an arc's middle is where no sizes stand."""
+    middle = complex(arc.point(abs(arc.sweep) / 2))
+    return round(middle.real + middle.imag, 6)

@@ -15,9 +15,11 @@ from geometry.curves.line_arc import Arc, Line
 from parts.drawing.assembly_views import Drawn
 from parts.drawing.canvas import SCALES, TITLE_TEXT, Box, Canvas, Paper, Stroke, Text, text_of, text_width
 from parts.drawing.choice import Asked, sheet_for
-from parts.drawing.dimensioning import Ink, Laid, laid, moved
+from parts.drawing.dimensioning import Laid, laid, moved
 from parts.drawing.expected import Expected
 from parts.drawing.hatching import hatching
+from parts.drawing.ink import Ink
+from parts.drawing.labels import spread
 from parts.drawing.part_sheet import PartMeasures
 from parts.drawing.parts_list import ListRow, draw_list, list_size
 from parts.drawing.title_block import TITLE_BLOCK, turned_box
@@ -39,6 +41,10 @@ _TRIES = 12
 # the largest extent of the views on paper, below which larger paper is better, but for what is enlarged so far
 _LEAST, _ENLARGED = 120.0, 2.0
 _LETTER = "A"
+# how many times longer than high a view is whose numbers stand above it, and from one of these to the next, mm
+_LONG, _ROW_STEP = 2.5, 14.0
+# a number with the places where its leader may end
+_Numbered = tuple[int, tuple[complex, ...]]
 
 
 class AssemblyView(Record):
@@ -163,7 +169,7 @@ def _laid(
         if one is None:
             return None
         _hatch(one.canvas, drawn, scale)
-        numbered = _numbered(one, share, _letters(drawn, scale) if view.marked else ())
+        numbered = _numbered(one, share, [*_letters(drawn, scale)] if view.marked else ())
         if numbered is None:
             return None
         found.append(numbered)
@@ -198,11 +204,13 @@ def _marks(drawn: Drawn, scale: float) -> Iterator[tuple[str, Line]]:
             yield "THIN", Line(tip + complex(side * 0.7, -2.5) / scale, tip)
 
 
-def _letters(drawn: Drawn, scale: float) -> tuple[complex, ...]:
-    """Where the letters of the section stand, mm on paper."""
-    left, right = (scale * end for end in _ends(drawn, scale))
+def _letters(drawn: Drawn, scale: float) -> Iterator[list[complex]]:
+    """Where the letters of the section may stand, the left one and the right one, mm on paper: beside their arrows."""
     wide = text_width(_LETTER, _HEIGHT)
-    return complex(left - _MARK + 2.0, -_HEIGHT - 1.5), complex(right + _MARK - 2.0 - wide, -_HEIGHT - 1.5)
+    for end, way in zip(_ends(drawn, scale), (-1, 1), strict=True):
+        arrow, drop = scale * end + way * (_MARK - 1.0), -_HEIGHT - 1.5
+        inner, outer = (arrow + side * 1.6 - (wide if side < 0 else 0.0) for side in (-way, way))
+        yield [complex(x, y) for y in (drop, 2.6, drop - _HEIGHT, 2.6 + _HEIGHT) for x in (inner, outer)]
 
 
 def _shared(drawns: Sequence[Drawn], rows: Sequence[ListRow], scale: float) -> list[dict[int, tuple[complex, ...]]]:
@@ -239,41 +247,43 @@ class _Leader(Record):
         return text_of(text, self.elbow + complex(left, 2.2), _HEIGHT)
 
 
-def _numbered(one: Laid, share: Mapping[int, tuple[complex, ...]], letters: Sequence[complex]) -> Laid | None:
+def _numbered(one: Laid, share: Mapping[int, tuple[complex, ...]], letters: Sequence[list[complex]]) -> Laid | None:
     """A view with its numbers in a column on each side; None where a leader would run through words."""
     canvas, ink = one.canvas, one.ink()
-    for at in letters:
-        letter = text_of(_LETTER, at, _HEIGHT)
+    for places in letters:
+        texts = [text_of(_LETTER, at, _HEIGHT) for at in places]
+        letter = next((text for text in texts if ink.holds((), text.box)), None)
+        if letter is None:
+            return None
         canvas.texts.append(letter)
         ink.boxes.append(letter.box)
     box = _around(one.box, [text.box for text in canvas.texts])
-    middle = (box.left + box.right) / 2
-    sides: dict[int, list[tuple[int, tuple[complex, ...]]]] = {-1: [], 1: []}
-    for number, spots in sorted(share.items()):
-        # the other side takes what one has no room for
-        way = 1 if spots[0].real >= middle else -1
-        if len(sides[way]) * _STEP > box.high - box.low and len(sides[-way]) < len(sides[way]):
-            way = -way
-        sides[way].append((number, spots))
-    leaders: list[_Leader] = []
-    for way, numbers in sides.items():
-        column = _column(numbers, way, box, ink)
-        if column is None:
+    numbers = sorted(share.items(), key=lambda pair: (pair[1][0].real, pair[0]))
+    # those of a long view stand above it, where the columns beside it would be higher than the view is
+    tall, wide = box.high - box.low, box.right - box.left
+    is_long = wide > _LONG * tall and len(numbers) * _STEP > 2 * tall
+    leaders = _row(numbers, box, ink) if is_long else None
+    for way, column in zip((-1, 1), _sides(numbers, (box.left + box.right) / 2, tall), strict=True):
+        if is_long and leaders is not None:
+            break
+        found = _column(column, way, box, ink, leaders or ())
+        if found is None:
             return None
-        leaders += column
-        for leader in column:
+        leaders = [*(leaders or ()), *found]
+        for leader in found:
             for line in leader.lines():
                 ink.add(line)
             ink.boxes.append(leader.words.box)
+    leaders = leaders or []
     for leader in leaders:
         for line in leader.lines():
             canvas.strokes.append(Stroke("THIN", line))
         canvas.strokes += [Stroke("THIN", Arc(leader.spot, r, 0.0, 2 * math.pi)) for r in (_DOT, _DOT / 2)]
         canvas.texts.append(leader.words)
-    texts = [text.box for text in canvas.texts]
+    words = [text.box for text in canvas.texts]
     ends = [line.end for leader in leaders for line in leader.lines()]
     shelves = [Box(p.real, p.imag, p.real, p.imag) for p in ends]
-    return Laid(one.view, canvas, one.scale, _around(box, [*texts, *shelves]))
+    return Laid(one.view, canvas, one.scale, _around(box, [*words, *shelves]))
 
 
 def _around(box: Box, others: Sequence[Box]) -> Box:
@@ -283,31 +293,71 @@ def _around(box: Box, others: Sequence[Box]) -> Box:
                max(b.right for b in every), max(b.high for b in every))  # fmt: skip
 
 
-def _column(numbers: Sequence[tuple[int, tuple[complex, ...]]], way: int, box: Box, ink: Ink) -> list[_Leader] | None:
-    """The numbers of one side, from above, their leaders without crossings and over no words."""
+def _sides(numbers: Sequence[_Numbered], middle: float, tall: float) -> tuple[list[_Numbered], list[_Numbered]]:
+    """Numbers, from the left, of the left and of the right column: what one has no room for stands in the other one."""
+    most = max(int(tall / _STEP) + 1, math.ceil(len(numbers) / 2))
+    left = sum(spots[0].real < middle for _, spots in numbers)
+    left = max(min(left, most), len(numbers) - most)
+    return [*numbers[:left]], [*numbers[left:]]
+
+
+def _row(numbers: Sequence[_Numbered], box: Box, ink: Ink) -> list[_Leader] | None:
+    """Numbers, from the left, in a row above a view, their leaders without crossings and over no words."""
+    middle, half = (box.left + box.right) / 2, max(box.right - box.left, _ROW_STEP * (len(numbers) - 1)) / 2
+    places = spread([spots[0].real for _, spots in numbers], _ROW_STEP, middle - half, middle + half)
+    chosen: list[_Leader] = []
+    for (number, spots), x in zip(numbers, places, strict=True):
+        elbow = complex(x, box.high + _AWAY)
+        fits = (_Leader(number, spot, elbow, 1) for spot in sorted(spots, key=partial(_off, elbow)))
+        free = next((one for one in fits if ink.holds(one.lines(), one.words.box)), None)
+        if free is None:
+            return None
+        chosen.append(free)
+    return _untangled(chosen, ink)
+
+
+def _column(
+    numbers: Sequence[_Numbered], way: int, box: Box, ink: Ink, placed: Sequence[_Leader]
+) -> list[_Leader] | None:
+    """The numbers of one side, from above, their leaders without crossings and over no words.
+
+    ``placed``: leaders of the other side.
+    """
     x = box.right + _AWAY if way > 0 else box.left - _AWAY
-    order = sorted(numbers, key=lambda pair: -pair[1][0].imag)
-    if not order:
+    left = list(numbers)
+    if not left:
         return []
     # beside the parts, but within the height of the view where there is room
-    tall = _STEP * (len(order) - 1)
-    middle = sum(spots[0].imag for _, spots in order) / len(order)
-    top = max(min(middle + tall / 2 + _SLANT, box.high - _HEIGHT), box.low + tall)
+    tall = _STEP * (len(left) - 1)
+    middle = sum(spots[0].imag for _, spots in left) / len(left)
+    y = max(min(middle + tall / 2 + _SLANT, box.high - _HEIGHT), box.low + tall)
     chosen: list[_Leader] = []
-    y = top
-    for number, spots in order:
-        free = None
-        for _ in range(_TRIES):
+    while left:
+        free, begin = None, y
+        # none crosses another one where there is such a place
+        for k in range(2 * _TRIES):
+            y = begin if k == _TRIES else y
             elbow = complex(x, y)
-            fits = (_Leader(number, spot, elbow, way) for spot in sorted(spots, key=partial(_off, elbow)))
-            free = next((one for one in fits if ink.holds(one.lines(), one.words.box)), None)
+            # a leader that no other place is above of is crossed by none from below
+            number, spots = max(left, key=partial(_slope, elbow))
+            fits = [_Leader(number, spot, elbow, way) for spot in (spots[0], *sorted(spots, key=partial(_off, elbow)))]
+            fits = [one for one in fits if ink.holds(one.lines(), one.words.box)]
+            others = (*placed, *chosen) if k < _TRIES else ()
+            free = next((one for one in fits if not any(_cross(one, other) for other in others)), None)
             y -= _STEP if free else _STEP / 2
             if free:
                 break
         if free is None:
             return None
         chosen.append(free)
+        left = [one for one in left if one[0] != free.number]
     return _untangled(chosen, ink)
+
+
+def _slope(elbow: complex, one: _Numbered) -> float:
+    """How steeply a leader rises from its shelf."""
+    way = one[1][0] - elbow
+    return way.imag / abs(way.real)
 
 
 def _untangled(leaders: list[_Leader], ink: Ink) -> list[_Leader]:

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from heapq import merge
 from itertools import product
 
-import numpy as np
-
 from geometry.approximation.outline import CadCurve
-from geometry.base.record import Draft, Record, field, replace
-from geometry.curves.curve import Complex, Curve
+from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Line
 from parts.drawing.canvas import (
     SMALL_TEXT,
@@ -31,6 +29,7 @@ from parts.drawing.canvas import (
     text_width,
 )
 from parts.drawing.hatching import hatching
+from parts.drawing.ink import FREE, Ink, Role
 from parts.drawing.working import AXIS, VISIBLE, Cut, Note, Round, Side, Size, View, number_text
 
 # mm on paper: from the view to the first dimension line, from line to line; arrow, half its width; how far extension
@@ -47,61 +46,17 @@ _LOOK, _ABOVE = 14.0, 2.2
 # the sign of roughness: heights of its legs; where its words begin
 _SHORT, _LONG, _WORDS = 3.5, 8.0, 5.2
 _SLOPE = math.tan(math.radians(30))
-_SAMPLES = 33
 # rows of a side, and layouts of a view, that are tried
 _ROWS, _TRIES = 20, 12
 # marks of a section: from the view to the stroke, its length, its arrow; steps out where others stand there
 _MARK, _STROKE, _LOOK, _OUT = 2.0, 7.0, 6.0, 6
 # how much farther beyond the end of a dimension line its words may stand
 _FARTHER = (0.0, 4.0, 8.0, 13.0, 20.0, 30.0)
-# what words keep off lines
-_FREE = 0.4
 # how much wider words are in LibreCAD, and how far from the dimension it puts them, mm
 _WIDER, _LIBRE_GAP = 1.03, 0.9
+# how many rows nearer a sign seems on the extension of its line, a leader on the side of its arc where it should stand
+_PREFERRED = 3.0
 _DIMENSION = "DIMENSION"
-
-
-class Ink(Draft):
-    """What is on paper: pieces of lines, boxes of words."""
-
-    pieces: list[Complex] = field(default_factory=list)
-    boxes: list[Box] = field(default_factory=list)
-
-    def add(self, curve: Curve | CadCurve, scale: float = 1.0) -> None:
-        """A curve as a chain of points."""
-        points = scale * curve.point(np.linspace(*curve.domain, 2 if isinstance(curve, Line) else _SAMPLES))
-        self.pieces.append(np.stack([points[:-1], points[1:]]))
-
-    def holds(self, lines: Sequence[Line], words: Box) -> bool:
-        """Whether words and their lines have room: neither words over any line, nor over words."""
-        words, ends = words.grown(_FREE), np.array([[line.start for line in lines], [line.end for line in lines]])
-        if any(words.overlaps(other) for other in self.boxes) or crossed(words, self.lines):
-            return False
-        return not any(crossed(box, ends) for box in (words, *(other.grown(_FREE) for other in self.boxes)))
-
-    @property
-    def lines(self) -> Complex:
-        """Ends of all pieces, (2, n)."""
-        if len(self.pieces) > 1:
-            self.pieces[:] = [np.concatenate(self.pieces, axis=1)]
-        return self.pieces[0] if self.pieces else np.zeros((2, 0), dtype=complex)
-
-
-def crossed(box: Box, lines: Complex) -> bool:
-    """Whether a box holds a piece of any line; ends of lines: (2, n) (Liang and Barsky)."""
-    start, way = lines[0], lines[1] - lines[0]
-    first, last = np.zeros(len(way)), np.ones(len(way))
-    for at, step, least, most in (
-        (start.real, way.real, box.left, box.right),
-        (start.imag, way.imag, box.low, box.high),
-    ):
-        flat = np.abs(step) < 1e-12
-        safe = np.where(flat, 1.0, step)
-        ends = np.sort(np.array([(least - at) / safe, (most - at) / safe]), axis=0)
-        inside = (at > least) & (at < most)
-        first = np.maximum(first, np.where(flat, np.where(inside, 0.0, 2.0), ends[0]))
-        last = np.minimum(last, np.where(flat, 1.0, ends[1]))
-    return bool((last > first).any())
 
 
 class Laid(Record):
@@ -162,14 +117,14 @@ class _Layout:
         self.canvas, self.ink, self.language, self.own = Canvas(0.0, 0.0, ""), Ink(), language, own
         self.paper = Paper(scale, 0j)
         for _, curve in view.strokes:
-            self.ink.add(curve, scale)
+            self.ink.add(curve, scale, "edge")
         self.body = self.extent()
         for loop in hatching([[self.paper.scaled(c) for c in loop] for loop in view.hatched], _HATCH):  # type: ignore[misc]
             self._stroke("HATCH", loop)
         for axis in view.axes:
             start, end = self.paper.point(axis.start), self.paper.point(axis.end)
             beyond = _AXIS * (end - start) / abs(end - start)
-            self._stroke(AXIS, Line(start - beyond, end + beyond))
+            self._stroke(AXIS, Line(start - beyond, end + beyond), "edge")
         self.rows: dict[str, list[list[tuple[float, float]]]] = {}
         for cut in view.cuts:
             self._cut(cut, view.sizes)
@@ -204,9 +159,9 @@ class _Layout:
             max(float(b.high) for b in boxes),
         )
 
-    def _stroke(self, layer: str, curve: CadCurve) -> None:
+    def _stroke(self, layer: str, curve: CadCurve, role: Role | None = None) -> None:
         self.canvas.strokes.append(Stroke(layer, curve))
-        self.ink.add(curve)
+        self.ink.add(curve, role=role)
 
     def _write(self, text: Text) -> None:
         self.canvas.texts.append(text)
@@ -229,14 +184,29 @@ class _Layout:
             free = (
                 place for place in places
                 if self.ink.holds([*place[0], *place[1]], place[2].box)
-                and not any(place[2].box.left - 2 * _FREE < at < place[2].box.right + 2 * _FREE for at in coming)
+                and not any(place[2].box.left - 2 * FREE < at < place[2].box.right + 2 * FREE for at in coming)
             )  # fmt: skip
             marks, lines, text = next(free, places[-3])
             for line in marks:
-                self._stroke(VISIBLE, line)
+                self._stroke(VISIBLE, line, "edge")
             for line in lines:
                 self._stroke(_DIMENSION, line)
             self._write(text)
+
+    def _put(self, places: Iterable[_Place]) -> bool:
+        """Put words into the best of places, which rise in their cost; whether one of them is free."""
+        best, least = None, math.inf
+        for place in places:
+            if place.cost >= least:
+                break
+            if self.ink.holds(place.all_lines, place.text.box):
+                total = place.cost + self.ink.cost(place.lines)
+                if total < least:
+                    best, least = place, total
+        if best is not None:
+            best.put(best)
+            self.ink.note(best.lines)
+        return best is not None
 
     def _size(self, size: Size, coming: Sequence[complex]) -> bool:
         """A linear dimension: in the nearest row of its side in which its words are free; whether there is one.
@@ -252,22 +222,29 @@ class _Layout:
         low, high = sorted(_along(p, along) for p in points)
         wide = text_width(self._words(size))
         rows = self.rows.setdefault(size.side, [])
+        rows += [[] for _ in range(_ROWS - len(rows))]
         past = [_along(self.paper.point(p), along) for p in coming]
-        for index in range(_ROWS):
-            level = edge + (out.real + out.imag) * (_FIRST + _STEP * index)
-            while len(rows) <= index:
-                rows.append([])
-            for begin in _begins(low, high, wide, self._middle(upright=upright)):
-                reach = min(low, begin), max(high, begin + wide)
-                # chains share their ends
-                if any(_meet(reach, taken) for taken in rows[index]):
-                    continue
-                if any(begin - 2 * _FREE < place < begin + wide + 2 * _FREE for place in past):
-                    continue
-                if self._linear(size, points, size.side, level, begin):
-                    rows[index].append(reach)
-                    return True
-        return False
+
+        def places() -> Iterator[_Place]:
+            for index, row in enumerate(rows):
+                level = edge + (out.real + out.imag) * (_FIRST + _STEP * index)
+                for begin in _begins(low, high, wide, self._middle(upright=upright)):
+                    reach = min(low, begin), max(high, begin + wide)
+                    # chains share their ends
+                    if any(_meet(reach, taken) for taken in row):
+                        continue
+                    if any(begin - 2 * FREE < place < begin + wide + 2 * FREE for place in past):
+                        continue
+                    made = self._linear(size, points, size.side, level, begin, float(index))
+
+                    def put(place: _Place, made: _Place = made, row: list[tuple[float, float]] = row,
+                            reach: tuple[float, float] = reach) -> None:  # fmt: skip
+                        made.put(place)
+                        row.append(reach)
+
+                    yield replace(made, put=put)
+
+        return self._put(places())
 
     def _middle(self, *, upright: bool) -> float:
         """Of the view, mm."""
@@ -277,8 +254,10 @@ class _Layout:
         """All that is written of a dimension."""
         return one.before + number_text(one.value, self.language) + one.after
 
-    def _linear(self, one: Size | Round, ends: tuple[complex, complex], side: Side, level: float, begin: float) -> bool:
-        """A dimension whose line stands at a level on a side of its ends, if it is free there; whether it is."""
+    def _linear(
+        self, one: Size | Round, ends: tuple[complex, complex], side: Side, level: float, begin: float, cost: float
+    ) -> _Place:
+        """A dimension whose line stands at a level on a side of its ends."""
         upright, out = _sense(side)
         # along the dimension line, and away from the view
         along, words = 1j if upright else 1.0, self._words(one)
@@ -288,13 +267,15 @@ class _Layout:
         # words stand above their line, those of an upright one on its left
         at = complex(level - _GAP, begin) if upright else complex(begin, level + _GAP)
         text = (rising_text if upright else text_of)(words, at)
-        if not self.ink.holds(lines, text.box):
-            return False
-        # programs that take every size as aligned read the same number of points beside each other
-        beside = max(points, key=lambda p: (p * out.conjugate()).real)
-        first, second = (_at(along, beside.real if upright else beside.imag, place) for place in (low, high))
-        self._dimension(one, (first, second), _at(along, level, high), 90.0 if upright else 0.0, lines, text)
-        return True
+
+        def put(place: _Place) -> None:
+            # programs that take every size as aligned read the same number of points beside each other
+            beside = max(points, key=lambda p: (p * out.conjugate()).real)
+            first, second = (_at(along, beside.real if upright else beside.imag, place) for place in (low, high))
+            line, angle = _at(along, level, high), 90.0 if upright else 0.0
+            self._dimension(one, (first, second), line, angle, place.all_lines, text)
+
+        return _Place(lines, _ends_of(low, high, along, level), text, cost, put)
 
     def _template(self, one: Size | Round) -> str:
         """The words of a dimension as programs keep them."""
@@ -346,51 +327,69 @@ class _Layout:
         """
         centre, radius = self.paper.point(one.centre), self.paper.scale * one.radius
         if one.is_radius:
-            for reach, angle in product(_REACHES, one.angles):
-                way = cmath.rect(1.0, math.radians(angle))
-                out = -way if one.inward else way
-                tip = centre + radius * way
-                elbow = tip + reach * out
-                shelf, text = _shelved(elbow, self._words(one), out)
-                lines = [Line(tip, elbow), *shelf, *_arrow(tip, out)]
-                if self.ink.holds(lines, text.box):
-                    turn = math.degrees(cmath.phase(way if way.real > 0 else -way))
-                    self._dimension(one, (centre, tip), tip, turn, lines, text)
-                    return
-            raise _NoRoomError(one)
+            ways = (self._radii(one, centre, radius, inward=inward) for inward in (False, True))
+            if not self._put(merge(*ways, key=_cost_of)):
+                raise _NoRoomError(one)
+            return
         sides: tuple[Side, ...] = ("above", "right", "below", "left")
-        for reach, side in product(_REACHES, sides):
-            upright, out = _sense(side)
-            along = 1j if upright else 1.0
-            low, high = (_along(centre, along) + way * radius for way in (-1, 1))
-            level = _along(centre + (radius + reach) * out, 1.0 if upright else 1j)
-            wide = text_width(self._words(one))
-            for begin in _begins(low, high, wide, self._middle(upright=upright)):
-                if self._linear(one, (centre - radius * along, centre + radius * along), side, level, begin):
-                    return
-        raise _NoRoomError(one)
+
+        def places() -> Iterator[_Place]:
+            for reach, side in product(_REACHES, sides):
+                upright, out = _sense(side)
+                along = 1j if upright else 1.0
+                low, high = (_along(centre, along) + way * radius for way in (-1, 1))
+                level = _along(centre + (radius + reach) * out, 1.0 if upright else 1j)
+                wide, ends = text_width(self._words(one)), (centre - radius * along, centre + radius * along)
+                for begin in _begins(low, high, wide, self._middle(upright=upright)):
+                    yield self._linear(one, ends, side, level, begin, reach / _STEP)
+
+        if not self._put(places()):
+            raise _NoRoomError(one)
+
+    def _radii(self, one: Round, centre: complex, radius: float, *, inward: bool) -> Iterator[_Place]:
+        """Where a radius may stand on its leader, which runs to the centre or away from it."""
+        for reach, angle in product(_REACHES, one.angles):
+            way = cmath.rect(1.0, math.radians(angle))
+            out = -way if inward else way
+            tip = centre + radius * way
+            elbow = tip + reach * out
+            shelf, text = _shelved(elbow, self._words(one), out)
+
+            def put(place: _Place, way: complex = way, tip: complex = tip) -> None:
+                turn = math.degrees(cmath.phase(way if way.real > 0 else -way))
+                self._dimension(one, (centre, tip), tip, turn, place.all_lines, place.text)
+
+            cost = reach / _STEP + _PREFERRED * (inward != one.inward)
+            yield _Place({"leader": [Line(tip, elbow), *shelf]}, _arrow(tip, out), text, cost, put)
 
     def _note(self, note: Note) -> None:
         """Words on a leader, or the sign of a surface."""
-        for lines, text in self._notes(note):
-            if self.ink.holds(lines, text.box):
-                for line in lines:
-                    self._stroke(_DIMENSION, line)
-                self._write(text)
-                return
-        raise _NoRoomError(note)
 
-    def _notes(self, note: Note) -> Iterator[tuple[list[Line], Text]]:
-        """Where it may stand, with its lines, the best place first."""
-        tip, body = self.paper.point(note.at), self.body
-        if note.looks:
-            for foot in (tip + _FIRST + _STEP / 2 * k for k in range(2 * _ROWS)):
-                text = text_of(note.text, foot + complex(2 * ARROW, _ABOVE), TITLE_TEXT)
-                yield [Line(foot, foot + _LOOK), *_arrow(foot, 1.0)], text
-            return
+        def put(place: _Place) -> None:
+            for line in place.all_lines:
+                self._stroke(_DIMENSION, line)
+            self._write(place.text)
+
+        if not self._put(merge(self._on_axis(note, put), self._notes(note, put), key=_cost_of)):
+            raise _NoRoomError(note)
+
+    def _on_axis(self, note: Note, put: Callable[[_Place], None]) -> Iterator[_Place]:
+        """Where an arrow that looks along the axis, or a sign on the extension of a pitch line, may stand."""
+        tip = self.paper.point(note.at)
+        for k in range(2 * _ROWS) if note.looks else ():
+            foot = tip + _FIRST + _STEP / 2 * k
+            text = text_of(note.text, foot + complex(2 * ARROW, _ABOVE), TITLE_TEXT)
+            yield _Place({"leader": [Line(foot, foot + _LOOK)]}, _arrow(foot, 1.0), text, k / 2, put)
         for reach in _REACHES if note.goes_on else ():
             lines, text = rough_sign(tip + reach, note.text)
-            yield [Line(tip + _AXIS, tip + reach + _SHORT * _SLOPE), *lines], text
+            along = Line(tip + _AXIS, tip + reach + _SHORT * _SLOPE)
+            yield _Place({"leader": [along, *lines]}, [], text, reach / _STEP - _PREFERRED, put)
+
+    def _notes(self, note: Note, put: Callable[[_Place], None]) -> Iterator[_Place]:
+        """Where it may stand on a leader."""
+        if note.looks:
+            return
+        tip, body = self.paper.point(note.at), self.body
         outward = tip - complex((body.left + body.right) / 2, (body.low + body.high) / 2)
         best = math.degrees(cmath.phase(outward)) if outward else 45.0
         for reach in _REACHES:
@@ -398,12 +397,33 @@ class _Layout:
                 way = cmath.rect(1.0, math.radians(best + turn))
                 elbow = tip + reach * way
                 if note.is_rough:
-                    lines, text = rough_sign(elbow + (0.5 if way.real >= 0 else -_WORDS), note.text)
+                    # the sign stands clear of its leader, whichever way that comes
                     side = 1.0 if way.real >= 0 else -1.0
-                    lines.append(Line(elbow, elbow + side * (_WORDS + 1.0)))
+                    off = _SHORT * _SLOPE + 1.0 if side > 0 else _WORDS + text_width(note.text, SMALL_TEXT) + 2.0
+                    lines, text = rough_sign(elbow + side * off, note.text)
+                    lines.append(Line(elbow, elbow + side * (off + 1.0)))
                 else:
                     lines, text = _shelved(elbow, note.text, way)
-                yield [Line(tip, elbow), *lines, *_arrow(tip, way)], text
+                yield _Place({"leader": [Line(tip, elbow), *lines]}, _arrow(tip, way), text, reach / _STEP, put)
+
+
+class _Place(Record):
+    """A place for words: lines by what they are, arrows, words, what it costs in rows, what puts them there."""
+
+    lines: Mapping[Role, Sequence[Line]]
+    arrows: Sequence[Line]
+    text: Text
+    cost: float
+    put: Callable[[_Place], None]
+
+    @property
+    def all_lines(self) -> list[Line]:
+        """In the order in which they are drawn."""
+        return [*(line for lines in self.lines.values() for line in lines), *self.arrows]
+
+
+def _cost_of(place: _Place) -> float:
+    return place.cost
 
 
 def _meet(one: tuple[float, float], two: tuple[float, float]) -> bool:
@@ -428,7 +448,7 @@ def _at(along: complex, level: float, place: float) -> complex:
 
 def _begins(low: float, high: float, wide: float, middle: float) -> Iterator[float]:
     """Where words may begin along a dimension line: in its middle, to a side of it, beyond its ends."""
-    room = high - low - wide - 2 * (ARROW + 2 * _FREE)
+    room = high - low - wide - 2 * (ARROW + 2 * FREE)
     if room >= 0:
         yield from ((low + high - wide) / 2 + share * room / 2 for share in (0.0, 0.5, -0.5, 1.0, -1.0))
     for more in _FARTHER:
@@ -439,17 +459,26 @@ def _begins(low: float, high: float, wide: float, middle: float) -> Iterator[flo
 def _dimension_lines(
     points: Sequence[complex], along: complex, level: float, ends: tuple[float, float], words: tuple[float, float],
     out: complex,
-) -> list[Line]:  # fmt: skip
-    """Extension lines, the dimension line as far as its words reach, arrows within where there is room."""
+) -> dict[Role, list[Line]]:  # fmt: skip
+    """Extension lines, and the dimension line as far as its words reach."""
     (low, high), feet = ends, [_at(along, level, place) for place in ends]
     lines = [
         Line(point, foot + _BEYOND * out) for point, foot in zip(points, feet, strict=True) if abs(point - foot) > 1e-9
     ]
-    inside = high - low >= 2 * ARROW + 1.0
-    start, end = (low, high) if inside else (low - ARROW - 2.0, high + ARROW + 2.0)
+    start, end = ends if _is_inside(low, high) else (low - ARROW - 2.0, high + ARROW + 2.0)
     line = Line(_at(along, level, min(start, words[0])), _at(along, level, max(end, words[1])))
-    way = along if inside else -along
-    return [*lines, line, *_arrow(feet[0], way), *_arrow(feet[1], -way)]
+    return {"extension": lines, "dimension": [line]}
+
+
+def _is_inside(low: float, high: float) -> bool:
+    """Whether arrows have room within a dimension line."""
+    return high - low >= 2 * ARROW + 1.0
+
+
+def _ends_of(low: float, high: float, along: complex, level: float) -> list[Line]:
+    """Both arrows of a dimension line, within where there is room."""
+    way = along if _is_inside(low, high) else -along
+    return [*_arrow(_at(along, level, low), way), *_arrow(_at(along, level, high), -way)]
 
 
 def _arrow(tip: complex, way: complex) -> list[Line]:

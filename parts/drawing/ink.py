@@ -1,0 +1,129 @@
+"""What is on paper while words look for their places: pieces of lines, boxes of words, and what crosses what."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Literal, get_args
+
+import numpy as np
+
+from geometry.approximation.outline import CadCurve
+from geometry.base.record import Draft, field
+from geometry.curves.curve import Complex, Curve, Real
+from geometry.curves.line_arc import Line
+from parts.drawing.canvas import Box
+
+# what a straight line is on a drawing: of the part, or of a size
+Role = Literal["edge", "extension", "dimension", "leader"]
+_ROLES = get_args(Role)
+# what words keep off lines, mm
+FREE = 0.4
+_SAMPLES = 33
+# what a crossing of two of them costs, in rows of dimension lines, and a line that lies on another, or so near it, mm,
+# over such a length: GOST 2.307 forbids the first where it can be avoided, leaders never cross each other
+_CROSSING = np.array([[0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.5, 1.5], [0.0, 1.5, 6.0, 6.0], [0.0, 1.5, 6.0, 20.0]])
+_LYING, _BESIDE, _ALONG = np.array([0.0, 0.0, 10.0, 10.0]), 1.0, 0.5
+# what ends within another line does not cross it, mm; sine of directions that are one
+_TOUCH, _PARALLEL = 0.3, 1e-4
+
+
+class Ink(Draft):
+    """What is on paper."""
+
+    pieces: list[Complex] = field(default_factory=list)
+    boxes: list[Box] = field(default_factory=list)
+    straight: Complex = field(default_factory=lambda: np.zeros((3, 0), dtype=complex))
+    spans: Real = field(default_factory=lambda: np.zeros((4, 0)))
+    sides: Real = field(default_factory=lambda: np.zeros((0, 4)))
+
+    def add(self, curve: Curve | CadCurve, scale: float = 1.0, role: Role | None = None) -> None:
+        """A curve as a chain of points."""
+        points = scale * curve.point(np.linspace(*curve.domain, 2 if isinstance(curve, Line) else _SAMPLES))
+        self.pieces.append(np.stack([points[:-1], points[1:]]))
+        if role is not None and isinstance(curve, Line):
+            self.note({role: [Line(complex(points[0]), complex(points[-1]))]})
+
+    def holds(self, lines: Sequence[Line], words: Box) -> bool:
+        """Whether words and their lines have room: neither words over any line, nor over words."""
+        words = words.grown(FREE)
+        if len(self.sides) != len(self.boxes):
+            self.sides = np.array([[b.left, b.low, b.right, b.high] for b in self.boxes])
+        left, low, right, high = self.sides.T
+        if ((left < words.right) & (words.left < right) & (low < words.high) & (words.low < high)).any():
+            return False
+        all_lines = self.lines
+        left, right, low, high = self.spans
+        near = (left < words.right) & (words.left < right) & (low < words.high) & (words.low < high)
+        own = np.array([[words.left, words.low, words.right, words.high]])
+        if near.any() and _held(own, all_lines[:, near]).any():
+            return False
+        ends = np.array([[line.start for line in lines], [line.end for line in lines]])
+        grown = self.sides + np.array([-FREE, -FREE, FREE, FREE])
+        return not _held(np.concatenate([grown, own]), ends).any()
+
+    @property
+    def lines(self) -> Complex:
+        """Ends of all pieces, (2, n)."""
+        if len(self.pieces) > 1:
+            self.pieces[:] = [np.concatenate(self.pieces, axis=1)]
+        if not self.pieces:
+            return np.zeros((2, 0), dtype=complex)
+        found = self.pieces[0]
+        if self.spans.shape[1] != found.shape[1]:
+            x, y = found.real, found.imag
+            # upright and level pieces have no width: what lies within a box is found all the same
+            self.spans = np.array([x.min(axis=0) - FREE, x.max(axis=0) + FREE, y.min(axis=0) - FREE,
+                                   y.max(axis=0) + FREE])  # fmt: skip
+        return found
+
+    def note(self, new: Mapping[Role, Sequence[Line]]) -> None:
+        """Remember straight lines by what they are."""
+        rows = [(line.start, line.end, _ROLES.index(role)) for role, lines in new.items() for line in lines]
+        self.straight = np.concatenate([self.straight, np.array(rows, dtype=complex).reshape(-1, 3).T], axis=1)
+
+    def cost(self, new: Mapping[Role, Sequence[Line]]) -> float:
+        """What new lines of a size cost by what they cross and lie on."""
+        rows = [(line.start, line.end, _ROLES.index(role)) for role, lines in new.items() for line in lines]
+        own, (start, end, _) = np.array(rows, dtype=complex).T, self.straight
+        ends = own[:2]
+        near = np.ones(start.size, dtype=bool)
+        for one, two, here in ((start.real, end.real, ends.real), (start.imag, end.imag, ends.imag)):
+            near &= (np.minimum(one, two) < here.max() + _BESIDE) & (np.maximum(one, two) > here.min() - _BESIDE)
+        return _cost(own, self.straight[:, near]) if near.any() else 0.0
+
+
+def _held(boxes: Real, lines: Complex) -> np.ndarray:
+    """Which of boxes, (m, 4), holds a piece of which line; ends of lines: (2, n) (Liang and Barsky)."""
+    start, way = lines[0], lines[1] - lines[0]
+    first, last = np.zeros((len(boxes), len(way))), np.ones((len(boxes), len(way)))
+    for at, step, least, most in (
+        (start.real, way.real, boxes[:, 0:1], boxes[:, 2:3]),
+        (start.imag, way.imag, boxes[:, 1:2], boxes[:, 3:4]),
+    ):
+        flat = np.abs(step) < 1e-12
+        safe = np.where(flat, 1.0, step)
+        one, two = (least - at) / safe, (most - at) / safe
+        inside = (at > least) & (at < most)
+        first = np.maximum(first, np.where(flat, np.where(inside, 0.0, 2.0), np.minimum(one, two)))
+        last = np.minimum(last, np.where(flat, 1.0, np.maximum(one, two)))
+    return np.asarray(last > first)
+
+
+def _cost(lines: Complex, others: Complex) -> float:
+    """Of pairs that cross within both lines, and of those that lie on each other; (3, n): both ends, what it is."""
+    (a, u), (b, v) = ((group[0], group[1] - group[0]) for group in (lines, others))
+    long, other = np.abs(u)[:, None], np.abs(v)[None, :]
+    u, a, b, v = u[:, None], a[:, None], b[None, :], v[None, :]
+    turn = (np.conj(u) * v).imag
+    parallel = np.abs(turn) <= _PARALLEL * long * other
+    safe, between = np.where(parallel, 1.0, turn), b - a
+    # places of the crossing along both, mm
+    s, t = (np.conj(between) * v).imag / safe * long, (np.conj(between) * u).imag / safe * other
+    crossed = ~parallel & (s > _TOUCH) & (s < long - _TOUCH) & (t > _TOUCH) & (t < other - _TOUCH)
+    way = u / long
+    off = np.abs((np.conj(way) * between).imag)
+    ends = (np.conj(way) * between).real, (np.conj(way) * (between + v)).real
+    shared = np.minimum(np.maximum(*ends), long) - np.maximum(np.minimum(*ends), 0.0)
+    lying = parallel & (off < _BESIDE) & (shared > _ALONG)
+    here, there = lines[2].real.astype(int), others[2].real.astype(int)
+    return float((crossed * _CROSSING[np.ix_(here, there)]).sum() + (lying * _LYING[here][:, None]).sum())

@@ -1,0 +1,152 @@
+"""Drawings of all parts of all scenes: no word over a word or a line, no leader over another, no size on a line."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import pytest
+
+from exporters.drawings.write import write_sheet_svg
+from exporters.production.plan import plan_build
+from parts.base.refusal import SceneError
+from parts.base.registry import KINDS
+from parts.scene.files import built_in_scenes
+from parts.scene.load import ExportSpec, load_scene
+from tests.exporters.production.test_part_drawings import PARTS, jobs
+from tests.exporters.production.test_sheet_words import faults
+
+# scenes whose drawings take longest: hidden lines of many parts, teeth as splines
+SLOW = ("power_module", "oval_gears", "print_cam_set", "power_table_laser", "power_table_print", "cycloidal_reducer",
+        "groove_cam", "power_module_kinematics", "barrel_cam", "kerf_coupon", "fit_coupon", "thesis_worm_1",
+        "thesis_worm_2", "worm_set_print", "conjugate_cams")  # fmt: skip
+Line = tuple[complex, complex]
+# arrows are fans of lines of 3 mm; what only touches, mm
+ARROW, TOUCH = 3.0, 0.3
+
+
+def lines_of(entities: Any) -> list[Line]:
+    """Straight lines without those of arrows."""
+    found = [(complex(*e.dxf.start.vec2), complex(*e.dxf.end.vec2)) for e in entities]
+    tips = Counter(_place(a) for a, b in found if abs(abs(b - a) - ARROW) < 0.06)
+    return [(a, b) for a, b in found if abs(abs(b - a) - ARROW) >= 0.06 or tips[_place(a)] < 4]
+
+
+def _place(point: complex) -> tuple[float, float]:
+    return round(point.real, 5), round(point.imag, 5)
+
+
+def crosses(one: Line, two: Line) -> bool:
+    """Whether two lines cross within both."""
+    (a, b), (c, d) = one, two
+    turn = ((b - a).conjugate() * (d - c)).imag
+    if abs(turn) < 1e-9:
+        return False
+    s, t = ((c - a).conjugate() * (d - c)).imag / turn, ((c - a).conjugate() * (b - a)).imag / turn
+    ends = TOUCH / abs(b - a), TOUCH / abs(d - c)
+    return ends[0] < s < 1 - ends[0] and ends[1] < t < 1 - ends[1]
+
+
+def lies_on(one: Line, two: Line) -> bool:
+    """Whether a line lies on another for more than half a millimetre."""
+    (a, b), (c, d) = one, two
+    way = (b - a) / abs(b - a)
+    if abs((way.conjugate() * (d - c)).imag) > 1e-6 or abs((way.conjugate() * (c - a)).imag) > 0.1:
+        return False
+    low, high = sorted(((p - a) * way.conjugate()).real for p in (c, d))
+    return min(high, abs(b - a)) - max(low, 0.0) > 0.5
+
+
+def tangles(file: Path) -> list[str]:
+    """Leaders over leaders; dimension lines on dimension lines and on outlines."""
+    document = ezdxf.readfile(file)
+    space = document.modelspace()
+    sizes: list[Line] = []
+    leaders: list[tuple[int, Line]] = []
+    for number, one in enumerate(space.query("DIMENSION")):
+        way = cmath.rect(1.0, math.radians(one.dxf.angle))
+        rows = lines_of(document.blocks.get(one.dxf.geometry).query("LINE"))
+        if one.dxf.angle % 90:
+            leaders += [(number, row) for row in rows]
+        else:
+            along = [r for r in rows if abs((way.conjugate() * (r[1] - r[0])).imag) < 1e-6 * abs(r[1] - r[0])]
+            sizes.append(max(along, key=lambda r: abs(r[1] - r[0])))
+    loose = lines_of(space.query("LINE[layer=='DIMENSION']"))
+    leaders += [
+        (-1 - k, row) for k, row in enumerate(loose) if row[0].real != row[1].real and row[0].imag != row[1].imag
+    ]
+    dots = [complex(*e.dxf.center.vec2) for e in space.query("CIRCLE[layer=='THIN']") if abs(e.dxf.radius - 0.5) < 1e-6]
+    thin = lines_of(space.query("LINE[layer=='THIN']"))
+    leaders += [(10**6 + k, row) for k, row in enumerate(thin) if any(abs(row[0] - dot) < 1e-5 for dot in dots)]
+    edges = lines_of(space.query("LINE[layer=='OUTLINE']"))
+    found = [f"leaders cross near {a[0]:.0f}" for k, (m, a) in enumerate(leaders) for n, b in leaders[:k]
+             if m != n and crosses(a, b)]  # fmt: skip
+    found += [
+        f"a size lies on another near {a[0]:.0f}" for k, a in enumerate(sizes) for b in sizes[:k] if lies_on(a, b)
+    ]
+    return found + [f"a size lies on an edge near {a[0]:.0f}" for a in sizes for b in edges if lies_on(a, b)]
+
+
+def _cases() -> list[Any]:
+    return [pytest.param(name, marks=pytest.mark.heavy) if name in SLOW else name for name in sorted(built_in_scenes())]
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("language", ["en", "uk"])
+@pytest.mark.parametrize("purpose", ["part", "assembly"])
+@pytest.mark.parametrize("name", _cases())
+def test_no_word_and_no_line_of_a_drawing_stands_over_another(
+    tmp_path: Path, name: str, purpose: str, language: str
+) -> None:
+    scene = load_scene(name)
+    scene.scene.language = language  # type: ignore[assignment]
+    kinds = {KINDS[type(spec).__struct_config__.tag] for spec in scene.parts.values()}  # type: ignore[index]
+    scene.exports = [ExportSpec(format="dxf", purpose=purpose, tolerance=0.01)]  # type: ignore[arg-type]
+    try:
+        sheets = plan_build(scene, name, [], []).sheets
+    except SceneError as refusal:
+        # barrels have no view in assemblies, nor has what stands aslant
+        if purpose == "assembly" and refusal.code in ("no_assembly_view", "assembly_axis_oblique"):
+            return
+        if not any(kind.drawing for kind in kinds):
+            return
+        raise
+    for job in sheets:
+        file = tmp_path / job.path
+        job.write({}, file)
+        write_sheet_svg(file.with_suffix(".svg"), job.canvas)
+        assert faults(file.with_suffix(".svg")) == [], job.path
+        assert tangles(file) == [], job.path
+
+
+def test_sizes_of_a_small_plate_keep_off_its_edges_and_its_thickness_off_its_sizes(tmp_path: Path) -> None:
+    """As it was: the diameter's line lay on the upper edge, the leader of the thickness on an extension line."""
+    slot = {"kind": "plate", "width": 20.0, "height": 10.0, "corner_radius": 5.0, "face_width": 3.0,
+            "holes": [{"at": [0.0, 0.0], "diameter": 3.0}]}  # fmt: skip
+    (job,) = jobs(slot, formats=("dxf",))
+    job.write({}, tmp_path / job.path)
+    assert tangles(tmp_path / job.path) == []
+    document = ezdxf.readfile(tmp_path / job.path)
+    dimensions = document.modelspace().query("DIMENSION")
+    # both ends of it are rounded, in four arcs about two centres
+    assert any(one.dxf.text == "R<> (2 places)" for one in dimensions)
+    # the negative control: an edge along the line of a size
+    rows = document.blocks.get(dimensions[0].dxf.geometry).query("LINE")
+    line = max(rows, key=lambda e: e.dxf.start.distance(e.dxf.end))
+    document.modelspace().add_line(line.dxf.start, line.dxf.end, dxfattribs={"layer": "OUTLINE"})
+    document.saveas(tmp_path / job.path)
+    assert tangles(tmp_path / job.path) != []
+
+
+def test_leaders_that_cross_are_seen(tmp_path: Path) -> None:
+    (job,) = jobs(PARTS["bearing"], formats=("dxf",))
+    job.write({}, tmp_path / job.path)
+    document = ezdxf.readfile(tmp_path / job.path)
+    for a, b in (((30, 100), (50, 120)), ((50, 100), (30, 120))):
+        document.modelspace().add_line(a, b, dxfattribs={"layer": "DIMENSION"})
+    document.saveas(tmp_path / job.path)
+    assert tangles(tmp_path / job.path) == ["leaders cross near 50+100j"]
