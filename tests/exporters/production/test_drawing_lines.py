@@ -61,6 +61,14 @@ def lies_on(one: Line, two: Line) -> bool:
     return min(high, abs(b - a)) - max(low, 0.0) > 0.5
 
 
+def size_line(document: Any, one: Any) -> Line:
+    """The dimension line of a size: the longest one along it."""
+    way = cmath.rect(1.0, math.radians(one.dxf.angle))
+    rows = lines_of(document.blocks.get(one.dxf.geometry).query("LINE"))
+    along = [r for r in rows if abs((way.conjugate() * (r[1] - r[0])).imag) < 1e-6 * abs(r[1] - r[0])]
+    return max(along, key=lambda r: abs(r[1] - r[0]))
+
+
 def tangles(file: Path) -> list[str]:
     """Leaders over leaders; dimension lines on dimension lines and on outlines."""
     document = ezdxf.readfile(file)
@@ -68,13 +76,10 @@ def tangles(file: Path) -> list[str]:
     sizes: list[Line] = []
     leaders: list[tuple[int, Line]] = []
     for number, one in enumerate(space.query("DIMENSION")):
-        way = cmath.rect(1.0, math.radians(one.dxf.angle))
-        rows = lines_of(document.blocks.get(one.dxf.geometry).query("LINE"))
         if one.dxf.angle % 90:
-            leaders += [(number, row) for row in rows]
+            leaders += [(number, row) for row in lines_of(document.blocks.get(one.dxf.geometry).query("LINE"))]
         else:
-            along = [r for r in rows if abs((way.conjugate() * (r[1] - r[0])).imag) < 1e-6 * abs(r[1] - r[0])]
-            sizes.append(max(along, key=lambda r: abs(r[1] - r[0])))
+            sizes.append(size_line(document, one))
     loose = lines_of(space.query("LINE[layer=='DIMENSION']"))
     leaders += [
         (-1 - k, row) for k, row in enumerate(loose) if row[0].real != row[1].real and row[0].imag != row[1].imag
@@ -135,9 +140,8 @@ def test_sizes_of_a_small_plate_keep_off_its_edges_and_its_thickness_off_its_siz
     # both ends of it are rounded, in four arcs about two centres
     assert any(one.dxf.text == "R<> (2 places)" for one in dimensions)
     # the negative control: an edge along the line of a size
-    rows = document.blocks.get(dimensions[0].dxf.geometry).query("LINE")
-    line = max(rows, key=lambda e: e.dxf.start.distance(e.dxf.end))
-    document.modelspace().add_line(line.dxf.start, line.dxf.end, dxfattribs={"layer": "OUTLINE"})
+    ends = [(p.real, p.imag) for p in size_line(document, dimensions[0])]
+    document.modelspace().add_line(*ends, dxfattribs={"layer": "OUTLINE"})
     document.saveas(tmp_path / job.path)
     assert tangles(tmp_path / job.path) != []
 
