@@ -21,7 +21,7 @@ FREE = 0.4
 _SAMPLES = 33
 # what a crossing of two of them costs, in rows of dimension lines, and a line that lies on another, or so near it, mm,
 # over such a length: GOST 2.307 forbids the first where it can be avoided, leaders never cross each other
-_CROSSING = np.array([[0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.5, 1.5], [0.0, 1.5, 6.0, 6.0], [0.0, 1.5, 6.0, 20.0]])
+_CROSSING = np.array([[0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.5, 1.5], [0.3, 1.5, 6.0, 6.0], [1.5, 1.5, 6.0, 20.0]])
 _LYING, _BESIDE, _ALONG = np.array([0.0, 0.0, 10.0, 10.0]), 1.0, 0.5
 # what ends within another line does not cross it, mm; sine of directions that are one
 _TOUCH, _PARALLEL = 0.3, 1e-4
