@@ -54,7 +54,10 @@ def fault_of(seed: str, folder: Path) -> str | None:
     return f"built, but verify says {again}: {told}{said}" if again else None
 
 
-@pytest.mark.parametrize("number", [0, 1, 3, *(pytest.param(k, marks=pytest.mark.heavy) for k in range(4, 400))])
+# 1 with its worm wheel in STEP takes as long as twenty others
+@pytest.mark.parametrize(
+    "number", [0, 3, 8, *(pytest.param(k, marks=pytest.mark.heavy) for k in (1, *range(4, 8), *range(9, 400)))]
+)
 def test_a_random_scene_is_built_whole_or_refused_in_one_line(number: int, tmp_path: Path) -> None:
     seed = f"{_SEED}.{number}"
     fault = fault_of(seed, tmp_path)
