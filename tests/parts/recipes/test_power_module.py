@@ -118,7 +118,9 @@ def test_nothing_overlaps_at_home_by_sections_and_layers() -> None:
     assert {"end_cover_1", "guide_6", "bearing_ring_2", "spacer_22", "disk_3"} <= found
 
 
-@pytest.mark.parametrize(("balls", "ball"), [(40, 8.0), (180, 8.0), (310, 8.0), (350, 8.0), (491, 8.0), (500, 7.5)])
+@pytest.mark.parametrize(("balls", "ball"), [
+    (40, 8.0), (491, 8.0), (500, 7.5), *(pytest.param(n, 8.0, marks=pytest.mark.heavy) for n in (180, 310, 350)),
+])  # fmt: skip
 def test_cages_are_made_as_near_as_balls_may_stand(balls: int, ball: float) -> None:
     """With one ball more than fits the condition names them."""
     scene = module(balls=balls, ball=ball)
