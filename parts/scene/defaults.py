@@ -96,8 +96,7 @@ def as_thick_as_board(raw: Table) -> tuple[Table, dict[str, str]]:
         key: filled("parts", f"parts.{key}", table) if not wanted or key in wanted else table
         for key, table in raw.get("parts", {}).items()
     }
-    if not wanted:
-        rows = raw.get("assemblies", [])
+    if not wanted and (rows := raw.get("assemblies")):
         tables["assemblies"] = [filled("assemblies", f"assemblies[{k}]", table) for k, table in enumerate(rows, 1)]
     return tables, origins
 
