@@ -111,10 +111,10 @@ def measure(model: Model) -> tuple[Real, Real, Real]:
                 poles = (np.hypot(at[..., 0], at[..., 1]).min(axis=1) <= GAP) & ~seams[row[part]]
                 refuse(poles, model.faces[face], "is a face with an edge through a pole")
             found = forms(kind, at, step, model.frames.centres[face], model.sizes[face], about[face])
-            # a seam turns there and back, at an apex by more than digits hold
-            turn = np.where(seams[row[part]][:, None], 0.0, found.turn)
-            for total, form in (flux, found.flux), (size, found.size), (area, found.area), (turns, turn):
-                total += np.bincount(face, form @ weights, count)
+            # a seam runs there and back, at an apex by more than digits hold
+            once = ~seams[row[part]]
+            for total, form in (flux, found.flux), (size, found.size), (area, found.area), (turns, found.turn):
+                total += np.bincount(face[once], form[once] @ weights, count)
             np.maximum.at(gap, face, found.gap.max(axis=1))
     sense = np.where(model.normal, 1.0, -1.0)
     for kind in (SPHERE, TORUS):

@@ -32,10 +32,14 @@ class StepPartSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="step_part"
         Meta(
             pattern=r"\.([sS][tT][eE]?[pP])\Z",
             max_length=200,
-            description="STEP file with one solid, beside the scene's file or in a folder there; needs the extra cad",
+            description="STEP file, beside the scene's file or in a folder there; needs the extra cad",
             examples=["motor.step"],
         ),
     ]
+    solid: (
+        Annotated[int, Meta(ge=1, le=1000, description="which of the file's solids, from 1 on, where it has several")]
+        | None
+    ) = None
     origin: Annotated[tuple[_Place, _Place, _Place], mm("the part's origin in the file, which mates place")] = (
         0.0,
         0.0,
@@ -76,8 +80,10 @@ class StepPart(Kind[StepPartSpec, "FacedBody"]):
         x, y, z = (value / size for value in keys.axis)
         laid = Placement3.towards((x, y, z), math.radians(keys.rotation_deg), keys.origin).inverse()
         try:
-            return foreign_body(keys.held[keys.file], laid)
+            return foreign_body(keys.held[keys.file], laid, keys.solid)
         except ParameterError as refusal:
+            if refusal.name == "solid":
+                raise
             raise ParameterError("file", keys.file, refusal.code, None, **refusal.numbers) from refusal
 
     def section(self, keys: StepPartSpec, thing: FacedBody, offset: float) -> OffsetRegion:

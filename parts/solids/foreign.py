@@ -1,8 +1,9 @@
 """The solid of somebody else's STEP file as our faces, by the CAD kernel: exact, or refused by what it has beyond them.
 
 Planes, cylinders, cones, spheres and tori between lines, circles and splines are taken over one by one, and spline
-faces between the four ends of their surfaces, pole by pole; how far the file's edges lie off its faces is measured, and
-the volume is held against the kernel's own.
+faces between the four ends of their surfaces, pole by pole. Splines and swept surfaces that are one of the former, as
+rational ones mostly are, become it; other edges (ellipses, rational splines) become splines that follow them. How far
+the edges lie off the faces is measured, and the volume is held against the kernel's own.
 """
 
 from __future__ import annotations
@@ -38,19 +39,29 @@ from geometry.solids.faces import (
 )  # fmt: skip
 from geometry.solids.measured import Measured
 from geometry.solids.patch_distance import patch_distance
-from parts.solids.kernel import solids_of, volume_of
+from parts.solids.kernel import edges_of, solids_of, volume_of
 
 if TYPE_CHECKING:
     from OCP.Geom import Geom_BSplineCurve, Geom_BSplineSurface
     from OCP.GeomAbs import GeomAbs_CurveType, GeomAbs_SurfaceType
+    from OCP.GeomAdaptor import GeomAdaptor_Surface
     from OCP.gp import gp_Ax2, gp_Ax3, gp_Dir, gp_Pnt
     from OCP.TopoDS import TopoDS_Edge, TopoDS_Face, TopoDS_Shape, TopoDS_Wire
 
 # by which edges may lie off their faces, mm, as a STEP file of ours may; part of the volume, of the size
-_LOOSE, _VOLUME, _EXACT = 1e-6, 1e-7, 1e-13
+_LOOSE, _VOLUME, _EXACT = 1e-6, 1e-6, 1e-13
 _SHARES = np.linspace(0.0, 1.0, 9)
 # degrees that are read back at most; how near to the ends of a surface its edges run, part of it
 _MOST_DEGREE, _AT_END = 8, 1e-6
+# within which a spline is a circle, or a plane and so on, and what is asked of the kernel, mm, which is stricter then
+_SAME, _SOUGHT = 1e-8, 1e-6
+# to which splines follow what has no poles, mm, and how many pieces they may have
+_FOLLOWED, _MOST_PIECES = 1e-9, 500
+# lines on which the poles of a sphere may lie: through the corners, the edges and the faces of a cube
+_CUBE = np.stack(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3), axis=-1).reshape(-1, 3)[:13]
+_WAYS = _CUBE / np.linalg.norm(_CUBE, axis=1)[:, None]
+# what is taken over one by one
+_TAKEN = ("Plane", "Cylinder", "Cone", "Sphere", "Torus")
 # what STEP calls what the kernel calls otherwise
 _CALLED = {
     "Ellipse": "ELLIPSE", "Hyperbola": "HYPERBOLA", "Parabola": "PARABOLA", "OffsetCurve": "OFFSET_CURVE_3D",
@@ -61,8 +72,10 @@ _CALLED = {
 }  # fmt: skip
 
 
-def foreign_body(text: str, part_from_file: Placement3) -> FacedBody:
-    """The one solid of a STEP file's text, laid by ``part_from_file`` (mm); units are converted by the kernel.
+def foreign_body(text: str, part_from_file: Placement3, number: int | None = None) -> FacedBody:
+    """A solid of a STEP file's text, laid by ``part_from_file`` (mm); units are converted by the kernel.
+
+    ``number``: which of several, from 1 on.
 
     Raises
     ------
@@ -74,9 +87,11 @@ def foreign_body(text: str, part_from_file: Placement3) -> FacedBody:
         solids = solids_of(text)
     except ImportError:
         raise ParameterError("file", None, "needs_kernel") from None
-    if len(solids) != 1:
-        raise ParameterError("file", None, "step_solids", count=len(solids))
-    made = _Taken(_laid(solids[0], part_from_file), text)
+    if not solids or (number is None and len(solids) > 1):
+        raise ParameterError("file", None, "step_several" if solids else "step_solids", count=len(solids))
+    if number is not None and number > len(solids):
+        raise ParameterError("solid", number, "step_fewer", count=len(solids))
+    made = _Taken(_laid(solids[(number or 1) - 1], part_from_file), text)
     solid = made.taken()
     walls = tuple(
         Measured("spline", patch_distance(patch_of(solid, faces.surface)))
@@ -186,6 +201,28 @@ class _Taken(SolidBuilder):
             origin = self.add_points(np.array([complex(x, y)]), z)
         return Frame(origin, axis, _direction(axes.XDirection()))
 
+    def sphere_frame(self, face: TopoDS_Face, axes: gp_Ax3) -> Frame:
+        """The frame of a sphere; where a face is not cut open along a seam, with poles far from its edges."""
+        from OCP.BRep import BRep_Tool
+        from OCP.BRepAdaptor import BRepAdaptor_Curve
+
+        edges = list(edges_of(face))
+        if any(BRep_Tool.IsClosed_s(edge, face) for edge in edges):
+            return self.frame(axes)
+        curves = [BRepAdaptor_Curve(edge) for edge in edges if not BRep_Tool.Degenerated_s(edge)]
+        places = [c.Value(c.FirstParameter() + share * (c.LastParameter() - c.FirstParameter()))
+                  for c in curves for share in _SHARES.tolist()]  # fmt: skip
+        frame, centre = self.frame(axes), axes.Location()
+        spokes = np.array([[p.X() - centre.X(), p.Y() - centre.Y(), p.Z() - centre.Z()] for p in places])
+        nearest = np.abs(spokes @ _WAYS.T).max(axis=0)
+        # the file's own axis where it is as good
+        own = float(np.abs(spokes @ frame.axis[0]).max())
+        if own <= float(nearest.min()):
+            return frame
+        axis = _WAYS[[int(nearest.argmin())]]
+        zero = np.cross(axis, np.eye(3)[[int(np.abs(axis).argmin())]])
+        return Frame(frame.origin, axis, zero / np.linalg.norm(zero))
+
     def curve(self, edge: TopoDS_Edge) -> Straight | Circular | Spline:
         """The line, arc or spline of an edge."""
         from OCP.BRepAdaptor import BRepAdaptor_Curve
@@ -200,11 +237,14 @@ class _Taken(SolidBuilder):
         if curve.GetType() == Kind.GeomAbs_Circle:
             circle = curve.Circle()
             return Circular(self.frame(circle.Position()), circle.Radius())
-        if curve.GetType() not in (Kind.GeomAbs_BSplineCurve, Kind.GeomAbs_BezierCurve):
+        spline = _poles_of(plain)
+        if spline is None:
+            known = _circle_of(plain)
+            if known is not None:
+                return Circular(self.frame(known[0]), known[1])
+            spline = _followed(plain)
+        if spline is None:
             self.refuse("step_curve", _named(curve.GetType()))
-        spline = _spline_of(plain)
-        if spline.IsRational() or spline.Degree() > _MOST_DEGREE:
-            self.refuse("step_curve", "RationalCurve" if spline.IsRational() else "BSplineCurve")
         poles = [spline.Pole(k + 1) for k in range(spline.NbPoles())]
         places = self.net(np.array([[[p.X(), p.Y(), p.Z()] for p in poles]]))
         return Spline(spline.Degree(), _knots(spline.NbKnots(), spline.Knot, spline.Multiplicity), places)
@@ -241,40 +281,43 @@ class _Taken(SolidBuilder):
         from OCP.BRepAdaptor import BRepAdaptor_Surface
         from OCP.GeomAbs import GeomAbs_SurfaceType as Kind
 
-        told = BRepAdaptor_Surface(face, False)
+        told: BRepAdaptor_Surface | GeomAdaptor_Surface = BRepAdaptor_Surface(face, False)
+        named, same = _named(told.GetType()), True
+        if named not in _TAKEN:
+            known = _known_surface(face)
+            if known is None:
+                return self.patch(face, named, number), True
+            told, same = known
         kind = told.GetType()
         if kind == Kind.GeomAbs_Plane:
             axes = told.Plane().Position()
-            return Plane(self.frame(axes)), axes.Direct()
+            return Plane(self.frame(axes)), axes.Direct() == same
         if kind == Kind.GeomAbs_Cylinder:
             axes = told.Cylinder().Position()
-            return Cylinder(self.frame(axes), told.Cylinder().Radius()), axes.Direct()
+            return Cylinder(self.frame(axes), told.Cylinder().Radius()), axes.Direct() == same
         if kind == Kind.GeomAbs_Sphere:
             axes = told.Sphere().Position()
-            return Sphere(self.frame(axes), told.Sphere().Radius()), axes.Direct()
+            return Sphere(self.sphere_frame(face, axes), told.Sphere().Radius()), axes.Direct() == same
         if kind == Kind.GeomAbs_Torus:
             axes, torus = told.Torus().Position(), told.Torus()
             if torus.MinorRadius() >= torus.MajorRadius():
                 self.refuse("step_surface", "Torus")
-            return Torus(self.frame(axes), torus.MajorRadius(), torus.MinorRadius()), axes.Direct()
-        if kind in (Kind.GeomAbs_BSplineSurface, Kind.GeomAbs_BezierSurface, Kind.GeomAbs_SurfaceOfExtrusion):
-            return self.patch(face, _named(kind), number), True
-        if kind != Kind.GeomAbs_Cone:
-            self.refuse("step_surface", _named(kind))
+            return Torus(self.frame(axes), torus.MajorRadius(), torus.MinorRadius()), axes.Direct() == same
         axes, cone = told.Cone().Position(), told.Cone()
         slant, radius = abs(cone.SemiAngle()), cone.RefRadius()
         # an apex is no place for a surface to begin
         aside = max(1.0 - radius, 0.0)
         return Cone(
             self.frame(axes, np.sign(cone.SemiAngle()), aside / np.tan(slant)), radius + aside, slant
-        ), axes.Direct()
+        ), axes.Direct() == same
 
     def patch(self, face: TopoDS_Face, kind: str, number: Callable[[TopoDS_Edge], int]) -> SplineSurface:
         """A spline surface between the four edges of a face, which get its ends as their curves."""
-        surface, bounds = _surface_of(face)
+        found = _surface_of(face)
+        if found is None:
+            self.refuse("step_surface", kind)
+        surface, bounds = found
         degrees = surface.UDegree(), surface.VDegree()
-        if surface.IsURational() or surface.IsVRational() or max(degrees) > _MOST_DEGREE:
-            self.refuse("step_surface", kind if max(degrees) > _MOST_DEGREE else "RationalSurface")
         count = surface.NbUPoles(), surface.NbVPoles()
         poles = [[surface.Pole(i + 1, j + 1) for j in range(count[1])] for i in range(count[0])]
         places = self.net(np.array([[[p.X(), p.Y(), p.Z()] for p in row] for row in poles]))
@@ -282,18 +325,18 @@ class _Taken(SolidBuilder):
         v = _knots(surface.NbVKnots(), surface.VKnot, surface.VMultiplicity)
         # along v at both ends of u, along u at both ends of v
         sides = [(1, v, places[0]), (1, v, places[-1]), (0, u, places[:, 0]), (0, u, places[:, -1])]
-        found = []
+        seen = []
         for edge, at in _sides(face, bounds):
             if at is None:
                 self.refuse("step_trimmed", kind)
             side, ahead = at
             across, knots, row = sides[side]
-            found.append(side)
+            seen.append(side)
             # a line runs evenly as it is
             if len(row) > 2:
                 run = (knots, row) if ahead else (knots[0] + knots[-1] - knots[::-1], row[::-1])
                 self.ends.setdefault(number(edge), Spline(degrees[across], run[0], run[1][None]))
-        if sorted(found) != [0, 1, 2, 3]:
+        if sorted(seen) != [0, 1, 2, 3]:
             self.refuse("step_trimmed", kind)
         return SplineSurface(degrees, u, v, places[None])
 
@@ -307,26 +350,93 @@ def _knots(count: int, place: Callable[[int], float], times: Callable[[int], int
     return np.repeat([place(k + 1) for k in range(count)], [times(k + 1) for k in range(count)])
 
 
-def _spline_of(edge: TopoDS_Edge) -> Geom_BSplineCurve:
-    """The curve of an edge as a spline from its first to its last pole."""
+def _poles_of(edge: TopoDS_Edge) -> Geom_BSplineCurve | None:
+    """The curve of an edge as a spline from its first to its last pole; None: it has no such poles of its own."""
     from OCP.BRep import BRep_Tool
     from OCP.Geom import Geom_TrimmedCurve
+    from OCP.GeomAbs import GeomAbs_CurveType as Kind
+    from OCP.GeomAdaptor import GeomAdaptor_Curve
     from OCP.GeomConvert import GeomConvert
 
     low, high = BRep_Tool.Range_s(edge)
-    return GeomConvert.CurveToBSplineCurve_s(Geom_TrimmedCurve(BRep_Tool.Curve_s(edge, low, high), low, high))
+    curve = BRep_Tool.Curve_s(edge, low, high)
+    if GeomAdaptor_Curve(curve).GetType() not in (Kind.GeomAbs_BSplineCurve, Kind.GeomAbs_BezierCurve):
+        return None
+    spline = GeomConvert.CurveToBSplineCurve_s(Geom_TrimmedCurve(curve, low, high))
+    return None if spline.IsRational() or spline.Degree() > _MOST_DEGREE else spline
 
 
-def _surface_of(face: TopoDS_Face) -> tuple[Geom_BSplineSurface, Real]:
-    """The part of a surface that a face takes as a spline, and where it begins and ends along u and v, (2, 2)."""
+def _circle_of(edge: TopoDS_Edge) -> tuple[gp_Ax2, float] | None:
+    """Place and radius of the circle that an edge is, about the axis about which it runs counter-clockwise."""
+    from OCP.BRepAdaptor import BRepAdaptor_Curve
+    from OCP.gp import gp_Circ, gp_Pnt, gp_Vec
+    from OCP.ShapeAnalysis import ShapeAnalysis_CanonicalRecognition
+
+    circle = gp_Circ()
+    if not ShapeAnalysis_CanonicalRecognition(edge).IsCircle(_SAME, circle):
+        return None
+    curve, at, way = BRepAdaptor_Curve(edge), gp_Pnt(), gp_Vec()
+    curve.D1((curve.FirstParameter() + curve.LastParameter()) / 2, at, way)
+    axes = circle.Position()
+    if gp_Vec(axes.Location(), at).Crossed(way).Dot(gp_Vec(axes.Direction())) < 0:
+        axes.SetDirection(axes.Direction().Reversed())
+    return axes, circle.Radius()
+
+
+def _followed(edge: TopoDS_Edge) -> Geom_BSplineCurve | None:
+    """A spline that follows the curve of an edge; None where none does."""
+    from OCP.BRep import BRep_Tool
+    from OCP.Geom import Geom_TrimmedCurve
+    from OCP.GeomAbs import GeomAbs_Shape
+    from OCP.GeomConvert import GeomConvert_ApproxCurve
+
+    low, high = BRep_Tool.Range_s(edge)
+    curve = Geom_TrimmedCurve(BRep_Tool.Curve_s(edge, low, high), low, high)
+    made = GeomConvert_ApproxCurve(curve, _FOLLOWED, GeomAbs_Shape.GeomAbs_C2, _MOST_PIECES, _MOST_DEGREE)
+    return made.Curve() if made.HasResult() and made.MaxError() <= _SAME else None
+
+
+def _known_surface(face: TopoDS_Face) -> tuple[GeomAdaptor_Surface, bool] | None:
+    """The plane or surface of revolution that the surface of a face is, and whether their normals look one way."""
+    from OCP.BRep import BRep_Tool
+    from OCP.BRepTools import BRepTools
+    from OCP.GeomAdaptor import GeomAdaptor_Surface
+    from OCP.GeomAPI import GeomAPI_ProjectPointOnSurf
+    from OCP.GeomConvert import GeomConvert_SurfToAnaSurf
+    from OCP.GeomLProp import GeomLProp_SLProps
+
+    surface, bounds = BRep_Tool.Surface_s(face), BRepTools.UVBounds_s(face)
+    sought = GeomConvert_SurfToAnaSurf(surface)
+    known = sought.ConvertToAnalytical(_SOUGHT)
+    if known is None or not sought.Gap() <= _SAME or _named(GeomAdaptor_Surface(known).GetType()) not in _TAKEN:
+        return None
+    u, v = (bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2
+    at = GeomAPI_ProjectPointOnSurf(surface.Value(u, v), known).LowerDistanceParameters()
+    normals = [GeomLProp_SLProps(x, *place, 1, _SAME).Normal() for x, place in ((surface, (u, v)), (known, at))]
+    return GeomAdaptor_Surface(known), normals[0].Dot(normals[1]) > 0
+
+
+def _surface_of(face: TopoDS_Face) -> tuple[Geom_BSplineSurface, Real] | None:
+    """The part of a surface that a face takes as a spline, and where it begins and ends along u and v, (2, 2).
+
+    What is rational or of too high a degree is followed by another; None where none does.
+    """
     from OCP.BRep import BRep_Tool
     from OCP.BRepTools import BRepTools
     from OCP.Geom import Geom_RectangularTrimmedSurface
-    from OCP.GeomConvert import GeomConvert
+    from OCP.GeomAbs import GeomAbs_Shape
+    from OCP.GeomConvert import GeomConvert, GeomConvert_ApproxSurface
 
     bounds = BRepTools.UVBounds_s(face)
     part = Geom_RectangularTrimmedSurface(BRep_Tool.Surface_s(face), *bounds)
-    return GeomConvert.SurfaceToBSplineSurface_s(part), np.reshape(bounds, (2, 2))
+    surface = GeomConvert.SurfaceToBSplineSurface_s(part)
+    if surface.IsURational() or surface.IsVRational() or max(surface.UDegree(), surface.VDegree()) > _MOST_DEGREE:
+        smooth = GeomAbs_Shape.GeomAbs_C1
+        made = GeomConvert_ApproxSurface(part, _SAME, smooth, smooth, _MOST_DEGREE, _MOST_DEGREE, _MOST_PIECES, 0)
+        if not made.HasResult() or made.MaxError() > 10 * _SAME:
+            return None
+        surface = made.Surface()
+    return surface, np.reshape(bounds, (2, 2))
 
 
 def _sides(face: TopoDS_Face, bounds: Real) -> Iterator[tuple[TopoDS_Edge, tuple[int, bool] | None]]:
@@ -334,8 +444,6 @@ def _sides(face: TopoDS_Face, bounds: Real) -> Iterator[tuple[TopoDS_Edge, tuple
     from OCP.BRepAdaptor import BRepAdaptor_Curve2d
     from OCP.TopAbs import TopAbs_Orientation
     from OCP.TopoDS import TopoDS
-
-    from parts.solids.kernel import edges_of
 
     for edge in edges_of(face):
         plain = TopoDS.Edge_s(edge.Oriented(TopAbs_Orientation.TopAbs_FORWARD))
