@@ -385,3 +385,9 @@ def test_holes_shrink_with_the_offset_and_leave_each_other_a_wall() -> None:
     assert told.nearest is not None
     assert told.nearest.value == pytest.approx(2 * (6.0 - 2.5), rel=0.02)
     assert told.nearest.value < 7.0
+    # upon another one it has no room: the nearest place that is told lies clear of both
+    told = refused({"cam": ROLLER | {"holes": [*holes, {"diameter": 5.0, "x": 2.0, "y": 8.0}]}})
+    assert told.code == "no_room_there"
+    assert told.nearest is not None
+    assert told.nearest.value <= -5.0
+    parts_of({"cam": ROLLER | {"holes": [*holes, {"diameter": 5.0, "x": told.nearest.value, "y": 8.0}]}})
