@@ -55,35 +55,23 @@ def moved_outline(gear: NoncircularGear, offset: float) -> Profile:
 
 
 def _grown(segments: Sequence[Segment], distance: float, pitch: float) -> tuple[Segment, ...]:
-    """Every segment of a period moved outwards, an arc about each convex corner."""
+    """Every segment of a period moved outwards, an arc about each convex corner.
+
+    Fillets close first: normals at tips lead away from the space, and the rack's rounding has come in through
+    the neck of an undercut one.
+    """
     grown: list[Segment] = []
-    # convex corners of each tooth side, by number of its flank
-    corners: dict[int, list[complex]] = {}
-    flank = -1
     for index, segment in enumerate(segments):
-        flank += segment.label is Label.FLANK
         before = segments[index - 1].curve
         # the first of a period follows the last of the period before
         back = cmath.exp(-1j * pitch) if index == 0 else 1.0
         arriving = complex(before.tangent(before.domain[1])) * back
         turn = cmath.phase(complex(segment.curve.tangent(segment.curve.domain[0])) / arriving)
         if turn > TOLERANCES.smooth_angle:
-            centre = start_point(segment.curve)
-            corners.setdefault(flank, []).append(centre)
-            grown.append(Segment(Arc(centre, distance, cmath.phase(arriving) - math.pi / 2, turn), Label.CORNER))
+            corner = Arc(start_point(segment.curve), distance, cmath.phase(arriving) - math.pi / 2, turn)
+            grown.append(Segment(corner, Label.CORNER))
         grown.append(Segment(segment.curve.offset(-distance), segment.label))
-    _check_spaces(corners, flank + 1, distance, pitch)
     return tuple(grown)
-
-
-def _check_spaces(corners: dict[int, list[complex]], flanks: int, distance: float, pitch: float) -> None:
-    """What grows about the corners of neighbouring teeth stays apart."""
-    for upper in range(1, flanks, 2):
-        turned = cmath.exp(1j * pitch) if upper + 1 == flanks else 1.0
-        facing = [c * turned for c in corners.get((upper + 1) % flanks, [])]
-        gap = min((abs(a - b) for a in corners.get(upper, []) for b in facing), default=math.inf)
-        if not gap > 2 * distance:
-            raise OffsetError(distance, "closes_tooth_spaces", gap / 2)
 
 
 def findings_of(gear: NoncircularGear) -> tuple[Finding, ...]:

@@ -7,6 +7,7 @@ import math
 import mpmath
 import numpy as np
 import pytest
+import shapely
 
 from geometry.base.errors import CuspError, OffsetError, ParameterError, PointedTipError
 from geometry.base.record import replace
@@ -14,7 +15,7 @@ from geometry.curves.curve import Curve
 from geometry.gears.noncircular.gear import NoncircularGear, cut_outline
 from geometry.gears.noncircular.offset import moved_outline, noncircular_region
 from geometry.gears.noncircular.pairing import Centrode, paired
-from geometry.gears.teeth.basic_rack import iso_53
+from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from geometry.kinematics.centrodes import FourierRatio, LobedEllipse, RatioCentrode
@@ -230,6 +231,24 @@ def test_an_offset_that_does_not_work_names_one_that_does() -> None:
         moved_outline(made, refusal.value.nearest_offset * (1 - 1e-6))
         with pytest.raises(ParameterError):
             noncircular_region(made, refusal.value.nearest_offset * 1.01)
+
+
+def test_low_wide_spaces_grow_until_a_fillet_closes() -> None:
+    """Shapely grows a dense polygon by more than half of what lies between two tips: no space closes."""
+    made = replace(gear(OVAL, 18), rack=BasicRack(math.radians(45), 0.1, 0.2, 1.0))
+    exact, moved = (
+        shapely.Polygon(
+            [
+                (point.real, point.imag)
+                for s in outline.segments()
+                for point in s.curve.point(np.linspace(*s.curve.domain, 20)[:-1])
+            ]
+        )
+        for outline in (made.outline.profile(made.count), noncircular_region(made, 1.9).region.outer)
+    )
+    grown = exact.buffer(1.9, quad_segs=32)
+    assert not grown.interiors
+    assert moved.symmetric_difference(grown).area < 1e-3 * grown.length
 
 
 def test_an_inset_is_a_larger_rack() -> None:
