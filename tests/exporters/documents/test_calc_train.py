@@ -237,6 +237,8 @@ def test_report_form_has_a_place_for_the_count() -> None:
     [
         (("teeth=[20,30]", "meshes=1-1"), ('"1-1"', "no mesh in itself")),
         (("teeth=[20,30,40]", "meshes=1-2, 2-3", "shafts=1-2"), ('"1-2"', "no mesh in itself")),
+        (("teeth=[20,30,40]", "meshes=1-2, 2-3", "shafts=H"), ('"H"', "as 2-3")),
+        ((*JAMES, "held=3", "speeds.1=3", "driver=2"), ('driver = "2"', "speed")),
         (("teeth=[20,30,30]", "meshes=1-2", "carriers.H=3"), ("carriers.H", "holds satellites")),
         ((*JAMES, "carriers.K=2", "held=3"), ("carriers.K", "carried by H already")),
         ((*JAMES, "held=3", "speeds.1=3", "speeds.H=4"), ("speeds", "turned already by", "3")),
