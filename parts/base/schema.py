@@ -84,7 +84,7 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         if isinstance(value, str) and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value)):
             return SceneError(source, where, value, "comma_in_number", None, whole=comma.group(1), part=comma.group(2))
         code = "wrong_type" if allowed is None else "wrong_type_of"
-        return SceneError(source, where, value, code, nearest, type=_type_words(wrong_type.group(1)), allowed=allowed)
+        return SceneError(source, where, value, code, nearest, type=type_words(wrong_type.group(1)), allowed=allowed)
     return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)
 
 
@@ -145,7 +145,7 @@ _TYPES = {
 }
 
 
-def _type_words(types: str) -> Message:
+def type_words(types: str) -> Message:
     """msgspec's union of types in words."""
     names = sorted(name for name in types.split(" | ") if name != "null")
     whole = " | ".join(names)

@@ -84,5 +84,21 @@ def in_one(raw: dict[str, Any], table: object, source: str, place: str, chosen: 
                     source, f"{place}.{key}.{other}", told[other], "not_one_of", meant(other, known), known=known
                 )
         if key in chosen:
+            _check_all(told, key, source, f"{place}.{key}")
             made[key] = told_in(str(language), told)
     return made
+
+
+def _check_all(told: dict[str, Any], key: str, source: str, place: str) -> None:
+    """Words that are not told today are words too: tomorrow's ``--language`` tells them."""
+    import msgspec
+
+    from parts.base.refusal import SceneError
+    from parts.base.schema import type_words
+
+    for language, words in told.items():
+        try:
+            msgspec.convert(words, list[str] if key == "notes" else bool | str if key == "label" else str)
+        except msgspec.ValidationError:
+            kind = type_words("array" if key == "notes" else "str")
+            raise SceneError(source, f"{place}.{language}", words, "wrong_type", type=kind) from None

@@ -15,7 +15,7 @@ from exporters.production.build import build
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
 from parts.scene.language import language_of
-from parts.scene.load import load_scene, scene_from_toml
+from parts.scene.load import load_scene, scene_from_dict, scene_from_toml
 
 GEAR = {"kind": '"spur_gear"', "module": "2.0", "number_of_teeth": "23"}
 Keys = dict[str, str | None]
@@ -443,6 +443,24 @@ def test_a_language_that_is_none_is_refused_in_the_one_that_was_meant(tmp_path: 
     for asked, told in (("ua", "uk"), ("ukr", "uk"), ("eng", "en"), ("xx", "en")):
         (file := tmp_path / f"{asked}.toml").write_text(f'[scene]\nlanguage = "{asked}"\n', encoding="utf-8")
         assert language_of(str(file)) == told
+
+
+@pytest.mark.parametrize(
+    ("where", "table", "key"),
+    [
+        ("scene", {"title": {"en": "Pin", "uk": -1}}, "scene.title.uk"),
+        ("scene", {"notes": {"en": ["Turn it."], "uk": "Оберніть."}}, "scene.notes.uk"),
+        ("scene", {"notes": {"en": ["Turn it."], "uk": [1]}}, "scene.notes.uk"),
+        ("pin", {"label": {"en": "P", "uk": 2.5}}, "parts.pin.label.uk"),
+        ("pin", {"material": {"en": "steel", "uk": ["сталь"]}}, "parts.pin.material.uk"),
+    ],
+)
+def test_words_of_the_language_that_is_not_told_are_words_too(where: str, table: dict[str, Any], key: str) -> None:
+    pin = {"kind": "pin", "diameter": 3.0, "length": 5.0, **(table if where == "pin" else {})}
+    scene = {"scene": {"language": "en", **(table if where == "scene" else {})}, "parts": {"pin": pin}}
+    with pytest.raises(SceneError) as caught:
+        scene_from_dict(scene, "s.toml", "s")
+    assert (caught.value.key, caught.value.code) == (key, "wrong_type")
 
 
 @pytest.mark.parametrize("asked", ["ua", "ukr"])
