@@ -25,6 +25,7 @@ from msgspec import Meta, Struct
 from msgspec.structs import fields
 
 import parts
+from exporters.command.new import comments_of
 from geometry.base.record import Draft, Record
 from parts.base.registry import KINDS
 from parts.base.schema import phrase_of
@@ -32,6 +33,7 @@ from parts.base.texts import DOMAIN, LOCALE
 from parts.mates.registry import MATES
 from parts.pages.terms import TERMS
 from parts.recipes.registry import RECIPES
+from parts.scene.files import SCENE_FOLDER
 
 HOUSE = Path(parts.__file__).parents[1]
 _PACKAGES = (HOUSE / "parts", HOUSE / "exporters")
@@ -95,6 +97,8 @@ def _kept_in_data() -> Iterator[str]:
     """Kinds, terms, keys and tables of scenes and calculations: they need no mark."""
     yield from (*KINDS.phrases.values(), *MATES.phrases.values(), *RECIPES.phrases.values())
     yield from (term.name for term in TERMS.values())
+    for file in sorted(SCENE_FOLDER.glob("lesson_*.toml")):
+        yield from comments_of(file.read_text("utf-8"))
     for kind in _structs():
         if not (told := phrase_of(kind)).startswith("Keys of"):
             yield told

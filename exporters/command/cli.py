@@ -470,6 +470,7 @@ def _check(options: argparse.Namespace) -> int:
             check_solids(parts, address)
             check_workspace(scene.checks.workspace, placing, address)
         asked, language = scene.checks.transmission_error, scene.scene.language
+        names = names_of(scene.instances, parts)
         return (
             scene_checks(
                 placing,
@@ -480,9 +481,10 @@ def _check(options: argparse.Namespace) -> int:
                 transmission=asked,
                 workspace=scene.checks.workspace,
                 steps=scene.steps,
+                names=names,
             ),
             scene,
-            names_of(scene.instances, parts),
+            names,
         )
 
     found, refused = _each(options, checked)
@@ -579,7 +581,7 @@ def _list(options: argparse.Namespace) -> int:
 
 
 def _new(options: argparse.Namespace) -> int:
-    from exporters.command.new import new_assembly, new_mate, new_scene, plain_scene
+    from exporters.command.new import commented, new_assembly, new_mate, new_scene, plain_scene
     from parts.base.refusal import SceneError, meant
     from parts.base.registry import KINDS
     from parts.mates.registry import MATES
@@ -604,6 +606,7 @@ def _new(options: argparse.Namespace) -> int:
         text = text_of(Path(scenes.get(options.kind, options.kind)).read_bytes())
         if options.language is not None and options.kind in scenes and "\nlanguage = " not in text:
             text = text.replace("[scene]\n", f'[scene]\nlanguage = "{options.language}"\n', 1)
+            text = text if options.language == ENGLISH else commented(text, words(options.language))
     _page(plain_scene(text, options.kind) if options.expand else text, options)
     return DONE
 

@@ -5,8 +5,11 @@ All that it shows of a kind stands in the kind's keys: what they mean, their def
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import takewhile
+from textwrap import wrap
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
@@ -27,6 +30,8 @@ _SCHEMA = "higherpair.schema.json"
 _SCHEMA_COMMAND = f"higherpair schema --out {_SCHEMA}"
 # tables of a plain scene, as they are printed
 _TABLES = ("scene", "parts", "instances", "mates", "drives", "steps", "boards", "beds", "exports", "checks")
+# a comment beside a key, colours are none; letters in a line of those that a scene begins with
+_COMMENT, _PAGE = re.compile(r"(?m)(?<=\s)# (.+)$"), 118
 _COMMENTS = {
     "sheet": N_("picture of meshing of every pair, DXF and SVG"),
     "one_pair": N_("only of this one"),
@@ -96,6 +101,30 @@ def new_scene(kind: str, language: str = ENGLISH) -> str:
         *_several(kind, told),
     ]
     return "\n".join(lines) + "\n"
+
+
+def commented(text: str, told: Words) -> str:
+    """A built-in scene with its comments in another language, as far as that has them."""
+    head, rest = _opening(text)
+    lines = wrap(" ".join(told.text(sentence) for sentence in _sentences(head)), _PAGE)
+    return "".join(f"# {line}\n" for line in lines) + _COMMENT.sub(lambda found: f"# {told.text(found[1])}", rest)
+
+
+def comments_of(text: str) -> list[str]:
+    """The comments of a built-in scene: the sentences that it begins with, and those beside its keys."""
+    head, rest = _opening(text)
+    return [*_sentences(head), *_COMMENT.findall(rest)]
+
+
+def _opening(text: str) -> tuple[str, str]:
+    """The comment at the start of a scene, and the rest of it."""
+    lines = takewhile(lambda line: line.startswith("# "), text.splitlines(keepends=True))
+    size = sum(map(len, lines))
+    return text[:size], text[size:]
+
+
+def _sentences(head: str) -> list[str]:
+    return re.findall(r"\S.*?(?:\.|$)(?= |$)", " ".join(line.removeprefix("# ") for line in head.splitlines()))
 
 
 def _head(told: Words) -> list[str]:

@@ -88,9 +88,14 @@ def _remarks(written: Sequence[Written], told: Words) -> list[str]:
     lines = []
     for item in written:
         lines += [told.text("FAILED: {why}", why=f"{item.job.path}: {failure}") for failure in item.failures]
+    # what several files share is said once
+    labels: dict[str, list[str]] = {}
     for item in written:
-        said = (told.say(finding_message(f)) for f in item.findings)
-        lines += [told.text("note: {text}", text=f"{item.job.label}: {text}") for text in said]
+        for finding in item.findings:
+            labels.setdefault(told.say(finding_message(finding)), []).append(item.job.label)
+    for text, own in labels.items():
+        names = ", ".join(dict.fromkeys(own))
+        lines.append(told.text("note: {text}", text=f"{names}: {text}"))
     return lines
 
 

@@ -49,7 +49,7 @@ def calculate(topic: str, words: Sequence[str], form: str, language: str | None)
     for name, value, known in (("--format", form, FORMATS), ("--language", language, languages())):
         if value is not None and value not in known:
             raise SceneError(PLACE, name, value, "not_one_of", meant(value, known), known=known)
-    sheet, spoken = sheet_of(topic, words)
+    sheet, spoken = sheet_of(topic, words, language)
     language = language or spoken
     if sheet.picture_file is not None and sheet.picture is not None:
         _write_picture(sheet.picture, Path(sheet.picture_file), told(language))
@@ -75,8 +75,8 @@ def _write_picture(picture: Picture, file: Path, words: Words) -> None:
         file.write_text(picture.svg(words), encoding="utf-8", newline="\n")
 
 
-def sheet_of(topic: str, words: Sequence[str]) -> tuple[Sheet, str]:
-    """The sheet of a topic and the language of its scene."""
+def sheet_of(topic: str, words: Sequence[str], language: str | None = None) -> tuple[Sheet, str]:
+    """The sheet of a topic and the language of its scene, which is told in another where one is asked for."""
     addresses = [word for word in words if "=" not in word or os.path.isfile(word)]
     if len(addresses) > 1:
         raise SceneError(PLACE, addresses[1], None, "one_scene_only", None, other=addresses[0])
@@ -90,7 +90,7 @@ def sheet_of(topic: str, words: Sequence[str]) -> tuple[Sheet, str]:
         return module.sheet(table), "en"
     from parts.scene.load import load_scene
 
-    scene = load_scene(addresses[0])
+    scene = load_scene(addresses[0], language)
     table_from = getattr(module, "table_from", None)
     if table_from is None:
         raise SceneError(addresses[0], "TOPIC", topic, "keys_not_a_scene")

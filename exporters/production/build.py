@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 
 from exporters.formats.registry import Chords, Shape, number_rounding, shape_of
-from exporters.production.check_lines import has_bad_verdict
+from exporters.production.check_lines import has_bad_verdict, names_of
 from exporters.production.jobs import AssemblyJob, FileJob, Job, Made, ShapeKey, Written
 from exporters.production.moving import alone_in, move_into, staging_folder
 from exporters.production.plan import Plan
@@ -126,6 +126,7 @@ def _checks(plan: Plan) -> dict[str, Any]:
         contact=contact,
         transmission=transmission,
         workspace=scene.checks.workspace,
+        names=names_of(scene.instances, plan.parts),
     )
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import asdict
@@ -16,7 +17,7 @@ from parts.base.part import Part
 from parts.base.texts import N_, words
 from parts.scene.instances import DriveSpec
 from parts.scene.placing import UPWARDS, Closeness, Condition, Instance, PlacedMate, Placing
-from parts.texts.checks import OFF_CENTRE, condition_message
+from parts.texts.checks import OFF_CENTRE, called, condition_message
 from parts.texts.findings import finding_text
 
 if TYPE_CHECKING:
@@ -40,15 +41,17 @@ def scene_checks(
     transmission: bool = False,
     workspace: int | None = None,
     steps: Sequence[StepSpec] = (),
+    names: Mapping[str, str] = MappingProxyType({}),
 ) -> dict[str, Any]:
     """All that is known of how a scene's instances stand to each other.
 
     ``contact``: interference of the pairs too; ``transmission``: and their transmission error; ``workspace``: solids
-    wherever the drives may stand, each pair in so many poses at most; ``steps``: the order of assembly to be held.
+    wherever the drives may stand, each pair in so many poses at most; ``steps``: the order of assembly to be held;
+    ``names`` of instances that sentences call otherwise than by their ids.
     """
     checks: dict[str, Any] = {}
     if placing.mates:
-        checks["mates"] = [_mate(m, language, contact=contact) for m in placing.mates]
+        checks["mates"] = [_mate(m, language, names, contact=contact) for m in placing.mates]
         if transmission:
             for found, mate in zip(checks["mates"], placing.mates, strict=True):
                 _add_transmission(found, mate)
@@ -60,16 +63,16 @@ def scene_checks(
     if placing.mates and (alone := [i.id for i in placing.instances if i.placed_by == "row"]):
         checks["in_a_row"] = alone
     if placing.close:
-        checks["neighbours"] = [_neighbours(c, language) for c in placing.close]
+        checks["neighbours"] = [_neighbours(c, language, names) for c in placing.close]
     if placing.off_centre:
         told = words(language)
         rows = [
             {"frame": o.frame, "axle": o.axle, "distance": o.distance, "clearance": o.clearance}
             for o in placing.off_centre
         ]
-        checks["axles"] = [{**row, "text": told.text(OFF_CENTRE, **row)} for row in rows]
+        checks["axles"] = [{**row, "text": told.text(OFF_CENTRE, **called(row, names))} for row in rows]
     if contact and len(placing.instances) > 1:
-        checks |= _solids(placing, parts, drives, language, workspace)
+        checks |= _solids(placing, parts, drives, language, workspace, names)
     if steps:
         from exporters.production.order import order_checks
 
@@ -148,7 +151,7 @@ def _where(mating: Mating, drive: float) -> dict[str, float]:
     return {"drive_travel": drive} if mating.kind == "wedge_follower" else {"drive_angle_deg": math.degrees(drive)}
 
 
-def _mate(mate: PlacedMate, language: str, *, contact: bool) -> dict[str, Any]:
+def _mate(mate: PlacedMate, language: str, names: Mapping[str, str], *, contact: bool) -> dict[str, Any]:
     """A mate as its instances stand; contact is sought where its conditions hold."""
     contact = contact and all(c.met for c in mate.conditions)
     if not contact:
@@ -164,7 +167,7 @@ def _mate(mate: PlacedMate, language: str, *, contact: bool) -> dict[str, Any]:
     found["direction_deg"] = math.degrees(mate.direction)
     found["second_rotation_deg"] = math.degrees(mate.second.rotation)
     if mate.conditions:
-        found["conditions"] = [_condition(c, mate, language) for c in mate.conditions]
+        found["conditions"] = [_condition(c, mate, language, names) for c in mate.conditions]
     return found
 
 
@@ -179,13 +182,14 @@ def _add_transmission(found: dict[str, Any], mate: PlacedMate) -> None:
     found["transmission_error"] = mate.mating.transmission_error(mate.centre_shift)
 
 
-def _condition(condition: Condition, mate: PlacedMate, language: str) -> dict[str, Any]:
+def _condition(condition: Condition, mate: PlacedMate, language: str, names: Mapping[str, str]) -> dict[str, Any]:
     numbers = {"value": condition.value, "required": condition.required, "tolerance": condition.tolerance}
-    text = words(language).say(condition_message(condition.code, mate.first.id, mate.second.id, **numbers))
+    first, second = (names.get(one.id, one.id) for one in (mate.first, mate.second))
+    text = words(language).say(condition_message(condition.code, first, second, **numbers))
     return {"code": condition.code, "met": condition.met, **numbers, "text": text}
 
 
-def _neighbours(close: Closeness, language: str) -> dict[str, Any]:
+def _neighbours(close: Closeness, language: str, names: Mapping[str, str]) -> dict[str, Any]:
     return {
         "first": close.first,
         "second": close.second,
@@ -193,8 +197,8 @@ def _neighbours(close: Closeness, language: str) -> dict[str, Any]:
         "sum_of_tip_radii": close.tip_sum,
         "text": words(language).text(
             "{first} and {second} may touch: {value:.6g} mm apart, their tips reach {limit:.6g} mm, no mate joins them",
-            first=close.first,
-            second=close.second,
+            first=names.get(close.first, close.first),
+            second=names.get(close.second, close.second),
             value=close.distance,
             limit=close.tip_sum,
         ),
@@ -202,8 +206,9 @@ def _neighbours(close: Closeness, language: str) -> dict[str, Any]:
 
 
 def _solids(
-    placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec], language: str, workspace: int | None
-) -> dict[str, Any]:
+    placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec], language: str, workspace: int | None,
+    names: Mapping[str, str],
+) -> dict[str, Any]:  # fmt: skip
     """Solids as they stand, then on the way that the drives move them, or wherever these may stand."""
     from parts.scene.interference import by_contact, has_solid_pairs, solid_overlaps
     from parts.scene.shapes import Shape
@@ -211,14 +216,14 @@ def _solids(
     shapes = {name: Shape(parts[name]) for name in dict.fromkeys(i.part for i in placing.instances)}
     fits: list[tuple[Instance, Instance, float]] = []
     overlaps = solid_overlaps(placing, parts, lambda name: shapes[name].solid, fits)
-    solids = [_overlap(o.first, o.second, o.volume, language) for o in overlaps]
+    solids = [_overlap(o.first, o.second, o.volume, language, names) for o in overlaps]
     checks: dict[str, Any] = {}
     known = {frozenset((o.first, o.second)) for o in overlaps}
     if placing.train is not None and workspace is not None:
         from parts.scene.workspace import workspace_found
 
         all_over = workspace_found(placing, shapes, by_contact(placing, parts), known, workspace)
-        solids += [_struck(x, drives, language) for x in all_over.struck]
+        solids += [_struck(x, drives, language, names) for x in all_over.struck]
         checks["workspace"] = {
             "rest": all_over.rest,
             "tested": all_over.tested,
@@ -232,7 +237,7 @@ def _solids(
 
         course = course_of(placing.train, [i.id for i in placing.instances])
         found = motion_found(placing, shapes, course, known)
-        solids += [_overlap(x.first, x.second, x.volume, language, drives[0], x.time) for x in found.struck]
+        solids += [_overlap(x.first, x.second, x.volume, language, names, drives[0], x.time) for x in found.struck]
         checks["motion"] = {
             "pairs": found.pairs,
             "tested": found.tested,
@@ -258,24 +263,27 @@ def _fits(found: Sequence[tuple[Instance, Instance, float]]) -> list[dict[str, A
     ]
 
 
-def _struck(struck: Struck, drives: Sequence[DriveSpec], language: str) -> dict[str, Any]:
+def _struck(struck: Struck, drives: Sequence[DriveSpec], language: str, names: Mapping[str, str]) -> dict[str, Any]:
     """Two solids in each other where the drives have turned so far."""
-    found = _overlap(struck.first, struck.second, struck.volume, language)
+    found = _overlap(struck.first, struck.second, struck.volume, language, names)
     if struck.volume is None:
         return found
     turns = {drive.instance: 360.0 * turned for drive, turned in zip(drives, struck.turns, strict=True)}
     told = words(language)
-    where = ", ".join(told.text("{drive} by {way:.6g} deg", drive=name, way=way) for name, way in turns.items())
+    where = ", ".join(
+        told.text("{drive} by {way:.6g} deg", drive=names.get(name, name), way=way) for name, way in turns.items()
+    )
     text = told.text(
         "{first} and {second} run into each other: {value:.4g} mm^3 in common where drives have turned: {where}",
-        first=struck.first, second=struck.second, value=struck.volume, where=where,
+        **called({"first": struck.first, "second": struck.second}, names), value=struck.volume, where=where,
     )  # fmt: skip
     return {**found, "drive_turns_deg": turns, "text": text}
 
 
 def _overlap(
-    first: str, second: str, volume: float | None, language: str, drive: DriveSpec | None = None, share: float = 0.0
-) -> dict[str, Any]:
+    first: str, second: str, volume: float | None, language: str, names: Mapping[str, str],
+    drive: DriveSpec | None = None, share: float = 0.0,
+) -> dict[str, Any]:  # fmt: skip
     """Two solids in each other, as they stand or where a drive has run a share of what it is asked for."""
     verdict, told = "overlap", N_("{first} and {second} run into each other: {value:.4g} mm^3 in common as they stand")
     found: dict[str, Any] = {"first": first, "second": second, "volume": volume}
@@ -295,6 +303,6 @@ def _overlap(
             "{first} and {second} run into each other: {value:.4g} mm^3 in common where {drive} has turned by "
             "{way:.6g} deg"
         )
-    name = None if drive is None else drive.instance
-    text = words(language).text(told, first=first, second=second, value=volume, drive=name, way=way)
+    said = called({"first": first, "second": second, "drive": "" if drive is None else drive.instance}, names)
+    text = words(language).text(told, **said, value=volume, way=way)
     return {**found, "verdict": verdict, "text": text}

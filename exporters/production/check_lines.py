@@ -12,7 +12,7 @@ from typing import Any
 from parts.base.part import Part
 from parts.base.texts import N_, Message, Text, Words, counted, filled, message, words
 from parts.scene.instances import InstanceSpec
-from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS
+from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS, called
 
 # gaps below this are rounding, mm
 _ROUNDING = 1e-9
@@ -81,7 +81,7 @@ def check_lines(
     for found in checks.get("solids", []):
         lines.append(f"{told.text(VERDICTS[found['verdict']])}: {found['text']}")
     if "motion" in checks and not brief:
-        lines += _motion(checks["motion"], told)
+        lines += _motion(checks["motion"], told, names)
     if "workspace" in checks and not brief:
         lines += _workspace(checks["workspace"], told, names)
     if "order" in checks:
@@ -124,7 +124,7 @@ def _drives(checks: dict[str, Any], names: Mapping[str, str], told: Words) -> li
     return lines
 
 
-def _motion(motion: dict[str, Any], told: Words) -> list[str]:
+def _motion(motion: dict[str, Any], told: Words, names: Mapping[str, str]) -> list[str]:
     """How far the solids were held against each other on their way, and where they were not."""
     if "one_pose" in motion:
         return [told.text("note: no drive moves this scene: its solids were held as they stand alone")]
@@ -142,13 +142,15 @@ def _motion(motion: dict[str, Any], told: Words) -> list[str]:
             )
         )
     for found in (x for x in motion["uncovered"] if x["share"] < 1):
-        lines.append(told.text("note: {first} and {second} were held over {share:.3g} of their period", **found))
-    if "lying" in motion:
-        names = ", ".join(motion["lying"])
         lines.append(
-            told.text("note: held as they stand, not in motion, since their axes are not upright: {names}", names=names)
+            told.text("note: {first} and {second} were held over {share:.3g} of their period", **called(found, names))
         )
-    return [*lines, *_uncovered(motion, told)]
+    if "lying" in motion:
+        lying = ", ".join(in_rows(names.get(name, name) for name in motion["lying"]))
+        lines.append(
+            told.text("note: held as they stand, not in motion, since their axes are not upright: {names}", names=lying)
+        )
+    return [*lines, *_uncovered(motion, told, names)]
 
 
 def _workspace(found: dict[str, Any], told: Words, names: Mapping[str, str]) -> list[str]:
@@ -169,7 +171,7 @@ def _workspace(found: dict[str, Any], told: Words, names: Mapping[str, str]) -> 
         free = sum(fit["pairs"] for fit in found["fits"]) - touching
         fits = (_pairs(touching, N_("{pairs} in touch"), told), _pairs(free, N_("{pairs} with a clearance"), told))
         lines.append(told.text("seats by half sections: {fits}", fits=", ".join(fits)))
-    return [*lines, *_uncovered(found, told)]
+    return [*lines, *_uncovered(found, told, names)]
 
 
 def _pairs(count: int, text: Text, told: Words, **more: object) -> str:
@@ -178,7 +180,7 @@ def _pairs(count: int, text: Text, told: Words, **more: object) -> str:
     return told.say(filled(text, pairs=pairs, **more))
 
 
-def _uncovered(motion: dict[str, Any], told: Words) -> list[str]:
+def _uncovered(motion: dict[str, Any], told: Words, names: Mapping[str, str]) -> list[str]:
     """What may be hidden between poses."""
     lines = []
     if motion["uncovered"]:
@@ -189,7 +191,7 @@ def _uncovered(motion: dict[str, Any], told: Words) -> list[str]:
                 message(
                     "note: between poses {first} and {second} may be up to {depth:.3g} mm in each other, the most of "
                     "{pairs}",
-                    **{**worst, "pairs": pairs},
+                    **{**called(worst, names), "pairs": pairs},
                 )
             )
         )

@@ -118,7 +118,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
                 _take(one.path, where, taken, source)
             assemblies += laid
             lying = {m.part.id for one in laid for m in one.members}
-            over = ", ".join(p for p in asked.wanted if p not in lying)
+            over = ", ".join(parts[p].title or p for p in asked.wanted if p not in lying)
             left_out += [LeftOut(f"{where}: {over}", N_("lies on none of its boards or beds"))] if over else []
             continue
         if export.format in OF_SCENES:

@@ -8,6 +8,8 @@ from exporters.production.request import Request
 from geometry.base.tolerance import PLACED_MM
 from geometry.kinematics.mechanism import FRAME, Revolute, Rolling, Tree
 from parts.base.mate import Toothed
+from parts.base.refusal import SceneError
+from parts.base.texts import told_in
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.mates.sheets.train_picture import Link, Rim, TrainPicture
@@ -30,6 +32,9 @@ def train_sheets(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
         raise wanted.refused("purpose", wanted.export.purpose, "shows_driven_gears")
     picture, rims = train_picture(placing.train, meshes, placing.instances)
     return [("", train_sheet(wanted.title, picture, rims, asked))]
+    titles = ((part, scene.parts[part].title) for part in rims)
+    told = [told_in(asked.language, title) if title else part for part, title in titles]
+    return train_sheet(scene.scene.title or scene.name, picture, told, asked)
 
 
 def _meshes(placing: Placing) -> list[Rolling]:

@@ -87,12 +87,32 @@ def sentence(refusal: SceneError, language: str = ENGLISH) -> str:
     return "".join(c if c.isprintable() else "?" for c in line)
 
 
+# refusals of what `higherpair list` has, and how much of that they tell themselves
+_LISTED, _FEW = ("a_folder", "no_scene", "no_such_scene", "unknown_kind", "unknown_mate", "missing_kind"), 8
+
+
+def _nearest_few(refusal: SceneError) -> Message | None:
+    """Of a long list of kinds or scenes those that are most like what was given, and where the rest stands."""
+    import difflib
+
+    known = refusal.numbers.get("known")
+    if refusal.code not in _LISTED or not isinstance(known, list | tuple) or len(known) <= _FEW:
+        return None
+    word = str(refusal.value or (refusal.source if refusal.code == "no_such_scene" else ""))
+    few = sorted(known, key=lambda name: -difflib.SequenceMatcher(None, word, name).ratio())[:_FEW]
+    return message(
+        "{few} and {more} more, see `{command}`", few=_told(few), more=len(known) - _FEW, command="higherpair list"
+    )
+
+
 def explained(refusal: SceneError) -> Message:
     """What is wrong and what would work."""
     text = reason(refusal.code)
     # the number that a plural goes by stays a number
     counted = text.by if isinstance(text, Message) else ""
     why = filled(text, **{name: n if name == counted else _told(n) for name, n in refusal.numbers.items()})
+    if few := _nearest_few(refusal):
+        why = filled(why, known=few)
     if letter := look_alike(f"{refusal.key} {refusal.value if isinstance(refusal.value, str) else ''}"):
         why = message("{why}; {remedy}", why=why, remedy=letter)
     nearest = refusal.nearest

@@ -30,7 +30,7 @@ def language_of(address: str) -> str:
         asked = tomllib.loads(text_of(raw)).get("scene", {}).get("language")
     except (ValueError, AttributeError, RecursionError):
         # what is no TOML may still say it
-        found = re.search(rb"""(?m)^\s*language\s*=\s*["'](\w+)["']""", raw)
+        found = re.search(rb"""(?m)^\s*language\s*=\s*["']?(\w+)""", raw)
         asked = found[1].decode() if found else ENGLISH
     if asked is None or asked in languages():
         return asked or ENGLISH

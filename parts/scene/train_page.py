@@ -34,6 +34,8 @@ def table_from(scene: SceneFile, source: str, table: dict[str, Any]) -> dict[str
         raise SceneError(source, "mates", None, "no_gear_pair")
     modules = {key: getattr(scene.parts[spec.part or key], "module", None) for key, spec in scene.instances.items()}
     found = known.table(modules, {drive.instance: drive.turns for drive in scene.drives if drive.travel is None})
+    called = {key: spec.title or parts[str(spec.part)].called(key) for key, spec in scene.instances.items()}
+    found["names"] = {name: called[key] for name, key in found["names"].items()}
     teeth = table.pop("teeth", {})
     return found | table | {"teeth": {**found["teeth"], **teeth} if isinstance(teeth, dict) else teeth}
 

@@ -87,6 +87,11 @@ def add_mates(table: Mapping[str, Text]) -> None:
     MATES.update(table)
 
 
+def called(row: Mapping[str, object], names: Mapping[str, str]) -> dict[str, object]:
+    """What a sentence tells, instances by their names."""
+    return {key: names.get(told, told) if isinstance(told, str) else told for key, told in row.items()}
+
+
 def condition_message(code: str, first: str, second: str, value: float, required: float, tolerance: float) -> Message:
     """A condition of a mate as a sentence."""
     if code == "train":

@@ -21,9 +21,9 @@ from parts.pages.cam_steps import law_text
 from parts.pages.page import Sheet, Table
 
 _SOURCES = {
-    False: ("practicum, lesson 5, 3.1, fig. 5.1 - 5.4", "practicum, lesson 5, section 3.2, fig. 5.6",
+    False: ("practicum, lesson 5, 3.1, fig. 5.1 - 5.4", "practicum, lesson 5, 3.2, fig. 5.6",
             "practicum, lesson 5, 3.3, fig. 5.7"),
-    True: ("practicum, lesson 4, 3.1, fig. 4.5 - 4.8", "practicum, lesson 4, section 3.2, fig. 4.9",
+    True: ("practicum, lesson 4, 3.1, fig. 4.5 - 4.8", "practicum, lesson 4, 3.2, fig. 4.9",
            "practicum, lesson 4, 3.3, fig. 4.11"),
 }  # fmt: skip
 _PHASES = {PhaseKind.RISE: N_("rise"), PhaseKind.RETURN: N_("return")}

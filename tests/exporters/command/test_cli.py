@@ -135,7 +135,7 @@ def test_wrong_input_leaves_no_file_and_no_folder(
     before = {p.name for p in tmp_path.iterdir()}
     for arguments, words in (
         ([bad], "number_of_teeth = 2"), ([wide], "kerf = 9.9"), ([fine], "tolerance = 1e-07"),
-        (["no_such_scene"], "laser_gear"), ([tmp_path], "folder"), ([scene, "--part", "h"], "parts: g"),
+        (["no_such_scene"], "see `higherpair list`"), ([tmp_path], "folder"), ([scene, "--part", "h"], "parts: g"),
         ([scene, "--format", "dwg"], "dxf, svg"), ([scene, "--format", "dxf", "--part", "G"], "parts: g"),
     ):  # fmt: skip
         for out in ([], ["--out", "new/deep"]):

@@ -215,3 +215,22 @@ def test_lessons_and_coupons_have_notes_in_every_language() -> None:
         assert notes or not ("lesson" in name or "coupon" in name)
         assert len({len(rows) for rows in notes.values()}) <= 1, name
         assert set(notes) in (set(), set(languages())), name
+
+
+@pytest.mark.parametrize("name", LESSONS)
+def test_a_lesson_as_a_text_file_speaks_ukrainian(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", name, "--language", "uk"]) == 0
+    told = capsys.readouterr().out
+    own = (SCENE_FOLDER / f"{name}.toml").read_text("utf-8")
+    # the same scene but for its language
+    assert tomllib.loads(told.replace('language = "uk"\n', "")) == tomllib.loads(own)
+    for comment in (line.partition(" # ")[2] for line in told.splitlines()):
+        assert not comment or re.search("[А-яІЇЄҐіїєґ]|^[^A-Za-z]+$", comment), comment
+
+
+def test_words_around_a_ukrainian_scene_are_ukrainian(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["calc", "train", "lesson_2", "--language", "uk"]) == 0
+    assert "1 Сонячне колесо, 2 Сателіт 1, 3 Коронне колесо, H Водило" in capsys.readouterr().out
+    (tmp_path / "s.toml").write_text("[scene]\nlanguage = uk\n", encoding="utf-8")
+    assert main(["build", str(tmp_path / "s.toml")]) == 2
+    assert "слова пишуть у прямих лапках" in capsys.readouterr().err

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from exporters.production.check_lines import check_lines
+from exporters.production.check_lines import caption_lines, check_lines
 
 
 def _fixed(second: str, met: bool = True) -> dict[str, object]:
@@ -33,3 +33,14 @@ def test_what_was_held_all_over_says_over_what() -> None:
     ):
         found = {"workspace": {"tested": tested, "rest": {}, "poses": poses, "uncovered": [], "fits": []}}
         assert check_lines(found, "en") == [told]
+
+
+def test_a_caption_tells_what_is_not_well_and_counts_the_rest() -> None:
+    mates = [{"kind": "cam_yoke", "first": "cam", "second": f"yoke_{n}", "lift": 1.0, "yoke_breadth": 2.0,
+              "verdict": "overlap" if n == 7 else "clear", "gap": 0.1, "tolerance": 1e-8} for n in range(40)]  # fmt: skip
+    few = {"mates": mates[:2]}
+    assert caption_lines(few, "en", {}, 500) == check_lines(few, "en", brief=True)
+    bad, rest = caption_lines({"mates": mates}, "en", {"yoke_7": "Yoke"}, 500)
+    assert "Yoke" in bad
+    assert "OVERLAP" in bad
+    assert rest == "CLEAR: 39 pairs"
