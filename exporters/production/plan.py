@@ -92,8 +92,11 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     unasked = [p for p in parts if only_parts and p not in only_parts]
     left_out += [LeftOut(f"parts.{p}", N_("was not asked for"), as_asked=True) for p in unasked]
     used = {p for _, e in exports for p in e.parts or parts}
-    unused = [p for p in parts if p not in used]
     purposes = {e.purpose for _, e in exports}
+    noted = scene.scene.notes or scene.steps or purposes & {*PURPOSES_LAID.values()}
+    # the notes tell how long they are to be cut
+    rods = {p for p, part in parts.items() if noted and part.stock is not None}
+    unused = [p for p in parts if p not in used and p not in rods]
     unused = [f"parts.{p}" for p in unused]
     unused += [f"{key}.{n}" for key, word in PURPOSES_LAID.items() for n in getattr(scene, key) if word not in purposes]
     left_out += [LeftOut(what, N_("no export asks for it"), as_asked=bool(only_formats)) for what in unused]
@@ -118,7 +121,9 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
                 _take(one.path, where, taken, source)
             assemblies += laid
             lying = {m.part.id for one in laid for m in one.members}
-            over = ", ".join(parts[p].title or p for p in asked.wanted if p not in lying)
+            over = ", ".join(
+                parts[p].title or p for p in asked.wanted if p not in lying and (p not in rods or export.parts)
+            )
             left_out += [LeftOut(f"{where}: {over}", N_("lies on none of its boards or beds"))] if over else []
             continue
         if export.format in OF_SCENES:

@@ -8,8 +8,6 @@ from exporters.production.request import Request
 from geometry.base.tolerance import PLACED_MM
 from geometry.kinematics.mechanism import FRAME, Revolute, Rolling, Tree
 from parts.base.mate import Toothed
-from parts.base.refusal import SceneError
-from parts.base.texts import told_in
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.mates.sheets.train_picture import Link, Rim, TrainPicture
@@ -31,10 +29,8 @@ def train_sheets(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
     if placing.train is None or not meshes:
         raise wanted.refused("purpose", wanted.export.purpose, "shows_driven_gears")
     picture, rims = train_picture(placing.train, meshes, placing.instances)
-    return [("", train_sheet(wanted.title, picture, rims, asked))]
-    titles = ((part, scene.parts[part].title) for part in rims)
-    told = [told_in(asked.language, title) if title else part for part, title in titles]
-    return train_sheet(scene.scene.title or scene.name, picture, told, asked)
+    told = [wanted.parts[part].title or part for part in rims]
+    return [("", train_sheet(wanted.title, picture, told, asked))]
 
 
 def _meshes(placing: Placing) -> list[Rolling]:
