@@ -255,7 +255,8 @@ def generating_sheets(wanted: Request, asked: Asked) -> list[tuple[str, Expected
     tables = tmm42.sheet(table, zero_only=all(g.profile_shift_coefficient == 0 for g in gears))
     pitch = math.pi * gears[0].module
     step = export.rack_step or min(max(RACK_STEP, _LEAST_STEP * pitch), _MOST_STEP * pitch)
-    return [("", generating_sheet(gears, step, tables, asked))]
+    pages = generating_sheet(gears, step, tables, asked)
+    return [(str(n) if len(pages) > 1 else "", page) for n, page in enumerate(pages, 1)]
 
 
 def _band(export: ExportSpec) -> float:

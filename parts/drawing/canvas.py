@@ -195,11 +195,11 @@ def text_of(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | N
     natural = text_width(text, size)
     squeeze = min(1.0, (natural if most is None else most) / natural) if natural else 1.0
     runs, x = [], at.real
-    for piece, low in _pieces(text, size):
+    for piece, low, is_index in _pieces(text, size):
         width, bare = plain_width(piece, low) * squeeze, piece.strip(" ")
         if bare:
             lead = plain_width(piece[: len(piece) - len(piece.lstrip(" "))], low) * squeeze
-            place = complex(x + lead, at.imag - (_DROP * size if low < size else 0.0))
+            place = complex(x + lead, at.imag - (_DROP * size if is_index else 0.0))
             runs.append(Run(bare, place, low, plain_width(bare, low) * squeeze))
         x += width
     # room for what hangs below the line
@@ -219,16 +219,16 @@ def rising_text(
     return Text(made.text, runs, Box(xs[0], ys[0], xs[1], ys[1]))
 
 
-def _pieces(text: str, height: float) -> list[tuple[str, float]]:
-    """The pieces of a line, each with its height."""
+def _pieces(text: str, height: float) -> list[tuple[str, float, bool]]:
+    """The pieces of a line, each with its height, and whether it is an index: least letters have none lower."""
     index = max((h for h in HEIGHTS if h < height), default=LEAST_TEXT)
-    found = ((p, index if k % 2 else height) for k, p in enumerate(_INDEX.split(text)))
-    return [(part, size) for p, size in found for part in _PER_CENT.split(p) if part]
+    found = ((p, index if k % 2 else height, k % 2 == 1) for k, p in enumerate(_INDEX.split(text)))
+    return [(part, size, low) for p, size, low in found for part in _PER_CENT.split(p) if part]
 
 
 def text_width(text: str, height: float = TEXT_HEIGHT) -> float:
     """Length of a line of text, mm."""
-    return sum(plain_width(piece, size) for piece, size in _pieces(text, height))
+    return sum(plain_width(piece, size) for piece, size, _ in _pieces(text, height))
 
 
 def plain_width(text: str, height: float) -> float:

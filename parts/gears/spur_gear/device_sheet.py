@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 import re
+from functools import partial
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.placement import Placement2
@@ -17,7 +18,7 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from parts.base.texts import words
 from parts.drawing.canvas import SMALL_TEXT, TITLE_TEXT, Box, Canvas, Paper, draw, fitted, scale_text
-from parts.drawing.choice import Asked, sheet_for
+from parts.drawing.choice import Asked, blank, sheet_for
 from parts.drawing.expected import Circle, Expected
 from parts.drawing.labels import Labeller
 from parts.drawing.table import Row, Table
@@ -37,8 +38,10 @@ _CIRCLES = ("tip", "reference", "base", "root")
 _SYMBOLS = {"tip": "a", "reference": "", "base": "b", "root": "f"}
 
 
-def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: Asked) -> Expected:
+def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: Asked) -> list[Expected]:
     """The sheet of one or two wheels on a disk: the first at the top, the second below.
+
+    On small paper that is asked for the tables have a sheet of their own.
 
     Raises
     ------
@@ -50,16 +53,29 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
     rows = [*_rows(tables, language), Row(sheet_words(language, "scale"), "", "1:1")]
     disk = max(g.tip_radius for g in gears)
 
-    def greatest(sheet: Canvas) -> float:
-        field, _ = _areas(sheet, rows)
+    def greatest(beside: list[Row], sheet: Canvas) -> float:
+        field, _ = _areas(sheet, beside)
         return min(field.right - field.left - 2 * _NAMES, field.high - field.low) / (2.1 * disk)
 
-    canvas, scale = sheet_for(asked, greatest, _LEAST_MODULE / gears[0].module)
-    room, table = _areas(canvas, rows)
+    least, alone = _LEAST_MODULE / gears[0].module, False
+    try:
+        canvas, scale = sheet_for(asked, partial(greatest, rows), least)
+        alone = asked.paper is not None and asked.scale is None and scale < least
+    except ParameterError:
+        if asked.paper is None:
+            raise
+        alone = True
+    if alone:
+        canvas, scale = sheet_for(asked, partial(greatest, []), least)
+    room, _ = _areas(canvas, [] if alone else rows)
+    rows[-1] = replace(rows[-1], value=scale_text(scale, language))
+    pages = [canvas, blank(canvas.paper, upright=canvas.height > canvas.width, band=asked.band)] if alone else [canvas]
     paper = Paper(scale, complex(room.left + room.right, room.low + room.high) / 2)
-    canvas.box("FRAME", canvas.frame)
-    title, left = sheet_words(language, "generating"), canvas.frame.left + _MARGIN
-    canvas.write(title, complex(left, canvas.frame.high - 9.0), TITLE_TEXT, canvas.frame.right - _MARGIN - left)
+    for number, page in enumerate(pages, 1):
+        page.box("FRAME", page.frame)
+        title = sheet_words(language, "generating") + (f" ({number}/{len(pages)})" if alone else "")
+        left = page.frame.left + _MARGIN
+        page.write(title, complex(left, page.frame.high - 9.0), TITLE_TEXT, page.frame.right - _MARGIN - left)
     canvas.arc("DISK", _circle(paper, Arc(0j, disk, 0.0, 2 * math.pi)))
     for way in (1, 1j):
         canvas.line("CENTRE", paper.point(-1.04 * disk * way), paper.point(1.04 * disk * way))
@@ -80,10 +96,11 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
             names.append((gear, index, name, paper.scale * radius, turn))
     for layer in ("RACK", "OUTLINE"):
         draw(canvas, layer, fitted(canvas, curves[layer], paper.scale, asked.tolerance), paper)
-    table = replace(table, rows=(*rows[:-1], Row(rows[-1].name, "", scale_text(scale, language))))
-    table.draw(canvas, complex(canvas.frame.right - table.size[0], canvas.content.low))
+    _, table = _areas(pages[-1], rows)
+    corner = complex(pages[-1].frame.right - table.size[0], pages[-1].content.low)
+    table.draw(pages[-1], corner + 1j * max(0.0, pages[-1].content.high - _TITLE - table.size[1] - corner.imag) * alone)
     _label(canvas, paper, room, gears, names, language)
-    return Expected(canvas, paper, tuple(circles), curves)
+    return [Expected(canvas, paper, tuple(circles), curves), *(Expected(page, paper, ()) for page in pages[1:])]
 
 
 def _check(gears: list[SpurGear]) -> None:
@@ -120,7 +137,7 @@ def _rows(tables: Sheet, language: str) -> list[Row]:
             formula = f"{formula_text(step, told)} = {numbers_text(step, told)}" if step.formula else ""
             symbol = symbol_text(step.symbol, told)
             cells = f"{step_name(step, told)}, {symbol}", formula, result_text(step, told)
-            name, formula, result = (told.decimal(_lowered(cell)) for cell in cells)
+            name, formula, result = (_lowered(told.decimal(cell)) for cell in cells)
             # the data of the device are given
             rows.append(Row(name, formula, result, answers=0 if section is tables.sections[0] else 2))
     return rows
@@ -128,7 +145,7 @@ def _rows(tables: Sheet, language: str) -> list[Row]:
 
 def _lowered(text: str) -> str:
     """S_t1 with its index lowered."""
-    return re.sub(r"_(\w[\w,]*)", r"_{\1}", text)
+    return re.sub(r"_(\w(?:[\w,]|\.(?=\d))*)", r"_{\1}", text)
 
 
 def _areas(sheet: Canvas, rows: list[Row]) -> tuple[Box, Table]:
