@@ -36,8 +36,8 @@ def test_what_was_held_all_over_says_over_what() -> None:
 
 
 def test_a_caption_tells_what_is_not_well_and_counts_the_rest() -> None:
-    mates = [{"kind": "cam_yoke", "first": "cam", "second": f"yoke_{n}", "lift": 1.0, "yoke_breadth": 2.0,
-              "verdict": "overlap" if n == 7 else "clear", "gap": 0.1, "tolerance": 1e-8} for n in range(40)]  # fmt: skip
+    told = {"kind": "cam_yoke", "first": "cam", "lift": 1.0, "yoke_breadth": 2.0, "gap": 0.1, "tolerance": 1e-8}
+    mates = [told | {"second": f"yoke_{n}", "verdict": "overlap" if n == 7 else "clear"} for n in range(40)]
     few = {"mates": mates[:2]}
     assert caption_lines(few, "en", {}, 500) == check_lines(few, "en", brief=True)
     bad, rest = caption_lines({"mates": mates}, "en", {"yoke_7": "Yoke"}, 500)
