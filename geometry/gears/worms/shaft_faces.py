@@ -59,6 +59,7 @@ class WormRings(RingBuilder):
         return self.add_edges(start, end, Circular(frame, radius)), True
 
     def pipe(self, radius: float) -> kinds.Cylinder:
+        """The cylinder about the axis, its radius in mm."""
         return kinds.Cylinder(Frame(self.add_points(np.zeros(1, complex), 0.0), UP, AHEAD), radius)
 
     def arcs(self, radius: float, z: float, nodes: list[Index]) -> tuple[list[Use], list[Index]]:
