@@ -135,6 +135,8 @@ INSTANCES: Mapping[str, str] = {
     "body_plate_pin": N_("Pin of plate 16"), "platform_plate_pin_rear": N_("Pin of plate 11"),
     "free_ring_pin": N_("Front pin of the free ring"), "free_ring_pin_rear": N_("Rear pin of the free ring"),
     "first_crank": N_("First crank"), "second_crank": N_("Second crank"),
+    "plug_1": N_("Plug under the set screws of worm II"), "plug_2": N_("Drain plug"),
+    "spacer_28_1": N_("Spacer ring of worm I"), "spacer_28_2": N_("Spacer ring of worm II"),
     "set_screw_1": N_("Set screw of worm I"), "set_screw_2": N_("Set screw of worm II"),
 }  # fmt: skip
 _DESIGNATION, _STANDARD = N_("KRB.PM.25.33.13.00.{number}"), N_("GOST {number}")

@@ -26,7 +26,8 @@ Changed = Callable[[list[str]], list[str]]
 def checked(folder: Path, capsys: Any, name: str, changed: Changed | None = None) -> tuple[int, dict[str, Any]]:
     """What ``check`` says of the order of a built-in scene, its steps changed."""
     text = plain_scene(built_in_scenes()[name].read_text("utf-8"), name)
-    text = text.replace("interference = true", "").replace("workspace = 400", "")
+    # the module's solids through whole periods would take far longer than its order
+    text = text.replace("workspace = 400", "workspace = 1" if name == "power_module" else "")
     head, *steps = re.split(r"(?=\[\[steps\]\])", text)
     *_, last = steps
     own, tail = re.split(r"\n\n(?=\[)", last, maxsplit=1) if "\n\n[" in last else (last, "")
@@ -174,6 +175,8 @@ def test_the_print_table_and_the_module_go_together(name: str, tmp_path: Path, c
         (turned("worm_1", "[0.0, 0.0, -1.0]"), ("worm_1", "body")),
         # guide 13 on the pinion is wider than the tips of the ring
         (turned("pinion", "[0.0, 0.0, -1.0]"), ("ring_guide", "ring")),
+        # the set screws of worm II go in through its hole
+        (exchanged("set_screw_2_1", "plug_1"), ("set_screw_2_1", "plug_1")),
         (closed("snap_ring_1"), ("snap_ring_1", "worm_1")),
     ],
 )
