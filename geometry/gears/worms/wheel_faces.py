@@ -45,6 +45,8 @@ _SLOW = 6
 _NARROWER = (1.0, 0.95, 0.85, 0.7, 0.5, 0.3)
 # of the curves of a ring
 _ROOT, _TIP = 0, 3
+# where between two places of interpolation errors are greatest, and what part of the margin they want
+_BETWEEN, _SURER = (0.35, 0.65), 0.75
 # rounding of the envelope and of its fit, part of the size
 _ROUNDING = 4e-15
 
@@ -88,7 +90,9 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
     """
     teeth = wheel.teeth
     made = _fits(teeth, tolerance)
-    worst = max(max(fit.error, fit.edge) for pair in made.values() for fit in pair)
+    worst = max(
+        max(fit.error, fit.edge, _between(teeth, part, fit)) for fits in made.values() for part, fit in enumerate(fits)
+    )
     strips = []
     for low, high in made:
         lower, mirrored = ([fit.poles for fit in made[band]] for band in ((low, high), (-high, -low)))
@@ -222,6 +226,16 @@ def _fitted(teeth: WormTeeth, part: int, band: tuple[float, float], spans: tuple
     error = float(_away(found, _points(teeth, part, u, v)).max())
     edge = _edge_error(teeth, part, band, found, v)
     return _Fit(u_knots, v_knots, poles, error, edge)
+
+
+def _between(teeth: WormTeeth, part: int, fit: _Fit) -> float:
+    """Error of a fit between its places of interpolation, which even samples may meet, as it counts beside theirs, mm."""
+    u, v = (
+        np.concatenate([at[:-1] + share * np.diff(at) for share in _BETWEEN])
+        for at in (greville(_DEGREE, knots) for knots in (fit.u_knots, fit.v_knots))
+    )
+    found = basis_matrix(_DEGREE, fit.u_knots, u) @ fit.poles @ basis_matrix(_DEGREE, fit.v_knots, v).T
+    return _SURER * float(_away(found, _points(teeth, part, u, v)).max())
 
 
 def wheel_solid(wheel: WormWheel, splines: WheelSplines) -> Solid:
