@@ -229,7 +229,7 @@ def _fitted(teeth: WormTeeth, part: int, band: tuple[float, float], spans: tuple
 
 
 def _between(teeth: WormTeeth, part: int, fit: _Fit) -> float:
-    """Error of a fit between its places of interpolation, which even samples may meet, as it counts beside theirs, mm."""
+    """Error of a fit between its places of interpolation, which even samples may meet, as it counts beside them, mm."""
     u, v = (
         np.concatenate([at[:-1] + share * np.diff(at) for share in _BETWEEN])
         for at in (greville(_DEGREE, knots) for knots in (fit.u_knots, fit.v_knots))
