@@ -38,15 +38,3 @@ def test_what_is_missing_is_installed_in_the_readme_s_words() -> None:
         for file in (ROOT / room).rglob("*.py"):
             told += re.findall(r"pip install (\S+\])", file.read_text("utf-8"))
     assert {word.lstrip("\"'\\") for word in told} == {".[pdf]", ".[cad]", ".[cluster]"}
-
-
-def test_the_ukrainian_page_has_the_same_commands_and_files() -> None:
-    """What stands in code there stands here too, `--language uk` apart."""
-    told = (ROOT / "README.uk.md").read_text("utf-8")
-    spans = re.findall(r"(?<!`)`([^`]+)`(?!`)", told) + re.findall(r"```\n(.*?)```", told, re.S)
-    own = re.sub(r"\s+", " ", README)
-    assert len(spans) > 30
-    for span in spans:
-        assert re.sub(r"\s+", " ", span).replace(" --language uk", "").strip() in own.replace(" --language uk", ""), (
-            span
-        )
