@@ -194,15 +194,17 @@ class _Layout:
             self._write(text)
 
     def _put(self, places: Iterable[_Place]) -> bool:
-        """Put words into the best of places, which rise in their cost; whether one of them is free."""
-        best, least = None, math.inf
+        """Put words into the best of places, which rise in their least cost; whether one of them is free."""
+        best, least = None, (math.inf, math.inf)
         for place in places:
-            if place.cost >= least:
+            if place.least > least[0]:
                 break
-            if self.ink.holds(place.all_lines, place.text.box):
-                total = place.cost + self.ink.cost(place.lines)
-                if total < least:
-                    best, least = place, total
+            if (place.least, place.cost) >= least:
+                continue
+            # of two that cost as much the nearer one
+            total = place.cost + self.ink.costs([place.lines])[0], place.cost
+            if total < least and self.ink.holds(place.all_lines, place.text.box):
+                best, least = place, total
         if best is not None:
             best.put(best)
             self.ink.note(best.lines)
@@ -225,9 +227,12 @@ class _Layout:
         rows += [[] for _ in range(_ROWS - len(rows))]
         past = [_along(self.paper.point(p), along) for p in coming]
 
+        levels = [edge + (out.real + out.imag) * (_FIRST + _STEP * index) for index in range(len(rows))]
+        known = self.ink.costs([_bare(points, size.side, level) for level in levels])
+
         def places() -> Iterator[_Place]:
-            for index, row in enumerate(rows):
-                level = edge + (out.real + out.imag) * (_FIRST + _STEP * index)
+            for index in sorted(range(len(rows)), key=lambda k: k + known[k]):
+                row, level = rows[index], levels[index]
                 for begin in _begins(low, high, wide, self._middle(upright=upright)):
                     reach = min(low, begin), max(high, begin + wide)
                     # chains share their ends
@@ -242,7 +247,7 @@ class _Layout:
                         made.put(place)
                         row.append(reach)
 
-                    yield replace(made, put=put)
+                    yield replace(made, known=known[index], put=put)
 
         return self._put(places())
 
@@ -333,15 +338,22 @@ class _Layout:
             return
         sides: tuple[Side, ...] = ("above", "right", "below", "left")
 
+        bare: list[tuple[float, Side, tuple[complex, complex], float]] = []
+        for reach, side in product(_REACHES, sides):
+            upright, out = _sense(side)
+            along = 1j if upright else 1.0
+            level = _along(centre + (radius + reach) * out, 1.0 if upright else 1j)
+            bare.append((reach / _STEP, side, (centre - radius * along, centre + radius * along), level))
+        known = self.ink.costs([_bare(ends, side, level) for _, side, ends, level in bare])
+        wide = text_width(self._words(one))
+
         def places() -> Iterator[_Place]:
-            for reach, side in product(_REACHES, sides):
-                upright, out = _sense(side)
-                along = 1j if upright else 1.0
-                low, high = (_along(centre, along) + way * radius for way in (-1, 1))
-                level = _along(centre + (radius + reach) * out, 1.0 if upright else 1j)
-                wide, ends = text_width(self._words(one)), (centre - radius * along, centre + radius * along)
+            for k in sorted(range(len(bare)), key=lambda k: bare[k][0] + known[k]):
+                cost, side, ends, level = bare[k]
+                upright, _ = _sense(side)
+                low, high = (_along(p, 1j if upright else 1.0) for p in ends)
                 for begin in _begins(low, high, wide, self._middle(upright=upright)):
-                    yield self._linear(one, ends, side, level, begin, reach / _STEP)
+                    yield replace(self._linear(one, ends, side, level, begin, cost), known=known[k])
 
         if not self._put(places()):
             raise _NoRoomError(one)
@@ -408,13 +420,22 @@ class _Layout:
 
 
 class _Place(Record):
-    """A place for words: lines by what they are, arrows, words, what it costs in rows, what puts them there."""
+    """A place for words: lines by what they are, arrows, words, what it costs in rows, what puts them there.
+
+    ``known``: what its lines cost at least, in rows.
+    """
 
     lines: Mapping[Role, Sequence[Line]]
     arrows: Sequence[Line]
     text: Text
     cost: float
     put: Callable[[_Place], None]
+    known: float = 0.0
+
+    @property
+    def least(self) -> float:
+        """What it costs at least."""
+        return self.cost + self.known
 
     @property
     def all_lines(self) -> list[Line]:
@@ -454,6 +475,15 @@ def _begins(low: float, high: float, wide: float, middle: float) -> Iterator[flo
     for more in _FARTHER:
         beyond = high + ARROW + 2.0 + more, low - ARROW - 2.0 - wide - more
         yield from beyond if low + high >= 2 * middle - 1e-9 else beyond[::-1]
+
+
+def _bare(ends: tuple[complex, complex], side: Side, level: float) -> dict[Role, list[Line]]:
+    """Lines of a dimension that are the same wherever its words stand along it."""
+    upright, out = _sense(side)
+    along = 1j if upright else 1.0
+    points = sorted(ends, key=lambda p: _along(p, along))
+    low, high = (_along(p, along) for p in points)
+    return _dimension_lines(points, along, level, (low, high), (low, high), out)
 
 
 def _dimension_lines(

@@ -81,15 +81,21 @@ class Ink(Draft):
         rows = [(line.start, line.end, _ROLES.index(role)) for role, lines in new.items() for line in lines]
         self.straight = np.concatenate([self.straight, np.array(rows, dtype=complex).reshape(-1, 3).T], axis=1)
 
-    def cost(self, new: Mapping[Role, Sequence[Line]]) -> float:
-        """What new lines of a size cost by what they cross and lie on."""
-        rows = [(line.start, line.end, _ROLES.index(role)) for role, lines in new.items() for line in lines]
+    def costs(self, places: Sequence[Mapping[Role, Sequence[Line]]]) -> list[float]:
+        """What new lines of a size cost by what they cross and lie on, for each of its places."""
+        rows = [
+            (line.start, line.end, _ROLES.index(role), place)
+            for place, new in enumerate(places)
+            for role, lines in new.items()
+            for line in lines
+        ]
         own, (start, end, _) = np.array(rows, dtype=complex).T, self.straight
         ends = own[:2]
         near = np.ones(start.size, dtype=bool)
         for one, two, here in ((start.real, end.real, ends.real), (start.imag, end.imag, ends.imag)):
             near &= (np.minimum(one, two) < here.max() + _BESIDE) & (np.maximum(one, two) > here.min() - _BESIDE)
-        return _cost(own, self.straight[:, near]) if near.any() else 0.0
+        each = _costs(own, self.straight[:, near])
+        return np.bincount(own[3].real.astype(int), each, len(places)).tolist()
 
 
 def _held(boxes: Real, lines: Complex) -> np.ndarray:
@@ -109,8 +115,8 @@ def _held(boxes: Real, lines: Complex) -> np.ndarray:
     return np.asarray(last > first)
 
 
-def _cost(lines: Complex, others: Complex) -> float:
-    """Of pairs that cross within both lines, and of those that lie on each other; (3, n): both ends, what it is."""
+def _costs(lines: Complex, others: Complex) -> Real:
+    """Of lines, (n,), that cross others within both, and that lie on others; rows: both ends, what it is."""
     (a, u), (b, v) = ((group[0], group[1] - group[0]) for group in (lines, others))
     long, other = np.abs(u)[:, None], np.abs(v)[None, :]
     u, a, b, v = u[:, None], a[:, None], b[None, :], v[None, :]
@@ -126,4 +132,4 @@ def _cost(lines: Complex, others: Complex) -> float:
     shared = np.minimum(np.maximum(*ends), long) - np.maximum(np.minimum(*ends), 0.0)
     lying = parallel & (off < _BESIDE) & (shared > _ALONG)
     here, there = lines[2].real.astype(int), others[2].real.astype(int)
-    return float((crossed * _CROSSING[np.ix_(here, there)]).sum() + (lying * _LYING[here][:, None]).sum())
+    return np.asarray((crossed * _CROSSING[here][:, there]).sum(axis=1) + lying.sum(axis=1) * _LYING[here])
