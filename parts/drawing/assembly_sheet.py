@@ -323,6 +323,25 @@ def _column(
 
     ``placed``: leaders of the other side.
     """
+    best = None
+    for strict in (False, True):
+        found = _swept(numbers, way, box, ink, placed, strict=strict)
+        if found is not None and (best is None or _crossings(found, placed) < _crossings(best, placed)):
+            best = found
+        if best is None or not _crossings(best, placed):
+            break
+    return best
+
+
+def _crossings(leaders: Sequence[_Leader], placed: Sequence[_Leader]) -> int:
+    """How often leaders cross each other and those that are placed."""
+    return sum(_cross(one, other) for k, one in enumerate(leaders) for other in (*placed, *leaders[:k]))
+
+
+def _swept(
+    numbers: Sequence[_Numbered], way: int, box: Box, ink: Ink, placed: Sequence[_Leader], *, strict: bool
+) -> list[_Leader] | None:
+    """The same in one sweep; ``strict``: no place of a number that is to come is above a leader."""
     x = box.right + _AWAY if way > 0 else box.left - _AWAY
     left = list(numbers)
     if not left:
@@ -342,6 +361,9 @@ def _column(
             number, spots = max(left, key=partial(_slope, elbow))
             fits = [_Leader(number, spot, elbow, way) for spot in (spots[0], *sorted(spots, key=partial(_off, elbow)))]
             fits = [one for one in fits if ink.holds(one.lines(), one.words.box)]
+            if strict and k < _TRIES:
+                most = max((_slope(elbow, one) for one in left if one[0] != number), default=-math.inf)
+                fits = [one for one in fits if _slope(elbow, (number, (one.spot,))) >= most]
             others = (*placed, *chosen) if k < _TRIES else ()
             free = next((one for one in fits if not any(_cross(one, other) for other in others)), None)
             y -= _STEP if free else _STEP / 2
