@@ -20,10 +20,8 @@ from parts.scene.load import ExportSpec, load_scene
 from tests.exporters.production.test_part_drawings import PARTS, jobs
 from tests.exporters.production.test_sheet_words import faults
 
-# scenes whose drawings take longest: hidden lines of many parts, teeth as splines
-SLOW = ("power_module", "oval_gears", "print_cam_set", "power_table_laser", "power_table_print", "cycloidal_reducer",
-        "groove_cam", "power_module_kinematics", "barrel_cam", "kerf_coupon", "fit_coupon", "thesis_worm_1",
-        "thesis_worm_2", "worm_set_print", "conjugate_cams")  # fmt: skip
+# scenes of a third of a second, at which all tests look
+LIGHT = ("idler_train", "laser_gear", "lesson_1", "worm")
 Line = tuple[complex, complex]
 # arrows are fans of lines of 3 mm; what only touches, mm
 ARROW, TOUCH = 3.0, 0.3
@@ -97,7 +95,8 @@ def tangles(file: Path) -> list[str]:
 
 
 def _cases() -> list[Any]:
-    return [pytest.param(name, marks=pytest.mark.heavy) if name in SLOW else name for name in sorted(built_in_scenes())]
+    rest = sorted({*built_in_scenes()} - {*LIGHT})
+    return [*LIGHT, *(pytest.param(name, marks=pytest.mark.heavy) for name in rest)]
 
 
 @pytest.mark.sampled(2)
