@@ -15,6 +15,8 @@ from exporters.formats.read_solid import EXTRUSION, GAP, PLANE, ROUND, SPHERE, T
 from geometry.base.record import Record
 from parts.base.readback import ReadError
 
+# a seam whose spans turn less than this round the axis of a torus runs round its tube, rad
+_SEAM = 1e-9
 # edges of so many spans are held against their surfaces at a time; grid points of spline surfaces
 _ROWS, _POINTS_AT_ONCE = 20_000, 400_000
 
@@ -36,7 +38,7 @@ def forms(kind: int, at: Real, step: Real, centre: Real, sizes: Real, about: Rea
     """Of points and steps (n, k, 3) in the frames of their surfaces; ``centre`` (n, 3): a frame's own origin in it.
 
     ``sizes`` (n, 2): radius, and tangent of the half angle of a cone, or a torus's second radius; ``about`` (n,): an
-    angle round the tube of a torus that its face has, rad.
+    angle round the tube of a torus within half a turn of theirs, rad.
     """
     x, y, z = np.moveaxis(at, 2, 0)
     c1, c2, c3 = (centre[:, k, None] for k in range(3))
@@ -61,7 +63,9 @@ def forms(kind: int, at: Real, step: Real, centre: Real, sizes: Real, about: Rea
         inside = across * (v / 2 + np.sin(2 * v) / 4) + c3 * np.sin(v) ** 2 / 2 + r * np.sin(v)
         area = -np.sin(v) * turn
         return Forms(np.abs(np.hypot(size, z) - r), -r * r / 3 * inside * turn, r * r * area, area, turn)
-    v = about[:, None] + np.angle((size - r + 1j * z) * np.exp(-1j * about)[:, None])
+    v = np.unwrap(np.angle((size - r + 1j * z) * np.exp(-1j * about)[:, None]))
+    # an end may lie half a turn away
+    v += about[:, None] - 2 * np.pi * np.round(v[:, [v.shape[1] // 2]] / (2 * np.pi))
     a = across + r
     inside = (
         r * (a * np.sin(v) + c3 * (1 - np.cos(v)) + s * v)
@@ -71,15 +75,12 @@ def forms(kind: int, at: Real, step: Real, centre: Real, sizes: Real, about: Rea
     return Forms(np.abs(np.hypot(size - r, z) - s), -s / 3 * inside * turn, spread, -v * turn, turn)
 
 
-def whole(kind: int, sizes: Real, along: Real, turns: Real, bare: Flags, sense: Real) -> tuple[Real, Real]:
-    """Flux and area that faces round a pole of a sphere, and whole spheres and tori, have beside those of their bounds.
+def poles_of(sizes: Real, along: Real, turns: Real, bare: Flags, sense: Real) -> tuple[Real, Real]:
+    """Flux and area that faces round a pole of a sphere, and whole spheres, have beside those of their bounds.
 
     ``along``: the centre's place on the axis; ``turns``: of the bounds round it; ``bare``: without bounds but seams.
     """
-    r, s = sizes.T
-    if kind == TORUS:
-        size = np.where(bare, sense * 4 * np.pi**2 * r * s, 0.0)
-        return size * s / 2, size
+    r = sizes[:, 0]
     poles = np.sign((turns / (2 * np.pi)).round()) * sense
     size = sense * 2 * np.pi * r * r * np.where(poles != 0, 1.0, np.where(bare, 2.0, 0.0))
     return size * (r + poles * along / 2) / 3, size
@@ -88,7 +89,7 @@ def whole(kind: int, sizes: Real, along: Real, turns: Real, bare: Flags, sense: 
 def measure(model: Model) -> tuple[Real, Real, Real]:
     """Flux, area and gap of every face, which must lie on the left of its bounds."""
     uses, count = model.uses, len(model.faces)
-    flux, size, area, turns, about, gap = np.zeros((6, count))
+    flux, size, area, turns, gap = np.zeros((5, count))
     span, row = spans_of(model.curves, uses.edge)
     kinds = model.kind[uses.face[row]]
     weights = lobatto()[1]
@@ -96,11 +97,13 @@ def measure(model: Model) -> tuple[Real, Real, Real]:
     pairs = np.argsort(uses.edge, kind="stable").reshape(-1, 2)
     seams = np.empty(len(uses.edge), dtype=bool)
     seams[pairs] = (uses.face[pairs[:, 0]] == uses.face[pairs[:, 1]])[:, None]
+    sense = np.where(model.normal, 1.0, -1.0)
     bare = np.bincount(uses.face, ~seams, count) == 0
     for kind in (PLANE, ROUND, SPHERE, TORUS, EXTRUSION):
         mine = np.flatnonzero(kinds == kind)
-        if kind == TORUS and mine.size:
-            about = _about(model, span[mine], uses.face[row[mine]])
+        about = np.zeros(len(mine))
+        if kind == TORUS:
+            about = _about(model, span[mine], uses.face[row[mine]], uses.left[row[mine]], seams[row[mine]])
         for start in range(0, len(mine), _ROWS):
             part = mine[start : start + _ROWS]
             face = uses.face[row[part]]
@@ -110,19 +113,17 @@ def measure(model: Model) -> tuple[Real, Real, Real]:
             if kind == SPHERE:
                 poles = (np.hypot(at[..., 0], at[..., 1]).min(axis=1) <= GAP) & ~seams[row[part]]
                 refuse(poles, model.faces[face], "is a face with an edge through a pole")
-            found = forms(kind, at, step, model.frames.centres[face], model.sizes[face], about[face])
-            # a seam runs there and back, at an apex by more than digits hold
-            once = ~seams[row[part]]
+            found = forms(kind, at, step, model.frames.centres[face], model.sizes[face], about[start : start + _ROWS])
+            # a seam runs there and back, at an apex by more than digits hold; of a torus its sides may be a turn apart
+            once = ~seams[row[part]] | (kind == TORUS)
             for total, form in (flux, found.flux), (size, found.size), (area, found.area), (turns, found.turn):
                 total += np.bincount(face[once], form[once] @ weights, count)
             np.maximum.at(gap, face, found.gap.max(axis=1))
-    sense = np.where(model.normal, 1.0, -1.0)
-    for kind in (SPHERE, TORUS):
-        mine = np.flatnonzero(model.kind == kind)
-        more = whole(kind, model.sizes[mine], model.frames.centres[mine, 2], turns[mine], bare[mine], sense[mine])
-        flux[mine] += more[0]
-        size[mine] += more[1]
-        area[mine] += np.where(more[1] != 0, sense[mine] * np.inf, 0.0)
+    mine = np.flatnonzero(model.kind == SPHERE)
+    more = poles_of(model.sizes[mine], model.frames.centres[mine, 2], turns[mine], bare[mine], sense[mine])
+    flux[mine] += more[0]
+    size[mine] += more[1]
+    area[mine] += np.where(more[1] != 0, sense[mine] * np.inf, 0.0)
     # a face on a cone round the apex, at z = -r / s, has a bound of no length there
     apex = np.flatnonzero((model.kind == ROUND) & (model.sizes[:, 1] > 0) & ((turns / (2 * np.pi)).round() != 0))
     r, s = model.sizes[apex].T
@@ -157,14 +158,26 @@ def area_of(model: Model, pieces: int) -> float:
     return total
 
 
-def _about(model: Model, span: Index, face: Index) -> Real:
-    """For faces on a torus a middle angle of their bounds round the tube, rad."""
-    at = model.frames.local(face, model.points[span])
-    spokes = np.hypot(at[..., 0], at[..., 1]) - model.sizes[face, :1] + 1j * at[..., 2]
-    total = (spokes / np.abs(spokes)).sum(axis=1)
-    return np.angle(
-        np.bincount(face, total.real, len(model.faces)) + 1j * np.bincount(face, total.imag, len(model.faces))
+def _about(model: Model, span: Index, face: Index, left: Flags, seams: Flags) -> Real:
+    """For spans of the bounds of faces on a torus an angle near theirs round the tube, rad.
+
+    A face that is cut open by a seam round the axis reaches from it once round the tube: its sides are a turn apart.
+    By a seam round the tube a face lies where that does; others lie where their bounds do.
+    """
+    at, step = (
+        model.frames.local(face, of[span], moved=moved) for of, moved in ((model.points, True), (model.slopes, False))
     )
+    size = np.hypot(at[..., 0], at[..., 1])
+    spokes = size - model.sizes[face, :1] + 1j * at[..., 2]
+    turn = ((at[..., 0] * step[..., 1] - at[..., 1] * step[..., 0]) / size**2) @ lobatto()[1]
+    rank = np.where(seams, np.where(np.abs(turn) > _SEAM, 2, 1), 0)
+    best = np.zeros(len(model.faces), dtype=int)
+    np.maximum.at(best, face, rank)
+    own = (spokes / np.abs(spokes) * np.linalg.norm(step, axis=2)) @ lobatto()[1]
+    own *= (rank == best[face]) * np.where(rank == 2, -1.0, 1.0)
+    total = np.bincount(face, own.real, len(model.faces)) + 1j * np.bincount(face, own.imag, len(model.faces))
+    side = np.sign(turn) * np.where(left == model.normal[face], np.pi, -np.pi)
+    return np.asarray(np.angle(total)[face] - np.where(rank == 2, side, 0.0))
 
 
 def _follow(model: Model, mine: Index, size: Real, area: Real, gap: Real) -> None:

@@ -35,6 +35,8 @@ from geometry.solids.faces import (
 
 # nodes on a piece of an edge; arcs are cut into pieces no longer than this, rad
 _NODES, _PIECE = 12, math.pi / 4
+# a seam that turns less than this round the axis of a torus runs round its tube, rad
+_SEAM = 1e-9
 # nodes each way on a piece of a spline surface, and fewer that must tell the same to this part, which the more of them
 # know to its 1.6th power; else the pieces are halved, so often at most; places at a time
 _ACROSS, _FEWER, _ALIKE, _MOST, _AT_ONCE = 8, 5, 1e-7, 4, 200_000
@@ -90,17 +92,17 @@ def _areas(solid: Solid, runs: _Runs, faces: Faces) -> Real:
         return _swept(solid, runs, faces, surface)
     count = len(faces.loops[0][0])
     origin, axes = axes_of(solid, surface.frame, count)
-    middle = _middles(surface, runs, faces, origin, axes) if isinstance(surface, Torus) else np.zeros(count)
-    total = np.zeros(count)
-    for edges, senses in faces.loops:
-        face, ways = np.repeat(np.arange(count), edges.shape[1]), np.where(np.broadcast_to(senses, edges.shape), 1, -1)
-        for mine, points, steps, weights in runs.of(edges.ravel()):
-            own = face[mine]
-            turned = axes[own].transpose(0, 2, 1)
-            at, step = (points - origin[own, None]) @ turned, steps @ turned
-            turn = at[..., 0] * step[..., 1] - at[..., 1] * step[..., 0]
-            rate = _form(surface, at, turn, middle[own, None])
-            total += np.bincount(own, ways.ravel()[mine] * (rate @ weights), count)
+    bounds = np.concatenate([edges for edges, _ in faces.loops], axis=1)
+    ways = np.concatenate([np.where(np.broadcast_to(senses, edges.shape), 1, -1) for edges, senses in faces.loops], 1)
+    face, total, places = np.repeat(np.arange(count), bounds.shape[1]), np.zeros(count), []
+    for mine, points, steps, weights in runs.of(bounds.ravel()):
+        turned = axes[face[mine]].transpose(0, 2, 1)
+        at, step = (points - origin[face[mine], None]) @ turned, steps @ turned
+        turn = ways.ravel()[mine, None] * (at[..., 0] * step[..., 1] - at[..., 1] * step[..., 0])
+        places.append((mine, at, turn, weights))
+    about = _middles(surface, places, bounds, faces.along) if isinstance(surface, Torus) else np.zeros(bounds.size)
+    for mine, at, turn, weights in places:
+        total += np.bincount(face[mine], _form(surface, at, turn, about[mine, None]) @ weights, count)
     whole = _whole(surface)
     if whole is None:
         return np.abs(total)
@@ -132,16 +134,21 @@ def _whole(surface: Plane | Cylinder | Cone | Torus | Sphere) -> float | None:
     return TURN**2 * surface.radius * surface.tube if isinstance(surface, Torus) else None
 
 
-def _middles(surface: Torus, runs: _Runs, faces: Faces, origin: Real, axes: Real) -> Real:
-    """Of faces on a torus a middle angle of their bounds round the tube, rad, (n,)."""
-    total = np.zeros(len(origin), complex)
-    for edges, _ in faces.loops:
-        face = np.repeat(np.arange(len(origin)), edges.shape[1])
-        for mine, points, _, weights in runs.of(edges.ravel()):
-            at = (points - origin[face[mine], None]) @ axes[face[mine]].transpose(0, 2, 1)
-            spokes = np.hypot(at[..., 0], at[..., 1]) - surface.radius + 1j * at[..., 2]
-            np.add.at(total, face[mine], spokes @ weights)
-    return np.angle(total)
+def _middles(surface: Torus, places: list[tuple[Index, Real, Real, Real]], bounds: Index, along: bool) -> Real:
+    """Of the bounds (n, m) of faces on a torus an angle near theirs round the tube, rad, (n m,).
+
+    A face that is cut open by a seam round the axis reaches from it once round the tube: its sides are a turn apart.
+    """
+    spokes, turns = np.zeros(bounds.shape, complex), np.zeros(bounds.shape)
+    for mine, at, turn, weights in places:
+        size = np.hypot(at[..., 0], at[..., 1])
+        spokes.flat[mine] = (size - surface.radius + 1j * at[..., 2]) @ weights
+        turns.flat[mine] = (turn / size**2) @ weights
+    seams = (bounds[:, :, None] == bounds[:, None]).sum(axis=2) > 1
+    turns[~seams | (np.abs(turns) < _SEAM)] = 0.0
+    cut = np.any(turns != 0, axis=1)
+    middle = np.angle(np.where(cut, -(np.abs(turns) * spokes).sum(axis=1), spokes.sum(axis=1)))
+    return np.asarray(middle[:, None] - (math.pi if along else -math.pi) * np.sign(turns)).ravel()
 
 
 def _swept(solid: Solid, runs: _Runs, faces: Faces, surface: Extrusion) -> Real:

@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 from exporters.command.cli import main
+from geometry.solids.area import surface_area
 from parts.base.refusal import SceneError
 from parts.scene.interference import solid_overlaps
 from parts.scene.load import load_scene, make_parts
@@ -184,17 +185,19 @@ def _shapes() -> dict[str, Callable[[], Any]]:
         BRepBuilderAPI_NurbsConvert,
     )  # fmt: skip
     from OCP.BRepFilletAPI import BRepFilletAPI_MakeFillet
-    from OCP.BRepOffsetAPI import BRepOffsetAPI_ThruSections
+    from OCP.BRepOffsetAPI import BRepOffsetAPI_MakePipe, BRepOffsetAPI_ThruSections
     from OCP.BRepPrimAPI import (
         BRepPrimAPI_MakeBox,
         BRepPrimAPI_MakeCone,
         BRepPrimAPI_MakeCylinder,
         BRepPrimAPI_MakePrism,
+        BRepPrimAPI_MakeRevol,
         BRepPrimAPI_MakeSphere,
         BRepPrimAPI_MakeTorus,
     )  # fmt: skip
+    from OCP.GC import GC_MakeArcOfCircle
     from OCP.GeomAPI import GeomAPI_PointsToBSpline
-    from OCP.gp import gp_Ax2, gp_Dir, gp_Pnt, gp_Vec
+    from OCP.gp import gp_Ax1, gp_Ax2, gp_Circ, gp_Dir, gp_Pnt, gp_Vec
     from OCP.TColgp import TColgp_Array1OfPnt
 
     def ball(at: float) -> Any:
@@ -221,6 +224,22 @@ def _shapes() -> dict[str, Callable[[], Any]]:
         for z, size in ((0.0, 1.0), (5.0, 0.8), (10.0, 1.1)):
             made.AddWire(oval(z, size))
         return made.Shape()
+
+    def disc(y: float, radius: float) -> Any:
+        """Across a pipe of radius 10 round z, or the straight one before it."""
+        rim = BRepBuilderAPI_MakeEdge(gp_Circ(gp_Ax2(gp_Pnt(10, y, 0), gp_Dir(0, 1, 0), gp_Dir(0.3, 0, 1)), radius))
+        return BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakeWire(rim.Edge()).Wire()).Face()
+
+    def elbow(turn: float, radius: float = 2.5) -> Any:
+        return BRepPrimAPI_MakeRevol(disc(0, radius), gp_Ax1(gp_Pnt(), gp_Dir(0, 0, 1)), turn).Shape()
+
+    def pipe() -> Any:
+        """A straight one and an elbow, hollow."""
+        bow = GC_MakeArcOfCircle(gp_Pnt(10, 0, 0), gp_Pnt(math.sqrt(50), math.sqrt(50), 0), gp_Pnt(0, 10, 0)).Value()
+        run = BRepBuilderAPI_MakeEdge(gp_Pnt(10, -20, 0), gp_Pnt(10, 0, 0)).Edge(), BRepBuilderAPI_MakeEdge(bow).Edge()
+        spine = BRepBuilderAPI_MakeWire(*run).Wire()
+        outer, inner = (BRepOffsetAPI_MakePipe(spine, disc(-20, radius)).Shape() for radius in (2.5, 1.5))
+        return BRepAlgoAPI_Cut(outer, inner).Shape()
 
     drill = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, -9, 4), gp_Dir(0, 1, 0)), 1.5, 60.0).Shape()
     box, round_rod = BRepPrimAPI_MakeBox(gp_Pnt(-20, -20, 0), 40, 40, 30).Shape(), rod(0, 1)
@@ -251,6 +270,14 @@ def _shapes() -> dict[str, Callable[[], Any]]:
         "rational_cone": lambda: BRepBuilderAPI_NurbsConvert(cone).Shape(),
         "rational_ring": lambda: BRepBuilderAPI_NurbsConvert(torus).Shape(),
         "rational_ellipse": lambda: BRepBuilderAPI_NurbsConvert(BRepAlgoAPI_Cut(box, rod(0.2, 1)).Shape()).Shape(),
+        "elbow": lambda: elbow(math.pi / 2),
+        "long_elbow": lambda: elbow(4.0),
+        "pipe": pipe,
+        "half_ring": lambda: BRepPrimAPI_MakeTorus(10.0, 2.5, math.pi).Shape(),
+        # faces that are more than half of the tube
+        "flat_ring": lambda: BRepAlgoAPI_Cut(
+            torus, BRepPrimAPI_MakeBox(gp_Pnt(-9, -9, 10.6), 18, 18, 9).Shape()
+        ).Shape(),
         # at each corner a part of a sphere with a vertex at its file's pole
         "rounded": rounded,
     }
@@ -260,13 +287,23 @@ def _shapes() -> dict[str, Callable[[], Any]]:
 @pytest.mark.parametrize(
     "name",
     ["ball", "ring", "cone", "stump", "dimple", "groove", "bore", "prism", "lean", "loft", "ellipse", "rational",
-     "rational_cone", "rational_ring", "rational_ellipse", "rounded"],
+     "rational_cone", "rational_ring", "rational_ellipse", "rounded", "elbow", "long_elbow", "pipe", "half_ring",
+     "flat_ring"],
 )  # fmt: skip
 def test_solids_are_taken_over(name: str, tmp_path: Path) -> None:
     """Through a file of ours, read back and judged by the kernel too."""
     written(tmp_path / "body.step", _shapes()[name]())
     alone(tmp_path, more='\n[[exports]]\nformat = "step"\n\n[[exports]]\nformat = "stl"\ntolerance = 0.1\n')
     assert main(["build", str(tmp_path / "alone.toml"), "--out", str(tmp_path / "o"), "--verify", "kernel"]) == 0
+
+
+def test_the_area_of_an_elbow_is_told_and_read_back(tmp_path: Path) -> None:
+    """By Pappus, where a seam of the torus runs round its axis."""
+    for name, turn in (("elbow", math.pi / 2), ("long_elbow", 4.0), ("half_ring", math.pi)):
+        written(tmp_path / "body.step", _shapes()[name]())
+        solid = alone(tmp_path, more='\n[[exports]]\nformat = "step"\n').body(0.0).within(1e-3).geometry
+        assert surface_area(solid) == pytest.approx(2 * math.pi * 2.5 * (10 * turn + 2.5), rel=1e-12)
+        assert main(["build", str(tmp_path / "alone.toml"), "--out", str(tmp_path / "o")]) == 0, name
 
 
 def test_rational_splines_become_what_they_are(tmp_path: Path) -> None:
