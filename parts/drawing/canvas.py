@@ -16,9 +16,10 @@ import numpy as np
 from geometry.approximation.outline import CadCurve
 from geometry.approximation.splines import fit_spline
 from geometry.base.errors import ParameterError
+from geometry.base.placement import Placement2
 from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.bspline import BSpline
-from geometry.curves.curve import Complex, Curve
+from geometry.curves.curve import Carried, Complex, Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.base.texts import words
 from parts.drawing.font import letter_widths
@@ -356,19 +357,25 @@ class Canvas(Draft):
 def fitted(canvas: Canvas, curves: Sequence[Curve], scale: float, tolerance: float) -> tuple[CadCurve, ...]:
     """Exact curves in model mm as what a file holds: splines where they are neither line nor arc.
 
-    ``tolerance`` in mm on paper; mirror images share one fit.
+    ``tolerance`` in mm on paper; mirror images share one fit, and so does one shape in several places.
     """
     done: dict[Curve, CadCurve] = {}
+    shapes: dict[Curve, tuple[CadCurve, Placement2]] = {}
     for curve in curves:
         if isinstance(curve, Arc | Line):
             done[curve] = curve
         elif (twin := done.get(curve.mirrored())) is not None and isinstance(twin, BSpline):
             done[curve] = twin.mirrored()
+        elif isinstance(curve, Carried) and (found := shapes.get(curve.base)) is not None:
+            spline, place = found
+            done[curve] = spline.placed(curve.placement @ place.inverse())
         else:
             fit = fit_spline(curve, tolerance / scale, degree=3, continuity=2)
             canvas.max_error = max(canvas.max_error, fit.max_error * scale)
             canvas.sampled = canvas.sampled or fit.bound == "sampled"
             done[curve] = fit.spline
+            if isinstance(curve, Carried):
+                shapes[curve.base] = fit.spline, curve.placement
     return tuple(done[curve] for curve in curves)
 
 
