@@ -84,11 +84,11 @@ class Involute(Curve, Record):
             centre=self.centre.conjugate(),
         )
 
-    def roll_at_radius(self, radius: ArrayLike) -> Real:
+    def roll_at_radius(self, radius: float) -> float:
         """Roll angle at a distance from the centre, rad, with the sign of this branch."""
-        ratio = np.asarray(radius, dtype=float) / self.base_radius
-        return self._sense * np.sqrt(np.maximum((ratio - 1) * (ratio + 1), 0))
+        ratio = radius / self.base_radius
+        return self._sense * math.sqrt(max((ratio - 1) * (ratio + 1), 0.0))
 
-    def polar_angle_at_radius(self, radius: ArrayLike) -> Real:
+    def polar_angle_at_radius(self, radius: float) -> float:
         """Polar angle about the centre, rad, at a distance from it."""
         return self.base_angle + roll_minus_polar(self.roll_at_radius(radius))

@@ -226,7 +226,7 @@ def _given_shifts(keys: PlanetarySetKeys, one: PlanetarySet) -> tuple[float, tup
         value = involute_function(ISO_53_ANGLE) + 2 * math.tan(ISO_53_ANGLE) * total / span
         if value < 0:
             raise ParameterError("shifts", given, "shifts_leave_no_angle")
-        working = inverse_involute(value).value
+        working = inverse_involute(value)
         found.append(float(module) * span * math.cos(ISO_53_ANGLE) / (2 * math.cos(working)))
     if keys.working_centre_distance is not None:
         return keys.working_centre_distance, shifts

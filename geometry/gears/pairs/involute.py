@@ -417,7 +417,7 @@ def working_angle(sums: Sums, first: SpurGear, second: Gear, blamed: str) -> flo
     """alpha_w by (3.3), rad; raises ParameterError with the second's nearest shift where there is none."""
     value = sums.involute
     if value >= 0:
-        return inverse_involute(value).value
+        return inverse_involute(value)
     least = -involute_function(sums.alpha) * sums.teeth / (2 * math.tan(sums.alpha)) - first.profile_shift_coefficient
     x = second.profile_shift_coefficient
     cure = limit(sign_of(second) * least, x, digits=_NEAREST_DIGITS)
@@ -429,7 +429,7 @@ def angle_at(sums: Sums, distance: float) -> float:
     if distance >= abs(sums.base) and sums.normal_backlash(sums.angle(distance)) >= -1e-12 * distance:
         return sums.angle(distance)
     spare = sums.thinning * math.cos(sums.alpha) / (2 * sums.base)
-    angle = inverse_involute(max(sums.involute - spare, 0.0)).value
+    angle = inverse_involute(max(sums.involute - spare, 0.0))
     cure = limit(sums.distance(angle), distance, digits=_NEAREST_DIGITS)
     raise ParameterError("working_centre_distance", distance, "teeth_overlap", cure)
 

@@ -229,7 +229,7 @@ def _active(side: ToothSide | RingSide, ends: tuple[float, float]) -> Curves:
         if not isinstance(curve, Involute):
             continue
         begin, stop = curve.domain
-        a, b = max(begin, float(curve.roll_at_radius(low))), min(stop, float(curve.roll_at_radius(high)))
+        a, b = max(begin, curve.roll_at_radius(low)), min(stop, curve.roll_at_radius(high))
         if b > a:
             curves.append(curve.trimmed(a, b).mirrored())
     return tuple(curves)

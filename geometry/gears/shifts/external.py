@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from geometry.base.angles import angle_of_involute, involute_function
+from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
 from geometry.curves.implicit import Box, level_lines
@@ -82,7 +82,7 @@ def state_of(pair: ShiftPair, x1: float, x2: float) -> PairState:
     if not involute >= 0:
         nans = (_NAN, _NAN)
         return PairState(involute, _NAN, _NAN, _NAN, _NAN, nans, nans, nans, _NAN, _NAN)
-    angle = angle_of_involute(involute)
+    angle = inverse_involute(involute)
     distance = teeth / 2 * cosine / math.cos(angle)
     shortening = x1 + x2 - (distance - teeth / 2)
     cut = max(shortening, 0.0) if pair.shortened_tips else 0.0

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 
-from geometry.base.angles import angle_of_involute, involute_function
+from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.base.record import Record, replace
 from geometry.gears.pairs.sliding import specific_sliding
@@ -196,7 +196,7 @@ def internal_state(pair: InternalShiftPair, x1: float, x2: float) -> InternalSta
     involute = involute_function(alpha) + 2 * (x2 - x1) * math.tan(alpha) / difference
     if not involute >= 0:
         return InternalState(involute, one, two, _NAN, _NAN, _NAN, _NAN, _NAN, _NAN, _NAN)
-    angle = angle_of_involute(involute)
+    angle = inverse_involute(involute)
     distance = difference / 2 * math.cos(alpha) / math.cos(angle)
     line = distance * math.sin(angle)
     start, end = two.tip_tangent - line, one.tip_tangent

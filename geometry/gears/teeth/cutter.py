@@ -38,7 +38,7 @@ def cutting_angle(alpha: float, shift: float, teeth: int, own_shift: float) -> f
     if value < 0:
         least = limit(own_shift - value * teeth / (2 * math.tan(alpha)), own_shift)
         raise ParameterError("profile_shift_coefficient", own_shift, "no_working_angle_with_cutter", least)
-    return inverse_involute(value).value
+    return inverse_involute(value)
 
 
 class PinionCutter(Record, dict=True):
@@ -99,7 +99,7 @@ class PinionCutter(Record, dict=True):
         base = self.base_radius
         centre = self.tip_radius - rounding
         reach = math.sqrt(max((centre - base) * (centre + base), 0.0))
-        return self.base_half_angle - rounding / base - float(roll_minus_polar(reach / base))
+        return self.base_half_angle - rounding / base - roll_minus_polar(reach / base)
 
     @cached_property
     def form_length(self) -> float:

@@ -29,7 +29,7 @@ class InternalMesh(Record):
     def _tip_involutes(self) -> tuple[float, float]:
         """inv(alpha_a) of both tips, rad; a tip inside its base circle counts as on it."""
         first, second = (
-            float(roll_minus_polar(math.sqrt(max((a - b) * (a + b), 0.0)) / b))
+            roll_minus_polar(math.sqrt(max((a - b) * (a + b), 0.0)) / b)
             for a, b in zip(self.tip_radii, self.base_radii, strict=True)
         )
         return first, second

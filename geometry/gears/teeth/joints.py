@@ -40,7 +40,7 @@ def fillet_flank_joint(fillet: GearFillet, flank: Involute) -> tuple[GearFillet,
 
     def lead(u: float) -> float:
         point = complex(fillet.point(u))
-        return cmath.phase(point) - float(flank.polar_angle_at_radius(abs(point)))
+        return cmath.phase(point) - flank.polar_angle_at_radius(abs(point))
 
     at_base = parameter_at_radius(fillet, flank.base_radius)
     if lead(at_base) <= 0:
@@ -48,7 +48,7 @@ def fillet_flank_joint(fillet: GearFillet, flank: Involute) -> tuple[GearFillet,
         return replace(fillet, end=at_base), flank
     crossing = bracketed_root(lead, at_base, fillet.end).value
     radius = abs(complex(fillet.point(crossing)))
-    return replace(fillet, end=crossing), replace(flank, start_roll=float(flank.roll_at_radius(radius)))
+    return replace(fillet, end=crossing), replace(flank, start_roll=flank.roll_at_radius(radius))
 
 
 def parameter_at_radius(fillet: GearFillet, radius: float) -> float:
@@ -66,7 +66,7 @@ def flank_crossing_radius(inner: Involute, outer: Involute, low: float, high: fl
     """
 
     def lead(radius: float) -> float:
-        return float(outer.polar_angle_at_radius(radius) - inner.polar_angle_at_radius(radius))
+        return outer.polar_angle_at_radius(radius) - inner.polar_angle_at_radius(radius)
 
     if lead(high) <= 0:
         return None
@@ -82,7 +82,7 @@ def pointed_radius(flank: Involute) -> float:
     high = 2 * flank.base_radius
     while flank.polar_angle_at_radius(high) < 0:
         high *= 2
-    return bracketed_root(lambda r: float(flank.polar_angle_at_radius(r)), flank.base_radius, high).value
+    return bracketed_root(flank.polar_angle_at_radius, flank.base_radius, high).value
 
 
 def greatest_lead(fillet: GearFillet) -> float:

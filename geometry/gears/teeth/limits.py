@@ -86,7 +86,7 @@ def tip_thickness(gear: SpurGear) -> float:
     flanks = [gear.flank()]
     if gear.rack.relief is not None:
         flanks.append(gear.relief_flank())
-    angle = max(float(f.polar_angle_at_radius(gear.tip_radius)) for f in flanks)
+    angle = max(f.polar_angle_at_radius(gear.tip_radius) for f in flanks)
     return -2 * gear.tip_radius * angle
 
 

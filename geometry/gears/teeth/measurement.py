@@ -116,7 +116,7 @@ def thickness_at(gear: Measured, radius: float) -> float:
     """
     if radius < gear.base_radius:
         raise ParameterError("diameter", 2 * radius, "inside_base_circle", limit(2 * gear.base_radius, 2 * radius))
-    arc = -2 * radius * float(gear.flank().polar_angle_at_radius(radius))
+    arc = -2 * radius * gear.flank().polar_angle_at_radius(radius)
     return gear.pitch_angle * radius - arc if isinstance(gear, RingGear) else arc
 
 
@@ -250,7 +250,7 @@ def over_pins(gear: Measured, pin_diameter: float, helix_angle: float = 0.0) -> 
         bound = _space_half_angle(gear) * 2 * gear.base_radius * cosine
         code = "pin_falls_through" if sense > 0 else "pin_beyond_base_circle"
         raise ParameterError("pin_diameter", pin_diameter, code, limit(bound, pin_diameter))
-    angle = inverse_involute(value).value
+    angle = inverse_involute(value)
     centre = gear.base_radius / math.cos(angle)
     tangent = math.tan(angle) - sense * pin_diameter * cosine / (2 * gear.base_radius)
     contact = gear.base_radius * math.hypot(1.0, tangent)

@@ -34,7 +34,7 @@ _LEAST_RIM = 1e-3
 
 def tip_thickness(gear: RingGear) -> float:
     """s_a2: thickness of the ring's tooth on its tip circle before its corners are broken, mm (an arc)."""
-    return gear.tip_radius * (gear.pitch_angle + 2 * float(gear.flank().polar_angle_at_radius(gear.tip_radius)))
+    return gear.tip_radius * (gear.pitch_angle + 2 * gear.flank().polar_angle_at_radius(gear.tip_radius))
 
 
 def thin_tip(gear: RingGear) -> Margin:

@@ -159,7 +159,7 @@ def apex_radius(flank: Involute, half_pitch: float) -> float:
     """Radius at which both flanks of a ring tooth meet, mm; 0 where they do not, down to the base circle."""
 
     def height(radius: float) -> float:
-        return float(flank.polar_angle_at_radius(radius)) + half_pitch
+        return flank.polar_angle_at_radius(radius) + half_pitch
 
     if height(flank.base_radius) > 0:
         return 0.0
@@ -174,7 +174,7 @@ def _broken_tip(
 ) -> tuple[float, list[Segment], complex]:
     """Roll at which the flank ends, the chamfer or rounding after it, and the corner at which the tip land begins."""
     flank = curves.flank
-    roll = float(flank.roll_at_radius(end))
+    roll = flank.roll_at_radius(end)
     corner = complex(flank.point(roll))
     if curves.chamfer is not None:
         return _chamfered(curves, roll, corner, half_pitch)
@@ -187,7 +187,7 @@ def _rounded(curves: RingCurves, half_pitch: float) -> tuple[float, list[Segment
     """An arc that touches flank and tip circle."""
     flank, radius, tip = curves.flank, curves.tip_rounding, curves.tip_radius
     turned = replace(flank, base_angle=flank.base_angle - radius / flank.base_radius)
-    centre_roll = float(turned.roll_at_radius(tip + radius))
+    centre_roll = turned.roll_at_radius(tip + radius)
     centre = complex(turned.point(centre_roll))
     touch_roll = centre_roll - radius / flank.base_radius
     if not 0 <= touch_roll < flank.end_roll or cmath.phase(centre) < -half_pitch:
@@ -203,7 +203,7 @@ def _chamfer_line(gear: RingGear, flank: Involute) -> Line:
     form = flank.base_radius * math.hypot(1.0, flank.end_roll)
     if tip + height >= form:
         raise ParameterError("tip_chamfer", height, "leaves_no_flank", limit(form - tip, height))
-    foot = cmath.rect(tip + height, float(flank.polar_angle_at_radius(tip + height)))
+    foot = cmath.rect(tip + height, flank.polar_angle_at_radius(tip + height))
     direction = foot / abs(foot) * cmath.exp(-0.75j * math.pi)
     along = -(foot.conjugate() * direction).real
     square = along**2 - (abs(foot) - tip) * (abs(foot) + tip)

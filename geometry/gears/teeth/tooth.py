@@ -148,7 +148,7 @@ def _flank_pieces(
         return [_up_to(flank, Label.FLANK, tip_radius)]
     if crossing <= form_radius:
         raise ParameterError("relief.height", math.nan, "relief_leaves_no_flank")
-    start = float(relief.roll_at_radius(crossing))
+    start = relief.roll_at_radius(crossing)
     return [
         _up_to(flank, Label.FLANK, crossing),
         _up_to(replace(relief, start_roll=start), Label.RELIEF, tip_radius),
@@ -156,7 +156,7 @@ def _flank_pieces(
 
 
 def _up_to(flank: Involute, label: Label, radius: float) -> FlankPiece:
-    return FlankPiece(replace(flank, end_roll=float(flank.roll_at_radius(radius))), label)
+    return FlankPiece(replace(flank, end_roll=flank.roll_at_radius(radius)), label)
 
 
 def _broken_tip(pieces: list[FlankPiece], tip_radius: float, curves: SideCurves, *, pointed: bool) -> list[Segment]:
@@ -183,7 +183,7 @@ def _chamfer_line(gear: SpurGear, flank: Involute, relief: Involute | None) -> L
     foot_radius = tip_radius - height
     if foot_radius <= flank.base_radius:
         raise ParameterError("tip_chamfer", height, "leaves_no_flank", limit(tip_radius - flank.base_radius, height))
-    angles = [float(f.polar_angle_at_radius(foot_radius)) for f in (flank, relief) if f is not None]
+    angles = [f.polar_angle_at_radius(foot_radius) for f in (flank, relief) if f is not None]
     foot = cmath.rect(foot_radius, max(angles))
     direction = cmath.exp(1j * (max(angles) + math.pi / 4))
     along = (foot.conjugate() * direction).real
@@ -222,7 +222,7 @@ def _rounded(pieces: list[FlankPiece], tip_radius: float, radius: float) -> tupl
         flank = piece.curve
         if radius >= tip_radius - flank.base_radius:
             break
-        centre_roll = float(flank.roll_at_radius(tip_radius - radius))
+        centre_roll = flank.roll_at_radius(tip_radius - radius)
         centre = complex(_turned(flank, radius).point(centre_roll))
         touch_roll = centre_roll + radius / flank.base_radius
         if flank.start_roll < touch_roll < flank.end_roll and centre.imag <= 0:

@@ -210,9 +210,8 @@ def greatest_shift(gear: SpurGear) -> float | None:
 
     def spare(x: float) -> float:
         changed = replace(gear, profile_shift_coefficient=x, given_tip_diameter=None)
-        return -2 * changed.tip_radius * float(
-            changed.flank().polar_angle_at_radius(changed.tip_radius)
-        ) / gear.module - (LEAST_TIP_THICKNESS)
+        tip = changed.tip_radius
+        return -2 * tip * changed.flank().polar_angle_at_radius(tip) / gear.module - LEAST_TIP_THICKNESS
 
     low, high = limits.least_shift_without_undercut(gear), gear.profile_shift_coefficient
     low = min(low, high)

@@ -138,7 +138,7 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
     names = {
         "cos": math.cos, "sin": math.sin, "tan": math.tan, "arccos": math.acos, "arctan": math.atan,
         "sqrt": math.sqrt, "cbrt": math.cbrt, "abs": abs, "pi": math.pi, "inv": involute_function,
-        "arcinv": lambda v: inverse_involute(v).value,
+        "arcinv": inverse_involute,
     }  # fmt: skip
 
     def value(match: re.Match[str]) -> str:

@@ -95,35 +95,28 @@ def _exact_inverse(value: float) -> Any:
     raise AssertionError(value)
 
 
-@pytest.mark.parametrize("value", np.geomspace(1e-12, 100, 57))
-def test_inverse_involute_over_fourteen_decades(value: float) -> None:
+@pytest.mark.parametrize("value", [*np.geomspace(1e-37, 1e-3, 18), *np.geomspace(2e-3, 50, 60), 1e4, 1e9, 1e15, 1e300])
+def test_inverse_involute_from_a_billionth_of_a_second_to_a_right_angle(value: float) -> None:
     exact = _exact_inverse(float(value))
     found = inverse_involute(float(value))
     tangent = math.tan(float(exact))
     # t - atan t cancels to t^3/3 above the series: a unit roundoff of 2 t there is 2/t^2 of the angle
     cancelled = 1.2e-16 * 2 / tangent**2 * float(exact) if tangent >= 0.06 else 0.0
-    assert abs(found.value - exact) <= 4 * np.spacing(float(exact)) + cancelled
-    assert found.iterations <= 60
+    assert abs(found - exact) <= 4 * np.spacing(float(exact)) + cancelled
 
 
 def test_inverse_involute_of_nothing_and_of_less() -> None:
-    assert inverse_involute(0.0).value == 0.0
-    for bad in (-1e-300, -1.0, math.nan):
+    assert inverse_involute(0.0) == 0.0
+    for bad in (-1e-300, -1.0, math.nan, math.inf):
         with pytest.raises(ParameterError):
             inverse_involute(bad)
-
-
-def test_inverse_involute_of_infinity_ends() -> None:
-    """A value without a finite tangent is refused, not searched for without end."""
-    with pytest.raises((ParameterError, ConvergenceError)):
-        inverse_involute(math.inf)
 
 
 @examples(200)
 @given(numbers(1e-4, 1.55))
 def test_inverse_undoes_the_involute_function(angle: float) -> None:
     # inv' = tan^2: the conditioning of the way back is inv/(angle tan^2), at most 1/3
-    assert inverse_involute(involute_function(angle)).value == pytest.approx(angle, rel=4e-15)
+    assert inverse_involute(involute_function(angle)) == pytest.approx(angle, rel=4e-15)
 
 
 @pytest.mark.parametrize("tangent", [*np.geomspace(1e-8, 1e3, 89), 0.06, np.nextafter(0.06, 0), -0.05, -2.0])
@@ -132,18 +125,9 @@ def test_roll_minus_polar_relative_to_its_own_size(tangent: float) -> None:
     exact = t - MP.atan(t)
     # just above the change from series to difference 0.06 - atan 0.06 loses a factor of t/(t^3/3) = 833
     allowed = 4e-16 if abs(tangent) < 0.06 else 1.2e-16 * (1 + 3 / float(t) ** 2)
-    assert abs(float(roll_minus_polar(tangent)) - exact) <= allowed * abs(exact)
+    assert abs(roll_minus_polar(tangent) - exact) <= allowed * abs(exact)
 
 
-def test_roll_minus_polar_is_vectorised_and_odd() -> None:
-    t = np.linspace(-3, 3, 61).reshape(1, 61)
-    values = roll_minus_polar(t)
-    assert values.shape == t.shape
-    assert np.array_equal(values, -roll_minus_polar(-t))
-    assert values[0, 30] == 0
-
-
-def test_an_infinite_tangent_is_a_right_angle_and_no_warning() -> None:
-    """The profile angle of an involute that never ends; the series for small angles gave 0 times infinity there."""
-    with np.errstate(all="raise"):
-        assert roll_minus_polar(np.array([math.inf, -math.inf, 1e200, 0.0])).tolist() == [math.inf, -math.inf, 1e200, 0]
+def test_roll_minus_polar_is_odd_and_an_infinite_tangent_a_right_angle() -> None:
+    assert all(roll_minus_polar(-t) == -roll_minus_polar(t) for t in (0.0, 0.1, 0.3, 3.0))
+    assert [roll_minus_polar(t) for t in (math.inf, -math.inf, 1e200, 0.0)] == [math.inf, -math.inf, 1e200, 0]

@@ -94,7 +94,7 @@ def random_gear(rng: random.Random) -> SpurGear:
 def upper_flank(gear: SpurGear, tooth: int) -> Any:
     """Points of the upper flank of a tooth, tooth 0 on +x."""
     flank = gear.flank()
-    roll = flank.roll_at_radius(np.linspace(gear.base_radius, gear.tip_radius, 4001))
+    roll = np.array([flank.roll_at_radius(r) for r in np.linspace(gear.base_radius, gear.tip_radius, 4001)])
     return np.conj(flank.point(roll)) * np.exp(1j * tooth * gear.pitch_angle)
 
 

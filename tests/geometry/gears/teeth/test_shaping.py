@@ -83,7 +83,7 @@ def test_any_gear_that_is_not_refused_is_what_its_cutter_leaves(
 def test_root_diameter_follows_from_the_cutters_distance() -> None:
     """inv alpha_w0 = inv alpha + 2 (x + x0) tan alpha / (z + z0), r_f = a_0 - r_a0."""
     gear = shaped(17, 20, 0.1, 0.2)
-    angle = inverse_involute(involute_function(ALPHA) + 2 * 0.3 * math.tan(ALPHA) / 37).value
+    angle = inverse_involute(involute_function(ALPHA) + 2 * 0.3 * math.tan(ALPHA) / 37)
     distance = 37 * math.cos(ALPHA) / math.cos(angle)
     assert gear.root_radius == pytest.approx(distance - (20 + 2 * (1.25 + 0.2)), rel=1e-14)
     assert shaped(17, 20, 0.1, -0.1).root_radius == pytest.approx(17 - 2 * (1.25 - 0.1), rel=1e-14)
