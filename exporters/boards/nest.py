@@ -1,10 +1,10 @@
 """Pieces laid on as few boards as a fixed number of steps finds: no clock, no chance, the same layout every time.
 
 On a grid, the places at which two pieces come too near to each other are one table for each pair of shapes (the raster
-of the no-fit polygon, a correlation of both covers, holes included). Each board has a map of free places for every
-shape and turn; a piece that is laid stamps its tables into them, so that the next free place is found at once: pieces
-fall into holes and between others. Covers are never too small, so the gap is kept; what they waste is taken back by
-sliding the pieces together, by exact distances.
+of the no-fit polygon, a correlation of both covers, holes included). Each board has a map of taken places for every
+shape and turn; a piece that is laid stamps its tables into them, eight places to a byte, so that the next free place is
+found at once: pieces fall into holes and between others. Covers are never too small, so the gap is kept; what they
+waste is taken back by sliding the pieces together, by exact distances.
 """
 
 from __future__ import annotations
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
 Flags = NDArray[np.bool_]
+# flags (x, y), eight to a byte along y, the first one the highest bit; a map's rows are whole words
+Bits = NDArray[np.uint8]
+_WORD, _TAKEN = 64, np.uint64(2**64 - 1)
 # cells of the grid along the longer side of a board, and of all tables together
 _COARSEST, _FINEST, _TABLES = 800, 6000, 15_000_000
 # a shape that fills its circumscribed circle so well is laid in one turn
@@ -175,7 +178,8 @@ class _Nest:
         self.cell = min(max(math.sqrt(pairs / _TABLES), longer / _FINEST), longer / _COARSEST)
         self.grown: dict[str, Flags] = {}
         self.turned = {name: self._turns(name, geometry) for name, (geometry, _) in shapes.items()}
-        self.tables: dict[tuple[str, int, str, int], Flags] = {}
+        self.tables: dict[tuple[str, int, str, int], _Table] = {}
+        self.empty = {(name, turn): self._empty(one) for name, x in self.turned.items() for turn, one in x.items()}
         self.spectra: dict[tuple[str, int, int, int], NDArray[np.complex128]] = {}
 
     def _turns(self, name: str, geometry: BaseGeometry) -> dict[int, _Shape]:
@@ -232,8 +236,8 @@ class _Nest:
         shapely.prepare(grown)
         return np.asarray(shapely.contains_xy(grown, *np.meshgrid(*axes, indexing="ij")))
 
-    def table(self, one: tuple[str, int], two: tuple[str, int]) -> Flags:
-        """Steps (x, y) about the middle from shape ``one`` to shape ``two`` at which they are not too near."""
+    def table(self, one: tuple[str, int], two: tuple[str, int]) -> _Table:
+        """Steps (x, y) about the middle from shape ``one`` to shape ``two`` at which they are too near."""
         name, turn = one
         other, turned = two
         if (name, turn, other, turned) not in self.tables:
@@ -243,10 +247,10 @@ class _Nest:
             fast = _fast(size[0]), _fast(size[1])
             spectrum = self._spectrum(name, -1, first, fast)
             spectrum = spectrum * self._spectrum(other, (turned - turn) % 4, second[::-1, ::-1], fast)
-            clear = np.fft.irfft2(spectrum, fast)[: size[0], : size[1]] < 0.5
+            near = np.fft.irfft2(spectrum, fast)[: size[0], : size[1]] >= 0.5
             for quarter in range(4):
-                self.tables[name, quarter, other, (turned - turn + quarter) % 4] = np.ascontiguousarray(
-                    np.rot90(clear, quarter, axes=(0, 1))
+                self.tables[name, quarter, other, (turned - turn + quarter) % 4] = _Table(
+                    np.ascontiguousarray(np.rot90(near, quarter, axes=(0, 1)))
                 )
         return self.tables[name, turn, other, turned]
 
@@ -274,18 +278,24 @@ class _Nest:
     def _better(self, best: _Layout) -> _Layout:
         """The best of a fixed number of layouts about one."""
         pieces = best.order
-        cells = np.mean([t.size for t in self.tables.values()]) if len(self.counts) > 1 else math.inf
+        cells = np.mean([math.prod(t.shape) for t in self.tables.values()]) if len(self.counts) > 1 else math.inf
         trials = _WORK / 2 / (len(pieces) * sum(map(len, self.turned.values())) * cells)
         chance = _Chance()
+        # as the best rank only falls, an order that was no better is none later
+        worse: set[tuple[str, ...]] = set()
         for _ in range(min(int(trials), _TRIALS * len(pieces))):
             order = list(best.order)
             one = two = chance.below(len(order))
             while order[one] == order[two]:
                 two = chance.below(len(order))
             order[one], order[two] = order[two], order[one]
+            if tuple(order) in worse:
+                continue
             found = self._packed(order, best.rank)
             if found is not None and found.rank <= best.rank:
                 best = found
+            else:
+                worse.add(tuple(order))
         return best
 
     def _packed(self, order: Sequence[str], than: tuple[float, float, float] = _NOTHING) -> _Layout | None:
@@ -312,12 +322,12 @@ class _Nest:
         """What lies on one board, what is left, and how far it reaches, mm; no more once that is above ``most``."""
         names = dict.fromkeys(order)
         counts = {name: order.count(name) for name in names}
-        free = {(name, turn): self._all_free(shape) for name in names for turn, shape in self.turned[name].items()}
+        taken = {(name, turn): self.empty[name, turn].copy() for name in names for turn in self.turned[name]}
         laid, left, end = [], [], 0.0
         full: set[str] = set()
         for name in order:
             counts[name] -= 1
-            found = () if name in full else (self._first(free, name, turn) for turn in self.turned[name])
+            found = () if name in full else (self._first(taken, name, turn) for turn in self.turned[name])
             best = min(filter(None, found), default=None)
             if best is None:
                 full.add(name)
@@ -330,30 +340,53 @@ class _Nest:
             shape = self.turned[name][turn]
             at = self._at(shape.half, x, y) + self.room.margin * (1 + 1j) - shape.middle
             laid.append(Laid(name, board, turn, at))
-            for (other, way), places in free.items():
+            for (other, way), places in taken.items():
                 if counts[other] and other not in full:
-                    _stamp(places, self.table((name, turn), (other, way)), x, y)
+                    self.table((name, turn), (other, way)).stamp(places, x, y)
         return laid, left, end
 
-    def _all_free(self, shape: _Shape) -> Flags:
-        """Where the middle of a shape may stand on an empty board."""
+    def _empty(self, shape: _Shape) -> Bits:
+        """Where the middle of a shape may not stand on an empty board."""
         inner = self.inner.real, self.inner.imag
-        places = np.zeros([math.floor(size / self.cell + 1e-9) + 1 for size in inner], dtype=bool)
+        across, along = (math.floor(size / self.cell + 1e-9) + 1 for size in inner)
+        places = np.ones((across, math.ceil(along / _WORD) * _WORD), dtype=bool)
         # where the room is tight, the place next to the middle of the board
         near = [round(size / 2 / self.cell) for size in inner]
         xs, ys = (self._places(shape.half, axis) or range(near[axis], near[axis] + 1) for axis in (0, 1))
-        places[xs.start : xs.stop, ys.start : ys.stop] = True
-        return places
+        places[xs.start : xs.stop, ys.start : ys.stop] = False
+        return np.packbits(places, axis=1)
 
     def _first(
-        self, free: Mapping[tuple[str, int], Flags], name: str, turn: int
+        self, taken: Mapping[tuple[str, int], Bits], name: str, turn: int
     ) -> tuple[tuple[float, int], int, tuple[int, int]] | None:
         """The leftmost and then lowest free place of a shape in a turn, and by what it is compared with others."""
-        places = free[name, turn]
-        x, y = divmod(int(places.argmax()), places.shape[1])
-        if not places[x, y]:
+        places = taken[name, turn]
+        x, y = divmod(int((places.view(np.uint64) != _TAKEN).argmax()) * _WORD, 8 * places.shape[1])
+        bits = np.unpackbits(places[x, y // 8 : (y + _WORD) // 8])
+        if bits.all():
             return None
+        y += int(bits.argmin())
         return (x * self.cell + self.turned[name][turn].half.real, y), turn, (x, y)
+
+
+class _Table:
+    """Steps (x, y) about the middle from one shape to another at which they are too near."""
+
+    def __init__(self, near: Flags) -> None:
+        self.shape = near.shape
+        # by the bit of their first byte at which the rows begin, with a byte for what that shifts out
+        self.begun: dict[int, Bits] = {0: np.pad(np.packbits(near, axis=1), ((0, 0), (0, 1)))}
+
+    def stamp(self, places: Bits, x: int, y: int) -> None:
+        """What is too near to a piece at x, y is taken."""
+        left, (low, bit) = x - self.shape[0] // 2, divmod(y - self.shape[1] // 2, 8)
+        if bit not in self.begun:
+            self.begun[bit] = self.begun[0] >> np.uint8(bit)
+            self.begun[bit][:, 1:] |= self.begun[0][:, :-1] << np.uint8(8 - bit)
+        table = self.begun[bit]
+        here = slice(max(left, 0), left + table.shape[0]), slice(max(low, 0), low + table.shape[1])
+        part = places[here]
+        part |= table[here[0].start - left :, here[1].start - low :][: part.shape[0], : part.shape[1]]
 
 
 class _Layout(Record):
@@ -386,14 +419,6 @@ def _without(order: Sequence[str], counts: Mapping[str, int]) -> list[str]:
         else:
             left.append(name)
     return left
-
-
-def _stamp(places: Flags, table: Flags, x: int, y: int) -> None:
-    """What is too near to a piece at x, y is free no more."""
-    left, low = x - table.shape[0] // 2, y - table.shape[1] // 2
-    here = slice(max(left, 0), left + table.shape[0]), slice(max(low, 0), low + table.shape[1])
-    part = places[here]
-    part &= table[here[0].start - left :, here[1].start - low :][: part.shape[0], : part.shape[1]]
 
 
 def _fast(count: int) -> int:
