@@ -191,14 +191,21 @@ def _most(cam: BarrelCam, side: int, corners: Real, angles: Real, place: Complex
     aside = float(np.abs(place.real).max()) + float(cam.radius_at(cam.outer))
     window = math.asin(min(1.0, aside / cam.inner)) + spread
     doubled = np.concatenate([middle - TURN, middle, middle + TURN])
-    found = np.full(len(angles), -np.inf)
-    for k, angle in enumerate(angles.tolist()):
-        polar = math.remainder(-angle, TURN)
-        first, last = np.searchsorted(doubled, [polar - window, polar + window])
-        near = np.arange(first, last) % max(1, len(middle))
-        fixed = plane[near] * np.exp(1j * angle)
-        heights = _on_edges(fixed.imag - place[k].real, cam.radius_at(fixed.real), side * (place[k].imag - z[near]))
-        found[k] = heights.max(initial=-np.inf)
+    polar = np.array([math.remainder(-angle, TURN) for angle in angles.tolist()])
+    first, last = (np.searchsorted(doubled, polar + away) for away in (-window, window))
+    # edges near the roller, one angle after the other: an angle's begin at ``starts``
+    starts = np.concatenate([[0], np.cumsum(last - first)])
+    found, turned = np.full(len(angles), -np.inf), np.exp(1j * angles)
+    here = 0
+    while here < len(angles):
+        stop = max(here + 1, int(np.searchsorted(starts, starts[here] + _CHUNK, side="right")) - 1)
+        at = np.repeat(np.arange(here, stop), (last - first)[here:stop])
+        near = (np.arange(starts[here], starts[stop]) - starts[at] + first[at]) % max(1, len(middle))
+        fixed = plane[near] * turned[at, None]
+        height = side * (place.imag[at, None] - z[near])
+        heights = _on_edges(fixed.imag - place.real[at, None], cam.radius_at(fixed.real), height)
+        np.maximum.at(found, at, heights)
+        here = stop
     return found
 
 
