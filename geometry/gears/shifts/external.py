@@ -213,38 +213,36 @@ class Requirements(Record):
 
 def margins(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> tuple[Margin, ...]:
     """Every requirement with its margin; nan where the pair does not exist."""
-    return tuple(_margins(pair, wish, x1, x2))
+    return tuple(Margin(name, value, limit, value - limit) for name, value, limit in _sides(pair, wish, x1, x2))
 
 
-def _margins(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> Iterator[Margin]:
-    """The requirements, those that cost a root last."""
+def _sides(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> Iterator[tuple[str, float, float]]:
+    """The requirements by name, value and limit, those that cost a root last."""
     state = state_of(pair, x1, x2)
-    yield Margin("working_angle", state.involute, 0.0, state.involute)
+    yield "working_angle", state.involute, 0.0
     for i, who in enumerate(("first", "second")):
         if not wish.allow_undercut:
-            least = least_shift(pair, i)
-            yield Margin(f"undercut_{who}", (x1, x2)[i], least, (x1, x2)[i] - least)
-        thick = state.tip_thicknesses[i]
-        yield Margin(f"tip_thickness_{who}", thick, wish.tip_thickness, thick - wish.tip_thickness)
-    ratio = state.contact_ratio
-    yield Margin("contact_ratio", ratio, wish.contact_ratio, ratio - wish.contact_ratio)
+            yield f"undercut_{who}", (x1, x2)[i], least_shift(pair, i)
+        yield f"tip_thickness_{who}", state.tip_thicknesses[i], wish.tip_thickness
+    yield "contact_ratio", state.contact_ratio, wish.contact_ratio
     if wish.pole_inside:
-        low, high = state.starts[0], state.tips[0]
-        yield Margin("approach", state.pole, low, state.pole - low)
-        yield Margin("recess", high, state.pole, high - state.pole)
+        yield "approach", state.pole, state.starts[0]
+        yield "recess", state.tips[0], state.pole
     for i in (0, 1):
-        yield active_flank(pair, x1, x2, i)
+        flank = active_flank(pair, x1, x2, i)
+        yield flank.name, flank.value, flank.limit
 
 
 def least_margin(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> float:
     """The least of all margins, -1 where the pair does not exist; form circles only where all else is kept."""
     least = math.inf
-    for margin in _margins(pair, wish, x1, x2):
-        if math.isnan(margin.margin):
+    for name, value, limit in _sides(pair, wish, x1, x2):
+        margin = value - limit
+        if math.isnan(margin):
             return -1.0
-        if least < 0 and margin.name.startswith("active_flank"):
+        if least < 0 and name.startswith("active_flank"):
             break
-        least = min(least, margin.margin)
+        least = min(least, margin)
     return least
 
 

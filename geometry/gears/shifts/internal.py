@@ -41,11 +41,19 @@ from geometry.gears.teeth.limits import Margin
 
 # levels of the bottom clearance, modules: the tip at the root, and the least that contact searches found free
 TIP_CLEARANCES = (0.0, 0.2)
-# value and limit of a condition at x1, x2
-_Sides = Callable[[float, float], tuple[float, float]]
+# value and limit of a condition at x1, x2 and the pair's state there
+_Sides = Callable[[float, float, InternalState], tuple[float, float]]
 # no margin rises faster than this many modules a module; the smallest square looked at for legal shifts
 _STEEPEST, _FINE = 8.0, 0.05
 _LEVELS = {"contact_ratio": CONTACT_RATIOS, "tip_thickness": TIP_THICKNESSES, "tip_clearance": TIP_CLEARANCES}
+# what is compared with a level of one's choice
+_LEVELLED: dict[str, Callable[[InternalState], float]] = {
+    "tip_thickness_first": lambda state: state.tip_thicknesses[0],
+    "tip_thickness_second": lambda state: state.tip_thicknesses[1],
+    "contact_ratio": lambda state: state.contact_ratio,
+    "tip_clearance_first": lambda state: state.tip_clearances[0],
+    "tip_clearance_second": lambda state: state.tip_clearances[1],
+}
 _COSTLY = frozenset({f"cutter_{name}" for name in CUTTING} | set(CUTTING) | {"active_flank_first"})
 # conditions of one gear alone: their lines are vertical (pinion) or horizontal (ring)
 _OF_PINION = frozenset({"undercut_first", "tip_thickness_first", "cutter_working_angle_first", "cutter_reach_first"})
@@ -63,65 +71,36 @@ class InternalRequirements(Requirements):
     radial_assembly: bool = False
 
 
+@lru_cache(maxsize=64)
 def _always(pair: InternalShiftPair) -> dict[str, _Sides]:
     """Both sides, value >= limit, of every condition without a level, those that cost a root last."""
 
-    def state(x1: float, x2: float) -> InternalState:
-        return internal_state(pair, x1, x2)
-
     def cutting(k: int) -> _Sides:
-        return lambda x1, x2: (cutting_margins(pair, x2)[k], 0.0)
+        return lambda x1, x2, state: (cutting_margins(pair, x2)[k], 0.0)
 
     def running(k: int) -> _Sides:
-        return lambda x1, x2: (interferences(pair, x1, x2)[k], 0.0)
+        return lambda x1, x2, state: (interferences(pair, x1, x2)[k], 0.0)
 
-    least = least_pinion_shift(pair)
+    least, base = least_pinion_shift(pair), pair.ring(0.0).base_radius
     sides: dict[str, _Sides] = {
-        "working_angle": lambda x1, x2: (state(x1, x2).involute, 0.0),
-        "tip_above_base": lambda x1, x2: (state(x1, x2).ring.tip_radius, pair.ring(0.0).base_radius),
-        "undercut_first": lambda x1, x2: (x1, least),
-        "fillet_interference_second": lambda x1, x2: (state(x1, x2).ring.reach, state(x1, x2).end + state(x1, x2).line),
-        "approach": lambda x1, x2: (state(x1, x2).pole, state(x1, x2).start),
-        "recess": lambda x1, x2: (state(x1, x2).end, state(x1, x2).pole),
+        "working_angle": lambda x1, x2, state: (state.involute, 0.0),
+        "tip_above_base": lambda x1, x2, state: (state.ring.tip_radius, base),
+        "undercut_first": lambda x1, x2, state: (x1, least),
+        "fillet_interference_second": lambda x1, x2, state: (state.ring.reach, state.end + state.line),
+        "approach": lambda x1, x2, state: (state.pole, state.start),
+        "recess": lambda x1, x2, state: (state.end, state.pole),
     }
     if pair.pinion_cutter is not None:
-        sides["cutter_working_angle_first"] = lambda x1, x2: (state(x1, x2).pinion.cut_involute, 0.0)
-        sides["cutter_reach_first"] = lambda x1, x2: (state(x1, x2).pinion.reach, state(x1, x2).end)
+        sides["cutter_working_angle_first"] = lambda x1, x2, state: (state.pinion.cut_involute, 0.0)
+        sides["cutter_reach_first"] = lambda x1, x2, state: (state.pinion.reach, state.end)
     if isinstance(pair.root, PinionCutter):
-        sides["cutter_working_angle"] = lambda x1, x2: (state(x1, x2).ring.cut_involute, 0.0)
+        sides["cutter_working_angle"] = lambda x1, x2, state: (state.ring.cut_involute, 0.0)
         sides |= {f"cutter_{name}": cutting(k) for k, name in enumerate(CUTTING)}
     else:
-        sides["rounded_root"] = lambda x1, x2: (state(x1, x2).ring.room, 0.0)
+        sides["rounded_root"] = lambda x1, x2, state: (state.ring.room, 0.0)
     sides |= {name: running(k) for k, name in enumerate(CUTTING)}
-    sides["active_flank_first"] = lambda x1, x2: (state(x1, x2).start, pinion_form(pair, x1))
+    sides["active_flank_first"] = lambda x1, x2, state: (state.start, pinion_form(pair, x1))
     return sides
-
-
-def _levelled(pair: InternalShiftPair) -> dict[str, Callable[[float, float], float]]:
-    """What is compared with a level of one's choice."""
-
-    def state(x1: float, x2: float) -> InternalState:
-        return internal_state(pair, x1, x2)
-
-    return {
-        "tip_thickness_first": lambda x1, x2: state(x1, x2).tip_thicknesses[0],
-        "tip_thickness_second": lambda x1, x2: state(x1, x2).tip_thicknesses[1],
-        "contact_ratio": lambda x1, x2: state(x1, x2).contact_ratio,
-        "tip_clearance_first": lambda x1, x2: state(x1, x2).tip_clearances[0],
-        "tip_clearance_second": lambda x1, x2: state(x1, x2).tip_clearances[1],
-    }
-
-
-class _Checks(Record):
-    """All checks of a pair, made once."""
-
-    always: dict[str, _Sides]
-    levelled: dict[str, Callable[[float, float], float]]
-
-
-@lru_cache(maxsize=64)
-def _checks(pair: InternalShiftPair) -> _Checks:
-    return _Checks(_always(pair), _levelled(pair))
 
 
 def conditions(pair: InternalShiftPair) -> dict[str, Condition]:
@@ -133,13 +112,15 @@ def conditions(pair: InternalShiftPair) -> dict[str, Condition]:
     the active line.
     """
 
-    def compared(name: str, sides: _Sides) -> Condition:
-        return Condition(name, None, lambda x1, x2: _difference(sides(x1, x2)))
+    def at(value: Callable[[InternalState], float]) -> Callable[[float, float], float]:
+        return lambda x1, x2: value(internal_state(pair, x1, x2))
 
-    checks = _checks(pair)
-    found = [compared(name, sides) for name, sides in checks.always.items()]
-    for name, value in checks.levelled.items():
-        found += above(name, next(levels for kind, levels in _LEVELS.items() if name.startswith(kind)), value)
+    def compared(name: str, sides: _Sides) -> Condition:
+        return Condition(name, None, lambda x1, x2: _difference(sides(x1, x2, internal_state(pair, x1, x2))))
+
+    found = [compared(name, sides) for name, sides in _always(pair).items()]
+    for name, value in _LEVELLED.items():
+        found += above(name, next(levels for kind, levels in _LEVELS.items() if name.startswith(kind)), at(value))
     found.append(Condition("equal_sliding", None, lambda x1, x2: equal_sliding(pair, x1, x2)))
     return {c.name if c.level is None else f"{c.name} {c.level:g}": c for c in found}
 
@@ -151,7 +132,7 @@ def _difference(sides: tuple[float, float]) -> float:
 @lru_cache(maxsize=64)
 def _required(pair: InternalShiftPair, wish: InternalRequirements) -> tuple[tuple[str, _Sides], ...]:
     """The requirements, those that cost a root last."""
-    checks = _checks(pair)
+    always = _always(pair)
     left_out = {"working_angle"}
     if wish.allow_undercut:
         left_out.add("undercut_first")
@@ -159,14 +140,14 @@ def _required(pair: InternalShiftPair, wish: InternalRequirements) -> tuple[tupl
         left_out |= {"approach", "recess"}
     if not wish.radial_assembly:
         left_out.add("radial_assembly")
-    found: list[tuple[str, _Sides]] = [("working_angle", checks.always["working_angle"])]
-    found += [(name, _against(value, _limit(wish, name))) for name, value in checks.levelled.items()]
-    found += [(name, sides) for name, sides in checks.always.items() if name not in left_out]
+    found: list[tuple[str, _Sides]] = [("working_angle", always["working_angle"])]
+    found += [(name, _against(value, _limit(wish, name))) for name, value in _LEVELLED.items()]
+    found += [(name, sides) for name, sides in always.items() if name not in left_out]
     return tuple(sorted(found, key=lambda check: check[0] in _COSTLY))
 
 
-def _against(value: Callable[[float, float], float], limit: float) -> _Sides:
-    return lambda x1, x2: (value(x1, x2), limit)
+def _against(value: Callable[[InternalState], float], limit: float) -> _Sides:
+    return lambda x1, x2, state: (value(state), limit)
 
 
 def _limit(wish: InternalRequirements, name: str) -> float:
@@ -177,17 +158,18 @@ def _limit(wish: InternalRequirements, name: str) -> float:
 
 def margins(pair: InternalShiftPair, wish: InternalRequirements, x1: float, x2: float) -> tuple[Margin, ...]:
     """Every requirement with its margin; nan where the pair does not exist."""
-    every = ((name, sides(x1, x2)) for name, sides in _required(pair, wish))
+    state = internal_state(pair, x1, x2)
+    every = ((name, sides(x1, x2, state)) for name, sides in _required(pair, wish))
     return tuple(Margin(name, value, limit, value - limit) for name, (value, limit) in every)
 
 
 def least_margin(pair: InternalShiftPair, wish: InternalRequirements, x1: float, x2: float) -> float:
     """The least of all margins, -1 where the pair does not exist; what costs a root only where all else is kept."""
-    least = math.inf
+    least, state = math.inf, internal_state(pair, x1, x2)
     for name, sides in _required(pair, wish):
         if least < 0 and name in _COSTLY:
             break
-        value, limit = sides(x1, x2)
+        value, limit = sides(x1, x2, state)
         margin = value - limit
         if not margin > -math.inf:
             return -1.0

@@ -45,7 +45,7 @@ class InternalShiftPair(Record):
 
     def __hash__(self) -> int:
         # what all caches are asked by: cheap rather than fine
-        return hash((self.first_teeth, self.second_teeth, self.rack.pressure_angle))
+        return self.first_teeth << 16 ^ self.second_teeth
 
     @property
     def gear_ratio(self) -> float:
