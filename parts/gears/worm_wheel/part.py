@@ -197,12 +197,16 @@ def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
     def stands(key: str, value: float) -> bool:
         less = changed(keys, **{key: value})
         asked = _asked_teeth(less, drive_of(less))
-        teeth = asked.narrowed()
+        # how much of the width stands is sought only where what is of use does
+        teeth = replace(asked, width=_USEFUL * asked.width)
         # what is not whole anywhere has no tip to ask for
-        if not teeth.is_whole:
+        if not teeth.is_whole or teeth.is_creased:
             return False
         tip = float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0])
-        return teeth.width > _USEFUL * asked.width and tip > _TIP * keys.module and not teeth.is_creased
+        if tip <= _TIP * keys.module:
+            return False
+        teeth = asked.narrowed()
+        return teeth.is_whole and not teeth.is_creased
 
     key: str = "addendum_coefficient"
     ends: tuple[float, ...] = (0.8, 0.6, 0.4, 0.2, 0.1)
