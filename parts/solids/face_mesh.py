@@ -493,8 +493,26 @@ def _sagitta(chart: Chart, u: Real, v: Real) -> float:
     high = np.ptp(v, axis=1)
     bow = _tube(chart) * 2 * np.sin(np.minimum(high, math.pi) / 4) ** 2 if chart.is_bent else 0.0 * high
     size = np.abs(chart.meridian(v)[0]).max(axis=1) + bow
-    slant = math.cos(chart.surface.slant) if isinstance(chart.surface, Cone) else 1.0
-    return float((bow + slant * size * 2 * np.sin(np.minimum(wide, math.pi) / 4) ** 2).max())
+    away = bow + size * 2 * np.sin(np.minimum(wide, math.pi) / 4) ** 2
+    if not isinstance(chart.surface, Cone):
+        return float(away.max())
+    return math.cos(chart.surface.slant) * float(np.minimum(away, _fanned(chart, u, v)).max())
+
+
+def _fanned(chart: Chart, u: Real, v: Real) -> Real:
+    """Bounds (n,) for triangles on a cone across its axis, mm: near the tip wide angles are short ways.
+
+    The radius of a cone is linear in a triangle's shares: no point of it falls short of its circle by more than the
+    corner that does most, seen along any one direction; those of the corners and between two of them are tried.
+    """
+    radius = np.abs(chart.meridian(v)[0])
+    found = np.full(len(u), np.inf)
+    for one, other in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)):
+        off = np.minimum(np.abs(u - (u[:, [one]] + u[:, [other]]) / 2), math.pi)
+        # a corner in the tip itself has no angle
+        short = np.where(np.isnan(u), 0.0, radius * 2 * np.sin(off / 2) ** 2).max(axis=1)
+        found = np.fmin(found, short)
+    return found
 
 
 def _closed(

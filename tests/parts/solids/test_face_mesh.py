@@ -85,6 +85,20 @@ def test_a_ball_and_a_ring_by_closed_forms() -> None:
             assert 0.1 * made.max_error < worst <= made.max_error
 
 
+def test_a_cone_that_nearly_ends_in_its_tip_takes_few_triangles() -> None:
+    shaft = {"diameter": 12.0, "length": 10.0, "chamfer": 5.97}
+    worm = {"kind": "worm", "module": 2.0, "thread_length": 12.0}
+    counts = []
+    for chamfer in (1.0, 5.97):
+        keys = {**worm, "shaft_below": [{**shaft, "chamfer": chamfer}]}
+        body = make_parts(scene_from_dict({"parts": {"worm": keys}}, "s", "s"), "s")[0]["worm"].body(0.0)
+        made = faced_mesh(body, 0.1)
+        assert topology_failures(ReadMesh(made.vertices, made.geometry)) == []
+        counts.append(len(made.geometry))
+    # no more than the circle that it has less of
+    assert counts[1] <= counts[0]
+
+
 def test_a_worm_wheel_has_triangles_where_it_is_bent() -> None:
     # 75 716 before, as close all over as at the ends of its undercut
     wheel = {"kind": "worm_wheel", "module": 2.0, "number_of_teeth": 30}
