@@ -412,11 +412,13 @@ def test_balls_and_rings_are_measured_and_what_is_not_understood_is_refused(tmp_
         Torus(tilted, 10.0, 3.0).Shape(): None,
         BRepAlgoAPI_Cut(drum, Torus(8.0, 2.0).Shape()).Shape(): None,
         BRepAlgoAPI_Common(ball, quarter).Shape(): "through a pole",
-        BRepAlgoAPI_Common(Torus(10.0, 3.0).Shape(), quarter).Shape(): "inside out",
+        # an elbow
+        BRepAlgoAPI_Common(Torus(10.0, 3.0).Shape(), quarter).Shape(): None,
     }
-    Interface_Static.SetIVal_s("write.surfacecurve.mode", 0)
     for shape, refusal in shapes.items():
         writer = STEPControl_Writer()
+        # the kernel has its settings only where something is written
+        Interface_Static.SetIVal_s("write.surfacecurve.mode", 0)
         writer.Transfer(shape, STEPControl_AsIs)
         writer.Write(str(tmp_path / "k.step"))
         if refusal is not None:
