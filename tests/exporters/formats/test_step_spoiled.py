@@ -417,10 +417,11 @@ def test_balls_and_rings_are_measured_and_what_is_not_understood_is_refused(tmp_
     }
     for shape, refusal in shapes.items():
         writer = STEPControl_Writer()
-        # the kernel has its settings only where something is written
+        # the kernel has its settings only where something is written, and keeps them for other tests
         Interface_Static.SetIVal_s("write.surfacecurve.mode", 0)
         writer.Transfer(shape, STEPControl_AsIs)
         writer.Write(str(tmp_path / "k.step"))
+        Interface_Static.SetIVal_s("write.surfacecurve.mode", 1)
         if refusal is not None:
             with pytest.raises(ReadError, match=refusal):
                 read_step(tmp_path / "k.step")
