@@ -37,7 +37,12 @@ class StepPartSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="step_part"
         ),
     ]
     solid: (
-        Annotated[int, Meta(ge=1, le=1000, description="which of the file's solids, from 1 on, where it has several")]
+        Annotated[
+            int,
+            Meta(
+                ge=1, le=1000, description="which of the file's solids, from 1 on, where it has several", examples=[2]
+            ),
+        ]
         | None
     ) = None
     origin: Annotated[tuple[_Place, _Place, _Place], mm("the part's origin in the file, which mates place")] = (

@@ -37,10 +37,15 @@ class Told:
             if abs(e.dxf.start.y - e.dxf.end.y) < NEAR
             and abs(e.dxf.end.x - e.dxf.start.x - 8.0 - scale * (high - low)) < NEAR
         ]  # fmt: skip
-        # of axes of holes the middle one, of two views the first
+        # of two views the first; its axis lies in the middle of the greatest diameter, those of holes beside it
         left = min(x for x, _ in axes)
-        heights = sorted(y for x, y in axes if x < left + NEAR)
-        zero, axis = left - scale * low, heights[len(heights) // 2]
+        widest = max(
+            (sorted((e.dxf.defpoint2.y, e.dxf.defpoint3.y)) for e in document.modelspace().query("DIMENSION")
+             if abs(e.dxf.angle - 90.0) < NEAR and "%%c" in e.dxf.text),
+            key=lambda ends: ends[1] - ends[0],
+        )  # fmt: skip
+        zero, axis = left - scale * low, sum(widest) / 2
+        assert any(abs(y - axis) < NEAR for x, y in axes if x < left + NEAR)
         for entity in document.modelspace().query("DIMENSION"):
             factor = document.dimstyles.get(entity.dxf.dimstyle).dxf.dimlfac
             ends = [entity.dxf.defpoint2, entity.dxf.defpoint3]
@@ -61,6 +66,10 @@ class Told:
         elif "%%c" in text:
             assert abs(first[1] + second[1]) < NEAR
             self.diameters[round(value, DIGITS)] += 1
+        elif abs(entity.dxf.angle - 90.0) < NEAR:
+            # how far a hole that stands alone lies off the axis
+            assert abs(first[1]) < NEAR
+            self.diameters[round(2 * value, DIGITS)] += 1
         else:
             assert abs(entity.dxf.angle) < NEAR
             self.spans.append((first[0], second[0], value))

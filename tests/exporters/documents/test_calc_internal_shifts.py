@@ -200,7 +200,7 @@ def test_pictures_are_written_by_their_ending(contour: Any, tmp_path: Path, monk
         page = Sheet("shift-choice", "contour")
         page.picture = ContourPicture(contour, (("region: {conditions}", (0.1, 0.2)),))
         page.picture_file = str(tmp_path / name)
-        monkeypatch.setattr(topics, "sheet_of", lambda _topic, _words, page=page: (page, "uk"))
+        monkeypatch.setattr(topics, "sheet_of", lambda _topic, _words, _language, page=page: (page, "uk"))
         calculate("shift-choice", [], "text", "uk")
         text = (tmp_path / name).read_text(encoding="utf-8")
         assert text.startswith(start)

@@ -122,7 +122,7 @@ def test_equal_gears_mesh_by_their_numbers_of_teeth() -> None:
         assert paired(shape, (works, works), 2.0, None).twins_mesh
         assert not paired(shape, (fails, fails), 2.0, None).twins_mesh
     # where they do not, two of them stand tooth on tooth, and the mate of the driver meshes
-    pair = gears(LobedEllipse(1.0, 0.2, 2), (12, 12))
+    pair = gears(LobedEllipse(1.0, 0.2, 2), (16, 16))
     assert noncircular_contact(twins(pair)).verdict is Verdict.OVERLAP
     assert noncircular_contact(pair).verdict is Verdict.CONTACT
 
