@@ -59,6 +59,14 @@ MotionTable = Annotated[
         examples=[[[0.0, 0.0], [120.0, 10.0], [240.0, 5.0]]],
     ),
 ]
+FollowerRadius = Annotated[float, mm("radius of the roller or mushroom", least=0, most=_MOST), start(8.0)]
+BaseCircle = Annotated[
+    float, mm("base circle; default: the least by least_transmission_angle_deg", above=0, most=_MOST), start(30.0)
+]
+LeastTransmission = Annotated[
+    float, degrees("gamma_min = 90 - pressure angle; flat: 45", above=0, below=90, example=60.0)
+]
+LeastCurvature = Annotated[float, mm("rho: least convex radius of the cam", least=0, most=_MOST)]
 FollowerOffset = Annotated[float, mm("line of motion at x = e; e > 0 eases the rise", least=-_MOST, most=_MOST)]
 
 

@@ -11,6 +11,10 @@ if TYPE_CHECKING:
 
 RECIPES: Index[Recipe[Any]] = Index(
     {
+        "cam_model": (
+            "parts.recipes.cam_model:CAM_MODEL",
+            "Model of a cam of flat parts and dowels: its sliding follower's slot runs on two pins of a frame",
+        ),
         "planetary_set": (
             "parts.recipes.planetary_set:PLANETARY_SET",
             "Planetary set: central wheels, satellites with one rim or two on a carrier, with a frame and a crank",

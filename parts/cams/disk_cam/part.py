@@ -21,11 +21,15 @@ from parts.base.kind import Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
 from parts.cams.wheel import DiskKeys, Turned, check_disk, inner_radius, marked_holes
-from parts.keys.base import degrees, mm, start
+from parts.keys.base import mm
 from parts.keys.cam import (
     USUAL_PRESSURE_ANGLE,
+    BaseCircle,
     Follower,
     FollowerOffset,
+    FollowerRadius,
+    LeastCurvature,
+    LeastTransmission,
     Lift,
     MotionTable,
     MovingPhase,
@@ -92,7 +96,7 @@ class CamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="cam")
     swing_deg: Swing = 0.0
     phases: Annotated[Phases, with_own_laws(turn("polynomial_345"))] | None = None
     motion_table: MotionTable | None = None
-    follower_radius: Annotated[float, mm("radius of the roller or mushroom", least=0, most=_MOST), start(8.0)] = 0.0
+    follower_radius: FollowerRadius = 0.0
     follower_offset: FollowerOffset = 0.0
     plate_diameter: (
         Annotated[
@@ -101,22 +105,9 @@ class CamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="cam")
         | None
     ) = None
     oscillating: OscillatingTable | None = None
-    base_circle_radius: (
-        Annotated[
-            float,
-            mm("base circle; default: the least by least_transmission_angle_deg", above=0, most=_MOST),
-            start(30.0),
-        ]
-        | None
-    ) = None
-    least_transmission_angle_deg: (
-        Annotated[
-            float,
-            degrees("gamma_min = 90 - pressure angle; flat: 45", above=0, below=90, example=60.0),
-        ]
-        | None
-    ) = None
-    least_curvature_radius: Annotated[float, mm("rho: least convex radius of the cam", least=0, most=_MOST)] = 0.0
+    base_circle_radius: BaseCircle | None = None
+    least_transmission_angle_deg: LeastTransmission | None = None
+    least_curvature_radius: LeastCurvature = 0.0
 
 
 # of constant breadth, for what is made from a cam

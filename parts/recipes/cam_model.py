@@ -1,0 +1,196 @@
+"""The assembly ``cam_model``: a disk cam and its sliding follower out of flat parts and dowels, to be cut and turned.
+
+From the back, in boards: frame; cam on its axle, with the roller or the flat follower; over a roller a washer and the
+follower. Two pins of the frame guide the follower by its slot, on its line of motion: the slot is as long as the lift
+and the pins' spacing together, and slack at both ends.
+"""
+
+from __future__ import annotations
+
+import math
+from types import MappingProxyType
+from typing import Annotated, Literal
+
+from msgspec import Meta
+
+from geometry.base.errors import Nearest, ParameterError
+from parts.base.part_keys import Material
+from parts.base.texts import N_
+from parts.cams.disk_cam.part import CamSpec, cam_of
+from parts.keys.base import degrees, mm
+from parts.keys.cam import (
+    BaseCircle,
+    FollowerOffset,
+    FollowerRadius,
+    LeastCurvature,
+    LeastTransmission,
+    Lift,
+    MotionTable,
+    Phases,
+    turn,
+)
+from parts.keys.law import with_own_laws
+from parts.recipes.making import Making, hole, place
+from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
+
+# mm: slack of the slot at each end; frame beyond its holes and at its sides; wall about holes; of a flat plate beyond
+# its contact; how much shorter the roller's pin is than what it holds, and the mark at cam angle 0
+_SLACK, _BELOW, _ABOVE, _WALL, _EDGE, _SHORT, _MARK = 1.0, 13.0, 15.0, 3.0, 5.0, 1.0, 2.0
+# mm: thickness and rounding of a flat follower's plate; of the frame, corners and least width
+_PLATE, _ROUNDING, _CORNER, _FRAME_WIDTH = 8.0, 3.0, 6.0, 60.0
+_CAM_KEYS = (
+    "follower", "lift", "phases", "motion_table", "follower_radius", "follower_offset", "base_circle_radius",
+    "least_transmission_angle_deg", "least_curvature_radius",
+)  # fmt: skip
+_COLOURS = {
+    "cam": "#d9b27c", "roller": "#d8d8d8", "washer": "#c9b79c", "follower": "#a8c4a0", "frame": "#efe3cc",
+    "pin": "#d0d4d8",
+}  # fmt: skip
+_TITLES = {
+    "cam": N_("Cam"), "roller": N_("Roller"), "washer": N_("Washer"), "follower": N_("Follower"), "frame": N_("Frame"),
+    "axle": N_("Axle of the cam"), "guide_pin": N_("Guide pin"), "roller_pin": N_("Pin of the roller"),
+}  # fmt: skip
+
+
+class CamModelKeys(RecipeKeys, kw_only=True, tag="cam_model"):
+    """Keys of ``cam_model``."""
+
+    follower: Annotated[Literal["roller", "flat"], Meta(description="shape of the follower's end", examples=["roller"])]
+    lift: Lift = 0.0
+    phases: Annotated[Phases, with_own_laws(turn("polynomial_345"))] | None = None
+    motion_table: MotionTable | None = None
+    follower_radius: FollowerRadius = 0.0
+    follower_offset: FollowerOffset = 0.0
+    base_circle_radius: BaseCircle | None = None
+    least_transmission_angle_deg: LeastTransmission | None = None
+    least_curvature_radius: LeastCurvature = 0.0
+    plate_thickness: Annotated[float, mm("of all flat parts", least=0.5, most=100)] = 3.0
+    clearance: Annotated[float, mm("of the slot and of holes that turn on a dowel beyond it", least=0, most=5)] = 0.2
+    axle_diameter: Annotated[float, mm("of the cam's axle", least=0.5, most=200)] = 6.0
+    guide_pin_diameter: Annotated[float, mm("of the two pins in the follower's slot", least=0.5, most=100)] = 4.0
+    guide_pin_spacing: Annotated[float, mm("between the axes of these pins", above=0, most=1000)] = 10.0
+    roller_pin_diameter: Annotated[float, mm("of the roller's pin", least=0.5, most=100)] = 3.0
+    stem_width: Annotated[float, mm("width of the follower's stem", above=0, most=1000)] = 12.0
+    slot_start: (
+        Annotated[
+            float,
+            mm(
+                "of the slot, above the roller's centre or the flat face; default: as near as the parts allow",
+                above=0,
+                most=10_000,
+                example=36.0,
+            ),
+        ]
+        | None
+    ) = None
+    cam_angle_deg: Annotated[float, degrees("cam angle at which it is drawn", least=-360, most=360)] = 0.0
+    material: Material | None = None
+
+
+class CamModelRecipe(Recipe[CamModelKeys]):
+    """Plates and dowels."""
+
+    name, keys = "cam_model", CamModelKeys
+    reasons = MappingProxyType(
+        {"pin_meets_cam": N_("its guide's pins would stand too near to the cam and the follower's end")}
+    )
+
+    def expanded(self, keys: CamModelKeys) -> Expansion:
+        """The tables of one model."""
+        return _Making(keys).all()
+
+
+CAM_MODEL = CamModelRecipe()
+
+
+class _Making(Making):
+    """The tables as they grow; the axle is at 0, the cam's lower face at height 0."""
+
+    def __init__(self, keys: CamModelKeys) -> None:
+        super().__init__(keys.plate_thickness, keys.material, _COLOURS)
+        self.keys, self.rolls = keys, keys.follower == "roller"
+        given = {key: getattr(keys, key) for key in _CAM_KEYS}
+        self.given = {key: value for key, value in given.items() if value is not None}
+        self.cam = cam_of(CamSpec(**self.given))
+        start, (low, high) = self.cam.slide.start_height, self.cam.motion.extremes()
+        self.low, self.high = start + low, start + high
+        self.travel = high - low
+        least = self._least_start()
+        if keys.slot_start is not None and keys.slot_start < least:
+            raise ParameterError("slot_start", keys.slot_start, "pin_meets_cam", Nearest(least, "at_least"))
+        self.slot_start = keys.slot_start or least
+        # in whole mm; the lower pin is in the slot where the follower is highest, the upper one where it is lowest
+        lower = math.ceil(round(self.high + self.slot_start + _SLACK, 6))
+        self.pins = [lower, lower + keys.guide_pin_spacing]
+        self.slot_end = self.pins[1] - self.low + _SLACK
+
+    def _least_start(self) -> float:
+        """Start of the slot for which the lower pin is clear of cam and roller, and the end before it is solid, mm."""
+        keys = self.keys
+        before = max(keys.follower_radius + _WALL, keys.stem_width) if self.rolls else _PLATE + _ROUNDING
+        return float(math.ceil(before + (keys.guide_pin_diameter + keys.clearance) / 2))
+
+    def all(self) -> Expansion:
+        """Every part, as it stands on what is made before, and one turn of the cam."""
+        keys, thick = self.keys, self.thickness
+        self._frame()
+        offset = keys.follower_offset
+        label = f"S {self.travel:.6g}" + (f" e {offset:.6g}" if offset else "")
+        self.part(
+            "cam", kind="cam", face_width=thick, bore_diameter=keys.axle_diameter + keys.clearance, label=label,
+            timing_mark={"diameter": _MARK}, **self.given,
+        )  # fmt: skip
+        self.found.origins |= {f"parts.cam.{key}": key for key in _CAM_KEYS}
+        self.put("coaxial", "frame", "cam", height=thick, rotation_deg=keys.cam_angle_deg)
+        stem = self._stem()
+        if self.rolls:
+            stem["pin_diameter"] = keys.roller_pin_diameter
+            self._roller()
+        else:
+            width = math.ceil(self.cam.least_plate_diameter() + 2 * _EDGE)
+            stem |= {"plate_diameter": max(float(width), keys.stem_width + 4 * _ROUNDING),
+                     "plate_thickness": _PLATE, "corner_radius": _ROUNDING}  # fmt: skip
+            self.put("cam_follower", "cam", "follower")
+        self.part("follower", kind="follower", end=keys.follower, face_width=thick, **stem)
+        self.found.drives.append({"instance": "cam", "turns": 1.0})
+        self.found.name_all(_TITLES)
+        return self.found
+
+    def _frame(self) -> None:
+        """The frame with the cam's axle and the guide's pins in it; they stand out two boards beyond the cam."""
+        keys, thick, offset = self.keys, self.thickness, self.keys.follower_offset
+        top, at = self.pins[1] + _ABOVE, [complex(offset, height) for height in self.pins]
+        self.part(
+            "frame", kind="plate", face_width=thick, corner_radius=_CORNER,
+            width=max(_FRAME_WIDTH, 2 * abs(offset) + keys.axle_diameter + 2 * _BELOW), height=round(top + _BELOW, 6),
+            centre=place(complex(offset, (top - _BELOW) / 2), 0.0)[:2],
+            holes=[hole(0j, keys.axle_diameter), *(hole(one, keys.guide_pin_diameter) for one in at)],
+        )  # fmt: skip
+        self.found.instances["frame"] = {"part": "frame", "at": [0.0, 0.0, -thick], "held": True}
+        self.pin("axle", keys.axle_diameter, 4 * thick)
+        self.fix("frame", "axle", 0j, 0.0)
+        self.pin("guide_pin", keys.guide_pin_diameter, 4 * thick)
+        for k, one in enumerate(at, 1):
+            self.fix("frame", f"guide_pin_{k}", one, 0.0, "guide_pin")
+
+    def _stem(self) -> dict[str, object]:
+        """The follower's stem: its slot, and as much beyond it as the stem is wide."""
+        keys = self.keys
+        slot = {"start": [0.0, self.slot_start], "end": [0.0, round(self.slot_end, 2)],
+                "width": keys.guide_pin_diameter + keys.clearance}  # fmt: skip
+        return {
+            "stem_width": keys.stem_width, "stem_length": round(self.slot_end + keys.stem_width, 2), "slots": [slot]
+        }  # fmt: skip
+
+    def _roller(self) -> None:
+        """The roller on its pin, which is glued into the follower, a board's thickness over it."""
+        keys, thick = self.keys, self.thickness
+        bore = keys.roller_pin_diameter + keys.clearance
+        self.part("roller", kind="roller", face_width=thick, diameter=2 * keys.follower_radius, bore_diameter=bore)
+        self.put("cam_follower", "cam", "roller")
+        outside = min(keys.roller_pin_diameter + 2 * _WALL, keys.stem_width)
+        self.plate("washer", outside, [hole(0j, bore)], label=False)
+        self.fix("roller", "washer", 0j, thick)
+        self.fix("roller", "follower", 0j, 2 * thick)
+        self.pin("roller_pin", keys.roller_pin_diameter, 3 * thick - _SHORT)
+        self.fix("follower", "roller_pin", 0j, _SHORT - 2 * thick)
