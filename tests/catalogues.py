@@ -36,6 +36,8 @@ from parts.recipes.registry import RECIPES
 from parts.scene.files import SCENE_FOLDER
 
 HOUSE = Path(parts.__file__).parents[1]
+# built-in scenes whose comments `new --language` tells
+_SPEAKING = ("lesson_*", "*_coupon", "print_cam_set", "power_table_print")
 _PACKAGES = (HOUSE / "parts", HOUSE / "exporters")
 # the marks of parts/base/texts.py and what their first words are: a context, a text, its plural
 _MARKS = {
@@ -97,7 +99,7 @@ def _kept_in_data() -> Iterator[str]:
     """Kinds, terms, keys and tables of scenes and calculations: they need no mark."""
     yield from (*KINDS.phrases.values(), *MATES.phrases.values(), *RECIPES.phrases.values())
     yield from (term.name for term in TERMS.values())
-    for file in sorted(SCENE_FOLDER.glob("lesson_*.toml")):
+    for file in sorted(file for name in _SPEAKING for file in SCENE_FOLDER.glob(f"{name}.toml")):
         yield from comments_of(file.read_text("utf-8"))
     for kind in _structs():
         if not (told := phrase_of(kind)).startswith("Keys of"):

@@ -20,7 +20,7 @@ from geometry.base.record import Record
 from geometry.base.tolerance import PLACED_MM
 from geometry.gears.planetary.assembly import Satellites, given_set, least_angle
 from geometry.gears.planetary.fitting import Fitting
-from geometry.gears.planetary.sets import SCHEMES, PlanetarySet
+from geometry.gears.planetary.sets import LINKS, SCHEMES, PlanetarySet, ratio_of
 from geometry.gears.shifts.external import Requirements
 from geometry.gears.teeth.basic_rack import ISO_53_ANGLE, iso_53
 from parts.base.part_keys import Material
@@ -51,6 +51,7 @@ _TITLES = {
 }  # fmt: skip
 # mm: a ring's rim beyond its teeth where screws go through it, the screws, the base beyond the ring, a crank's handle
 _RIM, _SCREW, _MARGIN, _HANDLE = 14.0, 4.0, 12.0, 25.0
+_MOST_TURNS = 10_000
 
 
 class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
@@ -94,9 +95,15 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
         Literal["first", "second", "carrier", "none"],
         Meta(description="what stands still: wheel 1, wheel 3, the carrier, or none: a differential"),
     ] = "second"
-    turns: Annotated[
-        float, Meta(ge=-10_000, le=10_000, description="how far the driver is turned", extra={"unit": "turns"})
-    ] = 1.0
+    turns: (
+        Annotated[
+            float,
+            Meta(ge=-_MOST_TURNS, le=_MOST_TURNS, examples=[4.0], extra={"unit": "turns"},
+                 description="how far the driver is turned; default: until what it drives has turned once, of a "
+                 "differential 1"),
+        ]
+        | None
+    ) = None  # fmt: skip
     direction_deg: Annotated[float, degrees("direction of the first satellite", least=-360, most=360)] = 0.0
     face_width: Annotated[float, mm("face width of every wheel", least=0.1, most=10_000)] = 10.0
     plate_thickness: Annotated[float, mm("thickness of carrier, frame and crank", least=0.1, most=10_000)] = 4.0
@@ -123,9 +130,13 @@ class _Wheel(Record):
 
 
 class _Set(Record):
-    """What the tables are made of: the wheels 1, 2, 2', 3, the centre distance (mm), where satellites stand (turns)."""
+    """What the tables are made of: the wheels 1, 2, 2', 3, the centre distance (mm), where satellites stand (turns).
+
+    ``carried_ratio``: w1 / w3 with the carrier held.
+    """
 
     keys: PlanetarySetKeys
+    carried_ratio: Fraction
     wheels: tuple[_Wheel, _Wheel, _Wheel, _Wheel]
     distance: float
     places: tuple[Fraction, ...]
@@ -199,7 +210,7 @@ def _settled(keys: PlanetarySetKeys) -> _Set:
     columns = zip(_WHEELS[keys.scheme], items, one.teeth, (modules[0],) * 2 + (modules[1],) * 2, shifts, rings, heights,
                   strict=True)  # fmt: skip
     first, rim, second_rim, last = (_Wheel(*column) for column in columns)
-    return _Set(keys, (first, rim, second_rim, last), distance, places)
+    return _Set(keys, one.carried_ratio, (first, rim, second_rim, last), distance, places)
 
 
 def _fitted(
@@ -450,4 +461,14 @@ def _add_drive(made: _Set, found: Expansion) -> None:
         held = links[keys.held]
         found.instances[held] = {**found.instances.get(held, {"part": held}), "held": True}
     if keys.driver != "none":
-        found.drives.append({"instance": links[keys.driver], "turns": keys.turns})
+        found.drives.append({"instance": links[keys.driver], "turns": _turns(made)})
+
+
+def _turns(made: _Set) -> float:
+    """Of the driver: as given, else until what it drives has turned once."""
+    keys = made.keys
+    if keys.turns is not None or keys.driver == "none" or keys.held == "none":
+        return 1.0 if keys.turns is None else keys.turns
+    (driven,) = (link for link in LINKS if link not in (keys.driver, keys.held))
+    ratio = float(ratio_of(made.carried_ratio, keys.driver, driven) or 1)
+    return max(-_MOST_TURNS, min(_MOST_TURNS, ratio))

@@ -470,7 +470,7 @@ class _Making(Making):
             )  # fmt: skip
             self._upright(f"{name}_{end}_bearing", complex(far, way * (sizes.beside + _BEARING / 2)), plane, _BEARING)
         middle = sizes.beside + _BEARING + gap + _COLLAR / 2
-        self.pin(f"{name}_collar", core + 3, _COLLAR, thin)
+        self.pin(f"{name}_collar", core + 3, _COLLAR, thin + keys.fit)
         self._upright(f"{name}_collar", complex(far, -side * middle), plane, _COLLAR)
 
     def _order(self) -> None:

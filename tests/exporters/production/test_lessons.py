@@ -217,7 +217,7 @@ def test_lessons_and_coupons_have_notes_in_every_language() -> None:
         assert set(notes) in (set(), set(languages())), name
 
 
-@pytest.mark.parametrize("name", LESSONS)
+@pytest.mark.parametrize("name", [*LESSONS, "kerf_coupon", "fit_coupon", "print_cam_set", "power_table_print"])
 def test_a_lesson_as_a_text_file_speaks_ukrainian(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", name, "--language", "uk"]) == 0
     told = capsys.readouterr().out

@@ -153,7 +153,7 @@ def drawn(seed: int) -> tuple[SceneFile, dict[str, Any]]:
         keys = {
             "scheme": scheme, "teeth": teeth, "satellites": random.randint(1, 6), "identical": random.random() < 0.5,
             "spacing": random.choice(["equal", "unequal"]), "module": random.choice([0.5, 1.0, 2.5]),
-            "direction_deg": random.uniform(-180, 180), "driver": driver, "held": held,
+            "direction_deg": random.uniform(-180, 180), "driver": driver, "held": held, "turns": 1.0,
         }  # fmt: skip
         try:
             made = scene(**keys)
@@ -208,6 +208,8 @@ def test_random_sets_turn_through_their_period(seed: int) -> None:
         ("practicum_example_3", {"wheel_1": 20, "carrier": 1}),
         ("compound_two_stage", {"first_sun": Fraction(108, 5), "second_carrier": 1}),
         ("ferguson", {"carrier": 10_000, "sun": 1}),
+        # which do not tell it
+        ("lesson_2", {"sun": 5, "carrier": 1}),
     ],
 )
 def test_drives_turn_the_sets_as_the_lesson_has_it(name: str, turns: dict[str, Fraction]) -> None:
