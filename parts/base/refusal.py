@@ -68,6 +68,8 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
         match = [name for name in _SYNONYMS[word] if name in known]
     else:
         match = [] if word is None else difflib.get_close_matches(word, list(known), 1, 0.5)
+        if not match and word is not None:
+            match = [name for name in known if name.lower() == word.lower()]
     return Nearest(match[0], "meant") if match else None
 
 

@@ -38,6 +38,13 @@ _SENTENCES = (
 # a key whose words have no quotes, and one whose quotes are not closed
 _TYPOGRAPHIC = "“”„«»‘’"
 _BARE = re.compile(rf"([\w-]+)\s*=\s*((?:[{_TYPOGRAPHIC}]|[^\W\d_])[^#,\]}}\"']*)")
+# a list without brackets, a number with its unit, a key that is not in Latin letters
+_BARE_LIST = re.compile(r"\s*([\w.-]+)\s*=\s*(-?[\d.]+(?:\s*[,;]\s*-?[\d.]+)+)\s*(?:#.*)?")
+_UNIT = re.compile(r"\s*([\w.-]+)\s*=\s*(-?\d+(?:\.\d+)?)\s*[^\W\d_]+\.?\s*(?:#.*)?")
+_NOT_LATIN = re.compile(r"\s*(\w*[^\W\x00-\x7f]\w*)\s*=")
+# yes and no as people say them; code points, since the code itself has no Cyrillic
+_YES = ("yes", bytes.fromhex("0442 0430 043a").decode("utf-16-be"))
+_NO = ("no", bytes.fromhex("043d 0456").decode("utf-16-be"))
 _OPEN = re.compile(r"""\s*([\w.-]+)\s*=\s*("[^"]*|'[^']*)""")
 
 
@@ -80,10 +87,18 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return "decimal_comma", {"line": number, "number": f"{found[1]}.{found[2]}"}
     if why.startswith("Invalid value") and (found := _BARE.search(line)) and found.start(2) == column:
         value = found[2].strip().strip(_TYPOGRAPHIC)
-        truth = value.lower() in ("true", "false")
-        return ("small_letters" if truth else "no_quotes"), {
-            "line": number, "key": found[1], "value": value.lower() if truth else value
+        said = value.lower()
+        truth = "true" if said in ("true", *_YES) else "false" if said in ("false", *_NO) else None
+        return ("no_quotes" if truth is None else "small_letters"), {
+            "line": number, "key": found[1], "value": truth or value
         }  # fmt: skip
+    if found := _BARE_LIST.fullmatch(line):
+        row = ", ".join(re.split(r"\s*[,;]\s*", found[2]))
+        return "no_brackets", {"line": number, "key": found[1], "value": row}
+    if (found := _UNIT.fullmatch(line)) and look_alike(line) is None:
+        return "number_with_unit", {"line": number, "key": found[1], "value": found[2]}
+    if (found := _NOT_LATIN.match(line)) and found.end(1) > column and look_alike(found[1]) is None:
+        return "key_not_latin", {"line": number, "key": found[1]}
     if found := _OPEN.fullmatch(line.rstrip()):
         return "quote_not_closed", {"line": number, "key": found[1]}
     return None

@@ -396,7 +396,7 @@ def test_a_board_of_no_pieces_is_refused() -> None:
 
 @pytest.mark.parametrize(("line", "kept"), [
     ("kind spur_gear", "'='"), ("module = ", ""), ("[parts.g", "']'"), ("[parts.g]\n[parts.g]", "parts.g"),
-    ("a = [1", ""), ("a = {b = 1", ""), ('a = "\\q"', "'\\'"), ("a = 1 b", ""), ("a = 1\na = 2", ""),
+    ("a = [1", ""), ("a = {b = 1", ""), ('a = "\\q"', "'\\'"), ('a = "1" b', ""), ("a = 1\na = 2", ""),
     ("a = 2026-13-01", ""), ('a = "\x01"', "'\\x01'"),
 ])  # fmt: skip
 def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
@@ -428,6 +428,13 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         ("phases = [{ move = rise, angle_deg = 30.0 }]", 'line 2: words stand in straight quotes: move = "rise"'),
         ('title = "Moє', "line 2: the quotes of title are not closed"),
         ("label = True", "line 2: write label = true"),
+        ("frame = так", "line 2: write frame = true"),
+        ("frame = ні  # without", "line 2: write frame = false"),
+        ("lift = 30 mm", "line 2: numbers stand without units: lift = 30"),
+        ("lift = 0.1 мм # play", "line 2: numbers stand without units: lift = 0.1"),
+        ("teeth = 24, 30, 84", "line 2: a list stands in brackets: teeth = [24, 30, 84]"),
+        ("підйом = 30.0", "line 2: підйом is no key: keys are Latin"),
+        ("lift = 30,5", "line 2: a number has a comma; write 30.5 with a point"),
         # what is wrong in another way is told as before
         ("kind = 3.5.6", "is not TOML"),
         ("kind = [plate", "is not TOML"),
