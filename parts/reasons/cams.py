@@ -134,6 +134,7 @@ REASONS = {
     "phases_or_table": N_("give either phases or motion_table"),
     "pin_fills_roller": N_("leaves nothing of the roller"),
     "pin_holes_closed": N_("closes the pin holes"),
+    "pin_meets_cam": N_("its guide's pins would stand too near to the cam and the follower's end"),
     "pin_meets_slot": N_("meets the slot: the base circle of the cam is too small"),
     "pivot_outside_bar": N_("the pivot lies outside of the bar"),
     "pivot_keeps_no_angle": N_("no circle about an axis at this distance keeps least_transmission_angle_deg both ways"),

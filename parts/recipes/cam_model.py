@@ -8,7 +8,6 @@ and the pins' spacing together, and slack at both ends.
 from __future__ import annotations
 
 import math
-from types import MappingProxyType
 from typing import Annotated, Literal
 
 from msgspec import Meta
@@ -91,9 +90,6 @@ class CamModelRecipe(Recipe[CamModelKeys]):
     """Plates and dowels."""
 
     name, keys = "cam_model", CamModelKeys
-    reasons = MappingProxyType(
-        {"pin_meets_cam": N_("its guide's pins would stand too near to the cam and the follower's end")}
-    )
 
     def expanded(self, keys: CamModelKeys) -> Expansion:
         """The tables of one model."""
