@@ -97,16 +97,21 @@ class WormMating(Touching):
         """Verdict over one pitch, in sections across the wheel's axis."""
         from geometry.gears.worms.contact import contact_under, worm_contact
 
-        if self.errors.any:
+        if self.errors.any or self.teeth.hob.swivel:
+            # at points: the least gap is sought between places and planes
             return contact_under(self.body.thread, self.teeth, self.errors, tolerance)
         return worm_contact(self.worm, self.teeth, phase_off, distance_off, tolerance)
 
     def findings(self) -> tuple[Finding, ...]:
-        """Whether the thread is as long as the wheel touches it."""
+        """Whether the thread is as long as the wheel touches it, and clear of the teeth of a larger hob."""
         from geometry.base.findings import Finding
+        from geometry.gears.worms.contact import clearing_thinning
 
         field = self.field
-        used = 0.0 if field is None else field.length_used(math.tan(self.body.end_angle))
+        if field is None:
+            cleared = None if self.errors.any else clearing_thinning(self.body.thread, self.teeth)
+            return () if cleared is None else (Finding("worm_wheel_hob_overlap", *cleared),)
+        used = field.length_used(math.tan(self.body.end_angle))
         whole = self.body.length - self.body.lost
         return (Finding("worm_not_long_enough", whole, used),) if whole < used else ()
 

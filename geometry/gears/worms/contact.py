@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base.errors import rounded
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
@@ -30,6 +32,8 @@ _GOLDEN = (math.sqrt(5) - 1) / 2
 # how often the places about a least gap are narrowed, and to how many; how often the middle of the play is sought, and
 # how near in modules; angles and heights of lands
 _NARROWED, _FEW, _ROUNDS, _MIDDLE, _LANDS = 4, 7, 8, 1e-9, 101
+# how often a thicker hob is tried
+_THICKENED = 4
 
 
 class AxisErrors(Record):
@@ -171,6 +175,7 @@ def _told(
     )  # fmt: skip
 
 
+@lru_cache(maxsize=4)
 def contact_under(thread: Thread, teeth: WormTeeth, errors: AxisErrors, tolerance: float | None) -> PairContact:
     """Verdict over one pitch where the axes stand off their places, the worm turned into the middle of its play."""
     worm = thread.worm
@@ -190,6 +195,26 @@ def contact_under(thread: Thread, teeth: WormTeeth, errors: AxisErrors, toleranc
         off += ahead / (2 * steep)
     distance = teeth.centre_distance + errors.centre_distance
     return _told(worm, teeth, allowed, slid, gaps, points, _lands(worm, teeth, errors), distance)
+
+
+def clearing_thinning(thread: Thread, teeth: WormTeeth) -> tuple[float, float] | None:
+    """How deep teeth of a larger hob run into the worm, and how much thicker threads of the hob clear it, mm.
+
+    None: they do not, or no thicker hob clears them.
+    """
+    worm, allowed = thread.worm, CONTACT_TOLERANCE * thread.worm.module
+    deep, radii = -contact_under(thread, teeth, _RIGHT, None).worst.gap, np.array([worm.form_radius, worm.tip_radius])
+    # how much less than along the axis a gap grows along the normal
+    lean = float(np.sqrt(1 + worm.flank.slope(radii) ** 2 + (worm.parameter / radii) ** 2).max())
+    thinning, gap = -teeth.hob.worm.thinning, -deep
+    for _ in range(_THICKENED):
+        if gap >= -allowed:
+            break
+        thinning = rounded(thinning - 2 * lean * gap, up=True)
+        thinner = replace(teeth, hob=replace(teeth.hob, worm=replace(teeth.hob.worm, thinning=-thinning)))
+        thinner = thinner if thinner.ended is None else thinner.narrowed()
+        gap = contact_under(thread, thinner, _RIGHT, None).worst.gap
+    return (deep, thinning) if deep > allowed and gap >= -allowed else None
 
 
 def turn_for(teeth: WormTeeth, errors: AxisErrors) -> float:

@@ -27,6 +27,8 @@ Real = NDArray[np.float64]
 _LEAST_LAND = 1e-3
 # Newton's steps to a plane across the wheel's axis, each good to the step of its slope, rad
 _STEPS, _STEP = 4, 1e-6
+# steps to the hob's pressure angle, each of which leaves a tenth of what it is off
+_ANGLE_STEPS = 16
 
 
 class Meridian(Record, eq=False):
@@ -189,19 +191,21 @@ def worm_as_hob(drive: WormDrive, rounding_coefficient: float) -> Hob:
 
 
 def oversized_hob(drive: WormDrive, rounding_coefficient: float, quotient: float) -> Hob:
-    """A hob of the worm's normal module with another quotient, swivelled by the difference of both lead angles."""
+    """A hob of the worm's normal module with another quotient, swivelled by the difference of both lead angles.
+
+    Its flank has the worm's pressure angle in the normal of the reference helix, so that both touch in the mid plane.
+    """
     worm = drive.worm
     made, swivel = worm, 0.0
     if quotient != worm.diameter_quotient:
         lead = math.atan2(worm.number_of_starts, quotient)
         module = worm.module * math.cos(worm.lead_angle) / math.cos(lead)
-        angle = worm.pressure_angle
-        if worm.form == "ZA":
-            # axial: that of the normal section is kept
-            angle = math.atan(math.tan(angle) * math.cos(worm.lead_angle) / math.cos(lead))
-        made = replace(worm, module=module, diameter_quotient=quotient, pressure_angle=angle)
+        made = replace(worm, module=module, diameter_quotient=quotient)
+        for _ in range(_ANGLE_STEPS):
+            off = worm.normal_pressure_angle - made.normal_pressure_angle
+            made = replace(made, pressure_angle=made.pressure_angle + off)
         swivel = worm.sign * (worm.lead_angle - lead)
     more = made.reference_radius - worm.reference_radius
     tip = drive.centre_distance - drive.root_radius + more
-    rounding = rounding_coefficient * worm.module
+    rounding = rounding_coefficient * made.module
     return Hob(made, drive.number_of_teeth, drive.centre_distance + more, tip, rounding, swivel)

@@ -107,6 +107,11 @@ class Worm(Record):
         """alpha_x on the reference cylinder, rad."""
         return math.atan(float(self.flank.slope(self.reference_radius)))
 
+    @property
+    def normal_pressure_angle(self) -> float:
+        """alpha_n of the flank in the normal of the reference helix, rad."""
+        return math.atan(math.tan(self.axial_pressure_angle) * math.cos(self.lead_angle))
+
     def checked(self) -> Worm:
         """The worm itself, where it exists.
 

@@ -152,6 +152,23 @@ def test_a_default_rim_has_whole_teeth_and_a_torn_face_is_refused() -> None:
         assert made(**{**keys, key: nearest.value}).thing.teeth.ended is None
 
 
+@pytest.mark.heavy
+def test_a_larger_hob_whose_teeth_run_into_the_worm_is_told_the_thinning_that_clears_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = BOTH.replace("bore_d", 'form = "ZA"\nhob_diameter_quotient = 10.5\nbore_d', 1)
+    text = text.replace("thread_l", 'form = "ZA"\nthread_l', 1)
+    text += '[[mates]]\nkind = "worm_pair"\nfirst = "wheel"\nsecond = "worm"\n'
+    (tmp_path / "s.toml").write_text(text)
+    assert main(["check", str(tmp_path / "s.toml")]) == 1
+    said = capsys.readouterr().out
+    thinning = re.search(r"hob_diameter_quotient .* axial_thinning of ([.\d]+) mm", said)
+    assert thinning
+    (tmp_path / "s.toml").write_text(text.replace("hob_d", f"axial_thinning = {thinning[1]}\nhob_d", 1))
+    assert main(["check", str(tmp_path / "s.toml")]) == 0
+    assert "CLEAR" in capsys.readouterr().out
+
+
 def test_both_meshes_of_a_scene_are_one(tmp_path: Path) -> None:
     text = WHEEL.format(keys="").split("[[exports]]")[0]
     exports = "".join(f'[[exports]]\nformat = "{name}"\ntolerance = 0.2\n' for name in ("3mf", "stl"))

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
-from geometry.gears.worms.contact import worm_contact
+from geometry.gears.worms.contact import clearing_thinning, worm_contact
 from geometry.gears.worms.drive import WormDrive
 from geometry.gears.worms.hob import Hob, oversized_hob, worm_as_hob
+from geometry.gears.worms.thread import thread_of
 from geometry.gears.worms.wheel import WormTeeth
 from geometry.gears.worms.worm import Worm
 from geometry.plane.distance import Verdict
@@ -93,6 +94,48 @@ def test_an_oversized_hob_leaves_the_crown_of_brute_force_hobbing(hand: str) -> 
     wrong = replace(hob, swivel=-hob.swivel)
     assert _crown(drive, wrong, up)[1][-1] * 1e3 == pytest.approx(-58, abs=1.0)
     assert _crown(drive, wrong, -up)[1][-1] * 1e3 == pytest.approx(244, abs=1.0)
+
+
+def _deepest(drive: WormDrive, teeth: WormTeeth, heights: Real) -> float:
+    """How deep lower sides run into the worm, along its axis, mm: places about each one's contact with the hob."""
+    worm, cut = drive.worm, teeth.flank(teeth.side(heights), np.linspace(0.0, 1.0, 21)[:, None])
+    deep = 0.0
+    for slid in (cut.slid + step * worm.module for step in np.linspace(-0.6, 0.6, 121)):
+        turn = math.pi / drive.number_of_teeth - worm.number_of_starts * slid / worm.parameter / drive.number_of_teeth
+        reach = np.hypot(drive.centre_distance - (cut.plane * np.exp(1j * turn)).real, heights)
+        gap = _gap(worm_as_hob(drive, 0.2), cut.plane, heights, slid)
+        deep = max(deep, -float(gap[reach < worm.tip_radius].min(initial=0.0)))
+    return deep
+
+
+@pytest.mark.parametrize(("form", "most"), [("ZA", 0.013), ("ZN1", 0.022), ("ZN2", 0.016), ("ZI", 1e-9)])
+def test_a_larger_hob_of_any_form_leaves_the_mid_plane_as_the_worm_has_it_there(form: str, most: float) -> None:
+    # straight flanks of another lead are bent otherwise, by so much at half a module from the pitch point; of another
+    # angle too, before: 0.034 and 0.027 mm of ZN1 and ZN2
+    drive = WormDrive(Worm(5.0, 2, 10.0, form), 40)
+    teeth = WormTeeth(oversized_hob(drive, 0.2, 12.0), drive.centre_distance, drive.throat_radius, 106.0, 20.0)
+    assert _deepest(drive, teeth, np.array([0.0])) < most
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize(
+    ("worm", "teeth", "hob"), [(Worm(2.0, 1, 10.0, "ZA"), 30, 10.5), (Worm(3.15, 3, 9.0), 41, 9.3)]
+)
+def test_thicker_threads_of_a_larger_hob_clear_what_runs_into_the_worm(worm: Worm, teeth: int, hob: float) -> None:
+    drive = WormDrive(worm, teeth)
+    made = WormTeeth(
+        oversized_hob(drive, 0.2, hob), drive.centre_distance, drive.throat_radius, drive.tip_radius, drive.most_face_width
+    ).narrowed()
+    found, heights = clearing_thinning(thread_of(worm), made), np.linspace(-made.width / 2, made.width / 2, 41)
+    assert found is not None
+    assert _deepest(drive, made, heights) > 0.9 * found[0]
+    thicker = replace(made.hob, worm=replace(made.hob.worm, thinning=-found[1]))
+    assert _deepest(drive, replace(made, hob=thicker), heights) == 0.0
+    less = replace(made.hob, worm=replace(made.hob.worm, thinning=-0.8 * found[1]))
+    assert _deepest(drive, replace(made, hob=less), heights) > 0.0
+    # what the worm itself cuts is clear
+    plain = replace(made, hob=worm_as_hob(drive, 0.2))
+    assert clearing_thinning(thread_of(worm), plain) is None
 
 
 def _crown(drive: WormDrive, hob: Hob, height: float) -> tuple[Real, Real, Real]:
