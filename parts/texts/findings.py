@@ -146,8 +146,8 @@ FINDINGS: dict[str, Text] = {
     ),
     "worm_not_long_enough": N_("the thread is {value:.5g} mm long, the wheel touches it over {limit:.5g} mm"),
     "worm_wheel_hob_overlap": N_(
-        "the hob of hob_diameter_quotient leaves teeth that run {value:.2g} mm into the worm; a wheel with axial_thinning "
-        "of {limit:.6g} mm clears it"
+        "the hob of hob_diameter_quotient leaves teeth that run {value:.2g} mm into the worm; a wheel with "
+        "axial_thinning of {limit:.6g} mm clears it"
     ),
     "worm_wheel_no_flank": N_(
         "from {value:.5g} mm beside the mid plane to the end of the face, {limit:.5g} mm, the fillet of the hob's tip "

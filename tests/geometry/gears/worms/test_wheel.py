@@ -123,9 +123,8 @@ def test_a_larger_hob_of_any_form_leaves_the_mid_plane_as_the_worm_has_it_there(
 )
 def test_thicker_threads_of_a_larger_hob_clear_what_runs_into_the_worm(worm: Worm, teeth: int, hob: float) -> None:
     drive = WormDrive(worm, teeth)
-    made = WormTeeth(
-        oversized_hob(drive, 0.2, hob), drive.centre_distance, drive.throat_radius, drive.tip_radius, drive.most_face_width
-    ).narrowed()
+    sizes = drive.centre_distance, drive.throat_radius, drive.tip_radius, drive.most_face_width
+    made = WormTeeth(oversized_hob(drive, 0.2, hob), *sizes).narrowed()
     found, heights = clearing_thinning(thread_of(worm), made), np.linspace(-made.width / 2, made.width / 2, 41)
     assert found is not None
     assert _deepest(drive, made, heights) > 0.9 * found[0]
