@@ -29,12 +29,11 @@ _NONE = 1e-9
 
 
 class Crown(Record):
-    """The rim of a worm wheel: distance of its worm's axis, radii of throat and root about that, of the outside, mm."""
+    """The rim of a worm wheel: distance of its worm's axis, radii of throat and root about that, mm."""
 
     distance: float
     throat: float
     root: float
-    outer: float
 
     def top(self, side: Line, radius: float) -> list[Line | Arc]:
         """What stands in place of the rim's outer line, which runs in -x: the arc of a radius about the worm's axis."""

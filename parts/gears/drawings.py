@@ -136,7 +136,7 @@ def _worm_wheel(keys: WormWheelSpec, thing: WheelThing) -> Wheel:
     drive, teeth = thing.drive, thing.teeth
     shape, a = wheel_shape(teeth.width, keys.web, keys.hub, 0.0), drive.centre_distance
     edge = float(teeth.tip_radius(teeth.width / 2))
-    crown = Crown(a, drive.throat_radius, a - drive.root_radius, teeth.outer_radius)
+    crown = Crown(a, drive.throat_radius, a - drive.root_radius)
     return Wheel(shape, keys.hub_holes(), (edge, edge), None, drive.root_radius, drive.reference_radius, crown)
 
 

@@ -153,6 +153,13 @@ FINDINGS: dict[str, Text] = {
         "from {value:.5g} mm beside the mid plane to the end of the face, {limit:.5g} mm, the fillet of the hob's tip "
         "reaches the tip of the teeth: there is no flank"
     ),
+    "worm_wheel_outer_not_reached": N_(
+        "outer_diameter {limit:.6g} mm is not reached: the throat ends in the end faces at {value:.6g} mm"
+    ),
+    "worm_wheel_sharp_corner": N_(
+        "the throat meets the end faces in corners of {value:.2g} deg; an outer_diameter of at most {limit:.6g} mm "
+        "leaves 30 deg"
+    ),
     "worm_wheel_ridge": N_(
         "from {value:.5g} mm beside the mid plane on the teeth are pointed: they end in a ridge, up to {limit:.5g} mm "
         "lower than the tip"

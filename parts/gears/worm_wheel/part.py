@@ -57,6 +57,8 @@ _SEEN = 33
 _SLIVER = 0.02
 # and what a wheel is of use with; its tip in the middle, modules
 _USEFUL, _TIP = 0.25, 0.02
+# an outside is reached that near, mm; below so many degrees a corner is sharp: a throat wraps a third of the worm
+_REACHED, _SHARP = 1e-3, 29.9
 
 
 class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="worm_wheel"):
@@ -289,7 +291,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
 
         drive, teeth = thing.drive, thing.teeth
         circles = {
-            "outer_diameter": 2 * teeth.outer_radius,
+            "outer_diameter": 2 * float(teeth.tip_radius(teeth.width / 2)),
             "throat_diameter": 2 * drive.tip_radius,
             "reference_diameter": 2 * drive.reference_radius,
             "root_diameter": 2 * drive.root_radius,
@@ -307,19 +309,25 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
             sizes["hob_swivel_deg"] = math.degrees(teeth.hob.swivel)
         else:
             sizes["worm_length_used"] = Field(teeth, drive.worm.form_radius, drive.worm.tip_radius).length_used()
-        return Report(_findings(teeth), circles, sizes)
+        return Report(_findings(teeth, keys.outer_diameter), circles, sizes)
 
 
 WORM_WHEEL = WormWheelKind()
 
 
-def _findings(teeth: WormTeeth) -> tuple[Finding, ...]:
-    """Where teeth have no tip or no flank, and by how much they are lower there."""
+def _findings(teeth: WormTeeth, asked: float | None) -> tuple[Finding, ...]:
+    """Where the throat ends below the outside that is asked for, and where teeth have no tip or no flank."""
     import numpy as np
 
     from geometry.base.findings import Finding
 
     found = []
+    reached = 2 * float(teeth.tip_radius(teeth.width / 2))
+    if asked is not None and reached < asked - _REACHED:
+        found.append(Finding("worm_wheel_outer_not_reached", reached, asked))
+    corner = 90 - math.degrees(math.asin(min(teeth.throat_height / teeth.throat_radius, 1.0)))
+    if reached < 2 * teeth.outer_radius and corner < _SHARP:
+        found.append(Finding("worm_wheel_sharp_corner", corner, 2 * teeth.centre_distance - teeth.throat_radius))
     for low, high in (ridge for ridge in teeth.ridges if ridge[1] > 0):
         heights = np.linspace(low, high, _SEEN)
         less = teeth.tip_radius(heights) - teeth.top(heights)

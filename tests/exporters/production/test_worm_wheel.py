@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import filecmp
 import json
+import math
 import re
 import tomllib
 from pathlib import Path
@@ -167,6 +168,21 @@ def test_a_larger_hob_whose_teeth_run_into_the_worm_is_told_the_thinning_that_cl
     (tmp_path / "s.toml").write_text(text.replace("hob_d", f"axial_thinning = {thinning[1]}\nhob_d", 1))
     assert main(["check", str(tmp_path / "s.toml")]) == 0
     assert "CLEAR" in capsys.readouterr().out
+
+
+def test_an_outside_that_the_throat_does_not_reach_is_told_with_what_it_reaches() -> None:
+    # before: 100 mm stood in the report of a wheel whose mesh had 72
+    text = {"kind": "worm_wheel", "module": 2.0, "number_of_starts": 2, "number_of_teeth": 30, "face_width": 14.0}
+    for asked, reached in ((100.0, 80 - 2 * math.sqrt(8**2 - 7**2)), (69.0, 69.0)):
+        scene = {"parts": {"wheel": {**text, "outer_diameter": asked}}}
+        made = make_parts(scene_from_dict(scene, "s", "s"), "s")[0]["wheel"]
+        assert made.circles["outer_diameter"] == pytest.approx(reached, abs=1e-9)
+        told = {f.code: (f.value, f.limit) for f in made.findings if f.code != "worm_wheel_ridge"}
+        corner = math.degrees(math.acos(7 / 8))
+        assert told == ({} if asked == reached else {
+            "worm_wheel_outer_not_reached": pytest.approx((reached, asked)),
+            "worm_wheel_sharp_corner": pytest.approx((corner, 72.0)),
+        })  # fmt: skip
 
 
 def test_both_meshes_of_a_scene_are_one(tmp_path: Path) -> None:
