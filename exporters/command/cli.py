@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import os
 import signal
 import sys
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from parts.scene.load import SceneFile
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130
+# so many things are made between two searches for circles of them
+_MADE = 100_000
 T = TypeVar("T")
 _EXAMPLES = """
   higherpair build practicum_pair
@@ -37,6 +40,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _prepare_streams()
     # numpy is not loaded yet: its threads would take longer to start than all that we compute
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    # of a million things that a build makes hardly one is part of a circle: to look for those less often saves time
+    gc.set_threshold(_MADE)
     options = _parsed(list(sys.argv[1:] if arguments is None else arguments))
     previous: dict[signal.Signals, Any] = {}
     try:

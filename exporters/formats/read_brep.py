@@ -18,6 +18,7 @@ from exporters.formats.read_part21 import Entities, Index, Real, Row
 from exporters.formats.read_solid import EXTRUSION, GAP, PLANE, ROUND, SPHERE, SPLINE, TORUS, Model, Uses, refuse
 from exporters.formats.read_surfaces import measure
 from geometry.base.record import replace
+from geometry.base.vectors import cross
 from parts.base.readback import ReadError
 
 # spans of arcs at most, rad, and degree of splines: integrals over them are exact up to 7, and of 8 to rounding
@@ -73,22 +74,29 @@ class _Reader:
 
     def __init__(self, entities: Entities) -> None:
         self.entities = entities
+        self.tables = entities.fixed | entities.listed
+        # of kinds that were asked for: all ids, and in which order they grow
+        self.known: dict[tuple[str, ...], tuple[Index, Index]] = {}
 
     def ids(self, *kinds: str) -> Index:
         """Of all entities of some kinds, kind after kind."""
-        tables = self.entities.fixed | self.entities.listed
-        return np.concatenate([np.zeros(0, np.int64), *(tables[k].ids for k in kinds if k in tables)])
+        if kinds not in self.known:
+            found = [self.tables[k].ids for k in kinds if k in self.tables]
+            ids = np.concatenate([np.zeros(0, np.int64), *found])
+            self.known[kinds] = ids, np.argsort(ids, kind="stable")
+        return self.known[kinds][0]
 
     def rows(self, *kinds: str) -> Real:
         """What varies in them."""
-        return np.concatenate([self.entities.table(kind).rows for kind in kinds])
+        found = [self.entities.table(kind).rows for kind in kinds]
+        return found[0] if len(found) == 1 else np.concatenate(found)
 
     def found(self, references: Real | Index, kinds: Sequence[str], who: Index) -> Index:
         """The places of what is referred to among all entities of some kinds."""
         ids = self.ids(*kinds)
-        order = np.argsort(ids, kind="stable")
-        place = np.minimum(np.searchsorted(ids[order], references), len(ids) - 1)
-        good = ids[order][place] == references if len(ids) else np.zeros(len(references), bool)
+        order = self.known[tuple(kinds)][1]
+        place = np.minimum(np.searchsorted(ids, references, sorter=order), len(ids) - 1)
+        good = ids[order[place]] == references if len(ids) else np.zeros(len(references), bool)
         if not good.all():
             wrong = int(np.argmin(good))
             raise ReadError(
@@ -129,7 +137,7 @@ class _Reader:
         """Frames by their axis and a direction along."""
         rows = self.rows("AXIS2_PLACEMENT_3D")[self.found(references, ("AXIS2_PLACEMENT_3D",), who)]
         axes, along = self.directions(rows[:, 1], who), self.directions(rows[:, 2], who)
-        refuse(np.linalg.norm(np.cross(axes, along), axis=1) < _LEAST_TURN, who, "stands in axes of one direction")
+        refuse(np.linalg.norm(cross(axes, along), axis=1) < _LEAST_TURN, who, "stands in axes of one direction")
         return framed(self.points(rows[:, 0], who), axes, along)
 
 
@@ -142,7 +150,7 @@ def framed(origins: Real, axes: Real, along: Real) -> Frames:
     """Frames of origins (n, 3), axes and directions near the first of the others."""
     first = along - np.sum(along * axes, axis=1)[:, None] * axes
     first /= np.linalg.norm(first, axis=1)[:, None]
-    return Frames(origins, np.stack([first, np.cross(axes, first), axes], axis=1))
+    return Frames(origins, np.stack([first, cross(axes, first), axes], axis=1))
 
 
 def _topology(read: _Reader, edges: Index, ends: Index) -> tuple[Uses, Index, Real, Index]:
@@ -197,46 +205,46 @@ def _check_whole(uses: Uses, edges: Index, solid: Index, solids: Index) -> None:
         np.minimum.at(label, a, least)
         np.minimum.at(label, b, least)
         label = label[label]
-    pieces = np.unique(np.stack([label, solid]), axis=1)
-    if pieces.shape[1] != len(solids) or len(np.unique(pieces[0])) != len(solids):
-        raise ReadError(f"{len(np.unique(label))} closed surfaces in the STEP file instead of {len(solids)}")
+    pieces, pairs = (len(np.unique(code)) for code in (label, label * len(solids) + solid))
+    if pieces != len(solids) or pairs != pieces:
+        raise ReadError(f"{pieces} closed surfaces in the STEP file instead of {len(solids)}")
 
 
 def _surfaces(read: _Reader, surface: Index) -> tuple[Index, Frames, Real, Index]:
     """Kinds, frames and sizes (f, 2) of the faces' surfaces, and the curve that an extrusion moves, else -1."""
-    kinds, origins, axes, sizes, moved = [], [], [], [], []
-    for name, code in _SURFACES.items():
-        ids = read.ids(name)
-        count = len(ids)
-        kind, size, curve = np.full(count, code), np.zeros((count, 2)), np.full(count, -1)
-        if code == SPLINE:
-            frames = Frames(np.zeros((count, 3)), np.zeros((count, 3, 3)))
-        elif code == EXTRUSION:
-            rows = read.rows(name)
+    ids_of = {name: read.ids(name) for name in _SURFACES}
+    counts = [len(ids) for ids in ids_of.values()]
+    kinds, total = np.repeat([*_SURFACES.values()], counts), sum(counts)
+    frames, sizes, moved = (
+        Frames(np.zeros((total, 3)), np.zeros((total, 3, 3))),
+        np.zeros((total, 2)),
+        np.full(total, -1),
+    )
+    for end, (name, ids) in zip(np.cumsum(counts).tolist(), ids_of.items(), strict=True):
+        own, code = slice(end - len(ids), end), _SURFACES[name]
+        if code == SPLINE or not len(ids):
+            continue
+        rows = read.rows(name)
+        if code == EXTRUSION:
             axis = read.vectors(rows[:, 1], ids)
-            frames = framed(np.zeros((count, 3)), axis, np.eye(3)[np.argmin(np.abs(axis), axis=1)])
+            found = framed(np.zeros_like(axis), axis, np.eye(3)[np.argmin(np.abs(axis), axis=1)])
             curve = read.found(rows[:, 0], _CURVES, ids)
             flat = np.flatnonzero(curve < len(read.ids(_LINES)))
             origin, way = (x[curve[flat]] for x in read.lines())
-            across = np.cross(way, axis[flat])
+            across = cross(way, axis[flat])
             length = np.linalg.norm(across, axis=1)
             refuse(length == 0, ids[flat], "moves a line along itself")
             plane = framed(origin, across / length[:, None], way)
-            frames.origins[flat], frames.axes[flat] = plane.origins, plane.axes
-            kind[flat], curve[flat] = PLANE, -1
+            found.origins[flat], found.axes[flat] = plane.origins, plane.axes
+            kinds[own][flat], curve[flat] = PLANE, -1
+            moved[own] = curve
         else:
-            rows = read.rows(name)
-            frames = read.placed(rows[:, 0], ids)
-            size[:, : rows.shape[1] - 1] = rows[:, 1:]
+            found = read.placed(rows[:, 0], ids)
+            sizes[own, : rows.shape[1] - 1] = rows[:, 1:]
             if name == "CONICAL_SURFACE":
-                size[:, 1] = np.tan(size[:, 1])
-        kinds.append(kind)
-        origins.append(frames.origins)
-        axes.append(frames.axes)
-        sizes.append(size)
-        moved.append(curve)
-    frames = Frames(np.concatenate(origins)[surface], np.concatenate(axes)[surface])
-    return np.concatenate(kinds)[surface], frames, np.concatenate(sizes)[surface], np.concatenate(moved)[surface]
+                sizes[own, 1] = np.tan(sizes[own, 1])
+        frames.origins[own], frames.axes[own] = found.origins, found.axes
+    return kinds[surface], Frames(frames.origins[surface], frames.axes[surface]), sizes[surface], moved[surface]
 
 
 def _curves(read: _Reader, curve: Index, vertices: Real, ends: Index, sense: Flags, ids: Index) -> Curves:

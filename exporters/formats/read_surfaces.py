@@ -13,6 +13,7 @@ from exporters.formats.read_curves import Flags, Patches, lobatto, spans_of
 from exporters.formats.read_part21 import Index, Real
 from exporters.formats.read_solid import EXTRUSION, GAP, PLANE, ROUND, SPHERE, TORUS, Model, refuse
 from geometry.base.record import Record
+from geometry.base.vectors import cross
 from parts.base.readback import ReadError
 
 # a seam whose spans turn less than this round the axis of a torus runs round its tube, rad
@@ -101,6 +102,8 @@ def measure(model: Model) -> tuple[Real, Real, Real]:
     bare = np.bincount(uses.face, ~seams, count) == 0
     for kind in (PLANE, ROUND, SPHERE, TORUS, EXTRUSION):
         mine = np.flatnonzero(kinds == kind)
+        if not len(mine):
+            continue
         about = np.zeros(len(mine))
         if kind == TORUS:
             about = _about(model, span[mine], uses.face[row[mine]], uses.left[row[mine]], seams[row[mine]])
@@ -153,7 +156,7 @@ def area_of(model: Model, pieces: int) -> float:
         for row in range(len(patches.faces)):
             _, along, across = patches.grid(shares, shares, slice(row, row + 1))
             wide, high = np.tile(parts, len(patches.along.spans)), np.tile(parts, len(patches.across.spans))
-            size = np.linalg.norm(np.cross(along, across), axis=3)[0]
+            size = np.linalg.norm(cross(along, across), axis=3)[0]
             total += float(wide @ size @ high) - float(model.area[patches.faces[row]])
     return total
 
@@ -230,7 +233,7 @@ def _measure_patches(model: Model, patches: Patches, flux: Real, size: Real, are
     for start in range(0, len(mine), block):
         part = slice(start, start + block)
         points, along, across = patches.grid(nodes, nodes, part)
-        normal = np.cross(along, across)
+        normal = cross(along, across)
         wide, high = np.tile(weights, shape[0]), np.tile(weights, shape[1])
         spread = np.einsum("nij,i,j->n", np.sum(points * normal, axis=3) / 3, wide, high)
         faces = patches.faces[part]
