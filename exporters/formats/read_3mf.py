@@ -28,7 +28,7 @@ _KNOWN: dict[str, dict[str, tuple[str, ...]]] = {
     "resources": {},
     "basematerials": {"id": ()},
     "base": {"name": (), "displaycolor": ()},
-    "object": {"id": (), "name": (), "type": ("model",), "pid": (), "pindex": (), _UUID: ()},
+    "object": {"id": (), "name": (), "partnumber": (), "type": ("model",), "pid": (), "pindex": (), _UUID: ()},
     "mesh": {},
     "vertices": {},
     "vertex": {"x": (), "y": (), "z": ()},
@@ -63,7 +63,8 @@ def read_3mf_assembly(file: Path) -> ReadAssembly:
         if item.find(f"{_CORE}mesh") is None:
             raise ReadError("an object of the 3MF holds no mesh of its own")
         index[item.get("id")] = len(prototypes)
-        prototypes.append(Prototype(item.get("name", ""), _mesh(item), _base_colour(item, bases)))
+        mesh = _mesh(item)
+        prototypes.append(Prototype(mesh.name or "", mesh, _base_colour(item, bases)))
     occurrences = []
     for item in root.iter(f"{_CORE}item"):
         if item.get("objectid") not in index:
@@ -160,4 +161,6 @@ def _mesh(item: ElementTree.Element, colour: str | None = None) -> ReadMesh:
     vertices, triangles = np.array(corners).reshape(-1, 3), np.array(rows, dtype=np.int64).reshape(-1, 3)
     if not len(triangles) or triangles.min() < 0 or triangles.max() >= len(vertices):
         raise ReadError("a 3MF triangle names a vertex that is not there")
-    return ReadMesh(vertices, triangles, item.get("name", ""), colour)
+    # an object that has a part number is called by it, and its name is what people read
+    name, number = item.get("name", ""), item.get("partnumber")
+    return ReadMesh(vertices, triangles, number or name, colour, name if number else None)

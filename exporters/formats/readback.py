@@ -88,12 +88,13 @@ class ReadOutlines(Record):
 
 
 class ReadMesh(Record):
-    """Distinct vertices (n, 3) and triangles (k, 3); ``name``, ``colour`` (#rrggbb): where a format has such."""
+    """Distinct vertices (n, 3) and triangles (k, 3); ``name``, ``colour`` (#rrggbb), ``title``: where a format has such."""
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int64]
     name: str | None = None
     colour: str | None = None
+    title: str | None = None
     has_arcs = False
     is_flat = False
 

@@ -28,6 +28,7 @@ from parts.scene.load import ExportSpec
 
 if TYPE_CHECKING:
     from exporters.formats.read_assembly import ReadAssembly
+    from exporters.formats.threemf import MeshPart
     from geometry.approximation.outline import Outline
     from geometry.solids.body import Body
     from geometry.solids.faced import FacedBody
@@ -240,20 +241,26 @@ def _write_stl(content: Content, made: Chords, file: Path) -> dict[str, int]:
     return write_stl(file, body_mesh(content.body, made))
 
 
-def _write_3mf(content: Content, made: Chords, file: Path) -> dict[str, int]:
-    from exporters.formats.threemf import write_3mf
+def _mesh_part(content: Content, made: Chords) -> MeshPart:
+    from exporters.formats.threemf import MeshPart
     from parts.solids.mesh import body_mesh
 
-    return write_3mf(file, content.part.id, body_mesh(content.body, made), content.part.colour)
+    part = content.part
+    return MeshPart(part.id, body_mesh(content.body, made), part.colour, part.title or "")
+
+
+def _write_3mf(content: Content, made: Chords, file: Path) -> dict[str, int]:
+    from exporters.formats.threemf import write_3mf
+
+    return write_3mf(file, _mesh_part(content, made))
 
 
 def _write_3mf_assembly(
     title: str, contents: Sequence[Content], made: dict[str, Chords], places: Places, file: Path
 ) -> dict[str, int]:
-    from exporters.formats.threemf import MeshPart, write_3mf_assembly
-    from parts.solids.mesh import body_mesh
+    from exporters.formats.threemf import write_3mf_assembly
 
-    meshes = [MeshPart(c.part.id, body_mesh(c.body, made[c.part.id]), c.part.colour) for c in contents]
+    meshes = [_mesh_part(c, made[c.part.id]) for c in contents]
     return write_3mf_assembly(file, title, meshes, [place[:3] for place in places])
 
 

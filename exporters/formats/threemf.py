@@ -27,20 +27,21 @@ DEFAULT_COLOUR = "#b8c4d0"
 
 
 class MeshPart(Record):
-    """A named mesh with its colour, like "#c08040"."""
+    """A mesh by its id, with its colour, like "#c08040", and what people call it."""
 
     name: str
     mesh: Mesh
     colour: str | None
+    title: str = ""
 
 
-def write_3mf(file: Path, name: str, mesh: Mesh, colour: str | None) -> dict[str, int]:
+def write_3mf(file: Path, part: MeshPart) -> dict[str, int]:
     """Write one part as one build item."""
-    model = _model()
-    item = _add_object(model, model.AddBaseMaterialGroup(), MeshPart(name, mesh, colour), _uuid(name, "object"))
+    model, name = _model(), part.name
+    item = _add_object(model, model.AddBaseMaterialGroup(), part, _uuid(name, "object"))
     _add_item(model, item, _uuid(name, "item"))
     file.write_bytes(_package(model, _uuid(name, "build")))
-    return {"triangles": len(mesh.triangles), "vertices": len(mesh.vertices)}
+    return {"triangles": len(part.mesh.triangles), "vertices": len(part.mesh.vertices)}
 
 
 def write_3mf_assembly(
@@ -72,11 +73,14 @@ def _model() -> Model:
 
 
 def _add_object(model: Model, materials: BaseMaterialGroup, part: MeshPart, identity: str) -> MeshObject:
-    """A mesh object; ids from the names, for lib3mf would draw random ones."""
+    """A mesh object, its id the part number where it has a title; UUIDs from the ids, lib3mf would draw random ones."""
     from lib3mf import Lib3MF
 
     item = model.AddMeshObject()
-    item.SetName(part.name)
+    # slicers list objects by their names
+    item.SetName(part.title or part.name)
+    if part.title:
+        item.SetPartNumber(part.name)
     item.SetGeometry(
         _structs(Lib3MF.Position, part.mesh.vertices.astype("<f4")),
         _structs(Lib3MF.Triangle, part.mesh.triangles.astype("<u4")),

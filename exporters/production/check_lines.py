@@ -118,9 +118,9 @@ def _drives(checks: dict[str, Any], names: Mapping[str, str], told: Words) -> li
             ((names.get(name, name), turns) for name, turns in drive["train"].items() if name not in fixed),
             key=lambda row: f"{row[1]:.6g}",
         )
-        train = ", ".join(f"{name} {turns}" for turns, row in rows for name in in_rows(name for name, _ in row))
+        train = ", ".join(f"{name} = {turns}" for turns, row in rows for name in in_rows(name for name, _ in row))
         driven = names.get(drive["instance"], drive["instance"])
-        lines.append(told.text("drive {instance}: {train} turns", instance=driven, train=train))
+        lines.append(told.text("drive {instance}, turns: {train}", instance=driven, train=train))
     return lines
 
 

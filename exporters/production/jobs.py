@@ -53,6 +53,10 @@ class FileJob:
         """What remarks on it begin with: the file."""
         return self.path
 
+    def about(self, finding: Finding) -> str:
+        """What a remark begins with."""
+        return self.label
+
     @property
     def told(self) -> dict[str, Any]:
         """What the report says of its content, the part first."""
@@ -98,6 +102,10 @@ class PartsJob(FileJob):
     def findings(self, made: Made) -> tuple[Finding, ...]:
         """Remarks on the sections and meshes in it."""
         return tuple(dict.fromkeys(f for m in self.members for f in (*m.section.findings, *m.remarks(made))))
+
+    def about(self, finding: Finding) -> str:
+        """Of a remark on sections the parts that have them, by their names."""
+        return ", ".join(m.part.name for m in self.members if finding in m.section.findings) or self.label
 
 
 class Written(Record):

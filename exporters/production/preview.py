@@ -114,10 +114,11 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         x, y = middle + place.real, middle - place.imag - height
         labels.append(Label(names[instance.id], x, y, size))
     named = spread_labels(labels, Tops(loops))
-    style = f"font-family:sans-serif;font-size:{size:.4g}px;text-anchor:middle;fill:#202830"
+    style = "font-family:sans-serif;font-size:{:.4g}px;text-anchor:middle;fill:#202830"
     body += [
-        f'<text x="{one.x:.4g}" y="{one.y:.4g}" style="{style}">{escaped(one.text)}</text>' for one in named if one
-    ]
+        f'<text x="{one.x:.4g}" y="{one.y:.4g}" style="{style.format(one.size)}">{escaped(one.text)}</text>'
+        for one in named if one
+    ]  # fmt: skip
     covered = [label.text for label, one in zip(labels, named, strict=True) if one is None]
     told = words(language)
     rows = [plan.scene.scene.title or plan.scene.name, *caption_lines(checks, language, names, _MOST_LETTERS)]

@@ -7,11 +7,13 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex
 
 # width of a letter and room about a word, part of the letters' height; places tried above and below, and to each side
 _LETTER, _ROOM, _RINGS = 0.62, 0.15, 24
+# height of the letters of a word for which whole ones have no place over no edge, part of those
+_SMALL = 0.7
 # places along each side of a picture at which the uppermost part is known
 _CELLS = 200
 
@@ -86,10 +88,15 @@ def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Lab
     """
     made: list[Label | None] = []
     for number, label in enumerate(wanted):
-        apart = [one for one in _places(label) if not any(other and one.covers(other) for other in made)]
-        ranks = [tops.shows(one, number) if tops else 1 for one in apart]
-        best = max(ranks, default=0)
-        made.append(apart[ranks.index(best)] if best else None)
+        best, found = 0, None
+        for one in (label, replace(label, size=_SMALL * label.size)) if tops else (label,):
+            apart = [place for place in _places(one) if not any(other and place.covers(other) for other in made)]
+            ranks = [tops.shows(place, number) if tops else 1 for place in apart]
+            if (rank := max(ranks, default=0)) > best:
+                best, found = rank, apart[ranks.index(rank)]
+            if best > 1:
+                break
+        made.append(found)
     return made
 
 

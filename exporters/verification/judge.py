@@ -88,9 +88,11 @@ def held(
 
 
 def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
-    """What is wrong with what a STEP file says of a part, or not; volume and area are held with the solid."""
+    """What is wrong with what a STEP file says of a part, or a 3MF of its title; volume and area are held elsewhere."""
     if kind.form is not Form.FACES:
-        return []
+        if found.names() is None or (title := cast("ReadMesh", found).title) == part.title:
+            return []
+        return [f"says of its title: {title} instead of {part.title}"]
     said = cast("ReadSolid", found).said
     expected = {
         "title": None if part.product_name == part.id else part.product_name,

@@ -15,7 +15,7 @@ from msgspec import Meta
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.part_keys import Material
 from parts.base.texts import N_
-from parts.cams.disk_cam.part import CamSpec, cam_of
+from parts.cams.disk_cam.part import CamSpec, cam_of, greatest_radius
 from parts.keys.base import degrees, mm
 from parts.keys.cam import (
     BaseCircle,
@@ -32,9 +32,9 @@ from parts.keys.law import with_own_laws
 from parts.recipes.making import Making, hole, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 
-# mm: slack of the slot at each end; frame beyond its holes and at its sides; wall about holes; of a flat plate beyond
-# its contact; how much shorter the roller's pin is than what it holds, and the mark at cam angle 0
-_SLACK, _BELOW, _ABOVE, _WALL, _EDGE, _SHORT, _MARK = 1.0, 13.0, 15.0, 3.0, 5.0, 1.0, 2.0
+# mm: slack of the slot at each end; frame below the cam, about its axle and above the pins; wall about holes; of a flat
+# plate beyond its contact; how much shorter the roller's pin is than what it holds, and the mark at cam angle 0
+_SLACK, _BELOW, _BESIDE, _ABOVE, _WALL, _EDGE, _SHORT, _MARK = 1.0, 3.0, 13.0, 15.0, 3.0, 5.0, 1.0, 2.0
 # mm: thickness and rounding of a flat follower's plate; of the frame, corners and least width
 _PLATE, _ROUNDING, _CORNER, _FRAME_WIDTH = 8.0, 3.0, 6.0, 60.0
 _CAM_KEYS = (
@@ -153,13 +153,17 @@ class _Making(Making):
         return self.found
 
     def _frame(self) -> None:
-        """The frame with the cam's axle and the guide's pins in it; they stand out two boards beyond the cam."""
+        """The frame with the cam's axle and the guide's pins in it; they stand out two boards beyond the cam.
+
+        It ends below the cam, which does not scrape the table on which the frame stands.
+        """
         keys, thick, offset = self.keys, self.thickness, self.keys.follower_offset
+        below = max(_BESIDE, math.ceil(round(greatest_radius(self.cam) + _BELOW, 6)))
         top, at = self.pins[1] + _ABOVE, [complex(offset, height) for height in self.pins]
         self.part(
             "frame", kind="plate", face_width=thick, corner_radius=_CORNER,
-            width=max(_FRAME_WIDTH, 2 * abs(offset) + keys.axle_diameter + 2 * _BELOW), height=round(top + _BELOW, 6),
-            centre=place(complex(offset, (top - _BELOW) / 2), 0.0)[:2],
+            width=max(_FRAME_WIDTH, 2 * abs(offset) + keys.axle_diameter + 2 * _BESIDE), height=round(top + below, 6),
+            centre=place(complex(offset, (top - below) / 2), 0.0)[:2],
             holes=[hole(0j, keys.axle_diameter), *(hole(one, keys.guide_pin_diameter) for one in at)],
         )  # fmt: skip
         self.found.instances["frame"] = {"part": "frame", "at": [0.0, 0.0, -thick], "held": True}

@@ -44,7 +44,7 @@ MATES: dict[str, Text] = {
     "wedge_follower": N_("{first}, slid {plate_travel:.6g} mm, moves {second} by {travel:.6g} {unit} in all"),
 }
 # a pair of involute gears, of whatever kind
-GEAR_PAIR = N_("pair {first} - {second}: a_w = {a_w:.5f} mm, alpha_w = {alpha_w:.4f} deg, contact ratio {ratio:.4f}")
+GEAR_PAIR = N_("pair {first} - {second}: a_w = {a_w:.5f} mm, α_w = {alpha_w:.4f} deg, contact ratio {ratio:.4f}")
 OFF_CENTRE = N_(
     "the axle of {axle} passes {frame} {distance:.6g} mm off the centre of a hole, its clearance is {clearance:.6g} mm"
 )

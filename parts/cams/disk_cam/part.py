@@ -467,14 +467,14 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
         found.append(Finding("large_roller", cam.radius, USUAL_ROLLER_SHARE * pitch))
     if spec.oscillating is None and cam.is_flat and spec.follower_offset != 0:
         found.append(Finding("flat_offset", spec.follower_offset, cam.least_plate_diameter()))
-    if swings and (within := _greatest_radius(cam) - cam.swing.centre_distance) > 0:
+    if swings and (within := greatest_radius(cam) - cam.swing.centre_distance) > 0:
         found.append(Finding("pivot_within_cam", within, cam.swing.centre_distance))
     if pitch - cam.radius < (least := spec.least_curvature_radius) * (1 - 1e-6):
         found.append(Finding("curvature_radius_not_kept", pitch - cam.radius, least))
     return tuple(found)
 
 
-def _greatest_radius(cam: DiskCam) -> float:
+def greatest_radius(cam: DiskCam) -> float:
     """Greatest distance of the profile from the axis, mm."""
     import numpy as np
 

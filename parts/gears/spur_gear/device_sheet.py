@@ -144,8 +144,8 @@ def _rows(tables: Sheet, language: str) -> list[Row]:
 
 
 def _lowered(text: str) -> str:
-    """S_t1 with its index lowered."""
-    return re.sub(r"_(\w(?:[\w,]|\.(?=\d))*)", r"_{\1}", text)
+    """S_t1 and S1 with their indices lowered."""
+    return re.sub(r"_(\w(?:[\w,]|\.(?=\d))*)|(?<=\b[^\W\d_])(\d)\b", lambda m: f"_{{{m[1] or m[2]}}}", text)
 
 
 def _areas(sheet: Canvas, rows: list[Row]) -> tuple[Box, Table]:

@@ -99,6 +99,20 @@ def test_a_name_without_room_stands_on_a_tag_and_is_told(made: Path) -> None:
     assert all(("label_on_tag" in codes) == path.startswith("small.") for path, codes in told.items())
 
 
+def test_a_board_says_which_part_has_no_room_for_its_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        '[parts.strip]\nkind = "plate"\nwidth = 40.0\nheight = 3.0\ntitle = "Thin strip"\n'
+        '[parts.wide]\nkind = "plate"\nwidth = 40.0\nheight = 30.0\n'
+        "[boards.one]\nwidth = 200.0\nheight = 100.0\nthickness = 3.0\n"
+        '[[exports]]\nformat = "dxf"\npurpose = "board"\n',
+        encoding="utf-8",
+    )
+    assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
+    (said,) = (line for line in capsys.readouterr().out.splitlines() if "no room" in line)
+    assert said.startswith("note: Thin strip: ")
+
+
 def test_a_spoiled_stroke_is_caught(made: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for name, spoil in (
         ("gear.laser.dxf", lambda text: re.sub(r"(AcDbPolyline\n 90\n\d+\n 70\n0\n 10\n)-", r"\g<1>", text, count=1)),

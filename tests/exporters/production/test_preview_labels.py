@@ -97,6 +97,17 @@ def test_a_name_stands_on_no_edge_where_there_is_a_place() -> None:
         assert bottom <= high
 
 
+def test_a_name_without_a_place_over_no_edge_is_written_smaller() -> None:
+    """A board among higher ones, for whose name at full height it is too narrow by a tenth."""
+    square = np.array([0, 40, 40 + 40j, 40j])
+    tops = Tops([[square], *([square + 40 * complex(x, y)] for x in (-1, 0, 1) for y in (-1, 0, 1) if x or y)])
+    wanted = Label("ten letter", 20.0, 20.0, 1.1 * 40 / 6.2)
+    (made,) = spread_labels([wanted], tops)
+    assert made is not None
+    assert made.size < wanted.size
+    assert tops.shows(made, 0) == 3
+
+
 def test_names_of_what_is_covered_stand_in_the_caption(tmp_path: Path) -> None:
     scene = tmp_path / "two.toml"
     scene.write_text(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -47,6 +48,9 @@ format = "sheet"
 purpose = "generating"
 parts = ["wheel"]
 title_block = true
+[[exports]]
+format = "3mf"
+parts = ["wheel"]
 """
 
 
@@ -111,6 +115,21 @@ def test_a_changed_title_is_caught(folder: Path, capsys: pytest.CaptureFixture[s
         assert "title" in capsys.readouterr().out
     file.write_text(good)
     assert main(["verify", str(file)]) == 0
+
+
+def test_a_3mf_has_the_title_for_people_and_the_id_as_part_number(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = folder / "wheel.3mf"
+    with zipfile.ZipFile(file) as package:
+        good = {name: package.read(name) for name in package.namelist()}
+    assert 'name="Колесо" partnumber="wheel"' in good["3D/3dmodel.model"].decode("utf-8")
+    for spoiled in ("Rad", "wheel"):
+        with zipfile.ZipFile(file, "w") as package:
+            for name, content in good.items():
+                package.writestr(name, content.replace("Колесо".encode(), spoiled.encode()))
+        assert main(["verify", str(file)]) == 1
+        assert "title" in capsys.readouterr().out
 
 
 def test_pictures_and_sheets_show_them(folder: Path) -> None:

@@ -40,6 +40,16 @@ def holes(body: shapely.Polygon) -> list[tuple[float, complex, shapely.Polygon]]
     return found
 
 
+def below_the_cam(bodies: list[shapely.Polygon]) -> float:
+    """How far the frame reaches below all that the cam sweeps, mm."""
+    frame = max(bodies, key=lambda body: body.convex_hull.area)
+    axle, *pins = (at for _, at, _ in sorted(holes(frame), key=lambda hole: hole[0], reverse=True))
+    near, far = sorted(pins, key=lambda at: abs(at - axle))
+    turned = rotate(translate(frame, -axle.real, -axle.imag), -np.angle(far - near), origin=(0, 0), use_radians=True)
+    ((cam, bore),) = [(b, at) for b in bodies for width, at, _ in holes(b) if abs(width - 6.2) < 0.01]
+    return float(-turned.bounds[0] - shapely.Point(bore.real, bore.imag).hausdorff_distance(cam.exterior))
+
+
 def least_slack(bodies: list[shapely.Polygon], roller: float, offset: float) -> float:
     """How far the pins stay within the slot's ends over a turn, mm; below 0 they do not.
 
@@ -88,6 +98,7 @@ def test_pins_stay_in_the_slot_over_a_turn(
     bodies = bodies_of(tmp_path / "model" / "model.board.1.dxf", sag=5e-3)
     assert len(bodies) == (5 if roller else 3)
     assert 0.9 < least_slack(bodies, roller, offset) < 2.2
+    assert 2.9 < below_the_cam(bodies) < 4.1
     # all that lies behind each other follows the board
     thick = keys.get("thickness", 3.0)
     notes = (tmp_path / "model" / "model.notes.txt").read_text("utf-8")

@@ -20,7 +20,7 @@ def test_names_that_count_on_are_a_row() -> None:
         "disk - bolt_1 ... bolt_3, nut_1, nut_2, nut_4, cover, ring_09, ring_10: fixed to each other",
         "disk - bolt_4: fixed to each other",
         "BROKEN: bolt_4 stands apart",
-        "drive disk: disk 2, pin_1 ... pin_3 0.5, pin_4 0.25 turns",
+        "drive disk, turns: disk = 2, pin_1 ... pin_3 = 0.5, pin_4 = 0.25",
     ]
 
 
