@@ -88,7 +88,7 @@ class ReadOutlines(Record):
 
 
 class ReadMesh(Record):
-    """Distinct vertices (n, 3) and triangles (k, 3); ``name``, ``colour`` (#rrggbb), ``title``: where a format has such."""
+    """Distinct vertices (n, 3) and triangles (k, 3); name, colour (#rrggbb), title: where a format has such."""
 
     vertices: NDArray[np.float64]
     triangles: NDArray[np.int64]
