@@ -98,7 +98,12 @@ def _way(step: StepSpec) -> Message:
     if (x, y, z) in _WAYS:
         way = Message(_WAYS[x, y, z])
     if step.outwards is not None:
-        way = message("{way}, then {length:.4g} mm outwards from its axis", way=way, length=step.outwards)
+        if step.outwards > 0:
+            way = message("{way}, then {length:.4g} mm outwards from its axis", way=way, length=step.outwards)
+        else:
+            way = message("{way}, then {length:.4g} mm inwards to its axis", way=way, length=-step.outwards)
+    if step.one_hole:
+        way = message("{way}, each through the hole of the first, the row turned on", way=way)
     if step.opened is not None:
         way = message("{way}, opened by {wider:.4g} mm", way=way, wider=step.opened)
     return message("{way}, turned in by its thread", way=way) if step.screwed else way

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta, Struct, field
 
-from geometry.base.errors import GeometryError, ParameterError
+from geometry.base.errors import GeometryError, ParameterError, limit
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
 from parts.bodies.plate import Slots
 from parts.keys.base import LEAST_HOLE, mm
 
 if TYPE_CHECKING:
+    from geometry.curves.line_arc import Arc
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
     from geometry.solids.layers import Contour, Layers
@@ -36,6 +37,24 @@ class PolygonTable(Struct, forbid_unknown_fields=True):
     corner_radius: Annotated[float, mm("rounding of the corners", least=0, most=_MOST)] = 0.0
 
 
+class OutlinePoint(Struct, forbid_unknown_fields=True, kw_only=True):
+    """A corner of an outline of lines and arcs."""
+
+    x: _Place
+    y: _Place
+    arc: Annotated[
+        float,
+        mm("radius of the arc to the next point: above 0 bulges out of the outline, below 0 into it; 0: a line",
+           least=-_MOST, most=_MOST),
+    ] = 0.0  # fmt: skip
+
+
+class OutlineTable(Struct, forbid_unknown_fields=True):
+    """An outline of lines and arcs, none of these more than half a circle."""
+
+    points: Annotated[list[OutlinePoint], Meta(min_length=2, max_length=1000, description="its corners, either way")]
+
+
 class LayerTable(Struct, forbid_unknown_fields=True, kw_only=True):
     """A layer: material is what lies within an odd number of its contours."""
 
@@ -43,6 +62,7 @@ class LayerTable(Struct, forbid_unknown_fields=True, kw_only=True):
     circles: Annotated[list[CircleTable], Meta(max_length=2000)] = field(default_factory=list)
     polygons: Annotated[list[PolygonTable], Meta(max_length=1000)] = field(default_factory=list)
     slots: Slots = field(default_factory=list)
+    outlines: Annotated[list[OutlineTable], Meta(max_length=1000)] = field(default_factory=list)
 
 
 _BOX = [
@@ -76,7 +96,7 @@ class Layered(Kind[LayeredSpec, "Layers"]):
 
         made = []
         for number, table in enumerate(keys.layers, 1):
-            if not (table.circles or table.polygons or table.slots):
+            if not (table.circles or table.polygons or table.slots or table.outlines):
                 raise ParameterError(f"layers[{number}]", 0, "layer_of_nothing")
             made.append(Layer(table.thickness, tuple(_contours(table, f"layers[{number}]"))))
         return Layers(tuple(made)).checked()
@@ -136,7 +156,48 @@ def _contours(table: LayerTable, place: str) -> list[Contour]:
             raise ParameterError(f"{place}.slots[{number}].end", list(slot.end), "slot_ends_at_start")
         ends = ((complex(*at), slot.width / 2) for at in (slot.start, slot.end))
         found.append(Contour(belt(*ends)))
+    found += [_outline(table.points, f"{place}.outlines[{k}]") for k, table in enumerate(table.outlines, 1)]
     return found
+
+
+def _outline(points: list[OutlinePoint], place: str) -> Contour:
+    """An outline as a contour.
+
+    Raises
+    ------
+    ParameterError
+        An arc shorter than its chord, or no outline: its ways enclose nothing.
+    """
+    from geometry.curves.line_arc import Line, arc_between
+    from geometry.solids.layers import Contour
+
+    corners = [complex(p.x, p.y) for p in points]
+    ways = list(zip(corners, [*corners[1:], corners[0]], [p.arc for p in points], strict=True))
+    # the polygon of the corners tells which way it runs; of two corners it is counter-clockwise
+    area = math.fsum((a.conjugate() * b).imag / 2 for a, b, _ in ways)
+    if area < 0:
+        ways = [(b, a, radius) for a, b, radius in reversed(ways)]
+    edges: list[Line | Arc] = []
+    enclosed = abs(area)
+    for number, (start, end, radius) in enumerate(ways, 1):
+        chord = abs(end - start)
+        if chord == 0:
+            raise ParameterError(f"{place}.points", len(points), "outline_of_nothing")
+        if radius == 0:
+            edges.append(Line(start, end))
+            continue
+        rest = radius**2 - chord**2 / 4
+        if rest < -1e-12 * radius**2:
+            least = limit(math.copysign(chord / 2 * (1 + 1e-9), radius), radius, digits=6)
+            raise ParameterError(f"{place}.points[{number}].arc", radius, "arc_shorter_than_chord", least)
+        side = 1j * math.copysign(math.sqrt(max(rest, 0.0)), radius)
+        centre = (start + end) / 2 + side * (end - start) / chord
+        arc = arc_between(centre, start, end, radius > 0)
+        edges.append(arc)
+        enclosed += radius**2 / 2 * (arc.sweep - math.sin(arc.sweep))
+    if enclosed <= 0:
+        raise ParameterError(f"{place}.points", len(points), "outline_of_nothing")
+    return Contour(tuple(edges))
 
 
 LAYERED = Layered()

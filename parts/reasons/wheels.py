@@ -101,6 +101,7 @@ REASONS = {
     "section_beyond_axis": N_("the section reaches beyond the axis"),
     "section_touches_axis": N_("the section touches the axis in one point"),
     "slot_closed": N_("closes a slot"),
+    "outline_of_nothing": N_("encloses nothing, or has one corner twice"),
     "slot_ends_at_start": N_("is where it starts: that is a hole"),
     "spokes_fill_hub_ring": N_("the spokes fill the hub ring between them"),
     "step_curve": N_("has an edge on {what}, which no spline follows"),

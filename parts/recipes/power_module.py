@@ -135,7 +135,7 @@ INSTANCES: Mapping[str, str] = {
     "body_plate_pin": N_("Pin of plate 16"), "platform_plate_pin_rear": N_("Pin of plate 11"),
     "free_ring_pin": N_("Front pin of the free ring"), "free_ring_pin_rear": N_("Rear pin of the free ring"),
     "first_crank": N_("First crank"), "second_crank": N_("Second crank"),
-    "plug_1": N_("Plug under the set screws of worm II"), "plug_2": N_("Drain plug"),
+    "plug_1": N_("Plug of the front row of balls"), "plug_2": N_("Plug of the rear row of balls"),
     "spacer_28_1": N_("Spacer ring of worm I"), "spacer_28_2": N_("Spacer ring of worm II"),
     "set_screw_1": N_("Set screw of worm I"), "set_screw_2": N_("Set screw of worm II"),
 }  # fmt: skip
@@ -374,10 +374,10 @@ class _Making(Making):
         self._layers("body", self._casting())
         # the guide about the balls of disk 2 closes the opening of the lip, its screws in that
         count, inner, outer, high = _GUIDE_SCREWS, s["r_20_in"], s["r_open"] - keys.clearance, s["h_5"]
-        groove = math.sqrt((keys.ball / 2) ** 2 - s["gap_race"] ** 2)
+        radius, groove = s["r_groove"], s["h_groove"]
         self._turned("guide_6", [
             (inner, 0), (outer, 0), (outer, high - _FLANGE), (s["r_6"], high - _FLANGE), (s["r_6"], high),
-            (inner, high), (inner, s["z_ball"] + groove, -keys.ball / 2), (inner, s["z_ball"] - groove),
+            (inner, high), (inner, s["z_ball"] + groove, -radius), (inner, s["z_ball"] - groove),
         ], _holes(count, M8[0], s["r_6_screws"]))  # fmt: skip
         self._set("body", "guide_6", "guide_6", 0.0)
         self._screw("screw_51", 8, 16, M8[1:])
@@ -399,20 +399,12 @@ class _Making(Making):
         for k, at in enumerate(_around(out), 1):
             self._set("body", f"bolt_42_{k}", "bolt_42", s["z_floor"] - 45, at)
             self._set("body", f"nut_44_{k}", "nut_44", self.low["body"] - _HEX_12[2], at)
-        flange, top = 5.0, 5.0 + s["h_plug"]
-        self._turned("plug", [(0, 0), (15, 0), (15, flange), (10, flange), (10, top), (0, top)])
-        for k, at in enumerate(self._plugs(), 1):
-            self._set("body", f"plug_{k}", "plug", self.low["body"] - flange, at)
-
-    def _plugs(self) -> list[complex]:
-        """Holes in the floor of the casting: under the set screws of worm II, and where it is drained."""
-        return [sum(self._set_screws(2)) / 2, complex(self.s["half_room"] - 30)]
 
     def _casting(self) -> list[tuple[float, Table]]:
         """The body's layers from the flange to the lip."""
         s = self.s
         top = s["h_5"] - _FLANGE
-        levels = {self.low["body"], self.low["body"] + s["h_plug"], s["z_floor"], s["z_boss"], s["z_lip"]}
+        levels = {self.low["body"], s["z_floor"], s["z_boss"], s["z_lip"]}
         levels |= {top - _DEEP, top}
         seats = [seat for worm in (1, 2) for seat in self._seats(worm)]
         for _, _, bottom, above, cap in seats:
@@ -425,9 +417,6 @@ class _Making(Making):
             if high <= s["z_floor"]:
                 polygons = [_square(s["half"] + 40)]
                 circles += [_round(M12[0], at) for at in _around(s["half"] + 20)]
-                under, drain = self._plugs()
-                circles.append(_round(20, drain))
-                circles += [_round(20, under)] if high <= self.low["body"] + s["h_plug"] else []
             elif high <= s["z_lip"]:
                 polygons = self._wall((low + high) / 2)
                 if high <= s["z_boss"]:
@@ -442,7 +431,7 @@ class _Making(Making):
             # set screws: of worm I from the front, of worm II, which lies under wheel 25, through the floor
             if low >= s["z_1"] + s["h_seat"]:
                 circles += [_round(8, at) for at in self._set_screws(1)]
-            if self.low["body"] + s["h_plug"] <= low and high <= s["z_2"] - s["h_seat"]:
+            if high <= s["z_2"] - s["h_seat"]:
                 circles += [_round(8, at) for at in self._set_screws(2)]
             found.append((high - low, {"polygons": polygons, "circles": circles}))
         return found
@@ -497,11 +486,13 @@ class _Making(Making):
         s, keys = self.s, self.keys
         self.within = "outer_disk_unit"
         t, arm, ball = keys.disk_thickness, s["arm"], keys.ball
-        seat, bore = 2 * s["r_33_out"], 2 * (s["r_small"] + ball / 2)
+        seat = 2 * s["r_33_out"]
         behind = [_round(8, at) for at in _on_circle(12, s["r_53"])]
         front = [_round(4, at) for at in _on_circle(16, s["r_53"], 11.25)]
         own = [_round(4, at + arm) for at in _on_circle(16, s["r_8"])]
-        clips = [_round(4, at + arm) for at in _on_circle(12, s["r_59"])]
+        # out of the bore a hole through which both rows come in; the first screw of either ring 33 holds its plug
+        clips = [_round(4, at + arm) for at in _on_circle(12, s["r_59"])[1:]]
+        bore = _radial(s["r_32"], s["r_59"], s["w_32"] / 2, arm)
         # the flange under the balls of the body, through which the screws of guide 5 go
         edge, rest = _round(2 * s["r_2"]), [_round(2 * s["r_5"])]
         rest += [_round(M8[0], at) for at in _on_circle(_RACE_SCREWS, s["r_41"], _RACE_START)]
@@ -509,10 +500,10 @@ class _Making(Making):
         levels = sorted({0.0, low, thread, high, t, race})
         self._layers("disk_2", [
             (end - start, {"circles": [
-                *(rest if end <= race else [edge]), _round(bore if low <= start and end <= high else seat, arm),
+                *(rest if end <= race else [edge]), *([] if low <= start and end <= high else [_round(seat, arm)]),
                 *(behind if end <= thread else front), *(clips if low <= start and end <= high else []),
                 *(own if thread <= start else []),
-            ]}) for start, end in pairwise(levels)
+            ], "outlines": [bore] if low <= start and end <= high else []}) for start, end in pairwise(levels)
         ])  # fmt: skip
         self.found.instances["disk_2"] = {"part": "disk_2", "subassembly": self.within}
         self.low["disk_2"] = 0.0
@@ -532,6 +523,12 @@ class _Making(Making):
         rear, fore = s["seat_33"] - s["h_33"], t - s["seat_33"]
         self._set("disk_2", "protective_ring_1", "protective_ring", fore, arm)
         self._set("disk_2", "protective_ring_2", "protective_ring", rear, arm)
+        self._layers("plug", [(s["h_32"], {
+            "outlines": [_radial(s["r_32"] + s["gap_32"], s["r_59"], s["w_32"] / 2 - _PLAY, -s["r_59"], beyond=True)],
+            "circles": [_round(4)],
+        })])  # fmt: skip
+        for k, z in enumerate((t - s["seat_33"] - s["h_32"], s["seat_33"]), 1):
+            self._set("disk_2", f"plug_{k}", "plug", z, complex(arm + s["r_59"]))
         self._circle("protective_ring_1", "front_clip", "screw_59", 12, s["r_59"], fore + s["h_33"] - 6)
         self._circle("protective_ring_2", "rear_clip", "screw_59_down", 12, s["r_59"], rear - M4[2])
         self._turned("ball", [(0.0, 0.0, ball / 2), (0.0, ball)])
@@ -555,10 +552,11 @@ class _Making(Making):
         self._screw("screw_53", 8, 45, M8[1:])
         self._screw("screw_53_down", 8, 45, M8[1:], down=True)
         self._circle("disk_2", "spacer_24_screw", "screw_53_down", 12, s["r_53"], -h - M8[2])
-        groove, low = math.sqrt((ball / 2) ** 2 - s["gap_race"] ** 2), s["z_race"]
+        low, aside, radius, quarter = s["z_race"], s["e_quarter"], s["r_groove"], s["h_quarter"]
+        wall, middle = s["r_large"] + aside - radius, s["z_ball"] - low - aside
         self._turned("guide_5", [
-            (s["r_2"], 0), (s["r_large"] - ball / 2, 0), (s["r_large"] - ball / 2, s["z_ball"] - low, -ball / 2),
-            (s["r_5"], s["z_ball"] - low + groove), (s["r_5"], s["h_5"] - low), (s["r_2"], s["h_5"] - low),
+            (s["r_2"], 0), (wall, 0), (wall, middle, -radius), (s["r_5"], middle + quarter),
+            (s["r_5"], s["h_5"] - low), (s["r_2"], s["h_5"] - low),
         ], _holes(_RACE_SCREWS, M8[0], s["r_41"], _RACE_START))  # fmt: skip
         self._set("disk_2", "guide_5", "guide_5", low)
         self._screw("screw_52", 8, 25, M8[1:])
@@ -569,10 +567,10 @@ class _Making(Making):
         self._set("disk_2", "worm_wheel_25", "worm_wheel_25", -h - wide)
         self._hex("bolt_41", 8, 40, _HEX_8, down=True)
         self._circle("disk_2", "worm_wheel_25_bolt", "bolt_41", 24, s["r_41"], -h - wide - _HEX_8[1])
-        inner, middle, high = s["r_20_in"], s["r_large"] + ball / 2, s["h_20"]
+        inner, middle, high = s["r_20_in"], s["r_large"] - aside + math.sqrt(radius**2 - aside**2), s["h_20"]
         self._turned("bearing_ring", [
-            (middle, 0), (s["r_20"], 0), (s["r_20"], high), (middle, high, -ball / 2), (inner, high - groove),
-            (inner, groove, -ball / 2),
+            (middle, 0), (s["r_20"], 0), (s["r_20"], high), (middle, high, -radius), (inner, high + aside - quarter),
+            (inner, quarter - aside, -radius),
         ], _holes(24, M8[0], s["r_20_screws"]))  # fmt: skip
         for k, z in enumerate((s["z_20"], s["z_20"] - high), 1):
             self._set("disk_2", f"bearing_ring_{k}", "bearing_ring", z)
@@ -592,10 +590,10 @@ class _Making(Making):
         self.low["ring"] = z
         self.mate("coaxial", "body", "ring", height=round(z - self.low["body"], 6))
         half, low, high = keys.ball / 2, s["z_23"] + keys.worm_wheel_width, s["h_22"]
-        mid, groove = s["z_20"] - low, math.sqrt(half**2 - s["gap_race"] ** 2)
+        mid, groove = s["z_20"] - low, s["h_groove"]
         self._turned("spacer_22", [
             (s["r_22_in"], 0), (s["r_21"], 0), (s["r_21"], mid - half - 2), (s["r_5"], mid - half - 2),
-            (s["r_5"], mid - groove, -half), (s["r_5"], mid + groove), (s["r_5"], mid + half + 2),
+            (s["r_5"], mid - groove, -s["r_groove"]), (s["r_5"], mid + groove), (s["r_5"], mid + half + 2),
             (s["r_21"], mid + half + 2), (s["r_21"], high), (s["r_22_in"], high),
         ], _holes(12, 8, s["r_21_screws"]))  # fmt: skip
         self._set("ring", "spacer_22", "spacer_22", low)
@@ -627,12 +625,11 @@ class _Making(Making):
         screws = _holes(6, M12[0], s["r_56"], 30.0)
         self._tube("sleeve_17", 20.0, s["r_56"] + 9, s["gap_21"] + 0.5, third, screws)
         self._set("pinion", "sleeve_17", "sleeve_17", z + keys.face_width)
-        high, ball, wide = t - 1.0, keys.ball, s["gap_race"]
-        groove, floor = math.sqrt((ball / 2) ** 2 - wide**2), 17.0
+        high, groove, floor = t - 1.0, s["h_groove"], 17.0
         rows = [s["z_lower"] - 0.5, s["z_upper"] - 0.5]
         self._turned("disk_3", [
             (20.0, 0.0), (s["r_3"], 0.0),
-            *(p for row in rows for p in ((s["r_3"], row - groove, -ball / 2), (s["r_3"], row + groove))),
+            *(p for row in rows for p in ((s["r_3"], row - groove, -s["r_groove"]), (s["r_3"], row + groove))),
             (s["r_3"], high), (s["r_56"] + 11, high), (s["r_56"] + 11, high - floor), (s["r_56"] - 11, high - floor),
             (s["r_56"] - 11, high), (0.0, high), (0.0, 6.0), (20.0, 6.0),
         ], third, screws)  # fmt: skip
@@ -830,9 +827,19 @@ class _Making(Making):
 
     def _order(self) -> None:
         """The order of assembly: the units, then what they go into."""
+        s = self.s
         self.bring(
-            "disk_2", ("behind", "protective_ring_2"), ("behind", "rear_clip"), ("behind", "spacer_24"),
-            ("behind", "spacer_24_screw"), ("behind", "worm_wheel_25"), ("behind", "worm_wheel_25_bolt"),
+            "disk_2", ("front", "disk_3"), ("front", "small_cage_1"),
+        )
+        # along the hole past the edge of disk 3, then into its groove; the rear cage comes in over its balls
+        inwards = s["r_small"] - s["r_3"] - self.keys.ball / 2 - _PLAY
+        self.bring("small_cage_1", ("front", "small_ball_1"), outwards=inwards, one_hole=True)
+        self.bring("disk_3", ("behind", "small_ball_2"), outwards=inwards, one_hole=True)
+        self.bring(
+            "disk_2", ("behind", "small_cage_2"), ("front", "plug_1"), ("behind", "plug_2"),
+            ("front", "protective_ring_1"), ("front", "front_clip"), ("behind", "protective_ring_2"),
+            ("behind", "rear_clip"), ("behind", "spacer_24"), ("behind", "spacer_24_screw"),
+            ("behind", "worm_wheel_25"), ("behind", "worm_wheel_25_bolt"),
         )  # fmt: skip
         self.bring("ring", ("behind", "spacer_22"), ("front", "ring_screw"), ("behind", "large_cage_2"))
         self.bring("large_cage_2", ("sides", "large_ball_2"))
@@ -845,7 +852,7 @@ class _Making(Making):
         cranks = [("front", *(f"first_crank_{k}" for k in (1, 2, 3)))] if self.cranks else []
         held = [("front", "body_plate"), ("front", "body_plate_pin")] if self.cranks else [("front", "central_wheel")]
         self.bring(
-            "body", ("front", *bolts), ("behind", *nuts), ("behind", "plug_2"), ("front", "spacer_18"),
+            "body", ("front", *bolts), ("behind", *nuts), ("front", "spacer_18"),
             *held, ("front", "central_screw"), *cranks, ("front", "ring"), ("front", "guide_6"),
             ("front", "guide_6_screw"), ("front", "large_cage_1"),
         )  # fmt: skip
@@ -863,7 +870,6 @@ class _Making(Making):
             self.bring("body", (side, f"snap_ring_{worm}"), opened=_SNAP)
         self.bring(
             "body", ("front", "set_screw_1_1", "set_screw_1_2"), ("behind", "set_screw_2_1", "set_screw_2_2"),
-            ("behind", "plug_1"),
         )  # fmt: skip
 
     def _order_within(self) -> None:
@@ -872,13 +878,9 @@ class _Making(Making):
             "pinion", ("behind", "cover_12"), ("behind", "cover_12_screw"),
             ("behind", "ring_guide" if self.cranks else "satellite_axle"), ("front", "nut_46"),
         )  # fmt: skip
-        self.bring("disk_3", ("behind", "small_cage_2"), ("front", "small_cage_1"))
-        for k in (1, 2):
-            self.bring(f"small_cage_{k}", ("sides", f"small_ball_{k}"))
         self.bring(
-            "ring", ("behind", "pinion"), ("front", "disk_2"), ("behind", "bearing_screw"), ("front", "sleeve_17"),
-            ("front", "disk_3"), ("front", "disk_3_screw"), ("front", "protective_ring_1"), ("front", "front_clip"),
-            ("front", "shield_8"), ("front", "shield_8_screw"), ("front", "platform_axle"), ("behind", "spacer_10"),
+            "ring", ("behind", "pinion"), ("front", "sleeve_17"), ("front", "disk_2"), ("behind", "bearing_screw"),
+            ("front", "disk_3_screw"), ("front", "shield_8"), ("front", "shield_8_screw"), ("front", "platform_axle"), ("behind", "spacer_10"),
         )  # fmt: skip
         if self.cranks:
             self.bring("platform_plate", ("behind", "platform_plate_pin_rear"))
@@ -956,6 +958,18 @@ def _square(half: float, corner: float = 0.0) -> Table:
 def _corners(points: Sequence[tuple[float, float]]) -> Table:
     """A polygon of a layer."""
     return {"points": [[round(x, 6), round(y, 6)] for x, y in points]}
+
+
+def _radial(inner: float, centre: float, half: float, axis: float, *, beyond: bool = False) -> Table:
+    """The circle about an axis on x with a rounded slot out of it, ``half`` as wide, about a place so far from the
+    axis; ``beyond``: only what of the slot lies outside of the circle.
+    """
+    mouth = math.sqrt(inner**2 - half**2)
+    arcs = [(mouth, -half, 0.0), (centre, -half, half), (centre + half, 0.0, half), (centre, half, 0.0)]
+    arcs += [(mouth, half, -inner)] if beyond else [(mouth, half, inner), (-inner, 0.0, inner)]
+    return {"points": [
+        {"x": round(axis + x, 9), "y": round(y, 9), "arc": round(arc, 9)} for x, y, arc in arcs
+    ]}  # fmt: skip
 
 
 def _hexagon(across: float) -> Table:

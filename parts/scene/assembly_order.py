@@ -80,10 +80,10 @@ def legs(step: StepSpec, coming: Instance, to: Instance) -> tuple[Leg, ...]:
     x, y, z = (w / size for w in step.along)
     if step.outwards is None:
         return (Leg((x, y, z), FAR),)
-    left = out * step.outwards
+    left, side = out * step.outwards, math.copysign(1.0, step.outwards)
     return (
         Leg((x, y, z), FAR, (left.real, left.imag, 0.0)),
-        Leg((out.real, out.imag, 0.0), step.outwards),
+        Leg((side * out.real, side * out.imag, 0.0), abs(step.outwards)),
     )
 
 
@@ -114,19 +114,50 @@ class _Order:
                     found.pairs[how] += 1
                     if volume != 0:
                         found.hindered.append(Hindrance(number, coming.id, key, volume))
+            for coming, key in self._turning(stage):
+                volume = self._turns(coming, self.home[stage.step.to], self.home[key])
+                found.pairs["sections"] += 1
+                if volume != 0:
+                    found.hindered.append(Hindrance(number, coming.id, key, volume))
         return found
+
+    def _turning(self, stage: Stage) -> Iterator[tuple[Instance, str]]:
+        """What turns on with the row of a step through one hole, and what stands about that at its height."""
+        if not stage.step.one_hole:
+            return
+        row = dict.fromkeys((stage.step.to, *stage.moved))
+        heights = self.boxes[:, :, 2]
+        for coming in (self.home[key] for key in row):
+            low, high = heights[self.number[coming.id]]
+            for key in stage.standing:
+                near, far = heights[self.number[key]]
+                if key not in row and near < high - TOUCH and far > low + TOUCH:
+                    yield coming, key
+
+    def _turns(self, coming: Instance, to: Instance, standing: Instance) -> float | None:
+        """What is hit, mm^3, where something goes all round the axis of ``to``."""
+        upright = coming.axis == UPWARDS == standing.axis
+        at = (to.centre - standing.centre) * cmath.rect(1.0, -standing.rotation)
+        round_, lift = abs(coming.centre - to.centre), coming.at[2] - standing.at[2]
+        key = coming.part, standing.part, *(round(x, _DIGITS) + 0.0 for x in (at.real, at.imag, round_, lift))
+        if key not in self.done:
+            free = upright and self.sections.pass_each_other(standing.part, at, coming.part, round_, round_, lift)
+            self.done[key] = "sections", 0.0 if free else None
+        return self.done[key][1]
 
     def _rows(self, stage: Stage) -> Iterator[tuple[Instance, Leg, Sequence[str]]]:
         """What moves, each of its legs, and what stands in its way."""
-        to = self.home[stage.step.to]
-        for key in stage.moved:
+        step, to = stage.step, self.home[stage.step.to]
+        for number, key in enumerate(stage.moved):
             # of what comes in one by one the rest may stand
-            rest = [one for one in stage.moved if one != key] if stage.step.one_by_one else []
+            rest = [one for one in stage.moved if one != key] if step.one_by_one else []
+            # in one hole only what is turned on stands otherwise to a later one than to the first
+            stand = [step.to] if step.one_hole and number else stage.standing
             coming = self.home[key]
-            if stage.step.opened is not None:
-                coming = replace(coming, part=self._opened(coming.part, stage.step.opened))
-            for leg in legs(stage.step, coming, to):
-                yield coming, leg, [*stage.standing, *rest]
+            if step.opened is not None:
+                coming = replace(coming, part=self._opened(coming.part, step.opened))
+            for leg in legs(step, coming, to):
+                yield coming, leg, [*stand, *rest]
 
     def _opened(self, part: str, wider: float) -> str:
         """A turned part as it is on its way, so much wider in radius, under a name of its own."""

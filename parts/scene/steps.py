@@ -44,8 +44,15 @@ class StepSpec(Struct, forbid_unknown_fields=True):
         | None
     ) = None
     outwards: (
-        Annotated[float, mm("then each goes so far away from the axis of `to`", above=0, most=1e6, example=8.0)] | None
-    ) = None
+        Annotated[
+            float, mm("then each goes so far away from the axis of `to`, below 0 to it", least=-1e6, most=1e6,
+                      example=8.0)
+        ]
+        | None
+    ) = None  # fmt: skip
+    one_hole: Annotated[
+        bool, Meta(description="`to` is turned on for each: all go in where the first does, a row of balls by one hole")
+    ] = False
     screwed: Annotated[bool, Meta(description="turned in by its thread: a worm past its wheel")] = False
     opened: (
         Annotated[
@@ -89,6 +96,10 @@ def step_specs(
             raise SceneError(source, f"{place}.along", spec.along, "no_direction")
         if spec.outwards is not None and spec.along is None:
             raise SceneError(source, f"{place}.outwards", spec.outwards, "outwards_after_along", REMOVED)
+        if spec.outwards == 0:
+            raise SceneError(source, f"{place}.outwards", spec.outwards, "nowhere_outwards", REMOVED)
+        if spec.one_hole and spec.outwards is None:
+            raise SceneError(source, f"{place}.one_hole", spec.one_hole, "hole_for_one_by_one", REMOVED)
         brought = [one for name in spec.bring for one in (groups[name].members if name in groups else (name,))]
         for name in brought:
             check_instance(name, instances, source, f"{place}.bring")

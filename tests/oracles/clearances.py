@@ -147,6 +147,11 @@ def solid_of(keys: Any) -> Solid:
             loops: list[Loop] = [(complex(*c.at), c.diameter / 2) for c in layer.circles]
             for polygon in layer.polygons:
                 loops.append(chain([complex(*p) for p in polygon.points]))
+            for outline in layer.outlines:
+                rows = [(complex(p.x, p.y), p.arc) for p in outline.points]
+                ends = list(zip(rows, [*rows[1:], rows[0]], strict=True))
+                sign = 1 if sum((a[0].conjugate() * b[0]).imag for a, b in ends) > 0 else -1
+                loops.append(np.concatenate([arc(a[0], b[0], sign * a[1]) for a, b in ends]))
             # of many alike those beside the members that are looked at
             for slot in layer.slots[:14]:
                 start, end = complex(*slot.start), complex(*slot.end)

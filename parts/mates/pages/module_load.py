@@ -81,7 +81,10 @@ class LoadKeys(TwoDiskKeys, kw_only=True):
     x: _Place | None = None
     y: _Place | None = None
     elbow: Annotated[Literal[1, -1], Meta(description="sign of beta at the place x, y; default: 1")] | None = None
-    groove_radius: Annotated[float, mm("radius of the grooves", above=0, most=1000)] = 4.16
+    groove_radius: (
+        Annotated[float, mm("radius of the grooves; default: r_groove of the assembly", above=0, most=1000,
+                            example=4.16)] | None
+    ) = None  # fmt: skip
     ball_diameter: _Length = 8.0
     ball_pressure_limit: Annotated[
         float, size("MPa", "greatest pressure on a ball at rest, ISO 76", above=0, most=100_000)
@@ -295,7 +298,7 @@ def _amounts(loaded: LoadedTable, keys: LoadKeys, found: Mapping[str, float]) ->
     if keys.moment and keys.orientation == "cranks":
         for stage, who in enumerate((N_("crank on the body"), N_("crank on the platform"))):
             yield _Row(who, N_("force along it, N"), crank_force(stage))
-    ball, groove, large = 2 / keys.ball_diameter, 1 / keys.groove_radius, found["r_large"]
+    ball, groove, large = 2 / keys.ball_diameter, 1 / found["r_groove"], found["r_large"]
     grooves = ball - groove, ball + 1 / (large - 1 / ball)
     # disk 3's balls run on the plain bore of disk 2, the others in grooves
     rows = {

@@ -84,7 +84,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
         page.printed = printed_for_power_module()
     try:
         keys.table  # noqa: B018 - the ring is the larger one
-        if not keys.ball_diameter / 2 < keys.groove_radius:
+        if keys.groove_radius is not None and not keys.ball_diameter / 2 < keys.groove_radius:
             raise ParameterError("groove_radius", keys.groove_radius, "groove_below_ball", None,
                                  least=keys.ball_diameter / 2)  # fmt: skip
         given(page, keys)
@@ -110,7 +110,8 @@ def _found(keys: PowerModuleKeys, orientation: str) -> dict[str, float]:
         "worm_teeth_23": keys.worm_ratios[1], "worm_wheel_width": keys.rim_width, "face_width": keys.face_width,
         "balls": keys.balls, "ball": keys.ball_diameter,
     }  # fmt: skip
-    return sizes({**DRIVERS, **own}, "cranks" if orientation == "idlers" else orientation)
+    found = sizes({**DRIVERS, **own}, "cranks" if orientation == "idlers" else orientation)
+    return found | ({} if keys.groove_radius is None else {"r_groove": keys.groove_radius})
 
 
 def _sizes(page: Sheet, keys: PowerModuleKeys, found: dict[str, float]) -> None:
@@ -260,9 +261,9 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapp
     root = keys.module * (keys.pair_teeth[1] + 2.5)
     page.add("ring_root_diameter", root, "{m} * ({z12} + 2.5)")
     page.add("ball_wall", (least - root) / 2 - keys.ball_diameter / 2, "({D_b} - {d_f12} - {d_b}) / 2")
-    page.add("groove_radius", keys.groove_radius)
+    page.add("groove_radius", found["r_groove"])
     ball = keys.ball_diameter / 2
-    flat = 1 / ball - 1 / keys.groove_radius
+    flat = 1 / ball - 1 / found["r_groove"]
     inner, outer = (1 / ball + sense / (found["r_large"] - sense * ball) for sense in (1, -1))
     both = [hertz.stiffness((flat, sharp), MODULUS) for sharp in (inner, outer)]
     # two contacts one behind the other under the same load

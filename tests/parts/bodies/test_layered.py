@@ -18,7 +18,14 @@ BOX: list[Keys] = [
     {"thickness": 4.0, "polygons": [SQUARE], "circles": [{"diameter": 5.0, "at": [20.0, 0.0]}]},
     {"thickness": 8.0, "circles": [{"diameter": 30.0}, {"diameter": 20.0}]},
     {"thickness": 3.0, "circles": [{"diameter": 36.0}, {"diameter": 20.0}, {"diameter": 2.0, "at": [12.5, 0.0]}],
-     "slots": [{"start": [-12.5, -2.0], "end": [-12.5, 2.0], "width": 3.0}]},
+     "slots": [{"start": [-12.5, -2.0], "end": [-12.5, 2.0], "width": 3.0}],
+     # a lens, half a disk told clockwise, a slice out of which an arc is cut
+     "outlines": [
+         {"points": [{"x": -1.0, "y": 14.0, "arc": 2.0}, {"x": 1.0, "y": 14.0, "arc": 2.0}]},
+         {"points": [{"x": 1.0, "y": -13.0}, {"x": -1.0, "y": -13.0, "arc": 1.0}]},
+         {"points": [{"x": 11.5, "y": 4.0}, {"x": 13.0, "y": 4.0}, {"x": 13.0, "y": 6.0},
+                     {"x": 11.5, "y": 6.0, "arc": -2.0}]},
+     ]},
     # a rim of its own on a wider one
     {"thickness": 1.0, "circles": [{"diameter": 34.0}, {"diameter": 32.0}]},
 ]  # fmt: skip
@@ -37,7 +44,10 @@ def disk(diameter: float) -> float:
 def test_a_volume_is_that_of_its_layers() -> None:
     part = made(BOX)
     slot = disk(3.0) + 4 * 3
-    areas = [2400 - disk(5), disk(30) - disk(20), disk(36) - disk(20) - disk(2) - slot, disk(34) - disk(32)]
+    # of a circle of radius 2 beyond a chord of 2
+    beyond = 2 * (math.pi / 3 - math.sin(math.pi / 3))
+    outlines = 2 * beyond + disk(2) / 2 + 3 - beyond
+    areas = [2400 - disk(5), disk(30) - disk(20), disk(36) - disk(20) - disk(2) - slot - outlines, disk(34) - disk(32)]
     wanted = sum(area * layer["thickness"] for area, layer in zip(areas, BOX, strict=True))
     assert part.made_by.moments(part.body(0.0)).volume == pytest.approx(wanted, rel=1e-12)
     mesh = part.to_trimesh(0.001)
@@ -72,6 +82,8 @@ def _toml(value: Any) -> str:
         ([{"thickness": 1, "circles": [{"diameter": 10}, {"diameter": 4, "at": [9, 0]}]}], "several"),
         ([{"thickness": 1, "circles": [{"diameter": 10, "at": [x, 0]}]} for x in (0, 19)], "several"),
         ([{"thickness": 1}], "no contour"),
+        ([{"thickness": 1, "outlines": [{"points": [{"x": 0, "y": 0}, {"x": 9, "y": 0}]}]}], "encloses nothing"),
+        ([{"thickness": 1, "outlines": [{"points": [{"x": 0, "y": 0, "arc": 4}, {"x": 9, "y": 0}]}]}], "not reach"),
     ],
 )  # fmt: skip
 def test_what_is_no_body_is_refused(layers: list[Keys], word: str) -> None:

@@ -72,6 +72,17 @@ def closed(word: str) -> Changed:
     return change
 
 
+def through_the_wall(word: str) -> Changed:
+    """Each where it stands in the end, not all through one hole."""
+
+    def change(steps: list[str]) -> list[str]:
+        k = bringing(steps, word)
+        steps[k] = re.sub(r"one_hole = .*", "", steps[k])
+        return steps
+
+    return change
+
+
 def hindered(order: dict[str, Any]) -> set[tuple[str, str]]:
     return {(row["coming"], row["standing"]) for row in order["hindered"]}
 
@@ -175,8 +186,11 @@ def test_the_print_table_and_the_module_go_together(name: str, tmp_path: Path, c
         (turned("worm_1", "[0.0, 0.0, -1.0]"), ("worm_1", "body")),
         # guide 13 on the pinion is wider than the tips of the ring
         (turned("pinion", "[0.0, 0.0, -1.0]"), ("ring_guide", "ring")),
-        # the set screws of worm II go in through its hole
-        (exchanged("set_screw_2_1", "plug_1"), ("set_screw_2_1", "plug_1")),
+        # balls do not go through what a plug or a ring closes, nor past the edge of disk 3 but in the hole
+        (exchanged("small_ball_1", "plug_1"), ("small_ball_1_1", "plug_1")),
+        (exchanged("small_ball_2", "protective_ring_2"), ("small_ball_2_1", "protective_ring_2")),
+        (exchanged("small_cage_2", "small_ball_2"), ("small_ball_2_1", "small_cage_2")),
+        (through_the_wall("small_ball_1"), ("small_ball_1_2", "disk_2")),
         (closed("snap_ring_1"), ("snap_ring_1", "worm_1")),
     ],
 )
@@ -229,6 +243,8 @@ _PLATE = {"kind": "plate", "width": 40.0, "height": 40.0, "face_width": 5.0}
         ([{"bring": ["a"], "to": "b"}, {"bring": ["b"], "to": "a"}], r"steps\[2\].bring.*joined to a already"),
         ([{"bring": ["a"], "to": "b", "along": [0.0, 0.0, 0.0]}], r"steps\[1\].along.*no direction"),
         ([{"bring": ["a"], "to": "b", "outwards": 3.0}], r"steps\[1\].outwards.*along"),
+        ([{"bring": ["a"], "to": "b", "along": [0.0, 0.0, 1.0], "outwards": 0.0}], r"steps\[1\].outwards.*nowhere"),
+        ([{"bring": ["a"], "to": "b", "along": [0.0, 0.0, 1.0], "one_hole": True}], r"steps\[1\].one_hole.*outwards"),
         ([{"bring": ["a"], "to": "b", "opened": 1.0}], r"steps\[1\].opened.*turned parts"),
         ([{"bring": ["d"], "to": "b"}], r'steps\[1\].bring = "d"'),
         ([{"bring": [], "to": "b"}], r"steps\[1\].bring"),
