@@ -2,8 +2,8 @@
 
 Names are those of ``DRIVERS`` and of the rules above; lengths in mm. ``r_``: radius, about the
 axis of the part's own disk; ``z_``: height, 0 is the back of the disks, the front is up. ``CONDITIONS`` are lengths
-that must be left; each names the driver that a refusal names. What has an ``orientation`` is of that alone: the wheels
-of the thesis, or cranks.
+that must be left; each names the driver that a refusal names. What has an ``orientation`` is of those alone: the wheels
+of the thesis, idlers, or cranks.
 """
 
 from __future__ import annotations
@@ -129,18 +129,38 @@ RULES = (
     _R("r_6_screws", (1, 6), "r_open + 8.5", N_("screws M8 with a wall of 4")),
     _R("r_6", (6,), "r_6_screws + 8.5", N_("half a head of M8 beyond its screws")),
     _R("h_12", (12,), "8", N_("screws M8x16 hold by as much")),
-    _R("z_11", (11,), "-h_24 - h_12 - 10 - wheel_width", N_("behind the heads of cover 12")),
     _R("h_47", (9,), "12", N_("height of nut 47")),
+    _R("z_11", (11,), "-h_24 - h_12 - 10 - wheel_width", N_("behind the heads of cover 12"), "thesis cranks"),
+    _R("z_47", (9,), "z_11 - h_47", N_("behind what it clamps"), "thesis cranks"),
+    _R("z_47", (9,), "-h_24 - h_12 - 10 - h_47",
+       N_("behind the heads of cover 12: with ring 10 alone it holds the axle, wheel 11 has no room about it"), "idlers"),
+    _R("r_neck", (9, 38, 39), "10", N_("necks on O1 and O3, as thick as axle 13: the links turn on them"), "idlers"),
+    _R("r_end", (9, 11, 16, 39), "r_neck - 2", N_("wheels 11 and 16 sit on the ends of the necks, against a shoulder"),
+       "idlers"),
+    _R("h_38", (38,), "8", N_("links of both arms, which carry the idlers"), "idlers"),
+    _R("r_38", (38,), "r_neck + clearance + 6", N_("a wall of 6 about the necks"), "idlers"),
+    _R("play_36", (36, 38), "0.5", N_("of wheels and idlers between links and heads of pins"), "idlers"),
+    _R("r_37", (37,), "5", N_("pins of the idlers"), "idlers"),
+    _R("h_37", (37,), "3", N_("heads of the pins, which hold the idlers"), "idlers"),
+    _R("z_38", (38,), "z_47 - axial_gap - h_38", N_("the link of arm O2O3 behind nut 47"), "idlers"),
+    _R("z_11", (11,), "z_38 - play_36 - wheel_width", N_("behind that link"), "idlers"),
+    _R("z_16", (16,), "z_11 - 2 * h_37 - axial_gap - wheel_width",
+       N_("O3 passes over O1: heads of both pins between the two planes"), "idlers"),
+    _R("z_38_rear", (38,), "z_16 - play_36 - h_38", N_("the link of arm O1O2 behind wheel 16"), "idlers"),
     _R("z_16", (16,), "z_11 - h_47 - axial_gap - 8 - wheel_width",
        N_("nut 47 passes over wheel 16 and its screws where O3 is near O1"), "thesis"),
     _R("h_14", (14,), "z_11 + wheel_width - z_16", N_("meshes with 16 and with 11, which stand in two planes"),
-       "thesis"),
+       "thesis idlers"),
     _R("r_wheel", (11, 14, 16), "arm / 2 + wheel_module", N_("tips of the wheels, whose mesh spans an arm"), "thesis"),
     _R("r_47", (9,), "min(35, arm - r_wheel - 1)",
        N_("nut M45 of GOST 11871, turned down where it would meet the tips of wheel 14 beside it"), "thesis"),
     _R("r_54", (16, 18), "arm / 2 - 1.25 * wheel_module - 8.5", N_("screws M8 within the teeth, with a wall of 4"),
        "thesis"),
     _R("h_54", (16,), "wheel_width", N_("screws M8x75 hold the whole wheel"), "thesis"),
+    _R("r_47", (9,), "35", N_("nut M45 of GOST 11871"), "idlers"),
+    _R("r_54", (18, 39), "25", N_("heads M8 about the neck"), "idlers"),
+    _R("h_54", (39,), "8", N_("flange of the post under the heads of its screws"), "idlers"),
+    _R("z_39", (39,), "z_38_rear - axial_gap - 8 - h_54", N_("heads of its screws are clear of the link"), "idlers"),
     _R("r_47", (9,), "35", N_("nut M45 of GOST 11871, in a recess of plate 11"), "cranks"),
     _R("h_11", (11,), "wheel_width + h_47 + 3", N_("nut 47 and the end of the axle stand within it"), "cranks"),
     _R("r_35", (35,), "5", N_("pins of the cranks"), "cranks"),
@@ -163,7 +183,8 @@ RULES = (
     _R("h_54", (16,), "wheel_width - 9", N_("heads of the screws M8 lie below the face of the plate"), "cranks"),
     _R("r_18", (18,), "r_54 + 8.5", N_("a wall of 4 beyond the screws")),
     _R("h_18", (18,), "75 - h_54 - 12", N_("screws M8x75 hold the body by 12 mm")),
-    _R("z_boss", (1,), "z_16 - h_18", N_("what ring 18 stands on")),
+    _R("z_boss", (1,), "z_16 - h_18", N_("what ring 18 stands on"), "thesis cranks"),
+    _R("z_boss", (1,), "z_39 - h_18", N_("what ring 18 stands on"), "idlers"),
     _R("z_floor", (1,), "min(z_23 - 8 - axial_gap, z_2 - h_seat - 4, z_boss - 12)",
        N_("clear of the heads behind wheel 23, and of the seat of worm II")),
     _R("h_floor", (1,), "30", N_("bolts M12x45 with their nuts")),
@@ -193,7 +214,12 @@ CONDITIONS = (
     _C("teeth", "r_56 - 11 - 3 - arm - r_journal - clearance",
        N_("wall between the axle of the platform and the recess of disk 3")),
     _C("teeth", "arm - r_journal - clearance - 20 - 3", N_("wall between the axle of the platform and nut 46")),
-    _C("teeth", "arm - r_journal - 25 - 15 - 1", N_("gap between cover 12 and the axle of the satellite"), "thesis"),
+    _C("teeth", "arm - r_journal - 25 - 15 - 1", N_("gap between cover 12 and the axle of the satellite"),
+       "thesis idlers"),
+    _C("teeth", "arm / 3 - 1.55 * wheel_module - 10 - clearance - 5", N_("wall of the wheels about their axles"),
+       "idlers"),
+    _C("teeth", "arm / 6 - 0.95 * wheel_module - r_37 - clearance - 2", N_("wall of the idlers about their pins"),
+       "idlers"),
     _C("teeth", "arm - r_window - 10 - 5", N_("wall between the stud of guide 13 and its window"), "cranks"),
     _C("teeth", "r_13 - arm - r_window - 3", N_("wall between the window of guide 13 and its rim"), "cranks"),
     _C("teeth", "r_22_in - arm - r_13_out - 2", N_("gap about guide 13 where it stands outermost"), "cranks"),
@@ -217,6 +243,7 @@ CONDITIONS = (
     _C("wheel_width", "h_18 - 5", N_("height of ring 18")),
     _C("wheel_width", "h_54 - 3", N_("floor of plate 16 under the heads of its screws"), "cranks"),
     _C("axial_gap", "axial_gap - 2", N_("collars of the pins 35"), "cranks"),
+    _C("axial_gap", "axial_gap - 2.5", N_("the axle of the platform ends before the link behind nut 47"), "idlers"),
     _C("face_width", "45 - face_width - 8", N_("thread of the screws of wheel 21")),
     _C("face_width", "45 - h_24 - 8", N_("thread of the screws of ring 24")),
     _C("face_width", "disk_thickness - seat_33 - h_thread - 0.5", N_("wall over the screws of ring 24")),
@@ -253,8 +280,8 @@ def _code(made_of: str) -> CodeType:
 
 
 def of_orientation(rows: Sequence[Of], orientation: str) -> list[Of]:
-    """The rules or conditions of one orientation, and those of all."""
-    return [row for row in rows if row.orientation in ("", orientation)]
+    """The rules or conditions of an orientation, and those of all."""
+    return [row for row in rows if not row.orientation or orientation in row.orientation.split()]
 
 
 def sizes(drivers: Mapping[str, float], orientation: str) -> dict[str, float]:

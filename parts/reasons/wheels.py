@@ -67,10 +67,6 @@ REASONS = {
     "keyway_as_wide_as_bore": N_("the keyway is as wide as the bore"),
     "keyway_beyond_step": N_("the keyway leaves its step, {length} mm long, or meets a chamfer, fillet or groove"),
     "keyway_of_no_depth": N_("the keyway's floor lies outside of the shaft, on its axis or in its bore"),
-    "idlers_below_thread": N_(
-        "wheels with an idler on each arm have roots of {root} mm radius; the thread of nut 47, {thread} mm, and a "
-        "wall of {wall} mm do not go into them"
-    ),
     "keyway_shorter_than_wide": N_("is no longer than it is wide, {width} mm"),
     "keyways_meet": N_("the keyway meets another one"),
     "layers_fall_apart": N_("are several bodies"),

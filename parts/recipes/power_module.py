@@ -8,7 +8,8 @@ the row of balls between them; each worm comes in through the wall and the seat 
 are plain cylinders of the nominal diameter. The groove that section 2.3 has in wheel 21 is turned in ring 22, one body
 with it.
 
-The platform is turned by the wheels 16, 14, 11 of the thesis, or kept parallel by cranks: plate 16 on the body, ring 14
+The platform is turned by the wheels 16, 14, 11 of the thesis, or kept parallel: by an idler between each two of them,
+on links about O1, O2 and O3, wheel 11 on the end of the axle beyond nut 47; or by cranks: plate 16 on the body, ring 14
 about O2, plate 11 on the platform's axle, between them two planes of three cranks each, which no axle crosses. Ring 14
 runs on its rim in guide 13, a cup on the pinion, within which plate 11 turns; axially collars of the pins hold it.
 """
@@ -39,8 +40,8 @@ _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 _NUT_20, _HEX_8, _HEX_12 = (17.0, 8.0), (13.0, 5.3), (18.0, 7.5, 10.8)
 # step of a casting from one level to the next, play of what is turned by hand, mm
 _STEP, _PLAY = 1.0, 0.05
-# radius of the platform axle's thread under nut 47, and a wall about it
-_THREAD_47, _WALL_47 = 22.5, 5.0
+# radius of the platform axle's thread under nut 47, and of axle 13
+_THREAD_47, _AXLE = 22.5, 10.0
 # depth of the groove of a snap ring
 _SNAP = 1.5
 # guide 6: height of its flange, which screws M8x16 hold by as much, how many, how deep their holes are
@@ -49,7 +50,7 @@ _FLANGE, _GUIDE_SCREWS, _DEEP = 8.0, 20, 10.0
 _RACE_SCREWS, _RACE_START = 32, 1.875
 
 STEEL, IRON, BRONZE, BRASS = "steel", "cast iron", "bronze", "brass"
-# by part: position, name, material, colour; beyond 33, and what 11, 13, 14, 16 are with cranks, not the thesis's
+# by part: position, name, material, colour; beyond 33, and what 11, 13, 14, 16 are with cranks or idlers, not the thesis's
 PARTS: Mapping[str, tuple[int, str, str, str]] = {
     "body": (1, N_("Housing"), IRON, "#b8bfc4"),
     "disk_2": (2, N_("Outer disk"), IRON, "#d9a066"),
@@ -90,6 +91,11 @@ PARTS: Mapping[str, tuple[int, str, str, str]] = {
     "protective_ring": (33, N_("Protective ring"), STEEL, "#9fb8a8"),
     "crank": (34, N_("Crank"), STEEL, "#d98880"),
     "crank_pin": (35, N_("Crank pin"), STEEL, "#d0d4d8"),
+    "idler": (36, N_("Idler"), STEEL, "#8c96a0"),
+    "idler_pin": (37, N_("Idler pin"), STEEL, "#d0d4d8"),
+    "idler_pin_down": (37, N_("Idler pin"), STEEL, "#d0d4d8"),
+    "link": (38, N_("Link"), STEEL, "#d98880"),
+    "post": (39, N_("Post"), STEEL, "#c2c8cc"),
 }
 # standard items: position, name, standard; those with "_down" and "_up" are the same, laid the other way round
 STANDARD: Mapping[str, tuple[int, str, str]] = {
@@ -131,12 +137,15 @@ INSTANCES: Mapping[str, str] = {
     "bearing_screw": N_("Screw of both bearing rings"), "ring_screw": N_("Screw of wheel 21"),
     "worm_wheel_23_screw": N_("Screw of worm wheel 23"), "worm_wheel_25_bolt": N_("Bolt of worm wheel 25"),
     "disk_3_screw": N_("Screw of the inner disk"), "cover_12_screw": N_("Screw of cover 12"),
-    "central_screw": N_("Screw of position 16"), "platform_screw": N_("Screw of the platform"),
+    "central_screw": N_("Screw of ring 18"), "platform_screw": N_("Screw of the platform"),
     "body_plate_pin": N_("Pin of plate 16"), "platform_plate_pin_rear": N_("Pin of plate 11"),
     "free_ring_pin": N_("Front pin of the free ring"), "free_ring_pin_rear": N_("Rear pin of the free ring"),
     "first_crank": N_("First crank"), "second_crank": N_("Second crank"),
     "plug_1": N_("Plug of the front row of balls"), "plug_2": N_("Plug of the rear row of balls"),
     "spacer_28_1": N_("Spacer ring of worm I"), "spacer_28_2": N_("Spacer ring of worm II"),
+    "link_1": N_("Link of arm O1O2"), "link_2": N_("Link of arm O2O3"),
+    "idler_1": N_("Idler of arm O1O2"), "idler_2": N_("Idler of arm O2O3"),
+    "idler_pin_1": N_("Pin of the idler of arm O1O2"), "idler_pin_2": N_("Pin of the idler of arm O2O3"),
     "set_screw_1": N_("Set screw of worm I"), "set_screw_2": N_("Set screw of worm II"),
 }  # fmt: skip
 _DESIGNATION, _STANDARD = N_("KRB.PM.25.33.13.00.{number}"), N_("GOST {number}")
@@ -149,8 +158,8 @@ class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
         Literal["cranks", "thesis", "idlers"],
         Meta(
             description="cranks keep the platform parallel: plates 11 and 16, ring 14, its guide 13, cranks 34 and "
-            "pins 35, without 15 and 57; thesis: its wheels 11, 14, 16, axle 13; idlers (power_module_kinematics) find "
-            "no room about nut 47"
+            "pins 35, without 15 and 57; idlers too: wheels 11, 14, 16 with idlers 36 between, their pins 37, links 38, "
+            "post 39; thesis: its wheels 11, 14, 16, axle 13"
         ),
     ] = "cranks"
     module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = DRIVERS["module"]
@@ -217,14 +226,6 @@ def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
     ParameterError
         A condition is not kept: its driver, what lacks and by how much.
     """
-    if keys.orientation == "idlers":
-        # an idler half as large as its neighbours, at half an arm: their roots, and a wall about the thread M45
-        arm = keys.module * (keys.teeth[1] - keys.teeth[0]) / 2
-        root = arm / 3 - (1.25 + IDLER_SHIFT) * keys.wheel_module
-        raise ParameterError(
-            "orientation", keys.orientation, "idlers_below_thread", Nearest("cranks"), root=root, thread=_THREAD_47,
-            wall=_WALL_47,
-        )  # fmt: skip
     found = sizes(drivers(keys), keys.orientation)
     for condition in of_orientation(CONDITIONS, keys.orientation):
         left = valued(condition.made_of, found)
@@ -235,8 +236,9 @@ def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
     arm = found["arm"]
     if keys.second_arm is not None and abs(keys.second_arm - arm) > 1e-9:
         raise ParameterError("second_arm", keys.second_arm, "arm_of_ring_and_pinion", Nearest(arm), arm=arm)
-    whole = arm / keys.wheel_module
-    if keys.orientation != "thesis":
+    # an idler is half as large as its neighbours
+    whole = arm / keys.wheel_module / (3 if keys.orientation == "idlers" else 1)
+    if keys.orientation == "cranks":
         if keys.wheel_module != DRIVERS["wheel_module"]:
             raise ParameterError("wheel_module", keys.wheel_module, "for_thesis_only")
     elif abs(whole - round(whole)) > 1e-9 or round(whole) < 12:
@@ -294,7 +296,7 @@ class _Making(Making):
         self._outer_disk()
         self._ring()
         self._inner_disk()
-        (self._ring_between_cranks if self.cranks else self._satellite)()
+        {"cranks": self._ring_between_cranks, "thesis": self._satellite, "idlers": self._idlers}[self.keys.orientation]()
         self._platform()
         self._worms()
         keys = self.keys
@@ -387,11 +389,13 @@ class _Making(Making):
         self._set("body", "spacer_18", "spacer_18", s["z_boss"])
         if self.cranks:
             self._body_plate()
+        elif self.idlers:
+            self._post()
         else:
-            self._wheel("central_wheel", keys.wheel_width, 20.0, holes=_holes(6, M8[0], s["r_54"]))
+            self._wheel("central_wheel", keys.wheel_width, 2 * _AXLE, holes=_holes(6, M8[0], s["r_54"]))
             self._set("body", "central_wheel", "central_wheel", s["z_16"])
         self._screw("screw_54", 8, 75, M8[1:])
-        self._circle("body", "central_screw", "screw_54", 6, s["r_54"], s["z_16"] + s["h_54"] - 75)
+        self._circle("body", "central_screw", "screw_54", 6, s["r_54"], s["z_boss"] + s["h_18"] + s["h_54"] - 75)
         # to the bed
         self._hex("bolt_42", 12, 45, _HEX_12[:2])
         self._layers("nut_44", [(_HEX_12[2], {"polygons": [_hexagon(_HEX_12[0])], "circles": [_round(12)]})])
@@ -647,8 +651,17 @@ class _Making(Making):
 
     def _satellite(self) -> None:
         """The axle 13, and what holds wheel 14 on it."""
-        s, keys, z = self.s, self.keys, -self.s["h_24"]
-        end, collar = s["z_16"] - keys.clearance, s["z_11"] + keys.wheel_width + keys.clearance
+        s, keys = self.s, self.keys
+        self._satellite_axle(s["z_16"], s["z_11"] + keys.wheel_width)
+        self._wheel("satellite_wheel", s["h_14"], 2 * (_AXLE + keys.clearance))
+        self.found.instances["satellite_wheel"] = {"part": "satellite_wheel", "subassembly": self.within}
+        self.mate("external_gear_pair", "central_wheel", "satellite_wheel")
+        self.mate("carried", "disk_2", "satellite_wheel")
+
+    def _satellite_axle(self, low: float, high: float) -> None:
+        """The axle 13 of what turns between two heights, clamped to the pinion by nut 46."""
+        keys, z = self.keys, -self.s["h_24"]
+        end, collar = low - keys.clearance, high + keys.clearance
         self._turned("satellite_axle", [
             (7.0, 0.0), (10.0, 0.0), (10.0, collar - end), (15.0, collar - end), (15.0, z - end), (10.0, z - end),
             (10.0, z + keys.face_width + 10 - end), (0.0, z + keys.face_width + 10 - end), (0.0, 17.0), (7.0, 17.0),
@@ -659,16 +672,17 @@ class _Making(Making):
         self._set("pinion", "spacer_15", "spacer_15", end - 5)
         self._screw("screw_57", 14, 20, (21.0, 14.0), down=True)
         self._set("pinion", "screw_57", "screw_57", end - 5 - 14)
-        self._wheel("satellite_wheel", s["h_14"], 20.0 + 2 * keys.clearance)
-        self.found.instances["satellite_wheel"] = {"part": "satellite_wheel", "subassembly": self.within}
-        self.mate("external_gear_pair", "central_wheel", "satellite_wheel")
-        self.mate("carried", "disk_2", "satellite_wheel")
 
     def _platform_wheel(self) -> None:
-        """Wheel 11, in mesh with wheel 14."""
-        self._wheel("platform_wheel", self.keys.wheel_width, 45.0)
+        """Wheel 11, in mesh with wheel 14, or with the idler between."""
+        keys, mesh = self.keys, "external_gear_pair"
+        self._wheel("platform_wheel", keys.wheel_width, 2 * (self.s["r_end"] if self.idlers else _THREAD_47))
         self._on_axle("platform_wheel", self.s["z_11"])
-        self.mate("external_gear_pair", "satellite_wheel", "platform_wheel")
+        if not self.idlers:
+            self.mate(mesh, "satellite_wheel", "platform_wheel")
+            return
+        self._idler(2, "platform_wheel", "pinion", direction_deg=180.0)
+        self.mate(mesh, "satellite_wheel", "idler_2")
 
     def _on_axle(self, name: str, z: float) -> None:
         """What turns with the platform, about O3."""
@@ -678,6 +692,59 @@ class _Making(Making):
         """On what is clamped to the pinion in its middle."""
         self._tube("nut_46", 10.0, *_NUT_20)
         self._set("pinion", "nut_46", "nut_46", self.keys.face_width - self.s["h_24"])
+
+    # -- what keeps it parallel: an idler on each arm
+
+    @property
+    def idlers(self) -> bool:
+        """Idlers between the wheels."""
+        return self.keys.orientation == "idlers"
+
+    def _post(self) -> None:
+        """What holds wheel 16 over the link of arm O1O2."""
+        s, keys = self.s, self.keys
+        top, neck = s["z_16"] + keys.wheel_width - s["z_39"], s["r_neck"]
+        self._turned("post", [
+            (0, 0), (s["r_18"], 0), (s["r_18"], s["h_54"]), (neck, s["h_54"]), (neck, s["z_16"] - s["z_39"]),
+            (s["r_end"], s["z_16"] - s["z_39"]), (s["r_end"], top), (0, top),
+        ], _holes(6, M8[0], s["r_54"]))  # fmt: skip
+        self._set("body", "post", "post", s["z_39"])
+        self._wheel("central_wheel", keys.wheel_width, 2 * s["r_end"])
+        self._set("post", "central_wheel", "central_wheel", s["z_16"])
+
+    def _idlers(self) -> None:
+        """Axle 13 with wheel 14 between both links, and the idler of arm O1O2."""
+        s, keys = self.s, self.keys
+        self._satellite_axle(s["z_38_rear"], s["z_38"] + s["h_38"])
+        teeth = round(s["arm"] / keys.wheel_module / 3)
+        self.part("idler", kind="spur_gear", module=keys.wheel_module, number_of_teeth=teeth,
+                  profile_shift_coefficient=IDLER_SHIFT, bore_diameter=2 * (s["r_37"] + keys.clearance),
+                  face_width=keys.wheel_width)  # fmt: skip
+        head, shank = s["h_37"], s["h_37"] + keys.wheel_width + 2 * s["play_36"] + s["h_38"]
+        self._screw("idler_pin", 2 * s["r_37"], shank - head, (2 * s["r_37"] + 6, head))
+        self._screw("idler_pin_down", 2 * s["r_37"], shank - head, (2 * s["r_37"] + 6, head), down=True)
+        turning = 2 * (s["r_neck"] + keys.clearance)
+        self._layers("link", [(s["h_38"], {
+            "slots": [{"start": [0.0, 0.0], "end": [s["arm"], 0.0], "width": 2 * s["r_38"]}],
+            "circles": [_round(turning), _round(2 * s["r_37"], s["arm"] / 2), _round(turning, s["arm"])],
+        })])  # fmt: skip
+        # hinged on two axes of a disk, a link turns as that does
+        self._set("disk_2", "link_1", "link", s["z_38_rear"])
+        self._set("link_1", "idler_pin_1", "idler_pin", s["z_38_rear"], complex(s["arm"] / 2))
+        self._idler(1, "central_wheel", "disk_2")
+        self._wheel("satellite_wheel", s["h_14"], 2 * (_AXLE + keys.clearance))
+        self.found.instances["satellite_wheel"] = {"part": "satellite_wheel", "subassembly": self.within}
+        self.mate("external_gear_pair", "idler_1", "satellite_wheel")
+        self.mate("carried", "disk_2", "satellite_wheel")
+        self._set("pinion", "link_2", "link", s["z_38"])
+        low = s["z_11"] - s["play_36"] - head
+        self._set("pinion", "idler_pin_2", "idler_pin_down", low, complex(s["arm"] / 2))
+
+    def _idler(self, number: int, wheel: str, holder: str, **more: object) -> None:
+        """In mesh with a wheel, carried by the disk whose arm it stands on."""
+        self.found.instances[f"idler_{number}"] = {"part": "idler", "subassembly": self.within}
+        self.mate("external_gear_pair", wheel, f"idler_{number}", **more)
+        self.mate("carried", holder, f"idler_{number}")
 
     # -- what keeps it parallel: cranks
 
@@ -762,18 +829,24 @@ class _Making(Making):
         self.within = "platform_unit"
         (self._platform_plate if self.cranks else self._platform_wheel)()
         first = "platform_plate" if self.cranks else "platform_wheel"
-        end, r = s["z_11"] - s["h_47"] - 2, s["r_journal"]
-        shoulder, flange = s["z_11"] + keys.wheel_width - end, s["z_flange"] - end
+        end, r, clamped = s["z_47"] - 2, s["r_journal"], s["z_47"] + s["h_47"] + (not self.idlers) * keys.wheel_width
+        # with idlers a neck for their link goes on below the thread, and wheel 11 on its end
+        neck = [(0.0, end)]
+        if self.idlers:
+            step, end = s["z_11"] + keys.wheel_width, s["z_11"]
+            neck = [(0.0, end), (s["r_end"], end), (s["r_end"], step), (s["r_neck"], step), (s["r_neck"], s["z_47"] - 2)]
+        shoulder, flange = clamped - end, s["z_flange"] - end
         self._turned("platform_axle", [
-            (0, 0), (_THREAD_47, 0), (_THREAD_47, shoulder), (r, shoulder), (r, flange), (s["r_55"] + 10, flange),
+            *((radius, z - end) for radius, z in neck), (_THREAD_47, s["z_47"] - 2 - end), (_THREAD_47, shoulder),
+            (r, shoulder), (r, flange), (s["r_55"] + 10, flange),
             (s["r_55"] + 10, flange + 12), (r, flange + 12), (r, flange + 18), (0, flange + 18),
         ], _holes(6, 10, s["r_55"]))  # fmt: skip
         self._set(first, "platform_axle", "platform_axle", end)
         self._tube("nut_47", _THREAD_47, s["r_47"], s["h_47"])
-        self._set(first, "nut_47", "nut_47", s["z_11"] - s["h_47"])
+        self._set(first, "nut_47", "nut_47", s["z_47"])
         top = -s["h_24"] - 1
-        self._tube("spacer_10", r, r + 6, top - s["z_11"] - keys.wheel_width)
-        self._set(first, "spacer_10", "spacer_10", s["z_11"] + keys.wheel_width)
+        self._tube("spacer_10", r, r + 6, top - clamped)
+        self._set(first, "spacer_10", "spacer_10", clamped)
         half = keys.platform_size / 2
         side, screws = _square(half, 10.0), _on_circle(6, s["r_55"])
         sunk = M10[2] + 1
@@ -850,7 +923,8 @@ class _Making(Making):
         self._order_within()
         bolts, nuts = ([f"{name}_{k}" for k in range(1, 9)] for name in ("bolt_42", "nut_44"))
         cranks = [("front", *(f"first_crank_{k}" for k in (1, 2, 3)))] if self.cranks else []
-        held = [("front", "body_plate"), ("front", "body_plate_pin")] if self.cranks else [("front", "central_wheel")]
+        held = [("front", {"idlers": "post", "thesis": "central_wheel"}.get(self.keys.orientation, "body_plate"))]
+        held += [("front", "body_plate_pin")] if self.cranks else []
         self.bring(
             "body", ("front", *bolts), ("behind", *nuts), ("front", "spacer_18"),
             *held, ("front", "central_screw"), *cranks, ("front", "ring"), ("front", "guide_6"),
@@ -888,6 +962,14 @@ class _Making(Making):
             seconds = [f"second_crank_{k}" for k in (1, 2, 3)]
             last = [("behind", *seconds), ("behind", "free_ring")]
             self.bring("ring", ("behind", "platform_plate"), ("behind", "nut_47"), *last)
+        elif self.idlers:
+            self.bring("link_2", ("behind", "idler_2"), ("behind", "idler_pin_2"))
+            # wheel 16 lies on its link until the post goes into it
+            self.bring("link_1", ("front", "central_wheel"), ("front", "idler_1"), ("front", "idler_pin_1"))
+            self.bring(
+                "ring", ("behind", "nut_47"), ("behind", "link_2"), ("behind", "platform_wheel"),
+                ("behind", "satellite_wheel"), ("behind", "link_1"), ("behind", "spacer_15"), ("behind", "screw_57"),
+            )  # fmt: skip
         else:
             self.bring(
                 "ring", ("behind", "satellite_wheel"), ("behind", "spacer_15"), ("behind", "screw_57"),
@@ -897,9 +979,11 @@ class _Making(Making):
     # -- bodies
 
     def _wheel(self, name: str, width: float, bore: float, **more: object) -> None:
-        teeth = round(self.s["arm"] / self.keys.wheel_module)
+        """A wheel that spans an arm with its like, or with an idler between."""
+        teeth = round(self.s["arm"] / self.keys.wheel_module * (2 / 3 if self.idlers else 1))
+        shift = {"profile_shift_coefficient": -IDLER_SHIFT} if self.idlers else {}
         self.part(name, kind="spur_gear", module=self.keys.wheel_module, number_of_teeth=teeth, bore_diameter=bore,
-                  face_width=width, **more)  # fmt: skip
+                  face_width=width, **shift, **more)  # fmt: skip
 
     def _worm_wheel(self, name: str, which: int, bore: float, holes: list[Table]) -> None:
         keys = self.keys

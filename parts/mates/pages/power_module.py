@@ -95,22 +95,21 @@ def sheet(table: dict[str, Any]) -> Sheet:
         _ball_ring(page, keys, carried, found)
         _orientation(page, keys)
         _play(page, keys)
-        if keys.orientation != "idlers":
-            _sizes(page, keys, found)
+        _sizes(page, keys, found)
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     return page
 
 
 def _found(keys: PowerModuleKeys, orientation: str) -> dict[str, float]:
-    """Sizes of the assembly ``power_module`` with these drivers; with idlers it is not built: its disks, by cranks."""
+    """Sizes of the assembly ``power_module`` with these drivers."""
     own = {
         "module": keys.module, "teeth_19": keys.pair_teeth[0], "teeth_21": keys.pair_teeth[1],
         "worm_module": keys.worm_module, "worm_quotient": keys.diameter_quotient, "worm_teeth_25": keys.worm_ratios[0],
         "worm_teeth_23": keys.worm_ratios[1], "worm_wheel_width": keys.rim_width, "face_width": keys.face_width,
         "balls": keys.balls, "ball": keys.ball_diameter,
     }  # fmt: skip
-    found = sizes({**DRIVERS, **own}, "cranks" if orientation == "idlers" else orientation)
+    found = sizes({**DRIVERS, **own}, orientation)
     return found | ({} if keys.groove_radius is None else {"r_groove": keys.groove_radius})
 
 

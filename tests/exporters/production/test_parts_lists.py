@@ -126,9 +126,11 @@ def test_two_parts_have_one_position_only_where_the_list_tells_them_alike(tmp_pa
         ("thesis", {"parts": (33, 42), "standard": (15, 417)}),
         # 34 and 35 are added, 15 and 57 dropped
         ("cranks", {"parts": (34, 59), "standard": (14, 416)}),
+        # 36 to 39 are added
+        ("idlers", {"parts": (37, 49), "standard": (15, 417)}),
     ],
 )
-def test_the_list_of_the_power_module_is_the_theses_or_as_cranks_change_it(
+def test_the_list_of_the_power_module_is_the_theses_or_what_keeps_it_parallel_changes_it(
     orientation: str, wanted: dict[str, tuple[int, int]]
 ) -> None:
     from parts.scene.load import in_keys_of_file, make_parts, scene_from_dict

@@ -39,13 +39,16 @@ REPLACED = {
 }
 ADDED = {34: (6, "Crank", "Кривошип"), 35: (12, "Crank pin", "Палець кривошипа")}
 DROPPED = {15: 1, 57: 1}
+# what idlers add to the wheels of the thesis
+BETWEEN = {36: (2, "Idler", "Проміжне колесо"), 37: (2, "Idler pin", "Палець проміжного колеса"),
+           38: (2, "Link", "Ланка"), 39: (1, "Post", "Стояк")}  # fmt: skip
 
 
-@pytest.mark.parametrize("orientation", ["thesis", "cranks"])
-def test_exactly_the_parts_list_of_the_thesis_but_for_what_the_cranks_change_by_name(orientation: str) -> None:
+@pytest.mark.parametrize("orientation", ["thesis", "cranks", "idlers"])
+def test_exactly_the_parts_list_of_the_thesis_but_for_what_keeps_the_platform_parallel(orientation: str) -> None:
     items = json.loads(LIST.read_text("utf-8"))["items"]
     for language in ("en", "uk"):
-        scene = module(names=language, **({"orientation": "thesis"} if orientation == "thesis" else {}))
+        scene = module(names=language, **({} if orientation == "cranks" else {"orientation": orientation}))
         count, names = Counter[int](), dict[int, tuple[str, str]]()
         for instance in scene.instances.values():
             part: Any = scene.parts[str(instance.part)]
@@ -58,15 +61,19 @@ def test_exactly_the_parts_list_of_the_thesis_but_for_what_the_cranks_change_by_
         if orientation == "cranks":
             assert {k: every.pop(k) for k in DROPPED} == DROPPED
             every |= {k: row[0] for k, row in ADDED.items()}
+        if orientation == "idlers":
+            every |= {k: row[0] for k, row in BETWEEN.items()}
         assert count == every
         # texts have points; drawings make commas of them
         wanted = {item["pos"]: (item["name_en"], item["name_uk"]) for item in items}
         if orientation == "cranks":
             wanted |= {k: row[1:] for k, row in ADDED.items()} | REPLACED
+        if orientation == "idlers":
+            wanted |= {k: row[1:] for k, row in BETWEEN.items()}
         expected = {k: tuple(name.replace("1,5", "1.5") for name in wanted[k]) for k in every}
         assert names == expected
         sums = sum(n for k, n in count.items() if k < 40), sum(n for k, n in count.items() if k > 40)
-        assert sums == {"thesis": (42, 417), "cranks": (59, 416)}[orientation]
+        assert sums == {"thesis": (42, 417), "cranks": (59, 416), "idlers": (49, 417)}[orientation]
 
 
 def test_worms_are_drawn_with_their_thread_whatever_their_shafts() -> None:
@@ -81,8 +88,8 @@ def test_worms_are_drawn_with_their_thread_whatever_their_shafts() -> None:
 
 def test_every_position_has_its_rules() -> None:
     assert {position for rule in RULES for position in rule.positions} >= {*range(1, 34)} - {
-        # as they are bought, or closed by what others leave: spacers, snap rings and plugs
-        10, 13, 15, 28, 29, 32,
+        # as they are bought, or closed by what others leave: spacers and snap rings
+        10, 13, 15, 28, 29,
     }  # fmt: skip
 
 
@@ -95,7 +102,9 @@ def test_every_position_has_its_rules() -> None:
         ({"module": 10.0}, "assemblies"),
         ({"wheel_module": 5.0, "orientation": "thesis"}, "wheel_module = 5"),
         ({"wheel_module": 3.0}, 'wheel_module = 3.* "thesis" only'),
-        ({"orientation": "idlers"}, 'roots of 20.9 mm radius; the thread of nut 47, 22.5 mm.*"cranks" works'),
+        ({"wheel_module": 2.3, "orientation": "idlers"}, "wheel_module = 2.3"),
+        ({"module": 2.4, "wheel_module": 1.6, "orientation": "idlers"}, "module = 2.4|teeth"),
+        ({"axial_gap": 2.2, "orientation": "idlers"}, "axial_gap = 2.2.*before the link.*at least"),
         ({"axial_gap": 1.0}, "axial_gap = 1.*collars of the pins 35.*at least"),
         ({"ball": 30.0}, "ball = 30.*at most"),
         ({"teeth": (40, 120)}, "teeth"),
@@ -150,6 +159,24 @@ def test_cranks_are_free_at_home_and_what_is_too_long_shows_where_it_passes() ->
     assert {frozenset({"ring_guide", "platform_plate"}), frozenset({"crank_pin", "free_ring"})} <= found
 
 
+# idlers, and what is about them
+IDLERS = {"central_wheel", "satellite_wheel", "platform_wheel", "idler", "idler_pin", "idler_pin_down", "link", "post",
+          "platform_axle", "nut_47", "satellite_axle"}  # fmt: skip
+
+
+def test_idlers_are_free_stretched_and_folded_and_a_pin_too_long_strikes_the_one_that_it_passes() -> None:
+    scene = module(orientation="idlers")
+    assert overlaps(scene) == {}
+    folded = {"pinion": math.pi}
+    assert overlaps(scene, folded, IDLERS) == {}
+    parts: Any = scene.parts
+    # the head of the one before that of the other
+    for point in parts["idler_pin_down"].points[-2:]:
+        point.z -= 8.0
+    found = {frozenset(scene.instances[key].part for key in pair) for pair in overlaps(scene, folded, IDLERS)}
+    assert frozenset({"idler_pin_down", "idler_pin"}) in found
+
+
 @pytest.mark.heavy
 def test_cranks_are_free_wherever_both_disks_may_stand() -> None:
     scene, rng = module(), random.Random(16)
@@ -194,10 +221,11 @@ def test_random_drivers_make_a_module_without_overlap_or_name_what_lacks(seed: i
             name: round(rng.uniform(*ends), 2) for name, ends in _SPREAD.items() if rng.random() < 0.6
         }
         keys["teeth"] = (96, 144)
-        if rng.random() < 0.5:
+        if rng.random() < 0.67:
             # wheels that span the arm
-            keys["wheel_module"] = keys.get("module", 3.0) * 24 / rng.choice((24, 30, 36, 40))
-            keys["orientation"] = "thesis"
+            keys["orientation"] = rng.choice(("thesis", "idlers"))
+            few = {"thesis": (24, 30, 36, 40), "idlers": (36, 42)}[keys["orientation"]]
+            keys["wheel_module"] = keys.get("module", 3.0) * 24 / rng.choice(few)
         keys["balls"] = 2 * rng.randrange(20, 160)
         try:
             scene = module(**keys)

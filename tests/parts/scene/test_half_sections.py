@@ -97,7 +97,7 @@ def larger_ball(parts: Any) -> None:
 
 
 @pytest.mark.heavy
-@pytest.mark.parametrize("orientation", ["thesis", "cranks"])
+@pytest.mark.parametrize("orientation", ["thesis", "cranks", "idlers"])
 @pytest.mark.parametrize(
     ("spoil", "pair"),
     [(shifted_bore, {"disk_2", "ball"}), (longer_bolt, {"spacer_24", "bolt_41"}),
@@ -114,7 +114,10 @@ def test_a_spoiled_part_of_the_power_module_is_found(
 
 
 # the wheel that is turned by a quarter of its pitch, its mate, their numbers of teeth and of meshes
-_TURNED = {"thesis": ("central_wheel", "satellite_wheel", 36, 5), "cranks": ("ring", "pinion", 96, 3)}
+_TURNED = {
+    "thesis": ("central_wheel", "satellite_wheel", 36, 5), "cranks": ("ring", "pinion", 96, 3),
+    "idlers": ("idler_1", "satellite_wheel", 24, 7),
+}  # fmt: skip
 
 
 @pytest.mark.heavy
@@ -151,8 +154,12 @@ def test_the_power_module_is_clear_all_over_its_workspace(capsys: Any) -> None:
     # balls roll in their grooves, in touch, one row for two parts
     fits = {tuple(sorted(fit["parts"])): fit for fit in told["fits"]}
     for races, pairs in (
-        ("bearing_ring", 116), ("disk_3", 64), ("guide_5", 58), ("guide_6", 58), ("spacer_22", 58), ("disk_2", 122),
+        ("bearing_ring", 116), ("disk_3", 64), ("guide_5", 58), ("guide_6", 58), ("spacer_22", 58),
     ):  # fmt: skip
         fit = fits[tuple(sorted(("ball", races)))]
         assert (fit["pairs"], fit["touching"]) == (pairs, pairs)
+    # all but the one before each plug run on the bore; disk 2 stands below the balls of the housing
+    fit = fits["ball", "disk_2"]
+    assert (fit["pairs"], fit["touching"]) == (120, 62)
+    assert fits["ball", "plug"]["least"] == pytest.approx(0.1, abs=1e-4)
     assert fits["end_cover", "worm"]["least"] == pytest.approx(0.05, abs=1e-6)
