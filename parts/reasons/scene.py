@@ -37,7 +37,9 @@ REASONS = {
     "joined_before": N_("is joined to {to} already: steps bring a thing once, and not to itself"),
     "never_brought": N_("do not bring everything together: {left} stands apart; add a step for it"),
     "opened_turned": N_("is for turned parts alone, a snap ring: one of these is none"),
-    "hole_for_one_by_one": N_("is for what comes one by one, along a hole and then outwards or inwards; add `outwards`"),
+    "hole_for_one_by_one": N_(
+        "is for what comes one by one, along a hole and then outwards or inwards; add `outwards`"
+    ),
     "nowhere_outwards": N_("leads nowhere: away from the axis above 0, to it below 0"),
     "outwards_after_along": N_("is the end of a way that comes from outside along a direction; add `along`"),
     "no_direction": N_("has no direction; [1.0, 0.0, 0.0] lays the part along x"),

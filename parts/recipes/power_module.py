@@ -50,7 +50,7 @@ _FLANGE, _GUIDE_SCREWS, _DEEP = 8.0, 20, 10.0
 _RACE_SCREWS, _RACE_START = 32, 1.875
 
 STEEL, IRON, BRONZE, BRASS = "steel", "cast iron", "bronze", "brass"
-# by part: position, name, material, colour; beyond 33, and what 11, 13, 14, 16 are with cranks or idlers, not the thesis's
+# by part: position, name, material, colour; beyond 33, and what 11, 13, 14, 16 are with cranks, not the thesis's
 PARTS: Mapping[str, tuple[int, str, str, str]] = {
     "body": (1, N_("Housing"), IRON, "#b8bfc4"),
     "disk_2": (2, N_("Outer disk"), IRON, "#d9a066"),
@@ -158,8 +158,8 @@ class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
         Literal["cranks", "thesis", "idlers"],
         Meta(
             description="cranks keep the platform parallel: plates 11 and 16, ring 14, its guide 13, cranks 34 and "
-            "pins 35, without 15 and 57; idlers too: wheels 11, 14, 16 with idlers 36 between, their pins 37, links 38, "
-            "post 39; thesis: its wheels 11, 14, 16, axle 13"
+            "pins 35, without 15 and 57; idlers too: wheels 11, 14, 16 with idlers 36 between, their pins 37, links "
+            "38, post 39; thesis: its wheels 11, 14, 16, axle 13"
         ),
     ] = "cranks"
     module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = DRIVERS["module"]
@@ -296,7 +296,8 @@ class _Making(Making):
         self._outer_disk()
         self._ring()
         self._inner_disk()
-        {"cranks": self._ring_between_cranks, "thesis": self._satellite, "idlers": self._idlers}[self.keys.orientation]()
+        turning = {"cranks": self._ring_between_cranks, "thesis": self._satellite, "idlers": self._idlers}
+        turning[self.keys.orientation]()
         self._platform()
         self._worms()
         keys = self.keys
@@ -834,7 +835,8 @@ class _Making(Making):
         neck = [(0.0, end)]
         if self.idlers:
             step, end = s["z_11"] + keys.wheel_width, s["z_11"]
-            neck = [(0.0, end), (s["r_end"], end), (s["r_end"], step), (s["r_neck"], step), (s["r_neck"], s["z_47"] - 2)]
+            wheel = [(s["r_end"], end), (s["r_end"], step)]
+            neck = [(0.0, end), *wheel, (s["r_neck"], step), (s["r_neck"], s["z_47"] - 2)]
         shoulder, flange = clamped - end, s["z_flange"] - end
         self._turned("platform_axle", [
             *((radius, z - end) for radius, z in neck), (_THREAD_47, s["z_47"] - 2 - end), (_THREAD_47, shoulder),
@@ -901,9 +903,7 @@ class _Making(Making):
     def _order(self) -> None:
         """The order of assembly: the units, then what they go into."""
         s = self.s
-        self.bring(
-            "disk_2", ("front", "disk_3"), ("front", "small_cage_1"),
-        )
+        self.bring("disk_2", ("front", "disk_3"), ("front", "small_cage_1"))
         # along the hole past the edge of disk 3, then into its groove; the rear cage comes in over its balls
         inwards = s["r_small"] - s["r_3"] - self.keys.ball / 2 - _PLAY
         self.bring("small_cage_1", ("front", "small_ball_1"), outwards=inwards, one_hole=True)
@@ -954,7 +954,8 @@ class _Making(Making):
         )  # fmt: skip
         self.bring(
             "ring", ("behind", "pinion"), ("front", "sleeve_17"), ("front", "disk_2"), ("behind", "bearing_screw"),
-            ("front", "disk_3_screw"), ("front", "shield_8"), ("front", "shield_8_screw"), ("front", "platform_axle"), ("behind", "spacer_10"),
+            ("front", "disk_3_screw"), ("front", "shield_8"), ("front", "shield_8_screw"),
+            ("front", "platform_axle"), ("behind", "spacer_10"),
         )  # fmt: skip
         if self.cranks:
             self.bring("platform_plate", ("behind", "platform_plate_pin_rear"))
