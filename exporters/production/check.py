@@ -234,9 +234,11 @@ def _solids(
     elif placing.train is not None:
         from parts.scene.moving_solids import motion_found
         from parts.scene.relative_path import course_of
+        from parts.scene.workspace import never_meeting
 
         course = course_of(placing.train, [i.id for i in placing.instances])
-        found = motion_found(placing, shapes, course, known)
+        apart = never_meeting(placing, shapes, by_contact(placing, parts))
+        found = motion_found(placing, shapes, course, known, apart)
         solids += [_overlap(x.first, x.second, x.volume, language, names, drives[0], x.time) for x in found.struck]
         checks["motion"] = {
             "pairs": found.pairs,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from heapq import heapify, heappop, heappush
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -73,11 +73,15 @@ Clear = dict[tuple[str, str, float], list[tuple[Path, Uncovered | None]]]
 
 
 def motion_found(
-    placing: Placing, shapes: Mapping[str, Shape], course: Course, known: set[frozenset[str]]
+    placing: Placing,
+    shapes: Mapping[str, Shape],
+    course: Course,
+    known: set[frozenset[str]],
+    apart: Set[frozenset[str]] = frozenset(),
 ) -> MotionFound:
     """Every two instances that move on each other, each pair that repeats once.
 
-    ``known``: pairs that overlap as they stand.
+    ``known``: pairs that overlap as they stand; ``apart``: pairs that never meet, whatever moves.
     """
     plates = {i.id for i in placing.instances if shapes[i.part].part.is_plate}
     mated = {frozenset((m.first.id, m.second.id)) for m in placing.mates if m.mating.has_contact}
@@ -94,6 +98,8 @@ def motion_found(
             if ends <= plates and frozenset(seats.get(end, end) for end in ends) in mated:
                 continue
             found.pairs += 1
+            if ends in apart:
+                continue
             try:
                 hold(found, clear, (one, two), (shapes[one.part], shapes[two.part]), course, is_mated=ends in mated)
             except GeometryError:

@@ -101,16 +101,21 @@ class Shape:
                  for radii in (outer, np.minimum(inner, outer))]  # fmt: skip
         return manifold3d.Manifold.revolve(manifold3d.CrossSection([[*sides[0], *reversed(sides[1])]]), _SIDES)
 
+    @property
+    def is_slabs(self) -> bool:
+        """Whether it is upright slabs: no screws, chamfers or curved faces."""
+        body = self.part.body(0.0)
+        return not body.is_faced and all(body.is_upright(wall) for wall in body.walls)
+
     @cached_property
     def slabs(self) -> tuple[Slab, ...] | None:
         """The solid as upright slabs; None of one with screws, chamfers or curved faces."""
         import shapely
 
-        body = self.part.body(0.0)
-        if body.is_faced or not all(body.is_upright(wall) for wall in body.walls):
+        if not self.is_slabs:
             return None
         found = []
-        for low, high in pairwise(body.levels()):
+        for low, high in pairwise(self.part.body(0.0).levels()):
             loops = [np.asarray(points) for points in self.solid.slice((low + high) / 2).to_polygons()]
             rings = [shapely.Polygon(points) for points in loops]
             turns = [shapely.is_ccw(ring.exterior) for ring in rings]

@@ -118,6 +118,27 @@ def workspace_found(
     return found
 
 
+def never_meeting(placing: Placing, shapes: Mapping[str, Shape], contact: set[frozenset[str]]) -> set[frozenset[str]]:
+    """Pairs that cannot meet wherever the drives may stand, of upright solids that are not both of slabs: meshes held
+    in many poses take far longer.
+    """
+    train = placing.train
+    assert train is not None
+    even = [i for i in placing.instances if i.axis == UPWARDS and not uneven(train, i.id)]
+    waves, bodies = {i.id: _waves_of(train, i.id) for i in even}, train.moving.stands.body
+    sections, done = Sections({name: shape.part for name, shape in shapes.items()}), dict[object, bool]()
+    slabs, found = {name: shape.is_slabs for name, shape in shapes.items()}, set[frozenset[str]]()
+    for pair in combinations(even, 2):
+        ends, made = [i.id for i in pair], (shapes[pair[0].part], shapes[pair[1].part])
+        if bodies(ends[0]) == bodies(ends[1]) or all(slabs[i.part] for i in pair) or frozenset(ends) in contact:
+            continue
+        if _at_one_height(pair, made):
+            seen = _Seen(pair, (waves[ends[0]], waves[ends[1]]), made)
+            if seen.moves and _why_not(seen, done, sections, is_mated=False) is not None:
+                found.add(frozenset(ends))
+    return found
+
+
 def _at_one_height(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape]) -> bool:
     (one, two), lift = shapes, pair[1].at[2] - pair[0].at[2]
     return one.high > two.low + lift and two.high + lift > one.low

@@ -292,3 +292,38 @@ def test_random_motions_against_polygons() -> None:
                 break
         assert bool(found) or worst <= 1
         assert not found or worst > 0 or (found[0].volume or 0.0) < 0.5
+
+
+def ring(*points: tuple[float, ...]) -> dict[str, Any]:
+    names = ("r", "z", "arc")
+    return {"kind": "turned", "points": [dict(zip(names, p, strict=False)) for p in points]}
+
+
+@pytest.mark.parametrize(("post", "strikes"), [
+    (None, False), (27.0, False), pytest.param(24.5, True, marks=pytest.mark.heavy),
+])  # fmt: skip
+def test_balls_that_roll_about_an_axis_need_no_poses_but_what_stands_in_their_way_is_found(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], post: float | None, strikes: bool
+) -> None:
+    """Balls of 8 on a circle of 20 reach 24 mm, the post is of 2: half sections part them from all that is round."""
+    parts = {
+        "race": ring((10, 0), (17, 0), (17, 4 - 7**0.5, -4.0), (17, 4 + 7**0.5), (17, 8), (10, 8)),
+        "rotor": ring((5, 9), (18, 9), (18, 12), (5, 12)),
+        "ball": {"kind": "turned", "points": [{"r": 0.0, "z": 0.0, "arc": 4.0}, {"r": 0.0, "z": 8.0}]},
+        "post": ring((0, 0), (2, 0), (2, 8), (0, 8)),
+    }
+    places: dict[str, Any] = {"race": {"at": [0, 0, 0], "held": True}, "rotor": {}, "ball": {"count": 6}}
+    places |= {} if post is None else {"post": {"at": [0.0, post, 0], "held": True}}
+    mates = [
+        {"kind": "coaxial", "first": "race", "second": "rotor"},
+        {"kind": "fixed", "first": "rotor", "second": "ball", "offset": [20.0, 0.0, 0.0]},
+    ]
+    drives = [{"instance": "rotor"}]
+    raw = {"parts": {key: parts[key] for key in places}, "instances": places, "mates": mates, "drives": drives}
+    code, found = check(tmp_path, raw, capsys)
+    assert code == int(strikes)
+    assert found["motion"]["pairs"] >= 6
+    assert (found["motion"]["poses"] > 0) is strikes
+    assert {frozenset((x["first"], x["second"])) for x in found.get("solids", [])} >= (
+        {frozenset(("ball_1", "post"))} if strikes else set()
+    )
