@@ -7,7 +7,7 @@ import gc
 import os
 import signal
 import sys
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import pairwise
 from pathlib import Path
@@ -20,6 +20,7 @@ from parts.base.texts import ENGLISH, Words, languages, words
 
 if TYPE_CHECKING:
     from exporters.production.plan import Plan
+    from parts.base.part import Part
     from parts.scene.load import SceneFile
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130
@@ -457,6 +458,15 @@ def _print_json(asked: Sequence[object], found: Sequence[object]) -> None:
     print(json.dumps(found[0] if len(asked) == 1 else found, indent=1, ensure_ascii=False))
 
 
+def _mate_for(parts: Iterable[Part]) -> str:
+    """The first kind of mate that joins one of the parts to another."""
+    from parts.mates.registry import MATES
+
+    kinds = {part.made_by.name for part in parts}
+    mates = (mate for mate in MATES.values() if mate.joins and any(kinds & {*pair} for pair in mate.joins))
+    return next((mate.name for mate in mates), "external_gear_pair")
+
+
 def _check(options: argparse.Namespace) -> int:
     from exporters.production.check import scene_checks
     from exporters.production.check_lines import check_lines, has_bad_verdict, names_of
@@ -471,7 +481,7 @@ def _check(options: argparse.Namespace) -> int:
             parts, matings = make_parts(scene, address)
             placing = place(scene.instances, scene.drives, parts, matings, address)
             if len(placing.instances) < 2:
-                raise SceneError(address, "mates", None, "nothing_to_check")
+                raise SceneError(address, "mates", None, "nothing_to_check", mate=_mate_for(parts.values()))
             check_solids(parts, address)
             check_workspace(scene.checks.workspace, placing, address)
         asked, language = scene.checks.transmission_error, scene.scene.language

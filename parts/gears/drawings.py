@@ -119,7 +119,7 @@ def _engraved(keys: SpurGearSpec | RingGearSpec, subject: Subject) -> tuple[str,
 def _thread_words(keys: WormSpec, subject: Subject) -> tuple[str, ...]:
     """How the thread ends, and where a keyway stands beside it."""
     words = {"cut": "thread_ends", "blunt": "thread_ends_blunt", "run_out": "thread_run_out"}[keys.thread_ends]
-    angle = keys.run_out_deg if keys.thread_ends == "run_out" else keys.end_angle_deg
+    angle = (keys.run_out_deg if keys.thread_ends == "run_out" else keys.end_angle_deg) or 0.0
     ends = sheet_words(subject.language, words, angle=subject.say(angle), length=subject.say(keys.thread_length))
     found = directions(hub_holes(bore_of(keys), None, None), subject, "zero_thread", keys.number_of_starts)
     return (() if keys.thread_ends == "cut" and not keys.end_angle_deg else (ends,)) + found
@@ -243,6 +243,10 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
              and max(c.start.imag, c.end.imag) == worm.tip_radius]  # fmt: skip
     fits = Fits(wishes.shaft, "", wishes.tip)
     sizes = [*turned_sizes(loop, fits, subject.language, lambda curve: curve not in cones).sizes]
+    if body.run_out:
+        sizes.append(
+            Size("thread_length", complex(-half, -worm.root_radius), complex(half, -worm.root_radius), "below")
+        )
     bore = bore_of(keys)
     made = None if bore is None else bore.bore()
     if made is not None:

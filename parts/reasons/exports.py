@@ -48,7 +48,7 @@ REASONS = {
     "no_such_mate": N_("the scene has no such mate"),
     "not_in_empty_report": N_("not named in {name}, which knows no file"),
     "not_in_report": N_("not named in {name}; it knows: {known}"),
-    "nothing_to_check": N_('nothing to check; add [[mates]] kind = "external_gear_pair"'),
+    "nothing_to_check": N_('nothing to check; add [[mates]] kind = "{mate}"'),
     "nothing_to_measure": N_("hold no file of a single part to measure; add one"),
     "not_a_file_to_read": N_("is a pipe or a device; name files"),
     "of_part": N_("{part}: {why}"),

@@ -134,9 +134,12 @@ REASONS = {
     "worm_run_out_in_wheel": N_("the teeth of the wheel run into the worm where its tool leaves"),
     "worm_shaft_in_wheel": N_("the teeth of the wheel run into this step of the shaft"),
     "worm_shaft_over_root": N_(
-        "is thicker than the root of the thread, {root} mm: the thread would end in it, but for thread_ends = 'run_out'"
+        "is thicker than the root of the thread, {root} mm, which would end in it; thread_ends = 'run_out' lets the "
+        "tool leave into a shaft of any diameter"
     ),
     "worm_spaces_closed": N_("the spaces between the threads close above the root; take more q or fewer starts"),
+    "only_of_thread_ends": N_("is for thread_ends = '{ends}'"),
+    "worm_step_groove": N_("would be a groove before the next step of the shaft, which is thicker than what it leaves"),
     "worm_step_chamfer": N_("leaves nothing of its step of the shaft"),
     "worm_thread_too_short": N_("leaves no whole thread between its ends"),
     "wheels_of_scheme": N_("this scheme has {wheels} wheels, in the order z1, z2, (z2',) z3"),

@@ -150,8 +150,9 @@ class WormBody(Record):
         if self.ending == "cut":
             thread = [(float(self.end_height(worm.tip_radius)), worm.tip_radius)]
         elif self.ending == "blunt":
+            # the whole section as it stands where the thread is cut off
             foot = self.start[0] - CLEAR * worm.module
-            thread = [(foot, worm.tip_radius), (foot, worm.root_radius)]
+            thread = [(foot - self.thread.root_half + self.thread.tip_half, worm.tip_radius), (foot, worm.root_radius)]
         return [*below, *((-z, r) for z, r in reversed(thread)), *thread, *above]
 
     def root_line(self) -> list[tuple[float, float]]:

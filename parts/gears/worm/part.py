@@ -43,6 +43,8 @@ if TYPE_CHECKING:
     from geometry.solids.sketch import Sketch
 
 _MOST = 100_000.0
+# of the ends of a thread, degrees
+_USUAL_ANGLES = {"end_angle_deg": 20.0, "run_out_deg": 90.0}
 
 
 class StepTable(Struct, forbid_unknown_fields=True):
@@ -85,10 +87,16 @@ class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field
     tip_rounding: Annotated[float, mm("radius of the thread's tip edges in the axial section", least=0, most=1000)] = (
         0.0
     )
-    end_angle_deg: Annotated[
-        float,
-        degrees("cone that cuts the thread at both ends, from the end's plane; 0 cuts it plainly", least=0, most=60),
-    ] = 20.0
+    end_angle_deg: (
+        Annotated[
+            float,
+            degrees(
+                "cone that cuts the thread at both ends, from the end's plane; 0 cuts it plainly; default: 20",
+                least=0, most=60, example=20.0,
+            ),
+        ]
+        | None
+    ) = None  # fmt: skip
     thread_ends: Annotated[
         Literal["cut", "blunt", "run_out"],
         Meta(
@@ -96,14 +104,29 @@ class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field
             "where it is whole; run_out, where the tool leaves the spaces: then the shaft may be of any diameter"
         ),
     ] = "cut"
-    run_out_deg: Annotated[
-        float, degrees("turn of the worm within which the tool leaves, of thread_ends run_out", least=10, most=120)
-    ] = 90.0
+    run_out_deg: (
+        Annotated[
+            float,
+            degrees(
+                "turn of the worm within which the tool leaves, of thread_ends run_out; default: 90",
+                least=10, most=120, example=90.0,
+            ),
+        ]
+        | None
+    ) = None  # fmt: skip
     shaft_below: Steps = field(default_factory=list)
     shaft_above: Steps = field(default_factory=list)
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
     accuracy: AccuracyKey = None
+
+
+def _check_ends(keys: WormSpec) -> None:
+    """No angle is given for other ends than the thread has."""
+    for key, ends in (("end_angle_deg", "cut"), ("run_out_deg", "run_out")):
+        given: float | None = getattr(keys, key)
+        if given is not None and keys.thread_ends != ends:
+            raise ParameterError(key, given, "only_of_thread_ends", Nearest(None), ends=ends)
 
 
 def told_worm(keys: WormSpec) -> WormSpec:
@@ -167,7 +190,7 @@ def _in_degrees(refusal: ParameterError, starts: int, given: float) -> Parameter
 
 
 def _check_shaft(keys: WormSpec, root: float) -> None:
-    """Every step within the root, its chamfer within the step."""
+    """The first step within the root, each chamfer within its step and beside no thicker one."""
     for key in ("shaft_below", "shaft_above"):
         steps: list[StepTable] = getattr(keys, key)
         for number, step in enumerate(steps, 1):
@@ -175,6 +198,9 @@ def _check_shaft(keys: WormSpec, root: float) -> None:
             if number == 1 and step.diameter > 2 * root and keys.thread_ends != "run_out":
                 most = limit(2 * root, step.diameter)
                 raise ParameterError(f"{place}.diameter", step.diameter, "worm_shaft_over_root", most, root=2 * root)
+            if number < len(steps) and step.chamfer > (most := max((step.diameter - steps[number].diameter) / 2, 0.0)):
+                cure = limit(most, step.chamfer) if most else Nearest(0.0)
+                raise ParameterError(f"{place}.chamfer", step.chamfer, "worm_step_groove", cure)
             most_chamfer = min(step.length, step.diameter / 2 - least_wall(step.diameter / 2))
             if step.chamfer > most_chamfer:
                 cure = limit(most_chamfer, step.chamfer)
@@ -198,7 +224,10 @@ class WormKind(Kind[WormSpec, "WormBody"]):
     data_table = "parts.gears.data_tables"
 
     def gathered(self, keys: WormSpec, folder: Path) -> WormSpec:
-        """The keys with the usual quotient where neither it nor a lead angle is given."""
+        """The keys with the usual angle of their ends, and quotient where neither it nor a lead angle is given."""
+        angle = {"cut": "end_angle_deg", "run_out": "run_out_deg"}.get(keys.thread_ends)
+        if angle is not None and getattr(keys, angle) is None:
+            keys = changed(keys, **{angle: _USUAL_ANGLES[angle]})
         if keys.lead_angle_deg is not None:
             return keys
         return changed(keys, diameter_quotient=keys.diameter_quotient or USUAL_QUOTIENT)
@@ -207,6 +236,7 @@ class WormKind(Kind[WormSpec, "WormBody"]):
         """The worm's solid, checked to exist."""
         from geometry.gears.worms.body import Step, WormBody
 
+        _check_ends(keys)
         thread = thread_of_keys(keys)
         root = thread.worm.root_radius
         holes = hub_holes(bore_of(keys), None, None)
@@ -219,8 +249,8 @@ class WormKind(Kind[WormSpec, "WormBody"]):
             tuple(Step(s.diameter, s.length, s.chamfer) for s in steps)
             for steps in (keys.shaft_below, keys.shaft_above)
         )
-        angle = math.radians(keys.end_angle_deg) if keys.thread_ends == "cut" else 0.0
-        bore, run_out = (bores[0] if bores else None), math.radians(keys.run_out_deg)
+        angle, run_out = math.radians(keys.end_angle_deg or 0.0), math.radians(keys.run_out_deg or 0.0)
+        bore = bores[0] if bores else None
         body = WormBody(thread, keys.thread_length, angle, below, above, bore, keys.thread_ends, run_out)
         return body.checked()
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
-from geometry.base.nearest import nearest
+from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record, replace
 from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
@@ -196,28 +196,32 @@ def _creased(keys: WormWheelSpec) -> ParameterError:
 def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
     """No tooth is left: in the key that takes it away, with the value that leaves some."""
 
-    def stands(key: str, value: float) -> bool:
+    def stands(value: float, *, whole: bool = False) -> bool:
         less = changed(keys, **{key: value})
         asked = _asked_teeth(less, drive_of(less))
-        # how much of the width stands is sought only where what is of use does
-        teeth = replace(asked, width=_USEFUL * asked.width)
+        # how much of the width stands is sought of one value only
+        teeth = asked.narrowed() if whole else replace(asked, width=_USEFUL * asked.width)
         # what is not whole anywhere has no tip to ask for
         if not teeth.is_whole or teeth.is_creased:
             return False
-        tip = float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0])
-        if tip <= _TIP * keys.module:
-            return False
-        teeth = asked.narrowed()
-        return teeth.is_whole and not teeth.is_creased
+        return whole or float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0]) > _TIP * keys.module
+
+    def cure() -> Nearest | None:
+        found = nearest(stands, given, ends)
+        if found is None or (isinstance(found.value, float) and kept(partial(stands, whole=True), found.value)):
+            return found
+        return nearest(lambda value: stands(value) and stands(value, whole=True), given, ends)
 
     key: str = "addendum_coefficient"
     ends: tuple[float, ...] = (0.8, 0.6, 0.4, 0.2, 0.1)
-    if keys.axial_thinning:
+    for other in ("axial_thinning", "profile_shift_coefficient"):
+        plain = changed(keys, **{other: 0.0})
         with suppress(GeometryError):
-            _asked_teeth(changed(keys, axial_thinning=0.0), drive_of(keys))
-            key, ends = "axial_thinning", (0.0,)
+            if plain != keys and _asked_teeth(plain, drive_of(plain)):
+                key, ends = other, (0.0,)
+                break
     given = getattr(keys, key)
-    return ParameterError(key, given, code, partial(nearest, partial(stands, key), given, ends))
+    return ParameterError(key, given, code, cure)
 
 
 class WormWheelKind(Kind[WormWheelSpec, WheelThing]):

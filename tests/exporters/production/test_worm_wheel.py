@@ -143,6 +143,8 @@ def test_a_default_rim_has_whole_teeth_and_a_torn_face_is_refused() -> None:
          "addendum_coefficient", "worm_wheel_pointed"),
         # before: told of the addendum, which leaves too little in any case; and of a face between two edges
         ({"axial_thinning": 2.5}, "axial_thinning", "worm_wheel_pointed"),
+        # before: of the addendum, with one that leaves a drive nothing
+        ({"profile_shift_coefficient": 2.0}, "profile_shift_coefficient", "worm_wheel_pointed"),
         ({"bore_diameter": 58.0}, "bore_diameter", "leaves_no_wall"),
     ):  # fmt: skip
         with pytest.raises(SceneError) as refused:

@@ -150,6 +150,10 @@ def test_thread_ends_are_where_the_tool_leaves_them(name: str) -> None:
             # thread by thread, whole up to the angle at which its foot is 0.1 modules from the end
             last = (body.length / 2 - 0.1 * worm.module - body.thread.root_half) / p
             inside |= (np.abs(angle) < last) & (np.abs(z - p * angle) < np.interp(r, profile.real, profile.imag))
+        # what drawings show of it; before, crests as long as the foot
+        crest = max(z for z, r in body.envelope() if r == worm.tip_radius)
+        high = np.abs(z[inside & (r > worm.tip_radius - 0.1)]).max()
+        assert crest - 0.5 < high < crest
     else:
         inside[:] = True
         for k in range(-30, 31):

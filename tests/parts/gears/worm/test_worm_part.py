@@ -153,6 +153,14 @@ def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_p
         ({"axial_thinning": 9.0}, "axial_thinning"),
         ({"shaft_above": [{"diameter": 45.0, "length": 5.0}]}, "shaft_above[1].diameter"),
         ({"shaft_below": [{"diameter": 20.0, "length": 5.0, "chamfer": 6.0}]}, "shaft_below[1].chamfer"),
+        # before: a groove between both
+        (
+            {"shaft_below": [{"diameter": 20.0, "length": 5.0, "chamfer": 1.0}, {"diameter": 30.0, "length": 5.0}]},
+            "shaft_below[1].chamfer",
+        ),
+        # before: without effect
+        ({"run_out_deg": 60.0}, "run_out_deg"),
+        ({"thread_ends": "blunt", "thread_length": 50.0, "end_angle_deg": 20.0}, "end_angle_deg"),
         ({"bore_diameter": 40.0}, "bore_diameter"),
         ({"diameter_quotient": 12.0, "lead_angle_deg": 10.0}, "diameter_quotient"),
         # before: the usual q was dropped
@@ -186,8 +194,8 @@ def test_random_worms_are_closed_and_within_their_bounds_as_step_and_stl(seed: i
         "module": module, "number_of_starts": rng.choice([1, 2, 3, 4, 6, 10]), "diameter_quotient": quotient,
         "form": rng.choice(["ZA", "ZI", "ZN1", "ZN2", "ZK1"]), "hand": rng.choice(["left", "right"]),
         "thread_length": round(module * rng.uniform(6.0, 15.0), 2),
-        "end_angle_deg": rng.choice([0.0, 20.0, 45.0, 60.0]),
-        "thread_ends": rng.choice(["cut", "cut", "blunt", "run_out"]), "run_out_deg": rng.uniform(10.0, 120.0),
+        **rng.choice([{"end_angle_deg": rng.choice([0.0, 20.0, 45.0, 60.0])}, {}, {"thread_ends": "blunt"},
+                      {"thread_ends": "run_out", "run_out_deg": rng.uniform(10.0, 120.0)}]),
         "tip_rounding": rng.choice([0.0, 0.05, 0.2]) * module, "fillet_coefficient": rng.choice([0.0, 0.2, 0.3]),
         "shaft_above": [{"diameter": rng.uniform(1.0, 1.99) * root, "length": 2 * module, "chamfer": 0.05 * module}],
         "shaft_below": [{"diameter": 1.999 * root, "length": module}], "bore_diameter": 0.3 * root,
