@@ -198,8 +198,8 @@ def _check_shaft(keys: WormSpec, root: float) -> None:
             if number == 1 and step.diameter > 2 * root and keys.thread_ends != "run_out":
                 most = limit(2 * root, step.diameter)
                 raise ParameterError(f"{place}.diameter", step.diameter, "worm_shaft_over_root", most, root=2 * root)
-            if number < len(steps) and step.chamfer > (most := max((step.diameter - steps[number].diameter) / 2, 0.0)):
-                cure = limit(most, step.chamfer) if most else Nearest(0.0)
+            if number < len(steps) and step.chamfer > (free := max((step.diameter - steps[number].diameter) / 2, 0.0)):
+                cure = limit(free, step.chamfer) if free else Nearest(0.0)
                 raise ParameterError(f"{place}.chamfer", step.chamfer, "worm_step_groove", cure)
             most_chamfer = min(step.length, step.diameter / 2 - least_wall(step.diameter / 2))
             if step.chamfer > most_chamfer:
