@@ -14,7 +14,7 @@ from parts.drawing.expected import Expected
 from parts.drawing.part_sheet import Block, part_sheet
 from parts.drawing.working import Subject
 from parts.keys.working import WorkingTable
-from parts.pages.data_table import WIDTH, draw_data_table, table_height
+from parts.pages.data_table import draw_data_table, table_sizes
 from parts.scene.data_tables import part_table
 
 
@@ -39,11 +39,13 @@ def part_drawings(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
         part, wishes = parts[name], export.drawing or WorkingTable()
         drawing = import_module(str(part.made_by.drawing)).part_drawing(Subject(part, wishes, asked.language))
         try:
-            table, block = part_table(part, wanted.scene, wanted.placing, parts), None
+            table = part_table(part, wanted.scene, wanted.placing, parts)
         except ParameterError as error:
             raise placed(wanted.source, f"parts.{name}", error) from error
-        if table is not None:
-            size = WIDTH, table_height(table, asked.language)
-            block = Block(size, partial(draw_data_table, table=table, language=asked.language))
-        found.append((name, part_sheet(drawing, block, wishes.roughness, asked)))
+        language = asked.language
+        blocks = [
+            Block((wide, high), partial(draw_data_table, table=table, language=language, beside=beside))
+            for beside, wide, high in (table_sizes(table, language) if table else ())
+        ]
+        found.append((name, part_sheet(drawing, blocks, wishes.roughness, asked)))
     return found

@@ -21,8 +21,8 @@ _DIGITS, _SAME, _SAMPLES = 9, 1e-9, 9
 _SMOOTH = 1e-6
 
 
-def part_drawing(subject: Subject) -> PartDrawing:
-    """One view, its thickness told."""
+def part_drawing(subject: Subject, working: Sequence[Curve] = ()) -> PartDrawing:
+    """One view, its thickness told, a sign on one of its ``working`` surfaces beside those of cams."""
     region = subject.part.section(0.0).region
     curves = [s.curve for s in region.outer.segments()]
     low, high = extent(region)
@@ -54,12 +54,14 @@ def part_drawing(subject: Subject) -> PartDrawing:
     edge = max(straight, key=lambda c: (round((c.end + c.start).real, 6), (c.end + c.start).imag), default=None)
     at = farthest(curves, 1) if edge is None else (edge.start + edge.end) / 2
     notes = [Note(at, f"s {subject.say(subject.part.face_width)}")]
-    worked = [s.curve for profile in (region.outer, *slots) for s in profile.segments() if s.label is Label.CAM]
-    if worked:
+    cams = [s.curve for profile in (region.outer, *slots) for s in profile.segments() if s.label is Label.CAM]
+    if worked := [*working, *cams]:
         # in the middle of the longest piece
         curve = max(worked, key=_length)
+        low, high = curve.domain
+        at, *also = (complex(curve.point(low + share * (high - low))) for share in (0.5, 0.25, 0.75))
         words = f"Ra {subject.say(subject.wishes.flank_roughness)}"
-        notes.append(Note(complex(curve.point(sum(curve.domain) / 2)), words, is_rough=True))
+        notes.append(Note(at, words, is_rough=True, also=tuple(also)))
     view = View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), tuple(notes))
     return PartDrawing((view,), requirements(subject))
 

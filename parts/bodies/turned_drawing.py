@@ -16,7 +16,7 @@ from parts.bodies.turned import TurnedSpec
 from parts.drawing.directions import directions
 from parts.drawing.revolved import Loop, below, closed, outer_of, outlined, seen_edges
 from parts.drawing.turned_sizes import Fits, SectionCorner, bores, listed_corners, turned_sizes
-from parts.drawing.wheel_views import axis_along, axis_cross, circle_of, circle_size, section_sides
+from parts.drawing.wheel_views import axis_along, axis_cross, bore_note, circle_of, circle_size, section_sides
 from parts.drawing.working import (
     AXIS,
     HIDDEN,
@@ -176,8 +176,8 @@ def _rough(drilled: Sequence[Line], loop: Loop, subject: Subject) -> Iterator[No
     words = f"Ra {subject.say(subject.wishes.bore_roughness)}"
     for bore in drilled:
         low, high = sorted((bore.start.real, bore.end.real))
-        at = high if max(ends) - high <= low - min(ends) + _SAME else low
-        yield Note(complex(at, -bore.start.imag), words, is_rough=True)
+        first = (low, high) if max(ends) - high <= low - min(ends) + _SAME else (high, low)
+        yield bore_note(first, -bore.start.imag, words)
 
 
 def _walls(loop: Loop, hole: Hole) -> Iterator[tuple[Line, Line]]:
@@ -212,7 +212,7 @@ def _face(half: HalfSection, subject: Subject) -> View:
         best = max(group, key=lambda hole: hole.centre.real + hole.centre.imag)
         words = sheet_words(subject.language, "holes_of", count=len(group)) if len(group) > 1 else ""
         rounds.append(Round(f"holes.{number}.diameter", best.centre, radius, f"{words}Ø"))
-    return View(tuple(strokes), (), tuple(axes), (), tuple(rounds))
+    return View(tuple(strokes), (), tuple(axes), (), tuple(rounds), from_right=True)
 
 
 def _front(half: HalfSection) -> float:

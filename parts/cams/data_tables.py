@@ -21,7 +21,7 @@ _SIZES = (
     "pivot_height", "start_angle_deg", "second_follower_radius", "roller_angle_deg", "driven_pivot_x",
     "driven_pivot_y", "driven_length", "driven_start_angle_deg", "coupler_length", "guide_pivot_x", "guide_pivot_y",
     "guide_length", "coupler_point_x", "coupler_point_y", "least_base_circle_radius", "least_cam_radius",
-    "base_height", "whole_travel", "outer_diameter", "floor_diameter", "groove_width", "groove_depth",
+    "base_height", "whole_travel", "outer_diameter", "floor_diameter", "inner_diameter", "groove_width", "groove_depth",
 )  # fmt: skip
 # the table of positions of each kind, and its columns that a maker needs
 _POLAR = ("phi", "S", "r", "theta")
@@ -42,7 +42,6 @@ _FOLLOWERS: dict[str, Text] = {
 # rows that are called by what the part has of what its kind may have
 _RADII: dict[str, Text] = {"roller": N_("radius of the roller"), "mushroom": N_("radius of the mushroom's face")}
 _TRACK: dict[str, Text] = {
-    "floor_diameter": N_("inner diameter of the track"),
     "groove_depth": N_("width of the track"),
 }
 

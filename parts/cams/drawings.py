@@ -5,12 +5,17 @@ from __future__ import annotations
 import math
 
 from geometry.base.record import replace
-from geometry.curves.line_arc import Line
-from geometry.plane.profile import Profile
+from geometry.cams.contact.outlines import FollowerEnd
+from geometry.cams.plane.disk import FollowerKind
+from geometry.curves.curve import Curve
+from geometry.curves.line_arc import Arc, Line
+from geometry.plane.profile import Profile, Region
 from geometry.solids.wheel import WheelShape
 from parts.bodies import plate_drawing
+from parts.cams.follower import Ended
 from parts.cams.groove_cam.part import GrooveDisk
 from parts.cams.groove_cam.piece import GroovePiece, GroovePieceSpec
+from parts.cams.positive.yoke import Yoke, YokeFrame
 from parts.cams.wheel import Turned
 from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing, reach
@@ -18,10 +23,14 @@ from parts.drawing.revolved import below, closed
 from parts.drawing.wheel_views import Wheel, wheel_views
 from parts.drawing.working import VISIBLE, Note, PartDrawing, Size, Stroke, Subject, requirements
 
+_SAME = 1e-9
+
 
 def part_drawing(subject: Subject) -> PartDrawing:
     """Section across the profile or the groove, face, bore."""
     part = subject.part
+    if isinstance(part.made_by, Ended | Yoke):
+        return plate_drawing.part_drawing(subject, _faces(part.thing, part.section(0.0).region))
     if isinstance(part.thing, GrooveDisk):
         return _groove(subject, part.thing)
     if isinstance(part.thing, GroovePiece):
@@ -33,6 +42,19 @@ def part_drawing(subject: Subject) -> PartDrawing:
     assert isinstance(kind, Turned)
     circles = [name for name in part.circles if name == "base_circle_diameter"]
     return disk_drawing(subject, kind.body(part.keys, part.thing), kind.holes(part.keys, part.thing), "zero_x", circles)
+
+
+def _faces(thing: FollowerEnd | YokeFrame, region: Region) -> list[Curve]:
+    """What of a follower, or of a frame, a cam runs on; nothing of one with a roller or a point."""
+    outer = [segment.curve for segment in region.outer.segments()]
+    if isinstance(thing, YokeFrame):
+        window = [s.curve for hole in region.holes for s in hole.segments() if isinstance(s.curve, Line)]
+        return [c for c in window if c.start.imag == c.end.imag] if thing.cam.is_flat else []
+    if thing.kind is FollowerKind.MUSHROOM:
+        return [c for c in outer if isinstance(c, Arc) and abs(c.radius - thing.radius) < _SAME]
+    height = thing.sense * thing.face_offset
+    flat = [c for c in outer if isinstance(c, Line) and abs(c.start.imag - height) + abs(c.end.imag - height) < _SAME]
+    return [*flat] if thing.kind is FollowerKind.FLAT else []
 
 
 def _groove(subject: Subject, disk: GrooveDisk) -> PartDrawing:

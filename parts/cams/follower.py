@@ -184,6 +184,8 @@ def _check_end(keys: FollowerSpec | FollowerArmSpec, more: Mapping[str, tuple[st
 class Ended(Extruded[F, "FollowerEnd"]):
     """A stem or an arm, by what of it touches the cam."""
 
+    drawing = "parts.cams.drawings"
+
     def flat(self, thing: FollowerEnd) -> PlateOutline:
         """Its outline."""
         assert thing.outline is not None

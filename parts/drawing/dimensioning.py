@@ -56,6 +56,8 @@ _FARTHER = (0.0, 4.0, 8.0, 13.0, 20.0, 30.0)
 _WIDER, _LIBRE_GAP = 1.03, 0.9
 # how many rows nearer a sign seems on the extension of its line, a leader on the side of its arc where it should stand
 _PREFERRED = 3.0
+# how many rows farther away another point of the same surface seems
+_OTHER = 1.0
 _DIMENSION = "DIMENSION"
 
 
@@ -401,10 +403,11 @@ class _Layout:
         """Where it may stand on a leader."""
         if note.looks:
             return
-        tip, body = self.paper.point(note.at), self.body
-        outward = tip - complex((body.left + body.right) / 2, (body.low + body.high) / 2)
-        best = math.degrees(cmath.phase(outward)) if outward else 45.0
-        for reach in _REACHES:
+        body = self.body
+        middle = complex((body.left + body.right) / 2, (body.low + body.high) / 2)
+        for reach, (number, at) in product(_REACHES, enumerate((note.at, *note.also))):
+            tip = self.paper.point(at)
+            best = math.degrees(cmath.phase(tip - middle)) if tip != middle else 45.0
             for turn in _TURNS:
                 way = cmath.rect(1.0, math.radians(best + turn))
                 elbow = tip + reach * way
@@ -416,7 +419,8 @@ class _Layout:
                     lines.append(Line(elbow, elbow + side * (off + 1.0)))
                 else:
                     lines, text = _shelved(elbow, note.text, way)
-                yield _Place({"leader": [Line(tip, elbow), *lines]}, _arrow(tip, way), text, reach / _STEP, put)
+                cost = reach / _STEP + _OTHER * min(number, 1)
+                yield _Place({"leader": [Line(tip, elbow), *lines]}, _arrow(tip, way), text, cost, put)
 
 
 class _Place(Record):

@@ -34,7 +34,7 @@ def disk_drawing(
     if all(isinstance(s.curve, Arc) and s.curve.centre == 0 for s in outline.period):
         # turned, it is the same
         radius = outline.reach()
-        wheel = Wheel(shape, holes, (radius, radius), None)
+        wheel = Wheel(shape, holes, (radius, radius), None, runs=True)
         return PartDrawing(wheel_views(wheel, subject), requirements(subject, *directions(holes, subject, "")))
     bare = Wheel(shape, holes, (0.0, 0.0), outline)
     up = math.pi / 2 - bare.turn

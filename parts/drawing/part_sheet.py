@@ -90,11 +90,15 @@ class Block(Record):
 
 
 class _Corner(Record):
-    """What stands in the corners of a sheet: lines of requirements, block of data, sign of roughness."""
+    """What stands in the corners of a sheet: lines of requirements, block of data, sign of roughness.
+
+    ``has_signs``: some surfaces have signs of their own.
+    """
 
     requirements: tuple[str, ...]
     data: Block | None
     roughness: str
+    has_signs: bool
 
     @property
     def low(self) -> float:
@@ -132,21 +136,25 @@ class _Corner(Record):
         canvas.write(text, at, SMALL_TEXT)
 
     def _sign(self, canvas: Canvas, foot: complex) -> None:
-        """The roughness of all other surfaces: its sign, and in brackets the sign of the rest."""
+        """The roughness of all surfaces, or of all other ones: then in brackets the sign of the rest (GOST 2.309)."""
         lines, text = rough_sign(foot, self.roughness, TEXT_HEIGHT)
         canvas.texts.append(text)
         x = text.box.right + 2.5
-        small = [line for line in rough_sign(complex(x + 5.2, foot.imag), "")[0][:2]]
+        small = rough_sign(complex(x + 5.2, foot.imag), "")[0][:2] if self.has_signs else []
         for line in (*lines, *small):
             canvas.line("THIN", line.start, line.end)
+        if not self.has_signs:
+            return
         # brackets as arcs: programs fit letters to a length, and a bracket has hardly any
         middle = complex(x + 6.0, foot.imag + 4.0)
         for turn in (0.0, math.pi):
             canvas.arc("THIN", Arc(middle, 6.0, turn - _BRACKET, 2 * _BRACKET))
 
 
-def part_sheet(drawing: PartDrawing, data: Block | None, roughness: float, asked: Asked) -> Expected:
+def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, asked: Asked) -> Expected:
     """The working drawing of a part on the smallest paper that shows it well, or as it is asked for.
+
+    ``data``: the block of data in the forms that it may have, the best first; none: there is none.
 
     Raises
     ------
@@ -159,36 +167,46 @@ def part_sheet(drawing: PartDrawing, data: Block | None, roughness: float, asked
         # one alone has no number (GOST 2.316)
         words = f"{number}. {text}" if len(drawing.requirements) > 1 else text
         lines += wrapped(words, TITLE_BLOCK[0] - 2 * _INDENT, TEXT_HEIGHT)
-    corner = _Corner(tuple(lines), data, f"Ra {number_text(roughness, language)}")
-    sizes = [_extent(view) for view in drawing.views]
+    has_signs = any(note.is_rough for view in drawing.views for note in view.notes)
+    sign = f"Ra {number_text(roughness, language)}"
+    corners = [_Corner(tuple(lines), block, sign, has_signs) for block in data or [None]]
+    row = sorted(drawing.views, key=lambda view: not view.from_right)
+    size = _extent(drawing.views[0])
 
-    extent = max(sizes[0])
+    extent = max(size)
     needed = _LEAST_SMALL / extent if extent < _LEAST_SMALL else min(1.0, _LEAST / extent)
     least = next((s for s in reversed(SCALES) if s >= needed), SCALES[0])
 
     @cache
     def views_at(scale: float) -> tuple[Laid, ...]:
         """The views at a scale; none where their words find no room."""
-        found = [_laid(view, scale, asked) for view in drawing.views]
+        found = [_laid(view, scale, asked) for view in row]
         return () if None in found else tuple(one for one in found if one is not None)
+
+    def held(canvas: Canvas, scale: float) -> tuple[_Corner, list[complex]] | None:
+        """The first form of what stands in the corners that leaves room for the views, and where those stand."""
+        wide, tall = canvas.frame.right - canvas.frame.left, canvas.frame.high - canvas.frame.low
+        for corner in corners:
+            has_room = corner.low + corner.high[1] <= tall and corner.high[0] <= wide
+            if has_room and (shifts := _places(views_at(scale), corner, canvas)) is not None:
+                return corner, shifts
+        return None
 
     def greatest(canvas: Canvas) -> float:
         """The greatest scale at which all views stand on a sheet."""
-        if corner.low + corner.high[1] > canvas.frame.high - canvas.frame.low:
-            return 0.0
         frame = canvas.frame
-        most = min(frame.right - frame.left, frame.high - frame.low) / min(sizes[0])
+        most = min(frame.right - frame.left, frame.high - frame.low) / min(size)
         # unless a paper is asked for, what is large enough stays in its size
         most, low = (most, 0.0) if asked.paper or asked.scale else (min(most, max(least, 1.0)), least / _SMALLER)
-        return next((s for s in SCALES if low <= s <= most and _places(views_at(s), corner, canvas) is not None), 0.0)
+        return next((s for s in SCALES if low <= s <= most and held(canvas, s) is not None), 0.0)
 
     canvas, scale = sheet_for(asked, greatest, least)
+    views, found = views_at(scale), held(canvas, scale)
+    assert found is not None
+    corner, shifts = found
     corner.draw(canvas, language)
-    views = views_at(scale)
-    shifts = _places(views, corner, canvas)
-    assert shifts is not None
     outlines = []
-    for view, one, shift in zip(drawing.views, views, shifts, strict=True):
+    for view, one, shift in zip(row, views, shifts, strict=True):
         moved(one, canvas, shift, asked.tolerance)
         outlines += [(Paper(one.scale, shift), layer, curve) for layer, curve in view.strokes]
     return Expected(canvas, Paper(scale, shifts[0]), (), measures=PartMeasures(canvas, tuple(outlines)))
@@ -225,7 +243,9 @@ def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas) -> list[comp
         column.append(1j * (y - box.high))
         y -= box.high - box.low + _BETWEEN
     frame, taken = canvas.frame.grown(-_MARGIN), [box.grown(_MARGIN) for box in corner.taken(canvas)]
-    for places in (row, column) if canvas.paper == "A4" else (row,):
+    # what has no letter stands beside what it is a view of
+    stacked = canvas.paper == "A4" and all(view.view.title for view in views[1:])
+    for places in (row, column) if stacked else (row,):
         stand = [shifted(box, at) for box, at in zip(boxes, places, strict=True)]
         whole = Box(min(b.left for b in stand), min(b.low for b in stand),
                     max(b.right for b in stand), max(b.high for b in stand))  # fmt: skip

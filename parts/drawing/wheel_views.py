@@ -52,7 +52,8 @@ class Wheel(Record):
 
     ``tip`` up and down from the axis, where it is not round; ``root`` and ``pitch``: of teeth on it, None: it has none;
     ``outline``: the exact one, None: it has another at each height; ``crown``: of a worm wheel; ``rounds``: circles
-    about the axis that are shown, with their sizes; ``stands``: its face is drawn with the bore upright.
+    about the axis that are shown, with their sizes; ``stands``: its face is drawn with the bore upright; ``runs``: its
+    outside, which is round, is a working surface.
     """
 
     shape: WheelShape
@@ -64,6 +65,7 @@ class Wheel(Record):
     crown: Crown | None = None
     rounds: tuple[Round, ...] = ()
     stands: bool = True
+    runs: bool = False
 
     @property
     def turn(self) -> float:
@@ -279,12 +281,18 @@ def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, flank: float) ->
     text = f"Ra {subject.say(flank)}"
     if wheel.pitch is not None:
         found.append(Note(complex(wheel.shape.face_width, wheel.pitch), text, is_rough=True, goes_on=True))
-    elif not wheel.stands and wheel.outline is not None:
+    elif wheel.runs or (not wheel.stands and wheel.outline is not None):
         found.append(Note(complex(0.7 * wheel.shape.face_width, wheel.tip[0]), text, is_rough=True))
     if wheel.holes.bore is not None:
-        words = f"Ra {subject.say(subject.wishes.bore_roughness)}"
-        found.append(Note(complex(at.hub[1], -bore_radii(wheel.holes.bore)[1]), words, is_rough=True))
+        words, wall = f"Ra {subject.say(subject.wishes.bore_roughness)}", -bore_radii(wheel.holes.bore)[1]
+        found.append(bore_note(at.hub, wall, words))
     return tuple(found)
+
+
+def bore_note(ends: tuple[float, float], wall: float, words: str) -> Note:
+    """The sign of a bore's wall in a section: at its upper end, or where there is more room."""
+    low, high = ends
+    return Note(complex(high, wall), words, is_rough=True, also=(complex((low + high) / 2, wall), complex(low, wall)))
 
 
 def exact_teeth(outline: Profile, count: int, turn: float, tip: float) -> list[Stroke]:
@@ -338,7 +346,7 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
             text += f", {sheet_words(subject.language, 'spoke_corners', radius=radius)}"
         at_spoke = cmath.rect((spokes.inner_diameter + spokes.outer_diameter) / 4, spokes.start + turn)
         notes.append(Note(at_spoke + 0.5j * spokes.width * cmath.exp(1j * (spokes.start + turn)), text))
-    return View(tuple(strokes), (), axes, (), tuple(rounds), tuple(notes))
+    return View(tuple(strokes), (), axes, (), tuple(rounds), tuple(notes), from_right=True)
 
 
 def _turned(group: RoundHoles, turn: float = 0.0) -> list[complex]:
@@ -436,7 +444,7 @@ def ring_face(outer: float, holes: HubHoles, subject: Subject) -> View:
         face += [(VISIBLE, circle_of(group.diameter / 2, centre)) for centre in group.centres()]
         face.append((AXIS, circle_of(group.pitch_circle_diameter / 2)))
     axes = (*axis_cross(outer), *hole_axes(holes, 0.0))
-    return View(tuple(face), (), axes, (), group_rounds(holes, 0.0, subject))
+    return View(tuple(face), (), axes, (), group_rounds(holes, 0.0, subject), from_right=True)
 
 
 def _leftmost(corner: Arc) -> float:

@@ -70,6 +70,7 @@ class Note(Record):
     """Words on a leader to a point; ``is_rough``: in the sign of GOST 2.309 for a surface that is cut.
 
     ``goes_on``: the point is the right end of a pitch line, and the sign stands on its extension where there is room.
+    ``also``: other points that serve as well.
     ``looks``: the text is the letter of a view from the right, and an arrow along it points there.
     """
 
@@ -78,6 +79,7 @@ class Note(Record):
     is_rough: bool = False
     goes_on: bool = False
     looks: bool = False
+    also: tuple[complex, ...] = ()
 
 
 class Cut(Record):
@@ -92,7 +94,8 @@ class View(Record):
 
     ``strokes``: curves by the layer of their line; ``hatched``: closed loops of lines and arcs, material between them.
     ``length``: axes reach so far beyond their ends on paper, mm. ``title``: stands above it; ``least``: mm that it is
-    high on paper at least, a view with a scale of its own.
+    high on paper at least, a view with a scale of its own. ``from_right``: it is seen from the right of the main view,
+    on whose left it stands (GOST 2.305).
     """
 
     strokes: tuple[Stroke, ...]
@@ -104,10 +107,11 @@ class View(Record):
     title: str = ""
     least: float = 0.0
     cuts: tuple[Cut, ...] = ()
+    from_right: bool = False
 
 
 class PartDrawing(Record):
-    """All that a kind draws of a part: views from left to right, lines of technical requirements."""
+    """All that a kind draws of a part: views, the main one first, lines of technical requirements."""
 
     views: tuple[View, ...]
     requirements: tuple[str, ...] = ()

@@ -21,6 +21,7 @@ from parts.drawing.turned_sizes import Fits, turned_sizes
 from parts.drawing.wheel_views import (
     Crown,
     Wheel,
+    bore_note,
     bore_radii,
     bore_view,
     circle_of,
@@ -36,6 +37,7 @@ from parts.drawing.working import (
     HIDDEN,
     THIN,
     VISIBLE,
+    Cut,
     Note,
     PartDrawing,
     Round,
@@ -195,7 +197,8 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
         sizes.append(Size("holes.first", complex(-half, foot), centres[0], "below"))
         rounds.append(Round("holes.diameter", centres[-1], holes.diameter / 2, _count(holes.count, subject)))
     rough = Note(complex(half), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True, goes_on=True)
-    front = View(tuple(strokes), (), axes, tuple(sizes), tuple(rounds), (rough,))
+    cut = Cut(half - pitch / 2, sheet_words(subject.language, "view_a"))
+    front = View(tuple(strokes), (), axes, tuple(sizes), tuple(rounds), (rough,), cuts=(cut,))
     width = keys.face_width
     whole = closed([complex(0, foot), complex(width, foot), complex(width, tip), complex(0, tip)])
     solid = closed([complex(0, foot), complex(width, foot), complex(width, root), complex(0, root)])
@@ -208,6 +211,7 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
             Size("height", complex(width, foot), complex(width, tip), "right", "", wishes.tip),
             Size("datum_height", complex(0, foot), 0j, "left"),
         ),
+        title=f"{cut.letter}-{cut.letter}",
     )
     return front, section
 
@@ -257,7 +261,7 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
             sizes.append(Size("bore_diameter", complex(high, -down), complex(high, up), "right", "Ø", wishes.bore))
     rough = [Note(complex(top / 2, worm.tip_radius), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)]
     if made is not None:
-        rough.append(Note(complex(high, -down), f"Ra {subject.say(wishes.bore_roughness)}", is_rough=True))
+        rough.append(bore_note((low, high), -down, f"Ra {subject.say(wishes.bore_roughness)}"))
     view = View(tuple(strokes), (), (Line(complex(low), complex(high)),), tuple(sizes), notes=tuple(rough))
     if made is None or isinstance(made, RoundBore):
         return (view,)

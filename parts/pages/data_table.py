@@ -25,6 +25,8 @@ WIDTH = sum(COLUMNS)
 _ROW, _TWO_LINES = 8.0, 13.0
 # a row of positions and its first column, mm, and how many columns have room, in tables side by side
 _POSITION, _FIRST, _MOST_COLUMNS = 5.0, 11.0, 8
+# how many times as wide as the rows a table of positions is beside them at most
+_WIDEST = 4
 # what a head of a page's table is called on a drawing
 _GREEK = {"phi": "φ", "theta": "θ", "psi": "ψ"}
 # decimals of a size and of a number without unit
@@ -131,22 +133,35 @@ def _height(row: DataRow, told: Words) -> float:
     return _TWO_LINES if long else _ROW
 
 
-def _blocks(table: Table) -> list[Sequence[tuple[float, ...]]]:
-    """The rows of positions that stand side by side."""
-    sides = _MOST_COLUMNS // len(table.heads)
+def _sides(table: Table) -> int:
+    """How many tables of positions are as wide as the rows."""
+    return _MOST_COLUMNS // len(table.heads)
+
+
+def _blocks(table: Table, wide: int) -> list[Sequence[tuple[float, ...]]]:
+    """The rows of positions that stand side by side, in a table so many times as wide as the rows."""
+    sides = _sides(table) * wide
     each = math.ceil(len(table.rows) / sides)
     return [table.rows[k * each : (k + 1) * each] for k in range(sides)]
 
 
-def table_height(table: DataTable, language: str) -> float:
-    """mm."""
+def table_sizes(table: DataTable, language: str) -> tuple[tuple[int, float, float], ...]:
+    """How a table may stand: with positions below (0), or so many times as wide beside it; its width and height, mm."""
     told = words(language)
-    below = 0.0 if table.positions is None else _POSITION * (1 + len(_blocks(table.positions)[0]))
-    return below + sum(_height(row, told) for part in table.parts for row in part)
+    rows = sum(_height(row, told) for part in table.parts for row in part)
+    if table.positions is None:
+        return ((0, WIDTH, rows),)
+
+    def positions(wide: int) -> float:
+        assert table.positions is not None
+        return _POSITION * (1 + len(_blocks(table.positions, wide)[0]))
+
+    beside = ((wide, WIDTH * (1 + wide), max(rows, positions(wide))) for wide in range(1, _WIDEST + 1))
+    return ((0, WIDTH, rows + positions(1)), *beside)
 
 
-def draw_data_table(canvas: Canvas, corner: complex, table: DataTable, language: str) -> Box:
-    """Draw a table with its upper right corner at ``corner``; the room that it takes, mm."""
+def draw_data_table(canvas: Canvas, corner: complex, table: DataTable, language: str, beside: int = 0) -> Box:
+    """Draw a table with its upper right corner at ``corner``, as ``table_sizes`` has it; the room that it takes, mm."""
     told = words(language)
     left, right, y = corner.real - WIDTH, corner.real, corner.imag
     edges = [left + sum(COLUMNS[:k]) for k in range(len(COLUMNS) + 1)]
@@ -161,13 +176,21 @@ def draw_data_table(canvas: Canvas, corner: complex, table: DataTable, language:
             write_cell(canvas, lowered(symbol_text(row.symbol, told)) or "—", symbol, TEXT_HEIGHT)
             _write_value(canvas, row, value, told)
             y = low
-    rows_end = y
-    if table.positions is not None:
-        y = _draw_positions(canvas, complex(left, y), table.positions, told)
     for x in edges[1:-1]:
-        canvas.line("FRAME", complex(x, corner.imag), complex(x, rows_end))
-    canvas.box("FRAME", Box(left, y, right, corner.imag))
-    return Box(left, y, right, corner.imag)
+        canvas.line("FRAME", complex(x, corner.imag), complex(x, y))
+    box = Box(left, y, right, corner.imag)
+    if table.positions is None:
+        canvas.box("FRAME", box)
+        return box
+    if not beside:
+        box = replace(box, low=_draw_positions(canvas, complex(left, y), table.positions, told))
+        canvas.box("FRAME", box)
+        return box
+    start = complex(left - WIDTH * beside, corner.imag)
+    low = _draw_positions(canvas, start, table.positions, told, beside)
+    for one in (box, Box(start.real, low, left, corner.imag)):
+        canvas.box("FRAME", one)
+    return Box(start.real, min(low, y), right, corner.imag)
 
 
 def _write_value(canvas: Canvas, row: DataRow, cell: Box, told: Words) -> None:
@@ -185,12 +208,12 @@ def _write_value(canvas: Canvas, row: DataRow, cell: Box, told: Words) -> None:
         canvas.write(limit, complex(middle, low + (step - SMALL_TEXT) / 2), SMALL_TEXT, wide)
 
 
-def _draw_positions(canvas: Canvas, corner: complex, table: Table, told: Words) -> float:
+def _draw_positions(canvas: Canvas, corner: complex, table: Table, told: Words, wide: int = 1) -> float:
     """Numbers in columns under their heads, in tables side by side; where they end, mm."""
-    blocks = _blocks(table)
-    side = WIDTH / len(blocks)
-    height, wide = _POSITION * (1 + len(blocks[0])), (side - _FIRST) / (len(table.heads) - 1)
-    edges = [0.0, *(_FIRST + k * wide for k in range(len(table.heads)))]
+    blocks = _blocks(table, wide)
+    side = WIDTH / _sides(table)
+    height, column = _POSITION * (1 + len(blocks[0])), (side - _FIRST) / (len(table.heads) - 1)
+    edges = [0.0, *(_FIRST + k * column for k in range(len(table.heads)))]
     heads = [", ".join(filter(None, (_head(name, told), unit_text(unit, told)))) for name, unit in table.heads]
     for number, rows in enumerate(blocks):
         left = corner.real + number * side

@@ -26,6 +26,7 @@ from parts.drawing.wheel_views import (
 from parts.drawing.working import (
     AXIS,
     VISIBLE,
+    Note,
     PartDrawing,
     Round,
     Size,
@@ -103,7 +104,10 @@ def _plates(made: PinPlate, subject: Subject) -> tuple[View, ...]:
     strokes += [(VISIBLE, line) for bar in pins for line in bar]
     axes = [Line(complex(axis.start), complex(max(axis.end.real, length), axis.end.imag)) for axis in section.axes]
     axes += [Line(complex(0.0, way * circle), complex(length, way * circle)) for way in (1, -1)]
-    section = replace(section, strokes=tuple(strokes), hatched=tuple(hatched), axes=tuple(axes), sizes=tuple(sizes))
+    notes = (*section.notes, _runs(thick + made.length / 2, circle + radius, subject))
+    section = replace(
+        section, strokes=tuple(strokes), hatched=tuple(hatched), axes=tuple(axes), sizes=tuple(sizes), notes=notes
+    )
     return section, _with_pins(face, made, subject), *others
 
 
@@ -144,7 +148,8 @@ def _ring(ring: PinRing, subject: Subject) -> tuple[View, ...]:
         Size("inner_diameter", complex(width, -inner), complex(width, inner), "right", "Ø"),
         Size("pin_circle_diameter", -1j * circle, 1j * circle, "left", "Ø"),
     ]
-    section = replace(section, axes=(*section.axes, *axes), sizes=(*section.sizes, *sizes))
+    notes = (_runs(width / 2, -begins, subject),)
+    section = replace(section, axes=(*section.axes, *axes), sizes=(*section.sizes, *sizes), notes=notes)
     seats = ring.region(0.0).holes[0]
     centres = ring.pin_centres()
     words = sheet_words(subject.language, "seats_of" if is_seat else "pins_of", count=len(centres))
@@ -177,7 +182,7 @@ def _pin(keys: PinSpec, disc: RoundDisc, subject: Subject) -> tuple[View, ...]:
     """A pin from outside, one with a bore in section."""
     radius, length = disc.radius, keys.length
     if disc.holes.bore is not None:
-        return wheel_views(Wheel(WheelShape(length), disc.holes, (radius, radius), None), subject)[:1]
+        return wheel_views(Wheel(WheelShape(length), disc.holes, (radius, radius), None, runs=True), subject)[:1]
     side = _bar(0.0, length, 0.0, radius)
     strokes = [*outlined(side), *outlined(below(side))]
     wishes = subject.wishes
@@ -185,4 +190,11 @@ def _pin(keys: PinSpec, disc: RoundDisc, subject: Subject) -> tuple[View, ...]:
         Size("diameter", -1j * radius, 1j * radius, "left", "Ø", wishes.shaft),
         Size("length", -1j * radius, complex(length, -radius), "below"),
     )
-    return (View(tuple(strokes), (), (Line(0j, complex(length)),), sizes),)
+    return (
+        View(tuple(strokes), (), (Line(0j, complex(length)),), sizes, notes=(_runs(0.7 * length, radius, subject),)),
+    )
+
+
+def _runs(z: float, radius: float, subject: Subject) -> Note:
+    """The sign of a working surface at a place of the section."""
+    return Note(complex(z, radius), f"Ra {subject.say(subject.wishes.flank_roughness)}", is_rough=True)

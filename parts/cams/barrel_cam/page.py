@@ -74,7 +74,7 @@ def _sizes(page: Sheet, keys: BarrelKeys, body: BarrelBody) -> None:
     page.section(N_("Sizes"))
     page.add("outer_diameter", 2 * cam.outer)
     page.add("groove_depth", keys.groove_depth)
-    page.add("floor_diameter", 2 * cam.inner, "{D} - 2 * {t}", symbol="" if cam.is_groove else "D_1")
+    page.add("floor_diameter" if cam.is_groove else "inner_diameter", 2 * cam.inner, "{D} - 2 * {t}")
     if cam.is_groove:
         page.add("clearance", keys.clearance)
         page.add("groove_width", 2 * cam.radius, "{d} + {c_r}")

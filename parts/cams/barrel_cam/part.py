@@ -258,7 +258,7 @@ def _quantities(keys: BarrelCamSpec, body: BarrelBody) -> dict[str, float]:
     cam = body.cam
     found = {
         "outer_diameter": 2 * cam.outer,
-        "floor_diameter": 2 * cam.inner,
+        "floor_diameter" if cam.is_groove else "inner_diameter": 2 * cam.inner,
         "length": body.length,
         "roller_diameter": keys.roller_diameter,
     }

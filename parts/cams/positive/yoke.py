@@ -159,7 +159,7 @@ class Yoke(Kind[YokeFrameSpec, YokeFrame]):
     """The frame about a cam of constant breadth."""
 
     name, keys, made_from = "yoke_frame", YokeFrameSpec, EVEN_CAM
-    drawing = "parts.bodies.plate_drawing"
+    drawing = "parts.cams.drawings"
 
     def thing(self, keys: YokeFrameSpec, others: Others) -> YokeFrame:
         """The frame of another part's cam, which must be of constant breadth; its sizes fit."""
