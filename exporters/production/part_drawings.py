@@ -42,10 +42,10 @@ def part_drawings(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
             table = part_table(part, wanted.scene, wanted.placing, parts)
         except ParameterError as error:
             raise placed(wanted.source, f"parts.{name}", error) from error
-        language = asked.language
-        blocks = [
-            Block((wide, high), partial(draw_data_table, table=table, language=language, beside=beside))
-            for beside, wide, high in (table_sizes(table, language) if table else ())
-        ]
+        blocks, language = list[Block](), asked.language
+        for beside, wide, high in table_sizes(table, language) if table is not None else ():
+            assert table is not None
+            draw = partial(draw_data_table, table=table, language=language, beside=beside)
+            blocks.append(Block((wide, high), draw))
         found.append((name, part_sheet(drawing, blocks, wishes.roughness, asked)))
     return found

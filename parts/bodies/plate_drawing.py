@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
-import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -13,7 +11,18 @@ from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Label, Profile, Region
 from parts.drawing.extent import farthest
 from parts.drawing.wheel_views import circle_of
-from parts.drawing.working import VISIBLE, Note, PartDrawing, Round, Size, Stroke, Subject, View, requirements
+from parts.drawing.working import (
+    VISIBLE,
+    Note,
+    PartDrawing,
+    Round,
+    Size,
+    Stroke,
+    Subject,
+    View,
+    arc_angles,
+    requirements,
+)
 from parts.texts.sheets import sheet_words
 
 _DIGITS, _SAME, _SAMPLES = 9, 1e-9, 9
@@ -119,13 +128,12 @@ def _radii(chains: list[list[Curve]], subject: Subject) -> Iterator[Round]:
     for curve in (c for chain in chains for c in chain if isinstance(c, Arc)):
         groups.setdefault(round(curve.radius, _DIGITS), []).append(curve)
     for k, arcs in enumerate(groups.values(), 1):
-        arc = max(arcs, key=_up_right)
-        way = math.degrees(cmath.phase(complex(arc.point(abs(arc.sweep) / 2)) - arc.centre))
+        arc, *others = sorted(arcs, key=_up_right, reverse=True)
         # what rounds the outline is told within it, which needs no more paper; arcs about one centre are one place
         count = len({complex(round(a.centre.real, 6), round(a.centre.imag, 6)) for a in arcs})
         after = sheet_words(subject.language, "places_of", count=count) if count > 1 else ""
         yield Round(f"radius.{k}", arc.centre, arc.radius, "R", after, is_radius=True, inward=arc.sweep > 0,
-                    angles=(way, way + 20, way - 20))  # fmt: skip
+                    angles=arc_angles(arc), also=tuple((o.centre, arc_angles(o)) for o in others))  # fmt: skip
 
 
 def _up_right(arc: Arc) -> float:

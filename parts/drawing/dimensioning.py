@@ -334,7 +334,12 @@ class _Layout:
         """
         centre, radius = self.paper.point(one.centre), self.paper.scale * one.radius
         if one.is_radius:
-            ways = (self._radii(one, centre, radius, inward=inward) for inward in (False, True))
+            arcs = ((one.centre, one.angles, 0.0), *((*arc, _OTHER) for arc in one.also))
+            ways = (
+                self._radii(one, self.paper.point(at), radius, angles, more, inward=inward)
+                for inward in (False, True)
+                for at, angles, more in arcs
+            )
             if not self._put(merge(*ways, key=_cost_of)):
                 raise _NoRoomError(one)
             return
@@ -360,9 +365,11 @@ class _Layout:
         if not self._put(places()):
             raise _NoRoomError(one)
 
-    def _radii(self, one: Round, centre: complex, radius: float, *, inward: bool) -> Iterator[_Place]:
-        """Where a radius may stand on its leader, which runs to the centre or away from it."""
-        for reach, angle in product(_REACHES, one.angles):
+    def _radii(
+        self, one: Round, centre: complex, radius: float, angles: Sequence[float], more: float, *, inward: bool
+    ) -> Iterator[_Place]:
+        """Where a radius may stand on a leader to an arc, to its centre or away from it; ``more``: its own cost."""
+        for reach, angle in product(_REACHES, angles):
             way = cmath.rect(1.0, math.radians(angle))
             out = -way if inward else way
             tip = centre + radius * way
@@ -373,7 +380,7 @@ class _Layout:
                 turn = math.degrees(cmath.phase(way if way.real > 0 else -way))
                 self._dimension(one, (centre, tip), tip, turn, place.all_lines, place.text)
 
-            cost = reach / _STEP + _PREFERRED * (inward != one.inward)
+            cost = reach / _STEP + _PREFERRED * (inward != one.inward) + more
             yield _Place({"leader": [Line(tip, elbow), *shelf]}, _arrow(tip, out), text, cost, put)
 
     def _note(self, note: Note) -> None:
@@ -405,7 +412,8 @@ class _Layout:
             return
         body = self.body
         middle = complex((body.left + body.right) / 2, (body.low + body.high) / 2)
-        for reach, (number, at) in product(_REACHES, enumerate((note.at, *note.also))):
+        ways = product(_REACHES, [(note.at, 0.0), *((at, _OTHER) for at in note.also)])
+        for cost, reach, at in sorted(((r / _STEP + more, r, at) for r, (at, more) in ways), key=lambda way: way[0]):
             tip = self.paper.point(at)
             best = math.degrees(cmath.phase(tip - middle)) if tip != middle else 45.0
             for turn in _TURNS:
@@ -419,7 +427,6 @@ class _Layout:
                     lines.append(Line(elbow, elbow + side * (off + 1.0)))
                 else:
                     lines, text = _shelved(elbow, note.text, way)
-                cost = reach / _STEP + _OTHER * min(number, 1)
                 yield _Place({"leader": [Line(tip, elbow), *lines]}, _arrow(tip, way), text, cost, put)
 
 

@@ -23,8 +23,11 @@ _SAMPLES = 33
 # over such a length: GOST 2.307 forbids the first where it can be avoided, leaders never cross each other
 _CROSSING = np.array([[0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.5, 1.5], [0.3, 1.5, 6.0, 6.0], [1.5, 1.5, 6.0, 20.0]])
 _LYING, _BESIDE, _ALONG = np.array([0.0, 0.0, 10.0, 10.0]), 1.0, 0.5
-# what ends within another line does not cross it, mm; sine of directions that are one
+# what ends within another line does not cross it, mm, but leaders keep off the ends of dimension lines and of leaders;
+# sine of directions that are one
 _TOUCH, _PARALLEL = 0.3, 1e-4
+_MARGINS = np.where(_CROSSING >= 6.0, -_TOUCH, _TOUCH)
+_MARGINS[_ROLES.index("dimension"), _ROLES.index("dimension")] = _TOUCH
 
 
 class Ink(Draft):
@@ -125,11 +128,12 @@ def _costs(lines: Complex, others: Complex) -> Real:
     safe, between = np.where(parallel, 1.0, turn), b - a
     # places of the crossing along both, mm
     s, t = (np.conj(between) * v).imag / safe * long, (np.conj(between) * u).imag / safe * other
-    crossed = ~parallel & (s > _TOUCH) & (s < long - _TOUCH) & (t > _TOUCH) & (t < other - _TOUCH)
+    here, there = lines[2].real.astype(int), others[2].real.astype(int)
+    margin = _MARGINS[here][:, there]
+    crossed = ~parallel & (s > margin) & (s < long - margin) & (t > margin) & (t < other - margin)
     way = u / long
     off = np.abs((np.conj(way) * between).imag)
     ends = (np.conj(way) * between).real, (np.conj(way) * (between + v)).real
     shared = np.minimum(np.maximum(*ends), long) - np.maximum(np.minimum(*ends), 0.0)
     lying = parallel & (off < _BESIDE) & (shared > _ALONG)
-    here, there = lines[2].real.astype(int), others[2].real.astype(int)
     return np.asarray((crossed * _CROSSING[here][:, there]).sum(axis=1) + lying.sum(axis=1) * _LYING[here])

@@ -169,7 +169,8 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
         lines += wrapped(words, TITLE_BLOCK[0] - 2 * _INDENT, TEXT_HEIGHT)
     has_signs = any(note.is_rough for view in drawing.views for note in view.notes)
     sign = f"Ra {number_text(roughness, language)}"
-    corners = [_Corner(tuple(lines), block, sign, has_signs) for block in data or [None]]
+    forms: Sequence[Block | None] = data or [None]
+    corners = [_Corner(tuple(lines), block, sign, has_signs) for block in forms]
     row = sorted(drawing.views, key=lambda view: not view.from_right)
     size = _extent(drawing.views[0])
 

@@ -15,7 +15,7 @@ from geometry.base.record import Record, replace
 from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from parts.drawing.revolved import Loop, outer_of
-from parts.drawing.working import Round, Side, Size
+from parts.drawing.working import Round, Side, Size, arc_angles
 from parts.texts.sheets import sheet_words
 
 # mm in which places are one; parts of one in which directions are; digits of places
@@ -416,13 +416,17 @@ def _radii(arcs: Sequence[Arc], turn: float, language: str) -> Iterator[Round]:
         groups.setdefault((round(arc.radius, _DIGITS), abs(arc.centre.imag) < _NONE), []).append(arc)
     for number, ((_, is_ball), group) in enumerate(groups.items(), 1):
         arc = group[0]
-        way = math.degrees(cmath.phase(complex(arc.point(abs(arc.sweep) / 2)) - arc.centre))
-        spread = math.degrees(abs(arc.sweep)) / 2
-        angles = tuple(way + share * spread for share in (0.0, 0.5, -0.5, 0.9, -0.9))
         before = f"{sheet_words(language, 'ball')} R" if is_ball else "R"
         after = _counted(len(group), "places_of", language)
         # leaders come from outside of the material
         inward = arc.sweep * turn < 0
         yield Round(
-            f"radius.{number}", arc.centre, arc.radius, before, after, is_radius=True, angles=angles, inward=inward
+            f"radius.{number}",
+            arc.centre,
+            arc.radius,
+            before,
+            after,
+            is_radius=True,
+            inward=inward,
+            angles=arc_angles(arc),
         )

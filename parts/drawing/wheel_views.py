@@ -18,7 +18,7 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
 from geometry.solids.windows import RoundHoles
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
-from parts.drawing.working import AXIS, THIN, VISIBLE, Note, Round, Size, Stroke, Subject, View
+from parts.drawing.working import AXIS, THIN, VISIBLE, Note, Round, Size, Stroke, Subject, View, arc_angles
 from parts.texts.sheets import sheet_words
 
 # a view of a bore is so high on paper at least, mm
@@ -206,7 +206,8 @@ def _crown_rounds(wheel: Wheel) -> Iterator[Round]:
     """The radius of a worm wheel's throat."""
     if (crown := wheel.crown) is not None:
         centre = complex(wheel.shape.face_width / 2, crown.distance)
-        angles = (-90.0, -80.0, -100.0)
+        half = math.asin(min(wheel.shape.face_width / 2 / crown.throat, 1.0))
+        angles = arc_angles(Arc(centre, crown.throat, -_UP - half, 2 * half))
         yield Round("throat_radius", centre, crown.throat, "R", is_radius=True, angles=angles, inward=True)
 
 

@@ -5,6 +5,8 @@ A kind names a module, ``Kind.drawing``, whose ``part_drawing(subject)`` makes a
 
 from __future__ import annotations
 
+import cmath
+import math
 from typing import Literal
 
 from geometry.base.record import Record
@@ -48,7 +50,8 @@ class Size(Record):
 class Round(Record):
     """The diameter, or the radius where ``is_radius``, of a circle or arc, on a leader; ``angles``: where it may stand.
 
-    Angles in degrees, the best first. ``inward``: its leader runs towards the centre.
+    Angles in degrees, the best first. ``inward``: its leader runs towards the centre. ``also``: centres and angles of
+    other arcs that are of this size.
     """
 
     name: str
@@ -59,11 +62,19 @@ class Round(Record):
     is_radius: bool = False
     inward: bool = False
     angles: tuple[float, ...] = (45.0, 135.0, -45.0, -135.0)
+    also: tuple[tuple[complex, tuple[float, ...]], ...] = ()
 
     @property
     def value(self) -> float:
         """The number, mm."""
         return self.radius if self.is_radius else 2 * self.radius
+
+
+def arc_angles(arc: Arc) -> tuple[float, ...]:
+    """Where on an arc the arrow of its radius may stand, degrees, the middle first."""
+    middle = math.degrees(cmath.phase(complex(arc.point(abs(arc.sweep) / 2)) - arc.centre))
+    spread = math.degrees(abs(arc.sweep)) / 2
+    return tuple(middle + share * spread for share in (0.0, 0.5, -0.5, 0.9, -0.9))
 
 
 class Note(Record):

@@ -179,7 +179,8 @@ def test_the_development_of_a_barrel_lies_on_walls_that_the_roller_sweeps(words:
     radius = (values.get("groove_width") or values["roller_diameter"]) / 2
     drive = np.radians(column(rows, "phi"))
     axis_y, axis_z = column(rows, "y"), column(rows, "z")
-    for name, key in (("development", "outer_diameter"), ("development_floor", "floor_diameter")):
+    inner = "floor_diameter" if "groove_width" in values else "inner_diameter"
+    for name, key in (("development", "outer_diameter"), ("development_floor", inner)):
         cylinder = values[key] / 2
         table = data[name]
         for index in ("_1", "_2") if "x_1" in table[0] else ("",):
