@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
 
 # places along the ray that are tried where one is refused
-_TRIALS = 200
+PLACES = 200
 
 
 class TimingMarkTable(Struct, forbid_unknown_fields=True):
@@ -54,7 +54,7 @@ def with_timing_mark(holes: HubHoles, table: TimingMarkTable | None, cam: DiskCa
     def room(distance: float) -> float:
         return rooms([distance])[0]
 
-    trials = [inside * (k + 0.5) / _TRIALS for k in range(_TRIALS)]
+    trials = [inside * (k + 0.5) / PLACES for k in range(PLACES)]
     found = dict(zip(trials, rooms(trials), strict=True))
     best = max(trials, key=lambda distance: found[distance])
     if table.distance is None and found[best] < radius + least:

@@ -12,10 +12,12 @@ from typing import Annotated, Literal
 
 from msgspec import Meta
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.solids.hub_holes import least_wall
 from parts.base.part_keys import Material
 from parts.base.texts import N_
 from parts.cams.disk_cam.part import CamSpec, cam_of, greatest_radius
+from parts.cams.wheel import inner_radius
 from parts.keys.base import degrees, mm
 from parts.keys.cam import (
     BaseCircle,
@@ -29,12 +31,15 @@ from parts.keys.cam import (
     turn,
 )
 from parts.keys.law import with_own_laws
+from parts.keys.timing_mark import PLACES
 from parts.recipes.making import Making, hole, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 
 # mm: slack of the slot at each end; frame below the cam, about its axle and above the pins; wall about holes; of a flat
-# plate beyond its contact; how much shorter the roller's pin is than what it holds, and the mark at cam angle 0
-_SLACK, _BELOW, _BESIDE, _ABOVE, _WALL, _EDGE, _SHORT, _MARK = 1.0, 3.0, 13.0, 15.0, 3.0, 5.0, 1.0, 2.0
+# plate beyond its contact; how much shorter the roller's pin is than what it holds
+_SLACK, _BELOW, _BESIDE, _ABOVE, _WALL, _EDGE, _SHORT = 1.0, 3.0, 13.0, 15.0, 3.0, 5.0, 1.0
+# mm: diameter of the mark at cam angle 0, and its least; least of the axle
+_MARK, _LEAST_MARK, _LEAST_AXLE = 2.0, 0.5, 0.5
 # mm: thickness and rounding of a flat follower's plate; of the frame, corners and least width
 _PLATE, _ROUNDING, _CORNER, _FRAME_WIDTH = 8.0, 3.0, 6.0, 60.0
 _CAM_KEYS = (
@@ -65,7 +70,7 @@ class CamModelKeys(RecipeKeys, kw_only=True, tag="cam_model"):
     least_curvature_radius: LeastCurvature = 0.0
     plate_thickness: Annotated[float, mm("of all flat parts", least=0.5, most=100)] = 3.0
     clearance: Annotated[float, mm("of the slot and of holes that turn on a dowel beyond it", least=0, most=5)] = 0.2
-    axle_diameter: Annotated[float, mm("of the cam's axle", least=0.5, most=200)] = 6.0
+    axle_diameter: Annotated[float, mm("of the cam's axle", least=_LEAST_AXLE, most=200)] = 6.0
     guide_pin_diameter: Annotated[float, mm("of the two pins in the follower's slot", least=0.5, most=100)] = 4.0
     guide_pin_spacing: Annotated[float, mm("between the axes of these pins", above=0, most=1000)] = 10.0
     roller_pin_diameter: Annotated[float, mm("of the roller's pin", least=0.5, most=100)] = 3.0
@@ -126,6 +131,18 @@ class _Making(Making):
         before = max(keys.follower_radius + _WALL, keys.stem_width) if self.rolls else _PLATE + _ROUNDING
         return float(math.ceil(before + (keys.guide_pin_diameter + keys.clearance) / 2))
 
+    def _mark(self) -> float:
+        """Diameter of the mark at cam angle 0, smaller where bore and cam are near each other, mm."""
+        keys, inside = self.keys, inner_radius(self.cam)
+        # the mark's place is found among so many
+        solid = inside - 2 * least_wall(inside) - inside / PLACES
+        most = solid - (keys.axle_diameter + keys.clearance) / 2
+        if most < _LEAST_MARK:
+            axle = 2 * (solid - _LEAST_MARK) - keys.clearance
+            cure = limit(axle, keys.axle_diameter) if axle >= _LEAST_AXLE else Nearest(None)
+            raise ParameterError("axle_diameter", keys.axle_diameter, "no_wall_to_base_circle", cure)
+        return min(_MARK, math.floor(10 * most) / 10)
+
     def all(self) -> Expansion:
         """Every part, as it stands on what is made before, and one turn of the cam."""
         keys, thick = self.keys, self.thickness
@@ -134,7 +151,7 @@ class _Making(Making):
         label = f"S {self.travel:.6g}" + (f" e {offset:.6g}" if offset else "")
         self.part(
             "cam", kind="cam", face_width=thick, bore_diameter=keys.axle_diameter + keys.clearance, label=label,
-            timing_mark={"diameter": _MARK}, **self.given,
+            timing_mark={"diameter": self._mark()}, **self.given,
         )  # fmt: skip
         self.found.origins |= {f"parts.cam.{key}": key for key in _CAM_KEYS}
         self.put("coaxial", "frame", "cam", height=thick, rotation_deg=keys.cam_angle_deg)

@@ -124,6 +124,23 @@ def test_a_slot_of_another_lift_is_named(tmp_path: Path, capsys: pytest.CaptureF
     assert re.search("Follower.*Guide pin|Guide pin.*Follower", said.out + said.err)
 
 
+def test_an_axle_too_thick_for_a_small_cam_is_refused_by_its_own_key(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """What is offered builds: its mark is smaller than that of a large cam."""
+    small = {"lift": 12.5, "follower_radius": 5.0}
+    assert main(["build", str(changed("lesson_5", tmp_path, **small)), "--out", str(tmp_path)]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert "assemblies[1].axle_diameter = 6.0" in said
+    most = re.search(r"at most ([\d.]+) mm", said)
+    assert most
+    file = changed("lesson_5", tmp_path, **small)
+    text = file.read_text("utf-8").replace("lift = 12.5", f"lift = 12.5\naxle_diameter = {most[1]}")
+    file.write_text(text, encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path), "-q"]) == 0
+
+
 def test_a_guide_that_meets_the_cam_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["build", str(changed("lesson_5", tmp_path, slot_start=9.0)), "--out", str(tmp_path)]) == 2
     said = capsys.readouterr().err
