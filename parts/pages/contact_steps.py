@@ -1,63 +1,131 @@
-"""Steps of a pair's contact: contact ratio by both ways, sliding, backlash and the limits of the pair."""
+"""Steps of a pair in mesh, external, in a ring or on a rack: contact ratio both ways, sliding, backlash, limits."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
+from geometry.base.angles import involute_function
+from geometry.base.record import Record
 from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.pairs.external import ExternalPair
+from geometry.gears.pairs.internal import InternalPair
+from geometry.gears.pairs.rack import RackPair
 from geometry.gears.pairs.sliding import active_line
 from geometry.gears.teeth import limits
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
-from geometry.gears.teeth.transverse import base_helix_angle
-from parts.base.texts import N_, in_context
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import normal_share, transverse_angle
+from parts.base.texts import N_, message
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
-# from the base circles to the tips, along the line of action
-_TANGENTS = "{r_b1} * tan({alpha_a1}) + {r_b2} * tan({alpha_a2})"
+ISO = ("ISO 21771", "ISO 21771")
+Pair = ExternalPair | InternalPair
 
 
-def _tips_are_broken(pair: ExternalPair) -> bool:
-    """Whether a flank ends below its tip circle: (3.18) then misses it."""
-    return any(abs(f - g.tip_radius) > 1e-12 * f for f, g in zip(pair.tip_form_radii, pair.gears, strict=True))
+class Helical(Record):
+    """What a pair of transverse sections does not know of itself: its first gear in normal data, and the face."""
+
+    normal: SpurGear
+    face: CommonFace
+
+    @property
+    def angle(self) -> float:
+        """Helix angle, rad; 0 for straight teeth."""
+        return self.face.helix.angle
+
+    def normal_backlash(self, pair: Pair | RackPair) -> float:
+        """j_bn of the pair, mm."""
+        section = transverse_angle(self.normal.rack.pressure_angle, self.angle)
+        return float(pair.normal_backlash) * normal_share(section, self.angle)
 
 
-def contact_steps(page: Sheet, pair: ExternalPair, face: CommonFace) -> None:
-    """(3.20) to (3.22), form and active diameters, axial overlap."""
-    page.section(N_("Contact ratio"))
-    formula = "({z1} * tan({alpha_a1}) + {z2} * tan({alpha_a2}) - ({z1} + {z2}) * tan({alpha_w})) / (2 * pi)"
-    broken = _tips_are_broken(pair)
-    page.add("contact_ratio", pair.contact_ratio, "" if broken else formula, "practicum (3.20)")
+def heading(page: Sheet, helical: Helical, title: str) -> None:
+    """A section whose numbers are transverse where the teeth are helical, and says so."""
+    page.section(message("{title} (transverse section)", title=message(title)) if helical.angle else title)
+
+
+def _tips_are_broken(pair: Pair) -> bool:
+    """Whether a flank of an external pair ends below its tip circle: (3.18) then misses it."""
+    tips = pair.first.tip_radius, pair.second.tip_radius
+    return pair.sign > 0 and any(abs(f - r) > 1e-12 * f for f, r in zip(pair.tip_form_radii, tips, strict=True))
+
+
+def _tangents(pair: Pair) -> str:
+    """From the base circles to the tips, along the line of action; a ring's counts against the pinion's."""
+    return f"{{r_b1}} * tan({{alpha_a1}}) {'+' if pair.sign > 0 else '-'} {{r_b2}} * tan({{alpha_a2}})"
+
+
+def meshing_steps(page: Sheet, pair: Pair, helical: Helical, wanted: str) -> None:
+    """(3.2) to (3.4), from the shifts to the distance, or to what they sum up to (``wanted``: its term) from that."""
+    angle, alpha, normal = pair.working_pressure_angle, pair.first.rack.pressure_angle, helical.normal.rack
+    teeth, sources = "{z1} + {z2}", ("practicum (3.3)", "practicum (3.4)")
+    if pair.sign < 0:
+        teeth, sources = "{z2} - {z1}", ("GOST 19274", "GOST 19274")
+    page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
+    if pair.sign > 0:
+        page.add("tangent_of_pressure_angle", math.tan(alpha), "tan({alpha})", "practicum 3.1")
+    page.add("involute_of_pressure_angle", involute_function(alpha), "inv({alpha})", "practicum, table Д.1")
+    reference = f"{{m}} * ({teeth}) / 2"
+    if wanted:
+        page.add("working_centre_distance", pair.working_centre_distance)
+        formula = f"arccos({reference} * cos({{alpha}}) / {{a_w}})"
+        page.add("working_pressure_angle_deg", math.degrees(angle), formula, sources[1])
+        page.add("involute_of_working_pressure_angle", involute_function(angle), "inv({alpha_w})", sources[0])
+        total = (pair.teeth[1] + pair.sign * pair.teeth[0]) * (involute_function(angle) - involute_function(alpha))
+        formula = f"({teeth}) * ({{inv_alpha_w}} - inv({{alpha}})) / (2 * tan({{alpha_n}}))"
+        page.add(wanted, total / (2 * math.tan(normal.pressure_angle)), formula, sources[0])
+    else:
+        values = involute_function(angle), math.degrees(angle), pair.working_centre_distance
+        working_steps(page, values, internal=pair.sign < 0, normal=True)
+    if pair.sign > 0:
+        page.add("cosine_of_working_pressure_angle", math.cos(angle), "cos({alpha_w})", "practicum, table Е.1")
+    page.add("reference_centre_distance", pair.reference_centre_distance, reference, "ISO 21771")
+    # of the pair in transverse modules, told in normal ones like the shifts
+    value = pair.centre_distance_coefficient / math.cos(helical.angle)
+    page.add("centre_distance_coefficient", value, "({a_w} - {a}) / {m_n}", "ISO 21771")
+
+
+def contact_steps(page: Sheet, pair: Pair, helical: Helical) -> None:
+    """(3.20) to (3.22), form and active diameters, axial overlap; of a ring by GOST 19274."""
+    external, broken = pair.sign > 0, _tips_are_broken(pair)
+    source, own, less = "practicum (3.20)", "+", "- ({z1} + {z2})"
+    if not external:
+        source, own, less = "GOST 19274", "-", "+ ({z2} - {z1})"
+    formula = f"({{z1}} * tan({{alpha_a1}}) {own} {{z2}} * tan({{alpha_a2}}) {less} * tan({{alpha_w}})) / (2 * pi)"
+    page.add("contact_ratio", pair.contact_ratio, "" if broken else formula, source)
     page.add("working_pitch", pair.working_pitch, "2 * pi * {r_w1} / {z1}", "practicum (3.21)")
-    formula = f"{{r_w1}} * ({_TANGENTS} - {{a_w}} * sin({{alpha_w}})) / {{r_b1}}"
+    formula = f"{{r_w1}} * ({_tangents(pair)} {'-' if external else '+'} {{a_w}} * sin({{alpha_w}})) / {{r_b1}}"
     page.add("arc_of_action", pair.arc_of_action, "" if broken else formula, "practicum, fig. 3.13")
     page.add("contact_ratio_by_arc", pair.contact_ratio_by_arc, "{dd} / {p_w}", "practicum (3.21)")
     difference = abs(pair.contact_ratio_by_arc / pair.contact_ratio - 1) * 100
     formula = "abs(({eps_arc} - {eps}) / {eps}) * 100"
     page.add("contact_ratio_difference_percent", difference, formula, "practicum (3.22)")
-    if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
-        page.add("effective_contact_ratio", pair.effective_contact_ratio, "", "ISO 21771")
-    overlap_steps(page, pair.contact_ratio, face, "{b}@ * sin(abs({beta})) / (pi * {m_n})")
-    active = pair.active_profile_radii
-    forms, tips = pair.root_form_radii, pair.tip_form_radii
+    overlap_steps(page, pair, helical)
+    active, forms, tips = pair.active_profile_radii, pair.root_form_radii, pair.tip_form_radii
+    # a ring's flanks begin outside
+    two = active[1][:: pair.sign]
     for name, values in (
         ("root_form_diameter", forms),
-        ("start_of_active_profile_diameter", (active[0][0], active[1][0])),
-        ("active_tip_diameter", (active[0][1], active[1][1])),
+        ("start_of_active_profile_diameter", (active[0][0], two[0])),
+        ("active_tip_diameter", (active[0][1], two[1])),
         ("tip_form_diameter", tips),
     ):
-        page.both(name, (2 * values[0], 2 * values[1]), "", ("ISO 21771", "ISO 21771"))
+        page.both(name, (2 * values[0], 2 * values[1]), "", ISO)
 
 
-def overlap_steps(page: Sheet, contact_ratio: float, face: CommonFace, formula: str) -> None:
-    """Overlap and total contact ratio of helical teeth; ``@`` in the formula: what halves a double helix's width."""
+def overlap_steps(page: Sheet, pair: Pair | RackPair, helical: Helical) -> None:
+    """The effective contact ratio where it is less; overlap and total contact ratio of helical teeth."""
+    if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
+        page.add("effective_contact_ratio", pair.effective_contact_ratio, "", "ISO 21771")
+    face = helical.face
     if face.helix.angle == 0:
         return
     page.add("face_width", face.width)
     half = " / 2" if face.helix.double else ""
-    page.add("overlap_ratio", face.overlap_ratio, formula.replace("@", half), "ISO 21771")
-    page.add("total_contact_ratio", face.overlap_ratio + contact_ratio, "{eps} + {eps_beta}", "ISO 21771")
+    page.add("overlap_ratio", face.overlap_ratio, f"{{b}}{half} * sin(abs({{beta}})) / (pi * {{m_n}})", "ISO 21771")
+    page.add("total_contact_ratio", face.overlap_ratio + pair.contact_ratio, "{eps} + {eps_beta}", "ISO 21771")
 
 
 def measured_steps(page: Sheet, pair: ExternalPair, arc: float, pitch: float) -> None:
@@ -71,9 +139,9 @@ def measured_steps(page: Sheet, pair: ExternalPair, arc: float, pitch: float) ->
     page.add("measured_difference_percent", abs(ratio / pair.contact_ratio - 1) * 100, formula, "practicum (3.22)")
 
 
-def sliding_steps(page: Sheet, pair: ExternalPair) -> None:
+def sliding_steps(page: Sheet, pair: Pair) -> None:
     """The line of action and its parts, specific sliding; the first gear drives."""
-    line = active_line(pair)
+    line, external = active_line(pair), pair.sign > 0
     whole = not _tips_are_broken(pair) and abs(pair.effective_contact_ratio - pair.contact_ratio) < 1e-9
 
     def when_whole(formula: str) -> str:
@@ -81,59 +149,55 @@ def sliding_steps(page: Sheet, pair: ExternalPair) -> None:
 
     page.section(N_("Line of action and sliding"))
     page.add("line_of_action_length", line.line_length, "{a_w} * sin({alpha_w})", "practicum, fig. 3.5")
-    page.add("active_line_length", line.length, when_whole(f"{_TANGENTS} - {{L}}"), "practicum, fig. 3.11")
-    formula = when_whole("{r_b2} * (tan({alpha_a2}) - tan({alpha_w}))")
-    page.add("approach_length", line.approach, formula, "ISO 21771")
+    formula = when_whole(f"{_tangents(pair)} {'-' if external else '+'} {{L}}")
+    page.add("active_line_length", line.length, formula, "practicum, fig. 3.11")
+    ends = ("tan({alpha_a2})", "tan({alpha_w})")[:: pair.sign]
+    page.add("approach_length", line.approach, when_whole(f"{{r_b2}} * ({ends[0]} - {ends[1]})"), "ISO 21771")
     page.add("recess_length", line.recess, "{g} - {g_f}", "ISO 21771")
-    last = ("{r_b1} * tan({alpha_a1})", "{r_b2} * tan({alpha_a2})")
+    # from the base circles: where contact ends and begins, of each gear and of its mate
+    last1, last2 = "{r_b1} * tan({alpha_a1})", "{r_b2} * tan({alpha_a2})"
+    first1, first2 = f"({{L}} - {last2})", f"({{L}} - {last1})"
+    if not external:
+        first1, first2 = f"({last2} - {{L}})", f"({{L}} + {last1})"
     (root1, root2), (tip1, tip2) = line.root_sliding, line.tip_sliding
-    for gear, root, formula in (
-        (1, root1, f"1 - {last[1]} / ({{u}} * ({{L}} - {last[1]}))"),
-        (2, root2, f"1 - {{u}} * {last[0]} / ({{L}} - {last[0]})"),
+    for name, gear, sliding, formula in (
+        ("root_sliding", 1, root1, f"1 - {last2} / ({{u}} * {first1})"),
+        ("root_sliding", 2, root2, f"1 - {{u}} * {last1} / {first2}"),
+        ("tip_sliding", 1, tip1, f"1 - {first2} / ({{u}} * {last1})"),
+        ("tip_sliding", 2, tip2, f"1 - {{u}} * {first1} / ({last2})"),
     ):
-        page.add("root_sliding", root, when_whole(formula), "ISO 21771", gear)
-    for gear, tip, formula in (
-        (1, tip1, f"1 - ({{L}} - {last[0]}) / ({{u}} * {last[0]})"),
-        (2, tip2, f"1 - {{u}} * ({{L}} - {last[1]}) / ({last[1]})"),
-    ):
-        page.add("tip_sliding", tip, when_whole(formula), "ISO 21771", gear)
-    factors = line.speed_factors(pair.working_radii[0])
-    page.add("sliding_factor_at_start", factors[0], "{g_f} * (1 + 1 / {u}) / {r_w1}", "ISO 21771")
-    page.add("sliding_factor_at_end", factors[1], "{g_a} * (1 + 1 / {u}) / {r_w1}", "ISO 21771")
+        page.add(name, sliding, when_whole(formula), "ISO 21771", gear)
+    factors, per = line.speed_factors(pair.working_radii[0]), f"(1 {'+' if external else '-'} 1 / {{u}}) / {{r_w1}}"
+    page.add("sliding_factor_at_start", factors[0], f"{{g_f}} * {per}", "ISO 21771")
+    page.add("sliding_factor_at_end", factors[1], f"{{g_a}} * {per}", "ISO 21771")
     if line.approach < 0 or line.recess < 0:
         page.notes.append(N_("the pole lies outside the active line of action"))
 
 
-def backlash_steps(page: Sheet, pair: ExternalPair, helix: float) -> None:
-    """j_n, j_t and the bottom clearances."""
+def backlash_steps(
+    page: Sheet, pair: Pair | RackPair, circumferential: float, helical: Helical, formulas: tuple[str, str] = ("", "")
+) -> None:
+    """j_t, j_n and the bottom clearances; ``formulas`` of j_t and of these."""
     page.section(N_("Backlash and clearance"))
-    circumferential = pair.circumferential_backlash
-    normal = pair.normal_backlash * math.cos(base_helix_angle(pair.first.rack.pressure_angle, helix))
-    page.add("circumferential_backlash", circumferential, "{p_w} - {S_w1} - {S_w2}", "ISO 21771")
-    cosine = " * cos({beta_b})" if helix else ""
-    page.add("normal_backlash", normal, f"{{j_wt}} * cos({{alpha_w}}){cosine}", "ISO 21771")
-    page.both("bottom_clearance_at_root", pair.tip_clearances, "{a_w} - {r_f#} - {r_a~}", ("ISO 21771", "ISO 21771"))
+    page.add("circumferential_backlash", circumferential, formulas[0], "ISO 21771")
+    cosine = " * cos({beta_b})" if helical.angle else ""
+    formula = f"{{j_wt}} * cos({{alpha_w}}){cosine}"
+    page.add("normal_backlash", helical.normal_backlash(pair), formula, "ISO 21771")
+    page.both("bottom_clearance_at_root", pair.tip_clearances, formulas[1], ISO)
 
 
-def limit_steps(page: Sheet, pair: ExternalPair, face: CommonFace) -> None:
-    """Undercut and the thickness of the tips, with remarks where a limit is not kept."""
-    helix = face.helix.angle
-    page.section(in_context("pair", "Limits"))
-    if not helix:
-        rules = [limits.practicum_undercut(g).limit for g in pair.gears]
-        page.both("least_shift_practicum", (rules[0], rules[1]), "(17 - {z#}) / 17", ("practicum (1.2)",) * 2)
-    for index, gear in enumerate(pair.gears, 1):
-        exact = limits.least_shift_without_undercut(gear) / math.cos(helix)
-        symbol = "x_n,min" if helix else ""
-        page.add("least_shift_without_undercut", exact, "", "ISO 21771", index, symbol=symbol)
-    page.add(
-        "least_tip_thickness", LEAST_TIP_THICKNESS * pair.module, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)"
-    )
-    found = [(f, 0) for f in face.findings(pair.findings(), pair.effective_contact_ratio)]
-    for index, gear in enumerate(pair.gears, 1):
+def limit_steps(page: Sheet, pair: Pair | RackPair, gears: Sequence[SpurGear], helical: Helical) -> None:
+    """Undercut and tips of external gears, with remarks where they or the pair do not keep a limit."""
+    symbol = "x_n,min" if helical.angle else ""
+    for index, gear in enumerate(gears, 1):
+        least = limits.least_shift_without_undercut(gear) / math.cos(helical.angle)
+        page.add("least_shift_without_undercut", least, "", "ISO 21771", index, symbol=symbol)
+    least = LEAST_TIP_THICKNESS * pair.module
+    page.add("least_tip_thickness", least, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)")
+    found = [(f, 0) for f in helical.face.findings(pair.findings(), pair.effective_contact_ratio)]
+    for index, gear in enumerate(gears, 1):
         found += [(f, index) for f in limits.findings(gear) if f.code != "thin_rim"]
-    for finding, owner in found:
-        page.notes.append(finding_of(owner, finding))
+    page.notes += [finding_of(owner, finding) for finding, owner in found]
 
 
 def working_steps(page: Sheet, values: tuple[float, float, float], *, internal: bool, normal: bool) -> None:

@@ -8,7 +8,6 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
-from geometry.base.angles import involute_function
 from geometry.base.errors import Nearest, ParameterError, rounded
 from geometry.base.record import Record, replace
 from geometry.gears.pairs.common_face import CommonFace
@@ -20,7 +19,7 @@ from geometry.gears.teeth.helix import Helix
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import base_helix_angle, transverse_gear
 from parts.base.refusal import REMOVED, SceneError, meant
-from parts.base.texts import N_
+from parts.base.texts import N_, in_context
 from parts.gears.ring_gear.part import RingGearSpec
 from parts.gears.spur_gear.page import addendum_formula, dedendum_formula, given_data, thickness_formula
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, section_of
@@ -30,12 +29,13 @@ from parts.mates.pages.internal import InternalKeys, RackKeys, internal_sheet, r
 from parts.mates.pages.pair_keys import GEARS, merged, pair_table
 from parts.mates.pages.wishes import wish_refused
 from parts.pages.contact_steps import (
+    Helical,
     backlash_steps,
     contact_steps,
     limit_steps,
     measured_steps,
+    meshing_steps,
     sliding_steps,
-    working_steps,
 )
 from parts.pages.inputs import PLACE, SceneKeys, checked, given, keys_of, refusal
 from parts.pages.misprints import printed_for_pair
@@ -76,6 +76,11 @@ class Asked(Record):
     def helix(self) -> float:
         """Helix angle, rad."""
         return self.face.helix.angle
+
+    @property
+    def helical(self) -> Helical:
+        """What its steps need beside the pair."""
+        return Helical(self.normal[0], self.face)
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -232,7 +237,8 @@ def _page(asked: Asked) -> Sheet:
     _mesh(page, asked)
     _radii(page, asked)
     _thicknesses(page, asked)
-    contact_steps(page, pair, asked.face)
+    page.section(N_("Contact ratio"))
+    contact_steps(page, pair, asked.helical)
     measured = {name: getattr(keys, name) for name in ("measured_arc_of_action", "measured_working_pitch")}
     for name, other in (tuple(measured), tuple(measured)[::-1]):
         if measured[name] is not None and measured[other] is None:
@@ -240,8 +246,13 @@ def _page(asked: Asked) -> Sheet:
     if keys.measured_arc_of_action is not None and keys.measured_working_pitch is not None:
         measured_steps(page, pair, keys.measured_arc_of_action, keys.measured_working_pitch)
     sliding_steps(page, pair)
-    backlash_steps(page, pair, asked.helix)
-    limit_steps(page, pair, asked.face)
+    formulas = "{p_w} - {S_w1} - {S_w2}", "{a_w} - {r_f#} - {r_a~}"
+    backlash_steps(page, pair, pair.circumferential_backlash, asked.helical, formulas)
+    page.section(in_context("pair", "Limits"))
+    if not asked.helix:
+        rules = limits.practicum_undercut(one).limit, limits.practicum_undercut(two).limit
+        page.both("least_shift_practicum", rules, "(17 - {z#}) / 17", ("practicum (1.2)",) * 2)
+    limit_steps(page, pair, pair.gears, asked.helical)
     for index, (spec, gear) in enumerate(zip((keys.first, keys.second), pair.gears, strict=True), 1):
         page.notes += [finding_of(index, f) for f in rack_findings(spec, gear)]
     if printed:
@@ -252,36 +263,12 @@ def _page(asked: Asked) -> Sheet:
 
 def _mesh(page: Sheet, asked: Asked) -> None:
     """(3.2) to (3.6), from the shifts to the distance or the other way round."""
-    pair, (one, two) = asked.pair, asked.pair.gears
-    angle = pair.working_pressure_angle
+    pair = asked.pair
     page.section(N_("Meshing"))
-    page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
-    alpha = one.rack.pressure_angle
-    page.add("tangent_of_pressure_angle", math.tan(alpha), "tan({alpha})", "practicum 3.1")
-    page.add("involute_of_pressure_angle", involute_function(alpha), "inv({alpha})", "practicum, table Д.1")
-    reference = "{m} * ({z1} + {z2}) / 2"
-    if asked.wanted_distance:
-        page.add("working_centre_distance", pair.working_centre_distance)
-        formula = f"arccos({reference} * cos({{alpha}}) / {{a_w}})"
-        page.add("working_pressure_angle_deg", math.degrees(angle), formula, "practicum (3.4)")
-        page.add("involute_of_working_pressure_angle", involute_function(angle), "inv({alpha_w})", "practicum (3.3)")
-        total = (one.number_of_teeth + two.number_of_teeth) * (involute_function(angle) - involute_function(alpha))
-        total /= 2 * math.tan(asked.normal[0].rack.pressure_angle)
-        formula = "({z1} + {z2}) * ({inv_alpha_w} - inv({alpha})) / (2 * tan({alpha_n}))"
-        if asked.shifts_follow:
-            page.add("profile_shift_sum", total, formula, "practicum (3.3)")
-        else:
-            # with shifts of one's own the distance leaves backlash
-            page.add("tight_profile_shift_sum", total, formula, "practicum (3.3)")
-    else:
-        values = involute_function(angle), math.degrees(angle), pair.working_centre_distance
-        working_steps(page, values, internal=False, normal=True)
-    page.add("cosine_of_working_pressure_angle", math.cos(angle), "cos({alpha_w})", "practicum, table Е.1")
-    page.add("reference_centre_distance", pair.reference_centre_distance, reference, "ISO 21771")
-    # of the pair in transverse modules, told in normal ones like the shifts
-    cosine = math.cos(asked.helix)
-    distance, shortening = pair.centre_distance_coefficient / cosine, pair.tip_shortening_coefficient / cosine
-    page.add("centre_distance_coefficient", distance, "({a_w} - {a}) / {m_n}", "ISO 21771")
+    # with shifts of one's own the distance leaves backlash
+    total = "profile_shift_sum" if asked.shifts_follow else "tight_profile_shift_sum"
+    meshing_steps(page, pair, asked.helical, total if asked.wanted_distance else "")
+    shortening = pair.tip_shortening_coefficient / math.cos(asked.helix)
     if asked.given_shortening is None:
         page.add("tip_shortening_coefficient", shortening, "{x_n1} + {x_n2} - {y}", "GOST 16532-70")
     else:

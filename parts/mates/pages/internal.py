@@ -8,10 +8,8 @@ from typing import Annotated, Any
 import msgspec
 from msgspec import Struct
 
-from geometry.base.angles import involute_function
 from geometry.base.errors import Nearest, ParameterError
 from geometry.gears.pairs.internal import InternalPair, shift_difference
-from geometry.gears.pairs.sliding import active_line
 from geometry.gears.teeth import limits, ring_limits
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.transverse_ring import transverse_ring
@@ -26,20 +24,19 @@ from parts.keys.base import mm
 from parts.keys.helix import common_face
 from parts.mates.involute import InternalGearPairSpec, InternalMating, RackMating, RackPairSpec
 from parts.mates.pages.pair_keys import GEARS, pair_table
-from parts.mates.pages.rack import (
+from parts.mates.pages.rack import first_radii, rack_page
+from parts.mates.pages.wishes import wish_refused
+from parts.mates.pairing import mated
+from parts.pages.contact_steps import (
     ISO,
     Helical,
     backlash_steps,
-    first_limits,
-    first_radii,
+    contact_steps,
     heading,
-    overlap,
-    pair_notes,
-    rack_page,
+    limit_steps,
+    meshing_steps,
+    sliding_steps,
 )
-from parts.mates.pages.wishes import wish_refused
-from parts.mates.pairing import mated
-from parts.pages.contact_steps import working_steps
 from parts.pages.inputs import checked, keys_of, refusal
 from parts.pages.misprints import printed_for_internal
 from parts.pages.page import Sheet
@@ -175,40 +172,20 @@ def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> 
     if ring.circumferential_thinning:
         page.add("circumferential_thinning", ring.circumferential_thinning, gear=2)
     heading(page, helical, N_("Meshing"))
-    _internal_mesh(page, pair, keys.working_centre_distance is not None, helical)
+    wanted = "" if keys.working_centre_distance is None else "profile_shift_difference"
+    meshing_steps(page, pair, helical, wanted)
+    page.add("working_radius", pair.working_radii[0], "{a_w} / ({u} - 1)", "ISO 21771", 1)
+    page.add("working_radius", pair.working_radii[1], "{a_w} * {u} / ({u} - 1)", "ISO 21771", 2)
     heading(page, helical, N_("Radii"))
     _internal_radii(page, pair, keys, helical)
     heading(page, helical, N_("Pitch and tooth thickness"))
     _internal_sizes(page, pair)
     heading(page, helical, N_("Contact ratio"))
-    _internal_contact(page, pair, helical)
+    contact_steps(page, pair, helical)
+    sliding_steps(page, pair)
+    backlash_steps(page, pair, pair.circumferential_backlash, helical)
     _internal_limits(page, pair, helical)
     return page
-
-
-def _internal_mesh(page: Sheet, pair: InternalPair, wanted_distance: bool, helical: Helical) -> None:
-    """Working angle and distance, from the shifts or the other way round."""
-    angle, alpha = pair.working_pressure_angle, pair.ring.pressure_angle
-    page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
-    page.add("involute_of_pressure_angle", involute_function(alpha), "inv({alpha})", "practicum, table Д.1")
-    reference = "{m} * ({z2} - {z1}) / 2"
-    if wanted_distance:
-        page.add("working_centre_distance", pair.working_centre_distance)
-        formula = f"arccos({reference} * cos({{alpha}}) / {{a_w}})"
-        page.add("working_pressure_angle_deg", math.degrees(angle), formula, "GOST 19274")
-        page.add("involute_of_working_pressure_angle", involute_function(angle), "inv({alpha_w})", "GOST 19274")
-        value = (involute_function(angle) - involute_function(alpha)) * (pair.teeth[1] - pair.teeth[0])
-        value /= 2 * math.tan(helical.normal.rack.pressure_angle)
-        formula = "({z2} - {z1}) * ({inv_alpha_w} - inv({alpha})) / (2 * tan({alpha_n}))"
-        page.add("profile_shift_difference", value, formula, "GOST 19274")
-    else:
-        values = involute_function(angle), math.degrees(angle), pair.working_centre_distance
-        working_steps(page, values, internal=True, normal=True)
-    page.add("reference_centre_distance", pair.reference_centre_distance, reference, "ISO 21771")
-    value = pair.centre_distance_coefficient / math.cos(helical.angle)
-    page.add("centre_distance_coefficient", value, "({a_w} - {a}) / {m_n}", "ISO 21771")
-    page.add("working_radius", pair.working_radii[0], "{a_w} / ({u} - 1)", "ISO 21771", 1)
-    page.add("working_radius", pair.working_radii[1], "{a_w} * {u} / ({u} - 1)", "ISO 21771", 2)
 
 
 def _internal_radii(page: Sheet, pair: InternalPair, keys: InternalKeys, helical: Helical) -> None:
@@ -247,33 +224,6 @@ def _internal_sizes(page: Sheet, pair: InternalPair) -> None:
     page.add("tip_thickness", ring_limits.tip_thickness(ring), formula if forms[1] else "", "ISO 21771", 2)
 
 
-def _internal_contact(page: Sheet, pair: InternalPair, helical: Helical) -> None:
-    """Contact ratio both ways, the line of action, form and active diameters, sliding."""
-    formula = "({z1} * tan({alpha_a1}) - {z2} * tan({alpha_a2}) + ({z2} - {z1}) * tan({alpha_w})) / (2 * pi)"
-    page.add("contact_ratio", pair.contact_ratio, formula, "GOST 19274")
-    page.add("working_pitch", pair.working_pitch, "2 * pi * {r_w1} / {z1}", "practicum (3.21)")
-    formula = "{r_w1} * ({r_b1} * tan({alpha_a1}) - {r_b2} * tan({alpha_a2}) + {a_w} * sin({alpha_w})) / {r_b1}"
-    page.add("arc_of_action", pair.arc_of_action, formula, "practicum, fig. 3.13")
-    page.add("contact_ratio_by_arc", pair.contact_ratio_by_arc, "{dd} / {p_w}", "practicum (3.21)")
-    if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
-        page.add("effective_contact_ratio", pair.effective_contact_ratio, "", "ISO 21771")
-    overlap(page, pair, helical)
-    active, forms, tips = pair.active_profile_radii, pair.root_form_radii, pair.tip_form_radii
-    page.both("root_form_diameter", (2 * forms[0], 2 * forms[1]), "", ISO)
-    page.both("start_of_active_profile_diameter", (2 * active[0][0], 2 * active[1][1]), "", ISO)
-    page.both("active_tip_diameter", (2 * active[0][1], 2 * active[1][0]), "", ISO)
-    page.both("tip_form_diameter", (2 * tips[0], 2 * tips[1]), "", ISO)
-    page.section(N_("Line of action and sliding"))
-    line = active_line(pair)
-    page.add("line_of_action_length", line.line_length, "{a_w} * sin({alpha_w})", "practicum, fig. 3.5")
-    page.add("active_line_length", line.length, "", "practicum, fig. 3.11")
-    page.add("approach_length", line.approach, "", "ISO 21771")
-    page.add("recess_length", line.recess, "{g} - {g_f}", "ISO 21771")
-    page.both("root_sliding", line.root_sliding, "", ISO)
-    page.both("tip_sliding", line.tip_sliding, "", ISO)
-    backlash_steps(page, pair, pair.circumferential_backlash, helical)
-
-
 def _internal_limits(page: Sheet, pair: InternalPair, helical: Helical) -> None:
     """The conditions of an internal pair, each with its margin, mm; negative: broken."""
     page.section(N_("Conditions: margins"))
@@ -284,5 +234,4 @@ def _internal_limits(page: Sheet, pair: InternalPair, helical: Helical) -> None:
     page.both("fillet_interference_margin", fillets, "", ISO)
     page.add("greatest_tip_diameter_pinion", pair.tip_limits[0], "", "ISO 21771")
     page.add("least_tip_diameter_ring", pair.tip_limits[1], "", "ISO 21771")
-    first_limits(page, pair.pinion, helical)
-    pair_notes(page, pair, pair.pinion, helical)
+    limit_steps(page, pair, (pair.pinion,), helical)

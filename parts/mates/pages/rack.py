@@ -1,49 +1,16 @@
-"""Steps that the internal pair and the rack have in common, and the page of gear and rack."""
+"""The page of gear and rack."""
 
 from __future__ import annotations
 
 import math
 
-from geometry.base.record import Record
-from geometry.gears.pairs.common_face import CommonFace
-from geometry.gears.pairs.internal import InternalPair
 from geometry.gears.pairs.rack import RackPair
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.spur import SpurGear
-from geometry.gears.teeth.transverse import normal_share, transverse_angle
-from parts.base.texts import N_, message
+from parts.base.texts import N_
 from parts.gears.spur_gear.page import addendum_formula, dedendum_formula, given_data
-from parts.pages.contact_steps import overlap_steps
+from parts.pages.contact_steps import ISO, Helical, backlash_steps, heading, limit_steps, overlap_steps
 from parts.pages.page import Sheet
-from parts.texts.findings import finding_of
-
-ISO = ("ISO 21771", "ISO 21771")
-
-
-class Helical(Record):
-    """What a pair of transverse sections does not know of itself: its first gear in normal data, and the face."""
-
-    normal: SpurGear
-    face: CommonFace
-
-    @property
-    def angle(self) -> float:
-        """Helix angle, rad; 0 for straight teeth."""
-        return self.face.helix.angle
-
-    def normal_backlash(self, pair: InternalPair | RackPair) -> float:
-        """j_bn of the pair, mm."""
-        return float(pair.normal_backlash) * normal_share(self.section_angle, self.angle)
-
-    @property
-    def section_angle(self) -> float:
-        """alpha_t, rad, which the base helix angle follows from."""
-        return transverse_angle(self.normal.rack.pressure_angle, self.angle)
-
-
-def heading(page: Sheet, helical: Helical, title: str) -> None:
-    """A section whose numbers are transverse where the teeth are helical, and says so."""
-    page.section(message("{title} (transverse section)", title=message(title)) if helical.angle else title)
 
 
 def first_radii(page: Sheet, gear: SpurGear, helical: Helical) -> None:
@@ -52,38 +19,6 @@ def first_radii(page: Sheet, gear: SpurGear, helical: Helical) -> None:
     page.add("tip_radius", gear.tip_radius, formula, "practicum (3.11)", 1)
     formula = f"{{r1}} - {dedendum_formula(gear)}" if gear.cutter is None else ""
     page.add("root_radius", gear.root_radius, formula, "practicum (3.13)", 1)
-
-
-def overlap(page: Sheet, pair: InternalPair | RackPair, helical: Helical) -> None:
-    """Axial overlap of helical teeth; nothing of straight ones."""
-    overlap_steps(page, pair.contact_ratio, helical.face, "{b}@ * sin(abs({beta})) / (pi * {m_n})")
-
-
-def backlash_steps(page: Sheet, pair: InternalPair | RackPair, circumferential: float, helical: Helical) -> None:
-    """j_t, j_n and the bottom clearances."""
-    page.section(N_("Backlash and clearance"))
-    page.add("circumferential_backlash", circumferential, "", "ISO 21771")
-    cosine = " * cos({beta_b})" if helical.angle else ""
-    formula = f"{{j_wt}} * cos({{alpha_w}}){cosine}"
-    page.add("normal_backlash", helical.normal_backlash(pair), formula, "ISO 21771")
-    page.both("bottom_clearance_at_root", pair.tip_clearances, "", ISO)
-
-
-def first_limits(page: Sheet, gear: SpurGear, helical: Helical) -> None:
-    """Undercut and tip thickness of the first gear, with remarks where a limit is not kept."""
-    least = limits.least_shift_without_undercut(gear) / math.cos(helical.angle)
-    symbol = "x_n,min" if helical.angle else ""
-    page.add("least_shift_without_undercut", least, "", "ISO 21771", 1, symbol=symbol)
-    value = limits.LEAST_TIP_THICKNESS * gear.module
-    page.add("least_tip_thickness", value, f"{limits.LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)")
-
-
-def pair_notes(page: Sheet, pair: InternalPair | RackPair, gear: SpurGear, helical: Helical) -> None:
-    """What the pair does not keep, and its first gear."""
-    found = [(f, 0) for f in helical.face.findings(pair.findings(), pair.effective_contact_ratio)]
-    found += [(f, 1) for f in limits.findings(gear) if f.code != "thin_rim"]
-    for finding, owner in found:
-        page.notes.append(finding_of(owner, finding))
 
 
 def rack_page(pair: RackPair, topic: str, helical: Helical) -> Sheet:
@@ -130,9 +65,7 @@ def _rack_contact(page: Sheet, pair: RackPair, helical: Helical) -> None:
     gear, rack = pair.gear, pair.rack
     plain = not (gear.tip_chamfer or gear.tip_rounding or gear.rack.relief or rack.tip_chamfer or rack.tip_rounding)
     page.add("contact_ratio", pair.contact_ratio, formula if plain else "", "ISO 21771")
-    if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
-        page.add("effective_contact_ratio", pair.effective_contact_ratio, "", "ISO 21771")
-    overlap(page, pair, helical)
+    overlap_steps(page, pair, helical)
     low, high = pair.active_ends
     pole = gear.base_radius * math.tan(rack.rack.pressure_angle)
     page.add("active_line_length", high - low, "", "practicum, fig. 3.11")
@@ -143,5 +76,4 @@ def _rack_contact(page: Sheet, pair: RackPair, helical: Helical) -> None:
     found = {m.name: m for m in pair.margins()}
     fillets = found["fillet_interference_gear"].margin, found["fillet_interference_rack"].margin
     page.both("fillet_interference_margin", fillets, "", ISO)
-    first_limits(page, gear, helical)
-    pair_notes(page, pair, gear, helical)
+    limit_steps(page, pair, pair.gears, helical)
