@@ -29,8 +29,8 @@ CYRILLIC = re.compile("[\u0400-\u04ff]")
 CYRILLIC_PLACES = {
     "parts/pages/symbols.py": "their indices",
     "parts/base/materials.py": "materials as users write them in scenes of any language",
-    "parts/mates/pages/internal.py": "the practicum's table Д.1",
-    "parts/mates/pages/external.py": "the practicum's tables А.1, Д.1, Е.1",
+    "parts/pages/contact_steps.py": "the practicum's tables Д.1, Е.1",
+    "parts/mates/pages/external.py": "the practicum's table А.1",
     "geometry/plane/letters.py": "the letters that are engraved",
     "geometry/gears/shifts/tables.py": "the practicum's tables А.1, Б.1, В.1, Г.1",
 }
