@@ -28,7 +28,9 @@ def arc(start: complex, end: complex, radius: float) -> np.ndarray:
     )
     sweep = np.angle((end - centre) / (start - centre))
     sweep = sweep % (2 * math.pi) if radius > 0 else sweep % (2 * math.pi) - 2 * math.pi
-    return centre + (start - centre) * np.exp(1j * sweep * np.linspace(0, 1, 129)[:-1])
+    # chords leave 1e-4 mm of it at most
+    count = max(128, math.ceil(abs(sweep) * math.sqrt(abs(radius) / 8e-4)))
+    return centre + (start - centre) * np.exp(1j * sweep * np.linspace(0, 1, count + 1)[:-1])
 
 
 def inside(points: np.ndarray, loop: Loop) -> np.ndarray:
@@ -216,7 +218,11 @@ def standing(scene: Any, turns: Mapping[str, float] | None = None) -> dict[str, 
         elif kind == "external_gear_pair":
             wheels = [scene.parts[scene.instances[key].part] for key in (mate.first, mate.second)]
             far = wheels[0].module * sum(w.number_of_teeth for w in wheels) / 2
-            found[mate.second] = upright, at + np.array([far, 0.0, 0.0])
+            way = math.radians(mate.direction_deg)
+            # along the arm of what carries it
+            carrier = next(found[m.first][0] for m in scene.mates
+                           if m.second == mate.second and m.__struct_config__.tag == "carried")  # fmt: skip
+            found[mate.second] = upright, at + carrier @ np.array([far * math.cos(way), far * math.sin(way), 0.0])
         elif kind in ("fixed", "parallel"):
             found[mate.second] = axes, at + (axes if kind == "fixed" else upright) @ np.array(mate.offset)
         else:

@@ -178,12 +178,15 @@ def test_idlers_are_free_stretched_and_folded_and_a_pin_too_long_strikes_the_one
 
 
 @pytest.mark.heavy
-def test_cranks_are_free_wherever_both_disks_may_stand() -> None:
-    scene, rng = module(), random.Random(16)
+@pytest.mark.parametrize(("orientation", "parts"), [("cranks", CRANKS), ("idlers", IDLERS)])
+def test_what_keeps_the_platform_parallel_is_free_wherever_both_disks_may_stand(
+    orientation: str, parts: set[str]
+) -> None:
+    scene, rng = module(orientation=orientation), random.Random(16)
     for _ in range(100):
         delta, beta = (rng.uniform(-math.pi, math.pi) for _ in range(2))
         turns = {"disk_2": delta, "ring": delta, "pinion": delta + beta}
-        assert overlaps(scene, turns, CRANKS) == {}, turns
+        assert overlaps(scene, turns, parts) == {}, turns
 
 
 def test_the_platform_is_parallel_and_where_both_disks_carry_it() -> None:
