@@ -137,11 +137,10 @@ def _distance(points: Complex, curves: Sequence[Curve], turns: Complex, trusted:
 
 def distance_to_curve(points: Complex, curve: Curve) -> Real:
     """Distance of each point (n,) from one curve, mm: projection from its nearest of 65 samples."""
+    if isinstance(curve, Arc | Line):
+        return _distance_to_plain(points, curve)
     t = np.linspace(*curve.domain, _FINE_SAMPLES)
-    # lines and arcs have their foot in closed form
-    plain = isinstance(curve, Arc | Line)
-    start = np.zeros(points.shape, dtype=np.int64) if plain else _nearest_index(points, curve.point(t))
-    return _projected(points, curve, t, start, newton=True)
+    return _projected(points, curve, t, _nearest_index(points, curve.point(t)), newton=True)
 
 
 def distance_to_curves(points: Complex, curves: Sequence[Curve]) -> Real:
@@ -195,12 +194,8 @@ def _projected(points: Complex, curve: Curve, samples: Real, start: NDArrayInt, 
 
     Without ``newton`` the curvature's part of the slope is left out, which is little for points near the curve.
     """
-    if isinstance(curve, Arc):
-        return _distance_to_arc(points, curve)
-    if isinstance(curve, Line):
-        chord = curve.end - curve.start
-        share = np.clip(((points - curve.start) * np.conj(chord)).real / abs(chord) ** 2, 0, 1)
-        return np.abs(points - curve.start - share * chord)
+    if isinstance(curve, Arc | Line):
+        return _distance_to_plain(points, curve)
     low, high = curve.domain
     reach = (high - low) / (len(samples) - 1)
     t, before = samples[start], np.full(start.shape, math.nan)
@@ -235,7 +230,12 @@ def _nearest_index(points: Complex, samples: Complex) -> NDArrayInt:
     return result
 
 
-def _distance_to_arc(points: Complex, arc: Arc) -> Real:
+def _distance_to_plain(points: Complex, arc: Arc | Line) -> Real:
+    """From what has the feet of points in closed form."""
+    if isinstance(arc, Line):
+        chord = arc.end - arc.start
+        share = np.clip(((points - arc.start) * np.conj(chord)).real / abs(chord) ** 2, 0, 1)
+        return np.abs(points - arc.start - share * chord)
     sense = 1.0 if arc.sweep > 0 else -1.0
     spoke = points - arc.centre
     swept = np.mod(sense * (np.angle(spoke) - arc.start_angle), 2 * math.pi)

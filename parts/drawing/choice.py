@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import cache
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record
@@ -45,25 +46,34 @@ def sheet_for(asked: Asked, greatest: Callable[[Canvas], float], least: float) -
         The paper is too small, or no paper is large enough.
     """
 
-    def found(name: str) -> Iterator[tuple[float, Canvas]]:
-        for upright in (True, False):
-            if upright or name != "A4":
-                sheet = blank(name, upright=upright, band=asked.band)
-                most = greatest(sheet)
-                yield next((s for s in SCALES if s <= most * (1 + 1e-9)), 0.0), sheet
+    @cache
+    def best(name: str) -> tuple[float, Canvas]:
+        """The greatest scale on a paper, and how it lies."""
+        found = []
+        for upright in (True, False) if name != "A4" else (True,):
+            sheet = blank(name, upright=upright, band=asked.band)
+            most = greatest(sheet)
+            found.append((next((s for s in SCALES if s <= most * (1 + 1e-9)), 0.0), sheet))
+        return max(found, key=lambda pair: pair[0])
 
-    best = {name: max(found(name), key=lambda pair: pair[0]) for name in PAPERS}
+    def holding(scale: float) -> Iterator[str]:
+        return (name for name in PAPERS if best(name)[0] >= scale)
+
     given = None if asked.scale is None else scale_value(asked.scale)
-    holds = [name for name, (scale, _) in best.items() if scale >= (given or SCALES[-1])]
-    if not holds:
-        scale = max(scale for scale, _ in best.values())
-        if given is not None and scale:
-            raise ParameterError("scale", asked.scale, "fits_no_paper_so_large", Nearest(scale_name(scale), "at_most"))
-        raise ParameterError("paper", asked.paper, "fits_no_paper")
-    if asked.paper is not None and asked.paper not in holds:
-        code = "paper_too_small" if given is None else "paper_too_small_for_scale"
-        raise ParameterError("paper", asked.paper, code, Nearest(holds[0], "at_least"), scale=asked.scale)
-    enough = [name for name in holds if best[name][0] >= (given or least)]
-    name = asked.paper or (enough or [max(holds, key=lambda n: best[n][0])])[0]
-    scale, sheet = best[name]
+    lowest = given or SCALES[-1]
+    # larger papers are tried only where no smaller one does
+    name = asked.paper or next(holding(max(lowest, given or least)), None)
+    if name is None or best(name)[0] < lowest:
+        holds = list(holding(lowest))
+        if not holds:
+            scale = max(best(name)[0] for name in PAPERS)
+            if given is not None and scale:
+                nearest = Nearest(scale_name(scale), "at_most")
+                raise ParameterError("scale", asked.scale, "fits_no_paper_so_large", nearest)
+            raise ParameterError("paper", asked.paper, "fits_no_paper")
+        if asked.paper is not None:
+            code = "paper_too_small" if given is None else "paper_too_small_for_scale"
+            raise ParameterError("paper", asked.paper, code, Nearest(holds[0], "at_least"), scale=asked.scale)
+        name = max(holds, key=lambda n: best(n)[0])
+    scale, sheet = best(name)
     return sheet, given or scale

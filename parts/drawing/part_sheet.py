@@ -12,7 +12,7 @@ import numpy as np
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc
-from geometry.plane.measure import distance_to_curves
+from geometry.plane.measure import distance_to_curve
 from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text, text_width
 from parts.drawing.cells import wrapped
 from parts.drawing.choice import Asked, sheet_for
@@ -54,15 +54,16 @@ class PartMeasures(Record):
     def check(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
         """Hold the file against the model."""
         worst = 0.0
+        drawn = {name: [points for layer, points in sheet.samples if layer == name] for name, _ in sheet.samples}
+        reaches = {name: np.array([points[[0, -1]] for points in runs]) for name, runs in drawn.items()}
         for paper, layer, curve in self.outlines:
             ends = curve.point(np.array(curve.domain)) * paper.scale + paper.origin
-            off = math.inf
-            for name, points in sheet.samples:
-                # a file may run along a curve either way
-                near = min(np.abs(points[[0, -1]] - ends).max(), np.abs(points[[-1, 0]] - ends).max())
-                if name == layer and near < _NEAR:
-                    model = (points - paper.origin) / paper.scale
-                    off = min(off, float(distance_to_curves(model, [curve]).max()) * paper.scale)
+            off, both = math.inf, reaches.get(layer, np.zeros((0, 2), dtype=complex))
+            # a file may run along a curve either way
+            near = np.minimum(np.abs(both - ends).max(axis=1), np.abs(both[:, ::-1] - ends).max(axis=1))
+            for k in np.flatnonzero(near < _NEAR):
+                model = (drawn[layer][k] - paper.origin) / paper.scale
+                off = min(off, float(distance_to_curve(model, curve).max()) * paper.scale)
             worst = max(worst, off)
         measured["max_deviation"] = worst
         if not worst <= allowed:
