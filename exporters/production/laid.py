@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from exporters.production.boards import BoardJob
     from exporters.production.plan import Plan
     from exporters.production.plates import PlateJob
+    from parts.base.texts import Words
 
     LaidJob: TypeAlias = BoardJob | PlateJob
 
@@ -24,7 +25,7 @@ def laid_jobs(plan: Plan) -> dict[str, list[LaidJob]]:
     return found
 
 
-def lying_on(job: LaidJob) -> dict[str, str]:
-    """For each part on a board or plate how many of it lie there, and its name."""
+def lying_on(job: LaidJob, told: Words) -> dict[str, str]:
+    """For each part on a board or plate how many of it lie there, and its name, as a language writes numbers."""
     counts = Counter(piece.part for piece in job.pieces)
-    return {m.part.id: f"{counts[m.part.id]} × {m.part.name}" for m in job.members}
+    return {m.part.id: told.decimal(f"{counts[m.part.id]} × {m.part.name}") for m in job.members}

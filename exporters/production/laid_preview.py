@@ -17,6 +17,7 @@ from geometry.base.record import Record
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Contour
 from parts.base.part import Part
+from parts.base.texts import Words, words
 
 if TYPE_CHECKING:
     from exporters.production.laid import LaidJob
@@ -45,16 +46,19 @@ def laid_previews(plan: Plan, folder: Path) -> list[Path]:
     fills = dict(zip(plan.parts, np.resize(FILLS, len(plan.parts)).tolist(), strict=True))
     fills |= {name: part.colour for name, part in plan.parts.items() if part.colour}
     title = plan.scene.scene.title or plan.scene.name
-    return [_preview(jobs[0], title, fills, folder / f"{name}.preview.svg") for name, jobs in laid_jobs(plan).items()]
+    return [
+        _preview(jobs[0], title, fills, folder / f"{name}.preview.svg", words(plan.scene.scene.language))
+        for name, jobs in laid_jobs(plan).items()
+    ]
 
 
-def _preview(job: LaidJob, title: str, fills: Mapping[str, str], file: Path) -> Path:
+def _preview(job: LaidJob, title: str, fills: Mapping[str, str], file: Path, told: Words) -> Path:
     width, across, third = job.sizes
     size = max(width, across)
     room, line, letters = size * _ROOM, size * _LINE, size * _LETTERS
     drawn = {m.part.id: _drawn(m.part, job, str(k), fills[m.part.id]) for k, m in enumerate(job.members, 1)}
-    rows = [(": ".join((*drawn[part].words[1:], told)), drawn[part].fill) for part, told in lying_on(job).items()]
-    title += f": {width:g} × {across:g} × {third:g}"
+    rows = [(": ".join((*drawn[part].words[1:], row)), drawn[part].fill) for part, row in lying_on(job, told).items()]
+    title += told.decimal(f": {width:g} × {across:g} × {third:g}")
     title += f", {job.times} ×" if job.times > 1 else ""
     legend, bottom = _legend(title, rows, letters, complex(room, across + 2 * room), width)
     corner = complex(room, across + room)

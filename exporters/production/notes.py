@@ -53,7 +53,10 @@ def _files(plan: Plan, told: Words) -> Iterator[str]:
         (
             ", ".join((jobs[0].path, *(f".{job.export.format}" for job in jobs[1:]))),
             "; ".join(
-                (", ".join(lying_on(jobs[0]).values()), *(told.say(finding_message(f)) for f in several(jobs[0].times)))
+                (
+                    ", ".join(lying_on(jobs[0], told).values()),
+                    *(told.say(finding_message(f)) for f in several(jobs[0].times)),
+                )
             ),
         )
         for jobs in laid.values()

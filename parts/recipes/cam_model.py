@@ -132,16 +132,16 @@ class _Making(Making):
         return float(math.ceil(before + (keys.guide_pin_diameter + keys.clearance) / 2))
 
     def _mark(self) -> float:
-        """Diameter of the mark at cam angle 0, smaller where bore and cam are near each other, mm."""
+        """Diameter of the mark at cam angle 0, where bore and edge are near each other a third of that wall, mm."""
         keys, inside = self.keys, inner_radius(self.cam)
         # the mark's place is found among so many
         solid = inside - 2 * least_wall(inside) - inside / PLACES
-        most = solid - (keys.axle_diameter + keys.clearance) / 2
-        if most < _LEAST_MARK:
+        bore = (keys.axle_diameter + keys.clearance) / 2
+        if solid - bore < _LEAST_MARK:
             axle = 2 * (solid - _LEAST_MARK) - keys.clearance
             cure = limit(axle, keys.axle_diameter) if axle >= _LEAST_AXLE else Nearest(None)
             raise ParameterError("axle_diameter", keys.axle_diameter, "no_wall_to_base_circle", cure)
-        return min(_MARK, math.floor(10 * most) / 10)
+        return min(_MARK, max(math.floor(10 * (inside - bore) / 3) / 10, _LEAST_MARK))
 
     def all(self) -> Expansion:
         """Every part, as it stands on what is made before, and one turn of the cam."""
