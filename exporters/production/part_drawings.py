@@ -12,8 +12,8 @@ from parts.base.registry import KINDS
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.drawing.part_sheet import Block, part_sheet
-from parts.drawing.working import Subject
-from parts.keys.working import WorkingTable
+from parts.drawing.working import PartDrawing, Subject
+from parts.keys.working import ZONES, WorkingTable, told_sizes
 from parts.pages.data_table import draw_data_table, table_sizes
 from parts.scene.data_tables import part_table
 
@@ -38,6 +38,7 @@ def part_drawings(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
     for name in export.parts or known:
         part, wishes = parts[name], export.drawing or WorkingTable()
         drawing = import_module(str(part.made_by.drawing)).part_drawing(Subject(part, wishes, asked.language))
+        _check_zones(drawing, wishes, wanted)
         try:
             table = part_table(part, wanted.scene, wanted.placing, parts)
         except ParameterError as error:
@@ -49,3 +50,13 @@ def part_drawings(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
             blocks.append(Block((wide, high), draw))
         found.append((name, part_sheet(drawing, blocks, wishes.roughness, asked)))
     return found
+
+
+def _check_zones(drawing: PartDrawing, wishes: WorkingTable, wanted: Request) -> None:
+    """Refuse a tolerance zone that is not told for the size at which it stands."""
+    zones = {str(zone): key for key in ZONES if (zone := getattr(wishes, key))}
+    for size in (size for view in drawing.views for size in view.sizes if size.after in zones):
+        above, most = told_sizes(size.after)
+        if not above < size.value <= most:
+            where, told = f"drawing.{zones[size.after]}", {"size": size.value, "above": above, "most": most}
+            raise wanted.refused(where, size.after, "zone_not_at_size", **told)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated
 
 from msgspec import Meta, Struct
@@ -9,6 +10,18 @@ from msgspec import Meta, Struct
 # fundamental deviations by tables 2 to 5 of ISO 286-1, JS as GOST writes it too: J and K of holes, j of shafts have one
 # in some grades alone
 _ALL, _GRADES = "A|B|CD?|D|EF?|FG?|G|H|J[Ss]|[MNPR-VXY]|Z[ABC]?", "(01|[0-9]|1[0-8])"
+
+
+# mm: for sizes above the first and up to the second a fundamental deviation is told (the same tables)
+_TOLD = {
+    **dict.fromkeys(("c", "j", "x", "z", "za", "zb", "zc"), (0.0, 500.0)), "a": (1.0, 500.0), "b": (1.0, 500.0),
+    "t": (24.0, 3150.0), "v": (14.0, 500.0), "y": (18.0, 500.0),
+}  # fmt: skip
+
+
+def told_sizes(zone: str) -> tuple[float, float]:
+    """Above and up to which size, mm, a tolerance zone is told."""
+    return _TOLD.get(zone.rstrip("0123456789").lower(), (0.0, math.inf))
 
 
 def _hole(meaning: str) -> Meta:
@@ -43,3 +56,7 @@ class WorkingTable(Struct, forbid_unknown_fields=True, frozen=True):
         list[Annotated[str, Meta(pattern=r"\S", max_length=300, description="words")]],
         Meta(max_length=12, description="technical requirements, a line each, beside those of the drawing"),
     ] = []
+
+
+# the keys of tolerance zones
+ZONES = ("tip", "inner", "bore", "keyway", "shaft", "shaft_keyway", "width")

@@ -44,6 +44,7 @@ REASONS = {
         "the axis of {instance} is oblique to the views of an assembly drawing; parts = [...] leaves it out"
     ),
     "no_working_drawing": N_("a {kind} has no working drawing"),
+    "zone_not_at_size": N_("this zone is told for sizes above {above} up to {most} mm (ISO 286-1), not for {size} mm"),
     "no_such_file": N_("no such file"),
     "no_such_mate": N_("the scene has no such mate"),
     "not_in_empty_report": N_("not named in {name}, which knows no file"),
