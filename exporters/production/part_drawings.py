@@ -58,5 +58,5 @@ def _check_zones(drawing: PartDrawing, wishes: WorkingTable, wanted: Request) ->
     for size in (size for view in drawing.views for size in view.sizes if size.after in zones):
         above, most = told_sizes(size.after)
         if not above < size.value <= most:
-            where, told = f"drawing.{zones[size.after]}", {"size": size.value, "above": above, "most": most}
-            raise wanted.refused(where, size.after, "zone_not_at_size", **told)
+            where = f"drawing.{zones[size.after]}"
+            raise wanted.refused(where, size.after, "zone_not_at_size", size=size.value, above=above, most=most)

@@ -9,7 +9,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from geometry.curves.curve import end_point, start_point
+from geometry.base.placement import Placement2
+from geometry.base.record import replace
+from geometry.curves.curve import Curve, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket
 from parts.bodies.turned import TurnedSpec
@@ -39,6 +41,9 @@ from parts.texts.sheets import sheet_words
 _SAME = 1e-9
 # a section of a keyway is so high on paper at least, mm
 _LEAST_SECTION = 20.0
+# parts of a section's largest size: what is drawn too small in it, and how large its half is at most where that is
+# enlarged; how far the circle about it reaches; how large the least of it is on paper then, and the whole at most, mm
+_LEAST_DRAWN, _SHARE, _AROUND, _LEAST_ENLARGED, _MOST_ENLARGED = 1 / 60, 1 / 4, 1.15, 5.0, 60.0
 # part of a centre hole's size up to which the shaft about it is shown
 _ABOUT = 1.5
 _LETTERS = "ABCDEFGHJK"
@@ -50,7 +55,8 @@ def part_drawing(subject: Subject) -> PartDrawing:
     assert isinstance(half, HalfSection)
     loop = tuple(_curve(piece) for piece in half.pieces)
     is_shaft, hollow = subject.part.kind == "shaft", half.radii()[0] > 0
-    found = [_long_view(half, loop, subject, is_shaft=is_shaft, cut=hollow or not is_shaft)]
+    whole = _long_view(half, loop, subject, is_shaft=is_shaft, cut=hollow or not is_shaft)
+    found = [whole] if is_shaft or not hollow else [*_enlarged(half, whole, subject)]
     if half.holes:
         found.append(_face(half, subject))
     if is_shaft and not hollow and (centre := _centre_hole(loop, subject)) is not None:
@@ -137,6 +143,45 @@ def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: boo
     numbers = (Note(corner.at, str(k)) for k, corner in enumerate(listed[:2], 1))
     notes = (*_rough(bores(loop, lambda curve: curve not in inner), loop, subject), *numbers)
     return View(tuple(strokes), hatched, tuple(axes), tuple(sizes), told.rounds, notes, cuts=cuts)
+
+
+def _enlarged(half: HalfSection, view: View, subject: Subject) -> Iterator[View]:
+    """A section; where its lengths and radii are too small beside its diameters, those on its upper half, enlarged."""
+    (low, high), (inner, outer) = half.heights(), half.radii()
+    lengths = [s for s in view.sizes if s.side in ("above", "below") and s.value < high - low - _SAME]
+    told = [*(one.value for one in lengths), *(one.value for one in view.rounds)]
+    wide, size = max(2 * outer, high - low), max(high - low, outer - inner)
+    if not told or size > _SHARE * wide or min(told) > _LEAST_DRAWN * wide:
+        yield view
+        return
+    letter, middle = sheet_words(subject.language, "view_a"), complex(low + high, inner + outer) / 2
+    about = circle_of(_AROUND * abs(complex(high, outer) - middle), middle)
+    marked = Note(complex(about.point(math.pi / 4 * about.radius)), letter)
+    yield replace(
+        view, strokes=(*view.strokes, (THIN, about)), notes=(*view.notes, marked), rounds=(),
+        sizes=tuple(s for s in view.sizes if s not in lengths),
+    )  # fmt: skip
+
+    def above(curve: Curve) -> bool:
+        return bool(curve.point(np.linspace(*curve.domain, 9)).imag.min() > inner - _SAME)
+
+    # it stands beside the axis
+    least, down = min(_MOST_ENLARGED, _LEAST_ENLARGED * size / min(told)), Placement2(0.0, complex(0.0, -middle.imag))
+    yield View(
+        tuple((layer, curve.placed(down)) for layer, curve in view.strokes if above(curve)),
+        tuple(tuple(c.placed(down) for c in loop) for loop in view.hatched if all(above(c) for c in loop)),
+        tuple(axis.placed(down) for axis in view.axes if above(axis)),
+        tuple(_upward(size, down) for size in lengths),
+        tuple(replace(one, centre=complex(down.apply(one.centre))) for one in view.rounds),
+        title=letter, least=least,
+    )  # fmt: skip
+
+
+def _upward(size: Size, down: Placement2) -> Size:
+    """A length on the upper half of a section, which is moved."""
+    start, end = (complex(down.apply(complex(p.real, abs(p.imag)))) for p in (size.start, size.end))
+    is_above = (size.side == "above") == (size.start.imag >= 0)
+    return replace(size, start=start, end=end, side="above" if is_above else "below")
 
 
 def _centre_hole(loop: Loop, subject: Subject) -> View | None:

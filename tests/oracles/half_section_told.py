@@ -18,6 +18,8 @@ from ezdxf.document import Drawing
 # mm, by which places in a file are off at most; digits of numbers that are compared
 NEAR, DIGITS = 1e-5, 4
 Corner = dict[str, float]
+_ENLARGED = re.compile(r"A \(\d")
+_RADIUS = re.compile(r"R(<>|\d)")
 
 
 class Told:
@@ -46,12 +48,19 @@ class Told:
         )  # fmt: skip
         zero, axis = left - scale * low, sum(widest) / 2
         assert any(abs(y - axis) < NEAR for x, y in axes if x < left + NEAR)
+        # what is enlarged stands on the right, and has numbers for words
+        beside = [min(e.dxf.start.x, e.dxf.end.x) for e in document.modelspace().query("LINE[layer=='OUTLINE']")]
+        enlarged = min((x for x in beside if x > zero + scale * high + NEAR), default=math.inf)
+        if not any(_ENLARGED.match(text.dxf.text) for text in document.modelspace().query("TEXT")):
+            enlarged = math.inf
         for entity in document.modelspace().query("DIMENSION"):
             factor = document.dimstyles.get(entity.dxf.dimstyle).dxf.dimlfac
             ends = [entity.dxf.defpoint2, entity.dxf.defpoint3]
             places = [((p.x - zero) / scale, (p.y - axis) / scale) for p in ends]
+            if abs(factor * scale - 1) > NEAR:
+                places = [(low + (p.x - enlarged) * factor, 0.0) for p in ends]
             # a radius is told from its centre, which may lie anywhere, to its arc
-            seen = places[1:] if "R<>" in entity.dxf.text else places
+            seen = places[1:] if _RADIUS.search(entity.dxf.text) else places
             if all(low - 10 * NEAR < z < high + 10 * NEAR and abs(r) < most + NEAR for z, r in seen):
                 self._read(entity, float(entity.get_measurement()) * factor, places)
 
@@ -61,7 +70,7 @@ class Told:
         count = int(number[1] or number[2]) if number else 1
         if "×45°" in text:
             self.chamfers[round(value, DIGITS)] += count
-        elif "R<>" in text:
+        elif _RADIUS.search(text):
             self.radii[round(value, DIGITS)] += count
         elif "%%c" in text:
             assert abs(first[1] + second[1]) < NEAR
@@ -136,7 +145,7 @@ class Told:
                 yield f"sphere {2 * radius:g} is not told"
 
     def _bound(self, edges: list[tuple[Corner, Corner]]) -> Iterator[tuple[tuple[float, float], float]]:
-        """Places whose distance an arc's own radius tells: about the axis, or half a circle; with its diameter."""
+        """Places whose distance an arc's radius tells: about the axis or half a circle, with its diameter, or smooth."""
         for a, b in edges:
             radius, chord = abs(a.get("arc", 0.0)), math.dist((a["r"], a["z"]), (b["r"], b["z"]))
             if not radius or a["z"] == b["z"]:
@@ -145,6 +154,11 @@ class Told:
             centres = [middle[0] + way * lift * (b["z"] - a["z"]) / chord for way in (1, -1)]
             if min(map(abs, centres)) < NEAR or lift < NEAR * radius:
                 yield (round(a["z"], DIGITS), round(b["z"], DIGITS)), round(2 * radius, DIGITS)
+                continue
+            # one that goes on smoothly from a cylinder ends where its radius meets the next diameter
+            heights = [middle[1] - way * lift * (b["r"] - a["r"]) / chord for way in (1, -1)]
+            if any(abs(z - end["z"]) < NEAR for z in heights for end in (a, b)):
+                yield (round(a["z"], DIGITS), round(b["z"], DIGITS)), 0.0
 
 
 def _leg(a: Corner, b: Corner) -> float:

@@ -258,6 +258,12 @@ def test_refusals_name_their_key() -> None:
     with pytest.raises(SceneError) as caught:
         jobs(PARTS["gear"], drawing={"bore": "7H"})
     assert caught.value.key == "exports[1].drawing.bore"
+    # zones t begin above 24 mm (ISO 286-1)
+    pin = {"kind": "pin", "length": 30.0}
+    with pytest.raises(SceneError) as caught:
+        jobs(pin | {"diameter": 24.0}, drawing={"shaft": "t7"})
+    assert caught.value.key == "exports[1].drawing.shaft"
+    assert jobs(pin | {"diameter": 24.5}, drawing={"shaft": "t7"})
     box = {"kind": "layered", "layers": [{"thickness": 4.0, "circles": [{"diameter": 20.0}]}]}
     with pytest.raises(SceneError) as caught:
         jobs(box, parts=["p"])
