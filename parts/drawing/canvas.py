@@ -76,7 +76,7 @@ STYLES: dict[str, Style] = {
     "ARC_OF_ACTION": Style(0.7, (), 5, "#2040c0"),
     "WORKING_PITCH": Style(0.7, (), 3, "#007020"),
     "DISK": Style(0.5, (), 7, "#000000"),
-    "HATCH": Style(0.13, (), 8, "#909090"),
+    "HATCH": Style(0.18, (), 8, "#909090"),
     "CONSTRUCTION": Style(0.13, (), 8, "#a0a0a0"),
     "ORDINATE": Style(0.13, (), 8, "#a0a0a0"),
     "AXIS": Style(0.35, (), 7, "#000000"),

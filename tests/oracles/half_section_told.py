@@ -145,7 +145,7 @@ class Told:
                 yield f"sphere {2 * radius:g} is not told"
 
     def _bound(self, edges: list[tuple[Corner, Corner]]) -> Iterator[tuple[tuple[float, float], float]]:
-        """Places whose distance an arc's radius tells: about the axis or half a circle, with its diameter, or smooth."""
+        """Places whose distance an arc's radius tells: about the axis or half a circle, with its diameter; smooth."""
         for a, b in edges:
             radius, chord = abs(a.get("arc", 0.0)), math.dist((a["r"], a["z"]), (b["r"], b["z"]))
             if not radius or a["z"] == b["z"]:
