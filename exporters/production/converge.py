@@ -177,13 +177,13 @@ def write_pictures(folder: Path, rungs: list[Rung], found: list[Order]) -> list[
     files = {r.file: [x for x in rungs if x.file == r.file] for r in rungs}
     runs: list[Series] = [(name, [r.seconds for r in row], [r.measured for r in row]) for name, row in files.items()]
     names = ["converge.time.svg", "converge.pieces.svg"]
-    write_loglog(folder / names[0], "measured error against run time", "time to write, s", "error, mm", runs)
+    write_loglog(folder / names[0], "measured error against run time", "time to write, s", runs)
     curves: list[Series] = [
         (f"{o.part} {o.curve} {o.method}{_order_text(o)}", [float(c) for c in o.counts], list(o.errors)) for o in found
     ]
     if not curves:
         return names[:1]
-    write_loglog(folder / names[1], "error against pieces; order in the key", "pieces of a curve", "error, mm", curves)
+    write_loglog(folder / names[1], "error against pieces; order in the key", "pieces of a curve", curves)
     return names
 
 

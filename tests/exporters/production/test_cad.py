@@ -198,19 +198,3 @@ def test_a_step_has_the_same_bytes_in_another_process_and_after_another(step_bui
     expected = step_build.read_bytes()
     assert (tmp_path / "a" / "s" / "g.step").read_bytes() == expected
     assert (tmp_path / "b" / "s" / "g.step").read_bytes() == expected
-
-
-@pytest.mark.parametrize("parts", [["pinion"], pytest.param([], marks=pytest.mark.heavy)], ids=["pinion", "pair"])
-def test_every_order_of_the_practicum_pair_is_the_method_s_own(parts: list[str]) -> None:
-    """Within 5 %, from 16 pieces a curve down to 100 roundings; degree 7 is below them at once."""
-    from exporters.production.converge import METHODS, orders
-    from exporters.production.plan import plan_build
-    from parts.scene.load import load_scene
-
-    found = orders(plan_build(load_scene("practicum_pair"), "practicum_pair", parts, ["dxf"]))
-    assert {o.method for o in found} == set(METHODS)
-    for order in found:
-        if order.method == "degree 7 splines":
-            assert max(order.errors, default=0.0) < 1e-9
-        else:
-            assert order.observed == pytest.approx(order.theory, rel=0.05), order
