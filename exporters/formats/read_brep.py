@@ -58,14 +58,15 @@ def read_model(entities: Entities) -> Model:
     moved[uses.face[own]] = uses.edge[own]
     more = (swept >= 0) & (moved < 0)
     moved[more] = len(ids) + np.arange(np.count_nonzero(more))
+    within = max([GAP, *(i.numbers[0] for i in entities.items.values() if i.kind == "UNCERTAINTY_MEASURE_WITH_UNIT")])
     curves = _curves(read, np.concatenate([curve, swept[more]]), vertices, ends, sense, ids)
     points, slopes = curves.at(lobatto()[0])
-    _check_ends(curves, points, vertices, ids)
+    _check_ends(curves, points, vertices, ids, within)
     model = Model(
         read.ids(*_SOLIDS), ids, curve < len(read.ids(_LINES)), curves, points, slopes, uses, faces, kind, solid,
         frames, sizes, face_rows[:, 1] > 0, moved, _patches(read, surface), *np.zeros((3, len(faces))),
     )  # fmt: skip
-    flux, area, gap = measure(model)
+    flux, area, gap = measure(model, within)
     return replace(model, flux=flux, area=area, gap=gap)
 
 
@@ -314,12 +315,12 @@ def _knots(degree: bytes, often: bytes, at: bytes, who: int) -> Knots:
     return Knots(order, tuple(np.repeat(places, times).tolist()))
 
 
-def _check_ends(curves: Curves, points: Real, vertices: Real, ids: Index) -> None:
+def _check_ends(curves: Curves, points: Real, vertices: Real, ids: Index, within: float) -> None:
     first = curves.starts[: len(ids)]
     last = first + curves.counts[: len(ids)] - 1
     off = np.linalg.norm(points[first, 0] - vertices[:, 0], axis=1)
     off = np.maximum(off, np.linalg.norm(points[last, -1] - vertices[:, 1], axis=1))
-    refuse(~(off <= GAP), ids, "does not end at its vertices")
+    refuse(~(off <= within), ids, "does not end at its vertices")
 
 
 def _patches(read: _Reader, surface: Index) -> tuple[Patches, ...]:

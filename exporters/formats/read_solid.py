@@ -13,8 +13,8 @@ from parts.base.readback import ReadError
 SQUARE, LEVEL = 1e-12, 1e-7
 _OF_FACES = ("faces", "kind", "solid", "sizes", "normal", "moved", "flux", "area", "gap")
 PLANE, ROUND, SPHERE, TORUS, EXTRUSION, SPLINE = range(6)
-# edges lie on their surfaces and end at their vertices this well, mm: as the files say themselves
-GAP = 1e-7
+# edges lie on their surfaces and end at their vertices as well as a file itself says, mm: this well, or worse by this
+GAP, LOOSEST = 1e-7, 1e-6
 
 
 class Uses(Record, eq=False):

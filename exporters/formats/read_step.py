@@ -28,7 +28,7 @@ from exporters.formats.read_part21 import (
     Real,
     read_part21,
 )
-from exporters.formats.read_solid import GAP, Model
+from exporters.formats.read_solid import GAP, LOOSEST, Model
 from exporters.formats.readback import SmoothLoop
 from geometry.base.record import Record, replace
 from parts.base.readback import ReadError
@@ -55,13 +55,14 @@ class ReadSolid(Record, eq=False):
     """One solid, the names of the products in its file, its colour and what it says of itself, where it does.
 
     ``said``: words or numbers under "title", "material name", "density" (g/cm^3), "volume" (mm^3),
-    "surface area" (mm^2).
+    "surface area" (mm^2); ``precision``: within which it calls points one, mm.
     """
 
     model: Model
     products: tuple[str, ...]
     colour: str | None = None
     said: Mapping[str, str | float] = {}
+    precision: float = GAP
     has_arcs: ClassVar[bool] = False
     is_flat: ClassVar[bool] = False
 
@@ -147,8 +148,8 @@ class _Products:
         if any(held[solid] != 1 for solid in self.model.solids.tolist()):
             raise ReadError("a solid of the STEP file is not that of one product")
         for number, item in self._of("UNCERTAINTY_MEASURE_WITH_UNIT"):
-            if not 0 < item.numbers[0] <= GAP:
-                raise ReadError(f"#{number} of the STEP file does not call points one within {GAP:g} mm")
+            if not 0 < item.numbers[0] <= LOOSEST:
+                raise ReadError(f"#{number} of the STEP file does not call points one within {LOOSEST:g} mm")
 
     def parts(self, definition: int, place: Place, above: tuple[int, ...]) -> Iterator[tuple[str, int, Place, str]]:
         """What stands in a product, and in what stands there: name, product, place and what it stands in; or itself."""
@@ -166,13 +167,14 @@ class _Products:
         """A product that is a part."""
         name, shape = self.names[definition], self.shapes.get(definition)
         solids = [n for n in shape.references if n in self.model.solids] if shape else []
-        if len(solids) != 1:
+        if shape is None or len(solids) != 1:
             raise ReadError(f"{name} has {len(solids)} solids instead of 1")
         colour = self.colours.get(solids[0])
         model = self.model.only(self.model.solids.tolist().index(solids[0]))
         told = {"title": self.titles.get(name), "description": self.descriptions.get(name)}
         said = {**self.said.get(definition, {}), **{key: text for key, text in told.items() if text}}
-        return Prototype(name, ReadSolid(model, (name,), colour, said), colour)
+        (precision,) = self.items[self.items[shape.references[-1]].references[0]].numbers
+        return Prototype(name, ReadSolid(model, (name,), colour, said, precision), colour)
 
     def _of(self, kind: str) -> list[tuple[int, Item]]:
         return [(number, item) for number, item in self.items.items() if item.kind == kind]

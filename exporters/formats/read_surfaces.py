@@ -87,8 +87,8 @@ def poles_of(sizes: Real, along: Real, turns: Real, bare: Flags, sense: Real) ->
     return size * (r + poles * along / 2) / 3, size
 
 
-def measure(model: Model) -> tuple[Real, Real, Real]:
-    """Flux, area and gap of every face, which must lie on the left of its bounds."""
+def measure(model: Model, within: float) -> tuple[Real, Real, Real]:
+    """Flux, area and gap of every face, which must lie on the left of its bounds, ``within`` so many mm of them."""
     uses, count = model.uses, len(model.faces)
     flux, size, area, turns, gap = np.zeros((5, count))
     span, row = spans_of(model.curves, uses.edge)
@@ -137,7 +137,7 @@ def measure(model: Model) -> tuple[Real, Real, Real]:
     _follow(model, np.flatnonzero(model.kind[uses.face] == EXTRUSION), size, area, gap)
     for patches in model.patches:
         _measure_patches(model, patches, flux, size, area, gap)
-    if not gap.max(initial=0.0) <= GAP:
+    if not gap.max(initial=0.0) <= within:
         wrong = int(np.argmax(gap))
         raise ReadError(f"#{model.faces[wrong]} of the STEP file is {gap[wrong]:.6g} mm away from its edges")
     refuse(~(sense * area > 0), model.faces, "is a face turned inside out")

@@ -272,7 +272,7 @@ def _step_part(content: Content, made: SolidCurves) -> StepPart:
     part, body = content.part, content.body
     volume, faces = part.made_by.moments(body).volume, solid_faces(body, made)
     weighed = part.material, part.density, volume, surface_area(faces)
-    return StepPart(part.id, faces, part.colour, *weighed, part.product_name, part.description)
+    return StepPart(part.id, faces, part.colour, *weighed, part.product_name, part.description, body.precision)
 
 
 def _step_form(content: Content) -> StepForm:

@@ -17,7 +17,13 @@ from exporters.formats.readback import ReadMesh
 from exporters.verification.area import area_failures
 from exporters.verification.samples import edge_points, inner_points
 from exporters.verification.topology import doubled_normals, topology_failures
-from exporters.verification.verdict import Verdict, deviation_failures, volume_bound, volume_failures
+from exporters.verification.verdict import (
+    Verdict,
+    deviation_failures,
+    precision_failures,
+    volume_bound,
+    volume_failures,
+)
 from geometry.curves.curve import Real
 
 if TYPE_CHECKING:
@@ -105,6 +111,7 @@ def verify_faced_solid(found: ReadSolid, body: Faced, declared: float, tolerance
     steep = np.where(model.kind == ROUND, np.maximum(1.0, model.sizes[:, 1]), 1.0)
     bound = volume_bound(exact, float(model.area @ steep), walls + body.slack, declared)
     failures += volume_failures(volume, exact, bound, found.said.get("volume"))
+    failures += precision_failures(found.precision, body.precision)
     failures += area_failures(model, found.said.get("surface area"))
     measured = {
         "volume": volume,

@@ -12,7 +12,13 @@ from exporters.verification.area import area_failures
 from exporters.verification.chamfers import chamfer_deviation
 from exporters.verification.outlines import verify_samples
 from exporters.verification.samples import edge_points, foot_points, inner_points
-from exporters.verification.verdict import Verdict, deviation_failures, volume_bound, volume_failures
+from exporters.verification.verdict import (
+    Verdict,
+    deviation_failures,
+    precision_failures,
+    volume_bound,
+    volume_failures,
+)
 from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_nearest, distance_to_profile
@@ -33,6 +39,7 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
     cylinders = int(np.count_nonzero((model.kind == ROUND) & (model.sizes[:, 1] == 0)))
     failures = _cylinder_failures(cylinders, body)
     failures += volume_failures(volume, exact, bound, found.said.get("volume"))
+    failures += precision_failures(found.precision, body.precision)
     failures += area_failures(model, found.said.get("surface area"))
     flat = (model.kind == PLANE) & (np.abs(model.frames.axes[:, 2, 2]) > 1 - SQUARE)
     sheared = body.has_screws() and not body.twisted_profiles()

@@ -37,6 +37,11 @@ def deviation_failures(worst: float, declared: float, tolerance: float, reach: f
     return failures
 
 
+def precision_failures(said: float, precision: float) -> list[str]:
+    """What is wrong with the distance within which a file calls points one, mm."""
+    return [] if said == precision else [f"calls points one within {said:g} mm instead of {precision:g} mm"]
+
+
 def volume_bound(exact: float, area: float, walls: float, declared: float) -> float:
     """How much the volume of a file may differ at most, mm^3, whose ``walls`` are off by up to what is ``declared``.
 

@@ -24,6 +24,9 @@ class Tolerances(Record):
 
 TOLERANCES = Tolerances()
 
+# Edges of solids lie on their faces and end at their vertices this well, mm: as well as CAD kernels tell points apart.
+PRECISION = 1e-7
+
 # Laser controllers stall on shorter moves; research on receiving programs, section 1.3.
 LEAST_SEGMENT_MM = 0.02
 

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from geometry.base.placement import Placement2
 from geometry.base.record import Draft, Record, field
+from geometry.base.tolerance import PRECISION
 from geometry.curves.curve import Complex, Real
 from geometry.plane.measure import profile_area
 from geometry.plane.profile import Profile, Region
@@ -85,6 +86,7 @@ class Body(Record):
     walls: tuple[Wall, ...]
     caps: tuple[Cap, ...]
     is_faced: ClassVar[Literal[False]] = False
+    precision: ClassVar[float] = PRECISION
 
     def loop_profile(self, loop: int) -> Profile:
         """The exact boundary of a loop."""

@@ -15,6 +15,7 @@ from typing import ClassVar, Literal
 
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
+from geometry.base.tolerance import PRECISION
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Real
 from geometry.solids.area import surface_area
@@ -48,6 +49,7 @@ class FacedBody(Record, dict=True):
     number; ``own_moments``: where the kind knows them better than its faces do; ``proof``: where it can prove how far
     triangles (n, 3, 3) leave the walls, mm, bundle after bundle of its spline faces: its other surfaces are exact.
     ``own_ends``: its lowest and highest place and its greatest distance from the axis, mm, where the kind knows them.
+    ``precision``: within which its edges lie on its faces and end at their vertices, mm.
     """
 
     within: Callable[[float], FacedSolid]
@@ -55,6 +57,7 @@ class FacedBody(Record, dict=True):
     own_moments: Callable[[], Moments] | None = None
     proof: Proof | None = None
     own_ends: tuple[float, float, float] | None = None
+    precision: float = PRECISION
     is_faced: ClassVar[Literal[True]] = True
 
     @cached_property

@@ -23,6 +23,10 @@ class Faced(Protocol):
     is_faced: ClassVar[Literal[True]]
 
     @property
+    def precision(self) -> float:
+        """Within which edges lie on faces and end at vertices."""
+
+    @property
     def surfaces(self) -> tuple[Measured, ...]:
         """Every exact surface once."""
 

@@ -16,14 +16,16 @@ import numpy as np
 
 from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement3
+from geometry.base.tolerance import PRECISION
 from geometry.curves.curve import Real
-from geometry.solids.charts import along_edges, charts, edge_rows, patch_of
+from geometry.solids.charts import along_edges, charts, edge_rows, patch_of, span_shares
 from geometry.solids.face_moments import face_moments
 from geometry.solids.faced import FacedBody, FacedSolid
 from geometry.solids.faces import (
     Circular,
     Cone,
     Cylinder,
+    Edges,
     Faces,
     Frame,
     Index,
@@ -39,7 +41,7 @@ from geometry.solids.faces import (
 )  # fmt: skip
 from geometry.solids.measured import Measured
 from geometry.solids.patch_distance import patch_distance
-from parts.solids.kernel import edges_of, solids_of, volume_of
+from parts.solids.kernel import edges_of, faces_of, solids_of, volume_of
 
 if TYPE_CHECKING:
     from OCP.Geom import Geom_BSplineCurve, Geom_BSplineSurface
@@ -50,7 +52,9 @@ if TYPE_CHECKING:
 
 # by which edges may lie off their faces, mm, as a STEP file of ours may; part of the volume, of the size
 _LOOSE, _VOLUME, _EXACT = 1e-6, 1e-6, 1e-13
-_SHARES = np.linspace(0.0, 1.0, 9)
+# what rounding leaves of it
+_TIGHT = 0.9
+_SHARES, _ON_SPAN = np.linspace(0.0, 1.0, 9), 16
 # degrees that are read back at most; how near to the ends of a surface its edges run, part of it
 _MOST_DEGREE, _AT_END = 8, 1e-6
 # within which a spline is a circle, or a plane and so on, and what is asked of the kernel, mm, which is stricter then
@@ -99,7 +103,7 @@ def foreign_body(text: str, part_from_file: Placement3, number: int | None = Non
         if isinstance(faces.surface, SplineSurface)
     )
     error = _off_faces(solid)
-    if not error <= _LOOSE:
+    if not error <= _TIGHT * _LOOSE:
         raise ParameterError("file", None, "step_loose", error=error, most=_LOOSE)
     moments = face_moments(solid)
     volume = volume_of([made.shape], moments.volume, _VOLUME)
@@ -107,7 +111,8 @@ def foreign_body(text: str, part_from_file: Placement3, number: int | None = Non
         raise ParameterError("file", None, "step_volume", found=moments.volume, volume=volume)
     is_exact = not walls and error <= _EXACT * float(np.abs(solid.points).max())
     whole = FacedSolid(solid, 0.0 if is_exact else error, "exact" if is_exact else "sampled")
-    return FacedBody(lambda _: whole, walls, lambda: moments)
+    precision = PRECISION if error <= _TIGHT * PRECISION else _LOOSE
+    return FacedBody(lambda _: whole, walls, lambda: moments, precision=precision)
 
 
 def _laid(shape: TopoDS_Shape, placement: Placement3) -> TopoDS_Shape:
@@ -119,11 +124,31 @@ def _laid(shape: TopoDS_Shape, placement: Placement3) -> TopoDS_Shape:
     return shape.Moved(TopLoc_Location(motion))
 
 
+def _opened(shape: TopoDS_Shape) -> TopoDS_Shape:
+    """A shape whose spline faces that close round themselves are cut in two each, with all edges that they share."""
+    from OCP.BRep import BRep_Tool
+    from OCP.BRepAdaptor import BRepAdaptor_Surface
+    from OCP.ShapeBuild import ShapeBuild_ReShape
+    from OCP.ShapeUpgrade import ShapeUpgrade_ShapeDivideClosed
+
+    changed = ShapeBuild_ReShape()
+    for face in faces_of(shape):
+        closed = any(BRep_Tool.IsClosed_s(edge, face) for edge in edges_of(face))
+        if closed and _named(BRepAdaptor_Surface(face, False).GetType()) not in _TAKEN and _known_surface(face) is None:
+            halves = ShapeUpgrade_ShapeDivideClosed(face)
+            halves.SetContext(changed)
+            halves.Perform(False)
+    return changed.Apply(shape)
+
+
 def _off_faces(solid: Solid) -> float:
-    """How far edges lie off their faces at most, mm, by samples."""
-    points = [along_edges(solid, edges, _SHARES)[0][0] for edges in solid.edges]
+    """How far edges lie off their faces, and end off their vertices, at most, mm, by samples."""
+    points = [along_edges(solid, edges, _shares(edges))[0][0] for edges in solid.edges]
     bundle, _ = edge_rows(solid)
     worst = 0.0
+    for edges, run in zip(solid.edges, points, strict=True):
+        ends = solid.points[solid.vertices[[edges.start[0], edges.end[0]]]]
+        worst = max(worst, float(np.linalg.norm(run[[0, -1]] - ends, axis=1).max()))
     for faces in solid.faces:
         surface = faces.surface
         if isinstance(surface, SplineSurface):
@@ -135,12 +160,20 @@ def _off_faces(solid: Solid) -> float:
     return worst
 
 
+def _shares(edges: Edges) -> Real:
+    """Shares of edges at which they are held against their faces: as many on each span of a spline."""
+    if not isinstance(edges.curve, Spline):
+        return _SHARES
+    spans = span_shares(edges.curve.knots)
+    return np.interp(np.linspace(0, len(spans) - 1, (len(spans) - 1) * _ON_SPAN + 1), np.arange(len(spans)), spans)
+
+
 class _Taken(SolidBuilder):
     """Takes over the vertices, edges and faces of a kernel's solid, each once."""
 
     def __init__(self, shape: TopoDS_Shape, text: str) -> None:
         super().__init__()
-        self.shape, self.text = shape, text
+        self.shape, self.text = _opened(shape), text
         # the ends of spline surfaces by the kernel's numbers of the edges that run along them, as these run
         self.ends: dict[int, Spline] = {}
 
@@ -335,10 +368,20 @@ class _Taken(SolidBuilder):
             # a line runs evenly as it is
             if len(row) > 2:
                 run = (knots, row) if ahead else (knots[0] + knots[-1] - knots[::-1], row[::-1])
-                self.ends.setdefault(number(edge), Spline(degrees[across], run[0], run[1][None]))
+                own = Spline(degrees[across], run[0], run[1][None])
+                kept = self.ends.setdefault(number(edge), own)
+                # two surfaces that part an edge in other spans meet in none of them
+                if kept.degree != own.degree or not _alike(kept.knots, own.knots):
+                    self.refuse("step_trimmed", kind)
         if sorted(seen) != [0, 1, 2, 3]:
             self.refuse("step_trimmed", kind)
         return SplineSurface(degrees, u, v, places[None])
+
+
+def _alike(one: Real, other: Real) -> bool:
+    """Whether knots part a spline alike."""
+    a, b = ((knots - knots[0]) / (knots[-1] - knots[0]) for knots in (one, other))
+    return len(a) == len(b) and bool(np.abs(a - b).max() <= _AT_END)
 
 
 def _named(kind: GeomAbs_CurveType | GeomAbs_SurfaceType) -> str:

@@ -15,6 +15,7 @@ import numpy as np
 from geometry.base.distinct import distinct
 from geometry.base.placement import Placement3
 from geometry.base.record import Record
+from geometry.base.tolerance import PRECISION
 from geometry.curves.curve import Real
 from geometry.solids.faces import (
     Circular,
@@ -51,7 +52,8 @@ _PER_LINE = 16
 class StepPart(Record, eq=False):
     """A named solid with its colour, like "#c08040", material, density, g/cm^3, volume, mm^3, and area, mm^2.
 
-    ``title``: what people call it, which CAD shows in place of the name; ``description``: what lists say of it.
+    ``title``: what people call it, which CAD shows in place of the name; ``description``: what lists say of it;
+    ``precision``: within which its points are one, mm.
     """
 
     name: str
@@ -63,6 +65,7 @@ class StepPart(Record, eq=False):
     area: float | None = None
     title: str | None = None
     description: str = ""
+    precision: float = PRECISION
 
 
 class StepForm(Record):
@@ -158,8 +161,9 @@ class _Text:
     def _part(self, part: StepPart) -> tuple[int, int]:
         """A product with its solid, colour and properties."""
         definition, shape = self._named(
-            part.name, "ADVANCED_BREP_SHAPE_REPRESENTATION", [self._solid(part)], part.title, part.description
-        )
+            part.name, "ADVANCED_BREP_SHAPE_REPRESENTATION", [self._solid(part)], part.title, part.description,
+            part.precision,
+        )  # fmt: skip
         if part.material is not None:
             words = f"DESCRIPTIVE_REPRESENTATION_ITEM('{string(part.material)}','{string(part.material)}')"
             self._property(definition, "material property", "material name", self.add(words))
@@ -213,8 +217,9 @@ class _Text:
         return self.place(self.point((0.0, 0.0, 0.0)), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))
 
     def _named(
-        self, name: str, kind: str, items: Sequence[int], title: str | None = None, description: str = ""
-    ) -> tuple[int, int]:
+        self, name: str, kind: str, items: Sequence[int], title: str | None = None, description: str = "",
+        precision: float = PRECISION,
+    ) -> tuple[int, int]:  # fmt: skip
         """A product and its shape of items: the numbers of definition and representation."""
         scope = self.once(f"PRODUCT_CONTEXT('',#{self.application},'mechanical')")
         stage = self.once(f"PRODUCT_DEFINITION_CONTEXT('part definition',#{self.application},'design')")
@@ -223,21 +228,21 @@ class _Text:
         formation = self.add(f"PRODUCT_DEFINITION_FORMATION('','',#{product})")
         definition = self.add(f"PRODUCT_DEFINITION('design','',#{formation},#{stage})")
         whole = self.wholes[definition] = self.add(f"PRODUCT_DEFINITION_SHAPE('','',#{definition})")
-        shape = self.add(f"{kind}('',({_list([self._home(), *items])}),#{self._context()})")
+        shape = self.add(f"{kind}('',({_list([self._home(), *items])}),#{self._context(precision)})")
         self.add(f"SHAPE_DEFINITION_REPRESENTATION(#{whole},#{shape})")
         return definition, shape
 
-    def _context(self) -> int:
-        """Millimetres and radians, and points that are one within 1e-7 mm."""
+    def _context(self, precision: float = PRECISION) -> int:
+        """Millimetres and radians, and within what points are one, mm."""
         length = self.once("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))")
         angle = self.once("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
         solid_angle = self.once("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")
-        precision = self.once(
-            f"UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-07),#{length},"
+        within = self.once(
+            f"UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE({real(precision)}),#{length},"
             "'distance_accuracy_value','confusion accuracy')"
         )
         return self.once(
-            f"(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#{precision}))"
+            f"(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#{within}))"
             f"GLOBAL_UNIT_ASSIGNED_CONTEXT((#{length},#{angle},#{solid_angle}))"
             "REPRESENTATION_CONTEXT('Context #1','3D Context with UNIT and UNCERTAINTY'))"
         )

@@ -129,6 +129,7 @@ SPOILED: dict[str, Spoil] = {
     "unit of density": nth(r"\.CENTI\.,", lambda m: ".MILLI.,"),
     "power of a unit": nth(rf"(DERIVED_UNIT_ELEMENT\(#\d+,)({NUMBER})(\))", more(1)),
     "points joined": nth(rf"(T\(LENGTH_MEASURE\()({NUMBER})(\),#)", more(1e-4)),
+    "points joined a little": nth(rf"(T\(LENGTH_MEASURE\()({NUMBER})(\),#)", more(9e-7)),
     "area": nth(rf"(AREA_MEASURE\()({NUMBER})(\))", lambda m: f"{m[1]}{float(m[2]) * (1 + 3e-8):.12f}{m[3]}"),
     "kind of a measure": nth(r"(AREA|VOLUME|POSITIVE_RATIO)_MEASURE\(\d",
                              lambda m: f"{'VOLUME' if m[1] == 'AREA' else 'AREA'}_MEASURE({m[0][-1]}"),

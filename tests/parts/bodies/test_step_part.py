@@ -196,9 +196,9 @@ def _shapes() -> dict[str, Callable[[], Any]]:
         BRepPrimAPI_MakeTorus,
     )  # fmt: skip
     from OCP.GC import GC_MakeArcOfCircle
-    from OCP.GeomAPI import GeomAPI_PointsToBSpline
+    from OCP.GeomAPI import GeomAPI_Interpolate, GeomAPI_PointsToBSpline
     from OCP.gp import gp_Ax1, gp_Ax2, gp_Circ, gp_Dir, gp_Pnt, gp_Vec
-    from OCP.TColgp import TColgp_Array1OfPnt
+    from OCP.TColgp import TColgp_Array1OfPnt, TColgp_HArray1OfPnt
 
     def ball(at: float) -> Any:
         return BRepPrimAPI_MakeSphere(gp_Pnt(0, 0, at), 5.0).Shape()
@@ -241,7 +241,21 @@ def _shapes() -> dict[str, Callable[[], Any]]:
         outer, inner = (BRepOffsetAPI_MakePipe(spine, disc(-20, radius)).Shape() for radius in (2.5, 1.5))
         return BRepAlgoAPI_Cut(outer, inner).Shape()
 
+    def round_oval() -> Any:
+        """A prism on a spline that closes smoothly."""
+        points = TColgp_HArray1OfPnt(1, 8)
+        for k in range(8):
+            points.SetValue(k + 1, gp_Pnt(10 * math.cos(math.pi * k / 4), 7 * math.sin(math.pi * k / 4), 0))
+        closed = GeomAPI_Interpolate(points, True, 1e-9)
+        closed.Perform()
+        rim = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(closed.Curve()).Edge()).Wire()
+        return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(rim).Face(), gp_Vec(0, 0, 8)).Shape()
+
     drill = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, -9, 4), gp_Dir(0, 1, 0)), 1.5, 60.0).Shape()
+    across = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(-30, 1, 2), gp_Dir(1, 0, 0)), 2.0, 60.0).Shape()
+    aslant = BRepPrimAPI_MakeBox(
+        gp_Ax2(gp_Pnt(-20, 3, -20), gp_Dir(0.3, 0.1, 1), gp_Dir(1, 0, -0.3)), 60, 60, 60
+    ).Shape()
     box, round_rod = BRepPrimAPI_MakeBox(gp_Pnt(-20, -20, 0), 40, 40, 30).Shape(), rod(0, 1)
     torus = BRepPrimAPI_MakeTorus(gp_Ax2(gp_Pnt(0, 0, 10), gp_Dir(0, 0, 1)), 3.0, 1.0).Shape()
     cone = BRepPrimAPI_MakeCone(gp_Ax2(gp_Pnt(1, 2, 3), gp_Dir(0, 0.6, 0.8)), 5.0, 0.0, 9.0).Shape()
@@ -273,6 +287,10 @@ def _shapes() -> dict[str, Callable[[], Any]]:
         "elbow": lambda: elbow(math.pi / 2),
         "long_elbow": lambda: elbow(4.0),
         "pipe": pipe,
+        "round_oval": round_oval,
+        # where two rods cross, and a torus is cut aslant, edges are the kernel's splines
+        "crossed": lambda: BRepAlgoAPI_Cut(round_rod, across).Shape(),
+        "cut_elbow": lambda: BRepAlgoAPI_Cut(elbow(math.pi / 2), aslant).Shape(),
         "half_ring": lambda: BRepPrimAPI_MakeTorus(10.0, 2.5, math.pi).Shape(),
         # faces that are more than half of the tube
         "flat_ring": lambda: BRepAlgoAPI_Cut(
@@ -288,7 +306,7 @@ def _shapes() -> dict[str, Callable[[], Any]]:
     "name",
     ["ball", "ring", "cone", "stump", "dimple", "groove", "bore", "prism", "lean", "loft", "ellipse", "rational",
      "rational_cone", "rational_ring", "rational_ellipse", "rounded", "elbow", "long_elbow", "pipe", "half_ring",
-     "flat_ring"],
+     "flat_ring", "round_oval", "crossed", "cut_elbow"],
 )  # fmt: skip
 def test_solids_are_taken_over(name: str, tmp_path: Path) -> None:
     """Through a file of ours, read back and judged by the kernel too."""
