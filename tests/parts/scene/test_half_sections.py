@@ -86,6 +86,9 @@ def shifted_bore(parts: Any) -> None:
         for circle in layer.circles:
             if circle.at == (72.0, 0.0):
                 circle.at = (72.5, 0.0)
+        for outline in layer.outlines:
+            for point in outline.points:
+                point.x += 0.5
 
 
 def longer_bolt(parts: Any) -> None:
