@@ -173,7 +173,7 @@ class Job(Content, FileJob):
 
     def findings(self, made: Made) -> tuple[Finding, ...]:
         """Remarks on the part, on its section, and on this file of it."""
-        return (*self.part.findings, *self.section.findings, *self.remarks(made))
+        return tuple(dict.fromkeys((*self.part.findings, *self.section.findings, *self.remarks(made))))
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back, measure, and put it to the part's probes."""

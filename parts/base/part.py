@@ -65,7 +65,8 @@ class Part(Record, dict=True):
         made = naming.named(self.section(offset), self.section(min(offset, 0.0)), text)
         strange = unknown_letters(names[0])
         told = (Finding("title_not_engraved", len(strange), 0.0),) if strange else ()
-        return replace(made, findings=(*made.findings, *told))
+        wrong = self.made_by.wrong_numbers(self.keys, label) if isinstance(label, str) else ()
+        return replace(made, findings=(*made.findings, *told, *wrong))
 
     @property
     def title(self) -> str | None:

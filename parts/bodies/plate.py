@@ -76,6 +76,17 @@ class PlateSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="pla
     height: Annotated[float, mm("along y", above=0, most=_MOST, example=90.0)]
     centre: Annotated[tuple[_Place, _Place], mm("x, y of the middle")] = (0.0, 0.0)
     corner_radius: Annotated[float, mm("rounding of the corners", least=0, most=_MOST)] = 0.0
+    beyond_axles: (
+        Annotated[
+            float,
+            mm(
+                "least from each hole of an axle (`axis_of`) to the edge: the plate grows with them",
+                above=0,
+                most=_MOST,
+            ),
+        ]
+        | None
+    ) = None
 
 
 def checked_outline(
@@ -165,6 +176,18 @@ class Flat(Extruded[K, "PlateOutline"]):
         return thing
 
 
+def _box(keys: PlateSpec) -> tuple[complex, complex]:
+    """Lowest and highest corner: of the given sides, and as far beyond the holes of axles as asked for."""
+    low, high = (complex(*keys.centre) + sign * complex(keys.width, keys.height) / 2 for sign in (-1, 1))
+    if keys.beyond_axles is not None:
+        beyond = keys.beyond_axles * (1 + 1j)
+        for at in (complex(*hole.at) for hole in keys.holes if hole.axis_of is not None and hole.at is not None):
+            one, two = at - beyond, at + beyond
+            low = complex(min(low.real, one.real), min(low.imag, one.imag))
+            high = complex(max(high.real, two.real), max(high.imag, two.imag))
+    return low, high
+
+
 class Plate(Flat[PlateSpec]):
     """A rectangular plate with holes and slots."""
 
@@ -203,9 +226,8 @@ class Plate(Flat[PlateSpec]):
         most = min(keys.width, keys.height) / 2
         if keys.corner_radius > most:
             raise ParameterError("corner_radius", keys.corner_radius, "rounding_above_half_side", limit(most, math.inf))
-        x, y = keys.centre
-        half = complex(keys.width, keys.height) / 2
-        corners = [complex(x, y) + c for c in (-half, half.conjugate(), half, -half.conjugate())]
+        low, high = _box(keys)
+        corners = [low, complex(high.real, low.imag), high, complex(low.real, high.imag)]
         return checked_outline(rounded([(c, keys.corner_radius) for c in corners]), keys)
 
 

@@ -186,13 +186,27 @@ def test_a_name_finds_room_on_every_kind(kind: str) -> None:
     assert shapely.distance(shapely.boundary(material), name) >= STROKE
 
 
+BOARD = """
+[boards.one]
+width = 100.0
+height = 100.0
+thickness = 3.0
+[[exports]]
+format = "svg"
+purpose = "board"
+[[exports]]
+format = "dxf"
+"""
+
+
 @pytest.mark.parametrize(
     ("label", "codes"),
     [("z 21 m 2", ["label_tells_z"]), ("z 22 m 2,5", ["label_tells_m"]), ("z 22 m 2 x 0,3", []), ("No. 21", [])],
 )
 def test_a_label_that_tells_other_numbers_is_told(tmp_path: Path, label: str, codes: list[str]) -> None:
     text = '[parts.g]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 22\nprofile_shift_coefficient = 0.3\n'
-    (tmp_path / "s.toml").write_text(f'{text}label = "{label}"\n[[exports]]\nformat = "svg"\n', encoding="utf-8")
+    (tmp_path / "s.toml").write_text(f'{text}label = "{label}"\n{BOARD}', encoding="utf-8")
     assert main(["build", str(tmp_path / "s.toml"), "--out", str(tmp_path), "-q"]) == 0
-    found = json.loads((tmp_path / "s/report.json").read_text("utf-8"))["parts"]["g"]["findings"]
-    assert [one["code"] for one in found if one["code"].startswith("label")] == codes
+    report = json.loads((tmp_path / "s/report.json").read_text("utf-8"))
+    for found in (report["parts"]["g"]["findings"], *(file["findings"] for file in report["files"])):
+        assert [one["code"] for one in found if one["code"].startswith("label")] == codes

@@ -47,6 +47,22 @@ def _scene(folder: Path, shift: float = 0.1, holes: str = BOTH, more: str = "") 
     return str(file)
 
 
+def test_a_frame_grows_with_its_pair(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A plate too short for the pair is refused; with a least distance to its edge it reaches so far, no farther."""
+    short = Path(_scene(tmp_path))
+    text = short.read_text("utf-8").replace("width = 120.0\n", "width = 60.0\n")
+    short.write_text(text.replace("centre = [24.0, 0.0]\n", ""), encoding="utf-8")
+    assert main(["build", str(short), "--out", str(tmp_path)]) == 2
+    assert "parts.frame.width = 60.0" in capsys.readouterr().err
+    short.write_text(short.read_text("utf-8").replace("width = 60.0\n", "width = 60.0\nbeyond_axles = 9.0\n"), "utf-8")
+    assert main(["build", str(short), "--out", str(tmp_path), "-q"]) == 0
+    (outer,) = ezdxf.readfile(tmp_path / "s" / "frame.dxf").query('LWPOLYLINE[layer=="CUT_OUTER"]')
+    x, y = zip(*outer.get_points("xy"), strict=True)  # type: ignore[attr-defined]
+    far = _working_distance(0.1) * math.cos(math.radians(10))
+    assert (min(x), max(x)) == pytest.approx((-30.0, far + 9.0), abs=1e-5)
+    assert (min(y), max(y)) == pytest.approx((-30.0, 30.0), abs=1e-5)
+
+
 def _working_distance(shift: float) -> float:
     """inv alpha_w = inv alpha + 2 x tan alpha / (z1 + z2), by bisection."""
     alpha = math.radians(20)
