@@ -97,13 +97,44 @@ class Ring(Record, dict=True):
         return self if self.root is None else round_ring(self.root)
 
 
-class Layer(Record):
+class _Boundaries(Record):
+    """Boundaries of a section: centres and radii of the circles, and the others."""
+
+    centres: Complex
+    radii: Real
+    others: tuple[Ring, ...]
+
+    def hold(self, points: Complex) -> np.ndarray:
+        """Whether there is material at points."""
+        count = (np.abs(points[:, None] - self.centres) < self.radii).sum(axis=1)
+        for ring in self.others:
+            count += ring.holds(points)
+        return np.asarray(count % 2 == 1)
+
+
+def _boundaries(rings: Sequence[Ring]) -> _Boundaries:
+    circles = [ring.circle for ring in rings if ring.circle is not None]
+    centres, radii = np.array([c for c, _ in circles], dtype=complex), np.array([r for _, r in circles], dtype=float)
+    return _Boundaries(centres, radii, tuple(ring for ring in rings if ring.circle is None))
+
+
+class Layer(Record, dict=True):
     """The material between two heights, mm: boundaries at its lower and its upper end, one for one."""
 
     low: float
     high: float
     lower: tuple[Ring, ...]
     upper: tuple[Ring, ...]
+
+    @cached_property
+    def at_high(self) -> _Boundaries:
+        """Where there is material at its upper end."""
+        return _boundaries(self.upper)
+
+    @cached_property
+    def at_low(self) -> _Boundaries:
+        """Where there is material at its lower end."""
+        return self.at_high if self.upper is self.lower else _boundaries(self.lower)
 
 
 class Sketch(Record):
@@ -143,8 +174,9 @@ class Sketch(Record):
         found = np.zeros(len(points), dtype=bool)
         for layer in self.layers:
             if layer.low >= height - _SAME:
-                for rings in (layer.lower,) if layer.upper is layer.lower else (layer.lower, layer.upper):
-                    found |= np.sum([ring.holds(points) for ring in rings], axis=0) % 2 == 1
+                found |= layer.at_low.hold(points)
+                if layer.upper is not layer.lower:
+                    found |= layer.at_high.hold(points)
         return found
 
 

@@ -229,8 +229,7 @@ class _Cover(Record, dict=True):
         places = np.asarray(placement.inverse().apply(points))
         found = np.full(len(points), -np.inf)
         for layer in sketch.layers:
-            inside = np.sum([ring.holds(places) for ring in layer.upper], axis=0) % 2 == 1
-            found = np.where(inside, layer.high, found)
+            found = np.where(layer.at_high.hold(places), layer.high, found)
         return np.asarray(found + one.depth)
 
 
