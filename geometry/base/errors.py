@@ -156,12 +156,6 @@ def at_least(value: float, digits: int = 6) -> str:
     return _rounded(value, digits, math.ceil)
 
 
-def told(value: float, *, up: bool = False) -> str:
-    """A limit as printed, six digits after the point and more where it is small; rounded so that it works."""
-    digits = 6 if value == 0 else max(6, 4 - math.floor(math.log10(abs(value))))
-    return at_least(value, digits) if up else at_most(value, digits)
-
-
 def _rounded(value: float, digits: int, rounding: Callable[[float], int]) -> str:
     text = f"{rounding(value * 10**digits) / 10**digits:.{digits}f}"
     return text.rstrip("0").rstrip(".")

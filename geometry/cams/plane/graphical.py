@@ -60,11 +60,6 @@ class GraphicalPhase(Record):
     lift: Real
     factor: float
 
-    @property
-    def closing(self) -> float:
-        """What is left of S' at the end, where it should be 0, mm/rad."""
-        return float(self.rate[-1])
-
 
 class GraphicalMotion(Record):
     """All moving phases of a cam by the graphical method, and the exact motion they stand for."""

@@ -6,7 +6,6 @@ rack seen from its two sides, so that their flanks touch where both touch it.
 
 from __future__ import annotations
 
-import cmath
 import math
 
 import numpy as np
@@ -58,11 +57,6 @@ class NoncircularPair(Record):
         s = np.asarray(arc, dtype=float)
         return -self.first.line.angle(s), math.pi - self.second.line.angle(self.shift - s)
 
-    def ratio(self, arc: ArrayLike) -> Real:
-        """d phi_2 / d phi_1 at contacts s_1: the radii's ratio."""
-        radius = np.abs(self.first.line.frame(arc)[0])
-        return radius / (self.centre_distance - radius)
-
     @property
     def ratio_range(self) -> tuple[float, float]:
         """Least and greatest ratio."""
@@ -102,8 +96,3 @@ class NoncircularPair(Record):
         """Teeth that part."""
         ratio = self.least_contact_ratio
         return (Finding("contact_ratio", ratio, 1.0),) if ratio < 1 else ()
-
-    def placed(self, arc: float) -> tuple[complex, complex]:
-        """Turns exp(i rotation) of both gears at a contact s_1."""
-        one, two = self.rotations(arc)
-        return cmath.exp(1j * float(one)), cmath.exp(1j * float(two))
