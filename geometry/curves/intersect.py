@@ -25,9 +25,9 @@ def crossing_line(curve: Curve, point: complex, direction: complex) -> Root:
     return crossing(curve, lambda p: height_over_line(p, point, direction))
 
 
-def crossing_circle(curve: Curve, radius: float, centre: complex = 0j) -> Root:
-    """Parameter at which a curve crosses a circle."""
-    return crossing(curve, lambda p: abs(p - centre) - radius)
+def crossing_circle(curve: Curve, radius: float) -> Root:
+    """Parameter at which a curve crosses a circle about the origin."""
+    return crossing(curve, lambda p: abs(p) - radius)
 
 
 def height_over_line(p: complex, point: complex, direction: complex) -> float:

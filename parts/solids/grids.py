@@ -41,10 +41,10 @@ class Grid(Record, eq=False):
         return np.array([starts[k] % starts[-1] for k in range(4) if counts[k] == 0], dtype=np.int64)
 
 
-def grid_between(grid: Grid, u_count: int, v_count: int, *, rising: bool = True) -> tuple[Triangles, Real]:
+def grid_between(grid: Grid, u_count: int, v_count: int) -> tuple[Triangles, Real]:
     """Triangles over the points of the ring and those behind them, and u and v of the latter, (m, 2).
 
-    ``u_count``, ``v_count``: cells along both; ``rising``: their diagonals go up with u and v.
+    ``u_count``, ``v_count``: cells along both, whose diagonals go up with u and v.
     """
     counts = [len(names) - 1 for _, _, names in grid.sides]
     total = sum(counts)
@@ -66,8 +66,7 @@ def grid_between(grid: Grid, u_count: int, v_count: int, *, rising: bool = True)
         _zipped(left, shares[3], inner[::-1, 0], 1 - t[::-1]),
     ]
     a, b, c, d = (x.ravel() for x in (inner[:-1, :-1], inner[:-1, 1:], inner[1:, 1:], inner[1:, :-1]))
-    cells = ((a, b, c), (a, c, d)) if rising else ((a, b, d), (b, c, d))
-    found += [np.stack(cell, axis=1) for cell in cells]
+    found += [np.stack(cell, axis=1) for cell in ((a, b, c), (a, c, d))]
     return np.concatenate(found), _between(grid, s, t)
 
 
