@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
+from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record, replace
 from geometry.solids.hub_holes import least_wall
@@ -196,7 +195,7 @@ def _creased(keys: WormWheelSpec) -> ParameterError:
 def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
     """No tooth is left: in the key that takes it away, with the value that leaves some."""
 
-    def stands(value: float, *, whole: bool = False) -> bool:
+    def stands(key: str, value: float, *, whole: bool = False) -> bool:
         less = changed(keys, **{key: value})
         asked = _asked_teeth(less, drive_of(less))
         # how much of the width stands is sought of one value only
@@ -207,19 +206,14 @@ def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
         return whole or float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0]) > _TIP * keys.module
 
     def cure() -> Nearest | None:
-        found = nearest(stands, given, ends)
-        if found is None or (isinstance(found.value, float) and kept(partial(stands, whole=True), found.value)):
+        found = nearest(partial(stands, key), given, ends)
+        if found is None or (isinstance(found.value, float) and kept(partial(stands, key, whole=True), found.value)):
             return found
-        return nearest(lambda value: stands(value) and stands(value, whole=True), given, ends)
+        return nearest(lambda value: stands(key, value) and stands(key, value, whole=True), given, ends)
 
-    key: str = "addendum_coefficient"
-    ends: tuple[float, ...] = (0.8, 0.6, 0.4, 0.2, 0.1)
-    for other in ("axial_thinning", "profile_shift_coefficient"):
-        plain = changed(keys, **{other: 0.0})
-        with suppress(GeometryError):
-            if plain != keys and _asked_teeth(plain, drive_of(plain)):
-                key, ends = other, (0.0,)
-                break
+    taken = (other for other in ("axial_thinning", "profile_shift_coefficient") if getattr(keys, other))
+    found = next((other for other in taken if kept(partial(stands, other), 0.0)), None)
+    key, ends = (found, (0.0,)) if found else ("addendum_coefficient", (0.8, 0.6, 0.4, 0.2, 0.1))
     given = getattr(keys, key)
     return ParameterError(key, given, code, cure)
 

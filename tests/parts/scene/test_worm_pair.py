@@ -69,7 +69,7 @@ def test_a_worm_touches_its_wheel_and_turns_it(tmp_path: Path, capsys: pytest.Ca
     assert code == 0
     assert "CONTACT" in said
     sign = "" if hand == "right" else "-"
-    assert f"wheel {sign}0.3 turns" in said
+    assert f"wheel = {sign}0.3" in said
 
 
 def test_a_thinner_wheel_has_play_and_a_worm_of_the_other_hand_is_refused(
