@@ -83,6 +83,7 @@ class PlateSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="pla
                 "least from each hole of an axle (`axis_of`) to the edge: the plate grows with them",
                 above=0,
                 most=_MOST,
+                example=10.0,
             ),
         ]
         | None
