@@ -63,6 +63,10 @@ _DENSE = np.array([(a, b, 5 - a - b) for a in range(6) for b in range(6 - a)]) /
 _AT_ONCE = 400_000
 # differences by which two patches are one turned, part of the solid
 _ALIKE = 1e-9
+# radius at which a surface is its pole, part of the greatest of a face
+_AT_POLE = 1e-9
+# angles at which a pole stands in the plane of a face
+_ROUND_POLE = 33
 
 
 class FaceMesh(Record, eq=False):
@@ -282,9 +286,14 @@ class _Mesher:
             if len(inside):
                 own = plane[-len(inside) :]
                 names.append(self._added(chart.spatial(own.real, own.imag)))
-        whole = np.concatenate(names)
-        found = whole[triangles]
-        return found, plane.real[triangles], plane.imag[triangles]
+        u, v = plane.real.copy(), plane.imag
+        found = np.concatenate(names)[triangles]
+        if not chart.is_plane:
+            # all angles meet in a pole, where a side is a point
+            u[np.abs(chart.meridian(v)[0]) <= _AT_POLE * size] = np.nan
+            kept = np.all(found != np.roll(found, 1, axis=1), axis=1)
+            triangles, found = triangles[kept], found[kept]
+        return found, u[triangles], v[triangles]
 
     # ---- splines and extrusions
 
@@ -520,7 +529,8 @@ def _closed(
 ) -> tuple[list[Complex], list[Triangles]]:
     """The loops as rings of points u + iv with their numbers; what goes round the axis is cut open and joined."""
     rings, names, open_ones = [], [], []
-    for sides, own in zip(loops, numbers, strict=True):
+    for bounds, own in zip(loops, numbers, strict=True):
+        sides = [s if s.run is not None else _at_steps(s) for s in bounds]
         ring = np.concatenate([(s.u + 1j * s.v)[:-1] for s in sides])
         name = np.concatenate([np.broadcast_to(n, s.u.shape)[:-1] for s, n in zip(sides, own, strict=True)])
         turns = round(float(sides[-1].u[-1] - sides[0].u[0]) / (2 * math.pi))
@@ -544,7 +554,28 @@ def _closed(
     # holes lie within the turn that is cut open
     middle = (float(rings[0].real.min()) + float(rings[0].real.max())) / 2
     rings[1:] = [r - 2 * math.pi * round((float(r.real.mean()) - middle) / (2 * math.pi)) for r in rings[1:]]
-    return rings, names
+    return _spliced(rings, names)
+
+
+def _at_steps(pole: Side) -> Side:
+    """A side that is a point at many angles, each for the triangles near it."""
+    u = np.linspace(pole.u[0], pole.u[-1], _ROUND_POLE)
+    return Side(u, np.full(_ROUND_POLE, pole.v[0]), None)
+
+
+def _spliced(rings: list[Complex], names: list[Triangles]) -> tuple[list[Complex], list[Triangles]]:
+    """Rings with the holes that touch the first one in a vertex become a way round them within it."""
+    ring, name = rings[0], names[0]
+    apart: list[int] = []
+    for k in range(1, len(rings)):
+        shared, at, to = np.intersect1d(name, names[k], return_indices=True)
+        if not len(shared):
+            apart.append(k)
+            continue
+        way = np.roll(rings[k], -to[0]) + (ring[at[0]] - rings[k][to[0]])
+        ring = np.concatenate([ring[: at[0]], way, ring[at[0] :]])
+        name = np.concatenate([name[: at[0]], np.roll(names[k], -to[0]), name[at[0] :]])
+    return [ring, *(rings[k] for k in apart)], [name, *(names[k] for k in apart)]
 
 
 def _numbered(rings: Sequence[Complex]) -> list[Triangles]:

@@ -177,7 +177,7 @@ def test_what_runs_into_it_is_found(tmp_path: Path, mate: str, height: str, comm
 
 
 def _shapes() -> dict[str, Callable[[], Any]]:
-    from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
+    from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Fuse
     from OCP.BRepBuilderAPI import (
         BRepBuilderAPI_MakeEdge,
         BRepBuilderAPI_MakeFace,
@@ -291,6 +291,11 @@ def _shapes() -> dict[str, Callable[[], Any]]:
         # where two rods cross, and a torus is cut aslant, edges are the kernel's splines
         "crossed": lambda: BRepAlgoAPI_Cut(round_rod, across).Shape(),
         "cut_elbow": lambda: BRepAlgoAPI_Cut(elbow(math.pi / 2), aslant).Shape(),
+        # a dome whose seam ends at a rib: its pole stands among other bounds
+        "ribbed_dome": lambda: BRepAlgoAPI_Fuse(
+            BRepPrimAPI_MakeSphere(10.0, 0.0, math.pi / 2).Shape(),
+            BRepPrimAPI_MakeBox(gp_Pnt(-12, -1, 0), 24, 2, 4).Shape(),
+        ).Shape(),
         "half_ring": lambda: BRepPrimAPI_MakeTorus(10.0, 2.5, math.pi).Shape(),
         # faces that are more than half of the tube
         "flat_ring": lambda: BRepAlgoAPI_Cut(
@@ -306,7 +311,7 @@ def _shapes() -> dict[str, Callable[[], Any]]:
     "name",
     ["ball", "ring", "cone", "stump", "dimple", "groove", "bore", "prism", "lean", "loft", "ellipse", "rational",
      "rational_cone", "rational_ring", "rational_ellipse", "rounded", "elbow", "long_elbow", "pipe", "half_ring",
-     "flat_ring", "round_oval", "crossed", "cut_elbow"],
+     "flat_ring", "round_oval", "crossed", "cut_elbow", "ribbed_dome"],
 )  # fmt: skip
 def test_solids_are_taken_over(name: str, tmp_path: Path) -> None:
     """Through a file of ours, read back and judged by the kernel too."""
