@@ -15,13 +15,12 @@ from parts.base.refusal import SceneError
 from parts.base.texts import Message, words
 from parts.drawing.canvas import Canvas
 from parts.pages.data_table import (
-    WIDTH,
     DataRow,
     DataTable,
     draw_data_table,
     position_texts,
     sexagesimal,
-    table_height,
+    table_sizes,
     value_text,
 )
 from parts.pages.symbols import symbol_text
@@ -49,7 +48,6 @@ CALLED = {
     "fillet radius of the basic rack, in modules": "rounding of the rack's tip, in modules",
     "pitch": "pitch of the rack",
     "radius of the roller": "radius of the roller or mushroom",
-    "inner diameter of the track": "diameter of the groove's floor",
     "width of the track": "depth of the groove",
     "radius of the mushroom's face": "radius of the roller or mushroom",
 }
@@ -271,13 +269,13 @@ def crossings(canvas: Canvas) -> list[str]:
 def test_words_stand_over_no_word_and_no_line(address: str) -> None:
     for language in ("en", "uk"):
         for key, (_, table, _) in tables(address).items():
-            canvas = Canvas(120.0, 2 * 297.0, "")
-            room = draw_data_table(canvas, 115 + 590j, table, language)
-            assert room.right - room.left == pytest.approx(WIDTH)
-            assert room.high - room.low == pytest.approx(table_height(table, language))
-            assert crossings(canvas) == [], key
-            assert all(text.box.within(room) for text in canvas.texts)
-            assert all(run.height >= 1.8 for text in canvas.texts for run in text.runs)
+            for beside, wide, tall in table_sizes(table, language):
+                canvas = Canvas(wide + 10.0, 2 * 297.0, "")
+                room = draw_data_table(canvas, complex(wide + 5.0, 590.0), table, language, beside)
+                assert (room.right - room.left, room.high - room.low) == pytest.approx((wide, tall))
+                assert crossings(canvas) == [], key
+                assert all(text.box.within(room) for text in canvas.texts)
+                assert all(run.height >= 1.8 for text in canvas.texts for run in text.runs)
 
 
 def test_a_word_over_a_line_is_found() -> None:
