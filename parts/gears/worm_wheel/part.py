@@ -142,7 +142,7 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     try:
         hob = replace(hob, worm=replace(hob.worm, thinning=-keys.axial_thinning)).checked()
     except ParameterError as refusal:
-        if refusal.code != "hob_pointed" and not keys.axial_thinning:
+        if not keys.axial_thinning and _rounding_cures(keys, refusal):
             raise
         raise _toothless(keys, refusal.code) from refusal
     width = drive.most_face_width if keys.face_width is None else keys.face_width
@@ -158,6 +158,17 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
         # at any width
         raise _toothless(keys, sliver)
     return teeth
+
+
+def _rounding_cures(keys: WormWheelSpec, refusal: ParameterError) -> bool:
+    """Whether the rounding that a refusal of the hob offers leaves teeth."""
+
+    def stands(value: float) -> bool:
+        less = changed(keys, hob_rounding_coefficient=value)
+        return _asked_teeth(less, drive_of(less)).width > 0
+
+    found = refusal.nearest
+    return found is not None and isinstance(found.value, float) and kept(stands, found.value)
 
 
 def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:

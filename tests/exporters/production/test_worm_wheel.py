@@ -187,6 +187,14 @@ def test_an_outside_that_the_throat_does_not_reach_is_told_with_what_it_reaches(
         })  # fmt: skip
 
 
+def test_a_rounding_that_cures_nothing_is_not_blamed() -> None:
+    # before: without a value that works
+    keys = {"kind": "worm_wheel", "module": 2.0, "form": "ZN1", "number_of_starts": 6, "diameter_quotient": 4.41}
+    with pytest.raises(SceneError) as refused:
+        make_parts(scene_from_dict({"parts": {"wheel": {**keys, "number_of_teeth": 251}}}, "s", "s"), "s")
+    assert refused.value.key == "parts.wheel.addendum_coefficient"
+
+
 def test_a_shift_that_cures_nothing_is_not_blamed() -> None:
     keys = {"kind": "worm_wheel", "module": 1.0, "form": "ZK1", "number_of_starts": 3, "diameter_quotient": 5.23}
     scene = {"parts": {"wheel": {**keys, "number_of_teeth": 19, "profile_shift_coefficient": -0.3}}}
