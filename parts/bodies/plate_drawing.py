@@ -68,9 +68,11 @@ def part_drawing(subject: Subject, working: Sequence[Curve] = ()) -> PartDrawing
         # in the middle of the longest piece
         curve = max(worked, key=_length)
         low, high = curve.domain
-        at, *also = (complex(curve.point(low + share * (high - low))) for share in (0.5, 0.25, 0.75))
+        places = [low + share * (high - low) for share in (0.5, 0.25, 0.75)]
+        # the material lies on the left
+        (at, free), *also = [(complex(curve.point(t)), -1j * complex(curve.tangent(t))) for t in places]
         words = f"Ra {subject.say(subject.wishes.flank_roughness)}"
-        notes.append(Note(at, words, is_rough=True, also=tuple(also)))
+        notes.append(Note(at, words, is_rough=True, free=free, also=tuple(also)))
     view = View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), tuple(notes))
     return PartDrawing((view,), requirements(subject))
 

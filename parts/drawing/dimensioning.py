@@ -57,6 +57,8 @@ _FARTHER = (0.0, 4.0, 8.0, 13.0, 20.0, 30.0)
 _WIDER, _LIBRE_GAP = 1.03, 0.9
 # how many rows nearer a sign seems on the extension of its line, a leader on the side of its arc where it should stand
 _PREFERRED = 3.0
+# cosine of the angle to the way out of the material within which leaders come to a surface
+_GRAZING = 0.2
 # how many rows farther away another point of the same surface seems
 _OTHER = 1.0
 _DIMENSION = "DIMENSION"
@@ -415,12 +417,15 @@ class _Layout:
             return
         body = self.body
         middle = complex((body.left + body.right) / 2, (body.low + body.high) / 2)
-        ways = product(_REACHES, [(note.at, 0.0), *((at, _OTHER) for at in note.also)])
-        for cost, reach, at in sorted(((r / _STEP + more, r, at) for r, (at, more) in ways), key=lambda way: way[0]):
-            tip = self.paper.point(at)
-            best = math.degrees(cmath.phase(tip - middle)) if tip != middle else 45.0
+        spots = [(note.at, note.free, 0.0), *((at, free, _OTHER) for at, free in note.also)]
+        ways = sorted(product(_REACHES, spots), key=lambda way: way[0] / _STEP + way[1][2])
+        for reach, (at, free, more) in ways:
+            tip, cost = self.paper.point(at), reach / _STEP + more
+            best = math.degrees(cmath.phase(free or tip - middle)) if free or tip != middle else 45.0
             for turn in _TURNS:
                 way = cmath.rect(1.0, math.radians(best + turn))
+                if free and (way * free.conjugate()).real < _GRAZING * abs(free):
+                    continue
                 elbow = tip + reach * way
                 if note.is_rough:
                     # the sign stands clear of its leader, whichever way that comes

@@ -293,7 +293,8 @@ def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, flank: float) ->
 def bore_note(ends: tuple[float, float], wall: float, words: str) -> Note:
     """The sign of a bore's wall in a section: at its upper end, or where there is more room."""
     low, high = ends
-    return Note(complex(high, wall), words, is_rough=True, also=(complex((low + high) / 2, wall), complex(low, wall)))
+    inside = complex((low + high) / 2, wall), complex(0.0, -wall)
+    return Note(complex(high, wall), words, is_rough=True, also=(inside, (complex(low, wall), 0j)))
 
 
 def exact_teeth(outline: Profile, count: int, turn: float, tip: float) -> list[Stroke]:

@@ -81,7 +81,8 @@ class Note(Record):
     """Words on a leader to a point; ``is_rough``: in the sign of GOST 2.309 for a surface that is cut.
 
     ``goes_on``: the point is the right end of a pitch line, and the sign stands on its extension where there is room.
-    ``also``: other points that serve as well.
+    ``free``: the way out of the material there, from which its leader comes; 0: from anywhere. ``also``: other points
+    that serve as well, with theirs.
     ``looks``: the text is the letter of a view from the right, and an arrow along it points there.
     """
 
@@ -90,7 +91,8 @@ class Note(Record):
     is_rough: bool = False
     goes_on: bool = False
     looks: bool = False
-    also: tuple[complex, ...] = ()
+    free: complex = 0j
+    also: tuple[tuple[complex, complex], ...] = ()
 
 
 class Cut(Record):

@@ -197,4 +197,5 @@ def _pin(keys: PinSpec, disc: RoundDisc, subject: Subject) -> tuple[View, ...]:
 
 def _runs(z: float, radius: float, subject: Subject) -> Note:
     """The sign of a working surface at a place of the section."""
-    return Note(complex(z, radius), f"Ra {subject.say(subject.wishes.flank_roughness)}", is_rough=True)
+    words = f"Ra {subject.say(subject.wishes.flank_roughness)}"
+    return Note(complex(z, radius), words, is_rough=True, free=1j)
