@@ -6,7 +6,7 @@ from typing import TypeVar, cast
 
 import numpy as np
 
-from geometry.curves.bspline import basis
+from geometry.curves.bspline import basis_matrix
 from geometry.curves.curve import Complex, Real
 
 P = TypeVar("P", Real, Complex)
@@ -22,14 +22,6 @@ def greville(degree: int, knots: Real) -> Real:
     found = np.array([knots[i + 1 : i + degree + 1].mean() for i in range(len(knots) - degree - 1)])
     found[0], found[-1] = knots[0], knots[-1]
     return found
-
-
-def basis_matrix(degree: int, knots: Real, t: Real) -> Real:
-    """Values of all basis functions, (places, poles)."""
-    first, values = basis(degree, knots, t)
-    matrix = np.zeros((len(t), len(knots) - degree - 1))
-    np.put_along_axis(matrix, first[:, None] + np.arange(degree + 1), values, axis=1)
-    return matrix
 
 
 def tensor_poles(degree: int, u_knots: Real, v_knots: Real, points: P) -> P:

@@ -163,6 +163,14 @@ def basis(degree: int, knots: Real, t: Real) -> tuple[Index, Real]:
     return span - degree, np.ascontiguousarray(np.moveaxis(values, 0, -1))
 
 
+def basis_matrix(degree: int, knots: Real, t: Real) -> Real:
+    """Values of all basis functions, (places, poles)."""
+    first, values = basis(degree, knots, t)
+    matrix = np.zeros((len(t), len(knots) - degree - 1))
+    np.put_along_axis(matrix, first[:, None] + np.arange(degree + 1), values, axis=1)
+    return matrix
+
+
 def feet(curve: Curve, points: Complex, guess: Real, steps: int = _FOOT_STEPS) -> Real:
     """Curve parameters of the perpendiculars' feet by Newton's method from a near guess, within the domain.
 

@@ -383,6 +383,12 @@ class OffsetCurve(Curve, Record):
         return replace(self, base=self.base.mirrored())
 
 
+def vertex_sign(first: Complex, second: Complex, third: Complex) -> Real:
+    """Of a curve's derivatives: changes its sign where the curvature is greatest or least."""
+    cross = (np.conj(first) * second).imag
+    return (np.conj(first) * third).imag * np.abs(first) ** 2 - 3 * cross * (np.conj(first) * second).real
+
+
 def first_turning(
     after: Callable[[Real], Real], before: Callable[[Real], Real], domain: tuple[float, float]
 ) -> float | None:

@@ -20,6 +20,8 @@ from geometry.base.roots import bracketed_roots
 Real = NDArray[np.float64]
 
 _EXTREME_SAMPLES = 65
+# samples between which a curve is split where functions change sign, and the least part that is split off
+_SPLIT_SAMPLES, _LEAST_SHARE = 129, 1e-4
 # so many arguments at once: their powers stay in the cache
 _BLOCK = 2048
 
@@ -175,3 +177,14 @@ def sign_changes(function: Callable[[Real], Real], t: Real) -> Real:
     if not len(at):
         return exact
     return np.sort(np.concatenate([bracketed_roots(function, t[at], t[at + 1], values[at], values[at + 1]), exact]))
+
+
+def split_places(functions: Sequence[Callable[[Real], Real]], start: float, end: float) -> list[float]:
+    """Both ends, and between them where vectorised functions change sign; of places beside each other the first."""
+    t, least = np.linspace(start, end, _SPLIT_SAMPLES), _LEAST_SHARE * (end - start)
+    edges = [start]
+    for at in np.sort(np.concatenate([sign_changes(function, t) for function in functions])).tolist():
+        # an inflection is also where a curve that starts straight begins
+        if at - edges[-1] > least and end - at > least:
+            edges.append(at)
+    return [*edges, end]

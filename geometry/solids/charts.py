@@ -13,7 +13,7 @@ import numpy as np
 from geometry.base.distinct import distinct
 from geometry.base.record import Record
 from geometry.base.vectors import cross
-from geometry.curves.bspline import basis
+from geometry.curves.bspline import basis, basis_matrix
 from geometry.curves.curve import Real
 from geometry.solids.faces import (
     Circular,
@@ -88,10 +88,7 @@ def _rows(degree: int, all_knots: bytes, places: bytes, order: int) -> tuple[Rea
             found.append(np.zeros((len(shares), count)))
             continue
         own = knots[k : len(knots) - k]
-        first, values = basis(p, own, own[0] + shares * width)
-        rows = np.zeros((len(shares), len(own) - p - 1))
-        np.put_along_axis(rows, first[:, None] + np.arange(p + 1), values, axis=1)
-        found.append(rows @ step * width**k)
+        found.append(basis_matrix(p, own, own[0] + shares * width) @ step * width**k)
         spread = own[p + 1 : -1] - own[1 : -p - 1] if p else np.zeros(0)
         # poles of the next derivative; none where a knot jumps
         with np.errstate(divide="ignore"):

@@ -17,7 +17,7 @@ import numpy as np
 from geometry.approximation.outline import Outline
 from geometry.base.record import replace
 from geometry.curves.bounds import Bound
-from geometry.curves.bspline import BSpline, basis
+from geometry.curves.bspline import BSpline, basis_matrix
 from geometry.curves.curve import Real
 from geometry.solids.body import Body, Loop, Wall
 
@@ -58,10 +58,7 @@ def turn_spline(twist: float, spans: int) -> BSpline:
     knots = _knots(edges, _DEGREE - 3)
     share = (1 - np.cos(np.pi * (np.arange(_DEGREE + 1) + 0.5) / (_DEGREE + 1))) / 2
     v = (edges[:-1, None] + np.diff(edges)[:, None] * share).ravel()
-    first, values = basis(_DEGREE, knots, v)
-    matrix = np.zeros((len(v), len(knots) - _DEGREE - 1))
-    np.put_along_axis(matrix, first[:, None] + np.arange(_DEGREE + 1), values, axis=1)
-    found = np.linalg.lstsq(matrix, pieces.point(v), rcond=None)[0]
+    found = np.linalg.lstsq(basis_matrix(_DEGREE, knots, v), pieces.point(v), rcond=None)[0]
     found[0], found[-1] = pieces.poles[0], pieces.poles[-1]
     return BSpline(_DEGREE, knots, np.asarray(found, dtype=np.complex128))
 

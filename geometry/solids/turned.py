@@ -11,9 +11,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from geometry.approximation.tensor import basis_matrix, clamped, greville
+from geometry.approximation.tensor import clamped, greville
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Draft, Record, field, replace
+from geometry.curves.bspline import basis_matrix
 from geometry.curves.curve import Complex, Real
 from geometry.solids.faced import FacedSolid
 from geometry.solids.faces import (

@@ -29,15 +29,15 @@ from geometry.curves.curve import (
     curvature_from_derivatives,
     end_point,
     start_point,
+    vertex_sign,
 )
 from geometry.curves.intersect import crossing
 from geometry.curves.line_arc import Arc, Line
-from geometry.laws.piece import LawPiece, sign_changes
+from geometry.laws.piece import LawPiece, split_places
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, Segment
 
 _SPLIT_SAMPLES = 129
-_LEAST_SHARE = 1e-4
 # rounds in which the place where a parallel curve is nearest to a cusp is looked for
 _REFINEMENTS = 4
 
@@ -83,8 +83,7 @@ class DevelopedEdge(BoundedSpan, Record):
     def vertex_function(self, t: ArrayLike) -> Real:
         """Changes its sign where the curvature is greatest or least."""
         _, first, second, third = (FACTORIALS[k] * x for k, x in enumerate(self.series(t, 3)))
-        cross = (np.conj(first) * second).imag
-        return (np.conj(first) * third).imag * np.abs(first) ** 2 - 3 * cross * (np.conj(first) * second).real
+        return vertex_sign(first, second, third)
 
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
         """Bounds of their moduli on each interval."""
@@ -209,11 +208,5 @@ def _edge_curves(cam: BarrelCam, piece: LawPiece, side: int, middle: float) -> t
     whole = DevelopedEdge(cam, piece, side, middle, piece.start, piece.end)
     if piece.is_constant:
         return (Line(start_point(whole), end_point(whole)),)
-    t = np.linspace(*whole.domain, _SPLIT_SAMPLES)
-    places = [sign_changes(whole.vertex_function, t), sign_changes(whole.curvature, t)]
-    least = _LEAST_SHARE * (piece.end - piece.start)
-    edges = [piece.start]
-    for at in np.sort(np.concatenate(places)).tolist():
-        if at - edges[-1] > least and piece.end - at > least:
-            edges.append(at)
-    return tuple(whole.trimmed(a, b) for a, b in pairwise([*edges, piece.end]))
+    edges = split_places([whole.vertex_function, whole.curvature], piece.start, piece.end)
+    return tuple(whole.trimmed(a, b) for a, b in pairwise(edges))

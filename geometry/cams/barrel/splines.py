@@ -12,11 +12,12 @@ from itertools import pairwise
 import numpy as np
 
 from geometry.approximation.outline import Outline, spline_outline
-from geometry.approximation.tensor import basis_matrix, clamped, greville, tensor_poles
+from geometry.approximation.tensor import clamped, greville, tensor_poles
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record, replace
 from geometry.cams.barrel.cam import BarrelCam
 from geometry.curves.bounds import Bound
+from geometry.curves.bspline import basis_matrix
 from geometry.curves.curve import Real
 from geometry.laws.piece import LawPiece, sign_changes
 from geometry.plane.profile import Profile

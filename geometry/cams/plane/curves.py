@@ -29,12 +29,9 @@ from geometry.base.series import (
     unit_majorant,
 )
 from geometry.curves.bounds import BoundedSpan
-from geometry.curves.curve import Complex, Curve, Real, first_turning
-from geometry.laws.piece import sign_changes
+from geometry.curves.curve import Complex, Curve, Real, first_turning, vertex_sign
+from geometry.laws.piece import split_places
 from geometry.laws.stack import PieceStack
-
-_SPLIT_SAMPLES = 129
-_LEAST_SHARE = 1e-4
 
 
 class Guided(Protocol):
@@ -115,17 +112,8 @@ class CamSpan(BoundedSpan):
         Arcs and chords need the first (geometry/approximation/chords.py), and few arcs the second: DERIVATIONS.md,
         section 4.
         """
-        t = np.linspace(*self.domain, _SPLIT_SAMPLES)
-        found = [sign_changes(self.vertex_function, t)]
-        if isinstance(self, CentreEnvelope):
-            found.append(sign_changes(self.pitch_curvature, t))
-        least = _LEAST_SHARE * (self.end - self.start)
-        edges = [self.start]
-        for at in np.sort(np.concatenate(found)).tolist():
-            # two splits beside each other are one; an inflection is also where a curve that starts straight begins
-            if at - edges[-1] > least and self.end - at > least:
-                edges.append(at)
-        return [*edges, self.end]
+        inflections = [self.pitch_curvature] if isinstance(self, CentreEnvelope) else []
+        return split_places([self.vertex_function, *inflections], *self.domain)
 
 
 class CentreEnvelope(CamSpan, Record):
@@ -177,8 +165,7 @@ class CentreEnvelope(CamSpan, Record):
         _, (w, first, second) = self._fixed(np.asarray(t, dtype=float), 2)
         # of exp(-i t) w: its derivatives in the turning frame
         v, a, j = w, first - 1j * w, 2 * second - 2j * first - w
-        cross = (np.conj(v) * a).imag
-        return (np.conj(v) * j).imag * np.abs(v) ** 2 - 3 * cross * (np.conj(v) * a).real
+        return vertex_sign(v, a, j)
 
     def stretch(self, t: ArrayLike) -> Real:
         """1 - distance x curvature of the path: the curve's speed in that of the path, negative where it runs back."""

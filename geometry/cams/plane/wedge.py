@@ -24,7 +24,7 @@ from geometry.base.series import Series, derived, exponential
 from geometry.cams.motion.follower_motion import Phase, PieceMotion
 from geometry.cams.plane.curves import CentreEnvelope, Lift, bound_series, lift_series
 from geometry.cams.plane.disk import FollowerKind
-from geometry.curves.curve import Complex, Curve, Real, Reversed, end_point, start_point
+from geometry.curves.curve import Complex, Curve, Real, Reversed, end_point, start_point, vertex_sign
 from geometry.curves.line_arc import Arc, Line
 from geometry.laws.piece import LawPiece
 from geometry.plane.profile import Label, Profile, Segment
@@ -120,8 +120,7 @@ class SlideEnvelope(CentreEnvelope):
     def vertex_function(self, t: ArrayLike) -> Real:
         """Changes its sign where the curvature is greatest or least."""
         _, (v, a, half) = self._fixed(np.asarray(t, dtype=float), 2)
-        cross = (np.conj(v) * a).imag
-        return (np.conj(v) * 2 * half).imag * np.abs(v) ** 2 - 3 * cross * (np.conj(v) * a).real
+        return vertex_sign(v, a, 2 * half)
 
     def tangent(self, t: ArrayLike) -> Complex:
         at = np.asarray(t, dtype=float)

@@ -7,9 +7,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from geometry.approximation.tensor import axis_poles, basis_matrix, clamped, greville
+from geometry.approximation.tensor import axis_poles, clamped, greville
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
+from geometry.curves.bspline import basis_matrix
 from geometry.curves.curve import Real
 
 DEGREE = 7

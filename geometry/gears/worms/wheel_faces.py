@@ -15,11 +15,11 @@ from itertools import pairwise
 import numpy as np
 
 from geometry.approximation.outline import CadCurve, Outline
-from geometry.approximation.tensor import basis_matrix, clamped, greville, tensor_poles
+from geometry.approximation.tensor import clamped, greville, tensor_poles
 from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
-from geometry.curves.bspline import BSpline
+from geometry.curves.bspline import BSpline, basis_matrix
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.worms.hob import Cut

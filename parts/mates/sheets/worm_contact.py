@@ -8,10 +8,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from geometry.approximation.tensor import basis_matrix, clamped, greville
+from geometry.approximation.tensor import clamped, greville
 from geometry.base.errors import ParameterError
 from geometry.base.record import Record, replace
-from geometry.curves.bspline import BSpline
+from geometry.curves.bspline import BSpline, basis_matrix
 from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.field import Field
 from parts.drawing.canvas import TITLE_TEXT, Box, Canvas, Paper, Stroke, decimal, scale_text
