@@ -28,8 +28,8 @@ def arc(start: complex, end: complex, radius: float) -> np.ndarray:
     )
     sweep = np.angle((end - centre) / (start - centre))
     sweep = sweep % (2 * math.pi) if radius > 0 else sweep % (2 * math.pi) - 2 * math.pi
-    # chords leave 1e-4 mm of it at most
-    count = max(128, math.ceil(abs(sweep) * math.sqrt(abs(radius) / 8e-4)))
+    # chords leave 5e-4 mm of it at most
+    count = max(128, math.ceil(abs(sweep) * math.sqrt(abs(radius) / 4e-3)))
     return centre + (start - centre) * np.exp(1j * sweep * np.linspace(0, 1, count + 1)[:-1])
 
 
@@ -90,6 +90,7 @@ class Solid:
         for low, high, loops in self.layers:
             for loop in loops:
                 for edge in (within(loop), within(loop, left=False)):
+                    edge = edge[:: 1 + len(edge) // 240]
                     kept = edge[sum(inside(edge, other).astype(int) for other in loops) % 2 == 1]
                     for z in (low + EPS, (low + high) / 2, high - EPS):
                         yield np.column_stack([kept.real, kept.imag, np.full(len(kept), z)])
