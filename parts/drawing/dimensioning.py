@@ -5,7 +5,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import lru_cache
 from heapq import merge
 from itertools import product
 
@@ -93,10 +92,8 @@ class _NoRoomError(Exception):
         self.owner = owner
 
 
-# a part is drawn once for each format
-@lru_cache(maxsize=64)
 def laid(view: View, scale: float, language: str, *, own: bool = False) -> Laid | None:
-    """A view with all of its dimensions, at a scale; None where they find no room. To be read only.
+    """A view with all of its dimensions, at a scale; None where they find no room.
 
     ``own``: its scale is not the sheet's, which is all that some programs know, so its numbers stand as words.
     """
