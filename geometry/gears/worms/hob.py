@@ -25,8 +25,9 @@ Real = NDArray[np.float64]
 
 # half the tip between its roundings is no narrower, modules: faces less wide are turned over by rounding
 _LEAST_LAND = 1e-3
-# Newton's steps to a plane across the wheel's axis, each good to the step of its slope, rad
-_STEPS, _STEP = 4, 1e-6
+# Newton's steps to a plane across the wheel's axis, each good to the step of its slope, rad; when they are enough, and
+# when they have got there at all, part of the hob's tip
+_STEPS, _STEP, _ENOUGH, _THERE = 12, 1e-6, 1e-15, 1e-12
 # steps to the hob's pressure angle, each of which leaves a tenth of what it is off
 _ANGLE_STEPS = 16
 
@@ -46,7 +47,8 @@ class Cut(Record, eq=False):
     ``plane``: x + iy of the lower side of tooth 1, mm; ``turn``: polar angle of the hob's point about the hob's axis,
     rad; ``slid``: how far the hob has slid along its axis, mm; ``touching``: the point in the frame of the drive,
     x - a + iz, mm. ``normal`` (in the plane) and ``normal_rise`` are those of the wheel's surface, out of its material;
-    where ``steepness``, its part along the line of centres, goes through 0 the contact has run off to infinity.
+    where ``steepness``, its part along the line of centres, goes through 0 the contact has run off to infinity; of a
+    swivelled hob it leaves the plane across the wheel's axis before that: then no point is ``found`` in it.
     """
 
     plane: Complex
@@ -56,6 +58,7 @@ class Cut(Record, eq=False):
     normal: Complex
     normal_rise: Real
     steepness: Real
+    found: NDArray[np.bool_]
 
 
 class Hob(Record, dict=True):
@@ -147,6 +150,8 @@ class Hob(Record, dict=True):
                 # the swivel moves the point from its plane by a little: Newton's steps, their slope by difference
                 for _ in range(_STEPS):
                     here = self._touch(meridian, turn).y
+                    if not (np.abs(here - y) > _ENOUGH * self.tip_radius).any():
+                        break
                     turn = turn - _STEP * (here - y) / (self._touch(meridian, turn + _STEP).y - here)
             found = self._touch(meridian, turn)
             n_x, n_y, n_z = found.normal
@@ -154,7 +159,8 @@ class Hob(Record, dict=True):
             size = np.sqrt(n_x * n_x + n_y * n_y + n_z * n_z)
             touching = found.x + 1j * found.z
             normal = (n_x + 1j * n_z) * turned / size
-            return Cut(touching * turned, turn, found.slid, touching, normal, -n_y / size, n_x / size)
+            there = (np.abs(found.y - y) <= _THERE * self.tip_radius) & (np.abs(turn) <= math.pi / 2)
+            return Cut(touching * turned, turn, found.slid, touching, normal, -n_y / size, n_x / size, there)
 
     def _touch(self, meridian: Meridian, turn: Real) -> _Touch:
         """Where points of the thread touch the wheel."""

@@ -34,6 +34,8 @@ _RADII, _ANGLES, _FIRST_STEP = 257, 129, 1e-7
 # rad), how near both end at least and when that is enough; up to which depth, of the hob's size, undercut is none, and
 # to which so shallow that its crossing lies by the first terms of both curves half as far again as the turning
 _CROSSINGS, _NEWTON_STEPS, _SLOPE, _MET, _SURE, _BARELY, _SHALLOW, _CROSSED = 65, 8, 1e-6, 1e-10, 1e-14, 1e-6, 3e-4, 1.5
+# how near a flank gets to the tip, part of the hob's size
+_AT_TIP = 1e-8
 # shares of each part of both sides between which a ridge is sought
 _RIDGE = np.linspace(0.0, 1.0, 65)[:, None]
 # steps of the golden section
@@ -202,6 +204,9 @@ class WormTeeth(Record, dict=True):
         ends = radii[at - 1, column], radii[at, column]
         early = np.where(all_fillet, -1.0, past(ends[0])), np.where(all_fillet, 1.0, past(ends[1]))
         outer = np.where(all_fillet, form, bracketed_roots(past, *ends, *early))
+        if not ((np.abs(past(outer)) <= _AT_TIP * hob.tip_radius) | all_fillet).all():
+            # the contact of a swivelled hob leaves the plane before its flank gets to the tip
+            raise NoTooth("worm_wheel_flank_ends")
         undercut = (first > 0) & ~all_fillet
         inner, normal = np.full(len(z), form), np.full(len(z), hob.least_normal)
         if all_fillet.any():
@@ -322,9 +327,9 @@ class WormTeeth(Record, dict=True):
         return max(_ABOVE * flank.least_radius if self.hob.worm.form != "ZI" else 0.0, 1e-3 * self.hob.tip_radius)
 
     def _reach(self, radius: Real, heights: Real) -> Real:
-        """Distance from the wheel's axis of what the flank leaves, mm; infinite from where it stands upright on."""
+        """Distance from the wheel's axis of what the flank leaves, mm; infinite from where its contact runs off on."""
         cut = self.hob.cut(self.hob.flank(radius), heights)
-        return np.where(cut.steepness < 0, np.abs(cut.plane), np.inf)
+        return np.where(cut.found & (cut.steepness < 0), np.abs(cut.plane), np.inf)
 
     def _turning(self, low: Real, high: Real, heights: Real) -> Real:
         """Radii of the thread at which the flank turns back between others, by the golden section, mm."""

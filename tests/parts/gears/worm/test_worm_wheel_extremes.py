@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geometry.base.record import replace
+from geometry.gears.worms.hob import oversized_hob
 from geometry.gears.worms.wheel import WormTeeth
 from geometry.gears.worms.wheel_faces import wheel_splines
 from parts.base.refusal import SceneError
@@ -90,6 +91,22 @@ def test_wheels_of_many_starts_are_what_the_hob_leaves(
     thing = _built({**keys, "number_of_teeth": teeth})
     assert 0.3 < thing.teeth.width / thing.drive.most_face_width <= 1
     _held({**keys, "number_of_teeth": teeth})
+
+
+def test_where_contact_of_a_larger_hob_leaves_the_plane_is_not_taken_for_undercut() -> None:
+    keys = {"form": "ZA", "module": 2.0, "number_of_starts": 2, "diameter_quotient": 7.52, "number_of_teeth": 184}
+    drive = drive_of(WormWheelSpec(**keys, hand="left", profile_shift_coefficient=-0.3))
+    hob = oversized_hob(drive, 0.2, 8.71)
+    teeth = WormTeeth(hob, drive.centre_distance, drive.throat_radius, 186.9, 9.843)
+    # before: undercut at these four of 400 heights, where no tooth was left
+    heights = np.array([4.835952410817711, 4.83880633045712, 4.898738642884723, 4.901592562524133])
+    side = teeth.side(heights)
+    assert not side.undercut.any()
+    end = teeth.flank(side, 1.0)
+    assert end.found.all()
+    assert np.abs(np.abs(end.plane) - teeth.tip_radius(heights)).max() < 1e-9
+    # farther in the thread there is no point in the plane
+    assert not hob.cut(hob.flank(np.full(4, side.outer.min() - 0.1)), heights).found.any()
 
 
 @pytest.mark.heavy
