@@ -557,13 +557,14 @@ def _converge(options: argparse.Namespace) -> int:
     if not plan.jobs:
         raise SceneError(options.scene, "exports", None, "nothing_to_measure")
     folder = options.out / scene.name
+    told = words(scene.scene.language)
     with staging_folder(folder) as staging:
         rungs, found = ladder(plan, staging), orders(plan)
         write_csv(staging / "converge.csv", rungs, found)
-        names = ["converge.csv", *write_pictures(staging, rungs, found)]
+        names = ["converge.csv", *write_pictures(staging, rungs, found, told)]
         with alone_in(folder):
             move_into(folder, staging, names)
-    converge_tables(rungs, found, [folder / name for name in names], words(scene.scene.language))
+    converge_tables(rungs, found, [folder / name for name in names], told)
     return FAILED if any(r.measured > r.max_error for r in rungs) else DONE
 
 

@@ -132,15 +132,9 @@ def _motion(motion: dict[str, Any], told: Words, names: Mapping[str, str]) -> li
     if motion["pairs"]:
         pairs = counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=motion["pairs"])
         poses = counted("{poses} pose", "{poses} poses", by="poses", poses=motion["poses"])
-        lines.append(
-            told.say(
-                message(
-                    "solids in motion: {pairs} over the period of each; {poses} held, the rest repeats or lies apart",
-                    pairs=pairs,
-                    poses=poses,
-                )
-            )
-        )
+        held = N_("solids in motion: {pairs} over the period of each; {poses} held, the rest repeats or lies apart")
+        apart = N_("solids in motion: {pairs}; none can meet the other")
+        lines.append(told.say(filled(held if motion["tested"] else apart, pairs=pairs, poses=poses)))
     for found in (x for x in motion["uncovered"] if x["share"] < 1):
         lines.append(
             told.text("note: {first} and {second} were held over {share:.3g} of their period", **called(found, names))

@@ -23,6 +23,7 @@ from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
+from parts.base.texts import Words
 
 # making and measuring a rung may take this long, s; the next one would take longer
 _MOST_SECONDS = 15.0
@@ -172,18 +173,20 @@ def write_csv(file: Path, rungs: list[Rung], found: list[Order]) -> None:
                 rows.writerow([o.part, o.curve, o.method, o.theory, o.observed, count, error])
 
 
-def write_pictures(folder: Path, rungs: list[Rung], found: list[Order]) -> list[str]:
+def write_pictures(folder: Path, rungs: list[Rung], found: list[Order], told: Words) -> list[str]:
     """Log-log pictures: error against run time of the files, error against pieces of the curves."""
     files = {r.file: [x for x in rungs if x.file == r.file] for r in rungs}
     runs: list[Series] = [(name, [r.seconds for r in row], [r.measured for r in row]) for name, row in files.items()]
     names = ["converge.time.svg", "converge.pieces.svg"]
-    write_loglog(folder / names[0], "measured error against run time", "time to write, s", runs)
+    axes = told.text("time to write, s"), told.text("error, mm")
+    write_loglog(folder / names[0], told.text("measured error against run time"), axes, runs)
     curves: list[Series] = [
         (f"{o.part} {o.curve} {o.method}{_order_text(o)}", [float(c) for c in o.counts], list(o.errors)) for o in found
     ]
     if not curves:
         return names[:1]
-    write_loglog(folder / names[1], "error against pieces; order in the key", "pieces of a curve", curves)
+    axes = told.text("pieces of a curve"), told.text("error, mm")
+    write_loglog(folder / names[1], told.text("error against pieces; order in the key"), axes, curves)
     return names
 
 

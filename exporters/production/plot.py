@@ -14,8 +14,8 @@ _LETTER, _LINE = 8.0, 16.0
 _COLOURS = ("#c03020", "#2060c0", "#209050", "#a06000", "#8030a0", "#008090", "#606060", "#d06090")
 
 
-def write_loglog(file: Path, title: str, x_name: str, series: list[Series]) -> None:
-    """Draw positive points of each series, errors in mm, joined in their order; others are left out."""
+def write_loglog(file: Path, title: str, axes: tuple[str, str], series: list[Series]) -> None:
+    """Draw positive points of each series, joined in their order; others are left out. ``axes``: names of x and y."""
     kept = [(name, _positive(xs, ys)) for name, xs, ys in series]
     kept = [(name, points) for name, points in kept if points]
     points = [p for _, row in kept for p in row]
@@ -28,8 +28,8 @@ def write_loglog(file: Path, title: str, x_name: str, series: list[Series]) -> N
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:g}" height="{height:g}">',
         '<rect width="100%" height="100%" style="fill:#ffffff"/>',
         _text(_LEFT, 18, title),
-        _text(_LEFT, _HEIGHT - 10, x_name),
-        _text(8, _TOP - 8, "error, mm"),
+        _text(_LEFT, _HEIGHT - 10, axes[0]),
+        _text(8, _TOP - 8, axes[1]),
     ]
     lines += _grid(x_axis, y_axis)
     for index, (name, row) in enumerate(kept):

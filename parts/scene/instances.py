@@ -260,4 +260,6 @@ def check_instance(name: str, instances: dict[str, InstanceSpec], source: str, p
     own = [key for key, spec in instances.items() if spec.part == name]
     if own:
         raise SceneError(source, place, name, "stands_as", Nearest(own[0]), known=own)
+    if not instances:
+        raise SceneError(source, place, name, "no_instances")
     raise SceneError(source, place, name, "no_such_instance", meant(name, instances), known=list(instances))

@@ -103,6 +103,7 @@ def motion_found(
             try:
                 hold(found, clear, (one, two), (shapes[one.part], shapes[two.part]), course, is_mated=ends in mated)
             except GeometryError:
+                found.tested += 1
                 found.struck.append(Struck(one.id, two.id, None, 0.0))
     return found
 

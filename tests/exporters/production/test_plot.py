@@ -17,7 +17,7 @@ _LETTER = 0.61 * 12
 def test_the_key_and_the_title_stand_within_the_page(tmp_path: Path, count: int) -> None:
     name = "wheel root_fillet degree 7 splines 8.00"
     file = tmp_path / "p.svg"
-    write_loglog(file, "помилка залежно від кількості частин; порядок у ключі " * 2, "x",
+    write_loglog(file, "помилка залежно від кількості частин; порядок у ключі " * 2, ("x", "y"),
                  [(f"{name} {i}", [1.0, 10.0], [1.0, 0.1]) for i in range(count)])  # fmt: skip
     root = ET.parse(file).getroot()
     width, height = float(root.attrib["width"]), float(root.attrib["height"])
