@@ -288,12 +288,16 @@ def _natural(curve: Curve) -> ParameterMap:
 def _arc_and_turning(curve: Curve) -> ParameterMap | None:
     """The inverse of the integral of sqrt(speed x turning rate) = speed sqrt(curvature), made to run from 0 to 1.
 
-    None where the curve is straight or turns too unevenly for this, and where it is the curve's own parameter.
+    None where the curve is straight, has an inflection, at which the root is not smooth, or turns too unevenly for
+    this, and where it is the curve's own parameter.
     """
     t = np.linspace(*curve.domain, 2 * _MAP_NODES - 1)
     first, second = curve.derivative(t), curve.derivative(t, 2)
     with np.errstate(divide="ignore", invalid="ignore"):
-        rate = np.sqrt(np.abs((np.conj(first) * second).imag) / np.abs(first))
+        turning = (np.conj(first) * second).imag / np.abs(first)
+    if turning.min() < 0 < turning.max():
+        return None
+    rate = np.sqrt(np.abs(turning))
     if not (np.all(np.isfinite(rate)) and 1e-3 * rate.max() < rate.min() < (1 - 1e-9) * rate.max()):
         return None
     # Simpson's rule over the nodes, the rate between them at the middles

@@ -11,12 +11,15 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import ArrayLike
 
 from geometry.approximation.splines import SplineFit, fit_spline, spline_of_spans
 from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2
+from geometry.base.record import Record
+from geometry.base.series import Series
 from geometry.curves.bspline import BSpline, basis, distance_bound, feet
-from geometry.curves.curve import Curve, Reversed, end_point, start_point
+from geometry.curves.curve import Curve, Reversed, SeriesSpan, end_point, start_point
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
 from geometry.curves.trochoid import TrochoidFillet
@@ -403,3 +406,29 @@ def test_rounding_chooses_nothing() -> None:
         poles.append(made.spline.poles * np.exp(-1j * turn))
     assert np.ptp(np.array(poles).real, axis=0).max() < 1e-7
     assert np.ptp(np.array(poles).imag, axis=0).max() < 1e-7
+
+
+class _Swan(SeriesSpan, Record):
+    """A curve that leaves nearly a cusp and has an inflection: 7 t - 7/3 sin 3t + 30 i cos t."""
+
+    start: float = 0.01
+    end: float = 1.578
+
+    def series(self, t: ArrayLike, order: int) -> Series:
+        """Taylor coefficients at ``t``."""
+        at = np.asarray(t, dtype=float)
+        found = [7 * at, 7 + 0 * at, *(0 * at for _ in range(order))]
+        return [
+            (x - 7 / 3 * 3.0**k * np.sin(3 * at + k * math.pi / 2) / math.factorial(k))
+            + 30j * np.cos(at + k * math.pi / 2) / math.factorial(k)
+            for k, x in enumerate(found[: order + 1])
+        ]
+
+
+def test_a_curve_with_an_inflection_needs_few_spans() -> None:
+    """The root of its curvature is no parameter: not smooth there, 512 spans were not enough."""
+    made, curve = fit_spline(_Swan(), 1e-6, degree=3, continuity=2), _Swan()
+    assert made.pieces < 50
+    x, t = made.spline.point(np.linspace(*made.spline.domain, 401)), np.linspace(*curve.domain, 20001)
+    near = feet(curve, x, t[np.argmin(np.abs(x[:, None] - curve.point(t)), axis=1)])
+    assert np.abs(curve.point(near) - x).max() <= made.max_error <= 1e-6
