@@ -163,12 +163,16 @@ def sheet_jobs(wanted: Request) -> list[SheetJob]:
 
 
 def _check_letters(canvases: list[Canvas], wanted: Request) -> None:
-    """Refuse a title that the font of a PDF cannot write."""
+    """Refuse words of the scene that the font of a PDF cannot write."""
     if not missing_letters("".join(run.text for canvas in canvases for text in canvas.texts for run in text.runs)):
         return
     scene, block = wanted.scene, wanted.export.title_block
     given: dict[str, str | None] = {"scene.title": scene.scene.title}
     given |= {f"parts.{key}.title": told_in(wanted.language, spec.title or "") for key, spec in scene.parts.items()}
+    for key, spec in scene.parts.items():
+        given |= {f"parts.{key}.{name}": getattr(spec, name) for name in ("material", "designation", "standard")}
+    if (told := wanted.export.drawing) is not None:
+        given |= {f"{wanted.where}.drawing.requirements[{k}]": text for k, text in enumerate(told.requirements, 1)}
     if isinstance(block, TitleBlockTable):
         given |= {f"{wanted.where}.title_block.{key}": str(text) for key, text in asdict(block).items()}
     for place, text in given.items():

@@ -205,10 +205,9 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
 def _crown_rounds(wheel: Wheel) -> Iterator[Round]:
     """The radius of a worm wheel's throat."""
     if (crown := wheel.crown) is not None:
-        centre = complex(wheel.shape.face_width / 2, crown.distance)
-        half = math.asin(min(wheel.shape.face_width / 2 / crown.throat, 1.0))
-        angles = arc_angles(Arc(centre, crown.throat, -_UP - half, 2 * half))
-        yield Round("throat_radius", centre, crown.throat, "R", is_radius=True, angles=angles, inward=True)
+        edge = Line(complex(wheel.shape.face_width, wheel.tip[0]), 1j * wheel.tip[0])
+        arc = next(curve for curve in crown.top(edge, crown.throat) if isinstance(curve, Arc))
+        yield Round("throat_radius", arc.centre, arc.radius, "R", is_radius=True, angles=arc_angles(arc), inward=True)
 
 
 def section_sides(centres: Sequence[complex]) -> tuple[int, ...]:
@@ -264,7 +263,8 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
         if at.hub[1] > width or at.hub[0] < 0:
             edge = -shape.hub.diameter / 2
             found.append(Size("hub.length", complex(at.hub[0], edge), complex(at.hub[1], edge), "below"))
-        if at.hub[0] < 0:
+        # of a hub on one side alone its length and the face width tell the rest
+        if at.hub[0] < 0 and at.hub[1] > width:
             found.append(Size("hub.below", complex(at.hub[0], -shape.hub.diameter / 2), -1j * down, "below"))
     if isinstance(bore, RoundBore):
         diameter("bore_diameter", bore.diameter, at.hub[1], "right", wishes.bore)

@@ -80,8 +80,10 @@ def _gear(part: Part, mates: Sequence[Mated]) -> DataTable:
     made = {"circumferential_thinning": part.thing.circumferential_thinning}
     if part.kind != "rack" and part.thing.given_tip_diameter is not None:
         made["tip_diameter"] = part.thing.given_tip_diameter
+    if (helix := helix_of(keys)).angle:
+        # the hand tells its sense
+        made["helix_angle_deg"] = abs(keys.helix_angle_deg)
     page = _PAGES[part.kind](given(keys) | made)
-    helix = helix_of(keys)
     hand = [_hand("double" if helix.double else helix.hand)] if helix.angle else []
     basic, own = _basic_rack(keys)
     shift = rows_of(page, (*own, *_RELIEF, *_SHIFT))

@@ -258,6 +258,9 @@ def test_refusals_name_their_key() -> None:
     with pytest.raises(SceneError) as caught:
         jobs(PARTS["gear"], drawing={"bore": "7H"})
     assert caught.value.key == "exports[1].drawing.bore"
+    with pytest.raises(SceneError) as caught:
+        jobs(PARTS["gear"], formats=("pdf",), drawing={"requirements": ["HRC 40", "日本語"]})
+    assert caught.value.key == "exports[1].drawing.requirements[2]"
     # zones t begin above 24 mm (ISO 286-1)
     pin = {"kind": "pin", "length": 30.0}
     with pytest.raises(SceneError) as caught:
@@ -383,6 +386,14 @@ def test_the_row_of_holes_of_a_rack_is_told_to_its_last_one(tmp_path: Path) -> N
     holes = {"count": 3, "diameter": 4.0, "spacing": 30.0}
     found = sizes(drawn(tmp_path, PARTS["rack"] | {"holes": holes}))
     assert found["2×30=<> 0"] == pytest.approx(60.0)
+
+
+@pytest.mark.parametrize("side", ["below", "above"])
+def test_a_hub_on_one_side_closes_no_chain_and_a_negative_helix_is_told_by_its_hand(tmp_path: Path, side: str) -> None:
+    gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "face_width": 12.0, "helix_angle_deg": -15.0}
+    file = drawn(tmp_path, gear | {"bore_diameter": 12.0, "hub": {"diameter": 20.0, side: 8.0}})
+    assert sorted(v for k, v in sizes(file).items() if not k.startswith("%%c")) == pytest.approx([12.0, 20.0])
+    assert {"15°", "left"} <= words(file)
 
 
 def test_a_requirement_that_stands_alone_has_no_number(tmp_path: Path) -> None:
