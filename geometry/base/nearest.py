@@ -23,13 +23,19 @@ def kept(holds: Callable[[V], bool], value: V) -> bool:
 
 
 def nearest(
-    holds: Callable[[float], bool], given: float, toward: float | Iterable[float], *, digits: int = 4
+    holds: Callable[[float], bool],
+    given: float,
+    toward: float | Iterable[float],
+    *,
+    digits: int = 4,
+    enough: float = 0.0,
 ) -> Nearest | None:
     """The value nearest to ``given`` that holds, on the way to ``toward`` (or to the first of several that holds).
 
     ``holds`` judges one value of one parameter: a margin of what is made, never a scene; a ``GeometryError`` of it is
     a no. Whole numbers are searched where both ends are whole. At most ``MOST_TRIALS`` trials; ``None`` where none of
-    the ends holds, or where what would be printed does not: then one parameter cannot cure it.
+    the ends holds, or where what would be printed does not: then one parameter cannot cure it. ``enough``: so near to
+    the last one that holds a costly search may end.
     """
     left = MOST_TRIALS - 1
 
@@ -54,7 +60,7 @@ def nearest(
             between = (good + bad) // 2
             good, bad = (between, bad) if tried(between) else (good, between)
         return limit(good, given)
-    while left > 0 and abs(good - bad) > _told_apart(max(abs(good), abs(bad)), digits):
+    while left > 0 and abs(good - bad) > max(enough, _told_apart(max(abs(good), abs(bad)), digits)):
         middle = (good + bad) / 2
         good, bad = (middle, bad) if tried(middle) else (good, middle)
     found = limit(float(good), given, digits=digits)

@@ -22,7 +22,7 @@ Real = NDArray[np.float64]
 # places at which a least one is sought, and how often nearer
 _PLACES, _ROUNDS = 33, 9
 # rows of a table from which contacts are found, steps from there, and how near they end, part of the radius
-_TABLE, _STEPS, _MET = 2049, 3, 4e-15
+_TABLE, _STEPS, _MET = 2049, 3, 2e-14
 
 
 class Screw(Record):
@@ -232,20 +232,31 @@ class GroundFlank(Flank):
         return radius, places, np.gradient(places, radius)
 
     def _contact(self, radius: ArrayLike) -> tuple[Real, Real]:
-        width = self.half_width()
         r = np.asarray(radius, float)
-        flat = np.atleast_1d(r).ravel()
+        half, slope = self._met(r.tobytes())
+        return half.reshape(r.shape), slope.reshape(r.shape)
+
+    # thickness and slope are asked for at the same radii, one after the other
+    @lru_cache(maxsize=2)  # noqa: B019
+    def _met(self, asked: bytes) -> tuple[Real, Real]:
+        """Axial half spaces and slopes at radii, mm."""
+        width, flat = self.half_width(), np.frombuffer(asked)
         radii, places, slopes = self._table()
         distance, slope = np.interp(flat, radii, places), np.interp(flat, radii, slopes)
-        for _ in range(_STEPS):
-            off = self._touch(distance, width)[0] - flat
-            distance = distance - off * slope
+        for left in range(_STEPS, -1, -1):
+            radius, half, steep = self._touch(distance, width)
+            met = np.abs(radius - flat) <= _MET * flat
+            if met.all() or not left:
+                break
+            distance = distance - (radius - flat) * slope
         # beyond the table, and where the wheel reaches deepest
-        hard = ~(np.abs(self._touch(distance, width)[0] - flat) <= _MET * flat) | (flat > radii[-1])
+        hard = ~met | (flat > radii[-1])
         if hard.any():
             distance[hard] = self._distances(flat[hard], width)
-        _, half, slope = self._touch(distance, width)
-        return half.reshape(r.shape), slope.reshape(r.shape)
+            _, half, steep = self._touch(distance, width)
+        for kept in (half, steep):
+            kept.setflags(write=False)
+        return half, steep
 
     def drop(self, radius: ArrayLike) -> Real:
         """From the line of contact, screwed back into the axial section."""

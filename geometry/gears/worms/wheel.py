@@ -433,12 +433,16 @@ class WormTeeth(Record, dict=True):
         lines = [Line(complex(a), complex(b)) for a, b in pairwise(around)]
         return Profile(tuple(map(Segment, lines, way)), self.number_of_teeth)
 
-    def narrowed(self) -> WormTeeth:
-        """The teeth with as much of the width as has whole ones at every height; themselves where none has."""
+    def narrowed(self, enough: float = 0.0) -> WormTeeth:
+        """The teeth with as much of the width as has whole ones at every height; themselves where none has.
+
+        ``enough``: to which part of the width that is told.
+        """
         if self.is_whole:
             return self
         least = _LEAST_WIDTH * self.width
-        found = nearest(lambda width: replace(self, width=width).is_whole, self.width, least)
+        near = enough * self.width
+        found = nearest(lambda width: replace(self, width=width).is_whole, self.width, least, enough=near)
         return replace(self, width=found.value) if found and isinstance(found.value, float) else self
 
     def checked(self) -> WormTeeth:

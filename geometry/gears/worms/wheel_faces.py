@@ -106,10 +106,15 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
 
 def fitting(teeth: WormTeeth, tolerance: float) -> WormTeeth | None:
     """The widest of some narrower teeth, themselves first, that splines come near; None where none do."""
+    creased = False
     for share in _NARROWER:
         narrower = replace(teeth, width=share * teeth.width)
         try:
             narrower.checked()
+            # what bends as the wider ones do is no nearer to splines
+            if creased and narrower.is_creased:
+                continue
+            creased = narrower.is_creased
             _fits(narrower, tolerance, _FEW_SPANS)
         except (ConvergenceError, NoTooth, ParameterError):
             continue

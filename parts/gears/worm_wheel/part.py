@@ -56,6 +56,10 @@ _SEEN = 33
 _SLIVER = 0.02
 # and what a wheel is of use with; its tip in the middle, modules
 _USEFUL, _TIP = 0.25, 0.02
+# addenda and shifts are offered that near to the last one that works, modules
+_NEAR = 5e-3
+# part of the width to which it is sought whether some of it has teeth
+_ROUGHLY = 0.05
 # an outside is reached that near, mm; below so many degrees a corner is sharp: a throat wraps a third of the worm
 _REACHED, _SHARP = 1e-3, 29.9
 
@@ -165,10 +169,15 @@ def _rounding_cures(keys: WormWheelSpec, refusal: ParameterError) -> bool:
 
     def stands(value: float) -> bool:
         less = changed(keys, hob_rounding_coefficient=value)
-        return _asked_teeth(less, drive_of(less)).width > 0
+        return _is_even(_asked_teeth(less, drive_of(less)).narrowed(_ROUGHLY))
 
     found = refusal.nearest
     return found is not None and isinstance(found.value, float) and kept(stands, found.value)
+
+
+def _is_even(teeth: WormTeeth) -> bool:
+    """Whether they are whole and their flanks bend nowhere."""
+    return teeth.is_whole and not teeth.is_creased
 
 
 def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
@@ -190,17 +199,24 @@ def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
 
 def _creased(keys: WormWheelSpec) -> ParameterError:
     """No spline follows a flank over the base circle of the worm: with the addendum that keeps teeth off it."""
-    given = keys.addendum_coefficient
+    given, ends = keys.addendum_coefficient, (0.8, 0.6, 0.4, 0.2)
+
+    def even(value: float) -> bool:
+        less = changed(keys, addendum_coefficient=value)
+        return _is_even(_asked_teeth(less, drive_of(less)).narrowed(_ROUGHLY))
 
     def works(value: float) -> bool:
         less = changed(keys, addendum_coefficient=value)
-        drive = drive_of(less)
-        # the first is soon told
-        return not _asked_teeth(less, drive).narrowed().is_creased and teeth_of(less, drive).width > 0
+        return even(value) and teeth_of(less, drive_of(less)).width > 0
 
-    return ParameterError(
-        "addendum_coefficient", given, "worm_wheel_below_base", partial(nearest, works, given, (0.8, 0.6, 0.4, 0.2))
-    )
+    def cure() -> Nearest | None:
+        # even teeth are soon told, and splines follow almost all of them
+        found = nearest(even, given, ends, enough=_NEAR)
+        if found is None or (isinstance(found.value, float) and kept(works, found.value)):
+            return found
+        return nearest(works, given, ends, enough=_NEAR)
+
+    return ParameterError("addendum_coefficient", given, "worm_wheel_below_base", cure)
 
 
 def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
@@ -210,17 +226,21 @@ def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
         less = changed(keys, **{key: value})
         asked = _asked_teeth(less, drive_of(less))
         # how much of the width stands is sought of one value only
-        teeth = asked.narrowed() if whole else replace(asked, width=_USEFUL * asked.width)
+        teeth = asked.narrowed(_ROUGHLY) if whole else replace(asked, width=_USEFUL * asked.width)
         # what is not whole anywhere has no tip to ask for
-        if not teeth.is_whole or teeth.is_creased:
+        if not _is_even(teeth):
             return False
         return whole or float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0]) > _TIP * keys.module
 
     def cure() -> Nearest | None:
-        found = nearest(partial(stands, key), given, ends)
-        if found is None or (isinstance(found.value, float) and kept(partial(stands, key, whole=True), found.value)):
+        entire = partial(stands, key, whole=True)
+        found = nearest(partial(stands, key), given, ends, enough=_NEAR)
+        if found is None:
+            # teeth of less than is of use are more than none
+            return nearest(entire, given, ends[-1], enough=_NEAR)
+        if isinstance(found.value, float) and kept(entire, found.value):
             return found
-        return nearest(lambda value: stands(key, value) and stands(key, value, whole=True), given, ends)
+        return nearest(lambda value: stands(key, value) and entire(value), given, ends, enough=_NEAR)
 
     taken = (other for other in ("axial_thinning", "profile_shift_coefficient") if getattr(keys, other))
     found = next((other for other in taken if kept(partial(stands, other), 0.0)), None)

@@ -110,6 +110,23 @@ def test_where_contact_of_a_larger_hob_leaves_the_plane_is_not_taken_for_undercu
 
 
 @pytest.mark.heavy
+def test_a_pointed_worm_of_many_starts_is_told_the_addendum_that_leaves_its_wheel_teeth() -> None:
+    keys = {"module": 10.0, "number_of_starts": 7, "diameter_quotient": 4.13, "number_of_teeth": 58}
+    keys["profile_shift_coefficient"] = -0.3
+    # before: less than a quarter of the usual width was offered to nobody
+    with pytest.raises(SceneError) as refused:
+        _built(keys)
+    offered = refused.value.nearest
+    assert refused.value.code == "worm_pointed"
+    assert offered is not None
+    assert offered.side == "at_most"
+    assert isinstance(offered.value, float)
+    assert 0.15 < offered.value < 0.2
+    with pytest.raises(SceneError):
+        _built({**keys, "addendum_coefficient": offered.value + 0.006})
+
+
+@pytest.mark.heavy
 def test_teeth_that_reach_below_the_base_circle_are_told_the_addendum_that_does_not() -> None:
     # before: the face was said to break at any width, without a value that works
     keys = {"module": 3.0, "number_of_starts": 6, "diameter_quotient": 7.89, "number_of_teeth": 96}
