@@ -92,7 +92,7 @@ def _remarks(written: Sequence[Written], told: Words) -> list[str]:
     labels: dict[str, list[str]] = {}
     for item in written:
         for finding in item.findings:
-            labels.setdefault(told.say(finding_message(finding)), []).append(item.job.about(finding))
+            labels.setdefault(told.say(finding_message(finding)), []).extend(item.job.about(finding))
     for text, own in labels.items():
         names = ", ".join(dict.fromkeys(own))
         lines.append(told.text("note: {text}", text=f"{names}: {text}"))

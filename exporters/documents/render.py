@@ -42,6 +42,7 @@ def _text(sheet: Sheet, told: Words) -> str:
     if sheet.plain_picture:
         lines += [sheet.plain_picture, ""]
     lines += [told.text("note: {text}", text=told.say(note)) for note in sheet.notes]
+    lines += ["", told.say(sheet.signed)] if sheet.signed else []
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
@@ -57,6 +58,7 @@ def _markdown(sheet: Sheet, told: Words) -> str:
     if sheet.plain_picture:
         lines += ["```", sheet.plain_picture, "```", ""]
     lines += [f"- {_escaped_md(told.say(note))}" for note in sheet.notes]
+    lines += ["", _escaped_md(told.say(sheet.signed))] if sheet.signed else []
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
@@ -101,6 +103,8 @@ def _html(sheet: Sheet, told: Words) -> str:
     if sheet.notes:
         items = "".join(f"<li>{html.escape(told.say(note))}</li>" for note in sheet.notes)
         lines.append(f"<ul>{items}</ul>")
+    if sheet.signed:
+        lines.append(f"<p>{html.escape(told.say(sheet.signed))}</p>")
     return "\n".join([*lines, "</body>\n</html>"]) + "\n"
 
 

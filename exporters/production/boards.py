@@ -92,7 +92,7 @@ class BoardJob(Record, PartsJob):
 
     def findings(self, made: Made) -> tuple[Finding, ...]:
         """Those on its parts, and how often it is cut."""
-        return (*super().findings(made), *several(self.times))
+        return (*super().findings(made), *several(self.export, self.times))
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back: every piece whole and in its place, on the board, clear of the others."""

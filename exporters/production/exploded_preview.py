@@ -302,7 +302,7 @@ def _caption(plan: Plan, rows: Sequence[ListRow], covered: set[int], size: compl
     told = [f"{row.position}  {row.name}" + (f" × {row.count}" if row.count > 1 else "") for row in rows]
     if covered:
         names = ", ".join(map(str, sorted(covered)))
-        told.append(words(plan.scene.scene.language).text("covered in the picture: {names}", names=names))
+        told.append(words(plan.scene.scene.language).text("without its name in the picture: {names}", names=names))
     wide = _LETTER * _TEXT * (max(map(len, told)) + 2)
     columns = max(1, int(size.real / wide))
     deep = -(-len(told) // columns)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
@@ -53,9 +53,9 @@ class FileJob:
         """What remarks on it begin with: the file."""
         return self.path
 
-    def about(self, finding: Finding) -> str:
+    def about(self, finding: Finding) -> Sequence[str]:
         """What a remark begins with."""
-        return self.label
+        return (self.label,)
 
     @property
     def told(self) -> dict[str, Any]:
@@ -103,9 +103,9 @@ class PartsJob(FileJob):
         """Remarks on the sections and meshes in it."""
         return tuple(dict.fromkeys(f for m in self.members for f in (*m.section.findings, *m.remarks(made))))
 
-    def about(self, finding: Finding) -> str:
+    def about(self, finding: Finding) -> Sequence[str]:
         """Of a remark on sections the parts that have them, by their names."""
-        return ", ".join(m.part.name for m in self.members if finding in m.section.findings) or self.label
+        return [m.part.name for m in self.members if finding in m.section.findings] or (self.label,)
 
 
 class Written(Record):
@@ -256,9 +256,10 @@ class AssemblyJob(Record, PartsJob):
         return judge.signed(file, kind, self.export.author, self.export.organisation, verdict)
 
 
-def several(times: int) -> tuple[Finding, ...]:
+def several(export: ExportSpec, times: int) -> tuple[Finding, ...]:
     """What there is to tell of a board or bed that is made so many times."""
-    return (Finding("made_several_times", float(times), 1.0),) if times > 1 else ()
+    code = "cut_several_times" if export.purpose == "board" else "printed_several_times"
+    return (Finding(code, float(times), 1.0),) if times > 1 else ()
 
 
 def assembly_name(scene: str) -> str:

@@ -55,7 +55,7 @@ def _files(plan: Plan, told: Words) -> Iterator[str]:
             "; ".join(
                 (
                     ", ".join(lying_on(jobs[0], told).values()),
-                    *(told.say(finding_message(f)) for f in several(jobs[0].times)),
+                    *(told.say(finding_message(f)) for f in several(jobs[0].export, jobs[0].times)),
                 )
             ),
         )

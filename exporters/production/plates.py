@@ -60,7 +60,7 @@ class PlateJob(AssemblyJob):
 
     def findings(self, made: Made) -> tuple[Finding, ...]:
         """Remarks on what is on it."""
-        return (*super().findings(made), *several(self.times))
+        return (*super().findings(made), *several(self.export, self.times))
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back: every part in its place, on the bed, clear of the others."""

@@ -123,8 +123,12 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     told = words(language)
     rows = [plan.scene.scene.title or plan.scene.name, *caption_lines(checks, language, names, _MOST_LETTERS)]
     if covered:
-        row = told.text("covered in the picture: {names}", names=", ".join(in_rows(covered)))
-        count = counted("covered in the picture: {parts} part", "covered in the picture: {parts} parts", by="parts")
+        row = told.text("without its name in the picture: {names}", names=", ".join(in_rows(covered)))
+        count = counted(
+            "without its name in the picture: {parts} part",
+            "without its name in the picture: {parts} parts",
+            by="parts",
+        )
         rows.append(row if len(row) <= _MOST_LETTERS // 2 else told.say(filled(count, parts=len(covered))))
     rows = [line for row in rows for line in wrap(told.decimal(row), _WIDE_LETTERS)]
     # a wide scene is drawn wide: what is above and below it is cut off

@@ -65,7 +65,7 @@ class Known(Record):
 class Step(Record):
     """One line of a calculation; ``gear`` is 0 (neither), 1 or 2; ``inputs`` is what its formula's keys stood for.
 
-    ``of``: which of several steps of the same name it is.
+    ``of``: which of several steps of the same name it is; ``given``: no result of the calculation.
     """
 
     name: str
@@ -78,6 +78,7 @@ class Step(Record):
     printed: Printed | None = None
     inputs: Mapping[str, Known] = field(default_factory=dict)
     of: Text = ""
+    given: bool = False
 
 
 class Section(Draft):
@@ -102,13 +103,14 @@ class Table(Record):
 
 
 class Sheet(Draft):
-    """A calculation that grows step by step; ``notes`` are remarks."""
+    """A calculation that grows step by step; ``notes`` are remarks, ``signed`` is the last line of a form."""
 
     topic: str
     title: Text
     sections: list[Section] = field(default_factory=list)
     known: dict[str, Known] = field(default_factory=dict)
     notes: list[Text] = field(default_factory=list)
+    signed: Text | None = None
     # what is drawn, the same in letters, and what only json carries
     picture: Picture | None = None
     plain_picture: str = ""
@@ -132,6 +134,7 @@ class Sheet(Draft):
         symbol: str = "",
         key: str = "",
         of: Text = "",
+        given: bool = False,
     ) -> None:
         """A step; later formulas know its value by the term's key; ``symbol`` and ``key`` stand in for the term's."""
         term = TERMS[name]
@@ -142,7 +145,9 @@ class Sheet(Draft):
         if unknown := [placeholder for placeholder in needed if placeholder not in self.known]:
             raise KeyError(f"{name}: {', '.join(unknown)} not known yet")
         inputs = {placeholder: self.known[placeholder] for placeholder in needed}
-        step = Step(name, gear, shown, value, term.unit, formula, source, self.printed.get((name, gear)), inputs, of)
+        step = Step(
+            name, gear, shown, value, term.unit, formula, source, self.printed.get((name, gear)), inputs, of, given
+        )
         self.sections[-1].steps.append(step)
         self.known[(key or term.key) + index] = Known(shown, value, term.unit)
 

@@ -100,7 +100,8 @@ FINDINGS: dict[str, Text] = {
         "no room for its name, {limit:.1f} mm high at least, in clear material ({value:.1f} mm): it stands on a tag "
         "beside the part"
     ),
-    "made_several_times": N_("make it {value:.0f} times: that many boards or beds are alike"),
+    "cut_several_times": N_("boards like this one to be cut: {value:.0f}"),
+    "printed_several_times": N_("beds like this one to be printed: {value:.0f}"),
     "title_not_engraved": N_(
         "its title has {value:.0f} letters that cannot be engraved: its numbers or its id stand there; `label` says "
         "what shall"

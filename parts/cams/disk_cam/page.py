@@ -188,7 +188,8 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
     base = base_radius(cam)
     derived = cam.is_flat and keys.base_circle_radius is None and keys.least_curvature_radius > 0
     exact = derived and abs(base - flat_base_radius(cam.motion).value - keys.least_curvature_radius) < 1e-12 * base
-    page.add("least_base_circle_radius", base, "{r_0} + {rho}" if exact else "", LESSON_4 if exact else "")
+    told = ("{r_0} + {rho}", LESSON_4) if exact else ("", "")
+    page.add("least_base_circle_radius", base, *told, given=keys.base_circle_radius is not None)
     reached(page, cam)
     page.add("least_curvature_radius", least_convex_radius(cam).value)
     if isinstance(cam.mount, Translating) and cam.kind in ("flat", "mushroom"):

@@ -231,7 +231,7 @@ def name_profile(labels: Labeller, picture: CamPicture, paper: Paper) -> None:
     labels.name("O", paper.point(0j), prefer=1 - 1j)
     turning = paper.point(0.45 * reach.base * cmath.exp(1j * math.radians(230)))
     labels.name("ω", turning, prefer=1 + 1j)
-    name = "R_{min}" if cam.is_flat else "R_{b}" if cam.radius else "r_{0}"
+    name = "R_{min}" if cam.is_flat or cam.radius else "r_{0}"
     spoke = cmath.exp(1j * math.radians(290))
     labels.name(f"{name} = {say(reach.base)}", paper.point(reach.base * spoke), SMALL_TEXT, prefer=-spoke)
     if cam.radius:

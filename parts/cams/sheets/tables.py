@@ -72,7 +72,7 @@ def characteristics(calculation: Sheet, picture: CamPicture) -> Grid:
             cells = lowered(symbol_text(step.symbol, told)), result_text(step, told)
             rows.append((step_name(step, told), *(told.decimal(cell) for cell in cells)))
             # the characteristics are given, the sizes of the scene, and the coefficients of the laws
-            given = section is calculation.sections[0] or _GIVEN.fullmatch(step.name)
+            given = section is calculation.sections[0] or step.given or _GIVEN.fullmatch(step.name)
             answers.append(1 if not given and (step.formula or not _is_law(section)) else 0)
     return Grid(_COLUMNS, tuple(rows), answers=tuple(answers))
 

@@ -27,6 +27,8 @@ from parts.pages.inputs import PLACE, SceneKeys, checked, part_of_kind, refusal
 from parts.pages.page import Sheet
 
 TOPIC = "tmm42"
+# mm: loss of the involute that its four decimals show
+_SEEN = 0.001
 _SOURCES = {1: "practicum, table 1.1", 2: "practicum, table 1.2"}
 
 
@@ -168,8 +170,8 @@ def _conditions(page: Sheet, zero: SpurGear, shifted: SpurGear) -> None:
         page.add("greatest_shift_for_tip_thickness", greatest, "", "practicum (1.3)")
     page.notes.append(N_("practicum (1.3) prints x_0.3 <= x <= x_min; right is x_min <= x <= x_0.3"))
     undercut = (
-        N_("zero wheel: the foot is undercut, the involute begins {lost:.4g} mm above the base circle"),
-        N_("shifted wheel: the foot is undercut, the involute begins {lost:.4g} mm above the base circle"),
+        N_("zero wheel: the foot is undercut, the involute begins {lost:.4f} mm above the base circle"),
+        N_("shifted wheel: the foot is undercut, the involute begins {lost:.4f} mm above the base circle"),
     )
     pointed = (
         N_("zero wheel: the tip is thinner than 0.3 m"),
@@ -178,6 +180,13 @@ def _conditions(page: Sheet, zero: SpurGear, shifted: SpurGear) -> None:
     for index, gear in enumerate((zero,) if shifted is zero else (zero, shifted)):
         if limits.undercut(gear).margin < 0:
             lost = limits.root_form_diameter(gear) / 2 - gear.base_radius
-            page.notes.append(message(undercut[index], lost=lost))
+            if lost < _SEEN:
+                slight = N_(
+                    "x = {x:.4f} is less than x_min = {least:.4f}, exactly: the foot is undercut by less than 0.001 mm"
+                )
+                least = limits.least_shift_without_undercut(gear)
+                page.notes.append(message(slight, x=gear.profile_shift_coefficient, least=least))
+            else:
+                page.notes.append(message(undercut[index], lost=lost))
         if limits.thin_tip(gear).margin < 0:
             page.notes.append(pointed[index])

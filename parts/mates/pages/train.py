@@ -635,4 +635,4 @@ class _Page:
         self._add("turns_of_driven", float(1 / ratio), "1 / {u_whole}", "practicum 3.2", symbol=f"n_{self.driven}")
         self._add("turns_counted", _BLANK, symbol=f"n_{self.driven}", key="n_counted")
         page.data["exact"] = {"ratio": str(ratio), "driver": self.inputs[0], "driven": self.driven}
-        page.notes.append(message("done by {blank} date {blank} signature of the teacher {blank}", blank=_BLANK))
+        page.signed = message("done by {blank} date {blank} signature of the teacher {blank}", blank=_BLANK)

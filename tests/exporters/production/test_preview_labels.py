@@ -118,4 +118,7 @@ def test_names_of_what_is_covered_stand_in_the_caption(tmp_path: Path) -> None:
     )
     assert main(["build", str(scene), "--out", str(tmp_path), "--no-verify"]) == 0
     picture = (tmp_path / "two" / "two.preview.svg").read_text(encoding="utf-8")
-    assert re.findall(r">([^<>]*(?:small|large)[^<>]*)</text>", picture) == ["large", "covered in the picture: small"]
+    assert re.findall(r">([^<>]*(?:small|large)[^<>]*)</text>", picture) == [
+        "large",
+        "without its name in the picture: small",
+    ]
