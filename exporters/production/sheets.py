@@ -33,7 +33,7 @@ from parts.drawing.canvas import Canvas, decimal, scale_text
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Circle, Expected, Meshing
 from parts.drawing.font import missing_letters
-from parts.drawing.parts_list import form_of
+from parts.drawing.parts_list import form_of, mass_text
 from parts.drawing.table import Row
 from parts.drawing.title_block import FORM_1, TITLE_BLOCK, check_held, draw_title_block, draw_turned, title_block_of
 from parts.drawing.view import TEETH
@@ -303,7 +303,7 @@ def _mass(weighed: Iterable[Part], language: str) -> str:
     """The mass of all in kg, as GOST 2.104 has it; nothing where a density is not known."""
     masses = [part.mass for part in weighed]
     known = [mass for mass in masses if mass is not None]
-    return decimal(f"{sum(known):.3g}", language) if known and len(known) == len(masses) else ""
+    return decimal(mass_text(sum(known)), language) if known and len(known) == len(masses) else ""
 
 
 def _check_wheel(spec: SpurGearSpec, place: str, source: str) -> None:

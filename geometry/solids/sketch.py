@@ -140,13 +140,14 @@ class Layer(Record, dict=True):
 class Sketch(Record):
     """Layers from below; ``creases``: heights at which walls bend; ``pitch``: radius of the pitch cylinder, mm.
 
-    ``is_shaft``: not hatched where it is cut along its axis (GOST 2.305).
+    ``is_shaft``: not hatched where it is cut along its axis; ``is_ball``: nowhere (GOST 2.305).
     """
 
     layers: tuple[Layer, ...]
     creases: tuple[float, ...] = ()
     pitch: float | None = None
     is_shaft: bool = False
+    is_ball: bool = False
 
     def turned_over(self) -> Sketch:
         """The same, turned over about x."""
@@ -243,7 +244,8 @@ def sketch_of_turned(section: HalfSection, *, is_shaft: bool = False) -> Sketch:
         arriving, leaving = points[-1] - points[-2], np.diff(after.points()[:2])[0]
         if abs(np.angle(leaving / arriving)) > _EDGE:
             creases.append(float(points[-1].imag))
-    return Sketch(tuple(lathe(chain, [(h.centre, h.radius) for h in section.holes])), tuple(creases), None, is_shaft)
+    layers = tuple(lathe(chain, [(h.centre, h.radius) for h in section.holes]))
+    return Sketch(layers, tuple(creases), None, is_shaft, section.is_ball)
 
 
 def lathe(chain: Sequence[tuple[complex, complex]], holes: Sequence[tuple[complex, float]] = ()) -> Iterator[Layer]:

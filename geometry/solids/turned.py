@@ -121,6 +121,16 @@ class HalfSection(Record):
         z = np.concatenate([p.points().imag for p in self.pieces])
         return float(z.min()), float(z.max())
 
+    @property
+    def is_ball(self) -> bool:
+        """Whether it is a sphere."""
+        first, *others = [piece for piece in self.pieces if not piece.on_axis]
+        return (
+            first.centre is not None and abs(first.centre.real) < _SAME and not (self.holes or self.pockets)
+            and all(p.centre is not None and abs(p.centre - first.centre) + abs(p.radius - first.radius) < _SAME
+                    for p in others)
+        )  # fmt: skip
+
 
 def half_section(corners: Sequence[Corner]) -> tuple[Piece, ...]:
     """The pieces between corners in either order, each corner with its chamfer or fillet.

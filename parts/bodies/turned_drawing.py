@@ -16,7 +16,7 @@ from geometry.curves.line_arc import Arc, Line
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket
 from parts.bodies.turned import TurnedSpec
 from parts.drawing.directions import directions
-from parts.drawing.revolved import Loop, below, closed, outer_of, outlined, seen_edges
+from parts.drawing.revolved import Loop, below, closed, outer_of, outlined, seen_circles, seen_edges
 from parts.drawing.turned_sizes import Fits, SectionCorner, bores, listed_corners, turned_sizes
 from parts.drawing.wheel_views import axis_along, axis_cross, bore_note, circle_of, circle_size, section_sides
 from parts.drawing.working import (
@@ -58,7 +58,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     whole = _long_view(half, loop, subject, is_shaft=is_shaft, cut=hollow or not is_shaft)
     found = [whole] if is_shaft or not hollow else [*_enlarged(half, whole, subject)]
     if half.holes:
-        found.append(_face(half, subject))
+        found.append(_face(half, loop, subject))
     if is_shaft and not hollow and (centre := _centre_hole(loop, subject)) is not None:
         found.append(centre)
     if half.pockets:
@@ -242,18 +242,20 @@ def _walls(loop: Loop, hole: Hole) -> Iterator[tuple[Line, Line]]:
     yield from zip(*sides, strict=False)
 
 
-def _face(half: HalfSection, subject: Subject) -> View:
+def _face(half: HalfSection, loop: Loop, subject: Subject) -> View:
     """The view along the axis, with its holes."""
     inner, outer = half.radii()
-    strokes: list[Stroke] = [(VISIBLE, circle_of(outer))]
-    strokes += [(VISIBLE, circle_of(inner))] if inner > 0 else []
+    radii = {round(radius, 9) for radius in (outer, inner, *seen_circles(loop)) if radius > _SAME}
+    strokes: list[Stroke] = [(VISIBLE, circle_of(radius)) for radius in sorted(radii, reverse=True)]
     strokes += [(VISIBLE, circle_of(hole.radius, hole.centre)) for hole in half.holes]
     axes = [*axis_cross(outer), *(axis_along(hole.centre, hole.radius) for hole in half.holes)]
     rounds = []
     for pitch in sorted({round(abs(hole.centre), 9) for hole in half.holes}):
         strokes.append((AXIS, circle_of(pitch)))
-    for number, radius in enumerate(sorted({hole.radius for hole in half.holes}), 1):
-        group = [hole for hole in half.holes if hole.radius == radius]
+    equal: dict[tuple[float, float], list[Hole]] = {}
+    for hole in sorted(half.holes, key=lambda hole: hole.radius):
+        equal.setdefault((hole.radius, round(abs(hole.centre), 9)), []).append(hole)
+    for number, ((radius, _), group) in enumerate(equal.items(), 1):
         best = max(group, key=lambda hole: hole.centre.real + hole.centre.imag)
         words = sheet_words(subject.language, "holes_of", count=len(group)) if len(group) > 1 else ""
         rounds.append(Round(f"holes.{number}.diameter", best.centre, radius, f"{words}Ø"))

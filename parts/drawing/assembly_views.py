@@ -23,7 +23,7 @@ from parts.drawing.shown import SAMPLES, shown_pieces
 from parts.drawing.working import AXIS, VISIBLE
 
 # what is parallel, what is one place, mm
-_PARALLEL, _SAME = 1e-9, 1e-6
+_PARALLEL, _SAME, _DIGITS = 1e-9, 1e-6, 6
 # places that are tried for a leader's end, across a part
 _GRID, _FEW, _ENOUGH = 17, 12, 48
 Stroke = tuple[str, Curve]
@@ -134,7 +134,7 @@ def along_axes(shown: Sequence[Shown]) -> Drawn:
                 found = found[~other.hides(found, cover.top(found))]
         near = lines[np.abs(lines - one.centre) <= cover.reach[0] + _SAME]
         spots[one.part] = (*spots.get(one.part, ()), *_farthest(found, near))
-    return Drawn(tuple(strokes), (), tuple(axes), spots)
+    return Drawn(_once(strokes), (), _once_each(axes), spots)
 
 
 class _Cover(Record, dict=True):
@@ -336,14 +336,38 @@ def cut(shown: Sequence[Shown]) -> Drawn:
         strokes += [stroke for stroke, _ in drawn if stroke is not None]
         loops = [loop for _, loop in drawn if loop is not None]
         filled.setdefault(one.part, []).extend(loops)
-        if one.stands or not _is_whole(one.sketch):
+        if not (one.sketch.is_ball or (_is_whole(one.sketch) and not one.stands)):
             hatches.setdefault(one.part, []).extend(loops)
         if drawn:
             strokes += _pitches(one) if abs(one.depth) < _SAME or one.stands else ()
             axes += _axes(one) if abs(one.depth) < _SAME or one.stands else ()
     lines = _samples(strokes)
     spots = {part: _farthest(_within(loops), lines) for part, loops in filled.items()}
-    return Drawn(tuple(strokes), tuple(tuple(loops) for loops in hatches.values() if loops), tuple(axes), spots)
+    hatched = tuple(tuple(loops) for loops in hatches.values() if loops)
+    return Drawn(_once(strokes), hatched, _once_each(axes), spots)
+
+
+def _once(strokes: Sequence[Stroke]) -> tuple[Stroke, ...]:
+    """Lines without those that lie on one another: edges of several heights or parts are one line of the view."""
+    found: dict[tuple[object, ...], Stroke] = {}
+    for layer, curve in strokes:
+        found.setdefault((layer, *_place(curve)), (layer, curve))
+    return tuple(found.values())
+
+
+def _once_each(axes: Sequence[Line]) -> tuple[Line, ...]:
+    """The same of axes."""
+    found: dict[tuple[object, ...], Line] = {}
+    for axis in axes:
+        found.setdefault(_place(axis), axis)
+    return tuple(found.values())
+
+
+def _place(curve: Curve) -> tuple[object, ...]:
+    """Where a line lies, either way round."""
+    low, high = curve.domain
+    points = np.round(curve.point(np.linspace(low, high, 5)), _DIGITS) + 0.0
+    return min(tuple(points.tolist()), tuple(points[::-1].tolist()), key=lambda row: [(p.real, p.imag) for p in row])
 
 
 Cut = tuple[Stroke | None, tuple[Line | Arc, ...] | None]
@@ -370,8 +394,8 @@ def _cut_along(one: Shown) -> Iterator[Cut]:
 
 
 def _is_whole(sketch: Sketch) -> bool:
-    """Whether it is not cut along its axis: a shaft that no bore goes through."""
-    return sketch.is_shaft and any(len(layer.lower) == 1 for layer in sketch.layers)
+    """Whether it is not cut along its axis: a ball, or a shaft that no bore goes through."""
+    return sketch.is_ball or (sketch.is_shaft and any(len(layer.lower) == 1 for layer in sketch.layers))
 
 
 def _cut_across(one: Shown) -> Iterator[Cut]:

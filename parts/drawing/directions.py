@@ -43,7 +43,11 @@ def directions(holes: HubHoles, subject: Subject, zero: str, teeth: int = 0) -> 
     for group in holes.round_holes if start else ():
         if _turned(group.start - begin, group.count):
             key = "holes_at" if group.count > 1 else "hole_at"
-            tell(key, group.start - begin, group.count, start, size=subject.say(group.diameter))
+            size = subject.say(group.diameter)
+            if sum(other.diameter == group.diameter for other in holes.round_holes) > 1:
+                circle = subject.say(group.pitch_circle_diameter)
+                size = sheet_words(subject.language, "on_circle", size=size, circle=circle)
+            tell(key, group.start - begin, group.count, start, size=size)
     if start and holes.spokes is not None and _turned(holes.spokes.start - begin, holes.spokes.count):
         tell("spokes_at", holes.spokes.start - begin, holes.spokes.count, start)
     return tuple(found)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from decimal import Decimal
 from itertools import zip_longest
 
 from geometry.base.record import Record
@@ -86,7 +87,9 @@ def list_size(rows: Sequence[ListRow], language: str) -> tuple[float, float]:
 def draw_list(canvas: Canvas, corner: complex, rows: Sequence[ListRow], language: str) -> None:
     """A list on a drawing, its upper left corner at ``corner``."""
     lines, (width, height) = list(_lines(rows, language)), list_size(rows, language)
-    canvas.box("FRAME", Box(corner.real, corner.imag - height, corner.real + width, corner.imag))
+    # the table has lines on the right of its columns, the title block one below
+    canvas.line("FRAME", corner - 1j * height, corner)
+    canvas.line("FRAME", corner, corner + width)
     _table(canvas, corner, lines, len(lines), language)
 
 
@@ -122,10 +125,15 @@ def _lines(rows: Sequence[ListRow], language: str) -> Iterator[_Cells]:
         yield from (("", "", "", *pair, "", "") for pair in zip_longest(marks[1:], names[1:], fillvalue=""))
 
 
+def mass_text(mass: float) -> str:
+    """Three digits that count, never with a power of ten."""
+    return f"{Decimal(f'{mass:.3g}'):f}"
+
+
 def _mass(mass: float, told: Words) -> str:
     """A mass in kg, a small one in g."""
     text, value = (_GRAMS, 1e3 * mass) if mass < _SMALL else (_KILOGRAMS, mass)
-    return told.text(text, mass=told.decimal(f"{value:.3g}"))
+    return told.text(text, mass=told.decimal(mass_text(value)))
 
 
 def _form(canvas: Canvas, corner: complex, room: int, language: str) -> None:

@@ -40,12 +40,7 @@ def outlined(loop: Loop) -> list[Stroke]:
 def seen_edges(loop: Loop, *, cut: bool) -> list[Line]:
     """The edges that are seen in one half: behind a section where it is ``cut``, else of the whole from outside."""
     points, size = _points(loop)
-    corners = [
-        start_point(after)
-        for before, after in pairwise([*loop, loop[0]])
-        if abs((complex(before.tangent(before.domain[1])).conjugate() * complex(after.tangent(after.domain[0]))).imag)
-        > _SMOOTH
-    ]
+    corners = _corners(loop)
     found: list[Line] = []
     for x in sorted({round(corner.real / size, 9) for corner in corners}):
         here = [c.imag for c in corners if abs(c.real / size - x) < 2e-9]
@@ -60,6 +55,29 @@ def seen_edges(loop: Loop, *, cut: bool) -> list[Line]:
         for low, high in _without(spans, faces, _SAME * size):
             found.append(Line(complex(at, low), complex(at, high)))
     return found
+
+
+def seen_circles(loop: Loop) -> list[float]:
+    """Radii of the edges that are seen along the axis, from its far end."""
+    points, size = _points(loop)
+    turned = points.imag + 1j * points.real
+    found = []
+    for corner in _corners(loop):
+        sides = [_material(turned, corner.imag + way * _BESIDE * size) for way in (-1, 1)]
+        # nothing stands before it on one side
+        if any(side and abs(side[-1][1] - corner.real) < 1e-5 * size for side in sides):
+            found.append(corner.imag)
+    return found
+
+
+def _corners(loop: Loop) -> list[complex]:
+    """Where a loop has edges."""
+    return [
+        start_point(after)
+        for before, after in pairwise([*loop, loop[0]])
+        if abs((complex(before.tangent(before.domain[1])).conjugate() * complex(after.tangent(after.domain[0]))).imag)
+        > _SMOOTH
+    ]
 
 
 def _points(loop: Loop) -> tuple[Complex, float]:

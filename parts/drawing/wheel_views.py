@@ -272,7 +272,10 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
     for name, cut, z, way in (("above", shape.chamfer_above, width, -1), ("below", shape.chamfer_below, 0.0, 1)):
         if cut and not (name == "below" and cut == shape.chamfer_above):
             ends = complex(z + way * cut, up), complex(z, up)
-            found.append(Size(f"face_chamfer.{name}", *ends, "above", "", "×45°"))
+            lines = [line.end - line.start for line in closed(_half(wheel, bore_radii(bore)[0], up, toothed=False))]
+            count = sum(abs(abs(d.real) - cut) + abs(abs(d.imag) - cut) < _NONE for d in lines)
+            words = sheet_words(subject.language, "chamfers_of", count=count) if count > 1 else ""
+            found.append(Size(f"face_chamfer.{name}", *ends, "above", words, "×45°"))
     return found
 
 

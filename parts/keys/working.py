@@ -14,7 +14,8 @@ _ALL, _GRADES = "A|B|CD?|D|EF?|FG?|G|H|J[Ss]|[MNPR-VXY]|Z[ABC]?", "(01|[0-9]|1[0
 
 # mm: for sizes above the first and up to the second a fundamental deviation is told (the same tables)
 _TOLD = {
-    **dict.fromkeys(("c", "j", "x", "z", "za", "zb", "zc"), (0.0, 500.0)), "a": (1.0, 500.0), "b": (1.0, 500.0),
+    **dict.fromkeys(("c", "j", "x", "z", "za", "zb", "zc"), (0.0, 500.0)),
+    **dict.fromkeys(("cd", "ef", "fg"), (0.0, 10.0)), "a": (1.0, 500.0), "b": (1.0, 500.0),
     "t": (24.0, 3150.0), "v": (14.0, 500.0), "y": (18.0, 500.0),
 }  # fmt: skip
 

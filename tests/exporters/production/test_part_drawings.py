@@ -267,6 +267,11 @@ def test_refusals_name_their_key() -> None:
         jobs(pin | {"diameter": 24.0}, drawing={"shaft": "t7"})
     assert caught.value.key == "exports[1].drawing.shaft"
     assert jobs(pin | {"diameter": 24.5}, drawing={"shaft": "t7"})
+    # and CD ends at 10 mm
+    with pytest.raises(SceneError) as caught:
+        jobs(pin | {"diameter": 10.5}, drawing={"shaft": "cd8"})
+    assert caught.value.key == "exports[1].drawing.shaft"
+    assert jobs(pin | {"diameter": 10.0}, drawing={"shaft": "cd8"})
     box = {"kind": "layered", "layers": [{"thickness": 4.0, "circles": [{"diameter": 20.0}]}]}
     with pytest.raises(SceneError) as caught:
         jobs(box, parts=["p"])
