@@ -20,6 +20,17 @@ Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
 
 
+# b_1 / m by GOST 19650: shift, then (number, share of z_1, share of z_2) for one or two starts and for more
+_LENGTHS = (
+    (-1.0, (10.5, 1.0, 0.0), (10.5, 1.0, 0.0)),
+    (-0.5, (8.0, 0.0, 0.06), (9.5, 0.0, 0.09)),
+    (0.0, (11.0, 0.0, 0.06), (12.5, 0.0, 0.09)),
+    (0.5, (11.0, 0.0, 0.1), (12.5, 0.0, 0.1)),
+    (1.0, (12.0, 0.0, 0.1), (13.0, 0.0, 0.1)),
+)
+_APART = 0.5
+
+
 class WormDrive(Record):
     """A worm with its wheel; ``profile_shift_coefficient`` is the wheel's, in axial modules."""
 
@@ -76,10 +87,26 @@ class WormDrive(Record):
         return self.centre_distance - self.tip_radius
 
     @property
+    def default_outer_diameter(self) -> float:
+        """d_ae2 where none is asked for, mm: GOST 19650's largest, as far as a throat round a third of the worm goes."""
+        throated = max(2 * self.centre_distance - self.throat_radius, 2 * self.tip_radius)
+        return min(self.most_outer_diameter, throated)
+
+    @property
+    def least_worm_length_terms(self) -> tuple[float, float, float]:
+        """(c, k_1, k_2) of b_1 = (c + k_1 z_1 + k_2 z_2) m by GOST 19650: of the table's shifts about x, the longer."""
+        column = 0 if self.worm.number_of_starts <= 2 else 1
+        place = min(max(self.profile_shift_coefficient, -1.0), 1.0)
+        return max((row[column] for shift, *row in _LENGTHS if abs(shift - place) < _APART), key=self._length)
+
+    @property
     def least_worm_length(self) -> float:
-        """b_1 by GOST 19650 at x = 0, mm: (11 + 0.06 z_2) m for up to two starts, (12.5 + 0.09 z_2) m for more."""
-        first, second = (11.0, 0.06) if self.worm.number_of_starts <= 2 else (12.5, 0.09)
-        return (first + second * self.number_of_teeth) * self.worm.module
+        """b_1, mm."""
+        return self._length(self.least_worm_length_terms)
+
+    def _length(self, terms: tuple[float, float, float]) -> float:
+        number, of_starts, of_teeth = terms
+        return (number + of_starts * self.worm.number_of_starts + of_teeth * self.number_of_teeth) * self.worm.module
 
     @property
     def most_face_width(self) -> float:
@@ -103,7 +130,9 @@ class WormDrive(Record):
         return (x - self.centre_distance + 1j * (z + slid)) * np.exp(-1j * turned), slid
 
     def tip_radius_at(self, distance: float) -> float:
-        """Radius of the throated wheel in the plane y = ``distance`` (mm), as far as the throat goes on, mm."""
+        """Radius of the throated wheel in the plane y = ``distance`` (mm), mm: infinite beside the throat."""
+        if abs(distance) >= self.throat_radius:
+            return math.inf
         return self.centre_distance - math.sqrt((self.throat_radius - distance) * (self.throat_radius + distance))
 
     def tip_contact(self, distance: float, *, upper: bool = True, outer_radius: float = math.inf) -> float | None:
@@ -118,7 +147,7 @@ class WormDrive(Record):
 
         # an involute thread is radial where it begins: its normal there meets the pitch line nowhere
         low, high = max(worm.form_radius, abs(distance)) * (1 + 1e-9), worm.tip_radius
-        if beyond(low) * beyond(high) > 0:
+        if low >= high or beyond(low) * beyond(high) > 0:
             return None
         radius = bracketed_root(beyond, low, high).value
         z = worm.axial(radius, distance)[0 if upper else 1]

@@ -234,9 +234,10 @@ def _wheel(page: Sheet, drive: WormDrive) -> None:
     page.add("throat_diameter", 2 * drive.tip_radius, "{d2} + 2 * ({h_a} + {x}) * {m}", _GOST)
     page.add("wheel_root_diameter", 2 * drive.root_radius, "{d_a2} - 2 * {h1}", _GOST)
     page.add("most_outer_diameter", drive.most_outer_diameter, "{d_a2} + 6 * {m} / ({z1} + 2)", _GOST)
-    first, second = (11, 0.06) if starts <= 2 else (12.5, 0.09)
-    formula = f"({first} + {second} * {{z2}}) * {{m}}" if drive.profile_shift_coefficient == 0 else ""
-    page.add("least_worm_length", drive.least_worm_length, formula, _GOST)
+    number, of_starts, of_teeth = drive.least_worm_length_terms
+    terms = [f"{share:g} * {{{symbol}}}" for share, symbol in ((of_starts, "z1"), (of_teeth, "z2")) if share]
+    formula = " + ".join([f"{number:g}", *terms])
+    page.add("least_worm_length", drive.least_worm_length, f"({formula}) * {{m}}", _GOST)
     share = 0.75 if starts <= 3 else 0.67
     page.add("most_face_width", drive.most_face_width, f"{share} * {{d_a1}}", _GOST)
 
@@ -266,8 +267,8 @@ def _lengths(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
     """How long the worm and how wide the wheel is, and what of it is used."""
     page.section(N_("Length and width"))
     if keys.face_width is not None:
-        outer = math.inf if keys.outer_diameter is None else keys.outer_diameter / 2
-        used = drive.worm_length_used(keys.face_width, outer)
+        outer = drive.default_outer_diameter if keys.outer_diameter is None else keys.outer_diameter
+        used = drive.worm_length_used(keys.face_width, outer / 2)
         if used is None:
             page.notes.append(N_("the wheel's corners do not touch the worm: its rim is wider than the mesh"))
         else:

@@ -151,9 +151,7 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
         raise _toothless(keys, refusal.code) from refusal
     width = drive.most_face_width if keys.face_width is None else keys.face_width
     least = 2 * drive.tip_radius
-    # a throat wraps a third of the worm at most
-    most = min(drive.most_outer_diameter, max(2 * drive.centre_distance - drive.throat_radius, least))
-    outer = most if keys.outer_diameter is None else keys.outer_diameter
+    outer = drive.default_outer_diameter if keys.outer_diameter is None else keys.outer_diameter
     if outer < least:
         raise ParameterError("outer_diameter", outer, "within_throat", limit(least, outer), diameter=least)
     teeth = WormTeeth(hob, drive.centre_distance, drive.throat_radius, outer / 2, width)
