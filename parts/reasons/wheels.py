@@ -105,6 +105,7 @@ REASONS = {
     "step_hollow": N_("has a closed hollow; solids of one shell are taken over"),
     "step_loose": N_("its edges lie {error} mm off their faces, more than {most} mm"),
     "step_not_moved": N_("the solid of a STEP file is taken over as it is"),
+    "step_number": N_("has the number {found}, which no size is: beyond {most}"),
     "step_several": N_("has {count} solids: solid = 1 to {count} says which one is meant"),
     "step_solids": N_("must be a STEP file with a solid; it has {count}"),
     "step_surface": N_("has a face on {what}, which no spline surface follows"),

@@ -64,6 +64,8 @@ _FOLLOWED, _MOST_PIECES = 1e-9, 500
 # lines on which the poles of a sphere may lie: through the corners, the edges and the faces of a cube
 _CUBE = np.stack(np.meshgrid(*[[-1.0, 0.0, 1.0]] * 3), axis=-1).reshape(-1, 3)[:13]
 _WAYS = _CUBE / np.linalg.norm(_CUBE, axis=1)[:, None]
+# numbers of which the kernel comes to no end; what may look like one and is a name
+_MOST_NUMBER, _LARGE, _QUOTED = 1e100, re.compile(r"[-+]?\d+\.?\d*[Ee]\+?\d{3,}"), re.compile(r"'[^']*'")
 # what is taken over one by one
 _TAKEN = ("Plane", "Cylinder", "Cone", "Sphere", "Torus")
 # what STEP calls what the kernel calls otherwise
@@ -87,6 +89,9 @@ def foreign_body(text: str, part_from_file: Placement3, number: int | None = Non
         ``file``: the kernel is not installed, it finds no solid or several, or one that is bounded by what else there
         is than said above.
     """
+    beyond = next((n for n in _LARGE.findall(_QUOTED.sub("", text)) if abs(float(n)) > _MOST_NUMBER), None)
+    if beyond is not None:
+        raise ParameterError("file", None, "step_number", found=beyond, most=_MOST_NUMBER)
     try:
         solids = solids_of(text)
     except ImportError:

@@ -125,7 +125,7 @@ def worm_sheet(mating: WormMating, field: Field, title: str, asked: Asked) -> Ex
     rows = _rows(mating, field, language)
     root = float(teeth.root_radius(0.0))
     depth = float(teeth.tip_radius(teeth.width / 2)) - root
-    wide = max(mating.body.length, field.length_used())
+    wide = max(mating.body.length, 2 * mating.body.start[0], field.length_used())
 
     def room(sheet: Canvas) -> Box:
         size, content = Table((*rows, _scale(1.0, language)), sheet.letters).size, sheet.content.grown(-_GAP)

@@ -602,3 +602,20 @@ def test_errors_of_the_axes_have_the_gap_that_check_tells(tmp_path: Path) -> Non
     found = mating.contact(0.0, 0.0, None)
     assert found is not None
     assert (steps["least_flank_gap"], steps["contact_verdict"]) == (pytest.approx(found.worst.gap, abs=1e-9), "CLEAR")
+
+
+@pytest.mark.parametrize(
+    ("shift", "starts", "least"),
+    # GOST 19650 for z2 = 40, by hand; between two shifts of its table the longer one
+    [(-1.0, 1, 23.0), (-0.5, 2, 20.8), (-0.4, 1, 26.8), (0.0, 4, 32.2), (0.3, 1, 30.0), (1.0, 1, 32.0), (1.0, 4, 34.0)],
+)
+def test_the_least_length_of_a_worm_goes_by_the_shift(shift: float, starts: int, least: float) -> None:
+    words = f"worm module=2 number_of_teeth=40 number_of_starts={starts} profile_shift_coefficient={shift}"
+    assert values_of(words)["values"]["least_worm_length"] == pytest.approx(least, rel=1e-12)
+
+
+def test_a_rim_wider_than_its_throat_is_calculated() -> None:
+    """The throat of radius 8 is 16 mm wide; beside it the rim is the outer cylinder, which the worm does not reach."""
+    used = [values_of(f"worm module=2 number_of_teeth=40 face_width={b}")["values"] for b in (16, 17, 200)]
+    assert used[0]["worm_length_used"] < used[1]["worm_length_used"]
+    assert "worm_length_used" not in used[2]

@@ -390,6 +390,9 @@ def test_what_is_not_one_such_solid_is_refused_in_one_line(tmp_path: Path, monke
         alone(tmp_path, more="solid = 3\n")
     (tmp_path / "body.step").write_text("no STEP file", encoding="utf-8")
     assert refusal() == "step_solids"
+    # the kernel comes to no end of it; in a name it is none
+    (tmp_path / "body.step").write_text("#1=POINT('1.E999',(1.E400,2.,3.));", encoding="utf-8")
+    assert refusal(entity="number 1.E400") == "step_number"
     (tmp_path / "body.step").write_bytes(b"0" * 8_000_001)
     assert refusal() == "too_large_step"
     assert refusal("none.step") == "no_such_file"
