@@ -88,7 +88,7 @@ class WormDrive(Record):
 
     @property
     def default_outer_diameter(self) -> float:
-        """d_ae2 where none is asked for, mm: GOST 19650's largest, as far as a throat round a third of the worm goes."""
+        """d_ae2 where none is asked for, mm: GOST 19650's largest, within a throat round a third of the worm."""
         throated = max(2 * self.centre_distance - self.throat_radius, 2 * self.tip_radius)
         return min(self.most_outer_diameter, throated)
 

@@ -140,10 +140,9 @@ def test_a_face_whose_ends_the_worm_does_not_reach_is_drawn(tmp_path: Path) -> N
 
 @pytest.mark.heavy
 def test_a_thread_that_runs_out_stays_on_its_sheet(tmp_path: Path) -> None:
-    scene = PAIR.format(length=60.0, language="en", hob="number_of_starts = 2")
+    scene, ends = PAIR.format(length=45.0, language="en", hob="number_of_starts = 2"), 'thread_ends = "run_out"'
     for old, new in (("module = 5.0", "module = 2.0"), ("= 128", "= 36"), ("26.0", "16.0"), ("660.0", "82.0"),
-                     ("end_angle_deg = 0.0\n", ""),
-                     ("thread_length = 60.0", 'number_of_starts = 2\nthread_ends = "run_out"\nthread_length = 45.0')):  # fmt: skip
+                     ("end_angle_deg = 0.0", f"number_of_starts = 2\n{ends}")):  # fmt: skip
         scene = scene.replace(old, new)
     (tmp_path / "runs_out.toml").write_text(scene, encoding="utf-8")
     assert main(["build", str(tmp_path / "runs_out.toml"), "--out", str(tmp_path)]) == 0
