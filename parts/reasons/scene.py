@@ -45,7 +45,7 @@ REASONS = {
     "no_direction": N_("has no direction; [1.0, 0.0, 0.0] lays the part along x"),
     "no_parts": N_('a scene needs at least one part, like [parts.gear] kind = "spur_gear"'),
     "no_scene": N_("is no scene; give a scene file (.toml) or one of: {known}"),
-    "no_instances": N_('the scene has no instances; add [instances.ID] with part = "ID of a part"'),
+    "no_instances": N_("no such instance, nor another that could be meant; add its part, or [instances.ID]"),
     "no_such_instance": N_("no such instance; instances: {known}"),
     "no_such_part": N_("no such part; parts: {known}"),
     "no_such_scene": N_("no such file or built-in scene; built-in: {known}"),
