@@ -9,6 +9,7 @@ from parts.base.part import Part
 from parts.base.texts import N_, Text, listed, message
 from parts.cams.disk_cam.page import sheet, table_from
 from parts.cams.groove_cam.piece import GroovePieceSpec
+from parts.cams.wedge_cam.part import WedgeCamSpec
 from parts.pages.cam_steps import law_text
 from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, row_of, rows_of, term_row
 from parts.pages.inputs import SceneKeys
@@ -57,7 +58,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
         (
             (*rows_of(page, _MOTION), *_phases(page)),
             (*_follower(part), *_rocker(part, page), *_sizes(part, page)),
-            _datum(part.kind),
+            _datum(part),
         ),
         chosen_columns(found, columns),
     )
@@ -105,10 +106,12 @@ def _rocker(part: Part, page: Sheet) -> tuple[DataRow, ...]:
     return tuple(term_row(name, value) for name, value in found if value)
 
 
-def _datum(kind: str) -> tuple[DataRow, ...]:
+def _datum(part: Part) -> tuple[DataRow, ...]:
     """Where the columns of the positions begin."""
-    if kind == "wedge_cam":
-        return (DataRow(N_("origin of x and y"), "", N_("as drawn")),)
+    kind = part.kind
+    if isinstance(keys := part.keys, WedgeCamSpec):
+        left = float(part.thing.centre(0.0).real) - keys.run_in
+        return (DataRow(N_("left end of the plate"), "x", left, "mm"), DataRow(N_("its lower edge"), "y", 0.0, "mm"))
     turning = DataRow(N_("the cam turns"), "", N_("counter-clockwise"))
     if kind == "barrel_cam":
         return (turning, DataRow(N_("development of the outer cylinder"), "x", N_("φ = 0 at its right end")))

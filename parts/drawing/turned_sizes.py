@@ -78,7 +78,7 @@ def turned_sizes(loop: Loop, fits: Fits, language: str, told: Told = lambda curv
 
     Where corners are too many for sizes, a table tells them: chamfers and fillets alone have sizes.
     """
-    whole = _joined(loop)
+    whole = _walled(_joined(loop))
     chamfers, fillets, edges = _taken_apart(whole, told)
     arcs = [edge.curve for edge in edges if isinstance(edge.curve, Arc) and edge.told]
     balls = [arc for arc in arcs if abs(arc.centre.imag) < _NONE and _on_axis(start_point(arc), end_point(arc))]
@@ -93,7 +93,7 @@ def turned_sizes(loop: Loop, fits: Fits, language: str, told: Told = lambda curv
 
 def listed_corners(loop: Loop, told: Told = lambda curve: True) -> tuple[SectionCorner, ...]:
     """The corners of half a section one after the other, where they are too many for sizes; none elsewhere."""
-    *_, edges = _taken_apart(_joined(loop), told)
+    *_, edges = _taken_apart(_walled(_joined(loop)), told)
     if not _are_listed(edges):
         return ()
     turn, found, last = _turn(loop), list[SectionCorner](), None
@@ -111,7 +111,7 @@ def bores(loop: Loop, told: Told = lambda curve: True) -> tuple[Line, ...]:
 
     Where corners are too many for sizes, the narrowest one alone.
     """
-    *_, edges = _taken_apart(_joined(loop), told)
+    *_, edges = _taken_apart(_walled(_joined(loop)), told)
     turn, found = _turn(loop), dict[float, Line]()
     for k, edge in enumerate(edges):
         if not (edge.told and edge.runs_along() and _has_about(edge, turn)) or edge.outer or _groove(edges, k):
@@ -162,6 +162,31 @@ def _joined(loop: Loop) -> list[Line | Arc]:
         else:
             found.append(curve)
     return found
+
+
+def _walled(loop: Sequence[Line | Arc]) -> list[Line | Arc]:
+    """A loop with the walls that fillets as high as they are leave nothing of: each up to its sharp corner."""
+    found: list[Line | Arc] = []
+    for k, curve in enumerate(loop):
+        before, after = loop[k - 1], loop[(k + 1) % len(loop)]
+        start, end = _standing(before, curve, after), _standing(after, curve, before, turned=True)
+        found += [*([start] if start else []), curve, *([Line(end.end, end.start)] if end else [])]
+    return found
+
+
+def _standing(beside: Line | Arc, arc: Line | Arc, floor: Line | Arc, *, turned: bool = False) -> Line | None:
+    """From the beginning of a quarter of a circle, which stands on a line along the axis, to its corner; else None.
+
+    ``turned``: from its end.
+    """
+    if not (isinstance(arc, Arc) and isinstance(beside, Line) and isinstance(floor, Line)):
+        return None
+    foot, sense = (end_point(arc), -1) if turned else (start_point(arc), 1)
+    way = sense * _way(arc, at_end=turned)
+    quarter = abs(abs(arc.sweep) - math.pi / 2) < _SMOOTH and abs(way.real) < _SMOOTH
+    stands = abs(_way(beside, at_end=not turned).imag) < _SMOOTH and not _on_axis(foot)
+    goes_on = abs(_way(floor, at_end=turned) - _way(arc, at_end=not turned)) < _SMOOTH
+    return Line(foot, foot + way * arc.radius) if quarter and stands and goes_on else None
 
 
 def _way(curve: Line | Arc, *, at_end: bool) -> complex:

@@ -85,7 +85,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
             views = _ring(keys, thing, subject)
             more = _engraved(keys, subject) + directions(thing.holes, subject, "zero_space", keys.number_of_teeth)
         case RackSpec() as keys:
-            views, more = _rack(keys, thing, subject), ()
+            views, more = _rack(keys, thing, subject), _ends(keys, subject)
         case WormSpec() as keys:
             views, more = _worm(keys, thing, subject), _thread_words(keys, subject)
         case keys:
@@ -106,6 +106,14 @@ def _edges(subject: Subject) -> tuple[str, ...]:
     edges = sheet_words(subject.language, where)
     made = ("edges_chamfered", chamfer), ("edges_rounded", keys.tip_rounding)
     return tuple(sheet_words(subject.language, key, edges=edges, size=subject.say(size)) for key, size in made if size)
+
+
+def _ends(keys: RackSpec, subject: Subject) -> tuple[str, ...]:
+    """By how much the ends of a helical rack, which run along its teeth, lean: no view shows it."""
+    if not keys.helix_angle_deg:
+        return ()
+    angle = subject.say(abs(keys.helix_angle_deg))
+    return (sheet_words(subject.language, "rack_ends", angle=angle),)
 
 
 def _engraved(keys: SpurGearSpec | RingGearSpec, subject: Subject) -> tuple[str, ...]:

@@ -128,6 +128,7 @@ SHEETS: dict[str, Text] = {
     "zero_lobe": in_context("from what an angle is told", "the top of a lobe"),
     "zero_x": in_context("from what an angle is told", "the axis +x"),
     "zero_thread": in_context("from what an angle is told", "the thread in the middle of its length"),
+    "rack_ends": N_("Ends along the teeth, {angle}° off square."),
     "tip_edges": N_("Tip edges of the teeth"),
     "tip_edges_transverse": N_("Tip edges of the teeth in the transverse section"),
     "tip_edges_normal": N_("Tip edges of the teeth in the normal section"),

@@ -42,6 +42,10 @@ PARTS: dict[str, dict[str, Any]] = {
         {"diameter": 30, "length": 40, "chamfer": 1.6, "fillet": 1, "keyways": [{"at": 5, "length": 28}]},
         {"diameter": 38, "length": 8},
         {"diameter": 28, "length": 30, "fillet": 1, "chamfer": 1}]},
+    # as high as they are: walls of no length
+    "fillets": {"kind": "shaft", "steps": [
+        {"diameter": 30, "length": 60, "fillet": 5, "grooves": [{"at": 45, "width": 3, "diameter": 28, "fillet": 1}]},
+        {"diameter": 40, "length": 10}]},
     "tube": {"kind": "shaft", "bore_diameter": 6.0, "steps": [
         {"diameter": 10.0, "length": 20.0, "chamfer": 1.0}, {"diameter": 16.0, "length": 20.0, "chamfer": 1.0}]},
 }  # fmt: skip
@@ -72,8 +76,9 @@ def _shaft(steps: list[dict[str, Any]], bore: float) -> Iterator[Corner]:
         yield {"r": own, "z": z, **({"chamfer": cut} if own > before / 2 else {"fillet": fillet})}
         for groove in step.get("grooves", []):
             low, high = z + groove["at"], z + groove["at"] + groove["width"]
-            yield from ({"r": r, "z": at} for r, at in (
-                (own, low), (groove["diameter"] / 2, low), (groove["diameter"] / 2, high), (own, high)))  # fmt: skip
+            floor, rounded = groove["diameter"] / 2, groove.get("fillet", 0.0)
+            yield from ({"r": r, "z": at, "fillet": fillet} for r, at, fillet in (
+                (own, low, 0.0), (floor, low, rounded), (floor, high, rounded), (own, high, 0.0)))  # fmt: skip
         z += step["length"]
         yield {"r": own, "z": z, **({"chamfer": cut} if own > after / 2 else {"fillet": fillet})}
     yield {"r": bore / 2, "z": z}
@@ -201,6 +206,12 @@ def test_a_groove_as_wide_as_a_step_takes_no_zone_from_it_and_gives_none(
     steps[journal.index(30)]["grooves"] = [{"at": 4, "width": 2, "diameter": 25}]
     told = diameters(drawn(tmp_path, {"kind": "shaft", "steps": steps}, drawing={"shaft": "k6"}))
     assert told == ["Ø20k6", "Ø25", "Ø25k6", "Ø30k6"]
+
+
+def test_a_groove_whose_fillets_leave_nothing_of_its_walls_is_told_from_wall_to_wall(tmp_path: Path) -> None:
+    told = {d.get_measurement() for d in drawn(tmp_path, PARTS["fillets"]).modelspace().query("DIMENSION")}
+    assert {round(value, 6) for value in told} >= {3.0, 45.0, 60.0, 70.0}
+    assert not any(abs(value - end) < 1e-6 for value in told for end in (47.0, 55.0))
 
 
 def test_zones_of_holes_stand_at_what_has_material_about_it_alone(tmp_path: Path) -> None:
