@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -234,6 +235,20 @@ def _beside(curve: Curve, half: float, shown: float) -> bool:
     return bool(xs.max() <= -half + shown + 1e-6 or xs.min() >= half - shown - 1e-6 or np.ptp(xs) > half)
 
 
+def _with_thread(sizes: Sequence[Size], half: float, high: float) -> list[Size]:
+    """Lengths with that of the thread, from ``-half`` to ``half``, for one from the end of the shaft (GOST 2.406)."""
+
+    def ends_at(place: float) -> Size | None:
+        return next((s for s in sizes if s.side == "below" and abs(s.end.real - place) < _NONE), None)
+
+    before, last = ends_at(-half), ends_at(half)
+    if before is None or last is None:
+        return [*sizes]
+    thread = replace(last, name="thread_length", start=before.end)
+    told = before if abs(high - half) < _NONE else last
+    return [thread if size is told else size for size in sizes]
+
+
 def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
     """The worm with its shaft from outside, and its bore where that is not round."""
     worm, half, wishes = body.thread.worm, body.length / 2, subject.wishes
@@ -259,6 +274,8 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
         sizes.append(
             Size("thread_length", complex(-half, -worm.root_radius), complex(half, -worm.root_radius), "below")
         )
+    else:
+        sizes = _with_thread(sizes, half, high)
     bore = bore_of(keys)
     made = None if bore is None else bore.bore()
     if made is not None:

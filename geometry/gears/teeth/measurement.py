@@ -29,6 +29,8 @@ G = TypeVar("G", bound=SpurGear | RingGear)
 
 # b_M, mm: length of contact that a measuring face needs on helical teeth, and its growth with W_k; DIN 3960
 SPAN_CONTACT = (1.2, 0.018)
+# decimals of diameters on drawings, mm
+_TOLD = 3
 
 
 class Span(Record):
@@ -222,13 +224,15 @@ def pin_limits(gear: Measured, helix_angle: float = 0.0) -> tuple[float, float]:
 def fit_pin_diameter(gear: Measured, helix_angle: float = 0.0) -> float:
     """The best pin, mm; where that touches no involute (undercut, thinning) or is sunk, the middle of those that do.
 
-    One that goes into the spaces of the gear without thinning too; where none does, the best all the same.
+    One that goes into the spaces of the gear without thinning too; where none does, the best all the same. It has as
+    many decimals as drawings tell, so that the size over it is that over the pin they tell.
     """
     best, (low, high) = best_pin_diameter(gear, helix_angle), pin_limits(gear, helix_angle)
-    if low <= best <= high and over_pins(gear, best, helix_angle).stands_out:
-        return best
-    high = min(high, pin_limits(nominal(gear), helix_angle)[1])
-    return (low + high) / 2 if low <= high else best
+    if not (low <= best <= high and over_pins(gear, best, helix_angle).stands_out):
+        high = min(high, pin_limits(nominal(gear), helix_angle)[1])
+        best = (low + high) / 2 if low <= high else best
+    told = round(best, _TOLD)
+    return told if low <= told <= high and over_pins(gear, told, helix_angle).stands_out else best
 
 
 def over_pins(gear: Measured, pin_diameter: float, helix_angle: float = 0.0) -> OverPins:

@@ -393,6 +393,26 @@ def test_the_row_of_holes_of_a_rack_is_told_to_its_last_one(tmp_path: Path) -> N
     assert found["2×30=<> 0"] == pytest.approx(60.0)
 
 
+def test_the_thread_of_a_worm_has_its_length_between_both_ends_of_its_shaft(tmp_path: Path) -> None:
+    ends = [{"diameter": 28.0, "length": 20.0}]
+    found = sizes(drawn(tmp_path, {"kind": "worm", "module": 4.0, "thread_length": 50.0, "shaft_below": ends,
+                                   "shaft_above": ends}))  # fmt: skip
+    assert sorted(value for key, value in found.items() if key.startswith("<>")) == pytest.approx([20, 50, 90])
+
+
+def test_equal_holes_are_told_circle_by_circle_and_a_collar_is_seen_on_the_face(tmp_path: Path) -> None:
+    rings = [(20.0, 0.0), (40.0, 0.0), (40.0, 20.0), (30.0, 20.0), (30.0, 30.0), (20.0, 30.0)]
+    part = {"kind": "turned", "points": [{"r": r, "z": z} for r, z in rings],
+            "holes": [{"count": 5, "diameter": 4.0, "pitch_circle_diameter": 70.0},
+                      {"count": 3, "diameter": 4.0, "pitch_circle_diameter": 50.0, "start_deg": 20.0}]}  # fmt: skip
+    file = drawn(tmp_path, part)
+    assert {"5 holes %%c<> 0", "3 holes %%c<> 0"} <= set(sizes(file))
+    space = ezdxf.readfile(file).modelspace()
+    radii = sorted({c.dxf.radius for c in space.query("CIRCLE ARC") if c.dxf.layer == "OUTLINE"}, reverse=True)
+    assert [r / radii[0] for r in radii] == pytest.approx([1.0, 0.75, 0.5, 0.05])
+    assert any("4 on the circle Ø50: " in text.dxf.text for text in space.query("TEXT"))
+
+
 @pytest.mark.parametrize("side", ["below", "above"])
 def test_a_hub_on_one_side_closes_no_chain_and_a_negative_helix_is_told_by_its_hand(tmp_path: Path, side: str) -> None:
     gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "face_width": 12.0, "helix_angle_deg": -15.0}

@@ -157,6 +157,12 @@ def test_best_pin_touches_where_it_is_asked_to() -> None:
         assert not m.over_pins(gear, 1.01 * high, helix).touches_flanks
 
 
+def test_the_chosen_pin_is_that_which_drawings_tell() -> None:
+    gear = transverse_gear(SpurGear(3.0, 20, RACK, 0.3), math.radians(20.0))
+    best, chosen = (f(gear, math.radians(20.0)) for f in (m.best_pin_diameter, m.fit_pin_diameter))
+    assert chosen == float(f"{best:.3f}") != best
+
+
 def test_thinning_is_what_a_span_tells() -> None:
     gear = SpurGear(2.0, 31, RACK, 0.1)
     full, thin = m.span(gear, 4), m.span(replace(gear, circumferential_thinning=0.15), 4)
