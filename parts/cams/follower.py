@@ -10,6 +10,7 @@ from msgspec import Meta, field
 from msgspec.structs import replace
 
 from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
+from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from geometry.solids.plate import Edge, PlateOutline
 
 _MOST = 100_000.0
+# mm: a thinner wall of a roller breaks, cut or printed
+_THIN = 1.0
 # sizes of which a lesser one is tried where an outline is none, and shares that are tried
 _STEM_SIZES = ("corner_radius", "plate_thickness")
 _ARM_SIZES = ("tip_height", "width", "boss_diameter")
@@ -287,8 +290,11 @@ class Roller(Turned[RollerSpec, "FollowerEnd"]):
         return OffsetRegion(Region(outer, self.holes(keys, thing).profiles(offset)), offset, ())
 
     def report(self, keys: RollerSpec, thing: FollowerEnd) -> Report:
-        """Its diameter."""
-        return Report(circles={"roller_diameter": keys.diameter})
+        """Its diameter, and a wall about its bore that breaks."""
+        wall = keys.diameter / 2 - self.holes(keys, thing).bore_reach
+        thin = keys.bore_diameter and wall < _THIN
+        findings = (Finding("thin_roller_wall", wall, _THIN),) if thin else ()
+        return Report(findings=findings, circles={"roller_diameter": keys.diameter})
 
 
 FOLLOWER, FOLLOWER_ARM, ROLLER = Follower(), FollowerArm(), Roller()

@@ -1,8 +1,8 @@
 """The assembly ``cam_model``: a disk cam and its sliding follower out of flat parts and dowels, to be cut and turned.
 
 From the back, in boards: frame; cam on its axle, with the roller or the flat follower; over a roller a washer and the
-follower. Two pins of the frame guide the follower by its slot, on its line of motion: the slot is as long as the lift
-and the pins' spacing together, and slack at both ends.
+follower, which lies on two spacers about each guide pin too and cannot tip. Two pins of the frame guide the follower by
+its slot, on its line of motion: the slot is as long as the lift and the pins' spacing together, and slack at both ends.
 """
 
 from __future__ import annotations
@@ -38,6 +38,8 @@ from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 # mm: slack of the slot at each end; frame below the cam, about its axle and above the pins; wall about holes; of a flat
 # plate beyond its contact; how much shorter the roller's pin is than what it holds
 _SLACK, _BELOW, _BESIDE, _ABOVE, _WALL, _EDGE, _SHORT = 1.0, 3.0, 13.0, 15.0, 3.0, 5.0, 1.0
+# mm: least width of a spacer's ring
+_LEAST_RING = 1.0
 # mm: diameter of the mark at cam angle 0, and its least; least of the axle
 _MARK, _LEAST_MARK, _LEAST_AXLE = 2.0, 0.5, 0.5
 # mm: thickness and rounding of a flat follower's plate; of the frame, corners and least width
@@ -47,12 +49,13 @@ _CAM_KEYS = (
     "least_transmission_angle_deg", "least_curvature_radius",
 )  # fmt: skip
 _COLOURS = {
-    "cam": "#d9b27c", "roller": "#d8d8d8", "washer": "#c9b79c", "follower": "#a8c4a0", "frame": "#efe3cc",
-    "pin": "#d0d4d8",
+    "cam": "#d9b27c", "roller": "#d8d8d8", "washer": "#c9b79c", "spacer": "#c9b79c", "follower": "#a8c4a0",
+    "frame": "#efe3cc", "pin": "#d0d4d8",
 }  # fmt: skip
 _TITLES = {
-    "cam": N_("Cam"), "roller": N_("Roller"), "washer": N_("Washer"), "follower": N_("Follower"), "frame": N_("Frame"),
-    "axle": N_("Axle of the cam"), "guide_pin": N_("Guide pin"), "roller_pin": N_("Pin of the roller"),
+    "cam": N_("Cam"), "roller": N_("Roller"), "washer": N_("Washer"), "spacer": N_("Spacer"),
+    "follower": N_("Follower"), "frame": N_("Frame"), "axle": N_("Axle of the cam"), "guide_pin": N_("Guide pin"),
+    "roller_pin": N_("Pin of the roller"),
 }  # fmt: skip
 
 
@@ -189,6 +192,20 @@ class _Making(Making):
         self.pin("guide_pin", keys.guide_pin_diameter, 4 * thick)
         for k, one in enumerate(at, 1):
             self.fix("frame", f"guide_pin_{k}", one, 0.0, "guide_pin")
+        if self.rolls:
+            self._spacers(at)
+
+    def _spacers(self, at: list[complex]) -> None:
+        """Two about each guide pin, on the frame: the follower lies on them as high as on roller and washer."""
+        keys, thick = self.keys, self.thickness
+        bore = keys.guide_pin_diameter + keys.clearance
+        outside = min(keys.guide_pin_diameter + 2 * _WALL, keys.guide_pin_spacing - _SHORT, keys.stem_width)
+        # pins too near each other leave none room
+        if outside < bore + 2 * _LEAST_RING:
+            return
+        self.plate("spacer", outside, [hole(0j, bore)], label=False)
+        for k, (one, layer) in enumerate(((one, layer) for one in at for layer in (1, 2)), 1):
+            self.fix("frame", f"spacer_{k}", one, layer * thick, "spacer")
 
     def _stem(self) -> dict[str, object]:
         """The follower's stem: its slot, and as much beyond it as the stem is wide."""

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.nearest import kept, nearest
 from parts.base.refusal import SceneError, placed
-from parts.base.schema import converted, kind_of, unit_of
-from parts.recipes.recipe import Expansion, Table
+from parts.base.schema import converted, kind_of, tried, unit_of
+from parts.recipes.recipe import Expansion, Recipe, Table
 from parts.scene.language import in_one
 
 # keys of tables that hold the id of an instance or a part
 _NAMING = ("part", "first", "second", "instance", "of", "to", "bring")
+# shares of a limit that are tried where the limit itself is refused for another reason
+_SMALLER = (0.9, 0.75, 0.5, 0.25, 0.1)
 
 
 def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str, str]]:
@@ -71,8 +74,26 @@ def _made(table: object, source: str, place: str) -> tuple[str, Expansion]:
     try:
         made = recipe.expanded(keys)
     except ParameterError as refusal:
-        raise placed(source, place, refusal, unit_of(recipe.keys, refusal.name)) from refusal
+        raise placed(source, place, _made_good(recipe, keys, refusal), unit_of(recipe.keys, refusal.name)) from refusal
     return "" if keys.name is None else f"{keys.name}_", made
+
+
+def _made_good(recipe: Recipe[Any], keys: Any, refusal: ParameterError) -> ParameterError:
+    """The refusal with a value of which the assembly is made, from its own limit on; none where there is none."""
+
+    def works(value: object) -> bool:
+        recipe.expanded(tried(keys, refusal.name, value))
+        return True
+
+    def cure() -> Nearest | None:
+        own = refusal.nearest
+        if own is None or kept(works, own.value):
+            return own
+        if own.side != "at_most" or not isinstance(own.value, float):
+            return None
+        return nearest(works, float(str(refusal.value)), [own.value * share for share in _SMALLER])
+
+    return type(refusal)(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
 
 
 def _named(table: Table, prefix: str) -> Table:

@@ -207,6 +207,7 @@ FINDINGS: dict[str, Text] = {
     "output_holes_small": N_(
         "the output pins jam in holes of {value:.6g} mm: pin + 2 e is {limit:.6g} mm; set the table's pin_diameter"
     ),
+    "thin_roller_wall": N_("thin wall: {value:.3g} mm about its bore, less than {limit:.3g} mm"),
     "cycloidal_thin_wall": N_(
         "thin wall: {value:.3f} mm between holes and valleys, less than half of a pin's radius ({limit:.3f} mm)"
     ),
