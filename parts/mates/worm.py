@@ -111,9 +111,10 @@ class WormMating(Touching):
         if field is None:
             cleared = None if self.errors.any else clearing_thinning(self.body.thread, self.teeth)
             return () if cleared is None else (Finding("worm_wheel_hob_overlap", *cleared),)
-        used = field.length_used(math.tan(self.body.end_angle))
-        whole = self.body.length - self.body.lost
-        return (Finding("worm_not_long_enough", whole, used),) if whole < used else ()
+        slope, whole = math.tan(self.body.end_angle), self.body.length - self.body.lost
+        used = field.length_used(slope)
+        code = "worm_slanted_not_long_enough" if slope > 0 else "worm_not_long_enough"
+        return (Finding(code, whole, used),) if whole < used else ()
 
     def quantities(self) -> dict[str, Any]:
         """Centre distance, ratio, and how much of the worm the wheel touches."""

@@ -201,6 +201,12 @@ RULES = (
        N_("where the far seat is clear of both worm wheels")),
     _R("x_end", (1, 26), "ceil(max(x_far, worm_length / 2 + 4))", N_("and of the thread")),
     _R("w_seat", (1, 27), "30", N_("two set screws M8 over each cover")),
+    _R("r_28", (28,), "r_worm_journal + 3", N_("its wall")),
+    _R("z_rim", (23, 25), "min(worm_wheel_width / 2, beside(worm_module * (worm_quotient / 2 - 1), a_1 - r_25))",
+       N_("where the rims of the worm wheels come nearest to the worms: at a face, or where the throat ends")),
+    _R("x_rim", (26, 28), "max(chord_left(r_28, worm_module * (worm_quotient / 2 - 1), z_rim, a_1), "
+       "chord_left(r_28, worm_module * (worm_quotient / 2 - 1), z_rim, a_2))",
+       N_("how far along the worms their wheels reach to rings 28")),
     _R("half_room", (1,), "ceil(a_1 + h_seat + 8 + axial_gap)", N_("the seat of worm I stands clear of the wall")),
     _R("half", (1,), "half_room + 12", N_("wall of a casting")),
     _R("r_55", (4, 9), "r_journal + 11", N_("counterbores for M10 with a wall of 2.5 to the spigot")),
@@ -254,12 +260,17 @@ CONDITIONS = (
     _C("worm_wheel_width", "worm_wheel_width - (45 - 2 * h_20)", N_("thread of the rings 20 in wheel 25")),
     _C("axial_gap", "35 - (disk_thickness - 18) - gap_21 - 0.5 - 8", N_("thread of the screws M12 in the pinion")),
     _C("worm_module", "h_5 - 8 - 12 - z_lip", N_("lip of the body over worm I, for the screws of guide 6")),
+    _C("worm_quotient", "worm_module * (worm_quotient - 7)",
+       N_("diameter of the worms, seven modules: about thinner ones their wheels have no whole teeth")),
+    _C("worm_length", "worm_length / 2 + 1 - x_rim", N_("ring 28 beside the worm wheel")),
+    _C("worm_length", "half_room - x_seat - w_seat - 8", N_("cover of a worm within the walls of the body")),
     _C("worm_quotient", "sqrt((x_seat + 6) ** 2 + a_1 ** 2) - 6 - r_6_screws - 4",
        N_("wall between the screws of guide 6 and those of the cover of worm I")),
     _C("worm_module", "z_2 - h_seat - 12 - (z_floor - h_floor)",
        N_("set screws of worm II within the floor, through which they come in")),
     _C("worm_module", "half_room - r_6", N_("guide 6 on the lip of the body")),
     _C("worm_module", "a_2 - h_seat - 8 - r_21 - 2", N_("room between the seat of worm II and ring 22")),
+    _C("worm_module", "r_worm_journal - 4 - 2", N_("end of the worm's shaft")),
     _C("platform_size", "platform_size / 2 - r_55 - 12", N_("edge of the platform beyond its screws")),
 )  # fmt: skip
 
@@ -269,9 +280,15 @@ def _beside(reach: float, height: float) -> float:
     return math.sqrt(max(reach**2 - height**2, 0.0))
 
 
+def _chord_left(ring: float, throat: float, aside: float, distance: float) -> float:
+    """Where a ring about a worm is clear of its wheel's throat, along the worm, in a plane so far from its axis."""
+    reach, height = (distance - math.sqrt(max(r**2 - aside**2, 0.0)) for r in (throat, ring))
+    return _beside(reach, height)
+
+
 _KNOWN: Mapping[str, object] = {
     "ceil": lambda x: math.ceil(x - 1e-9), "floor": lambda x: math.floor(x + 1e-9), "max": max, "min": min,
-    "round": round, "pi": math.pi, "sqrt": math.sqrt, "beside": _beside,
+    "round": round, "pi": math.pi, "sqrt": math.sqrt, "beside": _beside, "chord_left": _chord_left,
 }  # fmt: skip
 
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from typing import Annotated, Literal
 
@@ -247,24 +247,47 @@ def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
 
 
 def _to_blame(keys: PowerModuleKeys, condition: Condition) -> tuple[str, Nearest | None]:
-    """The driver that mends everything, with its nearest value that does on the way to its default; or this alone."""
+    """The changed driver that mends everything, with its nearest value that does on the way to its default; or this
+    alone; or that which does most for it.
+    """
     usual = PowerModuleKeys()
-    names = dict.fromkeys((condition.driver, *_DRIVERS))
+    names = dict.fromkeys((condition.driver, *_DRIVERS, "worm_teeth", "teeth"))
     changed = [name for name in names if getattr(keys, name) != getattr(usual, name)]
     every = of_orientation(CONDITIONS, keys.orientation)
+
+    def left(rows: Sequence[Condition], name: str, value: object) -> float:
+        known = sizes(drivers(replace(keys, **{name: value})), keys.orientation)
+        return min(valued(row.made_of, known) for row in rows)
+
     for kept in (every, [condition]):
         for name in changed:
-            given, end = getattr(keys, name), getattr(usual, name)
-            if isinstance(given, tuple):
-                continue
+            if left(kept, name, getattr(usual, name)) >= 0:
+                if kept is not every or name == "teeth":
+                    return name, None
 
-            def works(value: float, name: str = name, kept: Sequence[Condition] = kept) -> bool:
-                known = sizes(drivers(replace(keys, **{name: value})), keys.orientation)
-                return all(valued(c.made_of, known) >= 0 for c in kept)
+                def works(value: object, name: str = name) -> bool:
+                    return left(every, name, value) >= 0
 
-            if (cure := nearest(works, given, end)) is not None:
-                return name, cure if kept is every else None
-    return condition.driver, None
+                search = _nearest_teeth if name == "worm_teeth" else nearest
+                return name, search(works, getattr(keys, name), getattr(usual, name))
+    return max(changed, key=lambda name: left([condition], name, getattr(usual, name)), default=condition.driver), None
+
+
+def _nearest_teeth(
+    works: Callable[[tuple[int, ...]], bool], given: tuple[int, ...], usual: tuple[int, ...]
+) -> Nearest | None:
+    """Numbers of teeth that work, each in its turn as near to what is given as it goes, the next at their usual."""
+    found = usual
+    for k, wanted in enumerate(given):
+
+        def one(value: float, k: int = k) -> bool:
+            return works((*found[:k], int(value), *found[k + 1 :]))  # noqa: B023
+
+        if one(wanted):
+            found = (*found[:k], wanted, *found[k + 1 :])
+        elif (near := nearest(one, wanted, usual[k])) is not None and isinstance(near.value, int):
+            found = (*found[:k], near.value, *found[k + 1 :])
+    return Nearest(list(found)) if works(found) else None
 
 
 class PowerModuleRecipe(Recipe[PowerModuleKeys]):
@@ -313,6 +336,13 @@ class _Making(Making):
             "parts.ring.module": "module", "parts.pinion.module": "module",
             "parts.worm.module": "worm_module", "parts.worm_wheel_25.module": "worm_module",
             "parts.worm_wheel_23.module": "worm_module",
+            "parts.worm.diameter_quotient": "worm_quotient", "parts.worm.thread_length": "worm_length",
+            "parts.ring.face_width": "face_width", "parts.pinion.face_width": "face_width",
+        } | {
+            f"parts.worm_wheel_{which}.{key}": driver for which in (25, 23) for key, driver in (
+                ("diameter_quotient", "worm_quotient"), ("number_of_teeth", "worm_teeth"),
+                ("face_width", "worm_wheel_width"),
+            )
         }  # fmt: skip
         return self.found
 
@@ -880,7 +910,7 @@ class _Making(Making):
             (bore, 0), (seat, 0), (seat, s["w_seat"]), (seat + 3, s["w_seat"]), (seat + 3, s["w_seat"] + flange),
             (bore, s["w_seat"] + flange),
         ])  # fmt: skip
-        self._tube("spacer_28", bore, r + 3, cover - start - 2)
+        self._tube("spacer_28", bore, s["r_28"], cover - start - 2)
         self._tube("snap_ring", r - _SNAP + _PLAY, r + 4, 1.8)
         self._turned("screw_49", [(0, 0), (3, 0), (4, 1), (4, 12), (0, 12)])
         self._turned("screw_49_up", [(0, 0), (4, 0), (4, 11), (3, 12), (0, 12)])

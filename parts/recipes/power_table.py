@@ -13,11 +13,14 @@ from __future__ import annotations
 
 import cmath
 import math
+from functools import partial
 from typing import Annotated, Literal
 
 from msgspec import Meta
+from msgspec.structs import replace
 
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record
 from parts.base.part_keys import Material
 from parts.base.texts import N_
@@ -30,6 +33,10 @@ _ROOT, _RIM = 1.25, 8.0
 # mm: wall beside a hole, of a boss about a pin beyond its radius, of a tube; feet, cranks by hand, handles
 _WALL, _BOSS, _TUBE = 3.0, 3.0, 3.0
 _FOOT, _FEET_HEIGHT, _HANDLE, _GRIP = 10.0, 70.0, 6.0, 25.0
+# of a pin's diameter: the most play that it may have in its hole
+_LOOSE = 0.25
+# depth of the marks on teeth and disk where plates are thick enough, mm
+_MARK = 0.4
 # worms: quotient q; addendum, dedendum and length of the thread, modules; bearings, neck before them, collar, mm
 _Q, _ADDENDUM, _DEDENDUM, _THREAD = 10.0, 1.0, 1.2, 20.0
 _BEARING, _NECK, _COLLAR = 6.0, 6.0, 5.0
@@ -201,20 +208,20 @@ class _Sizes(Record):
         keys, (pinion, ring) = self.keys, self.keys.teeth
         if pinion >= ring:
             raise ParameterError("teeth", list(keys.teeth), "ring_as_its_wheel")
+        for name in ("clearance", "fit"):
+            if getattr(keys, name) > (most := keys.pin_diameter * _LOOSE):
+                raise self._refused((name, "pin_diameter"), "pins_lie_loose", most=most, diameter=keys.pin_diameter)
         root = keys.module * (pinion / 2 - _ROOT)
         most = root - keys.platform_axle_diameter / 2 - _WALL
         if self.second_arm > most:
-            name = "second_arm" if keys.second_arm else "teeth"
-            raise ParameterError(name, keys.second_arm or list(keys.teeth), "axle_beyond_pinion",
-                                 limit(most, self.second_arm) if keys.second_arm else None, most=most)  # fmt: skip
+            names = ("second_arm", "platform_axle_diameter", "teeth", "module")
+            raise self._refused(names, "axle_beyond_pinion", most=most)
         between = self.second_arm - (keys.axle_diameter + keys.platform_axle_diameter) / 2 - keys.clearance
         if between < _WALL / 2:
-            name = "second_arm" if keys.second_arm else "axle_diameter"
-            raise ParameterError(name, self.second_arm if keys.second_arm else keys.axle_diameter, "axles_meet", None,
-                                 wall=between)  # fmt: skip
+            raise self._axles_meet(between, "second_arm", "axle_diameter", "platform_axle_diameter", "teeth", "module")
         if self.arm + keys.axle_diameter / 2 + _WALL > self.disk or self.arm - keys.axle_diameter < _WALL / 2:
             between = min(self.disk - self.arm - keys.axle_diameter / 2, self.arm - keys.axle_diameter)
-            raise ParameterError("axle_diameter", keys.axle_diameter, "axles_meet", None, wall=between)
+            raise self._axles_meet(between, "axle_diameter", "teeth", "module")
         least = 2 * (self.pivots + self.boss)
         if keys.platform_size < least:
             raise ParameterError("platform_size", keys.platform_size, "platform_too_small", Nearest(least, "at_least"))
@@ -222,10 +229,30 @@ class _Sizes(Record):
             for bore, teeth in zip((keys.axle_diameter, self.tube), keys.worm_wheel_teeth, strict=True):
                 root = (teeth - 2 - 2 * _DEDENDUM) * keys.worm_module
                 if bore + 4 * _WALL > root:
-                    least = (bore + 4 * _WALL) / (teeth - 2 - 2 * _DEDENDUM)
-                    given = keys.worm_module
-                    raise ParameterError("worm_module", given, "axle_in_the_teeth", Nearest(least, "at_least"))
+                    raise self._refused(("worm_module", "worm_wheel_teeth", "axle_diameter"), "axle_in_the_teeth")
         return self
+
+    def _axles_meet(self, wall: float, *names: str) -> ParameterError:
+        if wall < 0:
+            return self._refused(names, "axles_overlap", depth=-wall)
+        return self._refused(names, "axles_meet", wall=wall)
+
+    def _refused(self, names: tuple[str, ...], code: str, **told: float) -> ParameterError:
+        """A refusal by the first of some keys that is changed and alone to blame, with its nearest value that works."""
+        keys, usual = self.keys, PowerTableKeys()
+
+        def works(name: str, value: object) -> bool:
+            return kept(lambda value: _Sizes(replace(keys, **{name: value})).checked().arm > 0, value)
+
+        changed = [name for name in names if getattr(keys, name) != getattr(usual, name)]
+        name = next((name for name in changed if works(name, getattr(usual, name))), (changed or names)[0])
+        given, end = getattr(keys, name), getattr(usual, name)
+        if name in ("teeth", "worm_wheel_teeth"):
+            return ParameterError(name, list(given), code, None, **told)
+        # what is not given follows
+        if name == "second_arm":
+            given, end = self.second_arm, self.arm
+        return ParameterError(name, given, code, lambda: nearest(partial(works, name), given, end), **told)
 
 
 def _side_by_side(crank: float, boss: float) -> float:
@@ -254,6 +281,8 @@ class _Making(Making):
         thick, gap = self.keys.plate_thickness, self.keys.axial_gap
         super().__init__(thick, self.keys.material, _COLOURS)
         self.back = thick + gap
+        # half of a thin plate is left under a mark
+        self.mark = {"depth": thick / 2} if thick < 2 * _MARK else {}
         # lower ends of tube and shaft
         self.ends = -gap - thick, -2 * (gap + thick)
         if self.keys.drive == "worms":
@@ -284,6 +313,12 @@ class _Making(Making):
             "parts.ring.module": "module", "parts.pinion.module": "module",
             "drives[1].turns": "turns_of_disk", "drives[2].turns": "turns_of_ring",
             "parts.pinion.bore_diameter": "axle_diameter", "parts.platform.width": "platform_size",
+            "parts.disk_worm_wheel.module": "worm_module", "parts.ring_worm_wheel.module": "worm_module",
+            "parts.disk_worm.module": "worm_module", "parts.ring_worm.module": "worm_module",
+            "parts.disk_worm_wheel.number_of_teeth": "worm_wheel_teeth",
+            "parts.ring_worm_wheel.number_of_teeth": "worm_wheel_teeth",
+            "parts.disk_worm_wheel.axial_thinning": "worm_thinning",
+            "parts.ring_worm_wheel.axial_thinning": "worm_thinning",
         }  # fmt: skip
         self.found.name_all(_TITLES)
         return self.found
@@ -324,7 +359,7 @@ class _Making(Making):
         self.plate("rim", 2 * sizes.ring, [hole(0j, 2 * (sizes.disk + keys.clearance)), *holes])
         self.part(
             "ring", kind="ring_gear", module=keys.module, number_of_teeth=keys.teeth[1], face_width=thick,
-            outer_diameter=2 * sizes.ring, tooth_mark={},
+            outer_diameter=2 * sizes.ring, tooth_mark=self.mark,
             holes={"count": 4, "diameter": keys.pin_diameter, "start_deg": 45.0, "pitch_circle_diameter": 2 * circle},
         )  # fmt: skip
         self.put("coaxial", "base", "ring", height=self.ring)
@@ -342,7 +377,7 @@ class _Making(Making):
         sizes, keys, thick = self.sizes, self.keys, self.keys.plate_thickness
         arm, second = complex(sizes.arm), complex(sizes.second_arm)
         shaft, axle = keys.axle_diameter, keys.platform_axle_diameter
-        mark = {"start": [sizes.disk - 12, 0.0], "end": [sizes.disk - 4, 0.0], "width": 1.0}
+        mark = {"start": [sizes.disk - 12, 0.0], "end": [sizes.disk - 4, 0.0], "width": 1.0} | self.mark
         self.plate("disk_2", 2 * sizes.disk, [hole(0j, shaft), hole(arm, shaft)], engraved=[mark])
         self.put("coaxial", "base", "disk_2", height=self.disk)
         _, low = self.ends
@@ -353,11 +388,12 @@ class _Making(Making):
         self.fix("disk_2", "axle", arm, 0.0)
         self.part(
             "pinion", kind="spur_gear", module=keys.module, number_of_teeth=keys.teeth[0], face_width=thick,
-            bore_diameter=shaft + keys.clearance, tooth_mark={},
+            bore_diameter=shaft + keys.clearance, tooth_mark=self.mark,
             holes={"count": 1, "diameter": axle, "start_deg": 0.0, "pitch_circle_diameter": 2 * sizes.second_arm},
         )  # fmt: skip
         self.put("carried", "disk_2", "pinion", offset=place(arm, self.pinion - self.disk))
         self.mate("internal_gear_pair", "ring", "pinion", normal_backlash=keys.normal_backlash)
+        self.found.origins[f"mates[{len(self.found.mates)}].normal_backlash"] = "normal_backlash"
         bores = [hole(0j, shaft + keys.clearance), hole(second, axle)]
         self.plate("hub", 2 * sizes.hub, bores)
         for k in (1, 2):

@@ -42,13 +42,16 @@ def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str
                     raise SceneError(source, f"{place}.name", table.get("name"), "assemblies_share", None, "", **told)
                 found[prefix + key] = _named(own, prefix)
                 origins[f"{name}.{prefix}{key}"] = f"{place}: {name}.{prefix}{key}"
+        before = {name: len(rows) for name, rows in listed.items()}
         for name, rows in listed.items():
             for own in getattr(made, name):
                 rows.append(_named(own, prefix))
                 origins[f"{name}[{len(rows)}]"] = f"{place}: {name}[{len(rows)}]"
         for there, origin in made.origins.items():
             head, _, rest = there.partition(".")
-            origins[f"{head}.{prefix}{rest}"] = f"{place}.{origin}"
+            name, _, which = head.partition("[")
+            here = f"{name}[{before[name] + int(which[:-1])}].{rest}" if which else f"{head}.{prefix}{rest}"
+            origins[here] = f"{place}.{origin}"
     for name, rows in listed.items():
         own_rows = tables.get(name, [])
         origins |= {f"{name}[{len(rows) + k}]": f"{name}[{k}]" for k, _ in enumerate(own_rows, 1)}

@@ -146,6 +146,10 @@ FINDINGS: dict[str, Text] = {
         by="value",
     ),
     "worm_not_long_enough": N_("the thread is {value:.5g} mm long, the wheel touches it over {limit:.5g} mm"),
+    "worm_slanted_not_long_enough": N_(
+        "the thread is {value:.5g} mm long at its foot; its ends slant: for all that the wheel touches it takes "
+        "{limit:.5g} mm"
+    ),
     "worm_wheel_hob_overlap": N_(
         "the hob of hob_diameter_quotient leaves teeth that run {value:.2g} mm into the worm; a wheel with "
         "axial_thinning of {limit:.6g} mm clears it"

@@ -240,3 +240,19 @@ def test_random_drivers_make_a_module_without_overlap_or_name_what_lacks(seed: i
                 assert getattr(usual, driver) != keys[driver]
             continue
         assert overlaps(scene) == {}, keys
+
+
+@pytest.mark.parametrize(
+    ("keys", "name"),
+    [
+        ({"worm_length": 20.0}, "worm_length"), ({"worm_length": 1000.0}, "worm_length"),
+        ({"worm_quotient": 4.0}, "worm_quotient"), ({"worm_quotient": 6.0}, "worm_quotient"),
+        ({"worm_teeth": [30, 30]}, "worm_teeth"), ({"worm_teeth": [106, 128]}, "worm_teeth"),
+    ],
+)  # fmt: skip
+def test_a_driver_of_the_worms_is_refused_by_its_name_with_what_works(keys: dict[str, Any], name: str) -> None:
+    with pytest.raises(SceneError) as refused:
+        module(**keys)
+    assert refused.value.key == f"assemblies[1].{name}"
+    assert refused.value.nearest is not None
+    module(**{name: refused.value.nearest.value})

@@ -240,8 +240,14 @@ def test_every_flat_part_is_wide_enough_for_its_kerf() -> None:
     [
         ({"teeth": [48, 32]}, "ring_as_its_wheel", "teeth"),
         ({"second_arm": 40.0}, "axle_beyond_pinion", "second_arm"),
-        ({"second_arm": 6.0}, "axles_meet", "second_arm"),
-        ({"axle_diameter": 30.0}, "axles_meet", "axle_diameter"),
+        ({"second_arm": 6.0}, "axles_overlap", "second_arm"),
+        ({"second_arm": 8.0}, "axles_meet", "second_arm"),
+        ({"axle_diameter": 30.0}, "axles_overlap", "axle_diameter"),
+        ({"second_arm": 0.5}, "axles_overlap", "second_arm"),
+        ({"teeth": [47, 48]}, "axles_overlap", "teeth"),
+        ({"clearance": 5.0}, "pins_lie_loose", "clearance"),
+        ({"fit": 2.0}, "pins_lie_loose", "fit"),
+        ({"name": "a", "normal_backlash": 3.0}, "backlash_leaves_no_teeth", "assemblies[1].normal_backlash"),
         (PRINT | {"worm_module": 1.0}, "axle_in_the_teeth", "worm_module"),
         ({"platform_size": 40.0}, "platform_too_small", "platform_size"),
     ],
@@ -251,6 +257,9 @@ def test_what_cannot_be_is_refused_by_its_driver(keys: dict[str, Any], code: str
         placed(scene(**keys))
     assert refused.value.code == code
     assert name in refused.value.key
+    near = refused.value.nearest
+    if near is not None:
+        placed(scene(**keys | {name.rpartition(".")[2]: near.value}))
 
 
 @pytest.mark.sampled(3)
