@@ -12,9 +12,11 @@ import pytest
 
 from exporters.production.plan import plan_build
 from geometry.base.placement import Placement3
-from geometry.solids.sketch import Layer, Sketch, round_ring
+from geometry.base.record import replace
+from geometry.solids.sketch import Layer, Sketch, round_ring, sketch_of_turned
+from geometry.solids.turned import HalfSection, Piece
 from parts.base.refusal import SceneError
-from parts.drawing.assembly_views import Shown, along_axes
+from parts.drawing.assembly_views import Shown, along_axes, cut
 from parts.scene.files import built_in_scenes
 from parts.scene.load import scene_from_dict, tomllib
 from tests.exporters.production.test_part_drawings import sizes
@@ -127,6 +129,13 @@ def test_what_is_covered_is_not_drawn(distance: float) -> None:
     covered = math.acos(distance / 40.0) if distance < 40 else 0.0
     assert lengths[True] == pytest.approx(40 * math.pi, abs=1e-5)
     assert lengths[False] == pytest.approx(40 * (math.pi - covered), abs=1e-5)
+
+
+def test_a_ball_that_is_cut_is_not_hatched() -> None:
+    sketch = sketch_of_turned(HalfSection((Piece(-5j, 5j, 0j), Piece(5j, -5j))))
+    shown = Shown("ball", "ball", sketch, Placement3(translation=(0.0, 0.0, 1.0)))
+    assert cut([shown]).hatched == ()
+    assert cut([replace(shown, sketch=replace(sketch, is_ball=False))]).hatched
 
 
 def refused(parts: dict[str, Any], **raw: Any) -> SceneError:

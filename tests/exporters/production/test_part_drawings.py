@@ -393,6 +393,15 @@ def test_the_row_of_holes_of_a_rack_is_told_to_its_last_one(tmp_path: Path) -> N
     assert found["2×30=<> 0"] == pytest.approx(60.0)
 
 
+def test_face_chamfers_are_told_by_how_many_there_are(tmp_path: Path) -> None:
+    # two at the teeth, two at the bore, one more where the hub stands out
+    wheel = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 30, "face_width": 12.0, "bore_diameter": 12.0,
+             "face_chamfer": 0.5}  # fmt: skip
+    assert sizes(drawn(tmp_path, wheel))["4 chamfers <>×45° 0"] == pytest.approx(0.5)
+    hub = {"diameter": 24.0, "above": 6.0}
+    assert sizes(drawn(tmp_path, wheel | {"hub": hub}))["5 chamfers <>×45° 0"] == pytest.approx(0.5)
+
+
 def test_the_thread_of_a_worm_has_its_length_between_both_ends_of_its_shaft(tmp_path: Path) -> None:
     ends = [{"diameter": 28.0, "length": 20.0}]
     found = sizes(drawn(tmp_path, {"kind": "worm", "module": 4.0, "thread_length": 50.0, "shaft_below": ends,
