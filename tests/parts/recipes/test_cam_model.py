@@ -69,7 +69,9 @@ def least_slack(bodies: list[shapely.Polygon], roller: float, offset: float) -> 
         turned = rotate(grown, angle, origin=(0, 0))
         line = shapely.LineString([(offset, 0), (offset, 500)])
         heights.append((turned.intersection(line) if roller else turned).bounds[3])
-    (stem, slot), *others = [(b, ring) for b in bodies for width, _, ring in holes(b) if abs(width - 4.2) < 0.01]
+    wide = [(b, ring) for b in bodies for width, _, ring in holes(b) if abs(width - 4.2) < 0.01]
+    # bores of the spacers on the pins are as wide, and round
+    (stem, slot), *others = [(b, ring) for b, ring in wide if ring.length > 20]
     assert not others
     # from the roller's centre, or the face, to the slot's ends
     if roller:
