@@ -98,7 +98,7 @@ def test_pins_stay_in_the_slot_over_a_turn(
 ) -> None:
     assert main(["build", str(changed(lesson, tmp_path, **keys)), "--out", str(tmp_path), "-q"]) == 0
     bodies = bodies_of(tmp_path / "model" / "model.board.1.dxf", sag=5e-3)
-    assert len(bodies) == (5 if roller else 3)
+    assert len(bodies) == (9 if roller else 3)
     assert 0.9 < least_slack(bodies, roller, offset) < 2.2
     assert 2.9 < below_the_cam(bodies) < 4.1
     # all that lies behind each other follows the board
