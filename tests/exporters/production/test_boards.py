@@ -354,7 +354,8 @@ def test_many_sets_repeat_boards_and_too_many_are_refused(tmp_path: Path, capsys
     for path in sorted((tmp_path / "many").glob("*.dxf")):
         entry = pieces_of(tmp_path / "many", path.name)
         boards += entry["times"]
-        assert (f"make it {entry['times']} times" in said) is (entry["times"] > 1)
+        repeated = f"{path.name}: boards like this one to be cut: {entry['times']}\n"
+        assert (repeated in said) is (entry["times"] > 1)
         for piece in entry["pieces"].values():
             counts[piece["part"]] += entry["times"]
         assert bodies_gap(bodies_of(path)) >= 2 - 1e-6

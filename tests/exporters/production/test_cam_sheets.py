@@ -378,9 +378,9 @@ def test_a_build_reports_its_cam_sheets_and_verify_measures_them_again(tmp_path:
         (
             {**ROCKER, "oscillating": None, "swing_deg": None, "lift": 30.0, "follower_offset": 3.0},
             ["E = 3.00", "γmin= 45°", "φrise= 120°"],
-            "Rb=",
+            "Rmin=",
         ),
-        (ROCKER, ["d = 90.00", "γmin= 45°", "φrise= 120°"], "Rb="),
+        (ROCKER, ["d = 90.00", "γmin= 45°", "φrise= 120°"], "Rmin="),
         (
             {**ROCKER, "follower": "flat", "follower_radius": None, "least_curvature_radius": 5.0,
              "least_transmission_angle_deg": None},

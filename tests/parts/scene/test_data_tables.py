@@ -53,7 +53,8 @@ CALLED = {
 }
 # what of a mate, and of the scene's keys, stands in a table, and is no step of the part's own calculation
 BESIDE = {"teeth of the mate", "drawing of the mate", "centre distance", "number of starts of the worm",
-          "from the axis of the cam to the pivot", "length of the arm"}  # fmt: skip
+          "from the axis of the cam to the pivot", "length of the arm", "left end of the plate",
+          "its lower edge"}  # fmt: skip
 
 
 @cache
