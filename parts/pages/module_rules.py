@@ -257,6 +257,7 @@ CONDITIONS = (
     _C("face_width", "face_width - 18", N_("thread of the screws M12 in the pinion")),
     _C("worm_wheel_width", "45 - worm_wheel_width - 8", N_("thread of the screws of wheel 23")),
     _C("worm_wheel_width", "40 - worm_wheel_width - 8", N_("thread of the bolts of wheel 25")),
+    _C("worm_wheel_width", "h_24 - (41 - worm_wheel_width) - (26 - h_5)", N_("floor between the recesses of ring 24")),
     _C("worm_wheel_width", "worm_wheel_width - (45 - 2 * h_20)", N_("thread of the rings 20 in wheel 25")),
     _C("axial_gap", "35 - (disk_thickness - 18) - gap_21 - 0.5 - 8", N_("thread of the screws M12 in the pinion")),
     _C("worm_module", "h_5 - 8 - 12 - z_lip", N_("lip of the body over worm I, for the screws of guide 6")),

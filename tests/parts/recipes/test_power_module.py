@@ -248,6 +248,8 @@ def test_random_drivers_make_a_module_without_overlap_or_name_what_lacks(seed: i
         ({"worm_length": 20.0}, "worm_length"), ({"worm_length": 1000.0}, "worm_length"),
         ({"worm_quotient": 4.0}, "worm_quotient"), ({"worm_quotient": 6.0}, "worm_quotient"),
         ({"worm_teeth": [30, 30]}, "worm_teeth"), ({"worm_teeth": [106, 128]}, "worm_teeth"),
+        # ring 24 stood in disk 2
+        ({"worm_wheel_width": 22.546, "face_width": 18.401}, "worm_wheel_width"),
     ],
 )  # fmt: skip
 def test_a_driver_of_the_worms_is_refused_by_its_name_with_what_works(keys: dict[str, Any], name: str) -> None:
@@ -255,4 +257,4 @@ def test_a_driver_of_the_worms_is_refused_by_its_name_with_what_works(keys: dict
         module(**keys)
     assert refused.value.key == f"assemblies[1].{name}"
     assert refused.value.nearest is not None
-    module(**{name: refused.value.nearest.value})
+    module(**keys | {name: refused.value.nearest.value})
