@@ -183,7 +183,7 @@ def _hatch(canvas: Canvas, drawn: Drawn, scale: float) -> None:
         over = number % 2 == 1
         placed = [[paper.scaled(c) for c in loop] for loop in loops]
         turned = [[c.mirrored() if over else c for c in loop] for loop in placed]
-        for line in hatching(turned, _HATCH + _WIDER * (number // 2)):  # type: ignore[arg-type]
+        for line in hatching(turned, _HATCH + _WIDER * (number // 2)):
             canvas.strokes.append(Stroke("HATCH", line.mirrored() if over else line))
 
 

@@ -123,7 +123,7 @@ class _Layout:
         for _, curve in view.strokes:
             self.ink.add(curve, scale, "edge")
         self.body = self.extent()
-        for loop in hatching([[self.paper.scaled(c) for c in loop] for loop in view.hatched], _HATCH):  # type: ignore[misc]
+        for loop in hatching([[self.paper.scaled(c) for c in loop] for loop in view.hatched], _HATCH):
             self._stroke("HATCH", loop)
         for axis in view.axes:
             start, end = self.paper.point(axis.start), self.paper.point(axis.end)

@@ -7,18 +7,19 @@ from itertools import pairwise
 
 import numpy as np
 
-from geometry.curves.line_arc import Arc, Line
+from geometry.approximation.outline import CadCurve
+from geometry.curves.line_arc import Line
 
-# samples of an arc; a line runs at least so far off a corner, parts of the spacing
+# samples of what is not straight; a line runs at least so far off a corner, parts of the spacing
 _SAMPLES, _OFF = 65, 0.381966
 _TURN = np.exp(-0.25j * np.pi)
 
 
-def hatching(loops: Sequence[Sequence[Line | Arc]], spacing: float) -> list[Line]:
+def hatching(loops: Sequence[Sequence[CadCurve]], spacing: float) -> list[Line]:
     """Lines at 45 degrees, ``spacing`` apart, where an odd number of loops is crossed."""
     edges = []
     for loop in loops:
-        points = np.concatenate([c.point(np.linspace(*c.domain, _SAMPLES if isinstance(c, Arc) else 2)) for c in loop])
+        points = np.concatenate([c.point(np.linspace(*c.domain, 2 if isinstance(c, Line) else _SAMPLES)) for c in loop])
         # lines of hatching lie along x here
         edges.append(np.stack([points, np.roll(points, -1)]) * _TURN)
     if not edges:

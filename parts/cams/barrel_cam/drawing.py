@@ -23,7 +23,7 @@ from parts.drawing.extent import farthest
 from parts.drawing.revolved import below, closed, outlined, seen_edges
 from parts.drawing.shown import shown_pieces
 from parts.drawing.wheel_views import bore_radii, bore_view, keyway_edges, seen_along
-from parts.drawing.working import VISIBLE, Note, PartDrawing, Size, Stroke, Subject, View, requirements
+from parts.drawing.working import VISIBLE, Note, PartDrawing, Side, Size, Stroke, Subject, View, requirements
 from parts.keys.holes import bore_of, hub_holes
 from parts.texts.sheets import sheet_words
 
@@ -71,8 +71,8 @@ def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
     cam, wishes = body.cam, subject.wishes
     outer, inner, length = cam.outer, cam.inner, body.length
 
-    def diameter(name: str, radius: float, z: float, side: str, fit: str = "") -> None:
-        sizes.append(Size(name, complex(z, -radius), complex(z, radius), side, "Ø", fit))  # type: ignore[arg-type]
+    def diameter(name: str, radius: float, z: float, side: Side, fit: str = "") -> None:
+        sizes.append(Size(name, complex(z, -radius), complex(z, radius), side, "Ø", fit))
 
     diameter("outer_diameter", outer, 0.0, "left", wishes.tip)
     if not cam.is_groove:

@@ -61,23 +61,12 @@ def turned(word: str, along: str) -> Changed:
     return change
 
 
-def closed(word: str) -> Changed:
-    """A snap ring that is not opened."""
+def without(word: str, key: str) -> Changed:
+    """A snap ring that is not ``opened``; or each ball where it stands in the end, not all through ``one_hole``."""
 
     def change(steps: list[str]) -> list[str]:
         k = bringing(steps, word)
-        steps[k] = re.sub(r"opened = .*", "", steps[k])
-        return steps
-
-    return change
-
-
-def through_the_wall(word: str) -> Changed:
-    """Each where it stands in the end, not all through one hole."""
-
-    def change(steps: list[str]) -> list[str]:
-        k = bringing(steps, word)
-        steps[k] = re.sub(r"one_hole = .*", "", steps[k])
+        steps[k] = re.sub(rf"{key} = .*", "", steps[k])
         return steps
 
     return change
@@ -190,8 +179,8 @@ def test_the_print_table_and_the_module_go_together(name: str, tmp_path: Path, c
         (exchanged("small_ball_1", "plug_1"), ("small_ball_1_1", "plug_1")),
         (exchanged("small_ball_2", "protective_ring_2"), ("small_ball_2_1", "protective_ring_2")),
         (exchanged("small_cage_2", "small_ball_2"), ("small_ball_2_1", "small_cage_2")),
-        (through_the_wall("small_ball_1"), ("small_ball_1_2", "disk_2")),
-        (closed("snap_ring_1"), ("snap_ring_1", "worm_1")),
+        (without("small_ball_1", "one_hole"), ("small_ball_1_2", "disk_2")),
+        (without("snap_ring_1", "opened"), ("snap_ring_1", "worm_1")),
     ],
 )
 def test_in_the_module_too(changed: Changed, pair: tuple[str, str], tmp_path: Path, capsys: Any) -> None:
