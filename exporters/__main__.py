@@ -2,6 +2,6 @@
 
 import sys
 
-from exporters.command.cli import main
+from exporters.command.cli import run
 
-sys.exit(main())
+sys.exit(run())
