@@ -16,7 +16,7 @@ import sys
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, Literal, get_args, get_origin
 
 from babel.messages.catalog import Catalog, Message
 from babel.messages.mofile import write_mo
@@ -130,6 +130,24 @@ def _descriptions(kind: Any) -> Iterator[str]:
             yield meta.extra["unit"]
     for one in get_args(kind):
         yield from _descriptions(one)
+
+
+def names_typed() -> Iterator[str]:
+    """What is typed as it is in every language: kinds, built-in scenes, keys and their choices."""
+    yield from (*KINDS.phrases, *MATES.phrases, *RECIPES.phrases, *(file.stem for file in SCENE_FOLDER.glob("*.toml")))
+    for kind in _structs():
+        for field in fields(kind):
+            yield field.name
+            yield from _choices(field.type)
+
+
+def _choices(kind: Any) -> Iterator[str]:
+    """The words among which an annotated type leaves the choice."""
+    for one in get_args(kind):
+        if get_origin(kind) is Literal:
+            yield str(one)
+        else:
+            yield from _choices(one)
 
 
 def catalogue_files() -> list[Path]:

@@ -10,7 +10,9 @@ import sys
 import tarfile
 import tomllib
 import zipfile
+from collections import Counter
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +21,7 @@ from babel.messages.catalog import Message
 
 from parts.base.texts import LOCALE, words
 from tests import catalogues
-from tests.catalogues import HOUSE, catalogue_files, compiled, extracted, read, untranslated, updated
+from tests.catalogues import HOUSE, catalogue_files, compiled, extracted, names_typed, read, untranslated, updated
 from tests.test_architecture import product_files
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -33,6 +35,64 @@ CYRILLIC_PLACES = {
     "parts/mates/pages/external.py": "the practicum's table А.1",
     "geometry/plane/letters.py": "the letters that are engraved",
     "geometry/gears/shifts/tables.py": "the practicum's tables А.1, Б.1, В.1, Г.1",
+}
+
+# what a translation may say in Latin letters: what is typed and is no key, kind or choice of a scene
+TYPED = {
+    *(
+        "arcsin",
+        "arctg",
+        "atan",
+        "beta",
+        "bevel",
+        "build",
+        "bulge",
+        "calc",
+        "check",
+        "constant",
+        "csv",
+        "delta",
+        "expand",
+    ),
+    *(
+        "false",
+        "gear",
+        "higherpair",
+        "host",
+        "html",
+        "install",
+        "internal",
+        "json",
+        "kind",
+        "language",
+        "linear",
+        "pair",
+    ),
+    *("planetary", "purpose", "steel", "text", "toml", "true", "value", "verify"),
+}
+# one term for one thing: the word of the catalogue, and what is not said in its place
+TERMS_OF = {
+    "uk": {
+        "передаточне": "передатн|передавальн",
+        "стрижень": "стержень|стержн",
+        "западина": "впадин",
+        "шестерня": "шестірн",
+        "бічний зазор": "боков(?:ий|ого) зазор",
+        "головка": "голівк",
+        "гравіювати": "гравіру",
+        "границя міцності": "меж[аі] міцн",
+        "кваліфікаційна робота": "дисертац|дипломн",
+        "типово": "за замовчуванням",
+        "вгнутий": "увігнут|ввігнут",
+        "тека": r"\bпап(?:ка|ки|ку|ці|кою)\b",
+        "стоншення": "потонш",
+        "складальна одиниця": "складанин",
+        "закінчується": r"\bкінча[єю]т",
+        "зчіплюється": "зачіплює",
+        "зубців": r"\bзубів\b",
+        "апостроф '": "[ʼ’`](?=[яюєї])",
+        "українські літери": "[ыэёъ]",
+    }
 }
 
 
@@ -80,6 +140,86 @@ def test_translations_hold_the_same_placeholders(file: Path) -> None:
             continue
         for text in (*ids, *told):
             assert placeholders(text) == placeholders(ids[0]), (ids[0], text)
+
+
+def faults(english: str, told: str, language: str) -> list[str]:
+    """What is wrong with a translation, as far as a machine can tell."""
+    found = []
+    if (again := told.find(told[:12], 12)) > 0 and told.startswith(told[:again].strip(), again):
+        found.append("said twice")
+    if "{ " not in english and times(told) != times(english):
+        found.append("a field stands there more or less often")
+    if told.count("  ") > english.count("  "):
+        found.append("two spaces")
+    if re.search(" [-–] ", told) and " - " not in english:
+        found.append("a dash is —")
+    bare = re.sub(r"\{[^{}]*\}|%\(\w+\)s|`[^`]*`|\"[^\"]*\"", " ", told)
+    latin = re.findall(r"(?<![\w.])[a-z]{4,}(?![\w.])", bare)
+    found += [f"not translated: {word}" for word in latin if word not in TYPED | typed()]
+    return found + [f"not {word}" for word in rivals(language).findall(told.lower())]
+
+
+def ends_alike(english: str, told: str) -> bool:
+    """Whether both end in the same sign of a sentence, or in none."""
+    last = {text.rstrip()[-1:] for text in (english, told)}
+    return len(last) == 1 or not last & set(".:;?!,")
+
+
+def times(text: str) -> Counter[str]:
+    """How often each field stands in a text."""
+    return Counter(name for _, name, _, _ in string.Formatter().parse(text) if name is not None)
+
+
+@cache
+def rivals(language: str) -> re.Pattern[str]:
+    """All that a language does not say; what can match nothing where it has no such list."""
+    return re.compile("|".join(TERMS_OF.get(language, {}).values()) or "(?!)")
+
+
+@cache
+def typed() -> frozenset[str]:
+    """Keys, kinds, choices and built-in scenes: they are the same in every language."""
+    return frozenset(names_typed())
+
+
+@FILES
+def test_translations_are_sound(file: Path) -> None:
+    """Said once, whole, with the same fields and signs, and in one term for one thing."""
+    bad, language = {}, file.parts[-3]
+    for one in texts_of(file):
+        ids, told = pieces(one)
+        for number, text in enumerate(told):
+            english = ids[min(number, len(ids) - 1)]
+            if found := faults(english, text, language):
+                bad[text] = found
+            # abbreviations of title blocks and lists end in a point
+            if not one.context and not ends_alike(english, text):
+                bad[text] = ["another sign at the end"]
+    assert bad == {}
+
+
+@pytest.mark.parametrize(
+    ("english", "told"),
+    [
+        ("is missing; give it", "відсутнє; задайте йоговідсутнє; задайте його"),
+        ("{a} and {b}", "{a} і {a} та {b}"),
+        ("the tooth is pointed", "зуб  загострений"),
+        ("the tooth is a point", "зуб - це вістря"),
+        ("the wall is thin", "стінка is тонка is thin"),
+        ("gear ratio", "передатне відношення"),
+        ("which tooth", "который зуб"),
+    ],
+)
+def test_an_unsound_translation_would_be_noticed(english: str, told: str) -> None:
+    """Negative controls: each fault alone, and a sound text that has none."""
+    assert len(faults(english, told, "uk")) == 1
+    assert (
+        faults(
+            "{a} to {b}: remove face_width, `of` or bore", "від {a} до {b} — приберіть face_width, `of` або bore", "uk"
+        )
+        == []
+    )
+    assert not ends_alike("give it.", "задайте")
 
 
 @FILES
