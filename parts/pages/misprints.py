@@ -110,6 +110,7 @@ def printed_for_worm(worm: Worm, teeth: int, shift: float) -> Mapping[tuple[str,
 POWER_MODULE: Mapping[str, Printed] = {
     "pair_least_module": Printed("2.43", N_("its own numbers give 2.40")),
     "pair_allowed_contact": Printed("665", N_("850/1.2·0.9405 = 666.19")),
+    "overlap_ratio": Printed("π·m/sin β", N_("upside down and without the width: it divides by zero")),
     "preload": Printed("94", N_("140/1.5 = 93.33, rounded up")),
     "thesis_worm_radial_force": Printed(
         "51", N_("the radial force belongs to the large force along the worm: 1400·tan 20° = 510 N")
@@ -121,8 +122,8 @@ POWER_MODULE: Mapping[str, Printed] = {
 
 def printed_for_power_module() -> Mapping[tuple[str, int], Printed]:
     """What the thesis misprints of its module in single steps."""
-    both = "turn_capacity", "radial_stiffness"
-    return {(name, 0): printed for name, printed in POWER_MODULE.items() if name not in both}
+    several = "preload", "turn_capacity", "radial_stiffness"
+    return {(name, 0): printed for name, printed in POWER_MODULE.items() if name not in several}
 
 
 _QUADRANT = N_("arctg(x/y) and arcsin lose quadrants; atan2 (x, y) and the law of cosines do not")

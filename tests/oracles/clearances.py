@@ -37,15 +37,27 @@ def inside(points: np.ndarray, loop: Loop) -> np.ndarray:
     """Even and odd crossings of a ray to the right."""
     if isinstance(loop, tuple):
         return np.asarray(np.abs(points - loop[0]) < loop[1])
-    a, b = loop, np.roll(loop, -1)
     found = np.zeros(len(points), bool)
-    for piece in range(0, len(points), 4096):
-        p = points[piece : piece + 4096, None]
+    x, y = points.real, points.imag
+    beside = (y > loop.imag.min()) & (y < loop.imag.max()) & (x > loop.real.min()) & (x < loop.real.max())
+    near = np.flatnonzero(beside)
+    if not len(near):
+        return found
+    a, b = loop, np.roll(loop, -1)
+    for piece in range(0, len(near), 4096):
+        p = points[near[piece : piece + 4096], None]
         up = (a.imag > p.imag) != (b.imag > p.imag)
         with np.errstate(divide="ignore", invalid="ignore"):
             x = a.real + (p.imag - a.imag) * (b.real - a.real) / (b.imag - a.imag)
-        found[piece : piece + 4096] = (up & (p.real < x)).sum(axis=1) % 2 == 1
+        found[near[piece : piece + 4096]] = (up & (p.real < x)).sum(axis=1) % 2 == 1
     return found
+
+
+def odd(points: np.ndarray, loops: list[Loop]) -> np.ndarray:
+    """Which points an odd number of loops surrounds."""
+    circles = np.array([loop for loop in loops if isinstance(loop, tuple)]).reshape(-1, 2)
+    found = (np.abs(points[:, None] - circles[:, 0]) < circles[:, 1].real).sum(axis=1)
+    return (found + sum(inside(points, loop) for loop in loops if not isinstance(loop, tuple))) % 2 == 1
 
 
 def within(loop: Loop, left: bool = True) -> np.ndarray:
@@ -91,7 +103,7 @@ class Solid:
             for loop in loops:
                 for edge in (within(loop), within(loop, left=False)):
                     edge = edge[:: 1 + len(edge) // 240]
-                    kept = edge[sum(inside(edge, other).astype(int) for other in loops) % 2 == 1]
+                    kept = edge[odd(edge, loops)]
                     for z in (low + EPS, (low + high) / 2, high - EPS):
                         yield np.column_stack([kept.real, kept.imag, np.full(len(kept), z)])
 
@@ -105,7 +117,7 @@ class Solid:
             for low, high, loops in self.layers:
                 at = (points[:, 2] > low) & (points[:, 2] < high)
                 if at.any():
-                    found[at] = sum(inside(flat[at], loop).astype(int) for loop in loops) % 2 == 1
+                    found[at] = odd(flat[at], loops)
         for hole in self.holes:
             found &= ~inside(flat, hole)
         return found

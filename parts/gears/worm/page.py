@@ -238,6 +238,8 @@ def _wheel(page: Sheet, drive: WormDrive) -> None:
     terms = [f"{share:g} * {{{symbol}}}" for share, symbol in ((of_starts, "z1"), (of_teeth, "z2")) if share]
     formula = " + ".join([f"{number:g}", *terms])
     page.add("least_worm_length", drive.least_worm_length, f"({formula}) * {{m}}", _GOST)
+    if drive.worm.module < 10:
+        page.add("ground_worm_length", drive.least_worm_length + 25, "{b1_min} + 25", _THESIS)
     share = 0.75 if starts <= 3 else 0.67
     page.add("most_face_width", drive.most_face_width, f"{share} * {{d_a1}}", _GOST)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any
 
 import numpy as np
@@ -183,12 +183,17 @@ def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
     page.add("face_width", keys.face_width)
     along = 2000 * own / diameter
     page.add("circumferential_force", along, "2000 * {T_11} / {d11}", _GEAR)
+    rough = 1.88 - 3.2 * (1 / pinion - 1 / keys.pair_teeth[1])
+    page.add("approximate_contact_ratio", rough, "1.88 - 3.2 * (1 / {z11} - 1 / {z12})", _GEAR)
+    page.add("helix_angle_deg", 0.0)
+    page.add("overlap_ratio", 0.0, "{b} * sin({beta}) / (pi * {m})", _GEAR)
     factors = (("elasticity_factor", 190.0), ("zone_factor", 2.49), ("overlap_factor", 0.84),
                  ("outer_load_factor", 1.0), ("pair_speed_factor", 1.01))  # fmt: skip
     for name, value in factors:
         page.add(name, value)
     zone = math.sqrt(4 / math.sin(math.radians(40)))
     page.add("exact_zone_factor", zone, "sqrt(4 / sin(2 * 20 * pi / 180))")
+    page.add("exact_overlap_factor", math.sqrt((4 - rough) / 3), "sqrt((4 - {eps_r}) / 3)")
     stress = 190 * 2.49 * 0.84 * math.sqrt(along * 1.01 * 1.05 / (keys.face_width * diameter) * (ratio - 1) / ratio)
     root = "sqrt({F_t} * {K_A} * {K_Hv} * {K_Fb} / ({b} * {d11}) * ({u} - 1) / {u})"
     page.add("pair_contact_stress", stress, "{Z_E} * {Z_H} * {Z_eps} * " + root, _GEAR)
@@ -223,6 +228,7 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapp
     share = 1 + turns ** (2 / 3) if turns else 1.0
     page.add("loaded_turns", turns)
     page.add("preload", axial / (1.5 * share), f"{{F_a}} / {1.5 * share:g}", _BALLS)
+    _marked(page)("preload")
     page.add("balls", keys.balls)
     page.add("guide_ball_diameter", keys.ball_diameter)
     page.add("radial_factor", keys.radial_factor)
@@ -251,6 +257,7 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapp
         along = 1.5 * load ** (2 / 3) * hold ** (1 / 3) * share
         page.add("axial_stiffness", along, f"{1.5 * share:g} * cbrt({{C}}**2 * {{F_H}})", source)
         mark("axial_stiffness")
+        page.add("preload_ratio", hold / (force * math.tan(angle)), "{F_H} / ({F_R} * tan({alpha_b}))", source)
         across = keys.radial_factor * along / (1.5 * math.tan(angle) ** 2 * share)
         page.add("radial_stiffness", across, f"{{k4}} * {{j_a}} / ({1.5 * share:g} * tan({{alpha_b}})**2)", source)
         mark("radial_stiffness")
@@ -273,7 +280,7 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapp
         page.notes.append(N_("so many balls have no place outside of the ring's teeth"))
 
 
-def _marked(page: Sheet) -> Any:
+def _marked(page: Sheet) -> Callable[[str], None]:
     """Marks a step of the thesis's own chain where its number is misprinted."""
 
     def mark(name: str) -> None:

@@ -13,12 +13,18 @@ from typing import Any
 
 import ezdxf
 import mpmath
+import numpy as np
 import pytest
 
 from exporters.command.cli import main
 from exporters.documents.topics import calculate
 from geometry.base import hertz
+from geometry.base.record import replace
+from geometry.kinematics.two_disk import TwoDisk
 from parts.base.refusal import SceneError, sentence
+from parts.base.texts import words
+from parts.pages.misprints import printed_for_delta
+from tests.exporters.documents.test_calc import evaluated, sheet_for
 
 ROWS = json.loads((Path(__file__).parents[2] / "published" / "power_module.json").read_text(encoding="utf-8"))["cases"]
 CASES = {case["id"].removeprefix("004."): case for case in ROWS}
@@ -44,6 +50,7 @@ def test_points_of_the_thesis_and_where_its_formula_is_wrong(case: dict[str, Any
     data = calculated("power-table", *keys)
     delta = step(data, "delta_deg")
     assert step(data, "beta_deg")["value"] == pytest.approx(right["beta_deg"], abs=1e-9)
+    assert step(data, "angle_at_o1_deg")["value"] == pytest.approx(right["angle_at_O1_deg"], abs=1e-9)
     assert math.remainder(delta["value"] - right["delta_deg"], 360) == pytest.approx(0, abs=1e-9)
     printed = right["delta_printed_formula_deg"]
     wrong = printed is None or abs(math.remainder(printed - right["delta_deg"], 360)) > 1e-6
@@ -139,70 +146,215 @@ def test_the_scheme_of_a_point_and_of_a_path(tmp_path: Path) -> None:
     assert length == pytest.approx(50 * math.pi + abs(10 + 20j), abs=0.1)
 
 
-# name of the step, drive, case, its number, how near (inputs that the thesis has rounded before)
-NUMBERS = [
-    *(
-        (name, f"drive {drive}", f"worm{drive}.{case}", key, 1e-9)
-        for drive in ("I", "II")
-        for name, case, key in (
-            ("wheel_torque", "T2", "T2_Nm"),
-            ("thesis_least_module", "module", "m_mm"),
-            ("allowed_bending_stress", "sigma_FP2", "sigma_FP2_MPa"),
-            ("allowed_contact_stress", "sigma_FP2", "sigma_HP2_MPa"),
-            ("thesis_contact_stress", "sigma_H", "sigma_H_MPa"),
-            ("contact_stress", "sigma_H", "sigma_H_width_26_of_45_MPa"),
-            ("worm_base_diameter", "base", "d_b_mm"),
-            ("worm_centre_distance", "geometry", "a_w_mm"),
-            ("most_outer_diameter", "geometry", "d_ae2_mm"),
-        )
-    ),
-    ("pair_allowed_bending", "", "gear.sigma_FP1", "sigma_FP1_MPa", 1e-9),
-    ("pair_least_module", "", "gear.module", "m_mm", 2e-3),
-    ("pair_torque", "", "gear.T", "T_Nm", 1e-9),
-    ("circumferential_force", "", "gear.F_t", "F_t_N", 2e-3),
-    ("pair_allowed_contact", "", "gear.sigma_HP", "sigma_HP_MPa", 1e-9),
-    ("pair_contact_stress", "", "gear.sigma_H", "sigma_H_MPa", 1e-3),
-    ("exact_zone_factor", "", "gear.Z", "Z_H", 1e-9),
-    ("preload", "", "ball.F_H", "F_H_N", 1e-9),
-    ("pair_radial_force", "", "ball.F_R_gear", "F_RZ_N", 2e-3),
-    ("thesis_worm_radial_force", "", "ball.F_R_worm", "F_RC_N", 1e-9),
-    ("bearing_radial_force", "", "ball.F_R", "F_R_N", 2e-3),
-    ("contact_angle_deg", "", "ball.F_R", "alpha_deg", 2e-3),
-    ("turn_capacity", "", "ball.C", "C", 5e-3),
-    ("least_ball_circle", "", "ball.ring", "least_pitch_diameter_mm", 1e-9),
-]
-
-
 @pytest.fixture(scope="module")
 def module() -> dict[str, Any]:
     return calculated("power-module")
 
 
-@pytest.mark.parametrize(("name", "drive", "case", "key", "near"), NUMBERS)
-def test_numbers_of_the_module(module: dict[str, Any], name: str, drive: str, case: str, key: str, near: float) -> None:
-    assert step(module, name, drive)["value"] == pytest.approx(CASES[case]["recomputed"][key], rel=near)
+# page and step that show a number of a case: which of several steps, how many times it, and what its formula has there
+# in place of the page's own, where the thesis has rounded or tried another value
+MODULE, OPPOSED = "power-module", "power-module loaded_turns=1"
+PAIR = (
+    "gear-pair kind=internal_gear_pair module=3 first.number_of_teeth=96 second.number_of_teeth=144 "
+    "basic_rack.tip_clearance_coefficient=0.2 second.tip_diameter=427.2 second.cutter.number_of_teeth=34 "
+    "second.cutter.addendum_coefficient=1.2"
+)
+Shown = tuple[str, str, str, str, str | int, float, dict[str, float]]
+OF_WORMS: tuple[tuple[str, str, str, dict[str, float]], ...] = (
+    ("T2", "T2_Nm", "wheel_torque", {}),
+    ("module", "m_mm", "thesis_least_module", {}),
+    ("module", "m_without_cos_gamma_mm", "thesis_least_module", {"gamma": 0.0}),
+    ("sigma_FP2", "sigma_FP2_MPa", "allowed_bending_stress", {}),
+    ("sigma_FP2", "sigma_HP2_MPa", "allowed_contact_stress", {}),
+    ("sigma_H", "sigma_H_MPa", "thesis_contact_stress", {}),
+    ("sigma_H", "sigma_H_full_width_MPa", "contact_stress", {"psi": 1.0}),
+    ("sigma_H", "sigma_H_half_width_sqrt2_MPa", "contact_stress", {"psi": 0.5}),
+    ("sigma_H", "sigma_H_width_26_of_45_MPa", "contact_stress", {}),
+    ("base", "gamma_b_deg", "base_lead_angle_deg", {}),
+    ("base", "d_b_mm", "worm_base_diameter", {}),
+    *(("geometry", key, name, {}) for key, name in (
+        ("a_w_mm", "worm_centre_distance"), ("d1_mm", "worm_reference_diameter"), ("d_w1_mm", "worm_pitch_diameter"),
+        ("d2_mm", "wheel_reference_diameter"), ("gamma_deg", "lead_angle_deg"), ("h1_mm", "thread_height"),
+        ("gamma_w_deg", "pitch_lead_angle_deg"), ("h_a1_mm", "thread_addendum"), ("d_a1_mm", "worm_tip_diameter"),
+        ("d_a2_mm", "throat_diameter"), ("d_ae2_mm", "most_outer_diameter"), ("rho_f1_mm", "worm_fillet_radius"),
+        ("b1_min_mm", "least_worm_length"), ("b1_plus_25_mm", "ground_worm_length"), ("b2_max_mm", "most_face_width"),
+    )),
+)  # fmt: skip
+ANGLE, TURN, TORQUE = {"alpha_b": 11.717434703203375}, {"C": 1057958.1660654577}, {"T_11": 247.0}
+SHOWN: tuple[Shown, ...] = (
+    *((f"worm{drive}.{case}", key, MODULE, name, f"drive {drive}", 1.0, put)
+      for drive in ("I", "II") for case, key, name, put in OF_WORMS),
+    ("gear.sigma_FP1", "sigma_FP1_MPa", MODULE, "pair_allowed_bending", "", 1, {}),
+    ("gear.module", "m_mm", MODULE, "pair_least_module", "", 1, TORQUE),
+    ("gear.module", "m_with_rounded_inputs_mm", MODULE, "pair_least_module", "", 1,
+     {**TORQUE, "u": 1 / 0.667, "sigma_FP1": 263.0}),
+    ("gear.module", "m_with_u_1.5_and_Z1_96_mm", MODULE, "pair_least_module", "", 1,
+     {**TORQUE, "u": 1 / 1.5, "z12": 96, "sigma_FP1": 263.0}),
+    ("gear.module", "m_with_u_1.5_and_Z1_144_mm", MODULE, "pair_least_module", "", 1,
+     {**TORQUE, "u": 1 / 1.5, "sigma_FP1": 263.0}),
+    ("gear.T", "T_Nm", MODULE, "pair_torque", "", 1, {}),
+    ("gear.F_t", "F_t_N", MODULE, "circumferential_force", "", 1, TORQUE),
+    ("gear.sigma_HP", "sigma_HP_MPa", MODULE, "pair_allowed_contact", "", 1, {}),
+    ("gear.sigma_H", "sigma_H_MPa", MODULE, "pair_contact_stress", "", 1, {"F_t": 1715.0}),
+    ("gear.Z", "Z_H", MODULE, "exact_zone_factor", "", 1, {}),
+    # from the rounded 1.87
+    ("gear.Z", "Z_eps", MODULE, "exact_overlap_factor", "", 1, {"eps_r": 1.87}),
+    ("gear.eps", "eps_alpha", MODULE, "approximate_contact_ratio", "", 1, {}),
+    ("gear.eps", "eps_gamma", MODULE, "approximate_contact_ratio", "", 1, {}),
+    ("gear.eps", "eps_beta", MODULE, "overlap_ratio", "", 1, {}),
+    ("gear.eps", "eps_alpha_exact_from_tip_circles", PAIR, "contact_ratio", "", 1, {}),
+    ("gear.geometry", "p_mm", PAIR, "pitch", "", 1, {}),
+    ("gear.geometry", "inv_alpha_tw", PAIR, "involute_of_working_pressure_angle", "", 1, {}),
+    ("gear.geometry", "a_w_mm", PAIR, "working_centre_distance", "", 1, {}),
+    ("gear.geometry", "u", PAIR, "gear_ratio", "", 1, {}),
+    *(("gear.geometry", f"{key}{gear}_mm", PAIR, name, gear, 2, {}) for gear in (1, 2) for key, name in (
+        ("d", "reference_radius"), ("d_w", "working_radius"), ("d_a", "tip_radius"), ("d_f", "root_radius"),
+    )),
+    ("gear.geometry", "d_f1_with_c_0.25_mm", "gear-pair thesis_internal_pair", "root_radius", 1, 2, {}),
+    ("gear.geometry", "d_f2_with_c_0.25_mm", MODULE, "ring_root_diameter", "", 1, {}),
+    ("ball.F_a", "F_a_N", MODULE, "worm_tangential_force", "drive II", 1, {}),
+    ("ball.F_H", "F_H_N", MODULE, "preload", "", 1, {}),
+    ("ball.F_H", "F_H_with_i2_1_N", OPPOSED, "preload", "", 1, {}),
+    ("ball.F_R_gear", "F_TZ_N", MODULE, "circumferential_force", "", 1, TORQUE),
+    ("ball.F_R_gear", "F_RZ_N", MODULE, "pair_radial_force", "", 1, {"F_t": 247_000 / 144}),
+    ("ball.F_R_worm", "F_TC_N", MODULE, "worm_tangential_force", "drive II", 1, {}),
+    ("ball.F_R_worm", "F_RC_N", MODULE, "thesis_worm_radial_force", "", 1, {}),
+    ("ball.F_R_worm", "F_t2_of_the_wheel_N", MODULE, "worm_axial_force", "drive II", 1, {}),
+    ("ball.F_R_worm", "F_r_from_wheel_force_N", MODULE, "worm_radial_force", "drive II", 1, {"alpha_x": 20.0}),
+    ("ball.F_R", "F_R_N", MODULE, "bearing_radial_force", "", 1, {"F_RZ": 624.0, "F_RC": 51.0}),
+    ("ball.F_R", "alpha_deg", MODULE, "contact_angle_deg", "", 1, {"F_R": 675.0}),
+    ("ball.C", "C", MODULE, "turn_capacity", "", 1, ANGLE),
+    ("ball.C", "C_times_1e-6", MODULE, "turn_capacity", "", 1e-6, ANGLE),
+    ("ball.j_a", "j_a_times_1e-4_N_mm", MODULE, "axial_stiffness", "", 1e-4, TURN),
+    ("ball.j_a", "j_a_with_i2_1_times_1e-4_N_mm", OPPOSED, "axial_stiffness", "", 1e-4, {**TURN, "F_H": 140 / 1.5}),
+    ("ball.k4_argument", "arg", MODULE, "preload_ratio", "", 1, {"F_H": 94.0, "F_R": 675.0, "alpha_b": 11.717}),
+    ("ball.j_r", "j_r_with_i2_0_times_1e-4_N_mm", MODULE, "radial_stiffness", "", 1e-4,
+     {"j_a": 70_900.0, "alpha_b": 11.717}),
+    ("ball.j_r", "j_r_times_1e-4_N_mm", OPPOSED, "radial_stiffness", "", 1e-4,
+     {"j_a": 70_900.0, "alpha_b": 11.717}),
+    ("ball.ring", "least_pitch_diameter_mm", MODULE, "least_ball_circle", "", 1, {}),
+    ("ball.ring", "ring_root_diameter_mm", PAIR, "root_radius", 2, 2, {}),
+    ("ball.ring", "wall_between_root_and_groove_mm", MODULE, "ball_wall", "", 1, {"d_f12": 439.2}),
+    ("layout.O1O2", "a_w_mm", PAIR, "working_centre_distance", "", 1, {}),
+    ("layout.O1O2", "L1_mm", MODULE, "first_arm", "", 1, {}),
+    ("layout.L2", "L2_mm", MODULE, "second_arm", "", 1, {}),
+    ("layout.ring", "ring_root_radius_mm", PAIR, "root_radius", 2, 1, {}),
+    ("layout.ring", "ring_tip_radius_mm", PAIR, "tip_radius", 2, 1, {}),
+    ("layout.ring", "clearance_tip_to_root_mm", PAIR, "bottom_clearance_at_root", 2, 1, {}),
+    ("layout.ring", "clearance_ring_tip_to_pinion_root_mm", PAIR, "bottom_clearance_at_root", 1, 1, {}),
+    ("layout.wheels", "worm_wheel_I_outer_mm", MODULE, "most_outer_diameter", "drive I", 1, {}),
+    ("layout.wheels", "worm_wheel_II_outer_mm", MODULE, "most_outer_diameter", "drive II", 1, {}),
+    ("layout.wheels", "ring_root_mm", PAIR, "root_radius", 2, 2, {}),
+)  # fmt: skip
 
 
-def test_stiffness_of_the_ring_with_one_i2_throughout(module: dict[str, Any]) -> None:
-    right = CASES["ball.j_a"]["recomputed"]
-    assert step(module, "axial_stiffness")["value"] == pytest.approx(right["j_a_times_1e-4_N_mm"] * 1e4, rel=5e-3)
-    right = CASES["ball.j_r"]["recomputed"]
-    found = step(module, "radial_stiffness")
-    assert found["value"] == pytest.approx(right["j_r_with_i2_0_times_1e-4_N_mm"] * 1e4, rel=5e-3)
-    assert "5.5e4" in found["misprint"]
-    both = calculated("power-module", "loaded_turns=1")
-    assert step(both, "preload")["value"] == pytest.approx(46.67, rel=1e-3)
-    assert step(both, "axial_stiffness")["value"] == pytest.approx(112142.23, rel=5e-3)
-    assert step(both, "radial_stiffness")["value"] == pytest.approx(86895.922, rel=5e-3)
+def shown(page: str, name: str, which: str | int, put: dict[str, float]) -> float:
+    """What a page has, or what its own formula gives with other numbers put in."""
+    found = next(
+        s for s in sheet_for(page).steps()
+        if s.name == name and (s.gear == which if isinstance(which, int) else words("en").text(s.of).endswith(which))
+    )  # fmt: skip
+    assert put.keys() <= found.inputs.keys()
+    if not put:
+        return float(found.value)
+    inputs = {key: replace(known, value=put.get(key, known.value)) for key, known in found.inputs.items()}
+    return evaluated(replace(found, inputs=inputs))
+
+
+@pytest.mark.parametrize("case", sorted({row[0] for row in SHOWN}))
+def test_numbers_of_the_thesis_stand_on_a_page(case: str) -> None:
+    for _, key, page, name, which, times, put in (row for row in SHOWN if row[0] == case):
+        found = shown(page, name, which, put) * times
+        assert found == pytest.approx(CASES[case]["recomputed"][key], rel=1e-9, abs=1e-12), (key, name)
+
+
+def laid_out() -> dict[tuple[str, str], float]:
+    """What follows from several numbers of pages, and from the mechanism."""
+    table, turn = TwoDisk(), 2 * math.pi
+    a, tip, root = (shown(PAIR, name, gear, {}) for name, gear in (
+        ("working_centre_distance", 0), ("tip_radius", 1), ("root_radius", 1)))  # fmt: skip
+    axes = [shown(MODULE, "worm_centre_distance", f"drive {drive}", {}) for drive in ("I", "II")]
+    thread = shown(MODULE, "worm_tip_diameter", "drive I", {}) / 2
+    # disk 2 turned once, the ring held
+    delta, beta = table.angles(128.0, 0.0)
+    (least, most), turned = table.reach, table.platform_turn
+    relative, two = table.angles(1.0, 0.0), table.angles(0.0, 1.0)
+    return {
+        ("layout.ring", "pinion_tip_reach_mm"): a + tip, ("layout.ring", "pinion_root_reach_mm"): a + root,
+        ("layout.wheels", "difference_of_worm_axes_mm"): axes[0] - axes[1],
+        ("layout.wheels", "worm_tip_to_axis_I_mm"): axes[0] - thread,
+        ("layout.wheels", "worm_tip_to_axis_II_mm"): axes[1] - thread,
+        ("layout.L2", "reach_mm"): most, ("ik.reach", "r_min_mm"): least, ("ik.reach", "r_max_mm"): most,
+        ("ik.reach", "stroke_mm"): 2 * most, ("layout.total_ratio", "disk2"): turn / relative[0],
+        ("layout.total_ratio", "disk3_relative_to_disk2"): turn / abs(two[1]),
+        ("gamma", "gamma_over_d_delta"): table.coupled(1.0),
+        # disk 3 turns back by what beta grows
+        ("gamma", "rel_rotation_of_disk3_from_pitch_point_velocity"): -beta / delta,
+        ("gamma", "abs_rotation_of_disk3"): (delta - beta) / delta,
+        ("orientation", "platform_rotation"): turned(1.0), ("orientation", "both_30deg_platform_deg"): turned(0.0),
+        ("orientation", "disk2_0_disk3_30deg_platform_deg"): turned(30.0),
+        ("orientation", "disk2_30deg_disk3_minus_15deg_platform_deg"): turned(-15.0 - 30.0),
+        ("ik.singular_centre", "beta_deg"): float(table.inverse(0j)[1]),
+        ("gear.geometry", "tan_alpha_t"): math.tan(math.radians(shown(PAIR, "pressure_angle_deg", 0, {}))),
+        **{(f"worm{drive}.geometry", "cos_gamma_b"):
+           math.cos(math.radians(shown(MODULE, "base_lead_angle_deg", f"drive {drive}", {}))) for drive in ("I", "II")},
+    }  # fmt: skip
+
+
+def test_what_follows_from_several_numbers() -> None:
+    for (case, key), value in laid_out().items():
+        assert value == pytest.approx(CASES[case]["recomputed"][key], rel=1e-9, abs=1e-12), (case, key)
+
+
+@pytest.mark.parametrize("arms", [(72.0, 72.0), (72.0, 50.0), (50.0, 72.0)])
+def test_a_grid_over_the_reach_and_where_the_printed_formula_is_wrong(arms: tuple[float, float]) -> None:
+    """Below O1, and where O2's angle at O1 is obtuse; the page flags just these."""
+    (one, two), table = arms, TwoDisk(arms=arms)
+    right = CASES[f"ik.grid.{one:g}_{two:g}"]["recomputed"]
+    least, most = table.reach
+    line = np.linspace(-most, most, 1201)
+    points = (line + 1j * line[:, None]).ravel()
+    points = points[(abs(points) > least + 1e-9) & (abs(points) < most - 1e-9)]
+    off = table.forward(*table.inverse(points)) - points
+    assert abs(off).max() <= right["max_error_of_atan2_form"]
+    branch = math.sqrt(max(two**2 - one**2, 0.0))
+    assert branch == pytest.approx(right.get("branch_radius_sqrt(L2^2-L1^2)", 0.0))
+    wrong = (points.imag < 0) | (abs(points) < branch)
+    x, y = points.real, points.imag
+    for share, among in (
+        ("printed_wrong_share", abs(points) > 0), ("wrong_for_y_above_0", y > 0), ("wrong_for_y_below_0", y < 0),
+        ("wrong_for_y_0_x_positive", (y == 0) & (x > 0)), ("wrong_for_y_0_x_negative", (y == 0) & (x < 0)),
+    ):  # fmt: skip
+        assert wrong[among].mean() == right[share], share
+    assert len(points) == right["points"]
+    for k in np.random.default_rng(4).choice(len(points), 200):
+        flagged = printed_for_delta(complex(points[k]), arms, float(table.inverse(points[k])[0]))
+        assert (flagged is not None) == wrong[k], points[k]
+
+
+def test_no_number_of_a_case_is_left_out() -> None:
+    """Points, the grid and the parts list have tests of their own; the survey's sum of two equal forces is no sheet."""
+    held = {row[:2] for row in SHOWN} | laid_out().keys()
+    others = ("ik.grid.", "ik.point.", "bom.", "force_redistribution")
+    left = [
+        (case, key) for case, row in CASES.items() if not case.startswith(others)
+        for key, value in row["recomputed"].items() if isinstance(value, float | int) and (case, key) not in held
+    ]  # fmt: skip
+    assert left == []
+    assert CASES["bom.count"]["recomputed"] == {"positions": 48.0, "parts": 42.0, "standard_items": 417.0}
 
 
 def test_misprints_stand_beside_the_right_values_and_only_there(module: dict[str, Any]) -> None:
     marked = {s["name"] for s in module["steps"] if "misprint" in s}
     assert marked == {
         "worm_pitch_diameter", "worm_radial_force", "thesis_least_module", "thesis_contact_stress", "contact_stress",
-        "pair_least_module", "pair_allowed_contact", "preload", "thesis_worm_radial_force", "turn_capacity",
-        "radial_stiffness",
+        "pair_least_module", "pair_allowed_contact", "overlap_ratio", "preload", "thesis_worm_radial_force",
+        "turn_capacity", "radial_stiffness",
     }  # fmt: skip
+    # of the thesis's own chain, not of what stands beside it
+    assert [s["value"] for s in module["steps"] if s["name"] == "preload" and "misprint" in s] == [
+        pytest.approx(280 / 3)
+    ]
     other = calculated("power-module", "module=4", "worm_module=6")
     assert not [s for s in other["steps"] if "misprint" in s]
 
@@ -307,9 +459,9 @@ def test_errors_by_play_over_the_workspace(module: dict[str, Any], tmp_path: Pat
     for row in errors:
         assert (row["II"], row["11-12"]) == pytest.approx((0.0204, 0.025), abs=5e-5)
         assert row["Σ"] <= row["I"] + row["II"] + row["11-12"] + 1e-12
-    for name, words in (("errors.svg", ("uk",)), ("turn.svg", ("uk", "orientation=thesis"))):
+    for name, asked_for in (("errors.svg", ("uk",)), ("turn.svg", ("uk", "orientation=thesis"))):
         file = tmp_path / name
-        language, *more = words
+        language, *more = asked_for
         asked = ["calc", "power-module", f"picture={file}", *more, "--language", language, "--out", f"{file}.txt"]
         assert main(asked) == 0
         assert file.read_text(encoding="utf-8").count("<circle") >= 48

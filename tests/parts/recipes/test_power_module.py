@@ -206,6 +206,16 @@ def test_the_platform_is_parallel_and_where_both_disks_carry_it() -> None:
             assert abs(abs(end - poses[holder][0]) - 53) < 1e-6
 
 
+def test_the_floor_is_clear_of_the_screw_that_goes_about_o1_under_thick_wheels() -> None:
+    """Ring 18 is the lower the thicker they are: its head went 7 mm into the floor."""
+    scene = module(orientation="thesis", wheel_width=57.9)
+    assert overlaps(scene, None, {"screw_57"}) == {}
+    parts: Any = scene.parts
+    for point in parts["screw_57"].points:
+        point.z -= 5.1
+    assert overlaps(scene, None, {"screw_57"}).keys() >= {("screw_57", "body")}
+
+
 # from where random drivers are taken: as large as they differ, most of them go together
 _SPREAD: dict[str, tuple[float, float]] = {
     "module": (2.4, 3.2), "worm_module": (4.9, 6.0), "ball": (6.5, 8.2), "disk_thickness": (29.0, 34.0),
