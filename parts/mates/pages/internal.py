@@ -12,6 +12,7 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.gears.pairs.internal import InternalPair, shift_difference
 from geometry.gears.teeth import limits, ring_limits
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
+from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse_ring import transverse_ring
 from parts.base.mate import End
 from parts.base.refusal import SceneError
@@ -71,12 +72,17 @@ def internal_sheet(table: dict[str, Any]) -> Sheet:
     table = pair_table(table, InternalKeys, TOPIC)
     keys: InternalKeys = checked(table, InternalKeys, TOPIC)
     given_shift = "profile_shift_coefficient" in table["second"]
+
+    def made(changed: InternalKeys) -> InternalPair:
+        return _internal_pair(changed, given_shift)
+
     try:
-        pair = _internal_pair(keys, given_shift)
+        pair = made(keys)
         page = _internal_page(pair, keys, _helical(keys))
     except ParameterError as error:
-        refused = _refused(error, keys)
-        raise wish_refused(TOPIC, keys, refused, lambda changed: _internal_pair(changed, given_shift)) from error
+        raise wish_refused(TOPIC, keys, _refused(error, keys), made) from error
+    except SceneError as error:
+        raise wish_refused(TOPIC, keys, error, made) from error
     page.notes += [finding_of(1, f) for f in rack_findings(keys.first, pair.pinion)]
     return page
 
@@ -89,8 +95,8 @@ def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
         working_centre_distance=keys.working_centre_distance,
         normal_backlash=keys.normal_backlash,
     )
-    pinion, wanted = checked_spur_gear(keys.first), keys.working_centre_distance
-    ring_keys = keys.second
+    first, wanted = _pinion(keys), keys.working_centre_distance
+    pinion, ring_keys = first.thing, keys.second
     teeth = pinion.number_of_teeth, ring_keys.number_of_teeth
     helix = _helix(keys)
     if wanted is not None and not given_shift and teeth[0] < teeth[1]:
@@ -100,7 +106,7 @@ def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
         # shifts that were found for a distance give it back but for rounding
         mate = InternalGearPairSpec(first="first", second="second", normal_backlash=keys.normal_backlash)
     ends: dict[str, End[Any]] = {
-        "first": End(keys.first, pinion),
+        "first": first,
         "second": End(ring_keys, checked_ring_gear(ring_keys)),
     }
     mating = mated(ends, [mate], _SAME)[1][0]
@@ -140,7 +146,7 @@ def rack_sheet(table: dict[str, Any]) -> Sheet:
     try:
         _helix(keys)
         ends: dict[str, End[Any]] = {
-            "first": End(keys.first, checked_spur_gear(keys.first)),
+            "first": _pinion(keys),
             "second": End(keys.second, checked_rack_part(keys.second)),
         }
         mating = mated(ends, [mate], _SAME)[1][0]
@@ -151,6 +157,14 @@ def rack_sheet(table: dict[str, Any]) -> Sheet:
     for index, found in ((1, rack_findings(keys.first, mating.pair.gear)), (2, rounding_finding(keys.second))):
         page.notes += [finding_of(index, f) for f in found]
     return page
+
+
+def _pinion(keys: InternalKeys | RackKeys) -> End[SpurGear]:
+    """The first of the pair, refused under its own name if it cannot exist."""
+    try:
+        return End(keys.first, checked_spur_gear(keys.first))
+    except ParameterError as error:
+        raise refusal(TOPIC, error, "first", keys) from error
 
 
 def _refused(error: ParameterError, keys: Struct) -> SceneError:

@@ -121,6 +121,11 @@ def test_sliding_vanishes_at_the_pole_and_is_that_of_speeds() -> None:
         ("kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=6 working_centre_distance=19",
          "working_centre_distance"),
         ("kind=rack_pairs module=2", "kind"),
+        # pointed at 84.08 mm: the pinion of Khurmi's example 12.7, whose key it is
+        ("kind=internal_gear_pair module=4 first.number_of_teeth=18 first.tip_diameter=89 second.number_of_teeth=72",
+         "gear-pair.first.tip_diameter"),
+        ("kind=rack_pair module=4 first.number_of_teeth=18 first.tip_diameter=89 second.number_of_teeth=12",
+         "gear-pair.first.tip_diameter"),
     ],
 )  # fmt: skip
 def test_refusals_name_the_key(words: str, key: str) -> None:
