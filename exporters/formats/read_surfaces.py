@@ -55,8 +55,10 @@ def forms(kind: int, at: Real, step: Real, centre: Real, sizes: Real, about: Rea
         turn = np.where(size > 0, turn / size**2, 0.0)
         across = np.where(size > 0, (x * c1 + y * c2) / size, 0.0)
     if kind == ROUND:
-        # the normal is (n - s a) of size root(1 + s^2)
-        slant, spread = np.sqrt(1 + s * s), -(r * z + s * z * z / 2) * turn
+        # the normal is (n - s a) of size root(1 + s^2); on a flat cone heights tell less of its area than distances
+        with np.errstate(divide="ignore", invalid="ignore"):
+            spread = -np.where(s > 1, (size * size - r * r) / (2 * s), r * z + s * z * z / 2) * turn
+        slant = np.sqrt(1 + s * s)
         gap = np.abs(size - (r + z * s)) / slant
         return Forms(gap, (across - s * c3 + r) / 3 * spread, slant * spread, -z * turn, turn)
     if kind == SPHERE:

@@ -20,6 +20,7 @@ from parts.scene.load import make_parts, scene_from_dict, scene_from_toml
 from parts.scene.placing import place
 from parts.solids.mesh import body_mesh, mesh_outlines
 from parts.solids.step_text import StepForm, StepPart, step_text
+from tests.exporters.making import run, write_scene
 
 SCENES = Path(__file__).parents[3] / "parts" / "scenes"
 Keys = dict[str, Any]
@@ -169,6 +170,14 @@ REFUSED = {
         "steps[1].keyways[1].at",
     ),
 }  # fmt: skip
+
+
+@pytest.mark.parametrize("end", [6.55, 6.373])
+def test_a_flat_cone_between_roundings_tells_its_area(end: float, tmp_path: Path) -> None:
+    """Before: the read-back took a flat cone's area off its heights, whose digits hold little of it, and refused it."""
+    rows = [(10.0, 0.0), (31.0, 0.0), {"r": 31.0, "z": 6.37, "fillet": 0.9}, (10.0, end)]
+    scene = write_scene(tmp_path / "s.toml", {"part": points(*rows)}, [{"format": "step"}])
+    assert run("build", scene, "--out", tmp_path / "out", "-q") == 0
 
 
 @pytest.mark.parametrize("name", REFUSED)
