@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -27,7 +28,8 @@ _ARC, _MOST_DEGREE = np.pi / 4, 8
 _LEAST_TURN = 1e-6
 _SOLIDS, _SHELLS, _FACES, _LOOPS = ("MANIFOLD_SOLID_BREP",), ("CLOSED_SHELL",), ("ADVANCED_FACE",), ("EDGE_LOOP",)
 _BOUNDS, _USES, _EDGES = ("FACE_BOUND", "FACE_OUTER_BOUND"), ("ORIENTED_EDGE",), ("EDGE_CURVE",)
-_VERTICES, _POINTS, _VECTORS = ("VERTEX_POINT",), ("CARTESIAN_POINT",), ("VECTOR",)
+_VERTICES, _POINTS, _PLACES = ("VERTEX_POINT",), ("CARTESIAN_POINT",), ("AXIS2_PLACEMENT_3D",)
+_DIRECTIONS, _VECTORS = ("DIRECTION",), ("VECTOR",)
 _CURVES = _LINES, _ARCS, _SPLINES = "LINE", "CIRCLE", "B_SPLINE_CURVE_WITH_KNOTS"
 _SURFACES = {
     "PLANE": PLANE, "CYLINDRICAL_SURFACE": ROUND, "CONICAL_SURFACE": ROUND, "SPHERICAL_SURFACE": SPHERE,
@@ -35,7 +37,7 @@ _SURFACES = {
 }  # fmt: skip
 
 
-def read_model(entities: Entities) -> Model:
+def read_model(read: Followed) -> Model:
     """The solids of a file.
 
     Raises
@@ -43,7 +45,6 @@ def read_model(entities: Entities) -> Model:
     ReadError
         A reference leads to nothing, a shell is not closed, or curves, surfaces and vertices do not meet.
     """
-    read = _Reader(entities)
     ids = read.ids(*_EDGES)
     rows = read.rows(*_EDGES)
     ends = np.stack([read.found(rows[:, k], _VERTICES, ids) for k in (0, 1)], axis=1)
@@ -58,7 +59,7 @@ def read_model(entities: Entities) -> Model:
     moved[uses.face[own]] = uses.edge[own]
     more = (swept >= 0) & (moved < 0)
     moved[more] = len(ids) + np.arange(np.count_nonzero(more))
-    within = max([GAP, *(i.numbers[0] for i in entities.items.values() if i.kind == "UNCERTAINTY_MEASURE_WITH_UNIT")])
+    within = max([GAP, *(i.numbers[0] for i in read.entities.items.values() if i.kind == "UNCERTAINTY_MEASURE_WITH_UNIT")])
     curves = _curves(read, np.concatenate([curve, swept[more]]), vertices, ends, sense, ids)
     points, slopes = curves.at(lobatto()[0])
     _check_ends(curves, points, vertices, ids, within)
@@ -70,7 +71,7 @@ def read_model(entities: Entities) -> Model:
     return replace(model, flux=flux, area=area, gap=gap)
 
 
-class _Reader:
+class Followed:
     """Follows the references of a file."""
 
     def __init__(self, entities: Entities) -> None:
@@ -82,8 +83,8 @@ class _Reader:
     def ids(self, *kinds: str) -> Index:
         """Of all entities of some kinds, kind after kind."""
         if kinds not in self.known:
-            found = [self.tables[k].ids for k in kinds if k in self.tables]
-            ids = np.concatenate([np.zeros(0, np.int64), *found])
+            found = [self.tables[k].ids for k in kinds if k in self.tables] or [np.zeros(0, np.int64)]
+            ids = found[0] if len(found) == 1 else np.concatenate(found)
             self.known[kinds] = ids, np.argsort(ids, kind="stable")
         return self.known[kinds][0]
 
@@ -116,35 +117,39 @@ class _Reader:
         """Places of points, (n, 3)."""
         return self.rows(*_POINTS)[self.found(references, _POINTS, who)]
 
-    def vectors(self, references: Real, who: Index) -> Real:
-        """Unit vectors along vectors, (n, 3)."""
-        found = self.rows(*_VECTORS)[self.found(references, _VECTORS, who)]
-        refuse(found[:, 1] == 0, who, "has a vector without length")
-        return self.directions(found[:, 0], who)
-
-    def directions(self, references: Real, who: Index) -> Real:
-        """Unit vectors, (n, 3)."""
-        found = self.rows("DIRECTION")[self.found(references, ("DIRECTION",), who)]
+    @cached_property
+    def directions(self) -> Real:
+        """Unit vectors of all directions, (n, 3)."""
+        found = self.rows(*_DIRECTIONS)
         sizes = np.linalg.norm(found, axis=1)
-        refuse(sizes == 0, who, "has a direction without length")
+        refuse(sizes == 0, self.ids(*_DIRECTIONS), "is a direction without length")
         return np.asarray(found / sizes[:, None])
 
+    @cached_property
+    def vectors(self) -> Real:
+        """Unit vectors along all vectors, (n, 3)."""
+        rows, who = self.rows(*_VECTORS), self.ids(*_VECTORS)
+        refuse(rows[:, 1] == 0, who, "is a vector without length")
+        return np.asarray(self.directions[self.found(rows[:, 0], _DIRECTIONS, who)])
+
+    @cached_property
     def lines(self) -> tuple[Real, Real]:
         """Origins and directions of all lines, (n, 3) each."""
         rows, who = self.rows(_LINES), self.ids(_LINES)
-        return self.points(rows[:, 0], who), self.vectors(rows[:, 1], who)
+        return self.points(rows[:, 0], who), self.vectors[self.found(rows[:, 1], _VECTORS, who)]
 
-    def placed(self, references: Real | Index, who: Index) -> Frames:
-        """Frames by their axis and a direction along."""
-        rows = self.rows("AXIS2_PLACEMENT_3D")[self.found(references, ("AXIS2_PLACEMENT_3D",), who)]
-        axes, along = self.directions(rows[:, 1], who), self.directions(rows[:, 2], who)
-        refuse(np.linalg.norm(cross(axes, along), axis=1) < _LEAST_TURN, who, "stands in axes of one direction")
+    @cached_property
+    def frames(self) -> Frames:
+        """All frames, by their axis and a direction along."""
+        rows, who = self.rows(*_PLACES), self.ids(*_PLACES)
+        axes, along = self.directions[self.found(rows[:, 1:].T.ravel(), _DIRECTIONS, np.tile(who, 2))].reshape(2, -1, 3)
+        refuse(np.linalg.norm(cross(axes, along), axis=1) < _LEAST_TURN, who, "has axes of one direction")
         return framed(self.points(rows[:, 0], who), axes, along)
 
-
-def frames_of(entities: Entities, ids: Index) -> Frames:
-    """The frames with these ids."""
-    return _Reader(entities).placed(ids, ids)
+    def placed(self, references: Real | Index, who: Index) -> Frames:
+        """Some of the frames."""
+        found = self.found(references, _PLACES, who)
+        return Frames(self.frames.origins[found], self.frames.axes[found])
 
 
 def framed(origins: Real, axes: Real, along: Real) -> Frames:
@@ -154,7 +159,7 @@ def framed(origins: Real, axes: Real, along: Real) -> Frames:
     return Frames(origins, np.stack([first, cross(axes, first), axes], axis=1))
 
 
-def _topology(read: _Reader, edges: Index, ends: Index) -> tuple[Uses, Index, Real, Index]:
+def _topology(read: Followed, edges: Index, ends: Index) -> tuple[Uses, Index, Real, Index]:
     """Uses of edges by faces; ids of the faces, their surfaces and senses (f, 2), and the solid of each."""
     solids, shells, faces = (read.ids(kind) for kind in (*_SOLIDS, *_SHELLS, *_FACES))
     bounds, loops, ways = (read.ids(*kinds) for kinds in (_BOUNDS, _LOOPS, _USES))
@@ -211,7 +216,7 @@ def _check_whole(uses: Uses, edges: Index, solid: Index, solids: Index) -> None:
         raise ReadError(f"{pieces} closed surfaces in the STEP file instead of {len(solids)}")
 
 
-def _surfaces(read: _Reader, surface: Index) -> tuple[Index, Frames, Real, Index]:
+def _surfaces(read: Followed, surface: Index) -> tuple[Index, Frames, Real, Index]:
     """Kinds, frames and sizes (f, 2) of the faces' surfaces, and the curve that an extrusion moves, else -1."""
     ids_of = {name: read.ids(name) for name in _SURFACES}
     counts = [len(ids) for ids in ids_of.values()]
@@ -227,11 +232,11 @@ def _surfaces(read: _Reader, surface: Index) -> tuple[Index, Frames, Real, Index
             continue
         rows = read.rows(name)
         if code == EXTRUSION:
-            axis = read.vectors(rows[:, 1], ids)
+            axis = read.vectors[read.found(rows[:, 1], _VECTORS, ids)]
             found = framed(np.zeros_like(axis), axis, np.eye(3)[np.argmin(np.abs(axis), axis=1)])
             curve = read.found(rows[:, 0], _CURVES, ids)
             flat = np.flatnonzero(curve < len(read.ids(_LINES)))
-            origin, way = (x[curve[flat]] for x in read.lines())
+            origin, way = (x[curve[flat]] for x in read.lines)
             across = cross(way, axis[flat])
             length = np.linalg.norm(across, axis=1)
             refuse(length == 0, ids[flat], "moves a line along itself")
@@ -248,7 +253,7 @@ def _surfaces(read: _Reader, surface: Index) -> tuple[Index, Frames, Real, Index
     return kinds[surface], Frames(frames.origins[surface], frames.axes[surface]), sizes[surface], moved[surface]
 
 
-def _curves(read: _Reader, curve: Index, vertices: Real, ends: Index, sense: Flags, ids: Index) -> Curves:
+def _curves(read: Followed, curve: Index, vertices: Real, ends: Index, sense: Flags, ids: Index) -> Curves:
     """Every edge's curve between its vertices, and behind them whole curves that extrusions move."""
     lines, arcs = len(read.ids(_LINES)), len(read.ids(_ARCS))
     counts = np.ones(len(curve), dtype=np.int64)
@@ -256,7 +261,7 @@ def _curves(read: _Reader, curve: Index, vertices: Real, ends: Index, sense: Fla
     round_ = np.flatnonzero((curve >= lines) & (curve < lines + arcs))
     if np.any(round_ >= len(ids)):
         raise ReadError("an extrusion of the STEP file moves an arc that is none of its edges")
-    origin, way = (x[curve[straight]] for x in read.lines())
+    origin, way = (x[curve[straight]] for x in read.lines)
     reach = np.sum((vertices[straight] - origin[:, None]) * way[:, None], axis=2)
     refuse((reach[:, 1] > reach[:, 0]) != sense[straight], ids[straight], "runs against its line")
     of_lines = straight, origin + reach[:, :1] * way, origin + reach[:, 1:] * way
@@ -274,9 +279,10 @@ def _curves(read: _Reader, curve: Index, vertices: Real, ends: Index, sense: Fla
     return Curves(counts, of_lines, of_arcs, _splines(read, curve - lines - arcs, sense, counts))
 
 
-def _splines(read: _Reader, spline: Index, sense: Flags, counts: Index) -> list[tuple[Knots, Index, Flags, Real]]:
+def _splines(read: Followed, spline: Index, sense: Flags, counts: Index) -> list[tuple[Knots, Index, Flags, Real]]:
     """The curves that are splines, by their knots: numbers, against which sense, and poles; ``counts`` gets spans."""
-    listed = read.entities.listed_of(_SPLINES)
+    if not (listed := read.entities.listed_of(_SPLINES)):
+        return []
     flat, sizes = read.lists([row[1] for row in listed], _POINTS, read.ids(_SPLINES))
     first = np.cumsum(sizes) - sizes
     poles = read.rows(*_POINTS)[flat]
@@ -323,10 +329,12 @@ def _check_ends(curves: Curves, points: Real, vertices: Real, ids: Index, within
     refuse(~(off <= within), ids, "does not end at its vertices")
 
 
-def _patches(read: _Reader, surface: Index) -> tuple[Patches, ...]:
+def _patches(read: Followed, surface: Index) -> tuple[Patches, ...]:
     """The spline surfaces that faces lie in, by their knots."""
     kind = "B_SPLINE_SURFACE_WITH_KNOTS"
-    listed, ids = read.entities.listed_of(kind), read.ids(kind)
+    if not (listed := read.entities.listed_of(kind)):
+        return ()
+    ids = read.ids(kind)
     before = sum(len(read.ids(k)) for k in _SURFACES) - len(ids)
     flat, sizes = read.lists([row[2] for row in listed], _POINTS, ids)
     first = np.cumsum(sizes) - sizes

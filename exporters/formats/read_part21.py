@@ -145,6 +145,7 @@ _NAMED = re.compile(rb"FILE_NAME\s*\(\s*'(?:[^']|'')*'\s*,\s*'[^']*'\s*,\s*%b\s*
 _QUOTED = re.compile(rb"'((?:[^']|'')*)'")
 _END = re.compile(rb"ENDSEC;%bEND-ISO-10303-21;%b$" % (_GAP, _GAP))
 _STRINGS, _STRING = re.compile(rb'[!\d"]*"'), re.compile(rb'(?:!(\d+))?"')
+_REFERENCES = re.compile(_REFERENCE)
 _NUMBER = re.compile(rb"(?<![\w#!])%b" % _FLOAT)
 _MEASURE = re.compile(rb"\b([A-Z_]+)_MEASURE\(")
 _ESCAPE = re.compile(
@@ -196,8 +197,9 @@ class Entities(Record, eq=False):
 
     def table(self, kind: str) -> Table:
         """The entities of a kind of fixed length."""
-        width = sum(_FIXED[kind].count(c) for c in "rfpib")
-        return self.fixed.get(kind) or Table(np.zeros(0, np.int64), np.zeros((0, width)))
+        if kind in self.fixed:
+            return self.fixed[kind]
+        return Table(np.zeros(0, np.int64), np.zeros((0, sum(_FIXED[kind].count(c) for c in "rfpib"))))
 
     def listed_of(self, kind: str) -> list[Row]:
         """What varies in the entities of a kind with lists."""
@@ -265,7 +267,7 @@ def _check_references(items: dict[int, Item], fixed: dict[str, Table]) -> None:
     uses = Counter[tuple[int, str]]()
     for number, item in items.items():
         said = _WORDED.get(item.kind, (("",) * len(item.strings),))
-        if said and not any(all(a in (None, b) for a, b in zip(words, item.strings, strict=True)) for words in said):
+        if said and item.strings not in said and not any(_says(item.strings, words) for words in said):
             raise ReadError(f"#{number} of the STEP file says {' and '.join(item.strings)}, which no {item.kind} does")
         allowed = _referred(item.kind)
         first = len(item.references) - len(allowed)
@@ -277,6 +279,10 @@ def _check_references(items: dict[int, Item], fixed: dict[str, Table]) -> None:
         for user in _ONCE.get(item.kind, ()):
             if (count := uses[number, user]) != 1:
                 raise ReadError(f"#{number} of the STEP file is that of {count} {user} instead of 1")
+
+
+def _says(strings: tuple[str, ...], words: tuple[str | None, ...]) -> bool:
+    return all(known in (None, word) for known, word in zip(words, strings, strict=True))
 
 
 @cache
@@ -408,12 +414,13 @@ def _complex(statements: list[bytes], strings: list[bytes]) -> Iterator[tuple[in
 def _item(kind: str, text: bytes, strings: list[bytes]) -> Item:
     # an apostrophe in a string is two, which have cut it in two
     words = ([strings[int(m)] if m else b"" for m in _STRING.findall(run)] for run in _STRINGS.findall(text))
+    measured = b"_MEASURE(" in text
     return Item(
         kind,
-        tuple(int(m) for m in re.findall(_REFERENCE, text)),
+        tuple(map(int, _REFERENCES.findall(text))),
         tuple(_decoded(b"'".join(word)) for word in words),
-        tuple(float(m) for m in _NUMBER.findall(text)),
-        tuple(m.decode() for m in _MEASURE.findall(text)),
+        tuple(map(float, _NUMBER.findall(text))) if b"." in text else (),
+        tuple(m.decode() for m in _MEASURE.findall(text)) if measured else (),
     )
 
 
@@ -430,6 +437,7 @@ def _decoded(text: bytes) -> str:
         return chr(ord(upper) + 128) if upper else str(backslash)
 
     try:
-        return _ESCAPE.sub(letters, text.decode("utf-8"))
+        told = text.decode("utf-8")
+        return _ESCAPE.sub(letters, told) if "\\" in told else told
     except ValueError as error:
         raise ReadError(f"a name in the STEP file cannot be read: {text[:_SHOWN]!r}") from error

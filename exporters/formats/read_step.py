@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from exporters.formats.chains import nodes, smooth_loops
 from exporters.formats.read_assembly import Occurrence, Prototype, ReadAssembly
-from exporters.formats.read_brep import frames_of, read_model
+from exporters.formats.read_brep import Followed, read_model
 from exporters.formats.read_part21 import (
     ASSEMBLY,
     CENTIMETRE,
@@ -112,9 +112,10 @@ class _Products:
     """Products, their solids and colours, and where others stand in them."""
 
     def __init__(self, entities: Entities) -> None:
-        self.items, self.entities = entities.items, entities
-        self.model = read_model(entities)
-        self.axes = self._axes()
+        self.items = entities.items
+        read = Followed(entities)
+        self.model = read_model(read)
+        self.axes = self._axes(read)
         # definitions of products: their names, what represents them, and how they are used in others
         self.titles: dict[str, str] = {}
         self.descriptions: dict[str, str] = {}
@@ -188,11 +189,11 @@ class _Products:
             self.titles[identity] = name
         return identity
 
-    def _axes(self) -> dict[int, tuple[Real, Real]]:
+    def _axes(self, read: Followed) -> dict[int, tuple[Real, Real]]:
         """Origin (3,) and axes (3, 3) of each place that products name, all looked up at once."""
-        known = set(self.entities.table("AXIS2_PLACEMENT_3D").ids.tolist())
+        known = set(read.ids("AXIS2_PLACEMENT_3D").tolist())
         named = {n for item in self.items.values() for n in item.references if n in known}
-        found = frames_of(self.entities, np.array(sorted(named), np.int64))
+        found = read.placed(ids := np.array(sorted(named), np.int64), ids)
         return dict(zip(sorted(named), zip(found.origins, found.axes, strict=True), strict=True))
 
     def _check_axes(self, number: int) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from exporters.formats.read_curves import Flags, Patches, lobatto, spans_of
 from exporters.formats.read_part21 import Index, Real
-from exporters.formats.read_solid import EXTRUSION, GAP, PLANE, ROUND, SPHERE, TORUS, Model, refuse
+from exporters.formats.read_solid import EXTRUSION, GAP, PLANE, ROUND, SPHERE, SPLINE, TORUS, Model, refuse
 from geometry.base.record import Record
 from geometry.base.vectors import cross
 from parts.base.readback import ReadError
@@ -100,12 +100,10 @@ def measure(model: Model, within: float) -> tuple[Real, Real, Real]:
     pairs = np.argsort(uses.edge, kind="stable").reshape(-1, 2)
     seams = np.empty(len(uses.edge), dtype=bool)
     seams[pairs] = (uses.face[pairs[:, 0]] == uses.face[pairs[:, 1]])[:, None]
-    sense = np.where(model.normal, 1.0, -1.0)
+    sense, centres = np.where(model.normal, 1.0, -1.0), model.frames.centres
     bare = np.bincount(uses.face, ~seams, count) == 0
-    for kind in (PLANE, ROUND, SPHERE, TORUS, EXTRUSION):
+    for kind in np.unique(kinds[kinds != SPLINE]).tolist():
         mine = np.flatnonzero(kinds == kind)
-        if not len(mine):
-            continue
         about = np.zeros(len(mine))
         if kind == TORUS:
             about = _about(model, span[mine], uses.face[row[mine]], uses.left[row[mine]], seams[row[mine]])
@@ -118,25 +116,26 @@ def measure(model: Model, within: float) -> tuple[Real, Real, Real]:
             if kind == SPHERE:
                 poles = (np.hypot(at[..., 0], at[..., 1]).min(axis=1) <= GAP) & ~seams[row[part]]
                 refuse(poles, model.faces[face], "is a face with an edge through a pole")
-            found = forms(kind, at, step, model.frames.centres[face], model.sizes[face], about[start : start + _ROWS])
+            found = forms(kind, at, step, centres[face], model.sizes[face], about[start : start + _ROWS])
             # a seam runs there and back, at an apex by more than digits hold; of a torus its sides may be a turn apart
             once = ~seams[row[part]] | (kind == TORUS)
             for total, form in (flux, found.flux), (size, found.size), (area, found.area), (turns, found.turn):
                 total += np.bincount(face[once], form[once] @ weights, count)
             np.maximum.at(gap, face, found.gap.max(axis=1))
     mine = np.flatnonzero(model.kind == SPHERE)
-    more = poles_of(model.sizes[mine], model.frames.centres[mine, 2], turns[mine], bare[mine], sense[mine])
+    more = poles_of(model.sizes[mine], centres[mine, 2], turns[mine], bare[mine], sense[mine])
     flux[mine] += more[0]
     size[mine] += more[1]
     area[mine] += np.where(more[1] != 0, sense[mine] * np.inf, 0.0)
     # a face on a cone round the apex, at z = -r / s, has a bound of no length there
-    apex = np.flatnonzero((model.kind == ROUND) & (model.sizes[:, 1] > 0) & ((turns / (2 * np.pi)).round() != 0))
+    apex = np.flatnonzero((model.kind == ROUND) & (model.sizes[:, 1] > 0) & (np.abs(turns) > np.pi))
     r, s = model.sizes[apex].T
     spread = -r * r / (2 * s) * turns[apex]
-    flux[apex] += (r - s * model.frames.centres[apex, 2]) / 3 * spread
+    flux[apex] += (r - s * centres[apex, 2]) / 3 * spread
     size[apex] += np.sqrt(1 + s * s) * spread
     area[apex] -= r / s * turns[apex]
-    _follow(model, np.flatnonzero(model.kind[uses.face] == EXTRUSION), size, area, gap)
+    if (swept := np.flatnonzero(model.kind[uses.face] == EXTRUSION)).size:
+        _follow(model, swept, size, area, gap)
     for patches in model.patches:
         _measure_patches(model, patches, flux, size, area, gap)
     if not gap.max(initial=0.0) <= within:
