@@ -59,7 +59,9 @@ def read_model(read: Followed) -> Model:
     moved[uses.face[own]] = uses.edge[own]
     more = (swept >= 0) & (moved < 0)
     moved[more] = len(ids) + np.arange(np.count_nonzero(more))
-    within = max([GAP, *(i.numbers[0] for i in read.entities.items.values() if i.kind == "UNCERTAINTY_MEASURE_WITH_UNIT")])
+    within = max(
+        [GAP, *(i.numbers[0] for i in read.entities.items.values() if i.kind == "UNCERTAINTY_MEASURE_WITH_UNIT")]
+    )
     curves = _curves(read, np.concatenate([curve, swept[more]]), vertices, ends, sense, ids)
     points, slopes = curves.at(lobatto()[0])
     _check_ends(curves, points, vertices, ids, within)
@@ -97,7 +99,7 @@ class Followed:
         """The places of what is referred to among all entities of some kinds."""
         ids = self.ids(*kinds)
         order = self.known[tuple(kinds)][1]
-        place = np.minimum(np.searchsorted(ids, references, sorter=order), len(ids) - 1)
+        place = np.minimum(ids.searchsorted(references, sorter=order), len(ids) - 1)
         good = ids[order[place]] == references if len(ids) else np.zeros(len(references), bool)
         if not good.all():
             wrong = int(np.argmin(good))
@@ -211,8 +213,8 @@ def _check_whole(uses: Uses, edges: Index, solid: Index, solids: Index) -> None:
         np.minimum.at(label, a, least)
         np.minimum.at(label, b, least)
         label = label[label]
-    pieces, pairs = (len(np.unique(code)) for code in (label, label * len(solids) + solid))
-    if pieces != len(solids) or pairs != pieces:
+    pieces = np.count_nonzero(label == np.arange(len(solid)))
+    if pieces != len(solids) or np.any(solid != solid[label]):
         raise ReadError(f"{pieces} closed surfaces in the STEP file instead of {len(solids)}")
 
 
@@ -324,8 +326,7 @@ def _knots(degree: bytes, often: bytes, at: bytes, who: int) -> Knots:
 def _check_ends(curves: Curves, points: Real, vertices: Real, ids: Index, within: float) -> None:
     first = curves.starts[: len(ids)]
     last = first + curves.counts[: len(ids)] - 1
-    off = np.linalg.norm(points[first, 0] - vertices[:, 0], axis=1)
-    off = np.maximum(off, np.linalg.norm(points[last, -1] - vertices[:, 1], axis=1))
+    off = np.linalg.norm(np.stack([points[first, 0], points[last, -1]], axis=1) - vertices, axis=2).max(axis=1)
     refuse(~(off <= within), ids, "does not end at its vertices")
 
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from functools import cache
 from itertools import chain
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from parts.base.readback import ReadError
 
 Index = NDArray[np.int64]
 Real = NDArray[np.float64]
+Numbers = TypeVar("Numbers", Index, Real)
 # texts of what varies in an entity with lists
 Row = tuple[bytes, ...]
 
@@ -230,11 +231,10 @@ def read_part21(file: Path) -> Entities:
                 else:
                     items.update(_complex(statements, strings))
     fixed = {
-        kind: Table(np.concatenate([t.ids for t in found]), np.concatenate([t.rows for t in found]))
-        for kind, found in tables.items()
+        kind: Table(_joined([t.ids for t in found]), _joined([t.rows for t in found])) for kind, found in tables.items()
     }
     listed = {
-        kind: Listed(np.concatenate([t.ids for t in found]), [row for t in found for row in t.rows])
+        kind: Listed(_joined([t.ids for t in found]), [row for t in found for row in t.rows])
         for kind, found in lists.items()
     }
     of_kinds = [*(t.ids for t in fixed.values()), *(t.ids for t in listed.values())]
@@ -244,6 +244,10 @@ def read_part21(file: Path) -> Entities:
         raise ReadError(f"#{ids[twice[0]]} is there twice in the STEP file")
     _check_references(items, fixed)
     return Entities(fixed, listed, items)
+
+
+def _joined(found: list[Numbers]) -> Numbers:
+    return found[0] if len(found) == 1 else np.concatenate(found)
 
 
 def read_signature(file: Path) -> tuple[str, str]:
@@ -320,9 +324,7 @@ def _without_strings(piece: bytes) -> tuple[bytes, list[bytes]]:
     parts = piece.split(b"'")
     if len(parts) % 2 == 0:
         raise ReadError("a string in the STEP file has no end")
-    if any(b'"' in part or b"!" in part for part in parts[::2]):
-        raise ReadError("the STEP file holds binary data or entities of its own")
-    if any(_CONTROL.search(part) for part in parts[1::2] if part):
+    if _CONTROL.search(b"".join(parts[1::2])):
         raise ReadError("a string in the STEP file holds a line end")
     strings: list[bytes] = []
     for number, text in enumerate(parts[1::2]):
@@ -330,6 +332,8 @@ def _without_strings(piece: bytes) -> tuple[bytes, list[bytes]]:
             parts[2 * number] += b"!%d" % len(strings)
             strings.append(text)
     text = b'"'.join(parts[::2])
+    if text.count(b'"') != len(parts) // 2 or text.count(b"!") != len(strings):
+        raise ReadError("the STEP file holds binary data or entities of its own")
     _check_blanks(text)
     return text.translate(None, _BLANK).replace(b".T.", b"1").replace(b".F.", b"0"), strings
 
@@ -413,7 +417,8 @@ def _complex(statements: list[bytes], strings: list[bytes]) -> Iterator[tuple[in
 
 def _item(kind: str, text: bytes, strings: list[bytes]) -> Item:
     # an apostrophe in a string is two, which have cut it in two
-    words = ([strings[int(m)] if m else b"" for m in _STRING.findall(run)] for run in _STRINGS.findall(text))
+    runs = _STRINGS.findall(text) if b'"' in text else []
+    words = ([strings[int(m)] if m else b"" for m in _STRING.findall(run)] for run in runs)
     measured = b"_MEASURE(" in text
     return Item(
         kind,

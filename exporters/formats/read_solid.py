@@ -130,5 +130,5 @@ def refuse(wrong: Flags, who: Index, what: str) -> None:
     ReadError
         That is so.
     """
-    if np.any(wrong):
+    if wrong.any():
         raise ReadError(f"#{who[int(np.argmax(wrong))]} of the STEP file {what}")

@@ -6,7 +6,7 @@ solid, or of an assembly, for each product, and a placed relation between two fo
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import ClassVar
@@ -113,23 +113,26 @@ class _Products:
 
     def __init__(self, entities: Entities) -> None:
         self.items = entities.items
+        self.of_kind = defaultdict[str, list[tuple[int, Item]]](list)
+        for number, item in self.items.items():
+            self.of_kind[item.kind].append((number, item))
         read = Followed(entities)
         self.model = read_model(read)
         self.axes = self._axes(read)
         # definitions of products: their names, what represents them, and how they are used in others
         self.titles: dict[str, str] = {}
         self.descriptions: dict[str, str] = {}
-        self.names = {n: self._name(item) for n, item in self._of("PRODUCT_DEFINITION")}
+        self.names = {n: self._name(item) for n, item in self.of_kind["PRODUCT_DEFINITION"]}
         self.shapes: dict[int, Item] = {}
         self.representations: dict[int, int] = {}
-        for number, item in self._of("SHAPE_DEFINITION_REPRESENTATION"):
+        for number, item in self.of_kind["SHAPE_DEFINITION_REPRESENTATION"]:
             whole, shape = item.references
             (definition,) = self.items[whole].references
             if definition in self.shapes or definition not in self.names:
                 raise ReadError(f"#{number} of the STEP file represents no product, or one that is represented")
             self.shapes[definition], self.representations[definition] = self.items[shape], shape
             self._check_axes(shape)
-        self.used = {item.references[1] for _, item in self._of("NEXT_ASSEMBLY_USAGE_OCCURRENCE")}
+        self.used = {item.references[1] for _, item in self.of_kind["NEXT_ASSEMBLY_USAGE_OCCURRENCE"]}
         for definition, item in self.shapes.items():
             own = self.names[definition]
             if item.kind == ASSEMBLY and (own in self.titles or own in self.descriptions):
@@ -137,18 +140,18 @@ class _Products:
         self.inside: dict[int, list[tuple[str, int, Place]]] = {}
         self._place()
         self.colours: dict[int, str] = {}
-        for number, item in self._of("STYLED_ITEM"):
+        for number, item in self.of_kind["STYLED_ITEM"]:
             *styles, solid = item.references
             if solid in self.colours:
                 raise ReadError(f"#{number} of the STEP file colours a solid that has a colour")
             self.colours[solid] = self._shade(styles)
         self.said: dict[int, dict[str, str | float]] = {}
-        for number, item in self._of("PROPERTY_DEFINITION_REPRESENTATION"):
+        for number, item in self.of_kind["PROPERTY_DEFINITION_REPRESENTATION"]:
             self._say(number, *(self.items[n] for n in item.references))
         held = Counter(solid for shape in self.shapes.values() for solid in shape.references)
         if any(held[solid] != 1 for solid in self.model.solids.tolist()):
             raise ReadError("a solid of the STEP file is not that of one product")
-        for number, item in self._of("UNCERTAINTY_MEASURE_WITH_UNIT"):
+        for number, item in self.of_kind["UNCERTAINTY_MEASURE_WITH_UNIT"]:
             if not 0 < item.numbers[0] <= LOOSEST:
                 raise ReadError(f"#{number} of the STEP file does not call points one within {LOOSEST:g} mm")
 
@@ -177,9 +180,6 @@ class _Products:
         (precision,) = self.items[self.items[shape.references[-1]].references[0]].numbers
         return Prototype(name, ReadSolid(model, (name,), colour, said, precision), colour)
 
-    def _of(self, kind: str) -> list[tuple[int, Item]]:
-        return [(number, item) for number, item in self.items.items() if item.kind == kind]
-
     def _name(self, definition: Item) -> str:
         (product,) = self.items[definition.references[0]].references
         identity, name, description = self.items[product].strings
@@ -207,11 +207,11 @@ class _Products:
 
     def _place(self) -> None:
         """What stands in each product: the place's axes in it, after those in what stands there."""
-        uses = {n: item for n, item in self._of("NEXT_ASSEMBLY_USAGE_OCCURRENCE")}
+        uses = {n: item for n, item in self.of_kind["NEXT_ASSEMBLY_USAGE_OCCURRENCE"]}
         if {use.strings[0] for use in uses.values()} != {str(k + 1) for k in range(len(uses))}:
             raise ReadError("the components of the STEP file are not numbered one by one")
         assemblies = {definition for definition, item in self.shapes.items() if item.kind == ASSEMBLY}
-        for number, item in self._of("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION"):
+        for number, item in self.of_kind["CONTEXT_DEPENDENT_SHAPE_REPRESENTATION"]:
             relation, (occurrence,) = (self.items[n].references for n in item.references)
             if occurrence not in uses:
                 raise ReadError(f"#{number} of the STEP file places nothing, or something twice")
