@@ -51,6 +51,18 @@ class RoundHoles(Record):
         return tuple(circle(radius, Label.HOLE, hole=True, centre=centre) for centre in self.centres())
 
 
+class HoleCircle(Record):
+    """Equal holes on a circle about the origin: both diameters, mm, and the direction of each hole, rad."""
+
+    diameter: float
+    circle: float
+    angles: tuple[float, ...]
+
+    def centres(self) -> list[complex]:
+        """Where they stand, mm."""
+        return [cmath.rect(self.circle / 2, angle) for angle in self.angles]
+
+
 class Spokes(Record):
     """``count`` straight spokes of ``width`` between a hub ring and a rim, the first along ``start`` rad; mm.
 

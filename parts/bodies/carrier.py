@@ -18,6 +18,7 @@ from parts.keys.pins import MOST, PinCircle, PinDiameter, least_of
 if TYPE_CHECKING:
     from geometry.solids.arms import ArmEnd
     from geometry.solids.plate import Edge, PlateOutline
+    from geometry.solids.windows import HoleCircle
 
 # of a hole's diameter: the round end about it; beyond the least hub on which the arms stand beside each other
 _BOSS, _HUB = 2.4, 1.05
@@ -68,37 +69,40 @@ class CarrierPlateSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_f
 
 
 class CarrierPlate(Record):
-    """A plate's outline, and the seats of its pins; mm."""
+    """A plate's outline, the circles of its seats, those of pins first, and the radius of a pin; mm."""
 
     outline: PlateOutline
-    centres: tuple[complex, ...]
+    circles: tuple[HoleCircle, ...]
     pin_radius: float
     takes_loose_pins = True
 
     def pin_centres(self) -> list[complex]:
         """Where the pins stand, mm."""
-        return list(self.centres)
+        return self.circles[0].centres()
 
 
 class CarrierPlateKind(Extruded[CarrierPlateSpec, CarrierPlate]):
     """A plate of a carrier."""
 
     name, keys = "carrier_plate", CarrierPlateSpec
+    drawing = "parts.bodies.carrier_drawing"
 
     def thing(self, keys: CarrierPlateSpec, others: Others) -> CarrierPlate:
         """The plate, checked: arms beside each other, holes that keep their walls."""
-        pins = [_end(a, keys.pin_circle_diameter, keys.pin_diameter, keys.boss_diameter) for a in _directions(keys)]
-        own, arms = [("pin_diameter", keys.pin_diameter + 2 * keys.seat_clearance, pin) for pin in pins], list(pins)
+        from geometry.solids.windows import HoleCircle
+
+        seat, turns = keys.pin_diameter + 2 * keys.seat_clearance, [math.radians(a % 360) for a in _directions(keys)]
+        circles = [HoleCircle(seat, keys.pin_circle_diameter, tuple(turns))]
+        arms = [_end(a, keys.pin_circle_diameter, keys.pin_diameter, keys.boss_diameter) for a in turns]
         if (table := keys.spacers) is not None:
-            turns = (table.start_deg + 360 * k / table.count for k in range(table.count))
-            more = [_end(a, table.pitch_circle_diameter, table.diameter, table.boss_diameter) for a in turns]
-            own += [("spacers.diameter", table.diameter, spacer) for spacer in more]
-            arms += more
-        holes = [(key, end.centre, diameter) for key, diameter, end in own]
+            turns = [math.radians((table.start_deg + 360 * k / table.count) % 360) for k in range(table.count)]
+            circles.append(HoleCircle(table.diameter, table.pitch_circle_diameter, tuple(turns)))
+            arms += [_end(a, table.pitch_circle_diameter, table.diameter, table.boss_diameter) for a in turns]
+        names = "pin_diameter", "spacers.diameter"
+        holes = [(key, at, c.diameter) for key, c in zip(names, circles, strict=False) for at in c.centres()]
         if keys.bore_diameter > 0:
             holes.insert(0, ("bore_diameter", 0j, keys.bore_diameter))
-        outline = checked_outline(_edges(keys, arms), keys, holes)
-        return CarrierPlate(outline, tuple(pin.centre for pin in pins), keys.pin_diameter / 2)
+        return CarrierPlate(checked_outline(_edges(keys, arms), keys, holes), tuple(circles), keys.pin_diameter / 2)
 
     def flat(self, thing: CarrierPlate) -> PlateOutline:
         """Its outline."""
@@ -128,7 +132,7 @@ def _directions(keys: CarrierPlateSpec) -> list[float]:
 def _end(angle: float, circle: float, diameter: float, boss: float | None) -> ArmEnd:
     from geometry.solids.arms import ArmEnd
 
-    return ArmEnd(math.radians(angle % 360), circle / 2, (_BOSS * diameter if boss is None else boss) / 2)
+    return ArmEnd(angle, circle / 2, (_BOSS * diameter if boss is None else boss) / 2)
 
 
 def _edges(keys: CarrierPlateSpec, arms: list[ArmEnd]) -> tuple[Edge, ...]:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from geometry.curves.curve import Curve, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Label, Profile, Region
+from geometry.solids.windows import HoleCircle
 from parts.drawing.extent import farthest
-from parts.drawing.wheel_views import circle_of
+from parts.drawing.wheel_views import axis_along, circle_of
 from parts.drawing.working import (
+    AXIS,
     VISIBLE,
     Note,
     PartDrawing,
@@ -25,39 +27,49 @@ from parts.drawing.working import (
 )
 from parts.texts.sheets import sheet_words
 
-_DIGITS, _SAME, _SAMPLES = 9, 1e-9, 9
+# digits of places, mm that are none, mm that are one place
+_DIGITS, _SAME, _SAMPLES, _NEAR = 9, 1e-9, 9, 1e-6
 # sine of the angle between two curves that make a corner
 _SMOOTH = 1e-6
 
 
-def part_drawing(subject: Subject, working: Sequence[Curve] = ()) -> PartDrawing:
-    """One view, its thickness told, a sign on one of its ``working`` surfaces beside those of cams."""
+def part_drawing(
+    subject: Subject, working: Sequence[Curve] = (), circles: Sequence[HoleCircle] = (), *words: str
+) -> PartDrawing:
+    """One view, its thickness told, a sign on one of its ``working`` surfaces beside those of cams.
+
+    Places are told from the left and the lower edge. Where holes stand on ``circles``, they are told from the origin,
+    and radii alone tell the outline; ``words``: on what no size tells.
+    """
     region = subject.part.section(0.0).region
     curves = [s.curve for s in region.outer.segments()]
     low, high = extent(region)
     strokes: list[Stroke] = [(VISIBLE, curve) for curve in curves]
-    round_holes = [found for hole in region.holes if (found := _circle(hole)) is not None]
+    round_holes = [found for hole in region.holes if (found := circle_from(hole)) is not None]
     strokes += [(VISIBLE, circle_of(radius, centre)) for centre, radius in round_holes]
-    slots = [hole for hole in region.holes if _circle(hole) is None]
+    slots = [hole for hole in region.holes if circle_from(hole) is None]
     for profile in (*slots, *region.marks):
         strokes += [(VISIBLE, s.curve) for s in profile.segments()]
-    axes = [Line(centre - r * way, centre + r * way) for centre, r in round_holes for way in (1, 1j)]
-    centres = [*_corners(curves), *(centre for centre, _ in round_holes)]
+    strokes += [(AXIS, circle_of(one.circle / 2)) for one in circles]
+    circled = [centre for one in circles for centre in one.centres()]
+    loose = [(c, r) for c, r in round_holes if all(abs(c - other) > _NEAR for other in circled)]
+    axes = [Line(centre - r * way, centre + r * way) for centre, r in loose for way in (1, 1j)]
+    axes += [axis_along(centre, one.diameter / 2) for one in circles for centre in one.centres()]
     chains = [[s.curve for s in profile.segments()] for profile in slots]
+    whole = circle_from(region.outer)
+    centres = [*(() if circles else corners(curves)), *(centre for centre, _ in loose)]
     for chain in chains:
-        centres += [*_corners(chain), *(curve.centre for curve in chain if isinstance(curve, Arc))]
-    whole = _circle(region.outer)
-    sizes = [] if whole else [Size("width", low, complex(high.real, low.imag), "below"),
-                              Size("height", low, complex(low.real, high.imag), "left")]  # fmt: skip
-    for k, (x, at) in enumerate(sorted({round(c.real, _DIGITS): c for c in centres}.items()), 1):
-        if low.real < x < high.real:
-            sizes.append(Size(f"x.{k}", low, at, "below"))
-    for k, (y, at) in enumerate(sorted({round(c.imag, _DIGITS): c for c in centres}.items()), 1):
-        if low.imag < y < high.imag:
-            sizes.append(Size(f"y.{k}", low, at, "left"))
-    rounds = [*_diameters(round_holes, subject), *_radii([*([] if whole else [curves]), *chains], subject)]
+        centres += [*corners(chain), *(curve.centre for curve in chain if isinstance(curve, Arc))]
+    sizes = [] if whole or circles else [Size("width", low, complex(high.real, low.imag), "below"),
+                                         Size("height", low, complex(low.real, high.imag), "left")]  # fmt: skip
+    if circles:
+        axes += [Line(complex(low.real), complex(high.real)), Line(1j * low.imag, 1j * high.imag)]
+    sizes += place_sizes(0j if circles else whole[0] if whole else low, centres, (low, high))
+    rounds = [*diameters(round_holes, subject.language), *radii([*([] if whole else [curves]), *chains], subject.language)]
     if whole:
         rounds.append(Round("diameter", *whole, angles=(-45.0, -135.0, 135.0)))
+    for k, one in enumerate(circles, 1):
+        rounds.append(Round(f"circle.{k}", 0j, one.circle / 2))
     # sizes stand below and on the left
     straight = (c for c in curves if isinstance(c, Line))
     edge = max(straight, key=lambda c: (round((c.end + c.start).real, 6), (c.end + c.start).imag), default=None)
@@ -67,14 +79,27 @@ def part_drawing(subject: Subject, working: Sequence[Curve] = ()) -> PartDrawing
     if worked := [*working, *cams]:
         # in the middle of the longest piece
         curve = max(worked, key=_length)
-        low, high = curve.domain
-        places = [low + share * (high - low) for share in (0.5, 0.25, 0.75)]
+        first, last = curve.domain
+        places = [first + share * (last - first) for share in (0.5, 0.25, 0.75)]
         # the material lies on the left
         (at, free), *also = [(complex(curve.point(t)), -1j * complex(curve.tangent(t))) for t in places]
-        words = f"Ra {subject.say(subject.wishes.flank_roughness)}"
-        notes.append(Note(at, words, is_rough=True, free=free, also=tuple(also)))
+        text = f"Ra {subject.say(subject.wishes.flank_roughness)}"
+        notes.append(Note(at, text, is_rough=True, free=free, also=tuple(also)))
     view = View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), tuple(notes))
-    return PartDrawing((view,), requirements(subject))
+    return PartDrawing((view,), requirements(subject, *words))
+
+
+def place_sizes(datum: complex, places: Iterable[complex], bounds: tuple[complex, complex]) -> Iterator[Size]:
+    """Each distance of places from the datum once, across and upwards; none of what has its own within ``bounds``."""
+    places, (low, high) = list(places), bounds
+    across = sorted({round(p.real, _DIGITS): p for p in places}.items())
+    upwards = sorted({round(p.imag, _DIGITS): p for p in places}.items())
+    for k, (x, at) in enumerate(across, 1):
+        if low.real < x < high.real and abs(x - datum.real) > _NEAR:
+            yield Size(f"x.{k}", datum, at, "below")
+    for k, (y, at) in enumerate(upwards, 1):
+        if low.imag < y < high.imag and abs(y - datum.imag) > _NEAR:
+            yield Size(f"y.{k}", datum, at, "left")
 
 
 def _length(curve: Curve) -> float:
@@ -89,7 +114,7 @@ def extent(region: Region) -> tuple[complex, complex]:
     return complex(left.real, low.imag), complex(right.real, high.imag)
 
 
-def _corners(curves: Sequence[Curve]) -> Iterator[complex]:
+def corners(curves: Sequence[Curve]) -> Iterator[complex]:
     """Sharp corners, and those of upright and level lines where an arc rounds them."""
     for k, curve in enumerate(curves):
         before = curves[k - 1]
@@ -105,14 +130,14 @@ def _corners(curves: Sequence[Curve]) -> Iterator[complex]:
                 yield complex(after.start.real, before.end.imag)
 
 
-def _circle(profile: Profile) -> tuple[complex, float] | None:
+def circle_from(profile: Profile) -> tuple[complex, float] | None:
     """Centre and radius of a round hole; None: it is none."""
     arcs = [s.curve for s in profile.segments() if isinstance(s.curve, Arc)]
     whole = len({(a.centre, a.radius) for a in arcs}) == 1 and len(arcs) == len(list(profile.segments()))
     return (arcs[0].centre, arcs[0].radius) if whole else None
 
 
-def _diameters(holes: list[tuple[complex, float]], subject: Subject) -> Iterator[Round]:
+def diameters(holes: Sequence[tuple[complex, float]], language: str) -> Iterator[Round]:
     """Each diameter once, with how many holes have it."""
     groups: dict[float, list[complex]] = {}
     for centre, radius in holes:
@@ -120,11 +145,11 @@ def _diameters(holes: list[tuple[complex, float]], subject: Subject) -> Iterator
     for k, (_, centres) in enumerate(sorted(groups.items()), 1):
         best = max(centres, key=lambda c: (round(c.real + c.imag, 6), c.real))
         radius = next(r for c, r in holes if c == best)
-        words = sheet_words(subject.language, "holes_of", count=len(centres)) if len(centres) > 1 else ""
+        words = sheet_words(language, "holes_of", count=len(centres)) if len(centres) > 1 else ""
         yield Round(f"holes.{k}.diameter", best, radius, f"{words}Ø")
 
 
-def _radii(chains: list[list[Curve]], subject: Subject) -> Iterator[Round]:
+def radii(chains: Sequence[Sequence[Curve]], language: str) -> Iterator[Round]:
     """Each radius of an arc once, with how many arcs have it."""
     groups: dict[float, list[Arc]] = {}
     for curve in (c for chain in chains for c in chain if isinstance(c, Arc)):
@@ -133,7 +158,7 @@ def _radii(chains: list[list[Curve]], subject: Subject) -> Iterator[Round]:
         arc, *others = sorted(arcs, key=_up_right, reverse=True)
         # what rounds the outline is told within it, which needs no more paper; arcs about one centre are one place
         count = len({complex(round(a.centre.real, 6), round(a.centre.imag, 6)) for a in arcs})
-        after = sheet_words(subject.language, "places_of", count=count) if count > 1 else ""
+        after = sheet_words(language, "places_of", count=count) if count > 1 else ""
         yield Round(f"radius.{k}", arc.centre, arc.radius, "R", after, is_radius=True, inward=arc.sweep > 0,
                     angles=arc_angles(arc), also=tuple((o.centre, arc_angles(o)) for o in others))  # fmt: skip
 

@@ -113,6 +113,7 @@ SHEETS: dict[str, Text] = {
     "spoke_corners": N_("corners R {radius}"),
     "hole_at": N_("Hole Ø{size}: at {angle}° from {zero}, counter-clockwise as drawn."),
     "holes_at": N_("Holes Ø{size}: the first at {angle}° from {zero}, counter-clockwise as drawn."),
+    "holes_each": N_("Holes Ø{size}: at {angles} from {zero}, counter-clockwise as drawn."),
     "on_circle": N_("{size} on the circle Ø{circle}"),
     "spokes_at": N_("Spokes: the first at {angle}° from {zero}, counter-clockwise as drawn."),
     "keyway_at": N_("Keyway: its axis at {angle}° from {zero}, counter-clockwise as drawn."),
