@@ -29,6 +29,8 @@ def part_drawing(subject: Subject) -> PartDrawing:
             continue
         angles = ", ".join(f"{subject.say(math.degrees(angle))}°" for angle in one.angles)
         zero = sheet_words(subject.language, "zero_x")
-        more.append(sheet_words(subject.language, "holes_each", size=subject.say(one.diameter), angles=angles, zero=zero))
+        more.append(
+            sheet_words(subject.language, "holes_each", size=subject.say(one.diameter), angles=angles, zero=zero)
+        )
     told = directions(HubHoles(None, tuple(equal)), subject, "zero_x")
     return plate_drawing.part_drawing(subject, (), thing.circles, *told, *more)

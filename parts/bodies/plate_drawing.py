@@ -65,7 +65,10 @@ def part_drawing(
     if circles:
         axes += [Line(complex(low.real), complex(high.real)), Line(1j * low.imag, 1j * high.imag)]
     sizes += place_sizes(0j if circles else whole[0] if whole else low, centres, (low, high))
-    rounds = [*diameters(round_holes, subject.language), *radii([*([] if whole else [curves]), *chains], subject.language)]
+    rounds = [
+        *diameters(round_holes, subject.language),
+        *radii([*([] if whole else [curves]), *chains], subject.language),
+    ]
     if whole:
         rounds.append(Round("diameter", *whole, angles=(-45.0, -135.0, 135.0)))
     for k, one in enumerate(circles, 1):
@@ -158,9 +161,10 @@ def radii(chains: Sequence[Sequence[Curve]], language: str) -> Iterator[Round]:
         arc, *others = sorted(arcs, key=_up_right, reverse=True)
         # what rounds the outline is told within it, which needs no more paper; arcs about one centre are one place
         count = len({complex(round(a.centre.real, 6), round(a.centre.imag, 6)) for a in arcs})
-        after = sheet_words(language, "places_of", count=count) if count > 1 else ""
-        yield Round(f"radius.{k}", arc.centre, arc.radius, "R", after, is_radius=True, inward=arc.sweep > 0,
-                    angles=arc_angles(arc), also=tuple((o.centre, arc_angles(o)) for o in others))  # fmt: skip
+        told = sheet_words(language, "places_of", count=count) if count > 1 else ""
+        also = tuple((o.centre, arc_angles(o)) for o in others)
+        yield Round(f"radius.{k}", arc.centre, arc.radius, "R", is_radius=True, inward=arc.sweep > 0,
+                    angles=arc_angles(arc), also=also, places=told)  # fmt: skip
 
 
 def _up_right(arc: Arc) -> float:

@@ -36,7 +36,7 @@ from parts.drawing.working import (
     requirements,
 )
 from parts.keys.holes import hub_holes
-from parts.texts.sheets import sheet_words
+from parts.texts.sheets import sheet_words, view_letter
 
 _SAME = 1e-9
 # a section of a keyway is so high on paper at least, mm
@@ -46,7 +46,6 @@ _LEAST_SECTION = 20.0
 _LEAST_DRAWN, _SHARE, _AROUND, _LEAST_ENLARGED, _MOST_ENLARGED = 1 / 60, 1 / 4, 1.15, 5.0, 60.0
 # part of a centre hole's size up to which the shaft about it is shown
 _ABOUT = 1.5
-_LETTERS = "ABCDEFGHJK"
 
 
 def part_drawing(subject: Subject) -> PartDrawing:
@@ -138,7 +137,7 @@ def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: boo
             axes.append(Line(complex(low, way * radius), complex(high, way * radius)))
         sizes.append(circle_size("holes", centres, low))
     hatched = (tuple(upper), below(lower), *map(tuple, drilled)) if cut else ()
-    cuts = tuple(Cut(at, letter) for at, letter in zip(_planes(half), _LETTERS, strict=False))
+    cuts = tuple(Cut(at, view_letter(subject.language, k)) for k, at in enumerate(_planes(half)))
     # the first two tell from where on and which way round corners are counted
     numbers = (Note(corner.at, str(k)) for k, corner in enumerate(listed[:2], 1))
     notes = (*_rough(bores(loop, lambda curve: curve not in inner), loop, subject), *numbers)
@@ -154,7 +153,7 @@ def _enlarged(half: HalfSection, view: View, subject: Subject) -> Iterator[View]
     if not told or size > _SHARE * wide or min(told) > _LEAST_DRAWN * wide:
         yield view
         return
-    letter, middle = sheet_words(subject.language, "view_a"), complex(low + high, inner + outer) / 2
+    letter, middle = view_letter(subject.language), complex(low + high, inner + outer) / 2
     about = circle_of(_AROUND * abs(complex(high, outer) - middle), middle)
     marked = Note(complex(about.point(math.pi / 4 * about.radius)), letter)
     yield replace(

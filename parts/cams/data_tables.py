@@ -9,7 +9,6 @@ from parts.base.part import Part
 from parts.base.texts import N_, Text, listed, message
 from parts.cams.disk_cam.page import sheet, table_from
 from parts.cams.groove_cam.piece import GroovePieceSpec
-from parts.cams.wedge_cam.part import WedgeCamSpec
 from parts.pages.cam_steps import law_text
 from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, row_of, rows_of, term_row
 from parts.pages.inputs import SceneKeys
@@ -17,12 +16,13 @@ from parts.pages.page import Sheet
 from parts.pages.terms import TERMS
 
 _MOTION = ("lift", "swing_deg")
+# what the drawing itself has a size of is no row: diameters, depths, the base circle where its disk shows it
+_LEAST = "least_base_circle_radius", "least_cam_radius"
 _SIZES = (
     "follower_radius", "roller_diameter", "follower_offset", "centre_distance", "arm_length", "pivot_offset",
     "pivot_height", "start_angle_deg", "second_follower_radius", "roller_angle_deg", "driven_pivot_x",
     "driven_pivot_y", "driven_length", "driven_start_angle_deg", "coupler_length", "guide_pivot_x", "guide_pivot_y",
-    "guide_length", "coupler_point_x", "coupler_point_y", "least_base_circle_radius", "least_cam_radius",
-    "base_height", "whole_travel", "outer_diameter", "floor_diameter", "inner_diameter", "groove_width", "groove_depth",
+    "guide_length", "coupler_point_x", "coupler_point_y", *_LEAST, "base_height", "whole_travel", "groove_width",
 )  # fmt: skip
 # the table of positions of each kind, and its columns that a maker needs
 _POLAR = ("phi", "S", "r", "theta")
@@ -42,9 +42,6 @@ _FOLLOWERS: dict[str, Text] = {
 }
 # rows that are called by what the part has of what its kind may have
 _RADII: dict[str, Text] = {"roller": N_("radius of the roller"), "mushroom": N_("radius of the mushroom's face")}
-_TRACK: dict[str, Text] = {
-    "groove_depth": N_("width of the track"),
-}
 
 
 def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTable:
@@ -90,10 +87,11 @@ def _follower(part: Part) -> tuple[DataRow, ...]:
 
 def _sizes(part: Part, page: Sheet) -> list[DataRow]:
     """Sizes under the names that they have at this form of the cam."""
-    names = dict(_TRACK) if getattr(part.keys, "form", "") == "end" else {}
+    names = dict[str, Text]()
     if radius := _RADII.get(getattr(part.keys, "follower", "roller")):
         names["follower_radius"] = radius
-    steps = {step.name: step for step in page.steps() if step.name in _SIZES}
+    shown = _LEAST if "base_circle_diameter" in part.circles else ()
+    steps = {step.name: step for step in page.steps() if step.name in _SIZES and step.name not in shown}
     found = ((name, row_of(steps[name])) for name in _SIZES if name in steps)
     return [replace(row, name=names.get(name, row.name)) for name, row in found]
 
@@ -109,9 +107,8 @@ def _rocker(part: Part, page: Sheet) -> tuple[DataRow, ...]:
 def _datum(part: Part) -> tuple[DataRow, ...]:
     """Where the columns of the positions begin."""
     kind = part.kind
-    if isinstance(keys := part.keys, WedgeCamSpec):
-        left = float(part.thing.centre(0.0).real) - keys.run_in
-        return (DataRow(N_("left end of the plate"), "x", left, "mm"), DataRow(N_("its lower edge"), "y", 0.0, "mm"))
+    if kind == "wedge_cam":
+        return (DataRow(N_("origin of x and y"), "O", N_("as drawn")),)
     turning = DataRow(N_("the cam turns"), "", N_("counter-clockwise"))
     if kind == "barrel_cam":
         return (turning, DataRow(N_("development of the outer cylinder"), "x", N_("φ = 0 at its right end")))

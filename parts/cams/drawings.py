@@ -16,6 +16,7 @@ from parts.cams.follower import Ended
 from parts.cams.groove_cam.part import GrooveDisk
 from parts.cams.groove_cam.piece import GroovePiece, GroovePieceSpec
 from parts.cams.positive.yoke import Yoke, YokeFrame
+from parts.cams.wedge_cam.part import WedgeCamSpec
 from parts.cams.wheel import Turned
 from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing, reach
@@ -31,6 +32,8 @@ def part_drawing(subject: Subject) -> PartDrawing:
     part = subject.part
     if isinstance(part.made_by, Ended | Yoke):
         return plate_drawing.part_drawing(subject, _faces(part.thing, part.section(0.0).region))
+    if isinstance(part.keys, WedgeCamSpec):
+        return _wedge(subject)
     if isinstance(part.thing, GrooveDisk):
         return _groove(subject, part.thing)
     if isinstance(part.thing, GroovePiece):
@@ -55,6 +58,18 @@ def _faces(thing: FollowerEnd | YokeFrame, region: Region) -> list[Curve]:
     height = thing.sense * thing.face_offset
     flat = [c for c in outer if isinstance(c, Line) and abs(c.start.imag - height) + abs(c.end.imag - height) < _SAME]
     return [*flat] if thing.kind is FollowerKind.FLAT else []
+
+
+def _wedge(subject: Subject) -> PartDrawing:
+    """A plate with the origin of its table, on the lower edge, and how far that is from its end."""
+    made = plate_drawing.part_drawing(subject)
+    (view,) = made.views
+    ends = plate_drawing.extent(subject.part.section(0.0).region)
+    up = Line(0j, 1j * ends[1].imag)
+    sizes = (*view.sizes, Size("origin", complex(ends[0].real), 0j, "below"))
+    marked = Note(0j, "O", free=-1 - 1j)
+    view = replace(view, axes=(*view.axes, up), sizes=sizes, notes=(*view.notes, marked))
+    return replace(made, views=(view,))
 
 
 def _groove(subject: Subject, disk: GrooveDisk) -> PartDrawing:

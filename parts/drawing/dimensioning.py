@@ -261,7 +261,7 @@ class _Layout:
 
     def _words(self, one: Size | Round) -> str:
         """All that is written of a dimension."""
-        return one.before + number_text(one.value, self.language) + one.after
+        return one.before + number_text(one.value, self.language) + one.after + one.places
 
     def _linear(
         self, one: Size | Round, ends: tuple[complex, complex], side: Side, level: float, begin: float, cost: float
@@ -289,7 +289,7 @@ class _Layout:
     def _template(self, one: Size | Round) -> str:
         """The words of a dimension as programs keep them."""
         number = number_text(one.value, self.language) if self.own else "<>"
-        return one.before.replace("Ø", "%%c") + number + one.after
+        return one.before.replace("Ø", "%%c") + number + one.after + one.places
 
     def _dimension(
         self,
@@ -397,12 +397,15 @@ class _Layout:
             raise _NoRoomError(note)
 
     def _on_axis(self, note: Note, put: Callable[[_Place], None]) -> Iterator[_Place]:
-        """Where an arrow that looks along the axis, or a sign on the extension of a pitch line, may stand."""
+        """Where an arrow that looks along an axis, or a sign on the extension of a pitch line, may stand."""
         tip = self.paper.point(note.at)
-        for k in range(2 * _ROWS) if note.looks else ():
-            foot = tip + _FIRST + _STEP / 2 * k
-            text = text_of(note.text, foot + complex(2 * ARROW, _ABOVE), TITLE_TEXT)
-            yield _Place({"leader": [Line(foot, foot + _LOOK)]}, _arrow(foot, 1.0), text, k / 2, put)
+        back = -note.looks
+        for k in range(2 * _ROWS) if back else ():
+            foot = tip + (_FIRST + _STEP / 2 * k) * back
+            # the letter stands above an arrow that is level, on the right of one that is upright
+            beside = complex(2 * ARROW, _ABOVE) if back == 1 else complex(_ABOVE, ARROW)
+            text = text_of(note.text, foot + beside, TITLE_TEXT)
+            yield _Place({"leader": [Line(foot, foot + _LOOK * back)]}, _arrow(foot, back), text, k / 2, put)
         for reach in _REACHES if note.goes_on else ():
             lines, text = rough_sign(tip + reach, note.text)
             along = Line(tip + _AXIS, tip + reach + _SHORT * _SLOPE)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import pairwise
 
 from geometry.base.record import Record, replace
 from geometry.curves.curve import end_point, start_point
@@ -86,7 +87,7 @@ def turned_sizes(loop: Loop, fits: Fits, language: str, told: Told = lambda curv
     sizes = [*_chamfers([whole[k] for k in chamfers if told(whole[k])], language)]
     if not _are_listed(edges):
         rounded += [arc for arc in arcs if arc not in balls]
-        sizes = [*_diameters(edges, fits, _turn(loop)), *_balls(balls, language), *_lengths(edges), *sizes]
+        sizes = [*_diameters(edges, fits, _turn(loop), language), *_balls(balls, language), *_lengths(edges), *sizes]
     radii = [arc for arc in rounded if isinstance(arc, Arc)]
     return TurnedSizes(tuple(sizes), tuple(_radii(radii, _turn(loop), language)))
 
@@ -280,17 +281,16 @@ def _has_about(edge: _Edge, turn: float) -> bool:
     return turn * (end.real - start.real) > 0
 
 
-def _diameters(edges: Sequence[_Edge], fits: Fits, turn: float) -> Iterator[Size]:
+def _diameters(edges: Sequence[_Edge], fits: Fits, turn: float, language: str) -> Iterator[Size]:
     """A diameter for each distance from the axis and zone, outer ones and inner ones; at cylinders, else at corners.
 
     ``turn``: of the loop, 1 or -1.
     """
     xs = [end.real for edge in edges for end in edge.ends]
     middle = (min(xs) + max(xs)) / 2
-    seen: dict[tuple[float, bool], list[str]] = {}
-    number = 0
-    numbers = sorted(range(len(edges)), key=lambda k: not edges[k].runs_along())
-    for k in numbers:
+    # for each size the places at which it is, of edges and of their corners
+    seen: dict[tuple[float, bool], dict[str, list[tuple[int, complex]]]] = {}
+    for k in sorted(range(len(edges)), key=lambda k: not edges[k].runs_along()):
         edge = edges[k]
         if edge.stands() or not edge.told:
             continue
@@ -299,18 +299,31 @@ def _diameters(edges: Sequence[_Edge], fits: Fits, turn: float) -> Iterator[Size
             at_cylinder = not edge.runs_along() and any(
                 other.runs_along() and corner in _near(other, corner) for other in edges
             )
-            zones = seen.setdefault((_radius(corner.imag), edge.outer), [])
+            zones = seen.setdefault((_radius(corner.imag), edge.outer), {})
             zone = _zone(edges, k, fits, turn) if edge.runs_along() else ""
-            if corner.imag < _NONE or at_cylinder or (zone in zones if edge.runs_along() else zones):
+            if corner.imag < _NONE or at_cylinder or (zones and not edge.runs_along()):
                 continue
-            zones.append(zone)
-            number += 1
-            places = [end.real for end in edge.ends] if edge.runs_along() else [corner.real]
-            at_left = sum(places) / len(places) <= middle if edge.outer else sum(places) / len(places) < middle - _NONE
-            side: Side = "left" if at_left else "right"
-            at = min(places) if at_left else max(places)
-            name = f"{'outer' if edge.outer else 'inner'}_diameter.{number}"
-            yield Size(name, complex(at, -corner.imag), complex(at, corner.imag), side, "Ø", zone)
+            zones.setdefault(zone, []).append((k, corner))
+    found = [(*places[0], zone, places) for zones in seen.values() for zone, places in zones.items()]
+    for number, (k, corner, zone, places) in enumerate(found, 1):
+        edge = edges[k]
+        xs = [end.real for end in edge.ends] if edge.runs_along() else [corner.real]
+        at_left = sum(xs) / len(xs) <= middle if edge.outer else sum(xs) / len(xs) < middle - _NONE
+        side: Side = "left" if at_left else "right"
+        at = min(xs) if at_left else max(xs)
+        name = f"{'outer' if edge.outer else 'inner'}_diameter.{number}"
+        count = 1 + sum(not _goes_on(edges, one, two) for (one, _), (two, _) in pairwise(places))
+        ends = complex(at, -corner.imag), complex(at, corner.imag)
+        yield Size(name, *ends, side, "Ø", zone, _counted(count, "places_of", language))
+
+
+def _goes_on(edges: Sequence[_Edge], first: int, last: int) -> bool:
+    """Whether a cylinder goes on as another of its diameter beyond a groove that is narrower than either."""
+    one, two = edges[first], edges[last]
+    way, height, low, high = 1 if one.outer else -1, one.ends[0].imag, one.ends[1].real, two.ends[0].real
+    between = [p.imag for edge in edges[first + 1 : last] for p in edge.ends]
+    length = min(abs(edge.ends[1].real - edge.ends[0].real) for edge in (one, two))
+    return abs(high - low) < length and all(way * (r - height) < _NONE for r in between)
 
 
 def _near(edge: _Edge, corner: complex) -> list[complex]:
@@ -442,7 +455,7 @@ def _radii(arcs: Sequence[Arc], turn: float, language: str) -> Iterator[Round]:
     for number, ((_, is_ball), group) in enumerate(groups.items(), 1):
         arc = group[0]
         before = f"{sheet_words(language, 'ball')} R" if is_ball else "R"
-        after = _counted(len(group), "places_of", language)
+        places = _counted(len(group), "places_of", language)
         # leaders come from outside of the material
         inward = arc.sweep * turn < 0
         yield Round(
@@ -450,8 +463,8 @@ def _radii(arcs: Sequence[Arc], turn: float, language: str) -> Iterator[Round]:
             arc.centre,
             arc.radius,
             before,
-            after,
             is_radius=True,
             inward=inward,
             angles=arc_angles(arc),
+            places=places,
         )

@@ -19,7 +19,7 @@ from geometry.solids.wheel import WheelShape
 from geometry.solids.windows import RoundHoles
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
 from parts.drawing.working import AXIS, THIN, VISIBLE, Note, Round, Size, Stroke, Subject, View, arc_angles
-from parts.texts.sheets import sheet_words
+from parts.texts.sheets import sheet_words, view_letter
 
 # a view of a bore is so high on paper at least, mm
 _LEAST_BORE = 25.0
@@ -409,7 +409,7 @@ def bore_view(bore: Bore, subject: Subject) -> View:
             rounds.append(
                 Round("bore.corner_radius", rounded.centre, rounded.radius, "R", is_radius=True, angles=angles)
             )
-    name = sheet_words(subject.language, "view_a")
+    name = view_letter(subject.language)
     return View(tuple(strokes), (), axis_cross(bore.reach), tuple(sizes), tuple(rounds), (), name, _LEAST_BORE)
 
 
@@ -468,5 +468,5 @@ def wheel_views(wheel: Wheel, subject: Subject) -> tuple[View, ...]:
 
 def seen_along(view: View, end: float, subject: Subject) -> View:
     """A view along the axis with the arrow of the view of its bore, from beyond the ``end`` of the axis."""
-    arrow = Note(complex(end), sheet_words(subject.language, "view_a"), looks=True)
+    arrow = Note(complex(end), view_letter(subject.language), looks=-1)
     return replace(view, notes=(*view.notes, arrow))

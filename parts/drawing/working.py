@@ -29,8 +29,8 @@ Stroke = tuple[str, Curve]
 class Size(Record):
     """A linear size: between two points along x (its line above or below the view) or along y (left or right).
 
-    ``before`` and ``after`` the number stand a sign and a fit: Ø, h11, ×45°. ``name``: of what it is, for readers of
-    the file's dimensions in programs.
+    ``before`` and ``after`` the number stand a sign and a fit: Ø, h11, ×45°; then at how many ``places`` it is.
+    ``name``: of what it is, for readers of the file's dimensions in programs.
     """
 
     name: str
@@ -39,6 +39,7 @@ class Size(Record):
     side: Side
     before: str = ""
     after: str = ""
+    places: str = ""
 
     @property
     def value(self) -> float:
@@ -63,6 +64,7 @@ class Round(Record):
     inward: bool = False
     angles: tuple[float, ...] = (45.0, 135.0, -45.0, -135.0)
     also: tuple[tuple[complex, tuple[float, ...]], ...] = ()
+    places: str = ""
 
     @property
     def value(self) -> float:
@@ -83,14 +85,14 @@ class Note(Record):
     ``goes_on``: the point is the right end of a pitch line, and the sign stands on its extension where there is room.
     ``free``: the way out of the material there, from which its leader comes; 0: from anywhere. ``also``: other points
     that serve as well, with theirs.
-    ``looks``: the text is the letter of a view from the right, and an arrow along it points there.
+    ``looks``: the text is the letter of a view, and an arrow points that way: -1 from the right, -1j from above.
     """
 
     at: complex
     text: str
     is_rough: bool = False
     goes_on: bool = False
-    looks: bool = False
+    looks: complex = 0
     free: complex = 0j
     also: tuple[tuple[complex, complex], ...] = ()
 

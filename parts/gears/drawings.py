@@ -55,13 +55,13 @@ from parts.gears.spur_gear.part import SpurGearSpec
 from parts.gears.worm.part import WormSpec
 from parts.gears.worm_wheel.part import WheelThing, WormWheelSpec
 from parts.keys.engraving import digits_height
-from parts.keys.helix import ToothedKeys
+from parts.keys.helix import ToothedKeys, helix_of
 from parts.keys.holes import bore_of, hub_holes
 from parts.keys.wheel import shape_of, wheel_shape
-from parts.texts.sheets import sheet_words
+from parts.texts.sheets import sheet_words, view_letter
 
-# mm, what is no length
-_NONE = 1e-9
+# mm, what is no length; how long marks of the teeth's direction are, and how far apart: parts of what has room
+_NONE, _MARK, _APART = 1e-9, 0.7, 0.3
 
 if TYPE_CHECKING:
     from geometry.gears.teeth.rack import Rack
@@ -206,8 +206,17 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
         sizes.append(Size("holes.first", complex(-half, foot), centres[0], "below"))
         rounds.append(Round("holes.diameter", centres[-1], holes.diameter / 2, _count(holes.count, subject)))
     rough = Note(complex(half), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True, goes_on=True)
-    cut = Cut(half - pitch / 2, sheet_words(subject.language, "view_a"))
-    front = View(tuple(strokes), (), axes, tuple(sizes), tuple(rounds), (rough,), cuts=(cut,))
+    cut = Cut(half - pitch / 2, view_letter(subject.language))
+    notes = [rough]
+    # what is behind the near face lies aslant of it
+    line = _tooth_line(keys)
+    if aslant := max((point.real for point in line), key=abs):
+        notes.append(Note(1j * tip, view_letter(subject.language, 1), looks=-1j))
+        for end in (-half, half):
+            corners = [complex(end, foot), complex(end + aslant, foot), complex(end + aslant, root), complex(end, root)]
+            seen = VISIBLE if end * aslant > 0 else HIDDEN
+            strokes += [(seen, Line(a, b)) for a, b in pairwise(corners)]
+    front = View(tuple(strokes), (), axes, tuple(sizes), tuple(rounds), tuple(notes), cuts=(cut,))
     width = keys.face_width
     whole = closed([complex(0, foot), complex(width, foot), complex(width, tip), complex(0, tip)])
     solid = closed([complex(0, foot), complex(width, foot), complex(width, root), complex(0, root)])
@@ -222,7 +231,31 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
         ),
         title=f"{cut.letter}-{cut.letter}",
     )
-    return front, section
+    if not aslant:
+        return front, section
+    tips = sorted({round(p.real, 9) for c in kept for p in (start_point(c), end_point(c)) if abs(p.imag - tip) < 1e-6})
+    return front, section, _rack_top(half, tips, line, view_letter(subject.language, 1))
+
+
+def _tooth_line(keys: RackSpec) -> list[complex]:
+    """A tooth line of a rack as it is seen from the tips, the near face below: from that on, which is at 0."""
+    shear, width = helix_of(keys).shear(), keys.face_width
+    stations = [] if shear is None else [(z, shift) for z, _, shift in shear.stations(0.0, width)][::-1]
+    return [complex((shift - stations[0][1]).real, width - z) for z, shift in stations] or [0j]
+
+
+def _rack_top(half: float, tips: Sequence[float], line: Sequence[complex], title: str) -> View:
+    """A helical rack from above: its ends, the edges of its end teeth, marks of their direction after GOST 2.402.
+
+    ``tips``: places of edges on the near face; ``line``: a tooth line.
+    """
+    near = (-half, *tips, half)
+    strokes: list[Stroke] = [(VISIBLE, Line(a + x, b + x)) for x in near for a, b in pairwise(line)]
+    strokes += [(VISIBLE, Line(p - half, p + half)) for p in (line[0], line[-1])]
+    middle, free = (line[0] + line[-1]) / 2, min(map(abs, near))
+    marks = [middle + _MARK * (point - middle) + _APART * k * free for k in (-1, 0, 1) for point in line]
+    strokes += [(THIN, Line(a, b)) for k in range(3) for a, b in pairwise(marks[k * len(line) : (k + 1) * len(line)])]
+    return View(tuple(strokes), title=title)
 
 
 def _count(number: int, subject: Subject) -> str:

@@ -142,7 +142,7 @@ SHEETS: dict[str, Text] = {
     "thread_run_out": N_("Spaces of the thread: whole over {length}, the tool leaves within {angle}° of turn."),
     "tooth_marked": N_("A mark at a tooth and the number {teeth} engraved {depth} deep, digits {height} high."),
     "space_marked": N_("A mark at a space and the number {teeth} engraved {depth} deep, digits {height} high."),
-    "view_a": in_context("drawing, name of a view", "A"),
+    "view_letters": in_context("drawing, letters of views and sections in their order", "ABCDEFGHJKLMNPRSTUVW"),
     "turned_by": N_("turned by {angle}°"),
     "unspecified_limits": N_("Unspecified limit deviations: H14, h14, ±IT14/2."),
 }
@@ -151,3 +151,10 @@ SHEETS: dict[str, Text] = {
 def sheet_words(language: str, key: str, **numbers: object) -> str:
     """A term of a sheet in a language."""
     return words(language).say(filled(SHEETS[key], **numbers))
+
+
+def view_letter(language: str, number: int = 0) -> str:
+    """The name of a view or section, 0 the first; after the last letter they begin again with a number."""
+    letters = sheet_words(language, "view_letters")
+    rounds, place = divmod(number, len(letters))
+    return f"{letters[place]}{rounds or ''}"

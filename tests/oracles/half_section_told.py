@@ -74,7 +74,7 @@ class Told:
             self.radii[round(value, DIGITS)] += count
         elif "%%c" in text:
             assert abs(first[1] + second[1]) < NEAR
-            self.diameters[round(value, DIGITS)] += 1
+            self.diameters[round(value, DIGITS)] += count
         elif abs(entity.dxf.angle - 90.0) < NEAR:
             # how far a hole that stands alone lies off the axis
             assert abs(first[1]) < NEAR
@@ -100,6 +100,10 @@ class Told:
         found += [f"diameter {d:g} is not told" for d in sorted(radii - set(self.diameters) - follow)]
         found += [f"diameter {d:g} is no corner's" for d in set(self.diameters) - radii - set(bound.values())]
         found += [f"diameter {d:g} is told though its chamfer is" for d in follow & set(self.diameters)]
+        found += [
+            f"diameter {d:g} is told of {self.diameters[d]} places, not of {count}"
+            for d, count in _cylinders(edges).items() if self.diameters[d] not in (0, count)
+        ]  # fmt: skip
         # places along the axis: a tree of spans
         levels = sorted({round(z, DIGITS) for z in (*(c["z"] for c in self.corners), *places)})
         roots = {z: z for z in levels}
@@ -159,6 +163,23 @@ class Told:
             heights = [middle[1] - way * lift * (b["r"] - a["r"]) / chord for way in (1, -1)]
             if any(abs(z - end["z"]) < NEAR for z in heights for end in (a, b)):
                 yield (round(a["z"], DIGITS), round(b["z"], DIGITS)), 0.0
+
+
+def _cylinders(edges: list[tuple[Corner, Corner]]) -> Counter[float]:
+    """How many cylinders have a diameter; one that a groove shorter than either half parts is one."""
+    area = sum(a["z"] * b["r"] - b["z"] * a["r"] for a, b in edges)
+    rows: dict[tuple[float, bool], list[tuple[int, float]]] = {}
+    for k, (a, b) in enumerate(edges):
+        if a["r"] == b["r"] > 0 and not a.get("arc"):
+            rows.setdefault((a["r"], (b["z"] - a["z"]) * area < 0), []).append((k, abs(b["z"] - a["z"])))
+    found: Counter[float] = Counter()
+    for (r, is_outside), places in rows.items():
+        found[round(2 * r, DIGITS)] += 1
+        for (k, one), (n, two) in pairwise(places):
+            between, gap = [a["r"] for a, _ in edges[k + 1 : n + 1]], abs(edges[n][0]["z"] - edges[k][1]["z"])
+            parted = all(x <= r if is_outside else x >= r for x in between)
+            found[round(2 * r, DIGITS)] += not (parted and gap < min(one, two))
+    return found
 
 
 def _leg(a: Corner, b: Corner) -> float:

@@ -363,7 +363,7 @@ class Wedge(Kind[WedgeCamSpec, "WedgeCam"]):
     """A plate that slides under its follower."""
 
     name, keys = "wedge_cam", WedgeCamSpec
-    drawing = "parts.bodies.plate_drawing"
+    drawing = "parts.cams.drawings"
     data_table = "parts.cams.data_tables"
 
     def thing(self, keys: WedgeCamSpec, others: Others) -> WedgeCam:

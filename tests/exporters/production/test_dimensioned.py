@@ -119,7 +119,7 @@ def test_turned_parts_can_be_made_again_from_their_dimensions(tmp_path: Path, na
 
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
-    "name", ["guide_6", "body_plate", "crank_pin", "plug", "ball", "guide_5", "bearing_ring", "spacer_22", "disk_3",
+    "name", ["guide_6", "body_plate", "crank_pin", "ball", "guide_5", "bearing_ring", "spacer_22", "disk_3",
              "ring_guide", "free_ring", "platform_plate", "platform_axle", "end_cover", "snap_ring", "screw_49"]
 )  # fmt: skip
 def test_positions_of_the_power_module_can_be_made_again(tmp_path: Path, name: str) -> None:
