@@ -219,7 +219,7 @@ def _follows(points: Complex, curve: CadCurve, allowed: float) -> bool:
     if own.shape == points.shape and min(np.abs(own - points).max(), np.abs(own[::-1] - points).max()) <= allowed:
         return True
     # a file may cut it elsewhere
-    return float(distance_to_curve(points, curve).max()) <= allowed  # type: ignore[arg-type]
+    return float(distance_to_curve(points, curve).max()) <= allowed
 
 
 def _unmatched(

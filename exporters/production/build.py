@@ -21,7 +21,6 @@ from geometry.base.errors import ConvergenceError, Nearest, ParameterError, Thin
 from geometry.base.record import Record, replace
 from geometry.plane.contour import Approximation
 from parts.base.refusal import SceneError, placed
-from parts.keys.boards import PURPOSES_LAID
 from parts.scene.formats import Form
 
 # the least that an export may have, mm
@@ -80,7 +79,7 @@ def build(
         wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
         outlines = {p: outlines_of(plan.parts[p].section(0.0).region) for p in wanted}
         previews = [part_preview(plan.parts[p], o, staging, plan.scene.scene.language) for p, o in outlines.items()]
-        laid = any(assembly.export.purpose in PURPOSES_LAID.values() for assembly in plan.assemblies)
+        laid = any(assembly.export.is_laid for assembly in plan.assemblies)
         if len(plan.placing.instances) > 1 and (laid or len(wanted) == len(plan.parts)):
             # what is not cut from boards or printed on plates belongs to the model all the same
             rest = {p: outlines_of(plan.parts[p].section(0.0).region) for p in plan.parts if p not in wanted}

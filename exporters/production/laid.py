@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from typing import TYPE_CHECKING, TypeAlias
-
-from parts.keys.boards import PURPOSES_LAID
+from typing import TYPE_CHECKING, TypeAlias, TypeGuard
 
 if TYPE_CHECKING:
     from exporters.production.boards import BoardJob
+    from exporters.production.jobs import AssemblyJob
     from exporters.production.plan import Plan
     from exporters.production.plates import PlateJob
     from parts.base.texts import Words
@@ -20,9 +19,13 @@ def laid_jobs(plan: Plan) -> dict[str, list[LaidJob]]:
     """The jobs of each board and plate, one for each format, by the name of their files without its ending."""
     found: dict[str, list[LaidJob]] = {}
     for job in plan.assemblies:
-        if job.export.purpose in PURPOSES_LAID.values():
-            found.setdefault(job.path.rpartition(".")[0], []).append(job)  # type: ignore[arg-type]
+        if _is_laid(job):
+            found.setdefault(job.path.rpartition(".")[0], []).append(job)
     return found
+
+
+def _is_laid(job: AssemblyJob | BoardJob) -> TypeGuard[LaidJob]:
+    return job.export.is_laid
 
 
 def lying_on(job: LaidJob, told: Words) -> dict[str, str]:

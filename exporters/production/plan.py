@@ -115,7 +115,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
         if on_sheet(export.format, export.purpose):
             sheets += _sheets(replace(asked, export=_of_cams(export, parts, only_parts)), taken)
             continue
-        if export.purpose in PURPOSES_LAID.values():
+        if export.is_laid:
             laid = _laid(asked, layouts)
             for one in laid:
                 _take(one.path, where, taken, source)
@@ -196,9 +196,8 @@ def _is_flat(part: Part) -> bool:
 
 def _of_several(export: ExportSpec) -> bool:
     """Whether a picture shows parts together; that of a cam, a paper model and a working drawing show one."""
-    if export.purpose in PURPOSES_LAID.values():
-        return True
-    return export.format in OF_SCENES or (on_sheet(export.format, export.purpose) and export.purpose not in _OF_ONE)
+    sheet_of_several = on_sheet(export.format, export.purpose) and export.purpose not in _OF_ONE
+    return export.is_laid or export.format in OF_SCENES or sheet_of_several
 
 
 def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) -> ExportSpec:

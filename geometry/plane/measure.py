@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import lru_cache
+from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from geometry.curves.curve import Complex, Curve, Real, start_point
 from geometry.curves.line_arc import Arc, Line
@@ -19,6 +20,20 @@ _COARSE_SAMPLES, _FINE_SAMPLES = 17, 65
 # near a cusp the steps only halve the error, so the thorough pass takes many
 _QUICK_STEPS, _THOROUGH_STEPS = 4, 24
 NDArrayInt = NDArray[np.int64]
+
+
+class Travelled(Protocol):
+    """What distances ask of a curve; splines of files give no more."""
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        """Parameter interval."""
+
+    def point(self, t: ArrayLike) -> Complex:
+        """Points, mm."""
+
+    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
+        """Derivatives of that order, mm per parameter unit to that power."""
 
 
 def profile_area(profile: Profile) -> float:
@@ -135,7 +150,7 @@ def _distance(points: Complex, curves: Sequence[Curve], turns: Complex, trusted:
     return result
 
 
-def distance_to_curve(points: Complex, curve: Curve) -> Real:
+def distance_to_curve(points: Complex, curve: Travelled) -> Real:
     """Distance of each point (n,) from one curve, mm: projection from its nearest of 65 samples."""
     if isinstance(curve, Arc | Line):
         return _distance_to_plain(points, curve)
@@ -189,7 +204,7 @@ def _folded(points: Complex, profile: Profile) -> Complex:
     return points * np.exp(-1j * profile.pitch_angle * period)
 
 
-def _projected(points: Complex, curve: Curve, samples: Real, start: NDArrayInt, *, newton: bool) -> Real:
+def _projected(points: Complex, curve: Travelled, samples: Real, start: NDArrayInt, *, newton: bool) -> Real:
     """Distance from a curve by projection from the nearest sample; the steps stay beside it.
 
     Without ``newton`` the curvature's part of the slope is left out, which is little for points near the curve.

@@ -144,6 +144,11 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     scale: ScaleKey | None = None
     drawing: WorkingTable | None = None
 
+    @property
+    def is_laid(self) -> bool:
+        """Whether the parts lie on boards or beds in its files."""
+        return self.purpose in PURPOSES_LAID.values()
+
 
 class ChecksSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[checks]``."""
@@ -456,7 +461,7 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
             refuse(key, "only_for_format", formats='"step"', format=spec.format)
     if spec.assembly and spec.format not in ASSEMBLY_FORMATS:
         refuse("assembly", "only_for_format", formats=[f'"{f}"' for f in ASSEMBLY_FORMATS], format=spec.format)
-    if spec.purpose in PURPOSES_LAID.values():
+    if spec.is_laid:
         for key, code in (("kerf", "key_of_board"), ("offset", "not_of_boards"), ("assembly", "not_of_boards")):
             if getattr(spec, key) and not (key == "offset" and spec.format == "3mf"):
                 refuse(key, code)
