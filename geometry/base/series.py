@@ -18,6 +18,11 @@ Series = list[Any]
 About = tuple[Series, Any]
 
 
+def taylor(derivatives: Sequence[Any]) -> Series:
+    """Coefficients of a function from its value and derivatives; bounds of the ones from bounds of the others."""
+    return [x / FACTORIALS[k] for k, x in enumerate(derivatives)]
+
+
 def product(a: Sequence[Any], b: Sequence[Any]) -> Series:
     """Coefficients of a product, as many as the shorter factor has."""
     return [sum(a[j] * b[k - j] for j in range(k + 1)) for k in range(min(len(a), len(b)))]

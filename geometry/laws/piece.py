@@ -72,13 +72,13 @@ class LawPiece(Record):
             return [np.concatenate(parts).reshape(np.shape(t)) for parts in zip(*blocks, strict=True)]
         # where t stands from the start and from the end, each to full digits
         local, rest = powers((flat - self.start) / width, n), powers((self.end - flat) / width, n)
+        angles = [wave.frequency * (flat - self.start) + wave.phase for wave in self.waves]
         result = []
         for order in orders:
             weights = _weights(self.coefficients, width, order)
             m = len(weights) - 1
             total = np.add.reduce(weights * local[: m + 1] * rest[m::-1], axis=0)
-            for wave in self.waves:
-                angle = wave.frequency * (flat - self.start) + wave.phase
+            for wave, angle in zip(self.waves, angles, strict=True):
                 total = total + wave.amplitude * wave.frequency**order * sine_derivative(angle, order)
             result.append(total.reshape(np.shape(t)))
         return result

@@ -22,38 +22,42 @@ _EXTREME_SAMPLES = 65
 class _Form:
     """Pieces with as many coefficients and waves as each other; all is (n,) for n ``rows`` and arguments."""
 
-    __slots__ = ("_end", "_start", "_waves", "_weights", "_width", "degree")
+    __slots__ = ("_angles", "_end", "_factors", "_left", "_start", "_waves", "_width", "degree")
 
     def __init__(self, pieces: Sequence[LawPiece]) -> None:
         self._start, self._end = (np.array(x) for x in zip(*(p.domain for p in pieces), strict=True))
         self._width = self._end - self._start
-        self._weights = [np.array([p.coefficients for p in pieces])]
+        # factors of every derivative so far, and the coefficients of the next one
+        self._factors: list[Real] = []
+        self._left = np.array([p.coefficients for p in pieces])
         self._waves = list(zip(*(p.waves for p in pieces), strict=True))
+        self._angles = [
+            (np.array([w.frequency for w in wave]), np.array([w.phase for w in wave])) for wave in self._waves
+        ]
         self.degree = len(pieces[0].coefficients) - 1
 
-    def _coefficients(self, order: int) -> Real:
-        """Bernstein coefficients (pieces, degree + 1) of a derivative."""
-        while len(self._weights) <= order:
-            last = self._weights[-1]
+    def _weights(self, order: int) -> Real:
+        """Bernstein coefficients of a derivative times the binomials of its degree: (pieces, degree + 1)."""
+        while len(self._factors) <= order:
+            last = self._left
             degree = last.shape[1] - 1
-            slope = np.diff(last, axis=1) * (degree / self._width)[:, None] if degree else np.zeros((len(last), 1))
-            self._weights.append(slope)
-        return self._weights[order]
+            self._factors.append(np.array([float(math.comb(degree, i)) for i in range(degree + 1)]) * last)
+            self._left = np.diff(last, axis=1) * (degree / self._width)[:, None] if degree else np.zeros((len(last), 1))
+        return self._factors[order]
 
     def values(self, rows: Indices, t: Real, orders: Sequence[int], *, waves: bool = True) -> list[Real]:
         """Derivatives of several orders, which share their powers."""
         start, end, width = self._start[rows], self._end[rows], self._width[rows]
         local, rest = powers((t - start) / width, self.degree), powers((end - t) / width, self.degree)
+        angles = [rate[rows] * (t - start) + phase[rows] for rate, phase in self._angles] if waves else []
         result = []
         for order in orders:
-            some = self._coefficients(order)
+            some = self._weights(order)
             m = some.shape[1] - 1
-            binomials = np.array([float(math.comb(m, i)) for i in range(m + 1)])
-            total = np.add.reduce((binomials * some)[rows].T * local[: m + 1] * rest[m::-1], axis=0)
-            for wave in self._waves if waves else ():
+            total = np.add.reduce(some[rows].T * local[: m + 1] * rest[m::-1], axis=0)
+            for wave, angle in zip(self._waves, angles, strict=False):
                 size = np.array([w.amplitude * w.frequency**order for w in wave])[rows]
-                angle = np.array([w.frequency for w in wave])[rows] * (t - start)
-                total = total + size * sine_derivative(angle + np.array([w.phase for w in wave])[rows], order)
+                total = total + size * sine_derivative(angle, order)
             result.append(total)
         return result
 
@@ -65,10 +69,9 @@ class _Form:
         result = []
         for k in range(order + 1):
             total = np.asarray(sum(values[j] * half ** (j - k) / math.factorial(j - k) for j in range(k, top + 1)))
-            for wave in self._waves:
-                rate = np.abs([w.frequency for w in wave])[rows]
-                at = np.array([w.frequency for w in wave])[rows] * (middle - self._start[rows])
-                most = np.abs(sine_derivative(at + np.array([w.phase for w in wave])[rows], k)) + rate * half
+            for wave, (rate, phase) in zip(self._waves, self._angles, strict=True):
+                at = rate[rows] * (middle - self._start[rows]) + phase[rows]
+                most = np.abs(sine_derivative(at, k)) + np.abs(rate)[rows] * half
                 size = np.array([abs(w.amplitude) * abs(w.frequency) ** k for w in wave])[rows]
                 total = total + size * np.minimum(most, 1.0)
             result.append(total * (1 + 1e-12))
@@ -113,11 +116,13 @@ class PieceStack:
 
     def _at(self, index: Indices, t: Real, orders: Sequence[int]) -> list[Real]:
         which, flat = np.ravel(index), np.ravel(t)
+        forms, rows = self._forms[which], self._rows[which]
         found = [np.empty(flat.size) for _ in orders]
         for form, group in enumerate(self._groups):
-            mine = np.flatnonzero(self._forms[which] == form)
-            for some in np.array_split(mine, -(-mine.size // _BLOCK)) if mine.size else ():
-                for target, value in zip(found, group.values(self._rows[which[some]], flat[some], orders), strict=True):
+            mine = np.flatnonzero(forms == form)
+            for start in range(0, mine.size, _BLOCK):
+                some = mine[start : start + _BLOCK]
+                for target, value in zip(found, group.values(rows[some], flat[some], orders), strict=True):
                     target[some] = value
         return [x.reshape(np.shape(t)) for x in found]
 

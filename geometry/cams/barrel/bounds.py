@@ -12,7 +12,6 @@ import math
 import numpy as np
 
 from geometry.base.series import (
-    FACTORIALS,
     Series,
     derived,
     exponential,
@@ -20,6 +19,7 @@ from geometry.base.series import (
     majorant_power,
     product,
     sharpened,
+    taylor,
     unit_majorant,
 )
 from geometry.cams.barrel.cam import AxialGuide, BarrelCam
@@ -84,7 +84,7 @@ def _arm_bounds(cam: BarrelCam, rho: Series, rate: Series, aside: Series, least:
 
 def _place_bounds(cam: BarrelCam, piece: LawPiece, order: int, a: Real, b: Real) -> tuple[Series, Series, Real]:
     """Bounds of the coefficients of the roller's place p, of its part across the cam's axis, and the least |Im p'|."""
-    s = [x / FACTORIALS[k] for k, x in enumerate(piece.bounds(order, a, b))]
+    s = taylor(piece.bounds(order, a, b))
     at, half = cam.place((a + b) / 2, order, piece), (b - a) / 2
     guide = cam.guide
     if isinstance(guide, AxialGuide):

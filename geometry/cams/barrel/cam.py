@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from geometry.base.record import Record, replace
-from geometry.base.series import FACTORIALS, Series, conjugate, derived, exponential, power, product, quotient
+from geometry.base.series import Series, conjugate, derived, exponential, power, product, quotient, taylor
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion, PhaseKind
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
@@ -114,7 +114,7 @@ class BarrelCam(Record):
         """Series of the roller's place p over the cam angle; from the formula of one piece where it is given."""
         at = np.asarray(angle, dtype=float)
         source = self.motion if piece is None else piece
-        return self.guide.place([x / FACTORIALS[k] for k, x in enumerate(source.values(at, order))])
+        return self.guide.place(taylor(source.values(at, order)))
 
     def distance_along(self, place: Series, side: int, radius: ArrayLike) -> Real:
         """rho at which a wall passes through the cylinder of ``radius`` mm; ``place``: p and p'.

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
-from geometry.base.series import FACTORIALS, Series, derived, exponential, product
+from geometry.base.series import FACTORIALS, Series, derived, exponential, product, taylor
 from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Complex, Curve, Real, Span, curvature_from_derivatives
 from geometry.curves.line_arc import Line
@@ -104,7 +104,7 @@ class ArmCurve(DrawnCurve, Record):
     direction: float
 
     def _series(self, at: Real, order: int) -> Series:
-        s = [x / FACTORIALS[k] for k, x in enumerate(self.piece.values(at, order + 1))]
+        s = taylor(self.piece.values(at, order + 1))
         turn = exponential([1j * (self.direction - self.sense * s[0]), *(-1j * self.sense * x for x in s[1:])])
         reach = [self.sense * x for x in derived(s)]
         reach[0] = reach[0] + 1.0
@@ -119,7 +119,7 @@ class ArmCurve(DrawnCurve, Record):
     def derivative_bound(self, order: int, a: float, b: float) -> float | None:
         """The same series of moduli: a majorant."""
         edges = np.linspace(a, b, _BOUND_PARTS + 1)
-        s = [x / FACTORIALS[k] for k, x in enumerate(self.piece.bounds(order + 1, edges[:-1], edges[1:]))]
+        s = taylor(self.piece.bounds(order + 1, edges[:-1], edges[1:]))
         turn = exponential([0.0 * s[0], *s[1:]])
         reach = derived(s)
         reach[0] = reach[0] + 1.0

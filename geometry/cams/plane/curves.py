@@ -26,6 +26,7 @@ from geometry.base.series import (
     product,
     quotient,
     sharpened,
+    taylor,
     unit_majorant,
 )
 from geometry.curves.bounds import BoundedSpan
@@ -62,16 +63,6 @@ class Lift(Protocol):
 
     def bounds(self, order: int, a: Real, b: Real) -> list[Real]:
         """Proven bounds of |S|, |S'| ... |S^(order)| on each interval [a, b]; inf where none is known."""
-
-
-def lift_series(lift: Lift, t: Real, order: int) -> Series:
-    """Taylor coefficients of S at many cam angles."""
-    return [x / FACTORIALS[k] for k, x in enumerate(lift.values(t, order))]
-
-
-def bound_series(lift: Lift, order: int, a: Real, b: Real) -> Series:
-    """Bounds of the moduli of those coefficients on each interval."""
-    return [x / FACTORIALS[k] for k, x in enumerate(lift.bounds(order, a, b))]
 
 
 def _path_curvature(velocity: Complex, change: Complex) -> Real:
@@ -132,13 +123,13 @@ class CentreEnvelope(CamSpan, Record):
 
     def _fixed(self, t: Real, order: int) -> tuple[Series, Series]:
         """Taylor coefficients of z and of w = z' - i z, up to ``order``."""
-        centre = self.mount.centre(lift_series(self.lift, t, order + 1))
+        centre = self.mount.centre(taylor(self.lift.values(t, order + 1)))
         return centre, [x - 1j * y for x, y in zip(derived(centre), centre, strict=False)]
 
     def _fixed_bound(self, order: int, a: Real, b: Real) -> tuple[Series, Series]:
         """Bounds of the moduli of those coefficients on each interval; w's are one fewer."""
-        about = (lift_series(self.lift, (a + b) / 2, order), (b - a) / 2)
-        whole = self.mount.centre_bound(bound_series(self.lift, order, a, b), about)
+        about = (taylor(self.lift.values((a + b) / 2, order)), (b - a) / 2)
+        whole = self.mount.centre_bound(taylor(self.lift.bounds(order, a, b)), about)
         return whole, [x + y for x, y in zip(derived(whole), whole, strict=False)]
 
     def _in_cam(self, fixed: Series, t: Real | None) -> Series:
@@ -226,7 +217,7 @@ class FaceEnvelope(CamSpan, Record):
     def support(self, t: ArrayLike, order: int) -> tuple[Series, Series]:
         """Taylor coefficients of the face's distance from the axis and of its normal's angle in the cam's frame."""
         at = np.asarray(t, dtype=float)
-        height, angle = self.mount.face(lift_series(self.lift, at, order))
+        height, angle = self.mount.face(taylor(self.lift.values(at, order)))
         height[0] = height[0] + self.distance
         angle[0] = angle[0] - at
         if order:
@@ -276,8 +267,8 @@ class FaceEnvelope(CamSpan, Record):
 
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
         """Bounds of the moduli of the Taylor coefficients (the first one left out: 0) on each interval."""
-        s = bound_series(self.lift, order + 1, a, b)
-        height, rate = self.mount.face_bound(s, (lift_series(self.lift, (a + b) / 2, order + 1), (b - a) / 2))
+        s = taylor(self.lift.bounds(order + 1, a, b))
+        height, rate = self.mount.face_bound(s, (taylor(self.lift.values((a + b) / 2, order + 1)), (b - a) / 2))
         height[0] = height[0] + abs(self.distance)
         rate[0] = rate[0] + 1.0
         # phi' is farther from 0 than this: its value at the middle less half the interval times |phi''|

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.record import Record
-from geometry.base.series import FACTORIALS, Series
+from geometry.base.series import taylor
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion
 from geometry.cams.motion.guides import Mount, Oscillating, Translating, oscillating_start_angle
 from geometry.cams.plane.curves import CentreEnvelope, FaceEnvelope
@@ -83,12 +83,9 @@ class DiskCam(Record):
             return FaceEnvelope(self.motion.stack, self.mount, start, end, grow)
         return CentreEnvelope(self.motion.stack, self.mount, start, end, grow - self.radius)
 
-    def _series(self, angle: Real, order: int) -> Series:
-        return [self.motion.value(angle, k) / FACTORIALS[k] for k in range(order + 1)]
-
     def reference_point(self, angle: ArrayLike) -> Complex:
         """Roller centre, point, or the foot of the axis on a flat face, in the fixed frame, mm."""
-        s = self._series(np.asarray(angle, dtype=float), 0)
+        s = taylor(self.motion.values(np.asarray(angle, dtype=float), 0))
         if not self.is_flat:
             return self.mount.centre(s)[0]
         height, normal = self.mount.face(s)
@@ -96,7 +93,7 @@ class DiskCam(Record):
 
     def normal(self, angle: ArrayLike) -> Complex:
         """Unit normal of the contact in the fixed frame, from the cam into the follower."""
-        s = self._series(np.asarray(angle, dtype=float), 1)
+        s = taylor(self.motion.values(np.asarray(angle, dtype=float), 1))
         if self.is_flat:
             return np.exp(1j * self.mount.face(s)[1][0])
         centre = self.mount.centre(s)
@@ -108,7 +105,7 @@ class DiskCam(Record):
         at = np.asarray(angle, dtype=float)
         if not self.is_flat:
             return self.reference_point(at) - self.radius * self.normal(at)
-        s = self._series(at, 1)
+        s = taylor(self.motion.values(at, 1))
         height, normal = self.mount.face(s)
         return np.exp(1j * normal[0]) * (height[0] + 1j * height[1] / (normal[1] - 1.0))
 
@@ -207,7 +204,7 @@ class DiskCam(Record):
             return reach - abs(mount.offset)
         d, arm = mount.centre_distance, mount.arm_length
         if self.is_flat:
-            height = mount.face(self._series(angle, 0))[0][0] + mount.face_offset
+            height = mount.face(taylor(self.motion.values(angle, 0)))[0][0] + mount.face_offset
             return d - np.abs(height)
         reach = np.abs(self.reference_point(angle))
         return np.minimum(reach - abs(d - arm), d + arm - reach)

@@ -20,9 +20,9 @@ from numpy.typing import ArrayLike
 from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.nearest import last_that_holds
 from geometry.base.record import Record
-from geometry.base.series import Series, derived, exponential
+from geometry.base.series import Series, derived, exponential, taylor
 from geometry.cams.motion.follower_motion import Phase, PieceMotion
-from geometry.cams.plane.curves import CentreEnvelope, Lift, bound_series, lift_series
+from geometry.cams.plane.curves import CentreEnvelope, Lift
 from geometry.cams.plane.disk import FollowerKind
 from geometry.curves.curve import Complex, Curve, Real, Reversed, end_point, start_point, vertex_sign
 from geometry.curves.line_arc import Arc, Line
@@ -99,12 +99,12 @@ class SlideEnvelope(CentreEnvelope):
 
     def _fixed(self, t: Real, order: int) -> tuple[Series, Series]:
         """Taylor coefficients of z = t + m and of z'."""
-        centre = self.mount.centre(lift_series(self.lift, t, order + 1))
+        centre = self.mount.centre(taylor(self.lift.values(t, order + 1)))
         centre = [centre[0] + t, centre[1] + 1.0, *centre[2:]]
         return centre, derived(centre)
 
     def _fixed_bound(self, order: int, a: Real, b: Real) -> tuple[Series, Series]:
-        whole = self.mount.centre_bound(bound_series(self.lift, order, a, b))
+        whole = self.mount.centre_bound(taylor(self.lift.bounds(order, a, b)))
         whole = [whole[0] + np.maximum(np.abs(a), np.abs(b)), whole[1] + 1.0, *whole[2:]]
         return whole, derived(whole)
 
