@@ -132,11 +132,14 @@ class FollowerMotion(PieceMotion, Record, dict=True):
     def value(self, way: ArrayLike, order: int = 0) -> Real:
         """S (order 0) or its derivative over the cam angle (rad), any angle; at a joint the value from the right."""
         folded = np.mod(np.asarray(way, dtype=float), TURN)
+        if len(self.pieces) == 1:
+            return self.pieces[0].value(folded, order)
         return self.stack.at(self.stack.index(folded), folded, order)
 
     def values(self, t: Real, order: int) -> list[Real]:
         """S, S' ... S^(order)."""
-        return self.stack.values(np.mod(t, TURN), order)
+        source = self.stack if len(self.pieces) > 1 else self.pieces[0]
+        return source.values(np.mod(t, TURN), order)
 
     def extremes(self, order: int = 0) -> tuple[float, float]:
         """Least and greatest S^(order) (finite parts)."""

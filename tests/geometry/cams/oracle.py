@@ -78,6 +78,10 @@ class RiddenPiece:
         t = np.asarray(t, dtype=float)
         return np.array([self._table[float(x)][order] for x in t.ravel()]).reshape(t.shape)
 
+    def values(self, t, order: int):  # type: ignore[no-untyped-def]
+        """S, S' ... S^(order) at nodes."""
+        return [self.value(t, k) for k in range(order + 1)]
+
 
 def ridden_cam(disk: Eccentric, kind: FollowerKind, mount: Mount, radius: float, nodes: np.ndarray) -> DiskCam:
     """The cam of the lift over a disk; the mount's start height or angle is set to the disk's own."""
