@@ -27,6 +27,8 @@ from geometry.plane.profile import Label, Profile, Segment
 
 Complex = NDArray[np.complex128]
 Real = NDArray[np.float64]
+# of a search
+_Looked = tuple[Real, Real, NDArray[np.intp], NDArray[np.intp]]
 
 # radii of the thread and angles of its rounding at which a side is looked for
 _RADII, _ANGLES, _FIRST_STEP = 257, 129, 1e-7
@@ -54,8 +56,8 @@ _FOLD = np.linspace(0.0, 1.0, 17)[:, None]
 _BESIDE = (-1e-2, -1e-3, 1e-3, 1e-2)
 # of pictures: points of which a few are drawn, and how near their chords are, part of the size
 _DRAWN, _SEEN = 33, 2e-4
-# the least width that is offered, part of the asked one
-_LEAST_WIDTH = 2e-2
+# the least width that is offered, and how near to the widest, part of the asked one
+_LEAST_WIDTH, _NEAR_WIDTH = 2e-2, 1e-3
 
 
 class NoTooth(Exception):
@@ -186,13 +188,16 @@ class WormTeeth(Record, dict=True):
             side.inner[side.all_fillet] = side.outer[side.all_fillet]
         return side
 
-    def _plain(self, z: Real) -> Side:
-        """The lower side at heights up to the tip, though the upper one may cut it off below."""
+    def _plain(self, z: Real, looked: _Looked | None = None) -> Side:
+        """The lower side at heights up to the tip, though the upper one may cut it off below.
+
+        ``looked``: what a search there has found.
+        """
         hob, tip = self.hob, self.tip_radius(z)
         if not (tip - self.root_radius(z) > _LEAST_DEPTH * hob.worm.module).all():
             raise NoTooth("worm_wheel_not_reached")
         form, column = hob.form_radius, np.arange(len(z))
-        radii, reach, first, at = self._search(z)
+        radii, reach, first, at = looked or self._search(z)
         all_fillet = reach[0] >= tip
         at = np.where(all_fillet, 1, at)
         if not (at < _RADII).all():
@@ -299,7 +304,7 @@ class WormTeeth(Record, dict=True):
         hurry, _ = self._hurry(z, np.where(on, outer, sides[0].inner), normal, outer)
         return normal, outer, on, *hurry
 
-    def _search(self, heights: Real) -> tuple[Real, Real, NDArray[np.intp], NDArray[np.intp]]:
+    def _search(self, heights: Real) -> _Looked:
         """Radii of the thread from its tip on, how far they reach, (m, n), and between which the flank grows, (n,).
 
         The last of these is the first beyond the tip of the tooth. Where it is undercut the flank turns back before.
@@ -433,16 +438,19 @@ class WormTeeth(Record, dict=True):
         lines = [Line(complex(a), complex(b)) for a, b in pairwise(around)]
         return Profile(tuple(map(Segment, lines, way)), self.number_of_teeth)
 
-    def narrowed(self, enough: float = 0.0) -> WormTeeth:
+    def narrowed(self, *, even: bool = False) -> WormTeeth:
         """The teeth with as much of the width as has whole ones at every height; themselves where none has.
 
-        ``enough``: to which part of the width that is told.
+        ``even``: and as has flanks that bend nowhere.
         """
-        if self.is_whole:
+
+        def stands(width: float) -> bool:
+            narrower = replace(self, width=width)
+            return narrower.is_even if even else narrower.is_whole
+
+        if stands(self.width):
             return self
-        least = _LEAST_WIDTH * self.width
-        near = enough * self.width
-        found = nearest(lambda width: replace(self, width=width).is_whole, self.width, least, enough=near)
+        found = nearest(stands, self.width, _LEAST_WIDTH * self.width, enough=_NEAR_WIDTH * self.width)
         return replace(self, width=found.value) if found and isinstance(found.value, float) else self
 
     def checked(self) -> WormTeeth:
@@ -497,6 +505,11 @@ class WormTeeth(Record, dict=True):
         """Whether flanks run over the base circle of an involute worm, below which it is radial: they bend there."""
         return bool(self._plain_levels.outer.min() < self.hob.worm.flank.least_radius)
 
+    @property
+    def is_even(self) -> bool:
+        """Whether every tooth is whole and its flanks bend nowhere."""
+        return self.is_whole and not self.is_creased
+
     @cached_property
     def _torn(self) -> str | None:
         """What leaves no side up to the tip at some height: a code."""
@@ -518,9 +531,14 @@ class WormTeeth(Record, dict=True):
         return np.asarray(self.width / 2 * np.sin(np.linspace(-math.pi / 2, math.pi / 2, _LEVELS)))
 
     @cached_property
+    def _looked(self) -> _Looked:
+        """A search at the levels."""
+        return self._search(self._levels)
+
+    @cached_property
     def _plain_levels(self) -> Side:
         """The lower side at the levels, up to the tip."""
-        return self._plain(self._levels)
+        return self._plain(self._levels, self._looked)
 
     @cached_property
     def _plain_thickness(self) -> Real:
@@ -570,8 +588,7 @@ class WormTeeth(Record, dict=True):
     @cached_property
     def undercut_ends(self) -> tuple[float, ...]:
         """Heights at which undercut begins on the lower side, mm."""
-        z = np.linspace(-self.width / 2, self.width / 2, _LEVELS)
-        cut = self._search(z)[2] > 0
+        z, cut = self._levels, self._looked[2] > 0
         found = []
         for k in np.flatnonzero(cut[1:] != cut[:-1]).tolist():
             low, high = float(z[k]), float(z[k + 1])

@@ -16,7 +16,8 @@ import numpy as np
 
 from geometry.approximation.outline import CadCurve, Outline
 from geometry.approximation.tensor import clamped, greville, tensor_poles
-from geometry.base.errors import ConvergenceError, ParameterError
+from geometry.base.errors import ConvergenceError
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline, basis_matrix
@@ -40,9 +41,10 @@ _MARGIN, _EDGES = 2.0, 5e-8
 _FINEST, _SHARE = 2e-8, 0.5
 # spans at most, and of a rough fit, samples of each, and lines of a family on which spans are chosen
 _MOST_SPANS, _FEW_SPANS, _SAMPLES, _LINES = 64, 24, 7, 9
-# so many spans are one more when they are too few; parts of a width that are tried
+# so many spans are one more when they are too few
 _SLOW = 6
-_NARROWER = (1.0, 0.95, 0.85, 0.7, 0.5, 0.3)
+# the narrowest part of a width that is tried, and how near to the widest that splines follow
+_NARROWEST, _NEARLY = 0.3, 0.1
 # of the curves of a ring
 _ROOT, _TIP = 0, 3
 # where between two places of interpolation errors are greatest, and what part of the margin they want
@@ -106,20 +108,20 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
 
 def fitting(teeth: WormTeeth, tolerance: float) -> WormTeeth | None:
     """The widest of some narrower teeth, themselves first, that splines come near; None where none do."""
-    creased = False
-    for share in _NARROWER:
-        narrower = replace(teeth, width=share * teeth.width)
+
+    def follows(width: float) -> bool:
         try:
-            narrower.checked()
-            # what bends as the wider ones do is no nearer to splines
-            if creased and narrower.is_creased:
-                continue
-            creased = narrower.is_creased
-            _fits(narrower, tolerance, _FEW_SPANS)
-        except (ConvergenceError, NoTooth, ParameterError):
-            continue
-        return narrower
-    return None
+            narrower = replace(teeth, width=width).checked()
+            # of what bends splines follow next to nothing
+            bends = width < teeth.width and narrower.is_creased
+            return not bends and bool(_fits(narrower, tolerance, _FEW_SPANS))
+        except NoTooth:
+            return False
+
+    if kept(follows, teeth.width):
+        return teeth
+    found = nearest(follows, teeth.width, _NARROWEST * teeth.width, enough=_NEARLY * teeth.width)
+    return replace(teeth, width=found.value) if found and isinstance(found.value, float) else None
 
 
 def _fits(teeth: WormTeeth, tolerance: float, most: int = _MOST_SPANS) -> dict[tuple[float, float], list[_Fit]]:

@@ -56,10 +56,8 @@ _SEEN = 33
 _SLIVER = 0.02
 # and what a wheel is of use with; its tip in the middle, modules
 _USEFUL, _TIP = 0.25, 0.02
-# addenda and shifts are offered that near to the last one that works, modules
+# addenda and shifts are offered that near to the last one that works, mm or modules
 _NEAR = 5e-3
-# part of the width to which it is sought whether some of it has teeth
-_ROUGHLY = 0.05
 # an outside is reached that near, mm; below so many degrees a corner is sharp: a throat wraps a third of the worm
 _REACHED, _SHARP = 1e-3, 29.9
 
@@ -166,16 +164,18 @@ def _rounding_cures(keys: WormWheelSpec, refusal: ParameterError) -> bool:
     """Whether the rounding that a refusal of the hob offers leaves teeth."""
 
     def stands(value: float) -> bool:
-        less = changed(keys, hob_rounding_coefficient=value)
-        return _is_even(_asked_teeth(less, drive_of(less)).narrowed(_ROUGHLY))
+        return _of_use(changed(keys, hob_rounding_coefficient=value))
 
     found = refusal.nearest
     return found is not None and isinstance(found.value, float) and kept(stands, found.value)
 
 
-def _is_even(teeth: WormTeeth) -> bool:
-    """Whether they are whole and their flanks bend nowhere."""
-    return teeth.is_whole and not teeth.is_creased
+def _of_use(keys: WormWheelSpec) -> bool:
+    """Whether teeth are whole, of some thickness, and bend nowhere over a part of the width that is of use."""
+    teeth = _asked_teeth(keys, drive_of(keys))
+    teeth = replace(teeth, width=_USEFUL * teeth.width)
+    # what is not whole anywhere has no tip to ask for
+    return teeth.is_even and float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0]) > _TIP * keys.module
 
 
 def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
@@ -183,65 +183,47 @@ def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     from geometry.gears.worms.wheel_faces import fitting
 
     teeth = _asked_teeth(keys, drive)
-    teeth = (teeth.narrowed() if keys.face_width is None else teeth).checked()
+    if keys.face_width is None:
+        even = teeth.narrowed(even=True)
+        teeth = even if even.is_even and even.width >= _USEFUL * teeth.width else teeth.narrowed()
+    teeth = teeth.checked()
     # faces may break off where none of the known ends is
     rough = _ROUGH * keys.module
     found = fitting(teeth, rough)
     if found is None and teeth.is_creased:
-        raise _creased(keys)
+        raise _toothless(keys, "worm_wheel_below_base")
     if found is None or (found != teeth and keys.face_width is not None):
         cure = None if found is None else limit(found.width, teeth.width)
         raise ParameterError("face_width", teeth.width, "worm_wheel_faces_break", cure)
     return found
 
 
-def _creased(keys: WormWheelSpec) -> ParameterError:
-    """No spline follows a flank over the base circle of the worm: with the addendum that keeps teeth off it."""
-    given, ends = keys.addendum_coefficient, (0.8, 0.6, 0.4, 0.2)
-
-    def even(value: float) -> bool:
-        less = changed(keys, addendum_coefficient=value)
-        return _is_even(_asked_teeth(less, drive_of(less)).narrowed(_ROUGHLY))
-
-    def works(value: float) -> bool:
-        less = changed(keys, addendum_coefficient=value)
-        return even(value) and teeth_of(less, drive_of(less)).width > 0
-
-    def cure() -> Nearest | None:
-        # even teeth are soon told, and splines follow almost all of them
-        found = nearest(even, given, ends, enough=_NEAR)
-        if found is None or (isinstance(found.value, float) and kept(works, found.value)):
-            return found
-        return nearest(works, given, ends, enough=_NEAR)
-
-    return ParameterError("addendum_coefficient", given, "worm_wheel_below_base", cure)
-
-
 def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
-    """No tooth is left: in the key that takes it away, with the value that leaves some."""
+    """No tooth is left that splines follow: in the key that takes it away, with the value that leaves some."""
 
-    def stands(key: str, value: float, *, whole: bool = False) -> bool:
+    def of_use(value: float, *, of: str) -> bool:
+        return _of_use(changed(keys, **{of: value}))
+
+    def some(value: float) -> bool:
         less = changed(keys, **{key: value})
-        asked = _asked_teeth(less, drive_of(less))
-        # how much of the width stands is sought of one value only
-        teeth = asked.narrowed(_ROUGHLY) if whole else replace(asked, width=_USEFUL * asked.width)
-        # what is not whole anywhere has no tip to ask for
-        if not _is_even(teeth):
-            return False
-        return whole or float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0]) > _TIP * keys.module
+        teeth = _asked_teeth(less, drive_of(less))
+        return replace(teeth, width=_SLIVER * teeth.width).is_even
+
+    def followed(value: float) -> bool:
+        less = changed(keys, **{key: value})
+        return teeth_of(less, drive_of(less)).width > 0
 
     def cure() -> Nearest | None:
-        entire = partial(stands, key, whole=True)
-        found = nearest(partial(stands, key), given, ends, enough=_NEAR)
-        if found is None:
-            # teeth of less than is of use are more than none
-            return nearest(entire, given, ends[-1], enough=_NEAR)
-        if isinstance(found.value, float) and kept(entire, found.value):
+        found = nearest(partial(of_use, of=key), given, ends, enough=_NEAR)
+        # teeth of less than is of use are more than none
+        found = found or nearest(some, given, ends[-1], enough=_NEAR)
+        if found is None or not isinstance(found.value, float) or kept(followed, found.value):
             return found
-        return nearest(lambda value: stands(key, value) and entire(value), given, ends, enough=_NEAR)
+        # splines do not follow some that run all but along the contact's way to infinity
+        return next((limit(end, given) for end in ends if end < found.value and kept(followed, end)), None)
 
     taken = (other for other in ("axial_thinning", "profile_shift_coefficient") if getattr(keys, other))
-    found = next((other for other in taken if kept(partial(stands, other), 0.0)), None)
+    found = next((other for other in taken if kept(partial(of_use, of=other), 0.0)), None)
     key, ends = (found, (0.0,)) if found else ("addendum_coefficient", (0.8, 0.6, 0.4, 0.2, 0.1))
     given = getattr(keys, key)
     return ParameterError(key, given, code, cure)
