@@ -581,6 +581,7 @@ def _converge(options: argparse.Namespace) -> int:
 
 
 def _list(options: argparse.Namespace) -> int:
+    from parts.base.densities import DENSITIES
     from parts.base.registry import KINDS
     from parts.mates.registry import MATES
     from parts.recipes.registry import RECIPES
@@ -593,7 +594,8 @@ def _list(options: argparse.Namespace) -> int:
     assemblies = {kind: told.text(phrase) for kind, phrase in RECIPES.phrases.items()}
     scenes = {name: title_of(file, _language(options)) for name, file in built_in_scenes().items()}
     if options.json:
-        _print_json([""], [{"parts": kinds, "mates": mates, "assemblies": assemblies, "scenes": scenes}])
+        tables = {"parts": kinds, "mates": mates, "assemblies": assemblies, "scenes": scenes, "materials": DENSITIES}
+        _print_json([""], [tables])
         return DONE
     listed = {
         told.text("kinds of parts (higherpair new KIND):"): kinds,
@@ -605,6 +607,9 @@ def _list(options: argparse.Namespace) -> int:
         print(title)
         for name, meaning in rows.items():
             print(f"  {name:<22} {meaning}{'' if rows is scenes else '.'}")
+    print(told.text("materials whose density is known (g/cm^3; another one needs `density` too):"))
+    for density in sorted(set(DENSITIES.values())):
+        print(f"  {density:<6} {', '.join(name for name in DENSITIES if DENSITIES[name] == density)}")
     return DONE
 
 

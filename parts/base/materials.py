@@ -1,87 +1,88 @@
-"""Densities of the materials that gears and cams are made of, g/cm^3, and the mass of a part."""
+"""A material by the name that a scene gives it: its density, g/cm^3, its words, and the mass of a part."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Container, Mapping
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from parts.base.texts import N_, Words
+from geometry.base.errors import Nearest
+from geometry.base.record import Record
+from parts.base.densities import DENSITIES, NAMES
+from parts.base.lookalikes import in_latin
+from parts.base.refusal import SceneError, meant
+from parts.base.texts import Words
 
 if TYPE_CHECKING:
     from geometry.solids.mass import Moments
 
 # a thickness in a material's name
 _MM = re.compile(r"(\d) ?mm\b")
-# typical values of makers' data sheets; a part's own key `density` goes before them
-DENSITIES = {
-    N_("steel"): 7.85,
-    N_("stainless steel"): 7.93,
-    N_("cast iron"): 7.2,
-    N_("brass"): 8.5,
-    N_("bronze"): 8.8,
-    N_("copper"): 8.96,
-    N_("aluminium"): 2.7,
-    "aluminum": 2.7,
-    N_("titanium"): 4.5,
-    "pom": 1.41,
-    "acetal": 1.41,
-    "delrin": 1.42,
-    N_("nylon"): 1.14,
-    "pa6": 1.14,
-    "pa12": 1.01,
-    "pla": 1.24,
-    "petg": 1.27,
-    "abs": 1.05,
-    "asa": 1.07,
-    "tpu": 1.21,
-    "pc": 1.2,
-    "resin": 1.15,
-    N_("acrylic"): 1.19,
-    N_("plexiglass"): 1.19,
-    N_("plywood"): 0.65,
-    N_("mdf"): 0.75,
-    N_("beech"): 0.72,
-    N_("birch"): 0.65,
-    N_("oak"): 0.7,
-    N_("cardboard"): 0.7,
-    N_("textolite"): 1.35,
-    "сталь": 7.85,
-    "чавун": 7.2,
-    "латунь": 8.5,
-    "бронза": 8.8,
-    "мідь": 8.96,
-    "алюміній": 2.7,
-    "фанера": 0.65,
-    "оргскло": 1.19,
-    "текстоліт": 1.35,
-    "капрон": 1.14,
-}
 
 
 def density_of(material: str | None) -> float | None:
-    """Density of a material by its name anywhere in the text ("plywood 3 mm"), g/cm^3; None where unknown.
+    """Density of a material by its mark or name anywhere in the text ("plywood 3 mm"), g/cm^3; None where unknown.
 
-    The longest known name wins: "stainless steel" before "steel".
+    Marks with digits go before names, and the longest goes first: "stainless steel" before "steel". Letters of any
+    case that look alike are one.
     """
     if material is None:
         return None
-    found = _known(material)
-    return DENSITIES[found[0].casefold()] if found else None
+    found = _known(material, DENSITIES)
+    return None if found is None else DENSITIES[found.name]
+
+
+def check_material(material: str, source: str, place: str) -> None:
+    """That a material for which no density is given is a known one.
+
+    Raises
+    ------
+    SceneError
+        It is not; with the known name that was probably meant.
+    """
+    if density_of(material) is None:
+        near = meant(_fold(material), _by_letters())
+        cure = near and Nearest(_by_letters()[str(near.value)], "meant")
+        raise SceneError(source, place, material, "unknown_material", cure, known=list(DENSITIES))
 
 
 def material_told(material: str | None, told: Words) -> str:
     """A material in the words of a language, where it has a known name: plywood 3 mm, фанера 3 mm."""
     material = _MM.sub(rf"\1 {told.text('mm')}", material or "")
-    found = _known(material)
-    if not found or told.text(found[0].casefold()) == found[0].casefold():
+    found = _known(material, NAMES)
+    if found is None or told.text(found.name) == found.name:
         return material
-    return f"{found.string[: found.start()]}{told.text(found[0].casefold())}{found.string[found.end() :]}"
+    return f"{material[: found.start]}{told.text(found.name)}{material[found.end :]}"
 
 
-def _known(material: str) -> re.Match[str] | None:
-    """The longest known name in a text."""
-    found = (re.search(rf"(?<!\w){re.escape(name)}(?!\w)", material, re.IGNORECASE) for name in DENSITIES)
-    return max(filter(None, found), key=lambda match: len(match[0]), default=None)
+class _Found(Record):
+    """A known name, and where it begins and ends in the text."""
+
+    name: str
+    start: int
+    end: int
+
+
+def _known(text: str, names: Container[str]) -> _Found | None:
+    """That of ``names`` which stands in a text as whole words: with digits before without, the longest, the last."""
+    folded = _fold(text)
+    words = list(re.finditer(r"\w+", folded))
+    spans = ((first.start(), last.end()) for k, first in enumerate(words) for last in words[k:])
+    found = [(_by_letters().get(folded[slice(*span)]), span) for span in spans]
+    fit = [_Found(name, *span) for name, span in found if name is not None and name in names]
+    return max(fit, key=lambda f: (any(map(str.isdigit, f.name)), f.end - f.start, f.start), default=None)
+
+
+@cache
+def _by_letters() -> Mapping[str, str]:
+    """Every known name by the letters that no eye tells apart."""
+    return {_fold(name): name for name in DENSITIES}
+
+
+def _fold(text: str) -> str:
+    """Capitals, in Latin where they look so; as long as the text."""
+    return in_latin("".join(letter.upper()[:1] for letter in text))
 
 
 def mass_properties(moments: Moments, density: float | None) -> dict[str, Any]:

@@ -132,11 +132,7 @@ class Part(Record, dict=True):
         label, found = self.keys.label, self.report.findings
         if isinstance(label, str):
             found = (*found, *self.made_by.wrong_numbers(self.keys, label))
-        if self.material is None or self.density is not None:
-            return found
-        from geometry.base.findings import Finding
-
-        return (*found, Finding("unknown_material", 0.0, 0.0))
+        return found
 
     @property
     def flat_findings(self) -> tuple[Finding, ...]:

@@ -12,7 +12,9 @@ Colour = Annotated[
 Material = Annotated[
     str,
     Meta(
-        max_length=200, description="material; names like steel, PLA, plywood give the mass", examples=["plywood 3 mm"]
+        max_length=200,
+        description="material; a name or mark that `higherpair list` has gives the mass, another one needs density",
+        examples=["plywood 3 mm"],
     ),
 ]
 Density = Annotated[

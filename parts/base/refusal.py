@@ -90,7 +90,8 @@ def sentence(refusal: SceneError, language: str = ENGLISH) -> str:
 
 
 # refusals of what `higherpair list` has, and how much of that they tell themselves
-_LISTED, _FEW = ("a_folder", "no_scene", "no_such_scene", "unknown_kind", "unknown_mate", "missing_kind"), 8
+_LISTED = ("a_folder", "no_scene", "no_such_scene", "unknown_kind", "unknown_mate", "missing_kind", "unknown_material")
+_FEW = 8
 
 
 def _nearest_few(refusal: SceneError) -> Message | None:
@@ -101,7 +102,7 @@ def _nearest_few(refusal: SceneError) -> Message | None:
     if refusal.code not in _LISTED or not isinstance(known, list | tuple) or len(known) <= _FEW:
         return None
     word = str(refusal.value or (refusal.source if refusal.code == "no_such_scene" else ""))
-    few = sorted(known, key=lambda name: -difflib.SequenceMatcher(None, word, name).ratio())[:_FEW]
+    few = sorted(known, key=lambda name: -difflib.SequenceMatcher(None, word.lower(), name.lower()).ratio())[:_FEW]
     return message(
         "{few} and {more} more, see `{command}`", few=_told(few), more=len(known) - _FEW, command="higherpair list"
     )

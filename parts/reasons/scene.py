@@ -107,6 +107,7 @@ REASONS = {
     "turns_nothing": N_("turns nothing: 1.0 is one turn"),
     "unknown_kind": N_("unknown kind; known kinds: {known}"),
     "unknown_mate": N_("unknown kind of mate; known: {known}"),
+    "unknown_material": N_("no such material: {known}; or give its `density`, g/cm^3, too"),
     "unknown_table": N_("unknown table; known: {known}"),
     "unreadable": N_("cannot be read: {why}"),
     "needs_cluster": N_('needs Dask: pip install ".[cluster]" in the folder of higherpair'),

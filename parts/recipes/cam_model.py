@@ -14,7 +14,7 @@ from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.solids.hub_holes import least_wall
-from parts.base.part_keys import Material
+from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
 from parts.cams.disk_cam.part import CamSpec, cam_of, greatest_radius
 from parts.cams.wheel import inner_radius
@@ -32,7 +32,7 @@ from parts.keys.cam import (
 )
 from parts.keys.law import with_own_laws
 from parts.keys.timing_mark import PLACES
-from parts.recipes.making import Making, hole, place
+from parts.recipes.making import Making, hole, made_of, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 
 # mm: slack of the slot at each end; frame below the cam, about its axle and above the pins; wall about holes; of a flat
@@ -92,6 +92,7 @@ class CamModelKeys(RecipeKeys, kw_only=True, tag="cam_model"):
     ) = None
     cam_angle_deg: Annotated[float, degrees("cam angle at which it is drawn", least=-360, most=360)] = 0.0
     material: Material | None = None
+    density: Density | None = None
 
 
 class CamModelRecipe(Recipe[CamModelKeys]):
@@ -111,7 +112,7 @@ class _Making(Making):
     """The tables as they grow; the axle is at 0, the cam's lower face at height 0."""
 
     def __init__(self, keys: CamModelKeys) -> None:
-        super().__init__(keys.plate_thickness, keys.material, _COLOURS)
+        super().__init__(keys.plate_thickness, made_of(keys.material, keys.density), _COLOURS)
         self.keys, self.rolls = keys, keys.follower == "roller"
         given = {key: getattr(keys, key) for key in _CAM_KEYS}
         self.given = {key: value for key, value in given.items() if value is not None}

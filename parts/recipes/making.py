@@ -15,17 +15,21 @@ WAYS: Mapping[str, tuple[float, float, float]] = {
 _CORNER = 10.0
 
 
+def made_of(material: str | None, density: float | None) -> Table:
+    """The keys of every part of an assembly that say what it is made of."""
+    return {key: value for key, value in {"material": material, "density": density}.items() if value is not None}
+
+
 class Making:
     """An expansion that grows; ``colours`` by part, of what has none there that of ``pin``."""
 
-    def __init__(self, thickness: float, material: str | None, colours: Mapping[str, str]) -> None:
+    def __init__(self, thickness: float, material: Table, colours: Mapping[str, str]) -> None:
         self.found = Expansion()
         self.thickness, self.material, self.colours = thickness, material, colours
 
     def part(self, name: str, colour: str = "", /, **keys: object) -> None:
         """A part of the material."""
-        own = {"colour": self.colours[colour or name]}
-        self.found.parts[name] = keys | (own if self.material is None else {"material": self.material, **own})
+        self.found.parts[name] = keys | self.material | {"colour": self.colours[colour or name]}
 
     def plate(self, name: str, size: float, holes: Sequence[Table], *, square: bool = False, **more: object) -> None:
         """A disk of a diameter, or a square plate of a side."""

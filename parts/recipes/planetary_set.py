@@ -23,10 +23,11 @@ from geometry.gears.planetary.fitting import Fitting
 from geometry.gears.planetary.sets import LINKS, SCHEMES, PlanetarySet, ratio_of
 from geometry.gears.shifts.external import Requirements
 from geometry.gears.teeth.basic_rack import ISO_53_ANGLE, iso_53
-from parts.base.part_keys import Material
+from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
 from parts.keys.base import degrees, mm
 from parts.keys.mate import further
+from parts.recipes.making import made_of
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 # what meshes keep where their shifts are chosen: tip thickness, modules, and contact ratio
@@ -115,6 +116,7 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
         bool, Meta(description="with shaft and crank, and a base under the ring, which stands on feet; marks engraved")
     ] = False
     material: Material | None = None
+    density: Density | None = None
 
 
 class _Wheel(Record):
@@ -275,8 +277,7 @@ def _wheel_part(made: _Set, wheel: _Wheel) -> Table:
 
 
 def _looks(made: _Set, part: str) -> Table:
-    colour = {"colour": _COLOURS[part]}
-    return colour if made.keys.material is None else {"material": made.keys.material, **colour}
+    return {**made_of(made.keys.material, made.keys.density), "colour": _COLOURS[part]}
 
 
 def _rim(made: _Set, ring: _Wheel) -> tuple[float, float]:

@@ -308,7 +308,7 @@ class _Making(Making):
 
     def __init__(self, keys: PowerModuleKeys) -> None:
         self.keys, self.s = keys, checked_sizes(keys)
-        super().__init__(keys.disk_thickness, None, {name: row[3] for name, row in PARTS.items()})
+        super().__init__(keys.disk_thickness, {}, {name: row[3] for name, row in PARTS.items()})
         self.within = ""
         # heights of what others are fixed to
         self.low = {"body": self.s["z_floor"] - self.s["h_floor"]}

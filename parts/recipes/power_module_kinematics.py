@@ -21,10 +21,10 @@ from msgspec import Meta
 
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record
-from parts.base.part_keys import Material
+from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
 from parts.keys.base import mm
-from parts.recipes.making import Making, hole, place
+from parts.recipes.making import Making, hole, made_of, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 
 # mm: walls between holes, boss of a crank about its pin, rim beyond the ring's teeth, the idler's link about its axles,
@@ -85,6 +85,7 @@ class PowerModuleKinematicsKeys(RecipeKeys, kw_only=True, tag="power_module_kine
     turns_of_disk: Annotated[_Turns, Meta(description="how far disk 2 is turned")] = 1.0
     turns_of_ring: Annotated[_Turns, Meta(description="how far the ring is turned")] = -2.0
     material: Material | None = None
+    density: Density | None = None
 
 
 class _Sizes(Record):
@@ -179,7 +180,7 @@ class _Making(Making):
 
     def __init__(self, sizes: _Sizes) -> None:
         self.sizes, self.keys = sizes, sizes.keys
-        super().__init__(self.keys.wheel_width, self.keys.material, _COLOURS)
+        super().__init__(self.keys.wheel_width, made_of(self.keys.material, self.keys.density), _COLOURS)
         self.gears = -self.keys.axial_gap - self.keys.face_width
         # planes behind the pinion, the nearest first
         pitch = self.keys.axial_gap + self.keys.wheel_width

@@ -22,10 +22,10 @@ from msgspec.structs import replace
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record
-from parts.base.part_keys import Material
+from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
 from parts.keys.base import mm
-from parts.recipes.making import Making, hole, place
+from parts.recipes.making import Making, hole, made_of, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 # modules: what a ring's root is beyond its reference circle at most, with its clearance; a rim beyond that, mm
@@ -96,6 +96,7 @@ class PowerTableKeys(RecipeKeys, kw_only=True, tag="power_table"):
     turns_of_disk: Annotated[_Turns, Meta(description="how far disk 2 is turned")] = 1.0
     turns_of_ring: Annotated[_Turns, Meta(description="how far the ring is turned")] = -2.0
     material: Material | None = None
+    density: Density | None = None
 
 
 class _Sizes(Record):
@@ -279,7 +280,7 @@ class _Making(Making):
     def __init__(self, sizes: _Sizes) -> None:
         self.sizes, self.keys = sizes, sizes.keys
         thick, gap = self.keys.plate_thickness, self.keys.axial_gap
-        super().__init__(thick, self.keys.material, _COLOURS)
+        super().__init__(thick, made_of(self.keys.material, self.keys.density), _COLOURS)
         self.back = thick + gap
         # half of a thin plate is left under a mark
         self.mark = {"depth": thick / 2} if thick < 2 * _MARK else {}

@@ -69,6 +69,7 @@ def in_one(raw: dict[str, Any], table: object, source: str, place: str, chosen: 
         A language has no catalogue.
     """
     # ``list`` asks for the language alone and loads nothing of geometry
+    from parts.base.materials import check_material
     from parts.base.refusal import SceneError, meant
 
     if not isinstance(table, dict):
@@ -85,6 +86,9 @@ def in_one(raw: dict[str, Any], table: object, source: str, place: str, chosen: 
                 )
         if key in chosen:
             _check_all(told, key, source, f"{place}.{key}")
+            if key == "material" and "density" not in table:
+                for other, name in told.items():
+                    check_material(name, source, f"{place}.{key}.{other}")
             made[key] = told_in(str(language), told)
     return made
 

@@ -15,6 +15,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import GeometryError, Nearest, ParameterError
 from parts.base.content import NotAFileError, content
+from parts.base.materials import check_material
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.registry import KINDS
@@ -433,6 +434,8 @@ def _part_spec(key: str, table: dict[str, Any], source: str) -> MaterialKeys:
         raise placed(source, place, refusal) from None
     if isinstance(spec.title, str) and not spec.title.strip():
         raise SceneError(source, f"{place}.title", spec.title, "blank_title", REMOVED)
+    if spec.density is None and spec.material is not None:
+        check_material(spec.material, source, f"{place}.material")
     if isinstance(label := spec.label, str):
         from geometry.plane.letters import unknown_letters
 

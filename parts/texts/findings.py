@@ -117,7 +117,6 @@ FINDINGS: dict[str, Text] = {
     "label_tells_z": N_("its label tells z {value:.6g}, it has {limit:.6g} teeth"),
     "label_tells_m": N_("its label tells m {value:.6g}, its module is {limit:.6g} mm"),
     "label_tells_x": N_("its label tells x {value:.6g}, its profile shift is {limit:.6g}"),
-    "unknown_material": N_("the material is none whose density is known: no mass; give the density, g/cm^3"),
     "steep_return_pressure_angle": N_(
         "pressure angle {value:.2f} deg on the return, which the cam drives too; usual is at most {limit:.0f} deg"
     ),

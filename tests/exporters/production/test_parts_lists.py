@@ -34,7 +34,6 @@ designation = "ABC.01.00.02"
 kind = "pin"
 diameter = 8.0
 length = 50.0
-material = "unobtainium"
 title = "Rod"
 
 [parts.screw]

@@ -7,27 +7,61 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from parts.base.densities import DENSITIES, NAMES, ROWS
 from parts.base.materials import density_of, mass_properties, material_told
 from parts.base.texts import words
-from parts.scene.load import make_parts, scene_from_dict
-from tests.exporters.making import part_keys, read_report, run, write_scene
-from tests.exporters.outside import Gear
+from parts.scene.load import load_scene, make_parts, scene_from_dict
+from tests.exporters.making import run
 
 
+# by standards and makers' sheets: masses of GOST 2590 and EN 10060, GOST 9941, EN 10088-1, GOST 1412
 @pytest.mark.parametrize(
     ("text", "density"),
     [
         ("PLA", 1.24),
         ("plywood 3 mm", 0.65),
-        ("Stainless steel 1.4301", 7.93),
+        ("Stainless steel 1.4301", 7.9),
         ("Steel C45", 7.85),
         ("сталь 45", 7.85),
+        ("Сталь 20Х ГОСТ 4543-71", 7.85),
+        ("40Х", 7.85),
+        # Latin X and C, and small letters
+        ("40X", 7.85),
+        ("ст3", 7.85),
+        ("12х18н10т", 7.9),
+        ("сталь 20Х13 ГОСТ 5949", 7.7),
+        # the mark goes before the name, which is longer
+        ("чавун СЧ20", 7.1),
+        ("ВЧ50", 7.1),
+        ("БрА9Ж4", 7.6),
+        ("бронза БрО10Ф1", 8.8),
+        ("ЛС59-1", 8.45),
+        ("Д16Т", 2.78),
+        ("EN AW-6082 T6", 2.7),
+        ("16MnCr5", 7.85),
+        ("AISI 316L", 8.0),
+        ("POM", 1.41),
+        # the same in Cyrillic letters
+        ("РОМ", 1.41),
+        ("АБС-пластик", 1.05),
+        ("деревина", 0.6),
+        ("оргскло 4 мм", 1.19),
         ("plastic", None),
+        ("45", None),
+        ("A4", None),
+        ("M3", None),
         (None, None),
     ],
 )
 def test_a_material_is_known_by_its_name_anywhere_in_the_text(text: str | None, density: float | None) -> None:
     assert density_of(text) == density
+
+
+def test_no_name_stands_with_two_densities() -> None:
+    """Neither twice in the table nor once in Cyrillic and once in Latin letters; all of them are whole words."""
+    rows = [name for _, row in ROWS for name in row.split(", ")] + list(NAMES)
+    assert len(rows) == len(set(rows)) == len(DENSITIES)
+    assert [name for name in DENSITIES if density_of(name) != DENSITIES[name]] == []
 
 
 def test_mass_and_inertia_agree_with_the_mesh() -> None:
@@ -51,13 +85,58 @@ def test_a_density_of_one_s_own_goes_first() -> None:
     assert part.density == 1.1
 
 
-@pytest.mark.parametrize(("keys", "told"), [({}, False), ({"material": "PLA"}, False), ({"material": "plywod"}, True),
-                                            ({"material": "plywod", "density": 0.6}, False)])  # fmt: skip
-def test_a_material_without_a_density_is_told(keys: dict[str, object], told: bool, tmp_path: Path) -> None:
-    scene = write_scene(tmp_path / "s.toml", {"g": part_keys(Gear(2, 23)) | keys}, [{"format": "svg"}])
-    assert run("build", scene, "--out", tmp_path, "--no-verify") == 0
-    found = read_report(tmp_path / "s")["parts"]["g"]["findings"]
-    assert ("unknown_material" in [f["code"] for f in found]) is told
+GEAR = '[parts.g]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 23\n'
+EXPORT = '[[exports]]\nformat = "svg"\n'
+SET = '[[assemblies]]\nkind = "planetary_set"\nteeth = [24, 24, 72]\n'
+
+
+@pytest.mark.parametrize(
+    ("scene", "key", "meant"),
+    [
+        (f'{GEAR}material = "plywod 3 mm"\n', "parts.g.material", "plywood"),
+        (f'{GEAR}material = "фанэра"\n', "parts.g.material", "фанера"),
+        (f'{GEAR}material = "qwx"\n', "parts.g.material", ""),
+        # today another language is told
+        (f'{GEAR}material = {{ en = "plywood", uk = "фанэра" }}\n', "parts.g.material.uk", "фанера"),
+        (f'[defaults]\nmaterial = "stel"\n{GEAR}', "parts.g: defaults.material", "steel"),
+        (f'{SET}material = "petgg"\n', "material", "PETG"),
+        # the density of others is not this one's
+        (f'[defaults]\ndensity = 1.1\n{GEAR}material = "wod"\n', "parts.g.material", "wood"),
+    ],
+)
+def test_an_unknown_material_is_refused_with_the_names_that_are_known(
+    scene: str, key: str, meant: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "s.toml"
+    file.write_text(scene + EXPORT, encoding="utf-8")
+    assert run("build", file, "--out", tmp_path / "out") == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert f"{key} = " in line
+    assert f"did you mean {meant}?" in line if meant else "did you mean" not in line
+    assert "`density`" in line
+    assert "higherpair list" in line
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        f'{GEAR}material = "unobtainium"\ndensity = 1.1\n',
+        f'[defaults]\nmaterial = "unobtainium"\ndensity = 1.1\n{GEAR}',
+        f'{SET}material = "unobtainium"\ndensity = 1.1\n',
+    ],
+)
+def test_a_density_of_one_s_own_allows_any_name(scene: str, tmp_path: Path) -> None:
+    file = tmp_path / "s.toml"
+    file.write_text(scene + EXPORT, encoding="utf-8")
+    parts = load_scene(str(file)).parts.values()
+    assert {(part.material, part.density) for part in parts if part.material} == {("unobtainium", 1.1)}
+
+
+def test_the_list_has_every_material(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("list") == 0
+    told = capsys.readouterr().out
+    assert all(name in told for name in DENSITIES)
 
 
 def test_a_known_material_is_told_in_the_language_of_the_drawing() -> None:

@@ -192,7 +192,7 @@ gear_tables = st.fixed_dictionaries(
         "tip_chamfer": lengths,
         "tip_rounding": lengths,
         "bore_diameter": lengths,
-        "material": words(20),
+        "material": words(20).map("PLA {}".format),
         "colour": st.just("#C08040"),
     },
 )
