@@ -30,7 +30,7 @@ CYRILLIC = re.compile("[\u0400-\u04ff]")
 # where Ukrainian letters stand in the code, and why
 CYRILLIC_PLACES = {
     "parts/pages/symbols.py": "their indices",
-    "parts/base/materials.py": "materials as users write them in scenes of any language",
+    "parts/base/densities.py": "materials as users write them in scenes of any language",
     "parts/pages/contact_steps.py": "the practicum's tables Д.1, Е.1",
     "parts/mates/pages/external.py": "the practicum's table А.1",
     "geometry/plane/letters.py": "the letters that are engraved",

@@ -48,7 +48,7 @@ def check_material(material: str, source: str, place: str) -> None:
 
 
 def material_told(material: str | None, told: Words) -> str:
-    """A material in the words of a language, where it has a known name: plywood 3 mm, фанера 3 mm."""
+    """A material in the words of a language, where it has a known name: its thickness too."""
     material = _MM.sub(rf"\1 {told.text('mm')}", material or "")
     found = _known(material, NAMES)
     if found is None or told.text(found.name) == found.name:
