@@ -239,11 +239,13 @@ def _check(pieces: Sequence[Piece]) -> None:
 
     one, two = np.sign(side(a)), np.sign(side(b))
     crossing = (one * two < 0) & (one * two < 0).T
+    # neighbours have their corner alone in common, beside which digits may put an end
+    own = np.arange(len(a))
+    crossing[own, own - 1] = crossing[own - 1, own] = False
     # a corner may lie on no edge but its own two, and none may turn back on the one before it
     length = np.maximum(np.abs(way) ** 2, 1e-300)[:, None]
     share = np.clip((np.conj(way)[:, None] * (a[None, :] - a[:, None])).real / length, 0.0, 1.0)
     near = np.abs(a[:, None] + share * way[:, None] - a[None, :]) <= _SAME * size
-    own = np.arange(len(a))
     near[own, own] = near[own - 1, own] = False
     back = np.conj(np.roll(way, 1)) * way
     crossing |= near | np.diag((back.real < 0) & (np.abs(back.imag) <= _SAME * np.abs(back)))

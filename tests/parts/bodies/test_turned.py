@@ -172,6 +172,13 @@ REFUSED = {
 }  # fmt: skip
 
 
+def test_an_arc_and_its_neighbour_do_not_cross_in_their_corner() -> None:
+    """Before: the first sample of an arc was rounded beside the corner that a line ends in, and lines were refused."""
+    rows = [(36.15, 7.09), (23.82, -1.98), (36.92, -7.17), (39.93, -6.45), (41.65, -2.43), (38.26, -1.11)]
+    keys = points((36.26, 5.07), *rows, {"r": 43.33, "z": 0.31, "arc": -6.11})
+    assert body_of(keys).moments.volume == pytest.approx(pappus(keys), rel=1e-7)
+
+
 @pytest.mark.parametrize("end", [6.55, 6.373])
 def test_a_flat_cone_between_roundings_tells_its_area(end: float, tmp_path: Path) -> None:
     """Before: the read-back took a flat cone's area off its heights, whose digits hold little of it, and refused it."""
