@@ -102,7 +102,9 @@ class BoardJob(Record, PartsJob):
 
 
 def board_jobs(
-    asked: Request, section: Callable[[Part, ExportSpec, str, str], OffsetRegion], layouts: dict[object, list[Laid]]
+    asked: Request,
+    section: Callable[[Part, ExportSpec, str, str, float], OffsetRegion],
+    layouts: dict[object, list[Laid]],
 ) -> list[BoardJob]:
     """The files of one export: every board of every table, counted through.
 
@@ -120,7 +122,9 @@ def board_jobs(
         own = with_keys(export, kerf=board.kerf)
         wanted = [p for p in parts_of_board(board, parts, source, place) if p in asked.wanted]
         counts = pieces_of(board, wanted, asked.scene.instances, source, place)
-        jobs = {p: Job(parts[p], own, section(parts[p], own, source, place), "", asked.where) for p in counts}
+        jobs = {
+            p: Job(parts[p], own, section(parts[p], own, source, place, board.gap), "", asked.where) for p in counts
+        }
         key = (name, tuple(counts), export.tolerance)
         if key not in layouts:
             layouts[key] = _laid_out(board, jobs, counts, source, place)

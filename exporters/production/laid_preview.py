@@ -87,7 +87,7 @@ def _preview(job: LaidJob, title: str, fills: Mapping[str, str], file: Path, tol
 def _drawn(part: Part, job: LaidJob, number: str, fill: str) -> _Drawn:
     """A part as it is cut; on a bed as it is seen from above, its words its name or a number."""
     if isinstance(job, BoardJob):
-        region = part.cut(0.0, named=True).region
+        region = part.cut(0.0, job.board.gap).region
         strokes = tuple(np.array(stroke, dtype=np.complex128) for stroke in region.strokes)
         return _Drawn((tuple(o.geometry for o in outlines_of(region)),), strokes, (), fill)
     section = tuple(o.geometry for o in outlines_of(part.section(0.0).region))

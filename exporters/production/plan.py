@@ -275,13 +275,13 @@ def _assembly_path(scene: SceneFile, export: ExportSpec, exports: list[ExportSpe
     return f"{scene.name}{word}.{export.format}"
 
 
-def _section(part: Part, export: ExportSpec, source: str, place: str) -> OffsetRegion:
-    """The exact section with the export's kerf or offset, refused in the export's own key."""
+def _section(part: Part, export: ExportSpec, source: str, place: str, gap: float | None = None) -> OffsetRegion:
+    """The exact section with the export's kerf or offset, refused in the export's own key; ``gap``: its board's, mm."""
     try:
         offset, kind = export.kerf / 2 if export.kerf else export.offset, file_kind(export.format, export.purpose)
         if not (kind.is_solid or _is_flat(part)):
             raise SceneError(source, f"{place}.parts", part.id, "no_flat_outline")
-        return part.cut(offset, named=export.purpose == "board") if kind.form is Form.ARCS else part.section(offset)
+        return part.cut(offset, gap) if kind.form is Form.ARCS else part.section(offset)
     except OffsetError as error:
         key, given, cure = "offset", export.offset, error.nearest
         if export.kerf:

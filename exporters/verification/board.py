@@ -82,7 +82,7 @@ class ExpectedBoard(Record):
 
     def region(self, piece: BoardPiece) -> Region:
         """The section of a piece with its name, in the frame of its part."""
-        return self.parts[piece.part].cut(self.offset, named=True).region
+        return self.parts[piece.part].cut(self.offset, self.board.gap).region
 
 
 def verify_board(file: Path, kind: FileKind, expected: ExpectedBoard, declared: float, tolerance: float) -> Verdict:

@@ -49,12 +49,12 @@ class Part(Record, dict=True):
 
     @cached_property
     def cut(self) -> Callable[..., OffsetRegion]:
-        """The section as it is cut, with its name engraved where the part, or ``named``, asks for one."""
+        """The section as it is cut, with its name engraved where the part asks for one, or a board, ``gap`` mm between cuts."""
         return lru_cache(maxsize=8)(self._cut)
 
-    def _cut(self, offset: float, *, named: bool = False) -> OffsetRegion:
+    def _cut(self, offset: float, gap: float | None = None) -> OffsetRegion:
         label = self.keys.label
-        if not (named if label is None else label):
+        if not (gap is not None if label is None else label):
             return self.section(offset)
         from geometry.plane.letters import unknown_letters
         from parts.solids import naming
@@ -62,7 +62,7 @@ class Part(Record, dict=True):
         # a title in a script without letters here is left out
         names = (label if isinstance(label, str) else self.name, self.made_by.numbers(self.keys), self.id)
         text = next(name for name in names if name and not unknown_letters(name))
-        made = naming.named(self.section(offset), self.section(min(offset, 0.0)), text)
+        made = naming.named(self.section(offset), self.section(min(offset, 0.0)), text, gap or 0.0)
         strange = unknown_letters(names[0])
         told = (Finding("title_not_engraved", len(strange), 0.0),) if strange else ()
         wrong = self.made_by.wrong_numbers(self.keys, label) if isinstance(label, str) else ()

@@ -37,11 +37,11 @@ _TAG, _RIM, _CORNER, _OFF = 3.0, 1.5, 1.0, 3.0
 _HELD = re.compile(r"(?<!\S)([^\W\d]{1,2}|[^\w\s]\S*|\d\S*) +(?=[^\w\s]|\d)")
 
 
-def named(section: OffsetRegion, exact: OffsetRegion, text: str) -> OffsetRegion:
+def named(section: OffsetRegion, exact: OffsetRegion, text: str, gap: float = 0.0) -> OffsetRegion:
     """A section with its name engraved; ``exact``: the material that is left, in which it must find room.
 
-    A name without room stands on a tag, one more piece to the right, and a finding tells so: the least height of
-    letters, and the widest circle in the material, mm.
+    A name without room stands on a tag, one more piece to the right, its cut ``gap`` mm or more off, and a finding
+    tells so: the least height of letters, and the widest circle in the material, mm.
     """
     import shapely
 
@@ -56,7 +56,8 @@ def named(section: OffsetRegion, exact: OffsetRegion, text: str) -> OffsetRegion
         right = max(right, shapely.bounds(_polygon(piece))[2])
     letters = lettered(tuple(_layouts(text)[0]), _TAG)
     half = _half(letters) + (1 + 1j) * (_RIM + STROKE / 2)
-    middle = complex(right + _OFF + max(2 * section.offset, 0.0) + half.real, (low + high) / 2)
+    grown = max(section.offset, 0.0)
+    middle = complex(right + max(_OFF + grown, gap) + grown + half.real, (low + high) / 2)
     corners = [(middle + c, _CORNER) for c in (-half, half.conjugate(), half, -half.conjugate())]
     tag = PlateOutline(rounded(corners)).region(section.offset).region.outer
     moved = tuple(tuple(p + middle for p in stroke) for stroke in letters)

@@ -113,6 +113,17 @@ def test_a_board_says_which_part_has_no_room_for_its_name(tmp_path: Path, capsys
     assert said.startswith("note: Thin strip: ")
 
 
+def test_a_tag_on_a_board_keeps_the_gap_of_its_cuts(tmp_path: Path) -> None:
+    """Before: 3.1 mm off its part, whatever the board's gap."""
+    board = "[boards.one]\nwidth = 60.0\nheight = 60.0\nthickness = 3.0\nkerf = 0.2\ngap = 7.0\n"
+    roller = {"kind": "roller", "diameter": 12.0, "bore_diameter": 4.0, "face_width": 3.0}
+    scene = _scene(tmp_path, {"roller": roller}, [{"format": "dxf", "purpose": "board"}])
+    scene.write_text(scene.read_text() + board)
+    assert main(["build", str(scene), "--out", str(tmp_path)]) == 0
+    one, two = _read(tmp_path / "s" / "s.board.1.dxf")[0].geoms
+    assert one.distance(two) == pytest.approx(7.0, abs=0.01)
+
+
 def test_a_spoiled_stroke_is_caught(made: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for name, spoil in (
         ("gear.laser.dxf", lambda text: re.sub(r"(AcDbPolyline\n 90\n\d+\n 70\n0\n 10\n)-", r"\g<1>", text, count=1)),
