@@ -128,10 +128,12 @@ def _form(surface: Plane | Cylinder | Cone | Torus | Sphere, at: Real, turn: Rea
 
 
 def _whole(surface: Plane | Cylinder | Cone | Torus | Sphere) -> float | None:
-    """The area of a surface that is closed, mm^2."""
+    """The area of a surface that is closed, mm^2; a tube wider than its torus's radius goes through itself."""
     if isinstance(surface, Sphere):
         return 2 * TURN * surface.radius**2
-    return TURN**2 * surface.radius * surface.tube if isinstance(surface, Torus) else None
+    if isinstance(surface, Torus) and surface.tube <= surface.radius:
+        return TURN**2 * surface.radius * surface.tube
+    return None
 
 
 def _middles(surface: Torus, places: list[tuple[Index, Real, Real, Real]], bounds: Index, along: bool) -> Real:

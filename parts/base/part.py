@@ -49,7 +49,7 @@ class Part(Record, dict=True):
 
     @cached_property
     def cut(self) -> Callable[..., OffsetRegion]:
-        """The section as it is cut, with its name engraved where the part asks for one, or a board, ``gap`` mm between cuts."""
+        """The section as it is cut, named where the part asks for it, or a board whose cuts are ``gap`` mm apart."""
         return lru_cache(maxsize=8)(self._cut)
 
     def _cut(self, offset: float, gap: float | None = None) -> OffsetRegion:

@@ -179,10 +179,16 @@ def test_an_arc_and_its_neighbour_do_not_cross_in_their_corner() -> None:
     assert body_of(keys).moments.volume == pytest.approx(pappus(keys), rel=1e-7)
 
 
-@pytest.mark.parametrize("end", [6.55, 6.373])
-def test_a_flat_cone_between_roundings_tells_its_area(end: float, tmp_path: Path) -> None:
-    """Before: the read-back took a flat cone's area off its heights, whose digits hold little of it, and refused it."""
-    rows = [(10.0, 0.0), (31.0, 0.0), {"r": 31.0, "z": 6.37, "fillet": 0.9}, (10.0, end)]
+FLAT = (10.0, 0.0), (31.0, 0.0), {"r": 31.0, "z": 6.37, "fillet": 0.9}
+
+
+@pytest.mark.parametrize("rows", [
+    # before: the read-back took a flat cone's area off its heights, whose digits hold little of it, and refused it
+    (*FLAT, (10.0, 6.55)), (*FLAT, (10.0, 6.373)),
+    # before: the area of a face on a torus that goes through itself was told less what its tube sweeps
+    ((29.31, 7.9), (21.32, 12.84), {"r": 13.79, "z": 6.71, "arc": -15.57}, (16.02, 0.35), (27.31, 3.76)),
+])  # fmt: skip
+def test_a_file_tells_the_area_that_its_faces_have(rows: tuple[Any, ...], tmp_path: Path) -> None:
     scene = write_scene(tmp_path / "s.toml", {"part": points(*rows)}, [{"format": "step"}])
     assert run("build", scene, "--out", tmp_path / "out", "-q") == 0
 
