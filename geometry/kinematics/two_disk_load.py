@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
@@ -69,17 +70,6 @@ class Passed(Record):
     still: Wrench
 
 
-class Carried(Record):
-    """A state: ``worms``: torques on their wheels, N mm, in the sense of delta; ``mesh``: of the ring on the pinion,
-    N, along the line of action; ``cranks``: greatest force along one of either stage, N.
-    """
-
-    worms: tuple[Real, Real]
-    mesh: Real
-    cranks: tuple[Real, Real]
-    bearings: Mapping[Bearing, Passed]
-
-
 class LoadedTable(Record):
     """A table with what carries its forces; ``pivots``: radius of the circle of the cranks', and where the first of
     either stage stands, rad; ``wheels``: teeth of 6 (and 7) and 8.
@@ -101,76 +91,14 @@ class LoadedTable(Record):
         ParameterError
             A moment where idlers turn the platform.
         """
-        table, heights = self.table, self.heights
         if force.moment and self.orientation == "idlers":
             raise ParameterError("moment", force.moment / 1000, "moment_on_idlers")
-        first = 1j * np.exp(-1j * np.asarray(delta))
-        second = -first * np.exp(1j * np.asarray(beta))
-        at_2 = table.arms[0] * first
-        at_3 = at_2 + table.arms[1] * second
-        across = np.asarray(force.across * np.exp(1j * np.asarray(direction)), dtype=complex)
-        turned = self.turned * force.moment
-        torques = table.torques(delta, beta, across)
-        held = torques[0] - turned * table.ratio, torques[1] + turned * table.ratio
-        load = force_at(at_3, heights.load, across, force.axial, force.moment)
-        to_disk_3, more = self._orienting(first, second, at_2, at_3, force.moment)
-        axle = load + to_disk_3
-        moment_2 = np.imag(np.conj(at_3 - at_2) * across) + turned
-        mesh, point = table.mesh_force(first, moment_2, self.pressure_angle)
-        on_pinion = force_at(point, heights.mesh, mesh)
-        inner = axle + more + on_pinion
-        one, two = (self._worm(k, torque) for k, torque in enumerate(held))
-        none = force_at(0j, 0.0, 0j)
-        bearings: dict[Bearing, Passed] = {
-            "axle": _passed(axle, none, at_3, heights.bore[0]),
-            "disk_3": _passed(inner, none, at_2, heights.disk_3),
-            "ring": _passed(-on_pinion, two, 0j, heights.ring),
-            "disk_2": _passed(axle + more, one + two, 0j, heights.disk_2),
-        }
-        cranks = (self._crank(0, first, force.moment), self._crank(1, second, force.moment))
-        return Carried(held, np.abs(mesh), cranks, bearings)
+        return Carried(self, delta, beta, direction, force)
 
     @property
     def turned(self) -> float:
         """What the platform turns for the turn of disk 3 against disk 2."""
         return 1 + self.wheels[1] / self.wheels[0] if self.orientation == "thesis" else 0.0
-
-    def _orienting(
-        self, first: Complex, second: Complex, at_2: Complex, at_3: Complex, moment: float
-    ) -> tuple[Wrench, Wrench]:
-        """What keeps the platform from turning: on the platform, and with it on all that stands on disk 3.
-
-        Three cranks alike pass a couple on; wheels pass forces on at their pitch points.
-        """
-        if self.orientation != "thesis":
-            still = force_at(0 * at_2, 0.0, 0 * at_2)
-            return force_at(0 * at_2, 0.0, 0 * at_2, turn=-moment), still
-        one, two = self.wheels
-        near, far = (arm * one / (one + two) for arm in self.table.arms)
-        push = math.tan(self.pressure_angle)
-        on_6 = moment / far
-        on_8 = -on_6 * self.table.arms[1] / self.table.arms[0]
-        at_6, at_8 = at_3 - second * far, near * first
-        platform = force_at(at_6, self.heights.wheels[1], (1j * on_6 + abs(on_6) * push) * second)
-        satellite = force_at(at_8, self.heights.wheels[0], (1j * on_8 + abs(on_8) * push) * first)
-        return platform, -platform + satellite
-
-    def _worm(self, which: int, torque: Real) -> Wrench:
-        """What worm I (at +y) or II (at -y) does to its wheel where it holds a torque in the sense of delta."""
-        worm = self.worms[which]
-        side = 1 if which == 0 else -1
-        along = np.asarray(torque) / worm.radius
-        force = side * (along - 1j * np.abs(along) * worm.radial)
-        return force_at(1j * side * worm.radius, worm.height, force, along * worm.along)
-
-    def _crank(self, stage: int, way: Complex, moment: float) -> Real:
-        """Forces go as the arms about the middle, whose squares add up to 3/2 of the circle's radius squared."""
-        if not moment or self.orientation != "cranks":
-            return np.zeros(np.shape(way))
-        radius, starts = self.pivots
-        pins = radius * np.exp(1j * (starts[stage] + 2 * math.pi / 3 * np.arange(3)))
-        arms = np.imag(np.multiply.outer(np.conj(pins), way))
-        return np.asarray(np.abs(arms).max(axis=0) * abs(moment) / (1.5 * radius**2))
 
     def slopes(self, force: Force) -> Slopes:
         """How fast all of it may change, columns as in ``Slopes``."""
@@ -204,6 +132,129 @@ class LoadedTable(Record):
         held = moment if self.orientation == "cranks" else 0.0
         cranks = held / (1.5 * self.pivots[0])
         return Slopes(torques, mesh * _BY_ARM_2, (cranks * np.array([0, 0, 1]), cranks * _BY_ARM_2), bearings)
+
+
+class Carried(Record, dict=True, eq=False):
+    """A state of a table at angles (rad) under a force in a direction (rad from +x); what is asked of it is found then.
+
+    ``torques``: on the worms' wheels, N mm, in the sense of delta; ``mesh``: of the ring on the pinion, N, along the
+    line of action.
+    """
+
+    loaded: LoadedTable
+    delta: Real | float
+    beta: Real | float
+    direction: Real | float
+    force: Force
+
+    def crank(self, stage: int) -> Real:
+        """Greatest force along one of a stage, N: as the arms about the middle, whose squares add up to 3/2 r^2."""
+        moment, way = self.force.moment, self._ways[stage]
+        if not moment or self.loaded.orientation != "cranks":
+            return np.zeros(np.shape(way))
+        radius, starts = self.loaded.pivots
+        pins = radius * np.exp(1j * (starts[stage] + 2 * math.pi / 3 * np.arange(3)))
+        arms = np.imag(np.multiply.outer(np.conj(pins), way))
+        return np.asarray(np.abs(arms).max(axis=0) * abs(moment) / (1.5 * radius**2))
+
+    @cached_property
+    def torques(self) -> tuple[Real, Real]:
+        table, turned = self.loaded.table, self.loaded.turned * self.force.moment
+        one, two = table.torques(self.delta, self.beta, self._across)
+        return one - turned * table.ratio, two + turned * table.ratio
+
+    @property
+    def mesh(self) -> Real:
+        return np.abs(self._mesh[0])
+
+    def passed(self, bearing: Bearing) -> Passed:
+        """What the inner link of a bearing passes to the outer one."""
+        found: Passed = getattr(self, f"_{bearing}")
+        return found
+
+    @cached_property
+    def _axle(self) -> Passed:
+        return _passed(self._platform, _NONE, self._at_3, self.loaded.heights.bore[0])
+
+    @cached_property
+    def _disk_3(self) -> Passed:
+        inner = self._platform + self._oriented[1] + self._on_pinion
+        return _passed(inner, _NONE, self._at_2, self.loaded.heights.disk_3)
+
+    @cached_property
+    def _ring(self) -> Passed:
+        return _passed(-self._on_pinion, self._worm(1), 0j, self.loaded.heights.ring)
+
+    @cached_property
+    def _disk_2(self) -> Passed:
+        turning = self._platform + self._oriented[1]
+        return _passed(turning, self._worm(0) + self._worm(1), 0j, self.loaded.heights.disk_2)
+
+    @cached_property
+    def _ways(self) -> tuple[Complex, Complex]:
+        """Directions of O1O2 and of O3O2."""
+        first = 1j * np.exp(-1j * np.asarray(self.delta))
+        return first, -first * np.exp(1j * np.asarray(self.beta))
+
+    @cached_property
+    def _at_2(self) -> Complex:
+        return self.loaded.table.arms[0] * self._ways[0]
+
+    @cached_property
+    def _at_3(self) -> Complex:
+        return self._at_2 + self.loaded.table.arms[1] * self._ways[1]
+
+    @cached_property
+    def _across(self) -> Complex:
+        return np.asarray(self.force.across * np.exp(1j * np.asarray(self.direction)), dtype=complex)
+
+    @cached_property
+    def _mesh(self) -> tuple[Complex, Complex]:
+        turned = self.loaded.turned * self.force.moment
+        moment_2 = np.imag(np.conj(self._at_3 - self._at_2) * self._across) + turned
+        return self.loaded.table.mesh_force(self._ways[0], moment_2, self.loaded.pressure_angle)
+
+    @cached_property
+    def _on_pinion(self) -> Wrench:
+        mesh, point = self._mesh
+        return force_at(point, self.loaded.heights.mesh, mesh)
+
+    @cached_property
+    def _platform(self) -> Wrench:
+        """What the platform's axle passes on."""
+        force, height = self.force, self.loaded.heights.load
+        return force_at(self._at_3, height, self._across, force.axial, force.moment) + self._oriented[0]
+
+    @cached_property
+    def _oriented(self) -> tuple[Wrench, Wrench]:
+        """What keeps the platform from turning: on the platform, and with it on all that stands on disk 3.
+
+        Three cranks alike pass a couple on; wheels pass forces on at their pitch points.
+        """
+        loaded, moment, at_2 = self.loaded, self.force.moment, self._at_2
+        if loaded.orientation != "thesis":
+            still = force_at(0 * at_2, 0.0, 0 * at_2)
+            return force_at(0 * at_2, 0.0, 0 * at_2, turn=-moment), still
+        (one, two), (first, second) = loaded.wheels, self._ways
+        near, far = (arm * one / (one + two) for arm in loaded.table.arms)
+        push = math.tan(loaded.pressure_angle)
+        on_6 = moment / far
+        on_8 = -on_6 * loaded.table.arms[1] / loaded.table.arms[0]
+        at_6, at_8 = self._at_3 - second * far, near * first
+        platform = force_at(at_6, loaded.heights.wheels[1], (1j * on_6 + abs(on_6) * push) * second)
+        satellite = force_at(at_8, loaded.heights.wheels[0], (1j * on_8 + abs(on_8) * push) * first)
+        return platform, -platform + satellite
+
+    def _worm(self, which: int) -> Wrench:
+        """What worm I (at +y) or II (at -y) does to its wheel where it holds its torque."""
+        worm = self.loaded.worms[which]
+        side = 1 if which == 0 else -1
+        along = np.asarray(self.torques[which]) / worm.radius
+        force = side * (along - 1j * np.abs(along) * worm.radial)
+        return force_at(1j * side * worm.radius, worm.height, force, along * worm.along)
+
+
+_NONE = force_at(0j, 0.0, 0j)
 
 
 # of what goes by the direction of the force to O2O3 alone, and of what goes by that to O1O2
@@ -275,7 +326,7 @@ class Amount(Record):
 
 def worm_torque(which: int) -> Amount:
     """On the wheel of worm I (0) or II (1), N mm."""
-    return Amount(lambda state, _: np.abs(state.worms[which]), lambda slopes: slopes.worms[which])
+    return Amount(lambda state, _: np.abs(state.torques[which]), lambda slopes: slopes.worms[which])
 
 
 def mesh_force() -> Amount:
@@ -285,7 +336,7 @@ def mesh_force() -> Amount:
 
 def crank_force(stage: int) -> Amount:
     """Along a crank of the stage on the body (0) or on the platform (1), N."""
-    return Amount(lambda state, _: state.cranks[stage], lambda slopes: slopes.cranks[stage])
+    return Amount(lambda state, _: state.crank(stage), lambda slopes: slopes.cranks[stage])
 
 
 def radial(bearing: Bearing) -> Amount:
@@ -354,17 +405,17 @@ def lift(bearing: Bearing, radius: float) -> Amount:
 
 
 def _forces(state: Carried, bearing: Bearing) -> Vectors:
-    passed = state.bearings[bearing]
+    passed = state.passed(bearing)
     return passed.turning.force, passed.still.force
 
 
 def _tilts(state: Carried, bearing: Bearing) -> Vectors:
-    passed = state.bearings[bearing]
+    passed = state.passed(bearing)
     return passed.turning.tilt, passed.still.tilt
 
 
 def _axial(state: Carried, bearing: Bearing) -> Real:
-    passed = state.bearings[bearing]
+    passed = state.passed(bearing)
     return np.abs(passed.turning.axial + passed.still.axial)
 
 

@@ -67,9 +67,9 @@ def off(table: LoadedTable, seed: int) -> float:
     found = [abs(float(state.mesh) - right["mesh"])]
     for k, teeth in enumerate(table.table.worm_ratios):
         # mm about the worm's axis: a wheel's torque by its ratio
-        found.append(abs(abs(float(state.worms[k])) / teeth - abs(right[f"torque_{k + 1}"])) / 10)
+        found.append(abs(abs(float(state.torques[k])) / teeth - abs(right[f"torque_{k + 1}"])) / 10)
     for name in BEARINGS:
-        passed = state.bearings[name]
+        passed = state.passed(name)
         # what the inner link passes on is what holds it, turned about; of the ring and of disk 3 likewise
         pull = complex(passed.turning.force + passed.still.force)
         tilt = 1j * complex(passed.turning.tilt + passed.still.tilt)
@@ -79,7 +79,7 @@ def off(table: LoadedTable, seed: int) -> float:
     if table.orientation == "cranks":
         for stage in (0, 1):
             most = max(abs(right[f"crank_{stage}_{pin}"]) for pin in range(3))
-            found.append(abs(float(state.cranks[stage]) - most))
+            found.append(abs(float(state.crank(stage)) - most))
     return max(found) / 1000
 
 
@@ -110,7 +110,7 @@ def test_by_virtual_work_no_turn_is_left_in_a_bearing() -> None:
     delta, beta, way = draw.uniform(-math.pi, math.pi, (3, 1000))
     for orientation in ("cranks", "thesis"):
         state = loaded(TABLES["unlike"], orientation).carried(delta, beta, way, Force(1000.0, 300.0, 50e3))
-        for passed in state.bearings.values():
+        for passed in map(state.passed, BEARINGS):
             assert np.abs(passed.turning.turn + passed.still.turn).max() < 1e-6
 
 
