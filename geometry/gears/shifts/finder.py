@@ -109,14 +109,16 @@ def _sums(pair: AnyShiftPair) -> list[float]:
     return [low + step * k for k in range(math.ceil((high - low) / step) + 1)]
 
 
-def legal_shifts(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> list[tuple[float, float]]:
+# what is looked for on a line asks for its legal part, one choice of shifts after another
+@lru_cache(maxsize=1 << 11)
+def legal_shifts(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> tuple[tuple[float, float], ...]:
     """The intervals of x1 that keep the requirements at x1 + x2, or x2 - x1 of an internal pair, = ``shift_sum``."""
 
     def margin(x1: float) -> float:
         return least_margin(pair, wish, x1, second_shift(pair, shift_sum, x1))
 
     found = _first_shifts(pair, shift_sum)
-    return [] if found is None else _positive(margin, *found)
+    return () if found is None else tuple(_positive(margin, *found))
 
 
 def for_sum(pair: AnyShiftPair, wish: Requirements, shift_sum: float) -> Proposal | None:
