@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
 from msgspec import Meta
 
+from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from parts.keys.base import degrees, in_modules, mm
 
 if TYPE_CHECKING:
@@ -20,6 +21,9 @@ USUAL_QUOTIENT = 10.0
 WormQuotient = Annotated[
     float, Meta(gt=0, le=1000, description="q = d1 / m; default: 10", examples=[USUAL_QUOTIENT])
 ]  # fmt: skip
+LeadAngle = Annotated[
+    float, degrees("lead angle on the reference cylinder, in place of q", above=0, below=89, example=5.7)
+]
 Form = Annotated[Literal["ZA", "ZI", "ZN1", "ZN2", "ZK1"], Meta(description="form of the flanks, GOST 18498")]
 WormAngle = Annotated[
     float, degrees("in the axial section (ZA), in the normal one, or of the grinding wheel (ZK1)", above=0, below=60)
@@ -63,6 +67,59 @@ class Threaded(Protocol):
     @property
     def diameter_quotient(self) -> float | None:
         """d1 / m; the usual one where it is not given."""
+
+
+class Led(Protocol):
+    """Keys that tell a worm's size by its quotient, or by its lead angle."""
+
+    number_of_starts: int
+    diameter_quotient: float | None
+    lead_angle_deg: float | None
+
+
+def quotient_of(keys: Led) -> float:
+    """d1 / m: given, of the lead angle, or the usual one.
+
+    Raises
+    ------
+    ParameterError
+        They give both, and these do not agree.
+    """
+    given = keys.diameter_quotient
+    if keys.lead_angle_deg is None:
+        return given or USUAL_QUOTIENT
+    wanted = keys.number_of_starts / math.tan(math.radians(keys.lead_angle_deg))
+    if given is not None and not math.isclose(given, wanted, rel_tol=1e-9):
+        told = {"one": "lead_angle_deg", "other": "diameter_quotient"}
+        raise ParameterError("diameter_quotient", given, "either_key", Nearest(None), **told)
+    return wanted
+
+
+def in_degrees(refusal: ParameterError, keys: Led) -> ParameterError:
+    """A refusal of the diameter quotient in the lead angle that it stands for, where that is given."""
+    if refusal.name != "diameter_quotient" or refusal.code == "either_key" or keys.lead_angle_deg is None:
+        return refusal
+
+    def cure() -> Nearest | None:
+        found = refusal.nearest
+        if found is None or not isinstance(found.value, float):
+            return None
+        return Nearest(rounded(math.degrees(math.atan2(keys.number_of_starts, found.value)), up=False), "at_most")
+
+    return ParameterError("lead_angle_deg", keys.lead_angle_deg, refusal.code, cure, **refusal.numbers)
+
+
+def hob_quotient(given: float | None, worm: float) -> float:
+    """q of the hob: the worm's where none is given.
+
+    Raises
+    ------
+    ParameterError
+        It is less than the worm's.
+    """
+    if given is not None and given < worm:
+        raise ParameterError("hob_diameter_quotient", given, "hob_smaller_than_worm", limit(worm, given))
+    return given or worm
 
 
 def worm_of(keys: Threaded, fillet_coefficient: float = 0.2, thinning: float = 0.0) -> Worm:

@@ -8,6 +8,7 @@ from contextlib import suppress
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
+from msgspec.structs import replace as changed
 
 from geometry.base.errors import ParameterError, limit
 from geometry.gears.worms import strength
@@ -35,11 +36,15 @@ from parts.keys.worm import (
     HobQuotient,
     HobRounding,
     HobThinning,
-    Quotient,
+    LeadAngle,
     Starts,
     WheelShift,
     WormAngle,
     WormHand,
+    WormQuotient,
+    hob_quotient,
+    in_degrees,
+    quotient_of,
     worm_of,
 )  # fmt: skip
 from parts.pages.inputs import SceneKeys, checked, given, keys_of, refusal
@@ -66,7 +71,8 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
         Annotated[int, Meta(ge=8, le=10_000, description="teeth of the wheel, z2; without it a worm alone")] | None
     ) = None
     number_of_starts: Starts = 1
-    diameter_quotient: Quotient = 10.0
+    diameter_quotient: WormQuotient | None = None
+    lead_angle_deg: LeadAngle | None = None
     profile_shift_coefficient: WheelShift = 0.0
     form: Form = "ZI"
     pressure_angle_deg: WormAngle = 20.0
@@ -119,7 +125,11 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     both = next((pair for pair in pairs if chosen in pair), (chosen,))
     off = next((given(mate) for mate, pair in zip(mates, pairs, strict=True) if pair == both), {})
     errors = {key: off[key] for key in _ERRORS if key in off}
-    return drive_table([scene.parts[key] for key in both if key is not None]) | errors | table
+    own = drive_table([scene.parts[key] for key in both if key is not None])
+    if "lead_angle_deg" in table:
+        # it stands in place of the scene's
+        own.pop("diameter_quotient", None)
+    return own | errors | table
 
 
 def drive_table(specs: Sequence[Struct]) -> dict[str, Any]:
@@ -138,7 +148,8 @@ def drive_table(specs: Sequence[Struct]) -> dict[str, Any]:
 
 def sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of one worm, or of its drive."""
-    keys: WormKeys = checked(table, WormKeys, TOPIC)
+    asked: WormKeys = checked(table, WormKeys, TOPIC)
+    keys = asked
     if keys.torque is not None and keys.form_factor is None:
         raise SceneError("calc", f"{TOPIC}.form_factor", None, "worm_form_factor_missing")
     errors = AxisErrors(keys.centre_distance_error, math.radians(keys.axis_angle_error_deg), keys.wheel_axial_error)
@@ -147,9 +158,11 @@ def sheet(table: dict[str, Any]) -> Sheet:
             if table.get(key):
                 raise SceneError("calc", f"{TOPIC}.number_of_teeth", None, "worm_wheel_missing", key=key)
     try:
+        keys = changed(asked, diameter_quotient=quotient_of(asked), lead_angle_deg=None)
         worm = worm_of(keys, keys.fillet_coefficient, keys.axial_thinning)
+        hob_quotient(keys.hob_diameter_quotient, worm.diameter_quotient)
     except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+        raise refusal(TOPIC, in_degrees(error, asked), keys=asked) from error
     drive = keys.number_of_teeth and WormDrive(worm, keys.number_of_teeth, keys.profile_shift_coefficient)
     if drive and keys.outer_diameter is not None and keys.outer_diameter < (least := 2 * drive.tip_radius):
         within = limit(least, keys.outer_diameter)
@@ -158,7 +171,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
     page = Sheet(TOPIC, N_("Worm drive") if drive else N_("Worm"))
     if drive:
         page.printed = printed_for_worm(worm, drive.number_of_teeth, drive.profile_shift_coefficient)
-    _given(page, keys)
+    _given(page, keys, worm.diameter_quotient)
     _dimensions(page, worm, drive or None, keys.worm_length)
     _sections(page, worm, keys)
     with suppress(ParameterError):
@@ -174,10 +187,10 @@ def sheet(table: dict[str, Any]) -> Sheet:
     return page
 
 
-def _given(page: Sheet, keys: WormKeys) -> None:
+def _given(page: Sheet, keys: WormKeys, quotient: float) -> None:
     page.section(N_("Given"))
     page.add("axial_module", keys.module)
-    page.add("diameter_quotient", keys.diameter_quotient)
+    page.add("diameter_quotient", quotient)
     page.add("number_of_starts", keys.number_of_starts)
     if keys.number_of_teeth is not None:
         page.add("worm_wheel_teeth", keys.number_of_teeth)
@@ -193,7 +206,7 @@ def _given(page: Sheet, keys: WormKeys) -> None:
         page.add("axial_thinning", keys.axial_thinning)
     if keys.number_of_teeth is not None:
         page.add("hob_rounding_coefficient", keys.hob_rounding_coefficient)
-        page.add("hob_diameter_quotient", keys.hob_diameter_quotient or keys.diameter_quotient)
+        page.add("hob_diameter_quotient", hob_quotient(keys.hob_diameter_quotient, quotient))
         if keys.wheel_thinning:
             page.add("hob_thickening", keys.wheel_thinning)
 
@@ -213,8 +226,8 @@ def _dimensions(page: Sheet, worm: Worm, drive: WormDrive | None, worm_length: f
         page.add("pitch_lead_angle_deg", math.degrees(drive.pitch_lead_angle), formula, _GOST)
     flank = worm.flank
     if isinstance(flank, InvoluteFlank):
-        formula = "arccos(cos({alpha}) * cos({gamma}))"
-        page.add("base_lead_angle_deg", math.degrees(flank.base_lead_angle), formula, _GOST)
+        page.add("base_lead_cosine", math.cos(flank.base_lead_angle), "cos({alpha}) * cos({gamma})", _GOST)
+        page.add("base_lead_angle_deg", math.degrees(flank.base_lead_angle), "arccos({cos_gamma_b})", _GOST)
         page.add("worm_base_diameter", 2 * flank.least_radius, "{z1} * {m} / tan({gamma_b})", _GOST)
     page.add("lead", worm.lead, "pi * {m} * {z1}", _GOST)
     page.add("thread_height", worm.tip_radius - worm.root_radius, "(2 * {h_a} + {c}) * {m}", _GOST)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta, Struct, field
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import Nearest, OffsetError, ParameterError, limit, rounded
+from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.solids.hub_holes import HubHoles, least_wall
@@ -19,17 +19,19 @@ from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import BoreDiameter, degrees, mm
 from parts.keys.holes import BoreTable, bore_of, hub_holes, wide_bore
 from parts.keys.worm import (
-    USUAL_QUOTIENT,
     Addendum,
     AxialModule,
     Clearance,
     Fillet,
     Form,
     GrindingWheel,
+    LeadAngle,
     Starts,
     WormAngle,
     WormHand,
     WormQuotient,
+    in_degrees,
+    quotient_of,
     worm_of,
 )  # fmt: skip
 
@@ -72,10 +74,7 @@ class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field
     thread_length: Annotated[float, mm("threaded length b1, at the root", above=0, most=10_000, example=40.0)]
     number_of_starts: Starts = 1
     diameter_quotient: WormQuotient | None = None
-    lead_angle_deg: (
-        Annotated[float, degrees("lead angle on the reference cylinder, in place of q", above=0, below=89, example=5.7)]
-        | None
-    ) = None
+    lead_angle_deg: LeadAngle | None = None
     form: Form = "ZI"
     pressure_angle_deg: WormAngle = 20.0
     hand: WormHand = "right"
@@ -130,20 +129,14 @@ def _check_ends(keys: WormSpec) -> None:
 
 
 def told_worm(keys: WormSpec) -> WormSpec:
-    """The keys with the diameter quotient of their lead angle, where they give one.
+    """The keys with a diameter quotient in place of a lead angle.
 
     Raises
     ------
     ParameterError
         They give both, and these do not agree.
     """
-    if keys.lead_angle_deg is None:
-        return keys
-    wanted, given = keys.number_of_starts / math.tan(math.radians(keys.lead_angle_deg)), keys.diameter_quotient
-    if given is not None and not math.isclose(given, wanted, rel_tol=1e-9):
-        told = {"one": "lead_angle_deg", "other": "diameter_quotient"}
-        raise ParameterError("diameter_quotient", given, "either_key", Nearest(None), **told)
-    return changed(keys, diameter_quotient=wanted)
+    return changed(keys, diameter_quotient=quotient_of(keys), lead_angle_deg=None)
 
 
 def thread_of_keys(keys: WormSpec) -> Thread:
@@ -163,9 +156,7 @@ def thread_of_keys(keys: WormSpec) -> Thread:
     except ParameterError as refusal:
         if refusal.name == "addendum_coefficient":
             raise ParameterError(refusal.name, refusal.value, refusal.code, partial(_lower, keys)) from refusal
-        if refusal.name != "diameter_quotient" or keys.lead_angle_deg is None:
-            raise
-        raise _in_degrees(refusal, keys.number_of_starts, keys.lead_angle_deg) from refusal
+        raise in_degrees(refusal, keys) from refusal
 
 
 def _lower(keys: WormSpec) -> Nearest | None:
@@ -175,18 +166,6 @@ def _lower(keys: WormSpec) -> Nearest | None:
         return thread_of_keys(changed(keys, addendum_coefficient=value)).tip_half > 0
 
     return nearest(works, keys.addendum_coefficient, (1.0, 0.5, 0.1))
-
-
-def _in_degrees(refusal: ParameterError, starts: int, given: float) -> ParameterError:
-    """A refusal of the diameter quotient in the lead angle that it stands for."""
-
-    def cure() -> Nearest | None:
-        found = refusal.nearest
-        if found is None or not isinstance(found.value, float):
-            return None
-        return Nearest(rounded(math.degrees(math.atan2(starts, found.value)), up=False), "at_most")
-
-    return ParameterError("lead_angle_deg", given, refusal.code, cure, **refusal.numbers)
 
 
 def _check_shaft(keys: WormSpec, root: float) -> None:
@@ -230,7 +209,7 @@ class WormKind(Kind[WormSpec, "WormBody"]):
             keys = changed(keys, **{angle: _USUAL_ANGLES[angle]})
         if keys.lead_angle_deg is not None:
             return keys
-        return changed(keys, diameter_quotient=keys.diameter_quotient or USUAL_QUOTIENT)
+        return told_worm(keys)
 
     def thing(self, keys: WormSpec, others: Others) -> WormBody:
         """The worm's solid, checked to exist."""

@@ -32,6 +32,7 @@ from parts.keys.worm import (
     WheelShift,
     WormAngle,
     WormHand,
+    hob_quotient,
     worm_of,
 )  # fmt: skip
 
@@ -56,7 +57,7 @@ _SEEN = 33
 _SLIVER = 0.02
 # and what a wheel is of use with; its tip in the middle, modules
 _USEFUL, _TIP = 0.25, 0.02
-# addenda and shifts are offered that near to the last one that works, mm or modules
+# addenda and shifts (modules) and thinnings (mm) are offered that near to the last one that works
 _NEAR = 5e-3
 # an outside is reached that near, mm; below so many degrees a corner is sharp: a throat wraps a third of the worm
 _REACHED, _SHARP = 1e-3, 29.9
@@ -134,12 +135,8 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     from geometry.gears.worms.hob import oversized_hob
     from geometry.gears.worms.wheel import WormTeeth
 
-    given = keys.hob_diameter_quotient
-    if given is not None and given < keys.diameter_quotient:
-        raise ParameterError(
-            "hob_diameter_quotient", given, "hob_smaller_than_worm", limit(keys.diameter_quotient, given)
-        )
-    hob = oversized_hob(drive, keys.hob_rounding_coefficient, given or keys.diameter_quotient)
+    quotient = hob_quotient(keys.hob_diameter_quotient, keys.diameter_quotient)
+    hob = oversized_hob(drive, keys.hob_rounding_coefficient, quotient)
     # a hob with thicker threads leaves thinner teeth
     try:
         hob = replace(hob, worm=replace(hob.worm, thinning=-keys.axial_thinning)).checked()

@@ -541,7 +541,10 @@ WORM_NAMES = {
     "h_a1_mm": "thread_addendum", "d_a1_mm": "worm_tip_diameter", "d_a2_mm": "throat_diameter",
     "d_ae2_mm": "most_outer_diameter", "rho_f1_mm": "worm_fillet_radius", "b1_min_mm": "least_worm_length",
     "b2_max_mm": "most_face_width", "gamma_b_deg": "base_lead_angle_deg", "d_b_mm": "worm_base_diameter",
+    "cos_gamma_b": "base_lead_cosine", "b1_plus_25_mm": "ground_worm_length",
 }  # fmt: skip
+# what the thesis could have had with another width of the rim
+WORM_WIDTHS = {"sigma_H_full_width_MPa": 45.0, "sigma_H_half_width_sqrt2_MPa": 22.5}
 
 
 @pytest.mark.parametrize("drive", ["wormI.", "wormII."])
@@ -549,15 +552,40 @@ def test_every_number_of_the_thesis_worm_drives(drive: str) -> None:
     cases = json.loads((PUBLISHED / "worm_drives.json").read_text(encoding="utf-8"))["cases"]
     words = next(w for w in SHEETS if w[0] == "worm" and f"number_of_teeth={128 if drive == 'wormI.' else 106}" in w)
     data, seen = values_of(" ".join(words)), set()
+    others = [word for word in words if not word.startswith("face_width")]
+    wide = {key: values_of(" ".join([*others, f"face_width={b}"]))["values"] for key, b in WORM_WIDTHS.items()}
     misprinted = {step["name"] for step in data["steps"] if "misprint" in step}
     for case in (c for c in cases if drive in c["id"]):
         for key, value in case["recomputed"].items():
             if name := WORM_NAMES.get(key):
                 assert data["values"][name] == pytest.approx(value, rel=1e-12), (case["id"], key)
-                seen.add(key)
+            elif key in wide:
+                assert wide[key]["contact_stress"] == pytest.approx(value, rel=1e-12), (case["id"], key)
+            else:
+                # the thesis has left the cosine out
+                assert key == "m_without_cos_gamma_mm"
+                cosine = math.cos(math.radians(data["values"]["lead_angle_deg"]))
+                assert data["values"]["thesis_least_module"] / cosine ** (1 / 3) == pytest.approx(value, rel=1e-12)
+            seen.add(key)
         if case["verdict"] == "misprint":
             assert {WORM_NAMES[k] for k in case["printed_text"]} <= misprinted, case["id"]
-    assert seen == set(WORM_NAMES)
+    assert seen == {*WORM_NAMES, *WORM_WIDTHS, "m_without_cos_gamma_mm"}
+
+
+def test_a_worm_is_told_by_its_lead_angle_as_in_scenes(capsys: pytest.CaptureFixture[str]) -> None:
+    lead = math.degrees(math.atan2(2, 8))
+    words = "worm module=2 number_of_starts=2 number_of_teeth=30"
+    told, usual = (values_of(f"{words} {key}")["values"] for key in (f"lead_angle_deg={lead!r}", "diameter_quotient=8"))
+    assert told.keys() == usual.keys()
+    assert all(told[key] == pytest.approx(usual[key], rel=1e-12) for key in usual if key != "worm_form")
+    # in place of the q of a scene
+    assert values_of(f"worm worm_set_print lead_angle_deg={lead!r}")["values"]["worm_centre_distance"] == 38.0
+    for key, said in (
+        ("lead_angle_deg=12 diameter_quotient=10", "worm.diameter_quotient = 10.0: give either"),
+        ("lead_angle_deg=50", "worm.lead_angle_deg = 50.0: leaves no root: the threads reach the axis; at most 39.79"),
+        ("hob_diameter_quotient=9.5", "worm.hob_diameter_quotient = 9.5: is less than that of the worm"),
+    ):
+        assert said in complaint(capsys, "calc", *f"{words} {key}".split())
 
 
 def test_a_worm_drive_that_locks_itself_says_so() -> None:
