@@ -81,7 +81,7 @@ class Layers(Record, dict=True):
     @cached_property
     def _depths(self) -> list[dict[Contour, bool]]:
         """For each layer its contours, and whether each is a hole."""
-        return [{c: _nested(c, layer.contours) % 2 == 1 for c in layer.contours} for layer in self.layers]
+        return [{c: is_hole(c, layer.contours) for c in layer.contours} for layer in self.layers]
 
     def checked(self) -> Layers:
         """Refuse contours that cross or touch in a layer, or one layer's and the next one's.
@@ -185,6 +185,11 @@ def _owner(contour: Contour, depths: dict[Contour, bool]) -> Contour | None:
 def _extent(contour: Contour) -> float:
     low_x, high_x, low_y, high_y = contour.box
     return (high_x - low_x) * (high_y - low_y)
+
+
+def is_hole(contour: Contour, contours: Sequence[Contour]) -> bool:
+    """Whether what is just within a contour of a layer is no material."""
+    return _nested(contour, contours) % 2 == 1
 
 
 def _nested(contour: Contour, others: Sequence[Contour]) -> int:

@@ -140,16 +140,16 @@ def circle_from(profile: Profile) -> tuple[complex, float] | None:
     return (arcs[0].centre, arcs[0].radius) if whole else None
 
 
-def diameters(holes: Sequence[tuple[complex, float]], language: str) -> Iterator[Round]:
-    """Each diameter once, with how many holes have it."""
-    groups: dict[float, list[complex]] = {}
-    for centre, radius in holes:
-        groups.setdefault(round(radius, _DIGITS), []).append(centre)
-    for k, (_, centres) in enumerate(sorted(groups.items()), 1):
-        best = max(centres, key=lambda c: (round(c.real + c.imag, 6), c.real))
-        radius = next(r for c, r in holes if c == best)
-        words = sheet_words(language, "holes_of", count=len(centres)) if len(centres) > 1 else ""
-        yield Round(f"holes.{k}.diameter", best, radius, f"{words}Ø")
+def diameters(circles: Sequence[tuple[complex, float]], language: str, *, solid: bool = False) -> Iterator[Round]:
+    """Each diameter once, with how many holes, or ``solid`` circles, have it."""
+    groups: dict[float, list[tuple[complex, float]]] = {}
+    for centre, radius in circles:
+        groups.setdefault(round(radius, _DIGITS), []).append((centre, radius))
+    for k, (_, group) in enumerate(sorted(groups.items()), 1):
+        best, radius = max(group, key=lambda one: (round(one[0].real + one[0].imag, 6), one[0].real))
+        words = sheet_words(language, "places_of" if solid else "holes_of", count=len(group)) if len(group) > 1 else ""
+        before, places = ("Ø", words) if solid else (f"{words}Ø", "")
+        yield Round(f"{'circles' if solid else 'holes'}.{k}.diameter", best, radius, before, places=places)
 
 
 def radii(chains: Sequence[Sequence[Curve]], language: str) -> Iterator[Round]:

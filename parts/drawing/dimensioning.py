@@ -179,12 +179,15 @@ class _Layout:
             places: list[tuple[list[Line], list[Line], Text]] = []
             for low in (edge + way * (_MARK + _STROKE * k) for k in range(_OUT)):
                 tip = complex(x, low + way * (_STROKE - 2.0))
-                mark, lines = Line(complex(x, low), complex(x, low + way * _STROKE)), [*_arrow(tip, -1)]
+                foot = 1.0 if cut.from_right else -1.0
+                mark, lines = Line(complex(x, low), complex(x, low + way * _STROKE)), [*_arrow(tip, foot)]
                 # beside the foot of the arrow, on its shaft, beyond its tip
                 lefts = (-_LOOK - wide - 1.0, -_LOOK + 0.5, 1.5)
+                if cut.from_right:
+                    lefts = (_LOOK + 1.0, _LOOK - wide - 0.5, -wide - 1.5)
                 for left, lift in zip(lefts, (-TEXT_HEIGHT / 2, 1.0, -TEXT_HEIGHT / 2), strict=True):
                     text = text_of(cut.letter, tip + complex(left, lift), TEXT_HEIGHT)
-                    places.append(([mark], [Line(tip - _LOOK, tip), *lines], text))
+                    places.append(([mark], [Line(tip + foot * _LOOK, tip), *lines], text))
             free = (
                 place for place in places
                 if self.ink.holds([*place[0], *place[1]], place[2].box)

@@ -102,6 +102,7 @@ class Cut(Record):
 
     at: float
     letter: str
+    from_right: bool = False
 
 
 class View(Record):

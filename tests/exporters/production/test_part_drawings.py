@@ -74,6 +74,13 @@ PARTS |= {
                "roller_diameter": 10.0, "bore_diameter": 12.0, "phases": PARTS["cam"]["phases"]},
 }  # fmt: skip
 
+PARTS["box"] = {"kind": "layered", "layers": [
+    {"thickness": 4.0, "polygons": [{"points": [[-30, -20], [30, -20], [30, 20], [-30, 20]], "corner_radius": 5.0}],
+     "circles": [{"diameter": 4.0, "at": [-24.0, -14.0]}, {"diameter": 4.0, "at": [24.0, 14.0]}]},
+    {"thickness": 8.0, "circles": [{"diameter": 30.0}, {"diameter": 20.0}]}]}  # fmt: skip
+PARTS["carrier"] = {"kind": "carrier_plate", "number_of_pins": 3, "pin_circle_diameter": 80.0, "pin_diameter": 6.0,
+                    "boss_diameter": 15.0, "hub_diameter": 40.0, "bore_diameter": 10.0}  # fmt: skip
+
 
 def oval_axis(teeth: int, module: float, ratio: float) -> float:
     """The long half-axis of an oval that is so many pitches long, by mpmath."""
@@ -110,7 +117,11 @@ SIZES: dict[str, list[float]] = {
     "lantern": [96, 80, 15, 3, 10, 16, 8],
     "pin ring": [104, 80, 80, 10, 4],
     # lift, roller and half a roller at each end
-    "barrel": [70, 12, 38, 8, 70 * math.pi, 38],
+    "barrel": [70, 12, 38, 8, 70 * math.pi],
+    # what stands alike on both sides of an axis from side to side
+    "box": [4, 12, 60, 48, 40, 28, 5, 4, 30, 20],
+    # no place of a pin: they stand on their circle
+    "carrier": [80, 6, 7.5, 20, 10],
 }
 
 
@@ -272,13 +283,6 @@ def test_refusals_name_their_key() -> None:
         jobs(pin | {"diameter": 10.5}, drawing={"shaft": "cd8"})
     assert caught.value.key == "exports[1].drawing.shaft"
     assert jobs(pin | {"diameter": 10.0}, drawing={"shaft": "cd8"})
-    box = {"kind": "layered", "layers": [{"thickness": 4.0, "circles": [{"diameter": 20.0}]}]}
-    with pytest.raises(SceneError) as caught:
-        jobs(box, parts=["p"])
-    assert caught.value.key == "exports[1].parts"
-    with pytest.raises(SceneError) as caught:
-        jobs(box)
-    assert caught.value.key == "exports[1].purpose"
 
 
 def test_the_same_bytes_twice_and_a_dimension_that_lies_is_seen(tmp_path: Path) -> None:

@@ -13,10 +13,11 @@ from typing import Any
 import pytest
 
 from exporters.command.cli import main
+from exporters.production.plan import plan_build
 from geometry.solids.area import surface_area
 from parts.base.refusal import SceneError
 from parts.scene.interference import solid_overlaps
-from parts.scene.load import load_scene, make_parts
+from parts.scene.load import ExportSpec, load_scene, make_parts
 from parts.scene.placing import place
 from parts.solids.kernel import edges_of, silent_kernel, solids_of
 
@@ -143,6 +144,18 @@ def test_its_volume_and_place_are_the_kernel_s_in_any_unit(tmp_path: Path) -> No
         moments = alone(tmp_path).body(0.0).moments
         assert moments.volume == pytest.approx(VOLUME, rel=1e-9)
         assert moments.centre == pytest.approx([27.0, 17.0, 11.0 + HIGH], abs=1e-7)
+
+
+def test_its_drawing_is_refused_by_its_key(tmp_path: Path) -> None:
+    scene = load_scene(str(scene_in(tmp_path)))
+    for parts, key in ((["motor"], "exports[1].parts"), (["gear"], ""), (None, "")):
+        scene.exports = [ExportSpec(format="dxf", purpose="part", parts=parts)]
+        if not key:
+            assert [job.path for job in plan_build(scene, "driven", [], []).sheets] == ["gear.part.dxf"]
+            continue
+        with pytest.raises(SceneError) as caught:
+            plan_build(scene, "driven", [], [])
+        assert (caught.value.key, caught.value.code) == (key, "no_working_drawing")
 
 
 def test_its_axis_becomes_z(tmp_path: Path) -> None:

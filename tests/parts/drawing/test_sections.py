@@ -99,3 +99,32 @@ def test_working_surfaces_of_cams_have_their_own_roughness(kind: str) -> None:
              "phases": [{"move": "rise", "travel": 60.0, "law": "sine"}]}  # fmt: skip
     views = drawing_of(groove if kind == "groove" else wedge, flank_roughness=0.8).views
     assert "Ra 0.8" in {note.text for note in views[0].notes if note.is_rough}
+
+
+def square(side: float) -> dict[str, Any]:
+    return {"points": [[-side, -side], [side, -side], [side, side], [-side, side]]}
+
+
+def test_behind_the_section_of_layers_stands_what_is_seen_there() -> None:
+    """A floor, four posts and one in the middle, a lid with a hole, through which nothing hides the post's wall."""
+    posts = [{"diameter": 8.0, "at": [x, y]} for x in (-12.0, 12.0) for y in (-12.0, 12.0)]
+    floor, lid = {"thickness": 6.0, "polygons": [square(20.0)]}, {"thickness": 4.0, "polygons": [square(20.0)]}
+    layers = [
+        floor,
+        {"thickness": 20.0, "circles": [*posts, {"diameter": 4.0}]},
+        lid | {"circles": [{"diameter": 3.0}]},
+    ]
+    view, *plans = drawing_of({"kind": "layered", "layers": layers}).views
+    assert levels(view, VISIBLE) == {way * y for way in (1, -1) for y in (20.0, 16.0, 8.0, 2.0, 1.5)}
+    ends = [curve.point(np.array(curve.domain)) for _, curve in view.strokes]
+    faces = {(round(float(a.real), 6), *sorted((round(float(a.imag), 6), round(float(b.imag), 6))))
+             for a, b in ends if abs(a.real - b.real) < 1e-9}  # fmt: skip
+    # the lid's upper face beyond its hole; the floor's beside the post, which is cut: nothing is drawn across that
+    assert faces >= {(0.0, -20.0, 20.0), (30.0, -20.0, 20.0), (6.0, 2.0, 20.0), (6.0, -20.0, -2.0)}
+    # the lid's lower face beside the post, whose own end stands under the hole: between, both are one
+    assert {(26.0, -20.0, -2.0), (26.0, -1.5, 1.5), (26.0, 2.0, 20.0)} == {face for face in faces if face[0] == 26.0}
+    assert [plan.title for plan in plans] == ["B-B", "C-C", "D-D"]
+    # of a layer of which nothing is new there is no other section
+    again = drawing_of({"kind": "layered", "layers": [floor, layers[1], floor]}).views
+    assert [plan.title for plan in again] == ["A-A", "B-B", "C-C"]
+    assert [cut.letter for cut in again[0].cuts] == ["B", "C", "B"]

@@ -1,0 +1,275 @@
+"""The working drawing of a body of layers: a section along its axis, and one across every layer that has contours anew.
+
+Places are told from the axes of the part's frame, what stands alike on both sides of one from side to side.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
+
+from geometry.base.record import Record
+from geometry.curves.line_arc import Arc, Line
+from geometry.solids.layers import Contour, Layers, is_hole
+from parts.bodies.layered import CircleTable, LayeredSpec, LayerTable, OutlineTable, PolygonTable
+from parts.bodies.plate import SlotTable
+from parts.bodies.plate_drawing import diameters, radii
+from parts.drawing.revolved import closed
+from parts.drawing.working import VISIBLE, Cut, Note, PartDrawing, Size, Subject, View, requirements
+from parts.texts.sheets import view_letter
+
+# mm that are none; parts of the size: beside a place that is looked at, what jumps there; digits of places
+_NONE, _BESIDE, _JUMP, _DIGITS = 1e-9, 1e-7, 1e-5, 9
+Span = tuple[float, float]
+_Table = CircleTable | PolygonTable | SlotTable | OutlineTable
+
+
+class _Piece(Record):
+    """Part of a contour that rises or falls in both coordinates; ``side``: signs of its way from its centre."""
+
+    start: complex
+    end: complex
+    arc: Arc | None = None
+    side: complex = 0j
+
+    def across(self, x: float) -> float | None:
+        """The height at which it crosses the upright line at x."""
+        if (self.start.real > x) == (self.end.real > x):
+            return None
+        if self.arc is not None:
+            return self.arc.centre.imag + self.side.imag * _leg(self.arc.radius, x - self.arc.centre.real)
+        way = self.end - self.start
+        return self.start.imag + way.imag * (x - self.start.real) / way.real
+
+    def along(self, y: float) -> float | None:
+        """The place at which it crosses the level line at y."""
+        if (self.start.imag > y) == (self.end.imag > y):
+            return None
+        if self.arc is not None:
+            return self.arc.centre.real + self.side.real * _leg(self.arc.radius, y - self.arc.centre.imag)
+        way = self.end - self.start
+        return self.start.real + way.real * (y - self.start.imag) / way.imag
+
+
+def _leg(radius: float, other: float) -> float:
+    return math.sqrt(max((radius - other) * (radius + other), 0.0))
+
+
+def part_drawing(subject: Subject) -> PartDrawing:
+    """Of one layer the view alone, its thickness told; of more the section through as many contours as there are."""
+    layers, keys = subject.part.thing, subject.part.keys
+    assert isinstance(layers, Layers)
+    assert isinstance(keys, LayeredSpec)
+    if len(layers.layers) == 1:
+        at = max((complex(e.point(0.0)) for c in layers.layers[0].contours for e in c.edges), key=lambda p: p.real)
+        note = Note(at, f"s {subject.say(layers.heights[-1])}")
+        return PartDrawing((_across(layers.layers[0].contours, keys.layers[0], subject, notes=(note,)),),
+                           requirements(subject))  # fmt: skip
+    plane, letters, plans = _plane(layers), dict[frozenset[Contour], str](), list[View]()
+    told: list[object] = []
+    along = Cut(plane, view_letter(subject.language))
+    cuts: list[Cut] = []
+    for layer, table, (low, high) in zip(layers.layers, keys.layers, pairwise(layers.heights), strict=True):
+        same = frozenset(layer.contours)
+        if same not in letters:
+            letters[same] = letter = view_letter(subject.language, 1 + len(letters))
+            marks = () if plans else (along,)
+            plans.append(_across(layer.contours, table, subject, told, f"{letter}-{letter}", marks))
+        cuts.append(Cut((low + high) / 2, letters[same], from_right=True))
+    section = _section(layers, plane, f"{along.letter}-{along.letter}", cuts)
+    return PartDrawing((section, *plans), requirements(subject))
+
+
+def _across(
+    contours: Sequence[Contour], table: LayerTable, subject: Subject, told: list[object] | None = None,
+    title: str = "", cuts: tuple[Cut, ...] = (), notes: tuple[Note, ...] = (),
+) -> View:  # fmt: skip
+    """The section across a layer, seen from above, with the sizes of what is not ``told`` yet, which is then."""
+    known: list[object] = [] if told is None else told
+    tables: list[_Table] = [*table.circles, *table.polygons, *table.slots, *table.outlines]
+    new = [(one, contour) for one, contour in zip(tables, contours, strict=True) if one not in known]
+    known += [one for one, _ in new]
+    places = [complex(*p) for one, _ in new for p in _places(one)]
+    holes, solid = (
+        [c.circle for _, c in new if c.circle is not None and is_hole(c, contours) == way] for way in (True, False)
+    )
+    chains = [contour.edges for _, contour in new if contour.circle is None]
+    low_x, high_x, low_y, high_y = (f(c.box[k] for c in contours) for k, f in enumerate((min, max, min, max)))
+    axes = [
+        Line(complex(min(low_x, 0.0)), complex(max(high_x, 0.0))),
+        Line(1j * min(low_y, 0.0), 1j * max(high_y, 0.0)),
+    ]
+    for middle, radius in sorted({c.circle for c in contours if c.circle and c.circle[0]}, key=str):
+        axes += [Line(middle - radius * way, middle + radius * way) for way in (1, 1j)]
+    across, upwards = _told(p.real for p in places), _told(p.imag for p in places)
+    sizes = (
+        *(Size(f"x.{k}", complex(a, low_y), complex(b, low_y), "below") for k, (a, b) in enumerate(across, 1)),
+        *(Size(f"y.{k}", complex(low_x, a), complex(low_x, b), "left") for k, (a, b) in enumerate(upwards, 1)),
+    )
+    rounds = (
+        *diameters(solid, subject.language, solid=True),
+        *diameters(holes, subject.language),
+        *radii(chains, subject.language),
+    )
+    strokes = tuple((VISIBLE, edge) for contour in contours for edge in contour.edges)
+    hatched = tuple(contour.edges for contour in contours) if title else ()
+    return View(strokes, hatched, tuple(axes), sizes, rounds, notes, title, cuts=cuts)
+
+
+def _places(table: _Table) -> Iterable[tuple[float, float]]:
+    """What of a contour has its place told: its corners, or the middles of its arcs."""
+    match table:
+        case CircleTable():
+            return (table.at,)
+        case PolygonTable():
+            return table.points
+        case SlotTable():
+            return table.start, table.end
+        case OutlineTable():
+            return ((p.x, p.y) for p in table.points)
+
+
+def _told(values: Iterable[float]) -> Iterator[Span]:
+    """The ends of sizes: from an axis, of what is alike on both sides of it from side to side."""
+    found = {round(value, _DIGITS) for value in values} - {0.0}
+    for value in sorted(found):
+        if value > 0 and -value in found:
+            yield -value, value
+        elif -value not in found:
+            yield min(value, 0.0), max(value, 0.0)
+
+
+def _plane(layers: Layers) -> float:
+    """The upright plane through most contours, of several the one nearest to the middle; along no edge."""
+    contours = {contour for layer in layers.layers for contour in layer.contours}
+    low, high = min(c.box[0] for c in contours), max(c.box[1] for c in contours)
+    middle, size = (low + high) / 2, high - low
+    places = {middle, *(c.circle[0].real for c in contours if c.circle), *((c.box[0] + c.box[1]) / 2 for c in contours)}
+    upright = {p.real for c in contours for piece in _pieces(c) for p in (piece.start, piece.end)
+               if abs(piece.start.real - piece.end.real) < _NONE}  # fmt: skip
+    free = [x for x in places if all(abs(x - other) > _JUMP * size for other in upright)] or [middle + _JUMP * size]
+    return max(sorted(free), key=lambda x: (sum(c.box[0] < x < c.box[1] for c in contours), -abs(x - middle)))
+
+
+def _pieces(contour: Contour) -> Iterator[_Piece]:
+    """A contour in parts that rise or fall."""
+    for edge in contour.edges:
+        if isinstance(edge, Arc):
+            yield from _quarters(edge)
+        else:
+            yield _Piece(edge.start, edge.end)
+
+
+def _quarters(arc: Arc) -> Iterator[_Piece]:
+    """An arc in parts that rise or fall."""
+    first, last = sorted((arc.start_angle, arc.start_angle + arc.sweep))
+    step = math.pi / 2
+    turns = [first, *(k * step for k in range(math.floor(first / step) + 1, math.ceil(last / step))), last]
+    for low, high in pairwise(turns):
+        way = cmath.rect(1.0, (low + high) / 2)
+        start, end = (arc.centre + cmath.rect(arc.radius, turn) for turn in (low, high))
+        yield _Piece(start, end, arc, complex(math.copysign(1, way.real), math.copysign(1, way.imag)))
+
+
+class _Behind(Record):
+    """What is seen along one level line of a layer beyond a plane: nothing but the cut; else the nearest wall's place.
+
+    ``place``: None where there is none; ``way``: its direction there.
+    """
+
+    is_cut: bool
+    place: float | None
+    way: complex
+
+
+def _section(layers: Layers, x: float, title: str, cuts: Sequence[Cut]) -> View:
+    """The section along the upright plane at x, seen from the left: heights to the right, y upwards."""
+    pieces = [[piece for contour in layer.contours for piece in _pieces(contour)] for layer in layers.layers]
+    levels = [sorted(y for p in row if (y := p.across(x)) is not None) for row in pieces]
+    spans = [list(zip(row[::2], row[1::2], strict=True)) for row in levels]
+    heights, size = layers.heights, max(abs(p.end) for row in pieces for p in row)
+    lines = [
+        Line(complex(low, y), complex(high, y))
+        for ys, (low, high) in zip(levels, pairwise(heights), strict=True)
+        for y in ys
+    ]
+    empty: list[_Piece] = []
+    around = [empty, *pieces, empty]
+    # edges of faces: where one layer ends and the other does not, in the plane or behind it
+    for z, (low, high) in zip(heights, pairwise(around), strict=True):
+        for a, b in pairwise(_breaks((*low, *high), x)):
+            views = _behind(low, x, (a + b) / 2), _behind(high, x, (a + b) / 2)
+            if views[0].is_cut != views[1].is_cut or not (views[0].is_cut or views[0].place == views[1].place):
+                lines.append(Line(complex(z, a), complex(z, b)))
+    for own, (bottom, top) in zip(pieces, pairwise(heights), strict=True):
+        for y in _breaks(own, x):
+            one, two = (_behind(own, x, y + way * _BESIDE * size) for way in (-1, 1))
+            if not (one.is_cut or two.is_cut) and _parted(one, two, size):
+                lines.append(Line(complex(bottom, y), complex(top, y)))
+    bars = [closed([complex(low, a), complex(high, a), complex(high, b), complex(low, b)])
+            for row, (low, high) in zip(spans, pairwise(heights), strict=True) for a, b in row]  # fmt: skip
+    sizes = [Size(f"height.{k}", complex(0.0, levels[0][0]), complex(z, levels[k - 1][0]), "below")
+             for k, z in enumerate(heights[1:], 1)]  # fmt: skip
+    axes = {
+        (low, high, round(c.circle[0].imag, _DIGITS))
+        for layer, (low, high) in zip(layers.layers, pairwise(heights), strict=True)
+        for c in layer.contours if c.circle and abs(c.circle[0].real - x) < _NONE
+    }  # fmt: skip
+    centre = [Line(complex(low, y), complex(high, y)) for low, high, y in sorted(axes)]
+    return View(tuple((VISIBLE, line) for line in _joined(lines)), tuple(bars), tuple(_joined(centre)), tuple(sizes),
+                title=title, cuts=tuple(cuts))  # fmt: skip
+
+
+def _breaks(pieces: Iterable[_Piece], x: float) -> list[float]:
+    """Heights at which what is seen may change: ends of pieces beyond a plane, and where they cross it."""
+    found: set[float] = set()
+    for piece in pieces:
+        found |= {round(p.imag, _DIGITS) for p in (piece.start, piece.end) if p.real > x - _NONE}
+        if (y := piece.across(x)) is not None:
+            found.add(round(y, _DIGITS))
+    return sorted(found)
+
+
+def _behind(pieces: Iterable[_Piece], x: float, y: float) -> _Behind:
+    """What is seen of a layer from the plane at x along the level line at y."""
+    found = sorted(
+        ((at, piece) for piece in pieces if (at := piece.along(y)) is not None and at > x), key=lambda f: f[0]
+    )
+    if not found:
+        return _Behind(False, None, 0j)
+    at, piece = found[0]
+    way = piece.end - piece.start if piece.arc is None else 1j * (complex(at, y) - piece.arc.centre)
+    return _Behind(len(found) % 2 == 1, at, way / abs(way))
+
+
+def _parted(one: _Behind, two: _Behind, size: float) -> bool:
+    """Whether walls on both sides of a level line make an edge: they stand apart, or in a corner."""
+    if one.place is None or two.place is None:
+        return one.place is not two.place
+    # beside the end of an arc a wall falls back as the root of the distance
+    return abs(one.place - two.place) > 2 * math.sqrt(_BESIDE) * size or (
+        abs((one.way.conjugate() * two.way).imag) > math.sqrt(_BESIDE) * 4
+    )
+
+
+def _joined(lines: Iterable[Line]) -> list[Line]:
+    """Level and upright lines, those that go on as one."""
+    rows: dict[tuple[bool, float], list[Span]] = {}
+    for line in lines:
+        level = abs(line.start.imag - line.end.imag) < _NONE
+        at = round(line.start.imag if level else line.start.real, _DIGITS)
+        ends = (line.start.real, line.end.real) if level else (line.start.imag, line.end.imag)
+        rows.setdefault((level, at), []).append((min(ends), max(ends)))
+    found = []
+    for (level, at), spans in rows.items():
+        low, high = min(spans)
+        for a, b in sorted(spans):
+            if a > high + _NONE:
+                found.append((level, at, low, high))
+                low = a
+            high = max(high, b)
+        found.append((level, at, low, high))
+    return [Line(complex(a, at), complex(b, at)) if level else Line(complex(at, a), complex(at, b))
+            for level, at, a, b in found]  # fmt: skip
