@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.record import Record, replace
-from geometry.curves.curve import Complex
+from geometry.curves.curve import Complex, Real
 
 # width of a letter and room about a word, part of the letters' height; places tried above and below, and to each side
 _LETTER, _ROOM, _RINGS = 0.62, 0.15, 24
@@ -16,6 +16,8 @@ _LETTER, _ROOM, _RINGS = 0.62, 0.15, 24
 _SMALL = 0.7
 # places along each side of a picture at which the uppermost part is known
 _CELLS = 200
+# how well a word can stand
+_BEST = 3
 
 
 class Label(Record):
@@ -31,11 +33,6 @@ class Label(Record):
         """Left, top, right, bottom, with some room about it."""
         half, room = _LETTER * self.size * len(self.text) / 2, _ROOM * self.size
         return self.x - half - room, self.y - self.size - room, self.x + half + room, self.y + room
-
-    def covers(self, other: Label) -> bool:
-        """Whether both boxes share anything."""
-        a, b = self.box, other.box
-        return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
 
 
 class Tops:
@@ -87,17 +84,27 @@ def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Lab
     ``tops``: the parts of these words, in this order; one that is covered has no place for its word.
     """
     made: list[Label | None] = []
+    taken = np.empty((0, 4))
     for number, label in enumerate(wanted):
         best, found = 0, None
         for one in (label, replace(label, size=_SMALL * label.size)) if tops else (label,):
-            apart = [place for place in _places(one) if not any(other and place.covers(other) for other in made)]
-            ranks = [tops.shows(place, number) if tops else 1 for place in apart]
-            if (rank := max(ranks, default=0)) > best:
-                best, found = rank, apart[ranks.index(rank)]
+            for place in _apart(list(_places(one)), taken):
+                if (rank := tops.shows(place, number) if tops else _BEST) > best:
+                    best, found = rank, place
+                if best == _BEST:
+                    break
             if best > 1:
                 break
         made.append(found)
+        taken = np.vstack([taken, found.box]) if found else taken
     return made
+
+
+def _apart(places: Sequence[Label], taken: Real) -> list[Label]:
+    """Those whose boxes share nothing with boxes (rows of left, top, right, bottom)."""
+    left, top, right, low = np.array([place.box for place in places]).T[:, :, None]
+    shared = (left < taken[:, 2]) & (taken[:, 0] < right) & (top < taken[:, 3]) & (taken[:, 1] < low)
+    return [place for place, covered in zip(places, shared.any(axis=1), strict=True) if not covered]
 
 
 def _places(label: Label) -> Iterator[Label]:

@@ -236,14 +236,17 @@ def checked_sizes(keys: PowerModuleKeys) -> dict[str, float]:
     arm = found["arm"]
     if keys.second_arm is not None and abs(keys.second_arm - arm) > 1e-9:
         raise ParameterError("second_arm", keys.second_arm, "arm_of_ring_and_pinion", Nearest(arm), arm=arm)
-    # an idler is half as large as its neighbours
-    whole = arm / keys.wheel_module / (3 if keys.orientation == "idlers" else 1)
-    if keys.orientation == "cranks":
-        if keys.wheel_module != DRIVERS["wheel_module"]:
-            raise ParameterError("wheel_module", keys.wheel_module, "for_thesis_only")
-    elif abs(whole - round(whole)) > 1e-9 or round(whole) < 12:
+    if keys.orientation == "cranks" and keys.wheel_module != DRIVERS["wheel_module"]:
+        raise ParameterError("wheel_module", keys.wheel_module, "for_thesis_only")
+    if not _spanned(keys, arm):
         raise ParameterError("wheel_module", keys.wheel_module, "wheels_do_not_span_arm", None, arm=arm)
     return found
+
+
+def _spanned(keys: PowerModuleKeys, arm: float) -> bool:
+    """Whether wheels with whole teeth span an arm; an idler is half as large as its neighbours."""
+    whole = arm / keys.wheel_module / (3 if keys.orientation == "idlers" else 1)
+    return keys.orientation == "cranks" or (abs(whole - round(whole)) <= 1e-9 and round(whole) >= 12)
 
 
 def _to_blame(keys: PowerModuleKeys, condition: Condition) -> tuple[str, Nearest | None]:
@@ -262,13 +265,14 @@ def _to_blame(keys: PowerModuleKeys, condition: Condition) -> tuple[str, Nearest
     for kept in (every, [condition]):
         for name in changed:
             if left(kept, name, getattr(usual, name)) >= 0:
-                if kept is not every or name == "teeth":
+                if kept is not every:
                     return name, None
 
                 def works(value: object, name: str = name) -> bool:
-                    return left(every, name, value) >= 0
+                    arm = sizes(drivers(replace(keys, **{name: value})), keys.orientation)["arm"]
+                    return left(every, name, value) >= 0 and _spanned(replace(keys, **{name: value}), arm)
 
-                search = _nearest_teeth if name == "worm_teeth" else nearest
+                search = _nearest_teeth if "teeth" in name else nearest
                 return name, search(works, getattr(keys, name), getattr(usual, name))
     return max(changed, key=lambda name: left([condition], name, getattr(usual, name)), default=condition.driver), None
 

@@ -13,12 +13,13 @@ from typing import Any
 
 import pytest
 
+from geometry.base.errors import ParameterError
 from geometry.kinematics.two_disk import TwoDisk
 from parts.base.refusal import SceneError
 from parts.base.texts import told_in
 from parts.bodies.layered import Layered
 from parts.pages.module_rules import RULES
-from parts.recipes.power_module import PowerModuleKeys
+from parts.recipes.power_module import PowerModuleKeys, checked_sizes
 from parts.scene.load import SceneFile, make_parts, scene_from_dict
 from tests.oracles.clearances import overlaps
 from tests.parts.recipes.test_power_table import placed
@@ -107,12 +108,14 @@ def test_every_position_has_its_rules() -> None:
         ({"axial_gap": 2.2, "orientation": "idlers"}, "axial_gap = 2.2.*before the link.*at least"),
         ({"axial_gap": 1.0}, "axial_gap = 1.*collars of the pins 35.*at least"),
         ({"ball": 30.0}, "ball = 30.*at most"),
-        ({"teeth": (40, 120)}, "teeth"),
+        ({"teeth": (40, 120)}, r"teeth = \[40, 120\].*; \[96, 140\] works"),
     ],
 )
 def test_what_does_not_go_together_names_its_driver_and_limit(keys: dict[str, Any], word: str) -> None:
-    with pytest.raises(SceneError, match=word):
+    with pytest.raises(SceneError, match=word) as refused:
         module(**keys)
+    if refused.value.nearest is not None:
+        module(**keys | {refused.value.key.partition("].")[2]: refused.value.nearest.value})
 
 
 def test_nothing_overlaps_at_home_by_sections_and_layers() -> None:
@@ -216,30 +219,78 @@ def test_the_floor_is_clear_of_the_screw_that_goes_about_o1_under_thick_wheels()
     assert overlaps(scene, None, {"screw_57"}).keys() >= {("screw_57", "body")}
 
 
-# from where random drivers are taken: as large as they differ, most of them go together
+# from where random drivers are taken: as large as they differ, most of them go together; and how far they are pushed
 _SPREAD: dict[str, tuple[float, float]] = {
     "module": (2.4, 3.2), "worm_module": (4.9, 6.0), "ball": (6.5, 8.2), "disk_thickness": (29.0, 34.0),
     "face_width": (18.0, 27.0), "axial_gap": (3.0, 9.0), "wheel_width": (10.0, 25.0), "worm_wheel_width": (21.0, 28.0),
     "worm_length": (90.0, 160.0), "clearance": (0.05, 0.4), "platform_size": (150.0, 600.0),
     "worm_quotient": (9.0, 12.0),
 }  # fmt: skip
+_FAR: dict[str, tuple[float, float]] = {
+    "module": (2.0, 5.0), "worm_module": (3.0, 9.0), "ball": (4.0, 14.0), "disk_thickness": (15.0, 80.0),
+    "face_width": (10.0, 45.0), "axial_gap": (0.5, 40.0), "wheel_width": (4.0, 60.0), "worm_wheel_width": (8.0, 45.0),
+    "worm_length": (20.0, 500.0), "clearance": (0.01, 1.0), "platform_size": (50.0, 1500.0),
+    "worm_quotient": (5.0, 25.0),
+}  # fmt: skip
+
+
+def _whole(rng: random.Random, keys: dict[str, Any]) -> dict[str, Any]:
+    """Drivers that are no lengths, and wheels that span the arm of those that are."""
+    keys = keys | {"teeth": (96, 144), "balls": 2 * rng.randrange(20, 160)}
+    if rng.random() < 0.4:
+        pinion = rng.randrange(88, 108)
+        keys["teeth"] = (pinion, pinion + 2 * rng.randrange(20, 29))
+    if rng.random() < 0.3:
+        keys["worm_teeth"] = (rng.randrange(118, 146), rng.randrange(96, 120))
+    if rng.random() < 0.67:
+        keys["orientation"] = rng.choice(("thesis", "idlers"))
+        keys["wheels"] = rng.choice({"thesis": (24, 30, 36, 40), "idlers": (36, 42, 48)}[keys["orientation"]])
+    return keys
+
+
+def _spanned(keys: dict[str, Any]) -> dict[str, Any]:
+    """With a module for so many teeth of the wheels."""
+    pinion, ring = keys["teeth"]
+    wheels = {name: keys.get("module", 3.0) * (ring - pinion) / 2 / keys["wheels"] for name in ("wheel_module",)
+              if "wheels" in keys}  # fmt: skip
+    return {name: value for name, value in keys.items() if name != "wheels"} | wheels
+
+
+def _pushed(rng: random.Random) -> dict[str, Any]:
+    """Drivers as far from the usual ones as all rules let them: together, then each for itself, into a corner."""
+    usual, whole = PowerModuleKeys(), _whole(rng, {})
+    ends = {name: rng.choice(_FAR[name]) for name in rng.sample(list(_FAR), rng.choice((1, 2, 2, 3, 3, 5, 8, 12)))}
+
+    def at(shares: dict[str, float]) -> dict[str, Any]:
+        far = {n: getattr(usual, n) + share * (ends[n] - getattr(usual, n)) for n, share in shares.items()}
+        return _spanned(whole | {name: round(value, 3) for name, value in far.items()})
+
+    def kept(shares: dict[str, float]) -> bool:
+        try:
+            checked_sizes(PowerModuleKeys(**at(shares)))
+        except ParameterError:
+            return False
+        return True
+
+    shares = dict.fromkeys(ends, 0.0)
+    for group in (list(ends), *([name] for name in ends)):
+        low, high = shares[group[0]], 2.0
+        while high - low > 1e-3:
+            middle = min((low + high) / 2, 1.0)
+            low, high = (middle, high) if kept(shares | dict.fromkeys(group, middle)) else (low, middle)
+            if low == 1.0:
+                break
+        shares |= dict.fromkeys(group, low)
+    return at(shares)
 
 
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("seed", range(500))
 def test_random_drivers_make_a_module_without_overlap_or_name_what_lacks(seed: int) -> None:
+    """Some drawn, some pushed to where a rule ends: there a length that no rule holds is the least."""
     rng, usual = random.Random(seed), PowerModuleKeys()
-    for _ in range(2):
-        keys: dict[str, Any] = {
-            name: round(rng.uniform(*ends), 2) for name, ends in _SPREAD.items() if rng.random() < 0.6
-        }
-        keys["teeth"] = (96, 144)
-        if rng.random() < 0.67:
-            # wheels that span the arm
-            keys["orientation"] = rng.choice(("thesis", "idlers"))
-            few = {"thesis": (24, 30, 36, 40), "idlers": (36, 42)}[keys["orientation"]]
-            keys["wheel_module"] = keys.get("module", 3.0) * 24 / rng.choice(few)
-        keys["balls"] = 2 * rng.randrange(20, 160)
+    drawn = {name: round(rng.uniform(*ends), 2) for name, ends in _SPREAD.items() if rng.random() < 0.6}
+    for keys in (_spanned(_whole(rng, drawn)), _pushed(rng)):
         try:
             scene = module(**keys)
         except SceneError as refusal:
