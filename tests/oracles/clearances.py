@@ -40,16 +40,16 @@ def inside(points: np.ndarray, loop: Loop) -> np.ndarray:
     found = np.zeros(len(points), bool)
     x, y = points.real, points.imag
     beside = (y > loop.imag.min()) & (y < loop.imag.max()) & (x > loop.real.min()) & (x < loop.real.max())
+    # which of them, from below, each chord has on its height
     near = np.flatnonzero(beside)
-    if not len(near):
-        return found
+    near = near[np.argsort(y[near])]
     a, b = loop, np.roll(loop, -1)
-    for piece in range(0, len(near), 4096):
-        p = points[near[piece : piece + 4096], None]
-        up = (a.imag > p.imag) != (b.imag > p.imag)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            x = a.real + (p.imag - a.imag) * (b.real - a.real) / (b.imag - a.imag)
-        found[near[piece : piece + 4096]] = (up & (p.real < x)).sum(axis=1) % 2 == 1
+    first, last = (np.searchsorted(y[near], at) for at in (np.minimum(a.imag, b.imag), np.maximum(a.imag, b.imag)))
+    chord = np.repeat(np.arange(len(loop)), last - first)
+    rank = np.arange(len(chord)) - np.repeat(np.cumsum(last - first) - last, last - first)
+    a, b, p = a[chord], b[chord], points[near[rank]]
+    crossed = p.real < a.real + (p.imag - a.imag) * (b.real - a.real) / (b.imag - a.imag)
+    found[near] = np.bincount(rank[crossed], minlength=len(near)) % 2 == 1
     return found
 
 
