@@ -153,14 +153,14 @@ def load_sections(page: Sheet, keys: LoadKeys, found: Mapping[str, float]) -> Ca
     ``found``: the module's sizes.
     """
     across, torques = _load(page, keys)
-    given = keys.given
+    given, at = keys.given, keys.place
     force = Force(across, keys.force_z, 1000 * keys.moment, None if given is None else given[1])
     loaded = _loaded(keys, found)
     rows = list(_amounts(loaded, keys, found))
     most = _found(loaded, force, rows)
     title = N_("Most of the load over all places, and over all directions of a force that has none given")
     page.tables.append(_table("load_worst", title, keys.table, rows, most))
-    if (at := keys.place) is not None:
+    if at is not None:
         here = _found(loaded, force, rows, at)
         title = N_("The load at the place x, y, and over all directions of a force that has none given")
         page.tables.append(_table("load_here", title, keys.table, rows, here))
