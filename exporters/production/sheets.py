@@ -392,6 +392,8 @@ def _facts(mating: Toothed, picture: MeshingPicture, language: str, specs: list[
         Row(word("pitch"), "p_{w}", say(picture.working_pitch, 3)),
         Row(word("ratio"), "ε_{α}", say(picture.contact_ratio, 4)),
         *_overlap_rows(specs, helix, language),
+        # what a file's numbers do not show is none
+        *([Row(word("normal_backlash"), "j_{n}", say(play, 3))] if (play := mating.normal_backlash) >= 5e-4 else []),
         Row(word("start"), sample="TOOTH_START"),
         Row(word("end"), sample="TOOTH_END"),
         Row(word("flank"), sample="ACTIVE_FLANK"),

@@ -11,7 +11,7 @@ from geometry.curves.curve import Complex
 from parts.drawing.canvas import Box, Canvas, text_of, text_width
 
 _DIRECTIONS = 24
-_REACHES = (1.5, 3.0, 5.0, 8.0, 12.0, 17.0, 23.0, 30.0, 40.0, 55.0)
+_REACHES = (1.5, 3.0, 5.0, 8.0, 12.0, 17.0, 23.0, 30.0, 40.0, 55.0, 75.0, 100.0, 135.0)
 # farther than this a word is joined to its point by a line
 _NEAR = 3.0
 _CLEARANCE = 0.6

@@ -16,6 +16,7 @@ from geometry.curves.line_arc import Arc, Line
 from parts.base.texts import words
 from parts.cams.sheets.picture import CamPicture, Scales, thinned
 from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Stroke, standard_scale, text_width
+from parts.drawing.choice import Asked
 from parts.pages.page import unit_text
 from parts.texts.sheets import sheet_words
 
@@ -26,6 +27,8 @@ LEFT, RIGHT, BELOW = 36.0, 17.0, 16.0
 _GAP = 15.0
 _ORDERS = (2, 1, 0)
 _TICKS = 5
+# squares to draw on, mm
+_SQUARE = 2.5
 # after the point of an axis' numbers: more than any scale of a drawing has
 _MOST_DIGITS = 400
 Exact = list[tuple[str, complex, complex]]
@@ -58,8 +61,11 @@ def heights_of(area: Box) -> float:
     return (area.high - area.low - BELOW - 3 * _GAP) / 3
 
 
-def draw_diagrams(canvas: Canvas, picture: CamPicture, area: Box, scales: Scales, tolerance: float) -> Drawn:
-    """All three diagrams in an area, mm; their lines and exact curves on paper."""
+def draw_diagrams(canvas: Canvas, picture: CamPicture, area: Box, scales: Scales, asked: Asked) -> Drawn:
+    """All three diagrams in an area, mm; their lines and exact curves on paper.
+
+    By hand: squared paper with the axes, to draw them on.
+    """
     drawn, motion, unit = Drawn(), picture.cam.motion, picture.unit
     height, left = heights_of(area), area.left + LEFT
     zeros, top = {}, area.high - _GAP
@@ -72,13 +78,30 @@ def draw_diagrams(canvas: Canvas, picture: CamPicture, area: Box, scales: Scales
     _phases(canvas, picture, zeros, left, width, area)
     for order in _ORDERS:
         zero, up = zeros[order], unit / scales.of(order)
-        low, high = _range(motion, order, up)
-        _axes(canvas, picture, zero, width, (low, high), order, scales)
-        _ordinates(canvas, drawn, picture, zero, scales, order)
-        _curve(canvas, drawn, picture, zero, scales, order, tolerance)
-    if picture.drawn is not None:
+        reach = _range(motion, order, up)
+        if asked.by_hand:
+            # what the diagram reaches is for students to find
+            low, high = reach = _SQUARE * math.floor(reach[0] / _SQUARE), _SQUARE * math.ceil(reach[1] / _SQUARE)
+            _squares(canvas, Box(zero.real, zero.imag + low, zero.real + width, zero.imag + high))
+        _axes(canvas, picture, zero, width, reach, order, scales)
+        _numbers(canvas, picture, zero, scales, order, reach[0] if asked.by_hand else None)
+        if not asked.by_hand:
+            _ordinates(canvas, drawn, picture, zero, scales, order)
+            _curve(canvas, drawn, picture, zero, scales, order, asked.tolerance)
+    if picture.drawn is not None and not asked.by_hand:
         _graphical(canvas, drawn, picture, zeros, scales)
     return drawn
+
+
+def _squares(canvas: Canvas, area: Box) -> None:
+    """Squared paper, from the lower left corner."""
+    wide, high = area.right - area.left, area.high - area.low
+    for k in range(int(wide / _SQUARE + 1e-9) + 1):
+        x = area.left + k * _SQUARE
+        canvas.line("ORDINATE", complex(x, area.low), complex(x, area.high))
+    for k in range(round(high / _SQUARE) + 1):
+        y = area.low + k * _SQUARE
+        canvas.line("ORDINATE", complex(area.left, y), complex(area.right, y))
 
 
 def _range(motion: FollowerMotion, order: int, up: float) -> tuple[float, float]:
@@ -129,23 +152,34 @@ def arrow(canvas: Canvas, layer: str, tip: complex, way: complex, length: float 
 
 
 def _ordinates(canvas: Canvas, drawn: Drawn, picture: CamPicture, zero: complex, scales: Scales, order: int) -> None:
-    """A line up to the curve at each position, and its number on the other side of the axis."""
-    motion, up = picture.cam.motion, picture.unit / scales.of(order)
-    places = [(p.number, p.angle) for p in picture.positions] + [(0, 2 * math.pi)]
+    """A line up to the curve at each position."""
+    up = picture.unit / scales.of(order)
+    for _, angle in _places(picture):
+        value = float(picture.cam.motion.value(angle, order)) * up
+        if abs(value) > 1e-6:
+            foot = zero + angle / scales.phi
+            drawn.line(canvas, "ORDINATE", foot, foot + 1j * value)
+
+
+def _numbers(canvas: Canvas, picture: CamPicture, zero: complex, scales: Scales, order: int, low: float | None) -> None:
+    """The number of each position on the side of the axis that the curve leaves free, or below ``low``, mm."""
+    motion, up, places = picture.cam.motion, picture.unit / scales.of(order), _places(picture)
     x = np.array([a / scales.phi for _, a in places])
     widest = max(text_width(str(n), SMALL_TEXT) for n, _ in places)
-    kept = thinned(x, widest + 0.8)
-    for (number, angle), at, named in zip(places, x.tolist(), kept, strict=True):
-        value = float(motion.value(angle, order)) * up
-        foot = zero + at
-        if abs(value) > 1e-6:
-            drawn.line(canvas, "ORDINATE", foot, foot + 1j * value)
+    for (number, angle), at, named in zip(places, x.tolist(), thinned(x, widest + 0.8), strict=True):
         if not named:
             continue
-        # on the side of the axis that the curve leaves free
-        beside = _beside(motion, angle, order, 2.0 * scales.phi) * up
-        place = SMALL_TEXT * -1.35 if beside >= -1e-6 else 0.8
-        canvas.write(str(number), foot + complex(0.5, place), SMALL_TEXT)
+        place = 0.8
+        if low is not None:
+            place = low + SMALL_TEXT * -1.35
+        elif _beside(motion, angle, order, 2.0 * scales.phi) * up >= -1e-6:
+            place = SMALL_TEXT * -1.35
+        canvas.write(str(number), zero + at + complex(0.5, place), SMALL_TEXT)
+
+
+def _places(picture: CamPicture) -> list[tuple[int, float]]:
+    """Numbers and angles of the positions, and the first one again."""
+    return [(p.number, p.angle) for p in picture.positions] + [(0, 2 * math.pi)]
 
 
 def _beside(motion: FollowerMotion, angle: float, order: int, reach: float) -> float:

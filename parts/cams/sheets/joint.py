@@ -17,6 +17,7 @@ from parts.cams.sheets.diagrams import Drawn, arrow
 from parts.cams.sheets.picture import CamPicture
 from parts.cams.sheets.rocker import numbered
 from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper
+from parts.drawing.choice import Asked
 from parts.drawing.labels import Labeller
 
 # strokes of the hatching along a border, mm
@@ -86,17 +87,22 @@ def joint_paper(window: Box, area: Box) -> tuple[Paper, Box]:
     return Paper(scale, origin), Box(middle.real - spread, window.low, middle.real + spread, window.high)
 
 
-def draw_joint(canvas: Canvas, picture: CamPicture, joint: Joint, paper: Paper, window: Box, tolerance: float) -> Drawn:
-    """The diagram with its axes, positions, tangents, admissible region and centres; names come with ``name_joint``."""
+def draw_joint(canvas: Canvas, picture: CamPicture, joint: Joint, paper: Paper, window: Box, asked: Asked) -> Drawn:
+    """The diagram with its axes, positions, tangents, admissible region and centres; names come with ``name_joint``.
+
+    By hand: the axes alone.
+    """
     drawn, to = Drawn(), paper.point
     canvas.line("AXIS", to(1j * window.low), to(1j * window.high))
     canvas.line("AXIS", to(complex(window.left, 0)), to(complex(window.right, 0)))
     for tip, way in ((to(1j * window.high), 1j), (to(complex(window.right, 0)), 1.0)):
         arrow(canvas, "AXIS", tip, way)
+    if asked.by_hand:
+        return drawn
     for piece in picture.cam.motion.pieces:
         curve = joint_diagram(piece, joint.order, paper.origin, paper.scale)
         if curve is not None:
-            drawn.add(canvas, "JOINT_DIAGRAM", curve, tolerance)
+            drawn.add(canvas, "JOINT_DIAGRAM", curve, asked.tolerance)
     for point in _points(picture, joint):
         canvas.arc("JOINT_DIAGRAM", Arc(to(point), _MARK, 0.0, 2 * math.pi))
     for a, slope in joint.borders:
@@ -128,12 +134,17 @@ def _points(picture: CamPicture, joint: Joint) -> list[complex]:
     return points
 
 
-def name_joint(labels: Labeller, picture: CamPicture, joint: Joint, paper: Paper, window: Box) -> None:
-    """Names of axes, positions, centres and sizes."""
+def name_joint(
+    labels: Labeller, picture: CamPicture, joint: Joint, paper: Paper, window: Box, *, by_hand: bool
+) -> None:
+    """Names of axes, positions, centres and sizes; by hand of the axes alone."""
     to, say = paper.point, picture.say
     labels.name("S", to(1j * window.high), prefer=1 - 1j)
     labels.name("S" + "'" * joint.order, to(complex(window.right, 0)), prefer=-1 + 1j)
     labels.name("S_{0}", to(0j), SMALL_TEXT, prefer=-1 - 1j)
+    if by_hand:
+        name_asked(labels, picture, to(complex(window.right, 0)))
+        return
     if joint.offset:
         text = f"E = {say(joint.offset)}"
         labels.name(text, to(complex(joint.offset, window.high)), SMALL_TEXT, prefer=1 - 1j, answer=False)
@@ -149,12 +160,24 @@ def name_joint(labels: Labeller, picture: CamPicture, joint: Joint, paper: Paper
     if picture.gamma is not None:
         symbol = "γ_{min}" if picture.asked or joint.order == 2 else "γ"
         centre, arc = _angle_arc(joint, paper, picture.gamma)
-        text = f"{symbol} = {say(math.degrees(picture.gamma)).rstrip('0').rstrip(',.')}°"
+        text = f"{symbol} = {angle_text(picture)}"
         labels.name(text, centre + arc, prefer=arc, answer=False if picture.asked else None)
     angles = np.array([p.angle for p in picture.positions])
     points = picture.cam.motion.value(angles, joint.order) + 1j * picture.cam.motion.value(angles)
     for text, point in numbered(picture, [to(point) for point in points.tolist()]):
         labels.name(text, point, SMALL_TEXT, prefer=complex(point.real - paper.origin.real, 0.1))
+
+
+def name_asked(labels: Labeller, picture: CamPicture, point: complex) -> None:
+    """The transmission angle that the scene asks for, for students to draw its lines."""
+    if picture.asked and picture.gamma is not None:
+        labels.name(f"γ_{{min}} = {angle_text(picture)}", point, prefer=-1j, answer=False)
+
+
+def angle_text(picture: CamPicture) -> str:
+    """The transmission angle of the tangents."""
+    assert picture.gamma is not None
+    return f"{picture.say(math.degrees(picture.gamma)).rstrip('0').rstrip(',.')}°"
 
 
 def _clipped(point: complex, way: complex, box: Box) -> tuple[complex, complex]:

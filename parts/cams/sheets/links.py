@@ -148,7 +148,7 @@ def position_grid(picture: CamPicture, cam: LinkageCam) -> Grid:
         values = (math.degrees(position.angle), theta[k], place[k].real, place[k].imag, centre[k], contact[k],
                   profile[k].real, profile[k].imag)  # fmt: skip
         rows.append((str(position.number), *(picture.say(float(x)) for x in values)))
-    return Grid(_COLUMNS, tuple(rows))
+    return Grid(_COLUMNS, tuple(rows), answers=(0, 0, *[7] * len(picture.positions)))
 
 
 def _outward(point: complex) -> complex:

@@ -18,6 +18,7 @@ from parts.cams.sheets.diagrams import Drawn, arrow
 from parts.cams.sheets.links import draw_links, frame_ray, linkage_cam_of, links_reach, name_links, pivots
 from parts.cams.sheets.picture import CamPicture, thinned
 from parts.drawing.canvas import SCALES, SMALL_TEXT, Box, Canvas, Paper, Stroke, draw, fitted, text_width
+from parts.drawing.choice import Asked
 from parts.drawing.expected import Circle
 from parts.drawing.labels import Labeller
 
@@ -95,9 +96,12 @@ def _number_room(picture: CamPicture) -> float:
 
 
 def draw_profile(
-    canvas: Canvas, picture: CamPicture, paper: Paper, tolerance: float
+    canvas: Canvas, picture: CamPicture, paper: Paper, asked: Asked, *, base_given: bool
 ) -> tuple[Drawn, list[Circle], dict[str, list[Curve]]]:
-    """The construction; lines that are checked, circles on paper, exact curves of each layer in model mm."""
+    """The construction; lines that are checked, circles on paper, exact curves of each layer in model mm.
+
+    By hand: the centre and the circles that are given.
+    """
     cam, reach = picture.cam, reach_of(picture, paper.scale)
     drawn, circles = Drawn(), []
 
@@ -108,10 +112,12 @@ def draw_profile(
 
     for way in (1, 1j):
         canvas.line("CENTRE", paper.point(-1.08 * reach.base * way), paper.point(1.08 * reach.base * way))
-    circle("CIRCLE_BASE", 0j, reach.base)
-    if cam.radius:
-        circle("CIRCLE_PRIME", 0j, reach.prime)
-    circle("CIRCLE_FAR", 0j, reach.far)
+    if base_given or not asked.by_hand:
+        circle("CIRCLE_BASE", 0j, reach.base)
+    if not asked.by_hand:
+        if cam.radius:
+            circle("CIRCLE_PRIME", 0j, reach.prime)
+        circle("CIRCLE_FAR", 0j, reach.far)
     mount = cam.mount
     if isinstance(mount, Translating) and mount.offset and not cam.is_flat:
         circle("CIRCLE_OFFSET", 0j, abs(mount.offset))
@@ -121,6 +127,10 @@ def draw_profile(
         # none about a pivot that stands on the axis
         for pivot in filter(None, pivots(linked)):
             circle("CIRCLE_PIVOT", 0j, abs(pivot))
+    if asked.by_hand:
+        _turning(canvas, paper, reach)
+        return drawn, circles, {}
+    if linked is not None:
         draw_links(canvas, drawn, picture, linked, paper, reach.rays)
     _marks(canvas, picture, paper)
     for position in picture.positions:
@@ -141,7 +151,7 @@ def draw_profile(
         pitch = replace(cam, kind=FollowerKind.POINTED, radius=0.0)
         curves["PITCH_CURVE"] = [s.curve for s in cam_shape(pitch).profile.period]
     for layer, exact in curves.items():
-        draw(canvas, layer, fitted(canvas, exact, paper.scale, tolerance), paper)
+        draw(canvas, layer, fitted(canvas, exact, paper.scale, asked.tolerance), paper)
     _turning(canvas, paper, reach)
     return drawn, circles, curves
 
@@ -225,16 +235,18 @@ def number_positions(canvas: Canvas, picture: CamPicture, paper: Paper) -> None:
         canvas.write(text, at - complex(text_width(text, SMALL_TEXT), SMALL_TEXT) / 2, SMALL_TEXT)
 
 
-def name_profile(labels: Labeller, picture: CamPicture, paper: Paper) -> None:
-    """Centre, sense of turning, radii, offset."""
+def name_profile(labels: Labeller, picture: CamPicture, paper: Paper, *, by_hand: bool, base_given: bool) -> None:
+    """Centre, sense of turning, radii, offset; by hand without the radii that are not given."""
     cam, say, reach = picture.cam, picture.say, reach_of(picture, paper.scale)
     labels.name("O", paper.point(0j), prefer=1 - 1j)
     turning = paper.point(0.45 * reach.base * cmath.exp(1j * math.radians(230)))
     labels.name("ω", turning, prefer=1 + 1j)
     name = "R_{min}" if cam.is_flat or cam.radius else "r_{0}"
     spoke = cmath.exp(1j * math.radians(290))
-    labels.name(f"{name} = {say(reach.base)}", paper.point(reach.base * spoke), SMALL_TEXT, prefer=-spoke)
-    if cam.radius:
+    if base_given or not by_hand:
+        text = f"{name} = {say(reach.base)}"
+        labels.name(text, paper.point(reach.base * spoke), SMALL_TEXT, prefer=-spoke, answer=not base_given)
+    if cam.radius and not by_hand:
         spoke = cmath.exp(1j * math.radians(310))
         labels.name(f"r_{{0}} = {say(reach.prime)}", paper.point(reach.prime * spoke), SMALL_TEXT, prefer=-spoke)
     mount = cam.mount
@@ -244,7 +256,8 @@ def name_profile(labels: Labeller, picture: CamPicture, paper: Paper) -> None:
             text = f"E = {say(abs(mount.offset))}"
             labels.name(text, paper.point(abs(mount.offset) * spoke), SMALL_TEXT, prefer=spoke, answer=False)
     elif (linked := linkage_cam_of(picture)) is not None:
-        name_links(labels, picture, linked, paper)
+        if not by_hand:
+            name_links(labels, picture, linked, paper)
     else:
         spoke = cmath.exp(1j * math.radians(20))
         point = paper.point(mount.centre_distance * spoke)

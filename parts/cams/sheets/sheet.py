@@ -92,19 +92,20 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) 
     scales = scales_of(picture, layout.diagrams.area.right - layout.diagrams.area.left - LEFT - RIGHT,
                        heights_of(layout.diagrams.area))  # fmt: skip
     page = layout.diagrams.page
-    page.drawn.append(draw_diagrams(page.canvas, picture, layout.diagrams.area, scales, asked.tolerance))
+    page.drawn.append(draw_diagrams(page.canvas, picture, layout.diagrams.area, scales, asked))
     page = layout.profile.page
-    made, circles, curves = draw_profile(page.canvas, picture, paper, asked.tolerance)
+    base_given = any(x.given and x.name == "least_base_circle_radius" for s in calculation.sections for x in s.steps)
+    made, circles, curves = draw_profile(page.canvas, picture, paper, asked, base_given=base_given)
     page.drawn.append(made)
     page.circles += circles
     page.curves |= curves
     page, window = layout.joint.page, None
     if joint is not None:
         page.joint, window = joint_paper(joint_window(picture, joint), layout.joint.area)
-        page.drawn.append(draw_joint(page.canvas, picture, joint, page.joint, window, asked.tolerance))
+        page.drawn.append(draw_joint(page.canvas, picture, joint, page.joint, window, asked))
     elif swing is not None:
         page.joint, window = joint_paper(swing_window(picture, swing), layout.joint.area)
-        page.drawn.append(draw_swing(page.canvas, picture, swing, page.joint, window, asked.tolerance))
+        page.drawn.append(draw_swing(page.canvas, picture, swing, page.joint, window, asked))
     _captions(picture, layout, paper)
     scale = None if page.joint is None else page.joint.scale
     lines = legend(picture, has_return=joint is not None and joint.return_line is not None)
@@ -117,19 +118,23 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) 
         one.canvas.write(
             title, complex(frame.left + 6.0, frame.high - 9.0), TITLE_TEXT, frame.right - frame.left - 12.0
         )
-    number_positions(layout.profile.page.canvas, picture, paper)
-    name_profile(Labeller(layout.profile.page.canvas, layout.profile.area.grown(2.0)), picture, paper)
+    if not asked.by_hand:
+        number_positions(layout.profile.page.canvas, picture, paper)
+    labels = Labeller(layout.profile.page.canvas, layout.profile.area.grown(2.0))
+    name_profile(labels, picture, paper, by_hand=asked.by_hand, base_given=base_given)
     labels = Labeller(page.canvas, layout.joint.area)
     if joint is not None and page.joint is not None and window is not None:
-        name_joint(labels, picture, joint, page.joint, window)
+        name_joint(labels, picture, joint, page.joint, window, by_hand=asked.by_hand)
     elif swing is not None and page.joint is not None:
-        name_swing(labels, picture, swing, page.joint)
+        name_swing(labels, picture, swing, page.joint, by_hand=asked.by_hand)
     low, high = picture.cam.motion.extremes(0)
     lift = scales.lift, (high - low) * picture.unit
+    # what students draw cannot be measured yet
     return [
-        Expected(one.canvas, paper, tuple(one.circles), one.curves, measures=_measures(one, joint, lift))
+        Expected(one.canvas, paper, tuple(one.circles), one.curves,
+                 measures=None if asked.by_hand else _measures(one, joint, lift))
         for one in pages
-    ]
+    ]  # fmt: skip
 
 
 def _measures(page: _Page, joint: Joint | None, lift: tuple[float, float]) -> CamMeasures:

@@ -16,9 +16,11 @@ from geometry.cams.motion.guides import Oscillating
 from geometry.cams.plane.synthesis import oscillating_axis
 from geometry.curves.line_arc import Arc
 from parts.cams.sheets.diagrams import Drawn
+from parts.cams.sheets.joint import angle_text, name_asked
 from parts.cams.sheets.picture import CamPicture
 from parts.cams.sheets.rocker import draw_faces, faces_box, name_numbers, name_rocker, rocker_region
 from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, Paper
+from parts.drawing.choice import Asked
 from parts.drawing.labels import Labeller
 
 # half-planes of the region's border on each piece that moves
@@ -107,12 +109,17 @@ def _curves(picture: CamPicture, paper: Paper) -> list[ArmCurve]:
     ]
 
 
-def draw_swing(canvas: Canvas, picture: CamPicture, swing: Swing, paper: Paper, window: Box, tolerance: float) -> Drawn:
-    """Arms, the diagram, the region's border with its hatching, both axes."""
+def draw_swing(canvas: Canvas, picture: CamPicture, swing: Swing, paper: Paper, window: Box, asked: Asked) -> Drawn:
+    """Arms, the diagram, the region's border with its hatching, both axes; by hand the axes alone."""
     drawn, to, mount = Drawn(), paper.point, picture.cam.mount
     assert isinstance(mount, Oscillating)
+    if asked.by_hand:
+        drawn.line(canvas, "AXIS", to(0j), to(swing.pivot))
+        for point in (0j, swing.pivot):
+            canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
+        return drawn
     for curve in _curves(picture, paper):
-        drawn.add(canvas, "JOINT_DIAGRAM", curve, tolerance)
+        drawn.add(canvas, "JOINT_DIAGRAM", curve, asked.tolerance)
     drawn.line(canvas, "AXIS", to(0j), to(swing.pivot))
     if picture.cam.is_flat:
         draw_faces(canvas, drawn, picture, paper)
@@ -187,11 +194,14 @@ def _hatch(canvas: Canvas, border: list[tuple[complex, complex]], paper: Paper, 
         gone -= length
 
 
-def name_swing(labels: Labeller, picture: CamPicture, swing: Swing, paper: Paper) -> None:
-    """Names of axes, pivot, radius, numbers of positions."""
+def name_swing(labels: Labeller, picture: CamPicture, swing: Swing, paper: Paper, *, by_hand: bool) -> None:
+    """Names of axes, pivot, radius, numbers of positions; by hand of the axes alone."""
     to, say = paper.point, picture.say
     labels.name("O", to(0j), prefer=-1 - 1j)
     labels.name("C", to(swing.pivot), prefer=1 - 1j)
+    if by_hand:
+        name_asked(labels, picture, to(swing.pivot))
+        return
     if not picture.cam.is_flat:
         labels.name("B_{0}", to(swing.lowest), SMALL_TEXT, prefer=1 - 1j)
     labels.name("O_{1}", to(swing.least), prefer=-1 - 1j)
@@ -203,7 +213,7 @@ def name_swing(labels: Labeller, picture: CamPicture, swing: Swing, paper: Paper
         return
     if picture.gamma is not None:
         symbol = "γ_{min}" if picture.asked else "γ"
-        text = f"{symbol} = {say(math.degrees(picture.gamma)).rstrip('0').rstrip(',.')}°"
+        text = f"{symbol} = {angle_text(picture)}"
         point = swing.least + 0.25 * (swing.lowest - swing.least)
         labels.name(text, to(point), prefer=1 + 0j, answer=False if picture.asked else None)
     name_numbers(labels, picture, [to(foot) for foot, _ in _arms(picture)], to(swing.pivot))

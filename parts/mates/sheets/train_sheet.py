@@ -78,7 +78,7 @@ def train_sheet(title: str, train: TrainPicture, told: list[str], asked: Asked) 
     scheme.draw()
     plans = plans_of(train, scheme.y, scale, areas.plan.grown(-_GAP), areas.angles.grown(-_GAP))
     _transfer(canvas, train, scheme, plans.line)
-    draw_plans(canvas, plans, areas.plan, areas.angles)
+    draw_plans(canvas, plans, areas.plan, areas.angles, by_hand=asked.by_hand)
     rows += [
         Row(sheet_words(language, "scheme_scale"), "", scale_text(scale, language), answers=0),
         Row(sheet_words(language, "velocity_scale"), "μ_{v}", decimal(f"{plans.velocity:g}", language), answers=0),
@@ -91,8 +91,9 @@ def train_sheet(title: str, train: TrainPicture, told: list[str], asked: Asked) 
     for mark, at in scheme.marks.items():
         teeth = {rim.name: rim.teeth for rim in train.rims}.get(mark)
         labels.name(mark if teeth is None else f"{mark} (z = {teeth})", at, prefer=1 + 0.3j)
-    name_plans(labels, plans, areas.plan, areas.angles)
-    return Expected(canvas, Paper(scale, 1j * base), (), measures=PlanMeasures(plans))
+    name_plans(labels, plans, areas.plan, areas.angles, by_hand=asked.by_hand)
+    # what students draw cannot be measured yet
+    return Expected(canvas, Paper(scale, 1j * base), (), measures=None if asked.by_hand else PlanMeasures(plans))
 
 
 def _transfer(canvas: Canvas, train: TrainPicture, scheme: Scheme, line: float) -> None:
@@ -110,6 +111,10 @@ def _rows(train: TrainPicture, told: list[str], language: str) -> list[Row]:
         Row(f"{part}: {teeth}", f"z_{{{rim.name}}}", str(rim.teeth), answers=0)
         for part, rim in zip(told, train.rims, strict=True)
     ]
+    # practicum (2.1): each moving link has one axis; where meshes follow from others it counts too few
+    freedom = sum(bool(link.rate) or link.carrier is not None for link in train.links) - len(train.meshes)
+    if freedom > 0:
+        rows.append(Row(sheet_words(language, "mobility"), "W", str(freedom)))
     driver = train.links[train.driver]
     for link in train.links:
         if link is driver:

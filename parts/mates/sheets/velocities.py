@@ -66,11 +66,13 @@ def plans_of(train: TrainPicture, y: Callable[[float], float], scale: float, pla
     return Plans(train, y, line, velocity, angular, foot - 1j * velocity * scale / angular, foot)
 
 
-def draw_plans(canvas: Canvas, plans: Plans, plan: Box, angles: Box) -> None:
-    """Pole lines, the line of every link, the velocities of its points, and the rays."""
+def draw_plans(canvas: Canvas, plans: Plans, plan: Box, angles: Box, *, by_hand: bool) -> None:
+    """Pole lines, the line of every link, the velocities of its points, and the rays; by hand the pole lines alone."""
     canvas.line("AXIS", complex(plans.line, plan.low), complex(plans.line, plan.high))
     canvas.line("AXIS", complex(angles.left, plans.foot.imag), complex(angles.right, plans.foot.imag))
     canvas.line("CENTRE", plans.pole, plans.foot)
+    if by_hand:
+        return
     for layer, lines in (("VELOCITY", plans.spans()), ("ANGULAR_VELOCITY", plans.rays())):
         for _, start, end in lines:
             canvas.line(layer, start, end)
@@ -88,20 +90,20 @@ def points_of(plans: Plans) -> list[tuple[str, complex]]:
     return [(chr(ord("a") + k), plans.at(link, height)) for k, (link, height) in enumerate(found)]
 
 
-def name_plans(labels: Labeller, plans: Plans, plan: Box, angles: Box) -> None:
-    """Names of points, links and pole lines."""
+def name_plans(labels: Labeller, plans: Plans, plan: Box, angles: Box, *, by_hand: bool) -> None:
+    """Names of points, links and pole lines; by hand of the pole lines alone."""
     names = [link.name for link in plans.train.links]
     labels.name("p", complex(plans.line, plan.high), prefer=1 + 0j)
     labels.name("p", complex(plans.line, plan.low), prefer=1 + 0j)
-    for name, end in points_of(plans):
+    for name, end in [] if by_hand else points_of(plans):
         labels.name(name, end, prefer=1 + 0.4j)
-    for link, start, end in plans.spans():
+    for link, start, end in [] if by_hand else plans.spans():
         labels.name(f"({names[link]})", start + 0.62 * (end - start), prefer=1 + 0j)
     for axis in dict.fromkeys(link.axis for link in plans.train.links if link.carrier is None):
         labels.name("o", complex(plans.line, plans.y(axis)), prefer=-1 + 0.5j)
     labels.name("O_{1}", plans.pole, prefer=-1j)
     labels.name("O", plans.foot, prefer=1j)
-    for link, _, end in plans.rays():
+    for link, _, end in [] if by_hand else plans.rays():
         labels.name(names[link], end, prefer=1j)
     for x in (angles.left, angles.right):
         labels.name("ω", complex(x, plans.foot.imag), prefer=-1j)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import tomllib
 from pathlib import Path
+from xml.etree import ElementTree
 
 import ezdxf
 import pytest
@@ -17,6 +18,7 @@ from parts.scene.files import SCENE_FOLDER, built_in_scenes
 from parts.scene.load import load_scene, make_parts
 from parts.scene.placing import place
 from tests.exporters.production.test_boards import bodies_of, contours, pieces_of
+from tests.exporters.production.test_sheet_words import SVG, faults
 
 LESSONS = [f"lesson_{number}" for number in range(1, 6)]
 
@@ -66,6 +68,7 @@ profile_shift_coefficient = 0.384
 kind = "external_gear_pair"
 first = "pinion"
 second = "wheel"
+normal_backlash = 0.125
 [[exports]]
 format = "sheet"
 name = "students"
@@ -85,7 +88,7 @@ def test_students_find_the_numbers_themselves(tmp_path: Path, capsys: pytest.Cap
         for name in ("students", "teacher")
     }
     # (3.4) of the practicum: m (z1 + z2) / 2 cos 20 / cos 26.9331
-    for answer in ("71.673", "26.9331°", "0.694"):
+    for answer in ("71.673", "26.9331°", "0.694", "0.125"):
         assert answer in texts["teacher"]
         assert answer not in texts["students"]
     for given in ("4", "13", "21"):
@@ -94,6 +97,81 @@ def test_students_find_the_numbers_themselves(tmp_path: Path, capsys: pytest.Cap
     file.write_text(PAIR.replace('format = "sheet"\nname = "students"', 'format = "dxf"'), encoding="utf-8")
     assert main(["build", str(file), "--out", str(tmp_path)]) == 2
     assert "exports[1].cells" in capsys.readouterr().err
+
+
+SHEETS = """
+[[exports]]
+format = "sheet"
+purpose = "{purpose}"
+name = "students"
+cells = "empty"
+[[exports]]
+format = "sheet"
+purpose = "{purpose}"
+name = "teacher"
+"""
+CAM = """
+[parts.cam]
+kind = "cam"
+follower = "roller"
+lift = 20.0
+follower_radius = 8.0
+base_circle_radius = 40.0
+phases = [{ move = "rise", angle_deg = 180.0, law = "sine" }, { move = "return_", angle_deg = 180.0, law = "sine" }]
+"""
+TRAIN = """
+[[assemblies]]
+kind = "planetary_set"
+teeth = [24, 24, 72]
+"""
+TURNED = "swing_deg = 20.0\noscillating = { centre_distance = 90.0, arm_length = 70.0 }"
+
+
+@pytest.mark.sampled(2)
+# what students draw, what is given and they start from, and what their table asks for
+@pytest.mark.parametrize(
+    ("purpose", "scene", "drawn", "given", "row"),
+    [
+        ("cam", CAM,
+         {"DIAGRAM_BEND", "DIAGRAM_RATE", "DIAGRAM_LIFT", "JOINT_DIAGRAM", "CAM", "PITCH_CURVE", "CIRCLE_FAR"},
+         {"AXIS", "PHASE", "CENTRE", "CIRCLE_BASE"}, "R"),
+        ("cam", CAM.replace("base_circle_radius = 40.0", "least_transmission_angle_deg = 60.0"),
+         {"DIAGRAM_BEND", "JOINT_DIAGRAM", "CAM", "CIRCLE_BASE"}, {"AXIS", "CENTRE"}, "R"),
+        ("cam", CAM.replace('"roller"\nlift = 20.0', '"flat"\nlift = 20.0').replace("follower_radius = 8.0", ""),
+         {"DIAGRAM_BEND", "JOINT_DIAGRAM", "CAM", "FOLLOWER"}, {"AXIS", "CENTRE", "CIRCLE_BASE"}, "R"),
+        ("cam", CAM.replace("lift = 20.0", TURNED),
+         {"DIAGRAM_BEND", "JOINT_DIAGRAM", "CAM", "FOLLOWER"}, {"AXIS", "CENTRE", "CIRCLE_BASE", "CIRCLE_PIVOT"}, "R"),
+        ("train", TRAIN, {"VELOCITY", "ANGULAR_VELOCITY"}, {"SCHEME", "AXIS", "CENTRE"}, "W"),
+    ],
+    ids=["base given", "angle given", "flat", "arm", "train"],
+)  # fmt: skip
+def test_students_draw_the_pictures_themselves(
+    purpose: str, scene: str, drawn: set[str], given: set[str], row: str, tmp_path: Path
+) -> None:
+    """Their lines stand on the teacher's sheet alone; what is given, on both and at the same places."""
+    file = tmp_path / "s.toml"
+    file.write_text(scene + SHEETS.format(purpose=purpose), encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path)]) == 0
+    lines: dict[str, dict[str, set[str]]] = {}
+    words: dict[str, list[str]] = {}
+    for name in ("students", "teacher"):
+        (sheet,) = (tmp_path / "s").glob(f"s.{name}*.svg")
+        groups = ElementTree.parse(sheet).getroot().findall(f"{SVG}g")
+        lines[name] = {str(g.get("id")): {str(p.get("d")) for p in g.findall(f"{SVG}path")} for g in groups}
+        words[name] = ["".join(t.itertext()) for g in groups for t in g.findall(f"{SVG}text")]
+        assert faults(sheet) == []
+        assert row in words[name]
+    has = {name: {layer for layer, paths in found.items() if paths} for name, found in lines.items()}
+    # the table has one sample of each line
+    assert {layer for layer in drawn & has["students"] if len(lines["students"][layer]) > 1} == set()
+    assert {layer for layer in drawn if len(lines["teacher"][layer]) < 2} <= {"CIRCLE_BASE", "CIRCLE_FAR"} & has[
+        "teacher"
+    ]
+    assert given <= has["students"]
+    for layer in given - {"AXIS"}:
+        assert lines["students"][layer] <= lines["teacher"][layer]
+    # a radius that is given has its number
+    assert ("= 40.00" in " ".join(words["students"])) == ("CIRCLE_BASE" in given)
 
 
 @pytest.mark.heavy
