@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Mapping
+import re
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from textwrap import wrap
 from typing import Any, TypeAlias
@@ -30,6 +32,8 @@ _MOST_LETTERS = 500
 _PIN_STYLE = "fill:#7f8c99;stroke:#202830"
 # outlines of more curves than this are drawn by so many points of each: arcs take seconds to fit
 _MOST_ARCS, _POINTS = 300, 8
+# of more alike than this one is named for all, by its name without its number
+_MANY, _LAST_NUMBER = 6, re.compile(r"[ _]\d+$")
 FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
 # the boundaries of a part, the outer one last
 Outlines: TypeAlias = tuple[Approximation, ...]
@@ -82,7 +86,8 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
 
     language = plan.scene.scene.language
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
-    names = names_of(plan.scene.instances, plan.parts)
+    own = names_of(plan.scene.instances, plan.parts)
+    names = _together(own, stand)
     outers = [_outer(i, samples(outlines[i.part][-1].geometry), plan.parts[i.part]) for i in stand]
     points = np.concatenate(outers)
     left, right = float(points.real.min()), float(points.real.max())
@@ -113,17 +118,21 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
             place, height = complex(outers[index].mean()) + shift, 0.0
         x, y = middle + place.real, middle - place.imag - height
         labels.append(Label(names[instance.id], x, y, size))
-    named = spread_labels(labels, Tops(loops))
+    # a wide scene is drawn wide: what is above and below it is cut off
+    spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))
+    seen = (1j * spare / 2, complex(2 * middle, 2 * middle - spare / 2))
+    named = spread_labels(labels, Tops(loops, picture=seen))
     style = "font-family:sans-serif;font-size:{:.4g}px;text-anchor:middle;fill:#202830"
     body += [
         f'<text x="{one.x:.4g}" y="{one.y:.4g}" style="{style.format(one.size)}">{escaped(one.text)}</text>'
         for one in named if one
     ]  # fmt: skip
-    covered = [label.text for label, one in zip(labels, named, strict=True) if one is None]
+    written = {one.text for one in named if one}
+    covered = [label.text for label in labels if label.text not in written]
     told = words(language)
-    rows = [plan.scene.scene.title or plan.scene.name, *caption_lines(checks, language, names, _MOST_LETTERS)]
+    rows = [plan.scene.scene.title or plan.scene.name, *caption_lines(checks, language, own, _MOST_LETTERS)]
     if covered:
-        row = told.text("without its name in the picture: {names}", names=", ".join(in_rows(covered)))
+        row = told.text("without its name in the picture: {names}", names=", ".join(in_rows(dict.fromkeys(covered))))
         count = counted(
             "without its name in the picture: {parts} part",
             "without its name in the picture: {parts} parts",
@@ -131,14 +140,19 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         )
         rows.append(row if len(row) <= _MOST_LETTERS // 2 else told.say(filled(count, parts=len(covered))))
     rows = [line for row in rows for line in wrap(told.decimal(row), _WIDE_LETTERS)]
-    # a wide scene is drawn wide: what is above and below it is cut off
-    spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))
     caption = size * 1.7 * (len(rows) + 1)
     file = folder / f"{scene_preview_name(plan)}"
     lines = [head(middle, extra_height=caption - spare), '<rect width="100%" height="100%" style="fill:#ffffff"/>']
     lines.append(f'<g transform="translate(0 {number(caption - spare / 2)})">')
     save(file, [*lines, *body, "</g>", *_caption(rows, size, size)])
     return file
+
+
+def _together(names: Mapping[str, str], stand: Sequence[Instance]) -> dict[str, str]:
+    """Names by id, those of many of one part that differ by their last number alone as one with how many they are."""
+    stems = {i.id: (_LAST_NUMBER.sub("", names[i.id]), i.part) for i in stand}
+    many = Counter(stems.values())
+    return {key: f"{row[0]} × {many[row]}" if many[row] > _MANY else names[key] for key, row in stems.items()}
 
 
 def _outer(instance: Instance, points: Complex, part: Part) -> Complex:

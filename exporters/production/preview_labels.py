@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -38,13 +39,17 @@ class Label(Record):
 class Tops:
     """Which of the parts of a picture is the uppermost at each place of a grid, by number in their order upwards.
 
-    Every part is its closed boundaries, points as the picture has them, y downwards.
+    Every part is its closed boundaries, points as the picture has them, y downwards; ``picture``: its upper left and
+    lower right corner.
     """
 
-    def __init__(self, parts: Sequence[Sequence[Complex]], cells: int = _CELLS) -> None:
+    def __init__(
+        self, parts: Sequence[Sequence[Complex]], cells: int = _CELLS, picture: tuple[complex, complex] | None = None
+    ) -> None:
         every = np.concatenate([loop for loops in parts for loop in loops])
         self._low = complex(every.real.min(), every.imag.min())
         self._high = complex(every.real.max(), every.imag.max())
+        self._picture = picture or (complex(-math.inf, -math.inf), complex(math.inf, math.inf))
         self._step = max(float(np.ptp(every.real)), float(np.ptp(every.imag)), 1e-300) / cells
         at = self._step * (np.arange(cells) + 0.5)
         self._top: NDArray[np.int_] = np.full((cells, cells), -1)
@@ -60,9 +65,12 @@ class Tops:
     def shows(self, label: Label, number: int) -> int:
         """How well a word stands for the part of this number: 3 on it alone, 2 beside it and over no edge, 1 beside it.
 
-        0: not beside what is seen of it, or on what is above it.
+        0: not beside what is seen of it, on what is above it, or not whole in the picture.
         """
         left, top, right, low = label.box
+        begin, end = self._picture
+        if left < begin.real or top < begin.imag or right > end.real or low > end.imag:
+            return 0
         beside = self._within(left - label.size, top - label.size, right + label.size, low + label.size)
         under = set(self._within(left, top, right, low).ravel().tolist())
         if left < self._low.real or top < self._low.imag or right > self._high.real or low > self._high.imag:
@@ -79,7 +87,7 @@ class Tops:
 
 
 def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Label | None]:
-    """The words in their order, each at the free place nearest to where it was wanted.
+    """The words in their order, each at the free place nearest to where it was wanted, each but once.
 
     ``tops``: the parts of these words, in this order; one that is covered has no place for its word.
     """
@@ -87,6 +95,9 @@ def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Lab
     taken = np.empty((0, 4))
     for number, label in enumerate(wanted):
         best, found = 0, None
+        if any(other and other.text == label.text for other in made):
+            made.append(None)
+            continue
         for one in (label, replace(label, size=_SMALL * label.size)) if tops else (label,):
             for place in _apart(list(_places(one)), taken):
                 if (rank := tops.shows(place, number) if tops else _BEST) > best:

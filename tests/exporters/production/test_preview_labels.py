@@ -88,7 +88,7 @@ def test_a_hole_shows_what_lies_under_it() -> None:
 def test_a_name_stands_on_no_edge_where_there_is_a_place() -> None:
     square = np.array([0, 40, 40 + 40j, 40j])
     tops = Tops([[square], [square / 2 + 30 + 30j]])
-    first, second = spread_labels([Label("wide", 3.0, 20.0, 4.0), Label("wide", 31.0, 45.0, 4.0)], tops)
+    first, second = spread_labels([Label("wide", 3.0, 20.0, 4.0), Label("side", 31.0, 45.0, 4.0)], tops)
     assert first is not None
     assert second is not None
     for label, (low, high) in ((first, (0, 40)), (second, (30, 50))):
@@ -124,3 +124,21 @@ def test_names_of_what_is_covered_stand_in_the_caption(tmp_path: Path) -> None:
         "large",
         "without its name in the picture: small",
     ]
+
+
+def test_many_alike_are_named_once_within_the_picture(tmp_path: Path) -> None:
+    """Pins along the right edge: each name would stand beyond it."""
+    scene = tmp_path / "row.toml"
+    scene.write_text(
+        '[parts.bed]\nkind = "plate"\nwidth = 90.0\nheight = 90.0\n[parts.locating_pin]\nkind = "pin"\n'
+        'diameter = 4.0\nlength = 8.0\n[instances.bed]\nat = [0.0, 0.0, 0.0]\n[instances.locating_pin]\ncount = 8\n'
+        'at = [43.0, 0.0, 9.0]\n[[exports]]\nformat = "svg"\n',
+        encoding="utf-8",
+    )
+    assert main(["build", str(scene), "--out", str(tmp_path), "--no-verify"]) == 0
+    picture = (tmp_path / "row" / "row.preview.svg").read_text(encoding="utf-8")
+    [(x, size, text)] = re.findall(r'<text x="([-\d.]+)" [^>]*font-size:([\d.]+)px[^>]*>([^<]*pin[^<]*)</text>', picture)
+    assert text == "locating_pin × 8"
+    left, _, right, _ = Label(text, float(x), 0.0, float(size)).box
+    assert left > 0
+    assert right < float(re.search(r'viewBox="0 0 ([\d.]+)', picture)[1])  # type: ignore[index]
