@@ -126,19 +126,20 @@ def test_names_of_what_is_covered_stand_in_the_caption(tmp_path: Path) -> None:
     ]
 
 
-def test_many_alike_are_named_once_within_the_picture(tmp_path: Path) -> None:
-    """Pins along the right edge: each name would stand beyond it."""
+def test_many_alike_are_named_once(tmp_path: Path) -> None:
     scene = tmp_path / "row.toml"
     scene.write_text(
         '[parts.bed]\nkind = "plate"\nwidth = 90.0\nheight = 90.0\n[parts.locating_pin]\nkind = "pin"\n'
-        'diameter = 4.0\nlength = 8.0\n[instances.bed]\nat = [0.0, 0.0, 0.0]\n[instances.locating_pin]\ncount = 8\n'
+        "diameter = 4.0\nlength = 8.0\n[instances.bed]\nat = [0.0, 0.0, 0.0]\n[instances.locating_pin]\ncount = 8\n"
         'at = [43.0, 0.0, 9.0]\n[[exports]]\nformat = "svg"\n',
         encoding="utf-8",
     )
     assert main(["build", str(scene), "--out", str(tmp_path), "--no-verify"]) == 0
     picture = (tmp_path / "row" / "row.preview.svg").read_text(encoding="utf-8")
-    [(x, size, text)] = re.findall(r'<text x="([-\d.]+)" [^>]*font-size:([\d.]+)px[^>]*>([^<]*pin[^<]*)</text>', picture)
-    assert text == "locating_pin × 8"
-    left, _, right, _ = Label(text, float(x), 0.0, float(size)).box
-    assert left > 0
-    assert right < float(re.search(r'viewBox="0 0 ([\d.]+)', picture)[1])  # type: ignore[index]
+    assert re.findall(r">([^<>]*pin[^<>]*)</text>", picture) == ["locating_pin × 8"]
+
+
+def test_no_name_stands_partly_beyond_the_picture() -> None:
+    square, beyond = np.array([0, 40, 40 + 40j, 40j]), Label("beyond", 40.0, 20.0, 4.0)
+    assert Tops([[square]]).shows(beyond, 0) == 1
+    assert Tops([[square]], picture=(-3 - 3j, 43 + 43j)).shows(beyond, 0) == 0
