@@ -10,6 +10,7 @@ from exporters.formats.read_solid import LEVEL, PLANE, ROUND, SQUARE, Model
 from exporters.formats.read_step import ReadSolid
 from exporters.verification.area import area_failures
 from exporters.verification.chamfers import chamfer_deviation
+from exporters.verification.copies import copy_failures
 from exporters.verification.outlines import verify_samples
 from exporters.verification.samples import edge_points, foot_points, inner_points
 from exporters.verification.verdict import (
@@ -41,6 +42,7 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
     failures += volume_failures(volume, exact, bound, found.said.get("volume"))
     failures += precision_failures(found.precision, body.precision)
     failures += area_failures(model, found.said.get("surface area"))
+    failures += copy_failures(model, body)
     flat = (model.kind == PLANE) & (np.abs(model.frames.axes[:, 2, 2]) > 1 - SQUARE)
     sheared = body.has_screws() and not body.twisted_profiles()
     upright = model.is_upright & ~flat & (not sheared)

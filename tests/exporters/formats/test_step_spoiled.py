@@ -63,16 +63,17 @@ def turned(m: re.Match[str]) -> str:
     return f"{m[1]}{'F' if m[2] == 'T' else 'T'}{m[3]}"
 
 
-def pole(text: str, share: float) -> str:
-    """A pole in the middle of an edge moved across it by twice the tolerance."""
+def pole(text: str, share: float, way: complex = 1j) -> str:
+    """A pole in the middle of an edge moved by twice the tolerance: across it, or another way from along it."""
     points = {m[1]: m for m in re.finditer(rf"(#\d+)=CARTESIAN_POINT\('',\(({NUMBER}),({NUMBER}),({NUMBER})\)", text)}
     splines = [found.split(",") for found in re.findall(r"=B_SPLINE_CURVE_WITH_KNOTS\('',\d,\((#[^)]*)\)", text)]
     level = [names for names in splines if len({points[name][4] for name in names}) == 1]
     names = level[round(share * (len(level) - 1))]
     middle = [points[name] for name in names[len(names) // 2 - 1 : len(names) // 2 + 2]]
     places = [(m, np.array([float(m[k]) for k in (2, 3, 4)])) for m in middle]
-    along = places[2][1] - places[0][1]
-    across = np.array([-along[1], along[0], 0.0]) / np.hypot(along[0], along[1])
+    along = complex(*(places[2][1] - places[0][1])[:2])
+    turned = along / abs(along) * way
+    across = np.array([turned.real, turned.imag, 0.0])
     m, at = places[1]
     moved = ",".join(f"{x:.10f}" for x in at + 2 * TOLERANCE * across)
     return f"{text[: m.start(2)]}{moved}{text[m.end(4) :]}"
@@ -110,6 +111,7 @@ SPOILED: dict[str, Spoil] = {
     "radius of a surface": nth(rf"(CYLINDRICAL_SURFACE\('',#\d+,)({NUMBER})(\))", more(1e-4)),
     "radius of an edge": nth(rf"(=CIRCLE\('',#\d+,)({NUMBER})(\))", more(1e-4)),
     "pole": pole,
+    "pole along its edge": lambda text, share: pole(text, share, 1.0),
     "knot": knot,
     "edge turned": nth(r"(=ORIENTED_EDGE\([^;]*,\.)([TF])(\.\))", turned),
     "edge against its curve": nth(r"(=EDGE_CURVE\([^;]*,\.)([TF])(\.\))", turned),

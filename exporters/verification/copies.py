@@ -1,0 +1,62 @@
+"""Teeth of a STEP file held against each other: a profile that is repeated about the axis gives nets of poles that are.
+
+A pole that is moved along its surface, or that sways it by less than is declared, is found so, and by its place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from exporters.formats.read_part21 import Index, Real
+from exporters.formats.read_solid import GAP, Model
+from geometry.curves.line_arc import Arc, Line
+from geometry.solids.body import Body
+
+# nets that are no copies of each other differ by more in one of so many measures, mm
+_APART, _MEASURES = 1e-4, 3
+
+
+def copy_failures(model: Model, body: Body) -> list[str]:
+    """Splines that are off their copies, where all teeth are repeated about the axis alike."""
+    walls = [(body.loop_profile(wall.lower), body.is_screw(wall)) for wall in body.walls]
+    counts = {p.count for p, screw in walls if screw or not all(isinstance(s.curve, Line | Arc) for s in p.period)}
+    if len(counts) != 1 or (count := counts.pop()) == 1:
+        return []
+    failures = []
+    for poles, who in _nets(model):
+        own = _turned_home(poles)
+        for members in _alike(own):
+            # others are edges of chamfers on bores
+            off = np.abs(own[members] - np.median(own[members], axis=0)).max(axis=1) * (len(members) % count == 0)
+            if off.max() > GAP:
+                failures.append(f"#{who[members[off.argmax()]]} of the STEP file is {off.max():.3g} mm off its copies")
+    return failures
+
+
+def _alike(own: Real) -> list[Index]:
+    """The rows of each class of copies: in one measure after the other they lie next to each other."""
+    classes = [np.arange(len(own))]
+    for number in range(1, _MEASURES + 1):
+        told = own @ np.sin(number * np.arange(1.0, own.shape[1] + 1))
+        ordered = [rows[np.argsort(told[rows])] for rows in classes]
+        classes = [c for rows in ordered for c in np.split(rows, np.flatnonzero(np.diff(told[rows]) > _APART) + 1)]
+    return classes
+
+
+def _nets(model: Model) -> Iterator[tuple[Real, Index]]:
+    """Poles (n, k, 3) of surfaces and edges with the same knots, and whose they are."""
+    for patches in model.patches:
+        yield patches.poles.reshape(len(patches.faces), -1, 3), model.faces[patches.faces]
+    for _, numbers, _, poles in model.curves.splines:
+        # behind the edges stand curves that are only moved
+        if (edges := numbers < len(model.edges)).any():
+            yield poles[edges], model.edges[numbers[edges]]
+
+
+def _turned_home(poles: Real) -> Real:
+    """Nets turned about the axis until their middles stand on +x, (n, 3 k)."""
+    flat = poles[..., 0] + 1j * poles[..., 1]
+    flat *= np.exp(-1j * np.angle(flat.mean(axis=1)))[:, None]
+    return np.concatenate([flat.real, flat.imag, poles[..., 2]], axis=1)
