@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from typing import get_args
 
 import numpy as np
@@ -38,6 +39,8 @@ FRAME_LEFT, FRAME = 20.0, 5.0
 SCALES = tuple(map(scale_value, get_args(Scale)))
 # steps of the scales of diagrams; GOST 2.319 leaves them to the drawer, who takes round ones
 _STEPS, _ROUNDING = (1.0, 2.0, 2.5, 4.0, 5.0), 1e-9
+# words whose lengths are kept
+_WORDS = 4096
 _INDEX = re.compile(r"_\{([^}]*)\}")
 # programs that read DXF take %% for the start of a sign, and know no way to write it: the two stand in two pieces
 _PER_CENT = re.compile("(?<=%)(?=%)")
@@ -205,7 +208,8 @@ def text_of(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | N
         x += width
     # room for what hangs below the line
     hang = max((at.imag - run.at.imag + _HANG * run.height for run in runs), default=0.0)
-    return Text(_INDEX.sub(r"\1", text), tuple(runs), Box(at.real, at.imag - hang, x, at.imag + size * 1.05))
+    shown = _INDEX.sub(r"\1", text) if "_{" in text else text
+    return Text(shown, tuple(runs), Box(at.real, at.imag - hang, x, at.imag + size * 1.05))
 
 
 def rising_text(
@@ -220,11 +224,12 @@ def rising_text(
     return Text(made.text, runs, Box(xs[0], ys[0], xs[1], ys[1]))
 
 
-def _pieces(text: str, height: float) -> list[tuple[str, float, bool]]:
+@lru_cache(_WORDS)
+def _pieces(text: str, height: float) -> tuple[tuple[str, float, bool], ...]:
     """The pieces of a line, each with its height, and whether it is an index: least letters have none lower."""
     index = max((h for h in HEIGHTS if h < height), default=LEAST_TEXT)
     found = ((p, index if k % 2 else height, k % 2 == 1) for k, p in enumerate(_INDEX.split(text)))
-    return [(part, size, low) for p, size, low in found for part in _PER_CENT.split(p) if part]
+    return tuple((part, size, low) for p, size, low in found for part in _PER_CENT.split(p) if part)
 
 
 def text_width(text: str, height: float = TEXT_HEIGHT) -> float:
@@ -232,6 +237,7 @@ def text_width(text: str, height: float = TEXT_HEIGHT) -> float:
     return sum(plain_width(piece, size) for piece, size, _ in _pieces(text, height))
 
 
+@lru_cache(_WORDS)
 def plain_width(text: str, height: float) -> float:
     """Length of letters of one height, mm."""
     widths = letter_widths()

@@ -6,7 +6,7 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from heapq import merge
-from itertools import product
+from itertools import islice, product
 
 from geometry.approximation.outline import CadCurve
 from geometry.base.record import Record, replace
@@ -46,6 +46,8 @@ _LOOK, _ABOVE = 14.0, 2.2
 # the sign of roughness: heights of its legs; where its words begin
 _SHORT, _LONG, _WORDS = 3.5, 8.0, 5.2
 _SLOPE = math.tan(math.radians(30))
+# places whose costs are told at once
+_AT_ONCE = 16
 # rows of a side, and layouts of a view, that are tried
 _ROWS, _TRIES = 20, 12
 # marks of a section: from the view to the stroke, its length, its arrow; steps out where others stand there
@@ -202,16 +204,15 @@ class _Layout:
 
     def _put(self, places: Iterable[_Place]) -> bool:
         """Put words into the best of places, which rise in their least cost; whether one of them is free."""
-        best, least = None, (math.inf, math.inf)
-        for place in places:
-            if place.least > least[0]:
+        best, least, coming = None, (math.inf, math.inf), iter(places)
+        while some := [*islice(coming, _AT_ONCE)]:
+            for place, more in zip(some, self.ink.costs([place.lines for place in some]), strict=True):
+                # of two that cost as much the nearer one
+                total = place.cost + more, place.cost
+                if total < least and self.ink.holds(place.all_lines, place.text.box):
+                    best, least = place, total
+            if some[-1].least > least[0]:
                 break
-            if (place.least, place.cost) >= least:
-                continue
-            # of two that cost as much the nearer one
-            total = place.cost + self.ink.costs([place.lines])[0], place.cost
-            if total < least and self.ink.holds(place.all_lines, place.text.box):
-                best, least = place, total
         if best is not None:
             best.put(best)
             self.ink.note(best.lines)

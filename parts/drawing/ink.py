@@ -41,9 +41,11 @@ class Ink(Draft):
 
     def add(self, curve: Curve | CadCurve, scale: float = 1.0, role: Role | None = None) -> None:
         """A curve as a chain of points."""
-        points = scale * curve.point(np.linspace(*curve.domain, 2 if isinstance(curve, Line) else _SAMPLES))
+        is_line = isinstance(curve, Line)
+        places = np.array(curve.domain) if is_line else np.linspace(*curve.domain, _SAMPLES)
+        points = scale * curve.point(places)
         self.pieces.append(np.stack([points[:-1], points[1:]]))
-        if role is not None and isinstance(curve, Line):
+        if role is not None and is_line:
             self.note({role: [Line(complex(points[0]), complex(points[-1]))]})
 
     def holds(self, lines: Sequence[Line], words: Box) -> bool:
