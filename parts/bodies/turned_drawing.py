@@ -14,6 +14,7 @@ from geometry.base.record import replace
 from geometry.curves.curve import Curve, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket
+from parts.bodies.details import detailed
 from parts.bodies.turned import TurnedSpec
 from parts.drawing.directions import directions
 from parts.drawing.revolved import Loop, below, closed, outer_of, outlined, seen_circles, seen_edges
@@ -55,7 +56,10 @@ def part_drawing(subject: Subject) -> PartDrawing:
     loop = tuple(_curve(piece) for piece in half.pieces)
     is_shaft, hollow = subject.part.kind == "shaft", half.radii()[0] > 0
     whole = _long_view(half, loop, subject, is_shaft=is_shaft, cut=hollow or not is_shaft)
-    found = [whole] if is_shaft or not hollow else [*_enlarged(half, whole, subject)]
+    if not is_shaft and hollow:
+        found = [*_enlarged(half, whole, subject)]
+    else:
+        found = [whole] if whole.hatched else [*detailed(whole, half.heights(), subject.language)]
     if half.holes:
         found.append(_face(half, loop, subject))
     if is_shaft and not hollow and (centre := _centre_hole(loop, subject)) is not None:

@@ -78,6 +78,12 @@ PARTS["box"] = {"kind": "layered", "layers": [
     {"thickness": 4.0, "polygons": [{"points": [[-30, -20], [30, -20], [30, 20], [-30, 20]], "corner_radius": 5.0}],
      "circles": [{"diameter": 4.0, "at": [-24.0, -14.0]}, {"diameter": 4.0, "at": [24.0, 14.0]}]},
     {"thickness": 8.0, "circles": [{"diameter": 30.0}, {"diameter": 20.0}]}]}  # fmt: skip
+# steps that are nothing on paper beside 900 mm; a groove, of whose place the surface alone is enlarged
+PARTS["thin"] = {"kind": "shaft", "steps": [
+    {"diameter": 3.0, "length": 900.0}, {"diameter": 5.0, "length": 2.0},
+    {"diameter": 4.9, "length": 0.5, "fillet": 0.05}, {"diameter": 3.0, "length": 30.0}]}  # fmt: skip
+PARTS["long"] = {"kind": "shaft", "steps": [
+    {"diameter": 30.0, "length": 500.0, "grooves": [{"at": 200.0, "width": 1.3, "diameter": 28.6}]}]}  # fmt: skip
 PARTS["carrier"] = {"kind": "carrier_plate", "number_of_pins": 3, "pin_circle_diameter": 80.0, "pin_diameter": 6.0,
                     "boss_diameter": 15.0, "hub_diameter": 40.0, "bore_diameter": 10.0}  # fmt: skip
 
@@ -120,6 +126,9 @@ SIZES: dict[str, list[float]] = {
     "barrel": [70, 12, 38, 8, 70 * math.pi],
     # what stands alike on both sides of an axis from side to side
     "box": [4, 12, 60, 48, 40, 28, 5, 4, 30, 20],
+    # those within the detail from its last place, which the view tells
+    "thin": [932.5, 902.5, 2.5, 0.5, 3, 5, 4.9, 0.05],
+    "long": [500, 200, 1.3, 30, 28.6],
     # no place of a pin: they stand on their circle
     "carrier": [80, 6, 7.5, 20, 10],
 }
