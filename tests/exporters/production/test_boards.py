@@ -407,3 +407,54 @@ def test_pieces_that_nearly_fill_the_room_are_laid(width: float, height: float) 
     for pieces in boards.values():
         assert all(inner.covers(piece) for piece in pieces)
         assert all(a.distance(b) >= 2 - 1e-9 for k, a in enumerate(pieces) for b in pieces[:k])
+
+
+GEAR = '[parts.g]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 17\n'
+PLATE = '[parts.p]\nkind = "plate"\nwidth = 60.0\nheight = 30.0\nface_width = 3.0\n'
+ROD = '[parts.r]\nkind = "pin"\ndiameter = 4.0\nlength = 10.0\n'
+BOARD = "[boards.b]\nwidth = 200.0\nheight = 100.0\nthickness = 3.0\n"
+DXF, SVG_ALONE = '[[exports]]\nformat = "dxf"\n', '[[exports]]\nformat = "svg"\n'
+ON_BOARDS, ON_PAPER = f'{DXF}purpose = "board"\n', '[[exports]]\nformat = "pdf"\npurpose = "model"\n'
+
+
+@pytest.mark.parametrize(
+    ("scene", "key", "why"),
+    [
+        (ROD + BOARD + ON_BOARDS, "boards.b.thickness", "pins are cut from rods"),
+        (f'{GEAR}face_width = 5.0\n{BOARD}parts = ["g"]\n{ON_BOARDS}', "boards.b.thickness", "g is 5 mm thick"),
+        (f"{PLATE}holes = [{{ diameter = 4.0 }}]\n{DXF}", "parts.p.holes[1].at", "or axis_of"),
+        (f'{PLATE}holes = [{{ axis_of = "w", diameter = 4.0 }}]\n{DXF}', "holes[1].axis_of", "no such instance"),
+        (f"{PLATE}slots = [{{ start = [0.0, 0.0], end = [5.0, 0.0], width = 0.2 }}]\n{BOARD}kerf = 0.3\n{ON_BOARDS}",
+         "boards.b.kerf", "closes a slot"),
+        (f'{GEAR}title = "  "\n{DXF}', "parts.g.title", "is blank"),
+        (f'{GEAR}{ON_PAPER}scale = "1:2"\n', "exports[1].scale", "in full size"),
+        (f"{GEAR}{ON_PAPER}title_block = true\n", "exports[1].title_block", "on bare sheets"),
+        (f"{GEAR}{ON_PAPER}tolerance = 1e-7\n", "exports[1].tolerance", "a PDF does not tell places so exactly"),
+        (f'[scene]\ntitle = "\\u6b6f"\n{GEAR}[[exports]]\nformat = "pdf"\npurpose = "generating"\ntitle_block = true\n',
+         "scene.title", "the letters of a PDF lack"),
+    ],
+)  # fmt: skip
+def test_what_no_board_and_no_paper_takes_is_refused_in_one_line(
+    scene: str, key: str, why: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "s.toml"
+    file.write_text(scene, encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert key in line
+    assert why in line
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("scene", "told"),
+    [
+        (f'{GEAR}profile_shift_coefficient = 0.3\nlabel = "z 17 m 2 x 0.5"\n', "its label tells x 0.5"),
+        ('[parts.r]\nkind = "roller"\ndiameter = 4.0\nbore_diameter = 3.2\n', "thin wall: 0.4 mm about its bore"),
+    ],
+)
+def test_remarks_on_what_is_cut(scene: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "s.toml"
+    file.write_text(scene + SVG_ALONE, encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path), "--no-verify"]) == 0
+    assert told in capsys.readouterr().out
