@@ -233,7 +233,7 @@ def _parser(told: Words) -> argparse.ArgumentParser:
     as_json = Parser(add_help=False)
     as_json.add_argument("--json", action="store_true", help=told.text("print the results as JSON"))
     quiet = Parser(add_help=False)
-    quiet.add_argument("-q", "--quiet", action="store_true", help=told.text("print nothing where all is well"))
+    quiet.add_argument("-q", "--quiet", action="store_true", help=told.text("print nothing if all is well"))
     page = Parser(add_help=False)
     page.add_argument(
         "--out",
@@ -250,7 +250,7 @@ def _parser(told: Words) -> argparse.ArgumentParser:
     scene = told.text("a built-in scene or a scene file (.toml)")
     scenes = told.text("built-in scenes or scene files (.toml)")
     one = told.term("command line", "ID")
-    out = told.text("results go to OUT/<scene name> (default: out)")
+    out = told.text("write the results to OUT/<scene name> (default: out)")
     build = command("build", told.text("make the files of a scene"), as_json, quiet)
     build.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
     build.add_argument("--out", default="out", type=Path, help=out)
@@ -265,10 +265,10 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         "--verify",
         choices=["reader", "kernel"],
         default="reader",
-        help=told.text("who reads STEP files back: our reader, or the CAD kernel too"),
+        help=told.text("what reads STEP files back: our reader, or the CAD kernel too"),
     )
     build.set_defaults(run=_build)
-    catalogue = command("catalogue", told.text("build a scene for every choice of keys' values"), quiet)
+    catalogue = command("catalogue", told.text("build a scene for every combination of the values of some keys"), quiet)
     catalogue.add_argument("scene", metavar=told.term("command line", "SCENE"), help=scene)
     catalogue.add_argument(
         "--vary",
@@ -286,26 +286,26 @@ def _parser(told: Words) -> argparse.ArgumentParser:
     )
     catalogue.add_argument("--out", default="out", type=Path, help=out)
     catalogue.set_defaults(run=_catalogue)
-    check = command("check", told.text("contact and interference of the pairs of a scene"), as_json, quiet)
+    check = command("check", told.text("check contact and interference of the pairs of a scene"), as_json, quiet)
     check.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
     check.add_argument(
         "--steps", action="store_true", help=told.text("print the order of assembly too, where the scene tells one")
     )
     check.set_defaults(run=_check)
     verify = command(
-        "verify", told.text("read files back and hold them against the part in their report"), as_json, quiet
+        "verify", told.text("read files back and compare them with the part in their report"), as_json, quiet
     )
     verify.add_argument("files", nargs="+", type=Path, metavar=told.term("command line", "FILE"))
     verify.set_defaults(run=_verify)
-    converge = command("converge", told.text("error against run time, over a ladder of tolerances"))
+    converge = command("converge", told.text("measure error against run time, over a ladder of tolerances"))
     converge.add_argument("scene", help=scene)
     converge.add_argument("--out", default="out", type=Path, help=out)
     converge.add_argument("--part", action="append", default=[], metavar=one, help=told.text("only this part"))
     converge.add_argument("--format", action="append", default=[], metavar="F", help=told.text("only this format"))
     converge.set_defaults(run=_converge)
-    listing = command("list", told.text("kinds of parts and built-in scenes"), as_json)
+    listing = command("list", told.text("list kinds of parts and built-in scenes"), as_json)
     listing.set_defaults(run=_list)
-    calc = command("calc", told.text("a textbook calculation, step by step"), page)
+    calc = command("calc", told.text("print a textbook calculation, step by step"), page)
     calc.add_argument(
         "topic",
         metavar=told.term("command line", "TOPIC"),
@@ -329,7 +329,7 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         help=told.text("text, md, html, json, or the tables alone as csv (default: text)"),
     )
     calc.set_defaults(run=_calc)
-    new = command("new", told.text("print a commented scene to start from; of a mate its table, to add to one"), page)
+    new = command("new", told.text("print a scene with comments to start from; for a mate, its table"), page)
     new.add_argument(
         "kind",
         metavar=told.term("command line", "KIND"),

@@ -272,7 +272,7 @@ def _several(kind: str, told: Words) -> list[str]:
     may = N_("With a second part, {part}, the two can be joined and written as one assembly; remove both #:")
     if toothed:
         may = N_("With a second part, {part}, the two can be put in mesh and written as one assembly; remove both #:")
-    uneven = told.text("how unevenly each mate runs, without load")
+    uneven = told.text("transmission error of each mate, without load")
     purpose, shown = KINDS[kind].sheet_shown or ("", "")
     text = _TAIL
     if toothed:

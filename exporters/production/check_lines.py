@@ -25,7 +25,7 @@ _SENSES = {"clockwise": N_("clockwise"), "counter_clockwise": N_("counter-clockw
 _REST = {
     "fixed": N_("{pairs} fixed to each other"),
     "height": N_("{pairs} never at one height"),
-    "mesh": N_("{pairs} held by their contact"),
+    "mesh": N_("{pairs} checked by their contact"),
     "circles": N_("{pairs} kept apart by circles about their axes"),
     "swept": N_("{pairs} past what one sweeps about its axis"),
     "round": N_("{pairs} round about a common axis"),
@@ -127,22 +127,26 @@ def _drives(checks: dict[str, Any], names: Mapping[str, str], told: Words) -> li
 def _motion(motion: dict[str, Any], told: Words, names: Mapping[str, str]) -> list[str]:
     """How far the solids were held against each other on their way, and where they were not."""
     if "one_pose" in motion:
-        return [told.text("note: no drive moves this scene: its solids were held as they stand alone")]
+        return [told.text("note: no drive moves this scene: its solids were checked only as they stand")]
     lines = []
     if motion["pairs"]:
         pairs = counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=motion["pairs"])
         poses = counted("{poses} pose", "{poses} poses", by="poses", poses=motion["poses"])
-        held = N_("solids in motion: {pairs} over the period of each; {poses} held, the rest repeats or lies apart")
+        held = N_("solids in motion: {pairs} over the period of each; {poses} checked, the rest repeats or lies apart")
         apart = N_("solids in motion: {pairs}; none can meet the other")
         lines.append(told.say(filled(held if motion["tested"] else apart, pairs=pairs, poses=poses)))
     for found in (x for x in motion["uncovered"] if x["share"] < 1):
         lines.append(
-            told.text("note: {first} and {second} were held over {share:.3g} of their period", **called(found, names))
+            told.text(
+                "note: {first} and {second} were checked over {share:.3g} of their period", **called(found, names)
+            )
         )
     if "lying" in motion:
         lying = ", ".join(in_rows(names.get(name, name) for name in motion["lying"]))
         lines.append(
-            told.text("note: held as they stand, not in motion, since their axes are not upright: {names}", names=lying)
+            told.text(
+                "note: checked as they stand and not in motion, since their axes are not upright: {names}", names=lying
+            )
         )
     return [*lines, *_uncovered(motion, told, names)]
 
@@ -183,8 +187,10 @@ def _uncovered(motion: dict[str, Any], told: Words, names: Mapping[str, str]) ->
         lines.append(
             told.say(
                 message(
-                    "note: between poses {first} and {second} may be up to {depth:.3g} mm in each other, the most of "
-                    "{pairs}",
+                    (
+                        "note: between the poses checked {first} and {second} may overlap by up to {depth:.3g} "
+                        "mm, the most of {pairs}"
+                    ),
                     **{**called(worst, names), "pairs": pairs},
                 )
             )

@@ -43,7 +43,7 @@ FRAME = "@"
 Z = (0.0, 0.0, 1.0)
 # parallel: two links that turn alike, as cranks of a parallelogram do, or what is hung on them and what it hangs on
 Kind = Literal["external", "internal", "bevel", "worm", "rack", "parallel"]
-# turns of the second for those of the first, where nothing else is said; seed 001 counts bevels and worms as positive
+# turns of the second for those of the first; the guidelines count bevels and worms as positive
 _SENSES: Mapping[str, int] = {"external": -1, "internal": 1, "bevel": 1, "worm": 1, "rack": 1, "parallel": 1}
 
 
@@ -151,7 +151,7 @@ class Redundant(Record):
 
 
 class Mobility(Record):
-    """n moving links, p5 lower and p4 higher pairs as the seeds count them: what is held is the frame, what is fixed
+    """n moving links, p5 lower and p4 higher pairs as guidelines count: what is held is the frame, what is fixed
     together one link, equal satellites in parallel are one. ``degrees``: unknowns less the rank, exactly.
     """
 

@@ -1,4 +1,4 @@
-"""The power module of the thesis (seed 004): disk 3 turns in disk 2 off its axis, the platform in disk 3 off its.
+"""The power module of the thesis: disk 3 turns in disk 2 off its axis, the platform in disk 3 off its.
 
 O1 is the axis of disk 2 and the origin, O2 that of disk 3, O3 the platform's. As in the thesis delta is counted from
 +y towards +x to O1O2, beta between O2O1 and O2O3, here with a sign: that of the elbow. With u = exp(-i delta) i along

@@ -21,33 +21,36 @@ Density = Annotated[
     float, Meta(gt=0, le=30, description="density for the mass", examples=[0.65], extra={"unit": "g/cm^3"})
 ]
 Title = Annotated[
-    str, Meta(pattern=r"\S", max_length=120, description="what people call it, in any script", examples=["Pinion"])
+    str, Meta(pattern=r"\S", max_length=120, description="name for people, in any script", examples=["Pinion"])
 ]
 # in one for all languages, or in each; msgspec 0.22 frees a pattern that stands beside a table twice: the process ends
 # with a segmentation fault
 Titles = (
     Annotated[
         str,
-        Meta(min_length=1, max_length=120, description="what people call it, in any script", examples=["Pinion"]),
+        Meta(min_length=1, max_length=120, description="name for people, in any script", examples=["Pinion"]),
     ]
     | Annotated[dict[str, Title], Meta(min_length=1)]
 )
 # of the parts list
 Position = Annotated[int, Meta(ge=1, le=9999, description="number in the parts list", examples=[19])] | None
 Designation = (
-    Annotated[str, Meta(pattern=r"\S", max_length=60, description="of its drawing", examples=["ABC.01.00.19"])] | None
+    Annotated[
+        str, Meta(pattern=r"\S", max_length=60, description=("designation of its drawing"), examples=["ABC.01.00.19"])
+    ]
+    | None
 )
 Standard = (
     Annotated[
         str,
-        Meta(pattern=r"\S", max_length=60, description="that it is bought by", examples=["GOST 7805-70"]),
+        Meta(pattern=r"\S", max_length=60, description="standard by which it is bought", examples=["GOST 7805-70"]),
     ]
     | None
 )
 LabelKey = (
     Annotated[
         bool,
-        Meta(description="laser: its name engraved in single strokes; default: on boards alone", examples=[True]),
+        Meta(description="laser: its name, engraved in single strokes; default: on boards only", examples=[True]),
     ]
     | Annotated[str, Meta(pattern=r"\S", max_length=60, description="its words")]
     | None

@@ -110,7 +110,7 @@ KINDS: Index[Kind[Any, Any]] = Index(
         ),
         "step_part": (
             "parts.bodies.step_part:STEP_PART",
-            "Solid of a STEP file of one's own, like a motor; taken over as it is, needs the extra cad",
+            "Solid of a STEP file of your own, like a motor; taken over as it is, needs the extra cad",
         ),
         "layered": (
             "parts.bodies.layered:LAYERED",

@@ -80,7 +80,7 @@ class PlateSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="pla
         Annotated[
             float,
             mm(
-                "least from each hole of an axle (`axis_of`) to the edge: the plate grows with them",
+                "least distance from each hole of an axle (`axis_of`) to the edge: the plate grows as they need it",
                 above=0,
                 most=_MOST,
                 example=10.0,

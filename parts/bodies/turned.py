@@ -72,7 +72,7 @@ class GrooveTable(Struct, forbid_unknown_fields=True, kw_only=True):
 
 
 class ShaftKeywayTable(Struct, forbid_unknown_fields=True, kw_only=True):
-    """A keyway by a standard, or of one's own width and depth."""
+    """A keyway by a standard, or of your own width and depth."""
 
     at: Annotated[float, mm("from the lower end of the step to the keyway", least=0, most=_MOST)]
     length: Annotated[float, mm("length of the keyway, its round ends included", above=0, most=_MOST)]

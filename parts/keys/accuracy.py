@@ -10,7 +10,7 @@ from parts.keys.base import mm
 
 
 class AccuracyTable(Struct, forbid_unknown_fields=True):
-    """An accuracy grade on a drawing. No table of a standard is built in: who asks for a grade says where it stands."""
+    """An accuracy grade on a drawing. The program holds no tables of standards: give the source with the grade."""
 
     grade: Annotated[str, Meta(pattern=r"\S", max_length=20, description="grade and kind of mate", examples=["8-B"])]
     source: Annotated[

@@ -50,7 +50,13 @@ class BoardSpec(LaidKeys, kw_only=True):
     height: Annotated[float, mm("along y", above=0, most=_MOST, example=400.0)]
     thickness: Annotated[
         float,
-        mm("parts so thick are cut from it; of a single board the default of all", above=0, most=10_000, example=3.0),
+        mm(
+            "parts of this thickness are cut from it; a single board gives its thickness to all flat parts "
+            "that have none",
+            above=0,
+            most=10_000,
+            example=3.0,
+        ),
     ]
     kerf: Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)] = (
         0.0

@@ -21,10 +21,17 @@ if TYPE_CHECKING:
 HelixAngle = Annotated[
     float,
     degrees(
-        "helix angle on the reference cylinder, all else is then normal; negative turns the hand", least=-60, most=60
+        (
+            "helix angle on the reference cylinder; module, coefficients and pressure angle are then those "
+            "of the normal section; negative turns the hand"
+        ),
+        least=-60,
+        most=60,
     ),
 ]
-HandName = Annotated[Literal["right", "left"], Meta(description="hand of the helix; of the lower half of a double one")]
+HandName = Annotated[
+    Literal["right", "left"], Meta(description=("hand of the teeth; of double helical teeth: of the lower half"))
+]
 Double = Annotated[bool, Meta(description="two helices of opposite hands that meet in the middle of the face width")]
 Module = Annotated[
     float, mm("module m; the normal module where helix_angle_deg is not 0", least=0.01, most=1000, example=2.0)

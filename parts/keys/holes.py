@@ -38,7 +38,7 @@ class RoundBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag=
 
 
 class KeywayTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="keyway"):
-    """Round bore with keyways by a standard, or of one's own width and depth."""
+    """Round bore with keyways by a standard, or of your own width and depth."""
 
     diameter: Diameter
     standard: Literal["DIN 6885", "GOST 23360"] = "DIN 6885"

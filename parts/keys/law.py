@@ -113,7 +113,7 @@ StretchTable = (
 
 
 class LawTable(Struct, forbid_unknown_fields=True):
-    """A law of one's own: diagram, first_half with second_half, conditions, poles, sine_constant_cosine or name."""
+    """A law of your own: diagram, first_half with second_half, conditions, poles, sine_constant_cosine or name."""
 
     diagram: (
         Annotated[list[StretchTable], Meta(min_length=1, max_length=200, description="its acceleration, in any scale")]
@@ -215,7 +215,7 @@ _EXAMPLES: tuple[tuple[dict[str, object], str], ...] = (
             "inclined sine of VDI 2143) are of this family"
         ),
     ),
-    ({"name": "modified_trapezoid", "ramp": 0.125, "reverse": False}, N_("named law with ramps of one's own")),
+    ({"name": "modified_trapezoid", "ramp": 0.125, "reverse": False}, N_("named law with ramps of your own")),
 )
 
 

@@ -36,7 +36,7 @@ class CamYokeSpec(MateKeys, tag="cam_yoke", kw_only=True):
 
     first: Annotated[str, Meta(description="instance of a cam that is already placed")]
     second: Annotated[str, Meta(description="instance of the yoke_frame made from it")]
-    direction_deg: Annotated[float, direction("way of the yoke as it rises")] = 90.0
+    direction_deg: Annotated[float, direction("direction in which the yoke rises")] = 90.0
     height: _Height = 0.0
 
 

@@ -66,7 +66,9 @@ Cutter = Annotated[
     Meta(
         gt=0,
         le=1000,
-        description="of a cutter on the profile: adds its centres to csv and json; judged by the curvature alone",
+        description=(
+            "of a cutter for the profile: adds the places of its centre to csv and json; only the curvature is checked"
+        ),
         extra={"unit": "mm"},
     ),
 ]

@@ -31,7 +31,7 @@ _WIDEST = 4
 _GREEK = {"phi": "φ", "theta": "θ", "psi": "ψ"}
 # decimals of a size and of a number without unit
 _DECIMALS = {"mm": 3, "": 4}
-# how drawings name what calculations name by the seeds
+# how drawings name what calculations name by their sources
 _NAMES: Mapping[str, Text] = {
     "number_of_teeth": in_context("data table", "number of teeth"),
     "profile_shift_coefficient": in_context("data table", "profile shift coefficient"),

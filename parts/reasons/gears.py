@@ -8,7 +8,7 @@ from parts.base.texts import N_
 REASONS = {
     "above_nominal": N_("is more than the nominal one"),
     "below_nominal": N_("is less than the nominal one"),
-    "chamfer_misses_flank": N_("does not cut the flank"),
+    "chamfer_misses_flank": N_("does not reach the flank"),
     "chamfers_overlap": N_("both chamfers of a tooth would overlap"),
     "classes_end_at_distance": N_("the classes end at {distance} mm of centre distance; give normal_backlash instead"),
     "closes_tooth_spaces": N_("closes the tooth spaces"),
@@ -23,8 +23,8 @@ REASONS = {
     "fillets_meet": N_("the fillets of both sides meet inside the tooth"),
     "flanks_do_not_reach": N_("the flanks do not reach each other: there is no active line"),
     "flanks_meet_below_form": N_("the flanks meet below the root form circle"),
-    "hands_not_opposite": N_("mates have opposite hands"),
-    "hole_as_high_as_body": N_("is no less than the body's height"),
+    "hands_not_opposite": N_("must be opposite to the hand of its mate"),
+    "hole_as_high_as_body": N_("must be less than the height of the body"),
     "holes_reach_bottom": N_("the holes reach the bottom"),
     "holes_reach_ends": N_("the holes reach the ends"),
     "holes_reach_root_line": N_("the holes reach the root line"),
@@ -33,33 +33,35 @@ REASONS = {
     "leaves_no_body": N_("leaves no body"),
     "leaves_no_flank": N_("leaves no flank"),
     "leaves_no_tooth": N_("leaves no tooth"),
-    "made_by_cutter": N_("the cutter makes the root, by its own addendum and tip rounding"),
-    "no_chamfer_on_helix": N_("is not made on helical teeth"),
+    "made_by_cutter": N_("must be left out: the cutter makes the root, by its own addendum and tip rounding"),
+    "no_chamfer_on_helix": N_("is not for helical teeth"),
     "no_holes_in_helical_rack": N_("helical racks have none; remove holes"),
     "no_involute_below_tip": N_("no part of the involute is left below the tip circle"),
     "no_pin_touches_there": N_("no pin touches the flanks of this space at that diameter"),
-    "no_recommendation": N_("has no recommendation"),
-    "no_recommendation_with": N_("has no recommendation with {first}"),
-    "no_relief_by_cutter": N_("a pinion cutter cuts none"),
-    "no_span_of_helical_ring": N_("no faces find the flanks of a helical ring; measure between balls"),
-    "no_such_cutter_teeth": N_("no cutter has so many teeth; a rack stands for larger ones"),
+    "no_recommendation": N_("has no recommended shift in the table"),
+    "no_recommendation_with": N_("has no recommended shift in the table beside {first}"),
+    "no_relief_by_cutter": N_("must be 0: a pinion cutter cuts no tip relief"),
+    "no_span_of_helical_ring": N_(
+        "a helical ring has no span, since no plane faces find its flanks; measure between balls"
+    ),
+    "no_such_cutter_teeth": N_("is more than pinion cutters have; a rack takes the place of larger ones"),
     "no_working_angle": N_("no working pressure angle exists"),
     "no_working_angle_with_cutter": N_("no pressure angle with the cutter exists"),
     "no_working_angle_with_first": N_("no working pressure angle with the first gear: inv(alpha_w) = {involute} < 0"),
     "no_working_angle_with_pinion": N_("no working pressure angle with the pinion: inv(alpha_w) = {involute} < 0"),
-    "not_above_pinion_teeth": N_("must be above the pinion's"),
+    "not_above_pinion_teeth": N_("must be more than the pinion has"),
     "not_below_ring_teeth": N_("the cutter must have fewer teeth than the ring"),
     "not_between_root_and_tip": N_("must be between root and tip circle"),
-    "not_hand_of_pinion": N_("a ring has the hand of its pinion"),
+    "not_hand_of_pinion": N_("must be the hand of its pinion"),
     "not_in_table": N_("{pair} is not in table {table}; the nearest pair there is {known}"),
     "not_that_of_first": N_("must be that of the first gear of the pair"),
     "not_that_of_gear": N_("must be that of the gear"),
     "not_that_of_mate": N_("must be that of its mate"),
     "not_that_of_pinion": N_("must be that of the pinion"),
     "one_double_helix": N_("a double helical gear meshes with another one only"),
-    "passes_base_circle_at_tips": N_("passes the base circle at the ring's tips"),
+    "passes_base_circle_at_tips": N_("brings the ring's tips past the base circle"),
     "pin_beyond_base_circle": N_("does not go into the space: its centre does not come to the base circle"),
-    "pin_falls_through": N_("falls between the flanks"),
+    "pin_falls_through": N_("is too small: the pin falls between the flanks"),
     "rack_pointed": N_("the rack tooth is pointed at {angle} degrees before it reaches its tip line"),
     "rack_rounding_does_not_fit": N_("does not fit the rack tooth; the largest is the full round"),
     "rack_tooth_pointed": N_("the tooth is pointed below its tip line"),
@@ -77,32 +79,41 @@ REASONS = {
     "span_beyond_teeth": N_("must be from 1 to {teeth}, the number of teeth"),
     "standard_rack_pointed": N_("the tooth of rack {profile} is pointed before it reaches its tip line"),
     "step_above_half_pitch": N_("shows no profile: it is more than half of the pitch"),
-    "tables_take_smaller_first": N_("the tables take the smaller gear as the first"),
+    "tables_take_smaller_first": N_(
+        "must not be more than the teeth of the second gear, since the tables take the smaller gear first"
+    ),
     "teeth_overlap": N_("the teeth would overlap"),
     "thinning_leaves_no_tip": N_("leaves no tip"),
     "too_many_positions": N_("asks for more positions than a sheet can show"),
     "tooth_pointed": N_("the tooth is pointed at a diameter of {diameter} mm"),
-    "turns_fillets_back": N_("turns the elliptic fillets back"),
+    "turns_fillets_back": N_("bends the elliptic fillets back on themselves"),
     "above_most_teeth": N_("is above most_teeth"),
-    "driver_is_held": N_("is held: what is held drives nothing"),
-    "frame_holds_the_ring": N_("a frame stands still with the ring, which is not held here"),
-    "frame_needs_ring_and_sun": N_("a frame holds the ring of a set with a ring and a sun"),
+    "driver_is_held": N_("is held and cannot be the driver"),
+    "frame_holds_the_ring": N_("is only for a set whose ring is held: the frame is fixed to it"),
+    "frame_needs_ring_and_sun": N_("is only for a set with a sun and a ring, which the frame holds"),
     "no_planetary_set": N_("no set within these limits has that ratio"),
     "no_shifts_fit": N_(
         "no shifts up to 1 bring both meshes, which want {first} and {second} mm, to one distance with all conditions "
         "kept; see `higherpair calc planetary`, or give shifts"
     ),
     "one_rim_one_module": N_("satellites with one rim have one module"),
-    "one_shift_a_wheel": N_("is one for each of {wheels} wheels"),
-    "ratio_not_zero": N_("no ratio is 0: give it as driver to driven, below 0 where they turn in opposite ways"),
+    "one_shift_a_wheel": N_("must have one shift for each of the {wheels} wheels"),
+    "ratio_not_zero": N_(
+        "must not be 0: it is the ratio from driver to driven, below 0 where they turn in opposite senses"
+    ),
     "ring_not_above_rim": N_("the ring of {ring} teeth must have more than its satellite, {rim}"),
     "satellites_collide": N_("the tips of neighbours would overlap"),
     "satellites_not_assembled": N_(
-        "{places} places are no multiple of that: teeth {teeth} take so many, "
-        'or spacing = "unequal" at {spacing} degrees'
+
+            'satellites fit at {places} places, which this number does not divide: teeth {teeth} take so many, '
+            'or spacing = "unequal" at {spacing} degrees'
+
     ),
     "shifts_leave_no_angle": N_("leave a mesh without a working pressure angle"),
-    "shifts_not_coaxial": N_("put both meshes at {first} and {second} mm: give working_centre_distance, or others"),
+    "shifts_not_coaxial": N_(
+        "give the meshes two centre distances, {first} and {second} mm: give working_centre_distance, or other "
+        "shifts"
+    ),
     "too_few_places": N_("there are {places} places for one and the same satellite"),
     "transmits_nothing": N_("wheels 1 and 3 turn alike: the carrier transmits nothing"),
     "worm_flank_above_reference": N_("the flanks begin above the reference cylinder; take fewer starts or more q"),
@@ -110,15 +121,17 @@ REASONS = {
         "the fillet at the root has no room between two threads, or reaches the middle of the flank"
     ),
     "worm_flank_above_root": N_("the flanks begin above the root, and not radially; take fewer starts or more q"),
-    "worm_wheel_missing": N_("is missing: {key} is that of a drive"),
-    "worm_form_factor_missing": N_("is missing: with a torque the strength of the wheel's teeth is computed"),
+    "worm_wheel_missing": N_("is missing: {key} is given, which belongs to a worm drive with its wheel"),
+    "worm_form_factor_missing": N_(
+        "is missing: with a torque the strength of the wheel's teeth is calculated, which needs it"
+    ),
     "worm_pointed": N_("the thread is pointed below its tip"),
     "worm_rounding_too_large": N_("the rounding has no room on the tip of the thread"),
     "hob_pointed": N_("the hob's thread is pointed before it reaches the root of the wheel"),
     "hob_rounding_too_large": N_("the roundings of the hob's tip leave no land between them"),
-    "hob_smaller_than_worm": N_("is less than that of the worm, which would not go into its wheel's teeth"),
+    "hob_smaller_than_worm": N_("must not be less than the worm's, which would not fit into the teeth of its wheel"),
     "within_throat": N_("lies within the throat, {diameter} mm"),
-    "worm_wheel_not_moved": N_("a worm wheel is made as it is: thin its teeth by axial_thinning"),
+    "worm_wheel_not_moved": N_("is not for a worm wheel: thin its teeth by axial_thinning"),
     "worm_wheel_faces_break": N_("the hob's tip breaks the faces of the teeth: a narrower rim or fewer starts"),
     "worm_wheel_all_fillet": N_("the fillet of the hob's tip reaches the tip of the teeth at the ends of the face"),
     "worm_wheel_below_base": N_(
@@ -129,8 +142,10 @@ REASONS = {
     "worm_wheel_not_reached": N_("the hob does not reach the rim at the ends of the face: it leaves no space there"),
     "worm_wheel_pointed": N_("the teeth are pointed at the ends of the face"),
     "worm_wheel_undercut": N_("undercut leaves no flank at the ends of the face"),
-    "worm_not_moved": N_("would be no worm of its form: thin the thread by axial_thinning"),
-    "worm_root_under_axis": N_("leaves no root: the threads reach the axis"),
+    "worm_not_moved": N_(
+        "is not for a worm, which would lose the form of its flanks: thin the thread by axial_thinning"
+    ),
+    "worm_root_under_axis": N_("leaves no core: the spaces of the thread reach the axis"),
     "worm_run_out_in_wheel": N_("the teeth of the wheel run into the worm where its tool leaves"),
     "worm_shaft_in_wheel": N_("the teeth of the wheel run into this step of the shaft"),
     "worm_shaft_over_root": N_(

@@ -5,23 +5,25 @@ from __future__ import annotations
 from parts.base.texts import N_
 
 REASONS = {
-    "backlash_already_more": N_("the gears' own thinning and distance give more"),
+    "backlash_already_more": N_(
+        "is less than the backlash that the gears already have by their own thinning and distance"
+    ),
     "backlash_leaves_no_teeth": N_("leaves no whole teeth"),
-    "cam_has_another": N_("the cam is made for another"),
+    "cam_has_another": N_("must be what the cam is made for"),
     "cam_wants": N_("the cam is made for a {wanted}"),
     "contact_over_bar": N_("the contact runs over the bar's end"),
     "contact_over_plate": N_("the contact runs over the plate's edge"),
     "eccentric_needs_round_bore": N_("the disc needs a round bore for the eccentric"),
-    "fewer_seats": N_("there are not so many seats"),
+    "fewer_seats": N_("is more than the number of seats"),
     "has_its_pins": N_("has its pins already; give it seats or holes"),
     "linkage_carries_follower": N_("the linkage carries the follower, which is no arm"),
-    "linkage_has_another": N_("the linkage has another"),
+    "linkage_has_another": N_("must be that of the linkage"),
     "made_from_another_cam": N_("is made from another cam than the mate's first; name that one"),
-    "mate_is_straight": N_("straight teeth mesh with straight ones, and its mate's are"),
+    "mate_is_straight": N_("must be 0: the mate's teeth are straight, and straight teeth mesh only with straight ones"),
     "mate_joins": N_("is a {found}; {mate} joins {joins}"),
     "mate_joins_other": N_('is a {found}; {mate} joins {joins}; kind = "{other}" joins these two'),
     "member_is_a_slider": N_("this member is a slider; a plate can be one, an arm cannot"),
-    "no_output_holes": N_("has no output_holes; give the disc that table"),
+    "no_output_holes": N_("has no output_holes; add that table to the disc"),
     "mesh_parts": N_(
         "no instance carries its axis and that of {first}; join a satellite to its carrier by a mate of kind carried"
     ),
@@ -36,7 +38,7 @@ REASONS = {
     ),
     "not_of_the_ring": N_("must be that of the ring"),
     "not_of_the_seats": N_("must be that of the seats"),
-    "one_lobe_fewer_than_pins": N_("{pins} pins need one lobe fewer"),
+    "one_lobe_fewer_than_pins": N_("must be one less than the number of pins, {pins}"),
     "one_role_does_not_mesh": N_(
         "two gears of one role mesh only where a tooth on the long radius meets a space on the short one"
     ),
@@ -45,8 +47,8 @@ REASONS = {
         "as with {teeth} teeth"
     ),
     "other_centrode_shape": N_("the centrodes differ in shape (axis_ratio or eccentricity)"),
-    "place_on_carrier": N_("is missing: where on the carrier? Or put the mate after those that place it"),
-    "plate_slides_less": N_("the plate slides less"),
-    "shortened_tips_keep_no_involute": N_("the tips that the pair shortens keep no involute"),
+    "place_on_carrier": N_("is missing; give the place on the carrier, or put this mate after those that place it"),
+    "plate_slides_less": N_("is more than the whole travel of the plate"),
+    "shortened_tips_keep_no_involute": N_("tips shortened for this pair keep no involute"),
     "teeth_do_not_reach": N_("the teeth do not reach each other"),
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from parts.base.texts import N_
 
 REASONS = {
-    "as_many_as_x": N_("give as many as x has"),
+    "as_many_as_x": N_("must have as many values as x"),
     "choose_a_part": N_("there are several: {known}; add part=ID"),
     "either_of": N_("is given beside {other}: one of both is enough"),
     "first_cam_under_it": N_(
@@ -14,11 +14,11 @@ REASONS = {
     "gear_missing": N_("is missing: give {name}.number_of_teeth=…, and the same for the other one"),
     "give_it_or": N_("is missing: give it or {other}"),
     "given_twice": N_("is given twice: once is enough"),
-    "groove_below_ball": N_("a groove is wider than its ball: above {least} mm"),
+    "groove_below_ball": N_("must be wider than the ball: above {least} mm"),
     "has_a_value": N_("{key} has a value already; remove one of them"),
-    "keys_not_a_scene": N_("takes keys alone, no scene"),
+    "keys_not_a_scene": N_("takes keys only, no scene"),
     "needs_other": N_("needs {other} too"),
-    "no_dxf": N_("is no DXF that can be read"),
+    "no_dxf": N_("is not a DXF that can be read"),
     "no_gear_pair": N_('has no pair of gears; add [[mates]] kind = "external_gear_pair"'),
     "no_path": N_("holds nothing to follow; draw lines, arcs, circles or polylines"),
     "no_path_entity": N_("holds a {kind}; a path is of lines, arcs, circles and polylines"),
@@ -29,11 +29,11 @@ REASONS = {
     "none_of_kind": N_("the scene has no {kind}; name another one, or type its keys"),
     "one_scene_only": N_("one scene is enough; {other} is given already"),
     "other_is_given": N_("{other} is given already"),
-    "part_without_scene": N_("names a part of a scene, and none is given"),
+    "part_without_scene": N_("names a part of a scene, but no scene is given"),
     "path_is_open": N_("is not one path: none of {left} other pieces begins or ends at ({x}, {y})"),
     "picture_ends_in": N_("pictures end in one of {known}"),
     "piece_is_a_point": N_("begins where it ends; a circle is two pieces with bulge 1"),
-    "reference_circle_leaves_teeth": N_("the reference circle leaves the teeth"),
+    "reference_circle_leaves_teeth": N_("the reference circle lies outside the teeth"),
     "shifts_of_gear_pairs": N_("shifts are chosen for external and internal pairs only; give mate = the number of one"),
     "shifts_of_spur_gears": N_("shifts are chosen for spur gears only; name a scene with a pair of these"),
     "teeth_of_disk": N_("{other} asks for {teeth}; one of both keys is enough"),

@@ -111,7 +111,7 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     axial_gap: Annotated[float, mm("between planes of wheels and plates", least=0, most=1000)] = 0.5
     pin_diameter: Annotated[float, mm("of the satellites' pins", above=0, most=10_000)] = 6.0
     shaft_diameter: Annotated[float, mm("of the suns' shaft", above=0, most=10_000)] = 8.0
-    clearance: Annotated[float, mm("of bores that turn on a pin or a shaft beyond it", least=0, most=100)] = 0.0
+    clearance: Annotated[float, mm("of bores on the pins and shafts that turn in them", least=0, most=100)] = 0.0
     frame: Annotated[
         bool, Meta(description="with shaft and crank, and a base under the ring, which stands on feet; marks engraved")
     ] = False

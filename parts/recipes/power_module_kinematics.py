@@ -68,7 +68,11 @@ class PowerModuleKinematicsKeys(RecipeKeys, kw_only=True, tag="power_module_kine
     module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = 3.0
     teeth: Annotated[
         tuple[_Teeth, _Teeth],
-        Meta(description="of the pinion 19 and of the ring 21; half their difference by the module is O1O2 and O2O3"),
+        Meta(
+            description=(
+                "of the pinion 19 and of the ring 21; O1O2 and O2O3 are half their difference times the module"
+            )
+        ),
     ] = (96, 144)
     wheel_module: Annotated[float, mm("module of the wheels that turn the platform", least=0.1, most=100)] = 2.0
     face_width: Annotated[float, mm("of ring and pinion", least=1, most=1000)] = 25.0
@@ -77,7 +81,7 @@ class PowerModuleKinematicsKeys(RecipeKeys, kw_only=True, tag="power_module_kine
     )
     disk_thickness: Annotated[float, mm("of disks and platform", least=1, most=1000)] = 30.0
     axial_gap: Annotated[float, mm("between planes that turn against each other", least=0.1, most=100)] = 5.0
-    clearance: Annotated[float, mm("of bores and holes that turn on something beyond it", least=0, most=5)] = 0.5
+    clearance: Annotated[float, mm("of bores and holes on what turns in them", least=0, most=5)] = 0.5
     platform_axle_diameter: Annotated[float, mm("of the platform's axle 9", least=1, most=500)] = 30.0
     satellite_axle_diameter: Annotated[float, mm("of the axle 13 and of the post", least=1, most=500)] = 20.0
     pin_diameter: Annotated[float, mm("of idlers' and cranks' pins", least=1, most=200)] = 10.0

@@ -72,16 +72,16 @@ class PowerTableKeys(RecipeKeys, kw_only=True, tag="power_table"):
     module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = 2.25
     teeth: Annotated[
         tuple[Annotated[int, Meta(ge=8, le=1000)], Annotated[int, Meta(ge=8, le=1000)]],
-        Meta(description="of the pinion and of the ring; half their difference by the module is O1O2"),
+        Meta(description="of the pinion and of the ring; O1O2 is half their difference times the module"),
     ] = (32, 48)
     second_arm: Annotated[float, mm("O2O3; default: as O1O2", above=0, most=1000, example=18.0)] | None = None
     normal_backlash: Annotated[float, mm("of ring and pinion", least=0, most=10)] = 0.15
     plate_thickness: Annotated[float, mm("of all flat parts", least=0.5, most=100)] = 4.0
     axial_gap: Annotated[float, mm("between planes that turn against each other", least=0, most=100)] = 0.5
-    clearance: Annotated[float, mm("of holes that turn on something beyond it", least=0, most=5)] = 0.2
+    clearance: Annotated[float, mm("of holes on the pins and shafts that turn in them", least=0, most=5)] = 0.2
     pin_diameter: Annotated[float, mm("of the cranks' pins", least=0.5, most=100)] = 4.0
     axle_diameter: Annotated[float, mm("of the shaft of disk 2, and of the axle of disk 3", least=1, most=200)] = 8.0
-    fit: Annotated[float, mm("by which rods are thinner than holes in which they are glued", least=0, most=2)] = 0.0
+    fit: Annotated[float, mm("how much thinner rods are than the holes in which they are glued", least=0, most=2)] = 0.0
     drive: Annotated[
         Literal["hand_cranks", "worms"], Meta(description="what turns disk 2 and the ring, behind the base")
     ] = "hand_cranks"

@@ -26,7 +26,9 @@ class RecipeKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=T
     name: (
         Annotated[
             str,
-            Meta(pattern=IDENTIFIER, description="begins the ids of all its parts, as in a_sun", examples=["a"]),
+            Meta(
+                pattern=IDENTIFIER, description=("the ids of all its parts begin with it, as in a_sun"), examples=["a"]
+            ),
         ]
         | None
     ) = None

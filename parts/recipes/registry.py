@@ -29,7 +29,10 @@ RECIPES: Index[Recipe[Any]] = Index(
         ),
         "power_table": (
             "parts.recipes.power_table:POWER_TABLE",
-            "Two-disk power table of flat parts and pins, turned by two hand cranks, its platform parallel by cranks",
+            (
+                "Two-disk power table of flat parts and pins, turned by two hand cranks; cranks keep its "
+                "platform parallel"
+            ),
         ),
     }
 )

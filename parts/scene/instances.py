@@ -70,16 +70,20 @@ class InstanceSpec(Struct, forbid_unknown_fields=True):
 class InstanceTable(InstanceSpec, forbid_unknown_fields=True):
     """Keys of ``[instances.ID]`` as they stand in a file: one instance, or several."""
 
-    count: Annotated[int, Meta(ge=1, le=1000, description="so many of it: ID_1, ID_2 ...", examples=[3])] | None = None
+    count: (
+        Annotated[int, Meta(ge=1, le=1000, description=("number of equal ones: ID_1, ID_2 ..."), examples=[3])] | None
+    ) = None
     about: (
         Annotated[
             list[_Coordinate],
-            Meta(min_length=2, max_length=2, description="of a count: [x, y] of the axis that they stand about, in mm"),
+            Meta(
+                min_length=2, max_length=2, description=("with count: [x, y] of the axis about which they stand, in mm")
+            ),
         ]
         | None
     ) = None
     step_deg: (
-        Annotated[float, degrees("of a count: from each to the next; default: 360 / count", least=-360, most=360)]
+        Annotated[float, degrees("with count: from each to the next; default: 360 / count", least=-360, most=360)]
         | None
     ) = None
 
@@ -104,7 +108,7 @@ class DriveSpec(Struct, forbid_unknown_fields=True):
         Meta(ge=-10_000, le=10_000, description="how far it is turned, counter-clockwise", extra={"unit": "turns"}),
     ] = 1.0
     travel: (
-        Annotated[float, mm("of a slide instead of turns: how far it travels along its x axis", least=-1e6, most=1e6)]
+        Annotated[float, mm("for a slide, instead of turns: how far it travels along its x axis", least=-1e6, most=1e6)]
         | None
     ) = None
 

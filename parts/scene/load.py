@@ -62,7 +62,7 @@ class SceneInfo(Struct, forbid_unknown_fields=True):
         list[Annotated[str, Meta(pattern=r"\S", max_length=2000)]],
         Meta(
             max_length=50,
-            description="how what is made is put together and used, a paragraph each: SCENE.notes.txt",
+            description="how to put together and use what is made, a paragraph each: SCENE.notes.txt",
             examples=[["Glue the crank to the shaft."]],
         ),
     ] = []
@@ -161,15 +161,17 @@ class ChecksSpec(Struct, forbid_unknown_fields=True):
             Meta(
                 ge=1,
                 le=100_000,
-                description="with interference: solids wherever each drive may stand for itself, a pair in so many "
-                "poses at most",
+                description=(
+                    "with interference: checks the solids at all positions of each drive by itself, in at most "
+                    "this many poses a pair"
+                ),
                 examples=[400],
             ),
         ]
         | None
     ) = None
     transmission_error: Annotated[
-        bool, Meta(description="how unevenly each mate runs: peak to peak from the exact contact, without load")
+        bool, Meta(description="transmission error of each mate: peak to peak from the exact contact, without load")
     ] = False
 
 

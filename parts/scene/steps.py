@@ -45,19 +45,29 @@ class StepSpec(Struct, forbid_unknown_fields=True):
     ) = None
     outwards: (
         Annotated[
-            float, mm("then each goes so far away from the axis of `to`, below 0 to it", least=-1e6, most=1e6,
+            float, mm("then each moves by this away from the axis of `to`, below 0 towards it", least=-1e6, most=1e6,
                       example=8.0)
         ]
         | None
     ) = None  # fmt: skip
     one_hole: Annotated[
-        bool, Meta(description="`to` is turned on for each: all go in where the first does, a row of balls by one hole")
+        bool,
+        Meta(
+            description=(
+                "`to` is turned on for each: all go in where the first does, like a row of balls through one hole"
+            )
+        ),
     ] = False
     screwed: Annotated[bool, Meta(description="turned in by its thread: a worm past its wheel")] = False
     opened: (
         Annotated[
             float,
-            mm("of turned parts: so much wider in radius on the way: a snap ring", above=0, most=1e3, example=1.5),
+            mm(
+                "for turned parts like a snap ring: by how much its radius is opened on the way",
+                above=0,
+                most=1e3,
+                example=1.5,
+            ),
         ]
         | None
     ) = None

@@ -14,20 +14,20 @@ FINDINGS: dict[str, Text] = {
     ),
     "thin_tip": N_("thin tip: s_a = {value:.3f} mm is below 0.3 m = {limit:.3f} mm"),
     "thin_rim": N_("thin rim: {value:.3f} mm between bore and root circle, less than one module ({limit:.3f} mm)"),
-    "relief_not_reached": N_("the tip circle ({value:.3f} mm) ends below the tip relief: no relief on this tooth"),
+    "relief_not_reached": N_("the tip circle, {value:.3f} mm, lies below the tip relief: this tooth has none"),
     "tip_lost": N_("the offset makes the teeth pointed: {value:.4f} mm of the tip is lost"),
     "fillet_cusp_trimmed": N_(
         "the offset {value:.4f} mm is more than the fillet radius {limit:.4f} mm: its corner is trimmed"
     ),
     "space_shallowed": N_(
-        "the offset flanks meet at radius {value:.4f} mm: the space ends above its root at {limit:.4f} mm"
+        "after the offset the flanks meet at radius {value:.4f} mm: the space ends above its root, {limit:.4f} mm"
     ),
     "fillet_interference_first": N_(
         "the mate's tip reaches the fillet of the first gear: "
         "{value:.4f} mm, the involute begins at {limit:.4f} mm on the line of action"
     ),
     "active_flank_cut_away_first": N_(
-        "undercut has taken active flank of the first gear: {value:.4f} mm is asked, {limit:.4f} mm is there"
+        "undercut has cut away active flank of the first gear: {value:.4f} mm is needed, {limit:.4f} mm is left"
     ),
     "tip_clearance_first": N_("the mate's tip strikes the root of the first gear: clearance {value:.4f} mm"),
     "fillet_interference_second": N_(
@@ -35,13 +35,13 @@ FINDINGS: dict[str, Text] = {
         "{value:.4f} mm, the involute begins at {limit:.4f} mm on the line of action"
     ),
     "active_flank_cut_away_second": N_(
-        "undercut has taken active flank of the second gear: {value:.4f} mm is asked, {limit:.4f} mm is there"
+        "undercut has cut away active flank of the second gear: {value:.4f} mm is needed, {limit:.4f} mm is left"
     ),
     "tip_clearance_second": N_("the mate's tip strikes the root of the second gear: clearance {value:.4f} mm"),
     "contact_ratio": N_("contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted"),
     "transverse_contact_ratio": N_(
-        "transverse contact ratio {value:.4f} is below 1: the drive runs on along the face, total contact "
-        "ratio {limit:.4f}"
+        "transverse contact ratio {value:.4f} is below 1: only the overlap along the face keeps the drive "
+        "going, total contact ratio {limit:.4f}"
     ),
     "total_contact_ratio": N_("total contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted"),
     "normal_backlash": N_("the flanks overlap: normal backlash {value:.6f} mm"),
@@ -81,12 +81,12 @@ FINDINGS: dict[str, Text] = {
         "does not fit at this pressure angle"
     ),
     "cutter_makes_root": N_(
-        "basic_rack gives the addendum alone ({value:.4g} m): the cutter makes the root, diameter "
+        "basic_rack gives only the addendum ({value:.4g} m): the cutter makes the root, diameter "
         "{limit:.4f} mm, and the fillet"
     ),
     "ring_tip_limited": N_(
-        "the ring's tips are made shallower: addendum {value:.4f} m, {limit:.4f} m would lie below the "
-        "base circle or be trimmed by every cutter; tip_diameter overrides"
+        "the ring's tips are made shallower: addendum {value:.4f} m in place of {limit:.4f} m, which would "
+        "lie below the base circle or be trimmed by every cutter; tip_diameter overrides"
     ),
     "short_rack": counted(
         "the rack has {value:.0f} tooth: fewer than {limit:.0f}; the check knows nothing of its ends",
@@ -94,29 +94,31 @@ FINDINGS: dict[str, Text] = {
         by="value",
     ),
     "offset_in_mesh": N_(
-        "the outlines are moved out by {value:.4g} mm: gears in mesh lose {limit:.4g} mm of backlash, unchecked"
+        "the outlines are moved out by {value:.4g} mm: gears in mesh lose {limit:.4g} mm of backlash, "
+        "which the check does not see"
     ),
     "label_on_tag": N_(
-        "no room for its name, {limit:.1f} mm high at least, in clear material ({value:.1f} mm): it stands on a tag "
-        "beside the part"
+        "its name, at least {limit:.1f} mm high, has no room in the clear material, {value:.1f} mm: it "
+        "stands on a tag beside the part"
     ),
     "cut_several_times": N_("boards like this one to be cut: {value:.0f}"),
     "printed_several_times": N_("beds like this one to be printed: {value:.0f}"),
     "title_not_engraved": N_(
-        "its title has {value:.0f} letters that cannot be engraved: its numbers or its id stand there; `label` says "
-        "what shall"
+        "its title has {value:.0f} letters that cannot be engraved: its numbers or its id stand there; "
+        "`label` can give other words"
     ),
-    "flat_outline": N_("a flat outline holds the section alone; STL, 3MF and STEP have the whole solid"),
+    "flat_outline": N_("a flat outline holds only the section; STL, 3MF and STEP have the whole solid"),
     "never_moves": N_("the follower never moves: all phases are dwells, the cam is a round disk"),
     "rigid_impact": N_("rigid impact: velocity jumps by {value:.4g} per rad at cam angle {limit:.4g} deg"),
     "soft_impact": N_("soft impact: acceleration jumps by {value:.4g} per rad^2 at cam angle {limit:.4g} deg"),
     "steep_pressure_angle": N_("pressure angle {value:.2f} deg on the rise, usual is at most {limit:.0f} deg"),
     "transmission_angle_not_kept": N_(
-        "the transmission angle falls to {value:.4g} deg, {limit:.4g} deg are asked for: the base circle is given"
+        "the transmission angle falls to {value:.4g} deg, below the {limit:.4g} deg asked for, since the "
+        "base circle is given"
     ),
-    "label_tells_z": N_("its label tells z {value:.6g}, it has {limit:.6g} teeth"),
-    "label_tells_m": N_("its label tells m {value:.6g}, its module is {limit:.6g} mm"),
-    "label_tells_x": N_("its label tells x {value:.6g}, its profile shift is {limit:.6g}"),
+    "label_tells_z": N_("its label says z {value:.6g}, it has {limit:.6g} teeth"),
+    "label_tells_m": N_("its label says m {value:.6g}, its module is {limit:.6g} mm"),
+    "label_tells_x": N_("its label says x {value:.6g}, its profile shift is {limit:.6g}"),
     "steep_return_pressure_angle": N_(
         "pressure angle {value:.2f} deg on the return, which the cam drives too; usual is at most {limit:.0f} deg"
     ),
@@ -124,8 +126,8 @@ FINDINGS: dict[str, Text] = {
         "the roller's play in its groove is {value:.4g} mm; with none it jams, above {limit:.4g} mm it knocks"
     ),
     "engraved_groove": N_(
-        "the groove is {value:.4g} mm deep of {limit:.4g} mm: its walls stand on layer ENGRAVE, not cut "
-        "through; groove_piece gives plates to glue"
+        "the groove is {value:.4g} mm deep in a thickness of {limit:.4g} mm: its walls stand on layer "
+        "ENGRAVE, not cut through; groove_piece gives plates to glue"
     ),
     "wedge_rigid_impact": N_("rigid impact: S' jumps by {value:.4g} at {limit:.4g} mm of travel"),
     "wedge_soft_impact": N_("soft impact: S'' jumps by {value:.4g} per mm^2 at {limit:.4g} mm of travel"),
@@ -146,8 +148,8 @@ FINDINGS: dict[str, Text] = {
     ),
     "worm_not_long_enough": N_("the thread is {value:.5g} mm long, the wheel touches it over {limit:.5g} mm"),
     "worm_slanted_not_long_enough": N_(
-        "the thread is {value:.5g} mm long at its foot; its ends slant: for all that the wheel touches it takes "
-        "{limit:.5g} mm"
+        "the thread is {value:.5g} mm long at its foot, with slanted ends: to cover all that the wheel "
+        "touches it must be {limit:.5g} mm long"
     ),
     "worm_wheel_hob_overlap": N_(
         "the hob of hob_diameter_quotient leaves teeth that run {value:.2g} mm into the worm; a wheel with "
@@ -165,8 +167,8 @@ FINDINGS: dict[str, Text] = {
         "leaves 30 deg"
     ),
     "worm_wheel_ridge": N_(
-        "from {value:.5g} mm beside the mid plane on the teeth are pointed: they end in a ridge, up to {limit:.5g} mm "
-        "lower than the tip"
+        "beyond {value:.5g} mm from the mid plane the teeth are pointed: they end in a ridge, up to "
+        "{limit:.5g} mm lower than the tip"
     ),
     "worm_section": N_(
         "flat outline: the section across the worm's axis, {value:.6g} mm; STL, 3MF and STEP have the screw surfaces"
@@ -176,13 +178,13 @@ FINDINGS: dict[str, Text] = {
         "STEP have the screw surfaces"
     ),
     "rolled_jumps": N_(
-        "rolled over this file the follower's acceleration S'' jumps by {value:.3g} at joints of arcs or "
-        "lines, its peak is {limit:.3g}: a drawing DXF or STEP has splines; a smaller tolerance makes the "
-        "jumps smaller"
+        "on this outline the follower's acceleration S'' jumps by {value:.3g} at joints of arcs or lines, "
+        "its peak is {limit:.3g}: a drawing DXF or STEP has splines; a smaller tolerance makes the jumps "
+        "smaller"
     ),
     "follower_may_slip": N_(
-        "from cam angle {value:.6g} degrees on the pressure angle is so near to 90 degrees that an outline good to "
-        "{limit:.3g} mm does not hold the follower: its lift is not measured"
+        "from cam angle {value:.6g} degrees on, the pressure angle is so near to 90 degrees that an "
+        "outline good to {limit:.3g} mm does not hold the follower: its lift is not measured"
     ),
     "coarse_tolerance": N_(
         "tolerance {value:.4g} mm is more than 5 % of the module ({limit:.4g} mm): the teeth lose their shape"
@@ -196,7 +198,7 @@ FINDINGS: dict[str, Text] = {
         "STEP with more than {value:.0f} faces: programs that read it through Open CASCADE, like FreeCAD, take some "
         "10 s for {limit:.0f} of them and four times as long for twice as many"
     ),
-    "position_not_shown": N_("position {value:.0f} of the parts list is covered in every view: it has no number there"),
+    "position_not_shown": N_("position {value:.0f} of the parts list is hidden in every view: it has no number there"),
     "flat_pins": N_(
         "the pins of one piece are not in a flat outline, which has holes in their place; STL, 3MF and STEP have them"
     ),
@@ -215,17 +217,18 @@ FINDINGS: dict[str, Text] = {
         "thin wall: {value:.3f} mm between holes and valleys, less than half of a pin's radius ({limit:.3f} mm)"
     ),
     "curvature_radius_not_kept": N_(
-        "least convex radius {value:.4g} mm, asked {limit:.4g} mm: base_circle_radius is given and too small for it"
+        "least convex radius {value:.4g} mm, less than the {limit:.4g} mm asked for: the "
+        "base_circle_radius given is too small for it"
     ),
     "flat_offset": N_(
-        "follower_offset = {value:.6g} mm changes nothing of a flat follower's cam: only the stem stands "
+        "follower_offset = {value:.6g} mm does not change the cam of a flat follower: only the stem stands "
         "beside the axis, so the plate has to be {limit:.6g} mm wide"
     ),
     "pivot_within_cam": N_(
         "the follower's pivot, {limit:.6g} mm from the axis, stands within the cam's outline: the cam "
         "reaches {value:.4g} mm over it, so arm and pivot need a place above or below the cam"
     ),
-    "linkage_curvature_radius": N_("least convex radius {value:.4g} mm, asked {limit:.4g} mm"),
+    "linkage_curvature_radius": N_("least convex radius {value:.4g} mm, less than the {limit:.4g} mm asked for"),
     "small_transmission_angle": N_(
         "transmission angle {value:.2f} deg between connecting rod and guide, usual is at least {limit:.0f} deg"
     ),

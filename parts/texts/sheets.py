@@ -1,4 +1,4 @@
-"""The words on sheets, in the seeds' own terms."""
+"""The words on sheets, in their sources' own terms."""
 
 from __future__ import annotations
 

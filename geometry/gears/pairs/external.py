@@ -1,6 +1,6 @@
 """The external spur pair: how it is made, its tip shortening and what an undercut gear of it is told.
 
-Symbols are those of ISO 21771; equation numbers those of the practicum, lesson 3 (seed 000).
+Symbols are those of ISO 21771; equation numbers those of the practicum, lesson 3.
 """
 
 from __future__ import annotations

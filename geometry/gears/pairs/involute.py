@@ -2,7 +2,7 @@
 
 A ring has a negative tooth number there, and with it negative radii and the opposite sign of its profile shift. Outside
 this file nothing is negative, and a ring's shift is positive away from its axis (GOST 19274): ``signed`` goes between
-both. The practicum's numbers (lesson 3, seed 000) are those of its equations for external pairs.
+both. The practicum's numbers (lesson 3) are those of its equations for external pairs.
 
 Frame: the first gear's axis is the origin, or the ring's; the other lies at ``working_centre_distance`` in the given
 direction, and so does the mesh.

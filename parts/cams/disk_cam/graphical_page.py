@@ -32,7 +32,7 @@ _HINDRANCES = {
     "table": N_("no graphical method: a motion table has no acceleration diagram of phases"),
     "rests": N_("no graphical method: the follower rests all the turn"),
     "rigid": N_(
-        "no graphical method: {law} does not begin at rest or its velocity jumps: a drawing integrates from rest"
+        "no graphical method: {law} does not begin at rest, or its velocity jumps; the method integrates from rest"
     ),
 }
 

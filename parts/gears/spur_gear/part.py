@@ -54,7 +54,7 @@ _TABLE_TIP_RADIUS = 0.38
 
 
 class RackTable(Struct, forbid_unknown_fields=True):
-    """A cutting rack of one's own, in modules."""
+    """A cutting rack of your own, in modules."""
 
     addendum_coefficient: Annotated[float, in_modules("addendum of the basic rack", least=0.1, most=3)] = 1.0
     tip_clearance_coefficient: Annotated[float, in_modules("tip clearance", least=0, most=1)] = 0.25
@@ -82,7 +82,9 @@ class SpurGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
     """Keys of ``spur_gear``."""
 
     number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z", examples=[23])]
-    profile_shift_coefficient: Annotated[float, in_modules("profile shift x (the seeds' xi)", least=-10, most=10)] = 0.0
+    profile_shift_coefficient: Annotated[
+        float, in_modules("profile shift x (xi in the sources)", least=-10, most=10)
+    ] = 0.0
     pressure_angle_deg: PressureAngle = 20.0
     basic_rack: RackName | RackTable = "ISO 53 A"
     cutter: CutterTable | None = None

@@ -166,8 +166,8 @@ def load_sections(page: Sheet, keys: LoadKeys, found: Mapping[str, float]) -> Ca
         page.tables.append(_table("load_here", title, keys.table, rows, here))
     share = max((found.bound / found.value - 1 for found in most if found.value), default=0.0)
     text = N_(
-        "load: no place and no direction ask for more than {share:.2g} % beyond what is told; where several ask for as "
-        "much one of them is named; directions count from +x, counter-clockwise"
+        "load: no other place or direction asks for more than {share:.2g} % beyond these; of several that "
+        "ask for as much one is named; directions count from +x, counter-clockwise"
     )
     page.notes.append(message(text, share=100 * share))
     pressure = max(row.share * found.value**row.power for row, found in zip(rows, most, strict=True) if row.power != 1)

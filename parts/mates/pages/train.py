@@ -53,7 +53,7 @@ class TrainKeys(Struct, forbid_unknown_fields=True):
     meshes: Annotated[
         str, Meta(description="wheels in mesh, as 1-2, 2'-3 internal 3.5: kind and module where they differ")
     ] = ""
-    shafts: Annotated[str, Meta(description="what stands on one shaft, as 2-3, H-5; 2 and 2' do without a word")] = ""
+    shafts: Annotated[str, Meta(description="wheels of one shaft, as 2-3, H-5; 2 and 2' need no such word")] = ""
     carriers: Annotated[dict[str, Name], Meta(description="satellites of each carrier, as carriers.H=2")] = {}
     held: Annotated[Name, Meta(description="held wheels or carriers, with commas between them")] = ""
     driver: Annotated[Name, Meta(description="driving link; default: the first wheel")] = ""

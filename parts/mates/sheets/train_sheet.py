@@ -1,4 +1,4 @@
-"""The sheet of a train, seed 001, figure 5: its kinematic scheme to scale, the plans of velocities, the table."""
+"""The sheet of a train (guidelines, figure 5): its kinematic scheme to scale, the plans of velocities, the table."""
 
 from __future__ import annotations
 

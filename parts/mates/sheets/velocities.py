@@ -1,4 +1,4 @@
-"""Smirnov's plans of a train, seed 001, figure 5: velocities over the height, and angular velocities from a pole."""
+"""Smirnov's plans of a train (guidelines, figure 5): velocities over the height, and angular velocities from a pole."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ class PlanMeasures(Record):
                 name = f"ratio_{links[driver].name}_{links[link].name}_by_{layer.lower()}"
                 ratio, right = slopes[driver] / slope, float(1 / links[link].rate)
                 measured[name] = ratio
-                # the seed reads it off a drawing: within a thousandth, where the dividers' points allow it
+                # the guidelines read it off a drawing: within a thousandth, where the dividers' points allow it
                 least = min(abs((x.end - x.start).real) for x in found)
                 if not abs(ratio / right - 1) <= max(1e-3, 8 * allowed / max(least, 1e-300)):
                     failures.append(f"{name} measures {ratio:.6g} instead of {right:.6g}")

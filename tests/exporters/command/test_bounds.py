@@ -55,7 +55,7 @@ def test_a_file_to_verify_that_is_none_or_a_huge_one(built: Path, capsys: pytest
     with (built / "h.svg").open("wb") as stream:
         stream.truncate(HUGE)
     pipe, huge = told("verify g.svg", "verify h.svg", cwd=built)
-    assert "name files" in pipe
+    assert "names of files" in pipe
     assert "larger than 1000000000 bytes" in huge
     (built / "report.json").unlink()
     (built / "report.json").symlink_to("/dev/zero")

@@ -616,7 +616,8 @@ def test_a_wheel_turned_down_uses_less_of_its_worm_as_the_part_itself_says(capsy
         assert steps["worm_length_used"] == pytest.approx(parts["wheel"].quantities["worm_length_used"], abs=1e-6)
     assert "at least 64 mm works" in complaint(capsys, "calc", *f"{words}60".split())
     for key in ("outer_diameter", "face_width", "wheel_thinning"):
-        assert f"{key} is that of a drive" in complaint(capsys, "calc", "worm", "module=2", f"{key}=14")
+        told = complaint(capsys, "calc", "worm", "module=2", f"{key}=14")
+        assert f"{key} is given, which belongs to a worm drive" in told
 
 
 def test_errors_of_the_axes_have_the_gap_that_check_tells(tmp_path: Path) -> None:

@@ -269,7 +269,7 @@ def test_the_graphical_method_stands_beside_the_exact_motion() -> None:
 def test_a_law_with_a_rigid_impact_has_no_graphical_method() -> None:
     data = calculated("follower=pointed", "lift=10", phases(120, 30, 120, "constant_velocity"), "base_circle_radius=60")
     assert "graphical" not in data
-    assert any("does not begin at rest or its velocity jumps" in note for note in data["notes"])
+    assert any("does not begin at rest, or its velocity jumps" in note for note in data["notes"])
 
 
 def test_speeds_are_those_of_the_sine_law() -> None:

@@ -187,7 +187,7 @@ def test_tables_as_csv() -> None:
     ("keys", "parts"),
     [
         (("teeth=[40,40,120]", "satellites=50"), ("satellites = 50", "at most 5 works")),
-        (("ratio=0",), ("ratio = 0", "no ratio is 0")),
+        (("ratio=0",), ("ratio = 0", "must not be 0")),
         (("teeth=[40,40,2]",), ("= 2", "at least 3")),
         (("teeth=[40,40,30]",), ("ring of 30 teeth", "40")),
         (("teeth=[40,40]",), ("3 wheels",)),
@@ -199,7 +199,7 @@ def test_tables_as_csv() -> None:
         (("ratio=14.2",), ("ratio = 14.2", "works")),
         (("scheme=david", "teeth=[30,20,20,30]"), ("transmits nothing",)),
         (("scheme=jemes", "ratio=3"), ('"jemes"', "james")),
-        (("idler_train",), ("takes keys alone, no scene",)),
+        (("idler_train",), ("takes keys only, no scene",)),
     ],
 )
 def test_refusals_are_one_line(keys: tuple[str, ...], parts: tuple[str, ...]) -> None:

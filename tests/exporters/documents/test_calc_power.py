@@ -80,7 +80,7 @@ def test_what_is_refused() -> None:
     for keys, told in (
         (("x=100", "y=120"), "x = 100"),
         (("x=50",), "y: is missing"),
-        (("x=[1,2]", "y=1"), "as many as x has"),
+        (("x=[1,2]", "y=1"), "as many values as x"),
         (("x=50", "y=80", "elbow=-1"), "elbow = -1: needs path too"),
         (("path=[[0,0,9,9,0]]", "y=80"), "y = 80.0: is given beside path"),
         (("path=nothing.dxf",), "no such file"),
@@ -434,8 +434,8 @@ def test_loads_that_are_refused_or_too_much() -> None:
         (("x=100", "y=120"), "x, y = [100.0, 120.0]: is 156.205 mm from O1"),
         (("elbow=-1",), "elbow = -1: needs x, y too"),
         (("x=50", "y=80", "elbow=2"), "one of 1, -1"),
-        (("arms=[70,60]",), "72 mm apart; [72.0, 60.0] works"),
-        (("moment=3", "orientation=idlers"), "is carried by cranks"),
+        (("arms=[70,60]",), "give, 72 mm; [72.0, 60.0] works"),
+        (("moment=3", "orientation=idlers"), "is taken up by cranks"),
     ):
         with pytest.raises(SceneError) as refused:
             calculate("power-module", keys, "text", "en")

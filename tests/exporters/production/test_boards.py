@@ -273,9 +273,9 @@ def test_pieces_nearer_than_asked_are_caught(key: str, value: float, words: str,
 
 @pytest.mark.parametrize(("keys", "key", "words"), [
     ({"width": 85.0}, "boards.plywood.width", "the part ring needs 90.2 x 80.2 mm"),
-    ({"gap": 500.0}, "boards.plywood.gap", "larger than the board, of which the shorter side is 120"),
+    ({"gap": 500.0}, "boards.plywood.gap", "less than the shorter side of the board, 120"),
     ({"kerf": 3.2, "exports": EXPORTS.split("\n\n")[1]}, "boards.plywood.kerf", "bar"),
-    ({"more": 'margin = 60.0'}, "boards.plywood.margin", "leaves nothing of a side of 120"),
+    ({"more": 'margin = 60.0'}, "boards.plywood.margin", "leaves nothing of the side of 120"),
     ({"more": 'parts = ["whel"]'}, "boards.plywood.parts", "wheel"),
     ({"exports": '[[exports]]\nformat = "dxf"\npurpose = "board"\nkerf = 0.1\n'}, "exports[1].kerf", "boards.NAME"),
     ({"exports": '[[exports]]\nformat = "3mf"\npurpose = "plate"\n'}, "exports[1].purpose", "[beds.NAME]"),

@@ -352,7 +352,7 @@ def test_refusals_name_the_key_and_what_works() -> None:
     for key in ("intervals", "speed_rpm"):
         with pytest.raises(SceneError, match='only for purpose = "cam"'):
             cam_scene(ROCKER, purpose="generating", **{key: 8})
-    with pytest.raises(SceneError, match="shows the part, not the cut"):
+    with pytest.raises(SceneError, match="show the part and not the cut"):
         cam_scene(ROCKER, kerf=0.1)
 
 

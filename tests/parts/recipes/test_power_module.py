@@ -97,7 +97,7 @@ def test_every_position_has_its_rules() -> None:
 @pytest.mark.parametrize(
     ("keys", "word"),
     [
-        ({"second_arm": 70.0}, "axes 72 mm apart; 72 mm works"),
+        ({"second_arm": 70.0}, "give, 72 mm; 72 mm works"),
         ({"disk_thickness": 3.0}, "disk_thickness = 3.*at least"),
         ({"balls": 2000}, "between two balls of the .* circle; .*at most"),
         ({"module": 10.0}, "assemblies"),

@@ -228,11 +228,11 @@ _PLATE = {"kind": "plate", "width": 40.0, "height": 40.0, "face_width": 5.0}
 @pytest.mark.parametrize(
     ("steps", "word"),
     [
-        ([{"bring": ["a"], "to": "b"}], "c stands apart"),
-        ([{"bring": ["a"], "to": "b"}, {"bring": ["b"], "to": "a"}], r"steps\[2\].bring.*joined to a already"),
+        ([{"bring": ["a"], "to": "b"}], "leave c apart"),
+        ([{"bring": ["a"], "to": "b"}, {"bring": ["b"], "to": "a"}], r"steps\[2\].bring.*already joined to a"),
         ([{"bring": ["a"], "to": "b", "along": [0.0, 0.0, 0.0]}], r"steps\[1\].along.*no direction"),
         ([{"bring": ["a"], "to": "b", "outwards": 3.0}], r"steps\[1\].outwards.*along"),
-        ([{"bring": ["a"], "to": "b", "along": [0.0, 0.0, 1.0], "outwards": 0.0}], r"steps\[1\].outwards.*nowhere"),
+        ([{"bring": ["a"], "to": "b", "along": [0.0, 0.0, 1.0], "outwards": 0.0}], r"steps\[1\].outwards.*not be 0"),
         ([{"bring": ["a"], "to": "b", "along": [0.0, 0.0, 1.0], "one_hole": True}], r"steps\[1\].one_hole.*outwards"),
         ([{"bring": ["a"], "to": "b", "opened": 1.0}], r"steps\[1\].opened.*turned parts"),
         ([{"bring": ["d"], "to": "b"}], r'steps\[1\].bring = "d"'),

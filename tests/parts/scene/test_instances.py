@@ -268,7 +268,7 @@ WRONG = [
     (AB + INB.format('rotation_deg = "x"'), "instances.x.rotation_deg", "number"),
     (AB + INB.format("rotation_deg = 1e6"), "instances.x.rotation_deg", "at most 36000"),
     (AB + INB.format("rotation = 3"), "instances.x.rotation", "did you mean rotation_deg"),
-    (AB + INB.format("") + MATE.format("a", "b"), "mates[1].second", "stands as x"),
+    (AB + INB.format("") + MATE.format("a", "b"), "mates[1].second", "its instances: x"),
     (AB + INB.format("") + MATE.format("y", "a"), "mates[1].first", "instances: a, x"),
     (AB + MATE.format("a", "a"), "mates[1].second", "no mate in itself"),
     (AB + MATE.format("a", "b") + MATE.format("a", "b"), "mates[2]", "listed twice"),
@@ -278,10 +278,10 @@ WRONG = [
     (ABC + GEAR.format("d", 2, 9, 0.6) + MATE.format("a", "b") + MATE.format("c", "d") + MATE.format("b", "c"),
      "mates[2].first", "mates[3]"),
     (ABC + GEAR.format("d", 2, 9, 0.6) + MATE.format("a", "b") + MATE.format("c", "d") + MATE.format("b", "d"),
-     "mates[2].first", "begin its train at a"),
+     "mates[2].first", "start its train at a"),
     (AB + DRIVE.format('instance = "q"'), "drives[1].instance", "instances: a, b"),
     (AB + DRIVE.format("turns = 1"), "drives[1].instance", "is missing"),
-    (AB + DRIVE.format('instance = "a"\nturns = 0'), "drives[1].turns", "turns nothing"),
+    (AB + DRIVE.format('instance = "a"\nturns = 0'), "drives[1].turns", "must not be 0"),
     (AB + DRIVE.format('instance = "a"\nturns = "x"'), "drives[1].turns", "number"),
     (AB + DRIVE.format('instance = "a"\nspeed = 1'), "drives[1].speed", "unknown key"),
     (AB + MATE.format("a", "b") + DRIVE.format('instance = "a"') + DRIVE.format('instance = "b"'),
@@ -354,8 +354,8 @@ def test_a_tilted_part_stands_in_its_place_in_files_and_in_the_way(
     assert "axis" not in report["instances"]["a"]
     fixed = '[[mates]]\nkind = "fixed"\nfirst = "a"\nsecond = "b"\n'
     for wrong, told in (
-        (lying + fixed, "mates[1] joins parts whose axes are upright"),
-        (lying.replace("at = [100, 0, 5]\n", ""), "only of an instance that stands"),
+        (lying + fixed, "mates[1] joins: its axis must be upright"),
+        (lying.replace("at = [100, 0, 5]\n", ""), "only for an instance that"),
         (lying.replace("[0, 1, 0]", "[0, 0, 0]"), "has no direction"),
     ):
         with pytest.raises(SceneError, match=re.escape(told)):

@@ -334,7 +334,7 @@ def test_the_nearest_kerf_is_near(tmp_path: Path) -> None:
 def test_a_file_named_like_a_device_of_windows_is_no_scene(tmp_path: Path, name: str) -> None:
     """Its results would lie in a folder of that name, which Windows cannot make."""
     (tmp_path / name).write_text(scene_text({}, {}), "utf-8")
-    with pytest.raises(SceneError, match="is a name that Windows keeps for a device"):
+    with pytest.raises(SceneError, match="is a name that Windows reserves for a device"):
         load_scene(str(tmp_path / name))
 
 

@@ -177,13 +177,13 @@ WRONG = [
     (JAMES + DRIVE.format("sun", "") + DRIVE.format("sun", ""), "drives[2].instance", "the drive of sun"),
     (JAMES.replace("held = true", 'held = "yes"'), "instances.ring.held", "true or false"),
     (JAMES + DRIVE.format("sun", "travel = 3.0"), "drives[1].travel", "give turns"),
-    (JAMES + DRIVE.format("sun", "travel = 0.0"), "drives[1].travel", "moves nothing"),
+    (JAMES + DRIVE.format("sun", "travel = 0.0"), "drives[1].travel", "must not be 0"),
     (RACK + DRIVE.format("rack", "turns = 1"), "drives[1].turns", "give travel"),
-    (JAMES + AXIS.format("ring", "") + DRIVE.format("sun", ""), "mates[12].first", "carried by carrier already"),
+    (JAMES + AXIS.format("ring", "") + DRIVE.format("sun", ""), "mates[12].first", "already carried by carrier"),
     (RACK.split("[parts.rack]")[0] + GEAR.format("b", 20) + '[[mates]]\nkind = "external_gear_pair"\nfirst = "gear"\n'
      'second = "b"\n[[mates]]\nkind = "fixed"\nfirst = "gear"\nsecond = "b"\n' + DRIVE.format("gear", ""),
-     "mates[1].second", "a wheel has no mesh in itself"),
-    (PARTS + AXIS.format("carrier", "").replace("planet_1", "planet"), "mates[1].offset", "where on the carrier"),
+     "mates[1].second", "wheels of one body do not mesh"),
+    (PARTS + AXIS.format("carrier", "").replace("planet_1", "planet"), "mates[1].offset", "the place on the carrier"),
 ]  # fmt: skip
 
 

@@ -300,8 +300,8 @@ def test_follower_and_members_stand_where_the_linkage_puts_them(
 
 
 @pytest.mark.parametrize(("values", "key"), [
-    ({"diameter": 13.0}, "roller.diameter = 13.0: the cam is made for another; 12 mm works"),
-    ({"arm": 57.0}, "arm.arm_length = 57.0: the linkage has another; 58 mm works"),
+    ({"diameter": 13.0}, "roller.diameter = 13.0: must be what the cam is made for; 12 mm works"),
+    ({"arm": 57.0}, "arm.arm_length = 57.0: must be that of the linkage; 58 mm works"),
     ({"member": "guide"}, "68 mm works"),
 ])  # fmt: skip
 def test_parts_of_another_mechanism_are_refused(
