@@ -15,7 +15,7 @@ import pytest
 
 from exporters.documents.topics import calculate
 from exporters.production.build import build
-from exporters.production.plan import plan_build
+from exporters.production.plan import Plan, plan_build
 from exporters.production.sheets import SheetJob
 from geometry.base.errors import Nearest
 from parts.base.refusal import SceneError
@@ -44,12 +44,12 @@ ROUGH = {"intervals": 2, "tolerance": 1e-3}
 
 
 @cache
-def jobs_of(name: str) -> tuple[SheetJob, ...]:
-    return plan_build(load_scene(name), name, [], ["sheet"]).sheets
+def plan_of(name: str) -> Plan:
+    return plan_build(load_scene(name), name, [], ["sheet"])
 
 
 def job_of(name: str, ending: str) -> SheetJob:
-    return next(j for j in jobs_of(name) if j.path.endswith(ending))
+    return next(j for j in plan_of(name).sheets if j.path.endswith(ending))
 
 
 def words_of(job: SheetJob) -> list[str]:
@@ -66,7 +66,7 @@ def cam_scene(part: dict[str, Any], **export: Any) -> Any:
 @pytest.mark.parametrize(("name", "language"), SCENES.items())
 def test_every_sheet_is_good(tmp_path: Path, name: str, language: str) -> None:
     words = {}
-    for job in jobs_of(name):
+    for job in plan_of(name).sheets:
         assert job.path in (f"{name}.cam.cam.dxf", f"{name}.cam.cam.svg")
         job.write({}, tmp_path / job.path)
         verdict = job.verify(tmp_path / job.path, 0.0)
@@ -357,9 +357,8 @@ def test_refusals_name_the_key_and_what_works() -> None:
 
 
 def test_a_build_reports_its_cam_sheets_and_verify_measures_them_again(tmp_path: Path) -> None:
-    plan = plan_build(load_scene("guidelines_cam"), "guidelines_cam", [], ["sheet"])
     folder = tmp_path / "guidelines_cam"
-    made = build(plan, folder).written
+    made = build(plan_of("guidelines_cam"), folder).written
     assert [item.failures for item in made] == [(), ()]
     report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
     entries = {e["path"]: e for e in report["files"]}
