@@ -372,11 +372,11 @@ def _build(options: argparse.Namespace) -> int:
 def _built(plan: Plan, options: argparse.Namespace) -> bool:
     """Build a scene and show what was made; returns whether all is well."""
     from exporters.command.tables import build_table
-    from exporters.production.build import build
+    from exporters.production.build import build, steps
 
     folder = options.out / plan.scene.name
     partial, verify = bool(options.part or options.format), not options.no_verify
-    with _progress(options, plan.scene.name, len(plan.files)) as advance:
+    with _progress(options, plan.scene.name, steps(plan)) as advance:
         built = build(plan, folder, verify=verify, kernel=options.verify == "kernel", partial=partial, progress=advance)
     if not options.json and not (options.quiet and built.well):
         build_table(plan, folder, built)

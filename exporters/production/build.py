@@ -58,15 +58,14 @@ def build(
     behind: see ``moving.py``. ``kernel``: STEP files are held against the CAD kernel too.
     """
     start = time.perf_counter()
+    progress(plan.scene.name)
     checks = _checks(plan)
     made: dict[ShapeKey, Shape] = {}
     spent: dict[str, float] = {}
-    for job in plan.jobs:
-        if job.shape_key not in made:
-            made[job.shape_key], spent[job.path] = approximated(job, plan.source)
-    for job in (member for assembly in plan.assemblies for member in assembly.members):
-        if job.shape_key not in made:
-            made[job.shape_key], _ = approximated(job, plan.source)
+    for key, job in _shapes(plan).items():
+        progress(job.part.id)
+        made[key], seconds = approximated(job, plan.source)
+        spent.setdefault(job.path, seconds)
     with staging_folder(folder) as staging:
         written: list[Written] = []
         for file_job in plan.files:
@@ -76,6 +75,7 @@ def build(
                 written[-1] = _by_kernel_too(written[-1])
             if file_job.path in spent:
                 written[-1].seconds["approximate"] = spent[file_job.path]
+        progress(plan.scene.name)
         wanted = dict.fromkeys(j.part.id for j in (*plan.jobs, *(m for a in plan.assemblies for m in a.members)))
         outlines = {p: outlines_of(plan.parts[p].section(0.0).region) for p in wanted}
         previews = [part_preview(plan.parts[p], o, staging, plan.scene.scene.language) for p, o in outlines.items()]
@@ -127,6 +127,20 @@ def _checks(plan: Plan) -> dict[str, Any]:
         workspace=scene.checks.workspace,
         names=names_of(scene.instances, plan.parts),
     )
+
+
+def steps(plan: Plan) -> int:
+    """How many steps a build tells: its checks, every shape, every file, the pictures."""
+    return 2 + len(_shapes(plan)) + len(plan.files)
+
+
+def _shapes(plan: Plan) -> dict[ShapeKey, Job]:
+    """The first job of each shape, those of files of their own before what only assemblies have."""
+    jobs = (*plan.jobs, *(member for assembly in plan.assemblies for member in assembly.members))
+    found: dict[ShapeKey, Job] = {}
+    for job in jobs:
+        found.setdefault(job.shape_key, job)
+    return found
 
 
 def approximated(job: Job, source: str) -> tuple[Shape, float]:

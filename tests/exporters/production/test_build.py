@@ -15,10 +15,13 @@ from typing import Any
 
 import pytest
 
+from exporters.production.build import build, steps
+from exporters.production.plan import plan_build
 from exporters.verification import judge
 from exporters.verification.verdict import Verdict
 from geometry.base.findings import Finding
 from parts.scene.formats import FileKind
+from parts.scene.load import load_scene
 from tests.exporters.making import part_keys, read_report, run, write_scene
 from tests.exporters.outside import Gear
 
@@ -51,6 +54,15 @@ def command(*arguments: object, cwd: Path, **more: Any) -> subprocess.CompletedP
     """The command in a process of its own."""
     return subprocess.run([sys.executable, "-m", "exporters", *map(str, arguments)], cwd=cwd, text=True,
                           capture_output=True, timeout=120, encoding="utf-8", check=False, **more)  # fmt: skip
+
+
+def test_a_bar_moves_on_by_checks_shapes_files_and_pictures(tmp_path: Path) -> None:
+    """An assembly is one file, but a shape for each of its parts."""
+    scene = pair(tmp_path, {"format": "3mf", "assembly": True})
+    plan, told = plan_build(load_scene(scene), str(scene), [], []), list[str]()
+    build(plan, tmp_path / "o", verify=False, progress=told.append)
+    assert told == ["s", "a", "b", "s.3mf", "s"]
+    assert len(told) == steps(plan)
 
 
 @pytest.mark.parametrize(
