@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from geometry.base.record import replace
 from parts.base.part import Part
-from parts.base.texts import N_, Text, in_context, message
+from parts.base.texts import N_, Message, Text, in_context, message
 from parts.gears.noncircular_gear import page as noncircular_page
 from parts.gears.noncircular_gear.part import NoncircularGearSpec
 from parts.gears.rack import page as rack_page
@@ -182,5 +182,6 @@ def _mates(mates: Sequence[Mated]) -> list[DataRow]:
         name: Text = N_("number of starts of the worm") if isinstance(keys, WormSpec) else N_("teeth of the mate")
         rows["teeth", teeth] = DataRow(name, "z", teeth)
         drawing = getattr(keys, "designation", None) or mate.part.title or mate.part.id
-        rows["drawing", drawing] = DataRow(N_("drawing of the mate"), "", drawing)
+        # as it stands: an id may be a word of a catalogue
+        rows["drawing", drawing] = DataRow(N_("drawing of the mate"), "", Message("{name}", {"name": drawing}))
     return list(rows.values())

@@ -61,7 +61,7 @@ def test_lines_of_contact_lie_where_sections_of_the_worm_touch(tmp_path: Path) -
         if x.dxf.layer == "DIMENSION" and abs(x.dxf.start.y - middle.imag) < 1e-6
     )
     texts = [t.dxf.text for t in drawing.query("TEXT")]
-    assert "лінії контакту в одну мить" in texts
+    assert "лінії контакту в один момент" in texts
     assert any(t.startswith("Лінії контакту черв'яка й колеса") for t in texts)
     scale = float(next(t for t in texts if t.endswith(":1")).partition(":")[0])
     # issue 15: 35.99 mm from the middle on one side, rounded up

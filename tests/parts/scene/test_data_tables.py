@@ -155,7 +155,7 @@ def test_a_change_changes_the_cells_that_depend_on_it_alone(key: str, of_pinion:
     for part, changed in (("pinion", of_pinion), ("wheel", of_wheel)):
         assert before[part].keys() == after[part].keys()
         assert {name for name, value in before[part].items() if after[part][name] != value} == changed
-    assert after["wheel"]["drawing of the mate"] == "AB.01"
+    assert words("en").say(after["wheel"]["drawing of the mate"]) == "AB.01"
     assert after["pinion"]["teeth of the mate"] == 33
 
 
@@ -291,6 +291,13 @@ def test_rows_without_a_symbol_have_a_dash() -> None:
     canvas = Canvas(120.0, 50.0, "")
     draw_data_table(canvas, 115 + 40j, table, "en")
     assert [text.text for text in canvas.texts] == ["Module", "—", "3.142"]
+
+
+def test_a_mate_is_called_in_every_language_as_its_own_drawing_is() -> None:
+    # before: "worm" is a word of the catalogue too, and stood there in its translation
+    table = tables("worm_set_print")["wheel"][1]
+    (cell,) = (row for group in table.parts for row in group if row.name == "drawing of the mate")
+    assert value_text(cell, words("uk")) == "worm"
 
 
 END_CAM = """[parts.a]

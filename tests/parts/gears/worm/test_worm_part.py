@@ -38,7 +38,7 @@ EXTREMES: dict[str, dict[str, Any]] = {
                    "shaft_below": [{"diameter": 22.8, "length": 4.0}]},
     "run out": {"thread_length": 20.0, "thread_ends": "run_out", "run_out_deg": 60.0, "hand": "left",
                 "shaft_below": [{"diameter": 80.0, "length": 9.0, "chamfer": 1.0}], "bore_diameter": 20.0},
-    "blunt ends": {"thread_length": 26.0, "thread_ends": "blunt", "tip_rounding": 0.3, "number_of_starts": 2},
+    "blunt ends": {"thread_length": 30.0, "thread_ends": "blunt", "tip_rounding": 0.3, "number_of_starts": 2},
     "ground": {"module": 3.0, "number_of_starts": 2, "thread_length": 20.0, "form": "ZK1"},
     "base above the root": {"number_of_starts": 4, "diameter_quotient": 8.0, "tip_rounding": 0.3},
     "q 50": {"module": 1.0, "diameter_quotient": 50.0, "thread_length": 8.0, "form": "ZA", "hand": "left"},
