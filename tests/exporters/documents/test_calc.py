@@ -593,6 +593,11 @@ def test_a_worm_drive_that_locks_itself_says_so() -> None:
     assert values_of(words)["values"]["back_driving_efficiency"] == 0.0
     assert "self-locking" in calculate("worm", words.split()[1:], "text", "en")
     assert "самогальмівна" in calculate("worm", words.split()[1:], "text", "uk")
+    # four starts do not lock: the wheel pushes a wedge of that slope, held by friction
+    free = values_of(f"{words} number_of_starts=4 diameter_quotient=8")["values"]
+    slope, held = math.atan(4 / 8), math.atan(0.12 / math.cos(math.radians(20)))
+    assert free["back_driving_efficiency"] == pytest.approx(math.tan(slope - held) / math.tan(slope), rel=1e-12)
+    assert free["worm_efficiency"] == pytest.approx(math.tan(slope) / math.tan(slope + held), rel=1e-12)
 
 
 def test_a_ring_tells_where_its_tooth_is_pointed() -> None:
