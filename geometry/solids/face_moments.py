@@ -16,7 +16,7 @@ from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.plane.measure import gauss_rule, panels
 from geometry.solids.charts import Chart, along_edges, arcs, charts, edge_rows, patch_of, span_shares
-from geometry.solids.faces import Circular, Edges, Extrusion, Solid, Spline, SplineSurface
+from geometry.solids.faces import Circular, Edges, Extrusion, Solid, Spline, SplineSurface, Torus
 from geometry.solids.mass import Moments, moments_of
 from geometry.solids.unrolled import unrolled
 
@@ -26,6 +26,8 @@ _NODES, _ACROSS, _FLAT, _PIECE = 16, 28, 4, math.pi / 4
 _RAISED, _AT_ONCE = 2.5, 200_000
 # pieces are halved until nothing changes by more than this part, and refused above the second one
 _SETTLED, _ENOUGH, _MOST = 1e-12, 1e-9, 4
+# a tube is far wider than what a face has of it is off the axis, by this
+_FAR = 3.0
 # integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz
 _TERMS = 10
 
@@ -122,6 +124,7 @@ def _terms(points: Real, normals: Real) -> Real:
 def _charted(chart: Chart, loops: list[list[_Run]], *, along: bool) -> Real:
     total = np.zeros(_TERMS)
     across, weights = gauss_rule(_ACROSS if chart.is_bent else _FLAT)
+    base = _base(chart, loops)
     for runs in loops:
         for side in unrolled(chart, [run.points for run in runs], along=along):
             if side.run is None:
@@ -138,10 +141,22 @@ def _charted(chart: Chart, loops: list[list[_Run]], *, along: bool) -> Real:
                 u, v, step = u[inner], v[inner], rate * run.weights[inner]
             if not np.any(step):
                 continue
-            heights = v[:, None] * (1 + across) / 2
+            heights = base + (v[:, None] - base) * (1 + across) / 2
             terms = _terms(*chart.with_normal(np.broadcast_to(u[:, None], heights.shape), heights))
-            total -= np.einsum("kqt,q,k->t", terms, weights / 2, step * v)
+            total -= np.einsum("kqt,q,k->t", terms, weights / 2, step * (v - base))
     return total
+
+
+def _base(chart: Chart, loops: list[list[_Run]]) -> float:
+    """The v that integrals over v begin at: 0, or of a tube far wider than its face is off the axis one of the face.
+
+    Between 0 and such a face the tube sweeps so much more than the face does that no digits of this were left.
+    """
+    points = loops[0][0].points
+    x, y, _ = ((points - chart.origin) @ chart.axes.T).T
+    if not isinstance(chart.surface, Torus) or chart.surface.tube < _FAR * float(np.hypot(x, y).min()):
+        return 0.0
+    return float(chart.flat(points[0])[1])
 
 
 def _ruled(runs: list[_Run]) -> Real:

@@ -73,6 +73,8 @@ PARTS = {
     "lens": points((0.0, 0.0), {"r": 5.0, "z": 0.0, "arc": 7.25}, (0.0, 2.0)),
     # a cone of 82 degrees: the digits of its heights are told in its volume
     "flat": points((1.0, 0.0), (7.829087, 0.0), (7.829087, 17.478199), (4.097427, 18.008332), (1.0, 18.008332)),
+    # before: a traceback, for integrals of its volume began on the far side of so wide a tube
+    "hollow": points((25.77, -0.62), (17.08, -0.59), (14.25, -14.18), {"r": 28.68, "z": -7.86, "arc": -1738.67}),
     "cover": COVER,
     "shaft": SHAFT,
     "tube": {"kind": "shaft", "bore_diameter": 6.0, "steps": [{"diameter": 10.0, "length": 20.0, "chamfer": 1.0}]},
@@ -97,7 +99,7 @@ def pappus(keys: Keys) -> float:
     return float(abs(np.sum((p.real + q.real) * (np.conj(p) * q).imag)) * math.pi / 3)
 
 
-@pytest.mark.parametrize("name", ["ball", "cone", "funnel", "ring", "lens"])
+@pytest.mark.parametrize("name", ["ball", "cone", "funnel", "ring", "lens", "hollow"])
 def test_volumes_by_pappus(name: str) -> None:
     assert body_of(PARTS[name]).moments.volume == pytest.approx(pappus(PARTS[name]), rel=1e-7)
 
