@@ -289,7 +289,7 @@ def _parser(told: Words) -> argparse.ArgumentParser:
     check = command("check", told.text("check contact and interference of the pairs of a scene"), as_json, quiet)
     check.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
     check.add_argument(
-        "--steps", action="store_true", help=told.text("print the order of assembly too, where the scene tells one")
+        "--steps", action="store_true", help=told.text("print the order of assembly too, if the scene has one")
     )
     check.set_defaults(run=_check)
     verify = command(

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 # letters in a line, as editors print them on A4
 _LINE = 88
 # sheets of a PDF as a class uses them
-_EMPTY = N_("to hand out: what is given stands there, the cells of the results are empty")
+_EMPTY = N_("to hand out: the given data are filled in, the cells of the results are empty")
 _FILLED = N_("the same with all numbers")
 _MODEL = N_("1:1, to be cut out: print at 100 %; its square must measure 100 mm")
 
@@ -71,8 +71,10 @@ def _files(plan: Plan, told: Words) -> Iterator[str]:
         text = told.text("Cut the boards: blue is engraved first, then green is cut, red last.")
         if any(jobs[0].export.kerf for jobs in laid.values()):
             text += " " + told.text(
-                "Where what is put together sits too loose or too tight, cut `{coupon}` and write what it tells into "
-                "`kerf` of the board.",
+                (
+                    "If the fits are too loose or too tight, cut `{coupon}` and write the number it shows into "
+                    "`kerf` of the board."
+                ),
                 coupon="kerf_coupon",
             )
         yield from ("", *wrap(text, _LINE))

@@ -59,7 +59,7 @@ class CarrierPlateSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_f
         Annotated[float, mm("of each arm's round end; default: 2.4 pins", above=0, most=MOST, example=15.0)] | None
     ) = None
     hub_diameter: (
-        Annotated[float, mm("of the middle; default: as the arms want it", above=0, most=MOST, example=40.0)] | None
+        Annotated[float, mm("of the middle; default: as the arms need it", above=0, most=MOST, example=40.0)] | None
     ) = None
     outer_diameter: (
         Annotated[float, mm("a round plate in place of arms", above=0, most=2 * MOST, example=100.0)] | None

@@ -24,7 +24,7 @@ class LaidKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     margin: Annotated[float, mm("left free along its edges", least=0, most=_MOST)] = 5.0
     gap: Annotated[float, mm("least distance between two cuts; the web is less by the kerf", least=0, most=_MOST)] = 2.0
     sets: Annotated[
-        int, Meta(ge=1, le=_MOST_COPIES, description="how many of all that is laid: one for each group of a class")
+        int, Meta(ge=1, le=_MOST_COPIES, description="number of sets laid out: one for each group of a class")
     ] = 1
     copies: Annotated[
         dict[str, Annotated[int, Meta(ge=0, le=_MOST_COPIES)]],
@@ -70,7 +70,7 @@ class BoardSpec(LaidKeys, kw_only=True):
             Meta(
                 gt=0,
                 le=10_000,
-                description="speed of the cut: tells how long it takes",
+                description="speed of the cut, from which its time is computed",
                 examples=[12.0],
                 extra={"unit": "mm/s"},
             ),

@@ -67,7 +67,9 @@ LeastTransmission = Annotated[
     float, degrees("gamma_min = 90 - pressure angle; flat: 45", above=0, below=90, example=60.0)
 ]
 LeastCurvature = Annotated[float, mm("rho: least convex radius of the cam", least=0, most=_MOST)]
-FollowerOffset = Annotated[float, mm("line of motion at x = e; e > 0 eases the rise", least=-_MOST, most=_MOST)]
+FollowerOffset = Annotated[
+    float, mm("line of motion at x = e; e > 0 lowers the pressure angle of the rise", least=-_MOST, most=_MOST)
+]
 
 
 class Stroke(Protocol):

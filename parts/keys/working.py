@@ -55,7 +55,7 @@ class WorkingTable(Struct, forbid_unknown_fields=True, frozen=True):
     teeth: Annotated[int, Meta(ge=0, le=10_000, description="teeth drawn exactly; the others are circles")] = 0
     requirements: Annotated[
         list[Annotated[str, Meta(pattern=r"\S", max_length=300, description="words")]],
-        Meta(max_length=12, description="technical requirements, a line each, beside those of the drawing"),
+        Meta(max_length=12, description="technical requirements, a line each, added to those of the drawing"),
     ] = []
 
 

@@ -27,7 +27,8 @@ class NoncircularGearPairSpec(GearPairKeys, tag="noncircular_gear_pair", kw_only
 
     normal_backlash: (
         Annotated[
-            float, mm("backlash along the line of action: thins both gears by half", least=0, most=100, example=0.1)
+            float,
+            mm("backlash along the line of action: thins both gears by half of it", least=0, most=100, example=0.1),
         ]
         | None
     ) = None

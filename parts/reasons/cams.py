@@ -36,11 +36,15 @@ REASONS = {
     "dead_point_near": N_("brings the linkage too near to a dead point, or to a pressure angle of 90 degrees"),
     "diagram_lifts_nothing": N_("lifts nothing: put the segments above the axis first"),
     "diagram_not_closed": N_(
-        "does not close: area above {above}, below {below}, so velocity does not return to 0; ordinates below the "
-        "axis times {factor} close it, as balance = true does"
+        "does not close: the areas above ({above}) and below ({below}) the axis differ, so that the "
+        "velocity does not return to 0; ordinates below the axis times {factor} close it, as balance = "
+        "true does"
     ),
     "diagram_on_axis": N_("lies on the axis, or holds something that is no number: the follower does not rise"),
-    "diagram_on_one_side": N_("does not close: area above {above}, below {below}, so velocity does not return to 0"),
+    "diagram_on_one_side": N_(
+        "does not close: the areas above ({above}) and below ({below}) the axis differ, so that the velocity "
+        "does not return to 0"
+    ),
     "distance_missing": N_(
         "is missing; give it, or leave out base_circle_radius too: both follow from least_transmission_angle_deg"
     ),
@@ -58,7 +62,7 @@ REASONS = {
     "flat_angle_is_45": N_(
         "must be 45 for a flat face, which always pushes along its normal: 45 is the slope of the tangent to S(S'')"
     ),
-    "flat_on_wedge": N_("rests on a sliding plate by its edge only: it takes a roller, a mushroom or a point"),
+    "flat_on_wedge": N_("rests on a sliding plate by its edge only: give a roller, a mushroom or a point"),
     "flat_outruns_cam": N_("the flat face turns as fast as the cam somewhere"),
     "floor_too_narrow": N_("the roller needs a wider floor"),
     "follower_comes_nearer": N_("the follower comes nearer to the axis while it should rise"),
@@ -84,7 +88,7 @@ REASONS = {
     "hub_beyond_barrel": N_("must stay inside the barrel"),
     "key_of_another_law": N_("belongs to {owner}, not to {other}"),
     "knots_do_not_rise": N_("must be {number} rising numbers between 0 and 1"),
-    "last_row_not_as_first": N_("the last row, at 360 degrees, must repeat the first row's lift; leave it out"),
+    "last_row_not_as_first": N_("the last row, at 360 degrees, must repeat the lift of the first row, or be left out"),
     "joins_side_by_side": N_("the neighbouring phase joins too: nothing tells the velocity between them"),
     "law_missing": N_("is missing; give one of {names}, or a table with a diagram"),
     "law_with_rigid_impact": N_(
@@ -148,7 +152,7 @@ REASONS = {
     "plate_takes_stem": N_("must be longer: the plate takes up all of it"),
     "plate_undercut": N_("the follower undercuts the plate at {travel} mm of travel"),
     "poles_lift_nothing": N_("the last pole must lie above the first"),
-    "prime_circle_too_large": N_("asks for a prime circle of {prime} mm, at most {most} mm can be made"),
+    "prime_circle_too_large": N_("needs a prime circle of {prime} mm; at most {most} mm can be made"),
     "pressure_angle_of_90": N_("the pressure angle reaches 90 degrees within the motion"),
     "profile_falls_apart": N_("the undercut profile falls apart"),
     "ramps_above_width": N_("the ramps together must be from 0 to 1 of the width"),

@@ -33,7 +33,7 @@ REASONS = {
     "needs_kernel": N_('needs the CAD kernel: pip install ".[cad]" in the folder of higherpair'),
     "needs_pdf": N_('needs what writes PDF: pip install ".[pdf]" in the folder of higherpair'),
     "no_exports": N_(
-        'the scene asks for no file; add [[exports]] with format = "dxf" (or svg, stl, 3mf, step), or use --format'
+        'the scene has no exports; add [[exports]] with format = "dxf" (or svg, stl, 3mf, step), or use --format'
     ),
     "no_flat_outline": N_("has no flat outline; write it to STEP, STL or 3MF"),
     "no_outline": N_("gives no whole outline: {why}"),

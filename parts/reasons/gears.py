@@ -10,7 +10,9 @@ REASONS = {
     "below_nominal": N_("is less than the nominal one"),
     "chamfer_misses_flank": N_("does not reach the flank"),
     "chamfers_overlap": N_("both chamfers of a tooth would overlap"),
-    "classes_end_at_distance": N_("the classes end at {distance} mm of centre distance; give normal_backlash instead"),
+    "classes_end_at_distance": N_(
+        "the classes end at a centre distance of {distance} mm; give normal_backlash instead"
+    ),
     "closes_tooth_spaces": N_("closes the tooth spaces"),
     "cutter_involute_ends_below_tip": N_("the cutter's involute ends at its base circle, below the gear's tips"),
     "cutter_involute_interference": N_("the cutter's teeth begin above the ring's tips, which it would trim"),
@@ -84,7 +86,7 @@ REASONS = {
     ),
     "teeth_overlap": N_("the teeth would overlap"),
     "thinning_leaves_no_tip": N_("leaves no tip"),
-    "too_many_positions": N_("asks for more positions than a sheet can show"),
+    "too_many_positions": N_("gives more positions than a sheet can show"),
     "tooth_pointed": N_("the tooth is pointed at a diameter of {diameter} mm"),
     "turns_fillets_back": N_("bends the elliptic fillets back on themselves"),
     "above_most_teeth": N_("is above most_teeth"),
@@ -93,8 +95,10 @@ REASONS = {
     "frame_needs_ring_and_sun": N_("is only for a set with a sun and a ring, which the frame holds"),
     "no_planetary_set": N_("no set within these limits has that ratio"),
     "no_shifts_fit": N_(
-        "no shifts up to 1 bring both meshes, which want {first} and {second} mm, to one distance with all conditions "
-        "kept; see `higherpair calc planetary`, or give shifts"
+
+            "no shifts up to 1 bring both meshes, which need {first} and {second} mm, to one centre distance "
+            "with all conditions kept; see `higherpair calc planetary`, or give shifts"
+
     ),
     "one_rim_one_module": N_("satellites with one rim have one module"),
     "one_shift_a_wheel": N_("must have one shift for each of the {wheels} wheels"),

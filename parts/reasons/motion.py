@@ -20,7 +20,7 @@ REASONS = {
     "no_such_link": N_("no such link; links: {known}"),
     "no_such_mesh": N_("no such kind of mesh, nor a module; kinds: {known}"),
     "no_such_wheel": N_("wheel {wheel} has no number of teeth; wheels: {known}"),
-    "no_whole_teeth": N_("asks wheel {wheel} for {teeth} teeth, which is not whole"),
+    "no_whole_teeth": N_("would give wheel {wheel} {teeth} teeth, which is not whole"),
     "not_an_efficiency": N_("must be above 0 and at most 1"),
     "not_of_teeth": N_("numbers of teeth must be whole and at least 1, modules above 0"),
     "out_of_reach": N_("is {distance} mm from O1, outside of {least} to {most} mm"),

@@ -7,7 +7,7 @@ from parts.base.texts import N_
 REASONS = {
     "as_many_as_x": N_("must have as many values as x"),
     "choose_a_part": N_("there are several: {known}; add part=ID"),
-    "either_of": N_("is given beside {other}: one of both is enough"),
+    "either_of": N_("is given together with {other}: one of the two is enough"),
     "first_cam_under_it": N_(
         "give the first cam's keys under it, as of.follower=roller of.lift=20, or name a scene with the part"
     ),
@@ -20,8 +20,8 @@ REASONS = {
     "needs_other": N_("needs {other} too"),
     "no_dxf": N_("is not a DXF that can be read"),
     "no_gear_pair": N_('has no pair of gears; add [[mates]] kind = "external_gear_pair"'),
-    "no_path": N_("holds nothing to follow; draw lines, arcs, circles or polylines"),
-    "no_path_entity": N_("holds a {kind}; a path is of lines, arcs, circles and polylines"),
+    "no_path": N_("has no path to follow; draw lines, arcs, circles or polylines"),
+    "no_path_entity": N_("has a {kind}; a path is made of lines, arcs, circles and polylines"),
     "no_such_folder": N_("there is no such folder"),
     "no_such_pair": N_("the scene has no such pair"),
     "no_tables": N_("this calculation has no tables"),
@@ -36,7 +36,7 @@ REASONS = {
     "reference_circle_leaves_teeth": N_("the reference circle lies outside the teeth"),
     "shifts_of_gear_pairs": N_("shifts are chosen for external and internal pairs only; give mate = the number of one"),
     "shifts_of_spur_gears": N_("shifts are chosen for spur gears only; name a scene with a pair of these"),
-    "teeth_of_disk": N_("{other} asks for {teeth}; one of both keys is enough"),
+    "teeth_of_disk": N_("{other} gives {teeth}; one of the two keys is enough"),
     "too_many_rows": N_("makes too many rows"),
     "unknown_pair": N_("unknown kind of pair; known: {known}"),
     "unknown_topic": N_("unknown topic; topics: {known}"),

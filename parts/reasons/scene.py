@@ -101,8 +101,8 @@ REASONS = {
     "too_many_pieces": N_("makes {pieces} pieces, more than the {most} that are laid out at once"),
     "nothing_is_laid": N_("leaves no piece to lay"),
     "too_small_for_parts": N_(
-        "parts are too large for it, each with the scale that a slicer would have to give it: {parts}; a bed of "
-        "{width} x {depth} x {height} mm holds all"
+        "is too small for parts, each told with the scale at which it would fit: {parts}; a bed of {width} "
+        "x {depth} x {height} mm holds all"
     ),
     "gap_above_board": N_("must be less than the shorter side of the board, {side} mm"),
     "margins_leave_nothing": N_("leaves nothing of the side of {side} mm"),

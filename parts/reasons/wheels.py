@@ -15,7 +15,7 @@ REASONS = {
     "axle_beyond_pinion": N_("the platform's axle stands in the pinion, at most {most} mm from its middle"),
     "axle_in_the_teeth": N_("leaves no wall to the teeth of the wheel on it"),
     "axles_meet": N_("leaves a wall of {wall} mm between two axles, or to a rim"),
-    "axles_overlap": N_("two axles, or an axle and a rim, stand {depth} mm in each other"),
+    "axles_overlap": N_("lets two axles, or an axle and a rim, overlap by {depth} mm"),
     "bore_reaches_root_circle": N_("the bore reaches the root circle, {diameter} mm"),
     "bore_reaches_root_circle_nearly": N_("leaves less than {least} mm to the root circle, {diameter} mm"),
     "boundaries_cross": N_("two boundaries cross"),

@@ -74,7 +74,7 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     module: Annotated[float, mm("module of the mesh 1-2", least=0.01, most=1000)] = 2.0
     second_module: Annotated[float, mm("module of the mesh 2'-3", least=0.01, most=1000, example=2.0)] | None = None
     working_centre_distance: (
-        Annotated[float, mm("centre distance of both meshes; default: as the teeth want it", above=0, most=100_000,
+        Annotated[float, mm("centre distance of both meshes; default: as the teeth need it", above=0, most=100_000,
                             example=48.0)]
         | None
     ) = None  # fmt: skip

@@ -121,7 +121,8 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     dxf_version: Annotated[Literal["R2000", "R12"], Meta(description="dxf only")] = "R2000"
     name: (
         Annotated[
-            Identifier, Meta(description="tells files of one part apart; default: the purpose", examples=["laser"])
+            Identifier,
+            Meta(description=("distinguishes the files of one part; default: the purpose"), examples=["laser"]),
         ]
         | None
     ) = None
@@ -132,9 +133,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     assembly: Annotated[bool, Meta(description="step, 3mf: one file of all instances in their places")] = False
     author: Annotated[str, Meta(max_length=200, description="step: the author, for its header")] = ""
     organisation: Annotated[str, Meta(max_length=200, description="step: school, group or firm, for its header")] = ""
-    shared: Annotated[
-        bool, Meta(description="step: surfaces that are alike stand there once; false: one for each face")
-    ] = True
+    shared: Annotated[bool, Meta(description="step: equal surfaces are written once; false: one for each face")] = True
     rack_step: RackStep | None = None
     intervals: Intervals | None = None
     speed_rpm: CamSpeed | None = None

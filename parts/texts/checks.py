@@ -50,9 +50,9 @@ OFF_CENTRE = N_(
 )
 # by the code of a condition, with its value, what is required, and its tolerance
 CONDITIONS: dict[str, str] = {
-    "height": N_("{second} stands {value:.9g} mm above {first}, {required:.9g} mm is asked"),
+    "height": N_("{second} stands {value:.9g} mm above {first}, {required:.9g} mm is required"),
     "centre_distance": N_(
-        "the centres of {first} and {second} stand {value:.9g} mm apart, {required:.9g} mm is asked "
+        "the centres of {first} and {second} stand {value:.9g} mm apart, {required:.9g} mm is required "
         "(within {tolerance:.2g} mm)"
     ),
     "rack_phase": N_(
@@ -63,7 +63,7 @@ CONDITIONS: dict[str, str] = {
         "spaces of {first} (within {tolerance:.2g} deg)"
     ),
     "common_face_width": N_(
-        "{first} and {second} share {value:.6g} mm of their face width, more than {required:g} mm is asked"
+        "{first} and {second} share {value:.6g} mm of their face width, more than {required:g} mm is required"
     ),
     "herringbone_height": N_(
         "the points of the herringbones of {second} stand {value:.6g} mm above those of {first} (within "

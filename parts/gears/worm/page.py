@@ -377,6 +377,6 @@ def _strength(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
     least = drive.most_face_width * (strength.contact_stress(drive, load, 1.0) / contact) ** 2
     page.add("least_rim_width", least, "{b2_max} * {psi} * ({sigma_H} / {sigma_HP})**2")
     if strength.least_module(drive, load, bending, share) > worm.module:
-        page.notes.append(N_("the module is less than bending asks for"))
+        page.notes.append(N_("the module is less than bending needs"))
     if stress > contact:
         page.notes.append(N_("the contact stress is more than allowed"))

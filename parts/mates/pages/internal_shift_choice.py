@@ -222,7 +222,7 @@ def _given(page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: 
         page.add("cutter_addendum", pair.root.addendum)
         page.add("cutter_tip_rounding", pair.root.tip_rounding)
         if keys.second.cutter is None:
-            page.notes.append(N_("nobody named the ring's cutter: that of a ring with x2 = 0 is taken"))
+            page.notes.append(N_("no cutter of the ring is given: that of a ring with x2 = 0 is taken"))
     page.add("required_contact_ratio", wish.contact_ratio, "", "practicum 1")
     page.add("required_tip_thickness", wish.tip_thickness, "", "practicum (1.3)")
     page.add("required_tip_clearance", wish.tip_clearance)
@@ -261,7 +261,7 @@ def _found_choices(
         if found is None:
             _nearest_distance(page, keys.module, pair, wish, wanted)
         proposals.append((message("a_w = {distance:g} mm", distance=keys.working_centre_distance), found))
-        page.notes.append(message("a_w asks for x2 - x1 = {difference:.4f}", difference=wanted))
+        page.notes.append(message("a_w needs x2 - x1 = {difference:.4f}", difference=wanted))
     result = []
     for rule, found in proposals:
         if found is not None:

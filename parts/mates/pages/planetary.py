@@ -171,7 +171,10 @@ class _Page:
         self._set(best, fit, places, N_("The smallest set that works"))
         if any(fit is None for _, fit in fits):
             page.notes.append(
-                N_("a set without shifts in the table: none keep least_tip_thickness, least_contact_ratio, no undercut")
+                N_(
+                    "a set without shifts in the table: no shifts keep least_tip_thickness and "
+                    "least_contact_ratio without undercut"
+                )
             )
         return page
 

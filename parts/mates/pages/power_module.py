@@ -205,7 +205,7 @@ def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
     width = keys.face_width * (stress / bearable) ** 2
     page.add("pair_least_width", width, "{b} * ({sigma_Hp} / {sigma_HPp})**2")
     if least > keys.module:
-        page.notes.append(N_("the module of the pair 11-12 is less than bending asks for"))
+        page.notes.append(N_("the module of the pair 11-12 is less than bending needs"))
     if stress > bearable:
         page.notes.append(N_("the contact stress of the pair 11-12 is more than allowed"))
 
@@ -277,7 +277,7 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapp
     page.add("ball_stiffness", 1e5 * math.sqrt(1.25 * keys.ball_diameter), "100000 * sqrt(1.25 * {d_b})", _BALLS)
     page.add("hertz_stiffness", hertzian)
     if (least - root) / 2 < keys.ball_diameter / 2:
-        page.notes.append(N_("so many balls have no place outside of the ring's teeth"))
+        page.notes.append(N_("there is no room for so many balls outside the ring's teeth"))
 
 
 def _marked(page: Sheet) -> Callable[[str], None]:

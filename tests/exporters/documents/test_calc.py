@@ -582,8 +582,11 @@ def test_a_worm_is_told_by_its_lead_angle_as_in_scenes(capsys: pytest.CaptureFix
     assert values_of(f"worm worm_set_print lead_angle_deg={lead!r}")["values"]["worm_centre_distance"] == 38.0
     for key, said in (
         ("lead_angle_deg=12 diameter_quotient=10", "worm.diameter_quotient = 10.0: give either"),
-        ("lead_angle_deg=50", "worm.lead_angle_deg = 50.0: leaves no root: the threads reach the axis; at most 39.79"),
-        ("hob_diameter_quotient=9.5", "worm.hob_diameter_quotient = 9.5: is less than that of the worm"),
+        (
+            "lead_angle_deg=50",
+            "worm.lead_angle_deg = 50.0: leaves no core: the spaces of the thread reach the axis; at most 39.79",
+        ),
+        ("hob_diameter_quotient=9.5", "worm.hob_diameter_quotient = 9.5: must not be less than the worm's"),
     ):
         assert said in complaint(capsys, "calc", *f"{words} {key}".split())
 

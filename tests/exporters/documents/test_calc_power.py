@@ -82,7 +82,7 @@ def test_what_is_refused() -> None:
         (("x=50",), "y: is missing"),
         (("x=[1,2]", "y=1"), "as many values as x"),
         (("x=50", "y=80", "elbow=-1"), "elbow = -1: needs path too"),
-        (("path=[[0,0,9,9,0]]", "y=80"), "y = 80.0: is given beside path"),
+        (("path=[[0,0,9,9,0]]", "y=80"), "y = 80.0: is given together with path"),
         (("path=nothing.dxf",), "no such file"),
         (("path=[[0,0,0,0,1]]",), "begins where it ends"),
         (("x=1", "y=1", "pair_teeth=[96,96]"), "a ring has more teeth"),
@@ -113,7 +113,7 @@ def test_a_path_of_a_dxf(tmp_path: Path) -> None:
     ends = [complex(float(row["x (mm)"]), float(row["y (mm)"])) for row in (found[0], found[-1])]
     assert abs(ends[0] - (-40 - 40j)) + abs(ends[1] - (-40 - 40j)) < 1e-9
     assert calculated("power-table", f"path={file}", "tolerance=0.005")["values"]["path_error"] <= 0.005
-    for entity, told in (("POINT", "holds a POINT"), ("LINE", "is not one path")):
+    for entity, told in (("POINT", "has a POINT"), ("LINE", "is not one path")):
         spoiled = ezdxf.readfile(file)
         more = spoiled.modelspace()
         more.add_point((0, 0)) if entity == "POINT" else more.add_line((90, 0), (95, 0))
@@ -429,7 +429,7 @@ def test_a_load_that_is_told_at_a_place() -> None:
 
 def test_loads_that_are_refused_or_too_much() -> None:
     for keys, told in (
-        (("load=100", "force_x=3"), "is given beside force_x, force_y"),
+        (("load=100", "force_x=3"), "is given together with force_x, force_y"),
         (("x=100",), "y: is missing"),
         (("x=100", "y=120"), "x, y = [100.0, 120.0]: is 156.205 mm from O1"),
         (("elbow=-1",), "elbow = -1: needs x, y too"),

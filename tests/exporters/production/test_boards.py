@@ -426,12 +426,12 @@ ON_BOARDS, ON_PAPER = f'{DXF}purpose = "board"\n', '[[exports]]\nformat = "pdf"\
         (f'{PLATE}holes = [{{ axis_of = "w", diameter = 4.0 }}]\n{DXF}', "holes[1].axis_of", "no such instance"),
         (f"{PLATE}slots = [{{ start = [0.0, 0.0], end = [5.0, 0.0], width = 0.2 }}]\n{BOARD}kerf = 0.3\n{ON_BOARDS}",
          "boards.b.kerf", "closes a slot"),
-        (f'{GEAR}title = "  "\n{DXF}', "parts.g.title", "is blank"),
+        (f'{GEAR}title = "  "\n{DXF}', "parts.g.title", "must not be blank"),
         (f'{GEAR}{ON_PAPER}scale = "1:2"\n', "exports[1].scale", "in full size"),
         (f"{GEAR}{ON_PAPER}title_block = true\n", "exports[1].title_block", "on bare sheets"),
-        (f"{GEAR}{ON_PAPER}tolerance = 1e-7\n", "exports[1].tolerance", "a PDF does not tell places so exactly"),
+        (f"{GEAR}{ON_PAPER}tolerance = 1e-7\n", "exports[1].tolerance", "is finer than a PDF can tell places"),
         (f'[scene]\ntitle = "\\u6b6f"\n{GEAR}[[exports]]\nformat = "pdf"\npurpose = "generating"\ntitle_block = true\n',
-         "scene.title", "the letters of a PDF lack"),
+         "scene.title", "the font of a PDF has no letters"),
     ],
 )  # fmt: skip
 def test_what_no_board_and_no_paper_takes_is_refused_in_one_line(
@@ -449,7 +449,7 @@ def test_what_no_board_and_no_paper_takes_is_refused_in_one_line(
 @pytest.mark.parametrize(
     ("scene", "told"),
     [
-        (f'{GEAR}profile_shift_coefficient = 0.3\nlabel = "z 17 m 2 x 0.5"\n', "its label tells x 0.5"),
+        (f'{GEAR}profile_shift_coefficient = 0.3\nlabel = "z 17 m 2 x 0.5"\n', "its label says x 0.5"),
         ('[parts.r]\nkind = "roller"\ndiameter = 4.0\nbore_diameter = 3.2\n', "thin wall: 0.4 mm about its bore"),
     ],
 )

@@ -149,7 +149,7 @@ def test_a_wrong_key_is_named_with_its_value_and_a_remedy(name: str) -> None:
         (b"exports = 3\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "[[exports]]"),
         (b"exports = [3]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "table"),
         (b"scene = 3\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "table"),
-        (b"[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "asks for no file"),
+        (b"[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "has no exports"),
         (b"[scene]\nlanguage='de'\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", '"en", "uk"'),
         (b"[scene]\ntitel='x'\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "did you mean title"),
         (b"[sceen]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "did you mean scene"),
