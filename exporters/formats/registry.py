@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 import numpy as np
 
-from exporters.formats.reading import ASSEMBLY_READERS, READERS
+from exporters.formats.reading import READERS
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from geometry.base.placement import Placement3
@@ -27,7 +27,6 @@ from parts.scene.formats import FileKind, file_kind
 from parts.scene.load import ExportSpec
 
 if TYPE_CHECKING:
-    from exporters.formats.read_assembly import ReadAssembly
     from exporters.formats.threemf import MeshPart
     from geometry.approximation.outline import Outline
     from geometry.solids.body import Body
@@ -110,10 +109,6 @@ class FileFormat(Record, Generic[S]):
     def read(self, file: Path) -> ReadBack:
         """A file of one part."""
         return READERS[self.name](file)
-
-    def read_assembly(self, file: Path) -> ReadAssembly:
-        """A file of parts in their places."""
-        return ASSEMBLY_READERS[self.name](file)
 
 
 def shape_of(content: Content) -> Shape:

@@ -63,17 +63,17 @@ class _Candidate(Record):
         return ArcSpline(self.parameters, self.points, self.bulges, error, certified)
 
 
-def arc_spline(curve: Curve, tolerance: float, *, limit: int = _MOST_ARCS) -> ArcSpline:
+def arc_spline(curve: Curve, tolerance: float) -> ArcSpline:
     """G1 arcs within ``tolerance`` mm of a curve of one-signed curvature, or with knots, near the least number.
 
     Raises
     ------
     ConvergenceError
-        More than ``limit`` arcs would be needed.
+        More than ``_MOST_ARCS`` arcs would be needed.
     """
     if curve.knots.size:
         return _across_knots(curve, tolerance)
-    return _fitted(curve, tolerance, _density(curve), limit)
+    return _fitted(curve, tolerance, _density(curve), _MOST_ARCS)
 
 
 def _across_knots(curve: Curve, tolerance: float) -> ArcSpline:

@@ -24,7 +24,6 @@ from geometry.kinematics.two_disk import Orientation, TwoDisk
 from geometry.kinematics.wrench import Wrench, force_at
 
 Bearing = Literal["axle", "disk_3", "ring", "disk_2"]
-BEARINGS: tuple[Bearing, ...] = ("axle", "disk_3", "ring", "disk_2")
 _ALL = (-math.pi, math.pi)
 
 

@@ -64,7 +64,7 @@ def cam_shape(cam: DiskCam, grow: float = 0.0) -> CamShape:
     return CamShape(Profile(tuple(ordered)), kept.gaps)
 
 
-def whole_profile(cam: DiskCam, grow: float = 0.0) -> Profile:
+def whole_profile(cam: DiskCam) -> Profile:
     """The profile of a cam that is nowhere undercut.
 
     Raises
@@ -72,7 +72,7 @@ def whole_profile(cam: DiskCam, grow: float = 0.0) -> Profile:
     UndercutError
         The follower cuts parts of the profile away; names the lift that is lost.
     """
-    shape = cam_shape(cam, grow)
+    shape = cam_shape(cam)
     if shape.gaps:
         worst = max(shape.gaps, key=lambda g: g.lost_lift)
         at = float(np.degrees((worst.start + worst.end) / 2))

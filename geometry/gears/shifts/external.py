@@ -264,6 +264,7 @@ class BlockingContour(Record):
     region: tuple[tuple[complex, ...], ...]
 
 
+@lru_cache(maxsize=64)
 def usual_box(pair: ShiftPair, cells: int = 40) -> Box | None:
     """A box around all pairs that turn at all (contact ratio 1, pointed tips, undercut unseen); None: there are none.
 

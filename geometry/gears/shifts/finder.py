@@ -45,12 +45,6 @@ class Proposal(Record):
 AnyShiftPair = ShiftPair | InternalShiftPair
 
 
-@lru_cache(maxsize=64)
-def _window(pair: ShiftPair) -> Box | None:
-    """Where to look: no shifts outside are legal."""
-    return usual_box(pair)
-
-
 def _step(box: Box) -> float:
     """How finely to look: coarser where the legal shifts spread far."""
     return max(_STEP, max(box.right - box.left, box.top - box.bottom) / 60)
@@ -86,7 +80,8 @@ def _first_shifts(pair: AnyShiftPair, shift_sum: float) -> tuple[float, float, f
         box = found.box
         low, high = max(box.left, box.bottom - shift_sum), min(box.right, box.top - shift_sum)
     else:
-        known = _window(pair)
+        # no shifts outside are legal
+        known = usual_box(pair)
         if known is None:
             return None
         box = known
@@ -102,7 +97,7 @@ def _sums(pair: AnyShiftPair) -> list[float]:
             return []
         low, high, step = found.lowest, found.highest, found.step
     else:
-        box = _window(pair)
+        box = usual_box(pair)
         if box is None:
             return []
         low, high, step = box.left + box.bottom, box.right + box.top, _step(box)

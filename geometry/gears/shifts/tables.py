@@ -92,8 +92,6 @@ MENDED = (
     Mended("Г.1", 12, 45, (0.618,), (0.648,)),
     Mended("Г.1", 22, 80, (0.991,), (0.891,)),
 )
-# cells off their neighbours by 2 to 4 thousandths, left as printed: table, z1, z2
-DOUBTED = (("В.1", 15, 30), ("В.1", 17, 31), ("В.1", 18, 18), ("Г.1", 13, 50), ("Г.1", 13, 60))
 
 
 class TableShift(Record):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -12,8 +13,8 @@ from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.kinematics.two_disk import Orientation, TwoDisk
 from geometry.kinematics.two_disk_load import (
-    BEARINGS,
     Amount,
+    Bearing,
     Force,
     Heights,
     LoadedTable,
@@ -31,6 +32,7 @@ from geometry.kinematics.two_disk_load import (
 )
 from tests.oracles.free_bodies import Sizes, balanced
 
+BEARINGS: tuple[Bearing, ...] = get_args(Bearing)
 ANGLE, AXIAL = math.radians(20), math.radians(20.1)
 HEIGHTS = Heights(73.0, (-35.0, 29.5), 15.0, -22.5, -73.0, 8.0, (-90.0, -60.0))
 WORMS = tuple(WormForces(5 * z / 2, h, math.tan(AXIAL), 0.1) for z, h in ((128, -48.0), (106, -137.0)))
