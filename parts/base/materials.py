@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from geometry.base.errors import Nearest
 from geometry.base.record import Record
-from parts.base.densities import DENSITIES, NAMES
 from parts.base.lookalikes import in_latin
 from parts.base.refusal import SceneError, meant
 from parts.base.texts import Words
@@ -29,6 +28,9 @@ def density_of(material: str | None) -> float | None:
     """
     if material is None:
         return None
+    # a table that a scene without materials does not pay for
+    from parts.base.densities import DENSITIES
+
     found = _known(material, DENSITIES)
     return None if found is None else DENSITIES[found.name]
 
@@ -42,6 +44,8 @@ def check_material(material: str, source: str, place: str) -> None:
         It is not; with the known name that was probably meant.
     """
     if density_of(material) is None:
+        from parts.base.densities import DENSITIES
+
         near = meant(_fold(material), _by_letters())
         cure = near and Nearest(_by_letters()[str(near.value)], "meant")
         raise SceneError(source, place, material, "unknown_material", cure, known=list(DENSITIES))
@@ -50,6 +54,10 @@ def check_material(material: str, source: str, place: str) -> None:
 def material_told(material: str | None, told: Words) -> str:
     """A material in the words of a language, where it has a known name: its thickness too."""
     material = _MM.sub(rf"\1 {told.text('mm')}", material or "")
+    if not material:
+        return material
+    from parts.base.densities import NAMES
+
     found = _known(material, NAMES)
     if found is None or told.text(found.name) == found.name:
         return material
@@ -77,6 +85,8 @@ def _known(text: str, names: Container[str]) -> _Found | None:
 @cache
 def _by_letters() -> Mapping[str, str]:
     """Every known name by the letters that no eye tells apart."""
+    from parts.base.densities import DENSITIES
+
     return {_fold(name): name for name in DENSITIES}
 
 
