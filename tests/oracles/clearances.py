@@ -100,12 +100,11 @@ class Solid:
                     kept = inside(np.abs(wall) + 1j * z, self.section)
                     yield np.column_stack([wall.real, wall.imag, np.full(24, z)])[kept]
         for low, high, loops in self.layers:
-            for loop in loops:
-                for edge in (within(loop), within(loop, left=False)):
-                    edge = edge[:: 1 + len(edge) // 240]
-                    kept = edge[odd(edge, loops)]
-                    for z in (low + EPS, (low + high) / 2, high - EPS):
-                        yield np.column_stack([kept.real, kept.imag, np.full(len(kept), z)])
+            edges = [within(loop, left) for loop in loops for left in (True, False)]
+            edge = np.concatenate([points[:: 1 + len(points) // 240] for points in edges])
+            kept = edge[odd(edge, loops)]
+            for z in (low + EPS, (low + high) / 2, high - EPS):
+                yield np.column_stack([kept.real, kept.imag, np.full(len(kept), z)])
 
     def holds(self, points: np.ndarray) -> np.ndarray:
         """Which points lie in it, EPS / 2 or deeper off its plane faces."""
