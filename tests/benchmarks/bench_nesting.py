@@ -60,7 +60,7 @@ def of_scene(name: str) -> tuple[Shapes, Room]:
     parts = make_parts(scene, name)[0]
     board = next(iter(scene.boards.values()))
     counts = pieces_of(board, parts_of_board(board, parts, name, ""), scene.instances, name, "")
-    shapes = {k: (material(parts[k].cut(board.kerf / 2, named=True).region), n) for k, n in counts.items()}
+    shapes = {k: (material(parts[k].cut(board.kerf / 2, gap=board.gap).region), n) for k, n in counts.items()}
     return shapes, Room(board.width, board.height, board.margin, board.gap)
 
 

@@ -184,7 +184,7 @@ def test_a_value_stays_with_its_letter(tmp_path: Path) -> None:
 @pytest.mark.parametrize("kind", ALONE)
 def test_a_name_finds_room_on_every_kind(kind: str) -> None:
     part = make_parts(scene_from_toml(new_scene(kind).encode(), kind, kind), kind)[0]["gear"]
-    region = part.cut(0.0, named=True).region
+    region = part.cut(0.0, gap=2.0).region
 
     def ring(profile: Profile) -> shapely.Polygon:
         points = approximate_profile(profile, 0.002, arcs=False).geometry.expanded()[0]
