@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache, partial
@@ -41,6 +42,8 @@ _TRIES = 12
 # the largest extent of the views on paper, below which larger paper is better, but for what is enlarged so far
 _LEAST, _ENLARGED = 120.0, 2.0
 _LETTER = "A"
+# mm by which lines along a size are off it at most
+_LEVEL = 1e-6
 # how many times longer than high a view is whose numbers stand above it, and from one of these to the next, mm
 _LONG, _ROW_STEP = 2.5, 14.0
 # a number with the places where its leader may end
@@ -248,7 +251,10 @@ class _Leader(Record):
 
 
 def _numbered(one: Laid, share: Mapping[int, tuple[complex, ...]], letters: Sequence[list[complex]]) -> Laid | None:
-    """A view with its numbers in a column on each side; None where a leader would run through words."""
+    """A view with its numbers in a column on each side; None where a leader would run through words.
+
+    Where leaders would cross dimension lines, all numbers stand on the side on which fewest do.
+    """
     canvas, ink = one.canvas, one.ink()
     for places in letters:
         texts = [text_of(_LETTER, at, _HEIGHT) for at in places]
@@ -259,31 +265,61 @@ def _numbered(one: Laid, share: Mapping[int, tuple[complex, ...]], letters: Sequ
         ink.boxes.append(letter.box)
     box = _around(one.box, [text.box for text in canvas.texts])
     numbers = sorted(share.items(), key=lambda pair: (pair[1][0].real, pair[0]))
-    # those of a long view stand above it, where the columns beside it would be higher than the view is
-    tall, wide = box.high - box.low, box.right - box.left
-    is_long = wide > _LONG * tall and len(numbers) * _STEP > 2 * tall
-    leaders = _row(numbers, box, ink) if is_long else None
-    for way, column in zip((-1, 1), _sides(numbers, (box.left + box.right) / 2, tall), strict=True):
-        if is_long and leaders is not None:
-            break
-        found = _column(column, way, box, ink, leaders or ())
-        if found is None:
-            return None
-        leaders = [*(leaders or ()), *found]
-        for leader in found:
-            for line in leader.lines():
-                ink.add(line)
-            ink.boxes.append(leader.words.box)
-    leaders = leaders or []
-    for leader in leaders:
+    tall, sizes = box.high - box.low, [*_size_lines(canvas)]
+    sides = _sides(numbers, (box.left + box.right) / 2, tall)
+    best, least = None, (math.inf, math.inf)
+    for left, right in (sides, (numbers, []), ([], numbers)):
+        if best is not None and (not least[1] or _STEP * max(len(left), len(right)) > tall):
+            continue
+        if (found := _led(left, right, box, one.ink())) is not None:
+            cost = float(_crossings(found, ())), float(sum(_runs_over(leader, sizes) for leader in found))
+            best, least = (found, cost) if cost < least else (best, least)
+    if best is None:
+        return None
+    for leader in best:
         for line in leader.lines():
             canvas.strokes.append(Stroke("THIN", line))
         canvas.strokes += [Stroke("THIN", Arc(leader.spot, r, 0.0, 2 * math.pi)) for r in (_DOT, _DOT / 2)]
         canvas.texts.append(leader.words)
     words = [text.box for text in canvas.texts]
-    ends = [line.end for leader in leaders for line in leader.lines()]
+    ends = [line.end for leader in best for line in leader.lines()]
     shelves = [Box(p.real, p.imag, p.real, p.imag) for p in ends]
     return Laid(one.view, canvas, one.scale, _around(box, [*words, *shelves]))
+
+
+def _led(left: Sequence[_Numbered], right: Sequence[_Numbered], box: Box, ink: Ink) -> list[_Leader] | None:
+    """Leaders to a column on each side; None where one would run through words."""
+    # those of a long view stand above it, where the columns beside it would be higher than the view is
+    numbers, tall, wide = [*left, *right], box.high - box.low, box.right - box.left
+    is_long = wide > _LONG * tall and len(numbers) * _STEP > 2 * tall
+    if is_long and (row := _row(numbers, box, ink)) is not None:
+        return row
+    leaders = list[_Leader]()
+    for way, column in ((-1, left), (1, right)):
+        found = _column(column, way, box, ink, leaders)
+        if found is None:
+            return None
+        leaders += found
+        for leader in found:
+            for line in leader.lines():
+                ink.add(line)
+            ink.boxes.append(leader.words.box)
+    return leaders
+
+
+def _size_lines(canvas: Canvas) -> Iterator[tuple[complex, complex]]:
+    """Both ends of each dimension line."""
+    for size in canvas.dimensions:
+        way = cmath.rect(1.0, math.radians(size.angle))
+        for stroke in canvas.strokes[size.strokes.start : size.strokes.stop]:
+            line = stroke.curve
+            if isinstance(line, Line) and abs(((line.end - line.start) / way).imag) < _LEVEL:
+                yield line.start, line.end
+
+
+def _runs_over(leader: _Leader, lines: Sequence[tuple[complex, complex]]) -> int:
+    """How many lines a leader, or its shelf, crosses."""
+    return sum(_crossed(one.start, one.end, *other) for one in leader.lines() for other in lines)
 
 
 def _around(box: Box, others: Sequence[Box]) -> Box:
@@ -406,9 +442,13 @@ def _off(one: complex, other: complex) -> float:
 
 def _cross(one: _Leader, two: _Leader) -> bool:
     """Whether two leaders cross."""
+    return _crossed(one.spot, one.elbow, two.spot, two.elbow)
+
+
+def _crossed(a: complex, b: complex, c: complex, d: complex) -> bool:
+    """Whether the lines from a to b and from c to d cross."""
 
     def side(a: complex, b: complex, p: complex) -> float:
         return ((b - a).conjugate() * (p - a)).imag
 
-    (a, b), (c, d) = (one.spot, one.elbow), (two.spot, two.elbow)
     return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
