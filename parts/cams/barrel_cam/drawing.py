@@ -42,7 +42,8 @@ def part_drawing(subject: Subject) -> PartDrawing:
     section = _section(body, holes, subject)
     more = directions(holes, subject, "zero_development")
     made = holes.bore
-    views = [section, _development(subject, told=body.cam.is_groove)]
+    told = body.length if body.cam.is_groove else _wall(body.cam, LOWER, body.cam.outer, math.pi)
+    views = [section, _development(subject, told)]
     if made is not None and not isinstance(made, RoundBore):
         views = [seen_along(section, _ends(body)[1], subject), bore_view(made, subject), views[1]]
     return PartDrawing(tuple(views), requirements(subject, *more))
@@ -183,8 +184,8 @@ def _track_edges(body: BarrelBody) -> Iterator[Curve]:
                 yield Line(start_point(seen), end_point(seen)) if piece.is_constant else seen
 
 
-def _development(subject: Subject, *, told: bool) -> View:
-    """The jackets of the outer cylinder; ``told``: their height is, in the section."""
+def _development(subject: Subject, told: float) -> View:
+    """The jackets of the outer cylinder; ``told``: the height that the section tells."""
     region = subject.part.section(0.0).region
     outlines = (region.outer, *region.apart)
     curves = [s.curve for outline in outlines for s in outline.segments()]
@@ -192,6 +193,6 @@ def _development(subject: Subject, *, told: bool) -> View:
     corner = complex(left.real, low.imag)
     around = Size("circumference", corner, complex(right.real, low.imag), "below")
     height = Size("development.height", corner, complex(left.real, high.imag), "left")
-    sizes = (around,) if told else (around, height)
+    sizes = (around,) if abs(height.value - told) < _SAME else (around, height)
     strokes = [(VISIBLE, curve) for curve in curves]
     return View(tuple(strokes), (), (), sizes, title=sheet_words(subject.language, "development"))
