@@ -1,4 +1,4 @@
-"""Of each key that is a size: which dimensions and cells of the drawing depend on it, by hand; all others stay as they are."""
+"""Of each key that is a size: which dimensions and cells of the drawing depend on it; all others stay as they are."""
 
 from __future__ import annotations
 
@@ -17,14 +17,16 @@ import pytest
 
 from tests.exporters.production.test_part_drawings import PARTS, drawn
 
-ROOT = math.sqrt(3)
+ROOT, _20 = math.sqrt(3), math.radians(20.0)
+SPAN = 2 * math.cos(_20) * (4.5 * math.pi + 40 * (math.tan(_20) - _20)) + math.sin(_20)
+VIEW = re.compile(r"(.* )?([A-K](-[A-K])?|Centre holes)?( ?\([\d.]+:[\d.]+\))?")
 # words of a table that depend on it too: None: positions of a cam, of which there are many
 CELLS: dict[tuple[str, str], set[str] | None] = {
     ("cam", "base_circle_radius"): None, ("cam", "lift"): None, ("groove", "base_circle_radius"): None,
     ("groove", "groove_depth"): set(), ("barrel", "outer_diameter"): None, ("barrel", "lift"): None,
     ("barrel", "groove_depth"): set(),
-    # x; the span of 5 teeth instead of 4, W by z and x
-    ("gear", "profile_shift_coefficient"): {"+0.25", "0.25", "W = 28.038"},
+    # x, and W over 5 teeth: m cos(alpha) (4.5 pi + z inv(alpha)) + 2 x m sin(alpha)
+    ("gear", "profile_shift_coefficient"): {"0.25", f"{SPAN:.3f}"},
 }  # fmt: skip
 # part, changed keys, and what each measures before and after, mm
 CASES: list[tuple[str, dict[str, Any], dict[float, float]]] = [
@@ -49,7 +51,7 @@ CASES: list[tuple[str, dict[str, Any], dict[float, float]]] = [
     ("thin", {"steps.1.length": 2.2}, {932.5: 932.7, 902.5: 902.7, 2.5: 2.7}),
     ("thin", {"steps.2.length": 0.6}, {932.5: 932.6, 902.5: 902.6, 2.5: 2.6, 0.5: 0.6}),
     ("thin", {"steps.3.length": 31.0}, {932.5: 933.5}),
-    ("thin", {"steps.2.fillet": 0.06}, {0.05: 0.06}),
+    ("thin", {"steps.2.fillet": 0.04}, {0.05: 0.04}),
     ("long", {"steps.0.grooves.0.at": 210.0}, {200.0: 210.0}),
     ("long", {"steps.0.grooves.0.width": 1.6}, {1.3: 1.6}),
     ("long", {"steps.0.grooves.0.diameter": 28.0}, {28.6: 28.0}),
@@ -62,7 +64,7 @@ CASES: list[tuple[str, dict[str, Any], dict[float, float]]] = [
     ("gear", {"web.rim_diameter": 66.0}, {64.0: 66.0}),
     ("gear", {"holes.diameter": 10.0}, {9.0: 10.0}),
     ("gear", {"holes.pitch_circle_diameter": 50.0}, {49.0: 50.0}),
-    ("gear", {"face_chamfer": 1.6}, {1.0: 1.6}),
+    ("gear", {"face_chamfer": 0.8}, {1.0: 0.8}),
     ("gear", {"profile_shift_coefficient": 0.25}, {84.0: 85.0}),
     ("helical", {"bore_diameter": 15.0}, {14.0: 15.0}),
     ("helical", {"face_width": 20.0}, {18.0: 20.0}),
@@ -100,7 +102,7 @@ CASES: list[tuple[str, dict[str, Any], dict[float, float]]] = [
     ("lantern", {"bore_diameter": 16.0}, {15.0: 16.0}),
     # two pins of rim
     ("lantern", {"pin_circle_diameter": 82.0}, {80.0: 82.0, 96.0: 98.0}),
-    ("pin ring", {"pin_circle_diameter": 82.0}, {80.0: 82.0, 104.0: 106.0}),
+    ("pin ring", {"face_width": 12.0}, {10.0: 12.0}),
     ("box", {"layers.0.thickness": 5.0}, {4.0: 5.0, 12.0: 13.0}),
     ("box", {"layers.1.thickness": 9.0}, {12.0: 13.0}),
     ("box", {"layers.1.circles.0.diameter": 31.0}, {30.0: 31.0}),
@@ -149,8 +151,8 @@ def test_what_depends_on_a_size_changes_and_nothing_else(number: int) -> None:
     assert (old - new, new - old) == (gone - come, come - gone)
     cells = CELLS.get((name, next(iter(keys))), set())
     if cells is not None:
-        others = {word for word in new_words - old_words if word not in cells}
-        # the mass is left, and the scale of what is drawn larger
-        assert all(re.fullmatch(r"[\d.]+|.* \(\d+(\.\d)?:\d+(\.\d)?\)", word) for word in others), others
-        assert len([word for word in others if ":" not in word]) <= 1, others
+        # letters and scales of views aside, which what is larger or smaller may change, the mass is left
+        others = {word for word in new_words - old_words - cells if not VIEW.fullmatch(word)}
+        assert len(others) <= 1, others
+        assert all(re.fullmatch(r"[\d.]+", word) for word in others), others
         assert cells <= new_words
