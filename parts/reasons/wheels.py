@@ -105,6 +105,7 @@ REASONS = {
     "step_curve": N_("has an edge on {what}, which cannot be written as a spline"),
     "step_fewer": N_("the file has {count} solids"),
     "step_hollow": N_("has a closed cavity; only solids of one shell can be taken"),
+    "step_kernel": N_("the CAD kernel fails at it: {why}"),
     "step_loose": N_("its edges lie {error} mm off their faces, more than {most} mm"),
     "step_not_moved": N_("is not for the solid of a STEP file, which is taken as it is"),
     "step_number": N_("has the number {found}, larger than any size can be, {most}"),

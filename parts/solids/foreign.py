@@ -41,7 +41,7 @@ from geometry.solids.faces import (
 )  # fmt: skip
 from geometry.solids.measured import Measured
 from geometry.solids.patch_distance import patch_distance
-from parts.solids.kernel import edges_of, faces_of, solids_of, volume_of
+from parts.solids.kernel import KernelError, edges_of, faces_of, kernel_errors, solids_of, volume_of
 
 if TYPE_CHECKING:
     from OCP.Geom import Geom_BSplineCurve, Geom_BSplineSurface
@@ -100,8 +100,12 @@ def foreign_body(text: str, part_from_file: Placement3, number: int | None = Non
         raise ParameterError("file", None, "step_several" if solids else "step_solids", count=len(solids))
     if number is not None and number > len(solids):
         raise ParameterError("solid", number, "step_fewer", count=len(solids))
-    made = _Taken(_laid(solids[(number or 1) - 1], part_from_file), text)
-    solid = made.taken()
+    try:
+        with kernel_errors():
+            made = _Taken(_laid(solids[(number or 1) - 1], part_from_file), text)
+            solid = made.taken()
+    except KernelError as failed:
+        raise ParameterError("file", None, "step_kernel", why=str(failed)) from failed
     walls = tuple(
         Measured("spline", patch_distance(patch_of(solid, faces.surface)))
         for faces in solid.faces
@@ -455,7 +459,12 @@ def _known_surface(face: TopoDS_Face) -> tuple[GeomAdaptor_Surface, bool] | None
 
     surface, bounds = BRep_Tool.Surface_s(face), BRepTools.UVBounds_s(face)
     sought = GeomConvert_SurfToAnaSurf(surface)
-    known = sought.ConvertToAnalytical(_SOUGHT)
+    try:
+        with kernel_errors():
+            known = sought.ConvertToAnalytical(_SOUGHT)
+    except KernelError:
+        # it fails at some splines that are none of these
+        return None
     if known is None or not sought.Gap() <= _SAME or _named(GeomAdaptor_Surface(known).GetType()) not in _TAKEN:
         return None
     u, v = (bounds[0] + bounds[1]) / 2, (bounds[2] + bounds[3]) / 2

@@ -37,6 +37,27 @@ def _explored(shape: TopoDS_Shape, kind: TopAbs_ShapeEnum) -> Iterator[TopoDS_Sh
         explorer.Next()
 
 
+class KernelError(Exception):
+    """What the kernel says of what it cannot do."""
+
+
+@contextmanager
+def kernel_errors() -> Iterator[None]:
+    """The kernel's own errors, which have no type in common.
+
+    Raises
+    ------
+    KernelError
+        In place of each.
+    """
+    try:
+        yield
+    except Exception as error:
+        if type(error).__module__.partition(".")[0] != "OCP":
+            raise
+        raise KernelError(str(error)) from error
+
+
 def solids_of(text: str) -> list[TopoDS_Shape]:
     """The solids of a STEP file's text, each in its place; none of what is no STEP file."""
     from OCP.IFSelect import IFSelect_ReturnStatus
