@@ -203,6 +203,16 @@ def test_coefficients_of_helical_gears_are_told_in_normal_modules() -> None:
         assert height == pytest.approx((1 + shift - 0.05) * 3, rel=1e-12)
 
 
+def test_a_helical_pair_after_iso_21771_to_ten_digits() -> None:
+    """A published worksheet of its equations: m_n 3.5, z 31 and 30, a_w 116.5, alpha_n 20, beta 21 degrees."""
+    words = "gear-pair module=3.5 helix_angle_deg=21 first.number_of_teeth=31 second.number_of_teeth=30"
+    values = values_of(f"{words} working_centre_distance=116.5 first.profile_shift_coefficient=0.291")["values"]
+    assert values["reference_centre_distance"] == pytest.approx(114.3447280708, abs=1e-10)
+    assert values["working_pressure_angle_deg"] == pytest.approx(23.8707609654, abs=1e-10)
+    assert values["involute_of_working_pressure_angle"] == pytest.approx(0.0259052382, abs=1e-10)
+    assert values["profile_shift_sum"] == pytest.approx(0.6518771312, abs=1e-10)
+
+
 @pytest.mark.parametrize("kind", ["external_gear_pair second.number_of_teeth=41",
                                   "internal_gear_pair second.number_of_teeth=80"])  # fmt: skip
 def test_coefficients_of_a_helical_pair_are_its_lengths_over_the_normal_module(kind: str) -> None:

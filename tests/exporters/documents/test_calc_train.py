@@ -20,6 +20,7 @@ from parts.mates.pages.train_cases import CASES
 from tests.exporters.documents.test_calc import evaluated
 
 PUBLISHED = json.loads((Path(__file__).parents[2] / "published" / "trains.json").read_text(encoding="utf-8"))["cases"]
+TEXTBOOK = json.loads((Path(__file__).parents[2] / "published" / "textbook_trains.json").read_text())["cases"]
 RECOMPUTED = {entry["id"]: entry["recomputed"] for entry in PUBLISHED}
 JAMES = ("teeth=[40,40,120]", "meshes=1-2, 2-3 internal", "carriers.H=2")
 LOADED = (*JAMES, "held=3", "mesh_efficiency=0.98", "module=2", "torques.H=-20", "speeds.1=120")
@@ -265,6 +266,18 @@ def test_refusals_are_one_line(keys: tuple[str, ...], parts: tuple[str, ...]) ->
     assert "\n" not in line
     for part in parts:
         assert part in line
+
+
+@pytest.mark.parametrize("case", TEXTBOOK, ids=[case["id"] for case in TEXTBOOK])
+def test_speeds_of_a_textbook(case: dict[str, Any]) -> None:
+    given = case["driven_at"]
+    data = calculated(*case["words"], *(f"speeds.{link}={speed}" for link, speed in given.items()))
+    told = by_symbol(data)
+    for link, printed in case["printed"].items():
+        found = told.get(f"ω_{link}")
+        if "exact_turns" in data:
+            found = sum(float(Fraction(data["exact_turns"][link][one])) * speed for one, speed in given.items())
+        assert found == pytest.approx(printed, abs=0.5001 * 10 ** -case["digits"])
 
 
 def test_nothing_heavy_is_loaded() -> None:
