@@ -16,7 +16,7 @@ from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
 from parts.base.registry import KINDS
 from parts.scene.files import built_in_scenes
-from parts.scene.load import ExportSpec, load_scene
+from parts.scene.load import ExportSpec, load_scene, scene_from_dict
 from tests.exporters.production.test_part_drawings import PARTS, jobs
 from tests.exporters.production.test_sheet_words import faults
 
@@ -94,6 +94,18 @@ def tangles(file: Path) -> list[str]:
     return found + [f"a size lies on an edge near {a[0]:.0f}" for a in sizes for b in edges if lies_on(a, b)]
 
 
+def run_over(file: Path) -> int:
+    """How many dimension lines the leaders of an assembly's numbers cross."""
+    document = ezdxf.readfile(file)
+    space = document.modelspace()
+    sizes = [size_line(document, one) for one in space.query("DIMENSION") if not one.dxf.angle % 90]
+    dots = [complex(*e.dxf.center.vec2) for e in space.query("CIRCLE[layer=='THIN']") if abs(e.dxf.radius - 0.5) < 1e-6]
+    thin = lines_of(space.query("LINE[layer=='THIN']"))
+    leaders = [row for row in thin if any(abs(row[0] - dot) < 1e-5 for dot in dots)]
+    assert leaders
+    return sum(crosses(leader, size) for leader in leaders for size in sizes)
+
+
 def _cases() -> list[Any]:
     rest = sorted({*built_in_scenes()} - {*LIGHT})
     return [*LIGHT, *(pytest.param(name, marks=pytest.mark.heavy) for name in rest)]
@@ -153,3 +165,14 @@ def test_leaders_that_cross_are_seen(tmp_path: Path) -> None:
         document.modelspace().add_line(a, b, dxfattribs={"layer": "DIMENSION"})
     document.saveas(tmp_path / job.path)
     assert tangles(tmp_path / job.path) == ["leaders cross near 50+100j"]
+
+
+def test_leaders_of_numbers_keep_off_dimension_lines(tmp_path: Path) -> None:
+    """As it was: numbers stood on both sides, whatever sizes were there, and the larger gear's leader crossed its one."""
+    gears = {key: {"kind": "spur_gear", "module": 2.0, "number_of_teeth": teeth, "face_width": 10.0, "bore_diameter": 8.0}
+             for key, teeth in (("small", 17), ("large", 40))}  # fmt: skip
+    raw = {"parts": gears, "mates": [{"kind": "external_gear_pair", "first": "small", "second": "large"}],
+           "exports": [{"format": "dxf", "purpose": "assembly"}]}  # fmt: skip
+    (job,) = plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets
+    job.write({}, tmp_path / job.path)
+    assert run_over(tmp_path / job.path) == 0
