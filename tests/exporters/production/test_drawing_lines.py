@@ -168,9 +168,9 @@ def test_leaders_that_cross_are_seen(tmp_path: Path) -> None:
 
 
 def test_leaders_of_numbers_keep_off_dimension_lines(tmp_path: Path) -> None:
-    """As it was: numbers stood on both sides, whatever sizes were there, and the larger gear's leader crossed its one."""
-    gears = {key: {"kind": "spur_gear", "module": 2.0, "number_of_teeth": teeth, "face_width": 10.0, "bore_diameter": 8.0}
-             for key, teeth in (("small", 17), ("large", 40))}  # fmt: skip
+    """As it was: numbers stood on both sides, whatever sizes were there, and the larger gear's leader crossed one."""
+    gear = {"kind": "spur_gear", "module": 2.0, "face_width": 10.0, "bore_diameter": 8.0}
+    gears = {key: gear | {"number_of_teeth": teeth} for key, teeth in (("small", 17), ("large", 40))}
     raw = {"parts": gears, "mates": [{"kind": "external_gear_pair", "first": "small", "second": "large"}],
            "exports": [{"format": "dxf", "purpose": "assembly"}]}  # fmt: skip
     (job,) = plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets
