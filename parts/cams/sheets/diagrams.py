@@ -28,7 +28,7 @@ _GAP = 15.0
 _ORDERS = (2, 1, 0)
 _TICKS = 5
 # squares to draw on, mm
-_SQUARE = 2.5
+_SQUARE, _SAME = 2.5, 1e-6
 # after the point of an axis' numbers: more than any scale of a drawing has
 _MOST_DIGITS = 400
 Exact = list[tuple[str, complex, complex]]
@@ -81,7 +81,10 @@ def draw_diagrams(canvas: Canvas, picture: CamPicture, area: Box, scales: Scales
         reach = _range(motion, order, up)
         if asked.by_hand:
             # what the diagram reaches is for students to find
-            low, high = reach = _SQUARE * math.floor(reach[0] / _SQUARE), _SQUARE * math.ceil(reach[1] / _SQUARE)
+            low, high = reach = (
+                _SQUARE * math.floor(reach[0] / _SQUARE + _SAME),
+                _SQUARE * math.ceil(reach[1] / _SQUARE - _SAME),
+            )
             _squares(canvas, Box(zero.real, zero.imag + low, zero.real + width, zero.imag + high))
         _axes(canvas, picture, zero, width, reach, order, scales)
         _numbers(canvas, picture, zero, scales, order, reach[0] if asked.by_hand else None)
@@ -164,6 +167,9 @@ def _ordinates(canvas: Canvas, drawn: Drawn, picture: CamPicture, zero: complex,
 def _numbers(canvas: Canvas, picture: CamPicture, zero: complex, scales: Scales, order: int, low: float | None) -> None:
     """The number of each position on the side of the axis that the curve leaves free, or below ``low``, mm."""
     motion, up, places = picture.cam.motion, picture.unit / scales.of(order), _places(picture)
+    if low is not None:
+        # beside the last one the ordinate has a number
+        places = places[:-1]
     x = np.array([a / scales.phi for _, a in places])
     widest = max(text_width(str(n), SMALL_TEXT) for n, _ in places)
     for (number, angle), at, named in zip(places, x.tolist(), thinned(x, widest + 0.8), strict=True):
