@@ -90,6 +90,44 @@ def test_files_of_a_wheel_are_the_envelope_within_their_bound(tmp_path: Path, ke
     assert main(["verify", str(step)]) == 1
 
 
+# wheels that a drive may ask for at its very ends; all but the steepest are built as they stand
+EXTREMES: dict[str, dict[str, Any]] = {
+    # the worm's section is upright 5.5 mm off the mid plane; the throat leaves the face whole
+    "m 1.5, 2/40": {"number_of_teeth": 40, "number_of_starts": 2, "face_width": 13.5, "outer_diameter": 65.25},
+    # the worm's base circle lies over its root
+    "m 5, q 8, 4/40": {"module": 5.0, "number_of_teeth": 40, "number_of_starts": 4, "diameter_quotient": 8.0},
+    "q 4": {"number_of_teeth": 30, "diameter_quotient": 4.0, "form": "ZN1"},
+    "q 50": {"number_of_teeth": 30, "diameter_quotient": 50.0, "form": "ZA", "hand": "left"},
+    "ten starts": {"number_of_teeth": 60, "number_of_starts": 10, "diameter_quotient": 30.0, "form": "ZN2"},
+    "a lead of 60 degrees": {"number_of_teeth": 50, "number_of_starts": 7, "diameter_quotient": 4.0415, "form": "ZN1"},
+    "10 teeth": {"number_of_teeth": 10, "form": "ZK1"},
+    "300 teeth": {"number_of_teeth": 300, "number_of_starts": 3, "profile_shift_coefficient": -0.3},
+}
+
+
+@pytest.mark.heavy
+@pytest.mark.parametrize("case", EXTREMES)
+def test_extreme_wheels_are_files_within_their_bound_the_steepest_by_what_it_is_offered(
+    tmp_path: Path, case: str
+) -> None:
+    keys = {"kind": "worm_wheel", "module": 1.5, **EXTREMES[case]}
+    if case == "a lead of 60 degrees":
+        with pytest.raises(SceneError) as refused:
+            make_parts(scene_from_dict({"parts": {"wheel": keys}}, "s", "s"), "s")
+        assert refused.value.nearest is not None
+        keys[(refused.value.key or "").rpartition(".")[2]] = refused.value.nearest.value
+    exports = "".join(
+        f'[[exports]]\nformat = "{name}"\ntolerance = {share * keys["module"]}\n'
+        for name, share in (("step", 1e-3), ("stl", 1e-2))
+    )
+    rows = "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
+    (tmp_path / "wheel.toml").write_text(f"[parts.wheel]\n{rows}{exports}")
+    assert main(["build", str(tmp_path / "wheel.toml"), "--out", str(tmp_path / "out")]) == 0
+    files = json.loads((tmp_path / "out" / "wheel" / "report.json").read_text())["files"]
+    assert len(files) == 2
+    assert all(file["measured"]["max_deviation"] <= file["max_error"] <= file["tolerance"] for file in files)
+
+
 def test_a_wheel_has_no_flat_outline(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert _built(tmp_path, "", "--format", "svg", "--no-verify") == 0
     assert not (tmp_path / "out" / "wheel" / "wheel.svg").exists()
