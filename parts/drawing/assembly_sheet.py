@@ -44,6 +44,8 @@ _LEAST, _ENLARGED = 120.0, 2.0
 _LETTER = "A"
 # mm by which lines along a size are off it at most
 _LEVEL = 1e-6
+# how many times higher than a view a column of numbers may be that crosses fewer dimension lines
+_HIGHER = 2.0
 # how many times longer than high a view is whose numbers stand above it, and from one of these to the next, mm
 _LONG, _ROW_STEP = 2.5, 14.0
 # a number with the places where its leader may end
@@ -269,7 +271,7 @@ def _numbered(one: Laid, share: Mapping[int, tuple[complex, ...]], letters: Sequ
     sides = _sides(numbers, (box.left + box.right) / 2, tall)
     best, least = None, (math.inf, math.inf)
     for left, right in (sides, (numbers, []), ([], numbers)):
-        if best is not None and (not least[1] or _STEP * max(len(left), len(right)) > tall):
+        if best is not None and (not least[1] or _STEP * max(len(left), len(right)) > _HIGHER * tall):
             continue
         if (found := _led(left, right, box, one.ink())) is not None:
             cost = float(_crossings(found, ())), float(sum(_runs_over(leader, sizes) for leader in found))
