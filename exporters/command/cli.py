@@ -607,7 +607,7 @@ def _list(options: argparse.Namespace) -> int:
         print(title)
         for name, meaning in rows.items():
             print(f"  {name:<22} {meaning}{'' if rows is scenes else '.'}")
-    print(told.text("materials whose density is known (g/cm^3; another one needs `density` too):"))
+    print(told.text("materials whose density is known (g/cm^3; any other needs `density` too):"))
     for density in sorted(set(DENSITIES.values())):
         print(f"  {density:<6} {', '.join(name for name in DENSITIES if DENSITIES[name] == density)}")
     return DONE

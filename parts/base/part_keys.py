@@ -13,7 +13,7 @@ Material = Annotated[
     str,
     Meta(
         max_length=200,
-        description="material; a name or mark that `higherpair list` has gives the mass, another one needs density",
+        description="material; names and marks that `higherpair list` shows give the mass, any other needs density",
         examples=["plywood 3 mm"],
     ),
 ]
