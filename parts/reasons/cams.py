@@ -152,7 +152,7 @@ REASONS = {
     "plate_takes_stem": N_("must be longer: the plate takes up all of it"),
     "plate_undercut": N_("the follower undercuts the plate at {travel} mm of travel"),
     "poles_lift_nothing": N_("the last pole must lie above the first"),
-    "prime_circle_too_large": N_("needs a prime circle of {prime} mm; at most {most} mm can be made"),
+    "prime_circle_too_large": N_("needs a prime circle of {prime} mm, but at most {most} mm can be made"),
     "pressure_angle_of_90": N_("the pressure angle reaches 90 degrees within the motion"),
     "profile_falls_apart": N_("the undercut profile falls apart"),
     "ramps_above_width": N_("the ramps together must be from 0 to 1 of the width"),
