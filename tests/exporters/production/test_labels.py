@@ -167,6 +167,12 @@ def test_every_letter_is_there_and_unlike_the_others() -> None:
         assert alike.get(letter, letter) == seen.setdefault(form, alike.get(letter, letter))
 
 
+def test_lines_of_a_name_stand_in_the_middle_of_each_other() -> None:
+    points = np.array([p for stroke in lettered(("MMMM", "L"), 5.0) for p in stroke])
+    for row in (points[points.imag > 0], points[points.imag < 0]):
+        assert row.real.min() + row.real.max() == pytest.approx(0.0, abs=1e-9)
+
+
 def test_a_value_stays_with_its_letter(tmp_path: Path) -> None:
     """On a plate too narrow for one line, a line ends before m or x alone, as strokes of the file tell."""
     strip = {"kind": "plate", "width": 15.0, "height": 15.0, "label": "z 10 m 10 x 0"}
