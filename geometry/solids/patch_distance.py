@@ -13,8 +13,8 @@ import numpy as np
 from geometry.curves.curve import Real
 from geometry.solids.charts import Patch, span_shares
 
-# nodes on a span each way, steps, and points at a time
-_NODES, _STEPS, _AT_ONCE = 6, 12, 2_000
+# nodes on a span each way, steps, points at a time, and pairs of points and nodes
+_NODES, _STEPS, _AT_ONCE, _PAIRS = 6, 12, 2_000, 1_000_000
 # by which a step must bring a point nearer, mm
 _SETTLED = 1e-11
 # points farther off than so many radii, or steps of the grid, are not looked at more closely
@@ -30,6 +30,8 @@ def patch_distance(patch: Patch) -> Callable[[Real], Real]:
     places = np.stack(np.meshgrid(*shares, indexing="ij"), axis=-1).reshape(-1, 2)
     middle = nodes.mean(axis=0)
     reach = float(np.linalg.norm(nodes - middle, axis=1).max())
+    # squares of distances but for what all nodes have in common
+    table, block = np.vstack([-2 * nodes.T, np.sum(nodes**2, axis=1)]), max(1, _PAIRS // len(nodes))
 
     def distance(points: Real) -> Real:
         found = np.linalg.norm(points - middle, axis=1)
@@ -37,7 +39,8 @@ def patch_distance(patch: Patch) -> Callable[[Real], Real]:
         for start in range(0, len(near), _AT_ONCE):
             mine = near[start : start + _AT_ONCE]
             at = points[mine]
-            first = (np.sum(nodes**2, axis=1) - 2 * at @ nodes.T).argmin(axis=1)
+            rows = np.column_stack([at, np.ones(len(at))])
+            first = np.concatenate([(rows[k : k + block] @ table).argmin(axis=1) for k in range(0, len(rows), block)])
             away = np.linalg.norm(at - nodes[first], axis=1)
             close = away <= _OFF * step
             if np.any(close):
