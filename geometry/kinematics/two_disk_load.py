@@ -134,11 +134,7 @@ class LoadedTable(Record):
 
 
 class Carried(Record, dict=True, eq=False):
-    """A state of a table at angles (rad) under a force in a direction (rad from +x); what is asked of it is found then.
-
-    ``torques``: on the worms' wheels, N mm, in the sense of delta; ``mesh``: of the ring on the pinion, N, along the
-    line of action.
-    """
+    """A state of a table at angles (rad) under a force in a direction (rad from +x), found as it is asked."""
 
     loaded: LoadedTable
     delta: Real | float
@@ -158,12 +154,14 @@ class Carried(Record, dict=True, eq=False):
 
     @cached_property
     def torques(self) -> tuple[Real, Real]:
+        """Torques on the worms' wheels, N mm, in the sense of delta."""
         table, turned = self.loaded.table, self.loaded.turned * self.force.moment
         one, two = table.torques(self.delta, self.beta, self._across)
         return one - turned * table.ratio, two + turned * table.ratio
 
     @property
     def mesh(self) -> Real:
+        """Force of the ring on the pinion along the line of action, N."""
         return np.abs(self._mesh[0])
 
     def passed(self, bearing: Bearing) -> Passed:
