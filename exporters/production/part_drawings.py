@@ -35,7 +35,8 @@ def part_drawings(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
         drawn = [name for name, kind in KINDS.items() if kind.drawing]
         raise wanted.refused("purpose", export.purpose, "draws_only_what_is_not_here", kinds=drawn)
     found = []
-    for name in export.parts or known:
+    usual = [key for key in known if not parts[key].made_by.drawn_if_named]
+    for name in export.parts or usual or known:
         part, wishes = parts[name], export.drawing or WorkingTable()
         drawing = import_module(str(part.made_by.drawing)).part_drawing(Subject(part, wishes, asked.language))
         _check_zones(drawing, wishes, wanted)
