@@ -175,7 +175,7 @@ def test_a_title_that_a_pdf_cannot_write_is_refused_before_a_file(
     said = capsys.readouterr().err
     assert said.count("\n") == 1
     assert f"{key} = " in said
-    assert "lack \U0001f600" in said
+    assert "has no letters \U0001f600" in said
     assert not (tmp_path / "out").exists()
 
 
