@@ -148,7 +148,11 @@ def thread_of(worm: Worm, tip_rounding: float = 0.0) -> Thread:
     low, root_half = root, half(root)
     lines: list[tuple[Part, SectionLine]] = []
     if fillet > 0:
-        low = bracketed_root(lambda r: r - root - fillet * (1 + way(r).imag), root, root + fillet).value
+        if way(root + fillet).imag > 0:
+            # a grinding wheel leaves flanks that lean over their foot
+            raise _by_quotient(worm, "worm_flank_above_root", lambda w: thread_of(w, tip_rounding))
+        # counted from the root: where the flank leaves radially, the last height is the root to the last digit
+        low = root + bracketed_root(lambda h: h - fillet * (1 + way(root + h).imag), 0.0, fillet).value
         tangent = way(low)
         root_half = half(low) + fillet * tangent.real
         if not (low < worm.reference_radius and root_half <= half_pitch - least):

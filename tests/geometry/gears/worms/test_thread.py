@@ -67,10 +67,21 @@ def test_a_screw_carries_its_lines_into_each_other() -> None:
     assert np.hypot(first[:, 0], first[:, 1]) == pytest.approx(plane.real, abs=1e-12)
 
 
+@pytest.mark.parametrize(("quotient", "starts"), [(6.0, 4), (8.0, 4), (8.0, 5), (10.0, 6)])
+def test_a_worm_that_is_made_in_one_module_is_made_in_all(quotient: float, starts: int) -> None:
+    # the involute leaves its base circle radially, above root and fillet: rounding refused one module in four
+    of_one = thread_of(Worm(1.0, starts, quotient).checked())
+    for module in (0.5, 1.5, 2.0, 3.0, 3.15, 4.0, 6.3, 7.0, 9.0, 12.0, 16.0):
+        thread = thread_of(Worm(module, starts, quotient).checked())
+        assert thread.root_land == pytest.approx(of_one.root_land * module, rel=1e-12)
+        assert [name for name, _ in thread.lines] == [name for name, _ in of_one.lines]
+
+
 @pytest.mark.parametrize(
     ("worm", "rounding", "key"),
     [
         (Worm(5.0, 6, 6.0, "ZN1"), 0.0, "diameter_quotient"),
+        (Worm(8.0, 8, 10.0, "ZK1"), 0.0, "diameter_quotient"),
         (Worm(5.0, 1, 10.0, fillet_coefficient=1.5), 0.0, "fillet_coefficient"),
         (Worm(5.0, 1, 10.0), 4.0, "tip_rounding"),
     ],
