@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,8 +25,8 @@ if TYPE_CHECKING:
 
 # a line, room about the board, and letters, of its longer side; engraved names
 _LINE, _ROOM, _LETTERS = 1 / 2500, 1 / 60, 1 / 50
-# width of a letter, of its size
-_WIDE = 0.62
+# width of a letter, of its size; letters of a row, at least
+_WIDE, _LEAST_ROW = 0.62, 20
 _NAME = "fill:none;stroke:#0000ff;stroke-width:0.4;stroke-linecap:round;stroke-linejoin:round"
 # sizes of words on pieces, of letters of the legend
 _SIZES = (1.0, 0.75, 0.55)
@@ -60,10 +61,12 @@ def _preview(job: LaidJob, title: str, fills: Mapping[str, str], file: Path, tol
     rows = [(": ".join((*drawn[part].words[1:], row)), drawn[part].fill) for part, row in lying_on(job, told).items()]
     title += told.decimal(f": {width:g} × {across:g} × {third:g}")
     title += f", {job.times} ×" if job.times > 1 else ""
-    legend, bottom = _legend(title, rows, letters, complex(room, across + 2 * room), width)
+    # so wide that a narrow board has room for words under it
+    wide = max(width, _LEAST_ROW * _WIDE * letters)
+    legend, bottom = _legend(title, rows, letters, complex(room, across + 2 * room), wide)
     corner = complex(room, across + room)
     lines = [
-        page_head(width + 2 * room, bottom),
+        page_head(wide + 2 * room, bottom),
         '<rect width="100%" height="100%" style="fill:#ffffff"/>',
         f'<rect x="{room:.4g}" y="{room:.4g}" width="{width:.6g}" height="{across:.6g}" '
         f'style="fill:#faf6ee;stroke:#202830;stroke-width:{2 * line:.4g}"/>',
@@ -130,14 +133,22 @@ def _legend(
 ) -> tuple[list[str], float]:
     """What lies on a board, each beside its colour, under its title from a place on; and the height where that ends."""
     style = f"{_TEXT};font-size:{size:.4g}px"
-    lines = [f'<text x="{at.real:.5g}" y="{at.imag + size:.5g}" style="{style}">{escaped(title)}</text>']
-    x, y = at.real, at.imag + 2.7 * size
+    step, letter = 1.7 * size, _WIDE * size
+    lines: list[str] = []
+
+    def write(text: str, x: float, y: float, room: float) -> float:
+        rows = wrap(text, int(room / letter))
+        for k, row in enumerate(rows):
+            lines.append(f'<text x="{x:.5g}" y="{y + k * step:.5g}" style="{style}">{escaped(row)}</text>')
+        return y + (len(rows) - 1) * step
+
+    x, y = at.real, write(title, at.real, at.imag + size, width) + step
     for text, fill in rows:
-        wide = (len(text) * _WIDE + 3) * size
+        wide = len(text) * letter + 3 * size
         if x > at.real and x + wide > at.real + width:
-            x, y = at.real, y + 1.7 * size
+            x, y = at.real, y + step
         box = f'x="{x:.5g}" y="{y - 0.8 * size:.5g}" width="{size:.4g}" height="{size:.4g}"'
         lines.append(f'<rect {box} style="fill:{fill};stroke:#202830;stroke-width:{size / 20:.4g}"/>')
-        lines.append(f'<text x="{x + 1.4 * size:.5g}" y="{y:.5g}" style="{style}">{escaped(text)}</text>')
+        y = write(text, x + 1.4 * size, y, width - 3 * size)
         x += wide
     return lines, y + size

@@ -243,6 +243,27 @@ def test_words_in_several_languages(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert said.count("\n") == 1
 
 
+@pytest.mark.parametrize("size", [(60, 60), (50, 300)])
+def test_the_picture_of_a_board_holds_a_long_title(tmp_path: Path, size: tuple[int, int]) -> None:
+    """No row goes over the edge, whatever the board; nothing is left out."""
+    title, width, height = "зачеплення, яке треба виготовити", *size
+    title = ", ".join([title] * 3)
+    text = SPOKEN.replace('uk = "Модель"', f'uk = "{title}"').replace('uk = "Колесо"', f'uk = "{title}"')
+    board = f"width = {width}.0\nheight = {height}.0"
+    file = tmp_path / "s.toml"
+    file.write_text(text.replace("width = 200.0\nheight = 100.0", board), encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path), "--language", "uk"]) == 0
+    picture = (tmp_path / "s" / "s.board.1.preview.svg").read_text("utf-8")
+    page = float(re.findall(r'viewBox="0 0 (\S+) ', picture)[0])
+    rows = re.findall(r'<text x="(\S+)" y="(\S+)" style="[^"]*font-size:([\d.]+)px">([^<]*)', picture)
+    assert max(float(x) + 0.6 * float(size) * len(row) for x, _, size, row in rows) <= page
+    told = " ".join(row for *_, row in rows)
+    assert f"{title}: {width} × {height} × 3" in told
+    assert told.count(title) == 2
+    heights = [float(y) for _, y, _, _ in rows]
+    assert len(set(heights)) == len(heights)
+
+
 def test_a_part_of_an_assembly_is_called_in_the_language_of_the_scene() -> None:
     """The power module's recipe gives both titles; what is asked for is shown."""
     for language, title in (("uk", "Корпус"), ("en", "Housing")):
