@@ -15,6 +15,10 @@ RECIPES: Index[Recipe[Any]] = Index(
             "parts.recipes.cam_model:CAM_MODEL",
             "Model of a cam of flat parts and dowels: its sliding follower's slot runs on two pins of a frame",
         ),
+        "gear_pair_model": (
+            "parts.recipes.gear_pair_model:GEAR_PAIR_MODEL",
+            "Model of a gear pair of flat parts: two spur gears that turn on dowels in a frame",
+        ),
         "planetary_set": (
             "parts.recipes.planetary_set:PLANETARY_SET",
             "Planetary set: central wheels, satellites with one rim or two on a carrier, with a frame and a crank",

@@ -53,6 +53,27 @@ def test_the_board_alone_says_how_thick_the_plywood_is(name: str, tmp_path: Path
     assert not [part.material for part in parts.values() if re.search(r"\d", part.material or "")]
 
 
+def test_frame_and_dowels_of_a_pair_follow_the_board(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Thicker: nothing runs into the gears; thinner: they lie on the frame, and dowels are four boards long."""
+    text = (SCENE_FOLDER / "lesson_3.toml").read_text("utf-8")
+    for thick in (2.0, 4.5):
+        file = tmp_path / "s.toml"
+        file.write_text(text.replace("thickness = 3.0 ", f"thickness = {thick} "), encoding="utf-8")
+        assert main(["check", str(file)]) == 0, capsys.readouterr()
+        scene = load_scene(str(file))
+        parts, matings = make_parts(scene, str(file))
+        stand = {one.id: one for one in place(scene.instances, scene.drives, parts, matings, str(file)).instances}
+        assert {key: one.at[2] for key, one in stand.items()} == {
+            "pinion": 0.0, "wheel": 0.0, "frame": -thick, "axle_1": -thick, "axle_2": -thick
+        }  # fmt: skip
+        assert parts["axle"].face_width == 4 * thick
+    file.write_text(text.replace("[13, 21]", "[13, 2]"), encoding="utf-8")
+    assert main(["check", str(file)]) == 2
+    assert "assemblies[1].teeth[2] = 2" in capsys.readouterr().err
+    file.write_text(text + "[instances.frame]\nat = [0.0, 0.0, -2.0]\n", encoding="utf-8")
+    assert main(["check", str(file)]) == 1
+
+
 PAIR = """
 [defaults]
 module = 4.0

@@ -1,0 +1,89 @@
+"""The assembly ``gear_pair_model``: two spur gears of flat parts that turn on dowels in a frame, to be cut and turned.
+
+From below, in boards: the frame, both gears. The dowels stand in it, flush with its lower face, and two boards beyond
+the gears.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from msgspec import Meta
+
+from parts.base.part_keys import Density, Material
+from parts.base.texts import N_
+from parts.keys.base import mm
+from parts.recipes.making import Making, made_of
+from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
+
+# mm: of the frame about its axles, and at least beyond the hole of one; its corners
+_BESIDE, _WALL, _CORNER = 10.0, 5.0, 5.0
+_WHEELS = ("pinion", "wheel")
+_COLOURS = {"pinion": "#c08040", "wheel": "#4f8fc0", "frame": "#efe3cc", "pin": "#d0d4d8"}
+_TITLES = {"pinion": N_("Pinion"), "wheel": N_("Wheel"), "frame": N_("Frame"), "axle": N_("Axle")}
+
+
+class GearPairModelKeys(RecipeKeys, kw_only=True, tag="gear_pair_model"):
+    """Keys of ``gear_pair_model``."""
+
+    teeth: Annotated[
+        tuple[Annotated[int, Meta(ge=3, le=10_000)], Annotated[int, Meta(ge=3, le=10_000)]],
+        Meta(description="z1, z2", examples=[[13, 21]]),
+    ]
+    module: Annotated[float, mm("of both gears", least=0.01, most=1000)] = 4.0
+    shifts: Annotated[
+        tuple[Annotated[float, Meta(ge=-10, le=10)], Annotated[float, Meta(ge=-10, le=10)]],
+        Meta(description="profile shift coefficients x1, x2", examples=[[0.694, 0.384]]),
+    ] = (0.0, 0.0)
+    normal_backlash: Annotated[float, mm("normal backlash of the pair", least=0, most=100)] = 0.1
+    plate_thickness: Annotated[float, mm("of all flat parts", least=0.5, most=100)] = 3.0
+    clearance: Annotated[float, mm("of the gears' bores on the dowels", least=0, most=5)] = 0.2
+    axle_diameter: Annotated[float, mm("of the dowels on which the gears turn", least=0.5, most=200)] = 6.0
+    material: Material | None = None
+    density: Density | None = None
+
+
+class GearPairModelRecipe(Recipe[GearPairModelKeys]):
+    """Two gears, a plate, two dowels."""
+
+    name, keys = "gear_pair_model", GearPairModelKeys
+
+    def expanded(self, keys: GearPairModelKeys) -> Expansion:
+        """The tables of one model: the pinion at the origin; the frame comes under both axles, wherever they stand."""
+        thick, making = keys.plate_thickness, _making(keys)
+        beside = max(_BESIDE, keys.axle_diameter / 2 + _WALL)
+        making.part(
+            "frame", kind="plate", face_width=thick, corner_radius=_CORNER, width=2 * beside, height=2 * beside,
+            beyond_axles=beside, holes=[{"axis_of": wheel, "diameter": keys.axle_diameter} for wheel in _WHEELS],
+        )  # fmt: skip
+        making.found.instances |= {key: {"part": key} for key in (*_WHEELS, "frame")}
+        making.pin("axle", keys.axle_diameter, 4 * thick)
+        making.mate("external_gear_pair", *_WHEELS, normal_backlash=keys.normal_backlash)
+        for number, wheel in enumerate(_WHEELS, 1):
+            making.put("coaxial", wheel, f"axle_{number}", "axle", height=-thick)
+        making.found.origins |= {
+            "parts.frame.face_width": "plate_thickness", "parts.axle.diameter": "axle_diameter",
+            "mates[1].normal_backlash": "normal_backlash",
+        }  # fmt: skip
+        making.found.name_all(_TITLES)
+        return making.found
+
+
+GEAR_PAIR_MODEL = GearPairModelRecipe()
+
+
+def _making(keys: GearPairModelKeys) -> Making:
+    """The tables with both gears in them, named by what students are given."""
+    making = Making(keys.plate_thickness, made_of(keys.material, keys.density), _COLOURS)
+    for number, (wheel, teeth, shift) in enumerate(zip(_WHEELS, keys.teeth, keys.shifts, strict=True), 1):
+        making.part(
+            wheel, kind="spur_gear", module=keys.module, number_of_teeth=teeth, profile_shift_coefficient=shift,
+            face_width=keys.plate_thickness, bore_diameter=keys.axle_diameter + keys.clearance,
+            label=f"z {teeth} m {keys.module:g}",
+        )  # fmt: skip
+        own = {
+            "number_of_teeth": f"teeth[{number}]", "profile_shift_coefficient": f"shifts[{number}]", "module": "module",
+            "face_width": "plate_thickness",
+        }  # fmt: skip
+        making.found.origins |= {f"parts.{wheel}.{key}": origin for key, origin in own.items()}
+    return making
