@@ -7,8 +7,10 @@ from importlib import import_module
 
 from exporters.production.request import Request
 from geometry.base.errors import ParameterError
+from parts.base.reasons import reason
 from parts.base.refusal import placed
 from parts.base.registry import KINDS
+from parts.base.texts import filled
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.drawing.part_sheet import Block, part_sheet
@@ -32,11 +34,11 @@ def part_drawings(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
         if name not in known:
             raise wanted.refused("parts", name, "no_working_drawing", kind=parts[name].kind)
     if not known:
-        drawn = [name for name, kind in KINDS.items() if kind.drawing]
-        raise wanted.refused("purpose", export.purpose, "draws_only_what_is_not_here", kinds=drawn)
+        kinds = [name for name, kind in KINDS.items() if kind.drawing]
+        raise wanted.refused("purpose", export.purpose, "draws_only_what_is_not_here", kinds=kinds)
     found = []
-    usual = [key for key in known if not parts[key].made_by.drawn_if_named]
-    for name in export.parts or usual or known:
+    drawn = export.parts or known
+    for name in drawn:
         part, wishes = parts[name], export.drawing or WorkingTable()
         drawing = import_module(str(part.made_by.drawing)).part_drawing(Subject(part, wishes, asked.language))
         _check_zones(drawing, wishes, wanted)
@@ -49,7 +51,14 @@ def part_drawings(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
             assert table is not None
             draw = partial(draw_data_table, table=table, language=language, beside=beside)
             blocks.append(Block((wide, high), draw))
-        found.append((name, part_sheet(drawing, blocks, wishes.roughness, asked)))
+        try:
+            found.append((name, part_sheet(drawing, blocks, wishes.roughness, asked)))
+        except ParameterError as error:
+            if len(drawn) == 1:
+                raise
+            # of many, the one that has no room
+            told = {"part": name, "why": filled(reason(error.code), **error.numbers)}
+            raise ParameterError(error.name, error.value, "drawing_of_part", error.nearest, **told) from error
     return found
 
 

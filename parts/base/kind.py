@@ -84,8 +84,6 @@ class Kind(Generic[K, T]):
     # modules with its calculation page and its working drawing, loaded when one is asked for
     page: str | None = None
     drawing: str | None = None
-    # whether it is drawn where it is named, or nothing else is there: its sizes may be too many for a sheet
-    drawn_if_named = False
     # module with the table of its working drawing: data_table(part, scene, mates)
     data_table: str | None = None
     # what ``new`` shows: keys of the part that its key ``of`` names; the purpose of a sheet that shows one part of it

@@ -89,7 +89,7 @@ class Layered(Kind[LayeredSpec, "Layers"]):
     """Layers upon each other, the lower face of the lowest at z = 0."""
 
     name, keys, has_outline = "layered", LayeredSpec, False
-    drawing, drawn_if_named = "parts.bodies.layered_drawing", True
+    drawing = "parts.bodies.layered_drawing"
 
     def thing(self, keys: LayeredSpec, others: Others) -> Layers:
         """The layers, checked to have contours that neither cross nor touch."""

@@ -10,18 +10,24 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.layers import Contour, Layers, is_hole
 from parts.bodies.layered import CircleTable, LayeredSpec, LayerTable, OutlineTable, PolygonTable
+from parts.bodies.patterns import Repeated, repeated
 from parts.bodies.plate import SlotTable
 from parts.bodies.plate_drawing import diameters, radii
 from parts.drawing.revolved import closed
-from parts.drawing.working import VISIBLE, Cut, Note, PartDrawing, Size, Subject, View, requirements
-from parts.texts.sheets import view_letter
+from parts.drawing.wheel_views import circle_of
+from parts.drawing.working import AXIS, VISIBLE, Cut, Note, PartDrawing, Round, Size, Subject, View, requirements
+from parts.texts.sheets import sheet_words, view_letter
 
 # mm that are none; parts of the size: beside a place that is looked at, what jumps there; digits of places
 _NONE, _BESIDE, _JUMP, _DIGITS = 1e-9, 1e-7, 1e-5, 9
+# of more layers the heights stand in the titles of their sections: marks of these have no room among extension lines
+_FEW = 10
+# parts of the width: about centres of arcs so large holes may stand on a circle
+_LARGE = 0.1
 Span = tuple[float, float]
 _Table = CircleTable | PolygonTable | SlotTable | OutlineTable
 
@@ -79,7 +85,17 @@ def part_drawing(subject: Subject) -> PartDrawing:
             plans.append(_across(layer.contours, table, subject, told, f"{letter}-{letter}", marks))
         cuts.append(Cut((low + high) / 2, letters[same], from_right=True))
     section = _section(layers, plane, f"{along.letter}-{along.letter}", cuts)
+    if len(layers.layers) > _FEW:
+        plans = [replace(plan, title=f"{plan.title}, {_between(layers, same, subject)}")
+                 for plan, same in zip(plans, letters, strict=True)]  # fmt: skip
     return PartDrawing((section, *plans), requirements(subject))
+
+
+def _between(layers: Layers, contours: frozenset[Contour], subject: Subject) -> str:
+    """From which height to which the layers of a section reach."""
+    spans = (span for layer, span in zip(layers.layers, pairwise(layers.heights), strict=True)
+             if frozenset(layer.contours) == contours)  # fmt: skip
+    return "z " + "; ".join("...".join(subject.say(round(z, _DIGITS)) for z in span) for span in spans)
 
 
 def _across(
@@ -91,29 +107,39 @@ def _across(
     tables: list[_Table] = [*table.circles, *table.polygons, *table.slots, *table.outlines]
     new = [(one, contour) for one, contour in zip(tables, contours, strict=True) if one not in known]
     known += [one for one, _ in new]
-    places = [complex(*p) for one, _ in new for p in _places(one)]
+    low_x, high_x, low_y, high_y = (f(c.box[k] for c in contours) for k, f in enumerate((min, max, min, max)))
+    arcs = [e for c in contours for e in c.edges if isinstance(e, Arc) and e.radius > _LARGE * (high_x - low_x)]
+    large = {complex(round(e.centre.real, 6), round(e.centre.imag, 6)) for e in arcs}
+    patterns = [*repeated([_shape(one) for one, _ in new], sorted(large, key=str))]
+    alike = frozenset[int]().union(*(pattern.members for pattern in patterns))
+    places = [complex(*p) for k, (one, _) in enumerate(new) if k not in alike for p in _places(one)]
     holes, solid = (
         [c.circle for _, c in new if c.circle is not None and is_hole(c, contours) == way] for way in (True, False)
     )
     chains = [contour.edges for _, contour in new if contour.circle is None]
-    low_x, high_x, low_y, high_y = (f(c.box[k] for c in contours) for k, f in enumerate((min, max, min, max)))
     axes = [
         Line(complex(min(low_x, 0.0)), complex(max(high_x, 0.0))),
         Line(1j * min(low_y, 0.0), 1j * max(high_y, 0.0)),
     ]
     for middle, radius in sorted({c.circle for c in contours if c.circle and c.circle[0]}, key=str):
         axes += [Line(middle - radius * way, middle + radius * way) for way in (1, 1j)]
+    places += [pattern.centre for pattern in patterns]
     across, upwards = _told(p.real for p in places), _told(p.imag for p in places)
     sizes = (
         *(Size(f"x.{k}", complex(a, low_y), complex(b, low_y), "below") for k, (a, b) in enumerate(across, 1)),
         *(Size(f"y.{k}", complex(low_x, a), complex(low_x, b), "left") for k, (a, b) in enumerate(upwards, 1)),
+        *_first_ones(patterns, high_x, {c.imag for c in places}),
     )
     rounds = (
         *diameters(solid, subject.language, solid=True),
         *diameters(holes, subject.language),
         *radii(chains, subject.language),
+        *_circles(patterns, subject.language),
     )
-    strokes = tuple((VISIBLE, edge) for contour in contours for edge in contour.edges)
+    strokes = (
+        *((VISIBLE, edge) for contour in contours for edge in contour.edges),
+        *((AXIS, circle_of(one.radius, one.centre)) for one in _circles(patterns, subject.language)),
+    )
     hatched = tuple(contour.edges for contour in contours) if title else ()
     return View(strokes, hatched, tuple(axes), sizes, rounds, notes, title, cuts=cuts)
 
@@ -129,6 +155,38 @@ def _places(table: _Table) -> Iterable[tuple[float, float]]:
             return table.start, table.end
         case OutlineTable():
             return ((p.x, p.y) for p in table.points)
+
+
+def _shape(table: _Table) -> tuple[object, tuple[complex, ...]]:
+    """What may stand on a circle: its size, and the places that tell where it is; others stand for themselves."""
+    match table:
+        case CircleTable():
+            return table.diameter, (complex(*table.at),)
+        case SlotTable():
+            start, end = complex(*table.start), complex(*table.end)
+            return (table.width, round(abs(end - start), 6)), (start, end)
+        case _:
+            return id(table), (0j,)
+
+
+def _circles(patterns: Sequence[Repeated], language: str) -> list[Round]:
+    """The circles of what repeats, each once, with the steps of all that stand on it."""
+    found: dict[tuple[complex, float], list[str]] = {}
+    for one in patterns:
+        for radius in one.radii:
+            steps = found.setdefault((one.centre, round(radius, 6)), [])
+            if (step := f"360°/{one.count}") not in steps:
+                steps.append(step)
+    return [Round(f"pattern.{k}", centre, radius, places=sheet_words(language, "step_of", step=", ".join(steps)))
+            for k, ((centre, radius), steps) in enumerate(found.items(), 1)]  # fmt: skip
+
+
+def _first_ones(patterns: Sequence[Repeated], right: float, known: set[float]) -> Iterator[Size]:
+    """How far from the axis the first ones of what repeats stand, on the side to which they do."""
+    points = {round(p.imag, _DIGITS): p for one in patterns for places in one.first for p in places}
+    points = {y: p for y, p in points.items() if all(abs(y - other) > _NONE for other in known)}
+    for k, (a, b) in enumerate(_told(points), 1):
+        yield Size(f"first.{k}", points.get(a, complex(right, a)), points.get(b, complex(right, b)), "right")
 
 
 def _told(values: Iterable[float]) -> Iterator[Span]:
@@ -210,8 +268,9 @@ def _section(layers: Layers, x: float, title: str, cuts: Sequence[Cut]) -> View:
                 lines.append(Line(complex(bottom, y), complex(top, y)))
     bars = [closed([complex(low, a), complex(high, a), complex(high, b), complex(low, b)])
             for row, (low, high) in zip(spans, pairwise(heights), strict=True) for a, b in row]  # fmt: skip
-    sizes = [Size(f"height.{k}", complex(0.0, levels[0][0]), complex(z, levels[k - 1][0]), "below")
-             for k, z in enumerate(heights[1:], 1)]  # fmt: skip
+    told = range(1, len(heights)) if len(pieces) <= _FEW else (len(pieces),)
+    sizes = [Size(f"height.{k}", complex(0.0, levels[0][0]), complex(heights[k], levels[k - 1][0]), "below")
+             for k in told]  # fmt: skip
     axes = {
         (low, high, round(c.circle[0].imag, _DIGITS))
         for layer, (low, high) in zip(layers.layers, pairwise(heights), strict=True)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cache
-from itertools import product
+from itertools import product, takewhile
 
 import numpy as np
 
+from geometry.base.errors import ParameterError
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc
@@ -190,7 +191,7 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
         wide, tall = canvas.frame.right - canvas.frame.left, canvas.frame.high - canvas.frame.low
         for corner in corners:
             has_room = corner.low + corner.high[1] <= tall and corner.high[0] <= wide
-            if has_room and (shifts := _places(views_at(scale), corner, canvas)) is not None:
+            if has_room and (shifts := _places(views_at(scale), corner, canvas, rows=rows)) is not None:
                 return corner, shifts
         return None
 
@@ -202,7 +203,14 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
         most, low = (most, 0.0) if asked.paper or asked.scale else (min(most, max(least, 1.0)), least / _SMALLER)
         return next((s for s in SCALES if low <= s <= most and held(canvas, s) is not None), 0.0)
 
-    canvas, scale = sheet_for(asked, greatest, least)
+    rows = False
+    try:
+        canvas, scale = sheet_for(asked, greatest, least)
+    except ParameterError:
+        # where one row of views fits no paper, some stand in rows below, if letters tell what they are views of
+        if not (rows := len(row) > 2 and all(view.title for view in row[1:])):
+            raise
+        canvas, scale = sheet_for(asked, greatest, least)
     views, found = views_at(scale), held(canvas, scale)
     assert found is not None
     corner, shifts = found
@@ -231,11 +239,15 @@ def _laid(view: View, scale: float, asked: Asked) -> Laid | None:
     return laid(made, own, asked.language, own=own != scale)
 
 
-def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas) -> list[complex] | None:
-    """Where the origins of views stand: in a row on one axis, on A4 one above the other too; None: not at all."""
+def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas, *, rows: bool) -> list[complex] | None:
+    """Where the origins of views stand: in a row on one axis, on A4 one above the other too, or in several ``rows``;
+    None: not at all.
+    """
     boxes = [view.box for view in views]
     if not boxes:
         return None
+    if rows:
+        return _in_rows(boxes, corner.taken(canvas), canvas.frame.grown(-_MARGIN))
     row, x = [], 0.0
     for box in boxes:
         row.append(complex(x - box.left))
@@ -264,3 +276,33 @@ def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas) -> list[comp
             if not any(shifted(box, by).overlaps(other) for box in stand for other in taken):
                 return [at + by for at in places]
     return None
+
+
+def _in_rows(boxes: Sequence[Box], taken: Sequence[Box], frame: Box) -> list[complex] | None:
+    """Origins of views that fill rows from the upper left corner on; None: they do not hold all."""
+    found, top, taken = list[complex](), frame.high, [box.grown(_MARGIN) for box in taken]
+    while len(found) < len(boxes):
+        left = boxes[len(found) :]
+        rows = (_row(left[: k + 1], top, taken, frame) for k in range(len(left)))
+        whole = [*takewhile(lambda row: row is not None, rows)]
+        if not whole or whole[-1] is None:
+            return None
+        found += whole[-1]
+        top = min(box.low + at.imag for box, at in zip(left, whole[-1], strict=False)) - _BETWEEN
+    return found
+
+
+def _row(boxes: Sequence[Box], top: float, taken: Sequence[Box], frame: Box) -> list[complex] | None:
+    """Origins of views on one axis, from the left on past what is taken; None: there is no room."""
+    y, x, found = top - max(box.high for box in boxes), frame.left, list[complex]()
+    for box in boxes:
+        while (stand := shifted(box, complex(x - box.left, y))).right <= frame.right:
+            beside = [other.right for other in taken if stand.overlaps(other)]
+            if not beside:
+                break
+            x = max(beside)
+        if stand.right > frame.right or stand.low < frame.low:
+            return None
+        found.append(complex(x - box.left, y))
+        x = stand.right + _BETWEEN
+    return found

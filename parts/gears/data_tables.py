@@ -88,10 +88,10 @@ def _gear(part: Part, mates: Sequence[Mated]) -> DataTable:
     basic, own = _basic_rack(keys)
     shift = rows_of(page, (*own, *_RELIEF, *_SHIFT))
     first = (*rows_of(page, _TEETH), *hand, *basic, *shift, *_grade(keys.accuracy))
-    beside = [m for m in mates if m.part.kind != "rack" and part.kind != "rack"]
-    distances = {round(m.distance, 9): DataRow(N_("centre distance"), "a_w", m.distance, "mm") for m in beside}
-    return DataTable((first, _control(page, keys.accuracy),
-                      (*rows_of(page, _REFERENCE), *distances.values(), *_mates(mates))))  # fmt: skip
+    apart = [m for m in mates if m.part.kind != "rack" and part.kind != "rack"]
+    beside = _at_distances(apart, DataRow(N_("centre distance"), "a_w", 0.0, "mm"))
+    others = _mates([m for m in mates if m not in apart])
+    return DataTable((first, _control(page, keys.accuracy), (*rows_of(page, _REFERENCE), *beside, *others)))
 
 
 def _noncircular(part: Part, keys: NoncircularGearSpec) -> DataTable:
@@ -139,9 +139,11 @@ def _worm(part: Part, mates: Sequence[Mated]) -> DataTable:
     if isinstance(keys, WormSpec):
         first = rows_of(page, ("axial_module", "number_of_starts", "worm_form", "lead_angle_deg"))
         own = rows_of(page, (*_WORM, "worm_fillet_coefficient"))
-        last = rows_of(page, ("worm_reference_diameter", "diameter_quotient", "lead", "worm_centre_distance"))
+        last = rows_of(page, ("worm_reference_diameter", "diameter_quotient", "lead"))
+        distance = rows_of(page, ("worm_centre_distance",))
+        beside = _at_distances(mates, *distance) if mates else distance
         hand = replace(hand, name=N_("direction of the thread"))
-        return DataTable(((*first, hand, *own, *grade), _control(page, keys.accuracy), (*last, *_mates(mates))))
+        return DataTable(((*first, hand, *own, *grade), _control(page, keys.accuracy), (*last, *beside)))
     first = rows_of(page, ("axial_module", "worm_wheel_teeth"))
     own = rows_of(page, ("profile_shift_coefficient", *_WORM, *_HOB))
     last = rows_of(page, ("worm_centre_distance", "wheel_reference_diameter", "worm_form", "number_of_starts",
@@ -171,6 +173,15 @@ def _control(page: Sheet, accuracy: AccuracyTable | None) -> tuple[DataRow, ...]
             limits = None if accuracy is None else accuracy.deviations
             return (*rows[:-1], replace(rows[-1], deviations=limits and (max(limits), min(limits))))
     return ()
+
+
+def _at_distances(mates: Sequence[Mated], distance: DataRow) -> list[DataRow]:
+    """Each centre distance, and below it what meshes there."""
+    groups: dict[float, list[Mated]] = {}
+    for mate in mates:
+        groups.setdefault(round(mate.distance, 9), []).append(mate)
+    return [row for group in groups.values()
+            for row in (replace(distance, value=group[0].distance), *_mates(group))]  # fmt: skip
 
 
 def _mates(mates: Sequence[Mated]) -> list[DataRow]:

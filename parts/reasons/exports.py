@@ -14,6 +14,7 @@ REASONS = {
     ),
     "device_draws_external_gears": N_("the device draws external gears; name a spur_gear"),
     "disk_holds_two_wheels": N_("a disk holds two wheels"),
+    "drawing_of_part": N_("the drawing of {part}: {why}"),
     "draws_only": N_("draws only {kinds}; here: {known}"),
     "draws_only_what_is_not_here": N_("draws only {kinds}; add one or remove the export"),
     "finer_than_pdf": N_("is finer than a PDF can tell places"),

@@ -107,6 +107,7 @@ SHEETS: dict[str, Text] = {
     "holes_of": counted("{count} hole ", "{count} holes ", by="count"),
     "chamfers_of": counted("{count} chamfer ", "{count} chamfers ", by="count"),
     "places_of": counted(" ({count} place)", " ({count} places)", by="count"),
+    "step_of": N_(" (step {step})"),
     "ball": in_context("drawing, before a diameter or radius", "Sphere"),
     "centre_holes": N_("Centre holes"),
     "pins_of": counted("{count} pin ", "{count} pins ", by="count"),

@@ -263,6 +263,15 @@ def test_refusals_name_their_key() -> None:
     assert jobs(pin | {"diameter": 10.0}, drawing={"shaft": "cd8"})
 
 
+def test_of_many_parts_a_refusal_names_the_one_that_has_no_room() -> None:
+    raw = {"parts": {"pin": PARTS["pin"], "large": {"kind": "pin", "diameter": 8.0, "length": 600.0}},
+           "exports": [{"format": "svg", "purpose": "part", "paper": "A4", "scale": "1:1"}]}  # fmt: skip
+    with pytest.raises(SceneError) as caught:
+        plan_build(scene_from_dict(raw, "t", "t"), "t", [], [])
+    assert (caught.value.key, caught.value.numbers["part"]) == ("exports[1].paper", "large")
+    assert "the drawing of large: the paper is too small at the scale 1:1" in str(caught.value)
+
+
 def test_the_same_bytes_twice_and_a_dimension_that_lies_is_seen(tmp_path: Path) -> None:
     formats = ("dxf", "svg", "pdf")
     for job in jobs(PARTS["bearing"], formats=formats):

@@ -128,3 +128,32 @@ def test_behind_the_section_of_layers_stands_what_is_seen_there() -> None:
     again = drawing_of({"kind": "layered", "layers": [floor, layers[1], floor]}).views
     assert [plan.title for plan in again] == ["A-A", "B-B", "C-C"]
     assert [cut.letter for cut in again[0].cuts] == ["B", "C", "B"]
+
+
+def test_what_stands_in_equal_steps_is_told_once_with_its_circle() -> None:
+    """A slot on both sides of each ball; holes about another axis, one of twelve left out; a square by its places."""
+    radius, about = 50.0, 10.0
+    slots = [
+        {"start": [radius * math.cos(a + s * 0.05), radius * math.sin(a + s * 0.05)],
+         "end": [radius * math.cos(a + s * 0.15), radius * math.sin(a + s * 0.15)], "width": 1.0}
+        for a in np.arange(9) * math.radians(40) for s in (-1, 1)
+    ]  # fmt: skip
+    ring = {"thickness": 5.0, "circles": [{"diameter": 102.0}, {"diameter": 98.0}]}
+    cage = {"kind": "layered", "layers": [ring, {"thickness": 5.0, "slots": slots}]}
+    posts = drawing_of(cage).views[2]
+    told = sorted(size.value for size in posts.sizes)
+    assert told == pytest.approx([2 * radius * math.sin(0.05), 2 * radius * math.sin(0.15)], abs=1e-9)
+    assert {(one.before, round(one.value, 9), one.places) for one in posts.rounds} == {
+        ("Ø", 2 * radius, " (step 360°/9)"), ("R", 0.5, " (36 places)")}  # fmt: skip
+    turns = [math.radians(30 * k) for k in range(1, 12)]
+    holes = [{"diameter": 4.0, "at": [about + 30 * math.cos(a), 30 * math.sin(a)]} for a in turns]
+    square = [{"diameter": 6.0, "at": [x, y]} for x in (-55.0, 55.0) for y in (-55.0, 55.0)]
+    outer = [{"diameter": 180.0}, {"diameter": 40.0, "at": [about, 0.0]}]
+    plate = drawing_of({"kind": "layered", "layers": [{"thickness": 5.0, "circles": [*outer, *holes, *square]}]})
+    assert sorted(size.value for size in plate.views[0].sizes) == pytest.approx([about, 15.0, 110.0, 110.0])
+    assert (60.0, " (step 360°/12)") in {(round(one.value, 9), one.places) for one in plate.views[0].rounds}
+    # a hole beside its step is told by its places
+    holes[4]["at"][0] += 0.01
+    moved = drawing_of({"kind": "layered", "layers": [{"thickness": 5.0, "circles": [*outer, *holes, *square]}]})
+    assert 30 * math.cos(math.radians(30)) - 10.01 == pytest.approx(min(
+        (size.value for size in moved.views[0].sizes), key=lambda value: abs(value - 15.97)))  # fmt: skip

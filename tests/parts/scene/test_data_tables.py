@@ -320,3 +320,44 @@ def test_a_table_names_what_its_own_cam_has() -> None:
     # what the drawing has a size of is told once
     assert not any(word in name for word in ("outer diameter", "depth", "track") for name in end | grooved)
     assert position_texts([0.0, -1e-9, -0.0006]) == ["0", "0.000", "-0.001"]
+
+
+def test_a_worm_of_two_wheels_tells_each_centre_distance_before_its_wheel() -> None:
+    """a_w = m (q + z_2) / 2, the designation of each wheel after its own."""
+    wheel = 'kind="worm_wheel"\nmodule=4.0\nface_width=30.0\nbore_diameter=20.0\n'
+    text = f"""
+[parts.worm]
+kind = "worm"
+module = 4.0
+thread_length = 70.0
+[parts.one]
+{wheel}number_of_teeth = 40
+outer_diameter = 174.0
+designation = "ONE"
+[parts.two]
+{wheel}number_of_teeth = 30
+outer_diameter = 134.0
+designation = "TWO"
+[[mates]]
+kind = "worm_pair"
+first = "one"
+second = "left"
+[[mates]]
+kind = "worm_pair"
+first = "two"
+second = "right"
+[instances.left]
+part = "worm"
+[instances.right]
+part = "worm"
+[instances.two]
+part = "two"
+at = [500.0, 0.0, 0.0]
+[[exports]]
+format = "svg"
+"""
+    _, table, part = tables("two", text)["worm"]
+    told = [words("en").say(row.value) if isinstance(row.value, Message) else row.value
+            for row in table.parts[-1] if row.symbol in ("a_w", "z") or isinstance(row.value, Message)]  # fmt: skip
+    quotient = part.keys.diameter_quotient
+    assert told == [2 * (quotient + 40), 40, "ONE", 2 * (quotient + 30), 30, "TWO"]
