@@ -310,7 +310,7 @@ class _Layout:
         count = len(self.canvas.texts)
         self._write(text)
         strokes, texts = range(first, len(self.canvas.strokes)), range(count, count + 1)
-        mark, scale = decimal(".", self.language), self.paper.scale
+        mark, scale = decimal("0.0", self.language)[1], self.paper.scale
         # LibreCAD moves words that are longer than their dimension along it, by half of both: they begin so much before
         apart, length = one.value * scale, sum(run.width for run in text.runs) * _WIDER
         middle = complex(text.box.left + text.box.right, text.box.low + text.box.high) / 2

@@ -421,6 +421,15 @@ def test_a_hub_on_one_side_closes_no_chain_and_a_negative_helix_is_told_by_its_h
     assert {"15°", "left"} <= words(file)
 
 
+@pytest.mark.parametrize(("language", "mark"), [("en", "."), ("uk", ",")])
+def test_programs_that_write_dimensions_anew_part_decimals_as_the_sheet_does(
+    tmp_path: Path, language: str, mark: str
+) -> None:
+    drawing = ezdxf.readfile(written(tmp_path, PARTS["ring"], language)[0])
+    styles = [style.dxf.dimdsep for style in drawing.dimstyles if style.dxf.name != "Standard"]
+    assert {drawing.header["$DIMDSEP"], *styles} == {ord(mark)}
+
+
 def test_a_requirement_that_stands_alone_has_no_number(tmp_path: Path) -> None:
     for more in ([], ["HRC 40"]):
         job = jobs(PARTS["bearing"], formats=("dxf",), drawing={"requirements": more})[0]
