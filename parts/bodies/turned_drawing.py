@@ -24,6 +24,7 @@ from parts.drawing.working import (
     AXIS,
     HIDDEN,
     THIN,
+    TURNED,
     VISIBLE,
     Cut,
     Note,
@@ -159,7 +160,7 @@ def _enlarged(half: HalfSection, view: View, subject: Subject) -> Iterator[View]
         return
     letter, middle = view_letter(subject.language), complex(low + high, inner + outer) / 2
     about = circle_of(_AROUND * abs(complex(high, outer) - middle), middle)
-    marked = Note(complex(about.point(math.pi / 4 * about.radius)), letter)
+    marked = Note(complex(about.point(math.pi / 4 * about.radius)), letter, is_letter=True)
     yield replace(
         view, strokes=(*view.strokes, (THIN, about)), notes=(*view.notes, marked), rounds=(),
         sizes=tuple(s for s in view.sizes if s not in lengths),
@@ -362,7 +363,7 @@ def _keyways(half: HalfSection, cuts: Sequence[Cut], subject: Subject) -> Iterat
             title = f"{cut.letter}-{cut.letter}"
             if turn != 1.0:
                 angle = subject.say(abs(math.degrees(aslant)))
-                title += f" {sheet_words(subject.language, 'turned_by', angle=angle)}"
+                title += f" {TURNED} {angle}°"
             yield _keyway(half, here, seen, turn, title, subject)
             told += seen
 

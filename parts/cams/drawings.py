@@ -19,7 +19,8 @@ from parts.cams.positive.yoke import Yoke, YokeFrame
 from parts.cams.wedge_cam.part import WedgeCamSpec
 from parts.cams.wheel import Turned
 from parts.drawing.directions import directions
-from parts.drawing.disk_views import disk_drawing, reach
+from parts.drawing.disk_views import disk_drawing
+from parts.drawing.extent import reach
 from parts.drawing.revolved import below, closed
 from parts.drawing.wheel_views import Wheel, wheel_views
 from parts.drawing.working import VISIBLE, Note, PartDrawing, Size, Stroke, Subject, requirements
@@ -78,9 +79,9 @@ def _groove(subject: Subject, disk: GrooveDisk) -> PartDrawing:
     wheel = Wheel(disk.shape, disk.holes, (radius, radius), None, stands=False)
     section, face, *others = wheel_views(wheel, subject)
     walls: tuple[Profile, ...] = subject.part.section(0.0).region.marks
-    up, strokes, hatched = math.pi / 2 - wheel.turn, list[Stroke](), list(section.hatched)
+    strokes, hatched = list[Stroke](), list(section.hatched)
     for way in (1, -1):
-        low, high = sorted(reach(wall, up if way > 0 else up + math.pi) for wall in walls)
+        low, high = sorted(reach(wall, way * math.pi / 2) for wall in walls)
         corners = [complex(top, low), complex(floor, low), complex(floor, high), complex(top, high)]
         cut = closed(corners) if way > 0 else below(closed(corners))
         hatched.append(cut)

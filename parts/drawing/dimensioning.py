@@ -10,7 +10,7 @@ from itertools import islice, product
 
 from geometry.approximation.outline import CadCurve
 from geometry.base.record import Record, replace
-from geometry.curves.line_arc import Line
+from geometry.curves.line_arc import Arc, Line
 from parts.drawing.canvas import (
     SMALL_TEXT,
     TEXT_HEIGHT,
@@ -30,7 +30,7 @@ from parts.drawing.canvas import (
 )
 from parts.drawing.hatching import hatching
 from parts.drawing.ink import FREE, Ink, Role
-from parts.drawing.working import AXIS, VISIBLE, Cut, Note, Round, Side, Size, View, number_text
+from parts.drawing.working import AXIS, TURNED, VISIBLE, Cut, Note, Round, Side, Size, View, number_text
 
 # mm on paper: from the view to the first dimension line, from line to line; arrow, half its width; how far extension
 # lines reach beyond; from a line to its words; how far axes reach beyond their ends
@@ -43,6 +43,8 @@ _REACHES = (9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 70.0)
 _TURNS = (0.0, 15.0, -15.0, 30.0, -30.0, 50.0, -50.0, 80.0, -80.0, 120.0, -120.0, 160.0)
 # length of the arrow of a view, and what its letter stands above it
 _LOOK, _ABOVE = 14.0, 2.2
+# from words of a title to the middle of the sign of a view that is turned
+_SIGN = 5.0
 # the sign of roughness: heights of its legs; where its words begin
 _SHORT, _LONG, _WORDS = 3.5, 8.0, 5.2
 _SLOPE = math.tan(math.radians(30))
@@ -146,8 +148,21 @@ class _Layout:
             (self._round if isinstance(one, Round) else self._note)(one)  # type: ignore[arg-type]
         if title:
             box = self.extent()
-            long = text_width(title, TEXT_HEIGHT)
-            self._write(text_of(title, complex((box.left + box.right - long) / 2, box.high + 3.0)))
+            words, sign, more = (part.strip() for part in title.partition(TURNED))
+            long = text_width(words, TITLE_TEXT) + (2 * _SIGN + text_width(more, TITLE_TEXT) if sign else 0.0)
+            at = complex((box.left + box.right - long) / 2, box.high + 3.0)
+            self._write(text_of(words, at, TITLE_TEXT))
+            if sign:
+                self._turned(at + complex(text_width(words, TITLE_TEXT) + _SIGN, TITLE_TEXT / 2))
+                self._write(text_of(more, at + long - text_width(more, TITLE_TEXT), TITLE_TEXT))
+
+    def _turned(self, middle: complex) -> None:
+        """The sign of a view that is turned: most of a circle with an arrow at its end; GOST 2.305."""
+        arc = Arc(middle, TITLE_TEXT / 2, math.radians(20.0), -math.radians(300.0))
+        self._stroke(_DIMENSION, arc)
+        tip = middle + cmath.rect(TITLE_TEXT / 2, arc.start_angle + arc.sweep)
+        for line in _arrow(tip, cmath.rect(1.0, arc.start_angle + arc.sweep + math.radians(115.0))):
+            self._stroke(_DIMENSION, line)
 
     def extent(self) -> Box:
         """All that is drawn and written."""
@@ -175,7 +190,7 @@ class _Layout:
 
     def _cut(self, cut: Cut, sizes: Sequence[Size]) -> None:
         """Both marks of a section, each in the nearest place where its letter is clear, of extension lines too."""
-        x, wide = self.paper.point(complex(cut.at)).real, text_width(cut.letter, TEXT_HEIGHT)
+        x, wide = self.paper.point(complex(cut.at)).real, text_width(cut.letter, TITLE_TEXT)
         for way, edge, side in ((1, self.body.high, "above"), (-1, self.body.low, "below")):
             coming = [self.paper.point(p).real for one in sizes if one.side == side for p in (one.start, one.end)]
             places: list[tuple[list[Line], list[Line], Text]] = []
@@ -187,8 +202,8 @@ class _Layout:
                 lefts = (-_LOOK - wide - 1.0, -_LOOK + 0.5, 1.5)
                 if cut.from_right:
                     lefts = (_LOOK + 1.0, _LOOK - wide - 0.5, -wide - 1.5)
-                for left, lift in zip(lefts, (-TEXT_HEIGHT / 2, 1.0, -TEXT_HEIGHT / 2), strict=True):
-                    text = text_of(cut.letter, tip + complex(left, lift), TEXT_HEIGHT)
+                for left, lift in zip(lefts, (-TITLE_TEXT / 2, 1.0, -TITLE_TEXT / 2), strict=True):
+                    text = text_of(cut.letter, tip + complex(left, lift), TITLE_TEXT)
                     places.append(([mark], [Line(tip + foot * _LOOK, tip), *lines], text))
             free = (
                 place for place in places
@@ -438,7 +453,7 @@ class _Layout:
                     lines, text = rough_sign(elbow + side * off, note.text)
                     lines.append(Line(elbow, elbow + side * (off + 1.0)))
                 else:
-                    lines, text = _shelved(elbow, note.text, way)
+                    lines, text = _shelved(elbow, note.text, way, TITLE_TEXT if note.is_letter else TEXT_HEIGHT)
                 yield _Place({"leader": [Line(tip, elbow), *lines]}, _arrow(tip, way), text, cost, put)
 
 
@@ -539,11 +554,11 @@ def _arrow(tip: complex, way: complex) -> list[Line]:
     return [Line(tip, tip + way * complex(ARROW, _BARB * (2 * k / (_FAN - 1) - 1))) for k in range(_FAN)]
 
 
-def _shelved(elbow: complex, words: str, way: complex) -> tuple[list[Line], Text]:
+def _shelved(elbow: complex, words: str, way: complex, height: float = TEXT_HEIGHT) -> tuple[list[Line], Text]:
     """A shelf at the end of a leader, with the words above it."""
-    wide = text_width(words) + 1.0
+    wide = text_width(words, height) + 1.0
     left = elbow if way.real >= -1e-9 else elbow - wide
-    return [Line(left, left + wide)], text_of(words, left + complex(0.5, _GAP))
+    return [Line(left, left + wide)], text_of(words, left + complex(0.5, _GAP), height)
 
 
 def rough_sign(foot: complex, words: str, height: float = SMALL_TEXT) -> tuple[list[Line], Text]:

@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
 from geometry.base.record import replace
-from geometry.base.roots import bracketed_root
-from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc
-from geometry.plane.profile import Profile
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
 from parts.drawing.directions import directions
+from parts.drawing.extent import reach
 from parts.drawing.wheel_views import Wheel, wheel_views
 from parts.drawing.working import PartDrawing, Round, Subject, requirements
-
-_SAMPLES = 65
 
 
 def disk_drawing(
@@ -37,33 +30,10 @@ def disk_drawing(
         wheel = Wheel(shape, holes, (radius, radius), None, runs=True)
         return PartDrawing(wheel_views(wheel, subject), requirements(subject, *directions(holes, subject, "")))
     bare = Wheel(shape, holes, (0.0, 0.0), outline)
-    up = math.pi / 2 - bare.turn
     rounds = tuple(
         Round(name.removesuffix("_diameter"), 0j, subject.part.circles[name] / 2, angles=(-60.0, -120.0, -30.0, 210.0))
         for name in circles
     )
-    tip = reach(outline, up), reach(outline, up + math.pi)
+    tip = reach(outline, math.pi / 2), reach(outline, -math.pi / 2)
     wheel = replace(bare, tip=tip, rounds=rounds, stands=False)
     return PartDrawing(wheel_views(wheel, subject), requirements(subject, *directions(holes, subject, zero, teeth)))
-
-
-def reach(profile: Profile, angle: float) -> float:
-    """How far a profile about the origin is from there in a direction (rad), mm."""
-    turn = cmath.exp(-1j * angle)
-    found = []
-    for segment in profile.segments():
-        curve = segment.curve
-        t = np.linspace(*curve.domain, _SAMPLES)
-        points = curve.point(t) * turn
-        for k in np.flatnonzero((points[:-1].imag >= 0) != (points[1:].imag >= 0)):
-            found.append(_crossing(curve, turn, float(t[k]), float(t[k + 1])))
-    return max(found)
-
-
-def _crossing(curve: Curve, turn: complex, low: float, high: float) -> float:
-    """How far out a piece of a curve crosses the direction, which it does once."""
-
-    def off(t: float) -> float:
-        return (complex(curve.point(t)) * turn).imag
-
-    return (complex(curve.point(bracketed_root(off, low, high).value)) * turn).real

@@ -1,7 +1,8 @@
-"""How far curves reach in a direction, exactly."""
+"""How far curves reach in a direction, and where a straight line crosses an outline, exactly."""
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable
 from functools import partial
@@ -10,6 +11,7 @@ import numpy as np
 
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Curve
+from geometry.plane.profile import Profile
 
 # what is one place, mm
 _SAME, _SAMPLES = 1e-6, 65
@@ -30,6 +32,29 @@ def farthest(curves: Iterable[Curve], way: complex) -> complex:
         if ((point := complex(curve.point(at))) / way).real > reach + _SAME:
             best, reach = point, (point / way).real
     return best
+
+
+def reach(profile: Profile, angle: float) -> float:
+    """How far a profile about the origin is from there in a direction (rad), mm."""
+    return max(crossings(profile, 0j, cmath.rect(1.0, angle)))
+
+
+def crossings(profile: Profile, start: complex, way: complex) -> list[float]:
+    """How far from a place along a direction of length 1 an outline crosses the straight line through both, mm."""
+    found = []
+    for segment in profile.segments():
+        curve = segment.curve
+        t = np.linspace(*curve.domain, _SAMPLES)
+        above = ((curve.point(t) - start) / way).imag >= 0
+        for k in np.flatnonzero(above[:-1] != above[1:]):
+            at = bracketed_root(partial(_off, curve, start, way), float(t[k]), float(t[k + 1])).value
+            found.append(((complex(curve.point(at)) - start) / way).real)
+    return found
+
+
+def _off(curve: Curve, start: complex, way: complex, t: float) -> float:
+    """How far a curve is on the left of a line."""
+    return ((complex(curve.point(t)) - start) / way).imag
 
 
 def _rate(curve: Curve, way: complex, t: float) -> float:

@@ -1,6 +1,7 @@
 """Views of a wheel for its working drawing: axial section, face, bore; images of teeth after GOST 2.402.
 
-Sections lie with the wheel's axis along x, its lower face at 0; a keyed bore stands with its first keyway upwards.
+Sections lie with the wheel's axis along x, its lower face at 0, in projection with the face: where that may be turned
+a keyed bore stands with its first keyway upwards.
 """
 
 from __future__ import annotations
@@ -11,14 +12,16 @@ from collections.abc import Iterator, Sequence
 
 from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
+from geometry.curves.curve import start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
 from geometry.solids.windows import RoundHoles
+from parts.drawing.extent import crossings, reach
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
-from parts.drawing.working import AXIS, THIN, VISIBLE, Note, Round, Size, Stroke, Subject, View, arc_angles
+from parts.drawing.working import AXIS, THIN, TURNED, VISIBLE, Note, Round, Size, Stroke, Subject, View, arc_angles
 from parts.texts.sheets import sheet_words, view_letter
 
 # a view of a bore is so high on paper at least, mm
@@ -26,6 +29,8 @@ _LEAST_BORE = 25.0
 _UP = math.pi / 2
 # mm, what is no length
 _NONE = 1e-9
+# mm within which a wall is an edge's own; the least turn of a corner that is seen, rad
+_NEAR, _SMOOTH = 1e-6, 1e-6
 
 
 class Crown(Record):
@@ -69,9 +74,9 @@ class Wheel(Record):
 
     @property
     def turn(self) -> float:
-        """By how much it is turned for its bore to stand upright, rad."""
+        """By how much its face and its section are turned, rad: for its bore to stand upright, where it may."""
         bore = self.holes.bore
-        return 0.0 if bore is None or isinstance(bore, RoundBore) else _UP - bore.angle  # type: ignore[attr-defined]
+        return _UP - bore.angle if self.stands and _is_keyed(bore) else 0.0  # type: ignore[union-attr]
 
 
 class _Levels(Record):
@@ -115,6 +120,31 @@ def bore_radii(bore: Bore | None) -> tuple[float, float]:
             return bore.across_flats / 2, bore.across_flats / 2
         case _:
             return bore.reach, bore.reach
+
+
+def _is_keyed(bore: Bore | None) -> bool:
+    return bore is not None and not isinstance(bore, RoundBore)
+
+
+def bore_cut(bore: Bore | None, low: float, high: float, turn: float) -> tuple[tuple[float, float], list[Line]]:
+    """A bore, turned (rad), in the upright plane through its axis: its walls up and down from there, edges behind it.
+
+    Edges run from ``low`` to ``high``; one is seen where no wall stands before it.
+    """
+    if bore is None or isinstance(bore, RoundBore) or abs(bore.angle + turn - _UP) < _NONE:  # type: ignore[attr-defined]
+        return bore_radii(bore), [*keyway_edges(bore, low, high)]
+    profile = bore.profile().placed(Placement2(turn))
+    curves = [segment.curve for segment in profile.segments()]
+    heights = []
+    for before, after in zip((curves[-1], *curves[:-1]), curves, strict=True):
+        corner = start_point(after)
+        ways = before.tangent(before.domain[1]), after.tangent(after.domain[0])
+        if corner.real < _NONE or abs(complex(ways[1] - ways[0])) < _SMOOTH:
+            continue
+        if not any(_NEAR < x < corner.real - _NEAR for x in crossings(profile, 1j * corner.imag, 1.0)):
+            heights.append(corner.imag)
+    walls = reach(profile, _UP), reach(profile, -_UP)
+    return walls, [Line(complex(low, y), complex(high, y)) for y in heights]
 
 
 def keyway_edges(bore: Bore | None, low: float, high: float) -> Iterator[Line]:
@@ -176,7 +206,7 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
     strokes: list[Stroke] = []
     hatched: list[tuple[Line | Arc, ...]] = []
     axes = [Line(complex(min(at.hub[0], 0.0)), complex(max(at.hub[1], shape.face_width)))]
-    bores = bore_radii(holes.bore)
+    bores, edges = bore_cut(holes.bore, *at.hub, wheel.turn)
     for bore, tip, way in zip(bores, wheel.tip, (1, -1), strict=True):
 
         def placed(loop: Loop, way: int = way) -> Loop:
@@ -190,15 +220,15 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
         if wheel.pitch is not None:
             pitch = wheel.pitch
             axes.append(Line(*(complex(e.real, e.imag * pitch) for e in ends)))
-        for low, high, is_hole in _openings(holes, wheel.turn if wheel.stands else 0.0, way):
+        for low, high, is_hole in _openings(holes, wheel.turn, way):
             sides = [Line(complex(at.web[0], way * y), complex(at.web[1], way * y)) for y in (low, high)]
             hatched.append(closed([sides[0].start, sides[0].end, sides[1].end, sides[1].start]))
             strokes += [(VISIBLE, side) for side in sides]
             if is_hole:
                 middle = way * (low + high) / 2
                 axes.append(Line(complex(at.web[0], middle), complex(at.web[1], middle)))
-    strokes += [(VISIBLE, edge) for edge in keyway_edges(holes.bore, *at.hub)]
-    sizes, notes = tuple(_section_sizes(wheel, subject)), _section_notes(wheel, subject, at, wishes.flank_roughness)
+    strokes += [(VISIBLE, edge) for edge in edges]
+    sizes, notes = tuple(_section_sizes(wheel, subject)), _section_notes(wheel, subject, at, -bores[1])
     return View(tuple(strokes), tuple(hatched), tuple(axes), sizes, tuple(_crown_rounds(wheel)), notes)
 
 
@@ -252,7 +282,7 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
         if at.web[0] > 0:
             inner = 1j * shape.web.rim_diameter / 2
             found.append(Size("web.below", inner, at.web[0] + inner, "above"))
-    turn = wheel.turn if wheel.stands else 0.0
+    turn = wheel.turn
     for index, (_, group) in enumerate(wheel.holes.groups(), 1):
         found.append(circle_size(f"holes.{index}", _turned(group, turn), at.web[0]))
     if (spokes := wheel.holes.spokes) is not None:
@@ -279,17 +309,16 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
     return found
 
 
-def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, flank: float) -> tuple[Note, ...]:
-    """Signs of roughness of the teeth, or of the outside, and of the bore."""
+def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, wall: float) -> tuple[Note, ...]:
+    """Signs of roughness of the teeth, or of the outside, and of the bore, whose wall stands at a height."""
     found = []
-    text = f"Ra {subject.say(flank)}"
+    text = f"Ra {subject.say(subject.wishes.flank_roughness)}"
     if wheel.pitch is not None:
         found.append(Note(complex(wheel.shape.face_width, wheel.pitch), text, is_rough=True, goes_on=True))
     elif wheel.runs or (not wheel.stands and wheel.outline is not None):
         found.append(Note(complex(0.7 * wheel.shape.face_width, wheel.tip[0]), text, is_rough=True))
     if wheel.holes.bore is not None:
-        words, wall = f"Ra {subject.say(subject.wishes.bore_roughness)}", -bore_radii(wheel.holes.bore)[1]
-        found.append(bore_note(at.hub, wall, words))
+        found.append(bore_note(at.hub, wall, f"Ra {subject.say(subject.wishes.bore_roughness)}"))
     return tuple(found)
 
 
@@ -317,7 +346,7 @@ def exact_teeth(outline: Profile, count: int, turn: float, tip: float) -> list[S
 
 def face_view(wheel: Wheel, subject: Subject) -> View:
     """The view along the axis: circles for teeth, as many as are wished exact; hub, bore, holes."""
-    turn, tip = wheel.turn if wheel.stands else 0.0, max(wheel.tip)
+    turn, tip = wheel.turn, max(wheel.tip)
     placement = Placement2(turn)
     strokes: list[Stroke] = []
     if wheel.outline is None:
@@ -380,9 +409,13 @@ def group_rounds(holes: HubHoles, turn: float, subject: Subject) -> tuple[Round,
     return tuple(found)
 
 
-def bore_view(bore: Bore, subject: Subject) -> View:
-    """The bore alone, with the sizes of its keyway or flats."""
-    turn = Placement2(_UP - bore.angle)  # type: ignore[attr-defined]
+def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View:
+    """The bore alone, upright, with the sizes of its keyway or flats.
+
+    ``others``: by how much views beside it are turned, rad; None: as it is.
+    """
+    angle = _UP - bore.angle  # type: ignore[attr-defined]
+    turn = Placement2(angle)
     strokes = [(VISIBLE, s.curve.placed(turn)) for s in bore.profile().segments()]
     up, down = bore_radii(bore)
     sizes, rounds = [], list[Round]()
@@ -409,7 +442,9 @@ def bore_view(bore: Bore, subject: Subject) -> View:
             rounds.append(
                 Round("bore.corner_radius", rounded.centre, rounded.radius, "R", is_radius=True, angles=angles)
             )
-    name = view_letter(subject.language)
+    name, off = view_letter(subject.language), 0.0 if others is None else math.remainder(angle - others, math.tau)
+    if abs(off) > _NONE:
+        name += f" {TURNED} {subject.say(abs(math.degrees(off)))}°"
     return View(tuple(strokes), (), axis_cross(bore.reach), tuple(sizes), tuple(rounds), (), name, _LEAST_BORE)
 
 
@@ -463,7 +498,7 @@ def wheel_views(wheel: Wheel, subject: Subject) -> tuple[View, ...]:
     bore = wheel.holes.bore
     if bore is None or isinstance(bore, RoundBore):
         return section, face
-    return seen_along(section, levels(wheel.shape).hub[1], subject), face, bore_view(bore, subject)
+    return seen_along(section, levels(wheel.shape).hub[1], subject), face, bore_view(bore, subject, wheel.turn)
 
 
 def seen_along(view: View, end: float, subject: Subject) -> View:

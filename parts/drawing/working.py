@@ -21,6 +21,8 @@ Side = Literal["left", "right", "above", "below"]
 # lines of GOST 2.303 by what they show
 VISIBLE, AXIS, THIN, HIDDEN = "OUTLINE", "CENTRE", "THIN", "HIDDEN"
 _DECIMALS = 3
+# in a title the sign of GOST 2.305 for a view that is turned; the font has none, so it is drawn
+TURNED = "\u21bb"
 
 
 Stroke = tuple[str, Curve]
@@ -86,6 +88,7 @@ class Note(Record):
     ``free``: the way out of the material there, from which its leader comes; 0: from anywhere. ``also``: other points
     that serve as well, with theirs.
     ``looks``: the text is the letter of a view, and an arrow points that way: -1 from the right, -1j from above.
+    ``is_letter``: it names a view, and is as large as titles are.
     """
 
     at: complex
@@ -93,6 +96,7 @@ class Note(Record):
     is_rough: bool = False
     goes_on: bool = False
     looks: complex = 0
+    is_letter: bool = False
     free: complex = 0j
     also: tuple[tuple[complex, complex], ...] = ()
 
@@ -109,8 +113,8 @@ class View(Record):
     """A view in model mm, its x axis the axis that it shares with its neighbours.
 
     ``strokes``: curves by the layer of their line; ``hatched``: closed loops of lines and arcs, material between them.
-    ``length``: axes reach so far beyond their ends on paper, mm. ``title``: stands above it; ``least``: mm that it is
-    high on paper at least, a view with a scale of its own. ``from_right``: it is seen from the right of the main view,
+    ``length``: axes reach so far beyond their ends on paper, mm. ``title``: stands above it, ``TURNED`` in it for that
+    sign; ``least``: mm that it is high on paper at least, a view with a scale of its own. ``from_right``: it is seen from the right of the main view,
     on whose left it stands (GOST 2.305).
     """
 

@@ -146,7 +146,6 @@ SHEETS: dict[str, Text] = {
     "tooth_marked": N_("A mark at a tooth and the number {teeth} engraved {depth} deep, digits {height} high."),
     "space_marked": N_("A mark at a space and the number {teeth} engraved {depth} deep, digits {height} high."),
     "view_letters": in_context("drawing, letters of views and sections in their order", "ABCDEFGHJKLMNPRSTUVW"),
-    "turned_by": N_("turned by {angle}°"),
     "unspecified_limits": N_("Unspecified limit deviations: H14, h14, ±IT14/2."),
 }
 
