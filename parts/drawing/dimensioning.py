@@ -161,7 +161,7 @@ class _Layout:
         arc = Arc(middle, TITLE_TEXT / 2, math.radians(20.0), -math.radians(300.0))
         self._stroke(_DIMENSION, arc)
         tip = middle + cmath.rect(TITLE_TEXT / 2, arc.start_angle + arc.sweep)
-        for line in _arrow(tip, cmath.rect(1.0, arc.start_angle + arc.sweep + math.radians(115.0))):
+        for line in _arrow(tip, cmath.rect(1.0, arc.start_angle + arc.sweep + math.radians(127.0))):
             self._stroke(_DIMENSION, line)
 
     def extent(self) -> Box:

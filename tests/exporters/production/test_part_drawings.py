@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ import ezdxf
 import mpmath
 import numpy as np
 import pytest
+from ezdxf.path import make_path
 
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
@@ -235,6 +237,27 @@ def test_keyways_stand_in_their_directions_with_marks_of_their_sections(
     # the first looks at the reader, or stands in the section along the axis; others as they are
     assert bool(space.query("*[layer=='HIDDEN']")) == any((angle % 180 if bore else angle) != 90 for angle in angles)
     assert any(text.endswith("°") for text in texts) == any(angle % 90 for angle in angles)
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("angle", [90.0, 30.0, 270.0])
+def test_the_section_of_a_cam_stands_in_projection_with_its_face(tmp_path: Path, angle: float) -> None:
+    bore = {"shape": "keyway", "diameter": 18.0, "standard": "GOST 23360", "angle_deg": angle}
+    job = jobs(PARTS["cam"] | {"bore": bore}, formats=("dxf",))[0]
+    job.write({}, tmp_path / job.path)
+    space = ezdxf.readfile(tmp_path / job.path).modelspace()
+    paths = [[complex(p.x, p.y) for p in make_path(e).flattening(1e-4)] for e in space.query("*[layer=='OUTLINE']")]
+    # both ends of the axis of the face that is upright, the first of three
+    middle = min(e.dxf.start.x for e in space.query("LINE[layer=='CENTRE']") if e.dxf.start.x == e.dxf.end.x)
+    face = sorted(
+        a.imag + (b.imag - a.imag) * (middle - a.real) / (b.real - a.real)
+        for path in paths for a, b in pairwise(path) if (a.real < middle) != (b.real < middle)
+    )  # fmt: skip
+    edges = {round(p.imag, 6) for path in paths for p in path if len(path) == 2 and p.real > middle + 55.0}
+    assert len(face) == 6
+    assert all(min(abs(y - edge) for edge in edges) < 1e-2 for y in face)
+    signs = [a for a in space.query("ARC[layer=='DIMENSION']") if abs(a.dxf.radius - 2.5) < 1e-6]
+    assert len(signs) == (angle != 90.0)
 
 
 def test_refusals_name_their_key() -> None:
