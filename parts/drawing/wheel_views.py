@@ -202,7 +202,7 @@ def _topped(loop: Loop, height: float, top: Loop) -> Loop:
 
 def section_view(wheel: Wheel, subject: Subject) -> View:
     """The axial section; holes and spokes are turned into its plane."""
-    shape, holes, wishes, at = wheel.shape, wheel.holes, subject.wishes, levels(wheel.shape)
+    shape, holes, at = wheel.shape, wheel.holes, levels(wheel.shape)
     strokes: list[Stroke] = []
     hatched: list[tuple[Line | Arc, ...]] = []
     axes = [Line(complex(min(at.hub[0], 0.0)), complex(max(at.hub[1], shape.face_width)))]

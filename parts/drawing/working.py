@@ -114,8 +114,8 @@ class View(Record):
 
     ``strokes``: curves by the layer of their line; ``hatched``: closed loops of lines and arcs, material between them.
     ``length``: axes reach so far beyond their ends on paper, mm. ``title``: stands above it, ``TURNED`` in it for that
-    sign; ``least``: mm that it is high on paper at least, a view with a scale of its own. ``from_right``: it is seen from the right of the main view,
-    on whose left it stands (GOST 2.305).
+    sign; ``least``: mm that it is high on paper at least, a view with a scale of its own. ``from_right``: it is seen
+    from the right of the main view, on whose left it stands (GOST 2.305).
     """
 
     strokes: tuple[Stroke, ...]
