@@ -101,15 +101,27 @@ def laid(view: View, scale: float, language: str, *, own: bool = False) -> Laid 
 
     ``own``: its scale is not the sheet's, which is all that some programs know, so its numbers stand as words.
     """
+    if (usual := _filled(view, scale, language, own=own)) is None:
+        return None
+    # where leaders run over dimension lines, notes choose before sizes
+    if over := usual.ink.run_over():
+        other = _filled(view, scale, language, own=own, first=view.notes)
+        if other is not None and other.ink.run_over() < over:
+            usual = other
+    return Laid(view, usual.canvas, scale, usual.extent())
+
+
+def _filled(view: View, scale: float, language: str, *, own: bool, first: Sequence[Note] = ()) -> _Layout | None:
+    """A view with all of its dimensions, ``first`` those notes; None where they find no room."""
     sizes = sorted(view.sizes, key=lambda one: one.value)
-    leaders: list[Round | Note] = [*view.rounds, *view.notes]
+    leaders: list[Round | Note] = [*view.rounds, *(() if first else view.notes)]
     tried: list[list[Size | Round | Note]] = []
     while (order := [*sizes, *leaders]) not in tried and len(tried) < _TRIES:
         tried.append(order)
         made = _Layout(view, scale, language, own=own)
         try:
-            made.fill(sizes, leaders, view.title)
-            return Laid(view, made.canvas, scale, made.extent())
+            made.fill(first, sizes, leaders, view.title)
+            return made
         except _NoRoomError as refusal:
             # what had no room is the first to choose
             owner = refusal.owner
@@ -137,8 +149,10 @@ class _Layout:
         for cut in view.cuts:
             self._cut(cut, view.sizes)
 
-    def fill(self, sizes: Sequence[Size], leaders: Sequence[Round | Note], title: str) -> None:
+    def fill(self, first: Sequence[Note], sizes: Sequence[Size], leaders: Sequence[Round | Note], title: str) -> None:
         """Add all words with their lines, in this order."""
+        for note in first:
+            self._note(note)
         for k, size in enumerate(sizes):
             # where extension lines will run past its words
             ends = [p for other in sizes[k + 1 :] if other.side == size.side for p in (other.start, other.end)]

@@ -21,7 +21,7 @@ FREE = 0.4
 _SAMPLES = 33
 # what a crossing of two of them costs, in rows of dimension lines, and a line that lies on another, or so near it, mm,
 # over such a length: GOST 2.307 forbids the first where it can be avoided, leaders never cross each other
-_CROSSING = np.array([[0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.5, 1.5], [0.3, 1.5, 6.0, 6.0], [1.5, 1.5, 6.0, 20.0]])
+_CROSSING = np.array([[0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.5, 1.5], [0.3, 1.5, 6.0, 18.0], [1.5, 1.5, 18.0, 20.0]])
 _LYING, _BESIDE, _ALONG = np.array([0.0, 0.0, 10.0, 10.0]), 1.0, 0.5
 # what ends within another line does not cross it, mm, but leaders keep off the ends of dimension lines and of leaders;
 # sine of directions that are one
@@ -85,6 +85,11 @@ class Ink(Draft):
         """Remember straight lines by what they are."""
         rows = [(line.start, line.end, _ROLES.index(role)) for role, lines in new.items() for line in lines]
         self.straight = np.concatenate([self.straight, np.array(rows, dtype=complex).reshape(-1, 3).T], axis=1)
+
+    def run_over(self) -> int:
+        """How many dimension lines are crossed by leaders."""
+        sizes, leaders = (self.straight[:, self.straight[2] == _ROLES.index(role)] for role in ("dimension", "leader"))
+        return int(np.count_nonzero(_costs(sizes, leaders)))
 
     def costs(self, places: Sequence[Mapping[Role, Sequence[Line]]]) -> list[float]:
         """What new lines of a size cost by what they cross and lie on, for each of its places."""

@@ -95,13 +95,15 @@ def tangles(file: Path) -> list[str]:
 
 
 def run_over(file: Path) -> int:
-    """How many dimension lines the leaders of an assembly's numbers cross."""
+    """How many dimension lines the leaders of an assembly's numbers cross, or those of a part."""
     document = ezdxf.readfile(file)
     space = document.modelspace()
     sizes = [size_line(document, one) for one in space.query("DIMENSION") if not one.dxf.angle % 90]
     dots = [complex(*e.dxf.center.vec2) for e in space.query("CIRCLE[layer=='THIN']") if abs(e.dxf.radius - 0.5) < 1e-6]
     thin = lines_of(space.query("LINE[layer=='THIN']"))
     leaders = [row for row in thin if any(abs(row[0] - dot) < 1e-5 for dot in dots)]
+    loose = lines_of(space.query("LINE[layer=='DIMENSION']"))
+    leaders += [row for row in loose if row[0].real != row[1].real and row[0].imag != row[1].imag]
     assert leaders
     return sum(crosses(leader, size) for leader in leaders for size in sizes)
 
@@ -174,5 +176,12 @@ def test_leaders_of_numbers_keep_off_dimension_lines(tmp_path: Path) -> None:
     raw = {"parts": gears, "mates": [{"kind": "external_gear_pair", "first": "small", "second": "large"}],
            "exports": [{"format": "dxf", "purpose": "assembly"}]}  # fmt: skip
     (job,) = plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets
+    job.write({}, tmp_path / job.path)
+    assert run_over(tmp_path / job.path) == 0
+
+
+def test_the_sign_on_the_seats_of_a_ring_keeps_off_dimension_lines(tmp_path: Path) -> None:
+    """As it was: sizes chose first, and the sign's leader crossed the one of the ring's inner diameter."""
+    (job,) = jobs(PARTS["pin ring"], formats=("dxf",))
     job.write({}, tmp_path / job.path)
     assert run_over(tmp_path / job.path) == 0
