@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
 from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
+from geometry.base.nearest import kept, nearest
 from parts.keys.base import degrees, in_modules, mm
 
 if TYPE_CHECKING:
@@ -18,6 +20,8 @@ Starts = Annotated[int, Meta(ge=1, le=50, description="starts of the worm, z1")]
 Quotient = Annotated[float, Meta(gt=0, le=1000, description="q = d1 / m")]
 # of a worm that gives neither q nor a lead angle
 USUAL_QUOTIENT = 10.0
+# how much larger a q is tried than one that does not do
+_WIDER = (1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 5.0, 10.0, 20.0)
 WormQuotient = Annotated[
     float, Meta(gt=0, le=1000, description="q = d1 / m; default: 10", examples=[USUAL_QUOTIENT])
 ]  # fmt: skip
@@ -93,6 +97,31 @@ def quotient_of(keys: Led) -> float:
         told = {"one": "lead_angle_deg", "other": "diameter_quotient"}
         raise ParameterError("diameter_quotient", given, "either_key", Nearest(None), **told)
     return wanted
+
+
+def wider(
+    refusal: ParameterError, does: Callable[[float], bool], stands: Callable[[float], bool] | None = None
+) -> ParameterError:
+    """A refusal of the diameter quotient with the least that does for the whole part, from its own limit on.
+
+    ``does``: a margin of the part; ``stands``: the part itself, where that is more and costly.
+    """
+    if refusal.name != "diameter_quotient" or refusal.code == "either_key":
+        return refusal
+
+    def cure() -> Nearest | None:
+        own = refusal.nearest
+        start = float(str(refusal.value if own is None else own.value))
+        if own is not None and kept(stands or does, start):
+            return own
+        ends = [start * share for share in _WIDER]
+        found = nearest(does, start, ends)
+        if stands is None or found is None or not isinstance(found.value, float) or kept(stands, found.value):
+            return found
+        # costly, so by a few trials
+        return nearest(stands, found.value, [end for end in ends if end > found.value], enough=start / 50)
+
+    return ParameterError(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
 
 
 def in_degrees(refusal: ParameterError, keys: Led) -> ParameterError:

@@ -32,6 +32,7 @@ from parts.keys.worm import (
     WormQuotient,
     in_degrees,
     quotient_of,
+    wider,
     worm_of,
 )  # fmt: skip
 
@@ -156,7 +157,11 @@ def thread_of_keys(keys: WormSpec) -> Thread:
     except ParameterError as refusal:
         if refusal.name == "addendum_coefficient":
             raise ParameterError(refusal.name, refusal.value, refusal.code, partial(_lower, keys)) from refusal
-        raise in_degrees(refusal, keys) from refusal
+
+        def stands(value: float) -> bool:
+            return WORM.thing(changed(told, diameter_quotient=value), {}) is not None
+
+        raise in_degrees(wider(refusal, stands), keys) from refusal
 
 
 def _lower(keys: WormSpec) -> Nearest | None:

@@ -33,6 +33,7 @@ from parts.keys.worm import (
     WormAngle,
     WormHand,
     hob_quotient,
+    wider,
     worm_of,
 )  # fmt: skip
 
@@ -226,6 +227,18 @@ def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
     return ParameterError(key, given, code, cure)
 
 
+def _wider(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
+    """A refusal of the worm's diameter quotient with one that leaves teeth."""
+
+    def does(value: float) -> bool:
+        return _of_use(changed(keys, diameter_quotient=value))
+
+    def stands(value: float) -> bool:
+        return WORM_WHEEL.thing(changed(keys, diameter_quotient=value), {}).teeth.width > 0
+
+    return wider(refusal, does, stands)
+
+
 class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
     """A worm wheel, which has another section at every height."""
 
@@ -243,7 +256,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
             drive = drive_of(keys)
         except ParameterError as refusal:
             if refusal.code != "worm_pointed":
-                raise
+                raise _wider(keys, refusal) from refusal
             raise _toothless(keys, refusal.code) from refusal
         teeth, holes = teeth_of(keys, drive), keys.hub_holes()
         shape = wheel_shape(teeth.width, keys.web, keys.hub, 0.0)

@@ -22,6 +22,7 @@ from parts.scene.load import make_parts, scene_from_dict
 from parts.solids.mesh import body_mesh, mesh_outlines
 from parts.solids.step_text import StepForm, StepPart, step_text
 from tests.parts.nearest import cured, refused
+from tests.parts.positive_scenes import parts_of
 
 WORM: dict[str, Any] = {"kind": "worm", "module": 5.0, "thread_length": 40.0}
 EXTREMES: dict[str, dict[str, Any]] = {
@@ -165,12 +166,36 @@ def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_p
         ({"diameter_quotient": 12.0, "lead_angle_deg": 10.0}, "diameter_quotient"),
         # before: the usual q was dropped
         ({"diameter_quotient": 10.0, "lead_angle_deg": 12.0}, "diameter_quotient"),
+        # before: what was offered had a core and no thread, so that nothing was
+        ({"diameter_quotient": 2.2, "form": "ZN1"}, "diameter_quotient"),
+        ({"diameter_quotient": 2.0, "form": "ZN2", "number_of_starts": 4}, "diameter_quotient"),
+        ({"lead_angle_deg": 60.0, "form": "ZN1", "number_of_starts": 4}, "lead_angle_deg"),
     ],
 )
 def test_a_worm_that_cannot_be_is_refused_with_a_value_that_works(keys: dict[str, Any], key: str) -> None:
     refusal = refused({"worm": WORM | keys})
     assert refusal.key == f"parts.worm.{key}"
     assert cured({"worm": WORM | keys}, refusal) is not None
+
+
+def test_a_wheel_of_a_worm_without_core_is_told_a_quotient_that_has_teeth() -> None:
+    wheel = {
+        "kind": "worm_wheel",
+        "module": 2.0,
+        "number_of_teeth": 40,
+        "number_of_starts": 8,
+        "diameter_quotient": 2.2,
+    }
+    refusal = refused({"wheel": wheel})
+    assert (refusal.key, refusal.code) == ("parts.wheel.diameter_quotient", "worm_root_under_axis")
+    found = refusal.nearest
+    assert found is not None
+    assert found.side == "at_least"
+    assert isinstance(found.value, float)
+    assert parts_of({"wheel": wheel | {"diameter_quotient": found.value}})
+    # the nearest but for what a costly search leaves
+    with pytest.raises(SceneError):
+        parts_of({"wheel": wheel | {"diameter_quotient": found.value - 0.3}})
 
 
 def test_a_quotient_may_say_the_same_as_the_lead_angle() -> None:
