@@ -116,7 +116,9 @@ def explained(refusal: SceneError) -> Message:
     why = filled(text, **{name: n if name == counted else _told(n) for name, n in refusal.numbers.items()})
     if few := _nearest_few(refusal):
         why = filled(why, known=few)
-    if letter := look_alike(f"{refusal.key} {refusal.value if isinstance(refusal.value, str) else ''}"):
+    # a value of other letters too is written in Cyrillic on purpose
+    word = refusal.value if isinstance(refusal.value, str) and in_latin(refusal.value).isascii() else ""
+    if letter := look_alike(f"{refusal.key} {word}"):
         why = message("{why}; {remedy}", why=why, remedy=letter)
     nearest = refusal.nearest
     if nearest is None:

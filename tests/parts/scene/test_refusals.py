@@ -379,6 +379,8 @@ def test_cyrillic_letters_that_look_like_latin_ones_are_named(typed: str, told: 
 
 def test_words_in_cyrillic_are_no_slip() -> None:
     assert "Cyrillic" not in str(refusal('[parts.p]\nkind = "шестерня"'))
+    # a word of a letter that Latin has too
+    assert "Cyrillic" not in str(refusal(f'[parts.p]\nkind = "plate"\nlabel = "довга і {"ш" * 60}"'))
 
 
 def test_a_bed_too_low_is_told_by_its_height() -> None:
