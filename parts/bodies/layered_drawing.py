@@ -26,6 +26,8 @@ from parts.texts.sheets import sheet_words, view_letter
 _NONE, _BESIDE, _JUMP, _DIGITS = 1e-9, 1e-7, 1e-5, 9
 # of more layers the heights stand in the titles of their sections: marks of these have no room among extension lines
 _FEW = 10
+# corners that a polygon for a spanner has at least, and parts of its size that are none
+_SPANNED, _EQUAL = 6, 1e-6
 # parts of the width: about centres of arcs so large holes may stand on a circle
 _LARGE = 0.1
 Span = tuple[float, float]
@@ -150,11 +152,24 @@ def _places(table: _Table) -> Iterable[tuple[float, float]]:
         case CircleTable():
             return (table.at,)
         case PolygonTable():
-            return table.points
+            return _flats(table.points) or table.points
         case SlotTable():
             return table.start, table.end
         case OutlineTable():
             return ((p.x, p.y) for p in table.points)
+
+
+def _flats(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """The middles of two flats that a spanner holds, level or upright ones; none where it is no such polygon."""
+    corners = [complex(*p) for p in points]
+    middle, way = sum(corners) / len(corners), cmath.rect(1.0, 2 * math.pi / len(corners))
+    ways = way, way.conjugate()
+    turns = [(b - middle) / ((a - middle) or 1.0) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    if len(corners) < _SPANNED or len(corners) % 2 or all(any(abs(t - w) > _EQUAL for t in turns) for w in ways):
+        return []
+    flats = [(a + b) / 2 for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    found = [p for p in flats if min(abs((p - middle).real), abs((p - middle).imag)) < _EQUAL * abs(p - middle)]
+    return [(round(p.real, _DIGITS), round(p.imag, _DIGITS)) for p in found[:: len(found) // 2 or 1]][:2]
 
 
 def _shape(table: _Table) -> tuple[object, tuple[complex, ...]]:

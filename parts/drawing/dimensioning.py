@@ -53,7 +53,7 @@ _AT_ONCE = 16
 # rows of a side, and layouts of a view, that are tried
 _ROWS, _TRIES = 20, 12
 # marks of a section: from the view to the stroke, its length, its arrow; steps out where others stand there
-_MARK, _STROKE, _LOOK, _OUT = 2.0, 7.0, 6.0, 6
+_MARK, _STROKE, _LOOK, _OUT = 2.0, 7.0, 6.0, 16
 # how much farther beyond the end of a dimension line its words may stand
 _FARTHER = (0.0, 4.0, 8.0, 13.0, 20.0, 30.0)
 # how much wider words are in LibreCAD, and how far from the dimension it puts them, mm
@@ -572,7 +572,8 @@ def _shelved(elbow: complex, words: str, way: complex, height: float = TEXT_HEIG
     """A shelf at the end of a leader, with the words above it."""
     wide = text_width(words, height) + 1.0
     left = elbow if way.real >= -1e-9 else elbow - wide
-    return [Line(left, left + wide)], text_of(words, left + complex(0.5, _GAP), height)
+    # what letters reach below their line grows with them
+    return [Line(left, left + wide)], text_of(words, left + complex(0.5, _GAP * height / TEXT_HEIGHT), height)
 
 
 def rough_sign(foot: complex, words: str, height: float = SMALL_TEXT) -> tuple[list[Line], Text]:

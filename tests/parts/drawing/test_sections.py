@@ -157,3 +157,14 @@ def test_what_stands_in_equal_steps_is_told_once_with_its_circle() -> None:
     moved = drawing_of({"kind": "layered", "layers": [{"thickness": 5.0, "circles": [*outer, *holes, *square]}]})
     assert 30 * math.cos(math.radians(30)) - 10.01 == pytest.approx(min(
         (size.value for size in moved.views[0].sizes), key=lambda value: abs(value - 15.97)))  # fmt: skip
+
+
+@pytest.mark.parametrize("turn", [0.0, 30.0])
+def test_a_hexagon_is_told_by_its_width_across_flats(turn: float) -> None:
+    corners = [13 / math.sqrt(3) * complex(np.exp(1j * math.radians(turn + 60 * k))) for k in range(6)]
+    nut = {"thickness": 5.0, "polygons": [{"points": [[p.real, p.imag] for p in corners]}]}
+    (view,) = drawing_of({"kind": "layered", "layers": [nut]}).views
+    assert [size.value for size in view.sizes] == pytest.approx([13.0])
+    corners[0] *= 1.01
+    nut["polygons"] = [{"points": [[p.real, p.imag] for p in corners]}]
+    assert len(drawing_of({"kind": "layered", "layers": [nut]}).views[0].sizes) > 1
