@@ -387,12 +387,27 @@ def _off_centre(
                 continue
             centre = frame.centre + hole.centre * cmath.exp(1j * frame.rotation)
             for axle, wheel in upright:
-                bore, distance = wheel.made_by.axle_diameter(wheel.keys), abs(axle.centre - centre)
+                distance, own = abs(axle.centre - centre), axle.id == hole.axle
+                if axle is frame or not (own or distance < hole.diameter / 2):
+                    continue
+                bore = _axle_diameter(axle, wheel, frame, plate, upright)
                 slack = PLACED_MM + TOLERANCES.relative_join * (abs(axle.centre) + abs(centre))
                 clearance = max((hole.diameter - bore) / 2, 0.0) if bore else 0.0
-                stands_in = axle.id not in carried and distance < hole.diameter / 2 and 0 < bore <= hole.diameter
-                if axle is not frame and (axle.id == hole.axle or stands_in) and distance > clearance + slack:
+                stands_in = axle.id not in carried and 0 < bore <= hole.diameter
+                if (own or stands_in) and distance > clearance + slack:
                     yield OffCentre(frame.id, axle.id, distance, clearance)
+
+
+def _axle_diameter(
+    axle: Instance, wheel: Part, frame: Instance, plate: Part, upright: Sequence[tuple[Instance, Part]]
+) -> float:
+    """Of the rod that stands on the axis of an instance and in a plate, mm; without one that of the instance's bore."""
+    low, high = frame.at[2], frame.at[2] + plate.face_width
+    for other, rod in upright:
+        stands = other is not axle and other.at[2] < high and other.at[2] + rod.face_width > low
+        if stands and (stock := rod.stock) and not stock.bore and abs(other.centre - axle.centre) <= PLACED_MM:
+            return stock.diameter
+    return wheel.made_by.axle_diameter(wheel.keys)
 
 
 def _close_ones(

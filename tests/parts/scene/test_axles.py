@@ -113,6 +113,32 @@ def test_an_axle_off_its_hole_is_broken(
     assert told in said
 
 
+@pytest.mark.parametrize(("off", "hole", "clearance"), [
+    (0.09, 6.2, None), (0.55, 7.2, None), (0.12, 6.2, "0.1"), (0.01, 6.0, "0"),
+])  # fmt: skip
+def test_the_pin_in_the_hole_is_the_axle_not_the_bore_about_it(
+    off: float, hole: float, clearance: str | None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Before: the wheel's bore of 6.2 mm counted, where a dowel of 6 mm stands."""
+    at = f"{{ at = [{_working_distance(0.1) - off}, 0.0], diameter = {hole} }}"
+    model = f"""
+[[assemblies]]
+kind = "gear_pair_model"
+teeth = [17, 30]
+module = 2.0
+shifts = [0.1, 0.0]
+[parts.frame]
+width = 120.0
+holes = [{{ axis_of = "pinion", diameter = 6.0 }}, {at}]
+"""
+    file = tmp_path / "s.toml"
+    file.write_text(model, encoding="utf-8")
+    assert main(["check", str(file)]) == (0 if clearance is None else 1)
+    said = capsys.readouterr().out
+    assert said.count("BROKEN") == (0 if clearance is None else 1)
+    assert clearance is None or f"mm off the centre of a hole, its clearance is {clearance} mm" in said
+
+
 @pytest.mark.parametrize(
     ("holes", "more", "key"),
     [
