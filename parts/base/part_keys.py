@@ -52,7 +52,7 @@ LabelKey = (
         bool,
         Meta(description="laser: its name, engraved in single strokes; default: on boards only", examples=[True]),
     ]
-    | Annotated[str, Meta(pattern=r"\S", max_length=60, description="its words")]
+    | Annotated[str, Meta(pattern=r"\S", max_length=60, description="its words", examples=["z 21 m 4"])]
     | None
 )
 

@@ -124,7 +124,7 @@ def _example(field: msgspec.structs.FieldInfo) -> str | None:
     """A word that a key may hold: its default, or the first of its examples."""
     if isinstance(field.default, str):
         return field.default
-    return next((str(m.examples[0]) for m in _metas(field.type) if m.examples), None)
+    return next((word for m in _metas(field.type) for word in m.examples or () if isinstance(word, str)), None)
 
 
 def _metas(kind: object) -> list[Meta]:
