@@ -53,7 +53,7 @@ _AT_ONCE = 16
 # rows of a side, and layouts of a view, that are tried
 _ROWS, _TRIES = 20, 12
 # marks of a section: from the view to the stroke, its length, its arrow; steps out where others stand there
-_MARK, _STROKE, _LOOK, _OUT = 2.0, 7.0, 6.0, 16
+_MARK, _STROKE, _LOOK, _OUT = 2.0, 7.0, 6.0, 30
 # how much farther beyond the end of a dimension line its words may stand
 _FARTHER = (0.0, 4.0, 8.0, 13.0, 20.0, 30.0)
 # how much wider words are in LibreCAD, and how far from the dimension it puts them, mm
