@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from parts.drawing.dimensioning import laid
 from parts.drawing.hatching import hatching
 from parts.drawing.working import HIDDEN, VISIBLE, PartDrawing, Subject, View
 from parts.keys.working import WorkingTable
@@ -168,3 +169,11 @@ def test_a_hexagon_is_told_by_its_width_across_flats(turn: float) -> None:
     corners[0] *= 1.01
     nut["polygons"] = [{"points": [[p.real, p.imag] for p in corners]}]
     assert len(drawing_of({"kind": "layered", "layers": [nut]}).views[0].sizes) > 1
+
+
+def test_the_letter_of_a_detail_has_room_on_its_leader() -> None:
+    """As it was: higher letters reached below the shelf that carries them, and no scale had room for the ring."""
+    points = [{"r": r, "z": z} for r, z in ((250.0, 0.0), (262.0, 0.0), (262.0, 12.0), (250.0, 12.0), (250.0, 9.0))]
+    ring = drawing_of({"kind": "turned", "points": [*points[:4], points[4] | {"arc": -3.2}, {"r": 250.0, "z": 3.0}]})
+    assert any(note.is_letter for note in ring.views[0].notes)
+    assert laid(ring.views[0], 0.25, "en") is not None
