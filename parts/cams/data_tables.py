@@ -109,9 +109,10 @@ def _datum(part: Part) -> tuple[DataRow, ...]:
     kind = part.kind
     if kind == "wedge_cam":
         return (DataRow(N_("origin of x and y"), "O", N_("as drawn")),)
-    turning = DataRow(N_("the cam turns"), "", N_("counter-clockwise"))
     if kind == "barrel_cam":
+        turning = DataRow(N_("the cam turns, seen from the right of its section"), "", N_("counter-clockwise"))
         return (turning, DataRow(N_("development of the outer cylinder"), "x", N_("φ = 0 at its right end")))
+    turning = DataRow(N_("the cam turns"), "", N_("counter-clockwise"))
     if kind == "groove_cam":
         return (turning, DataRow(N_("path of the roller's centre"), "x_p", N_("from the axis, as drawn")))
     return (turning, DataRow(N_("polar angle of the profile"), "θ", N_("from +x, as drawn")))

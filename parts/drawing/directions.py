@@ -13,6 +13,8 @@ from parts.texts.sheets import sheet_words
 _SAME = 1e-9
 # of a bore where no key turns it
 _USUAL = math.pi / 2
+# words for what stands in the very direction
+_ALONG = {"keyway_at": "keyway_along", "flat_at": "flat_along"}
 
 
 def directions(holes: HubHoles, subject: Subject, zero: str, teeth: int = 0) -> tuple[str, ...]:
@@ -26,8 +28,9 @@ def directions(holes: HubHoles, subject: Subject, zero: str, teeth: int = 0) -> 
     def tell(key: str, angle: float, count: int, start: str, **sizes: object) -> None:
         step = math.tau / max(count, 1)
         turn = math.degrees(angle % step if step - angle % step > _SAME else 0.0)
-        begins = sheet_words(subject.language, start, size=first)
-        found.append(sheet_words(subject.language, key, angle=subject.say(turn), zero=begins, **sizes))
+        begins, told = sheet_words(subject.language, start, size=first), subject.say(turn)
+        words = _ALONG.get(key, key) if told == "0" else key
+        found.append(sheet_words(subject.language, words, angle=told, zero=begins, **sizes))
 
     first = subject.say(holes.round_holes[0].pitch_circle_diameter) if holes.round_holes else ""
 

@@ -105,12 +105,14 @@ def _noncircular(part: Part, keys: NoncircularGearSpec) -> DataTable:
     waves = [DataRow(N_("amplitudes of the ratio"), symbol, "; ".join(f"{value:.10g}" for value in page.data[name]))
              for name, symbol in (("ratio_cosines", "a_k"), ("ratio_sines", "b_k")) if page.data.get(name)]  # fmt: skip
     role = DataRow(N_("role in the pair"), "", N_("driver") if drives else N_("driven gear"))
+    middle = N_("middle of a tooth") if drives else N_("middle of a space")
+    datum = DataRow(N_("on the radius r at φ = 0"), "", middle)
     centrode = DataRow(N_("centrode of the driver"), "", _CENTRODES[keys.centrode])
     positions = next(table for table in page.tables if table.name == "centrodes")
     columns = ("phi_1", "r_1", "i") if drives else ("phi_2", "r_2", "i")
     return DataTable(
         ((*rack, *rows_of(page, (*own, *_SHIFT[:1], "circumferential_thinning"))),
-         (role, centrode, *rows_of(page, _CENTRODE), *waves),
+         (role, datum, centrode, *rows_of(page, _CENTRODE), *waves),
          rows_of(page, (mate_teeth, "noncircular_distance"))),
         chosen_columns(positions, columns),
     )  # fmt: skip
@@ -137,7 +139,7 @@ def _worm(part: Part, mates: Sequence[Mated]) -> DataTable:
     assert isinstance(keys, WormSpec | WormWheelSpec)
     hand, grade = _hand(keys.hand), _grade(keys.accuracy)
     if isinstance(keys, WormSpec):
-        first = rows_of(page, ("axial_module", "number_of_starts", "worm_form", "lead_angle_deg"))
+        first = _form_bare(rows_of(page, ("axial_module", "number_of_starts", "worm_form", "lead_angle_deg")))
         own = rows_of(page, (*_WORM, "worm_fillet_coefficient"))
         last = rows_of(page, ("worm_reference_diameter", "diameter_quotient", "lead"))
         distance = rows_of(page, ("worm_centre_distance",))
@@ -148,7 +150,12 @@ def _worm(part: Part, mates: Sequence[Mated]) -> DataTable:
     own = rows_of(page, ("profile_shift_coefficient", *_WORM, *_HOB))
     last = rows_of(page, ("worm_centre_distance", "wheel_reference_diameter", "worm_form", "number_of_starts",
                           "diameter_quotient", "lead_angle_deg"))  # fmt: skip
-    return DataTable(((*first, hand, *own, *grade), (), (*last, *_mates(mates)[1:])))
+    return DataTable(((*first, hand, *own, *grade), (), (*_form_bare(last), *_mates(mates)[1:])))
+
+
+def _form_bare(rows: Sequence[DataRow]) -> tuple[DataRow, ...]:
+    """The form of a worm tells its symbol itself: ZA."""
+    return tuple(replace(row, symbol="") if row.symbol == "Z" else row for row in rows)
 
 
 def _hand(hand: str) -> DataRow:

@@ -121,6 +121,8 @@ SHEETS: dict[str, Text] = {
     "spokes_at": N_("Spokes: the first at {angle}° from {zero}, counter-clockwise as drawn."),
     "keyway_at": N_("Keyway: its axis at {angle}° from {zero}, counter-clockwise as drawn."),
     "flat_at": N_("Bore: the middle of its flat at {angle}° from {zero}, counter-clockwise as drawn."),
+    "keyway_along": N_("Keyway: its axis in the direction of {zero}."),
+    "flat_along": N_("Bore: the middle of its flat in the direction of {zero}."),
     "zero_keyway": in_context("from what an angle is told", "the axis of the keyway"),
     "zero_flat": in_context("from what an angle is told", "the middle of the bore's flat"),
     "zero_tooth": in_context("from what an angle is told", "the middle of a tooth"),

@@ -22,13 +22,15 @@ from parts.drawing.directions import directions
 from parts.drawing.extent import farthest
 from parts.drawing.revolved import below, closed, outlined, seen_edges
 from parts.drawing.shown import shown_pieces
-from parts.drawing.wheel_views import bore_radii, bore_view, keyway_edges, seen_along
+from parts.drawing.wheel_views import bore_cut, bore_view, seen_along
 from parts.drawing.working import VISIBLE, Note, PartDrawing, Side, Size, Stroke, Subject, View, requirements
 from parts.keys.holes import bore_of, hub_holes
 from parts.texts.sheets import sheet_words
 
 # pieces of a wall in the plane of the section; steps to the cam angle at which it passes there, rad that are none
 _PIECES, _STEPS, _SETTLED = 24, 60, 1e-13
+# the section has +x upwards: by how much it is turned, rad
+_TURNED = math.pi / 2
 # mm that are none; sine of the angle to the section's plane within which an edge behind it is not drawn: 0.05 of a
 # thousandth of its radius, where it would end in a point at which it stands still
 _SAME, _EDGE_ON = 1e-6, 0.01
@@ -45,7 +47,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     told = body.length if body.cam.is_groove else _wall(body.cam, LOWER, body.cam.outer, math.pi)
     views = [section, _development(subject, told)]
     if made is not None and not isinstance(made, RoundBore):
-        views = [seen_along(section, _ends(body)[1], subject), bore_view(made, subject), views[1]]
+        views = [seen_along(section, _ends(body)[1], subject), bore_view(made, subject, _TURNED), views[1]]
     return PartDrawing(tuple(views), requirements(subject, *more))
 
 
@@ -59,7 +61,9 @@ def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
     """The axial section; of a groove the edges behind it are left to the development."""
     strokes: list[Stroke] = []
     hatched, sizes = [], list[Size]()
-    for way, polar, bore in zip((1, -1), (0.0, math.pi), bore_radii(holes.bore), strict=True):
+    low, high = _ends(body)
+    walls, bore_edges = bore_cut(holes.bore, low, high, _TURNED)
+    for way, polar, bore in zip((1, -1), (0.0, math.pi), walls, strict=True):
         whole, cut = closed([*_outline(body, bore)]), closed([*_outline(body, bore, polar)])
         side = cut if way > 0 else below(cut)
         strokes += outlined(side)
@@ -67,8 +71,7 @@ def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
         edges = (e for e in seen_edges(whole, cut=True) if body.cam.is_groove or e.start.real < body.length - _SAME)
         strokes += [(VISIBLE, e if way > 0 else e.mirrored()) for e in edges]
         hatched.append(side)
-    low, high = _ends(body)
-    strokes += [(VISIBLE, edge) for edge in (*keyway_edges(holes.bore, low, high), *_track_edges(body))]
+    strokes += [(VISIBLE, edge) for edge in (*bore_edges, *_track_edges(body))]
     cam, wishes = body.cam, subject.wishes
     outer, inner, length = cam.outer, cam.inner, body.length
 
@@ -98,7 +101,13 @@ def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
     at = complex(_wall(cam, LOWER, middle, 0.0), middle)
     rough = Note(at, f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)
     axes = (Line(complex(min(low, 0.0)), complex(max(high, length))),)
-    return View(tuple(strokes), tuple(hatched), axes, tuple(size for size in sizes if size.value), notes=(rough,))
+    return View(
+        tuple(strokes),
+        tuple(hatched),
+        axes,
+        tuple(size for size in sizes if size.value),
+        notes=(rough, Note(-1j * outer, "z = 0", free=-1 - 1j)),
+    )
 
 
 def _outline(body: BarrelBody, bore: float, polar: float | None = None) -> Iterator[complex]:
