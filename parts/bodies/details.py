@@ -51,7 +51,7 @@ def detailed(view: View, ends: tuple[float, float], language: str) -> Iterator[V
         view = replace(
             view, strokes=(*view.strokes, (THIN, about)), sizes=tuple(s for s in view.sizes if s not in told),
             rounds=tuple(one for one in view.rounds if one not in rounds),
-            notes=(*view.notes, Note(complex(about.point(math.pi / 4 * about.radius)), letter, is_letter=True)),
+            notes=(*view.notes, Note(complex(about.point(math.pi / 4)), letter, is_letter=True)),
         )  # fmt: skip
     yield view
     yield from found

@@ -160,7 +160,7 @@ def _enlarged(half: HalfSection, view: View, subject: Subject) -> Iterator[View]
         return
     letter, middle = view_letter(subject.language), complex(low + high, inner + outer) / 2
     about = circle_of(_AROUND * abs(complex(high, outer) - middle), middle)
-    marked = Note(complex(about.point(math.pi / 4 * about.radius)), letter, is_letter=True)
+    marked = Note(complex(about.point(math.pi / 4)), letter, is_letter=True)
     yield replace(
         view, strokes=(*view.strokes, (THIN, about)), notes=(*view.notes, marked), rounds=(),
         sizes=tuple(s for s in view.sizes if s not in lengths),

@@ -206,25 +206,32 @@ class _Layout:
         """Both marks of a section, each in the nearest place where its letter is clear, of extension lines too."""
         x, wide = self.paper.point(complex(cut.at)).real, text_width(cut.letter, TITLE_TEXT)
         for way, edge, side in ((1, self.body.high, "above"), (-1, self.body.low, "below")):
-            coming = [self.paper.point(p).real for one in sizes if one.side == side for p in (one.start, one.end)]
+            near = [one for one in sizes if one.side == side]
+            coming = [self.paper.point(p).real for one in near for p in (one.start, one.end)]
+            # where their extension lines end at the latest
+            last = way * edge + _FIRST + _STEP * len(near)
             places: list[tuple[list[Line], list[Line], Text]] = []
             for low in (edge + way * (_MARK + _STROKE * k) for k in range(_OUT)):
                 tip = complex(x, low + way * (_STROKE - 2.0))
                 foot = 1.0 if cut.from_right else -1.0
                 mark, lines = Line(complex(x, low), complex(x, low + way * _STROKE)), [*_arrow(tip, foot)]
-                # beside the foot of the arrow, on its shaft, beyond its tip
-                lefts = (-_LOOK - wide - 1.0, -_LOOK + 0.5, 1.5)
+                # beside the foot of the arrow, on its shaft, beyond its tip, beyond the end of the stroke
+                lefts = (-_LOOK - wide - 1.0, -_LOOK + 0.5, 1.5, -wide / 2)
                 if cut.from_right:
-                    lefts = (_LOOK + 1.0, _LOOK - wide - 0.5, -wide - 1.5)
-                for left, lift in zip(lefts, (-TITLE_TEXT / 2, 1.0, -TITLE_TEXT / 2), strict=True):
+                    lefts = (_LOOK + 1.0, _LOOK - wide - 0.5, -wide - 1.5, -wide / 2)
+                end = 3.0 if way > 0 else -3.0 - TITLE_TEXT
+                for left, lift in zip(lefts, (-TITLE_TEXT / 2, 1.0, -TITLE_TEXT / 2, end), strict=True):
                     text = text_of(cut.letter, tip + complex(left, lift), TITLE_TEXT)
                     places.append(([mark], [Line(tip + foot * _LOOK, tip), *lines], text))
             free = (
                 place for place in places
                 if self.ink.holds([*place[0], *place[1]], place[2].box)
-                and not any(place[2].box.left - 2 * FREE < at < place[2].box.right + 2 * FREE for at in coming)
+                and (
+                    min(way * place[2].box.low, way * place[2].box.high) > last
+                    or not any(place[2].box.left - 2 * FREE < at < place[2].box.right + 2 * FREE for at in coming)
+                )
             )  # fmt: skip
-            marks, lines, text = next(free, places[-3])
+            marks, lines, text = next(free, places[-4])
             for line in marks:
                 self._stroke(VISIBLE, line, "edge")
             for line in lines:
