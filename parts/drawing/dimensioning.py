@@ -219,7 +219,7 @@ class _Layout:
                 lefts = (-_LOOK - wide - 1.0, -_LOOK + 0.5, 1.5, -wide / 2)
                 if cut.from_right:
                     lefts = (_LOOK + 1.0, _LOOK - wide - 0.5, -wide - 1.5, -wide / 2)
-                end = 3.0 if way > 0 else -3.0 - TITLE_TEXT
+                end = 4.2 if way > 0 else -3.0 - TITLE_TEXT
                 for left, lift in zip(lefts, (-TITLE_TEXT / 2, 1.0, -TITLE_TEXT / 2, end), strict=True):
                     text = text_of(cut.letter, tip + complex(left, lift), TITLE_TEXT)
                     places.append(([mark], [Line(tip + foot * _LOOK, tip), *lines], text))
