@@ -147,7 +147,7 @@ def test_what_stands_in_equal_steps_is_told_once_with_its_circle() -> None:
     assert {(one.before, round(one.value, 9), one.places) for one in posts.rounds} == {
         ("Ø", 2 * radius, " (step 360°/9)"), ("R", 0.5, " (36 places)")}  # fmt: skip
     turns = [math.radians(30 * k) for k in range(1, 12)]
-    holes = [{"diameter": 4.0, "at": [about + 30 * math.cos(a), 30 * math.sin(a)]} for a in turns]
+    holes: list[dict[str, Any]] = [{"diameter": 4.0, "at": [about + 30 * math.cos(a), 30 * math.sin(a)]} for a in turns]
     square = [{"diameter": 6.0, "at": [x, y]} for x in (-55.0, 55.0) for y in (-55.0, 55.0)]
     outer = [{"diameter": 180.0}, {"diameter": 40.0, "at": [about, 0.0]}]
     plate = drawing_of({"kind": "layered", "layers": [{"thickness": 5.0, "circles": [*outer, *holes, *square]}]})
@@ -163,7 +163,7 @@ def test_what_stands_in_equal_steps_is_told_once_with_its_circle() -> None:
 @pytest.mark.parametrize("turn", [0.0, 30.0])
 def test_a_hexagon_is_told_by_its_width_across_flats(turn: float) -> None:
     corners = [13 / math.sqrt(3) * complex(np.exp(1j * math.radians(turn + 60 * k))) for k in range(6)]
-    nut = {"thickness": 5.0, "polygons": [{"points": [[p.real, p.imag] for p in corners]}]}
+    nut: dict[str, Any] = {"thickness": 5.0, "polygons": [{"points": [[p.real, p.imag] for p in corners]}]}
     (view,) = drawing_of({"kind": "layered", "layers": [nut]}).views
     assert [size.value for size in view.sizes] == pytest.approx([13.0])
     corners[0] *= 1.01
