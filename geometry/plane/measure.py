@@ -17,6 +17,8 @@ from geometry.plane.profile import Profile
 _GAUSS_POINTS = 20
 _GAUSS_PANELS = 4
 _COARSE_SAMPLES, _FINE_SAMPLES = 17, 65
+# distances found at once, few enough for the cache, and samples that a point is first held against
+_CACHED, _WINDOW = 30_000, 300
 # near a cusp the steps only halve the error, so the thorough pass takes many
 _QUICK_STEPS, _THOROUGH_STEPS = 4, 24
 NDArrayInt = NDArray[np.int64]
@@ -235,13 +237,36 @@ def _projected(points: Complex, curve: Travelled, samples: Real, start: NDArrayI
 
 
 def _nearest_index(points: Complex, samples: Complex) -> NDArrayInt:
-    """Index of the nearest sample of each point, by the square of the distance in blocks that fit the cache."""
+    """Index of the nearest sample of each point, the first of equal ones.
+
+    Points go in blocks along the longer side of the samples, of which those farther along it than the nearest that
+    was found are not looked at.
+    """
+    if len(points) * len(samples) <= _CACHED:
+        gap = points[:, None] - samples
+        return np.argmin(gap.real**2 + gap.imag**2, axis=1)
     result = np.zeros(points.shape, dtype=np.int64)
-    block = max(1, 30_000 // len(samples))
-    for start in range(0, len(points), block):
-        part = slice(start, start + block)
-        gap = points[part, None] - samples
-        result[part] = np.argmin(gap.real**2 + gap.imag**2, axis=1)
+    if np.ptp(samples.real) < np.ptp(samples.imag):
+        points, samples = points * 1j, samples * 1j
+    along = np.argsort(samples.real, kind="stable")
+    places, order = samples.real[along], np.argsort(points.real, kind="stable")
+    window = min(len(samples), _WINDOW)
+    for block in np.array_split(order, math.ceil(len(points) * window / _CACHED)):
+        mine = points[block]
+        low, high = mine.real[0], mine.real[-1]
+        beside = max(places[0] - high, low - places[-1], 0.0)
+        reach = beside + (places[-1] - places[0]) * window / len(samples)
+        while True:
+            first, last = np.searchsorted(places, low - reach), np.searchsorted(places, high + reach, side="right")
+            among = np.sort(along[first:last])
+            if among.size:
+                gap = mine[:, None] - samples[among]
+                square = gap.real**2 + gap.imag**2
+                best = np.argmin(square, axis=1)
+                if among.size == len(samples) or square[np.arange(len(mine)), best].max() <= reach * reach:
+                    break
+            reach *= 2
+        result[block] = among[best]
     return result
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from geometry.gears.teeth.offset import gear_region
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from geometry.plane.contour import Contour, edge_points, signed_area
-from geometry.plane.measure import distance_to_profile, profile_area
+from geometry.plane.measure import distance_to_chain, distance_to_profile, profile_area
 from geometry.plane.profile import Label, Profile, Segment, circle, joint_turn
 from tests import brute
 from tests.sampling import examples
@@ -163,6 +164,23 @@ def test_distance_to_profile_sees_a_moved_vertex(gear: SpurGear, place: str, arc
     found = distance_to_profile(vertices, profile)
     assert int(np.argmax(found)) == index
     assert tolerance < found[index] <= 2 * tolerance * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("way", [1, 1j])
+def test_distances_from_a_long_chain_are_those_from_its_nearest_piece(way: complex) -> None:
+    rng = np.random.default_rng(5)
+    x = np.arange(121.0)
+    # what is nearest to a point in the valley lies far beside it
+    corners = way * (x + 1j * (2 * np.abs(x - 60) + rng.uniform(0, 3, 121)))
+    corners[40:50] = corners[40]  # many samples on one spot
+    chain = [Line(a, b) for a, b in pairwise(corners) if a != b]
+    points = way * (rng.uniform(-30, 150, 4000) + 1j * rng.uniform(-40, 100, 4000))
+    brute = shapely.LineString([(c.real, c.imag) for c in corners]).distance(shapely.points(points.real, points.imag))
+    assert distance_to_chain(points, chain) == pytest.approx(brute, abs=1e-12)
+    # the quick pass alone never tells less, and finds the nearest of dense pieces
+    quick = distance_to_chain(points, chain, trusted=math.inf)
+    assert (quick >= brute - 1e-12).all()
+    assert np.mean(quick < brute + 1e-9) > 0.99
 
 
 @pytest.mark.parametrize("place", [0, 2, 5])
