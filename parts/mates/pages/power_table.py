@@ -107,6 +107,7 @@ def given(page: Sheet, keys: TwoDiskKeys) -> None:
     page.add("pair_ratio", keys.table.ratio, "{z12} / {z11}", _THESIS)
     for number, drive in enumerate(DRIVES, 1):
         page.add("worm_ratio", keys.worm_ratios[number - 1], symbol=f"u_{drive}", key=f"u{number}", of=DRIVES[drive])
+    page.add("disk_3_ratio", keys.worm_ratios[1] / keys.table.ratio, "{u2} / {u}", _THESIS)
     if keys.orientation == "thesis":
         page.add("number_of_teeth", keys.orientation_teeth[0], symbol="z_6", key="z6")
         page.add("number_of_teeth", keys.orientation_teeth[1], symbol="z_8", key="z8")

@@ -275,10 +275,12 @@ def laid_out() -> dict[tuple[str, str], float]:
         ("working_centre_distance", 0), ("tip_radius", 1), ("root_radius", 1)))  # fmt: skip
     axes = [shown(MODULE, "worm_centre_distance", f"drive {drive}", {}) for drive in ("I", "II")]
     thread = shown(MODULE, "worm_tip_diameter", "drive I", {}) / 2
+    # the page's ratio is what the mechanism does
+    assert shown(MODULE, "disk_3_ratio", 0, {}) == pytest.approx(math.tau / abs(table.angles(0.0, 1.0)[1]), rel=1e-12)
     # disk 2 turned once, the ring held
     delta, beta = table.angles(128.0, 0.0)
     (least, most), turned = table.reach, table.platform_turn
-    relative, two = table.angles(1.0, 0.0), table.angles(0.0, 1.0)
+    relative = table.angles(1.0, 0.0)
     return {
         ("layout.ring", "pinion_tip_reach_mm"): a + tip, ("layout.ring", "pinion_root_reach_mm"): a + root,
         ("layout.wheels", "difference_of_worm_axes_mm"): axes[0] - axes[1],
@@ -286,7 +288,7 @@ def laid_out() -> dict[tuple[str, str], float]:
         ("layout.wheels", "worm_tip_to_axis_II_mm"): axes[1] - thread,
         ("layout.L2", "reach_mm"): most, ("ik.reach", "r_min_mm"): least, ("ik.reach", "r_max_mm"): most,
         ("ik.reach", "stroke_mm"): 2 * most, ("layout.total_ratio", "disk2"): turn / relative[0],
-        ("layout.total_ratio", "disk3_relative_to_disk2"): turn / abs(two[1]),
+        ("layout.total_ratio", "disk3_relative_to_disk2"): shown(MODULE, "disk_3_ratio", 0, {}),
         ("gamma", "gamma_over_d_delta"): table.coupled(1.0),
         # disk 3 turns back by what beta grows
         ("gamma", "rel_rotation_of_disk3_from_pitch_point_velocity"): -beta / delta,
