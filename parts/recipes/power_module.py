@@ -950,10 +950,7 @@ class _Making(Making):
         )  # fmt: skip
         self.bring("ring", ("behind", "spacer_22"), ("front", "ring_screw"), ("behind", "large_cage_2"))
         self.bring("large_cage_2", ("sides", "large_ball_2"))
-        self.bring(
-            "ring", ("front", "bearing_ring_1"), ("behind", "bearing_ring_2"), ("behind", "worm_wheel_23"),
-            ("behind", "worm_wheel_23_screw"),
-        )  # fmt: skip
+        self.bring("ring", ("front", "bearing_ring_1"), ("behind", "bearing_ring_2"))
         self._order_within()
         bolts, nuts = ([f"{name}_{k}" for k in range(1, 9)] for name in ("bolt_42", "nut_44"))
         cranks = [("front", *(f"first_crank_{k}" for k in (1, 2, 3)))] if self.cranks else []
@@ -981,13 +978,17 @@ class _Making(Making):
         )  # fmt: skip
 
     def _order_within(self) -> None:
-        """What is within ring 21 and disk 2; guide 13 is wider than the tips of the ring: it comes in from behind."""
+        """What is within ring 21 and disk 2; guide 13 is wider than the tips of the ring: it comes in from behind.
+
+        Worm wheel 23 may cover the screws of both bearing rings: it comes after them.
+        """
         self.bring(
             "pinion", ("behind", "cover_12"), ("behind", "cover_12_screw"),
             ("behind", "ring_guide" if self.cranks else "satellite_axle"), ("front", "nut_46"),
         )  # fmt: skip
         self.bring(
             "ring", ("behind", "pinion"), ("front", "sleeve_17"), ("front", "disk_2"), ("behind", "bearing_screw"),
+            ("behind", "worm_wheel_23"), ("behind", "worm_wheel_23_screw"),
             ("front", "disk_3_screw"), ("front", "shield_8"), ("front", "shield_8_screw"),
             ("front", "platform_axle"), ("behind", "spacer_10"),
         )  # fmt: skip
