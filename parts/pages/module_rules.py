@@ -238,6 +238,8 @@ CONDITIONS = (
        "thesis"),
     _C("teeth", "worm_module * (worm_teeth_25 / 2 - 1.2) - r_20_screws - 8", N_("wall under the teeth of wheel 25")),
     _C("teeth", "worm_module * (worm_teeth_23 / 2 - 1.2) - r_21 - 2", N_("wall under the teeth of wheel 23")),
+    _C("worm_teeth", "r_open - axial_gap / 2 - r_23",
+       N_("gap about worm wheel 23 on its way in, where wheel 25 passes")),
     _C("disk_thickness", "z_upper - z_lower - 1.2 * ball - 0.2", N_("room for both rows of balls in disk 3")),
     _C("disk_thickness", "disk_thickness - 18 - 10", N_("floor of the recess of disk 3 over its nut")),
     _C("ball", "h_5 - 15", N_("height of guide 5 for its screws")),

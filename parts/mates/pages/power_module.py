@@ -128,7 +128,8 @@ def _limits(page: Sheet, keys: PowerModuleKeys, found: dict[str, float]) -> None
     limits = of_orientation(CONDITIONS, keys.orientation)
     left = [valued(condition.made_of, found) for condition in limits]
     heads = ((N_("driving size"), ""), (N_("what must be left"), ""), (N_("rule"), ""), (N_("left"), "mm"))
-    known: dict[str, float | str] = found | {"teeth": "{:g}, {:g}".format(*keys.pair_teeth)}
+    counts = {"teeth": keys.pair_teeth, "worm_teeth": keys.worm_ratios}
+    known: dict[str, float | str] = found | {name: "{:g}, {:g}".format(*pair) for name, pair in counts.items()}
     labels = tuple((f"{c.driver} = {known[c.driver]}", c.reason, c.made_of) for c in limits)
     rows = tuple((length,) for length in left)
     page.tables.append(Table("limits", N_("Limits of the assembly power_module"), heads, rows, labels=labels))

@@ -308,7 +308,8 @@ def test_random_drivers_make_a_module_without_overlap_or_name_what_lacks(seed: i
     [
         ({"worm_length": 20.0}, "worm_length"), ({"worm_length": 1000.0}, "worm_length"),
         ({"worm_quotient": 4.0}, "worm_quotient"), ({"worm_quotient": 6.0}, "worm_quotient"),
-        ({"worm_teeth": [30, 30]}, "worm_teeth"), ({"worm_teeth": [106, 128]}, "worm_teeth"),
+        ({"worm_teeth": [30, 30]}, "worm_teeth"), ({"worm_teeth": [128, 129]}, "worm_teeth"),
+        ({"worm_teeth": [106, 128]}, "worm_teeth"),
         # ring 24 stood in disk 2
         ({"worm_wheel_width": 22.546, "face_width": 18.401}, "worm_wheel_width"),
     ],
