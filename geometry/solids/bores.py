@@ -27,6 +27,10 @@ class Bore(Protocol):
     """A hole about the axis of a part."""
 
     @property
+    def angle(self) -> float:
+        """Direction in which it stands, rad; 0 of a round one, which has none."""
+
+    @property
     def reach(self) -> float:
         """Greatest distance of the bore from the axis, mm; an offset d < 0 adds -d to it."""
 
@@ -69,6 +73,11 @@ class RoundBore(Record):
     """A circle; mm."""
 
     diameter: float
+
+    @property
+    def angle(self) -> float:
+        """See Bore."""
+        return 0.0
 
     @property
     def reach(self) -> float:

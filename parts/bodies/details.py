@@ -12,7 +12,7 @@ from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Line, arc_between
 from parts.drawing.wheel_views import circle_of
-from parts.drawing.working import HIDDEN, THIN, VISIBLE, Note, Size, Stroke, View
+from parts.drawing.working import HIDDEN, THIN, VISIBLE, Note, Side, Size, Stroke, View
 from parts.texts.sheets import view_letter
 
 # parts of a view's size: a length that is too small, and the least circle about a detail
@@ -185,8 +185,8 @@ def _sizes(
     for one in sizes:
         if one.side in ("left", "right"):
             if across and held(one.start):
-                side = "left" if one.start.real - places[0] < places[-1] - one.start.real else "right"
-                yield one, replace(one, side=side)  # type: ignore[arg-type]
+                side: Side = "left" if one.start.real - places[0] < places[-1] - one.start.real else "right"
+                yield one, replace(one, side=side)
         elif held(one.start) and held(one.end):
             yield one, one
         elif one in halves and anchor is not None:

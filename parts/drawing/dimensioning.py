@@ -41,8 +41,8 @@ _HATCH = 2.5
 # leaders: how far out, every how many degrees
 _REACHES = (9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 70.0)
 _TURNS = (0.0, 15.0, -15.0, 30.0, -30.0, 50.0, -50.0, 80.0, -80.0, 120.0, -120.0, 160.0)
-# length of the arrow of a view, and what its letter stands above it
-_LOOK, _ABOVE = 14.0, 2.2
+# how far the letter of a view stands above its arrow
+_ABOVE = 2.2
 # from words of a title to the middle of the sign of a view that is turned
 _SIGN = 5.0
 # the sign of roughness: heights of its legs; where its words begin
@@ -52,7 +52,7 @@ _SLOPE = math.tan(math.radians(30))
 _AT_ONCE = 16
 # rows of a side, and layouts of a view, that are tried
 _ROWS, _TRIES = 20, 12
-# marks of a section: from the view to the stroke, its length, its arrow; steps out where others stand there
+# marks of a section: from the view to the stroke, its length, its arrow (a view has it too); steps out
 _MARK, _STROKE, _LOOK, _OUT = 2.0, 7.0, 6.0, 30
 # how much farther beyond the end of a dimension line its words may stand
 _FARTHER = (0.0, 4.0, 8.0, 13.0, 20.0, 30.0)
@@ -159,7 +159,10 @@ class _Layout:
             if not any(self._size(size, coming) for coming in (ends, ())):
                 raise _NoRoomError(size)
         for one in leaders:
-            (self._round if isinstance(one, Round) else self._note)(one)  # type: ignore[arg-type]
+            if isinstance(one, Round):
+                self._round(one)
+            else:
+                self._note(one)
         if title:
             box = self.extent()
             words, sign, more = (part.strip() for part in title.partition(TURNED))

@@ -36,7 +36,7 @@ def directions(holes: HubHoles, subject: Subject, zero: str, teeth: int = 0) -> 
 
     begin, start = 0.0, zero
     if bore is not None and not isinstance(bore, RoundBore):
-        turn, is_keyway = bore.angle, isinstance(bore, KeywayBore)  # type: ignore[attr-defined]
+        turn, is_keyway = bore.angle, isinstance(bore, KeywayBore)
         if zero and (not teeth or abs(turn - _USUAL) > _SAME):
             tell("keyway_at" if is_keyway else "flat_at", turn, teeth, zero)
         if teeth or not zero:

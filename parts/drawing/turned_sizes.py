@@ -414,9 +414,9 @@ def _widths(edges: Sequence[_Edge]) -> Iterator[tuple[float, float]]:
     for k, edge in enumerate(edges):
         if not _groove(edges, k):
             continue
-        ends = tuple(round(end.real, _DIGITS) for end in edge.ends)
+        first, last = (round(end.real, _DIGITS) for end in edge.ends)
         if isinstance(edge.curve, Arc):
-            yield min(ends), max(ends)
+            yield min(first, last), max(first, last)
             continue
         before, after = edges[k - 1], edges[(k + 1) % len(edges)]
         if not (before.stands() and after.stands()):
@@ -424,9 +424,9 @@ def _widths(edges: Sequence[_Edge]) -> Iterator[tuple[float, float]]:
         way = 1 if edge.outer else -1
         heights = way * before.ends[0].imag, way * after.ends[1].imag
         if abs(heights[0] - heights[1]) < _NONE:
-            yield min(ends), max(ends)
+            yield min(first, last), max(first, last)
         else:
-            yield ends if heights[0] > heights[1] else ends[::-1]  # type: ignore[misc]
+            yield (first, last) if heights[0] > heights[1] else (last, first)
 
 
 def _counted(count: int, key: str, language: str) -> str:

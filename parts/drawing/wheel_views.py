@@ -76,7 +76,7 @@ class Wheel(Record):
     def turn(self) -> float:
         """By how much its face and its section are turned, rad: for its bore to stand upright, where it may."""
         bore = self.holes.bore
-        return _UP - bore.angle if self.stands and _is_keyed(bore) else 0.0  # type: ignore[union-attr]
+        return _UP - bore.angle if self.stands and bore is not None and _is_keyed(bore) else 0.0
 
 
 class _Levels(Record):
@@ -131,7 +131,7 @@ def bore_cut(bore: Bore | None, low: float, high: float, turn: float) -> tuple[t
 
     Edges run from ``low`` to ``high``; one is seen where no wall stands before it.
     """
-    if bore is None or isinstance(bore, RoundBore) or abs(bore.angle + turn - _UP) < _NONE:  # type: ignore[attr-defined]
+    if bore is None or isinstance(bore, RoundBore) or abs(bore.angle + turn - _UP) < _NONE:
         return bore_radii(bore), [*keyway_edges(bore, low, high)]
     profile = bore.profile().placed(Placement2(turn))
     curves = [segment.curve for segment in profile.segments()]
@@ -414,7 +414,7 @@ def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View
 
     ``others``: by how much views beside it are turned, rad; None: as it is.
     """
-    angle = _UP - bore.angle  # type: ignore[attr-defined]
+    angle = _UP - bore.angle
     turn = Placement2(angle)
     strokes = [(VISIBLE, s.curve.placed(turn)) for s in bore.profile().segments()]
     up, down = bore_radii(bore)
