@@ -49,25 +49,15 @@ class Signed(NamedTuple):
     base_radius: float
 
 
-def sign_of(gear: Gear) -> int:
-    """-1 for a ring, 1 for an external gear."""
-    return -1 if isinstance(gear, RingGear) else 1
-
-
 def signed(gear: Gear) -> Signed:
     """A gear's numbers with the signs of ISO 21771; the same change of sign leads back."""
-    sign = sign_of(gear)
+    sign = gear.sign
     return Signed(
         sign * gear.number_of_teeth,
         sign * gear.profile_shift_coefficient,
         sign * gear.reference_radius,
         sign * gear.base_radius,
     )
-
-
-def pressure_angle(gear: Gear) -> float:
-    """alpha, rad."""
-    return gear.pressure_angle if isinstance(gear, RingGear) else gear.rack.pressure_angle
 
 
 class InvolutePair(Record, Generic[G, S], dict=True):
@@ -87,7 +77,7 @@ class InvolutePair(Record, Generic[G, S], dict=True):
     @property
     def sign(self) -> int:
         """Of the second gear's tooth number: 1 external, -1 in a ring."""
-        return sign_of(self.second)
+        return self.second.sign
 
     @property
     def module(self) -> float:
@@ -349,7 +339,7 @@ class Sums(Record):
             one.shift + two.shift,
             one.base_radius + two.base_radius,
             thinning,
-            pressure_angle(second),
+            second.pressure_angle,
         )
 
     @property
@@ -400,7 +390,7 @@ def common_sums(first: SpurGear, second: Gear, blamed: str) -> Sums:
     ParameterError
         Modules or pressure angles differ; names what would work.
     """
-    refuse_other_rack(first, second.module, pressure_angle(second), blamed)
+    refuse_other_rack(first, second.module, second.pressure_angle, blamed)
     return Sums.of(first, second)
 
 
@@ -420,7 +410,7 @@ def working_angle(sums: Sums, first: SpurGear, second: Gear, blamed: str) -> flo
         return inverse_involute(value)
     least = -involute_function(sums.alpha) * sums.teeth / (2 * math.tan(sums.alpha)) - first.profile_shift_coefficient
     x = second.profile_shift_coefficient
-    cure = limit(sign_of(second) * least, x, digits=_NEAREST_DIGITS)
+    cure = limit(second.sign * least, x, digits=_NEAREST_DIGITS)
     raise ParameterError("profile_shift_coefficient", x, f"no_working_angle_with_{blamed}", cure, involute=value)
 
 

@@ -8,12 +8,13 @@ from functools import cached_property
 
 from geometry.base.angles import inverse_involute, involute_function, roll_minus_polar
 from geometry.base.errors import Nearest, ParameterError, limit
-from geometry.base.record import Record, replace
+from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import end_point
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, arc_between
+from geometry.gears.teeth.involute_teeth import InvoluteTeeth
 from geometry.plane.profile import Label, Segment
 
 # the addendum of a cutter is the dedendum of what it cuts: h_a + c of ISO 53 A
@@ -41,7 +42,7 @@ def cutting_angle(alpha: float, shift: float, teeth: int, own_shift: float) -> f
     return inverse_involute(value)
 
 
-class PinionCutter(Record, dict=True):
+class PinionCutter(InvoluteTeeth, dict=True):
     """Pinion cutter; module in mm, pressure angle in rad, the rest in modules.
 
     Frame: axis at the origin, tooth 1 centred on +x. The tip circle is r_0 + (addendum + x_0) m; each tip corner is an
@@ -49,23 +50,11 @@ class PinionCutter(Record, dict=True):
     measured on the reference circle: it widens the space that is cut.
     """
 
-    module: float
-    number_of_teeth: int
     pressure_angle: float
     profile_shift_coefficient: float = 0.0
     addendum: float = CUTTER_ADDENDUM
     tip_rounding: float = CUTTER_ROUNDING
     widening: float = 0.0
-
-    @property
-    def reference_radius(self) -> float:
-        """r_0 = m z_0 / 2."""
-        return self.module * self.number_of_teeth / 2
-
-    @property
-    def base_radius(self) -> float:
-        """r_b0 = r_0 cos(alpha)."""
-        return self.reference_radius * math.cos(self.pressure_angle)
 
     @property
     def tip_radius(self) -> float:

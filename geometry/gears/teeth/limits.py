@@ -50,7 +50,7 @@ def least_shift_without_undercut(gear: SpurGear) -> float:
     """x_min = h_Ff - z sin^2(alpha) / 2: exact for a rack with a rounded tip; with a cutter see ``shaping``."""
     if gear.cutter is not None:
         return least_shift_with_cutter(gear)
-    return gear.rack.form_dedendum - gear.number_of_teeth * math.sin(gear.rack.pressure_angle) ** 2 / 2
+    return gear.rack.form_dedendum - gear.number_of_teeth * math.sin(gear.pressure_angle) ** 2 / 2
 
 
 def undercut(gear: SpurGear) -> Margin:

@@ -70,18 +70,8 @@ class Chord(Record):
     height: float
 
 
-def _sense(gear: Measured) -> int:
-    """+1 where teeth point away from the axis, -1 in a ring."""
-    return -1 if isinstance(gear, RingGear) else 1
-
-
-def _angle(gear: Measured) -> float:
-    """The transverse pressure angle at the reference circle, rad."""
-    return gear.pressure_angle if isinstance(gear, RingGear) else gear.rack.pressure_angle
-
-
 def _base_helix(gear: Measured, helix_angle: float) -> float:
-    return base_helix_angle(_angle(gear), helix_angle)
+    return base_helix_angle(gear.pressure_angle, helix_angle)
 
 
 def flank_radii(gear: Measured) -> tuple[float, float]:
@@ -193,7 +183,7 @@ def pin_touching_at(gear: Measured, radius: float, helix_angle: float = 0.0) -> 
     """
     if radius < gear.base_radius:
         raise ParameterError("diameter", 2 * radius, "inside_base_circle", limit(2 * gear.base_radius, 2 * radius))
-    cosine, sense = math.cos(_base_helix(gear, helix_angle)), _sense(gear)
+    cosine, sense = math.cos(_base_helix(gear, helix_angle)), gear.sign
     eta, tangent = _space_half_angle(gear), math.sqrt((radius / gear.base_radius) ** 2 - 1)
 
     def excess(angle: float) -> float:
@@ -248,7 +238,7 @@ def over_pins(gear: Measured, pin_diameter: float, helix_angle: float = 0.0) -> 
         The pin is so small that it falls through to the bottom of the space; of a ring, so large that its centre would
         not come to the base circle.
     """
-    cosine, sense = math.cos(_base_helix(gear, helix_angle)), _sense(gear)
+    cosine, sense = math.cos(_base_helix(gear, helix_angle)), gear.sign
     value = sense * (pin_diameter / (2 * gear.base_radius * cosine) - _space_half_angle(gear))
     if not value >= 0:
         bound = _space_half_angle(gear) * 2 * gear.base_radius * cosine
@@ -275,7 +265,7 @@ def gear_with_span(gear: G, teeth: int, length: float, helix_angle: float = 0.0)
         The span is longer than the nominal one, of a ring shorter: that tooth is thicker, not thinner.
     """
     full = span(nominal(gear), teeth, helix_angle).length
-    lack = _sense(gear) * (full - length)
+    lack = gear.sign * (full - length)
     if lack < 0:
         code = "below_nominal" if isinstance(gear, RingGear) else "above_nominal"
         raise ParameterError("measured_span", length, code, limit(full, length))
@@ -292,7 +282,7 @@ def gear_with_size(gear: G, pin_diameter: float, length: float, helix_angle: flo
     ParameterError
         The size is that of a thicker tooth, or so small that the pin would fall through.
     """
-    ring, sense = isinstance(gear, RingGear), _sense(gear)
+    ring, sense = isinstance(gear, RingGear), gear.sign
     key, full = "measured_between_pins" if ring else "measured_over_pins", nominal(gear)
     whole = over_pins(full, pin_diameter, helix_angle).length
     if sense * length > sense * whole:
@@ -309,7 +299,7 @@ def gear_with_size(gear: G, pin_diameter: float, length: float, helix_angle: flo
 
 def normal_share(gear: Measured, helix_angle: float = 0.0) -> float:
     """What a millimetre of thinning takes from a tooth along the normals of its flanks: cos(beta_b) cos(alpha_t)."""
-    return math.cos(_base_helix(gear, helix_angle)) * math.cos(_angle(gear))
+    return math.cos(_base_helix(gear, helix_angle)) * math.cos(gear.pressure_angle)
 
 
 def reference_chord(gear: Measured, helix_angle: float = 0.0) -> Chord:
@@ -321,7 +311,7 @@ def reference_chord(gear: Measured, helix_angle: float = 0.0) -> Chord:
     diameter = 2 * gear.reference_radius / math.cos(helix_angle) ** 2
     half = gear.reference_thickness * math.cos(helix_angle) / diameter
     height = gear.tip_radius - gear.reference_radius + diameter * math.sin(half / 2) ** 2
-    return Chord(diameter * math.sin(half), _sense(gear) * height)
+    return Chord(diameter * math.sin(half), gear.sign * height)
 
 
 def constant_chord(gear: Measured, helix_angle: float = 0.0) -> Chord:
@@ -330,9 +320,9 @@ def constant_chord(gear: Measured, helix_angle: float = 0.0) -> Chord:
     s_c = s_n cos^2(alpha_n), height r_a - r - s_c tan(alpha_n) / 2; the tooth of a ring has it as well, its height
     r - r_a - s_c tan(alpha_n) / 2 (DERIVATIONS.md, 3).
     """
-    alpha = normal_angle(_angle(gear), helix_angle)
+    alpha = normal_angle(gear.pressure_angle, helix_angle)
     thickness = gear.reference_thickness * math.cos(helix_angle) * math.cos(alpha) ** 2
-    addendum = _sense(gear) * (gear.tip_radius - gear.reference_radius)
+    addendum = gear.sign * (gear.tip_radius - gear.reference_radius)
     return Chord(thickness, addendum - thickness * math.tan(alpha) / 2)
 
 

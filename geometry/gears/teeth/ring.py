@@ -15,6 +15,7 @@ from geometry.base.record import Record, replace
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.involute import Involute
 from geometry.gears.teeth.cutter import PinionCutter, cutting_angle
+from geometry.gears.teeth.involute_teeth import InvoluteTeeth
 from geometry.solids.hub_holes import HubHoles
 
 
@@ -31,7 +32,7 @@ class RoundedRoot(Record):
 _NO_HOLES = HubHoles()
 
 
-class RingGear(Record, dict=True):
+class RingGear(InvoluteTeeth, dict=True):
     """Internal spur gear; lengths in mm, coefficients in modules, angles in rad.
 
     The default tip diameter is that of GOST 19274, d_2 - 2 (h_a - x_2 - k_2) m, whose k_2 = 0.25 - 0.125 x_2 (0 from
@@ -43,8 +44,6 @@ class RingGear(Record, dict=True):
     ``holes``: round holes in the rim, like a bolt circle. Source of the dimensions: GOST 19274, ISO 21771.
     """
 
-    module: float
-    number_of_teeth: int
     pressure_angle: float
     outer_diameter: float
     root: PinionCutter | RoundedRoot
@@ -59,6 +58,11 @@ class RingGear(Record, dict=True):
     any_cutter: bool = False
     holes: HubHoles = _NO_HOLES
     least_tip_diameter: float = 0.0
+
+    @property
+    def sign(self) -> int:
+        """-1."""
+        return -1
 
     @cached_property
     def generating_shift_coefficient(self) -> float:
@@ -78,21 +82,6 @@ class RingGear(Record, dict=True):
         if not isinstance(self.root, PinionCutter):
             return None
         return replace(self.root, widening=self._widening)
-
-    @property
-    def pitch_angle(self) -> float:
-        """Angle from tooth to tooth, rad."""
-        return 2 * math.pi / self.number_of_teeth
-
-    @property
-    def reference_radius(self) -> float:
-        """r_2 = m z_2 / 2."""
-        return self.module * self.number_of_teeth / 2
-
-    @property
-    def base_radius(self) -> float:
-        """r_b2 = r_2 cos(alpha)."""
-        return self.reference_radius * math.cos(self.pressure_angle)
 
     @property
     def tip_radius(self) -> float:

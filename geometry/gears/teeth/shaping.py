@@ -28,8 +28,8 @@ def check_shaping(gear: SpurGear) -> None:
     checked_cutter(cutter)
     if cutter.module != gear.module:
         raise ParameterError("cutter.module", cutter.module, "not_that_of_gear", Nearest(gear.module))
-    if abs(cutter.pressure_angle - gear.rack.pressure_angle) > 1e-12:
-        own = Nearest(gear.rack.pressure_angle)
+    if abs(cutter.pressure_angle - gear.pressure_angle) > 1e-12:
+        own = Nearest(gear.pressure_angle)
         raise ParameterError("cutter.pressure_angle", cutter.pressure_angle, "not_that_of_gear", own)
     if gear.rack.relief is not None and gear.rack.relief.depth > 0:
         raise ParameterError("relief.depth", gear.rack.relief.depth, "no_relief_by_cutter", Nearest(0.0))
@@ -59,7 +59,7 @@ def least_shift_with_cutter(gear: SpurGear) -> float:
 
 def _least_shift(gear: SpurGear) -> float:
     """The shift at which inv(alpha_w0) = 0."""
-    cutter, alpha = gear.cutter, gear.rack.pressure_angle
+    cutter, alpha = gear.cutter, gear.pressure_angle
     assert cutter is not None
     teeth = gear.number_of_teeth + cutter.number_of_teeth
     return -(math.tan(alpha) - alpha) * teeth / (2 * math.tan(alpha)) - cutter.profile_shift_coefficient

@@ -7,10 +7,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from geometry.base.angles import involute_function
-from geometry.base.record import Record, replace
+from geometry.base.record import replace
 from geometry.curves.involute import Involute
 from geometry.curves.trochoid import TrochoidFillet
 from geometry.gears.teeth.basic_rack import BasicRack
+from geometry.gears.teeth.involute_teeth import InvoluteTeeth
 from geometry.solids.bores import RoundBore
 from geometry.solids.hub_holes import HubHoles
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 _NO_HOLES = HubHoles()
 
 
-class SpurGear(Record, dict=True):
+class SpurGear(InvoluteTeeth, dict=True):
     """External spur gear; lengths in mm, coefficients in modules, angles in rad.
 
     ``circumferential_thinning`` thins each tooth at the reference circle: cut by a wider rack tooth (root
@@ -32,8 +33,6 @@ class SpurGear(Record, dict=True):
     Source of the dimensions: ISO 21771, GOST 16532, practicum (3.7) to (3.17).
     """
 
-    module: float
-    number_of_teeth: int
     rack: BasicRack
     profile_shift_coefficient: float = 0.0
     given_tip_diameter: float | None = None
@@ -45,23 +44,23 @@ class SpurGear(Record, dict=True):
     hub: HubHoles = _NO_HOLES
     cutter: PinionCutter | None = None
 
+    @property
+    def pressure_angle(self) -> float:
+        """That of the rack, rad."""
+        return self.rack.pressure_angle
+
     @cached_property
     def generating_shift_coefficient(self) -> float:
         """x_E: the shift at which the rack really cuts; less than x where thinning is a deeper cut."""
         if not self.thinning_by_deeper_cut:
             return self.profile_shift_coefficient
-        infeed = self.circumferential_thinning / (2 * math.tan(self.rack.pressure_angle))
+        infeed = self.circumferential_thinning / (2 * math.tan(self.pressure_angle))
         return self.profile_shift_coefficient - infeed / self.module
 
     @cached_property
     def _widening(self) -> float:
         """Half of what the rack tooth is wider than its standard, mm."""
         return 0.0 if self.thinning_by_deeper_cut else self.circumferential_thinning / 2
-
-    @property
-    def pitch_angle(self) -> float:
-        """Angle from tooth to tooth, rad."""
-        return 2 * math.pi / self.number_of_teeth
 
     @cached_property
     def generating_angle(self) -> float:
@@ -74,7 +73,7 @@ class SpurGear(Record, dict=True):
         ParameterError
             No such angle exists; names the least shift that has one.
         """
-        alpha = self.rack.pressure_angle
+        alpha = self.pressure_angle
         if self.cutter is None:
             return alpha
         from geometry.gears.teeth.cutter import cutting_angle
@@ -89,16 +88,6 @@ class SpurGear(Record, dict=True):
         if self.cutter is None:
             return math.inf
         return (self.base_radius + self.cutter.base_radius) / math.cos(self.generating_angle)
-
-    @property
-    def reference_radius(self) -> float:
-        """r = m z / 2."""
-        return self.module * self.number_of_teeth / 2
-
-    @property
-    def base_radius(self) -> float:
-        """r_b = r cos(alpha)."""
-        return self.reference_radius * math.cos(self.rack.pressure_angle)
 
     @property
     def root_radius(self) -> float:
@@ -143,12 +132,12 @@ class SpurGear(Record, dict=True):
     @property
     def reference_thickness(self) -> float:
         """s: tooth thickness on the reference circle, mm; practicum (3.16)."""
-        return 2 * self.reference_radius * self._half_angle(self.rack.pressure_angle, 0.0)
+        return 2 * self.reference_radius * self._half_angle(self.pressure_angle, 0.0)
 
     @property
     def base_half_angle(self) -> float:
         """psi_b: half of the tooth's angle on the base circle, rad."""
-        alpha = self.rack.pressure_angle
+        alpha = self.pressure_angle
         return self._half_angle(alpha, 0.0) + involute_function(alpha)
 
     def _half_angle(self, flank_angle: float, datum_gain: float) -> float:
@@ -166,7 +155,7 @@ class SpurGear(Record, dict=True):
 
     def relief_flank(self) -> Involute:
         """The lower relieved flank of tooth 1: the involute of a smaller base circle."""
-        relief, alpha, alpha_g = self.rack.relief, self.rack.pressure_angle, self.rack.relief_angle
+        relief, alpha, alpha_g = self.rack.relief, self.pressure_angle, self.rack.relief_angle
         height = self.rack.addendum - (relief.height if relief else 0.0)
         # both rack flanks meet at that height, so on the datum line the steeper one is further out
         gain = height * self.module * (math.tan(alpha_g) - math.tan(alpha))
@@ -179,7 +168,7 @@ class SpurGear(Record, dict=True):
         if self.cutter is not None:
             return self._cutter_fillet(replace(self.cutter, widening=self._widening))
         angle = -self.pitch_angle / 2 + self.root_land_half_angle
-        end = math.pi / 2 - self.rack.pressure_angle
+        end = math.pi / 2 - self.pressure_angle
         radii = self.reference_radius, self.rounding_depth, self.rounding_radius
         if self.rack.stretch != 1 and self.rounding_radius > 0:
             from geometry.curves.elliptic_fillet import EllipticFillet

@@ -179,7 +179,7 @@ def _thicknesses(page: Sheet, gear: SpurGear, diameter: float | None) -> None:
 
 def _limits(page: Sheet, gear: SpurGear, helix: float) -> None:
     page.section(N_("Undercut and pointed tip"))
-    sine = math.sin(gear.rack.pressure_angle) ** 2
+    sine = math.sin(gear.pressure_angle) ** 2
     height = "({h_a} + {c} - {rho_f} * (1 - sin({alpha})))" if not helix else ""
     formula = f"2 * {height} / sin({{alpha}})**2" if height else ""
     page.add("least_number_of_teeth", 2 * gear.rack.form_dedendum / sine, formula, "ISO 21771")
