@@ -176,7 +176,7 @@ STEEP = {"as told": steep(), "mild": steep(20.0), "steeper": steep(angle=90.0), 
 
 
 def sections(corners: np.ndarray, body: BarrelBody, angles: np.ndarray, depths: Sequence[float]) -> float:
-    """The greatest error of the roller's place by brute force: sections at each depth, points on all edges."""
+    """The greatest error of the roller's place by brute force: sections at each depth, circles on all edges."""
     cam, worst = body.cam, 0.0
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     turn, up = corners[..., 0] + 1j * corners[..., 1], normal[:, 2] / np.linalg.norm(normal, axis=1)
@@ -200,10 +200,15 @@ def sections(corners: np.ndarray, body: BarrelBody, angles: np.ndarray, depths: 
                 p, q = (fixed[cut][:, n].imag + 1j * z[cut][:, n] for n in (i, j))
                 ends[:, k] = p + share * (q - p)
             ends = np.array([row[~np.isnan(row)] for row in ends])
-            points = ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * np.linspace(0, 1, 33) - place
-            room = np.sqrt(np.where(np.abs(points.real) < radius, radius**2 - points.real**2, np.nan))
+            way = ends[:, 1:] - ends[:, :1]
             for side in cam.sides:
+                # the circle touches an edge at one of its ends or where both are as steep
+                with np.errstate(divide="ignore", invalid="ignore"):
+                    steep = -side * radius * np.sign(way.real) * way.imag / np.abs(way)
+                    share = np.clip((place.real + steep - ends[:, :1].real) / way.real, 0, 1)
+                points = np.hstack([ends, ends[:, :1] + share * way]) - place
                 mine = up[cut] * side < 0
+                room = np.sqrt(np.where(np.abs(points.real) < radius, radius**2 - points.real**2, np.nan))
                 error, across = room[mine] - side * points[mine].imag, points[mine].real + place.real
                 k = int(np.nanargmax(error)) if np.isfinite(error).any() else 0
                 # where the wall is cut off by the floor's cylinder the roller does not touch it at this depth
