@@ -6,6 +6,7 @@ import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache, partial
+from itertools import product
 
 import numpy as np
 
@@ -24,7 +25,7 @@ from parts.drawing.labels import spread
 from parts.drawing.part_sheet import PartMeasures
 from parts.drawing.parts_list import ListRow, draw_list, list_size
 from parts.drawing.title_block import TITLE_BLOCK, turned_box
-from parts.drawing.working import Size, View
+from parts.drawing.working import Side, Size, View
 
 # mm on paper: from the frame to views, between views; of hatching from part to part
 _MARGIN, _BETWEEN, _HATCH, _WIDER = 6.0, 14.0, 2.5, 0.8
@@ -167,18 +168,31 @@ def _laid(
     shares = _shared([view.drawn for view in views], rows, scale)
     found = []
     for view, share in zip(views, shares, strict=True):
-        drawn = view.drawn
-        marks = tuple(_marks(drawn, scale)) if view.marked else ()
-        plain = View((*drawn.strokes, *marks), (), drawn.axes, view.sizes, title=view.title)
-        one = laid(plain, scale, asked.language)
-        if one is None:
-            return None
-        _hatch(one.canvas, drawn, scale)
-        numbered = _numbered(one, share, [*_letters(drawn, scale)] if view.marked else ())
+        numbered = _numbered(view, share, scale, asked.language)
         if numbered is None:
             return None
         found.append(numbered)
     return tuple(found)
+
+
+def _sized(view: AssemblyView, scale: float, language: str, free: Mapping[Side, float]) -> Laid | None:
+    """A view with its sizes, ``free`` sides between it and them, and the letters of its section."""
+    drawn = view.drawn
+    marks = tuple(_marks(drawn, scale)) if view.marked else ()
+    plain = View((*drawn.strokes, *marks), (), drawn.axes, view.sizes, title=view.title)
+    one = laid(plain, scale, language, free=free)
+    if one is None:
+        return None
+    _hatch(one.canvas, drawn, scale)
+    ink = one.ink()
+    for places in _letters(drawn, scale) if view.marked else ():
+        texts = [text_of(_LETTER, at, _HEIGHT) for at in places]
+        letter = next((text for text in texts if ink.holds((), text.box)), None)
+        if letter is None:
+            return None
+        one.canvas.texts.append(letter)
+        ink.boxes.append(letter.box)
+    return replace(one, box=_around(one.box, [text.box for text in one.canvas.texts]))
 
 
 def _hatch(canvas: Canvas, drawn: Drawn, scale: float) -> None:
@@ -252,50 +266,57 @@ class _Leader(Record):
         return text_of(text, self.elbow + complex(left, 2.2), _HEIGHT)
 
 
-def _numbered(one: Laid, share: Mapping[int, tuple[complex, ...]], letters: Sequence[list[complex]]) -> Laid | None:
-    """A view with its numbers in a column on each side; None where a leader would run through words.
+def _numbered(view: AssemblyView, share: Mapping[int, tuple[complex, ...]], scale: float, language: str) -> Laid | None:
+    """A view with its sizes and its numbers; None where one would run through words.
 
-    Where leaders would cross dimension lines, all numbers stand on the side on which fewest do.
+    The numbers stand in a column on each side, those of a long view above it. Where leaders would cross dimension lines
+    all stand on one side, or nearer to the view than these.
     """
-    canvas, ink = one.canvas, one.ink()
-    for places in letters:
-        texts = [text_of(_LETTER, at, _HEIGHT) for at in places]
-        letter = next((text for text in texts if ink.holds((), text.box)), None)
-        if letter is None:
-            return None
-        canvas.texts.append(letter)
-        ink.boxes.append(letter.box)
-    box = _around(one.box, [text.box for text in canvas.texts])
-    numbers = sorted(share.items(), key=lambda pair: (pair[1][0].real, pair[0]))
-    tall, sizes = box.high - box.low, [*_size_lines(canvas)]
-    sides = _sides(numbers, (box.left + box.right) / 2, tall)
+    if (usual := _sized(view, scale, language, {})) is None:
+        return None
+    numbers, box = sorted(share.items(), key=lambda pair: (pair[1][0].real, pair[0])), usual.box
+    tall, wide, sides = box.high - box.low, box.right - box.left, _sides(numbers, box)
+    room = _AWAY + 2 * _SHELF + max((text_width(str(number), _HEIGHT) for number in share), default=0.0)
     best, least = None, (math.inf, math.inf)
-    for left, right in (sides, (numbers, []), ([], numbers)):
+    for free, (left, right) in product((0.0, room), (sides, (numbers, []), ([], numbers))):
         if best is not None and (not least[1] or _STEP * max(len(left), len(right)) > _HIGHER * tall):
             continue
-        if (found := _led(left, right, box, one.ink())) is not None:
-            cost = float(_crossings(found, ())), float(sum(_runs_over(leader, sizes) for leader in found))
-            best, least = (found, cost) if cost < least else (best, least)
+        kept: dict[Side, float] = {"left": free if left else 0.0, "right": free if right else 0.0}
+        one = _sized(view, scale, language, kept) if free else usual
+        if one is None:
+            continue
+        # those of a long view stand above it, where the columns beside it would be higher than the view is
+        is_long = not free and wide > _LONG * tall and len(numbers) * _STEP > 2 * tall
+        row = _row(numbers, box, one.ink()) if is_long else None
+        found = row or _led(left, right, _body(view, scale) if free else box, one.ink())
+        if found is not None:
+            lines = [*_size_lines(one.canvas)]
+            cost = float(_crossings(found, ())), float(sum(_runs_over(leader, lines) for leader in found))
+            best, least = ((one, found), cost) if cost < least else (best, least)
     if best is None:
         return None
-    for leader in best:
+    one, leaders = best
+    canvas = one.canvas
+    for leader in leaders:
         for line in leader.lines():
             canvas.strokes.append(Stroke("THIN", line))
         canvas.strokes += [Stroke("THIN", Arc(leader.spot, r, 0.0, 2 * math.pi)) for r in (_DOT, _DOT / 2)]
         canvas.texts.append(leader.words)
     words = [text.box for text in canvas.texts]
-    ends = [line.end for leader in best for line in leader.lines()]
+    ends = [line.end for leader in leaders for line in leader.lines()]
     shelves = [Box(p.real, p.imag, p.real, p.imag) for p in ends]
-    return Laid(one.view, canvas, one.scale, _around(box, [*words, *shelves]))
+    return replace(one, box=_around(one.box, [*words, *shelves]))
+
+
+def _body(view: AssemblyView, scale: float) -> Box:
+    """The view alone with the marks of its section, mm on paper."""
+    points = scale * _points(view.drawn)
+    off = _OUT + _MARK if view.marked else 0.0
+    return Box(points.real.min() - off, points.imag.min(), points.real.max() + off, points.imag.max())
 
 
 def _led(left: Sequence[_Numbered], right: Sequence[_Numbered], box: Box, ink: Ink) -> list[_Leader] | None:
     """Leaders to a column on each side; None where one would run through words."""
-    # those of a long view stand above it, where the columns beside it would be higher than the view is
-    numbers, tall, wide = [*left, *right], box.high - box.low, box.right - box.left
-    is_long = wide > _LONG * tall and len(numbers) * _STEP > 2 * tall
-    if is_long and (row := _row(numbers, box, ink)) is not None:
-        return row
     leaders = list[_Leader]()
     for way, column in ((-1, left), (1, right)):
         found = _column(column, way, box, ink, leaders)
@@ -331,10 +352,10 @@ def _around(box: Box, others: Sequence[Box]) -> Box:
                max(b.right for b in every), max(b.high for b in every))  # fmt: skip
 
 
-def _sides(numbers: Sequence[_Numbered], middle: float, tall: float) -> tuple[list[_Numbered], list[_Numbered]]:
+def _sides(numbers: Sequence[_Numbered], box: Box) -> tuple[list[_Numbered], list[_Numbered]]:
     """Numbers, from the left, of the left and of the right column: what one has no room for stands in the other one."""
-    most = max(int(tall / _STEP) + 1, math.ceil(len(numbers) / 2))
-    left = sum(spots[0].real < middle for _, spots in numbers)
+    most = max(int((box.high - box.low) / _STEP) + 1, math.ceil(len(numbers) / 2))
+    left = sum(spots[0].real < (box.left + box.right) / 2 for _, spots in numbers)
     left = max(min(left, most), len(numbers) - most)
     return [*numbers[:left]], [*numbers[left:]]
 
@@ -399,6 +420,8 @@ def _swept(
             number, spots = max(left, key=partial(_slope, elbow))
             fits = [_Leader(number, spot, elbow, way) for spot in (spots[0], *sorted(spots, key=partial(_off, elbow)))]
             fits = [one for one in fits if ink.holds(one.lines(), one.words.box)]
+            if k < _TRIES:
+                fits = [one for one in fits if not ink.under(one.lines()[1])]
             if strict and k < _TRIES:
                 most = max((_slope(elbow, one) for one in left if one[0] != number), default=-math.inf)
                 fits = [one for one in fits if _slope(elbow, (number, (one.spot,))) >= most]

@@ -96,29 +96,35 @@ class _NoRoomError(Exception):
         self.owner = owner
 
 
-def laid(view: View, scale: float, language: str, *, own: bool = False) -> Laid | None:
+def laid(
+    view: View, scale: float, language: str, *, own: bool = False, free: Mapping[Side, float] | None = None
+) -> Laid | None:
     """A view with all of its dimensions, at a scale; None where they find no room.
 
-    ``own``: its scale is not the sheet's, which is all that some programs know, so its numbers stand as words.
+    ``own``: its scale is not the sheet's, which is all that some programs know, so its numbers stand as words;
+    ``free``: how much dimension lines leave free on a side of the view for what will stand there, mm on paper.
     """
-    if (usual := _filled(view, scale, language, own=own)) is None:
+    free = free or {}
+    if (usual := _filled(view, scale, language, free, own=own)) is None:
         return None
     # where leaders run over dimension lines, notes choose before sizes
     if over := usual.ink.run_over():
-        other = _filled(view, scale, language, own=own, first=view.notes)
+        other = _filled(view, scale, language, free, own=own, first=view.notes)
         if other is not None and other.ink.run_over() < over:
             usual = other
     return Laid(view, usual.canvas, scale, usual.extent())
 
 
-def _filled(view: View, scale: float, language: str, *, own: bool, first: Sequence[Note] = ()) -> _Layout | None:
+def _filled(
+    view: View, scale: float, language: str, free: Mapping[Side, float], *, own: bool, first: Sequence[Note] = ()
+) -> _Layout | None:
     """A view with all of its dimensions, ``first`` those notes; None where they find no room."""
     sizes = sorted(view.sizes, key=lambda one: one.value)
     leaders: list[Round | Note] = [*view.rounds, *(() if first else view.notes)]
     tried: list[list[Size | Round | Note]] = []
     while (order := [*sizes, *leaders]) not in tried and len(tried) < _TRIES:
         tried.append(order)
-        made = _Layout(view, scale, language, own=own)
+        made = _Layout(view, scale, language, free, own=own)
         try:
             made.fill(first, sizes, leaders, view.title)
             return made
@@ -133,8 +139,8 @@ def _filled(view: View, scale: float, language: str, *, own: bool, first: Sequen
 class _Layout:
     """Fills the canvas of one view; rows of dimension lines by their side."""
 
-    def __init__(self, view: View, scale: float, language: str, *, own: bool) -> None:
-        self.canvas, self.ink, self.language, self.own = Canvas(0.0, 0.0, ""), Ink(), language, own
+    def __init__(self, view: View, scale: float, language: str, free: Mapping[Side, float], *, own: bool) -> None:
+        self.canvas, self.ink, self.language, self.own, self.free = Canvas(0.0, 0.0, ""), Ink(), language, own, free
         self.paper = Paper(scale, 0j)
         for _, curve in view.strokes:
             self.ink.add(curve, scale, "edge")
@@ -274,7 +280,8 @@ class _Layout:
         rows += [[] for _ in range(_ROWS - len(rows))]
         past = [_along(self.paper.point(p), along) for p in coming]
 
-        levels = [edge + (out.real + out.imag) * (_FIRST + _STEP * index) for index in range(len(rows))]
+        first = _FIRST + self.free.get(size.side, 0.0)
+        levels = [edge + (out.real + out.imag) * (first + _STEP * index) for index in range(len(rows))]
         known = self.ink.costs([_bare(points, size.side, level) for level in levels])
 
         def places() -> Iterator[_Place]:

@@ -66,6 +66,14 @@ class Ink(Draft):
         grown = self.sides + np.array([-FREE, -FREE, FREE, FREE])
         return not _held(np.concatenate([grown, own]), ends).any()
 
+    def under(self, line: Line) -> bool:
+        """Whether a level line lies on another, or so near it that both seem one."""
+        (start, end), at = self.lines, np.sort([line.start.real, line.end.real])
+        left, right = np.minimum(start.real, end.real), np.maximum(start.real, end.real)
+        shared = np.minimum(right, at[1]) - np.maximum(left, at[0])
+        near = (np.abs(start.imag - line.start.imag) < _BESIDE) & (np.abs(end.imag - start.imag) < _TOUCH)
+        return bool((near & (shared > _ALONG)).any())
+
     @property
     def lines(self) -> Complex:
         """Ends of all pieces, (2, n)."""

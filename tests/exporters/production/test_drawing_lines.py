@@ -139,6 +139,7 @@ def test_no_word_and_no_line_of_a_drawing_stands_over_another(
         write_sheet_svg(file.with_suffix(".svg"), job.canvas)
         assert faults(file.with_suffix(".svg")) == [], job.path
         assert tangles(file) == [], job.path
+        assert purpose == "part" or run_over(file) == 0, job.path
 
 
 def test_sizes_of_a_small_plate_keep_off_its_edges_and_its_thickness_off_its_sizes(tmp_path: Path) -> None:
@@ -176,6 +177,15 @@ def test_leaders_of_numbers_keep_off_dimension_lines(tmp_path: Path) -> None:
     raw = {"parts": gears, "mates": [{"kind": "external_gear_pair", "first": "small", "second": "large"}],
            "exports": [{"format": "dxf", "purpose": "assembly"}]}  # fmt: skip
     (job,) = plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets
+    job.write({}, tmp_path / job.path)
+    assert run_over(tmp_path / job.path) == 0
+
+
+def test_dimension_lines_stand_beyond_numbers_where_leaders_would_cross_them(tmp_path: Path) -> None:
+    """As it was: with sizes on all sides of the view four leaders crossed some."""
+    scene = load_scene("laser_gear_set")
+    scene.exports = [ExportSpec(format="dxf", purpose="assembly", tolerance=0.01)]
+    (job,) = plan_build(scene, "laser_gear_set", [], []).sheets
     job.write({}, tmp_path / job.path)
     assert run_over(tmp_path / job.path) == 0
 
