@@ -137,6 +137,8 @@ class SolidBuilder:
         self.vertices: list[Index] = []
         self.edges: list[Edges] = []
         self.faces: list[Faces] = []
+        # points on axes, by these and their heights
+        self.axes: dict[tuple[complex, float], Index] = {}
         # how many points, vertices and edges there are
         self.counts = [0, 0, 0]
 
@@ -145,6 +147,12 @@ class SolidBuilder:
         places = np.stack(np.broadcast_arrays(plane.real, plane.imag, z), axis=-1).reshape(-1, 3)
         self.points.append(places)
         return self._numbers(0, len(places)).reshape(plane.shape)
+
+    def on_axis(self, z: float, axis: complex = 0j) -> Index:
+        """The number of the point at a height, mm, on an upright axis, (1,), made once."""
+        if (axis, z) not in self.axes:
+            self.axes[axis, z] = self.add_points(np.array([axis]), z)
+        return self.axes[axis, z]
 
     def place(self, vertices: Index) -> Real:
         """Where vertices stand, (n, 3) mm."""

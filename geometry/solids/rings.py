@@ -96,7 +96,7 @@ class RingBuilder(SolidBuilder):
             points.append(np.concatenate([corners[i][:, None], inner, following(corners, i)[:, None]], axis=1))
             if isinstance(curve, Arc):
                 centres = turns * curve.centre + shift
-                origin = self.add_points(centres[:1] if curve.centre == 0 else centres, z)
+                origin = self.add_points(centres, z) if curve.centre else self.on_axis(z, shift)
                 shapes.append(Circular(Frame(origin, math.copysign(1, curve.sweep) * UP, AHEAD), curve.radius))
             elif isinstance(curve, BSpline) and inner.size:
                 shapes.append(Spline(curve.degree, curve.knots, points[i]))
@@ -107,7 +107,7 @@ class RingBuilder(SolidBuilder):
 
     def cap(self, z: float, loops: Sequence[Loop], *, up: bool) -> None:
         """A plane face at height z mm."""
-        origin = self.add_points(np.zeros(1, complex), z)
+        origin = self.on_axis(z)
         self.faces.append(Faces(Plane(Frame(origin, UP, AHEAD)), tuple(loops), up))
 
     def swept(self, lower: Ring, upper: Ring, way: Real) -> None:

@@ -310,6 +310,8 @@ class _Turned(SolidBuilder):
 
     def point(self, at: complex) -> Index:
         """A point of the half plane of the seam."""
+        if at.real == 0:
+            return self.on_axis(at.imag)
         plane = at.real * (self.ahead[0, 0] + 1j * self.ahead[0, 1])
         return self.add_points(np.array([plane]), at.imag)
 
@@ -429,7 +431,7 @@ class _Turned(SolidBuilder):
                 poles = np.concatenate([self.vertex_point(rim[k]), inner, self.vertex_point(rim[after])])
                 shapes = Circular(Frame(middle, out, zero), half), Spline(_DEGREE, knots, poles[None])
             else:
-                centre = self.add_points(np.zeros(1, complex), ends[k == 1])
+                centre = self.on_axis(ends[k == 1])
                 shapes = Straight(way), Circular(Frame(centre, -UP if k == 1 else UP, out), radius)
             for found, corners, shape in ((low_edges, floor, shapes[0]), (high_edges, rim, shapes[1])):
                 found.append(self.add_edges(corners[k : k + 1], corners[after : after + 1], shape))
@@ -457,5 +459,5 @@ class _Turned(SolidBuilder):
     def close(self) -> None:
         """The plane faces with the holes in them."""
         for level in self.levels:
-            origin = self.add_points(np.zeros(1, complex), level.z)
+            origin = self.on_axis(level.z)
             self.faces.append(Faces(Plane(Frame(origin, UP, self.ahead)), tuple(level.loops), level.up))

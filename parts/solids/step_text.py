@@ -7,7 +7,7 @@ tolerance needs. What stands on every tooth is one template of text, filled in f
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import count, groupby
 
 import numpy as np
@@ -33,6 +33,7 @@ from geometry.solids.faces import (
     Straight,
     Torus,
 )  # fmt: skip
+from parts.solids.decimals import point_lines
 
 _HEAD = """ISO-10303-21;
 HEADER;
@@ -130,14 +131,24 @@ class _Text:
             self.known[text] = self.add(text)
         return self.known[text]
 
-    def many(self, template: str, *columns: Iterable[object]) -> Index:
-        """An entity for each row of columns, filled into a template."""
-        rows = list(zip(*columns, strict=True))
+    def many(self, template: str, *columns: Index) -> Index:
+        """An entity for each row of columns (n,) or (n, k), filled into a template."""
+        own = self._numbered(len(columns[0]))
+        rows = np.column_stack([own, *columns])
+        self.lines.append(f"#%d={template};\n" * len(rows) % tuple(rows.ravel().tolist()))
+        return own
+
+    def points(self, places: Real) -> Index:
+        """Points (n, 3), mm."""
+        own = self._numbered(len(places))
+        self.lines.append(point_lines(int(own[0]), places, self.form.digits))
+        return own
+
+    def _numbered(self, size: int) -> Index:
+        """The numbers of so many new entities."""
         first = next(self.numbers)
-        self.numbers = count(first + len(rows))
-        line = f"#%d={template};\n"
-        self.lines.append("".join([line % (number, *row) for number, row in enumerate(rows, first)]))
-        return np.arange(first, first + len(rows))
+        self.numbers = count(first + size)
+        return np.arange(first, first + size)
 
     def direction(self, way: Sequence[float]) -> int:
         """A direction, to 15 digits."""
@@ -275,18 +286,15 @@ class _Shell:
 
     def __init__(self, text: _Text, solid: Solid) -> None:
         self.text = text
-        places = (np.round(solid.points, text.form.digits) + 0.0).ravel().tolist()
-        written = [f"%.{text.form.digits}f" % x for x in places]
-        numbers = [x.rstrip("0") for x in written]
-        self.points = text.many("CARTESIAN_POINT('',(%s,%s,%s))", numbers[::3], numbers[1::3], numbers[2::3])
-        self.vertices = text.many("VERTEX_POINT('',#%d)", self.points[solid.vertices].tolist())
+        self.points = text.points(solid.points)
+        self.vertices = text.many("VERTEX_POINT('',#%d)", self.points[solid.vertices])
         self.solid = solid
         curves, edges = [], []
         for bundle in solid.edges:
             own = np.broadcast_to(self._curves(bundle.curve, bundle.start), bundle.start.shape)
-            ends = self.vertices[bundle.start].tolist(), self.vertices[bundle.end].tolist()
+            ends = self.vertices[bundle.start], self.vertices[bundle.end]
             curves.append(own)
-            edges.append(text.many("EDGE_CURVE('',#%d,#%d,#%d,.T.)", *ends, own.tolist()))
+            edges.append(text.many("EDGE_CURVE('',#%d,#%d,#%d,.T.)", *ends, own))
         self.curves, self.edges = np.concatenate(curves), np.concatenate(edges)
 
     def _curves(self, curve: Straight | Circular | Spline, starts: Index) -> Index:
@@ -295,7 +303,7 @@ class _Shell:
         if isinstance(curve, Straight):
             ways = np.array([text.once(f"VECTOR('',#{text.direction(way)},1.)") for way in curve.direction.tolist()])
             origins = self.points[self.solid.vertices[starts]]
-            return text.many("LINE('',#%d,#%d)", origins.tolist(), np.broadcast_to(ways, origins.shape).tolist())
+            return text.many("LINE('',#%d,#%d)", origins, np.broadcast_to(ways, origins.shape))
         if isinstance(curve, Circular):
             return np.array([text.once(f"CIRCLE('',#{p},{real(curve.radius)})") for p in self._frames(curve.frame)])
         poles = self.points[curve.poles]
@@ -304,7 +312,7 @@ class _Shell:
         return text.many(
             f"B_SPLINE_CURVE_WITH_KNOTS('',{curve.degree},({listed}),.UNSPECIFIED.,.F.,.F.,({times}),({knots}),"
             ".UNSPECIFIED.)",
-            *_columns(poles),
+            poles,
         )
 
     def _frames(self, frame: Frame) -> Iterator[int]:
@@ -319,24 +327,24 @@ class _Shell:
 
     def _faces(self, faces: Faces) -> list[int]:
         text = self.text
-        bounds: list[list[int]] = []
+        bounds: list[Index] = []
         for edges, senses in faces.loops:
-            words = np.array(["F", "T"])[np.broadcast_to(senses, edges.shape).ravel().astype(int)]
-            uses = text.many("ORIENTED_EDGE('',*,*,#%d,.%s.)", self.edges[edges].ravel().tolist(), words.tolist())
+            words = np.where(np.broadcast_to(senses, edges.shape), *map(ord, "TF"))
+            uses = text.many("ORIENTED_EDGE('',*,*,#%d,.%c.)", self.edges[edges].ravel(), words.ravel())
             listed = _list(["%d"] * edges.shape[1])
-            loops = text.many(f"EDGE_LOOP('',({listed}))", *_columns(uses.reshape(edges.shape)))
-            bounds.append(text.many("FACE_BOUND('',#%d,.T.)", loops.tolist()).tolist())
-        surfaces = self._surfaces(faces, len(bounds[0])).tolist()
+            loops = text.many(f"EDGE_LOOP('',({listed}))", uses.reshape(edges.shape))
+            bounds.append(text.many("FACE_BOUND('',#%d,.T.)", loops))
+        surfaces = self._surfaces(faces, len(bounds[0]))
         listed = ",".join(["#%d"] * len(bounds))
         sense = "FT"[faces.along]
-        return text.many(f"ADVANCED_FACE('',({listed}),#%d,.{sense}.)", *[*bounds, surfaces]).tolist()
+        return text.many(f"ADVANCED_FACE('',({listed}),#%d,.{sense}.)", *bounds, surfaces).tolist()
 
     def _surfaces(self, faces: Faces, size: int) -> Index:
         """The surfaces of a bundle of faces (size,)."""
         text, surface = self.text, faces.surface
         if isinstance(surface, Extrusion):
             vector = text.once(f"VECTOR('',#{text.direction(surface.direction[0].tolist())},1.)")
-            return text.many(f"SURFACE_OF_LINEAR_EXTRUSION('',#%d,#{vector})", self.curves[surface.edges].tolist())
+            return text.many(f"SURFACE_OF_LINEAR_EXTRUSION('',#%d,#{vector})", self.curves[surface.edges])
         if isinstance(surface, SplineSurface):
             poles = self.points[surface.poles]
             row = "(" + ",".join(["#%d"] * poles.shape[2]) + ")"
@@ -345,7 +353,7 @@ class _Shell:
             return text.many(
                 f"B_SPLINE_SURFACE_WITH_KNOTS('',{degrees},({rows}),.UNSPECIFIED.,"
                 f".F.,.F.,.F.,({u_times}),({v_times}),({u}),({v}),.UNSPECIFIED.)",
-                *_columns(poles.reshape(len(poles), -1)),
+                poles.reshape(len(poles), -1),
             )
         if isinstance(surface, Plane):
             word = "PLANE('',#{place})"
@@ -389,10 +397,6 @@ def _list(items: Sequence[object]) -> str:
     """References, a few on each line."""
     lines = [",".join(f"#{x}" for x in items[k : k + _PER_LINE]) for k in range(0, len(items), _PER_LINE)]
     return ",\n".join(lines)
-
-
-def _columns(table: Index) -> list[list[int]]:
-    return [column.tolist() for column in table.T]
 
 
 def _knots(knots: Real) -> tuple[str, str]:

@@ -124,7 +124,7 @@ class _Maker(RingBuilder):
             self.circles[lower], self.circles[upper] = self.upright(whole, lower.z, upper.z)
             return
         row = 0 if lower.radius == self.cam.inner else 1
-        frame = Frame(self.add_points(np.zeros(1, complex), 0.0), UP, AHEAD)
+        frame = Frame(self.on_axis(0.0), UP, AHEAD)
         below, above = self._starts(lower, row), self._starts(upper, row)
         seams = self.add_edges(below, above, Straight(UP))
         for i, (first, last) in enumerate(self.cuts):
@@ -169,7 +169,7 @@ class _Maker(RingBuilder):
             places = self.place(above)
             way: Complex = np.exp(1j * np.arctan2(places[:, 1], places[:, 0]))
             vertices = self.add_vertices(self.add_points(ring.radius * way, ring.z))
-            frame = Frame(self.add_points(np.zeros(1, complex), ring.z), UP, AHEAD)
+            frame = Frame(self.on_axis(ring.z), UP, AHEAD)
             # the cam angle grows clockwise
             edges = self.add_edges(np.roll(vertices, -1), vertices, Circular(frame, ring.radius))
             self.arcs[ring] = vertices, edges

@@ -222,7 +222,7 @@ class BandFaces(WormRings):
             angle = self.worm.sign * (end * self.band.half + turns)
             out = end * self.worm.sign
             normals = np.stack([-out * np.sin(angle), out * np.cos(angle), np.zeros(len(angle))], axis=1)
-            origin = self.add_points(np.zeros(1, complex), 0.0)
+            origin = self.on_axis(0.0)
             # as the plane is seen from beyond the upper end
             around: list[Use] = [(foot, True)]
             around += [(edge, True) for edge in self.sides[1].across[column]]

@@ -340,7 +340,7 @@ class CutThreads(WormRings):
         """What the cones, or planes, at both ends leave of every thread."""
         worm, half, upper, lower = self.worm, self.body.length / 2, self.strips[1], self.strips[-1]
         for end, column in ((-1, 0), (1, -1)):
-            origin = self.add_points(np.zeros(1, complex), end * half)
+            origin = self.on_axis(end * half)
             surface: kinds.Surface
             if self.body.end_angle > 0:
                 frame = Frame(origin, -end * UP, AHEAD)

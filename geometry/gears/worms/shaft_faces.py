@@ -53,14 +53,14 @@ class WormRings(RingBuilder):
 
     def arc(self, radius: float, z: float, start: Index, end: Index) -> Use:
         """Arcs about the axis towards growing angles of a right-hand worm."""
-        frame = Frame(self.add_points(np.zeros(1, complex), z), UP, AHEAD)
+        frame = Frame(self.on_axis(z), UP, AHEAD)
         if self.worm.sign < 0:
             return self.add_edges(end, start, Circular(frame, radius)), False
         return self.add_edges(start, end, Circular(frame, radius)), True
 
     def pipe(self, radius: float) -> kinds.Cylinder:
         """The cylinder about the axis, its radius in mm."""
-        return kinds.Cylinder(Frame(self.add_points(np.zeros(1, complex), 0.0), UP, AHEAD), radius)
+        return kinds.Cylinder(Frame(self.on_axis(0.0), UP, AHEAD), radius)
 
     def arcs(self, radius: float, z: float, nodes: list[Index]) -> tuple[list[Use], list[Index]]:
         """Arcs from node to node; and the nodes."""
@@ -126,12 +126,12 @@ class WormRings(RingBuilder):
         (z0, r0), (z1, r1) = before, after
         surface: kinds.Surface
         if r0 == r1:
-            surface = kinds.Cylinder(Frame(self.add_points(np.zeros(1, complex), z0), UP, AHEAD), r0)
+            surface = kinds.Cylinder(Frame(self.on_axis(z0), UP, AHEAD), r0)
         else:
             # towards the wider end
             way = math.copysign(1.0, (r1 - r0) * (z1 - z0))
             z, r = (z0, r0) if r0 < r1 else (z1, r1)
-            frame = Frame(self.add_points(np.zeros(1, complex), z), way * UP, AHEAD)
+            frame = Frame(self.on_axis(z), way * UP, AHEAD)
             surface = kinds.Cone(frame, r, math.atan2(abs(r1 - r0), abs(z1 - z0)))
         first = self._first(outer)
         straight = self.place(ring.starts[0]) - self.place(first)

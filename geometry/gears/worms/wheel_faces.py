@@ -252,7 +252,7 @@ def wheel_solid(wheel: WormWheel, splines: WheelSplines) -> Solid:
     strips = splines.strips
     beside = [(strips[0],), *pairwise(strips), (strips[-1],)]
     rings = [_ring(made, teeth, pair, -1 if pair[-1] is pair[0] and k else 0, middle) for k, pair in enumerate(beside)]
-    origin = made.add_points(np.zeros(1, complex), middle)
+    origin = made.on_axis(middle)
     root, throat = (Torus(Frame(origin, UP, AHEAD), teeth.centre_distance, r) for r in _tubes(teeth))
     rim = Cylinder(Frame(origin, UP, AHEAD), teeth.outer_radius)
     for strip, (lower, upper) in zip(splines.strips, pairwise(rings), strict=True):

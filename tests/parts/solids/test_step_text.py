@@ -21,6 +21,7 @@ from geometry.solids.mass import body_moments
 from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
+from parts.solids.decimals import point_lines
 from parts.solids.faces import solid_curves, solid_faces
 from parts.solids.step_text import StepForm, StepGroup, StepPart, real, step_text, string
 from tests.parts.cams.barrel_cam.test_barrel_cam import CONE, END, GROOVE
@@ -70,6 +71,17 @@ def made(name: str) -> tuple[Part, Solid, str]:
     body = part.body(0.0)
     solid = solid_faces(body, solid_curves(body, 9e-7))
     return part, solid, step_text(StepPart("p", solid, None), StepForm())
+
+
+@pytest.mark.parametrize("digits", [8, 11])
+def test_points_have_the_digits_of_pythons_own_numbers(digits: int) -> None:
+    rng = np.random.default_rng(digits)
+    odd = [0.0, -0.0, 0.5, -0.5, 10.0, -1e-12, 9.999999999999999, 99.95, -123456.789, 1e5, 1e-8, -3e-8, 6e-9]
+    values = np.concatenate([odd, rng.uniform(-200, 200, 8), rng.integers(-99, 99, 3) / 8.0])
+    expected = [f"{round(x, digits) + 0.0:.{digits}f}".rstrip("0") for x in values.tolist()]
+    rows = zip(expected[::3], expected[1::3], expected[2::3], strict=True)
+    wanted = "".join(f"#{95 + k}=CARTESIAN_POINT('',({','.join(row)}));\n" for k, row in enumerate(rows))
+    assert point_lines(95, values.reshape(-1, 3), digits) == wanted
 
 
 def check_closed(solid: Solid) -> None:
