@@ -60,15 +60,14 @@ class TwoDisk(Record):
         Raises
         ------
         ParameterError
-            The first point that is out of reach, with the nearest one that is not.
+            The first point that is not finite, or out of reach, with the nearest one that is not.
         """
         point = np.asarray(point, dtype=complex)
         (one, two), (least, most) = self.arms, self.reach
         far = np.hypot(point.real, point.imag)
-        inner, outer = (far - least) * (far + least), (most - far) * (most + far)
-        if inner.size and min(inner.min(), outer.min()) < 0:
-            self._check_reach(point, far)
-            inner, outer = np.maximum(inner, 0), np.maximum(outer, 0)
+        self._check_reach(point, far)
+        # on a rim within rounding
+        inner, outer = np.maximum((far - least) * (far + least), 0), np.maximum((most - far) * (most + far), 0)
         sine, cosine = np.sqrt(inner), np.sqrt(outer)
         half = np.arctan2(sine, cosine)
         # the angle at O1 by the law of tangents: as large as that at O3 where the arms are alike
@@ -76,12 +75,15 @@ class TwoDisk(Record):
         if one != two:
             at_1 += np.arctan((two - one) / most * (cosine / np.maximum(sine, 1e-300)))
         beta, delta = 2 * half, np.arctan2(point.real, point.imag) - elbow * at_1
-        if least == 0 and inner.size and not far.all():
+        if least == 0 and not far.all():
             delta = np.where(far == 0, keep, delta)
         return delta, elbow * beta
 
     def _check_reach(self, point: Complex, far: Real) -> None:
         least, most = self.reach
+        if not np.isfinite(far).all():
+            at = complex(point[~np.isfinite(far)][0])
+            raise ParameterError("x, y", [at.real, at.imag], "not_finite")
         outside = (far > most * (1 + _RIM)) | (far < least - most * _RIM)
         if outside.any():
             index = np.unravel_index(int(np.argmax(outside)), outside.shape)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from parts.base.texts import N_
+from parts.base.texts import N_, counted
 
 REASONS = {
     "angles_do_not_rise": N_("angles must rise: this row must be above {above} degrees"),
@@ -87,7 +87,9 @@ REASONS = {
     "hook_reaches_pivot": N_("the hook reaches the pivot"),
     "hub_beyond_barrel": N_("must stay inside the barrel"),
     "key_of_another_law": N_("belongs to {owner}, not to {other}"),
-    "knots_do_not_rise": N_("must be {number} rising numbers between 0 and 1"),
+    "knots_do_not_rise": counted(
+        "must be {number} number between 0 and 1", "must be {number} rising numbers between 0 and 1", by="number"
+    ),
     "last_row_not_as_first": N_("the last row, at 360 degrees, must repeat the lift of the first row, or be left out"),
     "joins_side_by_side": N_("the neighbouring phase joins too: nothing tells the velocity between them"),
     "law_missing": N_("is missing; give one of {names}, or a table with a diagram"),

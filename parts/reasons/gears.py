@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from parts.base.texts import N_
+from parts.base.texts import N_, counted
 
 # fmt: off
 REASONS = {
@@ -107,18 +107,23 @@ REASONS = {
     ),
     "ring_not_above_rim": N_("the ring of {ring} teeth must have more than its satellite, {rim}"),
     "satellites_collide": N_("the tips of neighbours would overlap"),
-    "satellites_not_assembled": N_(
-
-            'satellites fit at {places} places, which this number does not divide: teeth {teeth} take so many, '
-            'or spacing = "unequal" at {spacing} degrees'
-
+    "satellites_not_assembled": counted(
+        'satellites fit at {places} place, which this number does not divide: teeth {teeth} take so many, '
+        'or spacing = "unequal" at {spacing} degrees',
+        'satellites fit at {places} places, which this number does not divide: teeth {teeth} take so many, '
+        'or spacing = "unequal" at {spacing} degrees',
+        by="places",
     ),
     "shifts_leave_no_angle": N_("leave a mesh without a working pressure angle"),
     "shifts_not_coaxial": N_(
         "give the meshes two centre distances, {first} and {second} mm: give working_centre_distance, or other "
         "shifts"
     ),
-    "too_few_places": N_("there are {places} places for one and the same satellite"),
+    "too_few_places": counted(
+        "there is {places} place for one and the same satellite",
+        "there are {places} places for one and the same satellite",
+        by="places",
+    ),
     "transmits_nothing": N_("wheels 1 and 3 turn alike: the carrier transmits nothing"),
     "worm_flank_above_reference": N_("the flanks begin above the reference cylinder; take fewer starts or more q"),
     "worm_fillet_too_large": N_(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from parts.base.texts import N_
+from parts.base.texts import N_, counted
 
 REASONS = {
     "as_many_as_x": N_("must have as many values as x"),
@@ -30,7 +30,11 @@ REASONS = {
     "one_scene_only": N_("one scene is enough; {other} is given already"),
     "other_is_given": N_("{other} is given already"),
     "part_without_scene": N_("names a part of a scene, but no scene is given"),
-    "path_is_open": N_("is not one path: none of {left} other pieces begins or ends at ({x}, {y})"),
+    "path_is_open": counted(
+        "is not one path: {left} piece is left, which neither begins nor ends at ({x}, {y})",
+        "is not one path: {left} pieces are left, of which none begins or ends at ({x}, {y})",
+        by="left",
+    ),
     "picture_ends_in": N_("pictures end in one of {known}"),
     "piece_is_a_point": N_("begins where it ends; a circle is two pieces with bulge 1"),
     "reference_circle_leaves_teeth": N_("the reference circle lies outside the teeth"),

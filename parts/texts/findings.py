@@ -103,9 +103,12 @@ FINDINGS: dict[str, Text] = {
     ),
     "cut_several_times": N_("boards like this one to be cut: {value:.0f}"),
     "printed_several_times": N_("beds like this one to be printed: {value:.0f}"),
-    "title_not_engraved": N_(
+    "title_not_engraved": counted(
+        "its title has {value:.0f} letter that cannot be engraved: its numbers or its id stand there; "
+        "`label` can give other words",
         "its title has {value:.0f} letters that cannot be engraved: its numbers or its id stand there; "
-        "`label` can give other words"
+        "`label` can give other words",
+        by="value",
     ),
     "flat_outline": N_("a flat outline holds only the section; STL, 3MF and STEP have the whole solid"),
     "never_moves": N_("the follower never moves: all phases are dwells, the cam is a round disk"),

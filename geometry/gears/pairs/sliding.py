@@ -14,6 +14,9 @@ from geometry.gears.pairs.external import ExternalPair
 from geometry.gears.pairs.internal import InternalPair
 from geometry.gears.pairs.involute import tangent_length
 
+# of the line: as near as a root search or a limit typed with six digits comes to a base circle
+_ON_THE_BASE_CIRCLE = 1e-6
+
 
 class ActiveLine(Record):
     """Where contact begins (``start``, A) and ends (``end``, E) and where the pitch point lies (``pole``, P), mm."""
@@ -74,7 +77,7 @@ def specific_sliding(position: float, line_length: float, gear_ratio: float, sig
 
     ``sign`` -1: of a pinion (1) in a ring (2), with g + L for L - g.
     """
-    other = line_length - sign * position
-    first = 1 - other / (gear_ratio * position) if position > 0 else -math.inf
-    second = 1 - gear_ratio * position / other if other > 0 else -math.inf
+    other, least = line_length - sign * position, _ON_THE_BASE_CIRCLE * line_length
+    first = 1 - other / (gear_ratio * position) if position > least else -math.inf
+    second = 1 - gear_ratio * position / other if other > least else -math.inf
     return first, second

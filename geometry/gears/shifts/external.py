@@ -16,6 +16,7 @@ from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
 from geometry.curves.implicit import Box, level_lines
+from geometry.gears.pairs.sliding import specific_sliding
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.joints import fillet_flank_joint
 from geometry.gears.teeth.limits import Margin, least_shift_without_undercut
@@ -68,9 +69,8 @@ class PairState(Record):
 
     def root_sliding(self, gear_ratio: float) -> tuple[float, float]:
         """zeta_f1 and zeta_f2; -inf where a base circle is reached."""
-        (low1, low2), (high1, high2) = self.starts, self.tips
-        first = 1 - high2 / (gear_ratio * low1) if low1 > 0 else -math.inf
-        return first, 1 - gear_ratio * high1 / low2 if low2 > 0 else -math.inf
+        starts, ends = (specific_sliding(at, self.line, gear_ratio) for at in (self.starts[0], self.tips[0]))
+        return starts[0], ends[1]
 
 
 @lru_cache(maxsize=1 << 17)

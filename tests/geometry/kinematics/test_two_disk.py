@@ -117,6 +117,13 @@ def test_what_is_out_of_reach_names_the_nearest_point(arms: tuple[float, float],
     table.inverse(found)
 
 
+@pytest.mark.parametrize("point", [complex(math.nan, 1), complex(0, math.inf)])
+def test_a_point_that_is_no_number_is_refused(point: complex) -> None:
+    for points in (point, np.array([30 + 40j, point])):
+        with pytest.raises(ParameterError, match="not_finite"):
+            TwoDisk().inverse(points)
+
+
 def test_ratios_of_the_drives() -> None:
     turn = 2 * math.pi
     assert THESIS.drives(turn, 0.0) == (128, 106)

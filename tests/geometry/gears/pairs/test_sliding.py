@@ -79,3 +79,14 @@ def test_a_circle_that_misses_the_teeth_is_refused(radius: float) -> None:
     with pytest.raises(ParameterError, match="not_between_root_and_tip") as caught:
         profile_readings(SpurGear(10.0, 10, RACK), radius)
     assert profile_readings(SpurGear(10.0, 10, RACK), works(caught.value) / 2)
+
+
+@pytest.mark.parametrize("near", [0.0, 1e-15, 1e-8, 1e-3])
+def test_sliding_at_a_base_circle_has_no_bound(near: float) -> None:
+    """A search that ends beside a base circle finds no number there: 1e-8 of the line off it would be -3e7."""
+    line = 20.0
+    first, second = specific_sliding(near * line, line, 3.0)[0], specific_sliding((1 - near) * line, line, 3.0)[1]
+    if near < 1e-6:
+        assert first == second == -math.inf
+    else:
+        assert (first, second) == pytest.approx((1 - 0.999 / 0.003, 1 - 3 * 0.999 / 0.001))
