@@ -189,8 +189,6 @@ def sections(corners: np.ndarray, body: BarrelBody, angles: np.ndarray, depths: 
         place, fixed = complex(cam.place(angle, 0)[0]), turn * np.exp(1j * angle)
         for x in depths:
             radius = float(cam.radius_at(x))
-            if np.hypot(x, abs(place.real) + radius) > cam.outer:
-                continue
             over = fixed.real - x
             cut = (over.min(axis=1) < 0) & (over.max(axis=1) >= 0) & (fixed.real.min(axis=1) > 0)
             ends = np.full((int(cut.sum()), 3), np.nan, dtype=complex)
@@ -211,8 +209,8 @@ def sections(corners: np.ndarray, body: BarrelBody, angles: np.ndarray, depths: 
                 room = np.sqrt(np.where(np.abs(points.real) < radius, radius**2 - points.real**2, np.nan))
                 error, across = room[mine] - side * points[mine].imag, points[mine].real + place.real
                 k = int(np.nanargmax(error)) if np.isfinite(error).any() else 0
-                # where the wall is cut off by the floor's cylinder the roller does not touch it at this depth
-                if np.isfinite(error).any() and np.hypot(x, across.flat[k]) > 1.0005 * cam.inner:
+                # where the floor's or the outer cylinder cuts the wall off the roller does not touch it at this depth
+                if np.isfinite(error).any() and 1.0005 * cam.inner < np.hypot(x, across.flat[k]) < 0.995 * cam.outer:
                     worst = max(worst, abs(float(error.flat[k])))
     return worst
 
