@@ -22,18 +22,31 @@ S = TypeVar("S", bound=Struct)
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ufffe\uffff]")
 
 
-def refuse_infinite(value: object, source: str, place: str) -> None:
-    """TOML knows nan and inf, and 1e400 becomes inf: none of them is a dimension; no word is told by controls."""
-    if isinstance(value, float) and not math.isfinite(value):
-        raise SceneError(source, place, value, "not_finite")
+# what a script's rounding leaves of 0; in mm, degrees or modules nothing is as small
+_NOTHING = 1e-12
+
+
+def plain_numbers(value: Any, source: str, place: str) -> Any:
+    """What was read, its numbers finite: those nearer to 0 than 1e-12 are 0, no word has control characters.
+
+    Raises
+    ------
+    SceneError
+        nan and inf, which TOML knows (1e400 becomes inf too): none of them is a dimension; control characters.
+    """
+    if isinstance(value, float):
+        if not math.isfinite(value):
+            raise SceneError(source, place, value, "not_finite")
+        return value if abs(value) >= _NOTHING else 0.0
     if isinstance(value, str) and _CONTROL.search(value):
         raise SceneError(source, place, value, "control_character")
     if isinstance(value, dict):
-        for key, item in value.items():
-            refuse_infinite(item, source, f"{place}.{key}" if place else str(key))
+        return {
+            key: plain_numbers(item, source, f"{place}.{key}" if place else str(key)) for key, item in value.items()
+        }
     if isinstance(value, list):
-        for index, item in enumerate(value):
-            refuse_infinite(item, source, f"{place}[{index + 1}]")
+        return [plain_numbers(item, source, f"{place}[{index + 1}]") for index, item in enumerate(value)]
+    return value
 
 
 def converted(table: object, kind: type[Struct], source: str, place: str) -> Any:

@@ -30,7 +30,7 @@ def size(
 
 
 mm, degrees, in_modules = partial(size, "mm"), partial(size, "degrees"), partial(size, "modules")
-# a smaller hole vanishes among the digits of its place, mm
+# a smaller hole or letter vanishes among the digits of its place, mm
 LEAST_HOLE = 1e-6
 
 

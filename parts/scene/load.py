@@ -19,7 +19,7 @@ from parts.base.materials import check_material
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.registry import KINDS
-from parts.base.schema import converted, kind_of, refuse_infinite, value_at
+from parts.base.schema import converted, kind_of, plain_numbers, value_at
 from parts.base.texts import ENGLISH, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid
@@ -278,7 +278,7 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | No
 
 def scene_from_dict(raw: dict[str, Any], source: str, name: str, language: str | None = None) -> SceneFile:
     """Validate the tables of a scene, its assemblies told out."""
-    refuse_infinite(raw, source, "")
+    raw = plain_numbers(raw, source, "")
     _check_tables(raw, source)
     if language is not None:
         raw = {**raw, "scene": {**raw.get("scene", {}), "language": language}}

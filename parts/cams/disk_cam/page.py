@@ -112,7 +112,7 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
 def sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of one cam."""
     kind = table.get("kind", "cam")
-    if kind not in PAGES:
+    if not isinstance(kind, str) or kind not in PAGES:
         raise SceneError(PLACE, "kind", kind, "unknown_kind", meant(kind, PAGES), known=list(PAGES))
     module, name = PAGES[kind]
     page: Sheet = getattr(importlib.import_module(module), name)({k: v for k, v in table.items() if k != "kind"})

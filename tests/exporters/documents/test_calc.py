@@ -192,6 +192,9 @@ def test_every_format_of_every_topic(topic: str, language: str) -> None:
     assert all(text.endswith("\n") for text in made.values())
     title = words(language).say(sheet.title)
     assert made["text"].startswith(title)
+    # the point in every language, as keys have it
+    assert re.search(r"\d\.\d", made["text"])
+    assert not re.search(r"\d,\d", made["text"])
     assert made["md"].startswith(f"# {title}")
     assert f'<html lang="{language}">' in made["html"]
     for tag in ("html", "table", "tr", "td", "ul", "sub", "svg"):

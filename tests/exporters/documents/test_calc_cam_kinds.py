@@ -234,6 +234,7 @@ def test_a_page_of_a_pair_is_chosen_by_itself_and_parts_by_name() -> None:
     [
         (("barrel_cam",), "several: barrel, end"),
         (("kind=grove_cam",), "did you mean groove_cam"),
+        (("kind={}",), "known kinds"),
         (("kind=conjugate_cam",), "of.follower=roller"),
         (("conjugate_cams", "of.lift=3"), "which has swing_deg instead"),
         (("conjugate_cams", "base_circle_radius=3"), "base_circle_radius"),

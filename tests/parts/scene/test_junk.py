@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import datetime
+import json
 from typing import Any
 
 import msgspec
@@ -15,6 +16,7 @@ from exporters.formats.registry import shape_of
 from exporters.production.plan import plan_build
 from geometry.base.errors import GeometryError
 from parts.base.refusal import SceneError
+from parts.base.schema import plain_numbers
 from parts.gears.spur_gear.part import RackTable, ReliefTable, SpurGearSpec
 from parts.scene.load import ExportSpec, SceneInfo, scene_from_dict, scene_from_resolved, scene_from_toml
 from tests.sampling import examples
@@ -200,6 +202,15 @@ def test_a_tampered_report_is_refused_like_a_scene(parts: dict[str, Any], export
         assert scene_from_resolved(data, "report.json").parts
 
 
+def test_what_rounding_leaves_of_nothing_is_nothing() -> None:
+    read = {"a": [1e-13, -5e-324, -1e-12, 3], "b": {"c": -0.0, "d": "1e-20", "e": True}}
+    told = plain_numbers(read, "s", "")
+    assert told == {"a": [0.0, 0.0, -1e-12, 3], "b": {"c": 0.0, "d": "1e-20", "e": True}}
+    assert json.dumps(told).count("-") == 3
+    with pytest.raises(SceneError, match=r"b\.c\[2\] = inf"):
+        plain_numbers({"b": {"c": [0.0, float("inf")]}}, "s", "")
+
+
 @pytest.mark.parametrize("depth", [100, 900, 5000])
 def test_the_deepest_table_is_no_trouble(depth: int) -> None:
     """Dotted keys nest without brackets, so that no parser stops them."""
@@ -214,7 +225,17 @@ def test_the_deepest_table_is_no_trouble(depth: int) -> None:
 @pytest.mark.parametrize("value", [5e-324, 1e-132, 1e-20, 1e-15, 1e-9])
 def test_a_length_of_almost_nothing(key: str, value: float) -> None:
     """It has an outline or is refused; nothing divides by it."""
-    raw = sound()
+    outlined(sound(), key, value)
+
+
+@pytest.mark.parametrize("key", ["tip_chamfer", "tip_rounding"])
+@pytest.mark.parametrize("value", [1e-308, 1e-16, 2e-12])
+def test_a_corner_of_a_rack_of_almost_nothing(key: str, value: float) -> None:
+    outlined({"parts": {"gear": {"kind": "rack", "module": 2.0}}, "exports": [{"format": "dxf"}]}, key, value)
+
+
+def outlined(raw: dict[str, Any], key: str, value: float) -> None:
+    """The outline is made, or refused."""
     raw["parts"]["gear"][key] = value
     if survives(raw):
         plan = plan_build(scene_from_dict(raw, "s", "s"), "s", [], [])
