@@ -135,8 +135,11 @@ class Kind(Generic[K, T]):
 
     def height(self, keys: K, thing: T) -> float:
         """Height along the axis, of the rim where there is one, mm."""
-        height: float = keys.face_width  # type: ignore[attr-defined]
-        return height
+        match keys:
+            case object(face_width=float(width)):
+                return width
+            case _:
+                raise TypeError(type(keys))
 
     def is_plate(self, keys: K, thing: T) -> bool:
         """Whether the solid is its section, extruded."""

@@ -43,15 +43,19 @@ class Labeller:
         height = height or self._canvas.letters
         width = text_width(text, height)
         reach = 2 * _REACHES[-1] + width
-        near = self._points[np.abs(self._points - point) < reach]
+        away = np.abs(self._points - point)
         texts = [t.box for t in self._canvas.texts if abs(nearest(t.box, point) - point) < reach]
         below = text_of(text, 0j, height).box
+        # no box of this word goes farther beyond the reach of its middle
+        corners = [complex(x, y) for x in (below.left, below.right) for y in (below.low, below.high)]
+        beyond = width + height + max(map(abs, corners)) + 2 * _CLEARANCE
         best: tuple[float, complex, float] | None = None
         for reach in _REACHES:
             least = math.inf if best is None else best[0]
             # what is farther costs more
             if _PER_MM * reach >= least:
                 break
+            near = self._points[away < reach + beyond]
             for k in range(_DIRECTIONS):
                 way = cmath.exp(2j * math.pi * k / _DIRECTIONS)
                 middle = (

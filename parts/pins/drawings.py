@@ -113,7 +113,8 @@ def _plates(made: PinPlate, subject: Subject) -> tuple[View, ...]:
 
 def _with_pins(face: View, made: PinPlate, subject: Subject) -> View:
     """The face of a plate with the pins that stand on it."""
-    turn = math.pi / 2 - made.holes.bore.angle if _is_keyed(made.holes) else 0.0  # type: ignore[union-attr]
+    bore = made.holes.bore
+    turn = 0.0 if bore is None or isinstance(bore, RoundBore) else math.pi / 2 - bore.angle
     centres = [centre * complex(math.cos(turn), math.sin(turn)) for centre in made.pins.centres()]
     strokes = [*face.strokes, *((VISIBLE, circle_of(made.pin_radius, centre)) for centre in centres)]
     strokes.append((AXIS, circle_of(made.pins.pitch_circle_diameter / 2)))
@@ -125,10 +126,6 @@ def _with_pins(face: View, made: PinPlate, subject: Subject) -> View:
         *(Line(c * (1 - made.pin_radius / abs(c)), c * (1 + made.pin_radius / abs(c))) for c in centres),
     ]
     return replace(face, strokes=tuple(strokes), axes=tuple(axes), rounds=(*face.rounds, told))
-
-
-def _is_keyed(holes: HubHoles) -> bool:
-    return holes.bore is not None and not isinstance(holes.bore, RoundBore)
 
 
 def _ring(ring: PinRing, subject: Subject) -> tuple[View, ...]:

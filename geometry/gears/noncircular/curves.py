@@ -142,12 +142,13 @@ class RolledFillet(RolledCurve, Record):
     """What a rack's rounded tip cuts: c(s) + i (D - i D tan u + rho exp(-i u)) T(s) at s = x - D tan u.
 
     ``u`` is the angle of the contact normal on the rounding, rad, 0 at the rack's tip line, positive on the rack's
-    flank of the lower tooth side, negative on its mirror image; ``centre``: x of the rounding's centre, ``depth``: D,
-    how far it lies inside the pitch line, ``tip_radius``: rho, mm. Speed rho (1 + kappa D sec^2 u) + kappa D^2 sec^3 u.
+    flank of the lower tooth side, negative on its mirror image; ``centre``: x of the rounding's centre, or a column of
+    them for as many fillets, ``depth``: D, how far it lies inside the pitch line, ``tip_radius``: rho, mm. Speed
+    rho (1 + kappa D sec^2 u) + kappa D^2 sec^3 u.
     """
 
     line: PitchLine
-    centre: float
+    centre: float | Real
     depth: float
     tip_radius: float
     start: float

@@ -110,7 +110,7 @@ class CurveTable:
         return np.where(ends, sign * size, height), np.where(ends, beyond, outward)
 
 
-def _place(curve: object) -> float:
+def _place(curve: object) -> float | Real:
     if isinstance(curve, RolledFlank):
         return curve.crossing
     return curve.centre if isinstance(curve, RolledFillet) else 0.0

@@ -62,8 +62,7 @@ class Flanks(NamedTuple):
 
     def fillet(self, u: Real) -> tuple[Complex, Complex]:
         """Points and derivatives over u."""
-        # the curve of one fillet, for a row of them at once: that its centre is a row stays in this method
-        curve = RolledFillet(self.line, self.centre, self.depth, self.radius, 0.0, 1.0)  # type: ignore[arg-type]
+        curve = RolledFillet(self.line, self.centre, self.depth, self.radius, 0.0, 1.0)
         return curve.point(u), curve.derivative(u)
 
 
