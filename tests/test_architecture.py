@@ -6,6 +6,7 @@ import ast
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -40,25 +41,43 @@ class Import:
     star: bool
 
 
+@dataclass(frozen=True)
+class Statement:
+    """An import statement; ``runs`` at all, that is not for type checkers alone, and when the file is loaded."""
+
+    node: ast.Import | ast.ImportFrom
+    runs: bool
+    at_top: bool
+
+
+@cache
+def statements(source: str) -> tuple[Statement, ...]:
+    """Every import statement of a file, anywhere in it; parsed once for all rules."""
+    return tuple(_statements(ast.parse(source), runs=True, at_top=True))
+
+
+def _statements(node: ast.AST, *, runs: bool, at_top: bool) -> Iterator[Statement]:
+    for name, value in ast.iter_fields(node):
+        for_types = name == "body" and isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test)
+        for child in value if isinstance(value, list) else ():
+            if isinstance(child, ast.Import | ast.ImportFrom):
+                yield Statement(child, runs and not for_types, at_top)
+            # expressions hold no statement
+            elif isinstance(child, ast.stmt | ast.ExceptHandler | ast.match_case):
+                inside = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef)
+                yield from _statements(child, runs=runs and not for_types, at_top=at_top and not inside)
+
+
 def imports_of(source: str) -> Iterator[Import]:
     """Every import of a file; those under TYPE_CHECKING are left out, since they never run."""
-    yield from _imports(ast.parse(source), at_top=True)
-
-
-def _imports(node: ast.AST, *, at_top: bool) -> Iterator[Import]:
-    for child in ast.iter_child_nodes(node):
-        if isinstance(child, ast.If) and "TYPE_CHECKING" in ast.dump(child.test):
-            for other in child.orelse:
-                yield from _imports(ast.Module([other], []), at_top=at_top)
-        elif isinstance(child, ast.Import):
-            for alias in child.names:
-                yield Import(alias.name, child.lineno, at_top, star=False)
-        elif isinstance(child, ast.ImportFrom):
-            star = any(alias.name == "*" for alias in child.names)
-            yield Import("." * child.level + (child.module or ""), child.lineno, at_top, star)
+    for found in (statement for statement in statements(source) if statement.runs):
+        node = found.node
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield Import(alias.name, node.lineno, found.at_top, star=False)
         else:
-            inside = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
-            yield from _imports(child, at_top=at_top and not inside)
+            star = any(alias.name == "*" for alias in node.names)
+            yield Import("." * node.level + (node.module or ""), node.lineno, found.at_top, star)
 
 
 def faults(place: str, source: str) -> list[str]:

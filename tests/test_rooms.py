@@ -8,12 +8,12 @@ from __future__ import annotations
 import ast
 from collections import defaultdict
 from collections.abc import Iterator
-from functools import cache
 from pathlib import Path
 
 import exporters
 import geometry
 import parts
+from tests.test_architecture import statements
 
 # from the ground up: a room may import its own package's rooms below it, and what it holds itself
 STOREYS = (
@@ -39,15 +39,9 @@ def sources() -> Source:
     return found
 
 
-@cache
-def statements(text: str) -> tuple[ast.Import | ast.ImportFrom, ...]:
-    """Every import statement of a text, anywhere in it; parsed once for all rules."""
-    return tuple(node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Import | ast.ImportFrom))
-
-
 def imports(text: str, modules: Source) -> Iterator[tuple[str, str]]:
     """Every module of the house that a text imports, anywhere in it, with the name that is taken of it or ""."""
-    for node in statements(text):
+    for node in (statement.node for statement in statements(text)):
         if isinstance(node, ast.ImportFrom) and node.module:
             for alias in node.names:
                 whole = f"{node.module}.{alias.name}"
