@@ -61,6 +61,8 @@ _CORNER = 0.4
 _PLACES = np.array([[1 / 3, 1 / 3, 1 / 3], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5]])
 _DENSE = np.array([(a, b, 5 - a - b) for a in range(6) for b in range(6 - a)]) / 5
 _AT_ONCE = 400_000
+# of the corners (u, v) 00, 01, 10, 11 of a patch those at the ends of its sides along u, and along v, either way
+_SIDES = ((0, 2), (2, 0), (1, 3), (3, 1)), ((0, 1), (1, 0), (2, 3), (3, 2))
 # differences by which two patches are one turned, part of the solid
 _ALIKE = 1e-9
 # radius at which a surface is its pole, part of the greatest of a face
@@ -140,7 +142,13 @@ class _Mesher:
         self.bound: Bound = "exact"
         self.bundle, self.row = edge_rows(solid)
         self.bent, self.patched = (self._bounding(kinds) for kinds in (Torus | Sphere | SplineSurface, SplineSurface))
-        self.chains = [self._chain(bundle, edges) for bundle, edges in enumerate(solid.edges)]
+        shares = [self._own_shares(bundle, edges) for bundle, edges in enumerate(solid.edges)]
+        # bundles of edges that one chord follows
+        self.flat = {bundle for bundle, own in enumerate(shares) if len(own) == 2}
+        # walls of cams, which are proven, are hardly twisted
+        for bundle, chords in (self._twists() if proof is None else {}).items():
+            shares[bundle] = np.linspace(0.0, 1.0, chords + 1)
+        self.chains = [self._chain(edges, own) for edges, own in zip(solid.edges, shares, strict=True)]
 
     def run(self) -> float:
         """Triangles of all faces; the greatest distance, mm."""
@@ -167,9 +175,29 @@ class _Mesher:
         own = [edges for faces in self.solid.faces if isinstance(faces.surface, kinds) for edges, _ in faces.loops]
         return set(np.unique(self.bundle[np.concatenate([x.ravel() for x in own])]).tolist()) if own else set()
 
-    def _chain(self, bundle: int, edges: Edges) -> _Chain:
+    def _own_shares(self, bundle: int, edges: Edges) -> Real:
+        """Where a bundle of edges is cut for its own bend."""
         sag = self.tolerance * (_DOUBLE if bundle in self.bent else _SINGLE)
-        shares = _shares(self.solid, edges, sag, even=bundle not in self.patched)
+        return _shares(self.solid, edges, sag, even=bundle not in self.patched)
+
+    def _twists(self) -> dict[int, int]:
+        """Chords of flat edges that twisted spline faces ask for, by bundle: one would be a base of wide triangles."""
+        found: dict[int, int] = {}
+        for faces in self.solid.faces:
+            surface, bounds = faces.surface, faces.loops[0][0][0]
+            flat = [edge for edge in bounds.tolist() if self.bundle[edge] in self.flat]
+            if not flat or not isinstance(surface, SplineSurface):
+                continue
+            patch = patch_of(self.solid, surface)
+            chords = Bends(patch.rows(_templates(patch.poles))).chords(_DOUBLE * self.tolerance)
+            for edge in flat:
+                bundle, row = int(self.bundle[edge]), self.row[edge]
+                edges = self.solid.edges[bundle]
+                ends = self.solid.points[self.solid.vertices[[edges.start[row], edges.end[row]]]]
+                found[bundle] = max(found.get(bundle, 1), chords[_runs_across(patch.poles[0], ends)])
+        return found
+
+    def _chain(self, edges: Edges, shares: Real) -> _Chain:
         points, _ = along_edges(self.solid, edges, shares)
         ends = self.solid.points[self.solid.vertices[np.stack([edges.start, edges.end], axis=1)]]
         points[:, 0], points[:, -1] = ends[:, 0], ends[:, 1]
@@ -327,7 +355,7 @@ class _Mesher:
             ends[mine] = chain.points[self.row[edges[mine]]][:, [0, -1]]
         ends[~senses] = ends[~senses][:, ::-1]
         if patch is None:
-            curved = np.array([len(chain.shares) > 2 for chain in self.chains])
+            curved = np.array([bundle not in self.flat for bundle in range(len(self.chains))])
             return np.where(curved[self.bundle[edges[:, 0]]] | curved[self.bundle[edges[:, 2]]], 0, 1)
         corners = [(0, 0), (-1, 0), (-1, -1), (0, -1)]
         wanted = np.stack([patch.poles[:, u, v] for u, v in (corners[end], corners[(end + 1) % 4])], axis=1)
@@ -401,6 +429,13 @@ class _Mesher:
 
 def _oriented(triangles: Triangles, flip: bool) -> Triangles:
     return triangles[:, ::-1] if flip else triangles
+
+
+def _runs_across(poles: Real, ends: Real) -> bool:
+    """Whether an edge with ends (2, 3) is a side of a patch along v."""
+    off = np.linalg.norm(poles[[0, 0, -1, -1], [0, -1, 0, -1]][:, None] - ends, axis=2)
+    along, across = (min(off[a, 0] + off[b, 1] for a, b in pairs) for pairs in _SIDES)
+    return bool(across < along)
 
 
 def _edges_of(faces: Faces, row: int) -> list[int]:

@@ -50,6 +50,11 @@ class Bends:
         # the same on any machine where both are alike
         self.rising = bool(up <= _TIE * down)
 
+    def chords(self, sag: float) -> tuple[int, int]:
+        """Steps along u, and along v, where the patches are bent most."""
+        u, v = graded(self.u, self.along.max(axis=1), sag), graded(self.v, self.across.max(axis=0), sag)
+        return len(u) - 1, len(v) - 1
+
     def rows(self, sag: float) -> tuple[Real, list[Real]]:
         """Shares of v of the rows within, and of u in each; at least one of both."""
         t = graded(self.v, self.across.max(axis=0), sag)

@@ -14,7 +14,19 @@ from geometry.base.record import replace
 from geometry.solids.area import surface_area
 from geometry.solids.extent import extent
 from geometry.solids.face_moments import face_moments
-from geometry.solids.faces import Circular, Faces, Frame, Solid, SolidBuilder, Sphere, Torus
+from geometry.solids.faces import (
+    Circular,
+    Faces,
+    Frame,
+    Index,
+    Plane,
+    Solid,
+    SolidBuilder,
+    Sphere,
+    Spline,
+    SplineSurface,
+    Torus,
+)  # fmt: skip
 from geometry.solids.mass import body_moments
 from geometry.solids.rings import AHEAD, UP
 from parts.scene.load import load_scene, make_parts, scene_from_dict
@@ -46,6 +58,48 @@ def ring(radius: float, tube: float) -> Solid:
     loop = np.stack([around, across, around, across], axis=1), np.array([True, True, False, False])
     made.faces.append(Faces(Torus(Frame(middle, UP, AHEAD), radius, tube), (loop,)))
     return made.solid()
+
+
+def twisted_prism(size: float, height: float, turn: float) -> Solid:
+    """A square under one that is turned, with bilinear faces between them, whose sides are splines of degree 1."""
+    made, knots = SolidBuilder(), np.array([0.0, 0.0, 1.0, 1.0])
+    square = size * np.exp(0.5j * np.pi * np.arange(4))
+    points = np.stack([made.add_points(square, 0.0), made.add_points(square * np.exp(1j * turn), height)])
+    low, high = (made.add_vertices(own) for own in points)
+
+    def sides(start: Index, end: Index, poles: tuple[Index, Index]) -> Index:
+        return made.add_edges(start, end, Spline(1, knots, np.stack(poles, axis=1)))
+
+    below, above = (sides(v, np.roll(v, -1), (p, np.roll(p, -1))) for v, p in zip((low, high), points, strict=True))
+    up = sides(low, high, (points[0], points[1]))
+    poles = np.stack([points.T, np.roll(points.T, -1, axis=0)], axis=1)
+    loop = np.stack([below, np.roll(up, -1), above, up], axis=1), np.array([True, True, False, False])
+    made.faces.append(Faces(SplineSurface((1, 1), knots, knots, poles), (loop,)))
+    for z, ring, is_up in ((0.0, below[::-1], False), (height, above, True)):
+        frame = Frame(made.on_axis(z), UP, AHEAD)
+        made.faces.append(Faces(Plane(frame), ((ring[None], np.full(4, is_up)),), along=is_up))
+    return made.solid()
+
+
+def test_a_twisted_face_is_cut_as_its_twist_asks() -> None:
+    """A face with u v t across takes t / (2 tolerance) triangles; broad ones at uncut edges took 40 times as many."""
+    size, height, turn, tolerance = 10.0, 15.0, 0.5, 0.01
+    solid = twisted_prism(size, height, turn)
+    made = face_mesh(solid, tolerance)
+    mesh = ReadMesh(made.vertices, made.geometry)
+    assert topology_failures(mesh) == []
+    # Gauss: the twist of the net, along the normal in its middle, is the most of it
+    net = solid.points[solid.faces[0].surface.poles[0]]
+    u, v = net[1].mean(axis=0) - net[0].mean(axis=0), net[:, 1].mean(axis=0) - net[:, 0].mean(axis=0)
+    normal = np.cross(u, v) / np.linalg.norm(np.cross(u, v))
+    twist = abs(float((net[0, 0] - net[0, 1] - net[1, 0] + net[1, 1]) @ normal))
+    assert len(made.geometry) < 4 * 4 * twist / (2 * tolerance)
+    # sections are squares turned and smaller: their areas are a square's polynomial in the height
+    corner = size * (np.array([0.0, 0.5, 1.0]) * (np.exp(1j * turn) - 1) + 1)
+    volume = height * float(2 * np.abs(corner) ** 2 @ [1, 4, 1]) / 6
+    corners = mesh.faces()
+    found = float(np.einsum("ij,ij->i", corners[:, 0], doubled_normals(corners)).sum() / 6)
+    assert found == pytest.approx(volume, abs=tolerance * surface_area(solid))
 
 
 def held(solid: Solid, tolerance: float) -> float:
