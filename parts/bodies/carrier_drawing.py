@@ -32,5 +32,5 @@ def part_drawing(subject: Subject) -> PartDrawing:
         more.append(
             sheet_words(subject.language, "holes_each", size=subject.say(one.diameter), angles=angles, zero=zero)
         )
-    told = directions(HubHoles(None, tuple(equal)), subject, "zero_x")
+    told = directions(HubHoles(None, tuple(equal)), subject, "zero_x", all_circled=True)
     return plate_drawing.part_drawing(subject, (), thing.circles, *told, *more)

@@ -17,6 +17,7 @@ from parts.bodies.layered import CircleTable, LayeredSpec, LayerTable, OutlineTa
 from parts.bodies.patterns import Repeated, repeated
 from parts.bodies.plate import SlotTable
 from parts.bodies.plate_drawing import diameters, radii
+from parts.drawing.places import place_sizes, spans
 from parts.drawing.revolved import closed
 from parts.drawing.wheel_views import circle_of
 from parts.drawing.working import AXIS, VISIBLE, Cut, Note, PartDrawing, Round, Size, Subject, View, requirements
@@ -126,10 +127,8 @@ def _across(
     for middle, radius in sorted({c.circle for c in contours if c.circle and c.circle[0]}, key=str):
         axes += [Line(middle - radius * way, middle + radius * way) for way in (1, 1j)]
     places += [pattern.centre for pattern in patterns]
-    across, upwards = _told(p.real for p in places), _told(p.imag for p in places)
     sizes = (
-        *(Size(f"x.{k}", complex(a, low_y), complex(b, low_y), "below") for k, (a, b) in enumerate(across, 1)),
-        *(Size(f"y.{k}", complex(low_x, a), complex(low_x, b), "left") for k, (a, b) in enumerate(upwards, 1)),
+        *place_sizes(places, complex(low_x, low_y)),
         *_first_ones(patterns, high_x, {c.imag for c in places}),
     )
     rounds = (
@@ -200,18 +199,8 @@ def _first_ones(patterns: Sequence[Repeated], right: float, known: set[float]) -
     """How far from the axis the first ones of what repeats stand, on the side to which they do."""
     points = {round(p.imag, _DIGITS): p for one in patterns for places in one.first for p in places}
     points = {y: p for y, p in points.items() if all(abs(y - other) > _NONE for other in known)}
-    for k, (a, b) in enumerate(_told(points), 1):
+    for k, (a, b) in enumerate(spans(points), 1):
         yield Size(f"first.{k}", points.get(a, complex(right, a)), points.get(b, complex(right, b)), "right")
-
-
-def _told(values: Iterable[float]) -> Iterator[Span]:
-    """The ends of sizes: from an axis, of what is alike on both sides of it from side to side."""
-    found = {round(value, _DIGITS) for value in values} - {0.0}
-    for value in sorted(found):
-        if value > 0 and -value in found:
-            yield -value, value
-        elif -value not in found:
-            yield min(value, 0.0), max(value, 0.0)
 
 
 def _plane(layers: Layers) -> float:
@@ -337,9 +326,9 @@ def _joined(lines: Iterable[Line]) -> list[Line]:
         ends = (line.start.real, line.end.real) if level else (line.start.imag, line.end.imag)
         rows.setdefault((level, at), []).append((min(ends), max(ends)))
     found = []
-    for (level, at), spans in rows.items():
-        low, high = min(spans)
-        for a, b in sorted(spans):
+    for (level, at), row in rows.items():
+        low, high = min(row)
+        for a, b in sorted(row):
             if a > high + _NONE:
                 found.append((level, at, low, high))
                 low = a

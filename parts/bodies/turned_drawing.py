@@ -13,13 +13,23 @@ from geometry.base.placement import Placement2
 from geometry.base.record import replace
 from geometry.curves.curve import Curve, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
+from geometry.solids.hub_holes import HubHoles
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket
 from parts.bodies.details import detailed
 from parts.bodies.turned import TurnedSpec
 from parts.drawing.directions import directions
+from parts.drawing.places import apart
 from parts.drawing.revolved import Loop, below, closed, outer_of, outlined, seen_circles, seen_edges
 from parts.drawing.turned_sizes import Fits, SectionCorner, bores, listed_corners, turned_sizes
-from parts.drawing.wheel_views import axis_along, axis_cross, bore_note, circle_of, circle_size, section_sides
+from parts.drawing.wheel_views import (
+    apart_sizes,
+    axis_cross,
+    bore_note,
+    circle_of,
+    circle_size,
+    hole_axes,
+    section_sides,
+)
 from parts.drawing.working import (
     AXIS,
     HIDDEN,
@@ -56,22 +66,22 @@ def part_drawing(subject: Subject) -> PartDrawing:
     assert isinstance(half, HalfSection)
     loop = tuple(_curve(piece) for piece in half.pieces)
     is_shaft, hollow = subject.part.kind == "shaft", half.radii()[0] > 0
-    whole = _long_view(half, loop, subject, is_shaft=is_shaft, cut=hollow or not is_shaft)
+    keys = subject.part.keys
+    holes = hub_holes(None, keys.holes, None) if isinstance(keys, TurnedSpec) else HubHoles()
+    whole = _long_view(half, loop, holes, subject, is_shaft=is_shaft, cut=hollow or not is_shaft)
     if not is_shaft and hollow:
         found = [*_enlarged(half, whole, subject)]
     else:
         found = [whole] if whole.hatched else [*detailed(whole, half.heights(), subject.language)]
     if half.holes:
-        found.append(_face(half, loop, subject))
+        found.append(_face(half, loop, holes, subject))
     if is_shaft and not hollow and (centre := _centre_hole(loop, subject)) is not None:
         found.append(centre)
     if half.pockets:
         found += _keyways(half, found[0].cuts, subject)
     square = [c.letter for c in found[0].cuts if not all(p.round_ends for p in _crossed(half, c.at))]
     more = [sheet_words(subject.language, "square_keyways", letter=letter) for letter in square]
-    if isinstance(keys := subject.part.keys, TurnedSpec):
-        more += directions(hub_holes(None, keys.holes, None), subject, "")
-    return PartDrawing(tuple(found), requirements(subject, *more))
+    return PartDrawing(tuple(found), requirements(subject, *more, *directions(holes, subject, "")))
 
 
 def told_corners(half: HalfSection, *, is_shaft: bool) -> tuple[SectionCorner, ...]:
@@ -96,7 +106,13 @@ def _curve(piece: Piece) -> Line | Arc:
     return Arc(centre, piece.radius, cmath.phase(start - centre), float(turns.sum()))
 
 
-def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: bool, cut: bool) -> View:
+def _circled(half: HalfSection, holes: HubHoles) -> list[Hole]:
+    """Holes that are told by the circle on which they stand."""
+    alone = [centre for group in apart(holes) for centre in group.centres()]
+    return [hole for hole in half.holes if all(abs(hole.centre - centre) > _SAME * 10 for centre in alone)]
+
+
+def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject, *, is_shaft: bool, cut: bool) -> View:
     """The view across the axis."""
     strokes: list[Stroke] = []
     is_outer = outer_of(loop)
@@ -131,8 +147,8 @@ def _long_view(half: HalfSection, loop: Loop, subject: Subject, *, is_shaft: boo
         sizes.append(Size(f"keyway.{k}.length", *ends, "above"))
         sizes.append(Size(f"keyway.{k}.at", complex(low), ends[0], "above"))
     drilled: list[Loop] = []
-    for radius in sorted({round(abs(hole.centre), 9) for hole in half.holes}):
-        found = [hole for hole in half.holes if abs(abs(hole.centre) - radius) < _SAME * 10]
+    for radius in sorted({round(abs(hole.centre), 9) for hole in _circled(half, holes)}):
+        found = [hole for hole in _circled(half, holes) if abs(abs(hole.centre) - radius) < _SAME * 10]
         centres = [hole.centre for hole in found]
         for way in section_sides(centres):
             for near, far in _walls(loop, found[0]):
@@ -246,24 +262,23 @@ def _walls(loop: Loop, hole: Hole) -> Iterator[tuple[Line, Line]]:
     yield from zip(*sides, strict=False)
 
 
-def _face(half: HalfSection, loop: Loop, subject: Subject) -> View:
+def _face(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject) -> View:
     """The view along the axis, with its holes."""
     inner, outer = half.radii()
     radii = {round(radius, 9) for radius in (outer, inner, *seen_circles(loop)) if radius > _SAME}
     strokes: list[Stroke] = [(VISIBLE, circle_of(radius)) for radius in sorted(radii, reverse=True)]
     strokes += [(VISIBLE, circle_of(hole.radius, hole.centre)) for hole in half.holes]
-    axes = [*axis_cross(outer), *(axis_along(hole.centre, hole.radius) for hole in half.holes)]
-    rounds = []
-    for pitch in sorted({round(abs(hole.centre), 9) for hole in half.holes}):
+    axes, rounds, ringed = [*axis_cross(outer), *hole_axes(holes, 0.0)], [], _circled(half, holes)
+    for pitch in sorted({round(abs(hole.centre), 9) for hole in ringed}):
         strokes.append((AXIS, circle_of(pitch)))
     equal: dict[tuple[float, float], list[Hole]] = {}
     for hole in sorted(half.holes, key=lambda hole: hole.radius):
-        equal.setdefault((hole.radius, round(abs(hole.centre), 9)), []).append(hole)
+        equal.setdefault((hole.radius, round(abs(hole.centre), 9) if hole in ringed else 0.0), []).append(hole)
     for number, ((radius, _), group) in enumerate(equal.items(), 1):
         best = max(group, key=lambda hole: hole.centre.real + hole.centre.imag)
         words = sheet_words(subject.language, "holes_of", count=len(group)) if len(group) > 1 else ""
         rounds.append(Round(f"holes.{number}.diameter", best.centre, radius, f"{words}Ø"))
-    return View(tuple(strokes), (), tuple(axes), (), tuple(rounds), from_right=True)
+    return View(tuple(strokes), (), tuple(axes), apart_sizes(holes, 0.0, outer), tuple(rounds), from_right=True)
 
 
 def _front(half: HalfSection) -> float:

@@ -6,6 +6,7 @@ import math
 
 from geometry.solids.bores import KeywayBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
+from parts.drawing.places import apart, circled
 from parts.drawing.working import Subject
 from parts.texts.sheets import sheet_words
 
@@ -14,14 +15,16 @@ _SAME = 1e-9
 # of a bore where no key turns it
 _USUAL = math.pi / 2
 # words for what stands in the very direction
-_ALONG = {"keyway_at": "keyway_along", "flat_at": "flat_along"}
+_ALONG = {"keyway_at": "keyway_along", "flat_at": "flat_along", "axis_at": "axis_along"}
 
 
-def directions(holes: HubHoles, subject: Subject, zero: str, teeth: int = 0) -> tuple[str, ...]:
+def directions(
+    holes: HubHoles, subject: Subject, zero: str, teeth: int = 0, *, all_circled: bool = False
+) -> tuple[str, ...]:
     """Lines of requirements; nothing of what stands where it would without a word.
 
     ``zero``: the key of the words for +x of the part, empty where it is round; ``teeth``: how many stand about it, any
-    of which is as good as the first.
+    of which is as good as the first; ``all_circled``: the views tell no hole by its distances from their axes.
     """
     bore, found = holes.bore, list[str]()
 
@@ -32,7 +35,8 @@ def directions(holes: HubHoles, subject: Subject, zero: str, teeth: int = 0) -> 
         words = _ALONG.get(key, key) if told == "0" else key
         found.append(sheet_words(subject.language, words, angle=told, zero=begins, **sizes))
 
-    first = subject.say(holes.round_holes[0].pitch_circle_diameter) if holes.round_holes else ""
+    groups, alone = (holes.round_holes, ()) if all_circled else (circled(holes), apart(holes))
+    first = subject.say(groups[0].pitch_circle_diameter) if groups else ""
 
     begin, start = 0.0, zero
     if bore is not None and not isinstance(bore, RoundBore):
@@ -41,13 +45,16 @@ def directions(holes: HubHoles, subject: Subject, zero: str, teeth: int = 0) -> 
             tell("keyway_at" if is_keyway else "flat_at", turn, teeth, zero)
         if teeth or not zero:
             begin, start = turn, "zero_keyway" if is_keyway else "zero_flat"
-    if not start and holes.round_holes:
-        begin, start = holes.round_holes[0].start, "zero_group"
-    for group in holes.round_holes if start else ():
+    if not start and groups:
+        begin, start = groups[0].start, "zero_group"
+    # the axes of a view stand about its bore as they are drawn
+    if alone and start not in ("", "zero_x", "zero_keyway", "zero_flat"):
+        tell("axis_at", -begin, teeth if start == zero else groups[0].count, start)
+    for group in groups if start else ():
         if _turned(group.start - begin, group.count):
             key = "holes_at" if group.count > 1 else "hole_at"
             size = subject.say(group.diameter)
-            if sum(other.diameter == group.diameter for other in holes.round_holes) > 1:
+            if sum(other.diameter == group.diameter for other in groups) > 1:
                 circle = subject.say(group.pitch_circle_diameter)
                 size = sheet_words(subject.language, "on_circle", size=size, circle=circle)
             tell(key, group.start - begin, group.count, start, size=size)

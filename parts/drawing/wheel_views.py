@@ -20,6 +20,7 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
 from geometry.solids.windows import RoundHoles
 from parts.drawing.extent import crossings, reach
+from parts.drawing.places import apart, circled, place_sizes
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
 from parts.drawing.working import AXIS, THIN, TURNED, VISIBLE, Note, Round, Size, Stroke, Subject, View, arc_angles
 from parts.texts.sheets import sheet_words, view_letter
@@ -255,7 +256,7 @@ def circle_size(name: str, centres: Sequence[complex], z: float) -> Size:
 
 def _openings(holes: HubHoles, turn: float, way: int) -> list[tuple[float, float, bool]]:
     """Holes and windows as a half of the section shows them: nearest to and farthest from the axis, mm; if round."""
-    found = [((g.pitch_circle_diameter - g.diameter) / 2, g.reach, True) for g in holes.round_holes
+    found = [((g.pitch_circle_diameter - g.diameter) / 2, g.reach, True) for g in circled(holes)
              if way in section_sides(_turned(g, turn))]  # fmt: skip
     spokes = holes.spokes
     return found if spokes is None else [*found, (spokes.inner_diameter / 2, spokes.reach, False)]
@@ -283,7 +284,7 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
             inner = 1j * shape.web.rim_diameter / 2
             found.append(Size("web.below", inner, at.web[0] + inner, "above"))
     turn = wheel.turn
-    for index, (_, group) in enumerate(wheel.holes.groups(), 1):
+    for index, group in enumerate(circled(wheel.holes), 1):
         found.append(circle_size(f"holes.{index}", _turned(group, turn), at.web[0]))
     if (spokes := wheel.holes.spokes) is not None:
         diameter("spokes.inner_diameter", spokes.inner_diameter, at.web[0], "left")
@@ -368,7 +369,7 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
         strokes += [(THIN, s.curve.placed(placement)) for mark in marks for s in mark.segments()]
     for profile in wheel.holes.profiles():
         strokes += [(VISIBLE, s.curve.placed(placement)) for s in profile.segments()]
-    strokes += [(AXIS, circle_of(group.pitch_circle_diameter / 2)) for _, group in wheel.holes.groups()]
+    strokes += [(AXIS, circle_of(group.pitch_circle_diameter / 2)) for group in circled(wheel.holes)]
     axes = (*axis_cross(tip), *hole_axes(wheel.holes, turn))
     rounds = [*group_rounds(wheel.holes, turn, subject), *wheel.rounds]
     strokes += [(THIN, circle_of(one.radius)) for one in wheel.rounds]
@@ -380,7 +381,13 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
             text += f", {sheet_words(subject.language, 'spoke_corners', radius=radius)}"
         at_spoke = cmath.rect((spokes.inner_diameter + spokes.outer_diameter) / 4, spokes.start + turn)
         notes.append(Note(at_spoke + 0.5j * spokes.width * cmath.exp(1j * (spokes.start + turn)), text))
-    return View(tuple(strokes), (), axes, (), tuple(rounds), tuple(notes), from_right=True)
+    sizes = apart_sizes(wheel.holes, turn, tip)
+    return View(tuple(strokes), (), axes, sizes, tuple(rounds), tuple(notes), from_right=True)
+
+
+def apart_sizes(holes: HubHoles, turn: float, outer: float) -> tuple[Size, ...]:
+    """Of holes that are on no circle with others the distances from the axes."""
+    return tuple(place_sizes((c for group in apart(holes) for c in _turned(group, turn)), complex(-outer, -outer)))
 
 
 def _turned(group: RoundHoles, turn: float = 0.0) -> list[complex]:
@@ -389,8 +396,12 @@ def _turned(group: RoundHoles, turn: float = 0.0) -> list[complex]:
 
 
 def hole_axes(holes: HubHoles, turn: float) -> tuple[Line, ...]:
-    """Short axes of round holes, along the radius."""
-    return tuple(axis_along(c, g.diameter / 2) for _, g in holes.groups() for c in _turned(g, turn))
+    """Short axes of round holes, along the radius, or along both axes from which they are told."""
+    alone = [(c, g.diameter / 2) for g in apart(holes) for c in _turned(g, turn)]
+    return (
+        *(axis_along(c, g.diameter / 2) for g in circled(holes) for c in _turned(g, turn)),
+        *(Line(c - r * way, c + r * way) for c, r in alone for way in (1, 1j)),
+    )
 
 
 def axis_along(centre: complex, radius: float) -> Line:
@@ -401,11 +412,15 @@ def axis_along(centre: complex, radius: float) -> Line:
 
 def group_rounds(holes: HubHoles, turn: float, subject: Subject) -> tuple[Round, ...]:
     """The diameters of groups of round holes, with how many there are."""
+    equal = [(group.diameter, _turned(group, turn)) for group in circled(holes)]
+    alone = dict[float, list[complex]]()
+    for group in apart(holes):
+        alone.setdefault(group.diameter, []).extend(_turned(group, turn))
     found = []
-    for index, (_, group) in enumerate(holes.groups(), 1):
-        best = max(_turned(group, turn), key=lambda c: c.real + c.imag)
-        words = sheet_words(subject.language, "holes_of", count=group.count) if group.count > 1 else ""
-        found.append(Round(f"holes.{index}.diameter", best, group.diameter / 2, f"{words}Ø"))
+    for index, (diameter, centres) in enumerate((*equal, *alone.items()), 1):
+        best = max(centres, key=lambda c: c.real + c.imag)
+        words = sheet_words(subject.language, "holes_of", count=len(centres)) if len(centres) > 1 else ""
+        found.append(Round(f"holes.{index}.diameter", best, diameter / 2, f"{words}Ø"))
     return tuple(found)
 
 
@@ -462,7 +477,7 @@ def ring_section(width: float, radii: tuple[float, float, float], holes: HubHole
         side = loop if way > 0 else below(loop)
         strokes += [*outlined(side), (VISIBLE, Line(complex(0, way * begins), complex(width, way * begins)))]
         strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=True)]
-        for group in (g for g in holes.round_holes if way in section_sides(_turned(g))):
+        for group in (g for g in circled(holes) if way in section_sides(_turned(g))):
             middle, half = group.pitch_circle_diameter / 2, group.diameter / 2
             walls = [Line(complex(0, way * y), complex(width, way * y)) for y in (middle - half, middle + half)]
             strokes += [(VISIBLE, wall) for wall in walls]
@@ -473,18 +488,20 @@ def ring_section(width: float, radii: tuple[float, float, float], holes: HubHole
         Size("outer_diameter", complex(0, -outer), complex(0, outer), "left", "Ø", wishes.tip),
         Size("face_width", complex(0, -outer), complex(width, -outer), "below", "", wishes.width),
     ]
-    sizes += [circle_size(f"holes.{index}", _turned(group), 0.0) for index, (_, group) in enumerate(holes.groups(), 1)]
+    sizes += [circle_size(f"holes.{index}", _turned(group), 0.0) for index, group in enumerate(circled(holes), 1)]
     return View(tuple(strokes), tuple(hatched), tuple(axes), tuple(sizes))
 
 
 def ring_face(outer: float, holes: HubHoles, subject: Subject) -> View:
     """The outside of a ring along its axis, with the holes in its rim."""
     face: list[Stroke] = [(VISIBLE, circle_of(outer))]
-    for _, group in holes.groups():
+    for group in holes.round_holes:
         face += [(VISIBLE, circle_of(group.diameter / 2, centre)) for centre in group.centres()]
-        face.append((AXIS, circle_of(group.pitch_circle_diameter / 2)))
+    face += [(AXIS, circle_of(group.pitch_circle_diameter / 2)) for group in circled(holes)]
     axes = (*axis_cross(outer), *hole_axes(holes, 0.0))
-    return View(tuple(face), (), axes, (), group_rounds(holes, 0.0, subject), from_right=True)
+    return View(
+        tuple(face), (), axes, apart_sizes(holes, 0.0, outer), group_rounds(holes, 0.0, subject), from_right=True
+    )
 
 
 def _leftmost(corner: Arc) -> float:

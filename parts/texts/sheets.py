@@ -123,6 +123,8 @@ SHEETS: dict[str, Text] = {
     "flat_at": N_("Bore: the middle of its flat at {angle}° from {zero}, counter-clockwise as drawn."),
     "keyway_along": N_("Keyway: its axis in the direction of {zero}."),
     "flat_along": N_("Bore: the middle of its flat in the direction of {zero}."),
+    "axis_at": N_("Level axis of the face: at {angle}° from {zero}, counter-clockwise as drawn."),
+    "axis_along": N_("Level axis of the face: in the direction of {zero}."),
     "zero_keyway": in_context("from what an angle is told", "the axis of the keyway"),
     "zero_flat": in_context("from what an angle is told", "the middle of the bore's flat"),
     "zero_tooth": in_context("from what an angle is told", "the middle of a tooth"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from functools import cache
@@ -188,6 +189,29 @@ def test_circles_of_holes_that_stand_off_each_other_tell_their_directions(tmp_pa
 
     assert told(circles) == [("5", "10", "100"), ("6", "25", "100")]
     assert told([circles[0], circles[1] | {"start_deg": 72.0}]) == told(circles[:1]) == []
+
+
+@pytest.mark.parametrize(
+    "part",
+    [
+        ring((10, 0), (60, 0), (60, 10), (10, 10)),
+        {"kind": "spur_gear", "module": 3.0, "number_of_teeth": 48, "face_width": 10.0, "bore_diameter": 20.0},
+        {"kind": "ring_gear", "module": 1.0, "number_of_teeth": 60, "face_width": 10.0, "outer_diameter": 130.0},
+    ],
+)
+def test_equal_holes_on_circles_of_their_own_are_told_once_by_their_places(
+    tmp_path: Path, part: dict[str, Any]
+) -> None:
+    """As it was: four equal holes beside an opening were four diameters, four circles and four lines of words."""
+    places = [(38.0, 20.0), (38.0, -20.0), (50.0, 20.0), (50.0, -20.0)]
+    holes = [{"count": 1, "diameter": 8, "pitch_circle_diameter": 2 * math.hypot(x, y),
+              "start_deg": math.degrees(math.atan2(y, x))} for x, y in places]  # fmt: skip
+    document = drawn(tmp_path, part | {"holes": holes})
+    assert diameters(document).count("4 holes Ø8") == 1
+    assert not any(text == "Ø8" for text in diameters(document))
+    told = [round(d.get_measurement(), 6) for d in document.modelspace().query("DIMENSION")]
+    assert [told.count(value) for value in (38.0, 50.0, 40.0)] == [1, 1, 1]
+    assert not any("Hole" in text.dxf.text for text in document.modelspace().query("TEXT"))
 
 
 def diameters(document: Drawing) -> list[str]:
