@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
+from operator import attrgetter
 
 from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc, Line
@@ -32,6 +33,9 @@ _SPANNED, _EQUAL = 6, 1e-6
 # parts of the width: about centres of arcs so large holes may stand on a circle
 _LARGE = 0.1
 Span = tuple[float, float]
+_Coordinate = Callable[[complex], float]
+_REAL: _Coordinate = attrgetter("real")
+_IMAG: _Coordinate = attrgetter("imag")
 _Table = CircleTable | PolygonTable | SlotTable | OutlineTable
 
 
@@ -45,21 +49,21 @@ class _Piece(Record):
 
     def across(self, x: float) -> float | None:
         """The height at which it crosses the upright line at x."""
-        if (self.start.real > x) == (self.end.real > x):
-            return None
-        if self.arc is not None:
-            return self.arc.centre.imag + self.side.imag * _leg(self.arc.radius, x - self.arc.centre.real)
-        way = self.end - self.start
-        return self.start.imag + way.imag * (x - self.start.real) / way.real
+        return self._crossed(x, _REAL, _IMAG)
 
     def along(self, y: float) -> float | None:
         """The place at which it crosses the level line at y."""
-        if (self.start.imag > y) == (self.end.imag > y):
+        return self._crossed(y, _IMAG, _REAL)
+
+    def _crossed(self, at: float, of: _Coordinate, other: _Coordinate) -> float | None:
+        """One coordinate where the other one has a value."""
+        if (of(self.start) > at) == (of(self.end) > at):
             return None
         if self.arc is not None:
-            return self.arc.centre.real + self.side.real * _leg(self.arc.radius, y - self.arc.centre.imag)
+            centre = self.arc.centre
+            return other(centre) + other(self.side) * _leg(self.arc.radius, at - of(centre))
         way = self.end - self.start
-        return self.start.real + way.real * (y - self.start.imag) / way.imag
+        return other(self.start) + other(way) * (at - of(self.start)) / of(way)
 
 
 def _leg(radius: float, other: float) -> float:
@@ -67,7 +71,10 @@ def _leg(radius: float, other: float) -> float:
 
 
 def part_drawing(subject: Subject) -> PartDrawing:
-    """Of one layer the view alone, its thickness told; of more the section through as many contours as there are."""
+    """Of one layer the view alone, its thickness told; of more the section through as many contours as there are.
+
+    What has nothing inside is seen from the left, not cut (GOST 2.305).
+    """
     layers, keys = subject.part.thing, subject.part.keys
     assert isinstance(layers, Layers)
     assert isinstance(keys, LayeredSpec)
@@ -76,18 +83,19 @@ def part_drawing(subject: Subject) -> PartDrawing:
         note = Note(at, f"s {subject.say(layers.heights[-1])}")
         return PartDrawing((_across(layers.layers[0].contours, keys.layers[0], subject, notes=(note,)),),
                            requirements(subject))  # fmt: skip
-    plane, letters, plans = _plane(layers), dict[frozenset[Contour], str](), list[View]()
+    solid = all(len(layer.contours) == 1 for layer in layers.layers)
+    plane, letters, plans = None if solid else _plane(layers), dict[frozenset[Contour], str](), list[View]()
     told: list[object] = []
-    along = Cut(plane, view_letter(subject.language))
+    along = () if plane is None else (Cut(plane, view_letter(subject.language)),)
     cuts: list[Cut] = []
     for layer, table, (low, high) in zip(layers.layers, keys.layers, pairwise(layers.heights), strict=True):
         same = frozenset(layer.contours)
         if same not in letters:
-            letters[same] = letter = view_letter(subject.language, 1 + len(letters))
-            marks = () if plans else (along,)
+            letters[same] = letter = view_letter(subject.language, len(along) + len(letters))
+            marks = () if plans else along
             plans.append(_across(layer.contours, table, subject, told, f"{letter}-{letter}", marks))
         cuts.append(Cut((low + high) / 2, letters[same], from_right=True))
-    section = _section(layers, plane, f"{along.letter}-{along.letter}", cuts)
+    section = _section(layers, plane, "".join(f"{cut.letter}-{cut.letter}" for cut in along), cuts)
     if len(layers.layers) > _FEW:
         plans = [replace(plan, title=f"{plan.title}, {_between(layers, same, subject)}")
                  for plan, same in zip(plans, letters, strict=True)]  # fmt: skip
@@ -127,8 +135,13 @@ def _across(
     for middle, radius in sorted({c.circle for c in contours if c.circle and c.circle[0]}, key=str):
         axes += [Line(middle - radius * way, middle + radius * way) for way in (1, 1j)]
     places += [pattern.centre for pattern in patterns]
+    spanned = [flats for one, _ in new if isinstance(one, PolygonTable) and (flats := _flats(one.points))]
     sizes = (
         *place_sizes(places, complex(low_x, low_y)),
+        *(
+            Size(f"spanner.{k}", a, b, "left" if abs((b - a).real) < _NONE else "below", "S ")
+            for k, (a, b) in enumerate(spanned, 1)
+        ),
         *_first_ones(patterns, high_x, {c.imag for c in places}),
     )
     rounds = (
@@ -151,14 +164,15 @@ def _places(table: _Table) -> Iterable[tuple[float, float]]:
         case CircleTable():
             return (table.at,)
         case PolygonTable():
-            return _flats(table.points) or table.points
+            flats = _flats(table.points)
+            return ((p.real, p.imag) for p in [sum(flats) / 2]) if flats else table.points
         case SlotTable():
             return table.start, table.end
         case OutlineTable():
             return ((p.x, p.y) for p in table.points)
 
 
-def _flats(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+def _flats(points: Sequence[tuple[float, float]]) -> list[complex]:
     """The middles of two flats that a spanner holds, level or upright ones; none where it is no such polygon."""
     corners = [complex(*p) for p in points]
     middle, way = sum(corners) / len(corners), cmath.rect(1.0, 2 * math.pi / len(corners))
@@ -168,7 +182,7 @@ def _flats(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
         return []
     flats = [(a + b) / 2 for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
     found = [p for p in flats if min(abs((p - middle).real), abs((p - middle).imag)) < _EQUAL * abs(p - middle)]
-    return [(round(p.real, _DIGITS), round(p.imag, _DIGITS)) for p in found[:: len(found) // 2 or 1]][:2]
+    return [complex(round(p.real, _DIGITS), round(p.imag, _DIGITS)) for p in found[:: len(found) // 2 or 1]][:2]
 
 
 def _shape(table: _Table) -> tuple[object, tuple[complex, ...]]:
@@ -246,9 +260,10 @@ class _Behind(Record):
     way: complex
 
 
-def _section(layers: Layers, x: float, title: str, cuts: Sequence[Cut]) -> View:
-    """The section along the upright plane at x, seen from the left: heights to the right, y upwards."""
+def _section(layers: Layers, plane: float | None, title: str, cuts: Sequence[Cut]) -> View:
+    """The section along an upright plane, or the view, from the left: heights to the right, y upwards."""
     pieces = [[piece for contour in layer.contours for piece in _pieces(contour)] for layer in layers.layers]
+    x = min(p.start.real for row in pieces for p in row) - 1.0 if plane is None else plane
     levels = [sorted(y for p in row if (y := p.across(x)) is not None) for row in pieces]
     spans = [list(zip(row[::2], row[1::2], strict=True)) for row in levels]
     heights, size = layers.heights, max(abs(p.end) for row in pieces for p in row)
@@ -273,12 +288,12 @@ def _section(layers: Layers, x: float, title: str, cuts: Sequence[Cut]) -> View:
     bars = [closed([complex(low, a), complex(high, a), complex(high, b), complex(low, b)])
             for row, (low, high) in zip(spans, pairwise(heights), strict=True) for a, b in row]  # fmt: skip
     told = range(1, len(heights)) if len(pieces) <= _FEW else (len(pieces),)
-    sizes = [Size(f"height.{k}", complex(0.0, levels[0][0]), complex(heights[k], levels[k - 1][0]), "below")
-             for k in told]  # fmt: skip
+    feet = [min([*ys] or [p.end.imag for p in row]) for ys, row in zip(levels, pieces, strict=True)]
+    sizes = [Size(f"height.{k}", complex(0.0, feet[0]), complex(heights[k], feet[k - 1]), "below") for k in told]
     axes = {
         (low, high, round(c.circle[0].imag, _DIGITS))
         for layer, (low, high) in zip(layers.layers, pairwise(heights), strict=True)
-        for c in layer.contours if c.circle and abs(c.circle[0].real - x) < _NONE
+        for c in layer.contours if c.circle and (plane is None or abs(c.circle[0].real - plane) < _NONE)
     }  # fmt: skip
     centre = [Line(complex(low, y), complex(high, y)) for low, high, y in sorted(axes)]
     return View(tuple((VISIBLE, line) for line in _joined(lines)), tuple(bars), tuple(_joined(centre)), tuple(sizes),

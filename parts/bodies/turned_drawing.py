@@ -65,10 +65,9 @@ def part_drawing(subject: Subject) -> PartDrawing:
     half = subject.part.thing
     assert isinstance(half, HalfSection)
     loop = tuple(_curve(piece) for piece in half.pieces)
-    is_shaft, hollow = subject.part.kind == "shaft", half.radii()[0] > 0
-    keys = subject.part.keys
+    is_shaft, hollow, keys = subject.part.kind == "shaft", half.radii()[0] > 0, subject.part.keys
     holes = hub_holes(None, keys.holes, None) if isinstance(keys, TurnedSpec) else HubHoles()
-    whole = _long_view(half, loop, holes, subject, is_shaft=is_shaft, cut=hollow or not is_shaft)
+    whole = _long_view(half, loop, holes, subject, is_shaft=is_shaft, cut=_is_cut(half, loop, is_shaft=is_shaft))
     if not is_shaft and hollow:
         found = [*_enlarged(half, whole, subject)]
     else:
@@ -84,11 +83,17 @@ def part_drawing(subject: Subject) -> PartDrawing:
     return PartDrawing(tuple(found), requirements(subject, *more, *directions(holes, subject, "")))
 
 
+def _is_cut(half: HalfSection, loop: Loop, *, is_shaft: bool) -> bool:
+    """Whether it is drawn in section: a solid shaft is not, nor what has nothing inside (GOST 2.305)."""
+    is_outer = outer_of(loop)
+    off_axis = (c for c in loop if max(start_point(c).imag, end_point(c).imag) > 0)
+    return half.radii()[0] > 0 or not (is_shaft or (not half.holes and all(is_outer(c) for c in off_axis)))
+
+
 def told_corners(half: HalfSection, *, is_shaft: bool) -> tuple[SectionCorner, ...]:
     """The corners that a table tells, of a solid shaft those from outside; none where they have sizes."""
     loop = tuple(_curve(piece) for piece in half.pieces)
-    cut = half.radii()[0] > 0 or not is_shaft
-    is_outer = outer_of(loop)
+    cut, is_outer = _is_cut(half, loop, is_shaft=is_shaft), outer_of(loop)
     return listed_corners(loop, lambda curve: cut or is_outer(curve))
 
 

@@ -394,8 +394,16 @@ def _cut_along(one: Shown) -> Iterator[Cut]:
 
 
 def _is_whole(sketch: Sketch) -> bool:
-    """Whether it is not cut along its axis: a ball, or a shaft that no bore goes through."""
-    return sketch.is_ball or (sketch.is_shaft and any(len(layer.lower) == 1 for layer in sketch.layers))
+    """Whether it is not cut along its axis: a ball, a shaft that no bore goes through, a bolt or a pin (GOST 2.305).
+
+    A bolt or a pin is what has nothing inside and is longer than wide.
+    """
+    rings = [side for layer in sketch.layers for side in (layer.lower, layer.upper)]
+    if sketch.is_ball or (sketch.is_shaft and any(len(side) == 1 for side in rings)):
+        return True
+    points = np.concatenate([ring.points for side in rings for ring in side])
+    wide = max(np.ptp(points.real), np.ptp(points.imag))
+    return all(len(side) == 1 for side in rings) and sketch.layers[-1].high - sketch.layers[0].low > wide
 
 
 def _cut_across(one: Shown) -> Iterator[Cut]:

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from geometry.base.placement import Placement3
+from parts.drawing.assembly_views import Shown, cut, seen
 from parts.drawing.dimensioning import laid
 from parts.drawing.hatching import hatching
 from parts.drawing.working import HIDDEN, VISIBLE, PartDrawing, Subject, View
@@ -16,6 +18,8 @@ from parts.keys.working import WorkingTable
 from parts.scene.load import make_parts, scene_from_dict
 
 WAVE = [{"move": "rise", "angle_deg": 180.0, "law": "sine"}, {"move": "return_", "angle_deg": 180.0, "law": "sine"}]
+# a view along y
+SIDE = Placement3(((1.0, 0.0, 0.0), (0.0, 0.0, 1.0), (0.0, -1.0, 0.0)))
 
 
 def drawing_of(keys: dict[str, Any], **wishes: Any) -> PartDrawing:
@@ -177,3 +181,40 @@ def test_the_letter_of_a_detail_has_room_on_its_leader() -> None:
     ring = drawing_of({"kind": "turned", "points": [*points[:4], points[4] | {"arc": -3.2}, {"r": 250.0, "z": 3.0}]})
     assert any(note.is_letter for note in ring.views[0].notes)
     assert laid(ring.views[0], 0.25, "en") is not None
+
+
+def bolt(length: float, hole: float | None = None) -> dict[str, Any]:
+    """A hexagon bolt M8 of layers, its width across flats 13 mm."""
+    bore = [] if hole is None else [{"diameter": hole}]
+    head = [(13 / math.sqrt(3) * math.cos(k * math.pi / 3), 13 / math.sqrt(3) * math.sin(k * math.pi / 3))
+            for k in range(6)]  # fmt: skip
+    shank = {"thickness": length, "circles": [{"diameter": 8.0}, *bore]}
+    return {"kind": "layered", "layers": [shank, {"thickness": 5.3, "polygons": [{"points": head}], "circles": bore}]}
+
+
+def test_a_bolt_is_seen_along_its_axis_and_one_with_a_bore_is_cut() -> None:
+    view, shank, head = drawing_of(bolt(30.0)).views
+    assert (view.hatched, view.title, shank.title, head.title) == ((), "", "A-A", "B-B")
+    # seen towards a corner: the shank, both flats beside the corner, and its edge
+    assert levels(view, VISIBLE) == {-6.5, -4.0, 0.0, 4.0, 6.5}
+    assert [(size.before, round(size.value, 6)) for size in head.sizes] == [("S ", 13.0)]
+    hollow = drawing_of(bolt(30.0, 4.0)).views[0]
+    assert hollow.hatched
+    assert hollow.title == "A-A"
+
+
+@pytest.mark.parametrize(("inside", "hollow"), [([], False), ([(3, 10), (3, 6), (0, 6)], True)])
+def test_what_is_turned_and_has_nothing_inside_is_seen(inside: list[tuple[float, float]], hollow: bool) -> None:
+    corners = [(0, 0), (5, 0), (5, 8), (9, 8), (9, 10), *(inside or [(0, 10)])]
+    view = drawing_of({"kind": "turned", "points": [{"r": float(r), "z": float(z)} for r, z in corners]}).views[0]
+    assert bool(view.hatched) == hollow
+
+
+@pytest.mark.parametrize(("length", "hatched"), [(30.0, False), (4.0, True)])
+def test_a_bolt_in_an_assembly_is_not_cut_but_what_is_wider_than_long_is(length: float, hatched: bool) -> None:
+    parts, _ = make_parts(
+        scene_from_dict({"parts": {"p": bolt(length)}, "exports": [{"format": "svg"}]}, "t", "t"), "t"
+    )
+    sketch = parts["p"].made_by.sketch(parts["p"].keys, parts["p"].thing)
+    assert sketch is not None
+    assert bool(cut([seen([Shown("p", "p", sketch, Placement3())], SIDE)[0]]).hatched) == hatched
