@@ -7,6 +7,8 @@ X . (X_u x X_v) / 3 du dv = d(-H du), H its integral over v. Spline surfaces are
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from exporters.formats.read_curves import Flags, Patches, lobatto, spans_of
@@ -38,8 +40,9 @@ class Forms(Record, eq=False):
 def forms(kind: int, at: Real, step: Real, centre: Real, sizes: Real, about: Real) -> Forms:
     """Of points and steps (n, k, 3) in the frames of their surfaces; ``centre`` (n, 3): a frame's own origin in it.
 
-    ``sizes`` (n, 2): radius, and tangent of the half angle of a cone, or a torus's second radius; ``about`` (n,): an
-    angle round the tube of a torus within half a turn of theirs, rad.
+    ``sizes`` (n, 2): radius, and tangent of the half angle of a cone, or a torus's second radius; ``about`` (n, 2):
+    angles round the tube of a torus, rad: one within half a turn of theirs, and one of the face, which integrals over
+    v begin at: from 0 on a tube far wider than its face is off the axis would sweep more than digits can hold.
     """
     x, y, z = np.moveaxis(at, 2, 0)
     c1, c2, c3 = (centre[:, k, None] for k in range(3))
@@ -66,16 +69,23 @@ def forms(kind: int, at: Real, step: Real, centre: Real, sizes: Real, about: Rea
         inside = across * (v / 2 + np.sin(2 * v) / 4) + c3 * np.sin(v) ** 2 / 2 + r * np.sin(v)
         area = -np.sin(v) * turn
         return Forms(np.abs(np.hypot(size, z) - r), -r * r / 3 * inside * turn, r * r * area, area, turn)
-    v = np.unwrap(np.angle((size - r + 1j * z) * np.exp(-1j * about)[:, None]))
+    near, base = about[:, :1], about[:, 1:]
+    v = np.unwrap(np.angle((size - r + 1j * z) * np.exp(-1j * near)))
     # an end may lie half a turn away
-    v += about[:, None] - 2 * np.pi * np.round(v[:, [v.shape[1] // 2]] / (2 * np.pi))
-    a = across + r
-    inside = (
-        r * (a * np.sin(v) + c3 * (1 - np.cos(v)) + s * v)
-        + s * (a * (v / 2 + np.sin(2 * v) / 4) + c3 * np.sin(v) ** 2 / 2 + s * np.sin(v))
-    )  # fmt: skip
-    spread = -s * (r * v + s * np.sin(v)) * turn
-    return Forms(np.abs(np.hypot(size - r, z) - s), -s / 3 * inside * turn, spread, -v * turn, turn)
+    v += near - 2 * np.pi * np.round(v[:, [v.shape[1] // 2]] / (2 * np.pi)) - base
+    shares, weights = _halved()
+    cos, sin = (f(base[..., None] + v[..., None] * shares) for f in (np.cos, np.sin))
+    ring = r[..., None] + s[..., None] * cos
+    outwards = (across + r)[..., None] * cos + c3[..., None] * sin + s[..., None]
+    inside, spread = (s * turn * v * (x @ weights) for x in (ring * outwards, ring))
+    return Forms(np.abs(np.hypot(size - r, z) - s), -inside / 3, -spread, -v * turn, turn)
+
+
+@cache
+def _halved() -> tuple[Real, Real]:
+    """Nodes and weights of both halves of 0 .. 1: they hold once round a tube to all digits."""
+    nodes, weights = lobatto()
+    return np.concatenate([nodes, 1 + nodes]) / 2, np.tile(weights, 2) / 2
 
 
 def poles_of(sizes: Real, along: Real, turns: Real, bare: Flags, sense: Real) -> tuple[Real, Real]:
@@ -104,11 +114,12 @@ def measure(model: Model, within: float) -> tuple[Real, Real, Real]:
     bare = np.bincount(uses.face, ~seams, count) == 0
     for kind in np.unique(kinds[kinds != SPLINE]).tolist():
         mine = np.flatnonzero(kinds == kind)
-        about = np.zeros(len(mine))
+        about, rows = np.zeros((len(mine), 2)), _ROWS
         if kind == TORUS:
+            rows //= len(_halved()[0])
             about = _about(model, span[mine], uses.face[row[mine]], uses.left[row[mine]], seams[row[mine]])
-        for start in range(0, len(mine), _ROWS):
-            part = mine[start : start + _ROWS]
+        for start in range(0, len(mine), rows):
+            part = mine[start : start + rows]
             face = uses.face[row[part]]
             at = model.frames.local(face, model.points[span[part]])
             way = np.where(uses.left[row[part]], 1.0, -1.0)[:, None, None]
@@ -116,7 +127,7 @@ def measure(model: Model, within: float) -> tuple[Real, Real, Real]:
             if kind == SPHERE:
                 poles = (np.hypot(at[..., 0], at[..., 1]).min(axis=1) <= GAP) & ~seams[row[part]]
                 refuse(poles, model.faces[face], "is a face with an edge through a pole")
-            found = forms(kind, at, step, centres[face], model.sizes[face], about[start : start + _ROWS])
+            found = forms(kind, at, step, centres[face], model.sizes[face], about[start : start + rows])
             # a seam runs there and back, at an apex by more than digits hold; of a torus its sides may be a turn apart
             once = ~seams[row[part]] | (kind == TORUS)
             for total, form in (flux, found.flux), (size, found.size), (area, found.area), (turns, found.turn):
@@ -163,7 +174,7 @@ def area_of(model: Model, pieces: int) -> float:
 
 
 def _about(model: Model, span: Index, face: Index, left: Flags, seams: Flags) -> Real:
-    """For spans of the bounds of faces on a torus an angle near theirs round the tube, rad.
+    """For spans of the bounds of faces on a torus angles round the tube, near theirs and of the face, rad, (n, 2).
 
     A face that is cut open by a seam round the axis reaches from it once round the tube: its sides are a turn apart.
     By a seam round the tube a face lies where that does; others lie where their bounds do.
@@ -181,7 +192,8 @@ def _about(model: Model, span: Index, face: Index, left: Flags, seams: Flags) ->
     own *= (rank == best[face]) * np.where(rank == 2, -1.0, 1.0)
     total = np.bincount(face, own.real, len(model.faces)) + 1j * np.bincount(face, own.imag, len(model.faces))
     side = np.sign(turn) * np.where(left == model.normal[face], np.pi, -np.pi)
-    return np.asarray(np.angle(total)[face] - np.where(rank == 2, side, 0.0))
+    middle = np.angle(total)[face]
+    return np.column_stack([middle - np.where(rank == 2, side, 0.0), middle])
 
 
 def _follow(model: Model, mine: Index, size: Real, area: Real, gap: Real) -> None:

@@ -100,15 +100,17 @@ def _areas(solid: Solid, runs: _Runs, faces: Faces) -> Real:
         at, step = (points - origin[face[mine], None]) @ turned, steps @ turned
         turn = ways.ravel()[mine, None] * (at[..., 0] * step[..., 1] - at[..., 1] * step[..., 0])
         places.append((mine, at, turn, weights))
-    about = _middles(surface, places, bounds, faces.along) if isinstance(surface, Torus) else np.zeros(bounds.size)
+    about = _middles(surface, places, bounds, faces.along) if isinstance(surface, Torus) else np.zeros((bounds.size, 2))
     for mine, at, turn, weights in places:
-        total += np.bincount(face[mine], _form(surface, at, turn, about[mine, None]) @ weights, count)
+        total += np.bincount(face[mine], _form(surface, at, turn, about[mine]) @ weights, count)
     whole = _whole(surface)
     if whole is None:
         return np.abs(total)
     share = np.mod(total if faces.along else -total, whole)
-    # all of it, with rounding on either side
-    return np.where(np.minimum(share, whole - share) < 1e-9 * whole, whole, share)
+    # all of it where there is no bound but seams, each of which is run both ways
+    bounds = np.sort(bounds, axis=1)
+    bare = bounds.shape[1] % 2 == 0 and np.all(bounds[:, ::2] == bounds[:, 1::2], axis=1)
+    return np.where(bare, whole, share)
 
 
 def _form(surface: Plane | Cylinder | Cone | Torus | Sphere, at: Real, turn: Real, about: Real) -> Real:
@@ -123,8 +125,11 @@ def _form(surface: Plane | Cylinder | Cone | Torus | Sphere, at: Real, turn: Rea
         return np.asarray(-surface.radius * z * turn)
     if isinstance(surface, Sphere):
         return np.asarray(-surface.radius * (z + surface.radius) * turn)
-    v = about + np.angle((size - surface.radius + 1j * z) * np.exp(-1j * about))
-    return np.asarray(-surface.tube * (surface.radius * v + surface.tube * np.sin(v)) * turn)
+    near, base = about[:, :1], about[:, 1:]
+    v = near + np.angle((size - surface.radius + 1j * z) * np.exp(-1j * near))
+    # from the face's own angle on: from 0 a tube far wider than the face is off the axis sweeps more than digits hold
+    swept = surface.radius * (v - base) + 2 * surface.tube * np.cos((v + base) / 2) * np.sin((v - base) / 2)
+    return np.asarray(-surface.tube * swept * turn)
 
 
 def _whole(surface: Plane | Cylinder | Cone | Torus | Sphere) -> float | None:
@@ -137,7 +142,7 @@ def _whole(surface: Plane | Cylinder | Cone | Torus | Sphere) -> float | None:
 
 
 def _middles(surface: Torus, places: list[tuple[Index, Real, Real, Real]], bounds: Index, along: bool) -> Real:
-    """Of the bounds (n, m) of faces on a torus an angle near theirs round the tube, rad, (n m,).
+    """Of the bounds (n, m) of faces on a torus angles round the tube, near theirs and of the face, rad, (n m, 2).
 
     A face that is cut open by a seam round the axis reaches from it once round the tube: its sides are a turn apart.
     """
@@ -150,7 +155,8 @@ def _middles(surface: Torus, places: list[tuple[Index, Real, Real, Real]], bound
     turns[~seams | (np.abs(turns) < _SEAM)] = 0.0
     cut = np.any(turns != 0, axis=1)
     middle = np.angle(np.where(cut, -(np.abs(turns) * spokes).sum(axis=1), spokes.sum(axis=1)))
-    return np.asarray(middle[:, None] - (math.pi if along else -math.pi) * np.sign(turns)).ravel()
+    near = middle[:, None] - (math.pi if along else -math.pi) * np.sign(turns)
+    return np.column_stack([near.ravel(), np.repeat(middle, bounds.shape[1])])
 
 
 def _swept(solid: Solid, runs: _Runs, faces: Faces, surface: Extrusion) -> Real:

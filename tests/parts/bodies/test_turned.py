@@ -75,6 +75,8 @@ PARTS = {
     "flat": points((1.0, 0.0), (7.829087, 0.0), (7.829087, 17.478199), (4.097427, 18.008332), (1.0, 18.008332)),
     # before: a traceback, for integrals of its volume began on the far side of so wide a tube
     "hollow": points((25.77, -0.62), (17.08, -0.59), (14.25, -14.18), {"r": 28.68, "z": -7.86, "arc": -1738.67}),
+    # before: our reader lost the face's volume and area in those of its tube, which is 1 500 times as wide as it is
+    "bow": points((0.0, 0.0), {"r": 2.0, "z": 0.0, "arc": -3000.0}, (2.0, 4.0), (0.0, 4.0)),
     "cover": COVER,
     "shaft": SHAFT,
     "tube": {"kind": "shaft", "bore_diameter": 6.0, "steps": [{"diameter": 10.0, "length": 20.0, "chamfer": 1.0}]},
@@ -99,7 +101,7 @@ def pappus(keys: Keys) -> float:
     return float(abs(np.sum((p.real + q.real) * (np.conj(p) * q).imag)) * math.pi / 3)
 
 
-@pytest.mark.parametrize("name", ["ball", "cone", "funnel", "ring", "lens", "hollow"])
+@pytest.mark.parametrize("name", ["ball", "cone", "funnel", "ring", "lens", "hollow", "bow"])
 def test_volumes_by_pappus(name: str) -> None:
     assert body_of(PARTS[name]).moments.volume == pytest.approx(pappus(PARTS[name]), rel=1e-7)
 
