@@ -1,16 +1,19 @@
-"""The README against what is on disk: what is offered is named, every picture is there and shown."""
+"""The pages against what is on disk: what is offered is named, what is named is there, every picture is shown."""
 
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 from exporters.documents.topics import TOPICS
+from parts.base.densities import DENSITIES
 from parts.base.registry import KINDS
 from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
+from parts.scene.files import built_in_scenes
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / "README.md").read_text("utf-8")
@@ -38,3 +41,54 @@ def test_what_is_missing_is_installed_in_the_readme_s_words() -> None:
         for file in (ROOT / room).rglob("*.py"):
             told += re.findall(r"pip install (\S+\])", file.read_text("utf-8"))
     assert {word.lstrip("\"'\\") for word in told} == {".[pdf]", ".[cad]", ".[cluster]"}
+
+
+PAGES = {name: (ROOT / name).read_text("utf-8") for name in ("README.md", "CONTRIBUTING.md", "CONVENTIONS.md")}
+PLACES = re.compile(r"(?:geometry|parts|exporters|tests|\.ci|out)/[\w./*-]*")
+
+
+@cache
+def words_of_the_code() -> frozenset[str]:
+    """Every word of what runs, its keys and scenes among them."""
+    found: set[str] = set()
+    for folder in ("geometry", "parts", "exporters", "tests"):
+        for file in (*(ROOT / folder).rglob("*.py"), *(ROOT / folder).rglob("*.toml")):
+            if file != Path(__file__):
+                found |= set(re.findall(r"\w+", file.read_text("utf-8")))
+    return frozenset(found | set(re.findall(r"\w+", (ROOT / "pyproject.toml").read_text("utf-8"))))
+
+
+def unknown(page: str) -> list[str]:
+    """Places that are not on disk, names that the code does not have, commands that there are not, of a page."""
+    text = re.sub(r"\\\\|out/\w[\w./]*|<!--.*?-->", " ", page)
+    # CONTRIBUTING tells places within `tests/`, and LANGUAGE stands for any
+    places = [re.sub("[A-Z]{4,}", "*", place.rstrip("./")) for place in PLACES.findall(text) if place != "out/"]
+    found = [place for place in places if not any(any(home.glob(place)) for home in (ROOT, ROOT / "tests"))]
+    for told in re.findall(r"`([^`\n]+)`", text):
+        if re.fullmatch(r"[a-z][a-z0-9]*(_[a-z0-9]+)+|[a-z][\w.]*\.py|[A-Z][a-z]+[A-Z]\w+", told):
+            # of a group's members and of built-in scenes the code has no word of their own
+            known = {told, re.sub(r"_\d+$", "", told)} & (words_of_the_code() | built_in_scenes().keys())
+            found += [] if known or (told.endswith(".py") and any(ROOT.rglob(told))) else [told]
+    for command in re.findall(r"higherpair (build|check|new|calc|verify|converge|catalogue) ([\w-]+)(?=[ `\n])", text):
+        verb, name = command
+        known_names = TOPICS if verb == "calc" else {**built_in_scenes(), **KINDS, **MATES, **RECIPES}
+        found += [] if name in known_names or name in ("out", "my_gear") else [" ".join(command)]
+    return found
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_what_a_page_names_is_there(name: str) -> None:
+    assert unknown(PAGES[name]) == []
+
+
+@pytest.mark.parametrize(
+    "spoiled",
+    ["`parts/base/no_such.py`", "`exporters/nowhere/`", "`no_such_name_at_all`", "`NoSuchClass`", "`nofile.py`",
+     "`higherpair build lesson_9`", "higherpair calc spurs module=2"],
+)  # fmt: skip
+def test_what_is_not_there_is_noticed(spoiled: str) -> None:
+    assert len(unknown(spoiled)) == 1
+
+
+def test_the_count_of_materials_is_that_of_the_table() -> None:
+    assert f"shows {len(DENSITIES) // 100 * 100} names" in README
