@@ -46,9 +46,9 @@ class Cut(Record, eq=False):
 
     ``plane``: x + iy of the lower side of tooth 1, mm; ``turn``: polar angle of the hob's point about the hob's axis,
     rad; ``slid``: how far the hob has slid along its axis, mm; ``touching``: the point in the frame of the drive,
-    x - a + iz, mm. ``normal`` (in the plane) and ``normal_rise`` are those of the wheel's surface, out of its material;
-    where ``steepness``, its part along the line of centres, goes through 0 the contact has run off to infinity; of a
-    swivelled hob it leaves the plane across the wheel's axis before that: then no point is ``found`` in it.
+    x - a + iz, mm. ``normal`` is that of the wheel's surface in the plane, out of its material; where ``steepness``,
+    its part along the line of centres, goes through 0 the contact has run off to infinity; of a swivelled hob it leaves
+    the plane across the wheel's axis before that: then no point is ``found`` in it.
     """
 
     plane: Complex
@@ -56,7 +56,6 @@ class Cut(Record, eq=False):
     slid: Real
     touching: Complex
     normal: Complex
-    normal_rise: Real
     steepness: Real
     found: NDArray[np.bool_]
 
@@ -160,7 +159,7 @@ class Hob(Record, dict=True):
             touching = found.x + 1j * found.z
             normal = (n_x + 1j * n_z) * turned / size
             there = (np.abs(found.y - y) <= _THERE * self.tip_radius) & (np.abs(turn) <= math.pi / 2)
-            return Cut(touching * turned, turn, found.slid, touching, normal, -n_y / size, n_x / size, there)
+            return Cut(touching * turned, turn, found.slid, touching, normal, n_x / size, there)
 
     def _touch(self, meridian: Meridian, turn: Real) -> _Touch:
         """Where points of the thread touch the wheel."""
@@ -191,15 +190,11 @@ class _Touch(Record, eq=False):
     normal: tuple[Real, Real, Real]
 
 
-def worm_as_hob(drive: WormDrive, rounding_coefficient: float) -> Hob:
-    """A hob that is the worm itself, higher by the clearance of the wheel's root."""
-    return oversized_hob(drive, rounding_coefficient, drive.worm.diameter_quotient)
-
-
 def oversized_hob(drive: WormDrive, rounding_coefficient: float, quotient: float) -> Hob:
-    """A hob of the worm's normal module with another quotient, swivelled by the difference of both lead angles.
+    """A hob of the worm's normal module with a quotient, swivelled by the difference of both lead angles.
 
-    Its flank has the worm's pressure angle in the normal of the reference helix, so that both touch in the mid plane.
+    With the worm's own quotient it is the worm, higher by the clearance of the wheel's root. Its flank has the worm's
+    pressure angle in the normal of the reference helix, so that both touch in the mid plane.
     """
     worm = drive.worm
     made, swivel = worm, 0.0

@@ -173,7 +173,3 @@ class Worm(Record):
         turned = -self.parameter * self.sign * distance / r**2
         steep = self.flank.slope(r) * x / r
         return turned - steep, turned + steep
-
-    def transverse_half_angle(self, radius: ArrayLike) -> Real:
-        """Half the angle of a thread in a section across the axis, rad, at radii in mm."""
-        return self.half_thickness(radius) / self.parameter

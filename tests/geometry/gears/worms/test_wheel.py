@@ -12,7 +12,7 @@ from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.worms.contact import clearing_thinning, worm_contact
 from geometry.gears.worms.drive import WormDrive
-from geometry.gears.worms.hob import Hob, oversized_hob, worm_as_hob
+from geometry.gears.worms.hob import Hob, oversized_hob
 from geometry.gears.worms.thread import thread_of
 from geometry.gears.worms.wheel import WormTeeth
 from geometry.gears.worms.worm import Worm
@@ -22,9 +22,13 @@ Real = NDArray[np.float64]
 THESIS = WormDrive(Worm(5.0, 1, 10.0), 128)
 
 
+def _own_hob(drive: WormDrive, rounding: float) -> Hob:
+    return oversized_hob(drive, rounding, drive.worm.diameter_quotient)
+
+
 def _teeth(drive: WormDrive, width: float, outer: float | None = None, rounding: float = 0.2) -> WormTeeth:
     radius = drive.most_outer_diameter / 2 if outer is None else outer
-    return WormTeeth(worm_as_hob(drive, rounding).checked(), drive.centre_distance, drive.throat_radius, radius, width)
+    return WormTeeth(_own_hob(drive, rounding).checked(), drive.centre_distance, drive.throat_radius, radius, width)
 
 
 def _gap(hob: Hob, plane: NDArray[np.complex128], height: Real, slid: Real) -> Real:
@@ -103,7 +107,7 @@ def _deepest(drive: WormDrive, teeth: WormTeeth, heights: Real) -> float:
     for slid in (cut.slid + step * worm.module for step in np.linspace(-0.6, 0.6, 121)):
         turn = math.pi / drive.number_of_teeth - worm.number_of_starts * slid / worm.parameter / drive.number_of_teeth
         reach = np.hypot(drive.centre_distance - (cut.plane * np.exp(1j * turn)).real, heights)
-        gap = _gap(worm_as_hob(drive, 0.2), cut.plane, heights, slid)
+        gap = _gap(_own_hob(drive, 0.2), cut.plane, heights, slid)
         deep = max(deep, -float(gap[reach < worm.tip_radius].min(initial=0.0)))
     return deep
 
@@ -133,14 +137,14 @@ def test_thicker_threads_of_a_larger_hob_clear_what_runs_into_the_worm(worm: Wor
     less = replace(made.hob, worm=replace(made.hob.worm, thinning=-0.8 * found[1]))
     assert _deepest(drive, replace(made, hob=less), heights) > 0.0
     # what the worm itself cuts is clear
-    plain = replace(made, hob=worm_as_hob(drive, 0.2))
+    plain = replace(made, hob=_own_hob(drive, 0.2))
     assert clearing_thinning(thread_of(worm), plain) is None
 
 
 def _crown(drive: WormDrive, hob: Hob, height: float) -> tuple[Real, Real, Real]:
     """Radii, how far the hob cuts deeper than the worm along the normal of the rack, mm, and the angles it leaves."""
     radius, angles = np.linspace(317.5, 328.0 if height else 325.0, 9), []
-    for tool in (worm_as_hob(drive, 0.2), hob):
+    for tool in (_own_hob(drive, 0.2), hob):
         r = np.linspace(tool.form_radius, 20.0, 20_001)
         cut = tool.cut(tool.flank(r), height)
         angles.append(np.interp(radius, np.abs(cut.plane), np.angle(cut.plane)))
@@ -214,12 +218,12 @@ def test_undercut_teeth_end_where_fillet_and_flank_cross() -> None:
 
 def test_a_rounding_that_leaves_no_land_is_refused_with_the_largest() -> None:
     with pytest.raises(ParameterError) as caught:
-        worm_as_hob(THESIS, 1.2).checked()
+        _own_hob(THESIS, 1.2).checked()
     assert caught.value.name == "hob_rounding_coefficient"
     cure = caught.value.nearest
     assert cure is not None
     assert isinstance(cure.value, float)
-    worm_as_hob(THESIS, cure.value).checked()
+    _own_hob(THESIS, cure.value).checked()
 
 
 @pytest.mark.parametrize("hob", [10.0, pytest.param(10.5, marks=pytest.mark.heavy)])

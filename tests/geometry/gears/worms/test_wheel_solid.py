@@ -8,7 +8,7 @@ import shapely
 
 from geometry.approximation.tensor import basis_matrix
 from geometry.gears.worms.drive import WormDrive
-from geometry.gears.worms.hob import Hob, oversized_hob, worm_as_hob
+from geometry.gears.worms.hob import Hob, oversized_hob
 from geometry.gears.worms.wheel import WormTeeth
 from geometry.gears.worms.wheel_faces import wheel_solid, wheel_splines
 from geometry.gears.worms.wheel_measures import FILLET, FLANK, WormWheel
@@ -21,7 +21,8 @@ STEEP = WormDrive(Worm(1.5, 2, 10.0), 40)
 
 
 def _wheel(drive: WormDrive, width: float, outer: float, hob: Hob | None = None) -> WormWheel:
-    teeth = WormTeeth(hob or worm_as_hob(drive, 0.1), drive.centre_distance, drive.throat_radius, outer, width)
+    hob = hob or oversized_hob(drive, 0.1, drive.worm.diameter_quotient)
+    teeth = WormTeeth(hob, drive.centre_distance, drive.throat_radius, outer, width)
     rim = circle(0.9 * drive.root_radius, Label.BODY)
     bore = circle(0.2 * drive.root_radius, Label.BORE, hole=True)
     return WormWheel(teeth.checked(), plate(Region(rim, (bore,)), 0.0, width), rim)

@@ -68,7 +68,7 @@ def test_zi_is_an_involute_helical_gear(starts: int) -> None:
     roll = np.sqrt((radius / base) ** 2 - 1)
     # from the base circle on, a taut thread unwinds
     involute = base * (1 - 1j * roll) * np.exp(1j * roll)
-    half = worm.transverse_half_angle(radius)
+    half = worm.half_thickness(radius) / worm.parameter
     assert np.ptp(half + np.angle(involute)) < 1e-12
     assert np.abs(involute) == pytest.approx(radius, rel=1e-14)
 

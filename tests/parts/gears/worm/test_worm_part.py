@@ -101,7 +101,7 @@ def test_the_flat_section_is_that_of_the_screw_surfaces(form: str) -> None:
         t = np.linspace(*segment.curve.domain, 9)
         point = segment.curve.point(t)
         if segment.label == "flank":
-            turned = np.abs(np.angle(point)) - worm.transverse_half_angle(np.abs(point))
+            turned = np.abs(np.angle(point)) - worm.half_thickness(np.abs(point)) / worm.parameter
             assert np.abs(turned).max() < 1e-12
         step = 1e-5
         middle = t[1:-1]
