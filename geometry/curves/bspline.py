@@ -146,7 +146,12 @@ def span_index(degree: int, knots: Real, t: Real) -> Index:
 
 
 def basis(degree: int, knots: Real, t: Real) -> tuple[Index, Real]:
-    """First pole at work (shape of ``t``) and the values of the degree + 1 basis functions, (..., degree + 1).
+    """First pole at work (shape of ``t``) and the values of the degree + 1 basis functions, (..., degree + 1)."""
+    return basis_and_lower(degree, knots, t)[:2]
+
+
+def basis_and_lower(degree: int, knots: Real, t: Real) -> tuple[Index, Real, Real]:
+    """The same, and the values of the functions one degree lower, (..., degree).
 
     Cox's and de Boor's recursion, written so that the values at the ends of the domain are exactly 0 and 1.
     """
@@ -154,13 +159,15 @@ def basis(degree: int, knots: Real, t: Real) -> tuple[Index, Real]:
     # the knots about each parameter's span, fetched once; what is summed stands first
     near = knots[np.add.outer(np.arange(1 - degree, degree + 1), span)]
     beyond, values = t - near[:degree], np.ones((1, *t.shape))
+    lower = values
     for k in range(1, degree + 1):
         share = beyond[degree - k :] / (near[degree : degree + k] - near[degree - k : degree])
         raised = np.zeros((k + 1, *t.shape))
         raised[:-1] = (1 - share) * values
         raised[1:] += share * values
-        values = raised
-    return span - degree, np.ascontiguousarray(np.moveaxis(values, 0, -1))
+        lower, values = values, raised
+    last, before = (np.ascontiguousarray(np.moveaxis(x, 0, -1)) for x in (values, lower))
+    return span - degree, last, before
 
 
 def basis_matrix(degree: int, knots: Real, t: Real) -> Real:

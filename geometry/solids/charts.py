@@ -7,13 +7,14 @@ and v the height, on tori and spheres the angle of the meridian from its outermo
 from __future__ import annotations
 
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
 from geometry.base.distinct import distinct
 from geometry.base.record import Record
 from geometry.base.vectors import cross
-from geometry.curves.bspline import basis, basis_matrix
+from geometry.curves.bspline import basis_and_lower, basis_matrix
 from geometry.curves.curve import Real
 from geometry.solids.faces import (
     Circular,
@@ -106,8 +107,7 @@ def spline_windows(degree: int, knots: Real, shares: Real) -> tuple[Index, Real,
     """
     width = knots[-1] - knots[0]
     at = knots[0] + shares * width
-    first, values = basis(degree, knots, at)
-    _, lower = basis(degree - 1, knots[1:-1], at)
+    first, values, lower = basis_and_lower(degree, knots, at)
     index = first[:, None] + np.arange(degree)
     raised = lower * (degree * width / (knots[index + degree + 1] - knots[index + 1]))
     none = np.zeros((len(shares), 1))
@@ -172,6 +172,12 @@ class Chart(Record, eq=False):
         normal = np.stack([size * c * height_step, size * s * height_step, -size * size_step], axis=-1)
         return self.origin + local @ self.axes, normal @ self.axes
 
+    def turned(self, other: Chart, points: Real, angle: float) -> Real:
+        """Points (n, 3) on another chart of this kind as they lie on this one, turned about its axis, rad."""
+        c, s = np.cos(angle), np.sin(angle)
+        way = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+        return np.asarray(self.origin + (points - other.origin) @ other.axes.T @ way @ self.axes)
+
     def distance(self, points: Real) -> Real:
         """Of points (n, 3) from the whole surface, mm."""
         x, y, z = ((points - self.origin) @ self.axes.T).T
@@ -225,17 +231,27 @@ class Patch(Record, eq=False):
 
     def scattered(self, places: Real) -> tuple[Real, Real, Real]:
         """Points (n, k, 3) at shares (k, 2), and derivatives by both."""
-        s = self.surface
-        rows = [
-            spline_windows(degree, knots, np.clip(at, 0, 1))
-            for degree, knots, at in zip(s.degrees, (s.u_knots, s.v_knots), places.T, strict=True)
-        ]
-        (u, along, steep), (v, across, high) = rows
-        which = [x[:, None] + np.arange(d + 1) for x, d in zip((u, v), s.degrees, strict=True)]
-        near = self.poles[:, which[0][:, :, None], which[1][:, None, :]]
-        point, ahead = (np.einsum("ki,nkijc->nkjc", x, near) for x in (along, steep))
-        found = [np.einsum("nkjc,kj->nkc", x, y) for x, y in ((point, across), (ahead, across), (point, high))]
-        return found[0], found[1], found[2]
+        s, poles = self.surface, self.poles
+        ways = [*zip(s.degrees, (s.u_knots, s.v_knots), places.T, strict=True)]
+        # span after span along the longer way of the net, all of it across at once
+        turned = poles.shape[2] > poles.shape[1]
+        if turned:
+            ways, poles = ways[::-1], poles.transpose(0, 2, 1, 3)
+        order = np.argsort(ways[0][2], kind="stable")
+        (first, *along), (start, *across) = (spline_windows(d, k, np.clip(at[order], 0, 1)) for d, k, at in ways)
+        whole = np.zeros((2, len(places), poles.shape[2]))
+        for values, to in zip(across, whole, strict=True):
+            np.put_along_axis(to, start[:, None] + np.arange(values.shape[1]), values, axis=1)
+        net = poles.swapaxes(2, 3).reshape(*poles.shape[:2], -1)
+        swept = np.empty((2, len(net), len(places), net.shape[2]))
+        for begin, end in pairwise([0, *(np.flatnonzero(np.diff(first)) + 1).tolist(), len(first)]):
+            for values, to in zip(along, swept, strict=True):
+                to[:, begin:end] = values[begin:end] @ net[:, first[begin] : first[begin] + values.shape[1]]
+        point, ahead = swept.reshape(*swept.shape[:3], 3, -1)
+        made = np.empty((3, *point.shape[:3]))
+        for to, x, y in zip(made, (point, ahead, point), whole[[0, 0, 1]], strict=True):
+            to[:, order] = np.einsum("nkcj,kj->nkc", x, y)
+        return made[0], made[1 + turned], made[2 - turned]
 
     def at(self, u: Real, v: Real, orders: tuple[int, int] = (0, 0)) -> Real:
         """Points, or derivatives of these orders, (n, u, v, 3) on a grid of shares."""

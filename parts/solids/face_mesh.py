@@ -57,10 +57,9 @@ _SLACK = 0.04
 _MARGIN, _CLOSE, _WORST = 1.15, 1.05, 0.85
 # a corner of a face turns by more than this in the unit square, rad
 _CORNER = 0.4
-# where the samples of a triangle stand, in barycentric shares: few, and many
-_PLACES = np.array([[1 / 3, 1 / 3, 1 / 3], [0.5, 0.5, 0], [0, 0.5, 0.5], [0.5, 0, 0.5]])
+# where the many samples of a triangle stand, in barycentric shares; points at a time
 _DENSE = np.array([(a, b, 5 - a - b) for a in range(6) for b in range(6 - a)]) / 5
-_AT_ONCE = 400_000
+_AT_ONCE = 4_000
 # of the corners (u, v) 00, 01, 10, 11 of a patch those at the ends of its sides along u, and along v, either way
 _SIDES = ((0, 2), (2, 0), (1, 3), (3, 1)), ((0, 1), (1, 0), (2, 3), (3, 2))
 # differences by which two patches are one turned, part of the solid
@@ -141,6 +140,7 @@ class _Mesher:
         self.error, self.count = 0.0, 0
         self.bound: Bound = "exact"
         self.bundle, self.row = edge_rows(solid)
+        self.reach = float(np.abs(solid.points).max())
         self.bent, self.patched = (self._bounding(kinds) for kinds in (Torus | Sphere | SplineSurface, SplineSurface))
         shares = [self._own_shares(bundle, edges) for bundle, edges in enumerate(solid.edges)]
         # bundles of edges that one chord follows
@@ -155,9 +155,8 @@ class _Mesher:
         for faces in self.solid.faces:
             if isinstance(faces.surface, SplineSurface | Extrusion):
                 self._patches(faces)
-                continue
-            for row, chart in enumerate(charts(self.solid, faces.surface, len(faces.loops[0][0]))):
-                self._face(faces, row, chart)
+            else:
+                self._revolved(faces)
         if self.proof is not None:
             points = np.concatenate(self.points)
             self.error = max(self.error, self.proof([points[one] for one in self.unproven], _SLACK * self.tolerance))
@@ -215,8 +214,35 @@ class _Mesher:
 
     # ---- planes and surfaces of revolution
 
-    def _face(self, faces: Faces, row: int, chart: Chart) -> None:
-        """One face on a plane or a surface of revolution."""
+    def _revolved(self, faces: Faces) -> None:
+        """Faces on planes and surfaces of revolution: each alone, or another one turned about its axis."""
+        own = charts(self.solid, faces.surface, len(faces.loops[0][0]))
+        loops = [(edges, np.broadcast_to(senses, edges.shape)) for edges, senses in faces.loops]
+        keys = np.concatenate([x for edges, senses in loops for x in (self.bundle[edges], senses)], axis=1)
+        for rows in sorted((group.tolist() for group in _groups(keys)), key=min):
+            first, before, kept = own[rows[0]], self.size, len(self.points)
+            triangles, error, bound = self._face(faces, rows[0], first)
+            self._keep(triangles, error, bound)
+            if len(rows) == 1:
+                continue
+            edges = np.concatenate([edges[rows].T for edges, _ in loops])
+            ends = [(self.chains[self.bundle[one[0]]], self.row[one]) for one in edges]
+            numbers = np.concatenate([chain.numbers[k] for chain, k in ends], axis=1)
+            points = np.concatenate([chain.points[k] for chain, k in ends], axis=1)
+            turns, off = _turns([own[row] for row in rows], points)
+            names, at, back = np.unique(numbers[0], return_index=True, return_inverse=True)
+            alike = (off <= _ALIKE * self.reach) & (numbers[:, at][:, back.ravel()] == numbers).all(axis=1)
+            inner = np.concatenate([np.zeros((0, 3)), *self.points[kept:]])
+            places = np.searchsorted(np.append(names, np.arange(before, before + len(inner))), triangles)
+            for k, row in enumerate(rows[1:], 1):
+                if alike[k]:
+                    added = self._added(own[row].turned(first, inner, float(turns[k])))
+                    self._keep(np.append(numbers[k, at], added)[places], error + float(off[k]), bound)
+                else:
+                    self._keep(*self._face(faces, row, own[row]))
+
+    def _face(self, faces: Faces, row: int, chart: Chart) -> tuple[Triangles, float, Bound]:
+        """One of them: triangles, and how far they leave it, mm."""
         loops: list[list[Side]] = []
         numbers: list[list[Triangles]] = []
         for edges, senses in faces.loops:
@@ -242,9 +268,8 @@ class _Mesher:
             # corners that splines share may lie off the surface
             corners = np.concatenate([self.chains[self.bundle[e]].points[self.row[e]] for e in _edges_of(faces, row)])
             off = float(chart.distance(corners).max())
-            self._keep(found, off + (0.0 if chart.is_plane else _sagitta(chart, u, v)), "certified")
-            return
-        self._keep(found, *((0.0, "exact") if chart.is_plane else (_sagitta(chart, u, v), "certified")))
+            return found, off + (0.0 if chart.is_plane else _sagitta(chart, u, v)), "certified"
+        return (found, 0.0, "exact") if chart.is_plane else (found, _sagitta(chart, u, v), "certified")
 
     def _gridded(
         self, chart: Chart, sides: list[Side], numbers: list[Triangles]
@@ -340,10 +365,7 @@ class _Mesher:
         first = self._begin(edges, senses, patch, ends[0])
         order = (first[:, None] + np.arange(len(ends))) % len(ends)
         edges, senses = np.take_along_axis(edges, order, axis=1), np.take_along_axis(senses, order, axis=1)
-        keys = np.concatenate([self.bundle[edges], senses], axis=1)
-        alike, which = np.unique(keys, axis=0, return_inverse=True)
-        for group in range(len(alike)):
-            rows = np.flatnonzero(which.ravel() == group)
+        for rows in _groups(np.concatenate([self.bundle[edges], senses], axis=1)):
             own = dict(zip(ends, zip(edges[rows].T, senses[rows[0]].tolist(), strict=True), strict=True))
             self._patch_group(own, patch and patch.rows(rows), flip=not faces.along)
 
@@ -409,12 +431,12 @@ class _Mesher:
                 at = np.concatenate([places[which], template.scattered(inner)[0]], axis=1)
                 if not _folded(template, at, table, triangles):
                     break
-            off = _patch_errors(template, at, table, triangles, _PLACES)
+            off = _triangle_errors(template, at, table, triangles)
             error = _MARGIN * float(off.max())
             if error <= self.tolerance and self.proof is None:
                 # many places in the triangles that lie worst
                 worst = triangles[off >= _WORST * off.max()]
-                error = max(error, _CLOSE * float(_patch_errors(template, at, table, worst, _DENSE).max()))
+                error = max(error, _CLOSE * _dense_error(template, at, table, worst))
             if error <= self.tolerance:
                 break
             sag *= max(_SAFE * self.tolerance / error, _LEAST_SHARE)
@@ -425,6 +447,22 @@ class _Mesher:
         else:
             self._keep(found, 0.0, "certified")
             self.unproven.append(found)
+
+
+def _groups(keys: Triangles) -> list[Triangles]:
+    """The rows of every key (n, k)."""
+    _, which = np.unique(keys, axis=0, return_inverse=True)
+    return [np.flatnonzero(which.ravel() == k) for k in range(int(which.max()) + 1)]
+
+
+def _turns(own: Sequence[Chart], points: Real) -> tuple[Real, Real]:
+    """By how much faces are the first of them turned, each about its axis, rad, and how far their points (n, k, 3)
+    are then off, mm."""
+    local = np.stack([(at - chart.origin) @ chart.axes.T for chart, at in zip(own, points, strict=True)])
+    flat, high = local[..., 0] + 1j * local[..., 1], local[..., 2]
+    turns = np.angle(np.sum(flat * np.conj(flat[0]), axis=1))
+    off = np.abs(flat * np.exp(-1j * turns)[:, None] - flat[0]) + np.abs(high - high[0])
+    return turns, off.max(axis=1)
 
 
 def _oriented(triangles: Triangles, flip: bool) -> Triangles:
@@ -627,28 +665,39 @@ def _templates(poles: Real) -> Triangles:
     return np.sort(first)
 
 
-def _patch_errors(patch: Patch, points: Real, table: Real, triangles: Triangles, places: Real) -> Real:
-    """Greatest distances of places in triangles (n,) from their patches, mm: one step of Newton's from their shares."""
-    worst = np.zeros(len(triangles))
-    block = max(1, _AT_ONCE // (len(places) * math.prod(d + 1 for d in patch.surface.degrees)))
-    for row in range(len(patch.poles)):
-        own = patch.rows(slice(row, row + 1))
-        for start in range(0, len(triangles), block):
-            part = triangles[start : start + block]
-            uv = np.einsum("sk,nkc->nsc", places, table[part]).reshape(-1, 2)
-            at = np.einsum("sk,nkc->nsc", places, points[row][part]).reshape(-1, 3)
-            place, du, dv = (x[0] for x in own.scattered(uv))
-            off = at - place
-            away = np.linalg.norm(off, axis=1)
-            a, b, c = np.sum(du * du, -1), np.sum(du * dv, -1), np.sum(dv * dv, -1)
-            p, q = np.sum(off * du, -1), np.sum(off * dv, -1)
-            det = np.maximum(a * c - b * b, 1e-300)
-            step = np.column_stack([(c * p - b * q) / det, (a * q - b * p) / det])
-            place, du, dv = (x[0] for x in own.scattered(uv + step))
+def _triangle_errors(patch: Patch, points: Real, table: Real, triangles: Triangles) -> Real:
+    """How far the middles of triangles (n,), and those of their edges, leave their patches at most, mm."""
+    pairs = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2)
+    names, edges = np.unique(pairs[..., 0] * len(table) + pairs[..., 1], return_inverse=True)
+    ends = np.stack([names // len(table), names % len(table)], axis=1)
+    off = np.concatenate([_errors(patch, points[:, x].mean(axis=2), table[x].mean(axis=1)) for x in (triangles, ends)])
+    return np.maximum(off[: len(triangles)], off[len(triangles) + edges.reshape(-1, 3)].max(axis=1))
+
+
+def _dense_error(patch: Patch, points: Real, table: Real, triangles: Triangles) -> float:
+    """How far many places in triangles leave their patches at most, mm."""
+    at = np.einsum("sk,rnkc->rnsc", _DENSE, points[:, triangles]).reshape(len(points), -1, 3)
+    return float(_errors(patch, at, np.einsum("sk,nkc->nsc", _DENSE, table[triangles]).reshape(-1, 2)).max())
+
+
+def _errors(patch: Patch, points: Real, places: Real) -> Real:
+    """Greatest distances (k,) of points (n, k, 3) from their patches, mm: one step of Newton's from shares (k, 2)."""
+    block = max(1, _AT_ONCE // len(points))
+    worst = np.zeros(len(places))
+    for start in range(0, len(places), block):
+        uv, at = places[start : start + block], points[:, start : start + block]
+        place, du, dv = patch.scattered(uv)
+        off = at - place
+        away = np.linalg.norm(off, axis=2)
+        a, b, c = np.sum(du * du, -1), np.sum(du * dv, -1), np.sum(dv * dv, -1)
+        p, q = np.sum(off * du, -1), np.sum(off * dv, -1)
+        det = np.maximum(a * c - b * b, 1e-300)
+        steps = np.stack([(c * p - b * q) / det, (a * q - b * p) / det], axis=2)
+        for row, step in enumerate(steps):
+            place, du, dv = (x[0] for x in patch.rows(slice(row, row + 1)).scattered(uv + step))
             normal = np.cross(du, dv)
             normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
             # where a patch begins with no way along u the step leads astray
-            across = np.abs(np.sum((at - place) * normal, axis=1))
-            found = np.minimum(away, across).reshape(-1, len(places)).max(axis=1)
-            worst[start : start + block] = np.maximum(worst[start : start + block], found)
+            across = np.abs(np.sum((at[row] - place) * normal, axis=1))
+            worst[start : start + block] = np.maximum(worst[start : start + block], np.minimum(away[row], across))
     return worst
