@@ -27,11 +27,11 @@ from exporters.verification.verdict import (
 from geometry.curves.curve import Real
 
 if TYPE_CHECKING:
-    from geometry.solids.measured import Faced
+    from geometry.solids.measured import Faced, Measured
 
-# places of the samples in each triangle, in sixths
-_PLACES = [(a, b, 6 - a - b) for a in range(7) for b in range(7 - a)]
-SHARES = np.array(_PLACES, dtype=float) / 6
+# places of the samples within each triangle and on each edge, in sixths
+_INNER = np.array([(a, b, 6 - a - b) for a in range(1, 5) for b in range(1, 6 - a)]) / 6
+_ALONG = np.array([(6 - a, a) for a in range(1, 6)]) / 6
 # points of a face that tell in which surfaces it may lie
 _FEW = 9
 # how much farther a triangle may lie from a face than from its nearest to be one of its own, and part of the reach
@@ -71,6 +71,9 @@ def mesh_deviation(mesh: ReadMesh, body: Faced) -> tuple[float, int]:
     """Greatest distance of samples of the triangles from the face that each lies in, mm, and faces without any."""
     faces = body.surfaces
     at_corners = np.stack([face.distance(mesh.vertices) for face in faces])
+    low, high = np.moveaxis(np.sort(mesh.triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2), 2, 0)
+    names, sides = np.unique(low * len(mesh.vertices) + high, return_inverse=True)
+    edges, sides = np.stack(np.divmod(names, len(mesh.vertices)), axis=1), sides.reshape(-1, 3)
     # the face in whose surface all three corners lie best; where several do, the samples decide
     worst = at_corners[:, mesh.triangles].max(axis=2)
     near = worst <= _AS_WELL * worst.min(axis=0) + _SURE * body.reach()
@@ -78,13 +81,24 @@ def mesh_deviation(mesh: ReadMesh, body: Faced) -> tuple[float, int]:
     own: list[tuple[NDArray[np.intp], Real]] = []
     for index, face in enumerate(faces):
         mine = np.flatnonzero(near[index])
-        samples = np.einsum("sk,nkc->nsc", SHARES, mesh.vertices[mesh.triangles[mine]])
-        here = face.distance(samples.reshape(-1, 3)).reshape(samples.shape[:2]).max(axis=1)
+        # an edge between two triangles is looked at once
+        bounds, which = np.unique(sides[mine], return_inverse=True)
+        within, along = (
+            _greatest(face, shares, mesh.vertices[corners])
+            for shares, corners in ((_INNER, mesh.triangles[mine]), (_ALONG, edges[bounds]))
+        )
+        here = np.maximum(np.maximum(worst[index, mine], within), along[which.reshape(-1, 3)].max(axis=1))
         found[mine] = np.minimum(found[mine], here)
         own.append((mine, here))
     # a face narrower than the tolerance has triangles that lie about as well in its neighbours
     lone = sum(not np.any(here <= _AS_WELL * found[mine] + _SURE * body.reach()) for mine, here in own)
     return float(found.max()), lone
+
+
+def _greatest(face: Measured, shares: Real, corners: Real) -> Real:
+    """Greatest distances (n,) from a face of places between corners (n, k, 3), mm."""
+    samples = np.einsum("sk,nkc->nsc", shares, corners)
+    return np.asarray(face.distance(samples.reshape(-1, 3)).reshape(samples.shape[:2]).max(axis=1))
 
 
 def verify_faced_solid(found: ReadSolid, body: Faced, declared: float, tolerance: float) -> Verdict:
