@@ -468,19 +468,27 @@ class WormTeeth(Record, dict=True):
         def stands(width: float) -> bool:
             return replace(self, width=width).ended is None
 
+        # where the last of a tooth goes rounding decides
+        enough = _NEAR_WIDTH * self.width
         raise ParameterError(
-            "face_width", self.width, self.ended, lambda: nearest(stands, self.width, _LEAST_WIDTH * self.width)
+            "face_width",
+            self.width,
+            self.ended,
+            lambda: nearest(stands, self.width, _LEAST_WIDTH * self.width, enough=enough),
         )
 
     @cached_property
     def ended(self) -> str | None:
         """What leaves no tooth at some height: a code."""
-        if self._torn is None and bool((self._plain_thickness <= 0).any()):
+        if self._torn is not None:
+            return self._torn
+        pointed = self._plain_thickness <= 0
+        if pointed.any():
             try:
-                self.side(self._levels)
+                self._ridge(self._levels[pointed], self._plain_levels.only(pointed))
             except NoTooth as ended:
                 return ended.code
-        return self._torn
+        return None
 
     @cached_property
     def lessened(self) -> str | None:
