@@ -3,7 +3,9 @@
 Both standards took their sections from ISO/R 773, and no row differs between them in what was compared: the DIN
 sheet of August 1968 itself (b, h, t1 and t2 of all 26 rows), two tables after GOST 23360 (t1, t2), and the Chinese
 twin GB/T 1095-1979 (all rows with the range of the corner radius, the first of them as in BS 4235-1). DIN prints
-"over 6" for the first row, GOST "from 6": 6 mm itself is taken into it for both.
+"over 6" for the first row, GOST "from 6": 6 mm itself is taken into it for both. Upper deviations of the depths are
+those that GB/T 1563-1979, which has the same keyways in shafts, prints for both; d + t2 has that of t2, d - t1 has that
+of t1 with a minus (its note), the other deviation is 0.
 """
 
 from __future__ import annotations
@@ -27,7 +29,14 @@ class KeywayRow(Record):
     least_radius: float
     most_radius: float
 
+    @property
+    def depth_deviation(self) -> float:
+        """The upper deviation of either depth, mm."""
+        return 0.1 if self.to <= 22 else 0.2 if self.to <= 130 else 0.3
 
+
+# mm that are one depth
+_SAME = 1e-9
 # over, to, b, h, t1, t2, least r, most r; mm
 _ROWS = tuple(
     KeywayRow(*row)
@@ -78,3 +87,10 @@ def keyway_row(standard: str, diameter: float) -> KeywayRow:
         numbers = {"standard": standard, "least": least, "most": most}
         raise ParameterError("bore.diameter", diameter, "no_key_for_shaft", near, **numbers)
     return next(row for row in rows if diameter <= row.to)
+
+
+def depth_deviation(diameter: float, width: float, depth: float, *, in_shaft: bool) -> float | None:
+    """The upper deviation of a keyway's depth, mm; None where the keyway is not that of the standards."""
+    row = next((row for row in _ROWS if row.over <= diameter <= row.to and row.width == width), None)
+    told = row is not None and abs((row.shaft_depth if in_shaft else row.hub_depth) - depth) < _SAME
+    return row.depth_deviation if row is not None and told else None

@@ -14,13 +14,15 @@ from geometry.base.record import replace
 from geometry.curves.curve import Curve, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.hub_holes import HubHoles
+from geometry.solids.keyways import depth_deviation
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket
 from parts.bodies.details import detailed
 from parts.bodies.turned import TurnedSpec
 from parts.drawing.directions import directions
+from parts.drawing.font import MINUS
 from parts.drawing.places import apart
 from parts.drawing.revolved import Loop, below, closed, outer_of, outlined, seen_circles, seen_edges
-from parts.drawing.turned_sizes import Fits, SectionCorner, bores, listed_corners, turned_sizes
+from parts.drawing.turned_sizes import Fits, SectionCorner, bores, listed_corners, seats, turned_sizes
 from parts.drawing.wheel_views import (
     apart_sizes,
     axis_cross,
@@ -166,7 +168,8 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
     cuts = tuple(Cut(at, view_letter(subject.language, k)) for k, at in enumerate(_planes(half)))
     # the first two tell from where on and which way round corners are counted
     numbers = (Note(corner.at, str(k)) for k, corner in enumerate(listed[:2], 1))
-    notes = (*_rough(bores(loop, lambda curve: curve not in inner), loop, subject), *numbers)
+    rough = (*_rough(bores(loop, lambda curve: curve not in inner), loop, subject), *_rough_seats(loop, subject))
+    notes = (*rough, *numbers)
     return View(tuple(strokes), hatched, tuple(axes), tuple(sizes), told.rounds, notes, cuts=cuts)
 
 
@@ -248,6 +251,17 @@ def _rough(drilled: Sequence[Line], loop: Loop, subject: Subject) -> Iterator[No
         low, high = sorted((bore.start.real, bore.end.real))
         first = (low, high) if max(ends) - high <= low - min(ends) + _SAME else (high, low)
         yield bore_note(first, -bore.start.imag, words)
+
+
+def _rough_seats(loop: Loop, subject: Subject) -> Iterator[Note]:
+    """The sign of each step of a shaft, where the export wishes one."""
+    if (wished := subject.wishes.shaft_roughness) is None or subject.part.kind != "shaft":
+        return
+    for seat in seats(loop):
+        (start, way), words = (seat.start, seat.end - seat.start), f"Ra {subject.say(wished)}"
+        at, *others = ((start + share * way, 1j) for share in (0.5, 0.25, 0.75))
+        also = (*others, *((point.conjugate(), -1j) for point, _ in (at, *others)))
+        yield Note(at[0], words, is_rough=True, free=at[1], also=also)
 
 
 def _walls(loop: Loop, hole: Hole) -> Iterator[tuple[Line, Line]]:
@@ -416,9 +430,11 @@ def _keyway(
         across, along = _SIDES[way]
         number = half.pockets.index(pocket) + 1
         faced = any(abs(turn * _across(half, p) + way) < _SAME for p in here)
+        limit = depth_deviation(2 * radius, pocket.width, radius - pocket.floor, in_shaft=True)
+        depth = "" if limit is None else f" {'+' if faced else MINUS}{subject.say(limit)}"
         sizes += [
             Size(f"keyway.{number}.width", way * walls[0], way * walls[3], across, "", subject.wishes.shaft_keyway),
-            Size(f"keyway.{number}.height", way * radius * (1 if faced else -1), way * pocket.floor, along),
+            Size(f"keyway.{number}.height", way * radius * (1 if faced else -1), way * pocket.floor, along, "", depth),
         ]
     pieces.sort(key=lambda pair: pair[0])
     rims: list[Line | Arc] = []

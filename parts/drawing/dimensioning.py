@@ -28,6 +28,7 @@ from parts.drawing.canvas import (
     text_of,
     text_width,
 )
+from parts.drawing.font import MINUS
 from parts.drawing.hatching import hatching
 from parts.drawing.ink import FREE, Ink, Role
 from parts.drawing.working import AXIS, TURNED, VISIBLE, Cut, Note, Round, Side, Size, View, number_text
@@ -337,9 +338,9 @@ class _Layout:
         return _Place(lines, _ends_of(low, high, along, level), text, cost, put)
 
     def _template(self, one: Size | Round) -> str:
-        """The words of a dimension as programs keep them."""
+        """The words of a dimension as programs keep them; the font that they draw it in has no minus."""
         number = number_text(one.value, self.language) if self.own else "<>"
-        return one.before.replace("Ø", "%%c") + number + one.after + one.places
+        return one.before.replace("Ø", "%%c") + number + one.after.replace(MINUS, "-") + one.places
 
     def _dimension(
         self,

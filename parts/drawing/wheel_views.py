@@ -17,6 +17,7 @@ from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
+from geometry.solids.keyways import depth_deviation
 from geometry.solids.wheel import WheelShape
 from geometry.solids.windows import RoundHoles
 from parts.drawing.extent import crossings, reach
@@ -424,6 +425,14 @@ def group_rounds(holes: HubHoles, turn: float, subject: Subject) -> tuple[Round,
     return tuple(found)
 
 
+def _depth_limit(bore: KeywayBore | FlatBore, subject: Subject) -> str:
+    """The deviation of a bore with one keyway of the standards from its other side to the keyway's bottom."""
+    if not isinstance(bore, KeywayBore) or bore.keys != 1:
+        return ""
+    found = depth_deviation(bore.diameter, bore.width, bore.depth, in_shaft=False)
+    return "" if found is None else f" +{subject.say(found)}"
+
+
 def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View:
     """The bore alone, upright, with the sizes of its keyway or flats.
 
@@ -438,7 +447,7 @@ def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View
     if isinstance(bore, KeywayBore | FlatBore):
         radius = bore.diameter / 2
         sizes.append(Size("bore_diameter", -1j * radius, 1j * radius, "left", "Ø", wishes.bore))
-        sizes.append(Size("bore.height", -1j * down, 1j * up, "right"))
+        sizes.append(Size("bore.height", -1j * down, 1j * up, "right", "", _depth_limit(bore, subject)))
         if isinstance(bore, KeywayBore):
             half, corner = bore.width / 2, bore.corner_radius
             sizes.append(Size("bore.width", complex(-half, up - corner), complex(half, up - corner), "above", "",

@@ -14,6 +14,7 @@ from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.base.part import Part
 from parts.drawing.canvas import decimal
+from parts.drawing.font import MINUS
 from parts.keys.working import WorkingTable
 from parts.texts.sheets import sheet_words
 
@@ -152,7 +153,7 @@ class Subject(Record):
 def number_text(value: float, language: str, digits: int = _DECIMALS) -> str:
     """A number as drawings have it: so many decimals at most, none that are zero."""
     text = f"{value:.{digits}f}"
-    return decimal(text.rstrip("0").rstrip(".") if "." in text else text, language)
+    return decimal(text.rstrip("0").rstrip(".") if "." in text else text, language).replace("-", MINUS)
 
 
 def requirements(subject: Subject, *more: str) -> tuple[str, ...]:

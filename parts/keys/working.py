@@ -52,6 +52,7 @@ class WorkingTable(Struct, forbid_unknown_fields=True, frozen=True):
     roughness: Annotated[float, _rough("all surfaces that have no sign of their own")] = 6.3
     flank_roughness: Annotated[float, _rough("working surfaces: flanks of teeth and cams")] = 1.6
     bore_roughness: Annotated[float, _rough("bores")] = 1.6
+    shaft_roughness: Annotated[float, _rough("steps of a shaft, where it is not that of all surfaces")] | None = None
     teeth: Annotated[int, Meta(ge=0, le=10_000, description="teeth drawn exactly; the others are circles")] = 0
     requirements: Annotated[
         list[Annotated[str, Meta(pattern=r"\S", max_length=300, description="words")]],

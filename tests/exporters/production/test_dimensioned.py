@@ -162,9 +162,9 @@ def test_more_corners_than_sizes_can_tell_stand_in_a_table(tmp_path: Path) -> No
         rows.setdefault(y, []).append(text)
     # two tables side by side
     told = {tuple(row[k : k + 4]) for row in rows.values() for k in range(0, len(row), 4)}
-    arcs = [row[2] if len(row) > 2 else 0.0 for row in corners]
+    arcs = [f"{row[2] if len(row) > 2 else 0.0:.3f}".replace("-", "\N{MINUS SIGN}") for row in corners]
     assert told >= {
-        (f"{k}", f"{row[1]:.3f}", f"{2 * row[0]:.3f}", f"{arc:.3f}")
+        (f"{k}", f"{row[1]:.3f}", f"{2 * row[0]:.3f}", arc)
         for k, (row, arc) in enumerate(zip(corners, arcs, strict=True), 1)
     }
 
@@ -245,6 +245,31 @@ def test_zones_of_holes_stand_at_what_has_material_about_it_alone(tmp_path: Path
         assert diameters(drawn(tmp_path, part)) == told
         # the other way round it is the same part
         assert diameters(drawn(tmp_path, part | {"points": part["points"][::-1]})) == told
+
+
+def test_standard_keyways_have_the_deviations_of_their_depths_and_others_none(tmp_path: Path) -> None:
+    """Depths +0.1 up to a shaft of 22, +0.2 up to 130 (GB/T 1563-1979); d - t1 has that of t1 with a minus."""
+    ways: list[dict[str, Any]] = [{"at": 5.0, "length": 20.0}]
+    for diameter, deviation, height in ((20.0, "0.1", 16.5), (30.0, "0.2", 26.0)):
+        shaft = {"kind": "shaft", "steps": [{"diameter": diameter, "length": 40.0, "keyways": ways}]}
+        assert f"{height:g} -{deviation}" in words_of(drawn(tmp_path, shaft))
+        assert not any(" -0." in text for text in words_of(drawn(tmp_path, shaft | {"steps": [
+            {"diameter": diameter, "length": 40.0, "keyways": [ways[0] | {"depth": 3.1}]}]})))  # fmt: skip
+    wheel = {"kind": "spur_gear", "module": 3.0, "number_of_teeth": 40, "face_width": 10.0}
+    told = words_of(drawn(tmp_path, wheel | {"bore": {"shape": "keyway", "diameter": 40.0}}))
+    assert any(text.endswith("43.3 +0.2") for text in told)
+
+
+def words_of(document: Drawing) -> list[str]:
+    """Words of all dimensions with their numbers."""
+    return [d.dxf.text.replace("<>", f"{d.dxf.actual_measurement:g}") for d in document.modelspace().query("DIMENSION")]
+
+
+def test_each_step_of_a_shaft_has_its_sign_of_roughness_where_one_is_wished(tmp_path: Path) -> None:
+    steps = [{"diameter": d, "length": 30.0} for d in (20.0, 28.0, 24.0)]
+    for wishes, count in (({}, 0), ({"shaft_roughness": 0.4}, 3)):
+        texts = drawn(tmp_path, {"kind": "shaft", "steps": steps}, drawing=wishes).modelspace().query("TEXT")
+        assert sum(text.dxf.text == "Ra 0.4" for text in texts) == count
 
 
 @pytest.mark.parametrize(

@@ -162,7 +162,8 @@ def sizes(file: Path) -> dict[str, float]:
         assert (sign == "<>") == (
             document.header["$DIMLFAC"] == document.dimstyles.get(entity.dxf.dimstyle).dxf.dimlfac
         )
-        number = "".join(said).replace(" ", "")
+        # the font of dimensions in LibreCAD has no minus
+        number = "".join(said).replace(" ", "").replace("\N{MINUS SIGN}", "-")
         if sign:
             shown = float(
                 number.removeprefix(before.replace(" ", "")).removesuffix(after.replace(" ", "")).replace(",", ".")
