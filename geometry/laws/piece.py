@@ -24,6 +24,8 @@ _EXTREME_SAMPLES = 65
 _SPLIT_SAMPLES, _LEAST_SHARE = 129, 1e-4
 # so many arguments at once: their powers stay in the cache
 _BLOCK = 2048
+# fewer than these are short
+_SHORT = 100
 
 
 class Wave(Record):
@@ -148,7 +150,10 @@ def powers(x: Real, most: int) -> Real:
     """x^0 to x^most, (most + 1, n)."""
     result = np.empty((most + 1, len(x)))
     result[0] = 1.0
-    # row by row: accumulate goes through long arrays against their order
+    # row by row: accumulate goes through long arrays against their order; short ones it takes at one call
+    if len(x) < _SHORT:
+        result[1:] = x
+        return np.multiply.accumulate(result, axis=0, out=result)
     for k in range(most):
         np.multiply(result[k], x, out=result[k + 1])
     return result

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.record import Record
+from geometry.base.roots import bracketed_roots
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import WormTeeth
 
@@ -50,11 +51,14 @@ class Field(Record):
         Where the line does not reach that height, the end of the field that is nearer.
         """
         low, high = self.edges(heights)
-        for _ in range(_HALVINGS):
-            middle = (low + high) / 2
-            before = self.touching(heights, middle).slid < slide
-            low, high = np.where(before, middle, low), np.where(before, high, middle)
-        return np.asarray((low + high) / 2)
+        at_low, at_high = (self.touching(heights, radii).slid - slide for radii in (low, high))
+        found, between = np.where(at_low < 0, high, low), (at_low < 0) & (at_high > 0)
+        mine, wanted = heights[between], np.broadcast_to(slide, heights.shape)[between]
+        found[between] = bracketed_roots(
+            lambda radii: self.touching(mine, radii).slid - wanted,
+            low[between], high[between], at_low[between], at_high[between],
+        )  # fmt: skip
+        return found
 
     def lines(self, slides: Real) -> list[tuple[int, float, float]]:
         """Lines of contact at slides (m,): which of them, and the heights between which each goes on, mm."""

@@ -119,6 +119,9 @@ def distance_by_sections(points: Complex, curve: Curve) -> Real:
     for _ in range(_SECTIONS):
         lower = a < b
         high, low = np.where(lower, right, high), np.where(lower, low, left)
-        left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-        a, b = off(left), off(right)
+        # the place that is kept stands where the other one would be looked for
+        new = np.where(lower, high - _GOLDEN * (high - low), low + _GOLDEN * (high - low))
+        found = off(new)
+        left, right = np.where(lower, new, right), np.where(lower, left, new)
+        a, b = np.where(lower, found, b), np.where(lower, a, found)
     return np.minimum(np.minimum(a, b), np.minimum(off(t[0] + 0 * low), off(t[-1] + 0 * low)))
