@@ -85,6 +85,10 @@ class BSpline(Record, eq=False):
         first, values = basis(degree, self.knots[order : len(self.knots) - order], t)
         return np.einsum("...k,...k->...", values, poles[first[..., None] + np.arange(degree + 1)])
 
+    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
+        """Points and derivatives up to ``order``."""
+        return [self.derivative(t, k) for k in range(order + 1)]
+
     def derivative_poles(self, order: int) -> Complex:
         """Poles (n - order,) of the derivative on the knots without ``order`` at each end; 0 where a knot jumps."""
         poles = self.poles
@@ -185,7 +189,7 @@ def feet(curve: Curve, points: Complex, guess: Real, steps: int = _FOOT_STEPS) -
     """
     t, (low, high) = guess, curve.domain
     for _ in range(steps):
-        at, first = curve.with_derivative(t)
+        at, first = curve.derivatives(t, 1)
         square = np.maximum(np.abs(first) ** 2, 1e-300)
         t = np.minimum(np.maximum(t + (np.conj(first) * (points - at)).real / square, low), high)
     return t
@@ -252,7 +256,7 @@ def _cell_ends(curve: Curve, spline: BSpline, x: Real, foot: Real) -> _Ends:
     middle = x.mean(axis=0)
     # the spline's derivative at a knot has to be that of the cell's own side; it is continuous where C1
     inside = np.stack([x[0], np.minimum(x[1], np.nextafter(x[1], middle))])
-    forward, (at, first) = spline.derivative(inside), curve.with_derivative(foot)
+    forward, (at, first) = spline.derivative(inside), curve.derivatives(foot, 1)
     square = np.maximum(np.abs(first) ** 2, 1e-300)
     mean = (foot[1] - foot[0]) / np.maximum(x[1] - x[0], 1e-300)
     rate = np.clip((np.conj(first) * forward).real / square, 0, 3 * mean)

@@ -59,9 +59,9 @@ class Curve:
         first = self.derivative(t)
         return first / np.abs(first)
 
-    def with_derivative(self, t: ArrayLike) -> tuple[Complex, Complex]:
-        """Points and first derivatives, mm, of the shape of ``t``: one evaluation where one gives both."""
-        return self.point(t), self.derivative(t)
+    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
+        """Points and derivatives up to ``order``, each of the shape of ``t``: one evaluation where one gives all."""
+        return [self.point(t), *(self.derivative(t, k) for k in range(1, order + 1))]
 
     def curvature(self, t: ArrayLike) -> Real:
         """Signed curvature, 1/mm."""
@@ -145,9 +145,8 @@ class SeriesSpan(Span):
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         return FACTORIALS[order] * self.series(t, order)[order]
 
-    def with_derivative(self, t: ArrayLike) -> tuple[Complex, Complex]:
-        point, derivative = self.series(t, 1)
-        return point, derivative
+    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
+        return [FACTORIALS[k] * x for k, x in enumerate(self.series(t, order))]
 
 
 class Reversed(Curve, Record):
@@ -166,9 +165,9 @@ class Reversed(Curve, Record):
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         return (-1) ** order * self.original.derivative(-np.asarray(t, dtype=float), order)
 
-    def with_derivative(self, t: ArrayLike) -> tuple[Complex, Complex]:
-        point, derivative = self.original.with_derivative(-np.asarray(t, dtype=float))
-        return point, -derivative
+    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
+        found = self.original.derivatives(-np.asarray(t, dtype=float), order)
+        return [(-1) ** k * x for k, x in enumerate(found)]
 
     def tangent(self, t: ArrayLike) -> Complex:
         return -self.original.tangent(-np.asarray(t, dtype=float))
@@ -235,9 +234,9 @@ class Carried(Curve, Record):
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         return cmath.exp(1j * self.placement.angle) * self.base.derivative(t, order)
 
-    def with_derivative(self, t: ArrayLike) -> tuple[Complex, Complex]:
-        point, derivative = self.base.with_derivative(t)
-        return self.placement.apply(point), cmath.exp(1j * self.placement.angle) * derivative
+    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
+        point, *others = self.base.derivatives(t, order)
+        return [self.placement.apply(point), *(cmath.exp(1j * self.placement.angle) * x for x in others)]
 
     def tangent(self, t: ArrayLike) -> Complex:
         return cmath.exp(1j * self.placement.angle) * self.base.tangent(t)
@@ -287,9 +286,9 @@ class Mirrored(Curve, Record):
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         return (-1) ** order * np.conj(self.base.derivative(-np.asarray(t, dtype=float), order))
 
-    def with_derivative(self, t: ArrayLike) -> tuple[Complex, Complex]:
-        point, derivative = self.base.with_derivative(-np.asarray(t, dtype=float))
-        return np.conj(point), -np.conj(derivative)
+    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
+        found = self.base.derivatives(-np.asarray(t, dtype=float), order)
+        return [(-1) ** k * np.conj(x) for k, x in enumerate(found)]
 
     def tangent(self, t: ArrayLike) -> Complex:
         return -np.conj(self.base.tangent(-np.asarray(t, dtype=float)))

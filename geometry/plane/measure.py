@@ -34,8 +34,8 @@ class Travelled(Protocol):
     def point(self, t: ArrayLike) -> Complex:
         """Points, mm."""
 
-    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
-        """Derivatives of that order, mm per parameter unit to that power."""
+    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
+        """Points and derivatives up to ``order``, mm per parameter unit to that power."""
 
 
 def profile_area(profile: Profile) -> float:
@@ -219,9 +219,10 @@ def _projected(points: Complex, curve: Travelled, samples: Real, start: NDArrayI
     rows = np.arange(len(t))
     for left in reversed(range(_THOROUGH_STEPS if newton else _QUICK_STEPS)):
         at, mine = t[rows], points[rows]
-        gap, first = curve.point(at) - mine, curve.derivative(at)
+        point, first, *second = curve.derivatives(at, 2 if newton else 1)
+        gap = point - mine
         square = (np.conj(first) * first).real
-        slope = square + (np.conj(gap) * curve.derivative(at, 2)).real if newton else square
+        slope = square + sum((np.conj(gap) * x).real for x in second)
         with np.errstate(divide="ignore", invalid="ignore"):
             step = np.nan_to_num((np.conj(gap) * first).real / np.where(slope > 0, slope, square))
         following = np.clip(at - np.clip(step, -reach, reach), low, high)
