@@ -41,11 +41,13 @@ assembly = true
 name = "both"
 [[exports]]
 format = "sheet"
+tolerance = 1e-3
 [[exports]]
 format = "svg"
 [[exports]]
 format = "sheet"
 purpose = "generating"
+tolerance = 1e-3
 parts = ["wheel"]
 title_block = true
 [[exports]]
