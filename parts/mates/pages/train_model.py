@@ -107,16 +107,13 @@ def parsed(
     bodies = _bodies(teeth, carriers, shafts)
     carried: dict[str, str] = {}
     for carrier, satellites in carriers.items():
-        names = _words(satellites)
-        for name in names:
+        for name in _words(satellites):
             body = _body(bodies, name, f"carriers.{carrier}")
             if body == bodies[carrier]:
                 raise ParameterError(f"carriers.{carrier}", name, "stands_on_itself")
             if carried.get(body, bodies[carrier]) != bodies[carrier]:
                 raise ParameterError(f"carriers.{carrier}", name, "stands_on_two", None, on=carried[body])
             carried[body] = bodies[carrier]
-        if not names:
-            raise ParameterError(f"carriers.{carrier}", satellites, "carrier_without_satellites")
     for mesh in read:
         if bodies[mesh.first] == bodies[mesh.second]:
             raise ParameterError("meshes", mesh.name, "rolls_on_itself")

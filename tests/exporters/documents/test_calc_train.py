@@ -241,6 +241,7 @@ def test_report_form_has_a_place_for_the_count() -> None:
         (("teeth=[20,30,40]", "meshes=1-2, 2-3", "shafts=H"), ('"H"', "as 2-3")),
         ((*JAMES, "held=3", "speeds.1=3", "driver=2"), ('driver = "2"', "speed")),
         (("teeth=[20,30,30]", "meshes=1-2", "carriers.H=3"), ("carriers.H", "holds satellites")),
+        ((*JAMES[:2], "carriers.H=", "held=3"), ('carriers.H = ""', "holds satellites")),
         ((*JAMES, "carriers.K=2", "held=3"), ("carriers.K", "already carried by H")),
         ((*JAMES, "held=3", "speeds.1=3", "speeds.H=4"), ("speeds", "turned already by", "3")),
         (JAMES, ("left free", "H, 2, 3")),

@@ -173,6 +173,16 @@ REFUSED = {
         {"kind": "shaft", "steps": [{"diameter": 10.0, "length": 20.0, "keyways": [{"at": 5.0, "length": 15.0}]}]},
         "steps[1].keyways[1].at",
     ),
+    "groove": (
+        {"kind": "shaft", "steps": [{"diameter": 10.0, "length": 20.0, "chamfer": 1.0,
+                                     "grooves": [{"at": 18.5, "width": 1.0, "diameter": 9.0}]}]},
+        "steps[1].grooves[1].at",
+    ),
+    "grooves in each other": (
+        {"kind": "shaft", "steps": [{"diameter": 10.0, "length": 20.0, "grooves": [
+            {"at": 5.0, "width": 2.0, "diameter": 9.0}, {"at": 6.0, "width": 2.0, "diameter": 8.0}]}]},
+        "steps[1].grooves[2].at",
+    ),
 }  # fmt: skip
 
 
