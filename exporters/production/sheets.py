@@ -327,6 +327,8 @@ def _meshing(mating: Toothed, picture: MeshingPicture, scene: SceneFile, asked: 
     specs = [scene.parts[str(scene.instances[name].part)] for name in (mating.first, mating.second)]
     facts = _facts(mating, picture, language, specs)
     canvas, view = meshing_canvas(picture, mating.module, facts, asked)
+    if asked.by_hand:
+        return Expected(canvas, view.paper, ())
     circles, paper = [], view.paper
     for body in picture.bodies:
         for name, radius in body.radii.items():

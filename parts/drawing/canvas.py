@@ -29,6 +29,8 @@ from parts.keys.sheet import Scale, scale_value
 # heights of capitals, mm; GOST 2.304. An index is one smaller
 HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0)
 LEAST_TEXT, SMALL_TEXT, TEXT_HEIGHT, TITLE_TEXT = HEIGHTS[:4]
+# of squared paper, mm
+SQUARE = 2.5
 # letters are narrowed to this part of their width before they are made smaller
 NARROWED = 0.9
 # the longer side of paper on which names and tables are small, mm
@@ -330,6 +332,15 @@ class Canvas(Draft):
                    complex(box.left, box.high))  # fmt: skip
         for start, end in zip(corners, (*corners[1:], corners[0]), strict=True):
             self.line(layer, start, end)
+
+    def squares(self, area: Box) -> None:
+        """Squared paper, from the lower left corner."""
+        for k in range(int((area.right - area.left) / SQUARE + 1e-9) + 1):
+            x = area.left + k * SQUARE
+            self.line("ORDINATE", complex(x, area.low), complex(x, area.high))
+        for k in range(round((area.high - area.low) / SQUARE) + 1):
+            y = area.low + k * SQUARE
+            self.line("ORDINATE", complex(area.left, y), complex(area.right, y))
 
     def write(
         self,

@@ -15,7 +15,7 @@ from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.base.texts import words
 from parts.cams.sheets.picture import CamPicture, Scales, thinned
-from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Stroke, standard_scale, text_width
+from parts.drawing.canvas import SMALL_TEXT, SQUARE, TEXT_HEIGHT, Box, Canvas, Stroke, standard_scale, text_width
 from parts.drawing.choice import Asked
 from parts.pages.page import unit_text
 from parts.texts.sheets import sheet_words
@@ -27,8 +27,8 @@ LEFT, RIGHT, BELOW = 36.0, 17.0, 16.0
 _GAP = 15.0
 _ORDERS = (2, 1, 0)
 _TICKS = 5
-# squares to draw on, mm
-_SQUARE, _SAME = 2.5, 1e-6
+# of a square: what counts as none
+_SAME = 1e-6
 # after the point of an axis' numbers: more than any scale of a drawing has
 _MOST_DIGITS = 400
 Exact = list[tuple[str, complex, complex]]
@@ -82,10 +82,10 @@ def draw_diagrams(canvas: Canvas, picture: CamPicture, area: Box, scales: Scales
         if asked.by_hand:
             # what the diagram reaches is for students to find
             low, high = reach = (
-                _SQUARE * math.floor(reach[0] / _SQUARE + _SAME),
-                _SQUARE * math.ceil(reach[1] / _SQUARE - _SAME),
+                SQUARE * math.floor(reach[0] / SQUARE + _SAME),
+                SQUARE * math.ceil(reach[1] / SQUARE - _SAME),
             )
-            _squares(canvas, Box(zero.real, zero.imag + low, zero.real + width, zero.imag + high))
+            canvas.squares(Box(zero.real, zero.imag + low, zero.real + width, zero.imag + high))
         _axes(canvas, picture, zero, width, reach, order, scales)
         _numbers(canvas, picture, zero, scales, order, reach[0] if asked.by_hand else None)
         if not asked.by_hand:
@@ -94,17 +94,6 @@ def draw_diagrams(canvas: Canvas, picture: CamPicture, area: Box, scales: Scales
     if picture.drawn is not None and not asked.by_hand:
         _graphical(canvas, drawn, picture, zeros, scales)
     return drawn
-
-
-def _squares(canvas: Canvas, area: Box) -> None:
-    """Squared paper, from the lower left corner."""
-    wide, high = area.right - area.left, area.high - area.low
-    for k in range(int(wide / _SQUARE + 1e-9) + 1):
-        x = area.left + k * _SQUARE
-        canvas.line("ORDINATE", complex(x, area.low), complex(x, area.high))
-    for k in range(round(high / _SQUARE) + 1):
-        y = area.low + k * _SQUARE
-        canvas.line("ORDINATE", complex(area.left, y), complex(area.right, y))
 
 
 def _range(motion: FollowerMotion, order: int, up: float) -> tuple[float, float]:

@@ -1,4 +1,7 @@
-"""The picture of meshing as a sheet: both bodies, all circles, the line of action, the arc of action, with names."""
+"""The picture of meshing as a sheet: both bodies, all circles, the line of action, the arc of action, with names.
+
+By hand: squared paper with the line of centres, T-T and the pole, to draw the picture on.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +12,7 @@ from itertools import pairwise
 from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.pictures.meshing import CIRCLES, Body, MeshingPicture
-from parts.drawing.canvas import TITLE_TEXT, Box, Canvas, Paper, Stroke, decimal, draw, fitted, scale_text
+from parts.drawing.canvas import SQUARE, TITLE_TEXT, Box, Canvas, Paper, Stroke, decimal, draw, fitted, scale_text
 from parts.drawing.choice import Asked
 from parts.drawing.labels import Labeller
 from parts.drawing.table import Row, Table
@@ -49,13 +52,17 @@ def meshing_canvas(picture: MeshingPicture, module: float, facts: Facts, asked: 
     most = [Row(sheet_words(language, "off_sheet"), "r_{b1}", "1000.000")] * 2
     canvas, view = layout(picture, module, [*facts.rows, *most, Row(sheet_words(language, "scale"), "", "0:0")], asked)
     canvas.box("FRAME", canvas.frame)
-    fans = [_fan(body, view.window) for body in picture.bodies]
-    ends = [_circles(canvas, body, fan, view) for body, fan in zip(picture.bodies, fans, strict=True)]
-    _teeth(canvas, picture, view, asked.tolerance)
-    _lines(canvas, picture, view)
-    canvas.arc("ARC_OF_ACTION", _arc(view.paper, picture.arc_of_action))
-    canvas.strokes += [_stroke("WORKING_PITCH", view.paper, picture.pitch)]
-    dimensions = _dimensions(canvas, picture, view)
+    ends: list[Ends] = []
+    dimensions: dict[str, complex] = {}
+    if asked.by_hand:
+        _squares(canvas, picture, view)
+    else:
+        ends = [_circles(canvas, body, _fan(body, view.window), view) for body in picture.bodies]
+        _teeth(canvas, picture, view, asked.tolerance)
+        _lines(canvas, picture, view)
+        canvas.arc("ARC_OF_ACTION", _arc(view.paper, picture.arc_of_action))
+        canvas.strokes += [_stroke("WORKING_PITCH", view.paper, picture.pitch)]
+        dimensions = _dimensions(canvas, picture, view)
     content = canvas.content.grown(-GAP)
     canvas.write(facts.title, complex(content.left, canvas.frame.high - 9.0), TITLE_TEXT, content.right - content.left)
     rows = list(facts.rows)
@@ -67,6 +74,8 @@ def meshing_canvas(picture: MeshingPicture, module: float, facts: Facts, asked: 
     rows.append(Row(sheet_words(language, "scale"), "", scale_text(view.paper.scale, language), answers=0))
     table = Table(tuple(rows), canvas.letters)
     table.draw(canvas, complex(canvas.frame.right - table.size[0], canvas.content.low))
+    if asked.by_hand:
+        return canvas, view
     labels = Labeller(canvas, view.room)
     for index, (found, body) in enumerate(zip(ends, picture.bodies, strict=True)):
         left = index == 0
@@ -141,6 +150,19 @@ def _teeth(canvas: Canvas, picture: MeshingPicture, view: View, tolerance: float
             ("ACTIVE_FLANK", body.active_at(picture.shown)),
         ):
             draw(canvas, layer, made, view.paper)
+
+
+def _squares(canvas: Canvas, picture: MeshingPicture, view: View) -> None:
+    """Squared paper about the pole, the line of centres and T-T; how far the axes are is for students to find."""
+    pole, to, window, room = picture.on_line(picture.pole), view.paper.point, view.window, view.room
+    at = to(pole)
+    # both lines run between those of the squares
+    sides = at.real - room.left, at.imag - room.low, room.right - at.real, room.high - at.imag
+    left, below, right, above = ((side // SQUARE - 0.5) * SQUARE for side in sides)
+    canvas.squares(Box(at.real - left, at.imag - below, at.real + right, at.imag + above))
+    canvas.line("CENTRE", to(complex(0, window.low)), to(complex(0, window.high)))
+    canvas.line("TANGENT", to(complex(window.left, pole.imag)), to(complex(window.right, pole.imag)))
+    canvas.arc("DIMENSION", Arc(at, 0.8, 0.0, 2 * math.pi))
 
 
 def _lines(canvas: Canvas, picture: MeshingPicture, view: View) -> None:

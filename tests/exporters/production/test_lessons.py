@@ -174,9 +174,12 @@ phases = [
          {"DIAGRAM_BEND", "JOINT_DIAGRAM", "CAM", "FOLLOWER"}, {"AXIS", "CENTRE", "CIRCLE_BASE"}, "R"),
         ("cam", ARM,
          {"DIAGRAM_BEND", "JOINT_DIAGRAM", "CAM", "FOLLOWER"}, {"AXIS", "CENTRE", "CIRCLE_BASE", "CIRCLE_PIVOT"}, "R"),
+        ("meshing", PAIR.partition("[[exports]]")[0],
+         {"OUTLINE", "ACTIVE_FLANK", "TOOTH_START", "CIRCLE_BASE", "CIRCLE_WORKING", "ARC_OF_ACTION"},
+         {"CENTRE", "TANGENT"}, "m"),
         ("train", TRAIN, {"VELOCITY", "ANGULAR_VELOCITY"}, {"SCHEME", "AXIS", "CENTRE"}, "W"),
     ],
-    ids=["base given", "angle given", "flat", "arm", "train"],
+    ids=["base given", "angle given", "flat", "arm", "meshing", "train"],
 )  # fmt: skip
 def test_students_draw_the_pictures_themselves(
     purpose: str, scene: str, drawn: set[str], given: set[str], row: str, tmp_path: Path
