@@ -10,6 +10,9 @@ from geometry.curves.curve import Curve, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Label, Profile, Region
 from geometry.solids.windows import HoleCircle
+from parts.base.part import Part
+from parts.base.texts import N_
+from parts.bodies.plate import FlatKeys
 from parts.drawing.extent import farthest
 from parts.drawing.wheel_views import axis_along, circle_of
 from parts.drawing.working import (
@@ -29,6 +32,9 @@ from parts.texts.sheets import sheet_words
 
 # digits of places, mm that are none, mm that are one place
 _DIGITS, _SAME, _SAMPLES, _NEAR = 9, 1e-9, 9, 1e-6
+FROM_EDGES, _FROM_AXES = N_("x and y from the left and the lower edge"), N_("x and y from the axes")
+# places that sizes tell, along both axes: holes at more have a table
+_MOST = 16
 # sine of the angle between two curves that make a corner
 _SMOOTH = 1e-6
 
@@ -54,6 +60,8 @@ def part_drawing(
     circled = [centre for one in circles for centre in one.centres()]
     loose = [(c, r) for c, r in round_holes if all(abs(c - other) > _NEAR for other in circled)]
     axes = [Line(centre - r * way, centre + r * way) for centre, r in loose for way in (1, 1j)]
+    listed = listed_holes(subject.part, circles)
+    loose, round_holes = ([one for one in some if one not in listed] for some in (loose, round_holes))
     axes += [axis_along(centre, one.diameter / 2) for one in circles for centre in one.centres()]
     chains = [[s.curve for s in profile.segments()] for profile in slots]
     whole = circle_from(region.outer)
@@ -64,7 +72,7 @@ def part_drawing(
                                          Size("height", low, complex(low.real, high.imag), "left")]  # fmt: skip
     if circles:
         axes += [Line(complex(low.real), complex(high.real)), Line(1j * low.imag, 1j * high.imag)]
-    sizes += place_sizes(0j if circles else whole[0] if whole else low, centres, (low, high))
+    sizes += place_sizes(datum_of(region, circles)[0], centres, (low, high))
     rounds = [
         *diameters(round_holes, subject.language),
         *radii([*([] if whole else [curves]), *chains], subject.language),
@@ -73,6 +81,7 @@ def part_drawing(
         rounds.append(Round("diameter", *whole, angles=(-45.0, -135.0, 135.0)))
     for k, one in enumerate(circles, 1):
         rounds.append(Round(f"circle.{k}", 0j, one.circle / 2))
+    numbers = [Note(centre, str(k), about=radius) for k, (centre, radius) in enumerate(listed, 1)]
     # sizes stand below and on the left
     straight = (c for c in curves if isinstance(c, Line))
     edge = max(straight, key=lambda c: (round((c.end + c.start).real, 6), (c.end + c.start).imag), default=None)
@@ -88,8 +97,29 @@ def part_drawing(
         (at, free), *also = [(complex(curve.point(t)), -1j * complex(curve.tangent(t))) for t in places]
         text = f"Ra {subject.say(subject.wishes.flank_roughness)}"
         notes.append(Note(at, text, is_rough=True, free=free, also=tuple(also)))
-    view = View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), tuple(notes))
+    view = View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), (*notes, *numbers))
     return PartDrawing((view,), requirements(subject, *words))
+
+
+def datum_of(region: Region, circles: Sequence[HoleCircle] = ()) -> tuple[complex, str]:
+    """From where places are told, and its words."""
+    if circles:
+        return 0j, _FROM_AXES
+    whole = circle_from(region.outer)
+    return (extent(region)[0], FROM_EDGES) if whole is None else (whole[0], _FROM_AXES)
+
+
+def listed_holes(part: Part, circles: Sequence[HoleCircle] = ()) -> list[tuple[complex, float]]:
+    """The round holes that a table tells, from the left: where they stand at more places than sizes show well."""
+    keys = part.keys
+    circled = [centre for one in circles for centre in one.centres()]
+    holes = [found for hole in part.section(0.0).region.holes if (found := circle_from(hole)) is not None]
+    loose = [(c, r) for c, r in holes if all(abs(c - other) > _NEAR for other in circled)]
+    places = {round(c.real, _DIGITS) for c, _ in loose}, {round(c.imag, _DIGITS) for c, _ in loose}
+    # engraved slots have a table of their own
+    if sum(map(len, places)) <= _MOST or (isinstance(keys, FlatKeys) and keys.engraved):
+        return []
+    return sorted(loose, key=lambda one: (round(one[0].real, _DIGITS), one[0].imag))
 
 
 def place_sizes(datum: complex, places: Iterable[complex], bounds: tuple[complex, complex]) -> Iterator[Size]:

@@ -42,6 +42,8 @@ _HATCH = 2.5
 # leaders: how far out, every how many degrees
 _REACHES = (9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 70.0)
 _TURNS = (0.0, 15.0, -15.0, 30.0, -30.0, 50.0, -50.0, 80.0, -80.0, 120.0, -120.0, 160.0)
+# words beside a circle: how far out, where
+_NEARBY, _AROUND = (1.0, 2.0, 3.0, 4.5), (45.0, -45.0, 135.0, -135.0, 0.0, 180.0, 90.0, -90.0)
 # how far the letter of a view stands above its arrow
 _ABOVE = 2.2
 # from words of a title to the middle of the sign of a view that is turned
@@ -463,8 +465,11 @@ class _Layout:
             yield _Place({"leader": [along, *lines]}, [], text, reach / _STEP - _PREFERRED, put)
 
     def _notes(self, note: Note, put: Callable[[_Place], None]) -> Iterator[_Place]:
-        """Where it may stand on a leader."""
+        """Where it may stand, on a leader or beside its circle."""
         if note.looks:
+            return
+        if note.about is not None:
+            yield from self._beside(note, self.paper.scale * note.about, put)
             return
         body = self.body
         middle = complex((body.left + body.right) / 2, (body.low + body.high) / 2)
@@ -487,6 +492,15 @@ class _Layout:
                 else:
                     lines, text = _shelved(elbow, note.text, way, TITLE_TEXT if note.is_letter else TEXT_HEIGHT)
                 yield _Place({"leader": [Line(tip, elbow), *lines]}, _arrow(tip, way), text, cost, put)
+
+    def _beside(self, note: Note, radius: float, put: Callable[[_Place], None]) -> Iterator[_Place]:
+        """Where a word may stand beside a circle."""
+        middle, wide = self.paper.point(note.at), text_width(note.text)
+        for far, turn in product(_NEARBY, _AROUND):
+            way = cmath.rect(1.0, math.radians(turn))
+            near = middle + (radius + far) * way
+            corner = near - complex(wide * (1 - way.real) / 2, TEXT_HEIGHT * (1 - way.imag) / 2)
+            yield _Place({}, [], text_of(note.text, corner), far / _STEP, put)
 
 
 class _Place(Record):

@@ -107,6 +107,8 @@ class Ink(Draft):
             for role, lines in new.items()
             for line in lines
         ]
+        if not rows:
+            return [0.0] * len(places)
         own, (start, end, _) = np.array(rows, dtype=complex).T, self.straight
         ends = own[:2]
         near = np.ones(start.size, dtype=bool)

@@ -89,7 +89,8 @@ class Note(Record):
     ``free``: the way out of the material there, from which its leader comes; 0: from anywhere. ``also``: other points
     that serve as well, with theirs.
     ``looks``: the text is the letter of a view, and an arrow points that way: -1 from the right, -1j from above.
-    ``is_letter``: it names a view, and is as large as titles are.
+    ``is_letter``: it names a view, and is as large as titles are. ``about``: mm, the words stand without a leader
+    beside a circle of this radius about the point.
     """
 
     at: complex
@@ -100,6 +101,7 @@ class Note(Record):
     is_letter: bool = False
     free: complex = 0j
     also: tuple[tuple[complex, complex], ...] = ()
+    about: float | None = None
 
 
 class Cut(Record):

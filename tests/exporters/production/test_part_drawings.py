@@ -548,3 +548,24 @@ def test_scenes_without_drawings_import_nothing_of_them() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_holes_at_many_places_are_numbered_and_stand_in_a_table(tmp_path: Path) -> None:
+    """As it was: 30 of them had a size for each x and each y, for which no paper had room."""
+    places = [(7.0 * k - 100.0, 13.0 * k * k % 101 - 50.0) for k in range(1, 28)]
+    plate = {"kind": "plate", "width": 200.0, "height": 120.0, "face_width": 6.0,
+             "holes": [{"at": list(p), "diameter": 4.0 + k % 2} for k, p in enumerate(places)]}  # fmt: skip
+    (job,) = jobs(plate, formats=("dxf",))
+    job.write({}, tmp_path / job.path)
+    assert job.verify(tmp_path / job.path, 0.0).failures == ()
+    document = ezdxf.readfile(tmp_path / job.path)
+    assert sorted(sizes(tmp_path / job.path).values()) == pytest.approx([120.0, 200.0])
+    texts = {text.dxf.text for text in document.modelspace().query("TEXT")}
+    left, low = 100.0, 60.0
+    for k, (x, y) in enumerate(places, 1):
+        assert {str(k), f"{x + left:.3f}", f"{y + low:.3f}"} <= texts
+    assert {"4.000", "5.000"} <= texts
+    few = plate | {"holes": plate["holes"][:4]}  # type: ignore[index]
+    (job,) = jobs(few, formats=("dxf",))
+    job.write({}, tmp_path / job.path)
+    assert len(sizes(tmp_path / job.path)) == 2 + 8 + 2
