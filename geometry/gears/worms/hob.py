@@ -25,9 +25,9 @@ Real = NDArray[np.float64]
 
 # half the tip between its roundings is no narrower, modules: faces less wide are turned over by rounding
 _LEAST_LAND = 1e-3
-# Newton's steps to a plane across the wheel's axis, each good to the step of its slope, rad; when they are enough, and
-# when they have got there at all, part of the hob's tip
-_STEPS, _STEP, _ENOUGH, _THERE = 12, 1e-6, 1e-15, 1e-12
+# steps of the secant to a plane across the wheel's axis, the first of them and the last, rad; when they have got there
+# at all, part of the hob's tip
+_STEPS, _STEP, _LEAST_STEP, _THERE = 24, 1e-6, 1e-9, 1e-12
 # steps to the hob's pressure angle, each of which leaves a tenth of what it is off
 _ANGLE_STEPS = 16
 
@@ -74,7 +74,7 @@ class Hob(Record, dict=True):
     rounding: float
     swivel: float = 0.0
 
-    @property
+    @cached_property
     def rate(self) -> float:
         """By how much the wheel turns for a slide of the hob along its axis, rad/mm."""
         return -self.worm.number_of_starts / (self.number_of_teeth * self.worm.parameter)
@@ -146,12 +146,7 @@ class Hob(Record, dict=True):
         with np.errstate(invalid="ignore", divide="ignore"):
             turn = np.arcsin(y / meridian.radius)
             if self.swivel:
-                # the swivel moves the point from its plane by a little: Newton's steps, their slope by difference
-                for _ in range(_STEPS):
-                    here = self._touch(meridian, turn).y
-                    if not (np.abs(here - y) > _ENOUGH * self.tip_radius).any():
-                        break
-                    turn = turn - _STEP * (here - y) / (self._touch(meridian, turn + _STEP).y - here)
+                turn = self._turned(meridian, turn, y)
             found = self._touch(meridian, turn)
             n_x, n_y, n_z = found.normal
             turned = -np.exp(-1j * (self.rate * found.slid + math.pi / self.number_of_teeth))
@@ -160,6 +155,29 @@ class Hob(Record, dict=True):
             normal = (n_x + 1j * n_z) * turned / size
             there = (np.abs(found.y - y) <= _THERE * self.tip_radius) & (np.abs(turn) <= math.pi / 2)
             return Cut(touching * turned, turn, found.slid, touching, normal, n_x / size, there)
+
+    def _turned(self, meridian: Meridian, turn: Real, y: Real) -> Real:
+        """Polar angles at which points of a swivelled thread touch the wheel in their planes, rad; from near ones.
+
+        The swivel moves them from there by a little: steps of the secant, of those that are not there yet.
+        """
+        wanted, *rows = (
+            np.broadcast_to(x, turn.shape).ravel()
+            for x in (y, meridian.radius, meridian.z, meridian.outwards, meridian.upwards)
+        )
+        found, at = turn.ravel(), np.arange(turn.size)
+        before = self._touch(Meridian(*rows), found).y
+        step = _STEP * (wanted - before) / (self._touch(Meridian(*rows), found + _STEP).y - before)
+        for _ in range(_STEPS):
+            found[at] += step
+            goes = (np.abs(step) > _LEAST_STEP) & (np.abs(found[at]) < math.pi)
+            if not goes.any():
+                break
+            at = at[goes]
+            here = self._touch(Meridian(*(x[at] for x in rows)), found[at]).y
+            step = step[goes] * (wanted[at] - here) / (here - before[goes])
+            before = here
+        return found.reshape(turn.shape)
 
     def _touch(self, meridian: Meridian, turn: Real) -> _Touch:
         """Where points of the thread touch the wheel."""
