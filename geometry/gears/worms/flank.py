@@ -170,6 +170,7 @@ class GroundFlank(Flank):
         width = self.half_width()
         return float(self._touch(np.array([self._deepest(width)]), width)[0][0])
 
+    @lru_cache(maxsize=64)  # noqa: B019
     def _deepest(self, half_width: float) -> float:
         """How far from the wheel's axis it touches the screw nearest to the screw's, mm."""
         low, high = self.wheel_diameter / 2, self.wheel_diameter / 2 + self.screw.radius

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Sequence
-from functools import partial
+from functools import lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
@@ -106,6 +106,8 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
     return WheelSplines(tuple(strips), core, max(_MARGIN * worst, *(o.max_error for o in core)))
 
 
+# what a refusal offers is asked for again by whoever judges the offer
+@lru_cache(maxsize=4)
 def fitting(teeth: WormTeeth, tolerance: float) -> WormTeeth | None:
     """The widest of some narrower teeth, themselves first, that splines come near; None where none do."""
 
