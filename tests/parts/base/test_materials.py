@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -38,12 +39,18 @@ from tests.exporters.making import run
         ("ЛС59-1", 8.45),
         ("Д16Т", 2.78),
         ("EN AW-6082 T6", 2.7),
+        # nominal densities of the makers' tables
+        ("AW-2017A", 2.79),
+        ("AW-5754", 2.67),
+        ("C36000", 8.5),
+        ("CuZn39Pb3", 8.47),
+        ("ABS", 1.04),
         ("16MnCr5", 7.85),
         ("AISI 316L", 8.0),
         ("POM", 1.41),
         # the same in Cyrillic letters
         ("РОМ", 1.41),
-        ("АБС-пластик", 1.05),
+        ("АБС-пластик", 1.04),
         ("деревина", 0.6),
         ("оргскло 4 мм", 1.19),
         ("plastic", None),
@@ -146,3 +153,24 @@ def test_a_known_material_is_told_in_the_language_of_the_drawing() -> None:
         assert material_told(given, words("uk")) == told
         assert material_told(given, words("en")) == given
     assert not material_told(None, words("uk"))
+
+
+# marks of a family, and what any of them weighs, g/cm^3
+FAMILIES = {
+    r"AISI (1|4140|5|8)|C\d\d$|S\d{3}|\d\d(Х(?!1[3-8])|Г)|Ст": (7.65, 7.95),
+    r"1\.4|AISI [34]|\d\d(Х1[3-8])": (7.6, 8.05),
+    r"GJ|СЧ|ВЧ|КЧ": (6.7, 7.45),
+    r"AW-|АМ|АД|Д\d|В95|АК|[267]\d{3}-T": (2.63, 2.86),
+    r"CuZn|CW|C36|Л": (8.3, 8.95),
+    r"CuSn|CuAl|Бр": (7.4, 9.15),
+    r"Ti|ВТ": (4.4, 4.52),
+    r"PA\d|ПА|POM|PE|PP|ABS|PLA|PC|PMMA|HIPS|TPU": (0.9, 1.45),
+}
+
+
+def test_marks_of_a_family_weigh_alike() -> None:
+    """A digit that is missed, or a mark in the wrong row, stands out."""
+    for pattern, (least, most) in FAMILIES.items():
+        found = {m: d for m, d in DENSITIES.items() if re.match(pattern, m) and not m.startswith("PEEK")}
+        assert len(found) >= 3, pattern
+        assert {m: d for m, d in found.items() if not least <= d <= most} == {}
