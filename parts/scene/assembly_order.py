@@ -33,6 +33,8 @@ _NONE, _DIGITS = 1e-9, 6
 _NEAR = 1e-6
 # sides of what is turned and drawn out
 _ROUND = 256
+# triangles of solids in their places that are kept, of some 180 bytes each
+_MOST_PLACED = 1_000_000
 # how ways are decided, in the order in which it is asked
 HOWS = ("boxes", "mesh", "sections", "layers", "solids")
 
@@ -331,11 +333,16 @@ class _Order:
         return self.inner[part]
 
     def _solid(self, standing: Instance) -> Any:
-        """What stands, in its place; a worm by its hull."""
-        if standing.id not in self.solids:
+        """What stands, in its place; a worm by its hull. What was asked for long ago makes room."""
+        found = self.solids.pop(standing.id, None)
+        if found is None:
             hull = self.sections.made(standing.part).hull
-            self.solids[standing.id] = placed_solid(standing, hull or self._inner(standing.part))
-        return self.solids[standing.id]
+            found = placed_solid(standing, hull or self._inner(standing.part))
+        self.solids[standing.id] = found
+        kept = [solid.num_tri() for solid in self.solids.values()]
+        while sum(kept) > _MOST_PLACED and len(kept) > 1:
+            del self.solids[next(iter(self.solids))], kept[0]
+        return found
 
 
 def _box(instance: Instance, part: Part) -> Real:
