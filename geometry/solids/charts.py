@@ -37,9 +37,10 @@ TURN = 2 * np.pi
 
 def axes_of(solid: Solid, frame: Frame, rows: int) -> tuple[Real, Real]:
     """Origins (rows, 3) of frames, and their axes (rows, 3, 3): the direction of angle 0, across, and the axis."""
-    axis, zero = (np.broadcast_to(x, (rows, 3)) for x in (frame.axis, frame.zero))
-    origin = np.broadcast_to(solid.points[frame.origin], (rows, 3))
-    return origin, np.stack([zero, cross(axis, zero), axis], axis=1)
+    origins, axes = np.empty((rows, 3)), np.empty((rows, 3, 3))
+    origins[:] = solid.points[frame.origin]
+    axes[:, 0], axes[:, 1], axes[:, 2] = frame.zero, cross(frame.axis, frame.zero), frame.axis
+    return origins, axes
 
 
 def arcs(solid: Solid, edges: Edges) -> tuple[Real, Real, Real, Real]:

@@ -105,6 +105,7 @@ class _Text:
         self.lines: list[str] = []
         self.numbers = count(1)
         self.known: dict[str, int] = {}
+        self.ways: dict[tuple[float, ...], int] = {}
         self.products: dict[int, tuple[int, int]] = {}
         self.occurrences = count(1)
         # the shape of each product definition
@@ -132,9 +133,9 @@ class _Text:
         return self.known[text]
 
     def many(self, template: str, *columns: Index) -> Index:
-        """An entity for each row of columns (n,) or (n, k), filled into a template."""
+        """An entity for each row of columns (n,), filled into a template."""
         own = self._numbered(len(columns[0]))
-        rows = np.column_stack([own, *columns])
+        rows = np.array((own, *columns)).T
         self.lines.append(f"#%d={template};\n" * len(rows) % tuple(rows.ravel().tolist()))
         return own
 
@@ -152,7 +153,10 @@ class _Text:
 
     def direction(self, way: Sequence[float]) -> int:
         """A direction, to 15 digits."""
-        return self.once(f"DIRECTION('',({','.join(real(x) for x in way)}))")
+        key = tuple(way)
+        if key not in self.ways:
+            self.ways[key] = self.once(f"DIRECTION('',({','.join(real(x) for x in way)}))")
+        return self.ways[key]
 
     def point(self, place: Sequence[float]) -> int:
         """A point of its own, to 15 digits."""
@@ -291,7 +295,7 @@ class _Shell:
         self.solid = solid
         curves, edges = [], []
         for bundle in solid.edges:
-            own = np.broadcast_to(self._curves(bundle.curve, bundle.start), bundle.start.shape)
+            own = _spread(self._curves(bundle.curve, bundle.start), bundle.start.shape)
             ends = self.vertices[bundle.start], self.vertices[bundle.end]
             curves.append(own)
             edges.append(text.many("EDGE_CURVE('',#%d,#%d,#%d,.T.)", *ends, own))
@@ -303,7 +307,7 @@ class _Shell:
         if isinstance(curve, Straight):
             ways = np.array([text.once(f"VECTOR('',#{text.direction(way)},1.)") for way in curve.direction.tolist()])
             origins = self.points[self.solid.vertices[starts]]
-            return text.many("LINE('',#%d,#%d)", origins, np.broadcast_to(ways, origins.shape))
+            return text.many("LINE('',#%d,#%d)", origins, _spread(ways, origins.shape))
         if isinstance(curve, Circular):
             return np.array([text.once(f"CIRCLE('',#{p},{real(curve.radius)})") for p in self._frames(curve.frame)])
         poles = self.points[curve.poles]
@@ -312,13 +316,13 @@ class _Shell:
         return text.many(
             f"B_SPLINE_CURVE_WITH_KNOTS('',{curve.degree},({listed}),.UNSPECIFIED.,.F.,.F.,({times}),({knots}),"
             ".UNSPECIFIED.)",
-            poles,
+            *poles.T,
         )
 
     def _frames(self, frame: Frame) -> Iterator[int]:
-        rows = np.broadcast_arrays(frame.origin[:, None], frame.axis, frame.zero)
-        origins = self.points[rows[0][:, 0]].tolist()
-        for origin, axis, zero in zip(origins, rows[1].tolist(), rows[2].tolist(), strict=True):
+        columns = self.points[frame.origin].tolist(), frame.axis.tolist(), frame.zero.tolist()
+        size = max(map(len, columns))
+        for origin, axis, zero in zip(*(column * (size // len(column)) for column in columns), strict=True):
             yield self.text.place(origin, axis, zero)
 
     def faces(self) -> list[int]:
@@ -329,10 +333,10 @@ class _Shell:
         text = self.text
         bounds: list[Index] = []
         for edges, senses in faces.loops:
-            words = np.where(np.broadcast_to(senses, edges.shape), *map(ord, "TF"))
+            words = _spread(np.where(senses, *map(ord, "TF")), edges.shape)
             uses = text.many("ORIENTED_EDGE('',*,*,#%d,.%c.)", self.edges[edges].ravel(), words.ravel())
             listed = _list(["%d"] * edges.shape[1])
-            loops = text.many(f"EDGE_LOOP('',({listed}))", uses.reshape(edges.shape))
+            loops = text.many(f"EDGE_LOOP('',({listed}))", *uses.reshape(edges.shape).T)
             bounds.append(text.many("FACE_BOUND('',#%d,.T.)", loops))
         surfaces = self._surfaces(faces, len(bounds[0]))
         listed = ",".join(["#%d"] * len(bounds))
@@ -353,7 +357,7 @@ class _Shell:
             return text.many(
                 f"B_SPLINE_SURFACE_WITH_KNOTS('',{degrees},({rows}),.UNSPECIFIED.,"
                 f".F.,.F.,.F.,({u_times}),({v_times}),({u}),({v}),.UNSPECIFIED.)",
-                poles.reshape(len(poles), -1),
+                *poles.reshape(len(poles), -1).T,
             )
         if isinstance(surface, Plane):
             word = "PLANE('',#{place})"
@@ -368,7 +372,7 @@ class _Shell:
             word = f"SPHERICAL_SURFACE('',#{{place}},{real(surface.radius)})"
         words = [word.replace("{place}", str(place)) for place in self._frames(surface.frame)]
         if text.form.shared:
-            return np.broadcast_to([text.once(w) for w in words], size)
+            return _spread(np.array([text.once(w) for w in words]), (size,))
         return np.array([text.add(w) for w in (words * size)[:size]])
 
 
@@ -397,6 +401,13 @@ def _list(items: Sequence[object]) -> str:
     """References, a few on each line."""
     lines = [",".join(f"#{x}" for x in items[k : k + _PER_LINE]) for k in range(0, len(items), _PER_LINE)]
     return ",\n".join(lines)
+
+
+def _spread(values: Index, shape: tuple[int, ...]) -> Index:
+    """Values that are the same in every row."""
+    found = np.empty(shape, np.intp)
+    found[...] = values
+    return found
 
 
 def _knots(knots: Real) -> tuple[str, str]:
