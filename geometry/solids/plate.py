@@ -239,18 +239,19 @@ def _refuse_crossings(profiles: Sequence[Profile]) -> None:
     """Boundaries that cross themselves or each other, by the edges of fine polygons; holes inside the outline."""
     polygons = [np.concatenate([_samples(s.curve) for s in p.period]) for p in profiles]
     starts = np.concatenate(polygons)
-    ends = np.concatenate([np.roll(p, -1) for p in polygons])
-    owner = np.concatenate([np.full(len(p), i) for i, p in enumerate(polygons)])
-    edge = ends - starts
-    a = (np.conj(edge)[:, None] * (starts[None, :] - starts[:, None])).imag
-    b = (np.conj(edge)[:, None] * (ends[None, :] - starts[:, None])).imag
-    cross = (a * b < 0) & (a * b < 0).T
+    owner = np.repeat(np.arange(len(polygons)), [len(p) for p in polygons])
+    # where each edge ends: at the start of the next one of its polygon
+    following = np.concatenate([np.roll(np.flatnonzero(owner == i), -1) for i in range(len(polygons))])
+    side = (np.conj(starts[following] - starts)[:, None] * (starts[None, :] - starts[:, None])).imag
+    parted = side * side[:, following] < 0
+    cross = parted & parted.T
     if cross.any():
         one, two = np.argwhere(cross)[0]
         raise GeometryError("boundary_crosses_itself" if owner[one] == owner[two] else "boundaries_cross")
-    for index, hole in enumerate(polygons[1:], 1):
-        others = [p for i, p in enumerate(polygons[1:], 1) if i != index]
-        if _winding(hole[0], polygons[0]) != 1 or any(_winding(hole[0], p) or _winding(p[0], hole) for p in others):
+    outline, *holes = polygons
+    for hole in holes:
+        about = (other for other in holes if other is not hole and _boxed(hole[0], other))
+        if _winding(hole[0], outline) != 1 or any(_winding(hole[0], other) for other in about):
             raise GeometryError("hole_lies_outside")
 
 
@@ -260,6 +261,12 @@ def _samples(curve: object) -> Complex:
     if isinstance(curve, Line):
         return np.array([curve.start])
     return curve.point(np.linspace(*curve.domain, _ARC_SAMPLES + 1)[:-1])
+
+
+def _boxed(point: complex, polygon: Complex) -> bool:
+    """Whether a point lies in the upright rectangle about a polygon, or on its border."""
+    x, y = polygon.real, polygon.imag
+    return bool(x.min() <= point.real <= x.max() and y.min() <= point.imag <= y.max())
 
 
 def _winding(point: complex, polygon: Complex) -> int:

@@ -52,6 +52,12 @@ class RolledCurve(BoundedSpan):
         direction, speed, slope, turning = self.heading(np.asarray(t, dtype=float))
         return direction * speed if order == 1 else direction * (slope + 1j * turning * speed)
 
+    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
+        if order > 2:
+            return super().derivatives(t, order)
+        direction, speed, slope, turning = self.heading(np.asarray(t, dtype=float))
+        return [self.point(t), direction * speed, direction * (slope + 1j * turning * speed)][: order + 1]
+
     def slopes(self, points: Complex, t: Real) -> tuple[Real, Real]:
         """Re(conj(tangent) (p - c)) and its derivative: what a search for feet needs."""
         direction, speed, _, turning = self.heading(t)

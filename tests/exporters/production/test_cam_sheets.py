@@ -235,7 +235,7 @@ def test_damage_is_noticed(sheet_file: Path, tmp_path: Path, damage: str) -> Non
 
 def test_a_rocker_has_its_pivots_arms_and_axis(tmp_path: Path) -> None:
     """The pivots stand on their circle, the arms keep their length, both cams' axes in the joint diagram."""
-    jobs = plan_build(cam_scene(ROCKER, intervals=3), "t", [], []).sheets
+    jobs = plan_build(cam_scene(ROCKER, intervals=3, tolerance=1e-3), "t", [], []).sheets
     assert [j.path for j in jobs] == ["t.cam.rocker.dxf", "t.cam.rocker.svg"]
     jobs[0].write({}, tmp_path / jobs[0].path)
     assert jobs[0].verify(tmp_path / jobs[0].path, 0.0).failures == ()

@@ -88,7 +88,7 @@ def least_slack(bodies: list[shapely.Polygon], roller: float, offset: float) -> 
 @pytest.mark.parametrize(
     ("lesson", "keys", "roller", "offset"),
     [
-        ("lesson_5", {"lift": 20.0}, 8, 3),
+        pytest.param("lesson_5", {"lift": 20.0}, 8, 3, marks=pytest.mark.heavy),
         ("lesson_5", {"lift": 40.0, "thickness": 4.0}, 8, 3),
         ("lesson_4", {"lift": 14.0}, 0, 0),
     ],
