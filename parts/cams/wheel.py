@@ -13,6 +13,7 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Kind
 from parts.base.part_keys import MaterialKeys
+from parts.base.schema import replaced
 from parts.keys.holes import wide_bore
 from parts.keys.timing_mark import TimingMarkTable, with_timing_mark
 from parts.keys.wheel import HubbedKeys, shape_of
@@ -55,7 +56,11 @@ def check_disk(keys: DiskKeys, cam: DiskCam, within: Within = "base_circle") -> 
     holes, inside = keys.hub_holes(), inner_radius(cam)
     wall, beyond = _WITHIN[within]
     if not holes.bore_reach < inside:
-        raise wide_bore(keys, inside, wall)
+
+        def beside(path: str, size: float) -> bool:
+            return bool(check_disk(replaced(keys, path, size), cam, within).number)
+
+        raise wide_bore(keys, inside, wall, beside)
     if holes.reach > inside:
         raise ParameterError("holes", 2 * holes.reach, beyond, Nearest(None), inside=inside)
     marked = with_timing_mark(holes, keys.timing_mark, cam, inside)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Annotated, Literal, Protocol, TypeVar
 
 from msgspec import Meta, Struct
 from msgspec.structs import replace
 
-from geometry.base.errors import ParameterError, limit
-from geometry.base.nearest import nearest
+from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.nearest import kept, nearest
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
 from parts.base.schema import replaced, value_at
@@ -227,19 +228,31 @@ class HoledKeys(BoredKeys, kw_only=True):
         return hub_holes(bore_of(self), self.holes, None)
 
 
-def wide_bore(keys: Bored, inside: float, code: str) -> ParameterError:
-    """A refusal of a bore that reaches ``inside`` mm from the axis: its size as typed, and one that stays within."""
+def wide_bore(
+    keys: Bored, inside: float, code: str, beside: Callable[[str, float], bool] = lambda _path, _size: True
+) -> ParameterError:
+    """A refusal of a bore that reaches ``inside`` mm from the axis: its size as typed, and one that stays within.
+
+    ``beside`` judges a size, by its key, together with what else stands there: chamfers, a hub.
+    """
     bore = keys.bore
     if bore is None or keys.bore_diameter:
-        most = limit(2 * inside * _WITHIN, math.inf)
-        return ParameterError("bore_diameter", keys.bore_diameter, code, most)
+        alone, widest = partial(beside, "bore_diameter"), 2 * inside * _WITHIN
+
+        def cure() -> Nearest | None:
+            """The limit itself, where nothing else stands there."""
+            most = limit(widest, math.inf)
+            return most if kept(alone, widest) else nearest(alone, widest, (widest * s for s in _SHARES if s < 1))
+
+        return ParameterError("bore_diameter", keys.bore_diameter, code, cure)
     name = "diameter" if "diameter" in bore.__struct_fields__ else "across_flats"
-    typed: float = getattr(bore, name)
+    given: float = getattr(bore, name)
 
     def fits(size: float) -> bool:
-        return hub_holes(replace(bore, **{name: size}), None, None).bore_reach < inside
+        reach = hub_holes(replace(bore, **{name: size}), None, None).bore_reach
+        return reach < inside and beside(f"bore.{name}", size)
 
-    return ParameterError(f"bore.{name}", typed, code, lambda: nearest(fits, typed, (typed * s for s in _SHARES)))
+    return ParameterError(f"bore.{name}", given, code, lambda: nearest(fits, given, (given * s for s in _SHARES)))
 
 
 def with_remedy(refusal: ParameterError, keys: K, fits: Callable[[K], bool]) -> ParameterError:

@@ -17,7 +17,7 @@ REASONS = {
     "cutter_involute_ends_below_tip": N_("the cutter's involute ends at its base circle, below the gear's tips"),
     "cutter_involute_interference": N_("the cutter's teeth begin above the ring's tips, which it would trim"),
     "cutter_radial_assembly": N_("the cutter cannot be fed in radially without trimming the ring's tips"),
-    "cutter_rounding_does_not_fit": N_("does not fit the cutter's tooth"),
+    "cutter_rounding_does_not_fit": N_("the rounding of the tip does not fit the cutter's tooth"),
     "cutter_tip_below_base": N_("the cutter's tip circle lies below its base circle"),
     "cutter_tooth_pointed": N_("the cutter's tooth is pointed below its tip circle"),
     "cutter_trochoid_interference": N_("the cutter's tips would trim the ring's on their way out"),

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geometry.base.errors import CuspError, OffsetError, ParameterError, PointedTipError, limit
+from geometry.base.errors import CuspError, Nearest, OffsetError, ParameterError, PointedTipError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.base.placement import Placement2
@@ -248,12 +248,21 @@ def checked_lantern_gear(gear: LanternGear) -> LanternGear:
     """
     room = gear.pin_circle_diameter * math.sin(math.pi / gear.number_of_pins) * (1 - _MARGIN)
     if gear.pin_diameter > room:
-        most = limit(room, gear.pin_diameter, digits=6)
+
+        def fits(diameter: float) -> bool:
+            """Apart, and with a tooth between them."""
+            return diameter <= room and _flank_ends(_with(gear, "pin_diameter", diameter)) is not None
+
+        def cure() -> Nearest:
+            """Pins that leave a tooth; where no pins do, those that do not touch."""
+            given = gear.pin_diameter
+            return nearest(fits, given, room * 1e-3, digits=6) or limit(room, given, digits=6)
+
         raise ParameterError(
             "pin_diameter",
             gear.pin_diameter,
             "pins_touch",
-            most,
+            cure,
             pins=gear.number_of_pins,
             circle=gear.pin_circle_diameter,
         )

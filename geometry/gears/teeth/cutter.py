@@ -124,6 +124,10 @@ def full_round(cutter: PinionCutter) -> PinionCutter:
     return replace(cutter, tip_rounding=cutter.largest_rounding())
 
 
+# of a tooth that cannot be: more teeth may do what no addendum and no rounding does
+CUTTER_TOOTH = frozenset({"cutter.addendum", "cutter.tip_rounding"})
+
+
 def checked_cutter(cutter: PinionCutter) -> PinionCutter:
     """The cutter itself, or a refusal that names the nearest value that works.
 

@@ -141,7 +141,7 @@ def checked_gear(gear: SpurGear, helix_angle: float = 0.0) -> SpurGear:
     try:
         check_shaping(section)
     except ParameterError as refusal:
-        raise in_normal_modules(refusal, helix_angle) from refusal
+        raise _told_of_cutter(gear, helix_angle, in_normal_modules(refusal, helix_angle)) from refusal
     try:
         tooth_side(section)
     except ParameterError as refusal:
@@ -250,6 +250,27 @@ def _blamed(gear: SpurGear, helix_angle: float, refusal: ParameterError) -> Para
     teeth = next((n for n in range(z + 1, z + 60) if builds(replace(gear, number_of_teeth=n))), None)
     cure = None if teeth is None else Nearest(teeth, "at_least")
     return UndercutError("number_of_teeth", z, refusal.code, cure, **refusal.numbers)
+
+
+def _told_of_cutter(gear: SpurGear, helix_angle: float, refusal: ParameterError) -> ParameterError:
+    """The refusal of a cutter's tooth; where its own cure leaves another fault, told of the cutter's teeth."""
+    from geometry.gears.teeth.cutter import CUTTER_TOOTH
+
+    cutter, own = gear.cutter, refusal.nearest
+    if cutter is None or refusal.name not in CUTTER_TOOTH:
+        return refusal
+
+    def with_cutter(field: str, value: object) -> bool:
+        changed: dict[str, Any] = {field: value}
+        return _builds(transverse_gear(replace(gear, cutter=replace(cutter, **changed)), helix_angle))
+
+    if own is not None and with_cutter(refusal.name.removeprefix("cutter."), own.value):
+        return refusal
+    z = cutter.number_of_teeth
+    more = next((n for n in range(z + 1, z + 60) if with_cutter("number_of_teeth", n)), None)
+    if more is None:
+        return refusal
+    return ParameterError("cutter.number_of_teeth", z, refusal.code, Nearest(more, "at_least"), **refusal.numbers)
 
 
 def _suspects(gear: SpurGear, helix_angle: float, builds: Callable[[SpurGear], bool]) -> list[Suspect]:

@@ -12,7 +12,7 @@ from geometry.base.findings import Finding
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.base.record import replace
 from geometry.gears.teeth.basic_rack import ISO_53_ANGLE
-from geometry.gears.teeth.cutter import PinionCutter
+from geometry.gears.teeth.cutter import CUTTER_TOOTH, PinionCutter
 from geometry.gears.teeth.limits import (
     LEAST_TIP_THICKNESS,
     Margin,
@@ -157,6 +157,9 @@ def _blamed(gear: RingGear, helix_angle: float, refusal: ParameterError) -> Para
     found = blamed(_suspects(gear, helix_angle, builds), refusal.name)
     if found is not None:
         return refused_as(refusal, found)
+    root = gear.root
+    if refusal.name in CUTTER_TOOTH and isinstance(root, PinionCutter) and (teeth := _cutter_teeth(gear, builds)):
+        return ParameterError("cutter.number_of_teeth", root.number_of_teeth, refusal.code, teeth, **refusal.numbers)
     x = gear.profile_shift_coefficient
     if (shift := working_shift(with_shift, x)) is not None:
         return refused_as(refusal, Suspect("profile_shift_coefficient", x, shift, with_shift))

@@ -18,7 +18,7 @@ import pytest
 from geometry.base import nearest as search
 from parts.base.refusal import SceneError, sentence
 from parts.scene.load import make_parts, scene_from_dict
-from tests.offered import Raw, at, put, scenes, spoiled
+from tests.offered import Raw, at, cam, put, scenes, spoiled
 
 # trials of each scene in a turn
 TRIALS = 3
@@ -106,6 +106,31 @@ def faults_of(name: str, turn: int) -> list[str]:
         if refusal is not None:
             faults += [f"{what}: {fault}" for fault in judged(wrong, refusal)]
     return faults
+
+
+KEYWAY = {"shape": "keyway", "diameter": 79.0}
+LANTERN = {"kind": "lantern_gear", "number_of_teeth": 30, "number_of_pins": 12, "pin_circle_diameter": 80.0}
+CUT = {"spur_gear": 20, "ring_gear": 60}
+
+
+@pytest.mark.parametrize(
+    ("part", "key"),
+    [
+        (cam(bore_diameter=90.0, face_chamfer=1.0), "bore_diameter"),
+        (cam(bore=KEYWAY, face_chamfer={"above": 0.5, "below": 1.0}), "bore.diameter"),
+        (LANTERN | {"pin_diameter": 50.0}, "pin_diameter"),
+        *(({"kind": kind, "module": 2.0, "number_of_teeth": z, "cutter": {"number_of_teeth": teeth}},
+           "cutter.number_of_teeth") for kind, z in CUT.items() for teeth in (3, 8)),
+    ],
+)  # fmt: skip
+def test_an_offer_keeps_what_stands_beside_it(part: dict[str, Any], key: str) -> None:
+    """A chamfer beside the bore, a tooth between thick pins, a cutter whose addendum and rounding nobody typed."""
+    raw = {"parts": {"p": part}}
+    refusal = refusal_of(raw)
+    assert refusal is not None
+    assert refusal.key == f"parts.p.{key}"
+    assert refusal.nearest is not None
+    assert judged(raw, refusal) == []
 
 
 def test_the_search_is_counted_and_needs_no_clock(monkeypatch: pytest.MonkeyPatch) -> None:
