@@ -65,9 +65,11 @@ SPOIL_3MF = {
     "cut short": (lambda file: file.write_bytes(file.read_bytes()[:-200]), "not a readable 3MF"),
 }  # fmt: skip
 SWAPPED = {"left": "'right'", "right": "'left'"}
+# where a component stands, and what says that it does
+PLACED = r"#\d+=\(REPRESENTATION_RELATIONSHIP[^;]*;\s*(#\d+=PRODUCT_DEFINITION_SHAPE[^;]*;\s*)#\d+=CONTEXT_DEPEND[^;]*;"
 SPOIL_STEP = {
     "place": (in_text(lambda t: t.replace("(0.,60.,1.)", "(0.,60.000001,1.)")), "free stands"),
-    "missing": (in_text(lambda t: re.sub(r"#\d+=CONTEXT_DEPENDENT_SHAPE_REP[^;]*;", "", t, count=1)), ""),
+    "missing": (in_text(lambda t: re.sub(PLACED, r"\g<1>", t, count=1)), "a component without a place"),
     "stranger": (in_text(lambda t: t.replace("'left'", "'lift'")), '"lift" does not belong'),
     "swapped names": (in_text(lambda t: re.sub("'(left|right)'", lambda m: str(SWAPPED[m[1]]), t)), "left stands"),
     "name": (in_text(lambda t: t.replace("PRODUCT('planet','planet'", "PRODUCT('plant','plant'")), "planet is missing"),

@@ -110,6 +110,14 @@ def test_every_refusal_names_a_value_that_works(keys: dict[str, Any], key: str) 
     cured({"cam": keys}, found)
 
 
+def test_a_roller_wider_than_the_drum_wants_a_larger_drum() -> None:
+    """No groove is shallow enough for it."""
+    scene = {"cam": GROOVE | {"roller_diameter": 70.0}}
+    found = refused(scene)
+    assert found.key == "parts.cam.outer_diameter"
+    cured(scene, found)
+
+
 def test_a_cone_has_its_apex_on_the_cams_axis_or_an_angle_of_its_own() -> None:
     own = part_of(GROOVE | {"roller_form": "conical", "clearance": 0.2}).quantities
     assert math.tan(math.radians(own["cone_angle_deg"]) / 2) == pytest.approx(10 / 60)
