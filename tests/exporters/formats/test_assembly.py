@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from tests.exporters.making import read_report, run
-from tests.exporters.train import IDS, STEP, THREEMF, made
+from tests.exporters.train import IDS, STEP, THREEMF, TRAIN, made
 
 CORE = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
 
@@ -190,7 +190,9 @@ def test_a_scene_in_another_script_gets_an_ascii_title(tmp_path: Path) -> None:
 
 
 def test_an_offset_shrinks_the_parts_and_not_the_places(tmp_path: Path) -> None:
-    folder = made(tmp_path, {**THREEMF, "offset": -0.05})
+    """Sixty metres away too, where doubles are coarser."""
+    assert "60.0, 1.0" in TRAIN
+    folder = made(tmp_path, {**THREEMF, "offset": -0.05}, text=TRAIN.replace("60.0, 1.0", "60000.0, 1.0"))
     (entry,) = read_report(folder)["files"]
     assert entry["offset"] == -0.05
     assert entry["measured"]["max_displacement"] < 1e-9
