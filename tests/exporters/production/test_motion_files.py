@@ -93,30 +93,30 @@ def test_a_loop_that_would_take_too_long_is_cut_and_said() -> None:
     assert told(flat) == (False, 20.0)
 
 
-@pytest.mark.sampled(3)
-@pytest.mark.parametrize(
-    ("old", "new"),
-    [
-        (r'values="[-\d.]+;', 'values="1.5;'),
-        (r'(type="translate".*values="([-\d.]+,[-\d.]+;){7})[-\d.]+', r"\g<1>1.5"),
-        (r'repeatCount="indefinite"', 'repeatCount="1"'),
-        (r'<g id="planet_3"', '<g id="planet_9"'),
-        (r"(;[-\d.]+,[-\d.]+){3}", ""),
-        (r'id="ring" transform="translate\([-\d.]+', 'id="ring" transform="translate(0.1'),
-        (r'transform="rotate\([-\d.]+', 'transform="rotate(1.5'),
-        (r"<title>", "<style>path{display:none}</style><title>"),
-        (r"L[-\d.]+,", "L1,"),
-    ],
+SPOILED = (
+    (r'values="[-\d.]+;', 'values="1.5;'),
+    (r'(type="translate".*values="([-\d.]+,[-\d.]+;){7})[-\d.]+', r"\g<1>1.5"),
+    (r'repeatCount="indefinite"', 'repeatCount="1"'),
+    (r'<g id="planet_3"', '<g id="planet_9"'),
+    (r"(;[-\d.]+,[-\d.]+){3}", ""),
+    (r'id="ring" transform="translate\([-\d.]+', 'id="ring" transform="translate(0.1'),
+    (r'transform="rotate\([-\d.]+', 'transform="rotate(1.5'),
+    (r'transform="rotate\(', 'transform="scale(1)rotate('),
+    (r"<title>", "<style>path{display:none}</style><title>"),
+    (r"L[-\d.]+,", "L1,"),
 )
-def test_spoiled_motions_are_seen(tmp_path: Path, old: str, new: str) -> None:
+
+
+def test_spoiled_motions_are_seen(tmp_path: Path) -> None:
     build(planned(JAMES + DRIVE.format("sun", "turns = 4.0") + MOTION), tmp_path)
     file = tmp_path / "s.motion.svg"
     text = file.read_text(encoding="utf-8")
     assert run("verify", str(file)) == 0
-    spoiled = re.sub(old, new, text, count=1)
-    assert spoiled != text
-    file.write_text(spoiled, encoding="utf-8")
-    assert run("verify", str(file)) == 1
+    for old, new in SPOILED:
+        spoiled = re.sub(old, new, text, count=1)
+        assert spoiled != text
+        file.write_text(spoiled, encoding="utf-8")
+        assert run("verify", str(file)) == 1, new
 
 
 def test_a_loop_of_any_length_is_good(tmp_path: Path) -> None:
