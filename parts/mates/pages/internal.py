@@ -24,7 +24,7 @@ from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of,
 from parts.keys.base import mm
 from parts.keys.helix import common_face
 from parts.mates.involute import InternalGearPairSpec, InternalMating, RackMating, RackPairSpec
-from parts.mates.pages.pair_keys import GEARS, pair_table
+from parts.mates.pages.pair_keys import GEARS, GearSpeed, pair_table
 from parts.mates.pages.rack import first_radii, rack_page
 from parts.mates.pages.wishes import wish_refused
 from parts.mates.pairing import mated
@@ -54,6 +54,7 @@ class InternalKeys(Struct, forbid_unknown_fields=True):
     second: RingGearSpec
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
+    speed_rpm: GearSpeed | None = None
 
 
 class RackKeys(Struct, forbid_unknown_fields=True):
@@ -196,7 +197,7 @@ def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> 
     _internal_sizes(page, pair)
     heading(page, helical, N_("Contact ratio"))
     contact_steps(page, pair, helical)
-    sliding_steps(page, pair)
+    sliding_steps(page, pair, keys.speed_rpm)
     backlash_steps(page, pair, pair.circumferential_backlash, helical)
     _internal_limits(page, pair, helical)
     return page

@@ -22,7 +22,8 @@ SHEETS = [
     *WORDS.values(),
     "gear-pair thesis_internal_pair",
     "gear-pair rack_and_pinion",
-    "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 normal_backlash=0.1",
+    "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 normal_backlash=0.1 "
+    "speed_rpm=100",
     "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 "
     "working_centre_distance=61 first.tip_chamfer=0.1",
     "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 normal_backlash=0.1",
