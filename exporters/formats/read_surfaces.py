@@ -73,7 +73,8 @@ def forms(kind: int, at: Real, step: Real, centre: Real, sizes: Real, about: Rea
     v = np.unwrap(np.angle((size - r + 1j * z) * np.exp(-1j * near)))
     # an end may lie half a turn away
     v += near - 2 * np.pi * np.round(v[:, [v.shape[1] // 2]] / (2 * np.pi)) - base
-    shares, weights = _halved()
+    # once round a tube takes two pieces to hold all digits
+    shares, weights = lobatto() if np.abs(v).max() <= np.pi else _halved()
     cos, sin = (f(base[..., None] + v[..., None] * shares) for f in (np.cos, np.sin))
     ring = r[..., None] + s[..., None] * cos
     outwards = (across + r)[..., None] * cos + c3[..., None] * sin + s[..., None]
@@ -83,7 +84,7 @@ def forms(kind: int, at: Real, step: Real, centre: Real, sizes: Real, about: Rea
 
 @cache
 def _halved() -> tuple[Real, Real]:
-    """Nodes and weights of both halves of 0 .. 1: they hold once round a tube to all digits."""
+    """Nodes and weights of both halves of 0 .. 1."""
     nodes, weights = lobatto()
     return np.concatenate([nodes, 1 + nodes]) / 2, np.tile(weights, 2) / 2
 
