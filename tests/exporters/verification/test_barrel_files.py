@@ -310,6 +310,8 @@ def test_flat_files_are_rolled(name: str, tmp_path: Path) -> None:
         wrong = replace(loops[-1], vertices=last + 1j * moved)
         verdict = probed(ReadOutlines((*loops[:-1], wrong)), part, 0.0, declared, Verdict({}, ()))
         assert "the follower's lift is wrong by" in verdict.failures[0]
+    doubled = probed(ReadOutlines((*loops, loops[-1])), part, 0.0, declared, Verdict({}, ()))
+    assert f"there are {len(loops) + 1} jackets for the roller" in doubled.failures[0]
 
 
 CONICAL = {"clearance": 0.1, "roller_form": "conical"}
