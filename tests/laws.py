@@ -16,7 +16,7 @@ import numpy as np
 
 from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
-from geometry.curves.curve import Curve, OffsetCurve, Reversed
+from geometry.curves.curve import Carried, Curve, Mirrored, OffsetCurve, Reversed
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.ellipse import EllipticArc
 from geometry.curves.elliptic_fillet import EllipticFillet
@@ -129,6 +129,19 @@ def size(curve: Curve) -> float:
     for name in ("pitch_radius", "base_radius", "radius", "tip_radius", "cutter_radius"):
         scale = max(scale, abs(getattr(curve, name, 0.0)))
     return scale
+
+
+def check_derivatives_together(curve: Curve) -> None:
+    """What one evaluation gives agrees with differences of points: the curve, turned, mirrored and travelled back."""
+    for other in (curve, Carried(curve, Placement2(0.7, 3 - 2j)), Mirrored(curve), Reversed(curve)):
+        low, high = other.domain
+        step = 1e-4 * (high - low)
+        t = np.linspace(low + step, high - step, 9)
+        before, at, after = (other.point(t + k * step) for k in (-1, 0, 1))
+        point, first, second = other.derivatives(t, 2)
+        assert np.abs(point - at).max() <= 1e-12 * np.abs(at).max()
+        for found, wanted in ((first * step, (after - before) / 2), (second * step**2, after - 2 * at + before)):
+            assert np.abs(found - wanted).max() <= 1e-4 * np.abs(wanted).max() + 1e-14 * np.abs(at).max()
 
 
 def check_derivatives(curve: Curve) -> None:

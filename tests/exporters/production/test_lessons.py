@@ -319,6 +319,8 @@ at = [50.0, 0.0, 0.0]
         # a laser's file of all parts has rods as their ends alone; no sheet asks for two sets
         rows = rows if cut is not None else ["3 × Ø5 × 10.5", "1 × Ø8/Ø5.2 × 20"]
         assert [row.replace(".", point) in told for row in rows] == [cut is not False] * len(rows), told
+        # of each length, and of the tube in all
+        assert told.count("Ø8/Ø5.2".replace(".", point)) == 2 * (cut is not False)
         # whatever the scene's file is called
         if cut is not None:
             assert f"{name}.board.1.svg: 2 × plate" in told

@@ -383,6 +383,8 @@ def test_one_unshifted_wheel_is_the_zero_wheel_alone(tmp_path: Path) -> None:
         words = " ".join(run.text for text in job.canvas.texts for run in text.runs).lower()
         assert words.count("shifted wheel:") == number
         assert "zero wheel" in words
+        # in the picture, by its whole name
+        assert ("shifted wheel" in {text.text for text in job.canvas.texts}) is bool(number)
 
 
 @pytest.mark.sampled(1)

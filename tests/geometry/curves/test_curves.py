@@ -104,6 +104,7 @@ def test_empty_trim_is_refused(curve: Curve) -> None:
 @given(curves)
 def test_derivatives_of_any_curve(curve: Curve) -> None:
     laws.check_derivatives(curve)
+    laws.check_derivatives_together(curve)
     laws.check_tangent_and_curvature(curve)
 
 

@@ -92,6 +92,11 @@ def exact_point(curve: CentreEnvelope | FaceEnvelope, t: Any) -> Any:
     return point + step * way
 
 
+@EVERY
+def test_one_evaluation_gives_the_point_and_its_derivatives(name: str) -> None:
+    laws.check_derivatives_together(CURVES[name])
+
+
 @pytest.mark.sampled(6)
 @EVERY
 def test_points_and_derivatives_against_fifty_digits(name: str) -> None:

@@ -21,6 +21,7 @@ from geometry.gears.teeth.tooth import tooth_side
 from geometry.kinematics.centrodes import FourierRatio, LobedEllipse, RatioCentrode
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Label
+from tests import laws
 from tests.oracles import rolled_rack
 
 ALPHA = math.radians(20)
@@ -162,6 +163,7 @@ def test_curves_keep_the_laws() -> None:
     """Derivatives by differences, tangent, curvature, parallel curves, bounds, mirror images."""
     for made in (gear(ELLIPSE, 31), gear(OVAL, 40, mate=True, x=-0.2)):
         for curve in curves_of(made):
+            laws.check_derivatives_together(curve)
             low, high = curve.domain
             t = np.linspace(low, high, 7)[1:-1]
             h = 2e-4 * (high - low)
