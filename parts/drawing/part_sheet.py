@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cache
-from itertools import product, takewhile
+from itertools import product
 
 import numpy as np
 
-from geometry.base.errors import ParameterError
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc
@@ -39,8 +38,8 @@ _NEAR = 0.01
 _INDENT = 1.0
 # half of what a bracket turns, rad
 _BRACKET = 0.65
-# places along each side of a sheet that are tried for views
-_TRIED = 24
+# places along each side of a sheet that are tried for views, and for a row of views with others apart from it
+_TRIED, _TRIED_APART = 24, 8
 
 
 class PartMeasures(Record):
@@ -191,7 +190,7 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
         wide, tall = canvas.frame.right - canvas.frame.left, canvas.frame.high - canvas.frame.low
         for corner in corners:
             has_room = corner.low + corner.high[1] <= tall and corner.high[0] <= wide
-            if has_room and (shifts := _places(views_at(scale), corner, canvas, rows=rows)) is not None:
+            if has_room and (shifts := _places(views_at(scale), corner, canvas)) is not None:
                 return corner, shifts
         return None
 
@@ -203,14 +202,7 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
         most, low = (most, 0.0) if asked.paper or asked.scale else (min(most, max(least, 1.0)), least / _SMALLER)
         return next((s for s in SCALES if low <= s <= most and held(canvas, s) is not None), 0.0)
 
-    rows = False
-    try:
-        canvas, scale = sheet_for(asked, greatest, least)
-    except ParameterError:
-        # where one row of views fits no paper, some stand in rows below, if letters tell what they are views of
-        if not (rows := len(row) > 2 and all(view.title for view in row[1:])):
-            raise
-        canvas, scale = sheet_for(asked, greatest, least)
+    canvas, scale = sheet_for(asked, greatest, least)
     views, found = views_at(scale), held(canvas, scale)
     assert found is not None
     corner, shifts = found
@@ -239,70 +231,52 @@ def _laid(view: View, scale: float, asked: Asked) -> Laid | None:
     return laid(made, own, asked.language, own=own != scale)
 
 
-def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas, *, rows: bool) -> list[complex] | None:
-    """Where the origins of views stand: in a row on one axis, on A4 one above the other too, or in several ``rows``;
-    None: not at all.
+def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas) -> list[complex] | None:
+    """Where the origins of views stand: in a row on one axis, else those with letters apart; None: not at all.
+
+    What has no letter stands beside what it is a view of.
     """
-    boxes = [view.box for view in views]
-    if not boxes:
+    if not views:
         return None
-    if rows:
-        return _in_rows(boxes, corner.taken(canvas), canvas.frame.grown(-_MARGIN))
-    row, x = [], 0.0
-    for box in boxes:
-        row.append(complex(x - box.left))
-        x += box.right - box.left + _BETWEEN
-    column, y = [], 0.0
-    for box in boxes:
-        column.append(1j * (y - box.high))
-        y -= box.high - box.low + _BETWEEN
-    frame, taken = canvas.frame.grown(-_MARGIN), [box.grown(_MARGIN) for box in corner.taken(canvas)]
-    # what has no letter stands beside what it is a view of
-    stacked = canvas.paper == "A4" and all(view.view.title for view in views[1:])
-    for places in (row, column) if stacked else (row,):
-        stand = [shifted(box, at) for box, at in zip(boxes, places, strict=True)]
-        whole = Box(min(b.left for b in stand), min(b.low for b in stand),
-                    max(b.right for b in stand), max(b.high for b in stand))  # fmt: skip
-        free = complex(frame.right - frame.left - whole.right + whole.left,
-                       frame.high - frame.low - whole.high + whole.low)  # fmt: skip
-        if min(free.real, free.imag) < 0:
-            continue
-        # those nearest to the middle first
-        steps = sorted(product(range(_TRIED + 1), repeat=2), key=lambda t: sum((2 * n - _TRIED) ** 2 for n in t))
-        for k, n in steps:
-            by = complex(
-                frame.left - whole.left + free.real * k / _TRIED, frame.low - whole.low + free.imag * n / _TRIED
-            )
-            if not any(shifted(box, by).overlaps(other) for box in stand for other in taken):
-                return [at + by for at in places]
+    boxes, frame = [view.box for view in views], canvas.frame.grown(-_MARGIN)
+    taken = [box.grown(_MARGIN) for box in corner.taken(canvas)]
+    apart = [k for k, view in enumerate(views) if k and view.view.title]
+    for loose in ([], apart) if apart else ([],):
+        held = [k for k in range(len(views)) if k not in loose]
+        row, x = dict[int, complex](), 0.0
+        for k in held:
+            row[k] = complex(x - boxes[k].left)
+            x += boxes[k].right - boxes[k].left + _BETWEEN
+        stand = [shifted(boxes[k], at) for k, at in row.items()]
+        # of many rows with others about them not each is tried
+        for by in _free_places(stand, frame, taken, _TRIED if not loose else _TRIED_APART):
+            found = {k: at + by for k, at in row.items()}
+            for k in loose:
+                others = [shifted(boxes[n], at).grown(_BETWEEN) for n, at in found.items()]
+                # as near to the axis as there is room
+                near = min(_free_places([boxes[k]], frame, [*taken, *others], _TRIED), default=None,
+                           key=lambda at: (abs(at.imag - by.imag), abs(at.real - by.real)))  # fmt: skip
+                if near is None:
+                    break
+                found[k] = near
+            else:
+                return [found[k] for k in range(len(views))]
     return None
 
 
-def _in_rows(boxes: Sequence[Box], taken: Sequence[Box], frame: Box) -> list[complex] | None:
-    """Origins of views that fill rows from the upper left corner on; None: they do not hold all."""
-    found, top, taken = list[complex](), frame.high, [box.grown(_MARGIN) for box in taken]
-    while len(found) < len(boxes):
-        left = boxes[len(found) :]
-        rows = (_row(left[: k + 1], top, taken, frame) for k in range(len(left)))
-        whole = [*takewhile(lambda row: row is not None, rows)]
-        if not whole or whole[-1] is None:
-            return None
-        found += whole[-1]
-        top = min(box.low + at.imag for box, at in zip(left, whole[-1], strict=False)) - _BETWEEN
-    return found
-
-
-def _row(boxes: Sequence[Box], top: float, taken: Sequence[Box], frame: Box) -> list[complex] | None:
-    """Origins of views on one axis, from the left on past what is taken; None: there is no room."""
-    y, x, found = top - max(box.high for box in boxes), frame.left, list[complex]()
-    for box in boxes:
-        while (stand := shifted(box, complex(x - box.left, y))).right <= frame.right:
-            beside = [other.right for other in taken if stand.overlaps(other)]
-            if not beside:
-                break
-            x = max(beside)
-        if stand.right > frame.right or stand.low < frame.low:
-            return None
-        found.append(complex(x - box.left, y))
-        x = stand.right + _BETWEEN
-    return found
+def _free_places(boxes: Sequence[Box], frame: Box, taken: Sequence[Box], tried: int) -> list[complex]:
+    """Shifts of rectangles, so many tried each way, that keep them in the frame and off others; the middle first."""
+    whole = Box(min(b.left for b in boxes), min(b.low for b in boxes),
+                max(b.right for b in boxes), max(b.high for b in boxes))  # fmt: skip
+    right, high = frame.right - frame.left - whole.right + whole.left, frame.high - frame.low - whole.high + whole.low
+    if min(right, high) < 0:
+        return []
+    share = np.linspace(0.0, 1.0, tried + 1)
+    by = np.add.outer(frame.left - whole.left + right * share, 1j * (frame.low - whole.low + high * share)).ravel()
+    kept = np.ones(len(by), dtype=bool)
+    for one, other in product(boxes, taken):
+        across = (by.real + one.left < other.right) & (by.real + one.right > other.left)
+        kept &= ~(across & (by.imag + one.low < other.high) & (by.imag + one.high > other.low))
+    away = np.add.outer(np.abs(share - 0.5) ** 2, np.abs(share - 0.5) ** 2).ravel()
+    order = np.argsort(away, kind="stable")
+    return by[order[kept[order]]].tolist()
