@@ -31,6 +31,8 @@ _MARGIN, _BETWEEN = 5.0, 12.0
 _LEAST_SMALL, _LEAST = 45.0, 120.0
 # how many times smaller than at its least scale a part is drawn at most, where its sizes have no room
 _SMALLER = 5.0
+# how many times larger than the others a lettered view is drawn at most, where its own sizes have no room
+_LARGER = 4.0
 # model mm by which a number of a file may be off
 _SAME = 1e-6
 # a curve of a file is another's where their ends are farther apart, mm on paper
@@ -40,6 +42,8 @@ _INDENT = 1.0
 _BRACKET = 0.65
 # places along each side of a sheet that are tried for views, and for a row of views with others apart from it
 _TRIED, _TRIED_APART = 24, 8
+# so many lettered views stand about the others
+_FEW = 3
 
 
 class PartMeasures(Record):
@@ -221,14 +225,17 @@ def _extent(view: View) -> tuple[float, float]:
 
 
 def _laid(view: View, scale: float, asked: Asked) -> Laid | None:
-    """A view, of its own scale where it would be too small; its title tells that."""
-    own, title = scale, view.title
-    if view.least:
-        needed = view.least / max(_extent(view))
-        own = next((s for s in reversed(SCALES) if s >= max(needed, scale)), SCALES[0])
-        title = title if own == scale else f"{title} ({scale_text(own, asked.language)})"
-    made = replace(view, title=title)
-    return laid(made, own, asked.language, own=own != scale)
+    """A view, of its own scale where it would be too small, or where its letters find room at a larger one only;
+    its title tells that.
+    """
+    needed = max(scale, view.least / max(_extent(view))) if view.least else scale
+    own = next((s for s in reversed(SCALES) if s >= needed), SCALES[0])
+    larger = [s for s in reversed(SCALES) if own < s <= _LARGER * own] if view.title else []
+    for one in (own, *larger):
+        title = view.title if one == scale else f"{view.title} ({scale_text(one, asked.language)})"
+        if (found := laid(replace(view, title=title), one, asked.language, own=one != scale)) is not None:
+            return found
+    return None
 
 
 def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas) -> list[complex] | None:
@@ -249,19 +256,26 @@ def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas) -> list[comp
             x += boxes[k].right - boxes[k].left + _BETWEEN
         stand = [shifted(boxes[k], at) for k, at in row.items()]
         # of many rows with others about them not each is tried
-        for by in _free_places(stand, frame, taken, _TRIED if not loose else _TRIED_APART):
+        free = _free_places(stand, frame, taken, _TRIED if not loose else _TRIED_APART)
+        # few stand as near to the axis as there is room, many as a page is read
+        many = len(loose) > _FEW
+        for by in sorted(free, key=_reading) if many else free:
             found = {k: at + by for k, at in row.items()}
             for k in loose:
                 others = [shifted(boxes[n], at).grown(_BETWEEN) for n, at in found.items()]
-                # as near to the axis as there is room
-                near = min(_free_places([boxes[k]], frame, [*taken, *others], _TRIED), default=None,
-                           key=lambda at: (abs(at.imag - by.imag), abs(at.real - by.real)))  # fmt: skip
+                order = _reading if many else lambda at, by=by: (abs(at.imag - by.imag), abs(at.real - by.real))
+                near = min(_free_places([boxes[k]], frame, [*taken, *others], _TRIED), key=order, default=None)
                 if near is None:
                     break
                 found[k] = near
             else:
                 return [found[k] for k in range(len(views))]
     return None
+
+
+def _reading(at: complex) -> tuple[float, float]:
+    """From the upper left corner on, line by line."""
+    return -at.imag, at.real
 
 
 def _free_places(boxes: Sequence[Box], frame: Box, taken: Sequence[Box], tried: int) -> list[complex]:
