@@ -191,6 +191,15 @@ def test_circles_of_holes_that_stand_off_each_other_tell_their_directions(tmp_pa
     assert told([circles[0], circles[1] | {"start_deg": 72.0}]) == told(circles[:1]) == []
 
 
+def test_spokes_tell_their_direction_from_a_turned_keyway(tmp_path: Path) -> None:
+    gear = {"kind": "spur_gear", "module": 3.0, "number_of_teeth": 48, "face_width": 10.0,
+            "bore": {"shape": "keyway", "diameter": 20.0, "angle_deg": 30.0},
+            "spokes": {"count": 5, "inner_diameter": 36.0, "outer_diameter": 120.0, "width": 10.0, "start_deg": 50.0},
+            }  # fmt: skip
+    words = " ".join(t.dxf.text for t in drawn(tmp_path, gear).modelspace().query("TEXT"))
+    assert "Spokes: the first at 20° from" in words
+
+
 @pytest.mark.parametrize(
     "part",
     [
