@@ -469,7 +469,10 @@ def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View
     name, off = view_letter(subject.language), 0.0 if others is None else math.remainder(angle - others, math.tau)
     if abs(off) > _NONE:
         name += f" {TURNED} {subject.say(abs(math.degrees(off)))}°"
-    return View(tuple(strokes), (), axis_cross(bore.reach), tuple(sizes), tuple(rounds), (), name, _LEAST_BORE)
+    # axes end at its walls: words of sizes stand close to them
+    half = bore.diameter / 2 if isinstance(bore, KeywayBore | FlatBore) else bore.reach
+    axes = Line(complex(-half), complex(half)), Line(-1j * down, 1j * up)
+    return View(tuple(strokes), (), axes, tuple(sizes), tuple(rounds), (), name, _LEAST_BORE)
 
 
 def ring_section(width: float, radii: tuple[float, float, float], holes: HubHoles, subject: Subject) -> View:
