@@ -109,6 +109,34 @@ def test_where_contact_of_a_larger_hob_leaves_the_plane_is_not_taken_for_undercu
     assert not hob.cut(hob.flank(np.full(4, side.outer.min() - 0.1)), heights).found.any()
 
 
+def test_the_contact_of_a_larger_hob_is_followed_to_where_it_turns_back_in_the_plane() -> None:
+    keys = {"form": "ZN1", "module": 5.0, "number_of_starts": 3, "diameter_quotient": 6.4, "number_of_teeth": 103}
+    drive = drive_of(WormWheelSpec(**keys, hand="left", profile_shift_coefficient=0.3))
+    # before: not converged there, the face ended at 27.67
+    teeth = WormTeeth(oversized_hob(drive, 0.2, 6.645), drive.centre_distance, drive.throat_radius, 267.0, 27.69)
+    assert teeth.is_whole
+    assert teeth.ended is None
+    ends = np.array([-27.69, 27.69]) / 2
+    found = teeth.flank(teeth.side(ends), 1.0)
+    assert np.abs(np.abs(found.plane) - teeth.tip_radius(ends)).max() < 1e-9
+    assert replace(teeth, width=27.8).ended == "worm_wheel_flank_ends"
+
+
+@pytest.mark.heavy
+def test_a_face_that_no_hob_reaches_is_told_the_widest_that_stands() -> None:
+    keys = {"form": "ZA", "number_of_starts": 2, "diameter_quotient": 4.0, "pressure_angle_deg": 25.0}
+    keys |= {"module": 1.0, "number_of_teeth": 13, "hob_diameter_quotient": 4.609}
+    # before: the widest that was found was told by rounding, and fell away
+    with pytest.raises(SceneError) as refused:
+        _built({**keys, "face_width": 7.76})
+    offered = refused.value.nearest
+    assert refused.value.code == "worm_wheel_not_reached"
+    assert offered is not None
+    assert isinstance(offered.value, float)
+    assert 1.9 < offered.value < 1.93
+    _built({**keys, "face_width": offered.value})
+
+
 @pytest.mark.heavy
 def test_a_pointed_worm_of_many_starts_is_told_the_addendum_that_leaves_its_wheel_teeth() -> None:
     keys = {"module": 10.0, "number_of_starts": 7, "diameter_quotient": 4.13, "number_of_teeth": 58}
