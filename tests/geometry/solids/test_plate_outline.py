@@ -91,8 +91,11 @@ def test_holes_and_slots_shrink_and_close() -> None:
 
 
 @pytest.mark.parametrize(
-    "hole", [PlateHole(5 + 0j, 6.0), PlateHole(0j, 30.0), PlateHole(200 + 0j, 3.0), PlateSlot(0j, 5 + 0j, 1.0)]
-)
+    "hole",
+    # across another, about the end, outside, across by a slot; in another and about it
+    [PlateHole(5 + 0j, 6.0), PlateHole(0j, 30.0), PlateHole(200 + 0j, 3.0), PlateSlot(0j, 5 + 0j, 1.0),
+     PlateHole(1 + 0j, 2.0), PlateHole(0.5 + 0j, 9.0)],
+)  # fmt: skip
 def test_holes_that_meet_something_are_refused(hole: PlateHole | PlateSlot) -> None:
     outline = PlateOutline(round_arm(60, 20, 20), (PlateHole(0j, 6), hole))
     with pytest.raises(GeometryError):
