@@ -26,8 +26,8 @@ _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ufffe\uffff]")
 _NOTHING = 1e-12
 
 
-def plain_numbers(value: Any, source: str, place: str) -> Any:
-    """What was read, its numbers finite: those nearer to 0 than 1e-12 are 0, no word has control characters.
+def plain_numbers(value: Any, source: str, place: str, nothing: float = _NOTHING) -> Any:
+    """What was read, its numbers finite: those nearer to 0 than ``nothing`` are 0, no word has control characters.
 
     Raises
     ------
@@ -37,15 +37,16 @@ def plain_numbers(value: Any, source: str, place: str) -> Any:
     if isinstance(value, float):
         if not math.isfinite(value):
             raise SceneError(source, place, value, "not_finite")
-        return value if abs(value) >= _NOTHING else 0.0
+        return value if abs(value) >= nothing else 0.0
     if isinstance(value, str) and _CONTROL.search(value):
         raise SceneError(source, place, value, "control_character")
     if isinstance(value, dict):
         return {
-            key: plain_numbers(item, source, f"{place}.{key}" if place else str(key)) for key, item in value.items()
+            key: plain_numbers(item, source, f"{place}.{key}" if place else str(key), nothing)
+            for key, item in value.items()
         }
     if isinstance(value, list):
-        return [plain_numbers(item, source, f"{place}[{index + 1}]") for index, item in enumerate(value)]
+        return [plain_numbers(item, source, f"{place}[{index + 1}]", nothing) for index, item in enumerate(value)]
     return value
 
 

@@ -37,6 +37,8 @@ LawName = Literal[
 PhaseLaw = Literal[LawName, "join"]
 Width = Annotated[float, Meta(gt=0, le=1e6, description="width, any scale")]
 Ordinate = Annotated[float, Meta(ge=-1e6, le=1e6, description="ordinate, any scale; below the axis negative")]
+# beyond, powers of it are no numbers any more
+Plain = Annotated[float, Meta(ge=-1e6, le=1e6)]
 Share = Annotated[float, Meta(ge=0, le=1, description="share of the width")]
 
 
@@ -97,7 +99,7 @@ class PointsTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="po
     """A cubic spline through points (place, ordinate)."""
 
     width: Width
-    points: Annotated[list[tuple[float, float]], Meta(min_length=2, max_length=2000, description="[place, ordinate]")]
+    points: Annotated[list[tuple[Plain, Plain]], Meta(min_length=2, max_length=2000, description="[place, ordinate]")]
 
 
 StretchTable = (
@@ -137,22 +139,22 @@ class LawTable(Struct, forbid_unknown_fields=True):
     first_share: Annotated[float, Meta(gt=0, lt=1, description="of the phase that the first half takes")] = 0.5
     conditions: (
         Annotated[
-            list[tuple[float, int, float]],
+            list[tuple[Plain, int, Plain]],
             Meta(min_length=2, max_length=32, description="polynomial: [place u from 0 to 1, order, s^(order)(u)]"),
         ]
         | None
     ) = None
     poles: (
-        Annotated[list[float], Meta(min_length=4, max_length=60, description="of a B-spline, from 0 to the lift")]
+        Annotated[list[Plain], Meta(min_length=4, max_length=60, description="of a B-spline, from 0 to the lift")]
         | None
     ) = None
     degree: Annotated[int, Meta(ge=3, le=9, description="of the B-spline")] = 5
     knots: (
-        Annotated[list[float], Meta(max_length=56, description="inner knots, 0 to 1; default: equal spans")] | None
+        Annotated[list[Plain], Meta(max_length=56, description="inner knots, 0 to 1; default: equal spans")] | None
     ) = None
     sine_constant_cosine: (
         Annotated[
-            tuple[float, float, float],
+            tuple[Plain, Plain, Plain],
             Meta(description="SCCA: shares of the phase, 0 to 1; the rest of it is at constant velocity"),
         ]
         | None

@@ -278,7 +278,10 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | No
 
 def scene_from_dict(raw: dict[str, Any], source: str, name: str, language: str | None = None) -> SceneFile:
     """Validate the tables of a scene, its assemblies told out."""
-    raw = plain_numbers(raw, source, "")
+    return _validated(plain_numbers(raw, source, ""), source, name, language)
+
+
+def _validated(raw: dict[str, Any], source: str, name: str, language: str | None = None) -> SceneFile:
     _check_tables(raw, source)
     if language is not None:
         raw = {**raw, "scene": {**raw.get("scene", {}), "language": language}}
@@ -582,7 +585,8 @@ def scene_from_resolved(data: dict[str, Any], source: str) -> SceneFile:
     tables["exports"] = [{k: v for k, v in e.items() if v is not None} for e in tables.get("exports", [])]
     for name in ("parts", "instances", *PURPOSES_LAID):
         tables[name] = {k: _without_none(v) for k, v in tables.get(name, {}).items()}
-    return scene_from_dict(tables, source, str(data.get("name", "scene")))
+    # copies about an axis leave what is nearly 0, which is kept as it was made
+    return _validated(plain_numbers(tables, source, "", 0.0), source, str(data.get("name", "scene")))
 
 
 def _without_none(table: object) -> Any:

@@ -129,15 +129,15 @@ def test_what_cannot_be_made_is_refused_in_one_line(
 
 @pytest.mark.parametrize(
     ("name", "holes"),
-    [("wedge", {"holes": {"diameter": 1e-18, "x": 5.0, "y": 7.0}}),
-     ("offset roller", {"timing_mark": {"diameter": 1e-18}}),
-     ("cam with holes", {"holes": [{"count": 4, "diameter": 1e-18, "pitch_circle_diameter": 50.0}]})],
+    [("wedge", {"holes": {"diameter": 1e-11, "x": 5.0, "y": 7.0}}),
+     ("offset roller", {"timing_mark": {"diameter": 1e-11}}),
+     ("cam with holes", {"holes": [{"count": 4, "diameter": 1e-11, "pitch_circle_diameter": 50.0}]})],
 )  # fmt: skip
 def test_a_hole_that_no_double_holds_is_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, holes: Keys
 ) -> None:
     assert built(tmp_path, scenes()[name]["parts"]["p"] | holes) == 2
-    assert "diameter = 1e-18" in capsys.readouterr().err
+    assert "diameter = 1e-11" in capsys.readouterr().err
 
 
 def accepted(raw: Raw, folder: Path) -> str:

@@ -67,6 +67,8 @@ WRONG: dict[str, tuple[Any, str, str]] = {
     "ramp of a sine": ({"name": "sine", "ramp": 0.1}, "law.ramp", "law_without_ramps"),
     "wide ramp": ({"name": "trapezoid", "ramp": 0.3}, "law.ramp", "out_of_range"),
     "few poles": ({"poles": [0.0, 0.0, 1.0, 1.0]}, "law.poles", "too_few_poles"),
+    "huge pole": ({"poles": [0.0, 0.0, 1e308, 1.0, 1.0]}, "law.poles[3]", "not_allowed"),
+    "huge condition": ({"conditions": [*ENDS[:2], [0.5, 0, -1e308]]}, "law.conditions[3][3]", "not_allowed"),
     "no start": ({"conditions": [[0.5, 0, 0.5], [1.0, 0, 1.0]]}, "law.conditions", "conditions_without_ends"),
     "order left out": ({"conditions": [*ENDS[:1], ENDS[2], ENDS[3]]}, "law.conditions", "orders_with_gap"),
     "knots": ({"poles": [0.0, 0.0, 0.5, 1.0, 1.0], "degree": 3, "knots": [1.5]}, "law.knots", "knots_do_not_rise"),
