@@ -15,7 +15,7 @@ from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_curve
 from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text, text_width
 from parts.drawing.cells import wrapped
-from parts.drawing.choice import Asked, sheet_for
+from parts.drawing.choice import Asked, blank, sheet_for
 from parts.drawing.dimensioning import Laid, laid, moved, rough_sign, shifted
 from parts.drawing.expected import Expected
 from parts.drawing.readback import ReadSheet
@@ -189,12 +189,12 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
         found = [_laid(view, scale, asked) for view in row]
         return () if None in found else tuple(one for one in found if one is not None)
 
-    def held(canvas: Canvas, scale: float) -> tuple[_Corner, list[complex]] | None:
+    def held(canvas: Canvas, scale: float, *, apart: bool) -> tuple[_Corner, list[complex]] | None:
         """The first form of what stands in the corners that leaves room for the views, and where those stand."""
         wide, tall = canvas.frame.right - canvas.frame.left, canvas.frame.high - canvas.frame.low
         for corner in corners:
             has_room = corner.low + corner.high[1] <= tall and corner.high[0] <= wide
-            if has_room and (shifts := _places(views_at(scale), corner, canvas)) is not None:
+            if has_room and (shifts := _places(views_at(scale), corner, canvas, apart=apart)) is not None:
                 return corner, shifts
         return None
 
@@ -204,11 +204,15 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
         most = min(frame.right - frame.left, frame.high - frame.low) / min(size)
         # unless a paper is asked for, what is large enough stays in its size
         most, low = (most, 0.0) if asked.paper or asked.scale else (min(most, max(least, 1.0)), least / _SMALLER)
-        return next((s for s in SCALES if low <= s <= most and held(canvas, s) is not None), 0.0)
+        fits = (s for s in SCALES if low <= s <= most and any(held(canvas, s, apart=one) for one in (False, True)))
+        return next(fits, 0.0)
 
     canvas, scale = sheet_for(asked, greatest, least)
-    views, found = views_at(scale), held(canvas, scale)
-    assert found is not None
+    # the paper may lie the other way where all views then stand on one axis
+    turned = blank(canvas.paper, upright=canvas.width > canvas.height, band=asked.band)
+    ways = [(canvas, False), *([(turned, False)] if canvas.paper != "A4" else []), (canvas, True)]
+    canvas, found = next((one, at) for one, apart in ways if (at := held(one, scale, apart=apart)) is not None)
+    views = views_at(scale)
     corner, shifts = found
     corner.draw(canvas, language)
     outlines = []
@@ -238,8 +242,8 @@ def _laid(view: View, scale: float, asked: Asked) -> Laid | None:
     return None
 
 
-def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas) -> list[complex] | None:
-    """Where the origins of views stand: in a row on one axis, else those with letters apart; None: not at all.
+def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas, *, apart: bool) -> list[complex] | None:
+    """Where the origins of views stand: in a row on one axis, or those with letters ``apart``; None: not at all.
 
     What has no letter stands beside what it is a view of.
     """
@@ -247,29 +251,28 @@ def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas) -> list[comp
         return None
     boxes, frame = [view.box for view in views], canvas.frame.grown(-_MARGIN)
     taken = [box.grown(_MARGIN) for box in corner.taken(canvas)]
-    apart = [k for k, view in enumerate(views) if k and view.view.title]
-    for loose in ([], apart) if apart else ([],):
-        held = [k for k in range(len(views)) if k not in loose]
-        row, x = dict[int, complex](), 0.0
-        for k in held:
+    loose = [k for k, view in enumerate(views) if apart and k and view.view.title]
+    row, x = dict[int, complex](), 0.0
+    for k in range(len(views)):
+        if k not in loose:
             row[k] = complex(x - boxes[k].left)
             x += boxes[k].right - boxes[k].left + _BETWEEN
-        stand = [shifted(boxes[k], at) for k, at in row.items()]
-        # of many rows with others about them not each is tried
-        free = _free_places(stand, frame, taken, _TRIED if not loose else _TRIED_APART)
-        # few stand as near to the axis as there is room, many as a page is read
-        many = len(loose) > _FEW
-        for by in sorted(free, key=_reading) if many else free:
-            found = {k: at + by for k, at in row.items()}
-            for k in loose:
-                others = [shifted(boxes[n], at).grown(_BETWEEN) for n, at in found.items()]
-                order = _reading if many else lambda at, by=by: (abs(at.imag - by.imag), abs(at.real - by.real))
-                near = min(_free_places([boxes[k]], frame, [*taken, *others], _TRIED), key=order, default=None)
-                if near is None:
-                    break
-                found[k] = near
-            else:
-                return [found[k] for k in range(len(views))]
+    stand = [shifted(boxes[k], at) for k, at in row.items()]
+    # of many rows with others about them not each is tried
+    free = _free_places(stand, frame, taken, _TRIED_APART if loose else _TRIED)
+    # few stand as near to the axis as there is room, many as a page is read
+    many = len(loose) > _FEW
+    for by in sorted(free, key=_reading) if many else free:
+        found = {k: at + by for k, at in row.items()}
+        for k in loose:
+            others = [shifted(boxes[n], at).grown(_BETWEEN) for n, at in found.items()]
+            order = _reading if many else lambda at, by=by: (abs(at.imag - by.imag), abs(at.real - by.real))
+            near = min(_free_places([boxes[k]], frame, [*taken, *others], _TRIED), key=order, default=None)
+            if near is None:
+                break
+            found[k] = near
+        else:
+            return [found[k] for k in range(len(views))]
     return None
 
 
