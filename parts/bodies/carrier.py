@@ -12,7 +12,7 @@ from geometry.base.record import Record
 from parts.base.kind import Others, Report
 from parts.bodies.plate import Extruded, FlatKeys, checked_outline
 from parts.keys.base import BoreDiameter, mm
-from parts.keys.holes import Direction
+from parts.keys.holes import Direction, check_bore
 from parts.keys.pins import MOST, PinCircle, PinDiameter, least_of
 
 if TYPE_CHECKING:
@@ -100,6 +100,7 @@ class CarrierPlateKind(Extruded[CarrierPlateSpec, CarrierPlate]):
             arms += [_end(a, table.pitch_circle_diameter, table.diameter, table.boss_diameter) for a in turns]
         names = "pin_diameter", "spacers.diameter"
         holes = [(key, at, c.diameter) for key, c in zip(names, circles, strict=False) for at in c.centres()]
+        check_bore(keys.bore_diameter)
         if keys.bore_diameter > 0:
             holes.insert(0, ("bore_diameter", 0j, keys.bore_diameter))
         return CarrierPlate(checked_outline(_edges(keys, arms), keys, holes), tuple(circles), keys.pin_diameter / 2)

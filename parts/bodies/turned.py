@@ -13,7 +13,7 @@ from geometry.base.errors import OffsetError, ParameterError, limit
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import BoreDiameter, degrees, either, mm
-from parts.keys.holes import HolesTable
+from parts.keys.holes import HolesTable, check_bore
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
@@ -256,6 +256,7 @@ def _check_shaft(keys: ShaftSpec) -> None:
     ParameterError
         One does not.
     """
+    check_bore(keys.bore_diameter)
     if keys.bore_diameter and keys.centre_holes is not None:
         raise either("bore_diameter", keys.bore_diameter, "centre_holes", 0.0)
     for k, step in enumerate(keys.steps, 1):
@@ -273,7 +274,11 @@ def _check_shaft(keys: ShaftSpec) -> None:
                 raise ParameterError(f"{name}.at", groove.at, "groove_beyond_step", least=place, length=step.length)
             place = groove.at + groove.width
     mouth = _mouth(keys)
-    for step in (keys.steps[0], keys.steps[-1]):
+    for k in (1, len(keys.steps)):
+        step = keys.steps[k - 1]
+        if step.chamfer >= (room := (step.diameter - keys.bore_diameter) / 2):
+            most = limit(room * (1 - 1e-6), step.chamfer, digits=6)
+            raise ParameterError(f"steps[{k}].chamfer", step.chamfer, "chamfer_leaves_nothing_of_step", most)
         if mouth >= step.diameter - 2 * step.chamfer:
             most = limit(step.diameter - 2 * step.chamfer, mouth, digits=6)
             raise ParameterError("centre_holes.mouth", mouth, "leaves_no_wall", most)

@@ -194,16 +194,30 @@ class Bored(Protocol):
         """Its shape."""
 
 
+def check_bore(diameter: float) -> None:
+    """A bore in short is none, or no smaller than a hole.
+
+    Raises
+    ------
+    ParameterError
+        It is hardly any.
+    """
+    if 0 < diameter < LEAST_HOLE:
+        nearest = Nearest(LEAST_HOLE, "at_least")
+        raise ParameterError("bore_diameter", diameter, "out_of_range", nearest, least=LEAST_HOLE, most=_MOST)
+
+
 def bore_of(keys: Bored) -> BoreTable | None:
     """The bore in full.
 
     Raises
     ------
     ParameterError
-        It is given in short too.
+        It is given in short too, or is hardly any.
     """
     if keys.bore is not None and keys.bore_diameter:
         raise either("bore_diameter", keys.bore_diameter, "bore", 0.0)
+    check_bore(keys.bore_diameter or 0.0)
     return RoundBoreTable(keys.bore_diameter) if keys.bore_diameter else keys.bore
 
 

@@ -47,7 +47,7 @@ class WorkingTable(Struct, forbid_unknown_fields=True, frozen=True):
     bore: Annotated[str, _hole("bores")] = "H7"
     keyway: Annotated[str, _hole("the width of keyways in bores")] = "Js9"
     shaft: Annotated[str, _shaft("steps of a shaft")] = "h11"
-    shaft_keyway: Annotated[str, _hole("the width of keyways in shafts")] = "P9"
+    shaft_keyway: Annotated[str, _hole("the width of keyways in shafts")] = "N9"
     width: Annotated[str, _shaft("the face width")] = "h11"
     roughness: Annotated[float, _rough("all surfaces that have no sign of their own")] = 6.3
     flank_roughness: Annotated[float, _rough("working surfaces: flanks of teeth and cams")] = 1.6

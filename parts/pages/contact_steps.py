@@ -139,7 +139,7 @@ def measured_steps(page: Sheet, pair: ExternalPair, arc: float, pitch: float) ->
     page.add("measured_difference_percent", abs(ratio / pair.contact_ratio - 1) * 100, formula, "practicum (3.22)")
 
 
-def sliding_steps(page: Sheet, pair: Pair, speed_rpm: float | None) -> None:
+def sliding_steps(page: Sheet, pair: Pair, helical: Helical, speed_rpm: float | None) -> None:
     """The line of action and its parts, specific sliding; the first gear drives, with its speed speeds in mm/s too."""
     line, external = active_line(pair), pair.sign > 0
     whole = not _tips_are_broken(pair) and abs(pair.effective_contact_ratio - pair.contact_ratio) < 1e-9
@@ -171,19 +171,23 @@ def sliding_steps(page: Sheet, pair: Pair, speed_rpm: float | None) -> None:
     page.add("sliding_factor_at_start", factors[0], f"{{g_f}} * {per}", "ISO 21771")
     page.add("sliding_factor_at_end", factors[1], f"{{g_a}} * {per}", "ISO 21771")
     if speed_rpm is not None:
-        _speed_steps(page, pair, line.length, factors, speed_rpm)
+        _speed_steps(page, pair, helical, line.length, factors, speed_rpm)
     if line.approach < 0 or line.recess < 0:
         page.notes.append(N_("the pole lies outside the active line of action"))
 
 
-def _speed_steps(page: Sheet, pair: Pair, active: float, factors: tuple[float, float], speed_rpm: float) -> None:
+def _speed_steps(
+    page: Sheet, pair: Pair, helical: Helical, active: float, factors: tuple[float, float], speed_rpm: float
+) -> None:
     """What depends on time: speeds of both gears, of their working circles, of sliding at both ends of contact."""
     page.section(N_("Speeds"))
     page.add("gear_speed", speed_rpm, gear=1, given=True)
     page.add("gear_speed", speed_rpm / pair.gear_ratio, "{n1} / {u}", "ISO 21771", 2)
+    # helical teeth end their contact at one face later than at the other
+    later = " + 2 * pi * {eps_beta} / {z#}" if helical.angle else ""
     for gear, one in enumerate((pair.first, pair.second), 1):
-        turned = math.degrees(active / one.base_radius)
-        page.add("angle_of_action_deg", turned, "{g} / {r_b#}", "ISO 21771", gear)
+        turned = math.degrees(active / one.base_radius + helical.face.overlap_ratio * one.pitch_angle)
+        page.add("angle_of_action_deg", turned, f"{{g}} / {{r_b#}}{later}", "ISO 21771", gear)
     speed = math.pi * speed_rpm / 30 * pair.working_radii[0]
     page.add("pitch_speed", speed, "pi * {n1} / 30 * {r_w1}", "ISO 21771")
     page.add("sliding_speed_at_start", factors[0] * speed, "{K_gf} * {v_w}", "ISO 21771")

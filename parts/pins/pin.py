@@ -9,7 +9,7 @@ from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report, Stock
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import BoreDiameter, mm
-from parts.keys.holes import BoredKeys
+from parts.keys.holes import BoredKeys, check_bore
 from parts.keys.pins import MOST, check_holes, holes_of, most_of, moved_region
 
 if TYPE_CHECKING:
@@ -64,6 +64,7 @@ class Pin(_Round[PinSpec]):
         from geometry.solids.pin_plates import RoundDisc
 
         most = keys.diameter - 2 * least_wall(keys.diameter / 2)
+        check_bore(keys.bore_diameter)
         if keys.bore_diameter > most:
             cure = limit(most, keys.bore_diameter, digits=6)
             raise ParameterError("bore_diameter", keys.bore_diameter, "leaves_no_wall", cure)

@@ -164,7 +164,6 @@ REASONS = {
     "worm_spaces_closed": N_("the spaces between the threads close above the root; take more q or fewer starts"),
     "only_of_thread_ends": N_("is for thread_ends = '{ends}'"),
     "worm_step_groove": N_("would be a groove before the next step of the shaft, which is thicker than what it leaves"),
-    "worm_step_chamfer": N_("leaves nothing of its step of the shaft"),
     "worm_thread_too_short": N_("leaves no whole thread between its ends"),
     "wheels_of_scheme": N_("this scheme has {wheels} wheels, in the order z1, z2, (z2',) z3"),
 }

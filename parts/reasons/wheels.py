@@ -29,6 +29,7 @@ REASONS = {
     "chamfer_leaves_nothing_of_hole": N_("leaves nothing of a hole at the face"),
     "chamfer_leaves_nothing_of_hub": N_("leaves nothing of the hub at the face"),
     "chamfer_leaves_nothing_of_rim": N_("leaves nothing of the rim at the face"),
+    "chamfer_leaves_nothing_of_step": N_("leaves nothing of its step of the shaft"),
     "chamfer_leaves_nothing_of_tooth_outline": N_("leaves nothing of the tooth outline at the face"),
     "chamfers_meet": N_("meets the other chamfer"),
     "closes_bore": N_("closes the bore"),

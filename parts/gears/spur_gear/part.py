@@ -30,7 +30,7 @@ from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
 from parts.gears.quantities import circles, tooth_quantities
-from parts.keys.base import BoreDiameter, either, in_modules, mm
+from parts.keys.base import BoreDiameter, in_modules, mm
 from parts.keys.cutter import CutterTable, PressureAngle, RackName, cutter_of
 from parts.keys.engraving import Marks, ToothMarkTable, marked, tooth_mark
 from parts.keys.helix import (
@@ -40,7 +40,7 @@ from parts.keys.helix import (
     section_finding,
     told_in_keys,
 )
-from parts.keys.holes import BoreTable, HolesTable, SpokesTable, hub_holes, with_remedy
+from parts.keys.holes import BoreTable, HolesTable, SpokesTable, bore_of, hub_holes, with_remedy
 from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, WebTable, checked_wheel, shape_of
 
 if TYPE_CHECKING:
@@ -240,8 +240,7 @@ def gear_of(keys: SpurGearSpec) -> SpurGear:
         Its rack cannot exist, or two keys exclude each other.
     """
     checked_teeth(keys)
-    if keys.bore is not None and keys.bore_diameter > 0:
-        raise either("bore_diameter", keys.bore_diameter, "bore", 0.0)
+    bore = bore_of(keys)
     _check_unused(keys)
     cutter = None if keys.cutter is None else cutter_of(keys.cutter, keys.module, math.radians(keys.pressure_angle_deg))
     return SpurGear(
@@ -254,8 +253,7 @@ def gear_of(keys: SpurGearSpec) -> SpurGear:
         thinning_by_deeper_cut=keys.thinning_method == "deeper_cut",
         tip_chamfer=keys.tip_chamfer,
         tip_rounding=keys.tip_rounding,
-        bore_diameter=keys.bore_diameter,
-        hub=hub_holes(keys.bore, keys.holes, keys.spokes),
+        hub=hub_holes(bore, keys.holes, keys.spokes),
         cutter=cutter,
     )
 

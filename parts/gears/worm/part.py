@@ -188,7 +188,7 @@ def _check_shaft(keys: WormSpec, root: float) -> None:
             most_chamfer = min(step.length, step.diameter / 2 - least_wall(step.diameter / 2))
             if step.chamfer > most_chamfer:
                 cure = limit(most_chamfer, step.chamfer)
-                raise ParameterError(f"{place}.chamfer", step.chamfer, "worm_step_chamfer", cure)
+                raise ParameterError(f"{place}.chamfer", step.chamfer, "chamfer_leaves_nothing_of_step", cure)
 
 
 def _check_bore(keys: WormSpec, holes: HubHoles, root: float) -> None:

@@ -246,7 +246,7 @@ def _page(asked: Asked) -> Sheet:
             raise ParameterError(name, measured[name], "needs_other", REMOVED, other=other)
     if keys.measured_arc_of_action is not None and keys.measured_working_pitch is not None:
         measured_steps(page, pair, keys.measured_arc_of_action, keys.measured_working_pitch)
-    sliding_steps(page, pair, keys.speed_rpm)
+    sliding_steps(page, pair, asked.helical, keys.speed_rpm)
     formulas = "{p_w} - {S_w1} - {S_w2}", "{a_w} - {r_f#} - {r_a~}"
     backlash_steps(page, pair, pair.circumferential_backlash, asked.helical, formulas)
     page.section(in_context("pair", "Limits"))

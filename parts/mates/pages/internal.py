@@ -197,7 +197,7 @@ def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> 
     _internal_sizes(page, pair)
     heading(page, helical, N_("Contact ratio"))
     contact_steps(page, pair, helical)
-    sliding_steps(page, pair, keys.speed_rpm)
+    sliding_steps(page, pair, helical, keys.speed_rpm)
     backlash_steps(page, pair, pair.circumferential_backlash, helical)
     _internal_limits(page, pair, helical)
     return page

@@ -214,6 +214,13 @@ def test_a_helical_pair_after_iso_21771_to_ten_digits() -> None:
     assert values["profile_shift_sum"] == pytest.approx(0.6518771312, abs=1e-10)
 
 
+def test_a_pair_of_helical_teeth_is_in_contact_as_long_as_its_total_contact_ratio_says() -> None:
+    values = values_of("gear-pair helical_pair speed_rpm=300")["values"]
+    for gear, teeth in (("first", 17), ("second", 31)):
+        turned = 360 * values["total_contact_ratio"] / teeth
+        assert values["angle_of_action_deg"][gear] == pytest.approx(turned, rel=1e-12)
+
+
 @pytest.mark.parametrize("kind", ["external_gear_pair second.number_of_teeth=41",
                                   "internal_gear_pair second.number_of_teeth=80"])  # fmt: skip
 def test_coefficients_of_a_helical_pair_are_its_lengths_over_the_normal_module(kind: str) -> None:

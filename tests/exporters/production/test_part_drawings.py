@@ -234,7 +234,7 @@ def test_keyways_stand_in_their_directions_with_marks_of_their_sections(
     texts = [text.dxf.text for text in space.query("TEXT")]
     assert (texts.count("A"), texts.count("B")) == (2, 2)
     # each keyway has its own width and depth
-    assert sum("P9" in key for key in sizes(tmp_path / job.path)) == 1 + len(angles)
+    assert sum("N9" in key for key in sizes(tmp_path / job.path)) == 1 + len(angles)
     # the first looks at the reader, or stands in the section along the axis; others as they are
     assert bool(space.query("*[layer=='HIDDEN']")) == any((angle % 180 if bore else angle) != 90 for angle in angles)
     assert any(text.endswith("°") for text in texts) == any(angle % 90 for angle in angles)

@@ -165,6 +165,14 @@ REFUSED = {
     ),
     "hole in a fillet": (COVER | {"holes": {"count": 3, "diameter": 4.0, "pitch_circle_diameter": 57.0}}, "holes"),
     "bore": ({"kind": "shaft", "bore_diameter": 10.0, "steps": [{"diameter": 10.0, "length": 20.0}]}, "bore_diameter"),
+    "no bore": ({"kind": "shaft", "bore_diameter": 1e-7, "steps": [{"diameter": 9.0, "length": 9.0}]}, "bore_diameter"),
+    "chamfer to the axis": (
+        {"kind": "shaft", "steps": [{"diameter": 9.0, "length": 9.0, "chamfer": 4.5}]}, "steps[1].chamfer"
+    ),
+    "chamfer to the bore": (
+        {"kind": "shaft", "bore_diameter": 6.0, "steps": [{"diameter": 9.0, "length": 9.0, "chamfer": 1.5}]},
+        "steps[1].chamfer",
+    ),
     "fillet": (
         {"kind": "shaft", "steps": [{"diameter": 9.0, "length": 9, "fillet": 3.0}, {"diameter": 9.5, "length": 5.0}]},
         "steps[1].fillet",
