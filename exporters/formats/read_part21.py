@@ -140,9 +140,14 @@ _WORDED: dict[str, tuple[tuple[str | None, ...], ...]] = {
 _GAP = rb"(?:\s|/\*(?:[^*]|\*(?!/))*+\*/)*+"
 _BEGIN = re.compile(rb"%bISO-10303-21;%bHEADER;(.*?)ENDSEC;%bDATA;\s*" % (_GAP, _GAP, _GAP), re.DOTALL)
 _COMMENT = re.compile(rb"('[^']*')|/\*.*?\*/", re.DOTALL)
-_SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'AUTOMOTIVE_DESIGN\b")
-_WORDS = rb"\(((?:\s*'(?:[^']|'')*'\s*,?)*+)\)"
-_NAMED = re.compile(rb"FILE_NAME\s*\(\s*'(?:[^']|'')*'\s*,\s*'[^']*'\s*,\s*%b\s*,\s*%b" % (_WORDS, _WORDS))
+_TEXT, _WORDS = rb"\s*'(?:[^']|'')*+'\s*", rb"\s*\((?:\s*'(?:[^']|'')*'\s*,?)*+\)\s*"
+# the three entities of a header, of which authors, organisations and schemas are read; a word that is not known is $
+_NAME = (_TEXT, _TEXT, b"(%b)" % _WORDS, b"(%b)" % _WORDS, _TEXT, _TEXT, rb"(?:%b|\s*\$\s*)" % _TEXT)
+_HEADER = re.compile(
+    rb"\s*FILE_DESCRIPTION\s*\(%b,%b\)\s*;\s*FILE_NAME\s*\(%b\)\s*;\s*FILE_SCHEMA\s*\((%b)\)\s*;\s*"
+    % (_WORDS, _TEXT, b",".join(_NAME), _WORDS)
+)
+_SCHEMA = re.compile(rb"\s*\(\s*'AUTOMOTIVE_DESIGN\b")
 _QUOTED = re.compile(rb"'((?:[^']|'')*)'")
 _END = re.compile(rb"ENDSEC;%bEND-ISO-10303-21;%b$" % (_GAP, _GAP))
 _STRINGS, _STRING = re.compile(rb'[!\d"]*"'), re.compile(rb'(?:!(\d+))?"')
@@ -253,12 +258,10 @@ def _joined(found: list[Numbers]) -> Numbers:
 def read_signature(file: Path) -> tuple[str, str]:
     """The author and the organisation of a STEP file's header; more than one of either are told with commas."""
     with file.open("rb") as source:
-        begin = _BEGIN.match(source.read(_PIECE))
-    named = begin and _NAMED.search(_COMMENT.sub(rb"\1", begin[1]))
-    if not named:
-        raise ReadError("the header of the STEP file does not say who made it")
+        named, _ = _header(source.read(_PIECE))
     author, organisation = (
-        ", ".join(_decoded(word.replace(b"''", b"'")) for word in _QUOTED.findall(words)) for words in named.groups()
+        ", ".join(_decoded(word.replace(b"''", b"'")) for word in _QUOTED.findall(words))
+        for words in named.groups()[:2]
     )
     return author, organisation
 
@@ -296,15 +299,24 @@ def _referred(kind: str) -> tuple[tuple[str, ...], ...]:
     return tuple(tuple(word.split("/")) for word in told.split())
 
 
-def _pieces(source: BinaryIO) -> Iterator[bytes]:
-    """What lies between DATA and its end, in pieces of whole entities."""
-    held = source.read(_PIECE)
+def _header(held: bytes) -> tuple[re.Match[bytes], int]:
+    """What a header says, and where the data begin."""
     begin = _BEGIN.match(held)
     if begin is None:
         raise ReadError("not a readable STEP file")
-    if not _SCHEMA.search(begin[1]):
+    found = _HEADER.fullmatch(_COMMENT.sub(rb"\1", begin[1]))
+    if found is None:
+        raise ReadError("the header of the STEP file is none of description, name and schema")
+    if not _SCHEMA.match(found[3]):
         raise ReadError("the STEP file is not of the schema AUTOMOTIVE_DESIGN")
-    held = held[begin.end() :]
+    return found, begin.end()
+
+
+def _pieces(source: BinaryIO) -> Iterator[bytes]:
+    """What lies between DATA and its end, in pieces of whole entities."""
+    held = source.read(_PIECE)
+    _, end_of_header = _header(held)
+    held = held[end_of_header:]
     while more := source.read(_PIECE):
         cut = max(held.rfind(end) for end in (b";\n#", b";\r\n#", b";#")) + 1
         if cut == 0:
