@@ -50,6 +50,8 @@ _LEAST_SHARE = 1e-9
 _LEAST_DEPTH = 0.04
 # heights at which a face is looked at, and how well places between them are known, part of the width
 _LEVELS, _SETTLED = 97, 1e-9
+# how far beyond the ends of a part the foot of a perpendicular may lie, as shares of it
+BEYOND = 0.02
 # shares of a fillet at which it is looked whether it folds
 _FOLD = np.linspace(0.0, 1.0, 17)[:, None]
 # how far beside an end of undercut it is looked at, part of the width
@@ -531,7 +533,19 @@ class WormTeeth(Record, dict=True):
                 self._plain(np.clip([*beside, *np.negative(beside)], -half, half))
         except NoTooth as ended:
             return ended.code
-        return "worm_wheel_flank_ends" if wide else None
+        return "worm_wheel_flank_ends" if wide or not self._runs_on else None
+
+    @property
+    def _runs_on(self) -> bool:
+        """Whether the contact of a swivelled hob runs on beyond the tip at the levels.
+
+        Just short of where it turns back in the plane no spline follows it, and no perpendicular has a foot.
+        """
+        if self.hob.swivel == 0:
+            return True
+        side = self._plain_levels
+        on = self._reach(side.inner + (side.outer - side.inner) * _hurried(1 + BEYOND, side.hurry[1]), self._levels)
+        return bool(((np.isfinite(on) & (on > self.tip_radius(self._levels))) | side.all_fillet).all())
 
     @property
     def _levels(self) -> Real:

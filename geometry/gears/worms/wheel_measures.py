@@ -13,7 +13,7 @@ import numpy as np
 
 from geometry.base.record import Record
 from geometry.curves.curve import Real
-from geometry.gears.worms.wheel import Side, WormTeeth
+from geometry.gears.worms.wheel import BEYOND, Side, WormTeeth
 from geometry.plane.measure import gauss_rule
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body
@@ -23,9 +23,8 @@ from geometry.solids.mass import Moments, body_moments
 _ALONG, _MOST_ALONG, _ACROSS = 32, 256, 32
 # where these are enough, part of the integrals
 _SETTLED = 1e-9
-# heights of a band and shares from which the foot of a perpendicular is sought, its steps, the step of derivatives,
-# and how far beyond the ends of a part it may lie, as shares of it
-_LEVELS, _SHARES, _STEPS, _SHIFT, _BEYOND = 65, 129, 4, 1e-5, 0.02
+# heights of a band and shares from which the foot of a perpendicular is sought, its steps, the step of derivatives
+_LEVELS, _SHARES, _STEPS, _SHIFT = 65, 129, 4, 1e-5
 # points that are looked at a time, and how near the border of flank and fillet both are looked at, modules
 _BLOCK, _BESIDE = 8192, 0.1
 # a way of no length, squared, mm^2
@@ -161,10 +160,10 @@ class WormWheel(Record, dict=True):
         for _ in range(_STEPS):
             step = (np.conj(way) * (plane - cut.plane)).real / np.maximum(np.abs(way) ** 2, _NONE)
             # where a side is about to fold a step means little
-            share = np.clip(share + np.clip(step, -_BEYOND, _BEYOND), -_BEYOND, 1 + _BEYOND)
+            share = np.clip(share + np.clip(step, -BEYOND, BEYOND), -BEYOND, 1 + BEYOND)
             cut = part(side, share)
         off = np.conj(cut.normal) * (plane - cut.plane)
-        ended = (share <= -_BEYOND) | (share >= 1 + _BEYOND)
+        ended = (share <= -BEYOND) | (share >= 1 + BEYOND)
         along = np.where(ended, np.abs(off.imag) / np.abs(cut.normal), 0.0)
         away = np.sqrt(off.real**2 + along**2 + (np.abs(points[:, 2] - self.middle) - np.abs(height)) ** 2)
         # where the fillet reaches the tip there is no flank
