@@ -240,7 +240,7 @@ def gear_of(keys: SpurGearSpec) -> SpurGear:
         Its rack cannot exist, or two keys exclude each other.
     """
     checked_teeth(keys)
-    bore = bore_of(keys)
+    bore_of(keys)
     _check_unused(keys)
     cutter = None if keys.cutter is None else cutter_of(keys.cutter, keys.module, math.radians(keys.pressure_angle_deg))
     return SpurGear(
@@ -253,7 +253,8 @@ def gear_of(keys: SpurGearSpec) -> SpurGear:
         thinning_by_deeper_cut=keys.thinning_method == "deeper_cut",
         tip_chamfer=keys.tip_chamfer,
         tip_rounding=keys.tip_rounding,
-        hub=hub_holes(bore, keys.holes, keys.spokes),
+        bore_diameter=keys.bore_diameter,
+        hub=hub_holes(keys.bore, keys.holes, keys.spokes),
         cutter=cutter,
     )
 
