@@ -23,7 +23,20 @@ from geometry.solids.windows import RoundHoles
 from parts.drawing.extent import crossings, reach
 from parts.drawing.places import apart, circled, place_sizes
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
-from parts.drawing.working import AXIS, THIN, TURNED, VISIBLE, Note, Round, Size, Stroke, Subject, View, arc_angles
+from parts.drawing.working import (
+    AXIS,
+    THIN,
+    TURNED,
+    VISIBLE,
+    Note,
+    Round,
+    Side,
+    Size,
+    Stroke,
+    Subject,
+    View,
+    arc_angles,
+)
 from parts.texts.sheets import sheet_words, view_letter
 
 # a view of a bore is so high on paper at least, mm
@@ -267,8 +280,8 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
     shape, at, wishes = wheel.shape, levels(wheel.shape), subject.wishes
     width, bore, found = shape.face_width, wheel.holes.bore, list[Size]()
 
-    def diameter(name: str, size: float, z: float, side: str, fit: str = "") -> None:
-        found.append(Size(name, complex(z, -size / 2), complex(z, size / 2), side, "Ø", fit))  # type: ignore[arg-type]
+    def diameter(name: str, size: float, z: float, side: Side, fit: str = "") -> None:
+        found.append(Size(name, complex(z, -size / 2), complex(z, size / 2), side, "Ø", fit))
 
     up, down = wheel.tip
     if up == down and (wheel.stands or wheel.outline is None):
