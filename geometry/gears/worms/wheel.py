@@ -87,7 +87,7 @@ class Side(Record, eq=False):
     hurry: tuple[Real, Real]
     all_fillet: NDArray[np.bool_]
 
-    def only(self, which: NDArray[np.bool_]) -> Side:
+    def only(self, which: NDArray[np.bool_] | NDArray[np.intp]) -> Side:
         """The same at some of the heights."""
         flags = (self.undercut[which], (self.hurry[0][which], self.hurry[1][which]), self.all_fillet[which])
         return Side(self.heights[which], self.inner[which], self.normal[which], self.outer[which], *flags)

@@ -6,13 +6,16 @@ The wheel is teeth about a core: a body whose rim is a circle, which the teeth t
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from geometry.base.record import Record
-from geometry.curves.curve import Real
+from geometry.curves.curve import Complex, Real
+from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import BEYOND, Side, WormTeeth
 from geometry.plane.measure import gauss_rule
 from geometry.plane.profile import Profile
@@ -24,11 +27,15 @@ _ALONG, _MOST_ALONG, _ACROSS = 32, 256, 32
 # where these are enough, part of the integrals
 _SETTLED = 1e-9
 # heights of a band and shares from which the foot of a perpendicular is sought, its steps, the step of derivatives
-_LEVELS, _SHARES, _STEPS, _SHIFT = 65, 129, 4, 1e-5
+_LEVELS, _SHARES, _STEPS, _SHIFT = 65, 129, 64, 1e-5
+# how near along a side a foot is found, modules
+_FOUND = 1e-6
 # points that are looked at a time, and how near the border of flank and fillet both are looked at, modules
 _BLOCK, _BESIDE = 8192, 0.1
 # a way of no length, squared, mm^2
 _NONE = 1e-30
+# what a part of a side is at shares
+_Part = Callable[[Side, Real], Cut]
 # parts of a side
 FILLET, FLANK = 0, 1
 
@@ -153,21 +160,46 @@ class WormWheel(Record, dict=True):
         )
         none = np.zeros(len(height), dtype=bool)
         side = Side(height, inner, normal, outer, none, (hurry[0], hurry[1]), none)
-        part = (self.teeth.fillet, self.teeth.flank)[which]
-        cut = part(side, share)
-        way = (part(side, share + _SHIFT).plane - cut.plane) / _SHIFT
-        # the way is kept: the foot is found well enough for a distance, which errs by the square of what it is off
-        for _ in range(_STEPS):
-            step = (np.conj(way) * (plane - cut.plane)).real / np.maximum(np.abs(way) ** 2, _NONE)
-            # where a side is about to fold a step means little
-            share = np.clip(share + np.clip(step, -BEYOND, BEYOND), -BEYOND, 1 + BEYOND)
-            cut = part(side, share)
-        off = np.conj(cut.normal) * (plane - cut.plane)
-        ended = (share <= -BEYOND) | (share >= 1 + BEYOND)
-        along = np.where(ended, np.abs(off.imag) / np.abs(cut.normal), 0.0)
-        away = np.sqrt(off.real**2 + along**2 + (np.abs(points[:, 2] - self.middle) - np.abs(height)) ** 2)
+        cut, left = self._foot((self.teeth.fillet, self.teeth.flank)[which], side, plane, share)
+        off = (np.conj(cut.normal) * (plane - cut.plane)).real
+        # beyond its ends a part has no foot
+        along = np.where(np.abs(left) > self._found, left, 0.0)
+        away = np.sqrt(off**2 + along**2 + (np.abs(points[:, 2] - self.middle) - np.abs(height)) ** 2)
         # where the fillet reaches the tip there is no flank
         return np.where((inner == outer) & (which == FLANK), np.inf, away)
+
+    def _foot(self, part: _Part, side: Side, plane: Complex, share: Real) -> tuple[Cut, Real]:
+        """Feet of points (n,), each in its plane, sought from shares of a part; how far along it each is off still, mm.
+
+        Steps of the secant: where a side is about to fold a slope means little a step further on.
+        """
+        cut = part(side, share)
+        way = (part(side, share + _SHIFT).plane - cut.plane) / _SHIFT
+        slope = np.maximum(np.abs(way), _NONE)
+        forwards = np.sign((np.conj(cut.normal) * way).imag)
+
+        def ahead(which: NDArray[np.intp], cut: Cut) -> Real:
+            return forwards[which] * (np.conj(cut.normal) * (plane[which] - cut.plane)).imag / np.abs(cut.normal)
+
+        goes = np.arange(len(share))
+        share, left = share.copy(), ahead(goes, cut)
+        for _ in range(_STEPS):
+            end = np.where(left[goes] > 0, 1 + BEYOND, -BEYOND)
+            goes = goes[(np.abs(left[goes]) > self._found) & (share[goes] != end)]
+            if not goes.size:
+                break
+            step = np.clip(left[goes] / slope[goes], -BEYOND, BEYOND)
+            there = np.clip(share[goes] + step, -BEYOND, 1 + BEYOND)
+            now = ahead(goes, part(side.only(goes), there))
+            rise = (left[goes] - now) / (there - share[goes])
+            slope[goes] = np.where(rise > 0, rise, slope[goes])
+            share[goes], left[goes] = there, now
+        return part(side, share), left
+
+    @property
+    def _found(self) -> float:
+        """As near along a side a foot is found, mm: its distance errs by the square of that."""
+        return _FOUND * self.teeth.hob.worm.module
 
     @cached_property
     def _table(self) -> Side:

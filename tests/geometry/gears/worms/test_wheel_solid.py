@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 import shapely
@@ -20,8 +22,8 @@ THESIS = WormDrive(Worm(5.0, 1, 10.0), 128)
 STEEP = WormDrive(Worm(1.5, 2, 10.0), 40)
 
 
-def _wheel(drive: WormDrive, width: float, outer: float, hob: Hob | None = None) -> WormWheel:
-    hob = hob or oversized_hob(drive, 0.1, drive.worm.diameter_quotient)
+def _wheel(drive: WormDrive, width: float, outer: float, hob: Hob | None = None, *, rounding: float = 0.1) -> WormWheel:
+    hob = hob or oversized_hob(drive, rounding, drive.worm.diameter_quotient)
     teeth = WormTeeth(hob, drive.centre_distance, drive.throat_radius, outer, width)
     rim = circle(0.9 * drive.root_radius, Label.BODY)
     bore = circle(0.2 * drive.root_radius, Label.BORE, hole=True)
@@ -102,3 +104,24 @@ def test_the_thesis_wheel_has_a_face_for_each_flank_and_fillet() -> None:
     # every edge is run once each way
     uses = np.concatenate([loop[0].ravel() for faces in solid.faces for loop in faces.loops])
     assert (np.bincount(uses) == 2).all()
+
+
+@pytest.mark.parametrize(
+    ("worm", "teeth", "width", "outer"),
+    [
+        (Worm(2.5, 4, 2.769, form="ZA"), 15, 1.0083, 21.730625),
+        (Worm(2.0, 9, 11.76, form="ZN1", hand="left"), 128, 15.562, 130.545),
+    ],
+)
+def test_points_of_a_side_measure_nothing_where_it_bends_much(
+    worm: Worm, teeth: int, width: float, outer: float
+) -> None:
+    wheel = _wheel(WormDrive(worm, teeth), width, outer, rounding=0.2)
+    share = np.linspace(0.0, 1.0, 201)[:, None]
+    for low, high in pairwise(wheel.teeth.breaks):
+        heights = low + (high - low) * np.linspace(0.9, 1.0, 11)
+        side = wheel.teeth.side(heights)
+        for part in (wheel.teeth.fillet, wheel.teeth.flank):
+            plane = part(side, share).plane
+            points = np.stack([plane.real, plane.imag, np.broadcast_to(heights + wheel.middle, plane.shape)], axis=-1)
+            assert float(wheel.from_sides(points.reshape(-1, 3)).max()) < 1e-9
