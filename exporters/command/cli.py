@@ -217,7 +217,6 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         prog="higherpair",
         description=told.text("Exact gears as DXF, SVG, STL, 3MF and STEP, each file read back and measured."),
         epilog=told.text("examples:") + _EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("-V", "--version", action="version", version=f"higherpair {__version__}")
     commands = parser.add_subparsers(

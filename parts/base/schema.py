@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Collection, Iterable, Mapping
-from inspect import get_annotations
 from typing import Any, Literal, TypeVar, get_args, get_origin
 
 import msgspec
@@ -305,6 +304,8 @@ def _span(meta: Meta, kind: object) -> Message | None:
 
 def own_first(kind: type[Struct]) -> list[msgspec.structs.FieldInfo]:
     """The keys of a table: those that it needs, its own, and what it shares with more and more others."""
+    from inspect import get_annotations
+
     names = [name for one in kind.__mro__ for name in get_annotations(one)]
     return sorted(msgspec.structs.fields(kind), key=lambda field: (not field.required, names.index(field.name)))
 
