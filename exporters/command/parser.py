@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any, NoReturn
 
 from parts.base.texts import N_, Words, counted
@@ -48,10 +48,8 @@ class _Lines(argparse.RawDescriptionHelpFormatter):
         except (KeyError, ValueError):
             columns = 0
         if columns <= 0:
-            try:
+            with suppress(ValueError, OSError):
                 columns = os.get_terminal_size(sys.__stdout__.fileno()).columns if sys.__stdout__ else 0
-            except (ValueError, OSError):
-                pass
         super().__init__(prog, width=(columns or 80) - 2)
 
 
