@@ -6,11 +6,13 @@ import importlib
 import os
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from exporters.documents.render import FORMATS, render
 from geometry.base.errors import Nearest
 from parts.base.refusal import SceneError, meant
 from parts.base.registry import KINDS
+from parts.base.schema import as_written, plain_numbers
 from parts.base.texts import Words, languages
 from parts.base.texts import words as told
 from parts.pages.inputs import PLACE, table_of
@@ -80,7 +82,12 @@ def sheet_of(topic: str, words: Sequence[str], language: str | None = None) -> t
     addresses = [word for word in words if "=" not in word or os.path.isfile(word)]
     if len(addresses) > 1:
         raise SceneError(PLACE, addresses[1], None, "one_scene_only", None, other=addresses[0])
-    table = table_of([word for word in words if word not in addresses])
+    typed = table_of([word for word in words if word not in addresses])
+    with as_written({topic: typed}):
+        return _sheet_of(topic, addresses, plain_numbers(typed, PLACE, ""), language)
+
+
+def _sheet_of(topic: str, addresses: Sequence[str], table: dict[str, Any], language: str | None) -> tuple[Sheet, str]:
     if topic == "power-table" and isinstance(file := table.get("path"), str):
         from exporters.formats.read_path import read_path
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any, Literal, TypeVar, get_args, get_origin
 
 import msgspec
@@ -47,6 +48,17 @@ def plain_numbers(value: Any, source: str, place: str, nothing: float = _NOTHING
     if isinstance(value, list):
         return [plain_numbers(item, source, f"{place}[{index + 1}]", nothing) for index, item in enumerate(value)]
     return value
+
+
+@contextmanager
+def as_written(table: object) -> Iterator[None]:
+    """Refusals within tell a number that ``plain_numbers`` made 0 as it stands in the ``table`` of all keys."""
+    try:
+        yield
+    except SceneError as refusal:
+        if refusal.value == 0 and isinstance(held := _lookup(table, list(map(str, _steps(refusal.key)))), float):
+            refusal.value = held
+        raise
 
 
 def converted(table: object, kind: type[Struct], source: str, place: str) -> Any:
@@ -237,7 +249,7 @@ def _lookup(table: object, keys: list[str]) -> Any:
         if isinstance(table, dict):
             table = table.get(key)
         elif isinstance(table, list) and key.isdigit():
-            table = table[int(key)]
+            table = table[int(key)] if int(key) < len(table) else None
     return table
 
 

@@ -12,7 +12,7 @@ from msgspec import Struct
 
 from geometry.base.errors import ParameterError
 from parts.base.refusal import REMOVED, SceneError, explained, meant, placed
-from parts.base.schema import converted, plain_numbers, unit_of
+from parts.base.schema import converted, unit_of
 from parts.base.texts import Message
 from parts.pages.page import Sheet
 
@@ -61,7 +61,7 @@ def table_of(pairs: Sequence[str]) -> dict[str, Any]:
         if name in owner:
             raise SceneError(PLACE, key, text, "given_twice")
         owner[name] = toml_value(text.strip())
-    return plain_numbers(table, PLACE, "")
+    return table
 
 
 def toml_value(text: str) -> Any:

@@ -19,7 +19,7 @@ from parts.base.materials import check_material
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.registry import KINDS
-from parts.base.schema import converted, kind_of, plain_numbers, value_at
+from parts.base.schema import as_written, converted, kind_of, plain_numbers, value_at
 from parts.base.texts import ENGLISH, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid
@@ -278,7 +278,8 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | No
 
 def scene_from_dict(raw: dict[str, Any], source: str, name: str, language: str | None = None) -> SceneFile:
     """Validate the tables of a scene, its assemblies told out."""
-    return _validated(plain_numbers(raw, source, ""), source, name, language)
+    with as_written(raw):
+        return _validated(plain_numbers(raw, source, ""), source, name, language)
 
 
 def _validated(raw: dict[str, Any], source: str, name: str, language: str | None = None) -> SceneFile:

@@ -12,6 +12,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from exporters.command.cli import main
 from exporters.formats.registry import shape_of
 from exporters.production.plan import plan_build
 from geometry.base.errors import GeometryError
@@ -209,6 +210,18 @@ def test_what_rounding_leaves_of_nothing_is_nothing() -> None:
     assert json.dumps(told).count("-") == 3
     with pytest.raises(SceneError, match=r"b\.c\[2\] = inf"):
         plain_numbers({"b": {"c": [0.0, float("inf")]}}, "s", "")
+
+
+def test_a_refusal_tells_what_rounding_left_out_as_it_was_written(capsys: pytest.CaptureFixture[str]) -> None:
+    raw = sound()
+    raw["parts"]["gear"]["module"] = -1e-20
+    with pytest.raises(SceneError, match="module = -1e-20: "):
+        scene_from_dict(raw, "s", "s")
+    raw["parts"]["gear"] |= {"module": 2.0, "holes": [{"count": 3, "diameter": 1e-20, "pitch_circle_diameter": 20.0}]}
+    with pytest.raises(SceneError, match=r"holes\[1\].diameter = 1e-20: "):
+        scene_from_dict(raw, "s", "s")
+    assert main(["calc", "spur", "module=1e-20", "number_of_teeth=20"]) == 2
+    assert "spur.module = 1e-20: " in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("depth", [100, 900, 5000])
