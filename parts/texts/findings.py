@@ -27,7 +27,8 @@ FINDINGS: dict[str, Text] = {
         "{value:.4f} mm, the involute begins at {limit:.4f} mm on the line of action"
     ),
     "active_flank_cut_away_first": N_(
-        "undercut has cut away active flank of the first gear: {value:.4f} mm is needed, {limit:.4f} mm is left"
+        "undercut has cut away active flank of the first gear: "
+        "the mate asks for it from {value:.4f} mm, it begins at {limit:.4f} mm on the line of action"
     ),
     "tip_clearance_first": N_("the mate's tip strikes the root of the first gear: clearance {value:.4f} mm"),
     "fillet_interference_second": N_(
@@ -35,7 +36,8 @@ FINDINGS: dict[str, Text] = {
         "{value:.4f} mm, the involute begins at {limit:.4f} mm on the line of action"
     ),
     "active_flank_cut_away_second": N_(
-        "undercut has cut away active flank of the second gear: {value:.4f} mm is needed, {limit:.4f} mm is left"
+        "undercut has cut away active flank of the second gear: "
+        "the mate asks for it from {value:.4f} mm, it begins at {limit:.4f} mm on the line of action"
     ),
     "tip_clearance_second": N_("the mate's tip strikes the root of the second gear: clearance {value:.4f} mm"),
     "contact_ratio": N_("contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted"),
@@ -70,10 +72,10 @@ FINDINGS: dict[str, Text] = {
         "the ring's flank begins at {value:.4f} mm, the pinion's involute at {limit:.4f} mm on the line of action"
     ),
     "trochoid_interference": N_(
-        "the tips of pinion and ring strike each other on their way out: {value:.4f} mm of arc, {limit:.4f} mm needed"
+        "the tips of pinion and ring strike each other on their way out: {lack:.3g} mm of room is lacking"
     ),
     "radial_assembly": N_(
-        "the pinion goes into the ring only along its axis: room {value:.4f} mm, {limit:.4f} mm needed"
+        "the pinion goes into the ring only along its axis: {lack:.3g} mm of room is lacking"
     ),
     "thin_ring_rim": N_("thin rim: {value:.3f} mm outside the root circle, less than one module ({limit:.3f} mm)"),
     "rack_rounding_reduced": N_(
@@ -245,7 +247,8 @@ def add_findings(table: Mapping[str, Text]) -> None:
 
 def finding_message(finding: Finding) -> Message:
     """A finding as a sentence that waits for its language."""
-    return filled(FINDINGS[finding.code], value=finding.value, limit=finding.limit)
+    value, limit = finding.value, finding.limit
+    return filled(FINDINGS[finding.code], value=value, limit=limit, lack=limit - value)
 
 
 def finding_of(gear: int, finding: Finding) -> Message:

@@ -53,13 +53,17 @@ class InternalMesh(Record):
         """
         first, second = self._crossing_angles()
         if first is None or second is None:
-            clear = self.tip_radii[1] >= self.tip_radii[0] + self.distance
-            return Margin("trochoid_interference", 0.0, 0.0, math.inf if clear else -math.inf)
+            return self._within("trochoid_interference")
         ratio = self.teeth[0] / self.teeth[1]
         tips, working = self._tip_involutes(), involute_function(self.angle)
         scale = self.tip_radii[1]
         value = scale * ((first + tips[0] - working) * ratio + working - tips[1])
         return Margin("trochoid_interference", value, scale * second, value - scale * second)
+
+    def _within(self, name: str) -> Margin:
+        """What tip circles that do not cross keep wholly (inf), the pinion's within the ring's, or not at all (-inf)."""
+        room, needed = self.tip_radii[1], self.tip_radii[0] + self.distance
+        return Margin(name, room, needed, math.inf if room >= needed else -math.inf)
 
     def _crossing_angles(self) -> tuple[float | None, float | None]:
         """Polar angles about both axes, from the line of centres, at which the tip circles cross."""
@@ -80,8 +84,7 @@ class InternalMesh(Record):
         tips, working = self._tip_involutes(), involute_function(self.angle)
         first, _ = self._crossing_angles()
         if first is None:
-            clear = two >= one + self.distance
-            return Margin("radial_assembly", 0.0, 0.0, math.inf if clear else -math.inf)
+            return self._within("radial_assembly")
 
         def ring_angle(f: float) -> float:
             return ratio * (f + tips[0] - working) - tips[1] + working

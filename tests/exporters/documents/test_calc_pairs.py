@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 import pytest
@@ -82,6 +83,13 @@ def test_broken_conditions_are_named() -> None:
              "second.rounded_root.full_round=true"]  # fmt: skip
     text = calculate("gear-pair", asked, "text", "uk")
     assert words("uk").say(FINDINGS["trochoid_interference"]).split(":")[0] in text
+    # what is lacking is the margin of the page, with a room of exactly 0 needed too
+    found = values_of(f"gear-pair {' '.join(asked)}")["values"]
+    lacking = [
+        float(n) for n in re.findall(r": ([\d.]+) mm of room is lacking", calculate("gear-pair", asked, "text", "en"))
+    ]
+    margins = [found[f"{name}_margin"] for name in ("trochoid_interference", "radial_assembly")]
+    assert lacking == [pytest.approx(-margin, rel=5e-3) for margin in margins]
 
 
 def test_wishes_are_met() -> None:
