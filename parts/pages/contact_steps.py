@@ -171,25 +171,29 @@ def sliding_steps(page: Sheet, pair: Pair, helical: Helical, speed_rpm: float | 
     page.add("sliding_factor_at_start", factors[0], f"{{g_f}} * {per}", "ISO 21771")
     page.add("sliding_factor_at_end", factors[1], f"{{g_a}} * {per}", "ISO 21771")
     if speed_rpm is not None:
-        _speed_steps(page, pair, helical, line.length, factors, speed_rpm)
+        speed_steps(page, pair, helical, line.length, factors, speed_rpm)
     if line.approach < 0 or line.recess < 0:
         page.notes.append(N_("the pole lies outside the active line of action"))
 
 
-def _speed_steps(
-    page: Sheet, pair: Pair, helical: Helical, active: float, factors: tuple[float, float], speed_rpm: float
+def speed_steps(
+    page: Sheet, pair: Pair | RackPair, helical: Helical, active: float, factors: tuple[float, float], speed_rpm: float
 ) -> None:
-    """What depends on time: speeds of both gears, of their working circles, of sliding at both ends of contact."""
+    """What depends on time: speeds of gears and of their working circles, of sliding at both ends of contact."""
     page.section(N_("Speeds"))
     page.add("gear_speed", speed_rpm, gear=1, given=True)
-    page.add("gear_speed", speed_rpm / pair.gear_ratio, "{n1} / {u}", "ISO 21771", 2)
+    if isinstance(pair, RackPair):
+        radius, circle = pair.gear.reference_radius, "{r1}"
+    else:
+        radius, circle = pair.working_radii[0], "{r_w1}"
+        page.add("gear_speed", speed_rpm / pair.gear_ratio, "{n1} / {u}", "ISO 21771", 2)
     # helical teeth end their contact at one face later than at the other
     later = " + 2 * pi * {eps_beta} / {z#}" if helical.angle else ""
-    for gear, one in enumerate((pair.first, pair.second), 1):
+    for gear, one in enumerate(pair.gears, 1):
         turned = math.degrees(active / one.base_radius + helical.face.overlap_ratio * one.pitch_angle)
         page.add("angle_of_action_deg", turned, f"{{g}} / {{r_b#}}{later}", "ISO 21771", gear)
-    speed = math.pi * speed_rpm / 30 * pair.working_radii[0]
-    page.add("pitch_speed", speed, "pi * {n1} / 30 * {r_w1}", "ISO 21771")
+    speed = math.pi * speed_rpm / 30 * radius
+    page.add("pitch_speed", speed, f"pi * {{n1}} / 30 * {circle}", "ISO 21771")
     page.add("sliding_speed_at_start", factors[0] * speed, "{K_gf} * {v_w}", "ISO 21771")
     page.add("sliding_speed_at_end", factors[1] * speed, "{K_ga} * {v_w}", "ISO 21771")
 

@@ -74,9 +74,7 @@ FINDINGS: dict[str, Text] = {
     "trochoid_interference": N_(
         "the tips of pinion and ring strike each other on their way out: {lack:.3g} mm of room is lacking"
     ),
-    "radial_assembly": N_(
-        "the pinion goes into the ring only along its axis: {lack:.3g} mm of room is lacking"
-    ),
+    "radial_assembly": N_("the pinion goes into the ring only along its axis: {lack:.3g} mm of room is lacking"),
     "thin_ring_rim": N_("thin rim: {value:.3f} mm outside the root circle, less than one module ({limit:.3f} mm)"),
     "rack_rounding_reduced": N_(
         "the tip of the basic rack is rounded by {value:.4f} m: the standard's {limit:.2f} m, which is for 20 degrees, "

@@ -66,6 +66,7 @@ class RackKeys(Struct, forbid_unknown_fields=True):
         Annotated[float, mm("wanted distance from axis to datum line", above=0, most=100_000)] | None
     ) = None
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
+    speed_rpm: GearSpeed | None = None
 
 
 def internal_sheet(table: dict[str, Any]) -> Sheet:
@@ -152,7 +153,7 @@ def rack_sheet(table: dict[str, Any]) -> Sheet:
         }
         mating = mated(ends, [mate], _SAME)[1][0]
         assert isinstance(mating, RackMating)
-        page = rack_page(mating.pair, TOPIC, _helical(keys))
+        page = rack_page(mating.pair, TOPIC, _helical(keys), keys.speed_rpm)
     except ParameterError as error:
         raise _refused(error, keys) from error
     for index, found in ((1, rack_findings(keys.first, mating.pair.gear)), (2, rounding_finding(keys.second))):

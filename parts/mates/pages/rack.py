@@ -9,7 +9,7 @@ from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.spur import SpurGear
 from parts.base.texts import N_
 from parts.gears.spur_gear.page import addendum_formula, dedendum_formula, given_data
-from parts.pages.contact_steps import ISO, Helical, backlash_steps, heading, limit_steps, overlap_steps
+from parts.pages.contact_steps import ISO, Helical, backlash_steps, heading, limit_steps, overlap_steps, speed_steps
 from parts.pages.page import Sheet
 
 
@@ -21,8 +21,8 @@ def first_radii(page: Sheet, gear: SpurGear, helical: Helical) -> None:
     page.add("root_radius", gear.root_radius, formula, "practicum (3.13)", 1)
 
 
-def rack_page(pair: RackPair, topic: str, helical: Helical) -> Sheet:
-    """The page of a gear and its rack."""
+def rack_page(pair: RackPair, topic: str, helical: Helical, speed_rpm: float | None) -> Sheet:
+    """The page of a gear and its rack; with the gear's speed speeds in mm/s too."""
     gear, rack = pair.gear, pair.rack
     alpha = rack.rack.pressure_angle
     page = Sheet(topic, N_("Gear and rack"))
@@ -51,12 +51,12 @@ def rack_page(pair: RackPair, topic: str, helical: Helical) -> Sheet:
     angle = measurement.angle_at(gear, gear.tip_radius)
     page.add("tip_pressure_angle_deg", math.degrees(angle), "arccos({r_b1} / {r_a1})", "practicum (3.18)", 1)
     page.add("tip_thickness", limits.tip_thickness(gear), "", "ISO 21771", 1)
-    _rack_contact(page, pair, helical)
+    _rack_contact(page, pair, helical, speed_rpm)
     return page
 
 
-def _rack_contact(page: Sheet, pair: RackPair, helical: Helical) -> None:
-    """Contact ratio, backlash and the conditions."""
+def _rack_contact(page: Sheet, pair: RackPair, helical: Helical, speed_rpm: float | None) -> None:
+    """Contact ratio, sliding, backlash and the conditions."""
     page.section(N_("Contact ratio"))
     formula = (
         "({r_b1} * tan({alpha_a1}) - {r1} * sin({alpha}) + ({r1} - {a_w} + {h_aR}) / sin({alpha})) "
@@ -71,6 +71,11 @@ def _rack_contact(page: Sheet, pair: RackPair, helical: Helical) -> None:
     page.add("active_line_length", high - low, "", "practicum, fig. 3.11")
     page.add("approach_length", pole - low, "", "ISO 21771")
     page.add("recess_length", high - pole, "{g} - {g_f}", "ISO 21771")
+    factors = (pole - low) / gear.reference_radius, (high - pole) / gear.reference_radius
+    page.add("sliding_factor_at_start", factors[0], "{g_f} / {r1}", "ISO 21771")
+    page.add("sliding_factor_at_end", factors[1], "{g_a} / {r1}", "ISO 21771")
+    if speed_rpm is not None:
+        speed_steps(page, pair, helical, high - low, factors, speed_rpm)
     backlash_steps(page, pair, pair.normal_backlash / math.cos(rack.rack.pressure_angle), helical)
     page.section(N_("Conditions: margins"))
     found = {m.name: m for m in pair.margins()}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from typing import Any
 
@@ -34,7 +35,7 @@ SHEETS = [
     "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 helix_angle_deg=-15 "
     "working_centre_distance=62.5 second.tip_rule=KHK",
     "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 helix_angle_deg=20 "
-    "normal_backlash=0.1 first.profile_shift_coefficient=0.2",
+    "speed_rpm=90 normal_backlash=0.1 first.profile_shift_coefficient=0.2",
 ]
 
 
@@ -76,6 +77,20 @@ def test_a_scene_gives_the_pair_that_it_builds() -> None:
     fillets = data["fillet_interference_margin"]
     assert fillets["first"] == pytest.approx(margins["fillet_interference_pinion"], rel=1e-12)
     assert fillets["second"] == pytest.approx(margins["fillet_interference_ring"], rel=1e-12)
+
+
+def test_sliding_on_a_rack_is_the_difference_of_both_speeds() -> None:
+    """By brute force: at the ends of contact both material points along the flank, omega x r and the rack's travel."""
+    values = values_of(
+        "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 speed_rpm=90"
+    )
+    found, omega, alpha = values["values"], 90 * math.pi / 30, math.radians(20)
+    assert found["pitch_speed"] == pytest.approx(omega * 20.0)
+    for name, along in (("start", -found["approach_length"]), ("end", found["recess_length"])):
+        place = 20.0 + along * complex(math.sin(alpha), math.cos(alpha))
+        difference = 1j * omega * place - 1j * omega * 20.0
+        assert abs(difference) == pytest.approx(found[f"sliding_speed_at_{name}"], rel=1e-9)
+    assert found["angle_of_action_deg"]["first"] == pytest.approx(found["effective_contact_ratio"] * 360 / 20, rel=1e-9)
 
 
 def test_broken_conditions_are_named() -> None:
