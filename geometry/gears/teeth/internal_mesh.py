@@ -61,7 +61,7 @@ class InternalMesh(Record):
         return Margin("trochoid_interference", value, scale * second, value - scale * second)
 
     def _within(self, name: str) -> Margin:
-        """What tip circles that do not cross keep wholly (inf), the pinion's within the ring's, or not at all (-inf)."""
+        """What tip circles that do not cross keep wholly (inf) or, the ring's the smaller, not at all (-inf)."""
         room, needed = self.tip_radii[1], self.tip_radii[0] + self.distance
         return Margin(name, room, needed, math.inf if room >= needed else -math.inf)
 
