@@ -99,14 +99,14 @@ class Followed:
         """The places of what is referred to among all entities of some kinds."""
         ids = self.ids(*kinds)
         order = self.known[tuple(kinds)][1]
-        place = np.minimum(ids.searchsorted(references, sorter=order), len(ids) - 1)
-        good = ids[order[place]] == references if len(ids) else np.zeros(len(references), bool)
+        place = order.take(ids.searchsorted(references, sorter=order), mode="clip") if len(ids) else order
+        good = ids[place] == references if len(ids) else np.zeros(len(references), bool)
         if not good.all():
             wrong = int(np.argmin(good))
             raise ReadError(
                 f"#{who[wrong]} of the STEP file refers to #{int(references[wrong])}, which is no {' or '.join(kinds)}"
             )
-        return np.asarray(order[place])
+        return place
 
     def lists(self, texts: Sequence[bytes], kinds: Sequence[str], who: Index) -> tuple[Index, Index]:
         """The same of lists of references, one behind the other, and of how many each consists."""
