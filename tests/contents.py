@@ -1,20 +1,27 @@
-"""What is told, by name: steps of calculations, and results, circles and remarks of every kind of part and mate.
+"""What is told, by name: steps of pages, results and remarks of every kind of part, what recipes make, drawings hold.
 
-``contents.txt`` lists names and never numbers: what a page and a report have to say. Who adds one or drops one runs
+``contents.txt`` lists names and counts of lines, and no number that is measured. Who adds something or drops it runs
 ``python -m tests.contents`` and reads the difference.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache
 from pathlib import Path
+from typing import Any
+
+import msgspec
 
 from exporters.documents.topics import sheet_of
+from exporters.production.plan import plan_build
+from exporters.production.sheets import SheetJob
 from parts.base.texts import words
 from parts.pages.page import Sheet
 from parts.scene.files import built_in_scenes
-from parts.scene.load import make_parts, scene_from_dict
+from parts.scene.load import ExportSpec, load_scene, make_parts, scene_from_dict
 from tests.exporters.documents import (
     test_calc,
     test_calc_cam_kinds,
@@ -28,6 +35,10 @@ from tests.exporters.documents.test_calc import sheet_for
 from tests.offered import scenes
 
 FILE = Path(__file__).parent / "contents.txt"
+_NUMBER = re.compile(r"\d+(?:[.,]\d+)*")
+_DRAWN = ("guidelines_cam", "james", "practicum_flat_cam", "practicum_pair", "practicum_roller_cam", "rack_and_pinion",
+          "thesis_internal_pair", "tmm42", "working_drawings")  # fmt: skip
+_TOGETHER = ("idler_train", "laser_gear", "lesson_1", "worm")
 _CAM_SCENES = ("groove_cam", "conjugate_cams", "yoke_cam", "wedge_cam", "barrel_cam part=end", "barrel_cam part=barrel")
 
 
@@ -76,6 +87,64 @@ def lines_of_scene(name: str) -> Iterator[str]:
         yield from _line(f"mate {index}", mate.quantities())
 
 
+def recipes() -> list[str]:
+    """Built-in scenes of which recipes make parts."""
+    return [name for name, file in built_in_scenes().items() if "[[assemblies" in file.read_text("utf-8")]
+
+
+def lines_of_recipe(name: str) -> Iterator[str]:
+    """Each part with the keys that it gives, each instance with its part, mates, drives and steps by what they join."""
+    scene = load_scene(name)
+    for key, part in scene.parts.items():
+        yield from _line(f"{_tag(part)} {key}", _given(part))
+    yield from _line(
+        "instances", (f"{key} ({spec.part}: {' '.join(_given(spec))})" for key, spec in scene.instances.items())
+    )
+    yield from _line("mates", (f"{_tag(m)} {m.first} {m.second} ({' '.join(_given(m))})" for m in scene.mates))
+    yield from _line("drives", (f"{d.instance} ({' '.join(_given(d))})" for d in scene.drives))
+    yield from _line("steps", (" ".join(_given(step)) for step in scene.steps))
+
+
+def drawn() -> dict[str, tuple[str, str]]:
+    """Scenes of which drawings are listed: of an own purpose each, or as they say themselves."""
+    parts = {name: ("part", name) for name in cases() if " and " not in name}
+    return (
+        parts
+        | {f"{name} as it is": ("", name) for name in _DRAWN}
+        | {f"{name} together": ("assembly", name) for name in _TOGETHER}
+    )
+
+
+def lines_of_drawings(name: str) -> Iterator[str]:
+    """How many lines, arcs and splines each layer of a sheet has, and its words, # for each number."""
+    purpose, scene_name = drawn()[name]
+    scene = (
+        load_scene(scene_name) if scene_name in built_in_scenes() else scene_from_dict(scenes()[scene_name], name, name)
+    )
+    if purpose:
+        scene.exports = [ExportSpec(format="dxf", purpose=purpose, tolerance=0.01)]  # type: ignore[arg-type]
+    for job in plan_build(scene, name, [], []).sheets:
+        if not isinstance(job, SheetJob):
+            continue
+        for number, page in enumerate(job.pages, 1):
+            strokes = Counter(f"{stroke.layer} {type(stroke.curve).__name__}" for stroke in page.canvas.strokes)
+            yield from _line(f"{job.path} {number}", (f"{count} {what}" for what, count in sorted(strokes.items())))
+            texts = Counter(_NUMBER.sub("#", text.text) for text in page.canvas.texts)
+            yield from _line(
+                "words", (f"{count} {text!r}" if count > 1 else repr(text) for text, count in texts.items())
+            )
+
+
+def _tag(spec: Any) -> str:
+    return str(type(spec).__struct_config__.tag)
+
+
+def _given(spec: Any) -> list[str]:
+    """Keys whose values are not those that they have when nothing is said."""
+    plain = {f.name: f.default for f in msgspec.structs.fields(spec)}
+    return [key for key, usual in plain.items() if (value := getattr(spec, key)) != usual and value not in ([], {})]
+
+
 def _line(head: str, names: Iterable[str]) -> Iterator[str]:
     told = ", ".join(names)
     if told:
@@ -94,7 +163,20 @@ def listed() -> dict[str, list[str]]:
     return found
 
 
+def written() -> Iterator[str]:
+    """The file as it has to be."""
+    for kind, names, lines in KINDS_OF_LIST:
+        for name in names():
+            yield from (f"{kind} {name}", *lines(name))
+
+
+KINDS_OF_LIST: tuple[tuple[str, Callable[[], Iterable[str]], Callable[[str], Iterator[str]]], ...] = (
+    ("calc", pages, lambda page: lines_of_page(page_of(page))),
+    ("scene", cases, lines_of_scene),
+    ("recipe", recipes, lines_of_recipe),
+    ("drawing", drawn, lines_of_drawings),
+)
+
+
 if __name__ == "__main__":
-    text = [f"calc {page}\n" + "".join(f"{line}\n" for line in lines_of_page(page_of(page))) for page in pages()]
-    text += [f"scene {name}\n" + "".join(f"{line}\n" for line in lines_of_scene(name)) for name in cases()]
-    FILE.write_text("".join(text), encoding="utf-8")
+    FILE.write_text("".join(f"{line}\n" for line in written()), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Pages and reports hold what ``contents.txt`` lists, no more and no less."""
+"""Pages, reports, recipes and drawings hold what ``contents.txt`` lists, no more and no less."""
 
 from __future__ import annotations
 
@@ -6,23 +6,19 @@ from functools import cache
 
 import pytest
 
-from tests.contents import cases, lines_of_page, lines_of_scene, listed, page_of, pages
+from tests.contents import KINDS_OF_LIST, lines_of_page, listed, page_of, pages
 
 LISTED = cache(listed)
 
 
-@pytest.mark.parametrize("page", pages())
-def test_a_page_holds_what_is_listed(page: str) -> None:
-    assert list(lines_of_page(page_of(page))) == LISTED()[f"calc {page}"]
-
-
-@pytest.mark.parametrize("scene", cases())
-def test_parts_and_mates_tell_what_is_listed(scene: str) -> None:
-    assert list(lines_of_scene(scene)) == LISTED()[f"scene {scene}"]
+@pytest.mark.parametrize(("kind", "name"), [(kind, name) for kind, names, _ in KINDS_OF_LIST for name in names()])
+def test_what_is_told_is_what_is_listed(kind: str, name: str) -> None:
+    lines = next(lines for known, _, lines in KINDS_OF_LIST if known == kind)
+    assert list(lines(name)) == LISTED()[f"{kind} {name}"]
 
 
 def test_nothing_else_is_listed() -> None:
-    assert {*LISTED()} == {*(f"calc {page}" for page in pages()), *(f"scene {name}" for name in cases())}
+    assert {*LISTED()} == {f"{kind} {name}" for kind, names, _ in KINDS_OF_LIST for name in names()}
 
 
 def test_a_step_that_is_lost_is_seen() -> None:
