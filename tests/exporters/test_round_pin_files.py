@@ -69,7 +69,7 @@ def test_files_lie_on_what_the_pins_leave(built: Path, name: str) -> None:
         assert np.abs(inside).max() <= entry["tolerance"]
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("where", SHARES)
 @pytest.mark.parametrize("change", [spoil.moved, spoil.dropped, spoil.flattened_or_bent], ids=lambda c: c.__name__)
 @pytest.mark.parametrize("name", ["disc", "gear"])

@@ -65,7 +65,7 @@ def middle(piece: Segment, share: float = 0.5) -> tuple[complex, complex]:
     return complex(where), complex(normal)
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(4)
 @every_case
 def test_exact_outline_has_no_penetration(name: str) -> None:
     p = CASES[name]
@@ -75,7 +75,7 @@ def test_exact_outline_has_no_penetration(name: str) -> None:
         assert error.max() < 2e-15 * radius, kind
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(4)
 @every_case
 def test_every_tooth_and_both_flanks_are_alike(name: str) -> None:
     p = CASES[name]
@@ -85,7 +85,7 @@ def test_every_tooth_and_both_flanks_are_alike(name: str) -> None:
     assert outline_error(copies, tool_of(p), p.z, float(p.tip_radius)).max() < 4e-15 * float(p.tip_radius)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(1)
 @every_case
 @pytest.mark.parametrize("sign", [1, -1])
 def test_negative_control_one_billionth_is_seen(name: str, sign: int) -> None:
@@ -113,7 +113,7 @@ def test_negative_control_other_tool_is_seen(change: dict[str, str]) -> None:
     assert outline_error(points, other, p.z, float(p.tip_radius)).max() > 1e-7
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @every_case
 def test_penetration_is_the_distance_in_the_metal(name: str) -> None:
     """True maximum over the rolling: brute force and the 50-digit distance agree at random metal points."""
@@ -130,7 +130,7 @@ def test_penetration_is_the_distance_in_the_metal(name: str) -> None:
     assert np.all(depth[~metal] <= distance[~metal] + 1e-14 * ra)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @every_case
 def test_grid_does_not_matter(name: str) -> None:
     p = CASES[name]
@@ -161,6 +161,7 @@ def test_gear_axis_and_far_points() -> None:
     assert penetration([], tool_of(p), 23).shape == (0,)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", UNDERCUT)
 def test_undercut_crossing(name: str) -> None:
     """Both curves pass through the junction; what each has beyond it is cut away."""
@@ -181,7 +182,7 @@ def test_undercut_list() -> None:
     assert "z23" not in UNDERCUT
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("z", [3, 6, 8, 17, 23, 1000])
 @pytest.mark.parametrize("degrees", ["14.5", "20", "25", "30"])
 def test_undercut_limit_formula(z: int, degrees: str) -> None:

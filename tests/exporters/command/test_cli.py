@@ -93,7 +93,7 @@ def test_every_built_in_scene_and_every_format_has_its_day() -> None:
     assert set(DAILY.values()) == {case.values[1] for case in formats_of_scenes()}
 
 
-@pytest.mark.sampled(7)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("name", "form"), formats_of_scenes())
 def test_a_built_in_scene_builds_and_verifies_in_a_format(name: str, form: str, tmp_path: Path) -> None:
     """Each file is read back once, by the command for it."""
@@ -210,6 +210,7 @@ def test_a_damaged_report_is_one_line_too(tmp_path: Path, capsys: pytest.Capture
     complaint(capsys, "verify", folder / "g.svg")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("data", [b"", b"{", b"\xff\xfe", b"[" * 100_000, b"NaN", b'"x"'], ids=lambda d: repr(d)[:12])
 def test_a_report_that_is_no_json_is_one_line_too(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], data: bytes
@@ -261,7 +262,7 @@ def new_scene(capsys: pytest.CaptureFixture[str], kind: str = "spur_gear") -> st
     return capsys.readouterr().out
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("kind", ALONE)
 def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "mine.toml"
@@ -336,7 +337,7 @@ def test_output_in_ukrainian(tmp_path: Path, ukrainian: Path, capsys: pytest.Cap
     assert "діаметр вершин" in picture
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("encoding", ["ascii", "cp1252", "cp1251", "utf-8"])
 def test_output_in_ukrainian_on_a_console_of_another_alphabet(tmp_path: Path, ukrainian: Path, encoding: str) -> None:
     environment = {**os.environ, "PYTHONIOENCODING": encoding, "PYTHONUTF8": "0"}

@@ -89,6 +89,7 @@ def test_both_walls_of_a_groove_stand_where_a_swept_roller_touches_them() -> Non
     assert data["values"]["outer_wall_radius"] == pytest.approx(np.abs(path).max() + 6.3, abs=1e-6)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("name", "sign"), [("positions", -1), ("positions_outer", 1)])
 def test_radii_of_the_walls_are_those_of_circles_through_three_points(name: str, sign: int) -> None:
     """Profiles run clockwise over the cam angle: the inner wall's material lies to their right, the outer's left."""
@@ -148,6 +149,7 @@ def test_a_yoke_touches_its_cam_from_both_sides_at_every_angle() -> None:
         assert row["y_1"] == pytest.approx(40 + row["S"], abs=1e-9)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("words", [("wedge_cam",), SWINGING_WEDGE], ids=["sliding", "swinging"])
 def test_a_wedge_is_touched_by_its_follower_along_the_whole_travel(words: tuple[str, ...]) -> None:
     fine = calculated(*words, "step=0.05")["positions"]
@@ -170,6 +172,7 @@ def test_a_wedge_is_touched_by_its_follower_along_the_whole_travel(words: tuple[
     assert np.degrees(np.arctan(column(fine, "S'"))) == pytest.approx(column(fine, "nu"), abs=1e-9) or radius == 5.0
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("words", [("barrel_cam", "part=barrel"), ("barrel_cam", "part=end"), SWINGING_BARREL],
                          ids=["groove", "end", "swinging"])  # fmt: skip
 def test_the_development_of_a_barrel_lies_on_walls_that_the_roller_sweeps(words: tuple[str, ...]) -> None:
@@ -193,6 +196,7 @@ def test_the_development_of_a_barrel_lies_on_walls_that_the_roller_sweeps(words:
                 assert gap.min() == pytest.approx(radius, abs=3e-4), (name, index, row["phi"])
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("words", [("barrel_cam", "part=barrel"), SWINGING_BARREL], ids=["groove", "swinging"])
 def test_radii_of_the_development_are_those_of_circles_through_three_points(words: tuple[str, ...]) -> None:
     fine = calculated(*words, "step=0.1")["development"]
@@ -214,6 +218,7 @@ def test_pressure_angles_of_a_barrel_at_the_outside_are_the_textbooks() -> None:
     assert values["pressure_angle_rise_deg"] > math.degrees(math.atan(steep / 27))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("words", [("groove_cam",), ("conjugate_cams",), ("yoke_cam",), ("wedge_cam",),
                                    ("barrel_cam", "part=end"), SWINGING_WEDGE, SWINGING_BARREL], ids=str)  # fmt: skip
 def test_every_kind_speaks_both_languages_in_every_format(words: tuple[str, ...]) -> None:

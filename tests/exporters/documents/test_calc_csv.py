@@ -104,6 +104,7 @@ def test_json_has_the_same_columns_and_pages_have_those_that_they_had(
     assert shown == ["phi", "S", "S'", "S''", "v", "a", "nu", "rho", "x", "y"]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("words", "names"), [
     (("groove_cam", "speed_rpm=60"), ["v", "a"]),
     (("conjugate_cams", "speed_rpm=60", "cutter_diameter=6"), ["omega", "epsilon"]),

@@ -243,6 +243,7 @@ def test_a_scene_gives_pair_cutter_and_shifts(tmp_path: Path) -> None:
         assert (keys.first.profile_shift_coefficient, keys.second.profile_shift_coefficient) == (0.1, 0.3)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("wanted", "word"), [("37.6", "at least"), ("45", "at most")])
 def test_the_nearest_distance_that_works_is_named_and_works(wanted: str, word: str) -> None:
     table = table_of(WORDS.replace("40.5", wanted).replace("shift-choice ", "").split())

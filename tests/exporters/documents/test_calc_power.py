@@ -308,6 +308,7 @@ def test_what_follows_from_several_numbers() -> None:
         assert value == pytest.approx(CASES[case]["recomputed"][key], rel=1e-9, abs=1e-12), (case, key)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("arms", [(72.0, 72.0), (72.0, 50.0), (50.0, 72.0)])
 def test_a_grid_over_the_reach_and_where_the_printed_formula_is_wrong(arms: tuple[float, float]) -> None:
     """Below O1, and where O2's angle at O1 is obtuse; the page flags just these."""
@@ -501,6 +502,7 @@ def test_sizes_of_the_module_stand_with_their_rules_on_one_page(module: dict[str
     assert (found["arm"], found["a_1"], found["a_2"], found["r_large"]) == (72.0, 345.0, 290.0, 280.0)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("keys", [(), ("orientation=thesis",), ("module=3.1",)], ids=str)
 def test_no_default_stands_beside_what_the_page_finds(keys: tuple[str, ...], module: dict[str, Any]) -> None:
     """The circle of the pivots, the axes of ring and pinion, the balls of the ring's row: as the sizes have them."""

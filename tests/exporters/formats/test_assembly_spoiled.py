@@ -100,7 +100,7 @@ def test_a_spoiled_3mf_is_caught(
     caught(train_3mf, SPOIL_3MF[spoil], tmp_path, capsys)
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("spoil", SPOIL_STEP)
 def test_a_spoiled_step_is_caught(
     spoil: str, tmp_path: Path, train_step: Path, capsys: pytest.CaptureFixture[str]

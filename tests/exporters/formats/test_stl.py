@@ -48,7 +48,7 @@ def test_normals_are_those_of_the_stored_corners(tmp_path: Path) -> None:
     assert np.abs(exact - mesh.normals).max() < 1e-6
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", GEARS)
 @pytest.mark.parametrize("tolerance", [0.05, 0.01, 0.001])
 def test_both_faces_are_within_the_tolerance(tmp_path: Path, name: str, tolerance: float) -> None:
@@ -58,7 +58,7 @@ def test_both_faces_are_within_the_tolerance(tmp_path: Path, name: str, toleranc
     check_deviation(file, gear, entry, 3.3)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["m 2 z 23", "undercut, solid", "thin rim"])
 @pytest.mark.parametrize("offset", [-0.05, 0.08])
 def test_an_offset_moves_every_wall(tmp_path: Path, name: str, offset: float) -> None:

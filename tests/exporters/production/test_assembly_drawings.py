@@ -52,6 +52,7 @@ def numbers(dxf: Path) -> list[tuple[str, complex]]:
     )
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("address", "language", "measured", "positions"),
     [

@@ -241,6 +241,7 @@ def copied(folder: Path, to: Path) -> Path:
     return to / "set.board.1.dxf"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("spoil", ["moved", "order", "layer", "missing"])
 def test_a_spoiled_board_is_caught(spoil: str, folder: Path, tmp_path: Path) -> None:
     file = copied(folder, tmp_path)

@@ -65,6 +65,7 @@ def test_a_bar_moves_on_by_checks_shapes_files_and_pictures(tmp_path: Path) -> N
     assert len(told) == steps(plan)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("language", "word"), [("en", "the tip of the basic rack"), ("uk", "вершину вихідного контуру")]
 )
@@ -218,6 +219,7 @@ def test_no_verify_says_that_nothing_was_verified(tmp_path: Path, monkeypatch: p
     assert all(e["verified"] is False and not e["measured"] for e in read_report(tmp_path / "o" / "s")["files"])
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["write_laser_dxf", "write_laser_svg", "write_stl", "save"])
 @pytest.mark.parametrize("error", STOPS, ids=["full", "stop"])
 def test_a_writer_that_stops_half_way_leaves_nothing(
@@ -325,7 +327,7 @@ def loaded_by(*words: object, cwd: Path) -> list[str]:
 HEAVY = ("cadquery", "OCP", "trimesh", "manifold3d", "scipy", "matplotlib")
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("formats", "never"),
     [

@@ -47,6 +47,7 @@ def rack_error(points: np.ndarray, gear: Gear) -> float:
     return float(np.max(outline_error(points, tool, gear.teeth, gear.tip_radius)))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", GEARS)
 def test_a_drawing_keeps_a_nanometre_on_flank_and_fillet(tmp_path: Path, name: str) -> None:
     gear = GEARS[name]
@@ -93,6 +94,7 @@ def spoil_layer(entities: list[Any]) -> None:
     entities[-1].dxf.layer = "0"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("spoil", [spoil_spline, spoil_end, spoil_by_loss, spoil_layer])
 def test_a_spoiled_drawing_is_caught(tmp_path: Path, spoil: Any) -> None:
     build_gear(tmp_path, GEARS["plain"], DRAWING)

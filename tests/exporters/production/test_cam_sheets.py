@@ -222,7 +222,7 @@ def sheet_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written(tmp_path_factory.mktemp("sheet"))
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("damage", DAMAGE)
 def test_damage_is_noticed(sheet_file: Path, tmp_path: Path, damage: str) -> None:
     drawing = ezdxf.readfile(sheet_file)

@@ -118,7 +118,7 @@ def test_turned_parts_can_be_made_again_from_their_dimensions(tmp_path: Path, na
     assert faults(drawn(tmp_path, PARTS[name]), PARTS[name]) == []
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     "name", ["guide_6", "body_plate", "crank_pin", "ball", "guide_5", "bearing_ring", "spacer_22", "disk_3",
              "ring_guide", "free_ring", "platform_plate", "platform_axle", "end_cover", "snap_ring", "screw_49"]
@@ -281,6 +281,7 @@ def test_each_step_of_a_shaft_has_its_sign_of_roughness_where_one_is_wished(tmp_
         assert sum(text.dxf.text == "Ra 0.4" for text in texts) == count
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("part", "count"),
     [

@@ -93,6 +93,7 @@ def drawn(text: str) -> list[tuple[str, shapely.geometry.base.BaseGeometry]]:
     ]  # fmt: skip
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("language", "words"), [("en", ("Stack", "2  Ring")), ("uk", ("Стопка", "3  Палець × 2"))])
 def test_numbers_stand_on_what_is_seen(language: str, words: tuple[str, ...], tmp_path: Path) -> None:
     file = tmp_path / "stack.toml"

@@ -126,7 +126,7 @@ def test_any_call_may_fail(
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("form", [f for f in FORMATS if f != "sheet"])
 def test_a_file_that_does_not_fit_on_the_disk(tmp_path: Path, form: str) -> None:
     """The system itself refuses to write on, whoever writes: lib3mf ended the process by SIGABRT."""

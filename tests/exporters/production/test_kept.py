@@ -31,6 +31,7 @@ def spoil(monkeypatch: pytest.MonkeyPatch, name: str = "a.dxf") -> None:
     monkeypatch.setattr(judge, "verify_part", failing)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("teeth", "fits"), [(23, True), (24, False)])
 def test_the_old_file_stays_and_the_table_and_the_report_say_so(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], teeth: int, fits: bool

@@ -216,6 +216,7 @@ format = "dxf"
 """
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("label", "codes"),
     [("z 21 m 2", ["label_tells_z"]), ("z 22 m 2,5", ["label_tells_m"]), ("z 22 m 2 x 0,3", []), ("No. 21", [])],

@@ -160,7 +160,7 @@ phases = [
 """
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 # what students draw, what is given and they start from, and what their table asks for
 @pytest.mark.parametrize(
     ("purpose", "scene", "drawn", "given", "row"),

@@ -71,6 +71,7 @@ def deepest(one: Any, two: Any, places: tuple[complex, complex], rates: tuple[fl
     return found
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("x", "strikes"), [(48.5, True), (48.9, True), (49.05, False), (60.0, False)])
 def test_a_post_in_the_way_of_a_cam_is_found_though_the_first_pose_is_clear(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], x: float, strikes: bool

@@ -161,7 +161,7 @@ SPOILED: dict[str, Callable[[dict[str, Any], bytearray], object]] = {
 }
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("what", SPOILED)
 def test_spoiled_films_are_seen(tmp_path: Path, what: str) -> None:
     build(planned(TURNED), tmp_path)

@@ -127,6 +127,7 @@ def test_verify_tells_of_a_half_moved_set(tmp_path: Path, capsys: pytest.Capture
     assert run("verify", folder / "g.dxf", folder / "g.svg") == 0
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()], ids=["full", "stop"])
 def test_an_error_at_any_move_leaves_the_old_set(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: BaseException

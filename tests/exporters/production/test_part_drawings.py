@@ -193,7 +193,7 @@ def drawn(folder: Path, part: dict[str, Any], **export: Any) -> Path:
     return written(folder, part, formats=("dxf",), **export)[0]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("export", [{}, {"paper": "A1"}, {"drawing": {"teeth": 3, "requirements": ["HRC 40 " * 30]}}])
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("name", [pytest.param(n, marks=pytest.mark.heavy) if n in SLOW else n for n in PARTS])
@@ -328,6 +328,7 @@ def good(name: str) -> tuple[Any, str]:
         return job, file.read_text()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("spoil", ["words", "moved", "DIMENSION", "HATCH", "TABLE", "THIN", "more"])
 def test_what_stands_elsewhere_in_a_file_is_seen(tmp_path: Path, spoil: str) -> None:
     """Two words exchanged, one moved, a line of any layer moved or too many: each passed as it was."""
@@ -368,6 +369,7 @@ def test_words_exchanged_in_a_dxf_are_seen(tmp_path: Path) -> None:
     assert any("does not stand at" in told for told in job.verify(file, 0.0).failures)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("purpose", ["part", "assembly"])
 def test_a_spline_that_leaves_its_way_between_its_ends_is_seen(tmp_path: Path, purpose: str) -> None:
     """A pole in its middle moved by 0.05 mm, both ends as they were: in assembly drawings it passed."""
@@ -438,6 +440,7 @@ def test_equal_holes_are_told_circle_by_circle_and_a_collar_is_seen_on_the_face(
     assert any("4 on the circle Ø50: " in text.dxf.text for text in space.query("TEXT"))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("side", ["below", "above"])
 def test_a_hub_on_one_side_closes_no_chain_and_a_negative_helix_is_told_by_its_hand(tmp_path: Path, side: str) -> None:
     gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20, "face_width": 12.0, "helix_angle_deg": -15.0}
@@ -446,6 +449,7 @@ def test_a_hub_on_one_side_closes_no_chain_and_a_negative_helix_is_told_by_its_h
     assert {"15°", "left"} <= words(file)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("language", "mark"), [("en", "."), ("uk", ",")])
 def test_programs_that_write_dimensions_anew_part_decimals_as_the_sheet_does(
     tmp_path: Path, language: str, mark: str
@@ -494,6 +498,7 @@ def test_the_sign_of_teeth_stands_on_the_extension_of_a_pitch_line(tmp_path: Pat
     assert [line.dxf.end.y - line.dxf.start.y for line in stands] == [pytest.approx(0, abs=1e-9)]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("paper", "turn", "size"), [({"paper": "A4"}, 180, (70, 14)), ({"paper": "A3"}, 90, (14, 70)), ({}, 180, (70, 14))]
 )

@@ -164,6 +164,7 @@ def test_what_is_off_or_missing_in_a_pdf_is_seen(tmp_path: Path) -> None:
     assert job.verify(file, 0.0).failures
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("good", "bad", "wanted"),
     [

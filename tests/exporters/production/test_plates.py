@@ -98,6 +98,7 @@ def test_plates_lie_on_the_bed_and_apart(tmp_path: Path) -> None:
         assert any(recheck(file).verdict.failures for file in files)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("keys", "words"), [
     ({"width": 100.0, "length": 100.0}, "ring (0.5) and bar (0.6"), ({"width": 140.0}, "bar (0.49"),
 ])  # fmt: skip

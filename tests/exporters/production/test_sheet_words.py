@@ -100,7 +100,7 @@ def sheets_of(name: str, language: str, **export: Any) -> Any:
     return [job for job in plan_build(scene, name, [], []).sheets if job.path.endswith(".svg")]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("export", [{}, {"paper": "A4", "title_block": True}, {"paper": "A1"}], ids=["", "A4", "A1"])
 @pytest.mark.parametrize("language", ["en", "uk"])
 @pytest.mark.parametrize("name", SCENES)

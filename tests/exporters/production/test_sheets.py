@@ -197,7 +197,7 @@ DAMAGE: dict[str, tuple[Callable[[Any], Any], str]] = {
 }
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("damage", DAMAGE)
 def test_damage_is_noticed(tmp_path: Path, damage: str) -> None:
     job = job_of("practicum_pair", "dxf")
@@ -210,7 +210,7 @@ def test_damage_is_noticed(tmp_path: Path, damage: str) -> None:
     assert any(wanted in failure for failure in job.verify(file, 0.0).failures), job.verify(file, 0.0).failures
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("pattern", "instead", "wanted"),
     [
@@ -395,7 +395,7 @@ def test_the_device_takes_wheels_of_every_size(module: float, tmp_path: Path) ->
         assert job.verify(tmp_path / job.path, 0.0).failures == ()
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("part", "export", "key", "mended"),
     [

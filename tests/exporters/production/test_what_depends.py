@@ -141,7 +141,7 @@ def before(name: str) -> tuple[Counter[float], set[str]]:
     return told(PARTS[name])
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("number", range(len(CASES)), ids=[f"{name}-{','.join(keys)}" for name, keys, _ in CASES])
 def test_what_depends_on_a_size_changes_and_nothing_else(number: int) -> None:
     name, keys, wanted = CASES[number]

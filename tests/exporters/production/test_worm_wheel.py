@@ -133,7 +133,7 @@ def test_a_wheel_has_no_flat_outline(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert not (tmp_path / "out" / "wheel" / "wheel.svg").exists()
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("keys", "told"),
     [
@@ -273,6 +273,7 @@ def test_a_lying_worm_is_drawn_about_its_middle_and_a_wheel_by_few_points(tmp_pa
     assert len(wheel) < 32_000
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("part", ["wheel", "worm"])
 def test_a_body_ends_where_its_faces_do(part: str) -> None:
     made = make_parts(scene_from_dict(tomllib.loads(BOTH), "s", "s"), "s")[0][part].body(0.0)

@@ -38,6 +38,7 @@ def turning(law: str) -> list[Keys]:
     return [{**phase, "law": law} if "law" in phase else phase for phase in PHASES]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "keys",
     [
@@ -84,6 +85,7 @@ def test_the_lifts_bound_holds_up_to_the_end_of_the_reach(spare: float) -> None:
             assert places[0] - places[1] <= bound < 100 * (places[0] - places[1])
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("law", ["polynomial_4567", "linearly_decreasing", "sine"])
 def test_the_least_cam_of_a_face_has_no_cusp(tmp_path: Path, law: str) -> None:
     """S''(S) just touches its tangent at 45 degrees: a radius of curvature of 0, which no file can hold."""
@@ -100,7 +102,7 @@ def test_the_least_cam_of_a_face_has_no_cusp(tmp_path: Path, law: str) -> None:
     assert base == pytest.approx(least, rel=1e-7)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("keys", "key", "offered"),
     [

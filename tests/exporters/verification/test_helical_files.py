@@ -149,7 +149,7 @@ def _distance_from_helical_gear(p: np.ndarray, teeth: int, module: float, alpha:
     return np.where(above, flank, swept)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @needs_kernel
 @pytest.mark.parametrize("name", ["double", "shaped", "rack", "chevrons"])
 def test_step_files_pass_their_read_back(tmp_path: Path, name: str) -> None:

@@ -260,6 +260,7 @@ def test_what_is_hidden_is_found(
     assert "FAILED" in capsys.readouterr().out
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["g.new.dxf", "g.old.dxf", "g.drawn.dxf", "s.meshing.1.dxf"])
 def test_a_drawing_that_was_only_saved_again_passes(name: str, good: Path, tmp_path: Path) -> None:
     for file in (name, "report.json"):

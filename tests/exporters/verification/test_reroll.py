@@ -118,7 +118,7 @@ def test_arcs_make_the_acceleration_jump_by_half_its_peak(tmp_path: Path) -> Non
     assert found[0.0005] < found[0.005] / 1.7
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["roller", "flat", "oscillating roller"])
 @pytest.mark.parametrize("spoil", [0.02, -0.02])
 def test_a_file_spoiled_at_one_place_is_found_by_its_lift(name: str, spoil: float, tmp_path: Path) -> None:

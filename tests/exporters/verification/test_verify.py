@@ -80,6 +80,7 @@ def check_caught(file: Path, entry: dict[str, Any], *, command: bool = True) -> 
         assert run("verify", file) == 1
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", FORMATS)
 def test_an_unspoiled_file_passes(originals: Path, tmp_path: Path, name: str, capsys: pytest.CaptureFixture) -> None:
     file, entry = copied(originals, name, tmp_path)
@@ -97,7 +98,7 @@ def test_a_dxf_that_was_only_saved_again_passes(originals: Path, tmp_path: Path,
     assert failures(file, entry) == ()
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("where", SHARES)
 @pytest.mark.parametrize("change", spoil.ROW_CHANGES, ids=lambda c: c.__name__)
 @pytest.mark.parametrize("name", [n for n in FORMATS if n != "stl"])
@@ -109,7 +110,7 @@ def test_a_changed_vertex_is_caught(
     check_caught(file, entry, command=where == "middle" and "lines" not in name)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("change", spoil.WHOLE_CHANGES, ids=lambda c: c.__name__)
 @pytest.mark.parametrize("name", [n for n in FORMATS if n != "stl"])
 def test_a_scaled_or_turned_outline_is_caught(
@@ -185,7 +186,7 @@ def test_a_truncated_file_is_caught(originals: Path, tmp_path: Path, name: str, 
     check_caught(file, entry)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", FORMATS)
 def test_another_gear_under_the_same_name_is_caught(originals: Path, tmp_path: Path, name: str) -> None:
     file, entry = copied(originals, name, tmp_path)

@@ -23,6 +23,7 @@ def test_any_shape() -> None:
     assert distinct(np.array([[3.0, 1.0], [1.0, 2.0]])).tolist() == [1.0, 2.0, 3.0]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("call", ["distinct(np.arange(3.0))", "np.unique(np.arange(3.0))"])
 def test_masked_arrays_are_not_loaded(call: str) -> None:
     """numpy.unique is the negative control, where this numpy still loads them."""

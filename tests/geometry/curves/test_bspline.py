@@ -351,7 +351,7 @@ def test_order_of_convergence(name: str, kind: tuple[int, int]) -> None:
     assert order == pytest.approx(degree + 1, rel=0.05)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["z 23, flank", "z 23, root_fillet", "z 8, undercut, root_fillet"])
 @pytest.mark.parametrize("kind", [CUBIC, QUINTIC, SEPTIC])
 def test_a_moved_pole_is_seen(name: str, kind: tuple[int, int]) -> None:

@@ -40,6 +40,7 @@ def exact(e: float, anomaly: float) -> tuple[Any, complex, Any, Any]:
     return arc, point, MP.atan2(y, x), LONG * short / speed**3
 
 
+@pytest.mark.sampled(1)
 @ECCENTRICITIES
 def test_arc_length_place_direction_and_curvature(e: float) -> None:
     line = pitch_line(e)
@@ -58,6 +59,7 @@ def test_arc_length_place_direction_and_curvature(e: float) -> None:
         assert abs(complex(found) - exact(e - 1e-7, anomaly)[1]) > 1e-9 * LONG
 
 
+@pytest.mark.sampled(1)
 @ECCENTRICITIES
 def test_it_closes_and_is_its_own_mirror_image(e: float) -> None:
     line = pitch_line(e)
@@ -72,6 +74,7 @@ def test_it_closes_and_is_its_own_mirror_image(e: float) -> None:
         assert float(line.angle(s)) == pytest.approx(angle, abs=1e-11)
 
 
+@pytest.mark.sampled(1)
 @ECCENTRICITIES
 def test_bounds_of_the_derivatives_hold_at_the_sharp_end(e: float) -> None:
     """Held against Taylor coefficients at many places; those at the vertex are known: |c''| / 2 = kappa / 2."""

@@ -124,6 +124,7 @@ def _probes(profile: Profile, rng: np.random.Generator) -> np.ndarray:
     return probes * np.exp(2j * math.pi / profile.count * rng.integers(0, profile.count, len(probes)))
 
 
+@pytest.mark.sampled(4)
 @EVERY
 def test_distance_to_profile_against_brute_force(gear: SpurGear) -> None:
     profile = tooth_side(gear).profile()
@@ -145,7 +146,7 @@ def test_distance_to_any_outline(gear: SpurGear, seed: int) -> None:
     assert np.max(np.abs(distance_to_profile(probes, profile) - exact)) <= 1e-12 * profile.reach()
 
 
-@pytest.mark.sampled(14)
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("arcs", [True, False])
 @pytest.mark.parametrize("place", ["start", "middle", "end"])
 @EVERY
@@ -166,6 +167,7 @@ def test_distance_to_profile_sees_a_moved_vertex(gear: SpurGear, place: str, arc
     assert tolerance < found[index] <= 2 * tolerance * (1 + 1e-9)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("way", [1, 1j])
 def test_distances_from_a_long_chain_are_those_from_its_nearest_piece(way: complex) -> None:
     rng = np.random.default_rng(5)

@@ -64,7 +64,7 @@ def judged(body, tolerance: float = 0.002):  # type: ignore[no-untyped-def]
     return solid
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("bore", BORES)
 @pytest.mark.parametrize("shape", SHAPES)
 def test_mass_and_mesh_agree(shape: str, bore: str) -> None:

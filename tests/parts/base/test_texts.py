@@ -139,7 +139,7 @@ def test_english_commands_open_no_catalogue_and_ukrainian_ones_open_one() -> Non
     assert "колесо" in told
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["LANGUAGE", "LANG", "LC_ALL", "LC_MESSAGES"])
 def test_the_language_of_the_terminal_does_not_matter(name: str, tmp_path: Path) -> None:
     """Even where the system has a catalogue for argparse, which gettext would ask for by that variable."""

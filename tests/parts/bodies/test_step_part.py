@@ -328,7 +328,7 @@ def _shapes() -> dict[str, Callable[[], Any]]:
     }
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "name",
     ["ball", "ring", "cone", "stump", "dimple", "groove", "bore", "prism", "lean", "loft", "ellipse", "rational",

@@ -43,6 +43,7 @@ def test_hidden_lines_of_a_keyed_worm_stand_where_its_bore_is() -> None:
     assert levels(drawing_of(keyed).views[0], HIDDEN) == {-6.0, 7.8, round(math.sqrt(6**2 - 2**2), 6)}
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("hub", [None, {"diameter": 30.0, "above": 8.0, "below": 4.0}])
 def test_the_section_of_an_end_cam_has_the_edges_behind_it(hub: dict[str, float] | None) -> None:
     """Mouths of the bore, and both edges of the track, from which the roller's axis is never nearer than its radius."""

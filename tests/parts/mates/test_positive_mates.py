@@ -60,6 +60,7 @@ def test_a_conjugate_pair_stands_on_one_axis_turned_alike() -> None:
     assert stand["two"].rotation == pytest.approx(math.radians(70))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("cam", [FLAT, FLAT | {"follower_offset": 4.0}, ROLLERS])
 def test_a_yoke_touches_from_both_sides(cam: Keys) -> None:
     pair = mating({"cam": cam, "two": YOKE}, "cam_yoke")

@@ -35,7 +35,7 @@ def test_every_symbol_has_an_english_index() -> None:
     assert symbol_text("z_екв", words("uk")) == "z_екв"
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("topic", "asked"), SHEETS.values(), ids=SHEETS.keys())
 @pytest.mark.parametrize("form", SPOKEN)
 def test_an_english_calculation_has_no_ukrainian_letter(topic: str, asked: list[str], form: str) -> None:

@@ -163,7 +163,7 @@ def drawn(seed: int) -> tuple[SceneFile, dict[str, Any]]:
         return made, keys
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("seed", range(300))
 def test_random_sets_turn_through_their_period(seed: int) -> None:
     """No overlap, contact kept within 1e-8 modules all the way by the teeth that have passed, ratio by Willis."""

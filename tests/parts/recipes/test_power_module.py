@@ -130,6 +130,7 @@ def test_nothing_overlaps_at_home_by_sections_and_layers() -> None:
     assert {"end_cover_1", "guide_6", "bearing_ring_2", "spacer_22", "disk_3"} <= found
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("balls", "ball"), [
     (40, 8.0), (491, 8.0), (500, 7.5), *(pytest.param(n, 8.0, marks=pytest.mark.heavy) for n in (180, 310, 350)),
 ])  # fmt: skip
@@ -303,6 +304,7 @@ def test_random_drivers_make_a_module_without_overlap_or_name_what_lacks(seed: i
         assert overlaps(scene) == {}, keys
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("keys", "name"),
     [

@@ -43,6 +43,7 @@ def test_every_mesh_is_in_contact_and_nothing_overlaps_in_motion(orientation: st
     assert all(c["met"] for m in found["mates"] for c in m.get("conditions", ()))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("orientation", list(MESHES))
 def test_the_platform_over_a_square_a_circle_and_a_thousand_points(orientation: str) -> None:
     """Measured on the placed instances: where it stands, and its turn, 2 (phi3 - phi2) with the thesis's wheels."""
@@ -107,6 +108,7 @@ MESHED = [
 ]  # fmt: skip
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("orientation", list(MESHES))
 def test_nothing_is_in_the_way_over_the_whole_workspace(orientation: str) -> None:
     placing, parts = placed(module(orientation=orientation))

@@ -235,6 +235,7 @@ def test_every_flat_part_is_wide_enough_for_its_kerf() -> None:
         assert shape.difference(opened).area < 2e-3 * shape.area, key
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("keys", "code", "name"),
     [
@@ -262,7 +263,7 @@ def test_what_cannot_be_is_refused_by_its_driver(keys: dict[str, Any], code: str
         placed(scene(**keys | {name.rpartition(".")[2]: near.value}))
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("seed", range(200))
 def test_random_drivers_stand_free_or_are_refused(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -90,7 +90,7 @@ def test_a_table_goes_together_in_its_order_and_tells_it(tmp_path: Path, capsys:
     assert re.search(r"^14\. .* → .*: зверху$", told, re.MULTILINE)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("changed", "pairs"),
     [

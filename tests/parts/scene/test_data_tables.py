@@ -80,6 +80,7 @@ def calculated(topic: str, address: str, key: str, part: Any) -> dict[str, Any]:
     return found
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("address", [*TOOTHED, *CAMS, *ROUND])
 def test_every_cell_is_what_the_calculation_prints(address: str) -> None:
     seen = 0

@@ -81,6 +81,7 @@ def test_a_concave_ratio_names_a_share_that_works() -> None:
         made(keys.format(told[1]))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("keys", "key"), [
     (OVAL + "\ncentre_distance = 40.0", "module"),
     (OVAL.replace("module = 2.0", ""), "module"),
@@ -140,6 +141,7 @@ def test_equal_ovals_with_teeth_that_do_not_fit_are_told_the_role() -> None:
     placed(two(right, right))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("other", "key"), [
     (OVAL.replace("1.4", "1.3"), "axis_ratio"),
     (OVAL.replace("module = 2.0", "module = 2.5"), "module"),
@@ -235,6 +237,7 @@ def test_an_eccentricity_of_one_is_told_its_limit() -> None:
         made('centrode = "oval"\nmodule = 2.0\nnumber_of_teeth = 30\neccentricity = 1.0')
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("change", "key"), [
     (("axis_ratio = 1.4", "axis_ratio = 1.5"), "axis_ratio"), (("module = 2.0", "module = 2.5"), "module"),
     (("teeth = 18", "teeth = 22"), "number_of_teeth"),

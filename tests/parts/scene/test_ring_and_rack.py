@@ -37,7 +37,7 @@ def made(text: str) -> dict[str, object]:
     return make_parts(scene, "scene.toml")[0]["p"].quantities | {"circles": make_parts(scene, "")[0]["p"].circles}
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("text", [
     RING + "cutter = { number_of_teeth = 25, full_round = true }\n", RING + "rounded_root = { full_round = true }\n",
     RING + "holes = { count = 4, diameter = 4.0, pitch_circle_diameter = 112.0 }\ntip_chamfer = 0.2\n", SHAPED,

@@ -88,6 +88,7 @@ def test_two_drives_in_one_train() -> None:
         placed(both + DRIVE.format("carrier", ""))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("driven", ["oval", "second_oval"])
 def test_oval_gears_turn_unevenly(driven: str) -> None:
     """Both centrodes touch at any turn, whichever of both is driven; whole turns agree with the ratio."""

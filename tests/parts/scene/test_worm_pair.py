@@ -98,6 +98,7 @@ def test_a_worm_of_another_diameter_is_told_the_one_that_fits(
     assert told in said
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("given", "told"),
     [("thread_length = 20.0\nthread_ends = 'run_out'", "parts.worm.thread_length = 20.0: the teeth of the wheel run"),

@@ -100,7 +100,7 @@ def swept_distance(cam: BarrelCam, points: np.ndarray, steps: int = 20_001) -> n
     return np.array(found)
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(3)
 @CAMS
 @pytest.mark.parametrize("side", [UPPER, LOWER])
 def test_a_wall_is_the_envelope_of_the_roller(cam: BarrelCam, side: int) -> None:

@@ -97,7 +97,7 @@ def test_one_evaluation_gives_the_point_and_its_derivatives(name: str) -> None:
     laws.check_derivatives_together(CURVES[name])
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(3)
 @EVERY
 def test_points_and_derivatives_against_fifty_digits(name: str) -> None:
     curve = CURVES[name]
@@ -221,6 +221,7 @@ def test_outlines_stay_within_their_declared_error(name: str, arcs: bool) -> Non
     assert len(contour) <= (60 if arcs else 400)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("name", "degree"), [("roller", 3), ("flat", 7)])
 def test_splines_stay_within_a_nanometre(name: str, degree: int) -> None:
     cam = whole_cams()[name]

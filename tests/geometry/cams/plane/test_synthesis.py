@@ -67,7 +67,7 @@ def test_flat_radius_is_the_edge_of_undercut() -> None:
     assert least_convex_radius(translating_cam(LIFT, FLAT, least + 7)).value == pytest.approx(7, rel=1e-12)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("returning", [None, 45.0])
 def test_the_smallest_oscillating_cam(sense: int, returning: float | None) -> None:
@@ -109,7 +109,7 @@ def steepest(start: float, arm: float, distance: float, sense: int, kind: PhaseK
     return worst
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("returning", [None, 40.0])
 @pytest.mark.parametrize("distance", [60.0, 81.0, 120.0])
@@ -130,7 +130,7 @@ def test_the_least_prime_circle_at_a_distance(sense: int, returning: float | Non
         assert low <= searched[0] <= searched[-1] <= high
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("sense", [1, -1])
 @pytest.mark.parametrize("limit", [11.0, 15.0, 30.0, 45.0, 60.0, 80.0])
 @pytest.mark.parametrize("returns", [True, False])

@@ -130,7 +130,7 @@ def undercut_examples() -> dict[str, DiskCam]:
     return found
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", undercut_examples())
 def test_lost_lift_is_what_a_follower_loses_on_the_trimmed_outline(name: str) -> None:
     cam = undercut_examples()[name]

@@ -69,6 +69,7 @@ def test_involutes_run_evenly(name: str) -> None:
         assert max(map(abs, error.errors)) < 1e-8
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("shift", [0.05, 0.4])
 def test_involutes_run_evenly_at_any_centre_distance(shift: float) -> None:
     """As long as contact is not interrupted; apart so far that it is, they do not."""
@@ -242,6 +243,7 @@ def test_a_face_is_ruled_by_its_section_that_is_farthest_ahead(overlap: float) -
         assert (max(wide.errors), min(wide.errors)) == pytest.approx((row.max(), row.min()), abs=2 * near / overlap)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("distance", "expected"), [(49.2, 0.0), (49.31, 1.45e-5), (49.33, 7.8e-5), (49.36, 2.67e-4), (49.5, 2.55e-3)]
 )

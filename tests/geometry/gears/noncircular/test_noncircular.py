@@ -74,6 +74,7 @@ def oval(made: NoncircularGear, e: float) -> rolled_rack.Centrode:
     )
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("x", "thinning"), [(0.0, 0.0), (0.3, 0.1)])
 def test_a_rolling_rack_touches_every_point_of_an_ellipse(x: float, thinning: float) -> None:
     made = gear(ELLIPSE, 31, x=x, thinning=thinning)

@@ -171,6 +171,7 @@ def test_trochoid_interference_by_polygons(z1: int, z2: int, free: bool) -> None
     assert (area < 2e-5) if free else (area > 1e-4)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z1", "z2", "free"), [(21, 40, True), (28, 40, False), (40, 60, True), (48, 60, False)])
 def test_radial_assembly_by_polygons(z1: int, z2: int, free: bool) -> None:
     """The pinion is moved along the line of centres, without turning, from the ring's middle into mesh."""
@@ -203,6 +204,7 @@ CONTACT_CASES = [(30, 60, 0.0, 0.0, 2.0), (25, 80, 0.2, 0.3, 1.0), (96, 144, 0.0
                  (40, 62, 0.1, 0.4, 0.5)]  # fmt: skip
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z1", "z2", "x1", "x2", "module"), CONTACT_CASES)
 def test_contact_without_backlash(z1: int, z2: int, x1: float, x2: float, module: float) -> None:
     pair = pair_of(z1, z2, x1, x2, module)
@@ -219,6 +221,7 @@ def test_contact_without_backlash(z1: int, z2: int, x1: float, x2: float, module
     assert GearMesh(pair, distance_shift=-step).contact().verdict is Verdict.CLEAR
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("deeper", [False, True])
 def test_contact_with_backlash(deeper: bool) -> None:
     """The asked backlash is there, on each side half, and used up by turning either way; turned on, an overlap."""

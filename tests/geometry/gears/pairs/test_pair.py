@@ -201,6 +201,7 @@ def test_the_practicum_pair_touches_all_through_a_pitch(turn: float) -> None:
     assert on + pair.second.pitch_angle / 2 - math.pi == pytest.approx(-turn / pair.gear_ratio)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("pair", [practicum_pair(), practicum_pair(circumferential_thinning=0.3)])
 def test_a_spoilt_pair_is_caught(pair: ExternalPair) -> None:
     """Turned from contact by the backlash and a millionth of a module; moved in; pulled apart."""
@@ -292,6 +293,7 @@ def beyond_the_band(pair: ExternalPair) -> bool:
     return False
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("index", range(12))
 def test_fillet_interference_is_overlap_beyond_a_band(index: int) -> None:
     found = GearMesh(interfering_pairs(5, 12)[index]).contact()

@@ -57,7 +57,7 @@ def test_outline_is_what_the_swept_pins_leave(disc: CycloidalDisc) -> None:
             assert abs(least_distance(point, centres, drive) - pin) <= 1e-10 * pin
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("case", PUBLISHED["cases"], ids=str)
 def test_published_equation(case: list[float]) -> None:
     radius, pin, e, pins = case
@@ -73,6 +73,7 @@ def test_published_equation(case: list[float]) -> None:
     assert np.abs(boundary.feet(points).distance).max() <= 1e-12 * radius
 
 
+@pytest.mark.sampled(2)
 @EVERY
 def test_all_pins_touch_at_every_angle(disc: CycloidalDisc) -> None:
     found = contact(disc)
@@ -99,7 +100,7 @@ def test_the_contact_check_notices_what_is_wrong() -> None:
     assert contact(DISC, cut=replace(DISC, eccentricity=2.5001)).verdict is Verdict.OVERLAP
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("clearance", "shift"), [(0.1, 0.0), (0.0, 0.1), (0.02, 0.05), (0.3, -0.1)])
 def test_clearance(clearance: float, shift: float) -> None:
     disc = checked_disc(replace(DISC, pin_clearance=clearance, pin_circle_shift=shift))
@@ -218,6 +219,7 @@ def test_any_disc_is_built_or_refused_with_what_works(disc: CycloidalDisc) -> No
         assert contact(made).verdict is Verdict.CONTACT
 
 
+@pytest.mark.sampled(2)
 @EVERY
 def test_offsets_are_parallel_and_end_where_they_are_told(disc: CycloidalDisc) -> None:
     boundary = half_outline(disc.side())
@@ -237,6 +239,7 @@ def test_offsets_are_parallel_and_end_where_they_are_told(disc: CycloidalDisc) -
             disc_region(disc, 1.01 * most)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("args", [(11, 80.0, 0.02, 3.3333), (2, 80.0, 0.5, 13.3), (40, 80.0, 1.0, 0.001)])
 def test_extreme_discs_are_drawn_within_their_bounds(args: tuple[int, float, float, float]) -> None:
     """Shortening coefficients of 0.99999 and 0.001: arcs and splines that a file can carry, near the exact outline."""

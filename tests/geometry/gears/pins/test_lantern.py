@@ -46,6 +46,7 @@ def contact(gear: LanternGear, turn: float = 0.0, shift: float = 0.0, cut: Lante
     return pin_contact(lantern_side(cut or gear), LanternMotion(gear, turn, shift))
 
 
+@pytest.mark.sampled(2)
 @EVERY
 def test_flanks_are_what_the_swept_pins_leave(gear: LanternGear) -> None:
     """Flanks a pin's radius from the pins' ways to 1e-10 of it, the rest of the tooth no nearer."""
@@ -67,6 +68,7 @@ def test_flanks_are_what_the_swept_pins_leave(gear: LanternGear) -> None:
                 assert away <= 1e-10 * pin
 
 
+@pytest.mark.sampled(2)
 @EVERY
 def test_contact_ratio_by_the_way_of_the_swept_contact(gear: LanternGear) -> None:
     """The lantern's angle between first and last touch of one flank, over its pitch, from dense stands."""

@@ -165,6 +165,7 @@ def measured(mesh: Mesh, body: Body, declared: float, samples: int = 5) -> float
     return worst
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("degrees", "teeth"), [(30.0, 23), (8.0, 60), (45.0, 12)])
 @pytest.mark.parametrize("tolerance", [0.05, 0.01])
 def test_meshes_keep_their_bound_and_the_bound_is_tight(degrees: float, teeth: int, tolerance: float) -> None:

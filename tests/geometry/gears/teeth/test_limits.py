@@ -36,7 +36,7 @@ WHEELS = PRACTICUM["lesson_3"]["wheels"]
 FIELD = {"tip_diameter": "given_tip_diameter"}
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("degrees", [14.5, 20.0, 25.0])
 @pytest.mark.parametrize("name", sorted(ISO_53))
 @pytest.mark.parametrize("teeth", [5, 19])
@@ -48,7 +48,7 @@ def test_undercut_limit_against_the_shape(name: str, degrees: float, teeth: int)
     assert abs(limits.least_shift_without_undercut(SpurGear(1.0, teeth, rack)) - float(shape)) <= 1e-13
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", sorted(ISO_53))
 def test_undercut_is_seen_on_both_sides_of_the_limit(name: str) -> None:
     rack = iso_53(name)

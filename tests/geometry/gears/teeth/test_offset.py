@@ -70,7 +70,7 @@ def check_side(nominal: Profile, points: np.ndarray, offset: float) -> None:
         assert inside.all() if offset < 0 else not inside.any()
 
 
-@pytest.mark.sampled(13)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("share", SHARES)
 @pytest.mark.parametrize("name", GEARS)
 def test_path_at_its_distance(name: str, share: float) -> None:
@@ -194,7 +194,7 @@ def assert_remedy_works(gear: SpurGear, error: OffsetError) -> None:
         gear_region(gear, value + 1e-3 * (asked - value))
 
 
-@pytest.mark.sampled(7)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", GEARS)
 @pytest.mark.parametrize("share", [8.0, 30.0, -3.0, -30.0])
 def test_a_refused_kerf_names_the_largest_that_works(name: str, share: float) -> None:

@@ -66,7 +66,7 @@ def side_points(gear: SpurGear, count: int) -> np.ndarray:
     return np.concatenate([brute.dense(s.curve, count) for s in tooth_side(gear).segments])
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @EVERY
 def test_outline_against_fifty_digits(gear: SpurGear) -> None:
     """Root land, fillet, joint, flank, relief and tip: every point lies on the envelope's outline."""
@@ -83,7 +83,7 @@ def test_outline_against_the_swept_rack(gear: SpurGear) -> None:
     assert error.max() <= RIGHT * gear.tip_radius
 
 
-@pytest.mark.sampled(10)
+@pytest.mark.sampled(5)
 @EVERY
 def test_the_whole_oracle_outline_is_there(gear: SpurGear) -> None:
     """The other way round: no part of the envelope's outline is missing, in any period."""
@@ -94,7 +94,7 @@ def test_the_whole_oracle_outline_is_there(gear: SpurGear) -> None:
     assert brute.distance_to_outline(turned, profile).max() <= RIGHT * gear.tip_radius
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(6)
 @EVERY
 def test_joint_and_labels_against_the_oracle(gear: SpurGear) -> None:
     """Each piece ends where the oracle's ends; the joint is smooth unless undercut, where it is a convex corner."""

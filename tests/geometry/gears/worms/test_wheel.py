@@ -78,6 +78,7 @@ def _hobbed(hob: Hob, radius: float, height: float, near: float) -> float:
     return low
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("hand", ["right", "left"])
 def test_an_oversized_hob_leaves_the_crown_of_brute_force_hobbing(hand: str) -> None:
     drive = replace(THESIS, worm=replace(THESIS.worm, hand=hand))

@@ -34,6 +34,7 @@ def _wheel(drive: WormDrive, width: float, outer: float, hob: Hob | None = None,
 THIN = WormDrive(Worm(5.0, 2, 4.12, hand="left"), 11, 0.3)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("drive", "width", "outer"), [(THESIS, 26.0, 330.0), (STEEP, 13.5, 65.25 / 2), (THIN, 8.2, 38.5)]
 )

@@ -48,7 +48,7 @@ BODIES = {
 }
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", BODIES)
 def test_the_faces_of_a_worm_are_closed_and_their_files_within_their_bound(name: str, tmp_path: Path) -> None:
     body = BODIES[name]

@@ -62,6 +62,7 @@ LEVEL = BarrelCam(motion(1.0), AxialGuide(20.0), 5.0, 35.0, 33.0)
 SWUNG = replace(SWINGING, motion=motion(0.05 * SWINGING.motion.lift), inner=SWINGING.outer - 2.0)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("cam", "bore"), [(LEVEL, None), (LEVEL, 20.0), (SWUNG, None)])
 def test_the_declared_error_is_the_truth_where_cylinders_rule(cam: BarrelCam, bore: float | None) -> None:
     """Nearly level grooves: how near to the axis any edge of a triangle on a cylinder, or on the bore, comes."""
@@ -78,6 +79,7 @@ def test_the_declared_error_is_the_truth_where_cylinders_rule(cam: BarrelCam, bo
     assert max(worst.values()) <= made.max_error <= 1.1 * max(worst.values())
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("cam", [AXIAL, SWINGING, CONES[0], replace(CONES[0], is_groove=False)])
 def test_a_body_of_faces_reaches_as_far_as_its_cylinders(cam: BarrelCam) -> None:
     body = barrel_faces(BarrelBody(cam, 50.0, web=0.0, hub=None))

@@ -98,6 +98,7 @@ def rolled(file: Path, keys: Keys, declared: float) -> tuple[str, ...]:
     return probed(read_dxf(file), parts_of({"cam": keys})["cam"], 0.0, declared, Verdict({}, ())).failures
 
 
+@pytest.mark.sampled(1)
 def test_a_spoiled_file_is_found_by_its_lift(laser: tuple[Keys, Path, float], tmp_path: Path) -> None:
     """A vertex at the start, the middle or the end of the outline is moved outwards."""
     keys, good, declared = laser
@@ -177,7 +178,7 @@ WRONG: dict[str, tuple[Keys, str]] = {
 }  # fmt: skip
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", WRONG)
 def test_a_refusal_names_the_key_and_a_value_that_works_when_it_is_fed_back(name: str) -> None:
     keys, blamed = WRONG[name]
@@ -323,6 +324,7 @@ second = "stem"
 """
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("name", "keys"), [("flat", "plate_diameter = 160.0"), ("pointed", "tip_angle_deg = 20.0"),
                                             ("mushroom", "follower_radius = 20.0\nplate_diameter = 38.0")])  # fmt: skip
 def test_stems_turn_with_the_connecting_rod(name: str, keys: str, tmp_path: Path) -> None:

@@ -90,7 +90,7 @@ def farthest(points: NDArray[np.complex128], line: NDArray[np.complex128]) -> fl
     return float(best.max())
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("follower", "rows", "digits", "tolerance"),
     [("roller", 24, 12, 0.005), ("flat", 360, 12, 0.005), ("roller", 360, 3, 0.005), ("roller", 2000, 4, 0.005),

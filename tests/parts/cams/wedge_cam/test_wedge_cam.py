@@ -50,7 +50,7 @@ def wedge(name: str) -> tuple[Part, WedgeCam]:
     return part, part.thing
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", CAMS)
 def test_the_follower_touches_all_the_way(name: str) -> None:
     part, cam = wedge(name)
@@ -146,6 +146,7 @@ def test_the_follower_rolled_over_the_file_agrees_with_a_sweep(name: str, tmp_pa
     assert np.allclose(rolled, brute, atol=1e-5)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("place", [0.1, 0.5, 0.9])
 def test_a_file_spoiled_at_one_place_is_found_by_its_lift(place: float, tmp_path: Path) -> None:
     from exporters.verification.judge import probed
@@ -214,7 +215,7 @@ WRONG: dict[str, tuple[Keys, str, str]] = {
 NOT_CURED = {"flat", "no radius", "no lift", "arm with a jump"}
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_keys_are_refused_with_what_works(name: str) -> None:
     keys, blamed, code = WRONG[name]

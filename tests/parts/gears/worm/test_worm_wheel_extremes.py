@@ -73,6 +73,7 @@ def _held(keys: dict[str, Any]) -> None:
     assert wheel_splines(thing.wheel, 1e-3 * keys["module"]).max_error <= 1e-3 * keys["module"]
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("form", "module", "starts", "quotient", "teeth"),
     [
