@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 from hypothesis import core, is_hypothesis_test, settings
 
-from tests.sampling import chosen, take_all_examples
+from tests.sampling import chosen, some_of, take_all_examples
 
 # collected by pytest as hooks of this file
 from tests.skips import pytest_runtest_logreport, pytest_sessionfinish, pytest_terminal_summary  # noqa: F401
@@ -81,13 +81,13 @@ def pytest_make_nothing_heavy(obj: object, collector: pytest.Collector) -> list[
 def pytest_make_samples(name: str, collector: pytest.Collector) -> Generator[None, Any, Any]:
     """Of the cases of a test those outside its ``sampled(count)`` are heavy.
 
-    Where the heavy tests are asked for, the searches by hypothesis are among them, with all their examples.
+    Where the heavy tests are asked for, the searches by hypothesis and what draws by ``some_of`` are among them, whole.
     """
     found = yield
     if not isinstance(found, list):
         return found
     cases = [item for item in found if isinstance(item, pytest.Function)]
-    if _heavy_alone(collector.config) and cases and is_hypothesis_test(cases[0].obj):
+    if _heavy_alone(collector.config) and cases and _is_drawn(cases[0].obj):
         for case in cases:
             case.add_marker(pytest.mark.heavy)
     light = [case for case in cases if not case.get_closest_marker("heavy")]
@@ -109,6 +109,10 @@ def _without_heavy(config: pytest.Config) -> bool:
     """Whether nothing heavy can be among what is asked for, whatever else is: ``not heavy``, ``... and not heavy``."""
     wanted = str(config.getoption("markexpr")).strip()
     return wanted == "not heavy" or (wanted.endswith(" and not heavy") and " or " not in wanted)
+
+
+def _is_drawn(test: Any) -> bool:
+    return is_hypothesis_test(test) or some_of.__name__ in test.__code__.co_names
 
 
 def _values(case: pytest.Function) -> dict[str, Hashable]:

@@ -2,20 +2,22 @@
 
 ``@pytest.mark.sampled(count)`` on a parametrised test leaves ``count`` of its cases as they are and marks the others
 heavy. The choice hangs on the test's name and its cases alone, so that every worker makes the same.
-``@examples(count)`` gives a search by hypothesis a third of its examples by default, and all of them with ``-m heavy``.
+``@examples(count)`` gives a search by hypothesis a third of its examples by default, and all of them with ``-m heavy``;
+``some_of(cases, count)`` does the same to a loop within a test.
 """
 
 from __future__ import annotations
 
 import random
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from itertools import combinations
-from typing import Any
+from typing import Any, TypeVar
 
 from hypothesis import settings
 
 Case = Mapping[str, Hashable]
 Value = tuple[str, Hashable]
+T = TypeVar("T")
 
 # of how many examples one is drawn; set before any test file is read
 _EFFORT = {"one of": 3}
@@ -29,6 +31,16 @@ def take_all_examples() -> None:
 def examples(count: int, *, deadline: Any = None, **more: Any) -> settings:
     """The settings of a search by hypothesis: a third of ``count``, or all where the heavy tests are asked for."""
     return settings(max_examples=max(count // _EFFORT["one of"], 5), deadline=deadline, **more)
+
+
+def some_of(cases: Iterable[T], count: int = 1) -> list[T]:
+    """Of the cases that a test goes through by itself ``count``, the same in every run; all with ``-m heavy``.
+
+    A test that asks for them is among the heavy ones too.
+    """
+    every = list(cases)
+    count = len(every) if _EFFORT["one of"] == 1 else min(count, len(every))
+    return [every[k] for k in sorted(random.Random(len(every)).sample(range(len(every)), count))]
 
 
 def chosen(cases: Sequence[Case], count: int, seed: str) -> list[int]:

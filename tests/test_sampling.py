@@ -6,7 +6,7 @@ from itertools import product
 
 import pytest
 
-from tests.sampling import chosen
+from tests.sampling import chosen, some_of
 
 GRID = [{"a": a, "b": b, "c": c} for a, b, c in product(range(5), range(4), range(3))]
 
@@ -51,3 +51,10 @@ def test_the_other_cases_are_heavy(pytestconfig: pytest.Config, request: pytest.
 @pytest.mark.parametrize("value", range(40))
 def test_of_the_sample(value: int) -> None:
     assert 0 <= value < 40
+
+
+def test_a_loop_takes_a_few_of_its_cases_and_all_among_the_heavy_ones(pytestconfig: pytest.Config) -> None:
+    found = some_of(range(40), 3)
+    assert len(found) == (40 if pytestconfig.option.markexpr == "heavy" else 3)
+    assert found == sorted(set(found)) == some_of(range(40), 3)
+    assert some_of("ab", 3) == ["a", "b"]

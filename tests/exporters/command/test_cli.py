@@ -21,6 +21,7 @@ from tests.exporters.making import build_gear, part_keys, read_report, run, writ
 from tests.exporters.outside import Gear
 from tests.exporters.production.test_build import command
 from tests.offered import ALONE
+from tests.sampling import some_of
 
 GEAR = Gear(2, 23, bore=8)
 
@@ -300,7 +301,7 @@ def test_every_commented_key_may_be_set_alone(tmp_path: Path, capsys: pytest.Cap
     lines = new_scene(capsys).splitlines()
     keys = [i for i, line in enumerate(lines) if re.match(r"# [a-z_]+ = \S", line)]
     assert len(keys) > 15
-    for index in keys:
+    for index in some_of(keys, 6):
         changed = [line.removeprefix("# ") if i == index else line for i, line in enumerate(lines)]
         file = tmp_path / "one.toml"
         file.write_text("\n".join(changed), encoding="utf-8")

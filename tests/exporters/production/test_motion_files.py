@@ -17,6 +17,7 @@ from parts.base.refusal import SceneError
 from parts.scene.load import load_scene, resolved, scene_from_resolved, scene_from_toml
 from tests.exporters.making import run
 from tests.parts.scene.test_trains import DRIVE, FREE, JAMES
+from tests.sampling import some_of
 
 MOTION = '[[exports]]\nformat = "motion"\n'
 SVG = "{http://www.w3.org/2000/svg}"
@@ -112,7 +113,7 @@ def test_spoiled_motions_are_seen(tmp_path: Path) -> None:
     file = tmp_path / "s.motion.svg"
     text = file.read_text(encoding="utf-8")
     assert run("verify", str(file)) == 0
-    for old, new in SPOILED:
+    for old, new in some_of(SPOILED, 3):
         spoiled = re.sub(old, new, text, count=1)
         assert spoiled != text
         file.write_text(spoiled, encoding="utf-8")

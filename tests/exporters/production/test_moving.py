@@ -18,6 +18,7 @@ import pytest
 
 from tests.exporters.making import part_keys, read_report, run, table, write_scene
 from tests.exporters.outside import Gear
+from tests.sampling import some_of
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="kills and forks of POSIX")
 OLD, NEW, LAST = 12, 13, 14
@@ -100,7 +101,7 @@ for number in range(1, 100):
     for folder in moving:
         assert {p.name for p in folder.iterdir() if p.is_file()} <= {"g.svg", "g.preview.svg"}
     scene_of(tmp_path, LAST, "svg")
-    for folder in moving[::2] + random.Random(1).sample(left, 2):
+    for folder in some_of(moving, 3) + random.Random(1).sample(left, 2):
         (folder / "mine.txt").write_text("mine")
         assert run("build", scene, "--out", folder.parent) == 0
         assert whole_set(folder) == LAST

@@ -19,6 +19,7 @@ from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_toml
 from parts.texts.findings import finding_text
 from tests.exporters.making import read_report, run, write_scene
+from tests.sampling import some_of
 
 _CAM = """
 [parts.gear]
@@ -142,7 +143,7 @@ def test_every_law_that_new_shows_makes_a_cam(kind: str) -> None:
     shown = re.findall(r"^# (phases = .*?)  # \.\.\. or this", text, re.MULTILINE)
     assert len({found for line in shown for found in re.findall(r"law = \{ (\w+)", line)}) == 6
     assert any('law = "join"' in line for line in shown)
-    for line in shown:
+    for line in some_of(shown, 2):
         used = re.sub(r"^phases = .*$", line.replace("\\", r"\\"), text, flags=re.MULTILINE)
         parts, _ = make_parts(scene_from_toml(used.encode(), "scene", "scene"), "scene")
         assert line in used

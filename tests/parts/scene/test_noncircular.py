@@ -15,6 +15,7 @@ from exporters.production.check import scene_checks
 from exporters.production.check_lines import check_lines, has_bad_verdict
 from parts.scene.load import SceneError, load_scene, make_parts, scene_from_toml
 from parts.scene.placing import Placing, place
+from tests.sampling import some_of
 
 PART = """
 [parts.one]
@@ -252,7 +253,9 @@ def test_two_gears_of_unlike_pairs_are_told_the_key_and_its_value(change: tuple[
 
 def test_a_mate_that_is_offered_can_be_cut() -> None:
     keys = 'centrode = "{}"\n{}\nmodule = 2.0\nnumber_of_teeth = {}\nmate_number_of_teeth = {}'
-    for shape, value, teeth, mate_teeth in (("oval", "axis_ratio = 1.9", 30, 20), ("oval", "axis_ratio = 1.8", 42, 26)):
+    for shape, value, teeth, mate_teeth in some_of(
+        (("oval", "axis_ratio = 1.9", 30, 20), ("oval", "axis_ratio = 1.8", 42, 26))
+    ):
         text = keys.format(shape, value, teeth, mate_teeth)
         with pytest.raises(SceneError, match=r"mate_number_of_teeth = .*lobes; (\d+) works") as refused:
             made(text)

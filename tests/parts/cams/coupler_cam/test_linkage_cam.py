@@ -25,6 +25,7 @@ from parts.texts.quantities import quantity_name
 from tests.exporters.making import read_report, run
 from tests.parts.nearest import cured, refused
 from tests.parts.positive_scenes import PHASES, Keys, parts_of, scene, without
+from tests.sampling import some_of
 
 ROCKER: Keys = {"member": "rocker", "pivot": [91.0, 26.0], "length": 58.0, "start_angle_deg": 167.0}
 SLIDER: Keys = {"member": "slider", "start": [25.0, 30.0], "direction_deg": 70.0}
@@ -294,7 +295,7 @@ def test_follower_and_members_stand_where_the_linkage_puts_them(
     assert run("check", mated(tmp_path)) == 0
     # a roller typed where it stands only checks; one pushed in by 0.01 mm is seen
     place, way = complex(cam.place(angle)), complex(cam.normal(np.float64(angle)))
-    for off, code in ((0.0, 0), (-0.01, 1), (0.01, 1)):
+    for off, code in some_of(((0.0, 0), (-0.01, 1), (0.01, 1)), 2):
         at = place + off * way
         assert run("check", mated(tmp_path, at=f"at = [{at.real:.9f}, {at.imag:.9f}, 0.0]")) == code, off
     capsys.readouterr()
