@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable
 from typing import TypeVar
 
-from geometry.base.errors import GeometryError, Nearest, limit
+from geometry.base.errors import GeometryError, Nearest, OffsetError, limit
 from geometry.base.record import Record
 
 V = TypeVar("V")
@@ -108,3 +108,25 @@ def last_that_holds(holds: Callable[[float], object], fails: float, works: float
             good = False
         works, fails = (middle, fails) if good else (works, middle)
     return works
+
+
+def moved(build: Callable[[float], V], offset: float, code: str = "") -> V:
+    """What ``build`` makes of an offset out of the material, mm; ``code``: why one fails that does not say it itself.
+
+    Raises
+    ------
+    GeometryError
+        Nothing can be made even without an offset: as ``build`` says it.
+    OffsetError
+        Nothing can be made at this one; names the nearest that works.
+    """
+    if not math.isfinite(offset):
+        raise OffsetError(offset, "not_finite", 0.0)
+    try:
+        return build(offset)
+    except GeometryError as refusal:
+        if offset == 0:
+            raise
+        build(0.0)
+        code = refusal.reason if isinstance(refusal, OffsetError) else code or str(refusal.args[-1])
+        raise OffsetError(offset, code, last_that_holds(build, offset)) from refusal

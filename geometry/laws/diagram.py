@@ -20,6 +20,8 @@ from geometry.laws.piece import LawPiece, Wave
 _CLOSING = 1e-9
 # a shorter span of a sine would be integrated as a difference of large numbers
 _LEAST_SPAN = math.pi / 8
+# share of the phase: ends of curves on a narrower one miss each other by rounding; 2000 points side by side are wider
+LEAST_STRETCH = 5e-4
 
 
 class Stretch(Record):
@@ -139,8 +141,7 @@ def law_of_diagram(name: str, stretches: Sequence[Stretch], *, balance: bool = F
     for index, width in enumerate(widths):
         if not width > 0 or not math.isfinite(width):
             raise ParameterError(f"diagram[{index + 1}].width", width, "not_above_zero")
-    whole = sum(widths)
-    parts = [Stretch(s.width / whole, s.coefficients, s.waves) for s in stretches]
+    parts = _shared("diagram", stretches, 1.0)
     areas = [_area(s) for s in parts]
     above, below = sum(a for a in areas if a > 0), -sum(a for a in areas if a < 0)
     if balance and above > 0 and below > 0:
@@ -148,16 +149,16 @@ def law_of_diagram(name: str, stretches: Sequence[Stretch], *, balance: bool = F
         areas = [_area(s) for s in parts]
     size = sum(_size(s) for s in parts)
     if not size > 0:
-        raise ParameterError("diagram", size, "diagram_on_axis")
+        raise ParameterError("diagram", None, "diagram_on_axis")
     if not abs(math.fsum(areas)) <= _CLOSING * size:
         if not (above > 0 and below > 0):
-            raise ParameterError("diagram", above - below, "diagram_on_one_side", above=above, below=below)
+            raise ParameterError("diagram", None, "diagram_on_one_side", above=above, below=below)
         factor = above / below
-        raise ParameterError("diagram", above - below, "diagram_not_closed", above=above, below=below, factor=factor)
+        raise ParameterError("diagram", None, "diagram_not_closed", above=above, below=below, factor=factor)
     pieces = _integrated(parts, 0.0, 1.0)
     lift = float(pieces[-1].value(pieces[-1].end))
     if not lift > _CLOSING * size:
-        raise ParameterError("diagram", lift, "diagram_lifts_nothing")
+        raise ParameterError("diagram", None, "diagram_lifts_nothing")
     pieces = _integrated(parts, 0.0, 1 / lift)
     return Law(name, tuple(pieces))
 
@@ -177,13 +178,26 @@ def law_of_halves(name: str, first: Sequence[Stretch], second: Sequence[Stretch]
         raise ParameterError("share", share, "not_within", low=0.0, high=1.0)
     halves = []
     for label, stretches, width in (("first", first, share), ("second", second, 1 - share)):
-        whole = sum(s.width for s in stretches)
-        parts = [Stretch(s.width / whole * width, s.coefficients, s.waves) for s in stretches]
+        parts = _shared(f"{label}_half", stretches, width)
         area = sum(_area(s) for s in parts)
         if area == 0:
-            raise ParameterError(f"{label}_half", area, "half_without_area")
+            raise ParameterError(f"{label}_half", None, "half_without_area")
         halves.append([s.scaled(1 / area) for s in parts])
     return law_of_diagram(name, [*halves[0], *(s.scaled(-1.0) for s in halves[1])])
+
+
+def _shared(name: str, stretches: Sequence[Stretch], share: float) -> list[Stretch]:
+    """The segments, which together take a share of the phase; refused as ``name`` where one is too narrow."""
+    whole = sum(s.width for s in stretches)
+    parts = [Stretch(s.width / whole * share, s.coefficients, s.waves) for s in stretches]
+    refuse_narrow(name, None, parts)
+    return parts
+
+
+def refuse_narrow(name: str, value: object, stretches: Sequence[Stretch]) -> None:
+    """Refuse a parameter that makes a segment, in shares of the phase, too narrow for an outline."""
+    if (narrow := min(s.width for s in stretches)) < LEAST_STRETCH * (1 - 1e-9):
+        raise ParameterError(name, value, "narrow_stretch", share=narrow, least=LEAST_STRETCH)
 
 
 def _area(stretch: Stretch) -> float:

@@ -8,16 +8,18 @@ from functools import partial
 
 import numpy as np
 
-from geometry.base.errors import Nearest, ParameterError, limit
-from geometry.laws.diagram import constant as level
+from geometry.base.errors import Nearest, ParameterError
 from geometry.laws.diagram import (
+    LEAST_STRETCH,
     half_cosine,
     law_of_diagram,
     linear,
     quarter_cosine,
     quarter_sine,
+    refuse_narrow,
     trapezoid,
 )
+from geometry.laws.diagram import constant as level
 from geometry.laws.law import Law
 from geometry.laws.piece import LawPiece, Wave
 from geometry.laws.splines import hermite_coefficients
@@ -61,9 +63,10 @@ def trapezoidal(ramp: float = 0.125) -> Law:
     Raises
     ------
     ParameterError
-        ``ramp`` not from 0 (constant acceleration) to 0.25 (triangle).
+        ``ramp`` neither 0 (constant acceleration) nor 0.25 (triangle), nor between them by ``LEAST_STRETCH``.
     """
-    _check_ramp(ramp)
+    if ramp not in (0, 0.25):
+        _check_ramp(ramp, 0.25)
     name = "trapezoidal acceleration"
     return law_of_diagram(name, [*trapezoid(0.5, 1.0, 2 * ramp), *trapezoid(0.5, -1.0, 2 * ramp)])
 
@@ -82,8 +85,7 @@ def modified_trapezoid(ramp: float = 0.125) -> Law:
     ParameterError
         ``ramp`` not above 0 and below 0.25.
     """
-    if not 0 < ramp < 0.25:
-        raise ParameterError("ramp", ramp, "not_within", _USUAL_RAMP, low=0.0, high=0.25)
+    _check_ramp(ramp, 0.25)
     return sine_constant_cosine(2 * ramp, 1 - 4 * ramp, 2 * ramp, name="modified trapezoid")
 
 
@@ -95,8 +97,7 @@ def modified_sine(ramp: float = 0.125) -> Law:
     ParameterError
         ``ramp`` not above 0 and below 0.5 (there it has no slow part).
     """
-    if not 0 < ramp < 0.5:
-        raise ParameterError("ramp", ramp, "not_within", _USUAL_RAMP, low=0.0, high=0.5)
+    _check_ramp(ramp, 0.5)
     return sine_constant_cosine(2 * ramp, 0.0, 1 - 2 * ramp, name="modified sine")
 
 
@@ -134,7 +135,9 @@ def sine_constant_cosine(sine: float, constant: float, cosine: float, *, name: s
     else:
         middle = [(cosine, half_cosine(cosine, 1, -1))]
     end = [(constant / 2, level(constant / 2, -1)), (sine / 2, quarter_cosine(sine / 2, -1))]
-    return law_of_diagram(name, [stretch for share, stretch in (*up, *middle, *end) if share > _ROUNDING])
+    stretches = [stretch for share, stretch in (*up, *middle, *end) if share > _ROUNDING]
+    refuse_narrow("sine_constant_cosine", shares, stretches)
+    return law_of_diagram(name, stretches)
 
 
 def polynomial_345() -> Law:
@@ -165,17 +168,18 @@ def polynomial_law(conditions: Sequence[tuple[float, int, float]]) -> Law:
         degree above 31, or conditions that contradict each other.
     """
     given = {(u, order): value for u, order, value in conditions}
+    told = [list(condition) for condition in conditions]
     if len(given) != len(conditions) or not all(0 <= u <= 1 and order >= 0 for u, order in given):
-        raise ParameterError("conditions", len(conditions), "condition_twice_or_outside")
+        raise ParameterError("conditions", told, "condition_twice_or_outside")
     if given.get((0.0, 0)) != 0 or given.get((1.0, 0)) != 1:
-        raise ParameterError("conditions", len(conditions), "conditions_without_ends")
+        raise ParameterError("conditions", told, "conditions_without_ends")
     n = len(given) - 1
     if n > _MOST_DEGREE:
-        raise ParameterError("conditions", len(conditions), "too_many_conditions", most=_MOST_DEGREE + 1)
+        raise ParameterError("conditions", told, "too_many_conditions", most=_MOST_DEGREE + 1)
     ends = [sorted(order for u, order in given if u == end) for end in (0.0, 1.0)]
     for end, orders in zip((0, 1), ends, strict=True):
         if orders != list(range(len(orders))):
-            raise ParameterError("conditions", orders, "orders_with_gap", end=end)
+            raise ParameterError("conditions", told, "orders_with_gap", end=end)
     left, right = ([given[end, k] for k in orders] for end, orders in zip((0.0, 1.0), ends, strict=True))
     inner = [(u, order, value) for (u, order), value in given.items() if 0 < u < 1]
     values = _with_inner(left, right, inner, n) if inner else hermite_coefficients(left, right, 1.0)
@@ -202,15 +206,17 @@ def _with_inner(
     missing = np.array([value for _, _, value in inner]) - effect(known)
     solved, _, rank, _ = np.linalg.lstsq(matrix, missing, rcond=1e-13)
     if rank < len(inner) or not np.allclose(matrix @ solved, missing, atol=1e-9):
-        raise ParameterError("conditions", len(inner), "conditions_contradict")
+        raise ParameterError("conditions", [list(c) for c in inner], "conditions_contradict")
     for k, value in zip(free, solved.tolist(), strict=True):
         known[k] = value
     return tuple(known)
 
 
-def _check_ramp(ramp: float) -> None:
-    if not 0 <= ramp <= 0.25:
-        raise ParameterError("ramp", ramp, "out_of_range", limit(min(max(ramp, 0.0), 0.25), ramp), least=0.0, most=0.25)
+def _check_ramp(ramp: float, most: float) -> None:
+    """Refuse ramps that are too narrow, or leave too little between them."""
+    high = most - LEAST_STRETCH / 2
+    if not LEAST_STRETCH < ramp < high:
+        raise ParameterError("ramp", ramp, "not_within", _USUAL_RAMP, low=LEAST_STRETCH, high=high)
 
 
 # names as scenes and calculations type them

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
-from geometry.base.errors import GeometryError, OffsetError
 from geometry.base.findings import Finding
-from geometry.base.nearest import last_that_holds
+from geometry.base.nearest import moved
 from geometry.base.record import Record
 from geometry.plane.profile import Region
 
@@ -30,14 +28,4 @@ def moved_teeth(section: Callable[[float], OffsetRegion], offset: float) -> Offs
     OffsetError
         The offset closes the spaces or leaves no tooth, or what else refuses it; names the nearest one that works.
     """
-    if not math.isfinite(offset):
-        raise OffsetError(offset, "not_finite", 0.0)
-    try:
-        return section(offset)
-    except GeometryError as refusal:
-        if offset == 0:
-            raise
-        section(0.0)
-        word = "closes_tooth_spaces" if offset > 0 else "leaves_no_tooth"
-        reason = refusal.reason if isinstance(refusal, OffsetError) else word
-        raise OffsetError(offset, reason, last_that_holds(section, offset)) from refusal
+    return moved(section, offset, "closes_tooth_spaces" if offset > 0 else "leaves_no_tooth")

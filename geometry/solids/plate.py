@@ -9,11 +9,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
 from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
-from geometry.base.nearest import last_that_holds
+from geometry.base.nearest import last_that_holds, moved
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex, end_point, start_point
@@ -79,13 +80,7 @@ class PlateOutline(Record):
         OffsetError
             Something vanishes or two boundaries meet; names the offset nearest to it that works.
         """
-        try:
-            return OffsetRegion(self._region(offset), offset, ())
-        except GeometryError as refusal:
-            if offset == 0:
-                raise
-            works = last_that_holds(self._region, offset)
-            raise OffsetError(offset, str(refusal.args[-1]), works * (1 - 1e-6)) from refusal
+        return OffsetRegion(moved(self._region, offset), offset, ())
 
     def check_holes(self, keys: Sequence[str]) -> None:
         """Refuse holes that touch each other or the edge; ``keys`` name the size of each."""
@@ -132,11 +127,7 @@ def moved_profile(edges: Sequence[Edge], offset: float) -> Profile:
     OffsetError
         An edge vanishes; names the offset nearest to it that works.
     """
-    try:
-        return Profile(tuple(Segment(e, Label.BODY) for e in moved_edges(edges, offset)))
-    except GeometryError as refusal:
-        works = last_that_holds(lambda moved: moved_edges(edges, moved), offset)
-        raise OffsetError(offset, str(refusal.args[-1]), works * (1 - 1e-6)) from refusal
+    return Profile(tuple(Segment(e, Label.BODY) for e in moved(partial(moved_edges, edges), offset)))
 
 
 def moved_edges(edges: Sequence[Edge], offset: float) -> tuple[Edge, ...]:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
+from functools import partial
 from typing import TYPE_CHECKING, Literal, TypeVar
 
-from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError
+from geometry.base.errors import Nearest, OffsetError, ParameterError
 from geometry.base.findings import Finding
-from geometry.base.nearest import last_that_holds
+from geometry.base.nearest import moved
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Profile, Region
 from geometry.solids.hub_holes import HubHoles
@@ -63,6 +65,7 @@ def check_disk(keys: DiskKeys, cam: DiskCam, within: Within = "base_circle") -> 
         raise wide_bore(keys, inside, wall, beside)
     if holes.reach > inside:
         raise ParameterError("holes", 2 * holes.reach, beyond, Nearest(None), inside=inside)
+    holes.check(math.inf)
     marked = with_timing_mark(holes, keys.timing_mark, cam, inside)
     check_wheel(shape_of(keys), 2 * inside, marked)
     return marked
@@ -99,11 +102,7 @@ class Turned(Kind[K, T]):
         if not inside + offset > (holes.reach - offset if holes.number else 0.0):
             least = (holes.reach - inside) / 2 if holes.number else -inside
             raise OffsetError(offset, "no_rim", least * (1 - 1e-9))
-        try:
-            outer, gaps = self.outline(thing, offset)
-        except GeometryError as refusal:
-            works = last_that_holds(lambda moved: self.outline(thing, moved), offset)
-            raise OffsetError(offset, "leaves_no_outline", works) from refusal
+        outer, gaps = moved(partial(self.outline, thing), offset, "leaves_no_outline")
         found = (Finding("outline_trimmed", float(len(gaps)), offset),) if gaps else ()
         return OffsetRegion(Region(outer, holes.profiles(offset)), offset, found)
 

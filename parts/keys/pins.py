@@ -8,8 +8,8 @@ from typing import Annotated
 
 from msgspec import Meta
 
-from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
-from geometry.base.nearest import last_that_holds
+from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.nearest import moved
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Region
 from geometry.solids.hub_holes import HubHoles, least_wall
@@ -85,10 +85,4 @@ def _renamed(refusal: ParameterError, holes: HubHoles, own: int) -> ParameterErr
 
 def moved_region(build: Callable[[float], Region], offset: float) -> OffsetRegion:
     """A section moved ``offset`` mm out of the material; a refusal names the nearest offset that works."""
-    try:
-        return OffsetRegion(build(offset), offset, ())
-    except GeometryError as refusal:
-        if offset == 0:
-            raise
-        code = refusal.reason if isinstance(refusal, OffsetError) else "leaves_no_outline"
-        raise OffsetError(offset, code, last_that_holds(build, offset)) from refusal
+    return OffsetRegion(moved(build, offset, "leaves_no_outline"), offset, ())

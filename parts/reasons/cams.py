@@ -105,6 +105,7 @@ REASONS = {
     "mark_meets_hole": N_("the mark meets the edge or another hole"),
     "mid_ordinates_raise_nothing": N_("gives no lift by the mid-ordinates of its diagram; take more intervals"),
     "mushroom_without_radius": N_("must be above 0 for a mushroom"),
+    "narrow_stretch": N_("a stretch of it takes {share} of the phase: less than {least}"),
     "narrower_than_stem": N_("is narrower than the stem"),
     "needs_roller": N_("must be a roller, which alone can be held from both sides"),
     "no_axis_keeps_angle": N_("no place of the cam's axis keeps this angle both on the rise and on the return"),

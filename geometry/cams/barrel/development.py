@@ -9,14 +9,14 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geometry.base.errors import CuspError, GeometryError, OffsetError
-from geometry.base.nearest import last_that_holds
+from geometry.base.errors import CuspError, OffsetError
+from geometry.base.nearest import moved
 from geometry.base.record import Record, replace
 from geometry.base.series import FACTORIALS, Series, conjugate, derived, power, product, unit_majorant
 from geometry.cams.barrel.bounds import edge_bounds
@@ -122,13 +122,8 @@ def development(cam: BarrelCam, length: float, offset: float = 0.0) -> OffsetReg
     OffsetError
         The offset leaves no jacket.
     """
-    if not math.isfinite(offset):
-        raise OffsetError(offset, "not_finite", 0.0)
-    try:
-        return OffsetRegion(_region(cam, length, offset), offset, ())
-    except GeometryError as refusal:
-        works = last_that_holds(lambda moved: _region(cam, length, moved), offset)
-        raise OffsetError(offset, "no_jacket" if offset < 0 else "groove_closed", works) from refusal
+    code = "no_jacket" if offset < 0 else "groove_closed"
+    return OffsetRegion(moved(partial(_region, cam, length), offset, code), offset, ())
 
 
 def _region(cam: BarrelCam, length: float, offset: float) -> Region:

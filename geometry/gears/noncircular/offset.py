@@ -7,9 +7,9 @@ import math
 from collections.abc import Sequence
 from functools import partial
 
-from geometry.base.errors import GeometryError, OffsetError
+from geometry.base.errors import OffsetError
 from geometry.base.findings import Finding
-from geometry.base.nearest import last_that_holds
+from geometry.base.nearest import moved
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import start_point
 from geometry.curves.line_arc import Arc
@@ -26,15 +26,8 @@ def noncircular_region(gear: NoncircularGear, offset: float = 0.0) -> OffsetRegi
     OffsetError
         The offset closes a space or a hole, or leaves no tooth or wall; the largest one that works is named.
     """
-    if not math.isfinite(offset):
-        raise OffsetError(offset, "not_finite", 0.0)
-    try:
-        outer = moved_outline(gear, offset)
-    except GeometryError as refusal:
-        if offset == 0:
-            raise
-        code = "closes_spaces_or_fillets" if offset > 0 else "leaves_no_tooth"
-        raise OffsetError(offset, code, last_that_holds(partial(moved_outline, gear), offset)) from refusal
+    code = "closes_spaces_or_fillets" if offset > 0 else "leaves_no_tooth"
+    outer = moved(partial(moved_outline, gear), offset, code)
     if not gear.root_radius + offset > gear.holes.reach - offset:
         raise OffsetError(offset, "leaves_no_rim", (gear.holes.reach - gear.root_radius) / 2 * (1 - 1e-9))
     return OffsetRegion(Region(outer, gear.holes.profiles(offset)), offset, ())

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec.structs import fields, replace
 
-from geometry.base.errors import GeometryError, OffsetError, ParameterError, UndercutError, limit
+from geometry.base.errors import OffsetError, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
-from geometry.base.nearest import last_that_holds, nearest
+from geometry.base.nearest import moved, nearest
 from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
@@ -194,11 +195,7 @@ def groove_section(disk: GrooveDisk, offset: float) -> OffsetRegion:
     if refusals:
         # what works for the narrowest of them works for all
         raise min(refusals, key=lambda r: abs(r.nearest_offset))
-    try:
-        marks, gaps = _moved_walls(disk, offset)
-    except GeometryError as refusal:
-        works = last_that_holds(lambda moved: _moved_walls(disk, moved), offset)
-        raise OffsetError(offset, "no_groove", works) from refusal
+    marks, gaps = moved(partial(_moved_walls, disk), offset, "no_groove")
     outer = circle(disk.outer_radius + offset, Label.BODY)
     found = (Finding("outline_trimmed", float(gaps), offset),) if gaps else ()
     return OffsetRegion(Region(outer, holes, marks), offset, found)

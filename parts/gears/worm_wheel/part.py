@@ -263,6 +263,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         room = drive.root_radius - least_wall(drive.root_radius)
         if holes.bore_reach > room:
             raise wide_bore(keys, room, "leaves_no_wall")
+        holes.check(drive.root_radius)
         check_wheel(shape, 2 * drive.root_radius, holes)
         reach = max(holes.bore_reach, holes.beside_bore()[1], *(t.diameter / 2 for t in (keys.hub,) if t), *(
             t.rim_diameter / 2 for t in (keys.web,) if t

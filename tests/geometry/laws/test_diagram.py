@@ -229,8 +229,7 @@ def refusal_of(*stretches: Stretch) -> ParameterError:
 def test_a_diagram_that_does_not_close_is_told_in_numbers() -> None:
     """Half of the width above the axis at 1, half below it at 1.01; a part of 1e-8 too much is seen, 1e-11 is not."""
     told = refusal_of(constant(1, 1), constant(1, -1.01))
-    assert (told.name, told.code) == ("diagram", "diagram_not_closed")
-    assert told.value == pytest.approx(0.5 - 0.505)
+    assert (told.name, told.value, told.code) == ("diagram", None, "diagram_not_closed")
     assert told.numbers == pytest.approx({"above": 0.5, "below": 0.505, "factor": 1 / 1.01})
     assert refusal_of(constant(1, 1), constant(1, -1 - 1e-8)).code == "diagram_not_closed"
     law_of_diagram("rounded", [constant(1, 1), constant(1, -1 - 1e-11)])

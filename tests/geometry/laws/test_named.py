@@ -244,7 +244,8 @@ def test_bad_boundary_conditions_are_refused(conditions: list[tuple[float, int, 
 
 @pytest.mark.parametrize("make", [
     lambda: trapezoidal(0.3), lambda: modified_trapezoid(0.25), lambda: modified_sine(0.5),
-    lambda: trapezoidal(-0.01), lambda: modified_sine(0.0),
+    lambda: trapezoidal(-0.01), lambda: modified_sine(0.0), lambda: modified_sine(1e-10),
+    lambda: modified_trapezoid(3e-4),
 ])  # fmt: skip
 def test_ramps_beyond_their_range_are_refused(make: Callable[[], Law]) -> None:
     with pytest.raises(ParameterError):
