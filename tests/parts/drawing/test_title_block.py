@@ -117,7 +117,7 @@ def test_long_words_stay_in_their_cells() -> None:
 def test_cam_sheets_leave_room_for_it() -> None:
     """The lower right corner of a cam sheet is free: nothing else is written where the title block stands."""
     raw = tomllib.loads(built_in_scenes()["practicum_roller_cam"].read_text())
-    rough = {"format": "sheet", "purpose": "cam", "tolerance": 1e-3}
+    rough = {"format": "sheet", "purpose": "cam", **ROUGH}
     plain, titled = [
         plan_build(scene_from_dict({**raw, "exports": [{**rough, **more}]}, "t", "t"), "t", [], []).sheets[0]
         .expected.canvas
