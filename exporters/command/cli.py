@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import atexit
 import gc
 import os
 import signal
@@ -28,8 +27,6 @@ DONE, FAILED, INTERRUPTED = 0, 1, 130
 # so many things are made between two searches for circles of them
 _MADE = 100_000
 T = TypeVar("T")
-# the search for circles among all that was loaded, when a process ends, takes a tenth of a build
-atexit.register(gc.freeze)
 _EXAMPLES = """
   higherpair build practicum_pair
   higherpair new spur_gear --out my_gear.toml
@@ -105,7 +102,7 @@ def _parsed(arguments: list[str]) -> argparse.Namespace:
     if not given and not {"-h", "--help"} & {*arguments}:
         try:
             with speaking(words(ENGLISH)):
-                return _parser(words(ENGLISH), next(iter(arguments), None)).parse_args(arguments)
+                return _parser(words(ENGLISH)).parse_args(arguments)
         except Misused:
             # to be told again, in the language of the scene
             pass
@@ -113,7 +110,7 @@ def _parsed(arguments: list[str]) -> argparse.Namespace:
     told = words(asked if asked in languages() else ENGLISH)
     with speaking(told):
         try:
-            return _parser(told, next(iter(arguments), None)).parse_args(arguments)
+            return _parser(told).parse_args(arguments)
         except Misused as misused:
             print(misused, file=sys.stderr)
             sys.exit(WRONG_INPUT)
@@ -214,48 +211,39 @@ def _interrupted() -> int:
     return INTERRUPTED
 
 
-def _parser(told: Words, only: str | None = None) -> argparse.ArgumentParser:
-    """What argparse knows of all commands, or of the ``only`` one that is asked for, which takes a third of that."""
+def _parser(told: Words) -> argparse.ArgumentParser:
     Parser.words = told
     parser = Parser(
         prog="higherpair",
         description=told.text("Exact gears as DXF, SVG, STL, 3MF and STEP, each file read back and measured."),
         epilog=told.text("examples:") + _EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("-V", "--version", action="version", version=f"higherpair {__version__}")
     commands = parser.add_subparsers(
         prog="higherpair", required=True, metavar=told.term("command line", "COMMAND"), parser_class=Parser
     )
+    spoken = Parser(add_help=False)
+    spoken.add_argument(
+        "--language",
+        metavar=told.term("command line", "L"),
+        help=told.text("{languages} (default: that of the scene, or en)", languages=", ".join(languages())),
+    )
 
-    def spoken(parser: argparse.ArgumentParser) -> None:
-        parser.add_argument(
-            "--language",
-            metavar=told.term("command line", "L"),
-            help=told.text("{languages} (default: that of the scene, or en)", languages=", ".join(languages())),
-        )
+    as_json = Parser(add_help=False)
+    as_json.add_argument("--json", action="store_true", help=told.text("print the results as JSON"))
+    quiet = Parser(add_help=False)
+    quiet.add_argument("-q", "--quiet", action="store_true", help=told.text("print nothing if all is well"))
+    page = Parser(add_help=False)
+    page.add_argument(
+        "--out",
+        type=Path,
+        metavar=told.term("command line", "FILE"),
+        help=told.text("write to a file, in UTF-8 (default: to the terminal)"),
+    )
 
-    def as_json(parser: argparse.ArgumentParser) -> None:
-        parser.add_argument("--json", action="store_true", help=told.text("print the results as JSON"))
-
-    def quiet(parser: argparse.ArgumentParser) -> None:
-        parser.add_argument("-q", "--quiet", action="store_true", help=told.text("print nothing if all is well"))
-
-    def page(parser: argparse.ArgumentParser) -> None:
-        parser.add_argument(
-            "--out",
-            type=Path,
-            metavar=told.term("command line", "FILE"),
-            help=told.text("write to a file, in UTF-8 (default: to the terminal)"),
-        )
-
-    def command(
-        name: str, meaning: str, *takes: Callable[[argparse.ArgumentParser], None]
-    ) -> argparse.ArgumentParser | None:
-        if only not in (None, name):
-            return None
-        made = commands.add_parser(name, help=meaning)
-        for take in (spoken, *takes):
-            take(made)
+    def command(name: str, meaning: str, *takes: Parser) -> argparse.ArgumentParser:
+        made = commands.add_parser(name, help=meaning, parents=[spoken, *takes])
         made.set_defaults(command=name, json=False, quiet=False)
         return made
 
@@ -263,99 +251,96 @@ def _parser(told: Words, only: str | None = None) -> argparse.ArgumentParser:
     scenes = told.text("built-in scenes or scene files (.toml)")
     one = told.term("command line", "ID")
     out = told.text("write the results to OUT/<scene name> (default: out)")
-    if build := command("build", told.text("make the files of a scene"), as_json, quiet):
-        build.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
-        build.add_argument("--out", default="out", type=Path, help=out)
-        build.add_argument(
-            "--part", action="append", default=[], metavar=one, help=told.text("only this part (may be repeated)")
-        )
-        build.add_argument(
-            "--format", action="append", default=[], metavar="F", help=told.text("only this format (may be repeated)")
-        )
-        build.add_argument("--no-verify", action="store_true", help=told.text("do not read the files back"))
-        build.add_argument(
-            "--verify",
-            choices=["reader", "kernel"],
-            default="reader",
-            help=told.text("what reads STEP files back: our reader, or the CAD kernel too"),
-        )
-        build.set_defaults(run=_build)
-    if catalogue := command(
-        "catalogue", told.text("build a scene for every combination of the values of some keys"), quiet
-    ):
-        catalogue.add_argument("scene", metavar=told.term("command line", "SCENE"), help=scene)
-        catalogue.add_argument(
-            "--vary",
-            action="append",
-            required=True,
-            metavar=told.term("command line", "PART.KEY=VALUES"),
-            help=told.text("values 1,2,5 or a range 8:200 or 0.5:2:0.25, ends included (may be repeated)"),
-        )
-        who = catalogue.add_mutually_exclusive_group()
-        who.add_argument("--jobs", type=int, default=1, metavar="N", help=told.text("processes (default: 1)"))
-        who.add_argument(
-            "--dask",
-            metavar=told.term("command line", "ADDRESS"),
-            help=told.text("a Dask cluster that works on the same disk, like tcp://host:8786"),
-        )
-        catalogue.add_argument("--out", default="out", type=Path, help=out)
-        catalogue.set_defaults(run=_catalogue)
-    if check := command("check", told.text("check contact and interference of the pairs of a scene"), as_json, quiet):
-        check.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
-        check.add_argument(
-            "--steps", action="store_true", help=told.text("print the order of assembly too, if the scene has one")
-        )
-        check.set_defaults(run=_check)
-    reading = told.text("read files back and compare them with the part in their report")
-    if verify := command("verify", reading, as_json, quiet):
-        verify.add_argument("files", nargs="+", type=Path, metavar=told.term("command line", "FILE"))
-        verify.set_defaults(run=_verify)
-    if converge := command("converge", told.text("measure error against run time, over a ladder of tolerances")):
-        converge.add_argument("scene", help=scene)
-        converge.add_argument("--out", default="out", type=Path, help=out)
-        converge.add_argument("--part", action="append", default=[], metavar=one, help=told.text("only this part"))
-        converge.add_argument("--format", action="append", default=[], metavar="F", help=told.text("only this format"))
-        converge.set_defaults(run=_converge)
-    if listing := command("list", told.text("list kinds of parts and built-in scenes"), as_json):
-        listing.set_defaults(run=_list)
-    if calc := command("calc", told.text("print a textbook calculation, step by step"), page):
-        calc.add_argument(
-            "topic",
-            metavar=told.term("command line", "TOPIC"),
-            help=told.text(
-                "{topics} or {last}",
-                topics="spur, ring, rack, tmm42, gear-pair, shift-choice, worm, train, planetary, cam, cycloidal, "
-                "lantern, noncircular, power-table",
-                last="power-module",
-            ),
-        )
-        calc.add_argument(
-            "words",
-            nargs="*",
-            metavar=told.term("command line", "SCENE | KEY=VALUE"),
-            help=told.text("a scene, or keys as in scenes"),
-        )
-        calc.add_argument(
-            "--format",
-            default="text",
-            metavar="F",
-            help=told.text("text, md, html, json, or the tables alone as csv (default: text)"),
-        )
-        calc.set_defaults(run=_calc)
-    if new := command("new", told.text("print a scene with comments to start from; for a mate, its table"), page):
-        new.add_argument(
-            "kind",
-            metavar=told.term("command line", "KIND"),
-            help=told.text("a kind of part or mate or a built-in scene, see `{command}`", command="higherpair list"),
-        )
-        plain = told.text("print the plain scene that an assembly, or a scene with one, becomes")
-        new.add_argument("--expand", action="store_true", help=plain)
-        new.set_defaults(run=_new)
-    if schema := command(
-        "schema", told.text("print the JSON Schema of scenes, by which an editor completes keys"), page
-    ):
-        schema.set_defaults(run=_schema)
-    return parser if commands.choices else _parser(told)
+    build = command("build", told.text("make the files of a scene"), as_json, quiet)
+    build.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
+    build.add_argument("--out", default="out", type=Path, help=out)
+    build.add_argument(
+        "--part", action="append", default=[], metavar=one, help=told.text("only this part (may be repeated)")
+    )
+    build.add_argument(
+        "--format", action="append", default=[], metavar="F", help=told.text("only this format (may be repeated)")
+    )
+    build.add_argument("--no-verify", action="store_true", help=told.text("do not read the files back"))
+    build.add_argument(
+        "--verify",
+        choices=["reader", "kernel"],
+        default="reader",
+        help=told.text("what reads STEP files back: our reader, or the CAD kernel too"),
+    )
+    build.set_defaults(run=_build)
+    catalogue = command("catalogue", told.text("build a scene for every combination of the values of some keys"), quiet)
+    catalogue.add_argument("scene", metavar=told.term("command line", "SCENE"), help=scene)
+    catalogue.add_argument(
+        "--vary",
+        action="append",
+        required=True,
+        metavar=told.term("command line", "PART.KEY=VALUES"),
+        help=told.text("values 1,2,5 or a range 8:200 or 0.5:2:0.25, ends included (may be repeated)"),
+    )
+    who = catalogue.add_mutually_exclusive_group()
+    who.add_argument("--jobs", type=int, default=1, metavar="N", help=told.text("processes (default: 1)"))
+    who.add_argument(
+        "--dask",
+        metavar=told.term("command line", "ADDRESS"),
+        help=told.text("a Dask cluster that works on the same disk, like tcp://host:8786"),
+    )
+    catalogue.add_argument("--out", default="out", type=Path, help=out)
+    catalogue.set_defaults(run=_catalogue)
+    check = command("check", told.text("check contact and interference of the pairs of a scene"), as_json, quiet)
+    check.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
+    check.add_argument(
+        "--steps", action="store_true", help=told.text("print the order of assembly too, if the scene has one")
+    )
+    check.set_defaults(run=_check)
+    verify = command(
+        "verify", told.text("read files back and compare them with the part in their report"), as_json, quiet
+    )
+    verify.add_argument("files", nargs="+", type=Path, metavar=told.term("command line", "FILE"))
+    verify.set_defaults(run=_verify)
+    converge = command("converge", told.text("measure error against run time, over a ladder of tolerances"))
+    converge.add_argument("scene", help=scene)
+    converge.add_argument("--out", default="out", type=Path, help=out)
+    converge.add_argument("--part", action="append", default=[], metavar=one, help=told.text("only this part"))
+    converge.add_argument("--format", action="append", default=[], metavar="F", help=told.text("only this format"))
+    converge.set_defaults(run=_converge)
+    listing = command("list", told.text("list kinds of parts and built-in scenes"), as_json)
+    listing.set_defaults(run=_list)
+    calc = command("calc", told.text("print a textbook calculation, step by step"), page)
+    calc.add_argument(
+        "topic",
+        metavar=told.term("command line", "TOPIC"),
+        help=told.text(
+            "{topics} or {last}",
+            topics="spur, ring, rack, tmm42, gear-pair, shift-choice, worm, train, planetary, cam, cycloidal, lantern, "
+            "noncircular, power-table",
+            last="power-module",
+        ),
+    )
+    calc.add_argument(
+        "words",
+        nargs="*",
+        metavar=told.term("command line", "SCENE | KEY=VALUE"),
+        help=told.text("a scene, or keys as in scenes"),
+    )
+    calc.add_argument(
+        "--format",
+        default="text",
+        metavar="F",
+        help=told.text("text, md, html, json, or the tables alone as csv (default: text)"),
+    )
+    calc.set_defaults(run=_calc)
+    new = command("new", told.text("print a scene with comments to start from; for a mate, its table"), page)
+    new.add_argument(
+        "kind",
+        metavar=told.term("command line", "KIND"),
+        help=told.text("a kind of part or mate or a built-in scene, see `{command}`", command="higherpair list"),
+    )
+    plain = told.text("print the plain scene that an assembly, or a scene with one, becomes")
+    new.add_argument("--expand", action="store_true", help=plain)
+    new.set_defaults(run=_new)
+    schema = command("schema", told.text("print the JSON Schema of scenes, by which an editor completes keys"), page)
+    schema.set_defaults(run=_schema)
+    return parser
 
 
 def _build(options: argparse.Namespace) -> int:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import os
-import sys
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
-from typing import Any, NoReturn
+from contextlib import contextmanager
+from typing import NoReturn
 
 from parts.base.texts import N_, Words, counted
 
@@ -39,27 +37,10 @@ class Misused(Exception):
     """A command line that means nothing: one line for its user."""
 
 
-class _Lines(argparse.RawDescriptionHelpFormatter):
-    """Lines as wide as the terminal; argparse asks shutil for that, which loads what it needs for archives."""
-
-    def __init__(self, prog: str) -> None:
-        try:
-            columns = int(os.environ["COLUMNS"])
-        except (KeyError, ValueError):
-            columns = 0
-        if columns <= 0:
-            with suppress(ValueError, OSError):
-                columns = os.get_terminal_size(sys.__stdout__.fileno()).columns if sys.__stdout__ else 0
-        super().__init__(prog, width=(columns or 80) - 2)
-
-
 class Parser(argparse.ArgumentParser):
     """A parser that raises ``Misused``."""
 
     words: Words
-
-    def __init__(self, **said: Any) -> None:
-        super().__init__(formatter_class=_Lines, **said)
 
     def error(self, message: str) -> NoReturn:
         """One line, and where there is more."""

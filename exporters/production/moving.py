@@ -10,6 +10,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import shutil
 import signal
 import sys
 from collections.abc import Iterator
@@ -125,18 +126,7 @@ def _put_back(folder: Path) -> None:
 
 def _remove(staging: Path) -> None:
     if _is_ours(staging):
-        _remove_all(staging)
-
-
-def _remove_all(folder: Path) -> None:
-    """As shutil does it, which loads what it needs for archives."""
-    with os.scandir(folder) as inside:
-        for entry in inside:
-            if entry.is_dir(follow_symlinks=False):
-                _remove_all(Path(entry))
-            else:
-                os.unlink(entry)
-    folder.rmdir()
+        shutil.rmtree(staging)
 
 
 def _is_ours(place: Path) -> bool:

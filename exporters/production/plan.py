@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from msgspec.structs import replace as with_keys
+
 from exporters.production.jobs import AssemblyJob, FileJob, Job, assembly_name
 from exporters.production.request import Request
 from geometry.base.errors import GeometryError, OffsetError, ParameterError
@@ -203,7 +205,7 @@ def _of_cams(export: ExportSpec, parts: dict[str, Part], only_parts: list[str]) 
     if not only_parts:
         return export
     asked = [p for p in export.parts or parts if p in only_parts]
-    return replace(export, parts=[p for p in asked if export.purpose in ("model", "part") or parts[p].kind == "cam"])
+    return with_keys(export, parts=[p for p in asked if export.purpose in ("model", "part") or parts[p].kind == "cam"])
 
 
 def _sheets(asked: Request, taken: dict[str, Text]) -> list[SheetJob]:

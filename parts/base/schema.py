@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from inspect import get_annotations
 from typing import Any, Literal, TypeVar, get_args, get_origin
 
 import msgspec
@@ -316,8 +317,6 @@ def _span(meta: Meta, kind: object) -> Message | None:
 
 def own_first(kind: type[Struct]) -> list[msgspec.structs.FieldInfo]:
     """The keys of a table: those that it needs, its own, and what it shares with more and more others."""
-    from inspect import get_annotations
-
     names = [name for one in kind.__mro__ for name in get_annotations(one)]
     return sorted(msgspec.structs.fields(kind), key=lambda field: (not field.required, names.index(field.name)))
 
