@@ -36,6 +36,8 @@ _SURFACES = {
     "TOROIDAL_SURFACE": TORUS, "SURFACE_OF_LINEAR_EXTRUSION": EXTRUSION, "B_SPLINE_SURFACE_WITH_KNOTS": SPLINE,
 }  # fmt: skip
 
+_NONE = np.zeros(0, np.int64)
+
 
 def read_model(read: Followed) -> Model:
     """The solids of a file.
@@ -47,7 +49,7 @@ def read_model(read: Followed) -> Model:
     """
     ids = read.ids(*_EDGES)
     rows = read.rows(*_EDGES)
-    ends = np.stack([read.found(rows[:, k], _VERTICES, ids) for k in (0, 1)], axis=1)
+    ends = read.found(rows[:, :2].ravel(), _VERTICES, np.repeat(ids, 2)).reshape(-1, 2)
     uses, faces, face_rows, solid = _topology(read, ids, ends)
     surface = read.found(face_rows[:, 0], list(_SURFACES), faces)
     kind, frames, sizes, swept = _surfaces(read, surface)
@@ -85,9 +87,9 @@ class Followed:
     def ids(self, *kinds: str) -> Index:
         """Of all entities of some kinds, kind after kind."""
         if kinds not in self.known:
-            found = [self.tables[k].ids for k in kinds if k in self.tables] or [np.zeros(0, np.int64)]
+            found = [self.tables[k].ids for k in kinds if k in self.tables] or [_NONE]
             ids = found[0] if len(found) == 1 else np.concatenate(found)
-            self.known[kinds] = ids, np.argsort(ids, kind="stable")
+            self.known[kinds] = ids, np.argsort(ids, kind="stable") if len(ids) else _NONE
         return self.known[kinds][0]
 
     def rows(self, *kinds: str) -> Real:
@@ -144,7 +146,9 @@ class Followed:
     def frames(self) -> Frames:
         """All frames, by their axis and a direction along."""
         rows, who = self.rows(*_PLACES), self.ids(*_PLACES)
-        axes, along = self.directions[self.found(rows[:, 1:].T.ravel(), _DIRECTIONS, np.tile(who, 2))].reshape(2, -1, 3)
+        axes, along = self.directions[
+            self.found(rows[:, 1:].T.ravel(), _DIRECTIONS, np.concatenate([who, who]))
+        ].reshape(2, -1, 3)
         refuse(np.linalg.norm(cross(axes, along), axis=1) < _LEAST_TURN, who, "has axes of one direction")
         return framed(self.points(rows[:, 0], who), axes, along)
 
@@ -263,10 +267,12 @@ def _curves(read: Followed, curve: Index, vertices: Real, ends: Index, sense: Fl
     round_ = np.flatnonzero((curve >= lines) & (curve < lines + arcs))
     if np.any(round_ >= len(ids)):
         raise ReadError("an extrusion of the STEP file moves an arc that is none of its edges")
-    origin, way = (x[curve[straight]] for x in read.lines)
-    reach = np.sum((vertices[straight] - origin[:, None]) * way[:, None], axis=2)
-    refuse((reach[:, 1] > reach[:, 0]) != sense[straight], ids[straight], "runs against its line")
-    of_lines = straight, origin + reach[:, :1] * way, origin + reach[:, 1:] * way
+    of_lines = straight, *np.zeros((2, 0, 3))
+    if straight.size:
+        origin, way = (x[curve[straight]] for x in read.lines)
+        reach = np.sum((vertices[straight] - origin[:, None]) * way[:, None], axis=2)
+        refuse((reach[:, 1] > reach[:, 0]) != sense[straight], ids[straight], "runs against its line")
+        of_lines = straight, origin + reach[:, :1] * way, origin + reach[:, 1:] * way
     rows = read.rows(_ARCS)
     which = curve[round_] - lines
     whole = read.placed(rows[:, 0], read.ids(_ARCS))

@@ -123,8 +123,9 @@ class Curves(Record, eq=False):
         points = np.empty((int(self.counts.sum()), len(shares), 3))
         slopes = np.empty_like(points)
         which, begin, end = self.lines
-        points[starts[which]] = begin[:, None] + (end - begin)[:, None] * shares[:, None]
-        slopes[starts[which]] = (end - begin)[:, None]
+        if which.size:
+            points[starts[which]] = begin[:, None] + (end - begin)[:, None] * shares[:, None]
+            slopes[starts[which]] = (end - begin)[:, None]
         which, frames, radii, first, sweeps = self.arcs
         counts = self.counts[which]
         row = np.repeat(np.arange(len(which)), counts)

@@ -7,9 +7,9 @@ matched by one expression that knows exactly what they look like. What is not kn
 from __future__ import annotations
 
 import re
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, lru_cache
 from itertools import chain
 from pathlib import Path
 from typing import BinaryIO, TypeVar
@@ -118,6 +118,7 @@ _ONCE = {
     "REPRESENTATION": ("PROPERTY_DEFINITION_REPRESENTATION",),
     PLACED: ("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION",),
 }
+_USERS = {user for users in _ONCE.values() for user in users}
 # the words in them that are always the same; None: any, which the part that is expected decides on
 _WORDED: dict[str, tuple[tuple[str | None, ...], ...]] = {
     "APPLICATION_CONTEXT": (("core data for automotive mechanical design processes",),),
@@ -271,17 +272,21 @@ def _check_references(items: dict[int, Item], fixed: dict[str, Table]) -> None:
     kinds = {number: item.kind for number, item in items.items()}
     for kind in ("AXIS2_PLACEMENT_3D", "MANIFOLD_SOLID_BREP"):
         kinds |= dict.fromkeys(fixed[kind].ids.tolist() if kind in fixed else (), kind)
-    uses = Counter[tuple[int, str]]()
+    uses = defaultdict[tuple[int, str], int](int)
     for number, item in items.items():
-        said = _WORDED.get(item.kind, (("",) * len(item.strings),))
-        if said and item.strings not in said and not any(_says(item.strings, words) for words in said):
-            raise ReadError(f"#{number} of the STEP file says {' and '.join(item.strings)}, which no {item.kind} does")
-        allowed = _referred(item.kind)
-        first = len(item.references) - len(allowed)
-        for place, reference in enumerate(item.references):
+        kind, references, strings = item.kind, item.references, item.strings
+        said = _WORDED.get(kind)
+        wrong = any(strings) if said is None else said and strings not in said
+        if wrong and not any(_says(strings, words) for words in said or ()):
+            raise ReadError(f"#{number} of the STEP file says {' and '.join(strings)}, which no {kind} does")
+        allowed = _referred(kind)
+        first = len(references) - len(allowed)
+        for place, reference in enumerate(references):
             if kinds.get(reference) not in (known := allowed[max(place - first, 0)]):
                 raise ReadError(f"#{number} of the STEP file refers to #{reference}, which is no {' or '.join(known)}")
-            uses[reference, item.kind] += 1
+        if kind in _USERS:
+            for reference in references:
+                uses[reference, kind] += 1
     for number, item in items.items():
         for user in _ONCE.get(item.kind, ()):
             if (count := uses[number, user]) != 1:
@@ -430,19 +435,23 @@ def _complex(statements: list[bytes], strings: list[bytes]) -> Iterator[tuple[in
 def _item(kind: str, text: bytes, strings: list[bytes]) -> Item:
     # an apostrophe in a string is two, which have cut it in two
     runs = _STRINGS.findall(text) if b'"' in text else []
-    words = ([strings[int(m)] if m else b"" for m in _STRING.findall(run)] for run in runs)
+    words = (
+        "" if run == b'"' else _decoded(b"'".join(strings[int(m)] if m else b"" for m in _STRING.findall(run)))
+        for run in runs
+    )
     measured = b"_MEASURE(" in text
     return Item(
         kind,
         tuple(map(int, _REFERENCES.findall(text))),
-        tuple(_decoded(b"'".join(word)) for word in words),
+        tuple(words),
         tuple(map(float, _NUMBER.findall(text))) if b"." in text else (),
         tuple(m.decode() for m in _MEASURE.findall(text)) if measured else (),
     )
 
 
+@lru_cache
 def _decoded(text: bytes) -> str:
-    """A string with its escapes resolved."""
+    """A string with its escapes resolved; most are the same in every file."""
 
     def letters(found: re.Match[str]) -> str:
         *hexadecimal, upper, backslash, lone = found.groups()

@@ -134,18 +134,18 @@ def measure(model: Model, within: float) -> tuple[Real, Real, Real]:
             for total, form in (flux, found.flux), (size, found.size), (area, found.area), (turns, found.turn):
                 total += np.bincount(face[once], form[once] @ weights, count)
             np.maximum.at(gap, face, found.gap.max(axis=1))
-    mine = np.flatnonzero(model.kind == SPHERE)
-    more = poles_of(model.sizes[mine], centres[mine, 2], turns[mine], bare[mine], sense[mine])
-    flux[mine] += more[0]
-    size[mine] += more[1]
-    area[mine] += np.where(more[1] != 0, sense[mine] * np.inf, 0.0)
+    if (mine := np.flatnonzero(model.kind == SPHERE)).size:
+        more = poles_of(model.sizes[mine], centres[mine, 2], turns[mine], bare[mine], sense[mine])
+        flux[mine] += more[0]
+        size[mine] += more[1]
+        area[mine] += np.where(more[1] != 0, sense[mine] * np.inf, 0.0)
     # a face on a cone round the apex, at z = -r / s, has a bound of no length there
-    apex = np.flatnonzero((model.kind == ROUND) & (model.sizes[:, 1] > 0) & (np.abs(turns) > np.pi))
-    r, s = model.sizes[apex].T
-    spread = -r * r / (2 * s) * turns[apex]
-    flux[apex] += (r - s * centres[apex, 2]) / 3 * spread
-    size[apex] += np.sqrt(1 + s * s) * spread
-    area[apex] -= r / s * turns[apex]
+    if (apex := np.flatnonzero((model.kind == ROUND) & (model.sizes[:, 1] > 0) & (np.abs(turns) > np.pi))).size:
+        r, s = model.sizes[apex].T
+        spread = -r * r / (2 * s) * turns[apex]
+        flux[apex] += (r - s * centres[apex, 2]) / 3 * spread
+        size[apex] += np.sqrt(1 + s * s) * spread
+        area[apex] -= r / s * turns[apex]
     if (swept := np.flatnonzero(model.kind[uses.face] == EXTRUSION)).size:
         _follow(model, swept, size, area, gap)
     for patches in model.patches:

@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from itertools import pairwise
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +27,16 @@ SCENES = ("shaft_set", "barrel_cam", "helical_gears", "print_gear", "rack_and_pi
           "groove_cam", "oval_gears", "cycloidal_reducer", "power_table_print")  # fmt: skip
 COLUMNS = ("scene", "part", "fit s", "write s", "read s", "judged s", "kB", "MB",
            "kernel makes s", "writes s", "reads s", "kernel's kB", "MB", "behind")  # fmt: skip
+
+
+def seconds(work: Callable[[], object], turns: int) -> float:
+    """The median of so many turns after one that loads what is needed; of processor time."""
+    taken = []
+    for _ in range(turns + 1):
+        start = time.process_time()
+        work()
+        taken.append(time.process_time() - start)
+    return statistics.median(taken[1:])
 
 
 def ours(scene: str, name: str, file: Path, turns: int) -> None:
@@ -46,17 +56,14 @@ def ours(scene: str, name: str, file: Path, turns: int) -> None:
     body = part.body(0.0)
     volume = part.made_by.moments(body).volume
     solid = solid_faces(body, solid_curves(body, 0.98 * TOLERANCE))
-    fit, rows = time.process_time() - start, []
-    # the first turn loads what is needed
-    for _ in range(turns + 1):
-        told = [time.process_time()]
+    fit = time.process_time() - start
+
+    def write() -> None:
         area = surface_area(solid)
         whole = StepPart(name, solid, COLOUR, volume=volume, area=area)
         file.write_text(step_text(whole, StepForm()), encoding="ascii")
-        told.append(time.process_time())
-        read_step(file)
-        told.append(time.process_time())
-        rows.append([after - before for before, after in pairwise(told)])
+
+    spent = [fit, seconds(write, turns), seconds(lambda: read_step(file), turns)]
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     start = time.process_time()
     failures = verify_file(file, FILE_KINDS["step"], body, TOLERANCE, TOLERANCE).failures
@@ -64,8 +71,7 @@ def ours(scene: str, name: str, file: Path, turns: int) -> None:
     if failures:
         raise SystemExit(f"{scene} {name}: {failures[0]}")
     file.with_suffix(".pickle").write_bytes(pickle.dumps((solid, name, COLOUR)))
-    spent = [fit, *(statistics.median(column) for column in zip(*rows[1:], strict=True)), judged]
-    print("\n" + json.dumps([spent, [volume, area], peak]))
+    print("\n" + json.dumps([[*spent, judged], [volume, surface_area(solid)], peak]))
 
 
 def told_by(*words: object) -> Any:

@@ -8,11 +8,8 @@ from __future__ import annotations
 
 import json
 import pickle
-import statistics
 import sys
-import time
 from collections.abc import Callable, Iterator
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -64,6 +61,7 @@ from geometry.solids.faces import (
     Torus,
 )  # fmt: skip
 from parts.solids.kernel import silent_kernel
+from tests.benchmarks.bench_step import seconds
 
 _TOLERANCE = 1e-7
 
@@ -220,19 +218,11 @@ def main() -> None:
     stored, file, turns = sys.argv[1:]
     with open(stored, "rb") as stream:
         solid, name, colour = pickle.load(stream)
-    rows = []
+    shape = _Maker(solid).whole()
     with silent_kernel():
-        # the first turn loads the kernel's tables
-        for _ in range(int(turns) + 1):
-            told = [time.process_time()]
-            shape = _Maker(solid).whole()
-            told.append(time.process_time())
-            write(shape, name, colour, file)
-            told.append(time.process_time())
-            found = read(file)
-            told.append(time.process_time())
-            rows.append([after - before for before, after in pairwise(told)])
-    spent = [statistics.median(column) for column in zip(*rows[1:], strict=True)]
+        works = (lambda: _Maker(solid).whole(), lambda: write(shape, name, colour, file), lambda: read(file))
+        spent = [seconds(work, int(turns)) for work in works]
+        found = read(file)
     print("\n" + json.dumps([spent, found, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024]))
 
 
