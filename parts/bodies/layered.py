@@ -11,7 +11,7 @@ from geometry.base.errors import GeometryError, ParameterError, limit
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
 from parts.bodies.plate import Slots
-from parts.keys.base import LEAST_HOLE, mm
+from parts.keys.base import mm
 
 if TYPE_CHECKING:
     from geometry.curves.line_arc import Arc
@@ -26,7 +26,7 @@ _Place = Annotated[float, mm("a coordinate", least=-_MOST, most=_MOST)]
 class CircleTable(Struct, forbid_unknown_fields=True):
     """A circle: an outline or a hole, by how many contours it lies in."""
 
-    diameter: Annotated[float, mm("diameter of the circle", least=LEAST_HOLE, most=_MOST)]
+    diameter: Annotated[float, mm("diameter of the circle", above=0, most=_MOST)]
     at: Annotated[tuple[_Place, _Place], mm("x, y of its centre")] = (0.0, 0.0)
 
 

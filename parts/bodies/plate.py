@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import last_that_holds
 from parts.base.kind import HoleAt, Kind, Others
-from parts.keys.base import LEAST_HOLE, MadeKeys, mm
+from parts.keys.base import MadeKeys, mm
 from parts.keys.engraving import Depth, Marks, check_depth, marked
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ _Place = Annotated[float, mm("a coordinate", least=-_MOST, most=_MOST)]
 class HoleAtTable(Struct, forbid_unknown_fields=True):
     """A round hole anywhere, or on the axis of an instance."""
 
-    diameter: Annotated[float, mm("diameter of the hole", least=LEAST_HOLE, most=_MOST)]
+    diameter: Annotated[float, mm("diameter of the hole", above=0, most=_MOST)]
     at: Annotated[tuple[_Place, _Place], mm("x, y of its centre")] | None = None
     axis_of: Annotated[str, Meta(description="the instance whose axle it takes, in place of at")] | None = None
 
@@ -38,7 +38,7 @@ class SlotTable(Struct, forbid_unknown_fields=True):
 
     start: Annotated[tuple[_Place, _Place], mm("x, y of one end's centre")]
     end: Annotated[tuple[_Place, _Place], mm("x, y of the other end's centre")]
-    width: Annotated[float, mm("width of the slot", least=LEAST_HOLE, most=_MOST)]
+    width: Annotated[float, mm("width of the slot", above=0, most=_MOST)]
 
 
 class EngravedTable(SlotTable, forbid_unknown_fields=True):

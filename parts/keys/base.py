@@ -13,6 +13,9 @@ from msgspec import Meta
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.part_keys import MaterialKeys
 
+# what is smaller vanishes among the digits of its place, mm
+LEAST_LENGTH = 1e-6
+
 
 def size(
     unit: str,
@@ -24,14 +27,17 @@ def size(
     most: float | None = None,
     example: object = None,
 ) -> Meta:
-    """A key with a unit and a range; ``example``: for a scene to start from, of a key without a default."""
+    """A key with a unit and a range; ``example``: for a scene to start from, of a key without a default.
+
+    A length above 0 is at least ``LEAST_LENGTH``.
+    """
+    if unit == "mm" and above == 0:
+        above, least = None, LEAST_LENGTH
     ends: dict[str, Any] = {"gt": above, "ge": least, "lt": below, "le": most}
     return Meta(**ends, description=text, examples=None if example is None else [example], extra={"unit": unit})
 
 
 mm, degrees, in_modules = partial(size, "mm"), partial(size, "degrees"), partial(size, "modules")
-# a smaller hole or letter vanishes among the digits of its place, mm
-LEAST_HOLE = 1e-6
 
 
 def start(value: object, *others: tuple[object, str]) -> Meta:

@@ -11,7 +11,7 @@ from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from geometry.curves.line_arc import Arc
-from parts.keys.base import LEAST_HOLE, mm
+from parts.keys.base import mm
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
@@ -31,9 +31,7 @@ class ToothMarkTable(Struct, forbid_unknown_fields=True):
 
     depth: Depth = 0.4
     height: (
-        Annotated[
-            float, mm("height of the digits; default: as the room allows", least=LEAST_HOLE, most=1000, example=2.0)
-        ]
+        Annotated[float, mm("height of the digits; default: as the room allows", above=0, most=1000, example=2.0)]
         | None
     ) = None
 

@@ -13,7 +13,7 @@ from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, encloses, least_wall
 from geometry.solids.windows import RoundHoles
-from parts.keys.base import LEAST_HOLE, mm
+from parts.keys.base import mm
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
@@ -25,7 +25,7 @@ PLACES = 200
 class TimingMarkTable(Struct, forbid_unknown_fields=True):
     """A hole from the axis towards the follower at cam angle 0: the roller's centre, the point, or a flat's normal."""
 
-    diameter: Annotated[float, mm("of the mark", least=LEAST_HOLE, most=1000, example=3.0)]
+    diameter: Annotated[float, mm("of the mark", above=0, most=1000, example=3.0)]
     distance: (
         Annotated[
             float,

@@ -16,7 +16,7 @@ from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
 from geometry.solids.body import plate
 from parts.base.kind import Kind, Others, Report
-from parts.keys.base import LEAST_HOLE, MadeKeys, mm, start
+from parts.keys.base import MadeKeys, mm, start
 from parts.keys.cam import USUAL_PRESSURE_ANGLE, Swing, check_dwell, check_stroke, rough_law, stroke_key
 from parts.keys.law import LawTable, PhaseLaw, law_of, with_own_laws
 
@@ -65,7 +65,7 @@ class WedgeArmTable(Struct, forbid_unknown_fields=True):
 class WedgeHoleTable(Struct, forbid_unknown_fields=True):
     """A round hole of the plate."""
 
-    diameter: Annotated[float, mm("of the hole", least=LEAST_HOLE, most=_MOST, example=5.0)]
+    diameter: Annotated[float, mm("of the hole", above=0, most=_MOST, example=5.0)]
     x: Annotated[
         float, mm("along the travel from the follower's starting place", least=-_MOST, most=_MOST, example=20.0)
     ]

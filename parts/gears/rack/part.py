@@ -10,7 +10,7 @@ from msgspec import Meta, Struct
 from geometry.base.errors import ParameterError
 from parts.base.kind import Kind, Others, Report
 from parts.gears.spur_gear.part import RackTable, basic_rack_of, rounding_finding
-from parts.keys.base import LEAST_HOLE, degrees, mm
+from parts.keys.base import degrees, mm
 from parts.keys.cutter import RackName
 from parts.keys.helix import ToothedKeys, checked_teeth, helix_of, section_finding, told_in_keys
 
@@ -27,7 +27,7 @@ class RackHolesTable(Struct, forbid_unknown_fields=True):
     """A row of round holes in the body, symmetric about the middle."""
 
     count: Annotated[int, Meta(ge=1, le=1000, description="number of holes", examples=[5])]
-    diameter: Annotated[float, mm("diameter of each hole", least=LEAST_HOLE, most=100_000, example=2.5)]
+    diameter: Annotated[float, mm("diameter of each hole", above=0, most=100_000, example=2.5)]
     spacing: Annotated[float, mm("from hole to hole", above=0, most=100_000)] = 20.0
     depth: (
         Annotated[
