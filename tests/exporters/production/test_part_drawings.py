@@ -179,7 +179,7 @@ def sizes(file: Path) -> dict[str, float]:
 def written(folder: Path, part: dict[str, Any], language: str = "en", **export: Any) -> list[Path]:
     """The files of a part's drawing, DXF and SVG where nothing else is asked, each found good by its own check."""
     files = []
-    for job in jobs(part, language, **export):
+    for job in jobs(part, language, **{"tolerance": 1e-3} | export):
         job.write({}, folder / job.path)
         assert job.verify(folder / job.path, 0.0).failures == ()
         # the rounding of the file's numbers stands within the tolerance that was asked for

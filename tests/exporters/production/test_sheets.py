@@ -278,7 +278,7 @@ def gear(teeth: int = 20, **more: Any) -> dict[str, Any]:
 def scene_with(export: dict[str, Any], parts: dict[str, Any] | None = None, *, mates: bool = True) -> Any:
     raw: dict[str, Any] = {
         "parts": parts or {"one": gear(), "two": gear(30)},
-        "exports": [{"format": "sheet", **export}],
+        "exports": [{"format": "sheet", "tolerance": 1e-3, **export}],
     }
     if mates:
         raw["mates"] = [{"kind": "external_gear_pair", "first": "one", "second": "two"}]
@@ -435,7 +435,7 @@ def test_a_helical_pair_shows_its_transverse_section_and_tells_normal_data(
     helix = {"helix_angle_deg": 20.0, "face_width": 30.0}
     raw = {
         "scene": {"language": language}, "parts": {"one": {**first, **helix}, "two": {**second, **helix}},
-        "mates": [{"kind": mate, "first": "one", "second": "two"}], "exports": [{"format": "sheet"}],
+        "mates": [{"kind": mate, "first": "one", "second": "two"}], "exports": [{"format": "sheet", "tolerance": 1e-3}],
     }  # fmt: skip
     raw["parts"]["one"]["profile_shift_coefficient"] = 0.2  # type: ignore[index]
     for job in plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets:
