@@ -253,3 +253,10 @@ def test_a_page_of_a_pair_is_chosen_by_itself_and_parts_by_name() -> None:
 )
 def test_wrong_input_gets_one_clear_line(words: tuple[str, ...], told: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert told in complaint(capsys, "calc", "cam", *words)
+
+
+def test_a_stem_on_a_wedge_leans_by_the_slope_of_its_lift() -> None:
+    rows = calculated("wedge_cam")["positions"]
+    slope = column(rows, "S'")
+    assert slope.min() < 0 < slope.max()
+    assert column(rows, "nu") == pytest.approx(np.degrees(np.arctan(slope)), abs=1e-9)

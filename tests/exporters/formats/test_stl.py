@@ -9,6 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from exporters.production.build import build
+from exporters.production.plan import plan_build
+from parts.scene.load import scene_from_dict
 from tests.exporters.making import build_gear, check_deviation, face_chains, stl_triangles
 from tests.exporters.outside import Gear, half_tooth
 
@@ -103,3 +106,14 @@ def test_numbers_are_the_nearest_float32(tmp_path: Path) -> None:
     radii = np.abs(chain.vertices)
     assert abs(radii.max() - REFERENCE.tip_radius) < 2.0**-23 * REFERENCE.tip_radius
     assert abs(radii.min() - REFERENCE.root_radius) < 2.0**-23 * REFERENCE.tip_radius
+
+
+def test_the_report_measures_edges_and_triangles_of_a_plate(tmp_path: Path) -> None:
+    """An outline of 30 x 20 mm, 4 mm high: the least triangles are halves of its narrow walls."""
+    raw = {"parts": {"p": {"kind": "plate", "width": 30.0, "height": 20.0, "face_width": 4.0}},
+           "exports": [{"format": "stl"}]}  # fmt: skip
+    (written,) = build(plan_build(scene_from_dict(raw, "s", "s"), "s", [], []), tmp_path).written
+    found = written.measured
+    assert (found["triangles"], found["shortest_edge"]) == (16, pytest.approx(20.0))
+    assert found["volume"] == pytest.approx(2400.0)
+    assert found["least_triangle_area"] == pytest.approx(40.0)

@@ -14,6 +14,7 @@ import pytest
 import shapely
 import shapely.affinity
 
+from exporters.boards.cuts import nearest_next
 from exporters.boards.nest import Room, nest
 from exporters.command.cli import main
 from exporters.formats.read_svg import read_svg
@@ -459,3 +460,14 @@ def test_remarks_on_what_is_cut(scene: str, told: str, tmp_path: Path, capsys: p
     file.write_text(scene + SVG_ALONE, encoding="utf-8")
     assert main(["build", str(file), "--out", str(tmp_path), "--no-verify"]) == 0
     assert told in capsys.readouterr().out
+
+
+def test_the_way_between_cuts_goes_to_the_nearest_that_is_left() -> None:
+    points = np.random.default_rng(7).normal(size=(40, 2)) @ [1, 1j] * 100
+    way, end = nearest_next(points, 30 + 20j)
+    left, at, wanted = {*range(40)}, 30 + 20j, []
+    while left:
+        wanted.append(min(left, key=lambda k: abs(points[k] - at)))
+        left.remove(wanted[-1])
+        at = points[wanted[-1]]
+    assert (way, end) == (wanted, at)

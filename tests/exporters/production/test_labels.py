@@ -173,6 +173,15 @@ def test_lines_of_a_name_stand_in_the_middle_of_each_other() -> None:
         assert row.real.min() + row.real.max() == pytest.approx(0.0, abs=1e-9)
 
 
+def test_words_stand_apart_from_each_other_more_than_letters_do() -> None:
+    def ends(text: str) -> list[float]:
+        return sorted(p.real for stroke in lettered((text,), 12.0) for p in stroke)
+
+    close, apart = ends("II"), ends("I I")
+    # a third of a capital at the least, and not a whole one
+    assert 4.0 < (apart[-1] - apart[0]) - (close[-1] - close[0]) < 12.0
+
+
 def test_a_value_stays_with_its_letter(tmp_path: Path) -> None:
     """On a plate too narrow for one line, a line ends before m or x alone, as strokes of the file tell."""
     strip = {"kind": "plate", "width": 15.0, "height": 15.0, "label": "z 10 m 10 x 0"}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 
 import ezdxf
@@ -17,7 +18,7 @@ from parts.base.refusal import SceneError
 from parts.drawing.choice import Asked
 from parts.mates.sheets.train_picture import Link, Rim, TrainPicture
 from parts.mates.sheets.train_sheet import train_sheet
-from parts.scene.load import scene_from_toml
+from parts.scene.load import scene_from_dict, scene_from_toml
 from tests.parts.scene.test_trains import DRIVE, FREE, GEAR, JAMES
 
 SHEET = '[[exports]]\nformat = "sheet"\npurpose = "train"\n'
@@ -105,6 +106,29 @@ def test_a_line_that_is_off_is_seen(tmp_path: Path, layer: str, index: int) -> N
     line.dxf.end = line.dxf.end + ezdxf.math.Vec3(0.01, 0, 0)
     drawing.saveas(file)
     assert any(layer in text for text in verify_sheets(file, [sheet], 1e-6).failures)
+
+
+@pytest.mark.parametrize(
+    ("driver", "distances", "ratios"),
+    [("a", (50.0, 70.0), {"12": "-1.5", "13": "2"}), ("c", (70.0, 50.0), {"12": "-0.75", "13": "0.5"})],
+)
+def test_axes_stand_apart_as_the_gears_do_and_every_ratio_is_told(
+    tmp_path: Path, driver: str, distances: tuple[float, float], ratios: dict[str, str]
+) -> None:
+    """m (z1 + z2) / 2 on paper 1:1; u12 = -z2/z1, u13 = z3/z1 of 20, 30, 40 teeth."""
+    teeth = {"a": 20, "b": 30, "c": 40}
+    raw = {
+        "parts": {key: {"kind": "spur_gear", "module": 2.0, "number_of_teeth": z} for key, z in teeth.items()},
+        "mates": [{"kind": "external_gear_pair", "first": one, "second": two} for one, two in ("ab", "bc")],
+        "drives": [{"instance": driver, "turns": 1.0}],
+        "exports": [{"format": "sheet", "purpose": "train", "scale": "1:1"}],
+    }
+    assert build(plan_build(scene_from_dict(raw, "row", "row"), "row", [], []), tmp_path).well
+    heights = sorted({round(a.imag, 6) for a, b in lines(tmp_path / "row.train.dxf", "CENTRE") if a.imag == b.imag})
+    assert [high - low for low, high in pairwise(heights)] == pytest.approx(distances)
+    texts = [text.dxf.text for text in ezdxf.readfile(tmp_path / "row.train.dxf").modelspace().query("TEXT")]
+    assert {texts[k + 1]: texts[k + 2] for k, text in enumerate(texts) if text == "u"} == ratios
+    assert texts[texts.index("W") + 1] == "1"
 
 
 def test_what_no_drive_turns_is_refused() -> None:
