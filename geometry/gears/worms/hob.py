@@ -25,9 +25,9 @@ Real = NDArray[np.float64]
 
 # half the tip between its roundings is no narrower, modules: faces less wide are turned over by rounding
 _LEAST_LAND = 1e-3
-# steps of the secant to a plane across the wheel's axis, the first of them and the last, rad; when they have got there
-# at all, part of the hob's tip
-_STEPS, _STEP, _LEAST_STEP, _THERE = 24, 1e-6, 1e-9, 1e-12
+# steps to a plane across the wheel's axis, and the last of them, rad; when they have got there at all, part of the
+# hob's tip
+_STEPS, _LEAST_STEP, _THERE = 24, 1e-9, 1e-12
 # steps to the hob's pressure angle, each of which leaves a tenth of what it is off
 _ANGLE_STEPS = 16
 
@@ -159,24 +159,28 @@ class Hob(Record, dict=True):
     def _turned(self, meridian: Meridian, turn: Real, y: Real) -> Real:
         """Polar angles at which points of a swivelled thread touch the wheel in their planes, rad; from near ones.
 
-        The swivel moves them from there by a little: steps of the secant, of those that are not there yet.
+        The swivel moves them from there by a little: Newton's steps on n v = 0 in the plane, without its denominator.
         """
-        wanted, *rows = (
+        sine, cosine = math.sin(self.swivel), math.cos(self.swivel)
+        wanted, r, outwards, upwards = (
             np.broadcast_to(x, turn.shape).ravel()
-            for x in (y, meridian.radius, meridian.z, meridian.outwards, meridian.upwards)
+            for x in (y * cosine, meridian.radius, meridian.outwards, meridian.upwards)
         )
+        rise, lift, along = self.worm.sign * self.worm.parameter * outwards, upwards * r, r * outwards
         found, at = turn.ravel(), np.arange(turn.size)
-        before = self._touch(Meridian(*rows), found).y
-        step = _STEP * (wanted - before) / (self._touch(Meridian(*rows), found + _STEP).y - before)
         for _ in range(_STEPS):
+            out, side = np.cos(found[at]), np.sin(found[at])
+            # of the normal: one part is the other's derivative
+            n_x, n_side = rise * side - lift * out, -lift * side - rise * out
+            n_z, off, x = n_side * sine + along * cosine, r * side - wanted, r * out - self.centre_distance
+            left = n_x * off + sine * (along / self.rate - x * n_z)
+            step = left / (n_side * off - n_x * r * out + sine * (x * sine * n_x - r * side * n_z))
             found[at] += step
             goes = (np.abs(step) > _LEAST_STEP) & (np.abs(found[at]) < math.pi)
             if not goes.any():
                 break
             at = at[goes]
-            here = self._touch(Meridian(*(x[at] for x in rows)), found[at]).y
-            step = step[goes] * (wanted[at] - here) / (here - before[goes])
-            before = here
+            wanted, r, rise, lift, along = (x[goes] for x in (wanted, r, rise, lift, along))
         return found.reshape(turn.shape)
 
     def _touch(self, meridian: Meridian, turn: Real) -> _Touch:

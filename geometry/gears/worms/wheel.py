@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root, bracketed_roots
@@ -48,14 +48,16 @@ _ABOVE = 1.01
 _LEAST_SHARE = 1e-9
 # a space between two teeth is no shallower, a whole tooth's flank no narrower, modules
 _LEAST_DEPTH = 0.04
-# heights at which a face is looked at, and how well places between them are known, part of the width
-_LEVELS, _SETTLED = 97, 1e-9
-# how far beyond the ends of a part the foot of a perpendicular may lie, as shares of it
-BEYOND = 0.02
+# heights at which a face is looked at, some of them for a glance, and how well places between them are known, part of
+# the width
+_LEVELS, _GLANCE, _SETTLED = 97, 7, 1e-9
+# how far beyond the ends of a part the foot of a perpendicular may lie, and how far the contact has to run on beyond
+# the tip, as shares of it
+BEYOND, _RUNS_ON = 0.02, 0.002
 # shares of a fillet at which it is looked whether it folds
 _FOLD = np.linspace(0.0, 1.0, 17)[:, None]
-# how far beside an end of undercut it is looked at, part of the width
-_BESIDE = (-1e-2, -1e-3, 1e-3, 1e-2)
+# how far beside an end of undercut it is looked at, and how well that end is known then, part of the width
+_BESIDE, _ABOUT = (-1e-2, -1e-3, 1e-3, 1e-2), 1e-5
 # of pictures: points of which a few are drawn, and how near their chords are, part of the size
 _DRAWN, _SEEN = 33, 2e-4
 # the least width that is offered, and how near to the widest, part of the asked one
@@ -96,7 +98,7 @@ class Side(Record, eq=False):
 class WormTeeth(Record, dict=True):
     """Teeth that ``hob`` cuts about a worm at ``centre_distance``; ``throat_radius`` about the worm's axis, mm.
 
-    ``outer_radius`` of the wheel and ``width`` of its rim, mm.
+    ``outer_radius`` of the wheel and ``width`` of its rim, mm; ``levels``: at how many heights the face is looked at.
     """
 
     hob: Hob
@@ -104,6 +106,7 @@ class WormTeeth(Record, dict=True):
     throat_radius: float
     outer_radius: float
     width: float
+    levels: int = _LEVELS
 
     @property
     def number_of_teeth(self) -> int:
@@ -440,20 +443,41 @@ class WormTeeth(Record, dict=True):
         lines = [Line(complex(a), complex(b)) for a, b in pairwise(around)]
         return Profile(tuple(map(Segment, lines, way)), self.number_of_teeth)
 
+    @property
+    def glanced(self) -> WormTeeth:
+        """The same for a search, which looks at few heights of many wheels."""
+        return replace(self, levels=_GLANCE)
+
     def narrowed(self, *, even: bool = False) -> WormTeeth:
         """The teeth with as much of the width as has whole ones at every height; themselves where none has.
 
         ``even``: and as has flanks that bend nowhere.
         """
 
-        def stands(width: float) -> bool:
-            narrower = replace(self, width=width)
-            return narrower.is_even if even else narrower.is_whole
+        return self._widest(lambda teeth: teeth.is_even if even else teeth.is_whole) or self
 
-        if stands(self.width):
+    def _widest(self, stands: Callable[[WormTeeth], bool]) -> WormTeeth | None:
+        """The same of the greatest width at which they stand, their own or one that is found; None where none is."""
+        if stands(self):
             return self
-        found = nearest(stands, self.width, _LEAST_WIDTH * self.width, enough=_NEAR_WIDTH * self.width)
-        return replace(self, width=found.value) if found and isinstance(found.value, float) else self
+
+        def does(levels: int, width: float) -> bool:
+            return stands(replace(self, width=width, levels=levels))
+
+        # where the last of a tooth goes rounding decides
+        least, enough = _LEAST_WIDTH * self.width, _NEAR_WIDTH * self.width
+        for levels in (_GLANCE, self.levels):
+            found = nearest(partial(does, levels), self.width, least, enough=enough)
+            if found is None or not isinstance(found.value, float):
+                return None
+            whole = replace(self, width=found.value)
+            if levels == self.levels or stands(whole):
+                return whole
+        return None
+
+    def standing(self) -> WormTeeth | None:
+        """The teeth with as much of the width as has some at every height; None where that is next to nothing."""
+        return self._widest(lambda teeth: teeth.ended is None)
 
     def checked(self) -> WormTeeth:
         """The teeth themselves, where some of them is left at every height.
@@ -467,17 +491,11 @@ class WormTeeth(Record, dict=True):
         if self.ended is None:
             return self
 
-        def stands(width: float) -> bool:
-            return replace(self, width=width).ended is None
+        def cure() -> Nearest | None:
+            found = self.standing()
+            return limit(found.width, self.width) if found else None
 
-        # where the last of a tooth goes rounding decides
-        enough = _NEAR_WIDTH * self.width
-        raise ParameterError(
-            "face_width",
-            self.width,
-            self.ended,
-            lambda: nearest(stands, self.width, _LEAST_WIDTH * self.width, enough=enough),
-        )
+        raise ParameterError("face_width", self.width, self.ended, cure)
 
     @cached_property
     def ended(self) -> str | None:
@@ -524,7 +542,7 @@ class WormTeeth(Record, dict=True):
     def _torn(self) -> str | None:
         """What leaves no side up to the tip at some height: a code."""
         # just beside where undercut begins the flank may fold between fillet and tip
-        beside = [end + step * self.width for end in self.undercut_ends for step in _BESIDE]
+        beside = [end + step * self.width for end in self._undercut_from(_ABOUT) for step in _BESIDE]
         half = self.width / 2
         try:
             # beyond the hob's side its flanks turn round it
@@ -544,13 +562,13 @@ class WormTeeth(Record, dict=True):
         if self.hob.swivel == 0:
             return True
         side = self._plain_levels
-        on = self._reach(side.inner + (side.outer - side.inner) * _hurried(1 + BEYOND, side.hurry[1]), self._levels)
+        on = self._reach(side.inner + (side.outer - side.inner) * _hurried(1 + _RUNS_ON, side.hurry[1]), self._levels)
         return bool(((np.isfinite(on) & (on > self.tip_radius(self._levels))) | side.all_fillet).all())
 
     @property
     def _levels(self) -> Real:
         """Heights at which a face is looked at, closer at its ends."""
-        return np.asarray(self.width / 2 * np.sin(np.linspace(-math.pi / 2, math.pi / 2, _LEVELS)))
+        return np.asarray(self.width / 2 * np.sin(np.linspace(-math.pi / 2, math.pi / 2, self.levels)))
 
     @cached_property
     def _looked(self) -> _Looked:
@@ -610,16 +628,18 @@ class WormTeeth(Record, dict=True):
     @cached_property
     def undercut_ends(self) -> tuple[float, ...]:
         """Heights at which undercut begins on the lower side, mm."""
+        return self._undercut_from(_SETTLED)
+
+    def _undercut_from(self, settled: float) -> tuple[float, ...]:
+        """The same known that well, part of the width."""
         z, cut = self._levels, self._looked[2] > 0
-        found = []
-        for k in np.flatnonzero(cut[1:] != cut[:-1]).tolist():
-            low, high = float(z[k]), float(z[k + 1])
-            while high - low > _SETTLED * self.width:
-                middle = (low + high) / 2
-                is_cut = self._search(np.array([middle]))[2][0] > 0
-                low, high = (middle, high) if is_cut == cut[k] else (low, middle)
-            found.append((low + high) / 2)
-        return tuple(found)
+        at = np.flatnonzero(cut[1:] != cut[:-1])
+        low, high = z[at], z[at + 1]
+        while (wide := high - low > settled * self.width).any():
+            middle = (low + high) / 2
+            same = (self._search(middle)[2] > 0) == cut[at]
+            low, high = np.where(wide & same, middle, low), np.where(wide & ~same, middle, high)
+        return tuple(((low + high) / 2).tolist())
 
 
 def chords_near(points: Complex, near: float) -> Complex:

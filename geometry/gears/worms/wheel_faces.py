@@ -39,12 +39,16 @@ _DEGREE = 7
 _MARGIN, _EDGES = 2.0, 5e-8
 # the least error of faces that is asked for, mm
 _FINEST, _SHARE = 2e-8, 0.5
-# spans at most, and of a rough fit, samples of each, and lines of a family on which spans are chosen
-_MOST_SPANS, _FEW_SPANS, _SAMPLES, _LINES = 64, 24, 7, 9
+# spans at most, samples of each, and lines of a family on which spans are chosen
+_MOST_SPANS, _SAMPLES, _LINES = 64, 7, 9
+# the tolerance that files have by default, mm, and spans by which they are near enough
+_WANTED, _ENOUGH = 1e-6, 48
+# by which power of what is left to the tip of a swivelled hob's flank its spans come closer there
+_CLOSER = 2
 # so many spans are one more when they are too few
 _SLOW = 6
 # the narrowest part of a width that is tried, and how near to the widest that splines follow
-_NARROWEST, _NEARLY = 0.3, 0.1
+_NARROWEST, _NEARLY = 0.3, 0.02
 # of the curves of a ring
 _ROOT, _TIP = 0, 3
 # where between two places of interpolation errors are greatest, and what part of the margin they want
@@ -108,7 +112,7 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
 
 # what a refusal offers is asked for again by whoever judges the offer
 @lru_cache(maxsize=4)
-def fitting(teeth: WormTeeth, tolerance: float) -> WormTeeth | None:
+def fitting(teeth: WormTeeth) -> WormTeeth | None:
     """The widest of some narrower teeth, themselves first, that splines come near; None where none do."""
 
     def follows(width: float) -> bool:
@@ -116,7 +120,7 @@ def fitting(teeth: WormTeeth, tolerance: float) -> WormTeeth | None:
             narrower = replace(teeth, width=width).checked()
             # of what bends splines follow next to nothing
             bends = width < teeth.width and narrower.is_creased
-            return not bends and bool(_fits(narrower, tolerance, _FEW_SPANS))
+            return not bends and _are_followed(narrower)
         except NoTooth:
             return False
 
@@ -126,7 +130,19 @@ def fitting(teeth: WormTeeth, tolerance: float) -> WormTeeth | None:
     return replace(teeth, width=found.value) if found and isinstance(found.value, float) else None
 
 
-def _fits(teeth: WormTeeth, tolerance: float, most: int = _MOST_SPANS) -> dict[tuple[float, float], list[_Fit]]:
+def _are_followed(teeth: WormTeeth) -> bool:
+    """Whether somewhat less than the most spans come as near as files want."""
+    least = _ROUNDING * teeth.outer_radius
+    target, edges = max(_SHARE * _WANTED / _MARGIN, least), max(_EDGES, least)
+    for band in pairwise(teeth.breaks):
+        for part in (FILLET, FLANK) if _has_flank(teeth, band) else (FILLET,):
+            away, edge = _along(teeth, part, band, _ENOUGH)
+            if not (away <= target and edge <= edges and _across(teeth, part, band, _ENOUGH) <= target):
+                return False
+    return True
+
+
+def _fits(teeth: WormTeeth, tolerance: float) -> dict[tuple[float, float], list[_Fit]]:
     """The lower fillet and flank between each two breaks."""
     least = _ROUNDING * teeth.outer_radius
     target = max(min(tolerance, max(_FINEST, _SHARE * tolerance)) / _MARGIN, least)
@@ -136,10 +152,10 @@ def _fits(teeth: WormTeeth, tolerance: float, most: int = _MOST_SPANS) -> dict[t
     # tip and root are edges of exact surfaces: along them more is asked for
     # across: of fillet and flank, alike in all bands, which share the edges between them; then along each band
     across = [
-        max((_spans(teeth, part, band, target, most) for band in bands if part in parts[band]), default=1)
+        max((_spans(teeth, part, band, target) for band in bands if part in parts[band]), default=1)
         for part in (FILLET, FLANK)
     ]
-    along = {band: max(_spans_along(teeth, part, band, target, edges, most) for part in parts[band]) for band in bands}
+    along = {band: max(_spans_along(teeth, part, band, target, edges) for part in parts[band]) for band in bands}
     along = {(low, high): max(n, along[-high, -low]) for (low, high), n in along.items()}
     while True:
         made = {band: [_fitted(teeth, p, band, (across[p], n)) for p in parts[band]] for band, n in along.items()}
@@ -147,8 +163,8 @@ def _fits(teeth: WormTeeth, tolerance: float, most: int = _MOST_SPANS) -> dict[t
         off = {band for band, fits in made.items() for fit in fits if fit.error > target or fit.edge > edges}
         if not off:
             return made
-        if max(*across, *along.values()) > most:
-            raise ConvergenceError("spline surfaces of the teeth", max(error), most)
+        if max(*across, *along.values()) > _MOST_SPANS:
+            raise ConvergenceError("spline surfaces of the teeth", max(error), _MOST_SPANS)
         across = [n + (e > target) * (1 + n // _SLOW) for n, e in zip(across, error, strict=True)]
         along = {
             (low, high): n + bool(off & {(low, high), (-high, -low)}) * (1 + n // _SLOW)
@@ -171,33 +187,58 @@ def _points(teeth: WormTeeth, part: int, shares: Real, heights: Real) -> Cut:
     return (teeth.fillet, teeth.flank)[part](teeth.side(heights), shares[:, None])
 
 
-def _spans(teeth: WormTeeth, part: int, band: tuple[float, float], target: float, most: int) -> int:
+def _spans(teeth: WormTeeth, part: int, band: tuple[float, float], target: float) -> int:
     """Least spans across a part with which its lines in planes are near enough."""
+    for spans in range(1, _MOST_SPANS):
+        if _across(teeth, part, band, spans) <= target / 2:
+            break
+    return spans
+
+
+def _across(teeth: WormTeeth, part: int, band: tuple[float, float], spans: int) -> float:
+    """How far lines of a part in planes are off on so many spans, mm."""
     heights = np.linspace(*band, _LINES)
-    for spans in range(1, most):
-        places, between, weights = _interpolation(0.0, 1.0, spans)
-        found = weights @ _points(teeth, part, places, heights).plane
-        if float(_away(found, _points(teeth, part, between, heights)).max()) <= target / 2:
-            break
-    return spans
+    places, between, weights = _interpolation(*(_shares(teeth, part, n) for n in _counts(spans)))
+    found = weights @ _points(teeth, part, places, heights).plane
+    return float(_away(found, _points(teeth, part, between, heights)).max())
 
 
-def _spans_along(teeth: WormTeeth, part: int, band: tuple[float, float], target: float, edges: float, most: int) -> int:
+def _spans_along(teeth: WormTeeth, part: int, band: tuple[float, float], target: float, edges: float) -> int:
     """Least spans along a band with which its lines from end to end are near enough, and root and tip nearer."""
-    shares = np.linspace(0.0, 1.0, _LINES)
-    for spans in range(1, most):
-        places, between, weights = _interpolation(*band, spans)
-        found = _points(teeth, part, shares, places).plane @ weights.T
-        edge = _edge_error(teeth, part, band, found, between)
-        if float(_away(found, _points(teeth, part, shares, between)).max()) <= target / 2 and edge <= edges / 2:
+    for spans in range(1, _MOST_SPANS):
+        away, edge = _along(teeth, part, band, spans)
+        if away <= target / 2 and edge <= edges / 2:
             break
     return spans
 
 
-def _interpolation(low: float, high: float, spans: int) -> tuple[Real, Real, Real]:
-    """Places of interpolation on even spans, places between them, and what gives the values there, (m, n)."""
-    knots = clamped(_DEGREE, np.linspace(low, high, spans + 1))
-    places, between = greville(_DEGREE, knots), np.linspace(low, high, _SAMPLES * spans + 8)
+def _along(teeth: WormTeeth, part: int, band: tuple[float, float], spans: int) -> tuple[float, float]:
+    """How far lines of a part from end to end of a band are off on so many spans, and its edge, mm."""
+    shares = np.linspace(0.0, 1.0, _LINES)
+    places, between, weights = _interpolation(*(np.linspace(*band, n) for n in _counts(spans)))
+    found = _points(teeth, part, shares, places).plane @ weights.T
+    away = float(_away(found, _points(teeth, part, shares, between)).max())
+    return away, _edge_error(teeth, part, band, found, between)
+
+
+def _counts(spans: int) -> tuple[int, int]:
+    """How many ends and how many samples spans have."""
+    return spans + 1, _SAMPLES * spans + 8
+
+
+def _shares(teeth: WormTeeth, part: int, count: int, *, inwards: bool = False) -> Real:
+    """So many shares of a part from the root on, or from the tip, even where that follows it best."""
+    even = np.linspace(0.0, 1.0, count)
+    if part != FLANK or teeth.hob.swivel == 0:
+        return even
+    # beyond the tip the contact of a swivelled hob turns back in the plane: the nearer the closer
+    return np.asarray(even**_CLOSER if inwards else 1 - (1 - even) ** _CLOSER)
+
+
+def _interpolation(ends: Real, between: Real) -> tuple[Real, Real, Real]:
+    """Places of interpolation on spans with such ends, places between them, and what gives the values there, (m, n)."""
+    knots = clamped(_DEGREE, ends)
+    places = greville(_DEGREE, knots)
     return places, between, basis_matrix(_DEGREE, knots, between) @ np.linalg.inv(basis_matrix(_DEGREE, knots, places))
 
 
@@ -226,11 +267,13 @@ class _Fit(Record, eq=False):
 
 def _fitted(teeth: WormTeeth, part: int, band: tuple[float, float], spans: tuple[int, int]) -> _Fit:
     """The spline of a lower fillet or flank."""
-    u_knots = clamped(_DEGREE, np.linspace(0.0, 1.0, spans[0] + 1))
-    v_knots = clamped(_DEGREE, np.linspace(*band, spans[1] + 1))
+    (u_ends, u), (v_ends, v) = (
+        [_shares(teeth, part, n) for n in _counts(spans[0])],
+        [np.linspace(*band, n) for n in _counts(spans[1])],
+    )
+    u_knots, v_knots = clamped(_DEGREE, u_ends), clamped(_DEGREE, v_ends)
     exact = _points(teeth, part, greville(_DEGREE, u_knots), greville(_DEGREE, v_knots))
     poles = tensor_poles(_DEGREE, u_knots, v_knots, exact.plane)
-    u, v = (np.linspace(k[0], k[-1], _SAMPLES * n + 8) for k, n in zip((u_knots, v_knots), spans, strict=True))
     found = basis_matrix(_DEGREE, u_knots, u) @ poles @ basis_matrix(_DEGREE, v_knots, v).T
     error = float(_away(found, _points(teeth, part, u, v)).max())
     edge = _edge_error(teeth, part, band, found, v)
@@ -309,9 +352,13 @@ def _ring(made: BodyFaces, teeth: WormTeeth, strips: Sequence[Strip], end: int, 
     present = tuple(map(all, zip(*(s.present for s in strips), strict=True)))
     top = complex(upper_flank[0])
     period: list[CadCurve] = [_arc(complex(before[0]), complex(fillet[0])), BSpline(_DEGREE, fillet_knots, fillet)]
-    for is_there, poles in zip(present[2:5], (flank, None, upper_flank), strict=True):
-        if is_there:
-            period.append(_arc(complex(tip[0]), top) if poles is None else BSpline(_DEGREE, flank_knots[0], poles))
+    if present[2]:
+        period.append(BSpline(_DEGREE, flank_knots[0], flank))
+    if present[3]:
+        period.append(_arc(complex(tip[0]), top))
+    if present[4]:
+        inwards = clamped(_DEGREE, _shares(teeth, FLANK, len(flank_knots[0]) - 2 * _DEGREE, inwards=True))
+        period.append(BSpline(_DEGREE, inwards, upper_flank))
     period.append(BSpline(_DEGREE, fillet_knots, upper_fillet))
     outline = Outline(tuple(period), teeth.number_of_teeth, 0.0, "sampled")
     return replace(made.ring(outline, middle + float(strip.v_knots[end])), present=present)

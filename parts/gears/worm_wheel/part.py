@@ -48,8 +48,6 @@ if TYPE_CHECKING:
     from geometry.solids.sketch import Sketch
 
 # part of the root's radius at which the core ends whose place the teeth take
-# of the module: as near as faces are fitted to see whether they hang together
-_ROUGH = 1e-3
 _CORE = 0.5
 _LEAST_TEETH = 8
 # heights at which a ridge is looked at
@@ -58,8 +56,9 @@ _SEEN = 33
 _SLIVER = 0.02
 # and what a wheel is of use with; its tip in the middle, modules
 _USEFUL, _TIP = 0.25, 0.02
-# addenda and shifts (modules) and thinnings (mm) are offered that near to the last one that works
-_NEAR = 5e-3
+# addenda and shifts (modules) and thinnings (mm) are offered that near to the last one that works, and where only the
+# splines tell which does
+_NEAR, _NEARLY = 5e-3, 2e-2
 # an outside is reached that near, mm; below so many degrees a corner is sharp: a throat wraps a third of the worm
 _REACHED, _SHARP = 1e-3, 29.9
 
@@ -151,7 +150,7 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     if outer < least:
         raise ParameterError("outer_diameter", outer, "within_throat", limit(least, outer), diameter=least)
     teeth = WormTeeth(hob, drive.centre_distance, drive.throat_radius, outer / 2, width)
-    sliver = replace(teeth, width=_SLIVER * width).lessened
+    sliver = replace(teeth.glanced, width=_SLIVER * width).lessened
     if sliver is not None:
         # at any width
         raise _toothless(keys, sliver)
@@ -171,7 +170,7 @@ def _rounding_cures(keys: WormWheelSpec, refusal: ParameterError) -> bool:
 def _of_use(keys: WormWheelSpec) -> bool:
     """Whether teeth are whole, of some thickness, and bend nowhere over a part of the width that is of use."""
     teeth = _asked_teeth(keys, drive_of(keys))
-    teeth = replace(teeth, width=_USEFUL * teeth.width)
+    teeth = replace(teeth.glanced, width=_USEFUL * teeth.width)
     # what is not whole anywhere has no tip to ask for
     return teeth.is_even and float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0]) > _TIP * keys.module
 
@@ -184,16 +183,27 @@ def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     if keys.face_width is None:
         even = teeth.narrowed(even=True)
         teeth = even if even.is_even and even.width >= _USEFUL * teeth.width else teeth.narrowed()
-    teeth = teeth.checked()
+    try:
+        teeth = teeth.checked()
+    except ParameterError as wide:
+        raise ParameterError(wide.name, wide.value, wide.code, partial(_narrower, teeth)) from wide
     # faces may break off where none of the known ends is
-    rough = _ROUGH * keys.module
-    found = fitting(teeth, rough)
+    found = fitting(teeth)
     if found is None and teeth.is_creased:
         raise _toothless(keys, "worm_wheel_below_base")
     if found is None or (found != teeth and keys.face_width is not None):
         cure = None if found is None else limit(found.width, teeth.width)
         raise ParameterError("face_width", teeth.width, "worm_wheel_faces_break", cure)
     return found
+
+
+def _narrower(teeth: WormTeeth) -> Nearest | None:
+    """The widest of their faces that stands and that splines follow."""
+    from geometry.gears.worms.wheel_faces import fitting
+
+    standing = teeth.standing()
+    found = standing and fitting(standing)
+    return limit(found.width, teeth.width) if found else None
 
 
 def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
@@ -205,7 +215,7 @@ def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
     def some(value: float) -> bool:
         less = changed(keys, **{key: value})
         teeth = _asked_teeth(less, drive_of(less))
-        return replace(teeth, width=_SLIVER * teeth.width).is_even
+        return replace(teeth.glanced, width=_SLIVER * teeth.width).is_even
 
     def followed(value: float) -> bool:
         less = changed(keys, **{key: value})
@@ -218,7 +228,7 @@ def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
         if found is None or not isinstance(found.value, float) or kept(followed, found.value):
             return found
         # splines do not follow some that run all but along the contact's way to infinity
-        return next((limit(end, given) for end in ends if end < found.value and kept(followed, end)), None)
+        return nearest(followed, found.value, [end for end in ends if end < found.value], enough=_NEARLY)
 
     taken = (other for other in ("axial_thinning", "profile_shift_coefficient") if getattr(keys, other))
     found = next((other for other in taken if kept(partial(of_use, of=other), 0.0)), None)

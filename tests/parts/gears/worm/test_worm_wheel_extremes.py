@@ -119,11 +119,10 @@ def test_the_contact_of_a_larger_hob_is_followed_to_where_it_turns_back_in_the_p
     found = teeth.flank(teeth.side(ends), 1.0)
     assert np.abs(np.abs(found.plane) - teeth.tip_radius(ends)).max() < 1e-9
     # no spline follows it up to there
-    ended = [replace(teeth, width=width).ended for width in (24.0, 27.69, 27.8)]
+    ended = [replace(teeth, width=width).ended for width in (26.7, 27.69, 27.8)]
     assert ended == [None, "worm_wheel_flank_ends", "worm_wheel_flank_ends"]
 
 
-@pytest.mark.heavy
 def test_faces_of_larger_hobs_end_before_their_contact_turns_back() -> None:
     keys = {"module": 10.0, "number_of_starts": 10, "diameter_quotient": 6.386, "pressure_angle_deg": 28.0}
     keys |= {"form": "ZA", "number_of_teeth": 15, "hob_diameter_quotient": 7.288}
@@ -134,11 +133,10 @@ def test_faces_of_larger_hobs_end_before_their_contact_turns_back() -> None:
     offered = refused.value.nearest
     assert offered is not None
     assert isinstance(offered.value, float)
-    assert 7.4 < offered.value < 7.5
+    assert 8.6 < offered.value < 8.7
     assert wheel_splines(_built({**keys, "face_width": offered.value}).wheel, 1e-4).max_error <= 1e-4
 
 
-@pytest.mark.heavy
 def test_a_face_that_no_hob_reaches_is_told_the_widest_that_stands() -> None:
     keys = {"form": "ZA", "number_of_starts": 2, "diameter_quotient": 4.0, "pressure_angle_deg": 25.0}
     keys |= {"module": 1.0, "number_of_teeth": 13, "hob_diameter_quotient": 4.609}
@@ -149,7 +147,7 @@ def test_a_face_that_no_hob_reaches_is_told_the_widest_that_stands() -> None:
     assert refused.value.code == "worm_wheel_not_reached"
     assert offered is not None
     assert isinstance(offered.value, float)
-    assert 1.9 < offered.value < 1.93
+    assert 1.7 < offered.value < 1.72
     _built({**keys, "face_width": offered.value})
 
 
