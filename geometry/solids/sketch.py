@@ -175,9 +175,10 @@ class Sketch(Record):
         found = np.zeros(len(points), dtype=bool)
         for layer in self.layers:
             if layer.low >= height - _SAME:
-                found |= layer.at_low.hold(points)
-                if layer.upper is not layer.lower:
-                    found |= layer.at_high.hold(points)
+                for end in (layer.at_low,) if layer.upper is layer.lower else (layer.at_low, layer.at_high):
+                    # what is covered already is not asked for again
+                    left = np.flatnonzero(~found)
+                    found[left] = end.hold(points[left])
         return found
 
 

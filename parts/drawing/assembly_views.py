@@ -174,7 +174,10 @@ class _Cover(Record, dict=True):
             return found
         sketch, placement = self.faced
         places = np.asarray(placement.inverse().apply(points[near]))
-        levels = np.broadcast_to(np.asarray(heights, float) - one.depth, found.shape)[near]
+        if isinstance(heights, float):
+            found[near] = sketch.covers(places, heights - one.depth)
+            return found
+        levels = (heights - one.depth)[near]
         inner = np.zeros(len(places), dtype=bool)
         for level in np.unique(levels):
             inner[levels == level] = sketch.covers(places[levels == level], float(level))
@@ -319,7 +322,10 @@ def _visible(curve: Curve, height: float, one: Shown, covers: _Covers) -> Iterat
         points = curve.point(t)
         found = np.zeros(len(t), dtype=bool)
         for cover in near:
-            found |= cover.hides(points, height)
+            left = np.flatnonzero(~found)
+            if not len(left):
+                break
+            found[left] = cover.hides(points[left], height)
         return found
 
     return shown_pieces(curve, hidden)
