@@ -63,6 +63,22 @@ def helix_of(keys: Struct) -> Helix:
     return Helix(math.radians(abs(keys.helix_angle_deg)), hand, keys.double_helical)
 
 
+def same_helix(first: ToothedKeys, second: ToothedKeys) -> float:
+    """The helix angle of two mates, rad, whatever their hands: no number of a pair depends on those.
+
+    Raises
+    ------
+    ParameterError
+        They differ.
+    """
+    one, two = helix_of(first).angle, helix_of(second).angle
+    if one != two:
+        raise ParameterError(
+            "helix_angle_deg", second.helix_angle_deg, "not_that_of_first", Nearest(first.helix_angle_deg)
+        )
+    return one
+
+
 def checked_teeth(keys: ToothedKeys) -> Helix:
     """The helix of a part's keys, which belong together.
 

@@ -24,7 +24,7 @@ from parts.gears.ring_gear.part import RingGearSpec
 from parts.gears.spur_gear.page import addendum_formula, dedendum_formula, given_data, thickness_formula
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, section_of
 from parts.keys.base import in_modules, mm
-from parts.keys.helix import in_keys
+from parts.keys.helix import helix_of, in_keys, same_helix
 from parts.mates.pages.internal import InternalKeys, RackKeys, internal_sheet, rack_sheet
 from parts.mates.pages.pair_keys import GEARS, GearSpeed, merged, pair_table
 from parts.mates.pages.wishes import wish_refused
@@ -132,10 +132,7 @@ def external_sheet(table: dict[str, Any]) -> Sheet:
 
 def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
     """The pair that the keys ask for: shifts from the distance, thinning from the backlash, tips from Delta y."""
-    helix = math.radians(keys.first.helix_angle_deg)
-    if keys.second.helix_angle_deg != keys.first.helix_angle_deg:
-        works = Nearest(keys.first.helix_angle_deg)
-        raise ParameterError("helix_angle_deg", keys.second.helix_angle_deg, "not_that_of_first", works)
+    helix = same_helix(keys.first, keys.second)
     normal = (gear_of(keys.first), gear_of(keys.second))
     if normal[0].module != normal[1].module:
         # before any shift is looked for; the pair itself says it best
@@ -169,7 +166,7 @@ def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
 def _section_of(keys: PairKeys, name: str, normal: SpurGear) -> SpurGear:
     """The transverse section of one gear of the pair, refused under its own name if it cannot exist."""
     try:
-        return section_of(normal, math.radians(keys.first.helix_angle_deg))
+        return section_of(normal, helix_of(keys.first).angle)
     except ParameterError as error:
         raise refusal(TOPIC, error, name, keys) from error
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import msgspec
 from msgspec import Struct
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import ParameterError
 from geometry.gears.pairs.internal import InternalPair, shift_difference
 from geometry.gears.teeth import limits, ring_limits
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
@@ -22,7 +22,7 @@ from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear
 from parts.gears.spur_gear.page import given_data, shift_data
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, rack_findings, rounding_finding
 from parts.keys.base import mm
-from parts.keys.helix import common_face
+from parts.keys.helix import common_face, same_helix
 from parts.mates.involute import InternalGearPairSpec, InternalMating, RackMating, RackPairSpec
 from parts.mates.pages.pair_keys import GEARS, GearSpeed, pair_table
 from parts.mates.pages.rack import first_radii, rack_page
@@ -100,7 +100,7 @@ def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
     first, wanted = _pinion(keys), keys.working_centre_distance
     pinion, ring_keys = first.thing, keys.second
     teeth = pinion.number_of_teeth, ring_keys.number_of_teeth
-    helix = _helix(keys)
+    helix = same_helix(keys.first, keys.second)
     if wanted is not None and not given_shift and teeth[0] < teeth[1]:
         bare = RingGear(ring_keys.module, teeth[1], math.radians(ring_keys.pressure_angle_deg), 1e9, RoundedRoot())
         shift = pinion.profile_shift_coefficient + shift_difference(pinion, transverse_ring(bare, helix), wanted)
@@ -116,23 +116,9 @@ def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
     return mating.pair
 
 
-def _helix(keys: InternalKeys | RackKeys) -> float:
-    """The helix angle of both, rad.
-
-    Raises
-    ------
-    ParameterError
-        They differ.
-    """
-    one, two = keys.first.helix_angle_deg, keys.second.helix_angle_deg
-    if one != two:
-        raise ParameterError("helix_angle_deg", two, "not_that_of_first", Nearest(one))
-    return math.radians(one)
-
-
 def _helical(keys: InternalKeys | RackKeys) -> Helical:
     """What the page of a pair says beside its transverse section."""
-    _helix(keys)
+    same_helix(keys.first, keys.second)
     return Helical(gear_of(keys.first), common_face(keys.first, keys.second))
 
 
@@ -146,7 +132,7 @@ def rack_sheet(table: dict[str, Any]) -> Sheet:
         normal_backlash=keys.normal_backlash,
     )
     try:
-        _helix(keys)
+        same_helix(keys.first, keys.second)
         ends: dict[str, End[Any]] = {
             "first": _pinion(keys),
             "second": End(keys.second, checked_rack_part(keys.second)),

@@ -50,6 +50,17 @@ def test_published_cases(case: dict[str, Any]) -> None:
     assert ("misprint" in step) == ("misprint" in case)
 
 
+@pytest.mark.parametrize("kind", ["external_gear_pair", "internal_gear_pair", "rack_pair"])
+def test_a_hand_that_is_turned_by_the_sign_of_the_angle_changes_no_number(kind: str) -> None:
+    pair = (
+        f"gear-pair kind={kind} module=2 first.number_of_teeth=20 second.number_of_teeth=80 second.helix_angle_deg=20"
+    )
+    plain, turned = (values_of(f"{pair} first.helix_angle_deg={angle}")["values"] for angle in (20, -20))
+    assert turned == plain
+    with pytest.raises(SceneError, match="helix_angle_deg"):
+        values_of(f"{pair} first.helix_angle_deg=-19")
+
+
 @pytest.mark.parametrize("words", SHEETS)
 def test_every_printed_formula_gives_its_value(words: str) -> None:
     checked = [step for step in sheet_for(words).steps() if step.formula]
