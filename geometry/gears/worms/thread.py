@@ -92,11 +92,6 @@ class Thread(Record):
     root_half: float
     tip_half: float
 
-    @property
-    def root_land(self) -> float:
-        """Axial width of the root cylinder between two threads, mm."""
-        return math.pi * self.worm.module - 2 * self.root_half
-
     def points(self, plane: Complex, theta: ArrayLike, *, upper: bool = True, start: int = 0) -> Real:
         """Points (..., 3), mm, of places r + iz of the upper side turned by theta, rad, of both broadcast."""
         worm = self.worm

@@ -103,6 +103,17 @@ def test_satellites_turn_and_stand_in_space_as_the_formula_says(tmp_path: Path) 
             assert off[:3, 3].max() < 0.02
 
 
+def test_bounds_stand_beside_places_and_times_as_gltf_asks(tmp_path: Path) -> None:
+    build(planned(TURNED), tmp_path)
+    scene, blob = opened(tmp_path / "s.glb")
+    places = {one["attributes"]["POSITION"] for mesh in scene["meshes"] for one in mesh["primitives"]}
+    times = {one["input"] for film in scene["animations"] for one in film["samplers"]}
+    for accessor in places | times:
+        values, told = numbers(scene, blob, accessor), scene["accessors"][accessor]
+        assert told["min"] == values.min(axis=0).tolist()
+        assert told["max"] == values.max(axis=0).tolist()
+
+
 def test_another_reader_finds_closed_solids_in_metres(tmp_path: Path) -> None:
     plan = planned(TURNED)
     build(plan, tmp_path)

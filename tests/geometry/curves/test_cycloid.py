@@ -138,6 +138,14 @@ def test_least_radius_against_fifty_digits(order: int, short: str) -> None:
     assert greatest_shortening(40.0, order, found) == pytest.approx(float(short), rel=1e-7)
 
 
+@pytest.mark.parametrize("order", [3.0, 7.0, 10.0, 40.0])
+def test_each_shortening_is_found_again_from_its_least_radius(order: float) -> None:
+    """Both closed forms and the place where one takes over from the other, by going there and back."""
+    for short in np.linspace(0.01, 0.99, 197):
+        found = least_convex_radius(40.0, short, order)
+        assert greatest_shortening(40.0, order, found) == pytest.approx(short, abs=1e-6)
+
+
 def test_vertices_and_inflections_lie_where_they_are_told() -> None:
     curve = ShortTrochoid(40.0, 2.5, 12.0, 4.0, -0.3, -0.1, 0.6)
     t = np.linspace(-0.1, 0.6, 200_001)

@@ -172,3 +172,21 @@ def test_refusals_name_what_works(
     assert refusal.value.key.rpartition(".")[2] == named
     if value is not None:
         assert f"{value:g}" in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("kind", "key", "other", "right"),
+    [("flat", "face_offset", 6.0, 5.0), ("pointed", "arm_length", 71.0, 70.0), ("mushroom", "arm_length", 69.0, 70.0)],
+)
+def test_an_arm_of_another_size_than_its_cam_is_made_for_is_refused(
+    kind: str, key: str, other: float, right: float
+) -> None:
+    text = scene_text(kind, "with").replace("{turned}", "0.0").replace("{direction}", "0.0")
+    head, arm = text.split("[parts.follower]")
+    text = f"{head}[parts.follower]{arm.replace(f'{key} = {right}', f'{key} = {other}', 1)}"
+    with pytest.raises(SceneError) as caught:
+        make_parts(scene_from_toml(text.encode(), "s", "s"), "s")
+    told = caught.value
+    assert (told.key.rpartition(".")[2], told.value, told.code) == (key, other, "cam_has_another")
+    assert told.nearest is not None
+    assert told.nearest.value == right

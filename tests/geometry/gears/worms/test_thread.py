@@ -73,7 +73,7 @@ def test_a_worm_that_is_made_in_one_module_is_made_in_all(quotient: float, start
     of_one = thread_of(Worm(1.0, starts, quotient).checked())
     for module in (0.5, 1.5, 2.0, 3.0, 3.15, 4.0, 6.3, 7.0, 9.0, 12.0, 16.0):
         thread = thread_of(Worm(module, starts, quotient).checked())
-        assert thread.root_land == pytest.approx(of_one.root_land * module, rel=1e-12)
+        assert thread.root_half == pytest.approx(of_one.root_half * module, rel=1e-12)
         assert [name for name, _ in thread.lines] == [name for name, _ in of_one.lines]
 
 
@@ -98,5 +98,5 @@ def test_threads_without_room_are_refused_with_what_works(worm: Worm, rounding: 
         made = thread_of(worm, offered.value)
     else:
         made = thread_of(replace(worm, **{key: offered.value}), rounding)
-    assert made.root_land > 0
+    assert 2 * made.root_half < math.pi * made.worm.module
     assert made.tip_half > 0
