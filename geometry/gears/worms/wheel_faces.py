@@ -41,14 +41,14 @@ _MARGIN, _EDGES = 2.0, 5e-8
 _FINEST, _SHARE = 2e-8, 0.5
 # spans at most, samples of each, and lines of a family on which spans are chosen
 _MOST_SPANS, _SAMPLES, _LINES = 64, 7, 9
-# the tolerance that files have by default, mm, and spans by which they are near enough
-_WANTED, _ENOUGH = 1e-6, 48
+# the tolerance that files have by default, mm, spans by which easy ones and all are near enough, and samples of each
+_WANTED, _ENOUGH, _FEW = 1e-6, (12, 48), 2
 # by which power of what is left to the tip of a swivelled hob's flank its spans come closer there
 _CLOSER = 2
 # so many spans are one more when they are too few
 _SLOW = 6
 # the narrowest part of a width that is tried, and how near to the widest that splines follow
-_NARROWEST, _NEARLY = 0.3, 0.02
+_NARROWEST, _NEARLY = 0.3, 0.05
 # of the curves of a ring
 _ROOT, _TIP = 0, 3
 # where between two places of interpolation errors are greatest, and what part of the margin they want
@@ -136,8 +136,11 @@ def _are_followed(teeth: WormTeeth) -> bool:
     target, edges = max(_SHARE * _WANTED / _MARGIN, least), max(_EDGES, least)
     for band in pairwise(teeth.breaks):
         for part in (FILLET, FLANK) if _has_flank(teeth, band) else (FILLET,):
-            away, edge = _along(teeth, part, band, _ENOUGH)
-            if not (away <= target and edge <= edges and _across(teeth, part, band, _ENOUGH) <= target):
+            for spans in _ENOUGH:
+                away, edge = _along(teeth, part, band, spans, _FEW)
+                if away <= target and edge <= edges and _across(teeth, part, band, spans, _FEW) <= target:
+                    break
+            else:
                 return False
     return True
 
@@ -195,10 +198,10 @@ def _spans(teeth: WormTeeth, part: int, band: tuple[float, float], target: float
     return spans
 
 
-def _across(teeth: WormTeeth, part: int, band: tuple[float, float], spans: int) -> float:
+def _across(teeth: WormTeeth, part: int, band: tuple[float, float], spans: int, samples: int = _SAMPLES) -> float:
     """How far lines of a part in planes are off on so many spans, mm."""
     heights = np.linspace(*band, _LINES)
-    places, between, weights = _interpolation(*(_shares(teeth, part, n) for n in _counts(spans)))
+    places, between, weights = _interpolation(*(_shares(teeth, part, n) for n in _counts(spans, samples)))
     found = weights @ _points(teeth, part, places, heights).plane
     return float(_away(found, _points(teeth, part, between, heights)).max())
 
@@ -212,18 +215,20 @@ def _spans_along(teeth: WormTeeth, part: int, band: tuple[float, float], target:
     return spans
 
 
-def _along(teeth: WormTeeth, part: int, band: tuple[float, float], spans: int) -> tuple[float, float]:
+def _along(
+    teeth: WormTeeth, part: int, band: tuple[float, float], spans: int, samples: int = _SAMPLES
+) -> tuple[float, float]:
     """How far lines of a part from end to end of a band are off on so many spans, and its edge, mm."""
     shares = np.linspace(0.0, 1.0, _LINES)
-    places, between, weights = _interpolation(*(np.linspace(*band, n) for n in _counts(spans)))
+    places, between, weights = _interpolation(*(np.linspace(*band, n) for n in _counts(spans, samples)))
     found = _points(teeth, part, shares, places).plane @ weights.T
     away = float(_away(found, _points(teeth, part, shares, between)).max())
     return away, _edge_error(teeth, part, band, found, between)
 
 
-def _counts(spans: int) -> tuple[int, int]:
+def _counts(spans: int, samples: int = _SAMPLES) -> tuple[int, int]:
     """How many ends and how many samples spans have."""
-    return spans + 1, _SAMPLES * spans + 8
+    return spans + 1, samples * spans + 8
 
 
 def _shares(teeth: WormTeeth, part: int, count: int, *, inwards: bool = False) -> Real:
