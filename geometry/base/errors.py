@@ -146,21 +146,6 @@ class ThinWallError(GeometryError):
     """Chords of two outlines touch or cross: a wall is thinner than the tolerance."""
 
 
-def at_most(value: float, digits: int = 6) -> str:
-    """An upper limit rounded down, so that the printed number itself still works."""
-    return _rounded(value, digits, math.floor)
-
-
-def at_least(value: float, digits: int = 6) -> str:
-    """A lower limit rounded up, so that the printed number itself still works."""
-    return _rounded(value, digits, math.ceil)
-
-
-def _rounded(value: float, digits: int, rounding: Callable[[float], int]) -> str:
-    text = f"{rounding(value * 10**digits) / 10**digits:.{digits}f}"
-    return text.rstrip("0").rstrip(".")
-
-
 def format_value(value: object) -> str:
     """A value as it would stand in a scene file."""
     if isinstance(value, bool):

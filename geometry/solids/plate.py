@@ -302,14 +302,6 @@ def rounded(corners: Sequence[tuple[complex, float]]) -> tuple[Edge, ...]:
     return tuple(edges)
 
 
-def tangent_point(point: complex, centre: complex, radius: float, side: int) -> complex:
-    """Where a tangent from a point touches a circle: the touching point to the left (side 1) or right of the way
-    from the point to the centre."""
-    way = centre - point
-    angle = math.acos(radius / abs(way))
-    return centre - cmath.rect(radius, cmath.phase(way) - side * angle)
-
-
 def belt(first: tuple[complex, float], second: tuple[complex, float]) -> tuple[Edge, ...]:
     """The hull of two circles (centre, radius), the second to the right of the first or anywhere else; mm."""
     (one, small), (two, large) = first, second

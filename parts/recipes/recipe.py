@@ -5,7 +5,6 @@ A recipe is an instance of a subclass, registered by one entry of ``parts/recipe
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from typing import Annotated, Any, Generic, TypeVar
 
@@ -17,7 +16,6 @@ from parts.keys.base import IDENTIFIER
 
 Table = dict[str, Any]
 # the id of an instance: that of its group, and its number there
-_NUMBERED = re.compile(r"(.+?)(?:_(\d+))?")
 
 
 class RecipeKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=True):
@@ -53,12 +51,12 @@ class Expansion(Draft):
     def name_instances(self, titles: Mapping[str, str]) -> None:
         """Give instances their titles (msgids), by id, or by what it is without its number and is not their part's."""
         for name, table in self.instances.items():
-            stem, number = _NUMBERED.fullmatch(name).groups()  # type: ignore[union-attr]
+            stem, _, number = name.rpartition("_")
             if name in titles:
                 table["title"] = in_every_language(titles[name])
-            elif stem != table["part"] and stem in titles:
+            elif number.isdigit() and stem != table["part"] and stem in titles:
                 told = in_every_language(titles[stem])
-                table["title"] = {key: f"{title} {number}" if number else title for key, title in told.items()}
+                table["title"] = {key: f"{title} {number}" for key, title in told.items()}
 
 
 K = TypeVar("K", bound=RecipeKeys)

@@ -17,7 +17,7 @@ from geometry.base.tolerance import TOLERANCES
 from geometry.cams.plane.disk import FollowerKind
 from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Arc, Line, arc_between
-from geometry.solids.plate import Edge, PlateOutline, belt, rounded, tangent_point
+from geometry.solids.plate import Edge, PlateOutline, belt, rounded
 
 # the middle of a flat arm's boss stands at most this part of its radius outside of the bar
 _BOSS_IN_BAR = 0.9
@@ -220,7 +220,11 @@ def _hooked(
 ) -> tuple[Edge, ...]:
     """An arm from the boss about the pivot to a hook that stands on its upper side, for a cam on the left or right."""
     heel, toe = shoulder - 1j * width, front - 1j * width
-    upper, lower = tangent_point(shoulder, 0j, boss / 2, -1), tangent_point(heel, 0j, boss / 2, 1)
+    # where tangents from both touch the boss, above and below
+    upper, lower = (
+        cmath.rect(boss / 2, cmath.phase(point) + side * math.acos(boss / 2 / abs(point)))
+        for point, side in ((shoulder, 1), (heel, -1))
+    )
     turn = cmath.phase(lower / upper)
     around = Arc(0j, boss / 2, cmath.phase(upper), turn if turn > 0 else turn + 2 * math.pi)
     lines = (Line(lower, heel), Line(heel, toe), Line(toe, front))

@@ -11,7 +11,7 @@ import numpy as np
 from msgspec import Meta
 from msgspec.structs import replace
 
-from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError, at_most, limit
+from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.solids.wheel import wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
@@ -410,7 +410,7 @@ def _check_slender(keys: NoncircularGearSpec) -> None:
         if found is None or not isinstance(found.value, float):
             return None
         high = found.value
-        tried = (float(at_most(least + (high - least) * (1 - step / 16), 4)) for step in range(16))
+        tried = (rounded(least + (high - least) * (1 - step / 16), up=False) for step in range(16))
         works = next((value for value in tried if _builds(replaced(keys, key, value))), None)
         return None if works is None else Nearest(works, "at_most")
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
-from geometry.base.errors import Nearest, ParameterError, at_least, at_most
+from geometry.base.errors import Nearest, ParameterError, rounded
 from geometry.base.record import replace
 from geometry.gears.pairs.internal import shift_difference
 from geometry.gears.shifts.finder import (
@@ -303,7 +303,7 @@ def _nearest_distance(
     if nearest is None:
         return
     distance = module * internal_state(pair, 0.0, nearest).working_centre_distance
-    text = at_most(distance, 4) if nearest < wanted else at_least(distance, 4)
+    text = f"{rounded(distance, up=nearest >= wanted):.12g}"
     works = N_("a_w: at most {distance} mm works") if nearest < wanted else N_("a_w: at least {distance} mm works")
     page.notes.append(message(works, distance=text))
 

@@ -24,6 +24,7 @@ from geometry.gears.planetary.sets import (
     sine_of,
 )
 from geometry.gears.shifts.external import Requirements
+from geometry.gears.shifts.internal_shifts import InternalState
 from parts.base.texts import N_, Message, Text, listed, message
 from parts.gears.spur_gear.part import RackTable, basic_rack_of
 from parts.keys.base import degrees, in_modules, mm
@@ -357,8 +358,8 @@ class _Page:
             of = message("mesh {wheels}", wheels=wheels)
             page.add("working_pressure_angle_deg", math.degrees(state.working_pressure_angle), of=of)
             page.add("contact_ratio", state.contact_ratio, "", "practicum (3.20)", of=of)
-            if mesh.internal:
-                page.add("ring_tip_addendum", mesh.central / 2 - state.ring.tip_radius, of=of)  # type: ignore[union-attr]
+            if isinstance(state, InternalState):
+                page.add("ring_tip_addendum", mesh.central / 2 - state.ring.tip_radius, of=of)
         if math.isfinite(fit.gap):
             page.add("satellite_gap", fit.gap)
         page.add("set_diameter", fit.diameter)
@@ -374,10 +375,11 @@ class _Page:
 
     def _interference(self, wheels: str, mesh: RimMesh, broken: list[str]) -> None:
         """What an unshifted ring and its satellite break, the verdict by exact contact, and the shift that cures it."""
-        if not mesh.internal or not {"involute_interference", "trochoid_interference"} & set(broken):
+        state = mesh.state(0.0, 0.0)
+        name = next((n for n in broken if n in ("involute_interference", "trochoid_interference")), None)
+        if name is None or not isinstance(state, InternalState):
             return
-        addendum = mesh.central / 2 - mesh.state(0.0, 0.0).ring.tip_radius  # type: ignore[union-attr]
-        name = next(n for n in broken if n in ("involute_interference", "trochoid_interference"))
+        addendum = mesh.central / 2 - state.ring.tip_radius
         told: list[Text] = [
             message(
                 "mesh {wheels} without shifts: {what}: the ring's addendum is {addendum:.4g}, at most {allowed:.4g} is "

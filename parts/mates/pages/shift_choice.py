@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
-from geometry.base.errors import ParameterError, at_most
+from geometry.base.errors import ParameterError, rounded
 from geometry.gears.shifts import tables as shift_tables
 from geometry.gears.shifts.choice import shift_sum_for_distance
 from geometry.gears.shifts.external import (
@@ -194,7 +194,7 @@ def _found_choices(page: Sheet, keys: ShiftChoiceKeys, pair: ShiftPair, wish: Re
 def _explain_sum(page: Sheet, pair: ShiftPair, wish: Requirements, total: float) -> None:
     """Which limit a centre distance breaks when its shifts are split for equal tips."""
     broken = [m for m in margins(pair, wish, total / 2, total / 2) if not m.margin >= 0]
-    names = ", ".join(f"{m.name} {at_most(m.margin, 4)}" for m in broken if not math.isnan(m.margin))
+    names = ", ".join(f"{m.name} {rounded(m.margin, up=False):.12g}" for m in broken if not math.isnan(m.margin))
     page.notes.append(message("x1 + x2 = {total:.4f}, half each: {margins}", total=total, margins=names))
 
 

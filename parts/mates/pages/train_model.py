@@ -11,9 +11,9 @@ from fractions import Fraction
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record
-from geometry.kinematics.mechanism import FRAME, Fixed, Mechanism, Revolute, Rolling
+from geometry.kinematics.mechanism import FRAME, Fixed, Kind, Mechanism, Revolute, Rolling
 
-KINDS = ("external", "internal", "bevel", "worm")
+KINDS: tuple[Kind, ...] = ("external", "internal", "bevel", "worm")
 _MESH = re.compile(r"\s*([^\s-]+)\s*-\s*([^\s-]+)((?:\s+\S+)*)\s*")
 
 
@@ -22,7 +22,7 @@ class Mesh(Record):
 
     first: str
     second: str
-    kind: str
+    kind: Kind
     module: Fraction | None = None
 
     @property
@@ -56,7 +56,7 @@ class Train(Record):
             joints.append(Revolute(body, self.carried.get(body, FRAME)) if name == body else Fixed(name, body))
         for mesh in self.meshes:
             pair = self.teeth[mesh.first], self.teeth[mesh.second]
-            joints.append(Rolling(mesh.kind, mesh.first, mesh.second, pair, self.carrier(mesh)))  # type: ignore[arg-type]
+            joints.append(Rolling(mesh.kind, mesh.first, mesh.second, pair, self.carrier(mesh)))
         return Mechanism(tuple(joints), tuple(dict.fromkeys(self.bodies[name] for name in self.held)))
 
     def still(self, body: str) -> bool:
@@ -140,10 +140,11 @@ def _mesh(word: str, teeth: Mapping[str, int]) -> Mesh:
             raise ParameterError("meshes", word, "no_such_wheel", None, wheel=name, known=list(teeth))
     if first == second:
         raise ParameterError("meshes", word, "rolls_on_itself")
-    kind, module = "external", None
+    kind: Kind = "external"
+    module = None
     for more in rest:
-        if more in KINDS:
-            kind = more
+        if named := next((name for name in KINDS if name == more), None):
+            kind = named
         elif re.fullmatch(r"\d+(\.\d+)?", more) and float(more) > 0:
             module = Fraction(more)
         else:

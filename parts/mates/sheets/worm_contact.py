@@ -192,6 +192,9 @@ def _curves(field: Field, flanks: list[Paper], along: Paper, pitch: float) -> li
     def contact(slide: float) -> Callable[[Real], Complex]:
         return lambda heights: touched(heights, field.line(heights, slide))
 
+    def along_radius(radius: Callable[[Real], Real]) -> Callable[[Real], Complex]:
+        return lambda heights: radius(heights).astype(np.complex128)
+
     def border(end: int) -> Callable[[Real], Complex]:
         return lambda heights: touched(heights, field.edges(heights)[end])
 
@@ -201,7 +204,7 @@ def _curves(field: Field, flanks: list[Paper], along: Paper, pitch: float) -> li
     ]
     spans = list(pairwise(teeth.breaks))
     borders = [_Line(span, border(end)) for span in field.spans() for end in (0, 1)]
-    tooth = [_Line(span, lambda h, r=r: r(h) + 0j) for span in spans for r in (teeth.root_radius, teeth.tip_radius)]  # type: ignore[misc]
+    tooth = [_Line(span, along_radius(r)) for span in spans for r in (teeth.root_radius, teeth.tip_radius)]
     found = []
     for way, flank, layer in zip((1, -1), flanks, _FIELDS, strict=True):
         for name, line in (*lines, *((layer, line) for line in borders)):
