@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 from exporters.production.plan import plan_build
+from exporters.production.sheets import SheetJob
 from geometry.base.placement import Placement3
 from geometry.base.record import replace
 from geometry.solids.sketch import Layer, Sketch, round_ring, sketch_of_turned
@@ -154,3 +156,26 @@ def test_what_cannot_be_drawn_is_told_by_key() -> None:
     assert (found.key, found.code) == ("exports[1].purpose", "assembly_axis_oblique")
     small = refused({"p": DISC}, exports=[{"format": "svg", "purpose": "assembly", "paper": "A4", "scale": "10:1"}])
     assert small.key == "exports[1].paper"
+
+
+@pytest.mark.parametrize("at", [[50.0, 0.0, 0.0], [30.0, -40.0, 0.0]])
+def test_an_assembly_is_drawn_alike_wherever_it_stands(at: list[float]) -> None:
+    def drawn(at: list[float]) -> tuple[Counter[str], list[str]]:
+        gear = {"kind": "spur_gear", "module": 2.0, "face_width": 8.0, "bore_diameter": 8.0}
+        raw = {
+            "parts": {"a": gear | {"number_of_teeth": 20}, "b": gear | {"number_of_teeth": 31}},
+            "instances": {"a": {"part": "a", "at": at}, "b": {"part": "b"}},
+            "mates": [{"kind": "external_gear_pair", "first": "a", "second": "b", "direction_deg": 30.0}],
+            "exports": [{"format": "dxf", "purpose": "assembly"}],
+        }
+        (job,) = plan_build(scene_from_dict(raw, "s", "s"), "s", [], []).sheets
+        assert isinstance(job, SheetJob)
+        rows = Counter[str]()
+        for stroke in job.canvas.strokes:
+            ends = stroke.curve.point(np.array(stroke.curve.domain))
+            rows[f"{stroke.layer} {sorted((round(p.real, 2) + 0.0, round(p.imag, 2) + 0.0) for p in ends)}"] += 1
+        return rows, [text.text for text in job.canvas.texts]
+
+    plain, moved = drawn([0.0, 0.0, 0.0]), drawn(at)
+    assert moved == plain
+    assert plain[0].total() > 50

@@ -234,3 +234,20 @@ def test_solids_of_faces_are_held_against_each_other(height: str, overlaps: int)
     assert len(found) == overlaps
     # the collar's ring between the bore and its chamfered rim, one mm high
     assert all((overlap.volume or 0.0) > math.pi * (11**2 - 9.1**2) for overlap in found)
+
+
+@pytest.mark.parametrize(("ends", "angle"), [("round", 90.0), ("square", 0.0), ("round", -120.0)])
+def test_a_keyway_takes_away_what_lies_where_it_is_told(ends: str, angle: float) -> None:
+    """What a shaft weighs less by, and where: a slot 8 wide, 4 deep at its middle, 22 long, from z = 25 + 6 on."""
+    steps: list[Keys] = [{"diameter": 20.0, "length": 25.0}, {"diameter": 30.0, "length": 40.0}]
+    way = {"at": 6.0, "length": 22.0, "width": 8.0, "depth": 4.0, "angle_deg": angle, "ends": ends}
+    plain, cut = (body_of({"kind": "shaft", "steps": [steps[0], last]}).moments
+                  for last in (steps[1], steps[1] | {"keyways": [way]}))  # fmt: skip
+    lost = plain.volume - cut.volume
+    where = (plain.volume * plain.centre - cut.volume * cut.centre) / lost
+    area = 22.0 * 8.0 if ends == "square" else 14.0 * 8.0 + math.pi * 16.0
+    # over its width the shaft is lower by at most r - sqrt(r^2 - w^2/4) = 0.54 mm
+    assert area * 3.4 < lost < area * 4.0
+    assert where[2] == pytest.approx(25.0 + 6.0 + 11.0, abs=1e-9)
+    assert math.atan2(where[1], where[0]) == pytest.approx(math.radians(angle), abs=1e-9)
+    assert 12.5 < math.hypot(where[0], where[1]) < 13.5
