@@ -385,7 +385,8 @@ def test_one_unshifted_wheel_is_the_zero_wheel_alone(tmp_path: Path) -> None:
         assert words.count("shifted wheel:") == number
         assert "zero wheel" in words
         # in the picture, by its whole name
-        assert ("shifted wheel" in {text.text for text in job.canvas.texts}) is bool(number)
+        named = {"zero wheel", "shifted wheel"} & {text.text for text in job.canvas.texts}
+        assert named == {("zero wheel", "shifted wheel")[number]}
 
 
 @pytest.mark.sampled(1)
