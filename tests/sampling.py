@@ -2,7 +2,7 @@
 
 ``@pytest.mark.sampled(count)`` on a parametrised test leaves ``count`` of its cases as they are and marks the others
 heavy. The choice hangs on the test's name and its cases alone, so that every worker makes the same.
-``@examples(count)`` gives a search by hypothesis a third of its examples by default, and all of them with ``-m heavy``;
+``@examples(count)`` gives a search by hypothesis a quarter of its examples by default, and all of them with ``-m heavy``;
 ``some_of(cases, count)`` does the same to a loop within a test.
 """
 
@@ -20,7 +20,7 @@ Value = tuple[str, Hashable]
 T = TypeVar("T")
 
 # of how many examples one is drawn; set before any test file is read
-_EFFORT = {"one of": 3}
+_EFFORT = {"one of": 4}
 
 
 def take_all_examples() -> None:
@@ -29,7 +29,7 @@ def take_all_examples() -> None:
 
 
 def examples(count: int, *, deadline: Any = None, **more: Any) -> settings:
-    """The settings of a search by hypothesis: a third of ``count``, or all where the heavy tests are asked for."""
+    """The settings of a search by hypothesis: a quarter of ``count``, or all where the heavy tests are asked for."""
     return settings(max_examples=max(count // _EFFORT["one of"], 5), deadline=deadline, **more)
 
 

@@ -231,7 +231,7 @@ def old_set(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "out"
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize("seed", range(100))
 def test_a_kill_at_a_random_moment_of_all_formats(tmp_path: Path, old_set: Path, seed: int) -> None:
     """By each of the signals, the last moments more often: before, among and after the moves."""
