@@ -24,6 +24,7 @@ def _here() -> bool:
 REASONS: dict[str, Callable[[], bool]] = {
     "the CAD kernel is an extra": _lacks("OCP"),
     "needs the CAD kernel": _lacks("OCP"),
+    "Dask, the extra cluster, is not installed": _lacks("distributed"),
     "could not import 'OCP'": _lacks("OCP"),
     "could not import 'cadquery'": _lacks("cadquery"),
     "this kernel has no such setting": lambda: find_spec("OCP") is not None,
