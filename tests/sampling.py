@@ -2,8 +2,8 @@
 
 ``@pytest.mark.sampled(count)`` on a parametrised test leaves ``count`` of its cases as they are and marks the others
 heavy. The choice hangs on the test's name and its cases alone, so that every worker makes the same.
-``@examples(count)`` gives a search by hypothesis a quarter of its examples by default, and all of them with ``-m heavy``;
-``some_of(cases, count)`` does the same to a loop within a test.
+``@examples(count)`` gives a search by hypothesis a quarter of its examples by default, ``some_of(cases, count)`` so
+many of the cases of a loop within a test; all of them with ``-m heavy``.
 """
 
 from __future__ import annotations
