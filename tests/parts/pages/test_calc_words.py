@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 
 import pytest
@@ -11,6 +12,7 @@ from exporters.documents.render import SPOKEN
 from exporters.documents.topics import calculate
 from parts.base.texts import words
 from parts.pages.cam_steps import as_typed
+from parts.pages.page import number, pretty
 from parts.pages.symbols import symbol_text
 from parts.pages.terms import TERMS
 
@@ -64,3 +66,33 @@ def test_only_rounding_is_taken_for_what_was_typed() -> None:
     assert as_typed(30.000000000000007) == 30.0
     assert as_typed(45.81466903731541) == 45.81466903731541
     assert as_typed(30.0000000001) == 30.0000000001
+
+
+@pytest.mark.parametrize(
+    ("formula", "printed"),
+    [
+        ("m * z / 2", "m·z/2"),
+        ("pi * m", "π·m"),
+        ("abs((e - f) / f) * 100", "|(e - f)/f|·100"),
+        ("abs(a)", "|a|"),
+        ("cos(alpha)**2", "cos² alpha"),
+        ("tan(gamma + rho)", "tan(gamma + rho)"),
+        ("inv(alpha)", "inv alpha"),
+        ("sqrt(a**2 + b**3)", "√(a² + b³)"),
+        ("cbrt(x)", "∛(x)"),
+    ],
+)
+def test_formulas_are_printed_as_they_are_written_by_hand(formula: str, printed: str) -> None:
+    assert pretty(formula, words("en")) == printed
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "enclosed", "printed"),
+    [
+        (0.1 + 0.2, "mm", False, "0.3"), (-0.0, "mm", False, "0"), (1 / 3, "mm", False, "0.33333"), (3, "", False, "3"),
+        (0.0149043838673, "", False, "0.0149044"), (-2.5, "deg", True, "(-2.5°)"), (20.0, "deg", True, "20°"),
+        (math.inf, "mm", False, "∞"), (-math.inf, "mm", False, "-∞"), (12.3456, "%", False, "12.346"),
+    ],
+)  # fmt: skip
+def test_numbers_are_printed_as_a_reader_wants_them(value: float, unit: str, enclosed: bool, printed: str) -> None:
+    assert number(value, unit, enclosed=enclosed) == printed
