@@ -173,12 +173,13 @@ class Sketch(Record):
     def covers(self, points: Complex, height: float) -> np.ndarray:
         """Whether material stands above points of the plane at a height."""
         found = np.zeros(len(points), dtype=bool)
-        for layer in self.layers:
-            if layer.low >= height - _SAME:
-                for end in (layer.at_low,) if layer.upper is layer.lower else (layer.at_low, layer.at_high):
-                    # what is covered already is not asked for again
-                    left = np.flatnonzero(~found)
-                    found[left] = end.hold(points[left])
+        above = (layer for layer in self.layers if layer.low >= height - _SAME)
+        for end in (end for k in above for end in ((k.at_low,) if k.upper is k.lower else (k.at_low, k.at_high))):
+            # what is covered already is not asked for again
+            left = np.flatnonzero(~found)
+            if not len(left):
+                break
+            found[left] = end.hold(points[left])
         return found
 
 
