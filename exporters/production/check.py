@@ -52,10 +52,9 @@ def scene_checks(
     checks: dict[str, Any] = {}
     if placing.mates:
         checks["mates"] = [_mate(m, language, names, contact=contact) for m in placing.mates]
-        if transmission:
-            for found, mate in zip(checks["mates"], placing.mates, strict=True):
-                _add_transmission(found, mate)
         for found, mate in zip(checks["mates"], placing.mates, strict=True):
+            if transmission:
+                _add_transmission(found, mate)
             turns = [abs(turned) for turned in placing.train.rolled(mate.mating) if turned] if placing.train else []
             if turns and isinstance(mate.mating, Touching):
                 # contact is held against a whole pitch, whatever part of it the drive runs through

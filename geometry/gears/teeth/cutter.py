@@ -25,20 +25,23 @@ MOST_CUTTER_TEETH = 10_000
 CUTTER_ROUNDING = 0.2
 
 
-def cutting_angle(alpha: float, shift: float, teeth: int, own_shift: float) -> float:
+def cutting_angle(alpha: float, shift: float, teeth: int, own_shift: float, cutter_shift: float) -> float:
     """alpha_w0 of a cut without backlash, rad: inv(alpha_w0) = inv(alpha) + 2 x tan(alpha) / z.
 
-    ``shift`` and ``teeth``: sums of the gear's and the cutter's, of a ring differences; ``own_shift``: the gear's.
+    ``shift`` and ``teeth``: sums of the gear's and the cutter's, of a ring differences; ``own_shift``: the gear's,
+    ``cutter_shift``: the cutter's, which is blamed where it is the larger.
 
     Raises
     ------
     ParameterError
-        No such angle exists; names the least shift that has one.
+        No such angle exists; names the nearest shift that has one.
     """
     value = involute_function(alpha) + 2 * shift * math.tan(alpha) / teeth
     if value < 0:
-        least = limit(own_shift - value * teeth / (2 * math.tan(alpha)), own_shift)
-        raise ParameterError("profile_shift_coefficient", own_shift, "no_working_angle_with_cutter", least)
+        name, given, lack = "profile_shift_coefficient", own_shift, -value * teeth / (2 * math.tan(alpha))
+        if abs(cutter_shift) > abs(own_shift):
+            name, given, lack = f"cutter.{name}", cutter_shift, math.copysign(lack, -cutter_shift)
+        raise ParameterError(name, given, "no_working_angle_with_cutter", limit(given + lack, given))
     return inverse_involute(value)
 
 

@@ -122,7 +122,7 @@ class RingGear(InvoluteTeeth, dict=True):
             most = Nearest(self.number_of_teeth - 1, "at_most")
             raise ParameterError("cutter.number_of_teeth", cutter.number_of_teeth, "not_below_ring_teeth", most)
         shift = self.generating_shift_coefficient - cutter.profile_shift_coefficient
-        return cutting_angle(alpha, shift, difference, self.profile_shift_coefficient)
+        return cutting_angle(alpha, shift, difference, self.profile_shift_coefficient, cutter.profile_shift_coefficient)
 
     @cached_property
     def generating_distance(self) -> float:

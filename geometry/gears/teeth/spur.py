@@ -80,7 +80,7 @@ class SpurGear(InvoluteTeeth, dict=True):
 
         shift = self.generating_shift_coefficient + self.cutter.profile_shift_coefficient
         teeth = self.number_of_teeth + self.cutter.number_of_teeth
-        return cutting_angle(alpha, shift, teeth, self.profile_shift_coefficient)
+        return cutting_angle(alpha, shift, teeth, self.profile_shift_coefficient, self.cutter.profile_shift_coefficient)
 
     @property
     def generating_distance(self) -> float:

@@ -113,3 +113,11 @@ def test_a_search_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
         assert refused.nearest is not None
     assert tried
     assert max(tried) <= nearest.MOST_TRIALS
+
+
+@pytest.mark.parametrize(("own", "cutters", "blamed"), [(0.0, -1.0, "cutter."), (-2.0, 0.0, ""), (-2.0, -1.0, "")])
+def test_of_two_shifts_without_a_cut_the_larger_is_blamed(own: float, cutters: float, blamed: str) -> None:
+    cutter = {"number_of_teeth": 23, "profile_shift_coefficient": cutters}
+    refused = refusal({**SPUR, "profile_shift_coefficient": own, "cutter": cutter})
+    assert refused is not None
+    assert (refused.key, refused.value) == (f"parts.p.{blamed}profile_shift_coefficient", cutters if blamed else own)
