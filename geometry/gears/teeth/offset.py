@@ -13,9 +13,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from geometry.base.errors import GeometryError, OffsetError
+from geometry.base.errors import OffsetError
 from geometry.base.findings import Finding
-from geometry.base.nearest import last_that_holds
 from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
@@ -26,7 +25,7 @@ from geometry.curves.line_arc import Arc
 from geometry.gears.teeth.moved_segments import corner_arc, kept_from
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import SideCurves, ToothSide, assemble_side, tooth_side
-from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.offset_region import OffsetRegion, moved_teeth
 from geometry.plane.profile import Label, Profile, Region, Segment
 
 _SAMPLES = 65
@@ -43,8 +42,12 @@ def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:
         The gear cannot exist, or the offset closes a space or a hole, or leaves no tooth, rim or wall between
         holes; the largest offset that works is named.
     """
-    side = offset_side(gear, offset)
-    return OffsetRegion(Region(side.profile(), gear.holes.profiles(offset)), offset, side.findings)
+
+    def section(by: float) -> OffsetRegion:
+        side = _moved_side(gear, by)
+        return OffsetRegion(Region(side.profile(), gear.holes.profiles(by)), by, side.findings)
+
+    return moved_teeth(section, offset)
 
 
 def chamfered_outline(gear: SpurGear, inset: float, depth: float, deepest: float) -> Profile:
@@ -67,22 +70,9 @@ def chamfered_outline(gear: SpurGear, inset: float, depth: float, deepest: float
     return Profile(tuple(period), made.count)
 
 
-def offset_side(gear: SpurGear, offset: float) -> ToothSide:
-    """The lower side of tooth 1 moved outwards by ``offset`` mm (inwards where negative)."""
+def _moved_side(gear: SpurGear, offset: float) -> ToothSide:
     if offset == 0:
         return tooth_side(gear)
-    if not math.isfinite(offset):
-        raise OffsetError(offset, "not_finite", 0.0)
-    try:
-        return _moved_side(gear, offset)
-    except GeometryError as refusal:
-        tooth_side(gear)
-        limit = last_that_holds(lambda moved: (_moved_side(gear, moved), gear.holes.profiles(moved)), offset)
-        word = "closes_tooth_spaces" if offset > 0 else "leaves_no_tooth"
-        raise OffsetError(offset, refusal.reason if isinstance(refusal, OffsetError) else word, limit) from refusal
-
-
-def _moved_side(gear: SpurGear, offset: float) -> ToothSide:
     if offset < 0:
         if gear.root_radius + offset <= gear.holes.reach - offset:
             raise OffsetError(offset, "leaves_no_rim", 0.0)
