@@ -14,6 +14,8 @@ import pytest
 from ezdxf.document import Drawing
 from ezdxf.entities import DXFGraphic
 
+from exporters.formats.read_drawing import read_drawing
+from exporters.formats.readback import ReadError
 from tests.exporters.making import part_keys, run, table, write_scene
 from tests.exporters.outside import Gear
 
@@ -267,3 +269,19 @@ def test_a_drawing_that_was_only_saved_again_passes(name: str, good: Path, tmp_p
         shutil.copy(good / file, tmp_path)
     drawing(lambda document: None)(tmp_path / name)
     assert run("verify", tmp_path / name) == 0
+
+
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (layer(lambda y: y.off(), "OUTLINE"), "layer OUTLINE is off"),
+        (layer(lambda y: y.freeze(), "OUTLINE"), "layer OUTLINE is frozen"),
+        (layer(lambda y: y.dxf.set("plot", 0), "OUTLINE"), "layer OUTLINE is not plotted"),
+        (drawing(lambda d: d.layers.remove("OUTLINE")), "layer OUTLINE is not in the layer table"),
+    ],
+)
+def test_a_layer_of_a_drawing_that_is_not_shown_is_named(spoil: Spoil, said: str, good: Path, tmp_path: Path) -> None:
+    file = Path(shutil.copy(good / "g.drawn.dxf", tmp_path))
+    spoil(file)
+    with pytest.raises(ReadError, match=said):
+        read_drawing(file)
