@@ -166,13 +166,17 @@ def _fits(teeth: WormTeeth, tolerance: float) -> dict[tuple[float, float], list[
         off = {band for band, fits in made.items() for fit in fits if fit.error > target or fit.edge > edges}
         if not off:
             return made
-        if max(*across, *along.values()) > _MOST_SPANS:
+        wider = [_more(n, e > target) for n, e in zip(across, error, strict=True)]
+        longer = {(low, high): _more(n, bool(off & {(low, high), (-high, -low)})) for (low, high), n in along.items()}
+        # which of both ways wants more the errors do not tell
+        if (wider, longer) == (across, along):
             raise ConvergenceError("spline surfaces of the teeth", max(error), _MOST_SPANS)
-        across = [n + (e > target) * (1 + n // _SLOW) for n, e in zip(across, error, strict=True)]
-        along = {
-            (low, high): n + bool(off & {(low, high), (-high, -low)}) * (1 + n // _SLOW)
-            for (low, high), n in along.items()
-        }
+        across, along = wider, longer
+
+
+def _more(spans: int, wanted: bool) -> int:
+    """So many spans, or some more, about the most at most."""
+    return spans + wanted * (1 + spans // _SLOW) if spans <= _MOST_SPANS else spans
 
 
 def _has_flank(teeth: WormTeeth, band: tuple[float, float]) -> bool:
