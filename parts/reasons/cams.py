@@ -157,6 +157,7 @@ REASONS = {
     "poles_lift_nothing": N_("the last pole must lie above the first"),
     "prime_circle_too_large": N_("needs a prime circle of {prime} mm, but at most {most} mm can be made"),
     "pressure_angle_of_90": N_("the pressure angle reaches 90 degrees within the motion"),
+    "profile_folds": N_("the cam is undercut: its profile turns back on itself, by less than can be seen of its lift"),
     "profile_falls_apart": N_("the undercut profile falls apart"),
     "ramps_above_width": N_("the ramps together must be from 0 to 1 of the width"),
     "rests_all_turn": N_("the follower rests all the turn"),

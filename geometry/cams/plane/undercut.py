@@ -36,6 +36,8 @@ _NEWTON_STEPS = 40
 _CROWD = 10.0 ** -np.linspace(1, 12, 89)
 # a follower reaches into a point if it does so by more than this part of the cam's size
 _REACH = 1e-9
+# why a cam is refused whose envelope runs back by less than that
+FOLDS = "profile_folds"
 
 
 class Gap(Record):
@@ -59,13 +61,18 @@ class Kept(Record):
 
 def is_whole(cam: DiskCam, grow: float = 0.0) -> bool:
     """Whether the quick test proves (to its sampling) that nothing is undercut."""
+    if _folds(cam, grow):
+        return False
     for curve, t in _curves(cam, grow, _QUICK_SAMPLES):
-        if least_stretch(curve, t) <= 0:
-            return False
         point, rate = curve.point(t), curve.derivative(t)
         if not np.all((np.conj(point) * rate).imag < 0):
             return False
     return cam.motion.tabled or not _has_lost_corner(cam, grow)
+
+
+def _folds(cam: DiskCam, grow: float) -> bool:
+    """Whether the envelope stands still or runs back somewhere: its material has no radius of curvature left there."""
+    return any(least_stretch(curve, t) <= 0 for curve, t in _curves(cam, grow, _QUICK_SAMPLES))
 
 
 def _curves(cam: DiskCam, grow: float, samples: int) -> list[tuple[CentreEnvelope | FaceEnvelope, Real]]:
@@ -115,13 +122,15 @@ def kept_arcs(cam: DiskCam, grow: float = 0.0) -> Kept:
     Raises
     ------
     UndercutError
-        Nothing remains, or what remains does not hang together.
+        Nothing remains, what remains does not hang together, or what is lost is too small to be seen.
     """
     if is_whole(cam, grow):
         return Kept(((0.0, TURN),), ())
     angles, index, points = _samples(cam, grow)
     stays = ~_reached(cam, grow, angles, points)
     if np.all(stays):
+        if _folds(cam, grow):
+            raise UndercutError("base_circle_radius", _size(cam), FOLDS)
         return Kept(((0.0, TURN),), ())
     if not np.any(stays):
         raise UndercutError("base_circle_radius", _size(cam), "nothing_left_of_profile")
@@ -147,11 +156,19 @@ def kept_arcs(cam: DiskCam, grow: float = 0.0) -> Kept:
 
 
 def lost_to_undercut(cam: DiskCam, grow: float = 0.0) -> float | None:
-    """Greatest lift that undercut takes, mm (rad if oscillating): inf where nothing is left; None of a whole cam."""
+    """Greatest lift that undercut takes, mm (rad if oscillating); None of a whole cam.
+
+    0 where it is too small to be seen, inf where nothing is left.
+    """
     try:
         return max((g.lost_lift for g in kept_arcs(cam, grow).gaps), default=None)
-    except UndercutError:
-        return math.inf
+    except UndercutError as refusal:
+        return 0.0 if refusal.code == FOLDS else math.inf
+
+
+def is_uncut(cam: DiskCam, grow: float = 0.0) -> bool:
+    """Whether nothing is lost to undercut, without asking how much where the envelope runs back."""
+    return is_whole(cam, grow) or (not _folds(cam, grow) and lost_to_undercut(cam, grow) is None)
 
 
 def _size(cam: DiskCam) -> float:

@@ -59,6 +59,8 @@ _EASIER = (89.9, 89.0, 85.0, 80.0, 60.0, 45.0, 30.0, 10.0, 1.0)
 # shares of a limit, and of the way to it, at which a size is tried that gives a whole cam
 _SMALLER = (0.9, 0.75, 0.5, 0.25, 0.1, 0.03)
 _FARTHER = (0.01, 0.1, 0.3, 1.0)
+# shares of the way to its pivot at which a base circle is tried
+_TOWARDS_PIVOT = (1 / 2, 1 / 4, 3 / 4, 1 / 8, 7 / 8, 3 / 8, 5 / 8, 1 / 16, 15 / 16, 1 / 64, 1 / 256, 1 / 1024, 1 / 4096)
 
 
 class OscillatingTable(Struct, forbid_unknown_fields=True):
@@ -184,10 +186,10 @@ _IN_KEYS: dict[bool, dict[str, tuple[str, float | None]]] = {
 
 def _fits(keys: CamSpec) -> bool:
     """Whether the cam is whole and has room for its holes."""
-    from geometry.cams.plane.undercut import lost_to_undercut
+    from geometry.cams.plane.undercut import is_uncut
 
     cam = cam_of(keys)
-    if lost_to_undercut(cam) is not None:
+    if not is_uncut(cam):
         return False
     check_disk(keys, cam)
     return True
@@ -303,6 +305,8 @@ def _least_rocker(keys: CamSpec, swing: OscillatingTable, motion: FollowerMotion
 
 def undercut(cam: DiskCam, key: str, value: float, lost: float, cure: Cure) -> UndercutError:
     """The refusal of a cam that loses so much lift, mm or rad."""
+    if lost == 0:
+        return UndercutError(key, value, "profile_folds", cure)
     if math.isinf(lost):
         return UndercutError(key, value, "undercut_all", cure)
     if cam.swings:
@@ -319,9 +323,14 @@ def by_impact(keys: Sequence[MovingPhase] | None, motion: FollowerMotion, *, bot
     return UndercutError(*rough, "undercut_by_impact", Nearest("sine"))
 
 
-def larger_bases(base: float) -> list[float]:
-    """Base circles that are tried for a whole cam, mm: ever larger ones, then some between."""
-    # a flat face that swings has a greatest base circle too
+def larger_bases(base: float, cam: DiskCam | None = None) -> list[float]:
+    """Base circles that are tried for a whole cam, mm: ever larger ones, then some between.
+
+    Of a flat face that swings, whose base circle has a greatest size too, those up to its pivot.
+    """
+    if cam is not None and cam.is_flat and cam.swings:
+        room = cam.swing.centre_distance - base
+        return [base + room * share for share in _TOWARDS_PIVOT] if room > 0 else []
     return [*(base * 2 * 1.5**k for k in range(12)), *(base * (1 + k / 16) for k in range(1, 16))]
 
 
@@ -510,7 +519,9 @@ class Cam(DiskKind[CamSpec, "DiskCam"]):
             def works(value: float) -> bool:
                 return _fits(replace(keys, base_circle_radius=value))
 
-            found = limit(least * (1 + _SPARE), base) if hollow else lambda: nearest(works, base, larger_bases(base))
+            found = (
+                limit(least * (1 + _SPARE), base) if hollow else lambda: nearest(works, base, larger_bases(base, cam))
+            )
             raise undercut(cam, "base_circle_radius", base, lost, found)
         check_face(keys, cam, plain=keys.follower in ("flat", "mushroom") and keys.oscillating is None)
         check_disk(keys, cam)

@@ -318,6 +318,32 @@ def test_wrong_keys_are_refused_in_the_users_terms(name: str) -> None:
         cured({"cam": keys}, refusal)
 
 
+# loops at the jump of S'' of 1e-3, 2e-9 and 2e-10 rad, the last ones smaller than a sweep sees
+@pytest.mark.parametrize(
+    ("base", "code"), [(90.0, "undercut_swing"), (109.7, "undercut_swing"), (109.7801, "profile_folds")]
+)
+def test_a_face_that_swings_is_offered_the_base_circle_from_which_on_the_profile_never_turns_back(
+    base: float, code: str
+) -> None:
+    phases = [
+        {"move": "rise", "angle_deg": 120.0, "law": "modified_trapezoid"},
+        {"move": "dwell", "angle_deg": 40.0},
+        {"move": "return_", "angle_deg": 80.0, "law": "constant_acceleration"},
+        {"move": "dwell", "angle_deg": 120.0},
+    ]
+    swing = {"centre_distance": 120.0, "sense": "against", "face_offset": 0.0}
+    keys = {"kind": "cam", "phases": phases, "follower": "flat", "swing_deg": 15.0, "oscillating": swing}
+    refusal = refused({"cam": keys | {"base_circle_radius": base}})
+    assert (refusal.key, refusal.code) == ("parts.cam.base_circle_radius", code)
+    cured({"cam": keys | {"base_circle_radius": base}}, refusal)
+    # support h = a sin psi over the normal's angle phi + psi: rho = h + h'' is 0 just before the middle of the return
+    speed, pull = -2 * math.radians(15.0) / math.radians(80.0), -4 * math.radians(15.0) / math.radians(80.0) ** 2
+    psi = math.radians(7.5) + math.asin(refusal.nearest.value / 120.0)  # type: ignore[union-attr, operator]
+    sine, cosine, turn = 120.0 * math.sin(psi), 120.0 * math.cos(psi), 1 + speed
+    rho = sine + ((cosine * pull - sine * speed**2) / turn - cosine * speed * pull / turn**2) / turn
+    assert rho == pytest.approx(0.0, abs=5e-3)
+
+
 def test_the_plate_is_as_large_as_the_contact_runs() -> None:
     """Contact at S' beside the axis, the stem at e: the named diameter is the least one."""
     keys = CAMS["flat"] | {"follower_offset": 4.0}
