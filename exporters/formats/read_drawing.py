@@ -39,8 +39,13 @@ _PLAIN = {
 _DASH = "CONTINUOUS"
 # colour and line type of the layer of a drawing
 _LOOK = (7, "CONTINUOUS")
-# arcs from here on get ten times as many samples, and are smooth for so long, degrees
+# curves that turn so far get ten times as many samples, and arcs are smooth for so long, degrees
 _LONG, _SPAN = 90.0, 5.0
+
+
+def _shares(sweep: float) -> Real:
+    """Shares of a curve that turns so far, degrees, at which it is sampled."""
+    return np.linspace(0, 1, _PER_CURVE if sweep < _LONG else 10 * _PER_CURVE)
 
 
 class DrawnLine(Record):
@@ -75,8 +80,7 @@ class DrawnArc(Record):
 
     def samples(self) -> Complex:
         """Points from end to end."""
-        share = np.linspace(0, 1, _PER_CURVE if self.sweep < _LONG else 10 * _PER_CURVE)
-        return self._at(self.first + share * self.sweep)
+        return self._at(self.first + _shares(self.sweep) * self.sweep)
 
     def spans(self, share: Real) -> Complex:
         """Points at shares of each smooth span, (spans, n)."""
@@ -97,7 +101,10 @@ class DrawnSpline(Record):
     def samples(self) -> Complex:
         """Points from end to end."""
         knots = np.asarray(self.tool.knots())
-        return self._at(knots[0] + np.linspace(0, 1, _PER_CURVE) * (knots[-1] - knots[0]))
+        sides = np.diff([_plane(pole) for pole in self.tool.control_points])
+        # a spline turns no farther than its poles
+        turned = np.abs(np.angle(sides[1:] * np.conj(sides[:-1]))).sum()
+        return self._at(knots[0] + _shares(float(np.degrees(turned))) * (knots[-1] - knots[0]))
 
     def spans(self, share: Real) -> Complex:
         """Points at shares of each smooth span, (spans, n)."""

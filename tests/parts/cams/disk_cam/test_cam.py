@@ -356,6 +356,20 @@ def test_the_plate_is_as_large_as_the_contact_runs() -> None:
         part_of(keys | {"plate_diameter": least * 0.9999})
 
 
+def test_the_drawing_of_a_heart_cam_encloses_what_archimedes_says(tmp_path: Path) -> None:
+    """Two spirals: pi (r^2 + r h + h^2 / 3); each is one spline of half a turn."""
+    halves = [{"move": move, "angle_deg": 180.0, "law": "constant_velocity"} for move in ("rise", "return_")]
+    keys = {"kind": "cam", "phases": halves, "follower": "pointed", "lift": 20.0, "base_circle_radius": 40.0}
+    scene = tmp_path / "heart.toml"
+    scene.write_text(scene_text(keys, '[[exports]]\nformat = "dxf"\npurpose = "drawing"\n'), encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path), "--quiet"]) == 0
+    splines = ezdxf.readfile(tmp_path / "heart" / "cam.dxf").modelspace().query("SPLINE")
+    points = np.concatenate([list(s.construction_tool().approximate(2000))[:-1] for s in splines])[:, :2]
+    x, y = points.T
+    area = abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
+    assert area == pytest.approx(math.pi * (40.0**2 + 40.0 * 20.0 + 20.0**2 / 3), rel=1e-6)
+
+
 def test_a_cam_does_not_mate_as_a_gear() -> None:
     tail = '[parts.gear]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 20\n' \
            '[[mates]]\nkind = "external_gear_pair"\nfirst = "gear"\nsecond = "cam"\n'  # fmt: skip
