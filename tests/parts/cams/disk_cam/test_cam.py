@@ -361,7 +361,7 @@ def test_the_drawing_of_a_heart_cam_encloses_what_archimedes_says(tmp_path: Path
     halves = [{"move": move, "angle_deg": 180.0, "law": "constant_velocity"} for move in ("rise", "return_")]
     keys = {"kind": "cam", "phases": halves, "follower": "pointed", "lift": 20.0, "base_circle_radius": 40.0}
     scene = tmp_path / "heart.toml"
-    scene.write_text(scene_text(keys, '[[exports]]\nformat = "dxf"\npurpose = "drawing"\n'), encoding="utf-8")
+    scene.write_text(scene_text(keys, 'purpose = "drawing"'), encoding="utf-8")
     assert main(["build", str(scene), "--out", str(tmp_path), "--quiet"]) == 0
     splines = ezdxf.readfile(tmp_path / "heart" / "cam.dxf").modelspace().query("SPLINE")
     points = np.concatenate([list(s.construction_tool().approximate(2000))[:-1] for s in splines])[:, :2]
