@@ -1,13 +1,11 @@
-"""What is told, by name: steps of pages, results and remarks of every kind of part, what recipes make, drawings hold.
+"""What is told, by name: steps of pages, results and remarks of every kind of part, what recipes make.
 
-``contents.txt`` lists names and counts of lines, and no number that is measured. Who adds something or drops it runs
-``python -m tests.contents`` and reads the difference.
+``contents.txt`` lists names and no number. Who adds something or drops it runs ``python -m tests.contents`` and reads
+the difference.
 """
 
 from __future__ import annotations
 
-import re
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from functools import cache
 from pathlib import Path
@@ -16,12 +14,10 @@ from typing import Any
 import msgspec
 
 from exporters.documents.topics import sheet_of
-from exporters.production.plan import plan_build
-from exporters.production.sheets import SheetJob
 from parts.base.texts import words
 from parts.pages.page import Sheet
 from parts.scene.files import built_in_scenes
-from parts.scene.load import ExportSpec, load_scene, make_parts, scene_from_dict
+from parts.scene.load import load_scene, make_parts, scene_from_dict
 from tests.exporters.documents import (
     test_calc,
     test_calc_cam_kinds,
@@ -35,10 +31,6 @@ from tests.exporters.documents.test_calc import sheet_for
 from tests.offered import scenes
 
 FILE = Path(__file__).parent / "contents.txt"
-_NUMBER = re.compile(r"\d+(?:[.,]\d+)*")
-_DRAWN = ("guidelines_cam", "james", "practicum_flat_cam", "practicum_pair", "practicum_roller_cam", "rack_and_pinion",
-          "thesis_internal_pair", "tmm42", "working_drawings")  # fmt: skip
-_TOGETHER = ("idler_train", "laser_gear", "lesson_1", "worm")
 _CAM_SCENES = ("groove_cam", "conjugate_cams", "yoke_cam", "wedge_cam", "barrel_cam part=end", "barrel_cam part=barrel")
 
 
@@ -105,36 +97,6 @@ def lines_of_recipe(name: str) -> Iterator[str]:
     yield from _line("steps", (" ".join(_given(step)) for step in scene.steps))
 
 
-def drawn() -> dict[str, tuple[str, str]]:
-    """Scenes of which drawings are listed: of an own purpose each, or as they say themselves."""
-    parts = {name: ("part", name) for name in cases() if " and " not in name}
-    return (
-        parts
-        | {f"{name} as it is": ("", name) for name in _DRAWN}
-        | {f"{name} together": ("assembly", name) for name in _TOGETHER}
-    )
-
-
-def lines_of_drawings(name: str) -> Iterator[str]:
-    """How many lines, arcs and splines each layer of a sheet has, and its words, # for each number."""
-    purpose, scene_name = drawn()[name]
-    scene = (
-        load_scene(scene_name) if scene_name in built_in_scenes() else scene_from_dict(scenes()[scene_name], name, name)
-    )
-    if purpose:
-        scene.exports = [ExportSpec(format="dxf", purpose=purpose, tolerance=0.01)]  # type: ignore[arg-type]
-    for job in plan_build(scene, name, [], []).sheets:
-        if not isinstance(job, SheetJob):
-            continue
-        for number, page in enumerate(job.pages, 1):
-            strokes = Counter(f"{stroke.layer} {type(stroke.curve).__name__}" for stroke in page.canvas.strokes)
-            yield from _line(f"{job.path} {number}", (f"{count} {what}" for what, count in sorted(strokes.items())))
-            texts = Counter(_NUMBER.sub("#", text.text) for text in page.canvas.texts)
-            yield from _line(
-                "words", (f"{count} {text!r}" if count > 1 else repr(text) for text, count in texts.items())
-            )
-
-
 def _tag(spec: Any) -> str:
     return str(type(spec).__struct_config__.tag)
 
@@ -174,7 +136,6 @@ KINDS_OF_LIST: tuple[tuple[str, Callable[[], Iterable[str]], Callable[[str], Ite
     ("calc", pages, lambda page: lines_of_page(page_of(page))),
     ("scene", cases, lines_of_scene),
     ("recipe", recipes, lines_of_recipe),
-    ("drawing", drawn, lines_of_drawings),
 )
 
 

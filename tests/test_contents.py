@@ -1,4 +1,4 @@
-"""Pages, reports, recipes and drawings hold what ``contents.txt`` lists, no more and no less."""
+"""Pages, reports and recipes hold what ``contents.txt`` lists, no more and no less."""
 
 from __future__ import annotations
 
@@ -10,12 +10,7 @@ from tests.contents import KINDS_OF_LIST, lines_of_page, listed, page_of, pages
 
 LISTED = cache(listed)
 
-
-# dear drawings of kinds of which a cheaper one is among the others
-LIKE_OTHERS = {"barrel", "barrel table", "end barrel", "swinging barrel", "groove", "swinging groove", "conjugate",
-               "practicum_flat_cam as it is"}  # fmt: skip
-CASES = [pytest.param(kind, name, marks=pytest.mark.heavy if kind == "drawing" and name in LIKE_OTHERS else ())
-         for kind, names, _ in KINDS_OF_LIST for name in names()]  # fmt: skip
+CASES = [(kind, name) for kind, names, _ in KINDS_OF_LIST for name in names()]
 
 
 @pytest.mark.parametrize(("kind", "name"), CASES)
