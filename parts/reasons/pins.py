@@ -45,7 +45,8 @@ REASONS = {
     "pins_reach_edge": N_("the pins reach the edge: they end at {diameter} mm"),
     "pins_touch": N_("{pins} pins on a circle of {circle} mm touch each other"),
     "pins_undercut_lobes": N_(
-        "the pins undercut the lobes: the path's least radius {path} mm is not above the pin's {pin} mm"
+        "the pins undercut the lobes or leave them sharp: the path's least radius {path} mm is not above {least} mm, "
+        "a hundredth more than the pin's"
     ),
     "seats_touch": N_("the seats touch each other"),
     "tooth_pointed_at": N_("the tooth is pointed at {diameter} mm"),

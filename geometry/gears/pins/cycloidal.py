@@ -162,7 +162,7 @@ def checked_disc(disc: CycloidalDisc) -> CycloidalDisc:
         given, cure = disc.eccentricity, _told(most, disc.eccentricity)
         if disc.shortening >= 1 - _MARGIN:
             raise UndercutError("eccentricity", given, "pin_paths_have_loops", cure)
-        sizes = {"path": disc.least_path_radius, "pin": disc.generating_pin_radius}
+        sizes = {"path": disc.least_path_radius, "least": disc.generating_pin_radius * (1 + _SHARPEST)}
         raise UndercutError("eccentricity", given, "pins_undercut_lobes", cure, **sizes)
     return disc
 
