@@ -201,7 +201,7 @@ REASONS = {
     "velocity_jumps_in_groove": N_(
         "the velocity jumps at cam angle {at} degrees: the groove would have a corner that no roller follows"
     ),
-    "wall_undercut": N_("undercuts the wall at cam angle {at} degrees"),
+    "wall_undercut": N_("undercuts the wall at cam angle {at} degrees, or leaves it a twentieth of its way"),
     "walls_undercut": N_("undercuts the walls"),
     "web_reaches_track": N_("reaches the track"),
     "wider_than_frame": N_("is wider than the frame"),
