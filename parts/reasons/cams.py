@@ -184,6 +184,7 @@ REASONS = {
     "table_beyond_turn": N_("angles must stay below one turn, 360 degrees"),
     "table_has_no_diagram": N_("a motion table has no acceleration diagram of phases"),
     "table_not_from_zero": N_("the first row must stand at cam angle 0"),
+    "table_without_lift": N_("all rows stand at one height: the follower has no motion"),
     "table_too_short": N_("at least 3 rows of angle and lift below 360 degrees are needed"),
     "tip_longer_than_stem": N_("must be longer than the tip, {height} mm"),
     "too_few_poles": N_("at degree {degree} at least {least} poles are needed"),

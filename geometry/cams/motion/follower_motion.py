@@ -244,8 +244,8 @@ def motion_of_table(angles: Sequence[float], lifts: Sequence[float]) -> Follower
     Raises
     ------
     ParameterError
-        Fewer than 3 points, angles that do not rise or span more than one turn, or a last row that contradicts
-        the first.
+        Fewer than 3 points, angles that do not rise or span more than one turn, a last row that contradicts the
+        first, or all at one height.
     """
     at, values = np.asarray(angles, dtype=float), np.asarray(lifts, dtype=float)
     key = "motion_table"
@@ -267,6 +267,8 @@ def motion_of_table(angles: Sequence[float], lifts: Sequence[float]) -> Follower
         at, values = at[:-1], values[:-1]
     if not at[-1] < TURN:
         raise _beyond_turn(key, at, "table_beyond_turn")
+    if not np.ptp(values) > 0:
+        raise ParameterError(key, len(values), "table_without_lift")
     closed = cubic_pieces(np.append(at, TURN), np.append(values, values[0]), periodic=True)
     return FollowerMotion(tuple(LawPiece(a, b, c) for a, b, c in closed))
 
