@@ -22,11 +22,9 @@ from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
-from geometry.gears.worms.worm import Worm
+from geometry.gears.worms.worm import LEAST_LAND, Worm
 
 Part = Literal["fillet", "radial", "flank", "rounding"]
-# of what is left of a land or a flank, in modules
-_LEAST = 1e-3
 # slope of what is radial
 _RADIAL = 1e-5
 # how much larger a diameter quotient is tried
@@ -127,7 +125,8 @@ def thread_of(worm: Worm, tip_rounding: float = 0.0) -> Thread:
         is larger than its room.
     """
     flank, root, tip = worm.flank, worm.root_radius, worm.tip_radius
-    fillet, half_pitch, least = worm.fillet_coefficient * worm.module, math.pi * worm.module / 2, _LEAST * worm.module
+    fillet, half_pitch = worm.fillet_coefficient * worm.module, math.pi * worm.module / 2
+    least = LEAST_LAND * worm.module
     begin = max(root, flank.least_radius)
     if not float(worm.half_thickness(begin)) < half_pitch - least:
         raise _by_quotient(worm, "worm_spaces_closed", lambda w: thread_of(w, tip_rounding))

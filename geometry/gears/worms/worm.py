@@ -20,6 +20,8 @@ from geometry.gears.worms.flank import FORMS, Flank, Screw
 
 Real = NDArray[np.float64]
 Hand = Literal["right", "left"]
+# half the least land of a thread and of a space, and the least of a flank, modules: thinner faces take no mesh
+LEAST_LAND = 1e-3
 
 
 class Worm(Record):
@@ -112,6 +114,11 @@ class Worm(Record):
         """alpha_n of the flank in the normal of the reference helix, rad."""
         return math.atan(math.tan(self.axial_pressure_angle) * math.cos(self.lead_angle))
 
+    @property
+    def has_tip(self) -> bool:
+        """Whether the thread ends in a land that is more than next to nothing."""
+        return self.tip_thickness >= 2 * LEAST_LAND * self.module
+
     def checked(self) -> Worm:
         """The worm itself, where it exists.
 
@@ -130,11 +137,12 @@ class Worm(Record):
             )
         if self.form_radius >= self.reference_radius:
             raise ParameterError("number_of_starts", self.number_of_starts, "worm_flank_above_reference")
-        if self.tip_thickness <= 0:
-            if self.thinning > 0 and replace(self, thinning=0.0).tip_thickness > 0:
+        if not self.has_tip:
+            none = self.screw.half_thickness <= LEAST_LAND * self.module
+            if self.thinning > 0 and (none or replace(self, thinning=0.0).has_tip):
 
                 def left(thinning: float) -> bool:
-                    return replace(self, thinning=thinning).tip_thickness > 0
+                    return replace(self, thinning=thinning).has_tip
 
                 cure = partial(nearest, left, self.thinning, 0.0)
                 raise ParameterError("axial_thinning", self.thinning, "worm_pointed", cure)
@@ -149,10 +157,10 @@ class Worm(Record):
         return self
 
     def _pointed_radius(self) -> float:
-        """Where both flanks of a thread meet, mm."""
+        """Where next to nothing is left between both flanks of a thread, mm."""
 
         def left(radius: float) -> float:
-            return float(self.half_thickness(radius))
+            return float(self.half_thickness(radius)) - LEAST_LAND * self.module
 
         return bracketed_root(left, self.reference_radius, self.tip_radius).value
 

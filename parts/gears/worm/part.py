@@ -46,6 +46,8 @@ if TYPE_CHECKING:
     from geometry.solids.sketch import Sketch
 
 _MOST = 100_000.0
+# addenda that are tried first: lower ones leave a rounding no room, of higher ones grinding wheels leave no foot
+_LOWER = (1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.05, 0.02)
 # of the ends of a thread, degrees
 _USUAL_ANGLES = {"end_angle_deg": 20.0, "run_out_deg": 90.0}
 
@@ -170,7 +172,8 @@ def _lower(keys: WormSpec) -> Nearest | None:
     def works(value: float) -> bool:
         return thread_of_keys(changed(keys, addendum_coefficient=value)).tip_half > 0
 
-    return nearest(works, keys.addendum_coefficient, (1.0, 0.5, 0.1))
+    given = keys.addendum_coefficient
+    return nearest(works, given, [end for end in _LOWER if end < given])
 
 
 def _check_shaft(keys: WormSpec, root: float) -> None:

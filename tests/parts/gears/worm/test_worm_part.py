@@ -152,6 +152,19 @@ def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_p
         ({"addendum_coefficient": 3.0}, "addendum_coefficient"),
         # before: an outline that does not come about, without a key
         ({"axial_thinning": 9.0}, "axial_thinning"),
+        # before: no value, since of the few that were tried the lowest had no room for the rounding
+        (
+            {
+                "module": 1.25,
+                "number_of_starts": 4,
+                "diameter_quotient": 3.756,
+                "form": "ZK1",
+                "thread_length": 18.56,
+                "tip_rounding": 0.286,
+                "axial_thinning": 0.095,
+            },
+            "addendum_coefficient",
+        ),
         ({"shaft_above": [{"diameter": 45.0, "length": 5.0}]}, "shaft_above[1].diameter"),
         ({"shaft_below": [{"diameter": 20.0, "length": 5.0, "chamfer": 6.0}]}, "shaft_below[1].chamfer"),
         # before: a groove between both
@@ -176,6 +189,13 @@ def test_a_worm_that_cannot_be_is_refused_with_a_value_that_works(keys: dict[str
     refusal = refused({"worm": WORM | keys})
     assert refusal.key == f"parts.worm.{key}"
     assert cured({"worm": WORM | keys}, refusal) is not None
+
+
+def test_a_thinned_thread_that_is_offered_has_a_land_that_takes_a_mesh() -> None:
+    found = refused({"worm": WORM | {"axial_thinning": 9.0}}).nearest
+    assert found is not None
+    # before: 0.0001 mm, and an STL in which that face had no triangle
+    assert part_of(axial_thinning=found.value).thing.thread.tip_half >= 1e-3 * WORM["module"]
 
 
 def test_a_wheel_of_a_worm_without_core_is_told_a_quotient_that_has_teeth() -> None:
