@@ -36,6 +36,8 @@ _RADII, _ANGLES, _FIRST_STEP = 257, 129, 1e-7
 # rad), how near both end at least and when that is enough; up to which depth, of the hob's size, undercut is none, and
 # to which so shallow that its crossing lies by the first terms of both curves half as far again as the turning
 _CROSSINGS, _NEWTON_STEPS, _SLOPE, _MET, _SURE, _BARELY, _SHALLOW, _CROSSED = 65, 8, 1e-6, 1e-10, 1e-14, 1e-6, 3e-4, 1.5
+# how deep a flank cuts a side that is a fillet before it is seen, part of the pitch
+_DEEP = 1e-2
 # how near a flank gets to the tip, part of the hob's size
 _AT_TIP = 1e-8
 # shares of each part of both sides between which a ridge is sought
@@ -203,7 +205,10 @@ class WormTeeth(Record, dict=True):
             raise NoTooth("worm_wheel_not_reached")
         form, column = hob.form_radius, np.arange(len(z))
         radii, reach, first, at = looked or self._search(z)
-        all_fillet = reach[0] >= tip
+        # a flank that turns back below the tip cuts the fillet there, though it began beyond
+        back = (first > 0) & (at < _RADII) & (reach[np.minimum(at, _RADII) - 1, column] < tip)
+        beyond = reach[0] >= tip
+        all_fillet = beyond & ~back
         at = np.where(all_fillet, 1, at)
         if not (at < _RADII).all():
             raise NoTooth("worm_wheel_flank_ends")
@@ -219,8 +224,6 @@ class WormTeeth(Record, dict=True):
             raise NoTooth("worm_wheel_flank_ends")
         undercut = (first > 0) & ~all_fillet
         inner, normal = np.full(len(z), form), np.full(len(z), hob.least_normal)
-        if all_fillet.any():
-            normal[all_fillet] = self._fillet_end(z[all_fillet])
         if undercut.any():
             column, first = column[undercut], first[undercut]
             turning = self._turning(radii[first + 1, column], radii[first - 1, column], z[undercut])
@@ -229,6 +232,16 @@ class WormTeeth(Record, dict=True):
             cut = np.flatnonzero(undercut)[deep]
             if cut.size:
                 inner[cut], normal[cut] = self._crossing(z[cut], turning[deep], outer[cut])
+        # beyond the tip
+        uncrossed = np.isnan(inner)
+        if not beyond[uncrossed].all():
+            raise NoTooth("worm_wheel_undercut")
+        all_fillet, undercut = all_fillet | uncrossed, undercut & ~uncrossed
+        if all_fillet.any():
+            inner[uncrossed] = outer[uncrossed] = form
+            normal[all_fillet] = self._fillet_end(z[all_fillet])
+            if self._is_cut(radii[:, all_fillet], normal[all_fillet], z[all_fillet]):
+                raise NoTooth("worm_wheel_undercut")
         hurry, goes_on = self._hurry(z, inner, normal, outer)
         way = np.abs(self.hob.cut(self.hob.round(math.pi / 2 + (normal - math.pi / 2) * _FOLD), z).plane)
         if not (np.diff(way, axis=0) > 0).all():
@@ -256,6 +269,16 @@ class WormTeeth(Record, dict=True):
         low, high = np.full(len(z), hob.least_normal), np.full(len(z), math.pi / 2)
         # where flank and fillet both end at the tip there is nothing between
         return bracketed_roots(past, low, high, np.maximum(past(low), 0.0), past(high))
+
+    def _is_cut(self, radii: Real, normal: Real, z: Real) -> bool:
+        """Whether flanks, (m, n), whose contact comes back from infinity, cut sides that are fillets up to the tip."""
+        own, ends = self.hob.cut(self.hob.flank(radii), z), np.linspace(math.pi / 2, normal, _ANGLES)
+        fillet, deep = self.hob.cut(self.hob.round(ends), z).plane, _DEEP * math.tau / self.number_of_teeth
+        below = own.found & (np.abs(own.plane) < self.tip_radius(z)) & (np.angle(own.plane) < 0)
+        return any(
+            bool((np.angle(flank[at]) > np.interp(np.abs(flank[at]), np.abs(side), np.angle(side)) + deep).any())
+            for flank, side, at in zip(own.plane.T, fillet.T, below.T, strict=True)
+        )
 
     def _ridge(self, z: Real, lower: Side) -> tuple[Real, Real, NDArray[np.bool_], Real, Real]:
         """Where lower sides meet the upper ones below the tip: as in ``Side`` normals, ends, and which parts meet."""
@@ -352,7 +375,7 @@ class WormTeeth(Record, dict=True):
     def _crossing(self, heights: Real, low: Real, high: Real) -> tuple[Real, Real]:
         """Radii of the thread and normals of its rounding at which the fillets of undercut teeth meet the flanks.
 
-        ``low``: where the flank turns back, ``high``: at the tip.
+        ``low``: where the flank turns back, ``high``: at the tip; nan where they meet beyond it.
         """
         hob = self.hob
 
@@ -381,12 +404,14 @@ class WormTeeth(Record, dict=True):
             ahead = np.angle(lines[:, k]) - own
             change = np.flatnonzero(ahead[1:] * ahead[:-1] <= 0)
             if not change.size:
-                raise NoTooth("worm_wheel_undercut")
+                radius[k] = normal[k] = np.nan
+                continue
             at = int(change[0])
             share = ahead[at] / (ahead[at] - ahead[at + 1]) if ahead[at] != ahead[at + 1] else 0.0
             radius[k] = radii[at, k] + share * (radii[at + 1, k] - radii[at, k])
             size = np.abs(lines[at, k]) + share * (np.abs(lines[at + 1, k]) - np.abs(lines[at, k]))
             normal[k] = np.interp(size, reach[:last, k], normals[:last])
+        crosses = ~np.isnan(radius)
         # the shallowest meet as they are: a step of theirs would be rounding
         goes = ~(shallow & (np.abs(flank(radius) - fillet(normal)) <= _SURE * hob.tip_radius))
         for _ in range(_NEWTON_STEPS):
@@ -396,7 +421,7 @@ class WormTeeth(Record, dict=True):
             cross = np.where(goes, (np.conj(one) * two).imag, np.inf)
             radius = radius - (np.conj(off) * two).imag / cross
             normal = normal - (np.conj(off) * one).imag / cross
-        if not float(np.abs(flank(radius) - fillet(normal)).max()) <= _MET * hob.tip_radius:
+        if not float(np.abs(flank(radius) - fillet(normal))[crosses].max(initial=0.0)) <= _MET * hob.tip_radius:
             raise NoTooth("worm_wheel_undercut")
         return radius, normal
 

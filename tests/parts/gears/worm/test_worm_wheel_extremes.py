@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.worms.hob import oversized_hob
 from geometry.gears.worms.wheel import WormTeeth
@@ -135,6 +136,17 @@ def test_faces_of_larger_hobs_end_before_their_contact_turns_back() -> None:
     assert isinstance(offered.value, float)
     assert 8.6 < offered.value < 8.7
     assert wheel_splines(_built({**keys, "face_width": offered.value}).wheel, 1e-4).max_error <= 1e-4
+
+
+def test_a_flank_that_turns_back_below_the_tip_is_no_fillet_up_to_it() -> None:
+    keys = {"module": 2.0, "number_of_starts": 3, "diameter_quotient": 2.837, "form": "ZN2", "hand": "left"}
+    keys |= {"number_of_teeth": 11}
+    # before: from 0.232 on the hob got 1.7 mm into what was taken for fillets, and no spline followed
+    assert _depth(_built(keys | {"face_width": 0.7}).teeth, 0.3) < _ROUNDING
+    # beyond infinity the contact comes back through the tooth
+    with pytest.raises(ParameterError) as refused:
+        drive_teeth(keys | {"face_width": 2.0})
+    assert refused.value.code == "worm_wheel_undercut"
 
 
 def test_a_face_that_no_hob_reaches_is_told_the_widest_that_stands() -> None:
