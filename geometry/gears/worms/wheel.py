@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
-from geometry.base.roots import bracketed_root, bracketed_roots
+from geometry.base.roots import bracketed_roots
 from geometry.curves.line_arc import Line
 from geometry.gears.worms.hob import Cut, Hob, Meridian
 from geometry.plane.profile import Label, Profile, Segment
@@ -619,9 +619,8 @@ class WormTeeth(Record, dict=True):
         if not pointed.any():
             return ()
 
-        def left(height: float) -> float:
-            z = np.array([height])
-            return float(self._left(self._plain(z), self._plain(-z))[0])
+        def left(heights: Real) -> Real:
+            return self._left(self._plain(heights), self._plain(-heights))
 
         # half a turn about the middle of a tooth makes one end of the face the other
         ends = [z for z in self._crossed(left, self._plain_thickness) if z > 0]
@@ -641,14 +640,14 @@ class WormTeeth(Record, dict=True):
             border = np.where(plain.all_fillet, form, self.fillet(plain, 1.0).plane)
             return np.abs(border) - np.abs(self.flank(self.side(heights), 1.0).plane)
 
-        sampled = beyond(self._levels)
-        return tuple(self._crossed(lambda height: float(beyond(np.array([height]))[0]), sampled))
+        return tuple(self._crossed(beyond, beyond(self._levels)))
 
-    def _crossed(self, of: Callable[[float], float], sampled: Real) -> list[float]:
+    def _crossed(self, of: Callable[[Real], Real], sampled: Real) -> list[float]:
         """Heights at which a function that is sampled at the levels goes through 0, mm."""
         levels, signs = self._levels, sampled > 0
-        at = np.flatnonzero(signs[1:] != signs[:-1]).tolist()
-        return [bracketed_root(of, float(levels[k]), float(levels[k + 1])).value for k in at]
+        at = np.flatnonzero(signs[1:] != signs[:-1])
+        ends = bracketed_roots(of, levels[at], levels[at + 1], sampled[at], sampled[at + 1]) if at.size else at
+        return [float(end) for end in ends]
 
     @cached_property
     def undercut_ends(self) -> tuple[float, ...]:
