@@ -112,8 +112,8 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
 
 # what a refusal offers is asked for again by whoever judges the offer
 @lru_cache(maxsize=4)
-def fitting(teeth: WormTeeth) -> WormTeeth | None:
-    """The widest of some narrower teeth, themselves first, that splines come near; None where none do."""
+def fitting(teeth: WormTeeth, near: float = _NEARLY) -> WormTeeth | None:
+    """The widest narrower teeth, themselves first, that splines come near, but for a part of the width; or None."""
 
     def follows(width: float) -> bool:
         try:
@@ -126,7 +126,7 @@ def fitting(teeth: WormTeeth) -> WormTeeth | None:
 
     if kept(follows, teeth.width):
         return teeth
-    found = nearest(follows, teeth.width, _NARROWEST * teeth.width, enough=_NEARLY * teeth.width)
+    found = nearest(follows, teeth.width, _NARROWEST * teeth.width, enough=near * teeth.width)
     return replace(teeth, width=found.value) if found and isinstance(found.value, float) else None
 
 

@@ -59,6 +59,8 @@ _USEFUL, _TIP = 0.25, 0.02
 # addenda and shifts (modules) and thinnings (mm) are offered that near to the last one that works, and where only the
 # splines tell which does
 _NEAR, _NEARLY = 5e-3, 2e-2
+# how near a default width comes to the widest that splines follow, part of it
+_WIDEST = 1e-2
 # an outside is reached that near, mm; below so many degrees a corner is sharp: a throat wraps a third of the worm
 _REACHED, _SHARP = 1e-3, 29.9
 
@@ -188,7 +190,7 @@ def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     except ParameterError as wide:
         raise ParameterError(wide.name, wide.value, wide.code, partial(_narrower, teeth)) from wide
     # faces may break off where none of the known ends is
-    found = fitting(teeth)
+    found = fitting(teeth, _WIDEST) if keys.face_width is None else fitting(teeth)
     if found is None and teeth.is_creased:
         raise _toothless(keys, "worm_wheel_below_base")
     if found is None or (found != teeth and keys.face_width is not None):
