@@ -405,7 +405,7 @@ def _matched(kind: str, statements: list[bytes]) -> list[Row]:
     rows: list[Row] = pattern.findall(b";%b;" % b";".join(statements))
     if len(rows) != len(statements):
         wrong = next(s for s in statements if not pattern.match(b";%b;" % s))
-        raise ReadError(f"{_told(wrong)} of the STEP file is not what a {kind} is")
+        raise ReadError(f"{_told(wrong)} of the STEP file is not what {kind} has to be")
     return rows
 
 
