@@ -225,6 +225,8 @@ def _projected(points: Complex, curve: Travelled, samples: Real, start: NDArrayI
         slope = square + sum((np.conj(gap) * x).real for x in second)
         with np.errstate(divide="ignore", invalid="ignore"):
             step = np.nan_to_num((np.conj(gap) * first).real / np.where(slope > 0, slope, square))
+        # in a cusp at an end, where an involute begins, every point would have its foot: half a sample inwards
+        step = np.where(square > 0, step, np.where(at > (low + high) / 2, reach / 2, -reach / 2))
         following = np.clip(at - np.clip(step, -reach, reach), low, high)
         # a foot that stays, or goes to and fro by a rounding, is where it will be after all steps, or one before
         swings = following == before[rows]
