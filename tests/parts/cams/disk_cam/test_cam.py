@@ -356,23 +356,6 @@ def test_the_plate_is_as_large_as_the_contact_runs() -> None:
         part_of(keys | {"plate_diameter": least * 0.9999})
 
 
-def test_the_least_cam_of_a_flat_follower_has_files_though_its_profile_all_but_stands_still(tmp_path: Path) -> None:
-    """Where pull is even the radius of curvature is 0 at a joint of the law, but for rounding."""
-    phases = [
-        {"move": "rise", "angle_deg": 63.0, "law": "modified_trapezoid"},
-        {"move": "dwell", "angle_deg": 30.0},
-        {"move": "return_", "angle_deg": 51.0, "law": "modified_trapezoid"},
-        {"move": "dwell", "angle_deg": 216.0},
-    ]
-    keys = {"kind": "cam", "phases": phases, "follower": "flat", "lift": 17.3, "least_transmission_angle_deg": 45.0}
-    scene = tmp_path / "least.toml"
-    scene.write_text(scene_text(keys, 'purpose = "drawing"\n[[exports]]\nformat = "step"'), encoding="utf-8")
-    assert main(["build", str(scene), "--out", str(tmp_path), "--quiet"]) == 0
-    files = read_report(tmp_path / "least")["files"]
-    assert [file["tolerance"] for file in files] == [1e-6, 1e-6]
-    assert all(file["measured"]["max_deviation"] <= 1e-6 for file in files)
-
-
 def test_the_drawing_of_a_heart_cam_encloses_what_archimedes_says(tmp_path: Path) -> None:
     """Two spirals: pi (r^2 + r h + h^2 / 3); each is one spline of half a turn."""
     halves = [{"move": move, "angle_deg": 180.0, "law": "constant_velocity"} for move in ("rise", "return_")]
