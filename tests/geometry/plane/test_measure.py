@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import DisconnectedProfileError
 from geometry.curves.curve import end_point, start_point
+from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.teeth.basic_rack import TipRelief, iso_53
 from geometry.gears.teeth.offset import gear_region
@@ -205,6 +206,14 @@ def test_segments_run_through_every_period() -> None:
     assert len(chain) == 8 * len(profile.period)
     for before, after in zip(chain, [*chain[1:], chain[0]], strict=True):
         assert abs(end_point(before.curve) - start_point(after.curve)) <= 1e-12 * profile.reach()
+
+
+def test_points_beside_the_cusp_of_an_involute_lie_on_it() -> None:
+    involute = Involute(2.0, 0.3, 0.0, 2.3)
+    beside = involute.point(np.linspace(0.0, 0.03, 200))
+    assert float(distance_to_chain(beside, [involute]).max()) < 1e-12
+    off = beside + 1e-3 * 1j * involute.tangent(np.linspace(0.001, 0.03, 200))
+    assert float(distance_to_chain(off, [involute]).min()) > 5e-5
 
 
 def test_joint_turn_signs() -> None:
