@@ -10,7 +10,7 @@ from geometry.base.record import Record
 # rounding of the measurement itself, as a part of the section's size
 _ROUNDING = 1e-13
 # what volumes are good to, part of them, and how far a file's rounding moves a surface, mm
-_VOLUME, _LAST_DECIMAL = 1e-9, 1e-8
+_VOLUME, _LAST_DECIMAL = 1e-9, 1e-9
 
 
 class Verdict(Record):

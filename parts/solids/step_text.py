@@ -44,8 +44,9 @@ ENDSEC;
 DATA;
 """
 _TAIL = "ENDSEC;\nEND-ISO-10303-21;\n"
-# coordinates are rounded to this part of the tolerance or finer, and to 8 decimals at least
-_SHARE, _LEAST_DECIMALS = 0.01, 8
+# coordinates are rounded to this part of the tolerance or finer, and to 9 decimals at least: so files made with
+# other versions of numpy, whose last bits differ, are equal to 1e-9 mm
+_SHARE, _LEAST_DECIMALS = 0.01, 9
 # references on one line
 _PER_LINE = 16
 
@@ -353,7 +354,7 @@ class _Shell:
             poles = self.points[surface.poles]
             row = "(" + ",".join(["#%d"] * poles.shape[2]) + ")"
             (u, u_times), (v, v_times) = _knots(surface.u_knots), _knots(surface.v_knots)
-            degrees, rows = ",".join(map(str, surface.degrees)), ",\n".join([row] * poles.shape[1])
+            degrees, rows = ",".join(map(str, surface.degrees)), _lines([row] * poles.shape[1], poles.shape[2])
             return text.many(
                 f"B_SPLINE_SURFACE_WITH_KNOTS('',{degrees},({rows}),.UNSPECIFIED.,"
                 f".F.,.F.,.F.,({u_times}),({v_times}),({u}),({v}),.UNSPECIFIED.)",
@@ -399,8 +400,13 @@ def string(text: str) -> str:
 
 def _list(items: Sequence[object]) -> str:
     """References, a few on each line."""
-    lines = [",".join(f"#{x}" for x in items[k : k + _PER_LINE]) for k in range(0, len(items), _PER_LINE)]
-    return ",\n".join(lines)
+    return _lines([f"#{x}" for x in items], 1)
+
+
+def _lines(items: Sequence[str], references: int) -> str:
+    """Items of so many references, a few on each line."""
+    few = max(_PER_LINE // references, 1)
+    return ",\n".join(",".join(items[k : k + few]) for k in range(0, len(items), few))
 
 
 def _spread(values: Index, shape: tuple[int, ...]) -> Index:
