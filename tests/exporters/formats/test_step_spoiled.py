@@ -18,6 +18,8 @@ from exporters.production.recheck import recheck
 from exporters.verification.kernel import judged_by_kernel
 from parts.base.readback import ReadError
 from parts.scene.load import load_scene, make_parts
+from parts.solids.faces import solid_curves, solid_faces
+from parts.solids.step_text import StepForm, StepPart, step_text
 from tests.exporters.making import part_keys, read_report, run, write_scene
 from tests.exporters.outside import Gear
 
@@ -167,6 +169,19 @@ def test_a_spoiled_step_is_caught(part: str, spoil: str, good: Path, tmp_path: P
         assert changed != text
         file.write_text(changed, encoding="ascii", newline="\n")
         assert verdict(file), share
+
+
+def test_a_turned_circle_is_found_by_its_place(tmp_path: Path) -> None:
+    """Each whole circle of a shaft, against its curve: a face between two has bounds that go the same way round it."""
+    part = make_parts(load_scene("shaft_set"), "shaft_set")[0]["shaft"]
+    solid = solid_faces(body := part.body(0.0), solid_curves(body, TOLERANCE))
+    text, file = step_text(StepPart("shaft", solid), StepForm()), tmp_path / "shaft.step"
+    circles = list(re.finditer(r"=EDGE_CURVE\('',(#\d+),\1,#\d+,\.(T)\.", text))
+    assert len(circles) > 20
+    for circle in circles:
+        file.write_text(f"{text[: circle.start(2)]}F{text[circle.end(2) :]}", encoding="ascii")
+        with pytest.raises(ReadError, match=r"^#\d+ of the STEP file is a face"):
+            read_step(file)
 
 
 @pytest.mark.sampled(1)
