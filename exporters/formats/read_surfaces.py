@@ -135,7 +135,8 @@ def measure(model: Model, within: float) -> tuple[Real, Real, Real]:
                 total += np.bincount(face[once], form[once] @ weights, count)
             np.maximum.at(gap, face, found.gap.max(axis=1))
     # round an axis bounds go there and back, or once about an apex or a pole
-    refuse(np.abs(turns) > 3 * np.pi, model.faces, "is a face with bounds that go round it the same way")
+    twice = np.isin(model.kind, (ROUND, SPHERE, TORUS)) & (np.abs(turns) > 3 * np.pi)
+    refuse(twice, model.faces, "is a face with bounds that go round it the same way")
     if (mine := np.flatnonzero(model.kind == SPHERE)).size:
         more = poles_of(model.sizes[mine], centres[mine, 2], turns[mine], bare[mine], sense[mine])
         flux[mine] += more[0]
