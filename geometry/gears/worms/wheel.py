@@ -592,8 +592,10 @@ class WormTeeth(Record, dict=True):
 
     @property
     def _levels(self) -> Real:
-        """Heights at which a face is looked at, closer at its ends."""
-        return np.asarray(self.width / 2 * np.sin(np.linspace(-math.pi / 2, math.pi / 2, self.levels)))
+        """Heights at which a face is looked at, closer at its ends, and where the throat ends: teeth are thin there."""
+        half, throat = self.width / 2, self.throat_height
+        even = half * np.sin(np.linspace(-math.pi / 2, math.pi / 2, self.levels))
+        return np.unique([*even, -throat, throat]) if 0 < throat < half else np.asarray(even)
 
     @cached_property
     def _looked(self) -> _Looked:

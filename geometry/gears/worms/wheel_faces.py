@@ -39,10 +39,10 @@ _DEGREE = 7
 _MARGIN, _EDGES = 2.0, 5e-8
 # the least error of faces that is asked for, mm
 _FINEST, _SHARE = 2e-8, 0.5
-# spans at most, samples of each, and lines of a family on which spans are chosen
-_MOST_SPANS, _SAMPLES, _LINES = 64, 7, 9
-# the tolerance that files have by default, mm, spans by which easy ones and all are near enough, and samples of each
-_WANTED, _ENOUGH, _FEW = 1e-6, (12, 48), 2
+# spans at most, and lines of a family on which they are chosen
+_MOST_SPANS, _LINES = 64, 9
+# the tolerance that files have by default, mm, and spans by which easy ones and all are near enough
+_WANTED, _ENOUGH = 1e-6, (12, 48)
 # by which power of what is left to the tip of a swivelled hob's flank its spans come closer there
 _CLOSER = 2
 # so many spans are one more when they are too few
@@ -51,8 +51,8 @@ _SLOW = 6
 _NARROWEST, _NEARLY = 0.3, 0.05
 # of the curves of a ring
 _ROOT, _TIP = 0, 3
-# where between two places of interpolation errors are greatest, and what part of the margin they want
-_BETWEEN, _SURER = (0.35, 0.65), 0.75
+# where between two places of interpolation errors are greatest
+_BETWEEN = (0.35, 0.65)
 # rounding of the envelope and of its fit, part of the size
 _ROUNDING = 4e-15
 
@@ -96,9 +96,7 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
     """
     teeth = wheel.teeth
     made = _fits(teeth, tolerance)
-    worst = max(
-        max(fit.error, fit.edge, _between(teeth, part, fit)) for fits in made.values() for part, fit in enumerate(fits)
-    )
+    worst = max(max(fit.error, fit.edge) for fits in made.values() for fit in fits)
     strips = []
     for low, high in made:
         lower, mirrored = ([fit.poles for fit in made[band]] for band in ((low, high), (-high, -low)))
@@ -137,8 +135,8 @@ def _are_followed(teeth: WormTeeth) -> bool:
     for band in pairwise(teeth.breaks):
         for part in (FILLET, FLANK) if _has_flank(teeth, band) else (FILLET,):
             for spans in _ENOUGH:
-                away, edge = _along(teeth, part, band, spans, _FEW)
-                if away <= target and edge <= edges and _across(teeth, part, band, spans, _FEW) <= target:
+                away, edge = _along(teeth, part, band, spans)
+                if away <= target and edge <= edges and _across(teeth, part, band, spans) <= target:
                     break
             else:
                 return False
@@ -202,10 +200,10 @@ def _spans(teeth: WormTeeth, part: int, band: tuple[float, float], target: float
     return spans
 
 
-def _across(teeth: WormTeeth, part: int, band: tuple[float, float], spans: int, samples: int = _SAMPLES) -> float:
+def _across(teeth: WormTeeth, part: int, band: tuple[float, float], spans: int) -> float:
     """How far lines of a part in planes are off on so many spans, mm."""
     heights = np.linspace(*band, _LINES)
-    places, between, weights = _interpolation(*(_shares(teeth, part, n) for n in _counts(spans, samples)))
+    places, between, weights = _interpolation(_shares(teeth, part, spans))
     found = weights @ _points(teeth, part, places, heights).plane
     return float(_away(found, _points(teeth, part, between, heights)).max())
 
@@ -219,35 +217,34 @@ def _spans_along(teeth: WormTeeth, part: int, band: tuple[float, float], target:
     return spans
 
 
-def _along(
-    teeth: WormTeeth, part: int, band: tuple[float, float], spans: int, samples: int = _SAMPLES
-) -> tuple[float, float]:
+def _along(teeth: WormTeeth, part: int, band: tuple[float, float], spans: int) -> tuple[float, float]:
     """How far lines of a part from end to end of a band are off on so many spans, and its edge, mm."""
     shares = np.linspace(0.0, 1.0, _LINES)
-    places, between, weights = _interpolation(*(np.linspace(*band, n) for n in _counts(spans, samples)))
+    places, between, weights = _interpolation(np.linspace(*band, spans + 1))
     found = _points(teeth, part, shares, places).plane @ weights.T
     away = float(_away(found, _points(teeth, part, shares, between)).max())
     return away, _edge_error(teeth, part, band, found, between)
 
 
-def _counts(spans: int, samples: int = _SAMPLES) -> tuple[int, int]:
-    """How many ends and how many samples spans have."""
-    return spans + 1, samples * spans + 8
-
-
-def _shares(teeth: WormTeeth, part: int, count: int, *, inwards: bool = False) -> Real:
-    """So many shares of a part from the root on, or from the tip, even where that follows it best."""
-    even = np.linspace(0.0, 1.0, count)
+def _shares(teeth: WormTeeth, part: int, spans: int, *, inwards: bool = False) -> Real:
+    """Shares of a part at the ends of spans from the root on, or from the tip, even where that follows it best."""
+    even = np.linspace(0.0, 1.0, spans + 1)
     if part != FLANK or teeth.hob.swivel == 0:
         return even
     # beyond the tip the contact of a swivelled hob turns back in the plane: the nearer the closer
     return np.asarray(even**_CLOSER if inwards else 1 - (1 - even) ** _CLOSER)
 
 
-def _interpolation(ends: Real, between: Real) -> tuple[Real, Real, Real]:
+def _between(places: Real) -> Real:
+    """Where the errors of what is interpolated at places are greatest."""
+    return np.concatenate([places[:-1] + share * np.diff(places) for share in _BETWEEN])
+
+
+def _interpolation(ends: Real) -> tuple[Real, Real, Real]:
     """Places of interpolation on spans with such ends, places between them, and what gives the values there, (m, n)."""
     knots = clamped(_DEGREE, ends)
     places = greville(_DEGREE, knots)
+    between = _between(places)
     return places, between, basis_matrix(_DEGREE, knots, between) @ np.linalg.inv(basis_matrix(_DEGREE, knots, places))
 
 
@@ -276,27 +273,17 @@ class _Fit(Record, eq=False):
 
 def _fitted(teeth: WormTeeth, part: int, band: tuple[float, float], spans: tuple[int, int]) -> _Fit:
     """The spline of a lower fillet or flank."""
-    (u_ends, u), (v_ends, v) = (
-        [_shares(teeth, part, n) for n in _counts(spans[0])],
-        [np.linspace(*band, n) for n in _counts(spans[1])],
-    )
-    u_knots, v_knots = clamped(_DEGREE, u_ends), clamped(_DEGREE, v_ends)
-    exact = _points(teeth, part, greville(_DEGREE, u_knots), greville(_DEGREE, v_knots))
+    u_knots = clamped(_DEGREE, _shares(teeth, part, spans[0]))
+    v_knots = clamped(_DEGREE, np.linspace(*band, spans[1] + 1))
+    places = greville(_DEGREE, u_knots), greville(_DEGREE, v_knots)
+    exact = _points(teeth, part, *places)
     poles = tensor_poles(_DEGREE, u_knots, v_knots, exact.plane)
+    # lines through places are off by the other way's errors alone, those of both ends the most
+    u, v = (np.sort(np.concatenate([at, _between(at)])) for at in places)
     found = basis_matrix(_DEGREE, u_knots, u) @ poles @ basis_matrix(_DEGREE, v_knots, v).T
     error = float(_away(found, _points(teeth, part, u, v)).max())
     edge = _edge_error(teeth, part, band, found, v)
     return _Fit(u_knots, v_knots, poles, error, edge)
-
-
-def _between(teeth: WormTeeth, part: int, fit: _Fit) -> float:
-    """Error of a fit between its places of interpolation, which even samples may meet, as it counts beside them, mm."""
-    u, v = (
-        np.concatenate([at[:-1] + share * np.diff(at) for share in _BETWEEN])
-        for at in (greville(_DEGREE, knots) for knots in (fit.u_knots, fit.v_knots))
-    )
-    found = basis_matrix(_DEGREE, fit.u_knots, u) @ fit.poles @ basis_matrix(_DEGREE, fit.v_knots, v).T
-    return _SURER * float(_away(found, _points(teeth, part, u, v)).max())
 
 
 def wheel_solid(wheel: WormWheel, splines: WheelSplines) -> Solid:
@@ -366,7 +353,7 @@ def _ring(made: BodyFaces, teeth: WormTeeth, strips: Sequence[Strip], end: int, 
     if present[3]:
         period.append(_arc(complex(tip[0]), top))
     if present[4]:
-        inwards = clamped(_DEGREE, _shares(teeth, FLANK, len(flank_knots[0]) - 2 * _DEGREE, inwards=True))
+        inwards = clamped(_DEGREE, _shares(teeth, FLANK, len(flank_knots[0]) - 2 * _DEGREE - 1, inwards=True))
         period.append(BSpline(_DEGREE, inwards, upper_flank))
     period.append(BSpline(_DEGREE, fillet_knots, upper_fillet))
     outline = Outline(tuple(period), teeth.number_of_teeth, 0.0, "sampled")

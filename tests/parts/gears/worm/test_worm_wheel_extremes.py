@@ -11,11 +11,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from geometry.approximation.tensor import basis_matrix
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.worms.hob import oversized_hob
 from geometry.gears.worms.wheel import WormTeeth
 from geometry.gears.worms.wheel_faces import wheel_splines
+from geometry.gears.worms.wheel_measures import FLANK
 from parts.base.refusal import SceneError
 from parts.gears.worm_wheel.part import WormWheelSpec, drive_of, teeth_of
 from parts.scene.load import make_parts, scene_from_dict
@@ -188,6 +190,31 @@ def test_teeth_that_reach_below_the_base_circle_are_told_the_addendum_that_does_
         _built({**keys, "axial_thinning": 0.15})
     assert (refused.value.key, refused.value.code) == ("parts.wheel.addendum_coefficient", "worm_wheel_below_base")
     _held({**keys, "axial_thinning": 0.15})
+
+
+def test_loose_splines_are_off_by_no_more_than_they_say() -> None:
+    keys = {"module": 5.0, "number_of_starts": 8, "diameter_quotient": 4.9, "number_of_teeth": 45, "form": "ZN2"}
+    keys |= {"profile_shift_coefficient": 0.3, "hob_diameter_quotient": 5.672, "pressure_angle_deg": 17.5}
+    wheel = _built(keys | {"face_width": 2.15}).wheel
+    splines = wheel_splines(wheel, 0.005)
+    strip, u = splines.strips[0], np.linspace(0.0, 1.0, 401)
+    # before: most off beside the root of the flank's end, 3.5 times as much as its even samples saw
+    line = basis_matrix(7, strip.u_knots[FLANK], u) @ strip.lower[FLANK][:, 0]
+    points = np.stack([line.real, line.imag, np.zeros_like(u)], axis=-1)
+    worst = float(wheel.from_side(FLANK, points).max())
+    assert 0.3 * splines.max_error < worst <= 0.7 * splines.max_error
+
+
+def test_teeth_that_are_pointed_but_where_their_throat_ends_have_a_ridge_there() -> None:
+    keys = {"module": 5.0, "number_of_starts": 5, "diameter_quotient": 11.41, "number_of_teeth": 13, "form": "ZK1"}
+    drive = drive_of(WormWheelSpec(**keys, hand="left", pressure_angle_deg=28.0))
+    outer, width = drive.default_outer_diameter / 2, drive.most_face_width
+    teeth = WormTeeth(oversized_hob(drive, 0.1281, 11.41), drive.centre_distance, drive.throat_radius, outer, width)
+    # before: whole to those who looked at even heights, and no mesh would close
+    assert teeth.lessened == "worm_wheel_pointed"
+    _, (low, high) = teeth.ridges
+    assert 0 < low < teeth.throat_height < high < 1.02 * low
+    assert (teeth.thickness([low - 0.1, high + 0.1]) > 0).all()
 
 
 # faces that end in a ridge, without flanks, in a ridge of undercut teeth
