@@ -134,6 +134,11 @@ class Chart(Record, eq=False):
         return isinstance(self.surface, Plane)
 
     @property
+    def is_central(self) -> bool:
+        """Whether any turn about the z axis brings it onto itself."""
+        return not (self.axes[2, :2].any() or (self.origin[:2].any() and not self.is_plane))
+
+    @property
     def is_bent(self) -> bool:
         """Whether it is curved both ways."""
         return isinstance(self.surface, Torus | Sphere)

@@ -78,7 +78,7 @@ class FacedBody(Record, dict=True):
             if isinstance(faces.surface, SplineSurface | Extrusion):
                 continue
             for chart in charts(solid, faces.surface, len(faces.loops[0][0])):
-                found.setdefault(chart.alike, Measured(str(chart.alike[0]), chart.distance))
+                found.setdefault(chart.alike, Measured(str(chart.alike[0]), chart.distance, int(not chart.is_central)))
         return (*self.walls, *found.values())
 
     @cached_property

@@ -11,10 +11,14 @@ from geometry.solids.mass import Moments
 
 
 class Measured(Record, eq=False):
-    """An exact surface of a body: what it is called, and how far points (n, 3) lie from it, mm, also beyond it."""
+    """An exact surface of a body: what it is called, and how far points (n, 3) lie from it, mm, also beyond it.
+
+    ``turns``: so many equal turns of a whole one about the z axis bring it onto itself each; 0: any turn does.
+    """
 
     what: str
     distance: Callable[[Real], Real]
+    turns: int = 1
 
 
 class Faced(Protocol):

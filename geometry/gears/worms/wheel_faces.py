@@ -372,9 +372,9 @@ def wheel_body(wheel: WormWheel) -> FacedBody:
         splines = wheel_splines(wheel, tolerance)
         return FacedSolid(wheel_solid(wheel, splines), splines.max_error, splines.bound)
 
-    walls = [Measured("flank", wheel.from_sides)]
+    walls = [Measured("flank", wheel.from_sides, wheel.teeth.number_of_teeth)]
     if wheel.teeth.hob.swivel:
-        walls.append(Measured("root", wheel.from_root))
+        walls.append(Measured("root", wheel.from_root, 0))
     for profile in wheel.core.profiles:
         if not all(isinstance(segment.curve, Arc | Line) for segment in profile.period):
             walls.append(Measured("wall", partial(_from_wall, profile)))
