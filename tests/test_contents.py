@@ -13,6 +13,7 @@ LISTED = cache(listed)
 CASES = [(kind, name) for kind, names, _ in KINDS_OF_LIST for name in names()]
 
 
+@pytest.mark.sampled(80)
 @pytest.mark.parametrize(("kind", "name"), CASES)
 def test_what_is_told_is_what_is_listed(kind: str, name: str) -> None:
     lines = next(lines for known, _, lines in KINDS_OF_LIST if known == kind)

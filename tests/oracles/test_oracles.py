@@ -263,7 +263,7 @@ def test_signed_depth_against_a_dense_boundary(relief: float) -> None:
     )
     boundary = np.concatenate([half, np.conj(half)])
     rng = np.random.default_rng(1)
-    q = rng.uniform(-1.8, 1.2, 300) + 1j * rng.uniform(-1.6, 1.6, 300)
+    q = rng.uniform(-1.8, 1.2, 150) + 1j * rng.uniform(-1.6, 1.6, 150)
     nearest = np.abs(q[:, None] - boundary).min(axis=1)
     depth = tool.signed_depth(q)
     assert np.abs(tool.signed_depth(boundary)).max() < 1e-15
@@ -275,7 +275,7 @@ def test_signed_depth_against_a_dense_boundary(relief: float) -> None:
     inside = ~outside
     assert np.all(depth[inside] <= nearest[inside] + 1e-12)
     near = inside & (nearest < 0.3)
-    assert near.sum() > 20
+    assert near.sum() > 10
     assert np.all((nearest - depth <= error)[near])
 
 

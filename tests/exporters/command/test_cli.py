@@ -94,7 +94,7 @@ def test_every_built_in_scene_and_every_format_has_its_day() -> None:
     assert set(DAILY.values()) == {case.values[1] for case in formats_of_scenes()}
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("name", "form"), formats_of_scenes())
 def test_a_built_in_scene_builds_and_verifies_in_a_format(name: str, form: str, tmp_path: Path) -> None:
     """Each file is read back once, by the command for it."""

@@ -174,6 +174,7 @@ def test_no_place_of_the_follower_cuts_into_the_profile(name: str) -> None:
         assert abs(path[round(row["phi"] * 4) % 1440] - point) == pytest.approx(RADIUS.get(name, 0.0), abs=1e-9)
 
 
+@pytest.mark.heavy
 def test_every_place_of_a_flat_face_holds_the_profile_on_one_side() -> None:
     case, rows = LINKS["flat"], calculated("flat", "step=15")["positions"]
     heights, normals = [], []

@@ -40,6 +40,7 @@ def column(rows: list[dict[str, float]], name: str) -> np.ndarray:
     return np.array([math.inf if row[name] is None else row[name] for row in rows])
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("words", SHEETS, ids=lambda w: " ".join(w)[:60])
 def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
     steps = [s for s in sheet_of(words[0], words[1:])[0].steps() if s.formula]

@@ -13,6 +13,7 @@ from tests.exporters.documents.test_calc import PUBLISHED
 CASES = json.loads((PUBLISHED / "textbook_pages.json").read_text(encoding="utf-8"))["cases"]
 
 
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("case", CASES, ids=[case["id"] for case in CASES])
 def test_what_a_textbook_prints(case: dict[str, Any]) -> None:
     topic, *words = case["words"]

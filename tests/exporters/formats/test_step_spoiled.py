@@ -158,7 +158,7 @@ def verdict(file: Path) -> tuple[str, ...]:
 CASES = [(part, spoil) for part in PARTS for spoil in SPOILED if (part, spoil) != ("chamfered", "knot")]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("part", "spoil"), CASES)
 def test_a_spoiled_step_is_caught(part: str, spoil: str, good: Path, tmp_path: Path) -> None:
     text = (good / f"{part}.step").read_text(encoding="ascii")
@@ -325,7 +325,7 @@ def test_no_reference_around_the_solids_may_lead_elsewhere(kind: str, pair: Path
     for found in [m for m in entities.values() if m[2].startswith(kind)]:
         for use in re.finditer(r"#\d+", found[2]):
             what = entities[use[0]]
-            others = [n for n in like[what[2].partition("(")[0]] if entities[n][2] != what[2]][:3]
+            others = [n for n in like[what[2].partition("(")[0]] if entities[n][2] != what[2]][:1]
             for other in (*others, "#3"):
                 place = found.start(2) + use.start()
                 changed = text[:place] + other + text[place + len(use[0]) :]

@@ -108,6 +108,7 @@ def test_the_title_block_has_the_mass_of_all_or_none(density: dict[str, float], 
     assert (whole in {text.text for text in job.canvas.texts}) == told
 
 
+@pytest.mark.heavy
 def test_the_same_bytes_twice(tmp_path: Path) -> None:
     once = {ending: file.read_bytes() for ending, file in written(tmp_path, scene("practicum_pair")).items()}
     again = {ending: file.read_bytes() for ending, file in written(tmp_path, scene("practicum_pair")).items()}

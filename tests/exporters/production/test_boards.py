@@ -216,12 +216,14 @@ def test_svg_holds_the_same_board(folder: Path) -> None:
         assert recheck(svg).verdict.failures == ()
 
 
+@pytest.mark.heavy
 def test_the_same_bytes_twice(folder: Path, tmp_path: Path) -> None:
     again = built(tmp_path)
     for file in folder.glob("set.board.*"):
         assert file.read_bytes() == (again / file.name).read_bytes()
 
 
+@pytest.mark.heavy
 def test_wider_cuts_and_gaps_and_a_grain(tmp_path: Path) -> None:
     folder = built(tmp_path, kerf=0.3, gap=4.0, grain=True)
     for file in folder.glob("set.board.*.dxf"):

@@ -63,7 +63,7 @@ def cam_scene(part: dict[str, Any], **export: Any) -> Any:
     )
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize(("name", "language"), SCENES.items())
 def test_every_sheet_is_good(tmp_path: Path, name: str, language: str) -> None:
     words = {}
@@ -97,6 +97,7 @@ def test_the_sizes_of_the_lessons_are_measured_off_the_sheets(tmp_path: Path) ->
         assert measured["least_radius_by_diagram"] == pytest.approx(wanted, abs=1e-6)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", SCENES)
 def test_numbers_on_the_sheet_are_those_of_the_calculation(name: str) -> None:
     language = SCENES[name]
@@ -235,6 +236,7 @@ def test_damage_is_noticed(sheet_file: Path, tmp_path: Path, damage: str) -> Non
     assert any(wanted in failure for failure in failures), failures
 
 
+@pytest.mark.heavy
 def test_a_rocker_has_its_pivots_arms_and_axis(tmp_path: Path) -> None:
     """The pivots stand on their circle, the arms keep their length, both cams' axes in the joint diagram."""
     jobs = plan_build(cam_scene(ROCKER, intervals=3, tolerance=1e-3), "t", [], []).sheets
@@ -333,15 +335,16 @@ def test_refusals_name_the_key_and_what_works() -> None:
             plan_build(scene, "t", [], [])
         return caught.value.key, caught.value.code, caught.value.nearest
 
-    key, code, nearest = told(cam_scene(ROCKER, paper="A4", scale="2.5:1", **ROUGH))
-    assert (key, code) == ("exports[1].paper", "paper_too_small_for_scale")
-    assert nearest is not None
-    assert nearest.side == "at_least"
-    assert plan_build(cam_scene(ROCKER, paper=nearest.value, scale="2.5:1", **ROUGH), "t", [], []).sheets
-    key, code, nearest = told(cam_scene(ROCKER, scale="50:1", **ROUGH))
-    assert (key, code) == ("exports[1].scale", "fits_no_paper_so_large")
-    assert nearest is not None
-    assert plan_build(cam_scene(ROCKER, scale=nearest.value, **ROUGH), "t", [], []).sheets
+    asked: tuple[tuple[str, str, dict[str, Any]], ...] = (
+        ("paper", "paper_too_small_for_scale", {"paper": "A4", "scale": "2.5:1"}),
+        ("scale", "fits_no_paper_so_large", {"scale": "50:1"}),
+    )
+    for wrong, reason, keys in some_of(asked):
+        key, code, nearest = told(cam_scene(ROCKER, **keys, **ROUGH))
+        assert (key, code) == (f"exports[1].{wrong}", reason)
+        assert nearest is not None
+        assert (nearest.side == "at_least") == (wrong == "paper")
+        assert plan_build(cam_scene(ROCKER, **{**keys, wrong: nearest.value}, **ROUGH), "t", [], []).sheets
     scene = cam_scene(ROCKER, **ROUGH)
     assert [j.path for j in plan_build(scene, "t", ["rocker"], []).sheets] == ["t.cam.rocker.dxf", "t.cam.rocker.svg"]
     scene.exports[0].purpose = "meshing"

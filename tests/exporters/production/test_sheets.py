@@ -338,7 +338,7 @@ LEGAL = {
 }
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", LEGAL)
 def test_extreme_but_legal_pairs_have_their_picture(tmp_path: Path, name: str) -> None:
     one, two = LEGAL[name]

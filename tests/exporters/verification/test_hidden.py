@@ -247,7 +247,7 @@ SPOILT: dict[str, dict[str, Spoil]] = {
 }  # fmt: skip
 
 
-@pytest.mark.sampled(24)
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize(("name", "spoil"), [(n, s) for n, found in SPOILT.items() for s in found])
 def test_what_is_hidden_is_found(
     name: str, spoil: str, good: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]

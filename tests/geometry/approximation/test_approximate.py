@@ -60,6 +60,7 @@ def joint_angles(points: np.ndarray, bulges: np.ndarray) -> tuple[np.ndarray, np
     return chords - 2 * np.arctan(bulges), chords + 2 * np.arctan(bulges)
 
 
+@pytest.mark.sampled(16)
 @EVERY
 @LADDER
 def test_chords_stay_within_a_tight_bound(curve: Curve, tolerance: float) -> None:
@@ -98,6 +99,7 @@ def test_chord_count_is_near_the_least(curve: Curve) -> None:
     assert len(chord_parameters(curve, tolerance)[0]) <= 1.05 * len(t) + 1
 
 
+@pytest.mark.sampled(16)
 @EVERY
 @LADDER
 def test_arcs_stay_within_a_tight_bound(curve: Curve, tolerance: float) -> None:
@@ -237,7 +239,7 @@ def deviation(approximation: Approximation, profile: Profile) -> float:
     return float(max(there.max(), back.max()))
 
 
-@settings(max_examples=3)
+@settings(max_examples=2)
 @given(gears(), numbers(-4, -1.5))
 def test_whole_outlines_of_any_gear(gear: SpurGear, exponent: float) -> None:
     profile, tolerance = tooth_side(gear).profile(), gear.module * 10**exponent

@@ -73,6 +73,7 @@ def test_every_class_is_among_the_examples() -> None:
     assert all(isinstance(c, Curve) for c in EXAMPLES.values())
 
 
+@pytest.mark.sampled(12)
 @EVERY
 def test_derivatives_against_fifty_digits(curve: Curve) -> None:
     laws.check_derivatives(curve)

@@ -95,6 +95,7 @@ def made(**keys: object) -> Any:
     return make_parts(scene_from_dict({"parts": {"gear": gear}}, "s", "s"), "s")[0]["gear"]
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(("e", "teeth"), [(0.995, 400), pytest.param(0.9992, 2000, marks=pytest.mark.heavy)])
 def test_gears_on_slender_ellipses_are_cut(e: float, teeth: int) -> None:
     """Their area is near that of the centrode, pi a b, and of as much above it as below."""

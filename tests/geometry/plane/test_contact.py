@@ -329,6 +329,7 @@ def test_the_phase_holds_for_any_line_of_centres(direction: float) -> None:
         assert one.intersection(turned).area > 0.05
 
 
+@pytest.mark.heavy
 def test_an_idler_meshes_with_both_its_mates() -> None:
     """One gear in two pairs on a bent line of centres: its rotation in the first pair drives the second."""
     sun, idler, wheel = SpurGear(2.0, 17, RACK, 0.3), SpurGear(2.0, 24, RACK, 0.1), SpurGear(2.0, 41, RACK, -0.2)

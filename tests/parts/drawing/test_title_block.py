@@ -114,6 +114,7 @@ def test_long_words_stay_in_their_cells() -> None:
     assert all(canvas.frame.low <= t.runs[0].at.imag <= canvas.frame.low + 55 for t in names)
 
 
+@pytest.mark.heavy
 def test_cam_sheets_leave_room_for_it() -> None:
     """The lower right corner of a cam sheet is free: nothing else is written where the title block stands."""
     raw = tomllib.loads(built_in_scenes()["practicum_roller_cam"].read_text())

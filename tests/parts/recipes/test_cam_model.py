@@ -85,7 +85,7 @@ def least_slack(bodies: list[shapely.Polygon], roller: float, offset: float) -> 
     return float(min(pins[0] - max(heights) - 2 - start, end - (pins[1] - min(heights) + 2)))
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("lesson", "keys", "roller", "offset"),
     [

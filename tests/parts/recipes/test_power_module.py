@@ -169,6 +169,7 @@ IDLERS = {"central_wheel", "satellite_wheel", "platform_wheel", "idler", "idler_
           "platform_axle", "nut_47", "satellite_axle"}  # fmt: skip
 
 
+@pytest.mark.heavy
 def test_idlers_are_free_stretched_and_folded_and_a_pin_too_long_strikes_the_one_that_it_passes() -> None:
     scene = module(orientation="idlers")
     assert overlaps(scene) == {}

@@ -189,7 +189,7 @@ def test_in_the_module_too(changed: Changed, pair: tuple[str, str], tmp_path: Pa
     assert pair in hindered(order)
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     "part", ["large_ball_1_1", "worm_wheel_25", "guide_5", "small_ball_1_1", "disk_3", "ring_guide"]
 )

@@ -80,7 +80,7 @@ def calculated(topic: str, address: str, key: str, part: Any) -> dict[str, Any]:
     return found
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("address", [*TOOTHED, *CAMS, *ROUND])
 def test_every_cell_is_what_the_calculation_prints(address: str) -> None:
     seen = 0
@@ -269,6 +269,7 @@ def crossings(canvas: Canvas) -> list[str]:
     return [*found, *(f"{canvas.texts[i].text} over a line" for i, _ in np.argwhere(over(words_at, thick)))]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("address", [*TOOTHED, *CAMS])
 def test_words_stand_over_no_word_and_no_line(address: str) -> None:
     for language in ("en", "uk"):

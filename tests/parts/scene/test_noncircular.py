@@ -194,7 +194,7 @@ def test_files_read_back(tmp_path: Path) -> None:
     """Laser, print and an offset outline, the lower face chamfered, all verified by the build itself."""
     keys = OVAL.replace("18", "10").replace("1.4", "1.15") + "\nface_chamfer = { below = 0.3 }\n"
     keys += "holes = { count = 3, diameter = 1.0, pitch_circle_diameter = 8.0 }"
-    asked = dict(some_of((("dxf", "kerf = 0.2"), ("svg", ""), ("stl", "offset = -0.05")), 2))
+    asked = dict(some_of((("dxf", "kerf = 0.2"), ("svg", ""), ("stl", "offset = -0.05"))))
     exports = "".join(f'\n[[exports]]\nformat = "{f}"\n{more}\n' for f, more in asked.items())
     scene = tmp_path / "small.toml"
     scene.write_text(PART.format(one=keys) + exports, encoding="utf-8")

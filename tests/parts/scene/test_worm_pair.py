@@ -13,6 +13,7 @@ import pytest
 from exporters.command.cli import main
 from parts.scene.load import load_scene, make_parts
 from parts.scene.placing import place
+from tests.sampling import some_of
 
 PAIR = """
 [parts.wheel]
@@ -178,11 +179,11 @@ def test_axes_off_their_places_leave_the_gap_of_meshes_that_stand_so(tmp_path: P
 def test_errors_of_the_axes_are_told_and_what_stands_too_near_overlaps(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    file = _scene(tmp_path, thinning=0.2)
-    file.write_text(file.read_text().replace("direction_deg = 40.0", "centre_distance_error = -0.05"))
-    got, said = _checked(file, capsys)
-    assert (got, "CLEAR" in said, "centre distance 29.95 mm" in said) == (0, True, True)
     # without backlash the exact place alone is one
-    file.write_text(_scene(tmp_path).read_text().replace("direction_deg = 40.0", "axis_angle_error_deg = 0.01"))
-    got, said = _checked(file, capsys)
-    assert (got, "OVERLAP" in said) == (1, True)
+    cases = ((0.2, "centre_distance_error = -0.05", "CLEAR"), (0.0, "axis_angle_error_deg = 0.01", "OVERLAP"))
+    for thinning, error, verdict in some_of(cases):
+        file = _scene(tmp_path, thinning=thinning)
+        file.write_text(file.read_text().replace("direction_deg = 40.0", error))
+        got, said = _checked(file, capsys)
+        assert (got, verdict in said) == (int(verdict == "OVERLAP"), True)
+        assert ("centre distance 29.95 mm" in said) == (verdict == "CLEAR")

@@ -243,7 +243,7 @@ def test_a_face_is_ruled_by_its_section_that_is_farthest_ahead(overlap: float) -
         assert (max(wide.errors), min(wide.errors)) == pytest.approx((row.max(), row.min()), abs=2 * near / overlap)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("distance", "expected"), [(49.2, 0.0), (49.31, 1.45e-5), (49.33, 7.8e-5), (49.36, 2.67e-4), (49.5, 2.55e-3)]
 )

@@ -83,6 +83,7 @@ def test_a_rolling_rack_touches_every_point_of_an_ellipse(x: float, thinning: fl
     assert np.abs(found).max() < 1e-9
 
 
+@pytest.mark.heavy
 def test_a_rolling_rack_touches_every_point_of_an_undercut_oval() -> None:
     made = gear(LobedEllipse(1.0, 0.3, 2), 22)
     assert made.outline.undercut == 6
@@ -216,7 +217,7 @@ def nearest(points: np.ndarray, curves: list[Curve]) -> np.ndarray:
     return best
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize("offset", [0.1, -0.4, *(pytest.param(x, marks=pytest.mark.heavy) for x in (0.5, -0.1))])
 def test_offset_outlines_are_parallel(offset: float) -> None:
     made = gear(LobedEllipse(1.0, 0.3, 2), 18)

@@ -74,6 +74,7 @@ def test_outlines_touch_all_round(pair: NoncircularPair) -> None:
     assert not pair.findings()
 
 
+@pytest.mark.heavy
 def test_the_ratio_of_the_outlines_is_that_of_the_centrodes() -> None:
     """A second gear that is turned on by a little closes one side by its turn times the arm of the line of action.
 
@@ -124,8 +125,8 @@ def test_equal_gears_mesh_by_their_numbers_of_teeth() -> None:
         assert not paired(shape, (fails, fails), 2.0, None).twins_mesh
     # where they do not, two of them stand tooth on tooth, and the mate of the driver meshes
     pair = gears(LobedEllipse(1.0, 0.2, 2), (16, 16))
-    assert noncircular_contact(twins(pair)).verdict is Verdict.OVERLAP
-    assert noncircular_contact(pair).verdict is Verdict.CONTACT
+    for stands, verdict in some_of(((twins(pair), Verdict.OVERLAP), (pair, Verdict.CONTACT))):
+        assert noncircular_contact(stands).verdict is verdict
 
 
 def test_sizes_by_centre_distance() -> None:

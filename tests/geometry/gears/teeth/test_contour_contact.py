@@ -88,6 +88,7 @@ def test_an_overlap_a_little_farther_out_has_the_verdict() -> None:
     assert GearMesh(built(pair, 0.0 + 1.45j)).contact().verdict is Verdict.OVERLAP
 
 
+@pytest.mark.heavy
 def test_both_sides_of_the_interference_lines() -> None:
     seen: dict[str, int] = {}
     for z1, z2, rack in FEW:

@@ -79,6 +79,7 @@ def test_path_at_its_distance(name: str, share: float) -> None:
     check_path(gear, offset)
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("share", [0.0375, 0.2, -0.0375, -0.2])
 @pytest.mark.parametrize("name", ["z23", "undercut", "relief", "full round", "shifted out"])
 def test_nothing_is_missing_from_the_path(name: str, share: float) -> None:
@@ -93,7 +94,7 @@ def test_nothing_is_missing_from_the_path(name: str, share: float) -> None:
     assert abs(area / filled.area - 1) <= 2e-6
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("distance", [0.05, -0.05])
 def test_path_against_fifty_digits(distance: float) -> None:
     """The oracle knows neither involute nor trochoid; its signed distance is the offset itself, corners included."""

@@ -158,6 +158,7 @@ def test_both_oracles_see_a_hair(label: Label, place: float) -> None:
         assert swept == pytest.approx(step, rel=1e-3)
 
 
+@pytest.mark.sampled(8)
 @EVERY
 def test_thickness_against_the_oracle(gear: SpurGear) -> None:
     """s on the reference circle, where the flank reaches it, and psi_b from the involute that the flank is."""

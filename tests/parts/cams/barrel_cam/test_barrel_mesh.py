@@ -35,7 +35,7 @@ def swept(cam: BarrelCam, corners: np.ndarray) -> float:
     return float(np.abs(found).max())
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @CAMS
 @pytest.mark.parametrize("tolerance", [0.05, 0.01])
 def test_the_declared_error_holds_and_is_near(cam: BarrelCam, tolerance: float) -> None:

@@ -57,6 +57,7 @@ def built(folder: Path, keys: Keys, *formats: str) -> tuple[Path, dict[str, Any]
     return folder / "o" / "s", read_report(folder / "o" / "s")
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", ["slider", *(pytest.param(n, marks=pytest.mark.heavy) for n in ("rocker", "flat"))])
 def test_every_file_is_rolled_by_the_followers_true_motion(name: str, tmp_path: Path) -> None:
     report = built(tmp_path, ALL[name], *FORMATS)[1]

@@ -95,6 +95,7 @@ def test_the_roller_has_its_play_everywhere(name: str) -> None:
             assert np.abs(gap - (radius - offset)).max() < 1e-9
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", HEAVY_BUT_ONE)
 def test_both_walls_of_every_file_are_rolled(name: str, tmp_path: Path) -> None:
     report = built(tmp_path, GROOVES[name] | {"face_width": 12.0}, *FORMATS)[1]
