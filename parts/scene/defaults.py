@@ -49,9 +49,9 @@ def filled_in(raw: Table, source: str, export_keys: type[Struct], takes: Takes) 
     known: set[str] = set()
     used: set[str] = set()
 
-    def filled(name: str, place: str, table: object) -> object:
+    def filled(name: str, place: str, table: Table) -> Table:
         keys = _keys_of(name, table, export_keys)
-        if keys is None or not isinstance(table, dict):
+        if keys is None:
             return table
         names, made = _names(keys), dict(table)
         known.update(names)
@@ -91,7 +91,8 @@ def as_thick_as_board(raw: Table) -> tuple[Table, dict[str, str]]:
                 origins[f"{place}.{key}"] = f"boards.{name}.thickness"
         return made
 
-    wanted = board.get("parts")
+    # what is no list is refused when the board is read
+    wanted = named if isinstance(named := board.get("parts"), list) else []
     tables["parts"] = {
         key: filled("parts", f"parts.{key}", table) if not wanted or key in wanted else table
         for key, table in raw.get("parts", {}).items()
@@ -111,10 +112,10 @@ def _names(keys: type[Struct]) -> set[str]:
     return {f.encode_name for f in fields(keys)} - _OWN
 
 
-def _keys_of(name: str, table: object, export_keys: type[Struct]) -> type[Struct] | None:
+def _keys_of(name: str, table: Table, export_keys: type[Struct]) -> type[Struct] | None:
     """The keys of a table; None of one whose kind there is not, of which the loader tells."""
     if name not in _KINDS:
         return _PLAIN.get(name, export_keys)
-    kind = table.get("kind") if isinstance(table, dict) else None
+    kind = table.get("kind")
     keys: type[Struct] | None = _KINDS[name][kind].keys if isinstance(kind, str) and kind in _KINDS[name] else None
     return keys

@@ -354,6 +354,9 @@ def _check_tables(raw: dict[str, Any], source: str) -> None:
         for name, own in raw[key].items() if key in _NAMED else ():
             if not isinstance(own, dict):
                 raise SceneError(source, f"{key}.{name}", own, "not_a_named_table", None, key=key, example=_NAMED[key])
+        for number, own in enumerate(value if isinstance(value, list) else (), 1):
+            if not isinstance(own, dict):
+                raise SceneError(source, f"{key}[{number}]", own, "not_a_list", None, key=key)
     if not (raw.get("parts") or raw.get("assemblies")):
         raise SceneError(source, "parts", None, "no_parts")
 
@@ -408,12 +411,10 @@ def _laid(
 
 
 def _mate_spec(
-    table: object, instances: dict[str, InstanceSpec], groups: Mapping[str, Group], source: str, place: str
+    table: dict[str, Any], instances: dict[str, InstanceSpec], groups: Mapping[str, Group], source: str, place: str
 ) -> MateKeys:
     from parts.mates.registry import MATES
 
-    if not isinstance(table, dict):
-        raise SceneError(source, place, table, "not_a_list", None, key="mates")
     kind = kind_of(table, MATES, source, place, "unknown_mate")
     mate: MateKeys = converted(table, MATES[kind].keys, source, place)
     for key in ("first", "second"):

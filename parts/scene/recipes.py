@@ -66,12 +66,10 @@ def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str
     return tables, origins
 
 
-def _made(table: object, source: str, place: str) -> tuple[str, Expansion]:
+def _made(table: dict[str, Any], source: str, place: str) -> tuple[str, Expansion]:
     """What begins the ids of one assembly, and its tables."""
     from parts.recipes.registry import RECIPES
 
-    if not isinstance(table, dict):
-        raise SceneError(source, place, table, "not_a_list", None, key="assemblies")
     recipe = RECIPES[kind_of(table, RECIPES, source, place)]
     keys = converted(table, recipe.keys, source, place)
     try:

@@ -147,7 +147,13 @@ def test_a_wrong_key_is_named_with_its_value_and_a_remedy(name: str) -> None:
             "centre = [3, 0, 1, 5]: is not allowed; x, y of the middle: exactly 2 numbers, with a decimal point",
         ),
         (b"exports = 3\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "[[exports]]"),
-        (b"exports = [3]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "table"),
+        (b"exports = [3]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "exports[1] = 3: write it as"),
+        # beside one board, whose thickness its parts take before anything is checked
+        (b"assemblies = [5]\n[boards.b]\nthickness = 3\n", "assemblies[1] = 5: write it as [[assemblies]]"),
+        (
+            b"[boards.b]\nthickness = 3\nparts = true\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n",
+            "must be a list in brackets",
+        ),
         (b"scene = 3\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "table"),
         (b"[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "has no exports"),
         (b"[scene]\nlanguage='de'\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", '"en", "uk"'),
