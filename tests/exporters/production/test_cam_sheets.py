@@ -236,7 +236,6 @@ def test_damage_is_noticed(sheet_file: Path, tmp_path: Path, damage: str) -> Non
     assert any(wanted in failure for failure in failures), failures
 
 
-@pytest.mark.heavy
 def test_a_rocker_has_its_pivots_arms_and_axis(tmp_path: Path) -> None:
     """The pivots stand on their circle, the arms keep their length, both cams' axes in the joint diagram."""
     jobs = plan_build(cam_scene(ROCKER, intervals=3, tolerance=1e-3), "t", [], []).sheets

@@ -277,6 +277,7 @@ def test_a_kerf_that_closes_a_hole_is_refused(tmp_path: Path, capsys: pytest.Cap
     assert not (tmp_path / "lesson_5").exists()
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize("language", [pytest.param("en", marks=pytest.mark.heavy), "uk"])
 def test_notes_name_every_length_that_no_machine_makes(tmp_path: Path, language: str) -> None:
     """A model of two sets: pins beside a board; the sizes by hand. What a bed holds is printed, not cut."""

@@ -91,6 +91,7 @@ def test_the_ratio_of_the_outlines_is_that_of_the_centrodes() -> None:
     assert np.ptp(arms[0]) > 5.0
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(("turn", "shift", "verdict"), [
     (1e-7, 0.0, Verdict.OVERLAP),
     pytest.param(0.0, -1e-4, Verdict.OVERLAP, marks=pytest.mark.heavy),

@@ -86,6 +86,7 @@ def test_the_cams_own_axis_stands_in_the_region_only_where_it_keeps_the_radius()
         assert (slack > 0) is inside
 
 
+@pytest.mark.heavy
 def test_a_rollers_diagram_tells_the_smallest_cam_of_its_table() -> None:
     """Of a return that is steeper than the rise: kept both ways, where the diagram looked at the rise alone before."""
     text = PART.format(base=40.0, rho=0.0, sense="with").replace("face_offset = 8.0", "arm_length = 80.0")
