@@ -29,13 +29,15 @@ def nearest(
     *,
     digits: int = 4,
     enough: float = 0.0,
+    share: float = 0.0,
 ) -> Nearest | None:
     """The value nearest to ``given`` that holds, on the way to ``toward`` (or to the first of several that holds).
 
     ``holds`` judges one value of one parameter: a margin of what is made, never a scene; a ``GeometryError`` of it is
     a no. Whole numbers are searched where both ends are whole. At most ``MOST_TRIALS`` trials; ``None`` where none of
-    the ends holds, or where what would be printed does not: then one parameter cannot cure it. ``enough``: so near to
-    the last one that holds a costly search may end.
+    the ends holds, or where what would be printed does not: then one parameter cannot cure it. ``enough``, or a
+    ``share`` of it: so near to the last one that holds a costly search may end, on round numbers that are the same
+    whatever is given.
     """
     left = MOST_TRIALS - 1
 
@@ -60,8 +62,9 @@ def nearest(
             between = (good + bad) // 2
             good, bad = (between, bad) if tried(between) else (good, between)
         return limit(good, given)
-    while left > 0 and abs(good - bad) > max(enough, _told_apart(max(abs(good), abs(bad)), digits)):
-        middle = (good + bad) / 2
+    rough = enough > 0 or share > 0
+    while left > 0 and abs(good - bad) > max(enough, share * abs(good), _told_apart(max(abs(good), abs(bad)), digits)):
+        middle = _roundest(*sorted((good, bad))) if rough else (good + bad) / 2
         good, bad = (middle, bad) if tried(middle) else (good, middle)
     found = limit(float(good), given, digits=digits)
     left = 1
@@ -71,6 +74,14 @@ def nearest(
 def _told_apart(size: float, digits: int) -> float:
     """A tenth of the last digit in which a limit of a size is told."""
     return 0.1 * 10.0 ** -max(digits, 3 - math.floor(math.log10(size))) if size > 0 else 0.0
+
+
+def _roundest(low: float, high: float) -> float:
+    """The number of fewest binary places between two others."""
+    step = 2.0 ** math.frexp(max(abs(low), abs(high)))[1]
+    while (found := (math.floor(low / step) + 1) * step) >= high:
+        step /= 2
+    return found
 
 
 class Suspect(Record):

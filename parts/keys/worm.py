@@ -20,8 +20,9 @@ Starts = Annotated[int, Meta(ge=1, le=50, description="starts of the worm, z1")]
 Quotient = Annotated[float, Meta(gt=0, le=1000, description="q = d1 / m")]
 # of a worm that gives neither q nor a lead angle
 USUAL_QUOTIENT = 10.0
-# how much larger a q is tried than one that does not do
-_WIDER = (1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 5.0, 10.0, 20.0)
+# how much larger a q is tried than one that does not do, and how near to the least that does where that is costly
+WIDER = (1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 5.0, 10.0, 20.0)
+_NEAR = 0.02
 WormQuotient = Annotated[
     float, Meta(gt=0, le=1000, description="q = d1 / m; default: 10", examples=[USUAL_QUOTIENT])
 ]  # fmt: skip
@@ -114,12 +115,12 @@ def wider(
         start = float(str(refusal.value if own is None else own.value))
         if own is not None and kept(stands or does, start):
             return own
-        ends = [start * share for share in _WIDER]
+        ends = [start * share for share in WIDER]
         found = nearest(does, start, ends)
         if stands is None or found is None or not isinstance(found.value, float) or kept(stands, found.value):
             return found
         # costly, so by a few trials
-        return nearest(stands, found.value, [end for end in ends if end > found.value], enough=start / 50)
+        return nearest(stands, found.value, [end for end in ends if end > found.value], share=_NEAR)
 
     return ParameterError(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
 

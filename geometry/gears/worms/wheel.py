@@ -42,8 +42,8 @@ _DEEP = 1e-2
 _AT_TIP = 1e-8
 # shares of each part of both sides between which a ridge is sought
 _RIDGE = np.linspace(0.0, 1.0, 65)[:, None]
-# steps of the golden section
-_GOLDEN, _GOLDEN_STEPS = (math.sqrt(5) - 1) / 2, 40
+# shares of a bracket at which a least distance is looked for, and how often: each time an eighth is left
+_LEAST, _LEAST_TIMES = np.linspace(0.0, 1.0, 17)[:, None], 10
 # of the radius at which a thread's form begins, where no spline follows it: from there on it is asked for
 _ABOVE = 1.01
 # a thread's point that near the plane of its axis is not asked for, part of its radius
@@ -62,7 +62,7 @@ _FOLD = np.linspace(0.0, 1.0, 17)[:, None]
 _BESIDE, _ABOUT = (-1e-2, -1e-3, 1e-3, 1e-2), 1e-5
 # of pictures: points of which a few are drawn, and how near their chords are, part of the size
 _DRAWN, _SEEN = 33, 2e-4
-# the least width that is offered, and how near to the widest, part of the asked one
+# the least width that is offered, part of the asked one, and how near to the widest, part of it
 _LEAST_WIDTH, _NEAR_WIDTH = 2e-2, 1e-3
 
 
@@ -184,15 +184,20 @@ class WormTeeth(Record, dict=True):
         return {}
 
     def _side(self, z: Real) -> Side:
-        side = self._plain(z)
-        pointed = np.zeros(len(z), dtype=bool)
+        return self._topped(self._plain(z))
+
+    def _topped(self, plain: Side) -> Side:
+        """A side up to the tip, or as far as the upper side leaves it."""
+        z, pointed = plain.heights, np.zeros(len(plain.heights), dtype=bool)
         for low, high in self.ridges:
             pointed |= (z >= low) & (z <= high)
-        if pointed.any():
-            ridge = self._ridge(z[pointed], side.only(pointed))
-            for whole, part in zip((side.normal, side.outer, side.all_fillet, *side.hurry), ridge, strict=True):
-                whole[pointed] = part
-            side.inner[side.all_fillet] = side.outer[side.all_fillet]
+        if not pointed.any():
+            return plain
+        side = plain.only(np.arange(len(z)))
+        ridge = self._ridge(z[pointed], side.only(pointed))
+        for whole, part in zip((side.normal, side.outer, side.all_fillet, *side.hurry), ridge, strict=True):
+            whole[pointed] = part
+        side.inner[side.all_fillet] = side.outer[side.all_fillet]
         return side
 
     def _plain(self, z: Real, looked: _Looked | None = None) -> Side:
@@ -365,11 +370,12 @@ class WormTeeth(Record, dict=True):
         return np.where(cut.found & (cut.steepness < 0), np.abs(cut.plane), np.inf)
 
     def _turning(self, low: Real, high: Real, heights: Real) -> Real:
-        """Radii of the thread at which the flank turns back between others, by the golden section, mm."""
-        for _ in range(_GOLDEN_STEPS):
-            one, two = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-            left = self._reach(one, heights) < self._reach(two, heights)
-            low, high = np.where(left, low, one), np.where(left, two, high)
+        """Radii of the thread at which the flank turns back between others, mm."""
+        column = np.arange(len(low))
+        for _ in range(_LEAST_TIMES):
+            radii = low + (high - low) * _LEAST
+            least = self._reach(radii, heights).argmin(axis=0)
+            low, high = radii[np.maximum(least - 1, 0), column], radii[np.minimum(least + 1, len(radii) - 1), column]
         return np.asarray((low + high) / 2)
 
     def _crossing(self, heights: Real, low: Real, high: Real) -> tuple[Real, Real]:
@@ -413,15 +419,18 @@ class WormTeeth(Record, dict=True):
             normal[k] = np.interp(size, reach[:last, k], normals[:last])
         crosses = ~np.isnan(radius)
         # the shallowest meet as they are: a step of theirs would be rounding
-        goes = ~(shallow & (np.abs(flank(radius) - fillet(normal)) <= _SURE * hob.tip_radius))
+        off = flank(radius) - fillet(normal)
+        goes = ~(shallow & (np.abs(off) <= _SURE * hob.tip_radius))
         for _ in range(_NEWTON_STEPS):
-            off = flank(radius) - fillet(normal)
+            if not float(np.abs(off)[crosses].max(initial=0.0)) > _SURE * hob.tip_radius:
+                break
             one = (flank(radius + _SLOPE) - flank(radius - _SLOPE)) / (2 * _SLOPE)
             two = (fillet(normal + _SLOPE) - fillet(normal - _SLOPE)) / (2 * _SLOPE)
             cross = np.where(goes, (np.conj(one) * two).imag, np.inf)
             radius = radius - (np.conj(off) * two).imag / cross
             normal = normal - (np.conj(off) * one).imag / cross
-        if not float(np.abs(flank(radius) - fillet(normal))[crosses].max(initial=0.0)) <= _MET * hob.tip_radius:
+            off = flank(radius) - fillet(normal)
+        if not float(np.abs(off)[crosses].max(initial=0.0)) <= _MET * hob.tip_radius:
             raise NoTooth("worm_wheel_undercut")
         return radius, normal
 
@@ -490,9 +499,9 @@ class WormTeeth(Record, dict=True):
             return stands(replace(self, width=width, levels=levels))
 
         # where the last of a tooth goes rounding decides
-        least, enough = _LEAST_WIDTH * self.width, _NEAR_WIDTH * self.width
+        least = _LEAST_WIDTH * self.width
         for levels in (_GLANCE, self.levels):
-            found = nearest(partial(does, levels), self.width, least, enough=enough)
+            found = nearest(partial(does, levels), self.width, least, share=_NEAR_WIDTH)
             if found is None or not isinstance(found.value, float):
                 return None
             whole = replace(self, width=found.value)
@@ -622,10 +631,12 @@ class WormTeeth(Record, dict=True):
             return ()
 
         def left(heights: Real) -> Real:
-            return self._left(self._plain(heights), self._plain(-heights))
+            ends = np.angle(self.flank(self._plain(np.concatenate([heights, -heights])), 1.0).plane)
+            return np.asarray(-ends[: len(heights)] - ends[len(heights) :])
 
         # half a turn about the middle of a tooth makes one end of the face the other
-        ends = [z for z in self._crossed(left, self._plain_thickness) if z > 0]
+        upper = slice(len(pointed) // 2, None)
+        ends = self._crossed(left, self._levels[upper], self._plain_thickness[upper])
         ends += [self.width / 2] if pointed[-1] else []
         ends = [*(-z for z in reversed(ends)), *ends]
         return tuple(zip(ends[::2], ends[1::2], strict=True))
@@ -636,17 +647,17 @@ class WormTeeth(Record, dict=True):
         if self.lessened is None:
             return ()
 
-        def beyond(heights: Real) -> Real:
-            plain = self._plain(heights)
-            form = self.hob.cut(self.hob.flank(np.full(len(heights), self.hob.form_radius)), heights).plane
+        def beyond(plain: Side) -> Real:
+            form = self.hob.cut(self.hob.flank(np.full(len(plain.heights), self.hob.form_radius)), plain.heights).plane
             border = np.where(plain.all_fillet, form, self.fillet(plain, 1.0).plane)
-            return np.abs(border) - np.abs(self.flank(self.side(heights), 1.0).plane)
+            return np.abs(border) - np.abs(self.flank(self._topped(plain), 1.0).plane)
 
-        return tuple(self._crossed(beyond, beyond(self._levels)))
+        return tuple(self._crossed(lambda z: beyond(self._plain(z)), self._levels, beyond(self._plain_levels)))
 
-    def _crossed(self, of: Callable[[Real], Real], sampled: Real) -> list[float]:
-        """Heights at which a function that is sampled at the levels goes through 0, mm."""
-        levels, signs = self._levels, sampled > 0
+    @staticmethod
+    def _crossed(of: Callable[[Real], Real], levels: Real, sampled: Real) -> list[float]:
+        """Heights at which a function that is sampled at some goes through 0, mm."""
+        signs = sampled > 0
         at = np.flatnonzero(signs[1:] != signs[:-1])
         ends = bracketed_roots(of, levels[at], levels[at + 1], sampled[at], sampled[at + 1]) if at.size else at
         return [float(end) for end in ends]

@@ -124,7 +124,7 @@ def fitting(teeth: WormTeeth, near: float = _NEARLY) -> WormTeeth | None:
 
     if kept(follows, teeth.width):
         return teeth
-    found = nearest(follows, teeth.width, _NARROWEST * teeth.width, enough=near * teeth.width)
+    found = nearest(follows, teeth.width, _NARROWEST * teeth.width, share=near)
     return replace(teeth, width=found.value) if found and isinstance(found.value, float) else None
 
 

@@ -21,7 +21,7 @@ from geometry.gears.worms.worm import Worm
 from parts.base.refusal import SceneError, meant
 from parts.base.texts import N_, message
 from parts.gears.worm.part import WormSpec, told_worm
-from parts.gears.worm_wheel.part import WormWheelSpec, drive_of, teeth_of
+from parts.gears.worm_wheel.part import WORM_WHEEL, WormWheelSpec
 from parts.keys.base import mm, size
 from parts.keys.worm import (
     Addendum,
@@ -309,7 +309,7 @@ def _off_places(page: Sheet, drive: WormDrive, keys: WormKeys, errors: AxisError
     spec = WormWheelSpec(**shared | {"axial_thinning": keys.wheel_thinning})
     try:
         thread = thread_of(drive.worm, keys.tip_rounding)
-        found = contact_under(thread, teeth_of(spec, drive_of(spec)), errors, None)
+        found = contact_under(thread, WORM_WHEEL.thing(spec, {}).teeth, errors, None)
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     page.section(N_("Axes off their places"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
@@ -19,6 +20,7 @@ from parts.keys.base import mm
 from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes, wide_bore
 from parts.keys.wheel import HubTable, WebTable, wheel_shape
 from parts.keys.worm import (
+    WIDER,
     Addendum,
     AxialModule,
     Clearance,
@@ -61,6 +63,16 @@ _USEFUL, _TIP = 0.25, 0.02
 _NEAR, _NEARLY = 5e-3, 2e-2
 # how near a default width comes to the widest that splines follow, part of it
 _WIDEST = 1e-2
+# addenda that are tried, and that leave next to nothing, modules
+_ADDENDA, _LOW = (0.8, 0.6, 0.4, 0.2, 0.1), (0.05, 0.02)
+# keys in whose refusals others may take the teeth away as well
+_TEETH = (
+    "addendum_coefficient",
+    "axial_thinning",
+    "hob_rounding_coefficient",
+    "number_of_starts",
+    "tip_clearance_coefficient",
+)
 # an outside is reached that near, mm; below so many degrees a corner is sharp: a throat wraps a third of the worm
 _REACHED, _SHARP = 1e-3, 29.9
 
@@ -140,12 +152,7 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     quotient = hob_quotient(keys.hob_diameter_quotient, keys.diameter_quotient)
     hob = oversized_hob(drive, keys.hob_rounding_coefficient, quotient)
     # a hob with thicker threads leaves thinner teeth
-    try:
-        hob = replace(hob, worm=replace(hob.worm, thinning=-keys.axial_thinning)).checked()
-    except ParameterError as refusal:
-        if not keys.axial_thinning and _rounding_cures(keys, refusal):
-            raise
-        raise _toothless(keys, refusal.code) from refusal
+    hob = replace(hob, worm=replace(hob.worm, thinning=-keys.axial_thinning)).checked()
     width = drive.most_face_width if keys.face_width is None else keys.face_width
     least = 2 * drive.tip_radius
     outer = drive.default_outer_diameter if keys.outer_diameter is None else keys.outer_diameter
@@ -155,18 +162,8 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     sliver = replace(teeth.glanced, width=_SLIVER * width).lessened
     if sliver is not None:
         # at any width
-        raise _toothless(keys, sliver)
+        raise ParameterError("addendum_coefficient", keys.addendum_coefficient, sliver)
     return teeth
-
-
-def _rounding_cures(keys: WormWheelSpec, refusal: ParameterError) -> bool:
-    """Whether the rounding that a refusal of the hob offers leaves teeth."""
-
-    def stands(value: float) -> bool:
-        return _of_use(changed(keys, hob_rounding_coefficient=value))
-
-    found = refusal.nearest
-    return found is not None and isinstance(found.value, float) and kept(stands, found.value)
 
 
 def _of_use(keys: WormWheelSpec) -> bool:
@@ -192,7 +189,7 @@ def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     # faces may break off where none of the known ends is
     found = fitting(teeth, _WIDEST) if keys.face_width is None else fitting(teeth)
     if found is None and teeth.is_creased:
-        raise _toothless(keys, "worm_wheel_below_base")
+        raise ParameterError("addendum_coefficient", keys.addendum_coefficient, "worm_wheel_below_base")
     if found is None or (found != teeth and keys.face_width is not None):
         cure = None if found is None else limit(found.width, teeth.width)
         raise ParameterError("face_width", teeth.width, "worm_wheel_faces_break", cure)
@@ -208,47 +205,99 @@ def _narrower(teeth: WormTeeth) -> Nearest | None:
     return limit(found.width, teeth.width) if found else None
 
 
-def _toothless(keys: WormWheelSpec, code: str) -> ParameterError:
+def _toothless(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
     """No tooth is left that splines follow: in the key that takes it away, with the value that leaves some."""
 
-    def of_use(value: float, *, of: str) -> bool:
-        return _of_use(changed(keys, **{of: value}))
-
-    def some(value: float) -> bool:
-        less = changed(keys, **{key: value})
-        teeth = _asked_teeth(less, drive_of(less))
-        return replace(teeth.glanced, width=_SLIVER * teeth.width).is_even
-
-    def followed(value: float) -> bool:
-        less = changed(keys, **{key: value})
-        return teeth_of(less, drive_of(less)).width > 0
+    def left_by(does: Callable[[WormWheelSpec], bool], key: str) -> Callable[[float], bool]:
+        return lambda value: does(changed(keys, **{key: value}))
 
     def cure() -> Nearest | None:
-        found = nearest(partial(of_use, of=key), given, ends, enough=_NEAR)
-        # teeth of less than is of use are more than none
-        found = found or nearest(some, given, ends[-1], enough=_NEAR)
-        if found is None or not isinstance(found.value, float) or kept(followed, found.value):
+        found = nearest(left_by(does, key), given, ends, enough=_NEAR)
+        if found is None or not isinstance(found.value, float) or kept(left_by(_is_made, key), found.value):
             return found
         # splines do not follow some that run all but along the contact's way to infinity
-        return nearest(followed, found.value, [end for end in ends if end < found.value], enough=_NEARLY)
+        less = _LOW if key == "addendum_coefficient" else ()
+        beyond = [end for end in (*ends, *less) if (end - found.value) * (found.value - given) > 0]
+        return nearest(left_by(_is_made, key), found.value, beyond, enough=_NEARLY)
 
-    taken = (other for other in ("axial_thinning", "profile_shift_coefficient") if getattr(keys, other))
-    found = next((other for other in taken if kept(partial(of_use, of=other), 0.0)), None)
-    key, ends = (found, (0.0,)) if found else ("addendum_coefficient", (0.8, 0.6, 0.4, 0.2, 0.1))
-    given = getattr(keys, key)
-    return ParameterError(key, given, code, cure)
+    for does, key, values in _suspects(keys, refusal):
+        least = next((k for k, value in enumerate(values) if kept(left_by(does, key), value)), None)
+        ends, given = values[least:], getattr(keys, key)
+        if least is not None:
+            break
+    return ParameterError(key, given, refusal.code, cure)
 
 
-def _wider(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
-    """A refusal of the worm's diameter quotient with one that leaves teeth."""
+def _suspects(
+    keys: WormWheelSpec, refusal: ParameterError
+) -> Iterator[tuple[Callable[[WormWheelSpec], bool], str, Sequence[float]]]:
+    """Margins, keys that may take the teeth away, the least missed first, and values of each, less and less wrong."""
+    quotient, larger = keys.diameter_quotient, keys.hob_diameter_quotient or 0.0
+    if keys.axial_thinning:
+        yield _of_use, "axial_thinning", (0.0,)
+    elif refusal.name == "hob_rounding_coefficient" and (found := refusal.nearest) and isinstance(found.value, float):
+        yield _of_use, refusal.name, (found.value, found.value / 2, 0.0)
+    if keys.profile_shift_coefficient:
+        yield _of_use, "profile_shift_coefficient", (0.0,)
+    yield _of_use, "addendum_coefficient", _ADDENDA
+    if larger > quotient:
+        yield _is_some, "hob_diameter_quotient", (quotient,)
+    # teeth of less than is of use are more than none
+    yield _is_some, "addendum_coefficient", _ADDENDA[-1:]
+    most = [larger] if larger > quotient else []
+    yield (
+        _of_use,
+        "diameter_quotient",
+        [q for q in (quotient * share for share in WIDER) if not most or q < larger] + most,
+    )
+    yield _is_some, "addendum_coefficient", _LOW
+
+
+def _is_some(keys: WormWheelSpec) -> bool:
+    """Whether there are whole teeth that bend nowhere in the middle."""
+    teeth = _asked_teeth(keys, drive_of(keys))
+    return replace(teeth.glanced, width=_SLIVER * teeth.width).is_even
+
+
+def _is_made(keys: WormWheelSpec) -> bool:
+    """Whether there are teeth that splines follow."""
+    return teeth_of(keys, drive_of(keys)).width > 0
+
+
+def _cured(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
+    """A refusal of worm, hob or teeth with the value that leaves a wheel."""
 
     def does(value: float) -> bool:
         return _of_use(changed(keys, diameter_quotient=value))
 
     def stands(value: float) -> bool:
-        return WORM_WHEEL.thing(changed(keys, diameter_quotient=value), {}).teeth.width > 0
+        more = changed(keys, diameter_quotient=value)
+        drive = drive_of(more)
+        return _about(more, drive, teeth_of(more, drive)).teeth.width > 0
 
-    return wider(refusal, does, stands)
+    return _toothless(keys, refusal) if refusal.name in _TEETH else wider(refusal, does, stands)
+
+
+def _about(keys: WormWheelSpec, drive: WormDrive, teeth: WormTeeth) -> WheelThing:
+    """The wheel that has such teeth, checked to exist."""
+    from geometry.gears.worms.wheel_measures import WormWheel
+    from geometry.plane.profile import Label, circle
+    from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
+
+    holes = keys.hub_holes()
+    shape = wheel_shape(teeth.width, keys.web, keys.hub, 0.0)
+    room = drive.root_radius - least_wall(drive.root_radius)
+    if holes.bore_reach > room:
+        raise wide_bore(keys, room, "leaves_no_wall")
+    holes.check(drive.root_radius)
+    check_wheel(shape, 2 * drive.root_radius, holes)
+    reach = max(holes.bore_reach, holes.beside_bore()[1], *(t.diameter / 2 for t in (keys.hub,) if t), *(
+        t.rim_diameter / 2 for t in (keys.web,) if t
+    ))  # fmt: skip
+    # between all that is cut and the teeth
+    rim = circle(reach + _CORE * (drive.root_radius - reach), Label.BODY)
+    core = wheel_body(shape, wheel_sections(lambda *_: rim, drive.root_radius, holes))
+    return WheelThing(drive, WormWheel(teeth, core, rim))
 
 
 class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
@@ -260,30 +309,12 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
 
     def thing(self, keys: WormWheelSpec, others: Others) -> WheelThing:
         """The wheel, checked to exist."""
-        from geometry.gears.worms.wheel_measures import WormWheel
-        from geometry.plane.profile import Label, circle
-        from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
-
         try:
             drive = drive_of(keys)
+            teeth = teeth_of(keys, drive)
         except ParameterError as refusal:
-            if refusal.code != "worm_pointed":
-                raise _wider(keys, refusal) from refusal
-            raise _toothless(keys, refusal.code) from refusal
-        teeth, holes = teeth_of(keys, drive), keys.hub_holes()
-        shape = wheel_shape(teeth.width, keys.web, keys.hub, 0.0)
-        room = drive.root_radius - least_wall(drive.root_radius)
-        if holes.bore_reach > room:
-            raise wide_bore(keys, room, "leaves_no_wall")
-        holes.check(drive.root_radius)
-        check_wheel(shape, 2 * drive.root_radius, holes)
-        reach = max(holes.bore_reach, holes.beside_bore()[1], *(t.diameter / 2 for t in (keys.hub,) if t), *(
-            t.rim_diameter / 2 for t in (keys.web,) if t
-        ))  # fmt: skip
-        # between all that is cut and the teeth
-        rim = circle(reach + _CORE * (drive.root_radius - reach), Label.BODY)
-        core = wheel_body(shape, wheel_sections(lambda *_: rim, drive.root_radius, holes))
-        return WheelThing(drive, WormWheel(teeth, core, rim))
+            raise _cured(keys, refusal) from refusal
+        return _about(keys, drive, teeth)
 
     def section(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> OffsetRegion:
         """Its mid plane, near enough for pictures."""

@@ -55,6 +55,21 @@ def test_whole_numbers_stay_whole(edge: int, more: int) -> None:
     assert nearest(upwards, max(1, edge - more), 20_000) == Nearest(edge, "at_least")
 
 
+@given(edge=st.floats(1.0, 99.0), wishes=st.tuples(*[st.floats(100.0, 1e4)] * 2), way=st.sampled_from([1.0, -1.0]))
+def test_a_rough_offer_is_the_same_whatever_is_asked(edge: float, wishes: tuple[float, float], way: float) -> None:
+    def offer(wish: float, **rough: float) -> float:
+        found = nearest(lambda value: abs(value) <= edge, way * wish, 0.0, **rough)
+        assert found is not None
+        assert isinstance(found.value, float)
+        return abs(found.value)
+
+    # before: by as much as the search may end short
+    assert offer(wishes[0], share=0.05) == offer(wishes[1], share=0.05)
+    assert 0.94 * edge <= offer(wishes[0], share=0.05) <= edge
+    assert offer(wishes[0], enough=0.5) == offer(wishes[1], enough=0.5)
+    assert edge - 0.501 <= offer(wishes[0], enough=0.5) <= edge
+
+
 def test_the_first_end_that_holds_is_the_goal() -> None:
     asked = Counted(30.0, below=False)
     found = nearest(asked, 2.0, (4.0, 8.0, 16.0, 32.0, 64.0))

@@ -182,6 +182,32 @@ def test_a_pointed_worm_of_many_starts_is_told_the_addendum_that_leaves_its_whee
         _built({**keys, "addendum_coefficient": offered.value + 0.006})
 
 
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize(
+    ("keys", "key", "least", "most"),
+    [
+        # before: refused without a value that works, since no addendum is one
+        ({"module": 5.0, "number_of_starts": 3, "diameter_quotient": 4.7, "number_of_teeth": 233, "form": "ZN2",
+          "hob_diameter_quotient": 5.265, "pressure_angle_deg": 28.0}, "hob_diameter_quotient", 4.7, 5.2),
+        ({"module": 2.0, "number_of_starts": 6, "diameter_quotient": 5.63, "number_of_teeth": 129, "form": "ZN1",
+          "hob_diameter_quotient": 6.941, "hand": "left"}, "diameter_quotient", 6.0, 6.9),
+        ({"module": 1.5, "number_of_starts": 6, "diameter_quotient": 4.4, "number_of_teeth": 35, "form": "ZK1",
+          "pressure_angle_deg": 15.0}, "diameter_quotient", 10.0, 12.0),
+    ],
+)  # fmt: skip
+def test_what_no_addendum_cures_is_told_in_the_key_that_does(
+    keys: dict[str, Any], key: str, least: float, most: float
+) -> None:
+    with pytest.raises(SceneError) as refused:
+        _built(keys)
+    offered = refused.value.nearest
+    assert (refused.value.key or "").endswith(f".{key}")
+    assert offered is not None
+    assert isinstance(offered.value, float)
+    assert least < offered.value < most
+    _built(keys | {key: offered.value})
+
+
 @pytest.mark.heavy
 def test_teeth_that_reach_below_the_base_circle_are_told_the_addendum_that_does_not() -> None:
     # before: the face was said to break at any width, without a value that works
