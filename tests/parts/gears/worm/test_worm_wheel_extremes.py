@@ -192,7 +192,7 @@ def test_a_pointed_worm_of_many_starts_is_told_the_addendum_that_leaves_its_whee
         ({"module": 2.0, "number_of_starts": 6, "diameter_quotient": 5.63, "number_of_teeth": 129, "form": "ZN1",
           "hob_diameter_quotient": 6.941, "hand": "left"}, "diameter_quotient", 6.0, 6.9),
         ({"module": 1.5, "number_of_starts": 6, "diameter_quotient": 4.4, "number_of_teeth": 35, "form": "ZK1",
-          "pressure_angle_deg": 15.0}, "diameter_quotient", 10.0, 12.0),
+          "pressure_angle_deg": 15.0, "profile_shift_coefficient": -0.3}, "diameter_quotient", 10.0, 12.0),
     ],
 )  # fmt: skip
 def test_what_no_addendum_cures_is_told_in_the_key_that_does(
