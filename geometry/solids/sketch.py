@@ -51,25 +51,27 @@ class Ring(Record, dict=True):
         """Whether points lie within it."""
         if (round_ := self.circle) is not None:
             return np.asarray(np.abs(points - round_[0]) < round_[1])
-        start, end, low, high = self._sides
+        chain, low, high = self._chain
         found = np.zeros(len(points), dtype=bool)
-        near = (
+        near = np.flatnonzero(
             (points.real > low.real) & (points.real < high.real) & (points.imag > low.imag) & (points.imag < high.imag)
         )
-        if near.any():
-            y = points.imag[near, None]
-            crossed = (start.imag > y) != (end.imag > y)
-            with np.errstate(divide="ignore", invalid="ignore"):
-                at = start.real + (end.real - start.real) * (y - start.imag) / (end.imag - start.imag)
-            found[near] = (crossed & (points.real[near, None] < at)).sum(axis=1) % 2 == 1
+        if near.size:
+            x, y = points.real[near], points.imag[near]
+            above = np.ascontiguousarray(chain.imag) > y[:, None]
+            # few of the chords cross the height of a point
+            row, k = np.nonzero(above[:, 1:] != above[:, :-1])
+            start, end = chain[k], chain[k + 1]
+            at = start.real + (end.real - start.real) * (y[row] - start.imag) / (end.imag - start.imag)
+            found[near] = np.bincount(row[x[row] < at], minlength=len(near)) % 2 == 1
         return found
 
     @cached_property
-    def _sides(self) -> tuple[Complex, Complex, complex, complex]:
-        """Its chords from place to place, and the corners of the box about it."""
-        start = self.points
-        low, high = complex(start.real.min(), start.imag.min()), complex(start.real.max(), start.imag.max())
-        return start, np.roll(start, -1), low, high
+    def _chain(self) -> tuple[Complex, complex, complex]:
+        """Its places, the first again behind the last, and the corners of the box about it."""
+        chain = np.append(self.points, self.points[0])
+        low, high = complex(chain.real.min(), chain.imag.min()), complex(chain.real.max(), chain.imag.max())
+        return chain, low, high
 
     def crossings(self, origin: complex, way: complex) -> list[float]:
         """Where a straight line meets it, mm along ``way`` from ``origin``."""

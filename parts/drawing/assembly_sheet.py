@@ -418,15 +418,17 @@ def _swept(
             elbow = complex(x, y)
             # a leader that no other place is above of is crossed by none from below
             number, spots = max(left, key=partial(_slope, elbow))
-            fits = [_Leader(number, spot, elbow, way) for spot in (spots[0], *sorted(spots, key=partial(_off, elbow)))]
-            fits = [one for one in fits if ink.holds(one.lines(), one.words.box)]
-            if k < _TRIES:
-                fits = [one for one in fits if not ink.under(one.lines()[1])]
-            if strict and k < _TRIES:
-                most = max((_slope(elbow, one) for one in left if one[0] != number), default=-math.inf)
-                fits = [one for one in fits if _slope(elbow, (number, (one.spot,))) >= most]
-            others = (*placed, *chosen) if k < _TRIES else ()
-            free = next((one for one in fits if not any(_cross(one, other) for other in others)), None)
+            first = _Leader(number, spots[0], elbow, way)
+            shelf = first.lines()[1]
+            # the shelf is that of every spot; of these the first that will do is taken
+            if ink.holds([shelf], first.words.box) and not (k < _TRIES and ink.under(shelf)):
+                fits = iter([first, *(replace(first, spot=s) for s in sorted(spots, key=partial(_off, elbow)))])
+                if strict and k < _TRIES:
+                    most = max((_slope(elbow, one) for one in left if one[0] != number), default=-math.inf)
+                    fits = (one for one in fits if _slope(elbow, (number, (one.spot,))) >= most)
+                others = (*placed, *chosen) if k < _TRIES else ()
+                fits = (one for one in fits if not any(_cross(one, other) for other in others))
+                free = next((one for one in fits if ink.holds(one.lines(), one.words.box)), None)
             y -= _STEP if free else _STEP / 2
             if free:
                 break
