@@ -15,7 +15,7 @@ from geometry.solids.charts import Patch, span_shares
 
 # nodes on a span each way, steps, points at a time, and pairs of points and nodes
 _NODES, _STEPS, _AT_ONCE, _PAIRS = 6, 12, 2_000, 1_000_000
-# by which a step must bring a point nearer, mm
+# by which a step must bring a point nearer or farther, mm
 _SETTLED = 1e-11
 # points farther off than so many radii, or steps of the grid, are not looked at more closely
 _FAR, _OFF = 3.0, 4.0
@@ -53,14 +53,17 @@ def patch_distance(patch: Patch) -> Callable[[Real], Real]:
 
 def _foot(patch: Patch, points: Real, at: Real) -> Real:
     """The least distance on the way from shares (n, 2) to the feet of points."""
-    best = np.full(len(points), np.inf)
+    best, last, goes = np.full(len(points), np.inf), np.full(len(points), np.inf), np.arange(len(points))
     for _ in range(_STEPS):
         place, du, dv = (x[0] for x in patch.scattered(at))
-        off = points - place
+        off = points[goes] - place
         away = np.linalg.norm(off, axis=1)
-        if not np.any(away < best - _SETTLED):
+        best[goes] = np.minimum(best[goes], away)
+        moves = np.abs(away - last) > _SETTLED
+        if not np.any(moves):
             break
-        best = np.minimum(best, away)
+        # those that stand at their feet are left there: some in a hollow take many more steps
+        goes, last, at, off, du, dv = (x[moves] for x in (goes, away, at, off, du, dv))
         a, b, c = np.sum(du * du, -1), np.sum(du * dv, -1), np.sum(dv * dv, -1)
         p, q = np.sum(off * du, -1), np.sum(off * dv, -1)
         # at an end of the surface the foot goes along it
