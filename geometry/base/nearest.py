@@ -67,6 +67,8 @@ def nearest(
         middle = _roundest(*sorted((good, bad))) if rough else (good + bad) / 2
         good, bad = (middle, bad) if tried(middle) else (good, middle)
     found = limit(float(good), given, digits=digits)
+    if found.value == good:
+        return found
     left = 1
     return found if isinstance(found.value, float) and tried(found.value) else None
 

@@ -36,14 +36,15 @@ _RADII, _ANGLES, _FIRST_STEP = 257, 129, 1e-7
 # rad), how near both end at least and when that is enough; up to which depth, of the hob's size, undercut is none, and
 # to which so shallow that its crossing lies by the first terms of both curves half as far again as the turning
 _CROSSINGS, _NEWTON_STEPS, _SLOPE, _MET, _SURE, _BARELY, _SHALLOW, _CROSSED = 65, 8, 1e-6, 1e-10, 1e-14, 1e-6, 3e-4, 1.5
+_ABOUT_IT = np.array([-_SLOPE, 0.0, _SLOPE])[:, None]
 # how deep a flank cuts a side that is a fillet before it is seen, part of the pitch
 _DEEP = 1e-2
 # how near a flank gets to the tip, part of the hob's size
 _AT_TIP = 1e-8
 # shares of each part of both sides between which a ridge is sought
 _RIDGE = np.linspace(0.0, 1.0, 65)[:, None]
-# shares of a bracket at which a least distance is looked for, and how often: each time an eighth is left
-_LEAST, _LEAST_TIMES = np.linspace(0.0, 1.0, 17)[:, None], 10
+# shares of a bracket at which a least distance is looked for, and how often: each time a sixteenth is left
+_LEAST, _LEAST_TIMES = np.linspace(0.0, 1.0, 33)[:, None], 7
 # of the radius at which a thread's form begins, where no spline follows it: from there on it is asked for
 _ABOVE = 1.01
 # a thread's point that near the plane of its axis is not asked for, part of its radius
@@ -419,17 +420,17 @@ class WormTeeth(Record, dict=True):
             normal[k] = np.interp(size, reach[:last, k], normals[:last])
         crosses = ~np.isnan(radius)
         # the shallowest meet as they are: a step of theirs would be rounding
-        off = flank(radius) - fillet(normal)
-        goes = ~(shallow & (np.abs(off) <= _SURE * hob.tip_radius))
-        for _ in range(_NEWTON_STEPS):
-            if not float(np.abs(off)[crosses].max(initial=0.0)) > _SURE * hob.tip_radius:
+        goes = np.ones(len(heights), dtype=bool)
+        for left in range(_NEWTON_STEPS, -1, -1):
+            lines, curves = flank(radius + _ABOUT_IT), fillet(normal + _ABOUT_IT)
+            off = lines[1] - curves[1]
+            goes &= ~(shallow & (np.abs(off) <= _SURE * hob.tip_radius))
+            if not left or not float(np.abs(off)[crosses].max(initial=0.0)) > _SURE * hob.tip_radius:
                 break
-            one = (flank(radius + _SLOPE) - flank(radius - _SLOPE)) / (2 * _SLOPE)
-            two = (fillet(normal + _SLOPE) - fillet(normal - _SLOPE)) / (2 * _SLOPE)
+            one, two = ((part[2] - part[0]) / (2 * _SLOPE) for part in (lines, curves))
             cross = np.where(goes, (np.conj(one) * two).imag, np.inf)
             radius = radius - (np.conj(off) * two).imag / cross
             normal = normal - (np.conj(off) * one).imag / cross
-            off = flank(radius) - fillet(normal)
         if not float(np.abs(off)[crosses].max(initial=0.0)) <= _MET * hob.tip_radius:
             raise NoTooth("worm_wheel_undercut")
         return radius, normal
