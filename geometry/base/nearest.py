@@ -39,7 +39,7 @@ def nearest(
     ``share`` of it: so near to the last one that holds a costly search may end, on round numbers that are the same
     whatever is given.
     """
-    left = MOST_TRIALS - 1
+    left = MOST_TRIALS - 2
 
     def tried(value: float) -> bool:
         nonlocal left
@@ -62,15 +62,19 @@ def nearest(
             between = (good + bad) // 2
             good, bad = (between, bad) if tried(between) else (good, between)
         return limit(good, given)
-    rough = enough > 0 or share > 0
+    rough, before = enough > 0 or share > 0, good
     while left > 0 and abs(good - bad) > max(enough, share * abs(good), _told_apart(max(abs(good), abs(bad)), digits)):
         middle = _roundest(*sorted((good, bad))) if rough else (good + bad) / 2
-        good, bad = (middle, bad) if tried(middle) else (good, middle)
-    found = limit(float(good), given, digits=digits)
-    if found.value == good:
-        return found
-    left = 1
-    return found if isinstance(found.value, float) and tried(found.value) else None
+        if tried(middle):
+            good, before = middle, good
+        else:
+            bad = middle
+    # at the very edge rounding may decide: then the one before it is told
+    for last in (good, before):
+        found = limit(float(last), given, digits=digits)
+        if isinstance(found.value, float) and (found.value == last or kept(holds, found.value)):
+            return found
+    return None
 
 
 def _told_apart(size: float, digits: int) -> float:

@@ -47,8 +47,8 @@ _WANTED, _ENOUGH = 1e-6, (12, 48)
 _CLOSER = 2
 # so many spans are one more when they are too few
 _SLOW = 6
-# the narrowest part of a width that is tried, and how near to the widest that splines follow
-_NARROWEST, _NEARLY = 0.3, 0.05
+# parts of a width that are tried, and how near to the widest that splines follow
+_NARROW, _NEARLY = (0.3, 0.1, 0.03), 0.05
 # of the curves of a ring
 _ROOT, _TIP = 0, 3
 # where between two places of interpolation errors are greatest
@@ -110,8 +110,11 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
 
 # what a refusal offers is asked for again by whoever judges the offer
 @lru_cache(maxsize=4)
-def fitting(teeth: WormTeeth, near: float = _NEARLY) -> WormTeeth | None:
-    """The widest narrower teeth, themselves first, that splines come near, but for a part of the width; or None."""
+def fitting(teeth: WormTeeth, near: float = _NEARLY, least: tuple[float, ...] = _NARROW) -> WormTeeth | None:
+    """The widest narrower teeth, themselves first, that splines come near, but for a part ``near`` of it; or None.
+
+    ``least``: parts of the width of which one has to do.
+    """
 
     def follows(width: float) -> bool:
         try:
@@ -124,7 +127,7 @@ def fitting(teeth: WormTeeth, near: float = _NEARLY) -> WormTeeth | None:
 
     if kept(follows, teeth.width):
         return teeth
-    found = nearest(follows, teeth.width, _NARROWEST * teeth.width, share=near)
+    found = nearest(follows, teeth.width, [share * teeth.width for share in least], share=near)
     return replace(teeth, width=found.value) if found and isinstance(found.value, float) else None
 
 

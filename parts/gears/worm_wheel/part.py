@@ -61,8 +61,8 @@ _USEFUL, _TIP = 0.25, 0.02
 # addenda and shifts (modules) and thinnings (mm) are offered that near to the last one that works, and where only the
 # splines tell which does
 _NEAR, _NEARLY = 5e-3, 2e-2
-# how near a default width comes to the widest that splines follow, part of it
-_WIDEST = 1e-2
+# how near a default width comes to the widest that splines follow, and the least part of it that is one
+_WIDEST, _LEAST = 1e-2, (0.3,)
 # addenda that are tried, and that leave next to nothing, modules
 _ADDENDA, _LOW = (0.8, 0.6, 0.4, 0.2, 0.1), (0.05, 0.02)
 # keys in whose refusals others may take the teeth away as well
@@ -167,8 +167,13 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
 
 
 def _of_use(keys: WormWheelSpec) -> bool:
-    """Whether teeth are whole, of some thickness, and bend nowhere over a part of the width that is of use."""
+    """Whether teeth are whole, of some thickness, and bend nowhere over a part of the width that is of use.
+
+    Where a width is asked for, whether they stand over all of it.
+    """
     teeth = _asked_teeth(keys, drive_of(keys))
+    if keys.face_width is not None:
+        return teeth.glanced.ended is None
     teeth = replace(teeth.glanced, width=_USEFUL * teeth.width)
     # what is not whole anywhere has no tip to ask for
     return teeth.is_even and float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0]) > _TIP * keys.module
@@ -187,7 +192,7 @@ def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     except ParameterError as wide:
         raise ParameterError(wide.name, wide.value, wide.code, partial(_narrower, teeth)) from wide
     # faces may break off where none of the known ends is
-    found = fitting(teeth, _WIDEST) if keys.face_width is None else fitting(teeth)
+    found = fitting(teeth, _WIDEST, _LEAST) if keys.face_width is None else fitting(teeth)
     if found is None and teeth.is_creased:
         raise ParameterError("addendum_coefficient", keys.addendum_coefficient, "worm_wheel_below_base")
     if found is None or (found != teeth and keys.face_width is not None):
@@ -213,7 +218,7 @@ def _toothless(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
 
     def cure() -> Nearest | None:
         found = nearest(left_by(does, key), given, ends, enough=_NEAR)
-        if found is None or not isinstance(found.value, float) or kept(left_by(_is_made, key), found.value):
+        if found is None or not isinstance(found.value, int | float) or kept(left_by(_is_made, key), found.value):
             return found
         # splines do not follow some that run all but along the contact's way to infinity
         less = _LOW if key == "addendum_coefficient" else ()
@@ -250,6 +255,7 @@ def _suspects(
         "diameter_quotient",
         [q for q in (quotient * share for share in WIDER) if not most or q < larger] + most,
     )
+    yield _is_some, "number_of_starts", range(keys.number_of_starts - 1, 0, -1)
     yield _is_some, "addendum_coefficient", _LOW
 
 

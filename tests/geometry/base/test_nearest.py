@@ -86,6 +86,13 @@ def test_where_no_end_holds_there_is_nothing_to_offer(ends: float | list[float])
     assert asked.asked <= MOST_TRIALS
 
 
+def test_where_rounding_decides_at_the_edge_the_one_before_is_told() -> None:
+    # before: nothing was offered
+    assert nearest(lambda v: v <= 1 or v == 1.03125, 2.0, 0.0, enough=0.02) is not None
+    flickers = nearest(lambda v: v <= 45.9 or v in (45.9375, 45.96875), 53.37, 1.0, share=1e-3)
+    assert flickers == Nearest(45.9375, "at_most")
+
+
 def test_what_would_be_told_must_hold_itself() -> None:
     """A hair's breadth that no printed number meets is not offered."""
     assert nearest(lambda v: v == 1 / 3, 0.5, 1 / 3) is None

@@ -165,6 +165,27 @@ def test_a_face_that_no_hob_reaches_is_told_the_widest_that_stands() -> None:
     _built({**keys, "face_width": offered.value})
 
 
+@pytest.mark.parametrize(
+    ("keys", "least", "most"),
+    [
+        # before: nothing was offered, since the widest stood by rounding, or splines followed a tenth of it
+        pytest.param({"form": "ZK1", "module": 5.0, "number_of_starts": 7, "diameter_quotient": 12.231,
+          "number_of_teeth": 14, "hob_diameter_quotient": 12.897, "face_width": 73.11}, 43.0, 46.0,
+          marks=pytest.mark.heavy),
+        ({"module": 1.0, "number_of_starts": 4, "diameter_quotient": 6.49, "number_of_teeth": 17, "face_width": 8.72},
+          1.2, 1.3),
+    ],
+)  # fmt: skip
+def test_a_face_too_wide_is_told_one_that_is_not(keys: dict[str, Any], least: float, most: float) -> None:
+    with pytest.raises(SceneError) as refused:
+        _built(keys)
+    offered = refused.value.nearest
+    assert offered is not None
+    assert isinstance(offered.value, float)
+    assert least < offered.value < most
+    _built(keys | {"face_width": offered.value})
+
+
 @pytest.mark.heavy
 def test_a_pointed_worm_of_many_starts_is_told_the_addendum_that_leaves_its_wheel_teeth() -> None:
     keys = {"module": 10.0, "number_of_starts": 7, "diameter_quotient": 4.13, "number_of_teeth": 58}
