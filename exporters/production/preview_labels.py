@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,11 +57,21 @@ class Tops:
         for number, loops in enumerate(parts):
             starts = np.concatenate(loops)
             ends = np.concatenate([np.roll(loop, -1) for loop in loops])
-            for row, y in enumerate(self._low.imag + at):
+            heights = self._low.imag + at
+            for row in np.flatnonzero((heights >= starts.imag.min()) & (heights < starts.imag.max())).tolist():
+                y = heights[row]
                 cut = (starts.imag > y) != (ends.imag > y)
                 a, b = starts[cut], ends[cut]
                 places = np.sort(a.real + (y - a.imag) / (b.imag - a.imag) * (b.real - a.real))
                 self._top[row, np.searchsorted(places, self._low.real + at) % 2 == 1] = number
+
+    def seen(self, number: int) -> bool:
+        """Whether anything is seen of the part of this number."""
+        return number in self._seen
+
+    @cached_property
+    def _seen(self) -> set[int]:
+        return set(np.unique(self._top).tolist())
 
     def shows(self, label: Label, number: int) -> int:
         """How well a word stands for the part of this number: 3 on it alone, 2 beside it and over no edge, 1 beside it.
@@ -95,7 +106,7 @@ def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Lab
     taken = np.empty((0, 4))
     for number, label in enumerate(wanted):
         best, found = 0, None
-        if any(other and other.text == label.text for other in made):
+        if any(other and other.text == label.text for other in made) or (tops and not tops.seen(number)):
             made.append(None)
             continue
         for one in (label, replace(label, size=_SMALL * label.size)) if tops else (label,):
