@@ -130,6 +130,11 @@ def number_rounding(content: Content) -> float:
     return REGISTRY[content.kind.name].rounding(content)
 
 
+def least_tolerance(content: Content) -> float:
+    """The finest tolerance that the digits of a mesh file hold, mm."""
+    return 8 * number_rounding(content)
+
+
 def declared_error(content: Content, made: Shape) -> tuple[float, str]:
     """The bound of a whole file, mm: the worst boundary plus the rounding of its numbers."""
     worst, kinds = max(a.max_error for a in made), {a.bound for a in made}
@@ -159,9 +164,9 @@ def _chords(content: Content, tolerance: float) -> Chords:
     from parts.solids.mesh import count_edges, mesh_outlines
 
     rounding = number_rounding(content)
-    if content.tolerance < 8 * rounding:
-        least = limit(8 * rounding, content.tolerance, digits=6)
-        raise ParameterError("tolerance", content.tolerance, "finer_than_mesh_digits", least)
+    if content.tolerance < (least := least_tolerance(content)):
+        found = limit(least, content.tolerance, digits=6)
+        raise ParameterError("tolerance", content.tolerance, "finer_than_mesh_digits", found)
     if content.body.is_faced:
         # one mesh for every format: it takes its time
         tolerance = content.tolerance - _TEXT_ROUNDINGS * _mesh_rounding(content)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
-from exporters.formats.registry import Chords, Shape, number_rounding, shape_of
+from exporters.formats.registry import Chords, Shape, least_tolerance, number_rounding, shape_of
 from exporters.production.check_lines import has_bad_verdict, names_of
 from exporters.production.jobs import AssemblyJob, FileJob, Job, Made, ShapeKey, Written
 from exporters.production.moving import alone_in, move_into, staging_folder
@@ -17,7 +17,7 @@ from exporters.production.plan import Plan
 from exporters.production.preview import outlines_of, part_preview, scene_preview
 from exporters.production.report import NAME, read_report, write_report
 from exporters.verification.verdict import Verdict
-from geometry.base.errors import ConvergenceError, Nearest, ParameterError, ThinWallError, rounded
+from geometry.base.errors import ConvergenceError, Nearest, ParameterError, ThinWallError, limit, rounded
 from geometry.base.record import Record, replace
 from geometry.plane.contour import Approximation
 from parts.base.refusal import SceneError, placed
@@ -62,9 +62,10 @@ def build(
     checks = _checks(plan)
     made: dict[ShapeKey, Shape] = {}
     spent: dict[str, float] = {}
-    for key, job in _shapes(plan).items():
+    shapes = _shapes(plan)
+    for key, job in shapes.items():
         progress(job.part.id)
-        made[key], seconds = approximated(job, plan.source)
+        made[key], seconds = approximated(job, plan.source, shapes.values())
         spent.setdefault(job.path, seconds)
     with staging_folder(folder) as staging:
         written: list[Written] = []
@@ -135,29 +136,40 @@ def steps(plan: Plan) -> int:
 
 
 def _shapes(plan: Plan) -> dict[ShapeKey, Job]:
-    """The first job of each shape, those of files of their own before what only assemblies have."""
-    jobs = (*plan.jobs, *(member for assembly in plan.assemblies for member in assembly.members))
+    """The first job of each shape, those of files of their own before what only assemblies and films have."""
+    jobs = (*plan.jobs, *(member for several in (*plan.assemblies, *plan.sheets) for member in several.members))
     found: dict[ShapeKey, Job] = {}
     for job in jobs:
         found.setdefault(job.shape_key, job)
     return found
 
 
-def approximated(job: Job, source: str) -> tuple[Shape, float]:
-    """Approximated boundaries and the seconds they took; refused in the scene's terms."""
+def approximated(job: Job, source: str, beside: Collection[Job]) -> tuple[Shape, float]:
+    """Approximated boundaries and the seconds they took; refused in the scene's terms, for all jobs ``beside`` it."""
     start = time.perf_counter()
     try:
         return shape_of(job), time.perf_counter() - start
     except ParameterError as error:
-        raise placed(source, job.place, error, "mm") from error
+        raise placed(source, job.place, _for_every_part(error, job, beside), "mm") from error
     except ConvergenceError as error:
-        place, told = f"{job.place}.tolerance", {"residual": error.residual, "steps": error.iterations}
-        raise SceneError(source, place, job.export.tolerance, "tolerance_not_met", None, "", **told) from error
+        place, said = f"{job.place}.tolerance", {"residual": error.residual, "steps": error.iterations}
+        raise SceneError(source, place, job.asked, "tolerance_not_met", None, "", **said) from error
     except ThinWallError as error:
         place = f"{job.place}.tolerance"
-        raise SceneError(
-            source, place, job.tolerance, "wall_too_thin_for_mesh", None, "mm", part=job.part.id
-        ) from error
+        raise SceneError(source, place, job.asked, "wall_too_thin_for_mesh", None, "mm", part=job.part.id) from error
+
+
+def _for_every_part(refusal: ParameterError, job: Job, beside: Collection[Job]) -> ParameterError:
+    """The refusal of a tolerance as the scene asks for it, with what serves every part that it is asked for."""
+    if refusal.code != "finer_than_mesh_digits":
+        return refusal
+    every = [other for other in beside if other.place == job.place and other.kind.form is job.kind.form]
+    try:
+        least = max(least_tolerance(other) / other.share for other in every)
+    except ParameterError:
+        # another part has no solid at this offset, of which it tells when it is the first
+        return refusal
+    return ParameterError(refusal.name, job.asked, refusal.code, limit(least, job.asked, digits=6))
 
 
 def _write(job: FileJob, made: Made, file: Path, source: str, *, verify: bool) -> Written:
@@ -216,7 +228,7 @@ def _too_coarse(job: Job, source: str) -> SceneError:
 
     works = _finer(job, crosses)
     code = "wall_too_thin_for_mesh" if works is None else "chords_cross_wall"
-    return SceneError(source, f"{job.place}.tolerance", job.tolerance, code, works, "mm", part=job.part.id)
+    return SceneError(source, f"{job.place}.tolerance", job.asked, code, works, "mm", part=job.part.id)
 
 
 def _is_crossed(job: Job, made: Shape) -> bool:
@@ -237,7 +249,7 @@ def _crossing(job: Job, source: str) -> SceneError:
 
     works = _finer(job, crosses)
     place = f"{job.place}.tolerance"
-    return SceneError(source, place, job.tolerance, "outline_crosses_itself", works, "mm", part=job.part.id)
+    return SceneError(source, place, job.asked, "outline_crosses_itself", works, "mm", part=job.part.id)
 
 
 def _finer(job: Job, fails: Callable[[float], bool]) -> Nearest | None:
@@ -247,5 +259,5 @@ def _finer(job: Job, fails: Callable[[float], bool]) -> Nearest | None:
         if finer < max(8 * number_rounding(job), _LEAST_TOLERANCE):
             return None
         if not fails(finer):
-            return Nearest(rounded(finer, up=False, digits=9), "at_most")
+            return Nearest(rounded(finer / job.share, up=False, digits=9), "at_most")
     return None

@@ -123,10 +123,16 @@ class Written(Record):
 
 
 class Job(Content, FileJob):
-    """One part in one file, and where the scene asks for it."""
+    """One part in one file, and where the scene asks for it; ``share``: what it may take of the tolerance there."""
 
     path: str
     place: str
+    share: float = 1.0
+
+    @property
+    def asked(self) -> float:
+        """The tolerance that the scene asks for, mm."""
+        return self.tolerance / self.share
 
     @property
     def label(self) -> str:

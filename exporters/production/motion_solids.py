@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import cast
 
 import numpy as np
 
 from exporters.formats.glb import SolidTrack, write_glb
 from exporters.formats.motion_svg import even_values
 from exporters.formats.read_glb import read_glb
-from exporters.formats.registry import Chords, Content, declared_error, shape_of
 from exporters.production.film import SHARE, TIMES, Film, fill
-from exporters.production.jobs import Made
+from exporters.production.jobs import Job, Made
 from exporters.verification.judge import held
 from exporters.verification.verdict import Verdict
 from geometry.base.placement import Placement3
@@ -35,11 +33,11 @@ class SolidFilm(Film):
 
     ending = "", ".glb"
 
-    def solids(self) -> dict[str, tuple[Content, Chords]]:
-        """What each part's mesh is made of."""
+    @property
+    def members(self) -> tuple[Job, ...]:
+        """The mesh of each part."""
         asked = replace(self.export, format="stl", purpose="print", tolerance=SHARE * self.tolerance)
-        contents = {name: Content(part, asked, part.section(0.0)) for name, part in self.parts.items()}
-        return {name: (content, cast(Chords, shape_of(content))) for name, content in contents.items()}
+        return tuple(Job(p, asked, p.section(0.0), self.path, self.place, SHARE) for p in self.parts.values())
 
     def reach(self, instance: Instance) -> float:
         """How far a solid reaches from its origin, mm."""
@@ -72,18 +70,14 @@ class SolidFilm(Film):
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write it; counts of what is in it."""
         solids = {
-            name: (body_mesh(content.body, chords), self.parts[name].colour or fill(index))
-            for index, (name, (content, chords)) in enumerate(self.solids().items())
+            m.part.id: (body_mesh(m.body, m.chords(made)), m.part.colour or fill(k)) for k, m in enumerate(self.members)
         }
         write_glb(file, self.title, solids, self.tracks()[0], self.seconds)
         return {"instances": len(self.instances), "triangles": sum(len(m.triangles) for m, _ in solids.values())}
 
     def declared(self, made: Made) -> tuple[float, str]:
         """The worst solid and the worst way together, mm; ways are sampled."""
-        return self._of_solids() + self.tracks()[1], "sampled"
-
-    def _of_solids(self) -> float:
-        return max(declared_error(content, chords)[0] for content, chords in self.solids().values())
+        return max(m.declared(made)[0] for m in self.members) + self.tracks()[1], "sampled"
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back: every solid, and where instances stand at many times, against exact ones."""

@@ -148,8 +148,9 @@ def _measured(mesh: ReadMesh, which: NDArray[np.intp], body: Faced) -> tuple[Rea
         if face.turns in (0, most):
             bounds[mine] = np.minimum(bounds[mine], here)
         own.append((mine, here))
-    # a face narrower than the tolerance has triangles that lie about as well in its neighbours
-    has = [bool(np.any(here <= _AS_WELL * found[mine] + _SURE * body.reach())) for mine, here in own]
+    # a face narrower than the tolerance has triangles that lie as well in its neighbours, or better: chords leave it
+    sure, greatest = _SURE * body.reach(), float(found.max())
+    has = [bool(np.any(here <= np.maximum(_AS_WELL * found[mine] + sure, greatest))) for mine, here in own]
     return found, bounds, np.array(has)
 
 

@@ -95,12 +95,12 @@ class Layers(Record, dict=True):
             above = self.layers[number].contours if number < len(self.layers) else ()
             both = tuple(dict.fromkeys((*layer.contours, *above)))
             if len(set(layer.contours)) < len(layer.contours) or any(_crosses(a, b) for a, b in combinations(both, 2)):
-                raise ParameterError(f"layers[{number}]", len(layer.contours), "contours_cross")
+                raise ParameterError(f"layers[{number}]", None, "contours_cross")
         for number, (low, high) in enumerate(pairwise(self._depths), 1):
             if any(high.get(c, hole) != hole for c, hole in low.items()):
-                raise ParameterError(f"layers[{number}]", len(low), "contours_cross")
+                raise ParameterError(f"layers[{number}]", None, "contours_cross")
         if len(set(self._pieces().values())) > 1:
-            raise ParameterError("layers", len(self.layers), "layers_fall_apart")
+            raise ParameterError("layers", None, "layers_fall_apart")
         return self
 
     def _pieces(self) -> dict[tuple[int, Contour], int]:

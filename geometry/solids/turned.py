@@ -224,12 +224,12 @@ def _check(pieces: Sequence[Piece]) -> None:
     lines = [p.points() for p in pieces]
     size = max(float(np.abs(p).max()) for p in lines)
     if any(float(p.real.min()) < -_SAME * size for p in lines):
-        raise ParameterError("points", len(pieces), "section_beyond_axis")
+        raise ParameterError("points", None, "section_beyond_axis")
     for piece, after in zip(pieces, [*pieces[1:], pieces[0]], strict=True):
         if piece.centre is not None and piece.centre.real > 0 and 0 in (piece.start.real, piece.end.real):
-            raise ParameterError("points", len(pieces), "arc_ends_on_axis")
+            raise ParameterError("points", None, "arc_ends_on_axis")
         if piece.end.real == 0 and not piece.on_axis and not after.on_axis:
-            raise ParameterError("points", len(pieces), "section_touches_axis")
+            raise ParameterError("points", None, "section_touches_axis")
     a = np.concatenate([p[:-1] for p in lines])
     b = np.concatenate([p[1:] for p in lines])
     way = b - a
@@ -250,7 +250,7 @@ def _check(pieces: Sequence[Piece]) -> None:
     back = np.conj(np.roll(way, 1)) * way
     crossing |= near | np.diag((back.real < 0) & (np.abs(back.imag) <= _SAME * np.abs(back)))
     if np.any(crossing) or float(np.sum((np.conj(a) * b).imag)) <= 0:
-        raise ParameterError("points", len(pieces), "boundary_crosses_itself")
+        raise ParameterError("points", None, "boundary_crosses_itself")
 
 
 def _rim(half: float, radius: float) -> tuple[Real, Real, float]:
@@ -282,8 +282,8 @@ def turned_solid(section: HalfSection, seam: float = 0.0) -> FacedSolid:
     made = _Turned(section, seam)
     for piece in section.pieces:
         made.piece(piece)
-    for k, hole in enumerate(section.holes):
-        made.hole(hole, k + 1)
+    for hole in section.holes:
+        made.hole(hole)
     made.close()
     return FacedSolid(made.solid(), made.error, "sampled" if made.error else "exact")
 
@@ -376,13 +376,13 @@ class _Turned(SolidBuilder):
             narrow = (narrow + wide) / 2
         return Cone(Frame(self.point(1j * narrow.imag), axis, self.ahead), narrow.real, slant), along
 
-    def hole(self, hole: Hole, number: int) -> None:
+    def hole(self, hole: Hole) -> None:
         """A hole between two plane faces."""
         near, far = abs(hole.centre) - hole.radius, abs(hole.centre) + hole.radius
         over = [level for level in self.levels if level.radii[0] < near and far < level.radii[1]]
         inside = [p for p in self.section.pieces if p.points().real.min() < far and p.points().real.max() > near]
         if len(over) != 2 or len(inside) != 2 or over[0].up == over[1].up:
-            raise ParameterError("holes", number, "hole_between_no_planes")
+            raise ParameterError("holes", None, "hole_between_no_planes")
         low, high = sorted(over, key=lambda level: level.z)
         start = self.ahead[0, 0] + 1j * self.ahead[0, 1]
         rings = []

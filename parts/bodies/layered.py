@@ -98,7 +98,7 @@ class Layered(Kind[LayeredSpec, "Layers"]):
         made = []
         for number, table in enumerate(keys.layers, 1):
             if not (table.circles or table.polygons or table.slots or table.outlines):
-                raise ParameterError(f"layers[{number}]", 0, "layer_of_nothing")
+                raise ParameterError(f"layers[{number}]", None, "layer_of_nothing")
             made.append(Layer(table.thickness, tuple(_contours(table, f"layers[{number}]"))))
         return Layers(tuple(made)).checked()
 

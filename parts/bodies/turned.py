@@ -220,7 +220,7 @@ class Turned(_Turned[TurnedSpec]):
                 holes.append(Hole(complex(radius * math.cos(turn), radius * math.sin(turn)), group.diameter / 2))
         for k, hole in enumerate(holes):
             if any(abs(hole.centre - other.centre) <= hole.radius + other.radius for other in holes[:k]):
-                raise ParameterError("holes", len(holes), "hole_reaches_edge")
+                raise ParameterError("holes", None, "hole_reaches_edge")
         found = HalfSection(pieces, tuple(holes))
         turned_solid(found)
         return found
@@ -274,6 +274,9 @@ def _check_shaft(keys: ShaftSpec) -> None:
                 raise ParameterError(f"{name}.at", groove.at, "groove_beyond_step", least=place, length=step.length)
             place = groove.at + groove.width
     mouth = _mouth(keys)
+    if (centre := keys.centre_holes) is not None and mouth <= centre.diameter:
+        cure = limit(centre.diameter * (1 + 1e-6), mouth, digits=6)
+        raise ParameterError("centre_holes.mouth", mouth, "mouth_within_pilot", cure, diameter=centre.diameter)
     for k in (1, len(keys.steps)):
         step = keys.steps[k - 1]
         if step.chamfer >= (room := (step.diameter - keys.bore_diameter) / 2):

@@ -77,6 +77,7 @@ REASONS = {
     "leaves_no_spoke": N_("leaves no spoke"),
     "leaves_no_spoke_nearly": N_("leaves less than {least} mm of a spoke"),
     "for_thesis_only": N_('is for orientation = "thesis" only'),
+    "mouth_within_pilot": N_("is not wider than its pilot, {diameter} mm"),
     "pins_lie_loose": N_("pins {diameter} mm thick lie loose in their holes with more play than {most} mm"),
     "module_lacks": N_("lacks {lacks} mm: {what}"),
     "no_edge_between_corners": N_("leaves no edge between two corners"),

@@ -187,6 +187,26 @@ def test_spoiled_films_are_seen(tmp_path: Path, what: str) -> None:
     assert run("verify", str(file)) == 1
 
 
+@pytest.mark.parametrize("export", ['format = "glb"', 'format = "stl"', 'format = "3mf"\nassembly = true'])
+def test_a_tolerance_that_is_offered_serves_every_part(export: str, tmp_path: Path) -> None:
+    """The refusal of a film ended in a traceback, that of meshes offered what the first part could keep."""
+    plate = '[parts.{0}]\nkind = "plate"\nwidth = {1}.0\nheight = 9.0\nface_width = 3.0\n'
+    text = plate.format("a", 20) + plate.format("b", 90) + '[[drives]]\ninstance = "b"\n' + f"[[exports]]\n{export}\n"
+
+    def plan(tolerance: float) -> Plan:
+        told = f"{text}tolerance = {tolerance}\n".encode()
+        return plan_build(scene_from_toml(told, "s.toml", "s"), "s.toml", [], [])
+
+    with pytest.raises(SceneError) as refused:
+        build(plan(2e-6), tmp_path)
+    assert (refused.value.key, refused.value.value) == ("exports[1].tolerance", 2e-6)
+    offered = refused.value.nearest
+    assert offered is not None
+    assert build(plan(float(offered.value)), tmp_path).well
+    with pytest.raises(SceneError):
+        build(plan(0.99 * float(offered.value)), tmp_path)
+
+
 def test_a_scene_without_drives_has_no_film() -> None:
     with pytest.raises(SceneError, match="shows what a drive moves"):
         planned(FREE + GLB)

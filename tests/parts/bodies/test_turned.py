@@ -177,6 +177,11 @@ REFUSED = {
         {"kind": "shaft", "steps": [{"diameter": 9.0, "length": 9, "fillet": 3.0}, {"diameter": 9.5, "length": 5.0}]},
         "steps[1].fillet",
     ),
+    "a mouth within its pilot": (
+        {"kind": "shaft", "steps": [{"diameter": 10.0, "length": 20.0}],
+         "centre_holes": {"diameter": 2.0, "mouth": 2.0}},
+        "centre_holes.mouth",
+    ),
     "keyway": (
         {"kind": "shaft", "steps": [{"diameter": 10.0, "length": 20.0, "keyways": [{"at": 5.0, "length": 15.0}]}]},
         "steps[1].keyways[1].at",
@@ -213,6 +218,22 @@ FLAT = (10.0, 0.0), (31.0, 0.0), {"r": 31.0, "z": 6.37, "fillet": 0.9}
 def test_a_file_tells_the_area_that_its_faces_have(rows: tuple[Any, ...], tmp_path: Path) -> None:
     scene = write_scene(tmp_path / "s.toml", {"part": points(*rows)}, [{"format": "step"}])
     assert run("build", scene, "--out", tmp_path / "out", "-q") == 0
+
+
+def test_a_face_narrower_than_the_tolerance_is_found_and_missed() -> None:
+    """Chords leave such a face for its neighbours: the file was refused though right, of chamfers below 5e-4 mm."""
+    steps = [{"diameter": 12.0, "length": 20.0, "chamfer": 1e-4}, {"diameter": 20.0, "length": 30.0}]
+    body = body_of({"kind": "shaft", "steps": steps})
+    outlines = mesh_outlines(body, 0.01, 0.0)
+    made = body_mesh(body, outlines)
+    declared = outlines[0].max_error + 1e-7
+    assert verify_faced_mesh(ReadMesh(made.vertices, made.triangles), body, declared, 0.01).failures == ()
+    # without its chamfer the shaft lacks that face
+    plain = body_of({"kind": "shaft", "steps": [steps[0] | {"chamfer": 0.0}, steps[1]]})
+    bare = body_mesh(plain, mesh_outlines(plain, 0.01, 0.0))
+    wide = body_of({"kind": "shaft", "steps": [steps[0] | {"chamfer": 5e-3}, steps[1]]})
+    failures = verify_faced_mesh(ReadMesh(bare.vertices, bare.triangles), wide, declared, 0.01).failures
+    assert failures == ("1 faces of the part have no triangle",)
 
 
 @pytest.mark.parametrize("name", REFUSED)
