@@ -77,6 +77,14 @@ def pair_refused(
         kind.check(mate, trial[part_of[mate.first]].keys, trial[part_of[mate.second]].keys)
         mated(trial, [mate], part_of)
 
+    given, theirs = refusal.value, getattr(ends[part_of[mate.first]].keys, key, None)
+    alike = owner == "second" and theirs is not None and refusal.nearest == Nearest(theirs)
+    if alike and isinstance(given, int | float | str) and not _holds(works, theirs):
+        # what both have alike may be the first one's to change
+        other = ParameterError(f"first.{key}", theirs, refusal.code, Nearest(given))
+        turned = pair_refused(other, ends, mate, part_of, source, place)
+        if turned.nearest is not None:
+            return turned
     told = placed(source, f"{place}: parts.{part}", refusal.renamed(key), unit_of(type(spec), key))
     told.offer(lambda: _tried(refusal, works))
     return told

@@ -99,6 +99,18 @@ def test_a_worm_of_another_diameter_is_told_the_one_that_fits(
     assert told in said
 
 
+def test_a_size_that_the_worm_cannot_have_is_told_to_the_wheel(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = _scene(tmp_path)
+    # no room for the rounding on a tip as narrow as the wheel's addendum makes it; before: no value was named
+    worm = "addendum_coefficient = 0.6\ntip_rounding = 1.3\nthread_length"
+    file.write_text(file.read_text().replace("thread_length", worm))
+    code, said = _checked(file, capsys)
+    assert code == 2
+    assert "parts.wheel.addendum_coefficient = 1.0: must fit its mate; 0.6 modules works" in said
+
+
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("given", "told"),
