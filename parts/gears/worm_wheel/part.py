@@ -226,7 +226,9 @@ def _toothless(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
         return nearest(left_by(_is_made, key), found.value, beyond, enough=_NEARLY)
 
     for does, key, values in _suspects(keys, refusal):
-        least = next((k for k, value in enumerate(values) if kept(left_by(does, key), value)), None)
+        # of next to nothing the margin says less than of what is of use
+        margins = [left_by(holds, key) for holds in ((does,) if does in (_of_use, _is_made) else (does, _is_made))]
+        least = next((k for k, value in enumerate(values) if all(kept(holds, value) for holds in margins)), None)
         ends, given = values[least:], getattr(keys, key)
         if least is not None:
             break
@@ -241,7 +243,7 @@ def _suspects(
     if keys.axial_thinning:
         yield _of_use, "axial_thinning", (0.0,)
     elif refusal.name == "hob_rounding_coefficient" and (found := refusal.nearest) and isinstance(found.value, float):
-        yield _of_use, refusal.name, (found.value, found.value / 2, 0.0)
+        yield _is_made, refusal.name, (found.value, found.value / 2, 0.0)
     if keys.profile_shift_coefficient:
         yield _of_use, "profile_shift_coefficient", (0.0,)
     yield _of_use, "addendum_coefficient", _ADDENDA
