@@ -56,8 +56,11 @@ _NOISE = 1e-13
 # how often a correction is solved for, each time with what is left
 _SOLUTIONS = 2
 # least length of an end leg of the control polygon, in distances from the origin: its direction is then good to
-# some 6e-10 rad; a curve that starts in a cusp (an involute on its base circle) would have none
+# some 6e-10 rad; a curve that starts in a cusp (an involute on its base circle) would have none. A longer leg than
+# the curve's own is an error itself: the least is no longer than the tolerance
 _LEAST_END_LEG = 2.5e-7
+# and, where the curve is short itself, of the way to the pole after it
+_OF_NEXT = 0.25
 
 ParameterMap = Callable[[Real], Real]
 # first and last point, first and last tangent
@@ -374,17 +377,23 @@ def _relaxed(
 ) -> _Draft:
     """Rounds of least squares and new feet from poles near the curve; the best round, or the first that is enough."""
     ends = _ends(curve)
-    poles = _with_ends(ends, poles)
+    least = _LEAST_END_LEG * max(abs(ends[0]), abs(ends[1]))
+    least = min(least, tolerance) if tolerance > 0 else least
+    poles = _with_ends(ends, poles, least)
     best: _Draft | None = None
     on_curve, points = curve.point(t), layout.points(poles)
     for index, weight in enumerate(weights):
         change = _correction(ends, layout, on_curve - points, curve.tangent(t), weight)
-        poles = _with_ends(ends, poles + change)
+        poles = _with_ends(ends, poles + change, least)
         points = layout.points(poles)
-        t = feet(curve, points, t, steps=2)
+        before, t = t, feet(curve, points, t, steps=2)
+        if not np.all(np.diff(t.ravel()) > 0):
+            # where the curve all but stands still a step to a foot leads too far: it stays, and feet keep their order
+            nearer = np.abs(points - curve.point(t)) < np.abs(points - on_curve)
+            t = np.maximum.accumulate(np.where(nearer, t, before).ravel()).reshape(t.shape)
         on_curve = curve.point(t)
         errors = np.abs(points - on_curve).max(axis=1)
-        error = float(errors.max()) if np.all(np.diff(t.ravel()) > 0) else math.inf
+        error = float(errors.max())
         if best is None or error < best.error:
             best = _Draft(layout, poles, t, errors, error, curve.domain)
         far = index + 1 >= len(_FIRST_WEIGHTS) and not _is_near(best.error, tolerance, _WORTH_SLIDING)
@@ -394,13 +403,13 @@ def _relaxed(
     return best
 
 
-def _with_ends(ends: Ends, poles: Complex) -> Complex:
-    """Poles whose ends are the curve's to the bit, and whose end legs lie along its tangents."""
+def _with_ends(ends: Ends, poles: Complex, least: float) -> Complex:
+    """Poles whose ends are the curve's to the bit, and whose end legs lie along its tangents, ``least`` mm long."""
     start, end, leave, arrive = ends
-    least = _LEAST_END_LEG * max(abs(start), abs(end))
     poles = poles.copy()
-    poles[1] = start + leave * max(least, ((poles[1] - start) * leave.conjugate()).real)
-    poles[-2] = end - arrive * max(least, ((end - poles[-2]) * arrive.conjugate()).real)
+    first, last = min(least, abs(poles[2] - start) * _OF_NEXT), min(least, abs(end - poles[-3]) * _OF_NEXT)
+    poles[1] = start + leave * max(first, ((poles[1] - start) * leave.conjugate()).real)
+    poles[-2] = end - arrive * max(last, ((end - poles[-2]) * arrive.conjugate()).real)
     poles[0], poles[-1] = start, end
     return poles
 
