@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.record import Record
+from geometry.base.tolerance import TOLERANCES
 from geometry.cams.motion.follower_motion import TURN
 from geometry.cams.motion.guides import Oscillating
 from geometry.cams.plane.disk import DiskCam
@@ -28,6 +29,10 @@ _STEPS = 40
 _FLAT_BULGE = 1e-9
 # errors of an outline within which a guide's reach ends soon
 _NEAR_END = 10
+# halvings of an edge towards its outermost point, and numbers looked at at once
+_HALVINGS, _AT_ONCE = 40, 1_000_000
+# steps to a face's direction, how near they come, and the turn by which their rate is found, rad
+_TURNS, _MET, _STIR = 12, 1e-14, 1e-6
 # angles this near to an edge's end, in steps of the grid, are its own: ends of edges differ by the digits of a file
 _END = 1e-6
 
@@ -74,6 +79,12 @@ class Smooth(Record):
     def __len__(self) -> int:
         """How many there are."""
         return len(self.coefficients)
+
+    def poles(self) -> Complex:
+        """Their Bezier points, (n, degree + 1)."""
+        degree = self.coefficients.shape[1] - 1
+        turn = [[math.comb(j, k) / math.comb(degree, k) for j in range(degree + 1)] for k in range(degree + 1)]
+        return np.asarray(self.coefficients @ np.array(turn))
 
     def at(self, edge: Index, t: Real) -> tuple[Complex, Complex]:
         """Points and outward normals."""
@@ -165,11 +176,83 @@ def rolled_lift(cam: Stopped, outline: Outline, count: int, offset: float = 0.0,
         # a face that lies on a line touches its ends at the same angle
         if not len(family) or (cam.is_flat and isinstance(family, Lines)):
             continue
+        if cam.is_flat and below and isinstance(family, Smooth):
+            lift = np.fmax(lift, _supported(cam, family, count, offset))
+            continue
         edge, t0, t1, target = _crossings(cam, family, step, offset)
         t = _solve(cam, family, edge, t0, t1, step * target.astype(np.float64), offset)
         height = cam.stop(*family.at(edge, t), offset)[1]
         np.fmax.at(lift, target % count, sign * height)
     return np.where(np.isfinite(lift), sign * lift, np.nan)
+
+
+def _supported(cam: Stopped, edges: Smooth, count: int, offset: float) -> Real:
+    """S at ``count`` cam angles of a face held by what of polynomial edges reaches farthest; NaN where nothing does.
+
+    Beside a cusp an edge turns within a part in a million of its length, or there and back within its error: no normal
+    is sought, only how far points reach, and that moves by no more than they do.
+    """
+    angle = np.arange(count, dtype=np.float64) * (TURN / count)
+
+    def stops(turned: Real) -> tuple[Complex, Complex, Real, Real]:
+        normal = np.exp(1j * turned)
+        point = _farthest(edges, normal)
+        return point, normal, *cam.stop(point, normal, offset)
+
+    at = stops(-angle)[2]
+    met = np.isfinite(at)
+    if not np.any(met):
+        return np.full(count, np.nan)
+    # by how much angle and direction differ, which is constant where the face slides; then Newton's steps
+    ahead = at[met] - angle[met]
+    ahead = ahead[0] + _folded(ahead - ahead[0])
+    turned = np.interp(angle, at[met], ahead, period=TURN) - angle
+    for _ in range(_TURNS):
+        point, normal, at, lift = stops(turned)
+        miss = _folded(at - angle)
+        if not np.any(np.abs(miss) > _MET):
+            break
+        rate = _folded(cam.stop(point, normal * np.exp(1j * _STIR), offset)[0] - at) / _STIR
+        turned = turned - miss / rate
+    return lift
+
+
+def _farthest(edges: Smooth, normal: Complex) -> Complex:
+    """The points of polynomial edges that reach farthest along unit normals (n,), by their Bezier polygons."""
+    poles = edges.poles()
+    found = np.empty(len(normal), dtype=complex)
+    floor = TOLERANCES.relative_rounding * float(np.abs(poles).max())
+    reach = np.abs(poles - poles[:, :1]).max(axis=1)
+    rows = max(1, _AT_ONCE // len(poles))
+    for first in range(0, len(normal), rows):
+        out = np.conj(normal[first : first + rows])
+        height = (out[:, None] * poles[:, 0]).real
+        far = poles[np.argmax(height, axis=1), 0]
+        top = height.max(axis=1)
+        which, edge = np.nonzero(height + reach > top[:, None])
+        parts = poles[edge]
+        for _ in range(_HALVINGS):
+            heights = (parts * out[which, None]).real
+            for end in (0, -1):
+                np.maximum.at(top, which, heights[:, end])
+                best = heights[:, end] >= top[which]
+                far[which[best]] = parts[best, end]
+            wide = heights.max(axis=1) > top[which] + floor
+            if not np.any(wide):
+                break
+            parts, which = np.concatenate(_halves(parts[wide])), np.tile(which[wide], 2)
+        found[first : first + rows] = far
+    return found
+
+
+def _halves(poles: Complex) -> tuple[Complex, Complex]:
+    """Bezier polygons (n, degree + 1) of both halves: de Casteljau's scheme."""
+    left, right = [poles[:, 0]], [poles[:, -1]]
+    while poles.shape[1] > 1:
+        poles = (poles[:, :-1] + poles[:, 1:]) / 2
+        left.append(poles[:, 0])
+        right.append(poles[:, -1])
+    return np.stack(left, axis=1), np.stack(right[::-1], axis=1)
 
 
 def _folded(angle: Real) -> Real:

@@ -29,6 +29,7 @@ from geometry.base.series import (
     taylor,
     unit_majorant,
 )
+from geometry.base.tolerance import PRECISION
 from geometry.curves.bounds import BoundedSpan
 from geometry.curves.curve import Complex, Curve, Real, first_turning, vertex_sign
 from geometry.laws.piece import split_places
@@ -101,10 +102,15 @@ class CamSpan(BoundedSpan):
         """Ends, inflections and vertices: between them the curvature keeps its sign and its trend.
 
         Arcs and chords need the first (geometry/approximation/chords.py), and few arcs the second: DERIVATIONS.md,
-        section 4.
+        section 4. Beside a cusp what is shorter than kernels tell points apart stays with its neighbour.
         """
         inflections = [self.pitch_curvature] if isinstance(self, CentreEnvelope) else []
-        return split_places([self.vertex_function, *inflections], *self.domain)
+        edges = split_places([self.vertex_function, *inflections], *self.domain)
+        points, kept = self.point(np.array(edges)).tolist(), [0]
+        for k in range(1, len(edges) - 1):
+            if abs(points[k] - points[kept[-1]]) > PRECISION and abs(points[-1] - points[k]) > PRECISION:
+                kept.append(k)
+        return [edges[k] for k in (*kept, len(edges) - 1)]
 
 
 class CentreEnvelope(CamSpan, Record):

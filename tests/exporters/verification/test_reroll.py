@@ -18,7 +18,8 @@ from exporters.production.recheck import recheck
 from exporters.verification.assembly import expected_of, verify_assembly
 from exporters.verification.judge import probed
 from exporters.verification.verdict import Verdict
-from geometry.cams.contact.rolled import lift_bound, outline_of_loop, rolled_lift
+from geometry.base.series import taylor
+from geometry.cams.contact.rolled import lift_bound, outline_of_loop, outline_of_polynomials, rolled_lift
 from geometry.cams.motion.guides import Oscillating, Translating
 from geometry.cams.plane.disk import FollowerKind, oscillating_cam, translating_cam
 from parts.cams.probes import ANGLES, outermost
@@ -174,3 +175,31 @@ def test_the_cams_of_an_assembly_are_rolled(tmp_path: Path) -> None:
     expected = expected_of("laser_cam_model", parts, 0.0, instances)
     verdict = verify_assembly(tmp_path / "o" / "laser_cam_model.3mf", FILE_KINDS["3mf"], expected, made.max_error, 0.01)
     assert any("lift is wrong" in failure for failure in verdict.failures)
+
+
+@pytest.mark.parametrize("swings", [False, True])
+def test_a_face_is_held_by_edges_that_turn_within_a_millionth_of_their_length(swings: bool) -> None:
+    """As splines do beside a cusp; the oracle is the farthest of half a million points, crowded at their ends."""
+    around = 2 * np.pi * np.arange(13) / 12
+    corners, ways = 40 * np.exp(1j * around), 1j * np.exp(1j * around)
+    ahead, back = 7 * ways[:-1], 7 * ways[1:]
+    # every other one turns aside at once after an end leg as short as a drawing's error, and back within an eighth
+    ahead[1::2] *= 3e-7 / 7
+    poles = np.stack([corners[:-1], corners[:-1] + ahead, corners[1:] - back, corners[1:]], axis=1)
+    poles[1::2, 2] = poles[1::2, 1] + 3 * ways[:-1][1::2] * np.exp(-0.1j)
+    powers = np.array([[1, -3, 3, -1], [0, 3, -6, 3], [0, 0, 3, -3], [0, 0, 0, 1]])
+    crowd = 10.0 ** -np.linspace(1, 10, 2000)
+    t = np.concatenate([np.linspace(0, 1, 40001), crowd, 1 - crowd])
+    points = np.concatenate([np.polyval(edge[::-1], t) for edge in poles @ powers])
+    cam = part_of(CAMS["oscillating flat" if swings else "flat"]).thing
+    assert cam is not None
+    for shift in (0.0, 1e-4):
+        found = rolled_lift(cam, outline_of_polynomials((poles + shift) @ powers), 24)
+        for k in range(24):
+            lift = taylor([np.array(found[k])])
+            height, normal = cam.mount.face(lift)
+            # the face that touches at S, in the cam's frame: nothing reaches over it, something reaches it
+            out = np.exp(-1j * (float(normal[0]) - 2 * np.pi * k / 24))
+            over = float((points * out).real.max() - float(height[0]))
+            assert abs(over + shift * out.real) < 1e-8
+            assert shift == 0 or abs(out.real) < 0.1 or abs(over) > 1e-5

@@ -356,6 +356,34 @@ def test_the_plate_is_as_large_as_the_contact_runs() -> None:
         part_of(keys | {"plate_diameter": least * 0.9999})
 
 
+LEAST = {"lift": 4.5, "least_transmission_angle_deg": 45.0}
+
+
+@pytest.mark.parametrize(("laws", "angles", "sizes", "tail"), [
+    (("modified_trapezoid", "modified_trapezoid"), (63.0, 51.0), LEAST, '[[exports]]\nformat = "step"'),
+    # between a joint of the law and the least radius of curvature lie 4e-6 mm and 1.5e-9 mm of the profile
+    (("modified_sine_cv33", "modified_trapezoid"), (85.0, 53.0), LEAST, ""),
+    (("modified_sine", "modified_sine_cv50"), (122.0, 35.0), {"lift": 1.0, "base_circle_radius": 20.48}, ""),
+])  # fmt: skip
+def test_the_least_cam_of_a_flat_follower_has_files_though_its_profile_all_but_stands_still(
+    laws: tuple[str, str], angles: tuple[float, float], sizes: dict[str, float], tail: str, tmp_path: Path
+) -> None:
+    """Where pull is even the radius of curvature is 0 at a joint of the law, but for rounding."""
+    phases = [
+        {"move": "rise", "angle_deg": angles[0], "law": laws[0]},
+        {"move": "return_", "angle_deg": angles[1], "law": laws[1]},
+        {"move": "dwell", "angle_deg": 360.0 - sum(angles)},
+    ]
+    keys = {"kind": "cam", "phases": phases, "follower": "flat"} | sizes
+    scene = tmp_path / "least.toml"
+    scene.write_text(scene_text(keys, f'purpose = "drawing"\n{tail}'), encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path), "--quiet"]) == 0
+    files = read_report(tmp_path / "least")["files"]
+    assert [file["tolerance"] for file in files] == [1e-6] * (2 if tail else 1)
+    # a face over an outline is off by no more than the outline
+    assert all(file["measured"][k] <= 1e-6 for file in files for k in ("max_deviation", "lift_error"))
+
+
 def test_the_drawing_of_a_heart_cam_encloses_what_archimedes_says(tmp_path: Path) -> None:
     """Two spirals: pi (r^2 + r h + h^2 / 3); each is one spline of half a turn."""
     halves = [{"move": move, "angle_deg": 180.0, "law": "constant_velocity"} for move in ("rise", "return_")]
