@@ -670,7 +670,8 @@ def _triangle_errors(patch: Patch, points: Real, table: Real, triangles: Triangl
     pairs = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2)
     names, edges = np.unique(pairs[..., 0] * len(table) + pairs[..., 1], return_inverse=True)
     ends = np.stack([names // len(table), names % len(table)], axis=1)
-    off = np.concatenate([_errors(patch, points[:, x].mean(axis=2), table[x].mean(axis=1)) for x in (triangles, ends)])
+    at, places = zip(*((points[:, x].mean(axis=2), table[x].mean(axis=1)) for x in (triangles, ends)), strict=True)
+    off = _errors(patch, np.concatenate(at, axis=1), np.concatenate(places))
     return np.maximum(off[: len(triangles)], off[len(triangles) + edges.reshape(-1, 3)].max(axis=1))
 
 
