@@ -141,6 +141,8 @@ class _Mesher:
         self.bound: Bound = "exact"
         self.bundle, self.row = edge_rows(solid)
         self.reach = float(np.abs(solid.points).max())
+        # sagittas that have done for patches, by their nets
+        self.passed: dict[bytes, float] = {}
         self.bent, self.patched = (self._bounding(kinds) for kinds in (Torus | Sphere | SplineSurface, SplineSurface))
         shares = [self._own_shares(bundle, edges) for bundle, edges in enumerate(solid.edges)]
         # bundles of edges that one chord follows
@@ -418,7 +420,8 @@ class _Mesher:
             return
         which = _templates(patch.poles)
         template = patch.rows(which)
-        bends, sag = Bends(template), self.tolerance
+        bends, key = Bends(template), _key(template.poles)
+        sag = self.passed.get(key, self.tolerance)
         along = sides[0][0][1:-1], 1 - sides[2][0][-2:0:-1]
         for _ in range(_FINER):
             t, rows = bends.rows(sag)
@@ -438,6 +441,7 @@ class _Mesher:
                 worst = triangles[off >= _WORST * off.max()]
                 error = max(error, _CLOSE * _dense_error(template, at, table, worst))
             if error <= self.tolerance:
+                self.passed[key] = sag
                 break
             sag *= max(_SAFE * self.tolerance / error, _LEAST_SHARE)
         numbers = np.concatenate([ring, self._added(patch.scattered(inner)[0])], axis=1)
@@ -663,6 +667,12 @@ def _templates(poles: Real) -> Triangles:
     scale = _ALIKE * max(float(np.abs(poles).max()), 1e-300)
     _, first = np.unique(np.round(lengths / scale / 100), axis=0, return_index=True)
     return np.sort(first)
+
+
+def _key(poles: Real) -> bytes:
+    """What nets that are one turned over have in common."""
+    lengths = np.concatenate([np.linalg.norm(np.diff(poles, axis=axis), axis=-1).ravel() for axis in (1, 2)])
+    return np.sort(np.round(lengths, 7)).tobytes()
 
 
 def _triangle_errors(patch: Patch, points: Real, table: Real, triangles: Triangles) -> Real:
