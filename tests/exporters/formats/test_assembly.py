@@ -147,6 +147,7 @@ def test_the_report_tells_of_an_assembly_and_verify_reads_it(kind: str, request:
     assert run("verify", file) == 0
 
 
+@pytest.mark.heavy
 def test_both_assemblies_keep_their_bytes_in_any_process(train_step: Path, train_3mf: Path, tmp_path: Path) -> None:
     """In this process, where a good many occurrences have been written since, and in a fresh one."""
     exports = (STEP, THREEMF)
@@ -182,6 +183,7 @@ def test_a_build_of_one_part_leaves_the_assembly_as_it_is(tmp_path: Path) -> Non
     assert run("verify", folder / "train.3mf") == 0
 
 
+@pytest.mark.heavy
 def test_a_scene_in_another_script_gets_an_ascii_title(tmp_path: Path) -> None:
     pytest.importorskip("OCP", reason="the CAD kernel is an extra")
     folder = made(tmp_path, STEP, THREEMF, name="передача 2")

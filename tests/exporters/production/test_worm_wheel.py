@@ -243,6 +243,7 @@ def test_a_shift_that_cures_nothing_is_not_blamed() -> None:
     assert refused.value.key == "parts.wheel.addendum_coefficient"
 
 
+@pytest.mark.heavy
 def test_both_meshes_of_a_scene_are_one(tmp_path: Path) -> None:
     text = WHEEL.format(keys="").split("[[exports]]")[0]
     exports = "".join(f'[[exports]]\nformat = "{name}"\ntolerance = 0.2\n' for name in ("3mf", "stl"))

@@ -219,7 +219,7 @@ def test_nothing_overlaps_in_the_written_module_and_a_spoiled_file_is_found(file
         assert frozenset((part, other)) in made.overlaps({part: spoil}), part
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("part", "spoil", "other"),
     [("hub", _moved(0.5), "axle"), ("post", _longer(9.0), "flange"), ("pinion", _turned(np.pi / 64), "ring")],

@@ -156,6 +156,7 @@ def test_step_files_are_rolled_too(tmp_path: Path) -> None:
     assert json.dumps(report)
 
 
+@pytest.mark.heavy
 def test_the_cams_of_an_assembly_are_rolled(tmp_path: Path) -> None:
     scene = load_scene(str(built_in_scenes()["laser_cam_model"]))
     parts, matings = make_parts(scene, "t")

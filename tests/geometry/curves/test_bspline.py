@@ -242,7 +242,7 @@ def test_the_worst_place_against_fifty_digits(name: str, kind: tuple[int, int]) 
     assert fit.max_error / 1.1 <= distance <= fit.max_error
 
 
-@pytest.mark.sampled(24)
+@pytest.mark.sampled(8)
 @EVERY
 @KINDS
 def test_ends_are_the_curves(name: str, kind: tuple[int, int]) -> None:

@@ -30,7 +30,7 @@ def module(**keys: Any) -> SceneFile:
     return scene_from_dict({"assemblies": [{"kind": "power_module_kinematics", **keys}]}, "t", "t")
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize("orientation", [pytest.param("cranks", marks=pytest.mark.heavy), "thesis", "idlers"])
 def test_every_mesh_is_in_contact_and_nothing_overlaps_in_motion(orientation: str, tmp_path: Path, capsys: Any) -> None:
     text = SCENE.read_text(encoding="utf-8").replace('orientation = "cranks"', f'orientation = "{orientation}"')

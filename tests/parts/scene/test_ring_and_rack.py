@@ -66,7 +66,7 @@ def test_step_is_built_and_read_back(text: str, tmp_path: Path) -> None:
     assert main(["build", str(file), "--out", str(tmp_path)]) == 0
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.heavy
 @pytest.mark.parametrize("kind", ["spur_gear", "ring_gear", "rack"])
 def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["new", kind]) == 0

@@ -70,7 +70,7 @@ def integrals(mesh: Mesh) -> tuple[float, np.ndarray, np.ndarray, float]:
     return float(volumes.sum()), volumes @ total / 4, np.asarray(squares), area
 
 
-@pytest.mark.sampled(24)
+@pytest.mark.sampled(20)
 @pytest.mark.parametrize("name", [*MADE, *SCENES])
 def test_a_mesh_is_closed_and_holds_what_exact_integrals_say(name: str) -> None:
     for part in parts_of(name).values():
@@ -108,7 +108,7 @@ def distance_to(polygon: shapely.Polygon, points: np.ndarray) -> np.ndarray:
     return far
 
 
-@pytest.mark.sampled(24)
+@pytest.mark.sampled(20)
 @pytest.mark.parametrize("name", [*MADE, *SCENES])
 @pytest.mark.parametrize("offset", [0.05, -0.05])
 def test_every_boundary_of_a_section_moves_by_the_offset(name: str, offset: float) -> None:

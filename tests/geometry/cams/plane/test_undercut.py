@@ -96,6 +96,7 @@ def classify(count: int, seed: int) -> tuple[int, int]:
     return legal, illegal
 
 
+@pytest.mark.heavy
 def test_random_cams_are_classified_as_a_sweep_does() -> None:
     legal, illegal = classify(8, 11)
     assert legal >= 3

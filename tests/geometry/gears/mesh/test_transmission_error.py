@@ -195,6 +195,7 @@ def test_errors_against_polylines_turned_until_they_touch(name: str, sense: int)
     assert np.ptp(wanted) > 0.3 * error.peak_to_peak
 
 
+@pytest.mark.heavy
 def test_a_rack_with_short_tips() -> None:
     pair = on_rack(17, given_tip_diameter=33.4, **THIN)
     assert pair.contact_ratio < 1

@@ -164,7 +164,7 @@ def test_a_chamfer_stays_a_line() -> None:
     assert {type(s.curve) for s in period if s.label is Label.TIP_BREAK} == {Line}
 
 
-@pytest.mark.sampled(13)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("name", GEARS)
 @pytest.mark.parametrize("share", [0.40, 0.6, 1.2])
 def test_trimmed_cusps(name: str, share: float) -> None:

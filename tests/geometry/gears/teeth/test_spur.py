@@ -243,6 +243,7 @@ def test_tip_rounding(name: str, share: float) -> None:
     assert inside.max() <= RIGHT * gear.tip_radius
 
 
+@pytest.mark.sampled(8)
 @EVERY
 def test_upper_side_mirrors_the_lower(gear: SpurGear) -> None:
     """One period: lower side, tip, upper side, root; mirrored in the x axis and travelled back it is itself."""

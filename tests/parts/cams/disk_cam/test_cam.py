@@ -149,7 +149,7 @@ def test_the_follower_rolled_over_the_file_lifts_as_it_should(name: str, tmp_pat
     assert worst >= 0.2 * declared
 
 
-@pytest.mark.sampled(1)
+@pytest.mark.heavy
 @pytest.mark.parametrize("name", ["concave", "oscillating roller"])
 def test_every_format_is_written_and_read_back(name: str, tmp_path: Path) -> None:
     keys = CAMS.get(name, ROLLER | {"base_circle_radius": 18.0, "lift": 25.0})
