@@ -483,15 +483,15 @@ class WormTeeth(Record, dict=True):
         """The same for a search, which looks at few heights of many wheels."""
         return replace(self, levels=_GLANCE)
 
-    def narrowed(self, *, even: bool = False) -> WormTeeth:
+    def narrowed(self, *, even: bool = False, near: float = _NEAR_WIDTH) -> WormTeeth:
         """The teeth with as much of the width as has whole ones at every height; themselves where none has.
 
-        ``even``: and as has flanks that bend nowhere.
+        ``even``: and as has flanks that bend nowhere; ``near``: how near to the widest, part of it.
         """
 
-        return self._widest(lambda teeth: teeth.is_even if even else teeth.is_whole) or self
+        return self._widest(lambda teeth: teeth.is_even if even else teeth.is_whole, near) or self
 
-    def _widest(self, stands: Callable[[WormTeeth], bool]) -> WormTeeth | None:
+    def _widest(self, stands: Callable[[WormTeeth], bool], near: float = _NEAR_WIDTH) -> WormTeeth | None:
         """The same of the greatest width at which they stand, their own or one that is found; None where none is."""
         if stands(self):
             return self
@@ -502,7 +502,7 @@ class WormTeeth(Record, dict=True):
         # where the last of a tooth goes rounding decides
         least = _LEAST_WIDTH * self.width
         for levels in (_GLANCE, self.levels):
-            found = nearest(partial(does, levels), self.width, least, share=_NEAR_WIDTH)
+            found = nearest(partial(does, levels), self.width, least, share=near)
             if found is None or not isinstance(found.value, float):
                 return None
             whole = replace(self, width=found.value)

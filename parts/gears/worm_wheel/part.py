@@ -61,8 +61,8 @@ _USEFUL, _TIP = 0.25, 0.02
 # addenda and shifts (modules) and thinnings (mm) are offered that near to the last one that works, and where only the
 # splines tell which does
 _NEAR, _NEARLY = 5e-3, 2e-2
-# how near a default width comes to the widest that splines follow, and the least part of it that is one
-_WIDEST, _LEAST = 1e-2, (0.3,)
+# how near a default width comes to the widest that splines follow, at a glance, and the least part of it that is one
+_WIDEST, _ROUGHLY, _LEAST = 1e-2, 1.0, (0.3,)
 # addenda that are tried, and that leave next to nothing, modules
 _ADDENDA, _LOW = (0.8, 0.6, 0.4, 0.2, 0.1), (0.05, 0.02)
 # keys in whose refusals others may take the teeth away as well
@@ -179,26 +179,30 @@ def _of_use(keys: WormWheelSpec) -> bool:
     return teeth.is_even and float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0]) > _TIP * keys.module
 
 
-def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
-    """The teeth of the whole width, or where none is given of as much of it as has some."""
+def teeth_of(keys: WormWheelSpec, drive: WormDrive, *, glance: bool = False) -> WormTeeth:
+    """The teeth of the whole width, or where none is given of as much of it as has some.
+
+    ``glance``: of some of that, by few trials, and no narrower one is sought for what is given.
+    """
     from geometry.gears.worms.wheel_faces import fitting
 
     teeth = _asked_teeth(keys, drive)
     if keys.face_width is None:
-        even = teeth.narrowed(even=True)
-        teeth = even if even.is_even and even.width >= _USEFUL * teeth.width else teeth.narrowed()
+        narrowed = partial(teeth.narrowed, near=_ROUGHLY) if glance else teeth.narrowed
+        even = narrowed(even=True)
+        teeth = even if even.is_even and even.width >= _USEFUL * teeth.width else narrowed()
     try:
         teeth = teeth.checked()
     except ParameterError as wide:
         raise ParameterError(wide.name, wide.value, wide.code, partial(_narrower, teeth)) from wide
     # faces may break off where none of the known ends is
-    found = fitting(teeth, _WIDEST, _LEAST) if keys.face_width is None else fitting(teeth)
-    if found is None and teeth.is_creased:
+    given = keys.face_width is not None
+    found = fitting(teeth, least=()) if given else fitting(teeth, _ROUGHLY if glance else _WIDEST, _LEAST)
+    if found is not None:
+        return found
+    if teeth.is_creased and (glance or not given or fitting(teeth) is None):
         raise ParameterError("addendum_coefficient", keys.addendum_coefficient, "worm_wheel_below_base")
-    if found is None or (found != teeth and keys.face_width is not None):
-        cure = None if found is None else limit(found.width, teeth.width)
-        raise ParameterError("face_width", teeth.width, "worm_wheel_faces_break", cure)
-    return found
+    raise ParameterError("face_width", teeth.width, "worm_wheel_faces_break", partial(_narrower, teeth))
 
 
 def _narrower(teeth: WormTeeth) -> Nearest | None:
@@ -218,16 +222,19 @@ def _toothless(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
 
     def cure() -> Nearest | None:
         found = nearest(left_by(does, key), given, ends, enough=_NEAR)
-        if found is None or not isinstance(found.value, int | float) or kept(left_by(_is_made, key), found.value):
-            return found
-        # splines do not follow some that run all but along the contact's way to infinity
         less = _LOW if key == "addendum_coefficient" else ()
-        beyond = [end for end in (*ends, *less) if (end - found.value) * (found.value - given) > 0]
-        return nearest(left_by(_is_made, key), found.value, beyond, enough=_NEARLY)
+        # splines do not follow some that run all but along the contact's way to infinity
+        for made in (_is_likely, _is_made):
+            if found is None or not isinstance(found.value, int | float) or kept(left_by(_is_made, key), found.value):
+                break
+            beyond = [end for end in (*ends, *less) if (end - found.value) * (found.value - given) > 0]
+            found = nearest(left_by(made, key), found.value, beyond, enough=_NEARLY)
+        return found
 
     for does, key, values in _suspects(keys, refusal):
-        # of next to nothing the margin says less than of what is of use
-        margins = [left_by(holds, key) for holds in ((does,) if does in (_of_use, _is_made) else (does, _is_made))]
+        # of next to nothing, or over all of a width that is asked for, a margin says less than of what is of use
+        sure = does is _of_use and key == "addendum_coefficient" and keys.face_width is None
+        margins = [left_by(holds, key) for holds in ((does,) if sure else (does, _is_likely))]
         least = next((k for k, value in enumerate(values) if all(kept(holds, value) for holds in margins)), None)
         ends, given = values[least:], getattr(keys, key)
         if least is not None:
@@ -243,7 +250,7 @@ def _suspects(
     if keys.axial_thinning:
         yield _of_use, "axial_thinning", (0.0,)
     elif refusal.name == "hob_rounding_coefficient" and (found := refusal.nearest) and isinstance(found.value, float):
-        yield _is_made, refusal.name, (found.value, found.value / 2, 0.0)
+        yield _is_likely, refusal.name, (found.value, found.value / 2, 0.0)
     if keys.profile_shift_coefficient:
         yield _of_use, "profile_shift_coefficient", (0.0,)
     yield _of_use, "addendum_coefficient", _ADDENDA
@@ -270,6 +277,11 @@ def _is_some(keys: WormWheelSpec) -> bool:
 def _is_made(keys: WormWheelSpec) -> bool:
     """Whether there are teeth that splines follow."""
     return teeth_of(keys, drive_of(keys)).width > 0
+
+
+def _is_likely(keys: WormWheelSpec) -> bool:
+    """The same at a glance."""
+    return teeth_of(keys, drive_of(keys), glance=True).width > 0
 
 
 def _cured(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
