@@ -21,6 +21,8 @@ _COARSE_SAMPLES, _FINE_SAMPLES = 17, 65
 _CACHED, _WINDOW = 30_000, 300
 # near a cusp the steps only halve the error, so the thorough pass takes many
 _QUICK_STEPS, _THOROUGH_STEPS = 4, 24
+# ends so near, mm, shut a curve
+_SHUT = 1e-6
 NDArrayInt = NDArray[np.int64]
 
 
@@ -213,6 +215,18 @@ def _projected(points: Complex, curve: Travelled, samples: Real, start: NDArrayI
     """
     if isinstance(curve, Arc | Line):
         return _distance_to_plain(points, curve)
+    ends = curve.point(samples[[0, -1]])
+    found = np.abs(curve.point(_feet(points, curve, samples, start, newton=newton)) - points)
+    # where a curve is shut, the nearest sample is its first and its last one: the foot may lie on either side
+    seam = np.flatnonzero((start == 0) | (start == len(samples) - 1)) if abs(ends[1] - ends[0]) < _SHUT else start[:0]
+    if seam.size:
+        other = _feet(points[seam], curve, samples, len(samples) - 1 - start[seam], newton=newton)
+        found[seam] = np.minimum(found[seam], np.abs(curve.point(other) - points[seam]))
+    return np.minimum(found, np.abs(ends[:, None] - points).min(0))
+
+
+def _feet(points: Complex, curve: Travelled, samples: Real, start: NDArrayInt, *, newton: bool) -> Real:
+    """Parameters of feet by steps from samples."""
     low, high = curve.domain
     reach = (high - low) / (len(samples) - 1)
     t, before = samples[start], np.full(start.shape, math.nan)
@@ -235,8 +249,7 @@ def _projected(points: Complex, curve: Travelled, samples: Real, start: NDArrayI
         rows = rows[(following != at) & ~swings]
         if not rows.size:
             break
-    ends = np.abs(curve.point(samples[[0, -1]])[:, None] - points).min(0)
-    return np.minimum(np.abs(curve.point(t) - points), ends)
+    return t
 
 
 def _nearest_index(points: Complex, samples: Complex) -> NDArrayInt:

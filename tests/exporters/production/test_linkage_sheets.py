@@ -18,7 +18,6 @@ import pytest
 from exporters.documents.topics import calculate
 from exporters.production.plan import plan_build
 from exporters.production.sheets import SheetJob
-from parts.base.refusal import SceneError
 from parts.scene.load import scene_from_dict
 from tests.exporters.documents.test_calc_cam_linkage import LINKS, MP, D, centre, lift, pose
 from tests.parts.cams.coupler_cam.test_linkage_cam import ALL, FOUR
@@ -34,7 +33,7 @@ TABLE = {k: v for k, v in FOUR.items() if k != "phases"} | {
 }  # fmt: skip
 # the driven slider starts on the cam's axis
 BESIDE = ALL["slider"] | {"driven": {"member": "slider", "start": [0.0, 0.0], "direction_deg": 70.0},
-                          "coupler_point": [16.0, 39.0]}  # fmt: skip
+                          "coupler_point": [16.0, 39.0], "coupler_length": 52.0}  # fmt: skip
 CASES: dict[str, dict[str, Any]] = {n: k | {"phases": PHASES} for n, k in ALL.items()} | {
     "table": TABLE, "beside": BESIDE,
 }  # fmt: skip
@@ -198,16 +197,15 @@ def test_a_slider_is_drawn_on_its_line(tmp_path: Path) -> None:
 
 
 @pytest.mark.heavy
-def test_the_number_of_intervals_that_works_works() -> None:
-    keys = CASES["rocker"]
-    with pytest.raises(SceneError) as caught:
-        jobs(keys, intervals=72)
-    assert caught.value.nearest is not None
-    most = caught.value.nearest.value
-    assert isinstance(most, int)
-    with pytest.raises(SceneError, match="fits no paper"):
-        jobs(keys, intervals=most + 1)
-    assert jobs(keys, intervals=most)[0].canvas.paper == "A0"
+def test_rows_that_one_sheet_does_not_hold_stand_on_the_next() -> None:
+    """Of as many intervals as there may be, each position has its row in both tables."""
+    made = [job for job in jobs(CASES["rocker"], intervals=72, tolerance=1e-2) if job.path.endswith("dxf")]
+    assert len(made) > 2
+    texts = [[t.text for t in job.canvas.texts] for job in made]
+    places = [start + 130 / 72 * k for start in (0, 180) for k in range(73)]
+    for number, place in enumerate(places):
+        row = [str(number), f"{place:.2f}"]
+        assert sum(own[k : k + 2] == row for own in texts for k in range(len(own))) == 2, row
 
 
 def test_the_title_block_and_a_speed_stand_on_the_sheet() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ from geometry.gears.teeth.offset import gear_region
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from geometry.plane.contour import Contour, edge_points, signed_area
-from geometry.plane.measure import distance_to_chain, distance_to_profile, profile_area
+from geometry.plane.measure import distance_to_chain, distance_to_curve, distance_to_profile, profile_area
 from geometry.plane.profile import Label, Profile, Segment, circle, joint_turn
 from tests import brute
 from tests.sampling import examples
@@ -221,3 +222,26 @@ def test_joint_turn_signs() -> None:
     assert joint_turn(Line(0j, 1 + 0j), Line(1 + 0j, 1 + 1j)) == pytest.approx(math.pi / 2)
     assert joint_turn(Line(0j, 1 + 0j), Line(1 + 0j, 1 - 1j)) == pytest.approx(-math.pi / 2)
     assert joint_turn(Arc(0j, 1.0, 0.0, 1.0), Arc(0j, 1.0, 1.0, 1.0)) == pytest.approx(0, abs=1e-15)
+
+
+class Oval:
+    """A shut curve that is one: its last point is the first, to the last digit."""
+
+    domain = 0.0, 2 * math.pi
+
+    def point(self, t: Any) -> np.ndarray:
+        return self.derivatives(t, 0)[0]
+
+    def derivatives(self, t: Any, order: int) -> list[np.ndarray]:
+        turns = [np.mod(t, 2 * math.pi) + k * math.pi / 2 for k in range(order + 1)]
+        return [50 * np.cos(x) + 30j * np.sin(x) for x in turns]
+
+
+@pytest.mark.parametrize("off", [0.0, 0.3])
+def test_points_on_both_sides_of_where_a_curve_is_shut(off: float) -> None:
+    """Before: those beyond the seam were measured to it, where its first sample was the nearest one."""
+    curve = Oval()
+    t = np.concatenate([np.linspace(-0.09, 0.09, 30) % (2 * math.pi), np.linspace(1.0, 5.0, 9)])
+    along = curve.derivatives(t, 1)[1]
+    points = curve.point(t) - 1j * off * along / np.abs(along)
+    assert distance_to_curve(points, curve) == pytest.approx(np.full(len(t), off), abs=1e-9)
