@@ -231,8 +231,11 @@ class _Cover(Record, dict=True):
         sketch, placement = self.faced
         places = np.asarray(placement.inverse().apply(points))
         found = np.full(len(points), -np.inf)
-        for layer in sketch.layers:
-            found = np.where(layer.at_high.hold(places), layer.high, found)
+        for layer in reversed(sketch.layers):
+            left = np.flatnonzero(found == -np.inf)
+            if not len(left):
+                break
+            found[left[layer.at_high.hold(places[left])]] = layer.high
         return np.asarray(found + one.depth)
 
 
