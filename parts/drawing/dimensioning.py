@@ -83,9 +83,7 @@ class Laid(Record):
 
     def ink(self) -> Ink:
         """All that is on paper."""
-        ink = Ink(boxes=[text.box for text in self.canvas.texts])
-        for _, curve in self.view.strokes:
-            ink.add(curve, self.scale)
+        ink = Ink([self.scale * piece for piece in self.view.chords], [text.box for text in self.canvas.texts])
         for stroke in self.canvas.strokes:
             ink.add(stroke.curve)
         return ink
@@ -145,8 +143,11 @@ class _Layout:
     def __init__(self, view: View, scale: float, language: str, free: Mapping[Side, float], *, own: bool) -> None:
         self.canvas, self.ink, self.language, self.own, self.free = Canvas(0.0, 0.0, ""), Ink(), language, own, free
         self.paper = Paper(scale, 0j)
-        for _, curve in view.strokes:
-            self.ink.add(curve, scale, "edge")
+        self.ink.pieces += [scale * piece for piece in view.chords]
+        straight = (
+            scale * piece for (_, c), piece in zip(view.strokes, view.chords, strict=True) if isinstance(c, Line)
+        )
+        self.ink.note({"edge": [Line(complex(piece[0, 0]), complex(piece[1, 0])) for piece in straight]})
         self.body = self.extent()
         for loop in hatching([[self.paper.scaled(c) for c in loop] for loop in view.hatched], _HATCH):
             self._stroke("HATCH", loop)
@@ -208,7 +209,7 @@ class _Layout:
 
     def _stroke(self, layer: str, curve: CadCurve, role: Role | None = None) -> None:
         self.canvas.strokes.append(Stroke(layer, curve))
-        self.ink.add(curve, role=role)
+        self.ink.add(curve, role)
 
     def _write(self, text: Text) -> None:
         self.canvas.texts.append(text)

@@ -30,6 +30,12 @@ _MARGINS = np.where(_CROSSING >= 6.0, -_TOUCH, _TOUCH)
 _MARGINS[_ROLES.index("dimension"), _ROLES.index("dimension")] = _TOUCH
 
 
+def chords(curve: Curve | CadCurve) -> Complex:
+    """The ends of a chain of chords along a curve, (2, n); of a line itself."""
+    points = curve.point(np.array(curve.domain) if isinstance(curve, Line) else np.linspace(*curve.domain, _SAMPLES))
+    return np.stack([points[:-1], points[1:]])
+
+
 class Ink(Draft):
     """What is on paper."""
 
@@ -39,14 +45,12 @@ class Ink(Draft):
     spans: Real = field(default_factory=lambda: np.zeros((4, 0)))
     sides: Real = field(default_factory=lambda: np.zeros((0, 4)))
 
-    def add(self, curve: Curve | CadCurve, scale: float = 1.0, role: Role | None = None) -> None:
-        """A curve as a chain of points."""
-        is_line = isinstance(curve, Line)
-        places = np.array(curve.domain) if is_line else np.linspace(*curve.domain, _SAMPLES)
-        points = scale * curve.point(places)
-        self.pieces.append(np.stack([points[:-1], points[1:]]))
-        if role is not None and is_line:
-            self.note({role: [Line(complex(points[0]), complex(points[-1]))]})
+    def add(self, curve: Curve | CadCurve, role: Role | None = None) -> None:
+        """A curve as a chain of chords."""
+        piece = chords(curve)
+        self.pieces.append(piece)
+        if role is not None and isinstance(curve, Line):
+            self.note({role: [Line(complex(piece[0, 0]), complex(piece[1, 0]))]})
 
     def holds(self, lines: Sequence[Line], words: Box) -> bool:
         """Whether words and their lines have room: neither words over any line, nor over words."""

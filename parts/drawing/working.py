@@ -7,14 +7,16 @@ from __future__ import annotations
 
 import cmath
 import math
+from functools import cached_property
 from typing import Literal
 
 from geometry.base.record import Record
-from geometry.curves.curve import Curve
+from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.base.part import Part
 from parts.drawing.canvas import decimal
 from parts.drawing.font import MINUS
+from parts.drawing.ink import chords
 from parts.keys.working import WorkingTable
 from parts.texts.sheets import sheet_words
 
@@ -112,7 +114,7 @@ class Cut(Record):
     from_right: bool = False
 
 
-class View(Record):
+class View(Record, dict=True):
     """A view in model mm, its x axis the axis that it shares with its neighbours.
 
     ``strokes``: curves by the layer of their line; ``hatched``: closed loops of lines and arcs, material between them.
@@ -131,6 +133,11 @@ class View(Record):
     least: float = 0.0
     cuts: tuple[Cut, ...] = ()
     from_right: bool = False
+
+    @cached_property
+    def chords(self) -> tuple[Complex, ...]:
+        """Chords along each of its strokes, (2, n), model mm."""
+        return tuple(chords(curve) for _, curve in self.strokes)
 
 
 class PartDrawing(Record):
