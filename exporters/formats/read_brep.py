@@ -22,8 +22,9 @@ from geometry.base.record import replace
 from geometry.base.vectors import cross
 from parts.base.readback import ReadError
 
-# spans of arcs at most, rad, and degree of splines: integrals over them are exact up to 7, and of 8 to rounding
-_ARC, _MOST_DEGREE = np.pi / 4, 8
+# spans of arcs at most, rad, as polynomials off by 6e-12 of the radius, and degree of splines: integrals over them are
+# exact up to 7, and of 8 to rounding
+_ARC, _MOST_DEGREE = np.pi / 6, 8
 # directions that differ by less give no frame, rad
 _LEAST_TURN = 1e-6
 _SOLIDS, _SHELLS, _FACES, _LOOPS = ("MANIFOLD_SOLID_BREP",), ("CLOSED_SHELL",), ("ADVANCED_FACE",), ("EDGE_LOOP",)

@@ -35,6 +35,8 @@ _MARGIN_SHARE = 0.03
 _MOST_HALVINGS = 48
 _MOST_CELLS = 200_000
 _FOOT_STEPS = 3
+# cells of the domain 0 to 1 are not halved below this; feet whose distances differ by this part of a point are alike
+_LEAST_CELL, _ALIKE = 1e-13, 1e-15
 
 
 class BSpline(Record, eq=False):
@@ -229,7 +231,7 @@ def distance_bound(curve: Curve, spline: BSpline, x: Real, t: Real) -> tuple[flo
         found = np.where(np.isfinite(found), found, np.inf)
         wide = (found > worst * (1 + _MARGIN_SHARE) + floor) & (halving + 1 < _MOST_HALVINGS)
         count += int(np.count_nonzero(wide))
-        wide &= count < _MOST_CELLS
+        wide &= (count < _MOST_CELLS) & (cells.x[1] - cells.x[0] > _LEAST_CELL)
         proven = max(proven, float(np.max(found, where=~wide, initial=0.0)))
         if not wide.any():
             break
@@ -268,7 +270,13 @@ def _halved(curve: Curve, spline: BSpline, cells: _Ends, wide: NDArray[np.bool_]
     x, foot = cells.x[:, wide], cells.foot[:, wide]
     middle = x.mean(axis=0)
     guess = foot.mean(axis=0) + (x[1] - x[0]) / 8 * (cells.rate[0, wide] - cells.rate[1, wide])
-    between = np.clip(feet(curve, spline.point(middle), guess), foot[0], foot[1])
+    points = spline.point(middle)
+    between = np.clip(feet(curve, points, guess), foot[0], foot[1])
+    # where the curve all but stands still its feet are all alike: one that leaves both halves a share of them
+    quarter = (foot[1] - foot[0]) / 4
+    even = np.clip(between, foot[0] + quarter, foot[1] - quarter)
+    alike = np.abs(points - curve.point(even)) <= np.abs(points - curve.point(between)) + _ALIKE * np.abs(points)
+    between = np.where(alike, even, between)
     ends = np.concatenate([x[0], middle]), np.concatenate([middle, x[1]])
     at = np.concatenate([foot[0], between]), np.concatenate([between, foot[1]])
     return _cell_ends(curve, spline, np.stack(ends), np.stack(at))

@@ -29,11 +29,13 @@ from geometry.base.series import (
     taylor,
     unit_majorant,
 )
-from geometry.base.tolerance import PRECISION
 from geometry.curves.bounds import BoundedSpan
 from geometry.curves.curve import Complex, Curve, Real, first_turning, vertex_sign
 from geometry.laws.piece import split_places
 from geometry.laws.stack import PieceStack
+
+# pieces that are shorter have no ends of their own, mm: the coarsest files have six decimals
+_LEAST_LENGTH = 1e-5
 
 
 class Guided(Protocol):
@@ -102,13 +104,13 @@ class CamSpan(BoundedSpan):
         """Ends, inflections and vertices: between them the curvature keeps its sign and its trend.
 
         Arcs and chords need the first (geometry/approximation/chords.py), and few arcs the second: DERIVATIONS.md,
-        section 4. Beside a cusp what is shorter than kernels tell points apart stays with its neighbour.
+        section 4. Beside a cusp what is shorter than digits of a file stays with its neighbour.
         """
         inflections = [self.pitch_curvature] if isinstance(self, CentreEnvelope) else []
         edges = split_places([self.vertex_function, *inflections], *self.domain)
         points, kept = self.point(np.array(edges)).tolist(), [0]
         for k in range(1, len(edges) - 1):
-            if abs(points[k] - points[kept[-1]]) > PRECISION and abs(points[-1] - points[k]) > PRECISION:
+            if abs(points[k] - points[kept[-1]]) > _LEAST_LENGTH and abs(points[-1] - points[k]) > _LEAST_LENGTH:
                 kept.append(k)
         return [edges[k] for k in (*kept, len(edges) - 1)]
 

@@ -138,7 +138,8 @@ def _table_segments(cam: DiskCam, start: float, end: float, grow: float) -> list
 def _filling(cam: DiskCam, grow: float, before: Curve, after: Curve, angle: float) -> list[Segment]:
     """What closes the gap at a jump of velocity: the follower rolls over its own corner, or slides along its face."""
     start, end = end_point(before), start_point(after)
-    if abs(end - start) <= TOLERANCES.relative_join * abs(start):
+    # the base circle may be next to nothing beside the roller
+    if abs(end - start) <= TOLERANCES.relative_join * (abs(start) + cam.radius):
         return []
     if cam.is_flat:
         return [Segment(Line(start, end), Label.CORNER)]
