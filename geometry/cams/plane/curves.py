@@ -35,7 +35,7 @@ from geometry.laws.piece import split_places
 from geometry.laws.stack import PieceStack
 
 # pieces that are shorter have no ends of their own, mm: the coarsest files have six decimals
-_LEAST_LENGTH = 1e-5
+_LEAST_LENGTH = 2e-6
 
 
 class Guided(Protocol):
