@@ -275,7 +275,6 @@ def _measure_patches(model: Model, patches: Patches, flux: Real, size: Real, are
         lengths = np.stack([np.linalg.norm(line - line[:, :1], axis=2).max(axis=1) for line in sides], axis=1)
         three = np.flatnonzero(own[part] == 3)
         side[three, 3], off[three, 3] = lengths[three].argmin(axis=1), lengths[three].min(axis=1)
-        way[three, 3] = way[three, 0]
         proper = np.all(np.sort(side, axis=1) == np.arange(4), axis=1) & np.all(way == way[:, :1], axis=1)
         gap[faces] = np.where(proper, off.max(axis=1), np.inf)
         area[faces] = way[:, 0]

@@ -244,7 +244,6 @@ class PitchLine(Record, eq=False, dict=True):
         radius, rate = sharpened(radius, at[0], half), sharpened(rate, at[1], half)
         square = _speed_square(radius, rate)
         exact = _speed_square(*at)
-        square = sharpened(square, exact, half)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             least = exact[0] - half * square[1]
             slow = majorant_power(least, square[1 : order + 1], -0.5)

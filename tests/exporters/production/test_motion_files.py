@@ -118,6 +118,11 @@ def test_spoiled_motions_are_seen(tmp_path: Path) -> None:
         assert spoiled != text
         file.write_text(spoiled, encoding="utf-8")
         assert run("verify", str(file)) == 1, new
+    # a hole that is left out moves nothing
+    less = re.sub(r'("[^"]*Z) ?M[^"Z]*Z', r"\1", text, count=1)
+    assert less != text
+    file.write_text(less, encoding="utf-8")
+    assert run("verify", str(file)) == 1
 
 
 def test_a_loop_of_any_length_is_good(tmp_path: Path) -> None:

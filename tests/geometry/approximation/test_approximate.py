@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from geometry.approximation.arcs import arc_error, arc_spline
 from geometry.approximation.chords import approximate_profile, chord_error, chord_parameters
 from geometry.base.errors import ConvergenceError
+from geometry.base.placement import Placement2
 from geometry.curves.curve import Curve
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
@@ -217,6 +218,17 @@ def test_a_spoiled_piece_raises_the_arc_bound(curve: Curve, place: int) -> None:
     assert int(np.argmax(found)) == index
     error, _ = arc_error(curve, spline.parameters, spline.points, bulges, tolerance)
     assert tolerance < found.max() <= error <= 2 * found.max()
+
+
+@EVERY
+def test_an_arc_bound_is_the_same_wherever_the_curve_stands(curve: Curve) -> None:
+    """About the middle of its first chord, and far away."""
+    spline = arc_spline(curve, 1e-3)
+    base, _ = arc_error(curve, spline.parameters, spline.points, spline.bulges, 1e-3)
+    for at in (-(spline.points[0] + spline.points[1]) / 2, 300j):
+        moved = curve.placed(Placement2(0.0, complex(at)))
+        found, _ = arc_error(moved, spline.parameters, spline.points + at, spline.bulges, 1e-3)
+        assert found == pytest.approx(base, rel=1e-6, abs=1e-11)
 
 
 @pytest.mark.parametrize("place", [0, 1, -1], ids=["first", "middle", "last"])

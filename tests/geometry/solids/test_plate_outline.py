@@ -1,5 +1,6 @@
 """Outlines of lines and arcs, moved: against GEOS' buffers of fine polygons."""
 
+import itertools
 import math
 
 import numpy as np
@@ -18,6 +19,7 @@ from geometry.cams.contact.outlines import (
     roller_stem,
     round_arm,
 )
+from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Line
 from geometry.plane.measure import profile_area
 from geometry.plane.profile import Region
@@ -59,6 +61,19 @@ def test_moved_outlines_are_those_of_geos(name: str, offset: float) -> None:
     found, wanted = polygon(moved_edges(edges, offset)), polygon(edges).buffer(offset, quad_segs=1500)
     assert found.is_valid
     assert found.symmetric_difference(wanted).area < 1e-4 * wanted.length
+
+
+@pytest.mark.parametrize("name", [name for name in SHAPES if "arm" in name and name != "arm"])
+def test_arms_are_closed_and_hooks_square(name: str) -> None:
+    """What stands beyond the boss is level or upright, but for a tip and the tangents of the boss."""
+    edges = SHAPES[name]
+    for one, two in itertools.pairwise((*edges, edges[0])):
+        assert abs(end_point(one) - start_point(two)) < 1e-12
+    lines = [end_point(e) - start_point(e) for e in edges if isinstance(e, Line)]
+    square = [way for way in lines if min(abs(way.real), abs(way.imag)) < 1e-12]
+    assert len(square) >= 2
+    # 8 mm wide where the hook stands, 12 mm the flat one
+    assert min(map(abs, square)) == pytest.approx(12.0 if name == "flat arm" else 8.0)
 
 
 @given(st.floats(0.5, 60), st.floats(0.5, 60), st.floats(0, 1), st.floats(-1, 1))

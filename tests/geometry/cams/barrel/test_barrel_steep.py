@@ -51,6 +51,19 @@ def test_bounds_of_values_alone_hold() -> None:
     assert height[0][0] >= np.abs(STEEP.wall(np.linspace(0.5, 0.7, 9), UPPER, STEEP.outer)[:, 2]).max()
 
 
+def test_bounds_hold_in_the_plane_across_an_arm() -> None:
+    """What the arm to the contact adds to the polar angle's derivatives counts: by differences of the exact edge."""
+    piece = ARM.motion.moving_pieces()[0]
+    for side in (UPPER, LOWER):
+        edge = DevelopedEdge(ARM, piece, side, 0.0, piece.start, piece.end)
+        for low, high in pairwise(np.linspace(*piece.domain, 40).tolist()):
+            polar, _ = edge_bounds(ARM, piece, ARM.outer, 2, np.array([low]), np.array([high]))
+            inside = np.linspace(low, high, 9)
+            for order in (1, 2):
+                most = np.abs(edge.derivative(inside, order).real).max() / ARM.outer / math.factorial(order)
+                assert most <= polar[order][0] * (1 + 1e-9)
+
+
 def test_a_steep_groove_takes_few_arcs_and_is_proven() -> None:
     """As many as its own error asks for; 335 for one edge when the proof could not follow."""
     low, high = STEEP.height_range()

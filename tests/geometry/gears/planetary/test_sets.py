@@ -9,6 +9,8 @@ from fractions import Fraction
 
 import pytest
 
+from geometry.base.errors import ParameterError
+from geometry.gears.planetary.assembly import Satellites, given_set
 from geometry.gears.planetary.sets import LINKS, SCHEMES, PlanetarySet, Search, carried_of, found_sets, ratio_of
 
 
@@ -66,6 +68,20 @@ def test_clocking_is_the_difference_of_the_phases() -> None:
             assert (here[1] - start[1] - (here[0] - start[0]) - clocking) % unit == 0
             assert abs(clocking) <= unit / 2
         assert any(one.clocking(n)) == bool(one.places % n)
+
+
+@pytest.mark.parametrize(("teeth", "satellites"), [((5, 3, 11), 3), ((5, 4, 13), 4), ((6, 4, 14), 3)])
+def test_sets_of_few_teeth_are_offered_teeth_that_exist(teeth: tuple[int, int, int], satellites: int) -> None:
+    """Coaxial, assembled, of 3 teeth and more; none of another ratio that is nearer."""
+    one = given_set(SCHEMES["james"], teeth, (Fraction(2), Fraction(2)))
+    with pytest.raises(ParameterError) as refusal:
+        Satellites(satellites).places(one)
+    near = [range(max(3, z - 4), z + 5) for z in teeth[:2]]
+    fits = {(a, b, a + 2 * b): abs(1 + Fraction(a + 2 * b, a) - 1 - Fraction(teeth[2], teeth[0]))
+            for a in near[0] for b in near[1] if 2 * (a + b) % satellites == 0
+            and 2 * math.sin(math.pi / satellites) * (a + b) > 2 * b + 4}  # fmt: skip
+    offered = tuple(map(int, str(refusal.value.numbers["teeth"]).split("/")))
+    assert fits[offered] == min(fits.values())
 
 
 def test_published_places() -> None:
