@@ -294,6 +294,7 @@ def test_a_name_that_is_none_is_refused(text: str, good: Path, tmp_path: Path) -
 AROUND = (
     "APPLICATION", "PRODUCT", "SHAPE_DEFINITION", "NEXT", "CONTEXT", "ITEM", "MECHANICAL", "STYLED", "PRESENTATION",
     "SURFACE_S", "FILL", "CURVE", "PROPERTY", "REPRESENTATION", "MEASURE", "DERIVED", "(R", "UNCERTAINTY",
+    "DESCRIPTIVE",
 )  # fmt: skip
 
 

@@ -147,6 +147,18 @@ def test_each_dimension_that_is_left_out_is_missed_and_one_too_many_is_seen(tmp_
     assert any("twice" in fault for fault in faults(document, part))
 
 
+def test_a_dimension_that_shows_nothing_is_refused(tmp_path: Path) -> None:
+    (job,) = jobs(PARTS["recesses"], formats=("dxf",))
+    file = tmp_path / job.path
+    job.write({}, file)
+    assert job.verify(file, 0.0).failures == ()
+    text = file.read_text(encoding="utf-8")
+    name = re.search(r"AcDbDimension\n.*?\n  2\n(\*D\d+)\n", text, re.DOTALL)
+    assert name is not None
+    file.write_text(text[: name.start(1)] + "*D999" + text[name.end(1) :], encoding="utf-8")
+    assert job.verify(file, 0.0).failures
+
+
 def many(count: int) -> list[tuple[float, ...]]:
     """Corners of a bobbin, each 1 mm on, the last but one the beginning of an arc."""
     rows = [(20 + 0.5 * (k * k % 13), float(k)) for k in range(count - 1)]

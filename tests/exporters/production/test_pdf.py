@@ -144,6 +144,8 @@ def test_words_are_found_in_cyrillic_and_the_bytes_are_the_same(tmp_path: Path, 
 def test_what_is_off_or_missing_in_a_pdf_is_seen(tmp_path: Path) -> None:
     job = job_of(purpose="meshing")
     canvas, file = job.canvas, tmp_path / "spoilt.pdf"
+    write_sheets(file, [canvas], "t")
+    assert job.verify(file, 0.0).failures == ()
     base = next(k for k, s in enumerate(canvas.strokes) if s.layer == "CIRCLE_BASE")
     for number, moved, wanted in (
         (base, replace(canvas.strokes[base].curve, radius=canvas.strokes[base].curve.radius + 1e-3), "no circle of"),

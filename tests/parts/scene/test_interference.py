@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from parts.scene.interference import solid_overlaps
+from parts.scene.interference import INSET, inner_solid, solid_overlaps
 from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import place
 
@@ -73,3 +73,12 @@ def test_the_volume_is_that_of_another_library() -> None:
     turned = affinity.translate(affinity.rotate(areas[1], 11, origin=(0, 0)), 47, 3)
     common = areas[0].intersection(turned).area * 8
     assert math.isclose(found, common, rel_tol=0.05)
+
+
+def test_a_turned_body_is_looked_at_a_little_within_its_surface() -> None:
+    """A cylinder whose every face has gone in by the same little."""
+    rod = {"kind": "shaft", "steps": [{"diameter": 20.0, "length": 30.0}]}
+    part = make_parts(scene_from_dict({"parts": {"a": rod}}, "t", "t"), "t")[0]["a"]
+    inset = INSET * part.body(0.0).section_reach()
+    found = inner_solid(part).volume()
+    assert math.pi * (10 - 2 * inset) ** 2 * (30 - 4 * inset) < found < math.pi * (10 - inset) ** 2 * (30 - 2 * inset)

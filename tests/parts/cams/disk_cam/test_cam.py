@@ -283,7 +283,7 @@ WRONG: dict[str, tuple[dict[str, Any], str, str]] = {
     "flat rocker without base": (without_base("oscillating flat"), "base_circle_radius", "base_circle_missing_of_arm"),
     "rocker without pivot": (CAMS["oscillating roller"] | {"oscillating": {"arm_length": 80.0}},
                              "oscillating.centre_distance", "distance_missing"),
-    "rocker without arm": (BARE | AT_50 | {"oscillating": {"centre_distance": 90.0}}, "oscillating.arm_length",
+    "rocker without arm": (BARE | AT_50 | {"oscillating": {}}, "oscillating.arm_length",
                            "not_above_zero"),
     "pivot too near": (BARE | AT_50 | {"oscillating": {"centre_distance": 62.0, "arm_length": 80.0}},
                        "oscillating.centre_distance", "pivot_keeps_no_angle"),
