@@ -105,7 +105,8 @@ def test_oval_gears_turn_unevenly(driven: str) -> None:
         uneven = max(uneven, abs(math.remainder(stand["oval"] + stand["second_oval"], 1.0)))
         assert math.remainder(stand[driven] - value, 1.0) == pytest.approx(0, abs=1e-14)
     assert uneven > 0.01
-    assert [placing.train.rates(key) is None for key in ("oval", "second_oval")] == [key != driven for key in ("oval", "second_oval")]
+    for key in ("oval", "second_oval"):
+        assert (placing.train.rates(key) is None) == (key != driven)
 
 
 @pytest.mark.parametrize("name", ["idler_train", "lantern_pair", "cycloidal_reducer"])
