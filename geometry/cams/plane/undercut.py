@@ -61,9 +61,9 @@ class Kept(Record):
 
 def is_whole(cam: DiskCam, grow: float = 0.0) -> bool:
     """Whether the quick test proves (to its sampling) that nothing is undercut."""
-    if _folds(cam, grow):
-        return False
     for curve, t in _curves(cam, grow, _QUICK_SAMPLES):
+        if least_stretch(curve, t) <= 0:
+            return False
         point, rate = curve.point(t), curve.derivative(t)
         if not np.all((np.conj(point) * rate).imag < 0):
             return False
