@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.record import Record
 from geometry.laws.piece import LawPiece, Real
+
+# jumps below this part of the greatest acceleration are rounding
+_SMOOTH = 1e-9
 
 
 class Law(Record):
@@ -33,6 +39,15 @@ class Law(Record):
             if size[index] > best * (1 + 1e-12):
                 best, where = float(size[index]), float(at[index])
         return best, where
+
+    def jerk(self) -> float:
+        """C_j, the greatest |s^(3)|: infinite where velocity or acceleration jumps, at either end too (VDI 2143)."""
+        jumps = [
+            abs(float(a.value(a.end, k)) - float(b.value(b.start, k))) for a, b in pairwise(self.pieces) for k in (1, 2)
+        ]
+        first, last = self.pieces[0], self.pieces[-1]
+        ends = [abs(float(p.value(at, k))) for p, at in ((first, first.start), (last, last.end)) for k in (1, 2)]
+        return math.inf if max(jumps + ends) > _SMOOTH * max(1.0, self.peak(2)[0]) else self.peak(3)[0]
 
     def reversed_in_time(self) -> Law:
         """The law run backwards and upside down, 1 - s(1 - u): first and last half exchanged."""

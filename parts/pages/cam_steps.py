@@ -148,6 +148,7 @@ def coefficient_steps(page: Sheet, phases: Phases) -> None:
         speed, bend = (max(map(abs, phase.law.peak(order))) for order in (1, 2))
         page.add("velocity_coefficient", speed)
         page.add("acceleration_coefficient", bend)
+        page.add("jerk_coefficient", phase.law.jerk())
         if phases.swings:
             continue
         terms = ("peak_slope", "peak_bend") if phases.slides else ("peak_velocity", "peak_acceleration")

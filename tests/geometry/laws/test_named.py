@@ -102,6 +102,21 @@ def test_coefficients_as_printed(name: str) -> None:
     assert [NAMED_LAWS[name]().peak(order)[0] for order in (1, 2)] == pytest.approx(PRINTED[name], abs=1e-3)
 
 
+# C_j as printed (Norton's table of cam functions); a law whose acceleration jumps has none
+JERKS = {
+    "sine": 39.5,
+    "polynomial_345": 60.0,
+    "polynomial_4567": 52.5,
+    "modified_sine": 69.5,
+    "modified_trapezoid": 61.4,
+}
+
+
+@pytest.mark.parametrize("name", [*JERKS, "cosine", "constant_acceleration", "constant_velocity"])
+def test_jerks_as_printed(name: str) -> None:
+    assert NAMED_LAWS[name]().jerk() == pytest.approx(JERKS.get(name, np.inf), abs=0.05)
+
+
 def scca_oracle(a: Any, b: Any, c: Any, u: Any) -> tuple[Any, Any, Any]:
     """s, s', s'' at u by quadrature of the acceleration of shares a, b, c, scaled to the lift."""
     ends = [a / 2, (a + b) / 2, (a + b + c) / 2]
