@@ -57,8 +57,9 @@ _LEVELS, _GLANCE, _SETTLED = 97, 7, 1e-9
 # how far beyond the ends of a part the foot of a perpendicular may lie, and how far the contact has to run on beyond
 # the tip, as shares of it
 BEYOND, _RUNS_ON = 0.02, 0.002
-# shares of a fillet at which it is looked whether it folds
-_FOLD = np.linspace(0.0, 1.0, 17)[:, None]
+# shares of a part at which it is looked whether it folds, and what a flank's least step is of its mean one: of those
+# that are not about to fold it is 0.07 and more
+_FOLD, _STILL = np.linspace(0.0, 1.0, 17)[:, None], 2e-2
 # how far beside an end of undercut it is looked at, and how well that end is known then, part of the width
 _BESIDE, _ABOUT = (-1e-2, -1e-3, 1e-3, 1e-2), 1e-5
 # of pictures: points of which a few are drawn, and how near their chords are, part of the size
@@ -255,7 +256,13 @@ class WormTeeth(Record, dict=True):
         if not (goes_on | all_fillet).all():
             # the contact has run off to infinity on the other side, where the hob cuts from behind
             raise NoTooth("worm_wheel_flank_ends")
-        return Side(z, inner, normal, outer, undercut, hurry, all_fillet)
+        side = Side(z, inner, normal, outer, undercut, hurry, all_fillet)
+        run = np.diff(np.abs(self.flank(side, _FOLD).plane), axis=0)
+        short = all_fillet | (run.sum(axis=0) < _LEAST_DEPTH * hob.worm.module)
+        if not ((run > _STILL * run.mean(axis=0)) | short).all():
+            # about to fold within the flank
+            raise NoTooth("worm_wheel_undercut")
+        return side
 
     def _hurry(self, z: Real, inner: Real, normal: Real, outer: Real) -> tuple[tuple[Real, Real], NDArray[np.bool_]]:
         """How fast both parts go at their beginnings beside their ends, and whether the contact goes on there."""

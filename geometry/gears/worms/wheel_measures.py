@@ -6,7 +6,6 @@ The wheel is teeth about a core: a body whose rim is a circle, which the teeth t
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import cached_property
 from itertools import pairwise
 
@@ -34,8 +33,6 @@ _FOUND = 1e-6
 _BLOCK, _BESIDE = 8192, 0.1
 # a way of no length, squared, mm^2
 _NONE = 1e-30
-# what a part of a side is at shares
-_Part = Callable[[Side, Real], Cut]
 # parts of a side
 FILLET, FLANK = 0, 1
 
@@ -160,7 +157,7 @@ class WormWheel(Record, dict=True):
         )
         none = np.zeros(len(height), dtype=bool)
         side = Side(height, inner, normal, outer, none, (hurry[0], hurry[1]), none)
-        cut, left = self._foot((self.teeth.fillet, self.teeth.flank)[which], side, plane, share)
+        cut, left = self._foot(which, side, plane, share)
         off = (np.conj(cut.normal) * (plane - cut.plane)).real
         # beyond its ends a part has no foot
         along = np.where(np.abs(left) > self._found, left, 0.0)
@@ -168,18 +165,18 @@ class WormWheel(Record, dict=True):
         # where the fillet reaches the tip there is no flank
         return np.where((inner == outer) & (which == FLANK), np.inf, away)
 
-    def _foot(self, part: _Part, side: Side, plane: Complex, share: Real) -> tuple[Cut, Real]:
+    def _foot(self, which: int, side: Side, plane: Complex, share: Real) -> tuple[Cut, Real]:
         """Feet of points (n,), each in its plane, sought from shares of a part; how far along it each is off still, mm.
 
         Steps of the secant: where a side is about to fold a slope means little a step further on.
         """
+        part, forwards = (self.teeth.fillet, self.teeth.flank)[which], self._forwards[which]
         cut = part(side, share)
         way = (part(side, share + _SHIFT).plane - cut.plane) / _SHIFT
         slope = np.maximum(np.abs(way), _NONE)
-        forwards = np.sign((np.conj(cut.normal) * way).imag)
 
         def ahead(which: NDArray[np.intp], cut: Cut) -> Real:
-            return forwards[which] * (np.conj(cut.normal) * (plane[which] - cut.plane)).imag / np.abs(cut.normal)
+            return forwards * (np.conj(cut.normal) * (plane[which] - cut.plane)).imag / np.abs(cut.normal)
 
         goes = np.arange(len(share))
         share, left = share.copy(), ahead(goes, cut)
@@ -195,6 +192,17 @@ class WormWheel(Record, dict=True):
             slope[goes] = np.where(rise > 0, rise, slope[goes])
             share[goes], left[goes] = there, now
         return part(side, share), left
+
+    @cached_property
+    def _forwards(self) -> tuple[float, ...]:
+        """Of fillet and flank: 1 where outwards along it is to the left of its normal, -1 where it is to the right.
+
+        A part never turns back, but where it all but stands still its own way there is rounding.
+        """
+        side, ends = self.teeth.side(0.0), np.linspace(0.0, 1.0, 3)[:, None]
+        parts = (part(side, ends) for part in (self.teeth.fillet, self.teeth.flank))
+        turned = ((np.conj(cut.normal[1]) * (cut.plane[2] - cut.plane[0])).imag for cut in parts)
+        return tuple(float(np.sign(x[0])) for x in turned)
 
     @property
     def _found(self) -> float:

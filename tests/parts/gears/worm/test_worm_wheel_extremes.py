@@ -239,6 +239,17 @@ def test_teeth_that_reach_below_the_base_circle_are_told_the_addendum_that_does_
     _held({**keys, "axial_thinning": 0.15})
 
 
+def test_a_flank_that_is_about_to_fold_is_no_widest_one_and_is_measured_beside_it() -> None:
+    keys = {"module": 2.0, "number_of_starts": 9, "diameter_quotient": 8.83, "number_of_teeth": 14, "form": "ZI"}
+    keys |= {"pressure_angle_deg": 17.5, "profile_shift_coefficient": -0.3, "addendum_coefficient": 0.4}
+    wheel = _built(keys | {"face_width": 7.7}).wheel
+    # before: 7.875 was the widest, where it all but stands still and its file measured 0.84 mm off
+    assert replace(wheel.teeth, width=7.875).ended == "worm_wheel_undercut"
+    plane = wheel.teeth.flank(wheel.teeth.side(-3.85), np.linspace(0.0, 1.0, 201)[:, None]).plane[:, 0]
+    points = np.stack([plane.real, plane.imag, np.zeros(201)], axis=-1)
+    assert float(wheel.from_side(FLANK, points).max()) < 1e-3
+
+
 def test_loose_splines_are_off_by_no_more_than_they_say() -> None:
     keys = {"module": 5.0, "number_of_starts": 8, "diameter_quotient": 4.9, "number_of_teeth": 45, "form": "ZN2"}
     keys |= {"profile_shift_coefficient": 0.3, "hob_diameter_quotient": 5.672, "pressure_angle_deg": 17.5}
