@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import itertools
 import json
 import math
@@ -199,6 +200,9 @@ def test_every_format_of_every_topic(topic: str, language: str) -> None:
     assert f'<html lang="{language}">' in made["html"]
     for tag in ("html", "table", "tr", "td", "ul", "sub", "svg"):
         assert len(re.findall(rf"<{tag}[ >]", made["html"])) == made["html"].count(f"</{tag}>"), tag
+    for note in map(words(language).say, sheet.notes):
+        assert note in made["text"]
+        assert f"<li>{html.escape(note)}</li>" in made["html"]
     data = json.loads(made["json"])
     assert len(data["steps"]) == len(sheet.steps())
     for step in data["steps"]:

@@ -12,8 +12,10 @@ import numpy as np
 import pytest
 import trimesh
 
+from exporters.formats.read_glb import read_glb
 from exporters.production.build import build
 from exporters.production.plan import Plan, plan_build
+from parts.base.readback import ReadError
 from parts.base.refusal import SceneError
 from parts.scene.load import scene_from_toml
 from tests.exporters.making import run
@@ -178,6 +180,15 @@ def test_spoiled_films_are_seen(tmp_path: Path, what: str) -> None:
     build(planned(TURNED), tmp_path)
     file = tmp_path / "s.glb"
     assert run("verify", str(file)) == 0
+    good = file.read_bytes()
+    # the head: another kind of file, another version, another length
+    for at in (0, 4, 8):
+        spoilt = bytearray(good)
+        spoilt[at] ^= 1
+        file.write_bytes(spoilt)
+        with pytest.raises(ReadError, match="does not begin"):
+            read_glb(file)
+    file.write_bytes(good)
     scene, blob = opened(file)
     SPOILED[what](scene, blob)
     text = json.dumps(scene).encode()

@@ -35,6 +35,31 @@ def test_what_was_held_all_over_says_over_what() -> None:
         assert check_lines(found, "en") == [told]
 
 
+def test_what_lies_and_what_was_held_on_the_way_is_told() -> None:
+    hidden = {"first": "one", "second": "two", "share": 0.25, "depth": 0.5}
+    motion = {"pairs": 2, "tested": 1, "poses": 7, "uncovered": [hidden, hidden | {"depth": 0.125, "share": 1}]}
+    assert check_lines({"motion": motion | {"lying": ["shaft"]}}, "en", {"shaft": "Shaft", "two": "Two"}) == [
+        "solids in motion: 2 pairs over the period of each; 7 poses checked, the rest repeats or lies apart",
+        "note: one and Two were checked over 0.25 of their period",
+        "note: checked as they stand and not in motion, since their axes are not upright: Shaft",
+        "note: between the poses checked one and Two may overlap by up to 0.5 mm, the most of 2 pairs",
+    ]
+    apart = {"motion": {"pairs": 1, "tested": 0, "poses": 0, "uncovered": []}}
+    assert check_lines(apart, "en") == ["solids in motion: 1 pair; none can meet the other"]
+
+
+def test_a_caption_has_its_drives_where_all_its_letters_have_room() -> None:
+    """To the letter: with one letter less of room they are left out."""
+    bad = {"kind": "cam_yoke", "first": "cam", "second": "yoke", "verdict": "clear", "lift": 1.0, "yoke_breadth": 2.0,
+           "gap": 0.1, "tolerance": 1e-8}  # fmt: skip
+    checks = {"mates": [bad | {"second": f"yoke_{n}"} for n in range(9)],
+              "drives": [{"instance": "cam", "train": {"cam": 1.0}}]}  # fmt: skip
+    told = ["CLEAR: 9 pairs", "drive cam, turns: cam = 1"]
+    letters = sum(map(len, told))
+    assert caption_lines(checks, "en", {}, letters) == told
+    assert caption_lines(checks, "en", {}, letters - 1) == told[:1]
+
+
 def test_a_caption_tells_what_is_not_well_and_counts_the_rest() -> None:
     told = {"kind": "cam_yoke", "first": "cam", "lift": 1.0, "yoke_breadth": 2.0, "gap": 0.1, "tolerance": 1e-8}
     mates = [told | {"second": f"yoke_{n}", "verdict": "overlap" if n == 7 else "clear"} for n in range(40)]
