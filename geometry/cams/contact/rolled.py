@@ -29,12 +29,16 @@ _STEPS = 40
 _FLAT_BULGE = 1e-9
 # errors of an outline within which a guide's reach ends soon
 _NEAR_END = 10
+# how far the normal turns beyond both edges at the ends of splines, rad
+_BEYOND = 0.1
 # halvings of an edge towards its outermost point, and numbers looked at at once
 _HALVINGS, _AT_ONCE = 40, 1_000_000
 # steps to a face's direction, how near they come, and the turn by which their rate is found, rad
 _TURNS, _MET, _STIR = 12, 1e-14, 1e-6
 # angles this near to an edge's end, in steps of the grid, are its own: ends of edges differ by the digits of a file
 _END = 1e-6
+# and by so much an angle may be missed where an edge is touched
+_TOUCHED = 1e-3
 
 
 class Rounds(Record):
@@ -126,9 +130,12 @@ class Outline(Record):
         along = np.argsort(self.order)
         outward = np.concatenate([normal for _, normal in starts])[along]
         corner, before = (np.concatenate([s[k] for s in ends])[along] for k in (0, 1))
-        turn = np.angle(np.roll(outward, -1) / before)
+        # beside cusps digits turn the ends of splines; a point of the outline stops no follower too high
+        beyond = _BEYOND if any(isinstance(e, Smooth) for e in whole) else 0.0
+        turn = np.angle(np.roll(outward, -1) / before) + 2 * beyond
         convex = turn > 0
-        corners = Rounds(corner[convex], np.zeros(int(convex.sum())), np.angle(before[convex]), turn[convex])
+        first = np.angle(before[convex]) - beyond
+        corners = Rounds(corner[convex], np.zeros(int(convex.sum())), first, turn[convex])
         return [*whole, corners]
 
 
@@ -181,8 +188,10 @@ def rolled_lift(cam: Stopped, outline: Outline, count: int, offset: float = 0.0,
             continue
         edge, t0, t1, target = _crossings(cam, family, step, offset)
         t = _solve(cam, family, edge, t0, t1, step * target.astype(np.float64), offset)
-        height = cam.stop(*family.at(edge, t), offset)[1]
-        np.fmax.at(lift, target % count, sign * height)
+        angle, height = cam.stop(*family.at(edge, t), offset)
+        # where the normal turns about at once, a cell has no such angle
+        met = np.abs(_folded(angle - step * target)) <= _TOUCHED * step
+        np.fmax.at(lift, (target % count)[met], sign * height[met])
     return np.where(np.isfinite(lift), sign * lift, np.nan)
 
 

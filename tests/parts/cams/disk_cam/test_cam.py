@@ -384,6 +384,22 @@ def test_the_least_cam_of_a_flat_follower_has_files_though_its_profile_all_but_s
     assert all(file["measured"][k] <= 1e-6 for file in files for k in ("max_deviation", "lift_error"))
 
 
+def test_a_mushroom_is_held_beside_a_cusp_whose_end_leg_is_as_short_as_digits(tmp_path: Path) -> None:
+    """The digits of a STEP file turn that leg: the follower fell through by 6 mm."""
+    phases = [
+        {"move": "rise", "angle_deg": 84.0, "law": "modified_sine_cv20"},
+        {"move": "return_", "angle_deg": 134.0, "law": "triangle"},
+        {"move": "dwell", "angle_deg": 142.0},
+    ]
+    keys = {"kind": "cam", "phases": phases, "follower": "mushroom", "lift": 2.13, "follower_radius": 3.6710253}
+    scene = tmp_path / "mushroom.toml"
+    text = scene_text(keys | {"least_transmission_angle_deg": 63.0})
+    scene.write_text(text.replace('"dxf"', '"step"'), encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path), "--quiet"]) == 0
+    (file,) = read_report(tmp_path / "mushroom")["files"]
+    assert file["measured"]["lift_error"] <= 2e-6
+
+
 def test_the_drawing_of_a_heart_cam_encloses_what_archimedes_says(tmp_path: Path) -> None:
     """Two spirals: pi (r^2 + r h + h^2 / 3); each is one spline of half a turn."""
     halves = [{"move": move, "angle_deg": 180.0, "law": "constant_velocity"} for move in ("rise", "return_")]
