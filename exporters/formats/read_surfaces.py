@@ -161,13 +161,20 @@ def measure(model: Model, within: float) -> tuple[Real, Real, Real]:
 
 
 def area_of(model: Model, pieces: int) -> float:
-    """The area of all faces, mm^2, spans of spline surfaces cut into so many pieces each way."""
+    """The area of all faces, mm^2, spans of spline surfaces cut into so many pieces each way, and of moved curves."""
     if pieces == 1:
         return float(model.area.sum())
     nodes, weights = lobatto()
     steps = np.arange(pieces)[:, None]
     shares, parts = ((steps + nodes) / pieces).ravel(), np.tile(weights, pieces) / pieces
     total = float(model.area.sum())
+    if (swept := np.flatnonzero(model.kind == EXTRUSION)).size:
+        span, wall = spans_of(model.curves, model.moved[swept])
+        whole, finer = (
+            np.bincount(wall, (np.linalg.norm(slopes, axis=2) @ sizes)[span])
+            for slopes, sizes in ((model.slopes, weights), (model.curves.at(shares)[1], parts))
+        )
+        total += float(model.area[swept] @ (finer / whole - 1))
     for patches in model.patches:
         for row in range(len(patches.faces)):
             _, along, across = patches.grid(shares, shares, slice(row, row + 1))

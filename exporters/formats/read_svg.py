@@ -131,7 +131,9 @@ def svg_path(data: str, layer: str) -> Loop:
 
 
 def _svg_bulge(chord: complex, radius: float, large: bool, sweep: bool) -> float:
-    """Bulge of an SVG arc; sweep flag 1 turns right once y is up."""
+    """Bulge of an SVG arc, a line where its radius is 0 (SVG 1.1, F.6.2); sweep flag 1 turns right once y is up."""
+    if radius == 0:
+        return 0.0
     half = math.asin(min(1.0, abs(chord) / (2 * radius)))
     quarter = (math.pi - half if large else half) / 2
     return math.tan(quarter) * (-1 if sweep else 1)

@@ -102,10 +102,11 @@ def path_data(contour: Contour, origin: complex) -> str:
     parts = [f"M{number(xs[-1], decimals)},{number(ys[-1], decimals)}"]
     for x, y, bulge, chord in zip(xs, ys, bulges.tolist(), np.abs(ends - vertices).tolist(), strict=True):
         to = f"{number(x, decimals)},{number(y, decimals)}"
-        if bulge == 0:
+        r = _radius(chord, abs(bulge), decimals) if bulge else "0"
+        # a crown below half of the last decimal leaves no digit of its radius
+        if r == "0":
             parts.append(f"L{to}")
         else:
-            r = _radius(chord, abs(bulge), decimals)
             parts.append(f"A{r},{r} 0 {int(abs(bulge) > 1)} {int(bulge < 0)} {to}")
     return " ".join(parts) + " Z"
 

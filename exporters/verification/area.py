@@ -5,7 +5,7 @@ from __future__ import annotations
 from exporters.formats.read_solid import Model
 from exporters.formats.read_surfaces import area_of
 
-# into how many pieces spans of spline surfaces are cut, one after the other, until their area is the one that is told
+# into how many pieces spans of splines are cut, one after the other, until their area is the one that is told
 _PIECES = 1, 2, 4, 8
 # what an area is good to, part of it, and how far a file's rounding moves the bounds of faces, mm
 _AREA, _LAST_DECIMAL = 1e-9, 1e-9

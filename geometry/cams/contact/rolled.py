@@ -123,20 +123,23 @@ class Outline(Record):
 
     def families(self) -> list[Edges]:
         """The edges and the turns of the normal about the convex corners between them."""
-        whole = [e for e in self.edges if len(e)]
+        whole: list[Edges] = [e for e in self.edges if len(e)]
         every = [np.arange(len(e)) for e in whole]
         starts = [e.at(i, np.zeros(len(i))) for e, i in zip(whole, every, strict=True)]
         ends = [e.at(i, np.ones(len(i))) for e, i in zip(whole, every, strict=True)]
         along = np.argsort(self.order)
         outward = np.concatenate([normal for _, normal in starts])[along]
         corner, before = (np.concatenate([s[k] for s in ends])[along] for k in (0, 1))
-        # beside cusps digits turn the ends of splines; a point of the outline stops no follower too high
-        beyond = _BEYOND if any(isinstance(e, Smooth) for e in whole) else 0.0
-        turn = np.angle(np.roll(outward, -1) / before) + 2 * beyond
-        convex = turn > 0
-        first = np.angle(before[convex]) - beyond
-        corners = Rounds(corner[convex], np.zeros(int(convex.sum())), first, turn[convex])
-        return [*whole, corners]
+        between = np.angle(np.roll(outward, -1) / before)
+        # beside cusps digits turn the ends of splines; a point of the outline stops no follower too high. Both fans are
+        # kept: where a guide's reach ends within the wide one, the narrow one still touches
+        fans = (0.0, _BEYOND) if any(isinstance(e, Smooth) for e in whole) else (0.0,)
+        for beyond in fans:
+            turn = between + 2 * beyond
+            convex = turn > 0
+            first = np.angle(before[convex]) - beyond
+            whole.append(Rounds(corner[convex], np.zeros(int(convex.sum())), first, turn[convex]))
+        return whole
 
 
 def outline_of_loop(vertices: Complex, bulges: Real, *, clockwise: bool = False) -> Outline:
@@ -176,6 +179,15 @@ def rolled_lift(cam: Stopped, outline: Outline, count: int, offset: float = 0.0,
     is that much smaller. ``below``: the outline holds the follower up; else it is the outer wall of a groove, which
     holds it down, and the lowest stop counts. Not a number where no edge is touched.
     """
+    lift = _stopped(cam, outline, count, offset, below, _END)
+    if np.all(np.isfinite(lift)):
+        return lift
+    # at pressure angles of nearly 90 degrees the digits between two edges are a way of the cam
+    return np.where(np.isfinite(lift), lift, _stopped(cam, outline, count, offset, below, _TOUCHED))
+
+
+def _stopped(cam: Stopped, outline: Outline, count: int, offset: float, below: bool, end: float) -> Real:
+    """The same of edges that reach on by ``end`` steps of the grid at both ends."""
     sign = 1.0 if below else -1.0
     lift = np.full(count, -np.inf)
     step = TURN / count
@@ -186,7 +198,7 @@ def rolled_lift(cam: Stopped, outline: Outline, count: int, offset: float = 0.0,
         if cam.is_flat and below and isinstance(family, Smooth):
             lift = np.fmax(lift, _supported(cam, family, count, offset))
             continue
-        edge, t0, t1, target = _crossings(cam, family, step, offset)
+        edge, t0, t1, target = _crossings(cam, family, step, offset, end)
         t = _solve(cam, family, edge, t0, t1, step * target.astype(np.float64), offset)
         angle, height = cam.stop(*family.at(edge, t), offset)
         # where the normal turns about at once, a cell has no such angle
@@ -269,7 +281,7 @@ def _folded(angle: Real) -> Real:
     return angle - TURN * np.round(angle / TURN)
 
 
-def _crossings(cam: Stopped, family: Edges, step: float, offset: float) -> tuple[Index, Real, Real, Index]:
+def _crossings(cam: Stopped, family: Edges, step: float, offset: float, end: float) -> tuple[Index, Real, Real, Index]:
     """Which edges are touched at which angles of the grid: edge, its t from and to, number of the angle."""
     cells = _CELLS[type(family).__name__]
     t = np.broadcast_to(np.linspace(0, 1, cells + 1), (len(family), cells + 1))
@@ -277,8 +289,8 @@ def _crossings(cam: Stopped, family: Edges, step: float, offset: float) -> tuple
     angle = cam.stop(*family.at(edge, t), offset)[0]
     low, high = angle[:, :-1], angle[:, :-1] + _folded(np.diff(angle, axis=1))
     with np.errstate(invalid="ignore"):
-        first = np.ceil(np.minimum(low, high) / step - _END)
-        number = np.floor(np.maximum(low, high) / step + _END) - first + 1
+        first = np.ceil(np.minimum(low, high) / step - end)
+        number = np.floor(np.maximum(low, high) / step + end) - first + 1
     number = np.where(np.isfinite(number), np.maximum(number, 0), 0).astype(np.int64).ravel()
     cell = np.repeat(np.arange(number.size), number)
     inside = np.arange(cell.size) - np.repeat(np.cumsum(number) - number, number)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from exporters.command.cli import main
+from exporters.formats.read_svg import read_svg
 from geometry.base.errors import OffsetError
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.motion.guides import Translating
@@ -398,6 +399,60 @@ def test_a_mushroom_is_held_beside_a_cusp_whose_end_leg_is_as_short_as_digits(tm
     assert main(["build", str(scene), "--out", str(tmp_path), "--quiet"]) == 0
     (file,) = read_report(tmp_path / "mushroom")["files"]
     assert file["measured"]["lift_error"] <= 2e-6
+
+
+def test_a_follower_near_the_end_of_its_reach_is_held_at_the_joints_of_splines(tmp_path: Path) -> None:
+    """The conjugate's roller, 0.0001 mm from where its arm ends: no outline was found where the rise ends."""
+    phases = [
+        {"move": "rise", "angle_deg": 116.0, "law": "cosine"},
+        {"move": "return_", "angle_deg": 138.0, "law": "polynomial_345"},
+        {"move": "dwell", "angle_deg": 106.0},
+    ]
+    oscillating = {"centre_distance": 70.0, "sense": "with", "arm_length": 53.3}
+    cam = {"kind": "cam", "follower": "roller", "phases": phases, "oscillating": oscillating}
+    keys = cam | {"swing_deg": 25.0, "follower_radius": 3.9, "base_circle_radius": 12.8001}
+    text = scene_text(keys, 'purpose = "drawing"\nparts = ["other"]\n[parts.other]\nkind = "conjugate_cam"\nof = "cam"')
+    assert _built(tmp_path, text) == ["other.dxf"]
+
+
+def test_a_pointed_rocker_near_the_end_of_its_reach_has_a_drawing_and_a_step_file(tmp_path: Path) -> None:
+    """Between two splines digits are 5e-5 of the way to the next angle; the wall was measured 3.7e-6 mm^2 short."""
+    phases = [
+        {"move": "rise", "angle_deg": 43.0, "law": "constant_acceleration"},
+        {"move": "return_", "angle_deg": 132.0, "law": "modified_sine_cv20"},
+        {"move": "dwell", "angle_deg": 185.0},
+    ]
+    oscillating = {"centre_distance": 99.0, "sense": "against", "arm_length": 92.4}
+    cam = {"kind": "cam", "follower": "pointed", "phases": phases, "oscillating": oscillating}
+    keys = cam | {"swing_deg": 16.0, "base_circle_radius": 6.6001066001}
+    text = scene_text(keys, 'purpose = "drawing"\n[[exports]]\nformat = "step"')
+    assert _built(tmp_path, text) == ["cam.dxf", "cam.step"]
+
+
+def test_an_arc_of_a_svg_whose_radius_has_no_digits_is_a_line(tmp_path: Path) -> None:
+    """Its crown is 5.5e-9 mm: an arc of radius 0 was written, and its reading ended in a traceback."""
+    phases = [
+        {"move": "rise", "angle_deg": 64.0, "law": "modified_sine"},
+        {"move": "dwell", "angle_deg": 10.0},
+        {"move": "return_", "angle_deg": 25.0, "law": "modified_sine"},
+        {"move": "dwell", "angle_deg": 261.0},
+    ]
+    keys = {"kind": "cam", "phases": phases, "follower": "pointed", "lift": 12.22, "base_circle_radius": 4.73}
+    assert _built(tmp_path, scene_text(keys).replace('"dxf"', '"svg"')) == ["cam.svg"]
+    text = (tmp_path / "s" / "cam.svg").read_text(encoding="ascii")
+    assert "A0," not in text
+    # and of others it is read as one
+    (tmp_path / "other.svg").write_text(text.replace(" L", " A0,0 0 0 1 "), encoding="ascii")
+    (one,), (other,) = (read_svg(file).loops for file in (tmp_path / "s" / "cam.svg", tmp_path / "other.svg"))
+    assert np.any(one.bulges == 0)
+    np.testing.assert_array_equal(one.bulges, other.bulges)
+
+
+def _built(folder: Path, text: str) -> list[str]:
+    """The files of a scene whose build must end well."""
+    (folder / "s.toml").write_text(text, encoding="utf-8")
+    assert main(["build", str(folder / "s.toml"), "--out", str(folder), "--quiet"]) == 0
+    return [file["path"] for file in read_report(folder / "s")["files"]]
 
 
 def test_the_drawing_of_a_heart_cam_encloses_what_archimedes_says(tmp_path: Path) -> None:
