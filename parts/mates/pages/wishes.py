@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import msgspec
@@ -22,8 +23,13 @@ def wish_refused(topic: str, keys: Struct, told: SceneError, made: Callable[[Any
     """The refusal of a pair told as that of the wish that asks too much, with the nearest that works.
 
     ``made`` gives the calculated pair of changed keys, or refuses them. A refusal that names a wish and what works
-    already, or that no single wish causes, stays as it is.
+    already, or that no single wish causes, stays as it is; what does not work with the other keys is not offered.
     """
+
+    def works(name: str, value: object) -> bool:
+        changed = msgspec.structs.replace(keys, **{name: value})
+        return not (isinstance(value, float) and value < 0) and _attempt(made, changed) is not None
+
     for name in WISHES:
         asked = getattr(keys, name, None)
         if asked is None:
@@ -32,12 +38,7 @@ def wish_refused(topic: str, keys: Struct, told: SceneError, made: Callable[[Any
         if pair is None:
             continue
         key, code, numbers = f"{topic}.{name}", told.code, dict(told.numbers)
-
-        def works(value: object, name: str = name) -> bool:
-            changed = msgspec.structs.replace(keys, **{name: value})
-            return not (isinstance(value, float) and value < 0) and _attempt(made, changed) is not None
-
-        if told.key == key and told.nearest is not None and works(told.nearest.value):
+        if told.key == key and told.nearest is not None and works(name, told.nearest.value):
             return told
         if told.key != key:
             why = explained(SceneError(PLACE, key, asked, code, None, "", **numbers))
@@ -46,8 +47,11 @@ def wish_refused(topic: str, keys: Struct, told: SceneError, made: Callable[[Any
             return SceneError(PLACE, key, asked, code, REMOVED, "", **numbers)
         usual = float(getattr(pair, name))
         # without the wish the pair works, if no other value is found
-        found = nearest(works, float(asked), usual) or REMOVED
+        found = nearest(partial(works, name), float(asked), usual) or REMOVED
         return SceneError(PLACE, key, asked, code, found, unit_of(type(keys), name), **numbers)
+    name = told.key.removeprefix(f"{topic}.")
+    if name in WISHES and told.nearest is not None and not works(name, told.nearest.value):
+        told.offer(None)
     return told
 
 

@@ -203,6 +203,20 @@ def test_a_wish_that_asks_too_much_is_named_with_the_nearest(kind: str, keys: st
     sheet_of("gear-pair", [*words, f"{name}={offered.value}"])
 
 
+@pytest.mark.parametrize(("shift", "offered"), [(0.26, None), (0.29, 0.7377)])
+def test_a_wish_is_offered_nothing_that_another_key_forbids(shift: float, offered: float | None) -> None:
+    """x_2 = 0.26 has no working pressure angle, whatever the backlash."""
+    from exporters.documents.topics import sheet_of
+
+    shifts = f"first.profile_shift_coefficient=0.69 second.profile_shift_coefficient={shift}"
+    teeth = "module=1 first.number_of_teeth=25 second.number_of_teeth=45"
+    with pytest.raises(SceneError) as refused:
+        sheet_of("gear-pair", ["kind=internal_gear_pair", *teeth.split(), *shifts.split(), "normal_backlash=3"])
+    assert refused.value.key == "gear-pair.normal_backlash"
+    nearest = refused.value.nearest
+    assert (nearest and nearest.value) == offered
+
+
 HELICAL = "first.number_of_teeth=20 module=2 helix_angle_deg=30 face_width=30"
 
 
