@@ -59,11 +59,10 @@ class ConjugateMating(Touching):
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one turn: the gaps under both rollers; ``phase_off`` rad: the second disk's turn."""
-        from geometry.cams.contact.positive import between_rollers, conjugate_contact
+        from geometry.cams.contact.positive import conjugate_contact
 
         allowed = _CONTACT * self.module if tolerance is None else tolerance
-        pair = self.other.pair
-        return conjugate_contact(self.cam, pair, between_rollers(self.cam, pair), allowed, second_turn=phase_off)
+        return conjugate_contact(self.cam, self.other.pair, allowed, second_turn=phase_off)
 
     def quantities(self) -> dict[str, Any]:
         """How both rollers stand on their follower."""

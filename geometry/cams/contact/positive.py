@@ -29,21 +29,19 @@ def between_rollers(first: DiskCam, pair: Conjugate) -> float:
     return first.slide.start_height + pair.cam.slide.start_height
 
 
-def second_centres(first: DiskCam, distance: float, angles: Real) -> Complex:
+def second_centres(first: DiskCam, pair: Conjugate, angles: Real) -> Complex:
     """Centres of the second roller in the fixed frame, mm, on the follower that the first cam moves by its law.
 
-    ``distance`` between the rollers as of ``between_rollers``; the second cam is not asked.
+    Of the second cam only where its roller is mounted counts, not its motion.
     """
-    centre = first.reference_point(angles)
+    centre, distance = first.reference_point(angles), between_rollers(first, pair)
     if not first.swings:
         return np.asarray(centre - 1j * distance)
-    pivot = first.swing.centre_distance
-    return np.asarray(pivot + (centre - pivot) * cmath.exp(-1j * first.swing.sense * distance))
+    pivot, arm = first.swing.centre_distance, pair.cam.swing.arm_length / first.swing.arm_length
+    return np.asarray(pivot + (centre - pivot) * cmath.rect(arm, -first.swing.sense * distance))
 
 
-def conjugate_contact(
-    first: DiskCam, pair: Conjugate, distance: float, tolerance: float, *, second_turn: float = 0.0
-) -> PairContact:
+def conjugate_contact(first: DiskCam, pair: Conjugate, tolerance: float, *, second_turn: float = 0.0) -> PairContact:
     """The gaps under both rollers at 360 angles and at every joint of the motion, mm.
 
     ``second_turn``: rad by which the second disk is turned on the shaft from its place. OVERLAP: a gap below -tolerance
@@ -52,7 +50,7 @@ def conjugate_contact(
     angles = _angles(first)
     turns = np.exp(-1j * angles)
     one = distance_to_profile(first.reference_point(angles) * turns, cam_shape(first).profile) - first.radius
-    own = second_centres(first, distance, angles) * turns * cmath.exp(-1j * (pair.turn + second_turn))
+    own = second_centres(first, pair, angles) * turns * cmath.exp(-1j * (pair.turn + second_turn))
     two = distance_to_profile(own, cam_shape(pair.cam).profile) - pair.cam.radius
     return _judged(angles, one, two, first.contact(angles), tolerance)
 

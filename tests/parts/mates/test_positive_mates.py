@@ -38,7 +38,8 @@ def mating(parts: dict[str, Keys], kind: str):  # type: ignore[no-untyped-def]
     ["with", pytest.param("translating", marks=pytest.mark.heavy), pytest.param("against", marks=pytest.mark.heavy)],
 )
 def test_conjugate_cams_touch_both_rollers(name: str) -> None:
-    pair = mating({"cam": FIRST[name], "two": SECOND}, "conjugate_cams")
+    arm = {"arm_length": 70.0} if "oscillating" in FIRST[name] else {}
+    pair = mating({"cam": FIRST[name], "two": SECOND | {"follower_radius": 9.0} | arm}, "conjugate_cams")
     assert isinstance(pair, ConjugateMating)
     found = pair.contact(0.0, 0.0, None)
     assert found.verdict is Verdict.CONTACT
