@@ -118,7 +118,7 @@ class ConvoluteFlank(Flank):
         half, sine = screw.half_space if self.space else screw.half_thickness, math.sin(gamma)
 
         def beyond(width: float) -> float:
-            return width * math.cos(gamma) + screw.parameter * math.asin(width * sine / screw.radius) - half
+            return width * math.cos(gamma) + screw.parameter * math.asin(min(width * sine / screw.radius, 1.0)) - half
 
         width = bracketed_root(beyond, 0.0, min(half / math.cos(gamma), screw.radius / sine)).value
         lean = math.tan(self.angle)

@@ -191,6 +191,13 @@ def test_a_worm_that_cannot_be_is_refused_with_a_value_that_works(keys: dict[str
     assert cured({"worm": WORM | keys}, refusal) is not None
 
 
+@pytest.mark.parametrize(("form", "quotient"), [("ZN1", 3.8), ("ZN2", 3.8), ("ZN2", 3.1)])
+def test_a_thread_as_wide_as_its_worm_is_refused_by_a_key(form: str, quotient: float) -> None:
+    """The line of the normal section stands where a rounding decides whether it reaches the reference cylinder."""
+    keys = {"form": form, "number_of_starts": 10, "diameter_quotient": quotient, "thread_length": 60.0}
+    assert refused({"worm": WORM | {"module": 2.0} | keys}).key.startswith("parts.worm.")
+
+
 def test_a_thinned_thread_that_is_offered_has_a_land_that_takes_a_mesh() -> None:
     found = refused({"worm": WORM | {"axial_thinning": 9.0}}).nearest
     assert found is not None
