@@ -25,8 +25,7 @@ if TYPE_CHECKING:
     from geometry.gears.worms.wheel import WormTeeth
     from geometry.gears.worms.worm import Worm
     from geometry.kinematics.mechanism import Joint
-    from parts.gears.worm.part import WormSpec
-    from parts.gears.worm_wheel.part import WheelThing, WormWheelSpec
+    from parts.gears.worm_wheel.part import WheelThing
 
 # keys that both have alike, and how a refusal tells it
 _ALIKE = ("module", "pressure_angle_deg", "addendum_coefficient")
@@ -157,9 +156,12 @@ class WormPair(MateKind[WormPairSpec, "WheelThing", "WormBody"]):
 
 def _check(first: End[WheelThing], second: End[WormBody]) -> None:
     """Refuse the worm's key in which it is not the wheel's."""
-    wheel: WormWheelSpec = first.keys  # type: ignore[assignment]
-    own: WormSpec = second.keys  # type: ignore[assignment]
-    worm = second.thing.thread.worm
+    from parts.gears.worm.part import WormSpec
+    from parts.gears.worm_wheel.part import WormWheelSpec
+
+    wheel, own, worm = first.keys, second.keys, second.thing.thread.worm
+    assert isinstance(wheel, WormWheelSpec)
+    assert isinstance(own, WormSpec)
     for key in _ALIKE:
         same_size(key, getattr(own, key), getattr(wheel, key), "not_of_its_mate")
     for key in ("number_of_starts", "form", "hand"):

@@ -68,7 +68,7 @@ def test_lines_of_contact_lie_where_sections_of_the_worm_touch(tmp_path: Path) -
     assert (right - left) / scale == pytest.approx(2 * 35.99, abs=0.03)
     drive = WormDrive(Worm(5.0, 1, 10.0, "ZI"), 128)
     pitch, seen, zones = math.pi * 5, 0, []
-    radii = np.linspace(19.7, 30.0, 2001)
+    radii = np.linspace(19.7, 30.0, 10_001)
     for spline in drawing.query("SPLINE"):
         points = np.array([complex(p[0], p[1]) for p in spline.construction_tool().approximate(40)])
         if np.abs(points.imag - middle.imag).max() > 13.1 * scale:

@@ -81,7 +81,7 @@ def test_both_sides_against_dense_polylines(values: tuple[int, int, float, float
     pair = helical(*values)
     found = GearMesh(pair).contact()
     assert found.verdict is (Verdict.CONTACT if pair.effective_contact_ratio >= 1 else Verdict.CLEAR)
-    for k in range(0, len(found.drive_angles), 11):
+    for k in some_of(range(0, len(found.drive_angles), 5), 8):
         drive = found.drive_angles[k]
         wanted = brute_side_gaps(pair, drive, pair.second_rotation(drive))
         assert [side[k] for side in found.side_gaps] == pytest.approx(wanted, abs=1e-4 * pair.module)
