@@ -351,7 +351,8 @@ def _keeps(whole: Curve, inset: Curve) -> bool:
 
 
 def _between(key: str, value: float, low: tuple[float, str], high: tuple[float, str]) -> None:
-    if value <= low[0]:
-        raise ParameterError(key, value, f"within_{low[1]}", limit(low[0] + _LEAST_STEP, value), diameter=low[0])
-    if value >= high[0]:
-        raise ParameterError(key, value, f"reaches_{high[1]}", limit(high[0] - _LEAST_STEP, value), diameter=high[0])
+    least, most = low[0] + _LEAST_STEP, high[0] - _LEAST_STEP
+    if low[0] > 0 and value < least:
+        raise ParameterError(key, value, f"within_{low[1]}", limit(least, value), diameter=low[0])
+    if value > most:
+        raise ParameterError(key, value, f"reaches_{high[1]}", limit(most, value), diameter=high[0])

@@ -5,6 +5,7 @@ A kind is an instance of a subclass, registered by one entry of ``parts/base/reg
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Generic, TypeVar
@@ -185,25 +186,30 @@ class Kind(Generic[K, T]):
             changed = tried(keys, told.name, value)
             thing = self.thing(changed, others)
             # what a chamfer leaves of the edges only the solid tells
-            if chamfers:
+            if chamfered:
                 self.solid(changed, thing, 0.0)
             return True
 
         def cure() -> Nearest | None:
-            found = told.nearest
-            if told is not refusal and isinstance(told.value, float):
+            found, given = told.nearest, told.value
+            if told is not refusal and isinstance(given, float):
                 # one number stands for both sides
-                return nearest(works, told.value, 0.0)
+                return nearest(works, given, 0.0)
             if found is None:
                 return None
             try:
                 works(found.value)
             except (GeometryError, ArithmeticError):
-                return nearest(works, told.value, 0.0) if chamfers and isinstance(told.value, float) else None
+                if not chamfered or not isinstance(given, float) or not isinstance(found.value, float):
+                    return None
+                # further from what was given, until a chamfer beside it has its room too
+                way = math.copysign(abs(found.value), found.value - given)
+                return nearest(works, given, [0.0] if chamfers else [found.value + way * 2.0**k for k in range(-5, 0)])
             return found
 
         told = as_typed(keys, refusal)
         chamfers = told.name.startswith("face_chamfer")
+        chamfered = chamfers or bool(getattr(keys, "face_chamfer", 0.0))
 
         error = placed(source, place, told, unit_of(self.keys, told.name))
         error.offer(cure)

@@ -119,6 +119,12 @@ CUT = {"spur_gear": 20, "ring_gear": 60}
         (cam(bore_diameter=90.0, face_chamfer=1.0), "bore_diameter"),
         (cam(bore=KEYWAY, face_chamfer={"above": 0.5, "below": 1.0}), "bore.diameter"),
         (LANTERN | {"pin_diameter": 50.0}, "pin_diameter"),
+        # before: 52.3018, where the land of the teeth holds no chamfer
+        ({"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23, "face_width": 8.0, "tip_diameter": 60.0,
+          "face_chamfer": 0.3}, "tip_diameter"),
+        # before: built where the offer said it would not
+        (cam(hub={"diameter": 45.0, "above": 5.0}, bore_diameter=10.0,
+             holes=[{"count": 4, "diameter": 5.0, "pitch_circle_diameter": 50.0}]), "hub.diameter"),
         *(({"kind": kind, "module": 2.0, "number_of_teeth": z, "cutter": {"number_of_teeth": teeth}},
            "cutter.number_of_teeth") for kind, z in CUT.items() for teeth in (3, 8)),
     ],
