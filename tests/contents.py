@@ -31,6 +31,8 @@ from tests.exporters.documents.test_calc import sheet_for
 from tests.offered import scenes
 
 FILE = Path(__file__).parent / "contents.txt"
+# pages that have what no other has: words of a page in a line, parted by "; "
+RARE = Path(__file__).parent / "rare_pages.txt"
 _CAM_SCENES = ("groove_cam", "conjugate_cams", "yoke_cam", "wedge_cam", "barrel_cam part=end", "barrel_cam part=barrel")
 
 
@@ -41,7 +43,8 @@ def pages() -> dict[str, tuple[str, ...]]:
     found = [*test_calc.SHEETS, *test_calc_round_pins.SHEETS, *(tuple(row.split()) for row in test_calc_pairs.SHEETS)]
     found += [("planetary", *row) for row in test_calc_planetary.SHEETS]
     found += [("train", *row) for row in (test_calc_train.LOADED, test_calc_train.FERGUSON)]
-    return {" ".join(row): tuple(row) for row in [*found, *(("cam", *row) for row in cams)]}
+    rare = [tuple(line.split("; ")) for line in RARE.read_text(encoding="utf-8").splitlines()]
+    return {" ".join(row): tuple(row) for row in [*found, *(("cam", *row) for row in cams), *rare]}
 
 
 @cache
