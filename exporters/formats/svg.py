@@ -129,8 +129,9 @@ def _quartered(vertices: Complex, bulges: Real) -> tuple[Complex, Real]:
 def _radius(chord: float, bulge: float, decimals: int) -> str:
     """The radius of an arc of up to 100 degrees as text; the flatter the arc, the fewer digits hold its crown."""
     radius, crown = chord * (1 + bulge**2) / (4 * bulge), chord * bulge / 2
+    places = decimals - math.floor(math.log10(radius / crown))
     # a radius on the middle between two numbers goes up on any machine
-    return number(round(radius * (1 + 1e-13), decimals - math.floor(math.log10(radius / crown))), decimals)
+    return number(round(radius * (1 + 1e-13) + 1e-6 * 10.0**-places, places), decimals)
 
 
 def number(value: float, decimals: int = DRAWN_DECIMALS) -> str:

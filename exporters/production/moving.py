@@ -50,8 +50,8 @@ def alone_in(folder: Path) -> Iterator[None]:
 def move_into(folder: Path, staging: Path, names: list[str]) -> None:
     """Move finished files into their place; called alone in ``folder``, and within its ``staging_folder``.
 
-    Refused before the first move where a folder stands in the way. What a stop or an error leaves half moved is put
-    back as ``staging_folder`` ends, after a kill by the next one.
+    Refused before the first move where a folder stands in the way. What an error leaves half moved is put back as
+    ``staging_folder`` ends, after a kill by the next one. What was replaced is gone afterwards.
     """
     for name in names:
         if (folder / name).is_dir():
@@ -65,6 +65,8 @@ def move_into(folder: Path, staging: Path, names: list[str]) -> None:
         _set_aside(folder, name)
         os.replace(moving / name, folder / name)
     moving.rename(staging)
+    # here, where no stop comes between
+    _remove(staging)
 
 
 def clear(folder: Path) -> None:
@@ -125,8 +127,9 @@ def _put_back(folder: Path) -> None:
 
 
 def _remove(staging: Path) -> None:
-    if _is_ours(staging):
-        shutil.rmtree(staging)
+    with _unstopped():
+        if _is_ours(staging):
+            shutil.rmtree(staging)
 
 
 def _is_ours(place: Path) -> bool:

@@ -109,6 +109,24 @@ for number in range(1, 100):
         assert (folder / "mine.txt").read_text() == "mine"
 
 
+def test_a_stop_at_any_step_leaves_a_whole_set_and_nothing_hidden(tmp_path: Path) -> None:
+    """Also one that comes while what was replaced is removed."""
+    scene, numbers = scene_of(tmp_path, OLD, "svg"), [1, *some_of(range(2, 19), 5)]
+    run("build", scene, "--out", tmp_path / "old")
+    scene_of(tmp_path, NEW, "svg")
+    code = f"""
+import shutil
+scene, base = sys.argv[1:]
+for number in {numbers}:
+    shutil.copytree(base + "/old", f"{{base}}/{{number}}")
+    apart(number, lambda: os.kill(os.getpid(), signal.SIGTERM), scene, f"{{base}}/{{number}}")
+"""
+    steps(code, scene, tmp_path)
+    left = [tmp_path / str(number) / "s" for number in numbers]
+    assert {whole_set(folder) for folder in left} == {OLD, NEW}
+    assert not [folder for folder in left if hidden(folder)]
+
+
 def test_verify_tells_of_a_half_moved_set(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     scene, folder = scene_of(tmp_path, OLD), tmp_path / "out" / "s"
     run("build", scene, "--out", tmp_path / "out")

@@ -16,6 +16,7 @@ from exporters.formats.registry import REGISTRY, declared_error, shape_of
 from exporters.production.plan import plan_build
 from exporters.verification.judge import held, verify_file
 from exporters.verification.mesh import verify_mesh
+from parts.base.readback import ReadError
 from parts.scene.formats import FILE_KINDS
 from parts.scene.load import scene_from_dict
 
@@ -105,12 +106,15 @@ PLACES = 41
 
 
 def spoiled(wheel: Once, vertices: NDArray[Any] | None = None, triangles: NDArray[Any] | None = None) -> bool:
-    """Whether the mesh with other vertices or triangles is refused."""
+    """Whether the mesh with other vertices or triangles is refused, or has outlines that cannot be followed."""
     good = wheel.found
     mesh = type(good)(
         good.vertices if vertices is None else vertices, good.triangles if triangles is None else triangles
     )
-    return bool(verify_mesh(mesh, wheel.job.body, wheel.declared, 0.01).failures)
+    try:
+        return bool(verify_mesh(mesh, wheel.job.body, wheel.declared, 0.01).failures)
+    except ReadError:
+        return True
 
 
 def test_the_mesh_as_it_is_passes(once: dict[str, Once]) -> None:
