@@ -121,7 +121,101 @@ def _opened(text: str) -> str:
     return text[:at] + " 70\n0\n" + text[at + 6 :]
 
 
+def _with_group(code: int, value: str, *, which: int = 0) -> Callable[[str], str]:
+    """A group put in behind the handle of a contour."""
+
+    def change(text: str) -> str:
+        at = text.index("\n", _heads(text)[which]) + 1
+        return f"{text[:at]}{code:>3}\n{value}\n{text[at:]}"
+
+    return change
+
+
+def _layer_says(code: int, value: str, name: str = "CUT_INNER") -> Callable[[str], str]:
+    """A layer with another value of a group, or with a group that it had not."""
+
+    def change(text: str) -> str:
+        at = text.index(f"  2\n{name}\n 70\n0\n 62\n")
+        end = text.index("  0\n", at + 15)
+        rows = text[at:end]
+        mark = f"{code:>3}\n"
+        found = rows.find(f"\n{mark}") + 1
+        if found:
+            stop = rows.index("\n", found + len(mark))
+            rows = rows[: found + len(mark)] + value + rows[stop:]
+        else:
+            rows += f"{mark}{value}\n"
+        return text[:at] + rows + text[end:]
+
+    return change
+
+
+def _second_layer(text: str) -> str:
+    """Another layer of a name, in small letters."""
+    at = text.index("  0\nENDTAB", text.index("  2\nCUT_OUTER\n"))
+    return text[:at] + "  0\nLAYER\n  2\ncut_outer\n 70\n0\n 62\n1\n" + text[at:]
+
+
+def _span(text: str, which: int) -> tuple[int, int]:
+    """Where a contour begins and ends."""
+    starts = [text.rindex("  0\n", 0, head) for head in _heads(text)]
+    return starts[which], [*starts[1:], text.rindex("  0\nENDSEC")][which]
+
+
+def _opened_at(which: int, *, straight: bool = False, corners: int = 99) -> Callable[[str], str]:
+    """A contour without its flag, perhaps without its bulges, with some of its corners only."""
+
+    def change(text: str) -> str:
+        start, end = _span(text, which)
+        body = text[start:end].replace(" 70\n1\n", " 70\n0\n", 1)
+        mark = "  0\nVERTEX\n" if "VERTEX" in body else " 10\n"
+        own, *points = body.split(mark)
+        tail = "".join(points[-1].partition("  0\nSEQEND")[1:])
+        told = min(corners, len(points))
+        own = own.replace(f" 90\n{len(points)}\n", f" 90\n{told}\n")
+        body = own + "".join(mark + point.removesuffix(tail) for point in points[:told]) + tail
+        return text[:start] + (body.replace(" 42\n0.25\n", "") if straight else body) + text[end:]
+
+    return change
+
+
+def _line_before(text: str) -> str:
+    start, _ = _span(text, 0)
+    return text[:start] + "  0\nLINE\n  8\nENGRAVE\n" + text[start:]
+
+
+def _once(old: str, new: str) -> Callable[[str], str]:
+    return lambda text: text.replace(old, new, 1)
+
+
+# what would lift, broaden, hide, colour or dash a contour, where its absence says that it is as its layer is
+LOOKS = {
+    **dict.fromkeys((38, 39, 43, 48, 71, 72, 73, 74, 75), "2.0"),
+    30: "0.5", 40: "0.1", 41: "0.1", 60: "1", 62: "5", 67: "1", 370: "200", 6: "DASHED", 410: "Sheet", 420: "65280",
+}
 SPOILS: dict[str, tuple[Callable[[str], str], str]] = {
+    **{f"group {c}": (_with_group(c, value), f" has {value.upper()} for group {c}") for c, value in LOOKS.items()},
+    **{f"group {c} of the last": (_with_group(c, LOOKS[c], which=3), f"CUT_OUTER has .* {c}") for c in (6, 39, 62)},
+    "a line too many": (lambda t: t + "  0\n", "within a pair of lines"),
+    "empty": (lambda t: "", "too early"),
+    "a section in a section": (_once("  0\nENDSEC\n", ""), "SECTION in the wrong place"),
+    "an end within a section": (lambda t: t.replace("  0\nENDSEC\n  0\nEOF\n", "  0\nEOF\n"), "EOF in the wrong place"),
+    **{f"frozen by {n}": (_layer_says(70, str(n)), "layer CUT_INNER is frozen") for n in (1, 2, 3)},
+    "off": (_layer_says(62, "-3"), "layer CUT_INNER is off"),
+    "not plotted": (_layer_says(290, "0", "ENGRAVE"), "layer ENGRAVE is not plotted"),
+    **{f"{name} in another colour": (_layer_says(62, "2", name), f"layer {name} has another colour than {colour}")
+       for name, colour in (("ENGRAVE", 5), ("CUT_INNER", 3), ("CUT_OUTER", 1))},
+    "true colour": (_layer_says(420, "65280"), "layer CUT_INNER has another colour"),
+    "see-through": (_layer_says(1001, "AcCmTransparency"), "layer CUT_INNER is transparent"),
+    "dashed": (_layer_says(6, "DASHED"), "layer CUT_INNER is not drawn through"),
+    "a layer twice": (_second_layer, "two layers cut_outer"),
+    "a line": (_line_before, "a LINE stands on layer ENGRAVE"),
+    "opened, with arcs": (_opened_at(0), "an open or bent polyline on layer ENGRAVE"),
+    "opened, straight": (_opened_at(2, straight=True), "an open or bent polyline on layer CUT_INNER"),
+    "one point": (_opened_at(0, straight=True, corners=1), "an open or bent polyline on layer ENGRAVE"),
+    "splined": (lambda t: t[: _heads(t)[1]] + t[_heads(t)[1] :].replace(" 70\n1\n", " 70\n5\n", 1), "open or bent"),
+}  # fmt: skip
+SPOILS |= {
     "cut short": (lambda t: t[: len(t) // 2], "not a readable DXF"),
     "without its end": (lambda t: t.replace("  0\nEOF\n", ""), "too early"),
     "no number": (lambda t: t.replace("\n 20\n", "\n 20\nx", 1).replace(" 10\n", " 1o\n"), "not a readable DXF"),
@@ -144,6 +238,89 @@ def test_a_spoiled_file_is_refused(file: Path, name: str) -> None:
     assert after != before
     file.write_text(after, encoding="ascii", newline="\n")
     with pytest.raises(ReadError, match=text):
+        read_dxf(file)
+
+
+# what says nothing that its absence would not say
+HARMLESS: dict[str, Callable[[str], str]] = {
+    **{f"group {c}": _with_group(c, v) for c, v in ((39, "0.0"), (48, "1.0"), (60, "0"), (62, "256"), (6, "ByLayer"),
+                                                    (230, "1.0"), (370, "-1"), (1000, "words"))},
+    "thick line type of the layer": _layer_says(370, "50"),
+    "plotted": _layer_says(290, "1"),
+    "continuous": _layer_says(6, "CONTINUOUS"),
+    "locked": _layer_says(70, "4"),
+    "another layer off": _layer_says(62, "-7", "0"),
+    "engraved strokes": _opened_at(0, straight=True, corners=2),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", HARMLESS)
+def test_what_says_nothing_is_no_fault(file: Path, name: str) -> None:
+    before = file.read_text("ascii")
+    after = HARMLESS[name](before)
+    assert after != before
+    loops = read_dxf(file).loops
+    file.write_text(after, encoding="ascii", newline="\n")
+    again = read_dxf(file)
+    assert len(again.loops) + len(again.strokes) == len(loops)
+    for one, other in zip(again.loops[::-1], loops[::-1], strict=False):
+        assert np.array_equal(one.vertices, other.vertices)
+        assert np.array_equal(one.bulges, other.bulges)
+
+
+R2000_SPOILS: dict[str, tuple[Callable[[str], str], str]] = {
+    "inches": (lambda t: t.replace("$INSUNITS\n 70\n4\n", "$INSUNITS\n 70\n1\n"), "not in mm"),
+    "on paper": (
+        lambda t: t[: _heads(t)[1]] + t[_heads(t)[1] :].replace("330\n17\n", "330\n1B\n", 1),
+        "not stand in the model",
+    ),
+    "another count": (lambda t: t[: _heads(t)[1]] + t[_heads(t)[1] :].replace(" 90\n6\n", " 90\n5\n", 1), "5 are told"),
+}
+
+
+@pytest.mark.parametrize("name", R2000_SPOILS)
+def test_a_spoiled_new_file_is_refused(name: str, tmp_path: Path) -> None:
+    change, text = R2000_SPOILS[name]
+    file, before = tmp_path / "n.dxf", drawn("R2000")
+    assert change(before) != before
+    file.write_text(change(before), encoding="ascii", newline="\n")
+    with pytest.raises(ReadError, match=text):
+        read_dxf(file)
+
+
+R12_SPOILS: dict[str, tuple[Callable[[str], str], str]] = {
+    "a corner on another layer": (
+        _once("VERTEX\n  5\n39\n  8\nCUT_INNER", "VERTEX\n  5\n39\n  8\nENGRAVE"),
+        "vertices on another",
+    ),
+    "a corner lifted": (
+        lambda t: t[: _heads(t)[3]] + " 30\n4.0\n".join(t[_heads(t)[3] :].rsplit(" 30\n0.0\n", 1)),
+        "4.0 for group 30",
+    ),
+    "without SEQEND": (lambda t: t.replace("  0\nSEQEND\n  5\n37\n  8\nENGRAVE\n", ""), "has no SEQEND"),
+}
+
+
+@pytest.mark.parametrize("name", R12_SPOILS)
+def test_a_spoiled_old_file_is_refused(name: str, tmp_path: Path) -> None:
+    change, text = R12_SPOILS[name]
+    file, before = tmp_path / "o.dxf", drawn("R12")
+    assert change(before) != before
+    file.write_text(change(before), encoding="ascii", newline="\n")
+    with pytest.raises(ReadError, match=text):
+        read_dxf(file)
+
+
+def test_an_engraved_line_after_a_contour_is_refused(file: Path) -> None:
+    text = file.read_text("ascii")
+    file.write_text(_opened_at(0, straight=True, corners=2)(text), encoding="ascii", newline="\n")
+    assert [len(s) for s in read_dxf(file).strokes] == [2]
+    late = text.replace("CUT_OUTER", "<>").replace("ENGRAVE", "CUT_OUTER").replace("<>", "ENGRAVE")
+    late = late.replace("ENGRAVE\n 70\n0\n 62\n1", "ENGRAVE\n 70\n0\n 62\n5").replace(
+        "CUT_OUTER\n 70\n0\n 62\n5", "CUT_OUTER\n 70\n0\n 62\n1"
+    )
+    file.write_text(_opened_at(3, straight=True)(late), encoding="ascii", newline="\n")
+    with pytest.raises(ReadError, match="an engraved line comes after"):
         read_dxf(file)
 
 
