@@ -191,7 +191,16 @@ def _once(old: str, new: str) -> Callable[[str], str]:
 # what would lift, broaden, hide, colour or dash a contour, where its absence says that it is as its layer is
 LOOKS = {
     **dict.fromkeys((38, 39, 43, 48, 71, 72, 73, 74, 75), "2.0"),
-    30: "0.5", 40: "0.1", 41: "0.1", 60: "1", 62: "5", 67: "1", 370: "200", 6: "DASHED", 410: "Sheet", 420: "65280",
+    30: "0.5",
+    40: "0.1",
+    41: "0.1",
+    60: "1",
+    62: "5",
+    67: "1",
+    370: "200",
+    6: "DASHED",
+    410: "Sheet",
+    420: "65280",
 }
 SPOILS: dict[str, tuple[Callable[[str], str], str]] = {
     **{f"group {c}": (_with_group(c, value), f" has {value.upper()} for group {c}") for c, value in LOOKS.items()},
