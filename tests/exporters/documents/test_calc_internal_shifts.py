@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
+import numpy as np
 import pytest
 import shapely
 
@@ -169,6 +170,73 @@ def test_the_drawing_has_the_lines_of_the_contour(contour: Any, tmp_path: Path) 
     first = file.read_bytes()
     write_contour_dxf(file, contour, marks, words("uk"))
     assert file.read_bytes() == first
+
+
+def test_the_drawing_has_its_axes_numbers_and_key_where_they_belong(contour: Any, tmp_path: Path) -> None:
+    """Layers by colour, one for each line; numbers at their places, the key beside the box, all within the extents."""
+    file = tmp_path / "contour.dxf"
+    marks = {"1: here": (0.1, 0.2), "2: there": (contour.box.left / 2, contour.box.top / 2)}
+    counts = write_contour_dxf(file, contour, marks, words("en"))
+    drawing = ezdxf.readfile(file)
+    space, box = drawing.modelspace(), contour.box
+    assert drawing.dxfversion == "AC1024"
+    assert [drawing.header[name] for name in ("$INSUNITS", "$LUNITS", "$MEASUREMENT")] == [4, 2, 1]
+    assert counts == {kind: len(space.query(kind)) for kind in ("LWPOLYLINE", "LINE", "CIRCLE", "TEXT")}
+    used = {e.dxf.layer for e in space}
+    colours = {layer.dxf.name: layer.color for layer in drawing.layers if layer.dxf.name in used}
+    assert colours.keys() == used
+    own = {name: colour for name, colour in colours.items() if name not in ("AXES", "REGION", "KEY", "CHOICES")}
+    assert (colours["AXES"], colours["REGION"], colours["KEY"], colours["CHOICES"]) == (8, 3, 7, 6)
+    kinds = {line.name for line in contour.lines}
+    assert len(set(own.values())) == min(10, len(kinds))
+    rings = [
+        np.array([complex(x, y) for x, y, *_ in e.get_points()]) / SCALE for e in space.query('*[layer=="REGION"]')
+    ]
+    for ring, exact in zip(rings, contour.region, strict=True):
+        assert np.allclose(ring, np.asarray(exact), atol=1e-12)
+    # the frame, and the axes that cross it
+    (frame,) = (e for e in space.query("LWPOLYLINE") if e.dxf.layer == "AXES")
+    corners = {(round(x / SCALE, 9), round(y / SCALE, 9)) for x, y, *_ in frame.get_points()}
+    assert corners == {(round(x, 9), round(y, 9)) for x in (box.left, box.right) for y in (box.bottom, box.top)}
+    axes = sorted((e.dxf.start.x, e.dxf.start.y, e.dxf.end.x, e.dxf.end.y) for e in space.query('LINE[layer=="AXES"]'))
+    edges = [SCALE * edge for edge in (box.left, box.bottom, box.right, box.top)]
+    crossing = [(0.0, edges[1], 0.0, edges[3])] * (box.left < 0 < box.right)
+    crossing += [(edges[0], 0.0, edges[2], 0.0)] * (box.bottom < 0 < box.top)
+    assert np.allclose(np.ravel(axes), np.ravel(sorted(crossing)))
+    # each number stands below or beside its place, within half a row
+    numbers = [e for e in space.query('TEXT[layer=="AXES"]') if not e.dxf.text.startswith("x")]
+    for text in numbers:
+        x, y, value = text.dxf.insert.x, text.dxf.insert.y, float(text.dxf.text)
+        below = edges[1] - 15 < y < edges[1] and abs(x - SCALE * value) < 10
+        beside = edges[0] - 25 < x < edges[0] and abs(y + text.dxf.height / 2 - SCALE * value) < 3
+        assert below != beside, (x, y, value)
+    titles = {e.dxf.text: e.dxf.insert for e in space.query('TEXT[layer=="AXES"]') if e.dxf.text.startswith("x")}
+    assert edges[2] - 25 < titles["x1"].x < edges[2]
+    assert edges[1] - 30 < titles["x1"].y < min(e.dxf.insert.y for e in numbers) - 5
+    assert edges[0] - 25 < titles["x2"].x < edges[0]
+    assert edges[3] < titles["x2"].y < edges[3] + 20
+    # the key: rows one below the other beside the box, each line's sample at the height of its name's middle
+    rows = [e for e in space.query("TEXT") if e.dxf.insert.x > edges[2] and e.dxf.layer != "AXES"]
+    heights = [e.dxf.insert.y for e in rows]
+    assert heights[0] + rows[0].dxf.height == pytest.approx(edges[3])
+    assert np.allclose(-np.diff(heights), 9)
+    for sample in space.query("LINE"):
+        if sample.dxf.layer != "AXES":
+            (name,) = (e for e in rows if e.dxf.layer == sample.dxf.layer)
+            assert edges[2] < sample.dxf.start.x < sample.dxf.end.x < name.dxf.insert.x
+            assert sample.dxf.start.y == sample.dxf.end.y == pytest.approx(name.dxf.insert.y + name.dxf.height / 2)
+    for number, (told, (x1, x2)) in enumerate(marks.items(), 1):
+        ring = space.query("CIRCLE")[number - 1].dxf
+        assert (ring.center.x, ring.center.y, ring.radius) == pytest.approx((SCALE * x1, SCALE * x2, 2))
+        beside = [e.dxf.insert for e in space.query("TEXT") if e.dxf.text == str(number) and e.dxf.layer == "CHOICES"]
+        assert any(2 < abs(complex(*at.vec2) - SCALE * complex(x1, x2)) < 6 and at.x > ring.center.x for at in beside)
+        assert f"{told}: {x1:.4f} / {x2:.4f}" in [e.dxf.text for e in rows]
+    low, high = drawing.header["$EXTMIN"], drawing.header["$EXTMAX"]
+    for text in space.query("TEXT"):
+        assert low[0] <= text.dxf.insert.x < high[0]
+        assert low[1] <= text.dxf.insert.y < text.dxf.insert.y + text.dxf.height <= high[1]
+    assert low[0] == pytest.approx(edges[0] - 20)
+    assert edges[2] + 100 < high[0] < edges[2] + 400
 
 
 def test_the_picture_has_a_line_and_a_key_for_each_condition(contour: Any) -> None:
