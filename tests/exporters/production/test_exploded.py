@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -93,6 +95,15 @@ def drawn(text: str) -> list[tuple[str, shapely.geometry.base.BaseGeometry]]:
     ]  # fmt: skip
 
 
+@pytest.fixture(scope="module")
+def stack(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """The view of the stack."""
+    folder = tmp_path_factory.mktemp("stack")
+    (folder / "stack.toml").write_text(SCENE.format(language="en"), encoding="utf-8")
+    assert main(["build", str(folder / "stack.toml"), "--out", str(folder), "-q"]) == 0
+    return (folder / "stack" / "stack.exploded.preview.svg").read_text(encoding="utf-8")
+
+
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize(("language", "words"), [("en", ("Stack", "2  Ring")), ("uk", ("Стопка", "3  Палець × 2"))])
 def test_numbers_stand_on_what_is_seen(language: str, words: tuple[str, ...], tmp_path: Path) -> None:
@@ -114,6 +125,85 @@ def test_numbers_stand_on_what_is_seen(language: str, words: tuple[str, ...], tm
     for number, end in zip(numbers, ends, strict=True):
         seen = [name for name, shape in things if shape.contains(end)]
         assert seen[-1].startswith(own[number])
+
+
+def isometric(x: float, y: float, z: float) -> complex:
+    """A place in rectangular isometry, seen from (1, -1, 1), y of the page downwards."""
+    return complex((x + y) / math.sqrt(2), (x - y - 2 * z) / math.sqrt(6))
+
+
+def test_everything_stands_where_its_order_puts_it_and_within_the_picture(stack: str) -> None:
+    """Instances on the ways on which they come, leaders in two columns, words below: all of it by plain isometry."""
+    things = dict(drawn(stack))
+    left, top, width, height = map(float, re.findall(r'viewBox="([^"]+)"', stack)[0].split())
+    bounds = np.array([shape.bounds for shape in things.values()])
+    low, high = bounds[:, :2].min(axis=0), bounds[:, 2:].max(axis=0)
+    # the longer side is 1200, beside two columns of 52 for the numbers
+    assert (low[0], high[0]) == pytest.approx((52, 1252), abs=0.2)
+    assert -0.2 <= low[1] < 40
+    assert (left, top, width) == pytest.approx((-52, -52, 1200 + 4 * 52))
+    scale = 1200 / abs(isometric(45, 45, 0) - isometric(-45, -45, 0))
+    uses = re.findall(r'<use id="(\w+)" xlink:href="#(d\d+)" x="([-\d.]+)" y="([-\d.]+)"', stack)
+    at = {name: complex(float(x), float(y)) / scale for name, _, x, y in uses}
+    # alike ones share their drawing
+    assert len({of for _, of, *_ in uses}) == 4
+    corners = [isometric(x, y, z) for x in (-45, 45) for y in (-45, 45) for z in (0, 8)]
+    hull = shapely.MultiPoint([((c + at["base"]).real * scale + 52, (c + at["base"]).imag * scale) for c in corners])
+    assert shapely.symmetric_difference(hull.convex_hull, things["base"]).area < 1e-3 * things["base"].area
+    assert at["pin_1"] - at["pin_2"] == pytest.approx(isometric(54, 0, 0), abs=0.02)
+    up = {name: -(at[name] - at["base"] - isometric(x, 0, 0)).imag * math.sqrt(6) / 2
+          for name, x in (("ring", 0), ("pin_1", 27), ("slug", 0))}  # fmt: skip
+    for name, x in (("ring", 0), ("pin_1", 27), ("slug", 0)):
+        assert (at[name] - at["base"]).real == pytest.approx(isometric(x, 0, 0).real, abs=0.02)
+    # each is clear of the one that it goes on: base 0 to 8, ring 6 high, pins 20, the slug 3 high comes from below
+    assert 8 < up["ring"] < 8 + 30
+    assert up["ring"] + 6 < up["pin_1"] < up["ring"] + 6 + 40
+    assert -3 - 30 < up["slug"] < -3
+    leaders = re.findall(r'<path class="l" d="M(\d+),([\d.]+)h(-?\d+)L([\d.]+),([\d.]+)"/>', stack)
+    rings = re.findall(r'<circle cx="([\d.]+)" cy="([\d.]+)" r="2.2"/>', stack)
+    numbers = re.findall(r'<text x="(\d+)" y="([\d.]+)" text-anchor="middle">', stack)
+    rows: dict[str, list[tuple[float, float]]] = {"0": [], "1304": []}
+    for (start, y, shelf, *end), ring, (x, base) in zip(leaders, rings, numbers, strict=True):
+        assert tuple(end) == ring
+        assert float(shelf) == (26 if start == "0" else -26)
+        assert (float(x), float(base)) == pytest.approx((float(start) + float(shelf) / 2, float(y) - 3), abs=0.06)
+        rows[start].append((float(y), float(end[0])))
+    assert all(rows.values())
+    for column in rows.values():
+        assert column == sorted(column)
+        assert all(b - a >= 1.5 * 13 - 0.1 for (a, _), (b, _) in pairwise(column))
+        assert all(0 <= y <= high[1] + 0.2 for y, _ in column)
+    assert max(end for _, end in rows["0"]) <= min(end for _, end in rows["1304"])
+    words = re.findall(r'<text x="(\d+)" y="([\d.]+)">([^<]+)<', stack)
+    assert len(words) == 5
+    assert all(float(y) > high[1] + 13 for _, y, _ in words)
+    assert all(float(y) + 13 < top + height for _, y, _ in words)
+    columns = sorted({float(x) for x, *_ in words})
+    for x, _, told in words:
+        beyond = next((c for c in columns if c > float(x)), left + width)
+        assert float(x) + 0.55 * 13 * len(told) < beyond
+    for column in columns:
+        assert np.allclose(np.diff([float(y) for x, y, _ in words if float(x) == column]), 1.4 * 13, atol=1.01)
+
+
+def test_light_is_on_what_faces_the_viewer(stack: str) -> None:
+    """Ends lighter than the part's colour, walls from dark over bright to dark."""
+    shades = {
+        number: re.findall(r'stop-color="#(\w+)"', row)
+        for number, row in re.findall(r'<linearGradient id="g(\d)">(.*)</linearGradient>', stack)
+    }
+    groups = re.findall(r'<g id="d(\d+)">(.*?)</g>', stack, re.DOTALL)
+    assert len(groups) == 4
+
+    def light(colour: str) -> int:
+        return sum(int(colour[k : k + 2], 16) for k in (0, 2, 4))
+
+    for number, group in groups:
+        dark, bright, middle, last = map(light, shades[number])
+        (end,) = {light(c) for c in re.findall(r'fill="#(\w+)"', group)}
+        assert last < dark < middle < bright < end
+        assert end / bright == pytest.approx(1.08 / 0.98, rel=0.01)
+        assert [dark / bright, middle / bright, last / bright] == pytest.approx([0.633, 0.898, 0.51], rel=0.01)
 
 
 def test_a_plate_of_one_part_has_the_view_of_all_and_long_names_stay_within_it(tmp_path: Path) -> None:
