@@ -16,6 +16,7 @@ from exporters.production.plan import Plan, plan_build
 from parts.base.refusal import SceneError
 from parts.scene.load import load_scene, resolved, scene_from_resolved, scene_from_toml
 from tests.exporters.making import run
+from tests.parts.scene.test_followers import scene_text
 from tests.parts.scene.test_trains import DRIVE, FREE, JAMES
 from tests.sampling import some_of
 
@@ -138,3 +139,61 @@ def test_a_loop_of_any_length_is_good(tmp_path: Path) -> None:
 def test_a_scene_without_drives_has_no_motion() -> None:
     with pytest.raises(SceneError, match="shows what a drive moves"):
         planned(FREE + MOTION)
+
+
+def swept(file: Path) -> tuple[np.ndarray, np.ndarray]:
+    """Left, top, right and bottom of all corners over a loop; and of the page."""
+    root = ElementTree.parse(file).getroot()
+    low, high = np.full(2, np.inf), np.full(2, -np.inf)
+    for group in root.iter(f"{SVG}g"):
+        if (name := group.get("id")) is None:
+            continue
+        (path,) = group.iter(f"{SVG}path")
+        ends = re.findall(r"([-\d.]+),([-\d.]+)(?=\s*(?:[MLAZ]|$))", path.get("d", ""))
+        corners = np.array([complex(float(x), -float(y)) for x, y in ends])
+        for share in np.linspace(0, 1, 25):
+            place, turn = at(file, name, share)
+            placed = place + corners * cmath.rect(1.0, math.radians(turn))
+            low = np.minimum(low, [placed.real.min(), -placed.imag.max()])
+            high = np.maximum(high, [placed.real.max(), -placed.imag.min()])
+    left, top, width, height = map(float, root.get("viewBox", "").split())
+    for key, size in (("width", width), ("height", height)):
+        assert float(root.get(key, "").removesuffix("mm")) == size
+    return np.array([*low, *high]), np.array([left, top, left + width, top + height])
+
+
+@pytest.fixture(scope="module")
+def rocker(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Plan, float]:
+    """A cam that swings an arm, unevenly about an axis that stays; and the error that is declared."""
+    folder = tmp_path_factory.mktemp("rocker")
+    text = scene_text("flat", "against").replace("{turned}", "0.0").replace("{direction}", "60.0")
+    plan = planned(text.partition("[checks]")[0] + DRIVE.format("cam", "turns = 1.0") + MOTION)
+    built = build(plan, folder)
+    assert built.well
+    return folder / "s.motion.svg", plan, built.written[0].max_error
+
+
+def test_all_that_moves_stays_within_a_page_that_is_no_larger_than_it_needs(rocker: tuple[Path, Plan, float]) -> None:
+    file, plan, _ = rocker
+    drawn, page = swept(file)
+    assert ((page - drawn) * [-1, -1, 1, 1] > 0).all()
+    # about each place a circle of what is drawn there, and 3 hundredths of it
+    reach = {i.id: 1.03 * plan.parts[i.part].section(0.0).region.outer.reach() for i in plan.placing.instances}
+    poses = [(i.centre, reach[i.id]) for share in np.linspace(0, 1, 25) for i in plan.placing.at([share])]
+    edges = [min(p.real - r for p, r in poses), min(-p.imag - r for p, r in poses),
+             max(p.real + r for p, r in poses), max(r - p.imag for p, r in poses)]  # fmt: skip
+    assert page == pytest.approx(edges, abs=0.05)
+
+
+def test_an_uneven_turn_is_as_near_as_is_declared(rocker: tuple[Path, Plan, float]) -> None:
+    """Straight between values: the arm's end is off by no more than is declared, and by no little share of it."""
+    file, plan, declared = rocker
+    reach = plan.parts["follower"].section(0.0).region.outer.reach()
+    (group,) = (g for g in ElementTree.parse(file).getroot().iter(f"{SVG}g") if g.get("id") == "follower")
+    values = group.findall(f".//{SVG}animateTransform")[-1].get("values", "").split(";")
+    angles = -np.radians(np.array(list(map(float, values))))
+    shares = (np.arange(len(angles) - 1) + 0.5) / (len(angles) - 1)
+    exact = np.array([next(i.rotation for i in plan.placing.at([s]) if i.id == "follower") for s in shares.tolist()])
+    off = exact - (angles[:-1] + angles[1:]) / 2
+    off = np.abs(np.angle(np.exp(1j * off))).max() * reach
+    assert declared / 20 < off <= declared <= 0.05
