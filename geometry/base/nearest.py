@@ -48,15 +48,17 @@ def nearest(
 
     ends = [toward] if isinstance(toward, int | float) else toward
     good: float | None = None
+    bad: float = given
     for end in ends:
         if left <= 0:
             return None
         if tried(end):
             good = end
             break
+        # what lies before it is not looked at again
+        bad = end
     if good is None:
         return None
-    bad: float = given
     if isinstance(good, int) and isinstance(bad, int):
         while abs(good - bad) > 1 and left > 0:
             between = (good + bad) // 2

@@ -20,9 +20,10 @@ Starts = Annotated[int, Meta(ge=1, le=50, description="starts of the worm, z1")]
 Quotient = Annotated[float, Meta(gt=0, le=1000, description="q = d1 / m")]
 # of a worm that gives neither q nor a lead angle
 USUAL_QUOTIENT = 10.0
-# how much larger a q is tried than one that does not do, and how near to the least that does where that is costly
+# how much larger a q is tried than one that does not do
 WIDER = (1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 5.0, 10.0, 20.0)
-_NEAR = 0.02
+# how near to the last one that holds a value of a wheel is found, modules or part of it
+NEAR = 1e-3
 WormQuotient = Annotated[
     float, Meta(gt=0, le=1000, description="q = d1 / m; default: 10", examples=[USUAL_QUOTIENT])
 ]  # fmt: skip
@@ -101,11 +102,14 @@ def quotient_of(keys: Led) -> float:
 
 
 def wider(
-    refusal: ParameterError, does: Callable[[float], bool], stands: Callable[[float], bool] | None = None
+    refusal: ParameterError,
+    does: Callable[[float], bool],
+    stands: Callable[[float], bool] | None = None,
+    most: float = math.inf,
 ) -> ParameterError:
     """A refusal of the diameter quotient with the least that does for the whole part, from its own limit on.
 
-    ``does``: a margin of the part; ``stands``: the part itself, where that is more and costly.
+    ``does``: a margin of the part; ``stands``: the part itself, where that is more and costly; ``most``: that may be.
     """
     if refusal.name != "diameter_quotient" or refusal.code == "either_key":
         return refusal
@@ -115,12 +119,14 @@ def wider(
         start = float(str(refusal.value if own is None else own.value))
         if own is not None and kept(stands or does, start):
             return own
-        ends = [start * share for share in WIDER]
-        found = nearest(does, start, ends)
+        ends = [end for share in WIDER if (end := start * share) < most]
+        if most < math.inf:
+            ends.append(most)
+        found = nearest(does, start, ends, share=NEAR if stands else 0.0)
         if stands is None or found is None or not isinstance(found.value, float) or kept(stands, found.value):
             return found
         # costly, so by a few trials
-        return nearest(stands, found.value, [end for end in ends if end > found.value], share=_NEAR)
+        return nearest(stands, found.value, [end for end in ends if end > found.value], share=NEAR)
 
     return ParameterError(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
 

@@ -25,9 +25,9 @@ Real = NDArray[np.float64]
 
 # half the tip between its roundings is no narrower, modules: faces less wide are turned over by rounding
 _LEAST_LAND = 1e-3
-# steps to a plane across the wheel's axis, and the last of them, rad; when they have got there at all, part of the
-# hob's tip
-_STEPS, _LEAST_STEP, _THERE = 24, 1e-9, 1e-12
+# steps to a plane across the wheel's axis, and the last of them, rad; from which on they are no longer than that where
+# there is a point at all; when they have got there, part of the hob's tip
+_STEPS, _LEAST_STEP, _CALM, _NEAR, _THERE = 24, 1e-8, 5, 0.03, 1e-12
 # steps to the hob's pressure angle, each of which leaves a tenth of what it is off
 _ANGLE_STEPS = 16
 
@@ -159,28 +159,37 @@ class Hob(Record, dict=True):
     def _turned(self, meridian: Meridian, turn: Real, y: Real) -> Real:
         """Polar angles at which points of a swivelled thread touch the wheel in their planes, rad; from near ones.
 
-        The swivel moves them from there by a little: Newton's steps on n v = 0 in the plane, without its denominator.
+        The swivel moves them from there by a little: Halley's steps on n v = 0 in the plane, without its denominator,
+        which is p sin^2 - q sin cos + c cos + s sin + k of the angle.
         """
         sine, cosine = math.sin(self.swivel), math.cos(self.swivel)
-        wanted, r, outwards, upwards = (
-            np.broadcast_to(x, turn.shape).ravel()
-            for x in (y * cosine, meridian.radius, meridian.outwards, meridian.upwards)
+        screw, sunk = self.worm.sign * self.worm.parameter, self.centre_distance * sine * sine
+        r, rise, lift = meridian.radius, screw * meridian.outwards, meridian.upwards * meridian.radius
+        wanted, along, across = y * cosine, sine * r * meridian.outwards, 1 / self.rate + self.centre_distance * cosine
+        terms = (
+            rise * r * cosine**2,
+            lift * r * cosine**2,
+            lift * wanted - cosine * r * along - sunk * rise,
+            -rise * wanted - sunk * lift,
+            rise * r * sine**2 + along * across,
         )
-        rise, lift, along = self.worm.sign * self.worm.parameter * outwards, upwards * r, r * outwards
+        p, q, c, s, k = (np.broadcast_to(x, turn.shape).ravel() for x in terms)
         found, at = turn.ravel(), np.arange(turn.size)
-        for _ in range(_STEPS):
+        for number in range(_STEPS):
             out, side = np.cos(found[at]), np.sin(found[at])
-            # of the normal: one part is the other's derivative
-            n_x, n_side = rise * side - lift * out, -lift * side - rise * out
-            n_z, off, x = n_side * sine + along * cosine, r * side - wanted, r * out - self.centre_distance
-            left = n_x * off + sine * (along / self.rate - x * n_z)
-            step = left / (n_side * off - n_x * r * out + sine * (x * sine * n_x - r * side * n_z))
-            found[at] += step
-            goes = (np.abs(step) > _LEAST_STEP) & (np.abs(found[at]) < math.pi)
+            less, more, wave = q * out - p * side, q * side + p * out, c * out + s * side
+            left, slope = wave - side * less + k, side * (more - c) - out * (less - s)
+            step = 2 * left * slope / (2 * slope * slope - left * (2 * (side * less + out * more) - wave))
+            found[at] -= step
+            size = np.abs(step)
+            goes = (size > _LEAST_STEP) & (np.abs(found[at]) < math.pi)
+            if number >= _CALM:
+                # nothing is near
+                goes &= size < _NEAR
             if not goes.any():
                 break
             at = at[goes]
-            wanted, r, rise, lift, along = (x[goes] for x in (wanted, r, rise, lift, along))
+            p, q, c, s, k = (x[goes] for x in (p, q, c, s, k))
         return found.reshape(turn.shape)
 
     def _touch(self, meridian: Meridian, turn: Real) -> _Touch:

@@ -64,8 +64,10 @@ _FOLD, _STILL = np.linspace(0.0, 1.0, 17)[:, None], 2e-2
 _BESIDE, _ABOUT = (-1e-2, -1e-3, 1e-3, 1e-2), 1e-5
 # of pictures: points of which a few are drawn, and how near their chords are, part of the size
 _DRAWN, _SEEN = 33, 2e-4
-# the least width that is offered, part of the asked one, and how near to the widest, part of it
-_LEAST_WIDTH, _NEAR_WIDTH = 2e-2, 1e-3
+# the least width that is one, part of the hob's radius; how near to the widest one is found, part of it, and parts of
+# one that all but stands
+_LEAST_WIDTH, _NEAR_WIDTH = 3e-2, 5e-4
+LESS = (0.995, 0.98, 0.9, 0.7, 0.3, 0.1, 0.03)
 
 
 class NoTooth(Exception):
@@ -490,15 +492,20 @@ class WormTeeth(Record, dict=True):
         """The same for a search, which looks at few heights of many wheels."""
         return replace(self, levels=_GLANCE)
 
-    def narrowed(self, *, even: bool = False, near: float = _NEAR_WIDTH) -> WormTeeth:
+    @property
+    def sliver(self) -> WormTeeth:
+        """The same of the least width, or of their own."""
+        return replace(self, width=min(self.width, _LEAST_WIDTH * self.hob.tip_radius))
+
+    def narrowed(self, *, even: bool = False) -> WormTeeth:
         """The teeth with as much of the width as has whole ones at every height; themselves where none has.
 
-        ``even``: and as has flanks that bend nowhere; ``near``: how near to the widest, part of it.
+        ``even``: and as has flanks that bend nowhere.
         """
 
-        return self._widest(lambda teeth: teeth.is_even if even else teeth.is_whole, near) or self
+        return self._widest(lambda teeth: teeth.is_even if even else teeth.is_whole) or self
 
-    def _widest(self, stands: Callable[[WormTeeth], bool], near: float = _NEAR_WIDTH) -> WormTeeth | None:
+    def _widest(self, stands: Callable[[WormTeeth], bool]) -> WormTeeth | None:
         """The same of the greatest width at which they stand, their own or one that is found; None where none is."""
         if stands(self):
             return self
@@ -506,15 +513,17 @@ class WormTeeth(Record, dict=True):
         def does(levels: int, width: float) -> bool:
             return stands(replace(self, width=width, levels=levels))
 
-        # where the last of a tooth goes rounding decides
-        least = _LEAST_WIDTH * self.width
+        least, widest = self.sliver.width, self.width
+        ends = [least]
         for levels in (_GLANCE, self.levels):
-            found = nearest(partial(does, levels), self.width, least, share=near)
+            found = nearest(partial(does, levels), widest, ends, share=_NEAR_WIDTH)
             if found is None or not isinstance(found.value, float):
                 return None
             whole = replace(self, width=found.value)
             if levels == self.levels or stands(whole):
                 return whole
+            widest = found.value
+            ends = [*(width for share in LESS if (width := share * widest) > least), least]
         return None
 
     def standing(self) -> WormTeeth | None:

@@ -16,15 +16,15 @@ import numpy as np
 
 from geometry.approximation.outline import CadCurve, Outline
 from geometry.approximation.tensor import clamped, greville, tensor_poles
-from geometry.base.errors import ConvergenceError
-from geometry.base.nearest import kept, nearest
+from geometry.base.errors import ConvergenceError, GeometryError
+from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline, basis_matrix
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.worms.hob import Cut
-from geometry.gears.worms.wheel import NoTooth, WormTeeth
+from geometry.gears.worms.wheel import LESS, NoTooth, WormTeeth
 from geometry.gears.worms.wheel_measures import FILLET, FLANK, WormWheel
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile
@@ -47,8 +47,8 @@ _WANTED, _ENOUGH = 1e-6, (12, 48)
 _CLOSER = 2
 # so many spans are one more when they are too few
 _SLOW = 6
-# parts of a width that are tried, and how near to the widest that splines follow
-_NARROW, _NEARLY = (0.3, 0.1, 0.03), 0.05
+# how near to the widest that splines follow one is found, part of it
+_NEARLY = 1e-3
 # of the curves of a ring
 _ROOT, _TIP = 0, 3
 # where between two places of interpolation errors are greatest
@@ -110,25 +110,29 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
 
 # what a refusal offers is asked for again by whoever judges the offer
 @lru_cache(maxsize=4)
-def fitting(teeth: WormTeeth, near: float = _NEARLY, least: tuple[float, ...] = _NARROW) -> WormTeeth | None:
-    """The widest narrower teeth, themselves first, that splines come near, but for a part ``near`` of it; or None.
-
-    ``least``: parts of the width of which one has to do.
-    """
+def fitting(teeth: WormTeeth) -> WormTeeth | None:
+    """The widest narrower teeth, themselves first, that splines come near; or None."""
+    if is_fitting(teeth):
+        return teeth
 
     def follows(width: float) -> bool:
-        try:
-            narrower = replace(teeth, width=width).checked()
-            # of what bends splines follow next to nothing
-            bends = width < teeth.width and narrower.is_creased
-            return not bends and _are_followed(narrower)
-        except NoTooth:
-            return False
+        narrower = replace(teeth, width=width)
+        # of what bends splines follow next to nothing
+        return narrower.ended is None and not narrower.is_creased and is_fitting(narrower)
 
-    if kept(follows, teeth.width):
-        return teeth
-    found = nearest(follows, teeth.width, [share * teeth.width for share in least], share=near)
+    least = teeth.sliver.width
+    ends = [*(width for share in LESS if (width := share * teeth.width) > least), least]
+    found = nearest(follows, teeth.width, ends, share=_NEARLY)
     return replace(teeth, width=found.value) if found and isinstance(found.value, float) else None
+
+
+@lru_cache(maxsize=4)
+def is_fitting(teeth: WormTeeth) -> bool:
+    """Whether teeth stand over their whole width, and splines come near."""
+    try:
+        return teeth.ended is None and _are_followed(teeth)
+    except (GeometryError, NoTooth):
+        return False
 
 
 def _are_followed(teeth: WormTeeth) -> bool:

@@ -167,10 +167,10 @@ def thread_of_keys(keys: WormSpec) -> Thread:
 
 
 def _lower(keys: WormSpec) -> Nearest | None:
-    """The addendum that leaves a tip, and with the root that goes with it spaces and their fillets."""
+    """The addendum that leaves the whole worm: a tip, with its root spaces and fillets, and ends of its thread."""
 
     def works(value: float) -> bool:
-        return thread_of_keys(changed(keys, addendum_coefficient=value)).tip_half > 0
+        return WORM.thing(changed(keys, addendum_coefficient=value), {}) is not None
 
     given = keys.addendum_coefficient
     return nearest(works, given, [end for end in _LOWER if end < given])

@@ -20,6 +20,7 @@ from parts.keys.base import mm
 from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes, wide_bore
 from parts.keys.wheel import HubTable, WebTable, wheel_shape
 from parts.keys.worm import (
+    NEAR,
     WIDER,
     Addendum,
     AxialModule,
@@ -54,15 +55,8 @@ _CORE = 0.5
 _LEAST_TEETH = 8
 # heights at which a ridge is looked at
 _SEEN = 33
-# part of a width that is told apart from none
-_SLIVER = 0.02
-# and what a wheel is of use with; its tip in the middle, modules
+# part of the usual width that a wheel is of use with; its tip in the middle, modules
 _USEFUL, _TIP = 0.25, 0.02
-# addenda and shifts (modules) and thinnings (mm) are offered that near to the last one that works, and where only the
-# splines tell which does
-_NEAR, _NEARLY = 5e-3, 2e-2
-# how near a default width comes to the widest that splines follow, at a glance, and the least part of it that is one
-_WIDEST, _ROUGHLY, _LEAST = 1e-2, 1.0, (0.3,)
 # addenda that are tried, and that leave next to nothing, modules
 _ADDENDA, _LOW = (0.8, 0.6, 0.4, 0.2, 0.1), (0.05, 0.02)
 # keys in whose refusals others may take the teeth away as well
@@ -159,10 +153,10 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     if outer < least:
         raise ParameterError("outer_diameter", outer, "within_throat", limit(least, outer), diameter=least)
     teeth = WormTeeth(hob, drive.centre_distance, drive.throat_radius, outer / 2, width)
-    sliver = replace(teeth.glanced, width=_SLIVER * width).lessened
-    if sliver is not None:
+    ended = teeth.glanced.sliver.lessened
+    if ended is not None:
         # at any width
-        raise ParameterError("addendum_coefficient", keys.addendum_coefficient, sliver)
+        raise ParameterError("addendum_coefficient", keys.addendum_coefficient, ended)
     return teeth
 
 
@@ -171,36 +165,49 @@ def _of_use(keys: WormWheelSpec) -> bool:
 
     Where a width is asked for, whether they stand over all of it.
     """
-    teeth = _asked_teeth(keys, drive_of(keys))
     if keys.face_width is not None:
-        return teeth.glanced.ended is None
-    teeth = replace(teeth.glanced, width=_USEFUL * teeth.width)
+        return _stands(keys)
+    teeth = _asked_teeth(keys, drive_of(keys)).glanced
+    teeth = replace(teeth, width=_USEFUL * teeth.width)
     # what is not whole anywhere has no tip to ask for
     return teeth.is_even and float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0]) > _TIP * keys.module
 
 
-def teeth_of(keys: WormWheelSpec, drive: WormDrive, *, glance: bool = False) -> WormTeeth:
-    """The teeth of the whole width, or where none is given of as much of it as has some.
+def _stands(keys: WormWheelSpec) -> bool:
+    """Whether some width has whole teeth that bend nowhere, or all of one that is asked for has any, at a glance."""
+    teeth = _asked_teeth(keys, drive_of(keys)).glanced
+    return teeth.sliver.is_even if keys.face_width is None else teeth.ended is None
 
-    ``glance``: of some of that, by few trials, and no narrower one is sought for what is given.
-    """
-    from geometry.gears.worms.wheel_faces import fitting
+
+def _is_made(keys: WormWheelSpec) -> bool:
+    """Whether there are teeth of some width, or of the one that is asked for, that splines follow."""
+    from geometry.gears.worms.wheel_faces import is_fitting
+
+    teeth = _asked_teeth(keys, drive_of(keys))
+    return is_fitting(teeth.sliver if keys.face_width is None else teeth)
+
+
+def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
+    """The teeth of the whole width, or where none is given of as much of it as has some."""
+    from geometry.gears.worms.wheel_faces import fitting, is_fitting
 
     teeth = _asked_teeth(keys, drive)
     if keys.face_width is None:
-        narrowed = partial(teeth.narrowed, near=_ROUGHLY) if glance else teeth.narrowed
-        even = narrowed(even=True)
-        teeth = even if even.is_even and even.width >= _USEFUL * teeth.width else narrowed()
+        even = teeth.narrowed(even=True)
+        whole = even if even.is_even and even.width >= _USEFUL * teeth.width else teeth.narrowed()
+        # faces may break off where none of the known ends is
+        found = fitting(whole)
+        if found is not None:
+            return found
+        code = "worm_wheel_below_base" if whole.is_creased else "worm_wheel_faces_break"
+        raise ParameterError("addendum_coefficient", keys.addendum_coefficient, code)
     try:
         teeth = teeth.checked()
     except ParameterError as wide:
         raise ParameterError(wide.name, wide.value, wide.code, partial(_narrower, teeth)) from wide
-    # faces may break off where none of the known ends is
-    given = keys.face_width is not None
-    found = fitting(teeth, least=()) if given else fitting(teeth, _ROUGHLY if glance else _WIDEST, _LEAST)
-    if found is not None:
-        return found
-    if teeth.is_creased and (glance or not given or fitting(teeth) is None):
+    if is_fitting(teeth):
+        return teeth
+    if teeth.is_creased and fitting(teeth) is None:
         raise ParameterError("addendum_coefficient", keys.addendum_coefficient, "worm_wheel_below_base")
     raise ParameterError("face_width", teeth.width, "worm_wheel_faces_break", partial(_narrower, teeth))
 
@@ -221,20 +228,17 @@ def _toothless(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
         return lambda value: does(changed(keys, **{key: value}))
 
     def cure() -> Nearest | None:
-        found = nearest(left_by(does, key), given, ends, enough=_NEAR)
-        less = _LOW if key == "addendum_coefficient" else ()
+        near = NEAR * (keys.module if key == "axial_thinning" else 1.0)
+        found = nearest(left_by(_stands, key), given, ends, enough=near, share=NEAR)
+        if found is None or not isinstance(found.value, int | float) or kept(left_by(_is_made, key), found.value):
+            return found
         # splines do not follow some that run all but along the contact's way to infinity
-        for made in (_is_likely, _is_made):
-            if found is None or not isinstance(found.value, int | float) or kept(left_by(_is_made, key), found.value):
-                break
-            beyond = [end for end in (*ends, *less) if (end - found.value) * (found.value - given) > 0]
-            found = nearest(left_by(made, key), found.value, beyond, enough=_NEARLY)
-        return found
+        less = _LOW if key == "addendum_coefficient" else ()
+        beyond = [end for end in (*ends, *less) if (end - found.value) * (found.value - given) > 0]
+        return nearest(left_by(_is_made, key), found.value, beyond, enough=near, share=NEAR)
 
     for does, key, values in _suspects(keys, refusal):
-        # of next to nothing, or over all of a width that is asked for, a margin says less than of what is of use
-        sure = does is _of_use and key == "addendum_coefficient" and keys.face_width is None
-        margins = [left_by(holds, key) for holds in ((does,) if sure else (does, _is_likely))]
+        margins = [left_by(holds, key) for holds in (does, _is_made)]
         least = next((k for k, value in enumerate(values) if all(kept(holds, value) for holds in margins)), None)
         ends, given = values[least:], getattr(keys, key)
         if least is not None:
@@ -250,52 +254,38 @@ def _suspects(
     if keys.axial_thinning:
         yield _of_use, "axial_thinning", (0.0,)
     elif refusal.name == "hob_rounding_coefficient" and (found := refusal.nearest) and isinstance(found.value, float):
-        yield _is_likely, refusal.name, (found.value, found.value / 2, 0.0)
+        yield _is_made, refusal.name, (found.value, found.value / 2, 0.0)
     if keys.profile_shift_coefficient:
         yield _of_use, "profile_shift_coefficient", (0.0,)
     yield _of_use, "addendum_coefficient", _ADDENDA
     if larger > quotient:
-        yield _is_some, "hob_diameter_quotient", (quotient,)
+        yield _stands, "hob_diameter_quotient", (quotient,)
     # teeth of less than is of use are more than none
-    yield _is_some, "addendum_coefficient", _ADDENDA[-1:]
+    yield _stands, "addendum_coefficient", _ADDENDA[-1:]
     most = [larger] if larger > quotient else []
     yield (
         _of_use,
         "diameter_quotient",
         [q for q in (quotient * share for share in WIDER) if not most or q < larger] + most,
     )
-    yield _is_some, "number_of_starts", range(keys.number_of_starts - 1, 0, -1)
-    yield _is_some, "addendum_coefficient", _LOW
-
-
-def _is_some(keys: WormWheelSpec) -> bool:
-    """Whether there are whole teeth that bend nowhere in the middle."""
-    teeth = _asked_teeth(keys, drive_of(keys))
-    return replace(teeth.glanced, width=_SLIVER * teeth.width).is_even
-
-
-def _is_made(keys: WormWheelSpec) -> bool:
-    """Whether there are teeth that splines follow."""
-    return teeth_of(keys, drive_of(keys)).width > 0
-
-
-def _is_likely(keys: WormWheelSpec) -> bool:
-    """The same at a glance."""
-    return teeth_of(keys, drive_of(keys), glance=True).width > 0
+    yield _stands, "number_of_starts", range(keys.number_of_starts - 1, 0, -1)
+    yield _stands, "addendum_coefficient", _LOW
 
 
 def _cured(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
     """A refusal of worm, hob or teeth with the value that leaves a wheel."""
 
     def does(value: float) -> bool:
-        return _of_use(changed(keys, diameter_quotient=value))
+        return _stands(changed(keys, diameter_quotient=value))
 
     def stands(value: float) -> bool:
         more = changed(keys, diameter_quotient=value)
         drive = drive_of(more)
         return _about(more, drive, teeth_of(more, drive)).teeth.width > 0
 
-    return _toothless(keys, refusal) if refusal.name in _TEETH else wider(refusal, does, stands)
+    if refusal.name in _TEETH:
+        return _toothless(keys, refusal)
+    return wider(refusal, does, stands, keys.hob_diameter_quotient or math.inf)
 
 
 def _about(keys: WormWheelSpec, drive: WormDrive, teeth: WormTeeth) -> WheelThing:
