@@ -80,11 +80,13 @@ def _next_fraction(a: float, b: float, c: float, fa: float, fb: float, fc: float
     return min(1 - margin, max(margin, fraction))
 
 
-def bracketed_roots(function: Callable[[Real], Real], low: Real, high: Real, at_low: Real, at_high: Real) -> Real:
+def bracketed_roots(
+    function: Callable[[Real], Real], low: Real, high: Real, at_low: Real, at_high: Real, *, enough: float = 0.0
+) -> Real:
     """Roots (n,) of a vectorised function that has the values of opposite sign ``at_low`` and ``at_high``.
 
     The method of ``bracketed_root`` on all brackets together, to the last digit; brackets whose function jumps end
-    at the jump.
+    at the jump. ``enough``: a residual of this size ends a search before.
     """
     b, a, fb, fa = low, high, at_low, at_high
     fraction, best = np.full(len(low), 0.5), low
@@ -98,7 +100,7 @@ def bracketed_roots(function: Callable[[Real], Real], low: Real, high: Real, at_
             a, fa = x, fx
             best = np.where(np.abs(fa) < np.abs(fb), a, b)
             reach, least = np.abs(b - a), 2 * TOLERANCES.relative_root * np.abs(best) + 1e-300
-            done = (fa == 0) | (fb == 0) | (reach <= least)
+            done = (np.minimum(np.abs(fa), np.abs(fb)) <= enough) | (reach <= least)
             if done.all():
                 break
             xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)

@@ -39,8 +39,8 @@ _CROSSINGS, _NEWTON_STEPS, _SLOPE, _MET, _SURE, _BARELY, _SHALLOW, _CROSSED = 65
 _ABOUT_IT = np.array([-_SLOPE, 0.0, _SLOPE])[:, None]
 # how deep a flank cuts a side that is a fillet before it is seen, part of the pitch
 _DEEP = 1e-2
-# how near a flank gets to the tip, part of the hob's size
-_AT_TIP = 1e-8
+# how near a flank gets to the tip, and for a search, part of the hob's size
+_AT_TIP, _LOOSELY = 1e-8, 1e-10
 # shares of each part of both sides between which a ridge is sought
 _RIDGE = np.linspace(0.0, 1.0, 65)[:, None]
 # shares of a bracket at which a least distance is looked for, and how often: each time a sixteenth is left
@@ -60,6 +60,8 @@ BEYOND, _RUNS_ON = 0.02, 0.002
 # shares of a part at which it is looked whether it folds, and what a flank's least step is of its mean one: of those
 # that are not about to fold it is 0.07 and more
 _FOLD, _STILL = np.linspace(0.0, 1.0, 17)[:, None], 2e-2
+# shares of a bracket of such an end at which it is looked for
+_PARTS = np.linspace(0.0, 1.0, 9)[:, None]
 # how far beside an end of undercut it is looked at, and how well that end is known then, part of the width
 _BESIDE, _ABOUT = (-1e-2, -1e-3, 1e-3, 1e-2), 1e-5
 # of pictures: points of which a few are drawn, and how near their chords are, part of the size
@@ -104,7 +106,8 @@ class Side(Record, eq=False):
 class WormTeeth(Record, dict=True):
     """Teeth that ``hob`` cuts about a worm at ``centre_distance``; ``throat_radius`` about the worm's axis, mm.
 
-    ``outer_radius`` of the wheel and ``width`` of its rim, mm; ``levels``: at how many heights the face is looked at.
+    ``outer_radius`` of the wheel and ``width`` of its rim, mm; ``levels``: at how many heights the face is looked at;
+    ``loose``: for a search, to which the last digits are nothing.
     """
 
     hob: Hob
@@ -113,6 +116,7 @@ class WormTeeth(Record, dict=True):
     outer_radius: float
     width: float
     levels: int = _LEVELS
+    loose: bool = False
 
     @property
     def number_of_teeth(self) -> int:
@@ -222,15 +226,17 @@ class WormTeeth(Record, dict=True):
         if not (at < _RADII).all():
             raise NoTooth("worm_wheel_flank_ends")
 
-        def past(radius: Real) -> Real:
-            return self._reach(radius, z) - tip
+        whole, outer = ~all_fillet, np.full(len(z), form)
 
-        ends = radii[at - 1, column], radii[at, column]
-        early = np.where(all_fillet, -1.0, past(ends[0])), np.where(all_fillet, 1.0, past(ends[1]))
-        outer = np.where(all_fillet, form, bracketed_roots(past, *ends, *early))
-        if not ((np.abs(past(outer)) <= _AT_TIP * hob.tip_radius) | all_fillet).all():
-            # the contact of a swivelled hob leaves the plane before its flank gets to the tip
-            raise NoTooth("worm_wheel_flank_ends")
+        def past(radius: Real) -> Real:
+            return self._reach(radius, z[whole]) - tip[whole]
+
+        if whole.any():
+            ends = radii[(at - 1)[whole], column[whole]], radii[at[whole], column[whole]]
+            outer[whole] = bracketed_roots(past, *ends, *map(past, ends), enough=self._enough)
+            if not (np.abs(past(outer[whole])) <= _AT_TIP * hob.tip_radius).all():
+                # the contact of a swivelled hob leaves the plane before its flank gets to the tip
+                raise NoTooth("worm_wheel_flank_ends")
         undercut = (first > 0) & ~all_fillet
         inner, normal = np.full(len(z), form), np.full(len(z), hob.least_normal)
         if undercut.any():
@@ -283,7 +289,12 @@ class WormTeeth(Record, dict=True):
 
         low, high = np.full(len(z), hob.least_normal), np.full(len(z), math.pi / 2)
         # where flank and fillet both end at the tip there is nothing between
-        return bracketed_roots(past, low, high, np.maximum(past(low), 0.0), past(high))
+        return bracketed_roots(past, low, high, np.maximum(past(low), 0.0), past(high), enough=self._enough)
+
+    @property
+    def _enough(self) -> float:
+        """How near ends of flanks and fillets get to the tip, mm."""
+        return _LOOSELY * self.hob.tip_radius if self.loose else 0.0
 
     def _is_cut(self, radii: Real, normal: Real, z: Real) -> bool:
         """Whether flanks, (m, n), whose contact comes back from infinity, cut sides that are fillets up to the tip."""
@@ -490,7 +501,7 @@ class WormTeeth(Record, dict=True):
     @property
     def glanced(self) -> WormTeeth:
         """The same for a search, which looks at few heights of many wheels."""
-        return replace(self, levels=_GLANCE)
+        return replace(self, levels=_GLANCE, loose=True)
 
     @property
     def sliver(self) -> WormTeeth:
@@ -511,7 +522,7 @@ class WormTeeth(Record, dict=True):
             return self
 
         def does(levels: int, width: float) -> bool:
-            return stands(replace(self, width=width, levels=levels))
+            return stands(replace(self, width=width, levels=levels, loose=True))
 
         least, widest = self.sliver.width, self.width
         ends = [least]
@@ -688,11 +699,13 @@ class WormTeeth(Record, dict=True):
         """The same known that well, part of the width."""
         z, cut = self._levels, self._looked[2] > 0
         at = np.flatnonzero(cut[1:] != cut[:-1])
-        low, high = z[at], z[at + 1]
-        while (wide := high - low > settled * self.width).any():
-            middle = (low + high) / 2
-            same = (self._search(middle)[2] > 0) == cut[at]
-            low, high = np.where(wide & same, middle, low), np.where(wide & ~same, middle, high)
+        low, high, column = z[at], z[at + 1], np.arange(len(at))
+        while (high - low > settled * self.width).any():
+            places = low + (high - low) * _PARTS
+            same = (self._search(places.ravel())[2] > 0).reshape(places.shape) == cut[at]
+            # the first that is otherwise, and the one before it
+            k = np.where(same.all(axis=0), len(_PARTS) - 1, same.argmin(axis=0))
+            low, high = places[k - 1, column], places[k, column]
         return tuple(((low + high) / 2).tolist())
 
 

@@ -221,24 +221,27 @@ def _narrower(teeth: WormTeeth) -> Nearest | None:
     return limit(found.width, teeth.width) if found else None
 
 
+def _left_by(keys: WormWheelSpec, does: Callable[[WormWheelSpec], bool], key: str) -> Callable[[float], bool]:
+    """Whether a margin holds of the same keys but for one."""
+    return lambda value: does(changed(keys, **{key: value}))
+
+
 def _toothless(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
     """No tooth is left that splines follow: in the key that takes it away, with the value that leaves some."""
 
-    def left_by(does: Callable[[WormWheelSpec], bool], key: str) -> Callable[[float], bool]:
-        return lambda value: does(changed(keys, **{key: value}))
-
     def cure() -> Nearest | None:
         near = NEAR * (keys.module if key == "axial_thinning" else 1.0)
-        found = nearest(left_by(_stands, key), given, ends, enough=near, share=NEAR)
-        if found is None or not isinstance(found.value, int | float) or kept(left_by(_is_made, key), found.value):
+        made = _left_by(keys, _is_made, key)
+        found = nearest(_left_by(keys, _stands, key), given, ends, enough=near, share=NEAR)
+        if found is None or not isinstance(found.value, int | float) or kept(made, found.value):
             return found
         # splines do not follow some that run all but along the contact's way to infinity
         less = _LOW if key == "addendum_coefficient" else ()
         beyond = [end for end in (*ends, *less) if (end - found.value) * (found.value - given) > 0]
-        return nearest(left_by(_is_made, key), found.value, beyond, enough=near, share=NEAR)
+        return nearest(made, found.value, beyond, enough=near, share=NEAR)
 
     for does, key, values in _suspects(keys, refusal):
-        margins = [left_by(holds, key) for holds in (does, _is_made)]
+        margins = [_left_by(keys, holds, key) for holds in (does, _is_made)]
         least = next((k for k, value in enumerate(values) if all(kept(holds, value) for holds in margins)), None)
         ends, given = values[least:], getattr(keys, key)
         if least is not None:
@@ -275,16 +278,9 @@ def _suspects(
 def _cured(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
     """A refusal of worm, hob or teeth with the value that leaves a wheel."""
 
-    def does(value: float) -> bool:
-        return _stands(changed(keys, diameter_quotient=value))
-
-    def stands(value: float) -> bool:
-        more = changed(keys, diameter_quotient=value)
-        drive = drive_of(more)
-        return _about(more, drive, teeth_of(more, drive)).teeth.width > 0
-
     if refusal.name in _TEETH:
         return _toothless(keys, refusal)
+    does, stands = (_left_by(keys, margin, "diameter_quotient") for margin in (_stands, _is_made))
     return wider(refusal, does, stands, keys.hob_diameter_quotient or math.inf)
 
 

@@ -165,6 +165,18 @@ def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_p
             },
             "addendum_coefficient",
         ),
+        # before: no value, since of an addendum whose thread stands the thread was too short to end in
+        (
+            {
+                "module": 0.2,
+                "number_of_starts": 8,
+                "diameter_quotient": 3.07,
+                "pressure_angle_deg": 30.0,
+                "thread_length": 1.04,
+                "thread_ends": "blunt",
+            },
+            "addendum_coefficient",
+        ),
         ({"shaft_above": [{"diameter": 45.0, "length": 5.0}]}, "shaft_above[1].diameter"),
         ({"shaft_below": [{"diameter": 20.0, "length": 5.0, "chamfer": 6.0}]}, "shaft_below[1].chamfer"),
         # before: a groove between both

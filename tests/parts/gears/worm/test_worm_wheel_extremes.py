@@ -229,14 +229,53 @@ def test_what_no_addendum_cures_is_told_in_the_key_that_does(
     _built(keys | {key: offered.value})
 
 
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize(
+    ("keys", "key"),
+    [
+        # before: 1.4218, of a quarter of the usual width
+        ({"module": 2.0, "number_of_teeth": 30, "profile_shift_coefficient": 1.7}, "profile_shift_coefficient"),
+        # before: 0.3085 of 0.3437
+        ({"module": 1.25, "number_of_starts": 6, "diameter_quotient": 5.721, "form": "ZK1", "number_of_teeth": 70,
+          "hob_rounding_coefficient": 0.367}, "addendum_coefficient"),
+        # before: 23.8281, where 23.8367 is made
+        ({"module": 2.0, "number_of_teeth": 30, "hob_diameter_quotient": 12.0, "face_width": 60.0}, "face_width"),
+        # before: no value, since none as large as the hob was tried
+        ({"module": 4.0, "number_of_starts": 3, "diameter_quotient": 2.4, "form": "ZN2", "number_of_teeth": 101,
+          "hob_diameter_quotient": 2.467}, "diameter_quotient"),
+    ],
+)  # fmt: skip
+def test_beyond_what_is_offered_nothing_is_made(keys: dict[str, Any], key: str) -> None:
+    with pytest.raises(SceneError) as refused:
+        _built(keys)
+    offered = refused.value.nearest
+    assert refused.value.key == f"parts.wheel.{key}"
+    assert offered is not None
+    assert isinstance(offered.value, float)
+    _built(keys | {key: offered.value})
+    step = max(1e-3 * offered.value, 1e-3) * (1 if offered.side == "at_most" else -1)
+    with pytest.raises(SceneError):
+        _built(keys | {key: offered.value + step})
+
+
 @pytest.mark.heavy
-def test_teeth_that_reach_below_the_base_circle_are_told_the_addendum_that_does_not() -> None:
+def test_a_default_width_is_one_that_is_made() -> None:
+    keys = {"module": 2.0, "diameter_quotient": 2.95, "form": "ZA", "pressure_angle_deg": 14.5, "number_of_teeth": 12}
+    # before: 6.9492 was blamed, which nobody had asked for
+    width = _built(keys | {"addendum_coefficient": 1.217}).teeth.width
+    assert 0.75 < width < 0.78
+    with pytest.raises(SceneError):
+        _built(keys | {"addendum_coefficient": 1.217, "face_width": 1.005 * width})
+
+
+@pytest.mark.heavy
+def test_teeth_that_reach_below_the_base_circle_are_told_the_width_that_does_not() -> None:
     # before: the face was said to break at any width, without a value that works
     keys = {"module": 3.0, "number_of_starts": 6, "diameter_quotient": 7.89, "number_of_teeth": 96}
     with pytest.raises(SceneError) as refused:
-        _built({**keys, "axial_thinning": 0.15})
-    assert (refused.value.key, refused.value.code) == ("parts.wheel.addendum_coefficient", "worm_wheel_below_base")
-    _held({**keys, "axial_thinning": 0.15})
+        _built({**keys, "axial_thinning": 0.15, "face_width": 8.0})
+    assert (refused.value.key, refused.value.code) == ("parts.wheel.face_width", "worm_wheel_faces_break")
+    _held({**keys, "axial_thinning": 0.15, "face_width": 8.0})
 
 
 def test_a_flank_that_is_about_to_fold_is_no_widest_one_and_is_measured_beside_it() -> None:
