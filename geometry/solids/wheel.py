@@ -161,7 +161,7 @@ class _Wheel:
         """Walls first, then the caps of both sides."""
         recessed = self._recessed
         if self.twist is None:
-            outline = self._run(self.sections.outline, self.rim, (True, True), "tooth_outline")
+            outline = self._run(self.sections.outline, self.rim, (True, True), "outline")
         else:
             outline = self.made.run(self.sections.outline(self.offset, 0.0), self.twist.stations(*self.rim))
         self.holes = [

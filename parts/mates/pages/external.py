@@ -26,7 +26,7 @@ from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, sec
 from parts.keys.base import in_modules, mm
 from parts.keys.helix import helix_of, in_keys, same_helix
 from parts.mates.pages.internal import InternalKeys, RackKeys, internal_sheet, rack_sheet
-from parts.mates.pages.pair_keys import GEARS, GearSpeed, merged, pair_table
+from parts.mates.pages.pair_keys import GEARS, merged, pair_table
 from parts.mates.pages.wishes import wish_refused
 from parts.pages.contact_steps import (
     Helical,
@@ -37,6 +37,7 @@ from parts.pages.contact_steps import (
     meshing_steps,
     sliding_steps,
 )
+from parts.pages.force_steps import DrivenKeys, force_steps
 from parts.pages.inputs import PLACE, SceneKeys, checked, given, keys_of, refusal
 from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Sheet
@@ -45,7 +46,7 @@ from parts.texts.findings import finding_of
 TOPIC = "gear-pair"
 
 
-class PairKeys(Struct, forbid_unknown_fields=True):
+class PairKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
     """Keys of the topic. A key of a gear without first. or second. before it goes to both."""
 
     first: SpurGearSpec
@@ -59,7 +60,6 @@ class PairKeys(Struct, forbid_unknown_fields=True):
     tip_shortening_coefficient: Annotated[float, in_modules("given tip shortening", least=0, most=3)] | None = None
     measured_arc_of_action: Annotated[float, mm("arc dd' measured off a drawing", above=0, most=1e6)] | None = None
     measured_working_pitch: Annotated[float, mm("p_w measured off the same drawing", above=0, most=1e6)] | None = None
-    speed_rpm: GearSpeed | None = None
 
 
 class Asked(Record):
@@ -244,6 +244,7 @@ def _page(asked: Asked) -> Sheet:
     if keys.measured_arc_of_action is not None and keys.measured_working_pitch is not None:
         measured_steps(page, pair, keys.measured_arc_of_action, keys.measured_working_pitch)
     sliding_steps(page, pair, asked.helical, keys.speed_rpm)
+    force_steps(page, pair, asked.helical, keys)
     formulas = "{p_w} - {S_w1} - {S_w2}", "{a_w} - {r_f#} - {r_a~}"
     backlash_steps(page, pair, pair.circumferential_backlash, asked.helical, formulas)
     page.section(in_context("pair", "Limits"))

@@ -24,7 +24,7 @@ from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of,
 from parts.keys.base import mm
 from parts.keys.helix import common_face, same_helix
 from parts.mates.involute import InternalGearPairSpec, InternalMating, RackMating, RackPairSpec
-from parts.mates.pages.pair_keys import GEARS, GearSpeed, pair_table
+from parts.mates.pages.pair_keys import GEARS, pair_table
 from parts.mates.pages.rack import first_radii, rack_page
 from parts.mates.pages.wishes import wish_refused
 from parts.mates.pairing import mated
@@ -38,6 +38,7 @@ from parts.pages.contact_steps import (
     meshing_steps,
     sliding_steps,
 )
+from parts.pages.force_steps import DrivenKeys, force_steps
 from parts.pages.inputs import checked, keys_of, refusal
 from parts.pages.misprints import printed_for_internal
 from parts.pages.page import Sheet
@@ -47,17 +48,16 @@ TOPIC = "gear-pair"
 _SAME = {name: name for name in GEARS}
 
 
-class InternalKeys(Struct, forbid_unknown_fields=True):
+class InternalKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
     """Keys of an internal pair: pinion, ring, and what is wanted of the pair."""
 
     first: SpurGearSpec
     second: RingGearSpec
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
-    speed_rpm: GearSpeed | None = None
 
 
-class RackKeys(Struct, forbid_unknown_fields=True):
+class RackKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
     """Keys of a gear and its rack."""
 
     first: SpurGearSpec
@@ -66,7 +66,6 @@ class RackKeys(Struct, forbid_unknown_fields=True):
         Annotated[float, mm("wanted distance from axis to datum line", above=0, most=100_000)] | None
     ) = None
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
-    speed_rpm: GearSpeed | None = None
 
 
 def internal_sheet(table: dict[str, Any]) -> Sheet:
@@ -139,7 +138,7 @@ def rack_sheet(table: dict[str, Any]) -> Sheet:
         }
         mating = mated(ends, [mate], _SAME)[1][0]
         assert isinstance(mating, RackMating)
-        page = rack_page(mating.pair, TOPIC, _helical(keys), keys.speed_rpm)
+        page = rack_page(mating.pair, TOPIC, _helical(keys), keys)
     except ParameterError as error:
         raise _refused(error, keys) from error
     for index, found in ((1, rack_findings(keys.first, mating.pair.gear)), (2, rounding_finding(keys.second))):
@@ -185,6 +184,7 @@ def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> 
     heading(page, helical, N_("Contact ratio"))
     contact_steps(page, pair, helical)
     sliding_steps(page, pair, helical, keys.speed_rpm)
+    force_steps(page, pair, helical, keys)
     backlash_steps(page, pair, pair.circumferential_backlash, helical)
     _internal_limits(page, pair, helical)
     return page

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Any
 
 import msgspec
-from msgspec import Meta, Struct
+from msgspec import Struct
 
 from parts.base.refusal import SceneError, meant
 from parts.pages.inputs import PLACE, keys_of
 
 GEARS = ("first", "second")
-GearSpeed = Annotated[
-    float,
-    Meta(gt=0, le=1e6, description="speed of the first gear: adds the speeds of sliding", extra={"unit": "rpm"}),
-]
 
 
 def merged(under: Mapping[str, Any], over: Mapping[str, Any], pair: type[Struct]) -> dict[str, Any]:

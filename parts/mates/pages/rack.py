@@ -10,6 +10,7 @@ from geometry.gears.teeth.spur import SpurGear
 from parts.base.texts import N_
 from parts.gears.spur_gear.page import addendum_formula, dedendum_formula, given_data
 from parts.pages.contact_steps import ISO, Helical, backlash_steps, heading, limit_steps, overlap_steps, speed_steps
+from parts.pages.force_steps import DrivenKeys, force_steps
 from parts.pages.page import Sheet
 
 
@@ -21,8 +22,8 @@ def first_radii(page: Sheet, gear: SpurGear, helical: Helical) -> None:
     page.add("root_radius", gear.root_radius, formula, "practicum (3.13)", 1)
 
 
-def rack_page(pair: RackPair, topic: str, helical: Helical, speed_rpm: float | None) -> Sheet:
-    """The page of a gear and its rack; with the gear's speed speeds in mm/s too."""
+def rack_page(pair: RackPair, topic: str, helical: Helical, keys: DrivenKeys) -> Sheet:
+    """The page of a gear and its rack; with the gear's speed and load those of its work too."""
     gear, rack = pair.gear, pair.rack
     alpha = rack.rack.pressure_angle
     page = Sheet(topic, N_("Gear and rack"))
@@ -51,11 +52,11 @@ def rack_page(pair: RackPair, topic: str, helical: Helical, speed_rpm: float | N
     angle = measurement.angle_at(gear, gear.tip_radius)
     page.add("tip_pressure_angle_deg", math.degrees(angle), "arccos({r_b1} / {r_a1})", "practicum (3.18)", 1)
     page.add("tip_thickness", limits.tip_thickness(gear), "", "ISO 21771", 1)
-    _rack_contact(page, pair, helical, speed_rpm)
+    _rack_contact(page, pair, helical, keys)
     return page
 
 
-def _rack_contact(page: Sheet, pair: RackPair, helical: Helical, speed_rpm: float | None) -> None:
+def _rack_contact(page: Sheet, pair: RackPair, helical: Helical, keys: DrivenKeys) -> None:
     """Contact ratio, sliding, backlash and the conditions."""
     page.section(N_("Contact ratio"))
     formula = (
@@ -74,8 +75,9 @@ def _rack_contact(page: Sheet, pair: RackPair, helical: Helical, speed_rpm: floa
     factors = (pole - low) / gear.reference_radius, (high - pole) / gear.reference_radius
     page.add("sliding_factor_at_start", factors[0], "{g_f} / {r1}", "ISO 21771")
     page.add("sliding_factor_at_end", factors[1], "{g_a} / {r1}", "ISO 21771")
-    if speed_rpm is not None:
-        speed_steps(page, pair, helical, high - low, factors, speed_rpm)
+    if keys.speed_rpm is not None:
+        speed_steps(page, pair, helical, high - low, factors, keys.speed_rpm)
+    force_steps(page, pair, helical, keys)
     backlash_steps(page, pair, pair.normal_backlash / math.cos(rack.rack.pressure_angle), helical)
     page.section(N_("Conditions: margins"))
     found = {m.name: m for m in pair.margins()}

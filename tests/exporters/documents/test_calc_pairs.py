@@ -7,6 +7,7 @@ import math
 import re
 from typing import Any
 
+import numpy as np
 import pytest
 
 from exporters.documents.render import SPOKEN, render
@@ -25,17 +26,19 @@ SHEETS = [
     "gear-pair thesis_internal_pair",
     "gear-pair rack_and_pinion",
     "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 normal_backlash=0.1 "
-    "speed_rpm=100",
+    "speed_rpm=100 torque=12",
     "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 "
     "working_centre_distance=61 first.tip_chamfer=0.1",
     "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 normal_backlash=0.1",
     "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 working_centre_distance=20.3",
+    "gear-pair module=2 first.number_of_teeth=20 second.number_of_teeth=31 helix_angle_deg=-20 double_helical=true "
+    "face_width=30 torque=12",
     "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 helix_angle_deg=15 "
     "face_width=30 normal_backlash=0.1 first.profile_shift_coefficient=0.2 second.profile_shift_coefficient=0.3",
     "gear-pair kind=internal_gear_pair module=2 first.number_of_teeth=20 second.number_of_teeth=80 helix_angle_deg=-15 "
     "working_centre_distance=62.5 second.tip_rule=KHK",
     "gear-pair kind=rack_pair module=2 first.number_of_teeth=20 second.number_of_teeth=9 helix_angle_deg=20 "
-    "speed_rpm=90 normal_backlash=0.1 first.profile_shift_coefficient=0.2",
+    "speed_rpm=90 normal_backlash=0.1 first.profile_shift_coefficient=0.2 power=50",
 ]
 
 
@@ -102,6 +105,44 @@ def test_sliding_on_a_rack_is_the_difference_of_both_speeds() -> None:
         difference = 1j * omega * place - 1j * omega * 20.0
         assert abs(difference) == pytest.approx(found[f"sliding_speed_at_{name}"], rel=1e-9)
     assert found["angle_of_action_deg"]["first"] == pytest.approx(found["effective_contact_ratio"] * 360 / 20, rel=1e-9)
+
+
+@pytest.mark.parametrize("helix", [0.0, 25.0, -12.0])
+@pytest.mark.parametrize(
+    "kind",
+    ["external_gear_pair second.number_of_teeth=41 second.profile_shift_coefficient=0.4",
+     "internal_gear_pair second.number_of_teeth=80 second.profile_shift_coefficient=0.5",
+     "rack_pair second.number_of_teeth=9"],
+)  # fmt: skip
+def test_forces_stand_along_the_normal_of_the_flanks_and_turn_the_shafts(kind: str, helix: float) -> None:
+    """By vectors: the normal is that of the section's tangent and the screw's; its moments are both torques."""
+    words = f"gear-pair kind={kind} module=2 first.number_of_teeth=20 helix_angle_deg={helix} face_width=20 torque=12"
+    found = values_of(words)["values"]
+    angle, radius = math.radians(found["working_pressure_angle_deg"]), found["reference_radius"]
+    if kind.startswith("rack"):
+        working = radius["first"]
+    else:
+        working, other = found["working_radius"]["first"], found["working_radius"]["second"]
+        radius = found["reference_radius"]
+    tangent = np.array([-math.sin(angle), math.cos(angle), 0.0])
+    screw = np.array([working / radius["first"] * math.tan(math.radians(helix)), 0.0, 1.0])
+    normal = np.cross(tangent, screw) / np.linalg.norm(np.cross(tangent, screw))
+    force = found["normal_force"] * np.abs(normal)
+    told = [found["circumferential_force"], found["radial_force"], found.get("axial_force", 0.0)]
+    assert told == pytest.approx(force.tolist(), rel=1e-9)
+    torque = found["gear_torque"]
+    assert force[0] * working / 1000 == pytest.approx(12.0, rel=1e-9)
+    if not kind.startswith("rack"):
+        assert torque == {"first": 12.0, "second": pytest.approx(force[0] * other / 1000, rel=1e-9)}
+
+
+@pytest.mark.parametrize(("asked", "other"), [("power=5 torque=3 speed_rpm=10", "torque"), ("power=5", "speed_rpm")])
+def test_a_power_is_taken_by_the_speed_and_in_place_of_a_torque(asked: str, other: str) -> None:
+    for kind in ("external_gear_pair", "internal_gear_pair", "rack_pair"):
+        teeth = ["module=2", f"kind={kind}", "first.number_of_teeth=20", "second.number_of_teeth=80"]
+        with pytest.raises(SceneError, match=other) as refused:
+            calculate("gear-pair", [*teeth, *asked.split()], "text", "en")
+        assert refused.value.key == "gear-pair.power"
 
 
 def test_broken_conditions_are_named() -> None:

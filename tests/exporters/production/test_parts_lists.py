@@ -99,7 +99,7 @@ def test_a_gear_that_cannot_be_chamfered_is_in_no_file(
         f'material = "steel"\nface_chamfer = 0.8\n[[exports]]\nformat = {export}\n'
     )
     assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 2
-    assert "parts.g.face_chamfer = 0.8: leaves nothing of the tooth outline" in capsys.readouterr().err
+    assert "parts.g.face_chamfer = 0.8: leaves nothing of the outline" in capsys.readouterr().err
 
 
 def test_two_parts_have_one_position_only_where_the_list_tells_them_alike(tmp_path: Path) -> None:

@@ -1,0 +1,77 @@
+"""Steps of the load of a pair of gears: power, torques on both shafts, forces between the teeth."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import ParameterError
+from geometry.gears.pairs.external import ExternalPair
+from geometry.gears.pairs.internal import InternalPair
+from geometry.gears.pairs.rack import RackPair
+from geometry.gears.pairs.tooth_forces import tooth_forces
+from parts.base.refusal import REMOVED
+from parts.base.texts import N_
+from parts.pages.contact_steps import Helical
+from parts.pages.page import Sheet
+
+_SPEED = "speed of the first gear: adds the speeds of sliding"
+_TORQUE = "torque on the first gear, which drives: adds the forces between the teeth"
+_POWER = "power that the first gear takes in, by its speed: in place of its torque"
+
+
+class DrivenKeys(Struct, kw_only=True):
+    """Keys of a pair at work."""
+
+    speed_rpm: Annotated[float, Meta(gt=0, le=1e6, description=_SPEED, extra={"unit": "rpm"})] | None = None
+    torque: Annotated[float, Meta(gt=0, le=1e9, description=_TORQUE, extra={"unit": "N*m"})] | None = None
+    power: Annotated[float, Meta(gt=0, le=1e9, description=_POWER, extra={"unit": "W"})] | None = None
+
+
+def force_steps(page: Sheet, pair: ExternalPair | InternalPair | RackPair, helical: Helical, keys: DrivenKeys) -> None:
+    """Torques and forces where the load is given: by a torque on the first gear, or by its power and speed.
+
+    Raises
+    ------
+    ParameterError
+        A torque and a power, or a power without a speed.
+    """
+    if keys.power is not None and keys.torque is not None:
+        raise ParameterError("power", keys.power, "other_is_given", REMOVED, other="torque")
+    if keys.power is not None and keys.speed_rpm is None:
+        raise ParameterError("power", keys.power, "needs_other", REMOVED, other="speed_rpm")
+    if keys.torque is None and keys.power is None:
+        return
+    page.section(N_("Torques and forces, without friction"))
+    gear = pair.gears[0]
+    if isinstance(pair, RackPair):
+        radius, circle, angle = gear.reference_radius, "{r1}", gear.rack.pressure_angle
+    else:
+        radius, circle, angle = pair.working_radii[0], "{r_w1}", pair.working_pressure_angle
+    if keys.torque is not None:
+        torque = keys.torque
+        page.add("gear_torque", torque, gear=1, given=True)
+        if keys.speed_rpm is not None:
+            page.add("pair_power", torque * math.pi * keys.speed_rpm / 30, "{T1} * pi * {n1} / 30")
+    else:
+        assert keys.power is not None
+        assert keys.speed_rpm is not None
+        torque = keys.power / (math.pi * keys.speed_rpm / 30)
+        page.add("pair_power", keys.power, given=True)
+        page.add("gear_torque", torque, "30 * {P} / (pi * {n1})", gear=1)
+    if not isinstance(pair, RackPair):
+        page.add("gear_torque", torque * pair.gear_ratio, "{T1} * {u}", gear=2)
+    helix = math.atan(math.tan(helical.angle) * radius / gear.reference_radius)
+    forces = tooth_forces(torque, radius, angle, helix, double=helical.face.helix.double)
+    page.add("circumferential_force", forces.circumferential, f"1000 * {{T1}} / {circle}")
+    page.add("radial_force", forces.radial, "{F_t} * tan({alpha_w})")
+    whole = "sqrt({F_t}**2 + {F_r}**2)"
+    if helical.angle:
+        slant = f"{{F_t}} * {circle} / {{r1}} * tan(abs({{beta}}))"
+        page.add("axial_force", forces.axial, "" if helical.face.helix.double else slant)
+        # both halves of double helical teeth together
+        last = f"({slant})" if helical.face.helix.double else "{F_a}"
+        whole = f"sqrt({{F_t}}**2 + {{F_r}}**2 + {last}**2)"
+    page.add("normal_force", forces.normal, whole)
