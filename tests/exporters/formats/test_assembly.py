@@ -206,7 +206,7 @@ def test_sub_assemblies_and_what_a_list_says_stand_in_step(tmp_path: Path) -> No
     from exporters.formats.read_step import read_step_assembly
     from exporters.production.recheck import recheck
 
-    scene = tmp_path / "tree.toml"
+    scene = tmp_path / "дерево 2.toml"
     scene.write_text(
         """
 [parts.pin]
@@ -236,13 +236,15 @@ assembly = true
         encoding="utf-8",
     )
     assert run("build", scene, "--out", tmp_path, "-q") == 0
-    file = tmp_path / "tree" / "tree.step"
+    file = tmp_path / "дерево 2" / "дерево 2.step"
     found = read_step_assembly(file)
     assert {o.name: o.within for o in found.occurrences} == {"base": "", "left": "pins", "right": "pins", "alone": ""}
     said = {p.name: p.part.said["description"] for p in found.prototypes}  # type: ignore[attr-defined]
     assert {p.part.said.get("title") for p in found.prototypes} == {None, "7 Pin"}  # type: ignore[attr-defined]
     assert said == {"base": "AB.01", "pin": "ISO 2338; \u0428\u0442\u0438\u0444\u0442"}
     text = file.read_text(encoding="ascii")
+    # its name in the letters of Part 21
+    assert "PRODUCT('_______2'" in text
     assert text.count("=MANIFOLD_SOLID_BREP(") == 2
     for old, new in (("'pins'", "'other'"), ("'AB.01'", "'AB.02'"), ("\\X2\\0428", "\\X2\\0429")):
         assert old in text

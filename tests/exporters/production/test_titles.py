@@ -245,8 +245,7 @@ def test_words_in_several_languages(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert said.count("\n") == 1
 
 
-@pytest.mark.heavy
-@pytest.mark.parametrize("size", [(60, 60), (50, 300)])
+@pytest.mark.parametrize("size", [(60, 60), pytest.param((50, 300), marks=pytest.mark.heavy)])
 def test_the_picture_of_a_board_holds_a_long_title(tmp_path: Path, size: tuple[int, int]) -> None:
     """No row goes over the edge, whatever the board; nothing is left out."""
     title, width, height = "зачеплення, яке треба виготовити", *size

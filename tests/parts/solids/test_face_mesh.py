@@ -139,7 +139,6 @@ def test_a_ball_and_a_ring_by_closed_forms() -> None:
             assert 0.1 * made.max_error < worst <= made.max_error
 
 
-@pytest.mark.heavy
 def test_a_cone_that_nearly_ends_in_its_tip_takes_few_triangles() -> None:
     shaft = {"diameter": 12.0, "length": 10.0, "chamfer": 5.97}
     worm = {"kind": "worm", "module": 2.0, "thread_length": 12.0}
