@@ -116,6 +116,7 @@ def wheel_body(shape: WheelShape, sections: WheelSections, offset: float = 0.0) 
         outline = sections.outline(offset, 0.0)
         return plate(Region(outline, tuple(holes)), 0.0, shape.face_width, shape.twist, toothed=outline)
     _check_faces(shape, sections.root_radius, sections.core, offset)
+    _check_chamfers(shape, sections.root_radius, sections.core, offset)
     return _Wheel(shape, sections, offset).body()
 
 
@@ -129,12 +130,20 @@ def _check_heights(shape: WheelShape) -> None:
         if abs(web.shift) > play:
             most = limit(math.copysign(play, web.shift), web.shift)
             raise ParameterError("web.shift", web.shift, "web_out_of_rim", most)
-    both = shape.chamfer_below + shape.chamfer_above
+
+
+def _check_chamfers(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float) -> None:
+    """Chamfers leave some wall between them, and with the offset an end face between every two boundaries."""
+    width, both = shape.face_width, shape.chamfer_below + shape.chamfer_above
     if both > width:
         key = "below" if shape.chamfer_below >= shape.chamfer_above else "above"
         other = both - max(shape.chamfer_below, shape.chamfer_above)
         value = getattr(shape, f"chamfer_{key}")
         raise ParameterError(f"face_chamfer.{key}", value, "chamfers_meet", limit(max(0.0, width - other), math.inf))
+    for side, depth in (("below", shape.chamfer_below), ("above", shape.chamfer_above)):
+        if not _leaves_faces(shape, root_radius, holes, offset, depth):
+            cure = partial(nearest, partial(_leaves_faces, shape, root_radius, holes, offset), depth, 0.0)
+            raise ParameterError(f"face_chamfer.{side}", depth, "leaves_no_face_between_edges", cure)
 
 
 class _Wheel:
@@ -282,7 +291,7 @@ def _inset(profile: Boundary, offset: float, chamfer: float, side: str, who: str
 
 
 def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles) -> None:
-    """Refuse a shape whose diameters do not fit between bore, holes and root circle.
+    """Refuse a shape whose diameters do not fit between bore, holes and root circle; chamfers the body refuses.
 
     Raises
     ------
@@ -303,22 +312,16 @@ def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles) -> Non
         key = "holes" if holes.round_holes else "spokes" if holes.spokes else "hub.diameter" if hub else "bore_diameter"
         given = hub.diameter if key == "hub.diameter" and hub is not None else None
         raise ParameterError(key, given, "leaves_no_face_between_edges")
-    _check_faces(shape, root_diameter / 2, holes, 0.0)
 
 
 def _check_faces(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float) -> None:
-    """Offset and chamfers leave an end face between every two boundaries."""
+    """An offset leaves an end face between every two boundaries."""
 
-    def fits(moved: float, depth: float) -> bool:
-        return _leaves_faces(shape, root_radius, holes, moved, depth)
+    def fits(moved: float) -> bool:
+        return _leaves_faces(shape, root_radius, holes, moved, 0.0)
 
-    if not fits(offset, 0.0):
-        cure = partial(nearest, lambda v: fits(v, 0.0), offset, 0.0)
-        raise ParameterError("offset", offset, "leaves_no_face_between_edges", cure)
-    for side, depth in (("below", shape.chamfer_below), ("above", shape.chamfer_above)):
-        if not fits(offset, depth):
-            cure = partial(nearest, partial(fits, offset), depth, 0.0)
-            raise ParameterError(f"face_chamfer.{side}", depth, "leaves_no_face_between_edges", cure)
+    if not fits(offset):
+        raise ParameterError("offset", offset, "leaves_no_face_between_edges", partial(nearest, fits, offset, 0.0))
 
 
 def _leaves_faces(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float, depth: float) -> bool:

@@ -204,12 +204,11 @@ class Kind(Generic[K, T]):
                     return None
                 # further from what was given, until a chamfer beside it has its room too
                 way = math.copysign(abs(found.value), found.value - given)
-                return nearest(works, given, [0.0] if chamfers else [found.value + way * 2.0**k for k in range(-5, 0)])
+                return nearest(works, given, [found.value + way * 2.0**k for k in range(-5, 0)])
             return found
 
         told = as_typed(keys, refusal)
-        chamfers = told.name.startswith("face_chamfer")
-        chamfered = chamfers or bool(getattr(keys, "face_chamfer", 0.0))
+        chamfered = bool(getattr(keys, "face_chamfer", 0.0))
 
         error = placed(source, place, told, unit_of(self.keys, told.name))
         error.offer(cure)

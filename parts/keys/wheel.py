@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import Annotated, Protocol
 
 from msgspec import Struct
 
-from geometry.base.errors import ParameterError
-from geometry.base.nearest import nearest
 from geometry.solids.hub_holes import HubHoles
-from geometry.solids.wheel import Hub, Web, WheelShape, check_wheel
+from geometry.solids.wheel import Hub, Web, WheelShape
 from parts.keys.base import mm
 from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes
 
@@ -67,35 +64,9 @@ class Bodied(Protocol):
     face_chamfer: float | FaceChamferTable
 
 
-def shape_of(keys: Bodied, chamfer: float | None = None) -> WheelShape:
-    """Thickness, web, hub and chamfers; ``chamfer``: in place of those of the keys, mm."""
-    given = keys.face_chamfer if chamfer is None else chamfer
-    return wheel_shape(keys.face_width, getattr(keys, "web", None), keys.hub, given)
-
-
-def checked_wheel(keys: Bodied, root_diameter: float, holes: HubHoles) -> WheelShape:
-    """The shape of a wheel whose diameters fit between bore, holes and root circle, mm.
-
-    Raises
-    ------
-    ParameterError
-        They do not; names the key and the nearest value that works.
-    """
-
-    def fits(chamfer: float) -> bool:
-        check_wheel(shape_of(keys, chamfer), root_diameter, holes)
-        return True
-
-    shape, given = shape_of(keys), keys.face_chamfer
-    try:
-        check_wheel(shape, root_diameter, holes)
-    except ParameterError as refusal:
-        if not refusal.name.startswith("face_chamfer.") or isinstance(given, FaceChamferTable):
-            raise
-        # one number stands for both faces
-        cure = partial(nearest, fits, given, 0.0)
-        raise ParameterError("face_chamfer", given, refusal.code, cure, **refusal.numbers) from refusal
-    return shape
+def shape_of(keys: Bodied) -> WheelShape:
+    """Thickness, web, hub and chamfers."""
+    return wheel_shape(keys.face_width, getattr(keys, "web", None), keys.hub, keys.face_chamfer)
 
 
 def wheel_shape(

@@ -13,13 +13,13 @@ from geometry.base.errors import Nearest, OffsetError, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
-from geometry.solids.wheel import wheel_body, wheel_sections
+from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from geometry.solids.windows import RoundHoles
 from parts.base.kind import Kind, Others, Report
 from parts.keys.base import mm
 from parts.keys.holes import Direction
 from parts.keys.pins import MARGIN, MOST, LobeCount, PinCircle, PinDiameter, check_holes, holes_of, most_of
-from parts.keys.wheel import HubbedKeys, checked_wheel, shape_of
+from parts.keys.wheel import HubbedKeys, shape_of
 
 if TYPE_CHECKING:
     from geometry.gears.pins.cycloidal import CycloidalDisc
@@ -95,7 +95,7 @@ class CycloidalDiscKind(Kind[CycloidalDiscSpec, "CycloidalDisc"]):
         if table is not None:
             _check_output(table, own[0], disc, holes)
         check_holes(keys, holes, disc.root_radius, own=len(own))
-        checked_wheel(keys, 2 * disc.root_radius, holes)
+        check_wheel(shape_of(keys), 2 * disc.root_radius, holes)
         return replace(disc, holes=holes, output=own[0] if own else None)
 
     def section(self, keys: CycloidalDiscSpec, thing: CycloidalDisc, offset: float) -> OffsetRegion:

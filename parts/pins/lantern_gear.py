@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 
 from geometry.base.record import replace
-from geometry.solids.wheel import wheel_body, wheel_sections
+from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
 from parts.keys.base import mm
 from parts.keys.pins import MOST, PinDiameter, check_holes, holes_of
-from parts.keys.wheel import WheelKeys, checked_wheel, shape_of
+from parts.keys.wheel import WheelKeys, shape_of
 
 if TYPE_CHECKING:
     from geometry.gears.pins.lantern import LanternGear
@@ -64,7 +64,7 @@ class LanternGearKind(Kind[LanternGearSpec, "LanternGear"]):
         )
         holes = holes_of(keys)
         check_holes(keys, holes, gear.root_radius)
-        checked_wheel(keys, 2 * gear.root_radius, holes)
+        check_wheel(shape_of(keys), 2 * gear.root_radius, holes)
         return replace(gear, holes=holes, face_width=keys.face_width)
 
     def section(self, keys: LanternGearSpec, thing: LanternGear, offset: float) -> OffsetRegion:

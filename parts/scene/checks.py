@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from geometry.base.errors import Nearest, ParameterError
@@ -142,8 +143,17 @@ def check_solids(parts: Mapping[str, Part], source: str) -> None:
 
 def solid_refused(part: Part, refusal: ParameterError, source: str) -> SceneError:
     """The refusal of a part's solid in the key that asks for it."""
-    error = as_typed(part.keys, refusal)
-    return placed(source, f"parts.{part.id}", error, unit_of(type(part.keys), error.name))
+    told = as_typed(part.keys, refusal)
+    error = placed(source, f"parts.{part.id}", told, unit_of(type(part.keys), told.name))
+    if told.name.startswith("face_chamfer") and isinstance(told.value, float):
+
+        def works(chamfer: float) -> bool:
+            part.made_by.solid(tried(part.keys, told.name, chamfer), part.thing, 0.0)
+            return True
+
+        # every margin of the solid at once, with what the mates have left of the part
+        error.offer(partial(nearest, works, told.value, 0.0))
+    return error
 
 
 def check_workspace(poses: int | None, placing: Placing, source: str) -> None:

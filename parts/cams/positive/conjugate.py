@@ -82,12 +82,12 @@ class ConjugateCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind
 
 
 class SecondCam(Record):
-    """A second cam that exists: how it is turned on the shaft, the first cam and its keys, its body and holes."""
+    """A second cam that exists: how it is turned on the shaft, the first cam, its keys, width in mm and holes."""
 
     pair: Conjugate
     first: DiskCam
     keys: CamSpec
-    shape: WheelShape
+    width: float
     holes: HubHoles
 
     @property
@@ -226,6 +226,11 @@ def _checked_holes(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam, insid
     return with_timing_mark(holes, keys.timing_mark, first, inside)
 
 
+def _shape(keys: ConjugateCamSpec, width: float) -> WheelShape:
+    """Hub and chamfers about a disk of ``width`` mm."""
+    return wheel_shape(width, None, keys.hub, keys.face_chamfer)
+
+
 class ConjugateCam(Turned[ConjugateCamSpec, SecondCam]):
     """The second disk of a pair."""
 
@@ -241,17 +246,17 @@ class ConjugateCam(Turned[ConjugateCamSpec, SecondCam]):
         pair = _pair(keys, owner, first)
         _check_whole(keys, owner, first, pair)
         width = owner.face_width if keys.face_width is None else keys.face_width
-        shape, inside = wheel_shape(width, None, keys.hub, keys.face_chamfer), inner_radius(pair.cam)
+        inside = inner_radius(pair.cam)
         holes = _checked_holes(keys, owner, first, inside)
-        check_wheel(shape, 2 * inside, holes)
+        check_wheel(_shape(keys, width), 2 * inside, holes)
         as_cam = replace(
             owner, follower_radius=pair.cam.radius, follower_offset=-owner.follower_offset, base_circle_radius=None
         )
-        return SecondCam(pair, first, as_cam, shape, holes)
+        return SecondCam(pair, first, as_cam, width, holes)
 
     def body(self, keys: ConjugateCamSpec, thing: SecondCam) -> WheelShape:
         """Its own, as thick as the first where nothing is said."""
-        return thing.shape
+        return _shape(keys, thing.width)
 
     def holes(self, keys: ConjugateCamSpec, thing: SecondCam) -> HubHoles:
         """Its own, the bore of the first where nothing is said."""
@@ -281,7 +286,7 @@ class ConjugateCam(Turned[ConjugateCamSpec, SecondCam]):
         def profile(offset: float) -> Profile:
             return self.outline(thing, offset)[0]
 
-        wall = CamWall("cam", thing.cam, thing.shape.face_width / 2, profile, turn=thing.pair.turn)
+        wall = CamWall("cam", thing.cam, thing.width / 2, profile, turn=thing.pair.turn)
         return (wall_probe(wall, alone=True),)
 
 

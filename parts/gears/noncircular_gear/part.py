@@ -13,14 +13,14 @@ from msgspec.structs import replace
 
 from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import Suspect, blamed, nearest
-from geometry.solids.wheel import wheel_body, wheel_sections
+from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
 from parts.gears.spur_gear.part import RackTable, basic_rack_of, rounding_finding
 from parts.keys.base import either, in_modules, mm, start
 from parts.keys.cutter import PressureAngle, RackName
 from parts.keys.holes import hub_holes, with_remedy
-from parts.keys.wheel import WheelKeys, checked_wheel, shape_of
+from parts.keys.wheel import WheelKeys, shape_of
 
 if TYPE_CHECKING:
     from geometry.gears.noncircular.gear import NoncircularGear
@@ -145,7 +145,7 @@ class NoncircularGearKind(Kind[NoncircularGearSpec, "NoncircularGear"]):
 
         try:
             gear.holes.check(root)
-            checked_wheel(keys, 2 * root, gear.holes)
+            check_wheel(shape_of(keys), 2 * root, gear.holes)
         except ParameterError as refusal:
             if keys.bore_diameter > 0 and refusal.name == "bore.diameter":
                 most = limit(2 * root * (1 - 1e-6), keys.bore_diameter)

@@ -25,7 +25,7 @@ from geometry.gears.teeth.limits import checked_gear, exists, findings, root_for
 from geometry.gears.teeth.offset import chamfered_outline, gear_region
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
-from geometry.solids.wheel import wheel_body, wheel_sections
+from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
@@ -41,7 +41,7 @@ from parts.keys.helix import (
     told_in_keys,
 )
 from parts.keys.holes import BoreTable, HolesTable, SpokesTable, bore_of, hub_holes, with_remedy
-from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, WebTable, checked_wheel, shape_of
+from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, WebTable, shape_of
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
@@ -121,7 +121,7 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
 
     try:
         gear = checked_gear(gear_of(keys), helix.angle)
-        checked_wheel(keys, 2 * gear.root_radius, gear.holes)
+        check_wheel(shape_of(keys), 2 * gear.root_radius, gear.holes)
     except ParameterError as refusal:
         raise with_remedy(_whole(keys, refusal), keys, holes_fit) from refusal
     _marks(keys, gear)

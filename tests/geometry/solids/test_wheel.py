@@ -14,7 +14,7 @@ from geometry.gears.teeth.basic_rack import iso_53
 from geometry.gears.teeth.offset import gear_region
 from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.profile import Label, Region, circle
-from geometry.solids.body import plate
+from geometry.solids.body import Body, plate
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.mass import body_moments
@@ -46,9 +46,15 @@ SHAPES = {
 }
 
 
-def wheel(shape: WheelShape, holes: HubHoles, offset: float = 0.0):  # type: ignore[no-untyped-def]
+def wheel(shape: WheelShape, holes: HubHoles, offset: float = 0.0) -> Body:
     gear = SpurGear(2.0, 23, iso_53("A"), hub=holes)
     return wheel_body(shape, wheel_sections(lambda d, c: gear_region(gear, d - c).region.outer, 20.5, holes), offset)
+
+
+def checked(shape: WheelShape, holes: HubHoles, offset: float = 0.0) -> Body:
+    """The wheel, its diameters held against each other first."""
+    check_wheel(shape, 41.0, holes)
+    return wheel(shape, holes, offset)
 
 
 def judged(body, tolerance: float = 0.002):  # type: ignore[no-untyped-def]
@@ -153,8 +159,7 @@ def test_any_wheel_is_refused_or_sound(
     refusal: ParameterError | None = None
     body = None
     try:
-        check_wheel(shape, 41.0, holes)
-        body = wheel(shape, holes, offset)
+        body = checked(shape, holes, offset)
     except ParameterError as error:
         refusal = error
     if body is not None:
@@ -178,7 +183,7 @@ def test_any_wheel_is_refused_or_sound(
 )
 def test_what_does_not_fit_is_refused_with_what_does(shape: WheelShape, key: str, remedy: float) -> None:
     with pytest.raises(ParameterError) as caught:
-        check_wheel(shape, 41.0, HubHoles(RoundBore(8.0)))
+        checked(shape, HubHoles(RoundBore(8.0)))
     assert caught.value.name == key
     assert works(caught.value) == remedy
 

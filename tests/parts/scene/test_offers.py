@@ -139,6 +139,16 @@ def test_an_offer_keeps_what_stands_beside_it(part: dict[str, Any], key: str) ->
     assert judged(raw, refusal) == []
 
 
+@pytest.mark.parametrize(("name", "part"), [("external", "a"), ("fit_coupon", "gear_1"), ("practicum_pair", "wheel")])
+def test_a_chamfer_is_offered_for_the_teeth_that_the_mates_have_left(name: str, part: str) -> None:
+    """Before: for the part alone, thicker by the pair's backlash (1.1241 offered, 0.9622 works) or higher."""
+    raw = put(scenes()[name], ("parts", part, "face_chamfer"), 80.0)
+    refusal = refusal_of(raw)
+    assert refusal is not None
+    assert refusal.nearest is not None
+    assert judged(raw, refusal) == []
+
+
 def test_the_search_is_counted_and_needs_no_clock(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same text whatever the time; no search takes more than its trials, none builds a scene."""
     wrong = put(scenes()["external"], ("parts", "a", "profile_shift_coefficient"), -4.0)
