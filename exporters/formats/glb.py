@@ -19,6 +19,8 @@ _MAGIC, _JSON, _BIN = b"glTF", b"JSON", b"BIN\0"
 _FLOAT, _UNSIGNED, _VERTICES, _INDICES = 5126, 5125, 34962, 34963
 # glTF counts in metres, and up is y
 _ROOT = {"scale": [0.001] * 3, "rotation": [-math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)]}
+# of places and turns: far below single numbers
+_DECIMALS = 12
 _TYPES = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}
 
 
@@ -63,7 +65,9 @@ def write_glb(
     numbers = {name: number for number, name in enumerate(solids)}
     for track in tracks:
         node: dict[str, Any] = {"name": track.name, "mesh": numbers[track.solid]}
-        for path, values in (("translation", track.places), ("rotation", track.turns)):
+        for path, exact in (("translation", track.places), ("rotation", track.turns)):
+            # what is left of a nought is not the same on any processor
+            values = np.round(exact, _DECIMALS) + 0.0
             if len(values) == 1:
                 node[path] = values[0].tolist()
                 continue

@@ -113,7 +113,8 @@ def _word(words: Sequence[str], outlines: Sequence[Contour], corner: complex, mo
     """The first of some words that has room on a piece, as large as it has; the last one in any case."""
     import shapely
 
-    rings = [shapely.Polygon(np.column_stack([p.real, p.imag])) for p in map(samples, outlines)]
+    # of places with the same room the same one on any processor
+    rings = [shapely.Polygon(np.round(np.column_stack([p.real, p.imag]), 6)) for p in map(samples, outlines)]
     clear = shapely.difference(rings[-1].buffer(0), shapely.union_all([ring.buffer(0) for ring in rings[:-1]]))
     x, y = shapely.maximum_inscribed_circle(clear, most / 10).coords[0]
     tried = [(word, most * share) for word in words for share in _SIZES]

@@ -186,7 +186,7 @@ def test_what_is_planned_can_be_approximated_or_is_refused(gear: dict[str, Any],
     if survives(raw):
         plan = plan_build(scene_from_dict(raw, "junk.toml", "junk"), "junk.toml", [], [])
         try:
-            made, _ = approximated(plan.jobs[0], "junk.toml")
+            made, _ = approximated(plan.jobs[0], "junk.toml", plan.jobs)
         except SceneError as error:
             if "tolerance" not in error.key:
                 raise

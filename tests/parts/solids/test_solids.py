@@ -83,7 +83,8 @@ def bore_area(mesh: Mesh, bore: Contour | None) -> tuple[float, int]:
     count = len(corners)
     assert count >= len(bore.vertices) * bore.count
     angles = np.sort(np.arctan2(corners[:, 1], corners[:, 0]))
-    assert np.allclose(np.diff(angles), 2 * np.pi / count, rtol=1e-6)
+    # places along a curve stand on a grid, the same on any processor
+    assert np.allclose(np.diff(angles), 2 * np.pi / count, rtol=0, atol=4e-6)
     return count * radius**2 * np.sin(2 * np.pi / count) / 2, count
 
 
