@@ -141,7 +141,7 @@ def test_a_corner_has_room_beside_its_spoke() -> None:
     limit = (15.0 * sine - 6.0) / (1 - sine)
     assert limit < (90.0 - 30.0) / 4
     Spokes(5, 30.0, 90.0, 12.0, limit * (1 - 1e-3)).check("spokes")
-    with pytest.raises(ParameterError, match="spokes.corner_radius .* no_room_in_window"):
+    with pytest.raises(ParameterError, match=r"spokes.corner_radius = .*: no_room_in_window"):
         Spokes(5, 30.0, 90.0, 12.0, limit * (1 + 1e-3)).check("spokes")
     Spokes(5, 65.999, 66.0, 8.0).check("spokes")
     with pytest.raises(ParameterError, match="reaches_outer_diameter"):
