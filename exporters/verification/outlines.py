@@ -166,7 +166,7 @@ def _measured(loop: Loop, profile: Profile, declared: float, count: int) -> tupl
     ends = np.roll(loop.vertices, -1)[:count]
     points = edge_points(loop.vertices[:count], ends, loop.bulges[:count], _shares(count))
     deviation = float(distance_to_profile(points.ravel(), profile, trusted=declared).max())
-    return deviation, float(np.abs(np.diff(points, axis=1)).sum())
+    return deviation, float(np.abs(np.diff(points, axis=1, append=ends[:, None])).sum())
 
 
 def _shares(count: int) -> Real:

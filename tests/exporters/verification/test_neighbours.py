@@ -1,0 +1,308 @@
+"""A file against the part it was made of, and against parts that differ in one size: told by what differs."""
+
+from __future__ import annotations
+
+import math
+import re
+import tempfile
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.formats.read_step import ReadSolid, read_step
+from exporters.formats.readback import Loop, ReadMesh
+from exporters.verification.mesh import verify_mesh
+from exporters.verification.outlines import is_simple, stroke_failures, verify_loops, verify_samples
+from exporters.verification.solid import verify_solid
+from exporters.verification.topology import topology_failures
+from exporters.verification.verdict import Verdict, deviation_failures, precision_failures, volume_failures
+from geometry.plane.profile import Label, circle
+from geometry.solids.body import Body
+from geometry.solids.mass import body_moments
+from parts.base.readback import ReadError
+from parts.scene.load import make_parts, scene_from_dict
+from parts.solids.faces import solid_curves, solid_faces
+from parts.solids.mesh import body_mesh, mesh_outlines
+from parts.solids.step_text import StepForm, StepPart, step_text
+
+PLATE: dict[str, Any] = {"kind": "plate", "width": 20.0, "height": 12.0, "face_width": 3.0,
+                         "holes": [{"diameter": 4.0, "at": [3.0, 1.0]}]}  # fmt: skip
+GEAR: dict[str, Any] = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 9, "face_width": 1.5,
+                        "bore_diameter": 5.0}  # fmt: skip
+KEYS = {
+    "plate": PLATE,
+    "screw": GEAR | {"helix_angle_deg": 20.0},
+    "chevron": GEAR | {"helix_angle_deg": 20.0, "double_helical": True},
+    "chamfered": GEAR | {"face_chamfer": 0.3},
+    "hub": GEAR | {"hub": {"diameter": 9.0, "above": 1.0}},
+}
+NEAR = 0.01
+
+
+@cache
+def body_of(name: str, *changes: tuple[str, Any]) -> Body:
+    keys = KEYS[name] | dict(changes)
+    body = make_parts(scene_from_dict({"parts": {"p": keys}}, "t", "t"), "t")[0]["p"].body(0.0)
+    assert isinstance(body, Body)
+    return body
+
+
+@cache
+def mesh_of(name: str) -> ReadMesh:
+    made = body_mesh(body_of(name), mesh_outlines(body_of(name), NEAR, 0.0))
+    return ReadMesh(made.vertices, made.triangles)
+
+
+@cache
+def solid_of(name: str) -> ReadSolid:
+    body = body_of(name)
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "p.step"
+        file.write_text(step_text(StepPart("p", solid_faces(body, solid_curves(body, 1e-6))), StepForm()), "ascii")
+        return read_step(file)
+
+
+def told(verdict: Verdict) -> str:
+    return "; ".join(verdict.failures)
+
+
+def said_of(judge: Callable[..., Verdict], found: ReadMesh | ReadSolid, body: Body, near: float) -> str:
+    """What is wrong with a file, as its judge tells it."""
+    try:
+        return told(judge(found, body, near, near))
+    except ReadError as error:
+        return str(error)
+
+
+HOLE = PLATE["holes"][0]
+# what differs in the part that the file is held against; what is said of meshes, and of solids
+OTHERS: dict[str, tuple[str, tuple[str, Any], str, str]] = {
+    "wider": ("plate", ("width", 20.1), "deviates .*face at z = 0 |face at z = 0 .*deviates", "volume .*deviates"),
+    "higher": ("plate", ("height", 12.1), "deviates", "volume .*deviates"),
+    "thicker": ("plate", ("face_width", 3.01), "off every face", "plane faces at"),
+    "another hole": ("plate", ("holes", (HOLE | {"diameter": 4.1},)), "deviates", "deviates"),
+    "a hole elsewhere": ("plate", ("holes", (HOLE | {"at": [3.1, 1.0]},)), "deviates", "deviates"),
+    "no hole": ("plate", ("holes", ()), "contours instead of|face at z|caps", "cylinders instead of"),
+    "two holes": ("plate", ("holes", (HOLE, HOLE | {"at": [-3.0, 1.0]})), "contours instead of", "cylinders instead"),
+    "another helix": ("screw", ("helix_angle_deg", 21.0), "deviates", "deviates"),
+    "another hand": ("screw", ("hand", "left"), "deviates", "deviates"),
+    "no helix": ("screw", ("helix_angle_deg", 0.0), "off every face", "deviates|wall|cylinders"),
+    "a wider bore": ("screw", ("bore_diameter", 5.1), "deviates", "deviates"),
+    "one hand": ("chevron", ("double_helical", False), "", ""),
+    "a deeper chamfer": ("chamfered", ("face_chamfer", 0.4), "no edge at one of its ends", "deviates|plane faces"),
+    "no chamfer": ("chamfered", ("face_chamfer", 0.0), "", ""),
+    "a wider hub": ("hub", ("hub", {"diameter": 9.1, "above": 1.0}), "deviates", "deviates"),
+    "a higher hub": ("hub", ("hub", {"diameter": 9.0, "above": 1.1}), "off every face", "plane faces at"),
+    "another tooth": ("hub", ("number_of_teeth", 10), "", ""),
+    "a shift": ("hub", ("profile_shift_coefficient", 0.1), "deviates", "deviates"),
+}
+
+
+def other(name: str, change: tuple[str, Any]) -> Body:
+    keys = KEYS[name] | {change[0]: list(change[1]) if isinstance(change[1], tuple) else change[1]}
+    body = make_parts(scene_from_dict({"parts": {"p": keys}}, "t", "t"), "t")[0]["p"].body(0.0)
+    assert isinstance(body, Body)
+    return body
+
+
+@pytest.mark.parametrize("name", KEYS)
+def test_a_mesh_is_its_part_s_and_no_neighbour_s(name: str) -> None:
+    mesh, body = mesh_of(name), body_of(name)
+    own = verify_mesh(mesh, body, NEAR, NEAR)
+    assert own.failures == ()
+    corners = mesh.vertices[mesh.triangles]
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    volume = float(np.einsum("ij,ij->", corners[:, 0], cross) / 6)
+    assert own.measured["triangles"] == len(mesh.triangles)
+    assert own.measured["volume"] == pytest.approx(volume, rel=1e-12)
+    assert own.measured["volume_error"] == pytest.approx(volume / body_moments(body).volume - 1, abs=1e-12)
+    assert own.measured["least_triangle_area"] == pytest.approx(np.linalg.norm(cross, axis=1).min() / 2, rel=1e-9)
+    assert 0 < own.measured["max_deviation"] <= NEAR
+    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+    assert edges.min() - 1e-9 <= own.measured["shortest_edge"] < 3 * edges.min() + 0.2
+    # declared by less than it is off
+    less = verify_mesh(mesh, body, own.measured["max_deviation"] * 0.99, NEAR)
+    assert "more than the declared" in told(less)
+    small = own.measured["max_deviation"] * 0.99
+    assert "the tolerance is" in told(verify_mesh(mesh, body, small, small))
+    for change, (of, keys, said, _) in OTHERS.items():
+        if of == name:
+            found = said_of(verify_mesh, mesh, other(name, keys), NEAR)
+            assert found, change
+            assert re.search(said, found), (change, found)
+
+
+@pytest.mark.parametrize("name", KEYS)
+def test_a_solid_is_its_part_s_and_no_neighbour_s(name: str) -> None:
+    solid, body = solid_of(name), body_of(name)
+    own = verify_solid(solid, body, 1e-6, 1e-6)
+    assert own.failures == ()
+    exact = body_moments(body).volume
+    assert own.measured["volume"] == pytest.approx(exact, rel=1e-8)
+    assert own.measured["volume_error"] == pytest.approx(own.measured["volume"] / exact - 1, abs=1e-15)
+    assert 0 < own.measured["volume_bound"] < 1e-6
+    for change, (of, keys, _, said) in OTHERS.items():
+        if of == name:
+            found = said_of(verify_solid, solid, other(name, keys), 1e-6)
+            assert found, change
+            assert re.search(said, found), (change, found)
+
+
+def moved(name: str, where: np.ndarray, by: tuple[float, float, float]) -> ReadMesh:
+    mesh = mesh_of(name)
+    return ReadMesh(mesh.vertices + where[:, None] * np.array(by), mesh.triangles)
+
+
+def test_what_is_wrong_with_a_mesh_is_told_by_its_own_words() -> None:
+    mesh, body = mesh_of("plate"), body_of("plate")
+    x, y, z = mesh.vertices.T
+    corner = (x > 9.9) & (y > 5.9)
+    t = mesh.triangles
+
+    def said(wrong: ReadMesh) -> str:
+        return told(verify_mesh(wrong, body, NEAR, NEAR))
+
+    assert said(moved("plate", corner, (0.5, 0.0, 0.0))).startswith("the face at z = 0 has ")
+    assert "the face at z = 3 has" in said(moved("plate", corner, (0.5, 0.0, 0.0)))
+    assert "volume" in said(moved("plate", corner, (0.5, 0.0, 0.0)))
+    assert "do not stand upright" in said(moved("plate", corner & (z > 1), (0.002, 0.0, 0.0)))
+    assert said(moved("plate", corner & (z > 1), (0.0, 0.0, 0.002))) == "a vertex stands off every face"
+    assert said(ReadMesh(mesh.vertices, t[1:])) == "the mesh is not closed: an edge has a triangle on one side only"
+    assert said(ReadMesh(mesh.vertices, np.vstack([t, t[:1]]))) == "two triangles run along one edge the same way"
+    assert said(ReadMesh(mesh.vertices, np.vstack([t, [[0, 0, 1]]]))) == "a triangle has two equal corners"
+    flat = np.vstack([mesh.vertices, (mesh.vertices[t[0, 0]] + mesh.vertices[t[0, 1]]) / 2])
+    assert said(ReadMesh(flat, np.vstack([t, [[t[0, 0], t[0, 1], len(x)]]]))) == "a triangle has no area"
+    assert topology_failures(mesh) == []
+    # inside out: faces look the other way
+    assert "overlap" in said(ReadMesh(mesh.vertices, t[:, ::-1]))
+    # a wall that goes up halfway only
+    tall = ReadMesh(mesh.vertices * [1, 1, 2], t)
+    assert said(tall) == "a vertex stands off every face"
+    # a face folded over itself: an inner point of it beyond its edge
+    caps = [k for k in range(len(t)) if np.all(z[t[k]] == 0)]
+    a, b, c = t[caps[0]]
+    beyond = mesh.vertices[a] + 3 * (mesh.vertices[b] - mesh.vertices[a]) + 2 * (mesh.vertices[c] - mesh.vertices[a])
+    more = np.delete(t, caps[0], axis=0)
+    folded = np.vstack([more, [[a, b, len(x)], [b, c, len(x)], [c, a, len(x)]]])
+    assert "face at z = 0" in said(ReadMesh(np.vstack([mesh.vertices, beyond]), folded))
+
+
+def test_screw_surfaces_and_chamfers_are_told_by_their_own_words() -> None:
+    mesh, body = mesh_of("screw"), body_of("screw")
+    z = mesh.vertices[:, 2]
+    between = (z > 0.1) & (z < 1.4)
+    assert between.any()
+    for name, mark in (("screw", "slice at z ="), ("chamfered", "slice to slice|off every face|deviates")):
+        whole, own = mesh_of(name), body_of(name)
+        heights = whole.vertices[:, 2]
+        inner = np.unique(heights[(heights > 1e-3) & (heights < heights.max() - 1e-3)])
+        level = inner[0]
+        out = np.abs(heights - level) < 1e-9
+        far = np.hypot(whole.vertices[:, 0], whole.vertices[:, 1]) > 5
+        grown = whole.vertices * np.where(out & far, 1.01, 1.0)[:, None] ** np.array([1, 1, 0])
+        said = said_of(verify_mesh, ReadMesh(grown, whole.triangles), own, NEAR)
+        assert any(word in said for word in mark.split("|")), (name, said)
+        assert "deviates" in said or "slice" in said
+    # one vertex of a slice at another height
+    lone = np.flatnonzero(between)[0]
+    lifted = mesh.vertices.copy()
+    lifted[lone, 2] += 0.01
+    said = said_of(verify_mesh, ReadMesh(lifted, mesh.triangles), body, NEAR)
+    assert re.search("from slice to slice|is not closed", said)
+
+
+SQUARE = np.array([0, 10, 10 + 10j, 10j])
+
+
+def test_chains_are_held_against_profiles_one_by_one() -> None:
+    disc, hole = circle(5.0, Label.BODY), circle(2.0, Label.HOLE, hole=True)
+    turn = np.exp(2j * np.pi * np.arange(4) / 4)
+    bulge = math.tan(math.pi / 8)
+    outer, inner = Loop(5 * turn, np.full(4, bulge), "CUT_OUTER"), Loop(2 * turn[::-1], np.full(4, -bulge), "CUT_INNER")
+    layers = ["CUT_OUTER", "CUT_INNER"]
+
+    def verdict(loops: list[Loop], declared: float = 1e-6, tolerance: float = 1e-3) -> Verdict:
+        return verify_loops(loops, [disc, hole], layers, declared, tolerance)
+
+    good = verdict([inner, outer])
+    assert good.failures == ()
+    assert good.measured["contours"] == 2
+    assert good.measured["max_deviation"] < 1e-12
+    assert good.measured["shortest_edge"] == pytest.approx(2 * math.sqrt(2))
+    assert told(verdict([outer])) == "1 contours instead of 2"
+    assert told(verdict([outer, inner])) == "a contour on CUT_INNER comes after one that lets it fall"
+    assert "stands on CUT_INNER instead of CUT_OUTER" in told(
+        verdict([inner, Loop(5 * turn, outer.bulges, "CUT_INNER")])
+    )
+    grown = Loop(outer.vertices * (1 + 1e-6), outer.bulges, "CUT_OUTER")
+    assert verdict([inner, grown]).measured["max_deviation"] == pytest.approx(5e-6, rel=1e-3)
+    assert "more than the declared 1e-06 mm" in told(verdict([inner, grown]))
+    assert told(verdict([inner, grown], 5.1e-6)) == ""
+    assert "the tolerance is 4e-06 mm" in told(verdict([inner, grown], 5.1e-6, 4e-6))
+    twice = Loop(np.insert(outer.vertices, 1, outer.vertices[1]), np.insert(outer.bulges, 1, 0.0), "CUT_OUTER")
+    assert "repeats a vertex" in told(verdict([inner, twice]))
+    for bad in (Loop(outer.vertices[:1], outer.bulges[:1], ""), Loop(outer.vertices * np.nan, outer.bulges, ""),
+                Loop(outer.vertices, outer.bulges * np.inf, "")):  # fmt: skip
+        assert "holds no shape" in told(verdict([inner, bad]))
+    flat = Loop(outer.vertices, np.array([bulge, bulge, bulge, 0.0]), "CUT_OUTER")
+    assert "encloses" not in told(verdict([inner, flat])) or "deviates" in told(verdict([inner, flat]))
+    there_and_back = np.concatenate([outer.vertices, outer.vertices[1:3]])
+    assert "crosses itself" in told(verdict([inner, Loop(there_and_back, np.full(6, bulge), "CUT_OUTER")]))
+
+
+def test_samples_are_held_against_profiles() -> None:
+    disc = circle(5.0, Label.BODY)
+    turn = np.exp(2j * np.pi * np.arange(400) / 400)
+    good = verify_samples([5 * turn], [disc], 1e-6, 1e-3)
+    assert good.failures == ()
+    assert good.measured == {"contours": 1.0, "max_deviation": pytest.approx(0.0, abs=1e-12)}
+    assert told(verify_samples([], [disc], 1e-6, 1e-3)) == "0 contours instead of 1"
+    assert "more than the declared" in told(verify_samples([(5 + 2e-6) * turn], [disc], 1e-6, 1e-3))
+    # the same points, some of them left out: the area is another
+    assert "encloses" in told(verify_samples([5 * turn[:300]], [disc], 1e-6, 1e-3))
+    assert told(verify_samples([5 * turn], [disc], 1e-6, 1e-3, [78.0])).startswith(
+        "encloses 78 mm^2 instead of 78.5398"
+    )
+    assert told(verify_samples([5 * turn], [disc], 1e-6, 1e-3, [78.5])) == ""
+    crossed = 5 * np.concatenate([turn, turn[::-1][5:-5], turn])
+    assert "crosses itself" in told(verify_samples([crossed], [disc], 1e-6, 1e-3))
+
+
+def test_strokes_stand_where_they_are_engraved() -> None:
+    one, two = SQUARE[:3], SQUARE[1:] * 2
+    assert stroke_failures([one, two], [one, two], 1e-3) == ()
+    assert stroke_failures([one + 0.9e-3, two], [one, two], 1e-3) == ()
+    assert stroke_failures([one + 1.1e-3, two], [one, two], 1e-3) == ("an engraved stroke is not where it should be",)
+    assert stroke_failures([one, two[:2]], [one, two], 1e-3) == ("an engraved stroke is not where it should be",)
+    assert stroke_failures([one], [one, two], 1e-3) == ("1 engraved strokes instead of 2",)
+
+
+def test_polygons_that_cross_themselves_are_seen() -> None:
+    star = np.exp(2j * np.pi * 2 * np.arange(5) / 5)
+    ring = np.exp(2j * np.pi * np.arange(7) / 7)
+    assert is_simple(ring)
+    assert is_simple(ring[::-1])
+    assert is_simple(ring + 3)
+    # twice round the origin, all of it one way
+    assert not is_simple(star)
+    assert not is_simple(np.array([0, 1 + 1j, 1, 1j]))
+    assert is_simple(SQUARE)
+
+
+def test_bounds_of_a_verdict_are_kept_from_both_sides() -> None:
+    assert deviation_failures(1e-3, 1e-3, 1e-3, 10.0) == []
+    assert "the tolerance is" in deviation_failures(1.001e-3, 1e-2, 1e-3, 10.0)[0]
+    assert "more than the declared" in deviation_failures(1.001e-3, 1e-3, 1e-2, 10.0)[0]
+    assert deviation_failures(math.nan, 1e-3, 1e-3, 10.0)
+    assert precision_failures(1e-7, 1e-7) == []
+    assert precision_failures(2e-7, 1e-7) == ["calls points one within 2e-07 mm instead of 1e-07 mm"]
+    assert volume_failures(100.0, 100.0005, 1e-3, None) == []
+    assert volume_failures(100.0, 100.002, 1e-3, None) == ["volume 100 mm^3 instead of 100.002 mm^3"]
+    assert volume_failures(100.0, 100.0, 1e-3, 100.0005) == []
+    assert volume_failures(100.0, 100.0, 1e-3, "100.002") == [
+        "says that its volume is 100.002 mm^3 instead of 100 mm^3"
+    ]
