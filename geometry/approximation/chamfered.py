@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -95,19 +96,21 @@ def _curves(sections: Sections, shares: Real) -> list[list[Curve]]:
     return [list(curves) for curves in zip(*rows, strict=True)]
 
 
-def pieces_needed(sections: Sections) -> int:
-    """Into how many pieces of equal depth a chamfer is cut, so that each is near a polynomial: 1, 2, 4 or 8.
+def pieces_needed(sections: Sections, shares: Callable[[int], Sequence[float]]) -> int:
+    """Into how many pieces a chamfer is cut by ``shares``, so that each is near a polynomial: 1, 2, 4 or 8.
 
     More than one where its form changes within the depth, as where an offset flank begins to be cut at its foot.
     """
     count = 1
-    while count < _MOST_PIECES and not all(_degree(_piece(sections, k, count)) for k in range(count)):
+    while count < _MOST_PIECES and not all(
+        _degree(_piece(sections, *ends)) for ends in pairwise((0.0, *shares(count)))
+    ):
         count *= 2
     return count
 
 
-def _piece(sections: Sections, index: int, count: int) -> Sections:
-    return lambda share: sections((1 - share) * index / count + share * (index + 1) / count)
+def _piece(sections: Sections, low: float, high: float) -> Sections:
+    return lambda share: sections((1 - share) * low + share * high)
 
 
 def _degree(sections: Sections) -> int | None:

@@ -17,7 +17,7 @@ from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Complex
 from geometry.plane.measure import profile_area
 from geometry.solids.body import Body, Cap, Wall
-from geometry.solids.chamfer import cut_chamfers
+from geometry.solids.chamfer import cut_chamfers, even_shares, opening
 from geometry.solids.faces import Loop, Solid
 from geometry.solids.rings import Ring, RingBuilder, spatial
 from geometry.solids.screw import cut_twists, heights, turn_error, turn_spans, turn_spline, with_turn_error
@@ -65,8 +65,12 @@ def _chamfered_outlines(body: Body, tolerance: float) -> dict[int, Outline]:
 
 def _cut(body: Body) -> Body:
     """The body with pieces of chamfers and of screw surfaces that one face each can follow."""
-    body = cut_chamfers(body, lambda *chamfer: pieces_needed(partial(body.section_at, *chamfer)))
-    return cut_twists(body)
+
+    def pieces(wall: Wall, whole: int, end: int) -> tuple[float, ...]:
+        cuts = partial(even_shares, opens=opening(body, wall, whole, end))
+        return cuts(pieces_needed(partial(body.section_at, wall, whole, end), cuts))
+
+    return cut_twists(cut_chamfers(body, pieces))
 
 
 def body_solid(body: Body, outlines: Sequence[Outline]) -> Solid:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
 
 from geometry.base.record import replace
+from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex
 from geometry.plane.measure import distance_to_profile
-from geometry.plane.profile import Profile
+from geometry.plane.profile import Profile, joint_turn
 from geometry.solids.body import Body, BodyBuilder, Wall
 
 # the share of a mesh's tolerance that the bow of a chamfer's slices may take
@@ -21,32 +22,79 @@ _ALONG, _ACROSS, _SAMPLED = 17, (0.25, 0.5, 0.75), 1.1
 # lower bows are rounding, mm
 _NO_BOW = 1e-11
 
-# how many pieces a chamfer is cut into: its wall, its loop of the whole boundary and that of its end
-Pieces = Callable[[Wall, int, int], int]
+# an edge opens with the root of the depth: its pieces grow with this power of their number
+_OPENING_POWER = 4
+# within this share of the depth the place is found where an edge opens
+_OPENING_SHARE = 1e-4
+
+# the shares of the depth, up to 1, at which a chamfer is cut: its wall, its loops of the whole boundary and of its end
+Pieces = Callable[[Wall, int, int], Sequence[float]]
 
 
 def cut_chamfers(body: Body, pieces: Pieces) -> Body:
-    """The body with its chamfers cut into pieces of equal depth; others of one profile and depth are cut alike."""
-    counts: dict[tuple[int, int], int] = {}
+    """The body with its chamfers cut into pieces; others of one profile and depth are cut alike."""
+    known: dict[tuple[int, int], Sequence[float]] = {}
+    sections: dict[tuple[int, int, float], Profile] = {}
     made = BodyBuilder(list(body.profiles), {loop: i for i, loop in enumerate(body.loops)}, [])
     made.walls += [wall for wall in body.walls if not body.is_chamfer(wall)]
     for wall, whole, end in body.chamfers():
         key = body.loops[whole].profile, body.loops[end].profile
-        count = counts.setdefault(key, counts.get(key) or pieces(wall, whole, end))
+        shares = known.setdefault(key, known.get(key) or pieces(wall, whole, end))
         below = whole
-        for k in range(1, count + 1):
-            share = k / count
+        for share in shares:
             z = (1 - share) * body.loops[whole].z + share * body.loops[end].z
-            above = end if k == count else made.loop(body.section(wall, z), z)
+            if share < 1 and (*key, share) not in sections:
+                sections[*key, share] = body.section(wall, z)
+            above = end if share == 1 else made.loop(sections[*key, share], z)
             lower, upper = (below, above) if whole == wall.lower else (above, below)
             made.wall(lower, upper, wall.section)
             below = above
     return body if len(made.loops) == len(body.loops) else replace(made.body(), caps=body.caps)
 
 
-def chamfer_slices(body: Body, wall: Wall, whole: int, end: int, tolerance: float) -> int:
-    """Into how many slices a chamfer is cut, so that lines between them bow by a share of the tolerance, mm."""
-    return max(1, math.ceil(math.sqrt(chamfer_bow(body, wall, whole, end) / (_BOW_SHARE * tolerance))))
+def opening(body: Body, wall: Wall, whole: int, end: int) -> float | None:
+    """The share of its depth at which a chamfer begins to meet itself in an edge: over a vertex of the boundary.
+
+    None where it does not: the end has as many corners as the whole boundary.
+    """
+
+    def opened(share: float) -> bool:
+        return _corners(body.section_at(wall, whole, end, share)) > corners
+
+    corners = _corners(body.loop_profile(whole))
+    if not opened(1.0):
+        return None
+    low, high = (0.0, 0.0) if opened(_OPENING_SHARE) else (_OPENING_SHARE, 1.0)
+    while high - low > _OPENING_SHARE:
+        middle = (low + high) / 2
+        low, high = (low, middle) if opened(middle) else (middle, high)
+    return low
+
+
+def _corners(profile: Profile) -> int:
+    """How many of the joints of a profile's period are corners."""
+    curves = [s.curve for s in profile.period]
+    return sum(
+        abs(joint_turn(a, b)) > TOLERANCES.smooth_angle for a, b in zip(curves, curves[1:] + curves[:1], strict=True)
+    )
+
+
+def even_shares(count: int, opens: float | None = None) -> tuple[float, ...]:
+    """Shares of the depth that end so many pieces: equal ones; twice as many, ever larger, from where an edge opens."""
+    if opens is None:
+        return tuple(k / count for k in range(1, count + 1))
+    even = [k / (2 * count) for k in range(1, 2 * count + 1)]
+    return (*(opens * x for x in even if opens), *(opens + (1 - opens) * x**_OPENING_POWER for x in even))
+
+
+def level_shares(body: Body, tolerance: float) -> tuple[float, ...]:
+    """Where all chamfers are cut, so that lines between the cuts bow by a share of the tolerance, mm."""
+    chamfers = list(body.chamfers())
+    if not chamfers:
+        return (1.0,)
+    most = max(chamfer_bow(body, *chamfer) for chamfer in chamfers)
+    opens = [found for chamfer in chamfers if (found := opening(body, *chamfer)) is not None]
+    return even_shares(max(1, math.ceil(math.sqrt(most / (_BOW_SHARE * tolerance)))), min(opens, default=None))
 
 
 def chamfer_bow(body: Body, wall: Wall, whole: int, end: int) -> float:

@@ -19,7 +19,7 @@ from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Approximation, Contour
 from geometry.solids.body import Body, Cap
-from geometry.solids.chamfer import chamfer_bow, chamfer_slices, cut_chamfers
+from geometry.solids.chamfer import chamfer_bow, cut_chamfers, level_shares
 from parts.solids.caps import Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
 
 if TYPE_CHECKING:
@@ -63,8 +63,8 @@ def mesh_outlines(body: Body | FacedBody, tolerance: float, least_edge: float) -
 
 def _sliced(body: Body, tolerance: float) -> Body:
     """The body with its chamfers cut into slices that plane triangles follow: all alike, so that slices are level."""
-    most = max((chamfer_slices(body, *chamfer, tolerance) for chamfer in body.chamfers()), default=1)
-    return cut_chamfers(body, lambda *_: most)
+    shares = level_shares(body, tolerance)
+    return cut_chamfers(body, lambda *_: shares)
 
 
 def _chamfered(body: Body, group: tuple[int, ...], tolerance: float, least_edge: float) -> tuple[Approximation, ...]:

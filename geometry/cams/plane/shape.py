@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -46,19 +47,9 @@ def cam_shape(cam: DiskCam, grow: float = 0.0) -> CamShape:
         What is left does not hang together.
     """
     kept = kept_arcs(cam, grow)
-    chain: list[Segment] = []
-    for start, end in kept.arcs:
-        if cam.motion.tabled:
-            chain += _table_segments(cam, start, end, grow)
-            continue
-        run: list[Segment] = []
-        for piece in _pieces_between(cam, start, end):
-            fresh = _segments(cam, piece, grow)
-            if run:
-                run += _filling(cam, grow, run[-1].curve, fresh[0].curve, piece.start)
-            run += fresh
-        chain += run
-    if not kept.gaps:
+    arcs = _within_turn(kept.arcs)
+    chain = [segment for arc in arcs for segment in _run(cam, *arc, grow)]
+    if arcs[-1][1] - arcs[0][0] == TURN:
         chain += _filling(cam, grow, chain[-1].curve, chain[0].curve, 0.0)
     ordered = [Segment(_backwards(s.curve), s.label) for s in reversed(chain)]
     return CamShape(Profile(tuple(ordered)), kept.gaps)
@@ -84,17 +75,35 @@ def _base_radius(cam: DiskCam) -> float:
     return float(abs(cam.reference_point(0.0))) - cam.radius
 
 
+def _within_turn(arcs: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Arcs of cam angle, of which the last may end beyond one turn, from angle 0 on, as every section begins."""
+    cut = [(a - shift, b - shift) for a, b in arcs for shift in (0.0, TURN)]
+    # a sliver of rounding is no arc
+    return sorted((max(a, 0.0), min(b, TURN)) for a, b in cut if min(b, TURN) - max(a, 0.0) > _SLIVER)
+
+
+def _run(cam: DiskCam, start: float, end: float, grow: float) -> list[Segment]:
+    """The exact curves over an arc of cam angle, over growing angle."""
+    if cam.motion.tabled:
+        return _table_segments(cam, start, end, grow)
+    run: list[Segment] = []
+    for piece in _pieces_between(cam, start, end):
+        fresh = _segments(cam, piece, grow)
+        if run:
+            run += _filling(cam, grow, run[-1].curve, fresh[0].curve, piece.start)
+        run += fresh
+    return run
+
+
 def _pieces_between(cam: DiskCam, start: float, end: float) -> list[LawPiece | _Cut]:
-    """The pieces of the motion between two cam angles (the second may lie beyond one turn), cut at both."""
-    turn = 2 * np.pi
-    found = []
-    for shift in (0.0, turn):
-        for piece in cam.motion.pieces:
-            low, high = max(start, piece.start + shift), min(end, piece.end + shift)
-            # a sliver of rounding is no piece
-            if high - low > _SLIVER:
-                found.append((piece, low - shift, high - shift))
-    return [_Cut(piece, low, high) if (low, high) != piece.domain else piece for piece, low, high in found]
+    """The pieces of the motion between two cam angles, cut at both."""
+    found = [(piece, max(start, piece.start), min(end, piece.end)) for piece in cam.motion.pieces]
+    # a sliver of rounding is no piece
+    return [
+        piece if (low, high) == piece.domain else _Cut(piece, low, high)
+        for piece, low, high in found
+        if high - low > _SLIVER
+    ]
 
 
 class _Cut(Record):
@@ -126,13 +135,10 @@ def _segments(cam: DiskCam, piece: LawPiece | _Cut, grow: float) -> list[Segment
 
 
 def _table_segments(cam: DiskCam, start: float, end: float, grow: float) -> list[Segment]:
-    """The exact curve over rows of a table, some in a segment; ``end`` may lie beyond one turn."""
-    inner, found = cam.motion.stack.starts[::_BLOCK_ROWS], []
-    for low, high in ((start, min(end, TURN)), (0.0, end - TURN)):
-        # a sliver of rounding is no segment
-        cuts = [low, *inner[(inner > low + _SLIVER) & (inner < high - _SLIVER)].tolist(), high]
-        found += [Segment(cam.table_curve(a, b, grow), Label.CAM) for a, b in pairwise(cuts) if b - a > _SLIVER]
-    return found
+    """The exact curve over rows of a table, some in a segment."""
+    inner = cam.motion.stack.starts[::_BLOCK_ROWS]
+    cuts = [start, *inner[(inner > start + _SLIVER) & (inner < end - _SLIVER)].tolist(), end]
+    return [Segment(cam.table_curve(a, b, grow), Label.CAM) for a, b in pairwise(cuts)]
 
 
 def _filling(cam: DiskCam, grow: float, before: Curve, after: Curve, angle: float) -> list[Segment]:

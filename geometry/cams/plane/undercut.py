@@ -19,6 +19,8 @@ import numpy as np
 from geometry.base.distinct import distinct
 from geometry.base.errors import UndercutError
 from geometry.base.record import Record
+from geometry.base.roots import bracketed_root
+from geometry.base.tolerance import TOLERANCES
 from geometry.cams.motion.follower_motion import TURN
 from geometry.cams.plane.curves import CentreEnvelope, FaceEnvelope
 from geometry.cams.plane.disk import DiskCam
@@ -36,8 +38,10 @@ _NEWTON_STEPS = 40
 _CROWD = 10.0 ** -np.linspace(1, 12, 89)
 # a follower reaches into a point if it does so by more than this part of the cam's size
 _REACH = 1e-9
-# why a cam is refused whose envelope runs back by less than that
-FOLDS = "profile_folds"
+# of the way from cusp to cusp, or to the end of a piece: the crossing of a loop surely lies farther beyond both
+_BEYOND_CUSPS = 0.3
+# and of the lost samples the first cusp lies within this share
+_CUSP_SHARE = _BEYOND_CUSPS / (1 + 2 * _BEYOND_CUSPS)
 
 
 class Gap(Record):
@@ -122,15 +126,15 @@ def kept_arcs(cam: DiskCam, grow: float = 0.0) -> Kept:
     Raises
     ------
     UndercutError
-        Nothing remains, what remains does not hang together, or what is lost is too small to be seen.
+        Nothing remains, or what remains does not hang together.
     """
     if is_whole(cam, grow):
         return Kept(((0.0, TURN),), ())
     angles, index, points = _samples(cam, grow)
-    stays = ~_reached(cam, grow, angles, points)
+    # small loops run back though nothing reaches far into them
+    reached = _reached(cam, grow, angles, points)
+    stays = ~(reached | _looped(cam, grow, angles, index))
     if np.all(stays):
-        if _folds(cam, grow):
-            raise UndercutError("base_circle_radius", _size(cam), FOLDS)
         return Kept(((0.0, TURN),), ())
     if not np.any(stays):
         raise UndercutError("base_circle_radius", _size(cam), "nothing_left_of_profile")
@@ -145,7 +149,20 @@ def kept_arcs(cam: DiskCam, grow: float = 0.0) -> Kept:
     crossings = []
     for k, (_, last) in enumerate(runs):
         beginning = runs[(k + 1) % len(runs)][0]
-        crossings.append(_crossing(cam, grow, (angles[last], index[last]), (angles[beginning], index[beginning])))
+        seen = np.any(np.roll(reached, -last)[: (beginning - last) % len(angles)])
+        ends = (angles[last], index[last]), (angles[beginning], index[beginning])
+        try:
+            found = _crossing(cam, grow, *ends)
+        except UndercutError:
+            if seen:
+                raise
+            found = None
+        if not seen and (found is None or (found[1] - found[0]) % TURN > math.pi):
+            found = _closing(cam, grow, *ends)
+        if found is not None:
+            crossings.append(found)
+    if not crossings:
+        return Kept(((0.0, TURN),), ())
     arcs, gaps = [], []
     for k, (leave, enter, corner) in enumerate(crossings):
         begin = crossings[k - 1][1]
@@ -161,14 +178,17 @@ def lost_to_undercut(cam: DiskCam, grow: float = 0.0) -> float | None:
     0 where it is too small to be seen, inf where nothing is left.
     """
     try:
-        return max((g.lost_lift for g in kept_arcs(cam, grow).gaps), default=None)
-    except UndercutError as refusal:
-        return 0.0 if refusal.code == FOLDS else math.inf
+        lost = max((g.lost_lift for g in kept_arcs(cam, grow).gaps), default=None)
+    except UndercutError:
+        return math.inf
+    if lost is None:
+        return 0.0 if _folds(cam, grow) else None
+    return lost if lost > _REACH * (1.0 if cam.swings else _size(cam)) else 0.0
 
 
 def is_uncut(cam: DiskCam, grow: float = 0.0) -> bool:
     """Whether nothing is lost to undercut, without asking how much where the envelope runs back."""
-    return is_whole(cam, grow) or (not _folds(cam, grow) and lost_to_undercut(cam, grow) is None)
+    return is_whole(cam, grow) or lost_to_undercut(cam, grow) is None
 
 
 def _size(cam: DiskCam) -> float:
@@ -198,17 +218,30 @@ def _samples(cam: DiskCam, grow: float) -> tuple[Real, np.ndarray, Complex]:
     return np.concatenate(angles), np.concatenate(index), np.concatenate(points)
 
 
+def _cusps(curve: CentreEnvelope | FaceEnvelope, t: Real) -> Real:
+    """Where the envelope turns back, by samples that are finer where it is slowest."""
+    forward = _forward(curve)
+    lowest = int(np.argmin(forward(t)))
+    near = np.linspace(t[max(lowest - 1, 0)], t[min(lowest + 1, len(t) - 1)], _QUICK_SAMPLES)
+    return sign_changes(forward, distinct(np.concatenate([t, near])))
+
+
 def _about_cusps(curve: CentreEnvelope | FaceEnvelope, t: Real) -> list[Real]:
     """Crowded samples about each pair of cusps: a loop reaches a few times their distance beyond them."""
-    forward = _forward(curve)
-    values = forward(t)
-    lowest = int(np.argmin(values))
-    near = np.linspace(t[max(lowest - 1, 0)], t[min(lowest + 1, len(t) - 1)], _QUICK_SAMPLES)
-    cusps = sign_changes(forward, distinct(np.concatenate([t, near])))
-    found = []
-    for a, b in pairwise(cusps.tolist()):
-        found.append(np.linspace(a - 3 * (b - a), b + 3 * (b - a), _QUICK_SAMPLES))
-    return found
+    pairs = pairwise(_cusps(curve, t).tolist())
+    return [np.linspace(a - 3 * (b - a), b + 3 * (b - a), _QUICK_SAMPLES) for a, b in pairs]
+
+
+def _looped(cam: DiskCam, grow: float, angles: Real, index: np.ndarray) -> np.ndarray:
+    """Which samples lie where the envelope runs back, or so near to it that its loop begins before them."""
+    result = np.zeros(len(angles), dtype=bool)
+    for k, (curve, even) in enumerate(_curves(cam, grow, _QUICK_SAMPLES)):
+        edges = [curve.start, *_cusps(curve, even).tolist(), curve.end]
+        for a, b in pairwise(edges):
+            if _forward(curve)(np.array([(a + b) / 2]))[0] < 0:
+                more = _BEYOND_CUSPS * (b - a)
+                result |= (cam.motion.tabled or index == k) & (angles > a - more) & (angles < b + more)
+    return result
 
 
 def _reached(cam: DiskCam, grow: float, angles: Real, points: Complex) -> np.ndarray:
@@ -245,9 +278,11 @@ def _crossing(
     """
     (a, i), (b, j) = first, second
     pieces = cam.motion.pieces
+    best = math.inf, a, i, b, j
     for _ in range(_NEWTON_STEPS):
         left, right = cam.curve(pieces[i], grow), cam.curve(pieces[j], grow)
         gap = complex(right.point(b)) - complex(left.point(a))
+        best = min(best, (abs(gap), a, i, b, j))
         u, v = complex(left.derivative(a)), complex(right.derivative(b))
         whole = (u.conjugate() * v).imag
         if whole == 0:
@@ -259,11 +294,39 @@ def _crossing(
         b, j = _moved(cam, b + float(np.clip(step_b, -limit, limit)), j)
         if max(abs(step_a), abs(step_b)) < 1e-15:
             break
+    # where both all but touch, steps are noise
+    _, a, i, b, j = best
     point = complex(cam.curve(pieces[i], grow).point(a))
     other = complex(cam.curve(pieces[j], grow).point(b))
-    if not abs(point - other) <= 1e-11 * max(abs(point), 1e-300) or abs(math.remainder(a - b, TURN)) < 1e-9:
+    if (
+        not abs(point - other) <= TOLERANCES.relative_join * max(abs(point), 1e-300)
+        or abs(math.remainder(a - b, TURN)) < 1e-9
+    ):
         raise UndercutError("base_circle_radius", _size(cam), "profile_falls_apart")
     return a, b, (point + other) / 2
+
+
+def _closing(
+    cam: DiskCam, grow: float, first: tuple[float, int], second: tuple[float, int]
+) -> tuple[float, float, complex] | None:
+    """Where the envelope before a loop is beside its place after it, of a loop that is flat in numbers; both angles.
+
+    None where it is nowhere: then even its length is rounding.
+    """
+    (a, i), (b, j) = first, second
+    curve = cam.curve(cam.motion.pieces[i], grow)
+    point, along = complex(cam.curve(cam.motion.pieces[j], grow).point(b)), complex(curve.tangent(a))
+    span = (b - a) % TURN
+
+    def beyond(t: float) -> float:
+        return ((complex(curve.point(t)) - point) * along.conjugate()).real
+
+    low, high = max(a - span, curve.start), min(a + _CUSP_SHARE * span, curve.end)
+    if not beyond(low) < 0 < beyond(high):
+        return None
+    found = bracketed_root(beyond, low, high).value
+    near = abs(complex(curve.point(found)) - point) <= TOLERANCES.relative_join * abs(point)
+    return (found, b, point) if near else None
 
 
 def _moved(cam: DiskCam, angle: float, index: int) -> tuple[float, int]:

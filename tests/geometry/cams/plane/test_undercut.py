@@ -12,6 +12,7 @@ from geometry.cams.motion.follower_motion import dwell, follower_motion, return_
 from geometry.cams.motion.guides import Oscillating, Translating
 from geometry.cams.plane.disk import DiskCam, FollowerKind, oscillating_cam, translating_cam
 from geometry.cams.plane.shape import cam_shape, whole_profile
+from geometry.cams.plane.synthesis import flat_base_radius
 from geometry.cams.plane.undercut import kept_arcs
 from geometry.laws.named import NAMED_LAWS, constant_velocity, polynomial_345, sine
 from geometry.plane.measure import distance_to_profile, profile_area
@@ -252,3 +253,27 @@ def test_oscillating_mount_is_the_one_named() -> None:
     cam = undercut_examples()["oscillating roller 1"]
     assert isinstance(cam.mount, Oscillating)
     assert cam.mount.sense == 1
+
+
+@pytest.mark.parametrize("laws", [("cosine", "cosine"), ("triangle", "sine"), ("polynomial_345", "cosine")])
+def test_a_section_below_a_cusp_is_what_half_planes_leave_at_every_depth(laws: tuple[str, str]) -> None:
+    """A convex cam is its support lines', moved inwards: h(theta) - d, whatever its loops; it keeps its segments."""
+    motion = follower_motion([rise(D(84), 30.0, NAMED_LAWS[laws[0]]()), return_(D(134), 30.0, NAMED_LAWS[laws[1]]()),
+                              dwell(D(142))])  # fmt: skip
+    base = flat_base_radius(motion, 0.0).value * (1 + 1e-9)
+    cam = translating_cam(motion, FLAT, base)
+    angle = np.linspace(0, 2 * math.pi, 7201)
+    normal = 1j * np.exp(-1j * angle)
+    support = base + motion.value(angle)
+    labels = [s.label for s in cam_shape(cam).profile.period]
+    for depth in (1e-6, 1e-4, 1e-2, 0.3):
+        shape = cam_shape(cam, -depth)
+        assert [s.label for s in shape.profile.period] == labels
+        shares = np.linspace(0, 1, 25)
+        for segment in shape.profile.period:
+            low, high = segment.curve.domain
+            points = segment.curve.point((1 - shares) * low + shares * high)
+            outside = ((points[:, None] * normal.conj()).real - support).max(axis=1)
+            # between two lines less is seen
+            assert -depth - 3e-5 <= outside.min()
+            assert outside.max() <= -depth + 1e-9

@@ -401,6 +401,20 @@ def test_a_mushroom_is_held_beside_a_cusp_whose_end_leg_is_as_short_as_digits(tm
     assert file["measured"]["lift_error"] <= 2e-6
 
 
+def test_the_least_cam_of_a_flat_face_has_chamfers(tmp_path: Path) -> None:
+    """Below its cusp they meet in an edge: 4e-8 mm was offered, of a tooth outline."""
+    phases = [
+        {"move": "rise", "angle_deg": 84.0, "law": "cosine"},
+        {"move": "return_", "angle_deg": 134.0, "law": "cosine"},
+        {"move": "dwell", "angle_deg": 142.0},
+    ]
+    keys = {"kind": "cam", "phases": phases, "follower": "flat", "lift": 30.0, "least_transmission_angle_deg": 45.0}
+    scene = tmp_path / "least.toml"
+    text = scene_text(keys | {"face_width": 12.0, "face_chamfer": 0.3, "bore_diameter": 6.0})
+    scene.write_text(text.replace('"dxf"', '"stl"\ntolerance = 0.05'), encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path), "--quiet"]) == 0
+
+
 def test_a_follower_near_the_end_of_its_reach_is_held_at_the_joints_of_splines(tmp_path: Path) -> None:
     """The conjugate's roller, 0.0001 mm from where its arm ends: no outline was found where the rise ends."""
     phases = [
