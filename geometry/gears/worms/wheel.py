@@ -682,12 +682,14 @@ class WormTeeth(Record, dict=True):
 
         return tuple(self._crossed(lambda z: beyond(self._plain(z)), self._levels, beyond(self._plain_levels)))
 
-    @staticmethod
-    def _crossed(of: Callable[[Real], Real], levels: Real, sampled: Real) -> list[float]:
+    def _crossed(self, of: Callable[[Real], Real], levels: Real, sampled: Real) -> list[float]:
         """Heights at which a function that is sampled at some goes through 0, mm."""
         signs = sampled > 0
         at = np.flatnonzero(signs[1:] != signs[:-1])
-        ends = bracketed_roots(of, levels[at], levels[at + 1], sampled[at], sampled[at + 1]) if at.size else at
+        if not at.size:
+            return []
+        low, high = at, at + 1
+        ends = bracketed_roots(of, levels[low], levels[high], sampled[low], sampled[high], enough=self._enough)
         return [float(end) for end in ends]
 
     @cached_property

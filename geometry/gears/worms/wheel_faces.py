@@ -116,7 +116,7 @@ def fitting(teeth: WormTeeth) -> WormTeeth | None:
         return teeth
 
     def follows(width: float) -> bool:
-        narrower = replace(teeth, width=width)
+        narrower = replace(teeth, width=width, loose=True)
         # of what bends splines follow next to nothing
         return narrower.ended is None and not narrower.is_creased and is_fitting(narrower)
 

@@ -281,7 +281,11 @@ def _cured(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
     if refusal.name in _TEETH:
         return _toothless(keys, refusal)
     does, stands = (_left_by(keys, margin, "diameter_quotient") for margin in (_stands, _is_made))
-    return wider(refusal, does, stands, keys.hob_diameter_quotient or math.inf)
+    most = keys.hob_diameter_quotient or math.inf
+    if refusal.name == "diameter_quotient" and most < math.inf and not kept(stands, most):
+        # none up to that of its hob does
+        return _toothless(keys, refusal)
+    return wider(refusal, does, stands, most)
 
 
 def _about(keys: WormWheelSpec, drive: WormDrive, teeth: WormTeeth) -> WheelThing:
