@@ -51,9 +51,9 @@ _ABOVE = 1.01
 _LEAST_SHARE = 1e-9
 # a space between two teeth is no shallower, a whole tooth's flank no narrower, modules
 _LEAST_DEPTH = 0.04
-# heights at which a face is looked at, some of them for a glance, and how well places between them are known, part of
-# the width
-_LEVELS, _GLANCE, _SETTLED = 97, 7, 1e-9
+# heights at which a face is looked at, some of them for a glance, how well places between them are known, and how far
+# two are apart at least, part of the width
+_LEVELS, _GLANCE, _SETTLED, _SAME = 97, 7, 1e-9, 4e-9
 # how far beyond the ends of a part the foot of a perpendicular may lie, and how far the contact has to run on beyond
 # the tip, as shares of it
 BEYOND, _RUNS_ON = 0.02, 0.002
@@ -141,7 +141,13 @@ class WormTeeth(Record, dict=True):
         ends = (*self.undercut_ends, *self.flank_ends, *(end for ridge in self.ridges for end in ridge))
         # no face ends in a point on both sides
         middle = {0.0} if len(ends) > len(self.undercut_ends) else set()
-        return tuple(sorted({*found, *middle, *(h for t in ends for h in (t, -t) if abs(h) < half)}))
+        heights = sorted({*found, *middle, *(h for t in ends for h in (t, -t) if abs(h) < half)}, key=abs, reverse=True)
+        # where fillets reach the tip a ridge may end too: rounding tells such heights apart
+        kept: list[float] = []
+        for height in heights:
+            if all(abs(height - other) > _SAME * self.width for other in kept):
+                kept.append(height)
+        return tuple(sorted(kept))
 
     def tip_radius(self, heights: ArrayLike) -> Real:
         """Of the wheel at heights, mm."""

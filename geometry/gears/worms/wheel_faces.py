@@ -126,7 +126,7 @@ def fitting(teeth: WormTeeth) -> WormTeeth | None:
     return replace(teeth, width=found.value) if found and isinstance(found.value, float) else None
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=16)
 def is_fitting(teeth: WormTeeth) -> bool:
     """Whether teeth stand over their whole width, and splines come near."""
     try:
@@ -139,7 +139,8 @@ def _are_followed(teeth: WormTeeth) -> bool:
     """Whether somewhat less than the most spans come as near as files want."""
     least = _ROUNDING * teeth.outer_radius
     target, edges = max(_SHARE * _WANTED / _MARGIN, least), max(_EDGES, least)
-    for band in pairwise(teeth.breaks):
+    # the outermost ones bend the most
+    for band in sorted(pairwise(teeth.breaks), key=lambda band: -abs(sum(band))):
         for part in (FILLET, FLANK) if _has_flank(teeth, band) else (FILLET,):
             for spans in _ENOUGH:
                 away, edge = _along(teeth, part, band, spans)

@@ -258,6 +258,17 @@ def test_beyond_what_is_offered_nothing_is_made(keys: dict[str, Any], key: str) 
         _built(keys | {key: offered.value + step})
 
 
+def test_ends_that_rounding_tells_apart_are_one() -> None:
+    keys = {"module": 2.0, "number_of_starts": 3, "diameter_quotient": 4.555, "form": "ZA", "number_of_teeth": 10}
+    # before: a face of 2e-15 mm between the end of a ridge and that of the fillets, and a traceback
+    drive = drive_of(WormWheelSpec(**keys, hand="left"))
+    outer = drive.default_outer_diameter / 2
+    teeth = WormTeeth(oversized_hob(drive, 0.2, 4.555), drive.centre_distance, drive.throat_radius, outer, 6.0703)
+    ends = [*teeth.flank_ends, *(end for ridge in teeth.ridges for end in ridge)]
+    assert any(0 < abs(abs(one) - abs(other)) < 1e-12 for one in ends for other in ends)
+    assert np.diff(teeth.breaks).min() > 1e-3
+
+
 @pytest.mark.heavy
 def test_a_default_width_is_one_that_is_made() -> None:
     keys = {"module": 2.0, "diameter_quotient": 2.95, "form": "ZA", "pressure_angle_deg": 14.5, "number_of_teeth": 12}
