@@ -23,7 +23,7 @@ USUAL_QUOTIENT = 10.0
 # how much larger a q is tried than one that does not do
 WIDER = (1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 5.0, 10.0, 20.0)
 # how near to the last one that holds a value of a wheel is found, modules or part of it
-NEAR = 1e-3
+NEAR = 8e-4
 WormQuotient = Annotated[
     float, Meta(gt=0, le=1000, description="q = d1 / m; default: 10", examples=[USUAL_QUOTIENT])
 ]  # fmt: skip

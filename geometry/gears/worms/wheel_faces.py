@@ -48,7 +48,7 @@ _CLOSER = 2
 # so many spans are one more when they are too few
 _SLOW = 6
 # how near to the widest that splines follow one is found, part of it
-_NEARLY = 1e-3
+_NEARLY = 8e-4
 # of the curves of a ring
 _ROOT, _TIP = 0, 3
 # where between two places of interpolation errors are greatest
