@@ -13,6 +13,9 @@ from geometry.laws.piece import LawPiece, Real
 
 # jumps below this part of the greatest acceleration are rounding
 _SMOOTH = 1e-9
+# velocity and acceleration
+Rates = tuple[float, float]
+AT_REST: Rates = (0.0, 0.0)
 
 
 class Law(Record):
@@ -40,14 +43,17 @@ class Law(Record):
                 best, where = float(size[index]), float(at[index])
         return best, where
 
-    def jerk(self) -> float:
-        """C_j, the greatest |s^(3)|: infinite where velocity or acceleration jumps, at either end too (VDI 2143)."""
-        jumps = [
-            abs(float(a.value(a.end, k)) - float(b.value(b.start, k))) for a, b in pairwise(self.pieces) for k in (1, 2)
-        ]
+    def jerk(self, before: Rates = AT_REST, after: Rates = AT_REST) -> float:
+        """C_j, the greatest |s^(3)|: infinite where velocity or acceleration jumps (VDI 2143).
+
+        ``before`` and ``after``: s' and s'' of the motion that it joins at either end, in its own units.
+        """
         first, last = self.pieces[0], self.pieces[-1]
-        ends = [abs(float(p.value(at, k))) for p, at in ((first, first.start), (last, last.end)) for k in (1, 2)]
-        return math.inf if max(jumps + ends) > _SMOOTH * max(1.0, self.peak(2)[0]) else self.peak(3)[0]
+        met = [(a.value(a.end, k), b.value(b.start, k)) for a, b in pairwise(self.pieces) for k in (1, 2)]
+        met += [(before[k - 1], first.value(first.start, k)) for k in (1, 2)]
+        met += [(last.value(last.end, k), after[k - 1]) for k in (1, 2)]
+        jump = max(abs(float(a) - float(b)) for a, b in met)
+        return math.inf if jump > _SMOOTH * max(1.0, self.peak(2)[0]) else self.peak(3)[0]
 
     def reversed_in_time(self) -> Law:
         """The law run backwards and upside down, 1 - s(1 - u): first and last half exchanged."""

@@ -16,6 +16,7 @@ from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.graphical import INTERVALS, LEAST_INTERVALS, MOST_INTERVALS
 from geometry.cams.plane.synthesis import least_hollow_radius
 from geometry.curves.curve import Complex, Real
+from geometry.laws.law import AT_REST, Rates
 from geometry.laws.piece import LawPiece
 from parts.base.texts import N_, Message, Text, filled, message
 from parts.keys.base import degrees
@@ -94,6 +95,21 @@ class Phases(Record):
             height += phase.lift
         return found
 
+    def jerks(self) -> list[float]:
+        """C_j of each phase in this motion, 0 of dwells: finite where its neighbours go on with its acceleration."""
+        ends = [(_rates(phase, 0.0), _rates(phase, 1.0)) for phase in self.phases]
+        found = []
+        for k, phase in enumerate(self.phases):
+            if phase.law is None:
+                found.append(0.0)
+                continue
+            # a plate slides on beyond its last phase, a cam begins anew
+            before = AT_REST if self.slides and k == 0 else ends[k - 1][1]
+            after = AT_REST if self.slides and k == len(ends) - 1 else ends[(k + 1) % len(ends)][0]
+            one, two = phase.angle / phase.lift, phase.angle**2 / phase.lift
+            found.append(phase.law.jerk((before[0] * one, before[1] * two), (after[0] * one, after[1] * two)))
+        return found
+
     def term(self, name: str) -> str:
         """The term of a phase's angle or travel."""
         return f"{_PHASES[name]}_{'travel' if self.slides else 'angle_deg'}"
@@ -109,6 +125,14 @@ class Phases(Record):
             {"move": name, key: self.size(phase), "law": phase.law.name if phase.law else None}
             for name, phase in self.named()
         ]
+
+
+def _rates(phase: Phase, share: float) -> Rates:
+    """S' and S'' at a share of a phase, by its own law."""
+    if phase.law is None:
+        return AT_REST
+    one, two = (float(phase.law.value(share, k)) * phase.lift / phase.angle**k for k in (1, 2))
+    return one, two
 
 
 def as_typed(value: float) -> float:
@@ -135,7 +159,7 @@ def phase_steps(page: Sheet, phases: Phases) -> None:
 def coefficient_steps(page: Sheet, phases: Phases) -> None:
     """Law, h and the peaks of each moving phase: S'_max = C_v h / phi, S''_max = C_a h / phi^2."""
     titles = {"rise": N_("Rise: {law}"), "return": N_("Return: {law}")}
-    for name, phase in phases.named():
+    for (name, phase), jerk in zip(phases.named(), phases.jerks(), strict=True):
         if phase.law is None:
             continue
         law, h = phase.law.name, abs(phase.lift)
@@ -148,7 +172,7 @@ def coefficient_steps(page: Sheet, phases: Phases) -> None:
         speed, bend = (max(map(abs, phase.law.peak(order))) for order in (1, 2))
         page.add("velocity_coefficient", speed)
         page.add("acceleration_coefficient", bend)
-        page.add("jerk_coefficient", phase.law.jerk())
+        page.add("jerk_coefficient", jerk)
         if phases.swings:
             continue
         terms = ("peak_slope", "peak_bend") if phases.slides else ("peak_velocity", "peak_acceleration")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
@@ -313,3 +314,18 @@ def test_printed_rows_are_the_numbers_of_json() -> None:
             seen.add(cell if value is None else "number")
             assert cell in ("∞", "-∞") if value is None else abs(float(cell) - value) <= 5.1e-5
     assert {"∞", "number"} <= seen
+
+
+@pytest.mark.parametrize(
+    ("angles", "jerks"), [((180.0, 180.0, 0.0), 2), ((170.0, 190.0, 0.0), 0), ((120.0, 120.0, 120.0), 0)]
+)
+def test_a_cosine_law_has_a_jerk_where_both_of_its_phases_meet_without_a_dwell(
+    angles: tuple[float, float, float], jerks: int
+) -> None:
+    """S'' = +-h/2 (pi/phi)^2 at both ends: one of both sides where the angles are equal, and C_j = pi^3 / 2."""
+    moves = [("rise", angles[0]), ("return_", angles[1])]
+    phases = [f'{{move="{move}",angle_deg={angle},law="cosine"}}' for move, angle in moves]
+    phases += [f'{{move="dwell",angle_deg={angles[2]}}}'] if angles[2] else []
+    words = ["kind=cam", "follower=pointed", "lift=20", "base_circle_radius=40", f"phases=[{','.join(phases)}]"]
+    found = re.findall(r"C_j = (\S+)", calculate("cam", words, "text", "en"))
+    assert found == [f"{math.pi**3 / 2:.6f}" if jerks else "∞"] * 2
