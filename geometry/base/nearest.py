@@ -72,9 +72,8 @@ def nearest(
         else:
             bad = middle
     # at the very edge rounding may decide: then the one before it is told
-    for last in (good, before):
-        found = limit(float(last), given, digits=digits)
-        if isinstance(found.value, float) and (found.value == last or kept(holds, found.value)):
+    for found in dict.fromkeys(limit(float(last), given, digits=digits) for last in (good, before)):
+        if isinstance(found.value, float) and (found.value in (good, before) or kept(holds, found.value)):
             return found
     return None
 

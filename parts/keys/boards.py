@@ -12,7 +12,8 @@ from parts.keys.base import mm
 
 # the tables, and the purpose of exports that lay parts out on them
 PURPOSES_LAID = {"boards": "board", "beds": "plate"}
-_MOST = 100_000.0
+# narrower ones are mistakes of the keyboard, mm
+_LEAST, _MOST = 1.0, 100_000.0
 # a class of forty with hundreds of pins each
 _MOST_COPIES = 1000
 
@@ -20,7 +21,7 @@ _MOST_COPIES = 1000
 class LaidKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     """Keys of boards and beds."""
 
-    width: Annotated[float, mm("along x", above=0, most=_MOST, example=600.0)]
+    width: Annotated[float, mm("along x", least=_LEAST, most=_MOST, example=600.0)]
     margin: Annotated[float, mm("left free along its edges", least=0, most=_MOST)] = 5.0
     gap: Annotated[float, mm("least distance between two cuts; the web is less by the kerf", least=0, most=_MOST)] = 2.0
     sets: Annotated[
@@ -47,7 +48,7 @@ class LaidKeys(Struct, forbid_unknown_fields=True, kw_only=True):
 class BoardSpec(LaidKeys, kw_only=True):
     """Keys of ``[boards.NAME]``."""
 
-    height: Annotated[float, mm("along y", above=0, most=_MOST, example=400.0)]
+    height: Annotated[float, mm("along y", least=_LEAST, most=_MOST, example=400.0)]
     thickness: Annotated[
         float,
         mm(
@@ -87,7 +88,7 @@ class BoardSpec(LaidKeys, kw_only=True):
 class BedSpec(LaidKeys, kw_only=True):
     """Keys of ``[beds.NAME]``."""
 
-    depth: Annotated[float, mm("along y", above=0, most=_MOST, example=220.0)]
+    depth: Annotated[float, mm("along y", least=_LEAST, most=_MOST, example=220.0)]
     height: Annotated[float, mm("greatest height of a print", above=0, most=_MOST, example=250.0)]
 
     @property

@@ -80,6 +80,7 @@ def _second(page: Sheet, second: SecondCam, keys: CamKeys) -> None:
     between = between_rollers(second.first, second.pair)
     if cam_swings(cam):
         page.add("roller_angle_deg", math.degrees(between))
+        page.add("second_arm_length", cam.swing.arm_length)
     else:
         page.add("roller_distance", between)
     page.add("second_follower_radius", cam.radius)
