@@ -40,28 +40,31 @@ class RolledCurve(BoundedSpan):
 
     def stretch(self, t: ArrayLike) -> Real:
         """Speed along the tangent: negative where the curve runs back."""
-        return self.heading(np.asarray(t, dtype=float))[1]
+        return self.heading(np.asarray(t, dtype=float))[2]
 
-    def heading(self, t: Real) -> tuple[Complex, Real, Real, Real]:
-        """Tangent direction, speed along it, its slope, and how fast the direction turns."""
+    def point(self, t: ArrayLike) -> Complex:
+        return self.heading(np.asarray(t, dtype=float))[0]
+
+    def heading(self, t: Real) -> tuple[Complex, Complex, Real, Real, Real]:
+        """Place, tangent direction, speed along it, its slope, and how fast the direction turns."""
         raise NotImplementedError
 
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         if order > 2:
             return FACTORIALS[order] * self.series(t, order)[order]
-        direction, speed, slope, turning = self.heading(np.asarray(t, dtype=float))
+        _, direction, speed, slope, turning = self.heading(np.asarray(t, dtype=float))
         return direction * speed if order == 1 else direction * (slope + 1j * turning * speed)
 
     def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
         if order > 2:
             return super().derivatives(t, order)
-        direction, speed, slope, turning = self.heading(np.asarray(t, dtype=float))
-        return [self.point(t), direction * speed, direction * (slope + 1j * turning * speed)][: order + 1]
+        point, direction, speed, slope, turning = self.heading(np.asarray(t, dtype=float))
+        return [point, direction * speed, direction * (slope + 1j * turning * speed)][: order + 1]
 
     def slopes(self, points: Complex, t: Real) -> tuple[Real, Real]:
         """Re(conj(tangent) (p - c)) and its derivative: what a search for feet needs."""
-        direction, speed, _, turning = self.heading(t)
-        gap = np.conj(direction) * (points - self.point(t))
+        point, direction, speed, _, turning = self.heading(t)
+        gap = np.conj(direction) * (points - point)
         return gap.real, turning * gap.imag - speed
 
     def moved(self, distance: float) -> Self:
@@ -112,17 +115,13 @@ class RolledFlank(RolledCurve, Record):
         arm = [self._lean * (self.crossing - s), -self._lean + 0j * s, *([0j * s] * (order - 1))][: order + 1]
         return [a + b for a, b in zip(base, product(arm, derived(base)), strict=False)]
 
-    def point(self, t: ArrayLike) -> Complex:
-        base, tangent, _ = self.line.frame(t)
-        return base + (self.crossing - np.asarray(t, dtype=float)) * self._lean * tangent
-
-    def heading(self, t: Real) -> tuple[Complex, Real, Real, Real]:
-        """Tangent direction, speed along it, its slope, and how fast the direction turns."""
-        _, tangent, kappa, slope = self.line.frame_and_slope(t)
+    def heading(self, t: Real) -> tuple[Complex, Complex, Real, Real, Real]:
+        """Place, tangent direction, speed along it, its slope, and how fast the direction turns."""
+        base, tangent, kappa, slope = self.line.frame_and_slope(t)
         sense, cosine, arm = self._sense, math.cos(self.angle), self.crossing - t
         direction = sense * 1j * cmath.exp(1j * self.angle) * tangent
         speed = sense * (arm * kappa * cosine - math.sin(self.angle))
-        return direction, speed, sense * cosine * (arm * slope - kappa), kappa
+        return base + arm * self._lean * tangent, direction, speed, sense * cosine * (arm * slope - kappa), kappa
 
     def tangent(self, t: ArrayLike) -> Complex:
         return self._sense * 1j * cmath.exp(1j * self.angle) * self.line.frame(t)[1]
@@ -178,29 +177,25 @@ class RolledFillet(RolledCurve, Record):
         place = composed(base[: order + 1], step)
         return [a + b for a, b in zip(place, product(arm, composed(derived(base), step)), strict=False)]
 
-    def point(self, t: ArrayLike) -> Complex:
-        u = np.asarray(t, dtype=float)
-        tan = np.tan(u)
-        base, tangent, _ = self.line.frame(self.centre - self.depth * tan)
-        return base + (self.depth * (1j + tan) + 1j * self.tip_radius * np.exp(-1j * u)) * tangent
-
-    def heading(self, t: Real) -> tuple[Complex, Real, Real, Real]:
-        """Tangent direction, speed along it, its slope, and how fast the direction turns."""
+    def heading(self, t: Real) -> tuple[Complex, Complex, Real, Real, Real]:
+        """Place, tangent direction, speed along it, its slope, and how fast the direction turns."""
         tan, secant = np.tan(t), 1 / np.cos(t)
-        _, tangent, kappa, slope = self.line.frame_and_slope(self._arc(t))
+        base, tangent, kappa, slope = self.line.frame_and_slope(self.centre - self.depth * tan)
         rate = -self.depth * secant**2
         speed = self.tip_radius * (1 - kappa * rate) + kappa * self.depth**2 * secant**3
         # d kappa / du = slope rate, d rate / du = 2 tan rate
         change = -self.tip_radius * rate * (slope * rate + 2 * kappa * tan)
         change = change + self.depth**2 * secant**3 * (slope * rate + 3 * kappa * tan)
-        return tangent * np.exp(-1j * t), speed, change, kappa * rate - 1
+        turn = np.exp(-1j * t)
+        place = base + (self.depth * (1j + tan) + 1j * self.tip_radius * turn) * tangent
+        return place, tangent * turn, speed, change, kappa * rate - 1
 
     def tangent(self, t: ArrayLike) -> Complex:
-        direction, speed, _, _ = self.heading(np.asarray(t, dtype=float))
+        _, direction, speed, _, _ = self.heading(np.asarray(t, dtype=float))
         return np.where(speed < 0, -1.0, 1.0) * direction
 
     def curvature(self, t: ArrayLike) -> Real:
-        _, speed, _, turning = self.heading(np.asarray(t, dtype=float))
+        _, _, speed, _, turning = self.heading(np.asarray(t, dtype=float))
         with np.errstate(divide="ignore"):
             return turning / np.abs(speed)
 
@@ -237,18 +232,14 @@ class RolledLand(RolledCurve, Record):
         base = self.line.series(t, order + 1)
         return [a - 1j * self.height * b for a, b in zip(base, derived(base), strict=False)]
 
-    def point(self, t: ArrayLike) -> Complex:
-        base, tangent, _ = self.line.frame(t)
-        return base - 1j * self.height * tangent
-
-    def heading(self, t: Real) -> tuple[Complex, Real, Real, Real]:
-        """Tangent direction, speed along it, its slope, and how fast the direction turns."""
-        _, tangent, kappa, slope = self.line.frame_and_slope(t)
-        return tangent, 1 + self.height * kappa, self.height * slope, kappa
+    def heading(self, t: Real) -> tuple[Complex, Complex, Real, Real, Real]:
+        """Place, tangent direction, speed along it, its slope, and how fast the direction turns."""
+        base, tangent, kappa, slope = self.line.frame_and_slope(t)
+        return base - 1j * self.height * tangent, tangent, 1 + self.height * kappa, self.height * slope, kappa
 
     def tangent(self, t: ArrayLike) -> Complex:
-        _, tangent, _ = self.line.frame(t)
-        return np.where(self.stretch(t) < 0, -1.0, 1.0) * tangent
+        _, tangent, speed, _, _ = self.heading(np.asarray(t, dtype=float))
+        return np.where(speed < 0, -1.0, 1.0) * tangent
 
     def curvature(self, t: ArrayLike) -> Real:
         with np.errstate(divide="ignore"):
