@@ -49,10 +49,13 @@ class Law(Record):
         ``before`` and ``after``: s' and s'' of the motion that it joins at either end, in its own units.
         """
         first, last = self.pieces[0], self.pieces[-1]
-        met = [(a.value(a.end, k), b.value(b.start, k)) for a, b in pairwise(self.pieces) for k in (1, 2)]
-        met += [(before[k - 1], first.value(first.start, k)) for k in (1, 2)]
-        met += [(last.value(last.end, k), after[k - 1]) for k in (1, 2)]
-        jump = max(abs(float(a) - float(b)) for a, b in met)
+
+        def rates(piece: LawPiece, at: float) -> Rates:
+            return float(piece.value(at, 1)), float(piece.value(at, 2))
+
+        met = [(rates(a, a.end), rates(b, b.start)) for a, b in pairwise(self.pieces)]
+        met += [(before, rates(first, first.start)), (rates(last, last.end), after)]
+        jump = max(abs(a - b) for pair in met for a, b in zip(*pair, strict=True))
         return math.inf if jump > _SMOOTH * max(1.0, self.peak(2)[0]) else self.peak(3)[0]
 
     def reversed_in_time(self) -> Law:
