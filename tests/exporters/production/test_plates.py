@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import itertools
 import json
 import math
@@ -90,6 +91,27 @@ def test_plates_lie_on_the_bed_and_apart(tmp_path: Path) -> None:
         assert min((a.distance(b) for a, b in itertools.combinations(hulls, 2)), default=9.0) >= 2 - 1e-6
         assert recheck(file).verdict.failures == ()
     assert sorted(names) == ["bar_1", "bar_2", "bar_3", "bar_4", "ring_1", "ring_2", "ring_3"]
+    # what is kept is measured as trimesh and shapely have it, and bounds are held to within the declared error
+    report = json.loads((tmp_path / "set" / "report.json").read_text("utf-8"))
+    for file in files:
+        (declared,) = (entry["max_error"] for entry in report["files"] if entry["path"] == file.name)
+        measured, solids = recheck(file).verdict.measured, meshes(file)
+        corners = np.concatenate([mesh.vertices for mesh in solids.values()])
+        assert measured["height"] == pytest.approx(corners[:, 2].max(), abs=1e-6)
+        margin = min(corners[:, :2].min(), 80 - corners[:, :2].max())
+        assert measured["least_margin"] == pytest.approx(margin, abs=1e-6)
+        flat = [shapely.MultiPoint(mesh.vertices[:, :2]).convex_hull for mesh in solids.values()]
+        gap = min((a.distance(b) for a, b in itertools.combinations(flat, 2)), default=9.0)
+        if gap < 3.0:
+            assert measured["least_gap"] == pytest.approx(gap, abs=1e-6)
+        for key, value, sign in (("gap", gap, 1), ("margin", margin, 1), ("height", measured["height"], -1)):
+            for share, well in ((0.4, True), (1.6, False)):
+                if value < 9.0 or key != "gap":
+                    told = copy.deepcopy(report)
+                    told["scene"]["beds"]["printer"][key] = value + sign * share * declared
+                    (tmp_path / "set" / "report.json").write_text(json.dumps(told), encoding="utf-8")
+                    assert (recheck(file).verdict.failures == ()) is well, (key, share)
+    (tmp_path / "set" / "report.json").write_text(json.dumps(report), encoding="utf-8")
     # a wider gap than the one that was kept is noticed, and a narrower bed
     for key, value in (("gap", 4.0), ("width", 70.0), ("height", 4.0)):
         report = json.loads((tmp_path / "set" / "report.json").read_text("utf-8"))
