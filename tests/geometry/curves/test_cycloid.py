@@ -154,3 +154,37 @@ def test_vertices_and_inflections_lie_where_they_are_told() -> None:
     turns = t[1:-1][np.flatnonzero(np.diff(np.sign(np.diff(bend))))]
     expected = np.sort(np.concatenate([signs, turns]))
     assert np.allclose(curve.splits(), expected, atol=1e-5)
+
+
+@pytest.mark.parametrize("order", [2.0, 3.0, 8.0, 40.0])
+def test_the_greatest_shortening_leaves_just_the_pin(order: float) -> None:
+    """Both closed forms invert the least convex radius, on either side of where they meet."""
+    both = (order - 2) / (2 * order - 1)
+    meet = least_convex_radius(40.0, max(both, 0.0), order) / 40.0
+    # (1 + x)^2 / (1 + m x) falls from 1; the other form ends at a cusp, where nothing is left
+    sizes = [meet * (1 - 1e-6), meet / 2, 0.01, *((meet * (1 + 1e-6), (1 + meet) / 2, 0.99) if meet < 0.98 else ())]
+    for share in sizes:
+        shortening = greatest_shortening(40.0, order, 40.0 * share)
+        assert 0 <= shortening < 1
+        assert least_convex_radius(40.0, shortening, order) == pytest.approx(40.0 * share, rel=2e-6)
+        # by the curvature of the path itself: dense samples over a lobe
+        arm = shortening * 40.0 / order
+        t = np.linspace(0, 2 * math.pi / (order - 1), 40_001)
+        first = 1j * (40.0 * np.exp(1j * t) - order * arm * np.exp(1j * order * t))
+        second = -(40.0 * np.exp(1j * t) - order**2 * arm * np.exp(1j * order * t))
+        bend = (np.conj(first) * second).imag / np.abs(first) ** 3
+        assert 1 / bend.max() == pytest.approx(40.0 * share, rel=1e-3)
+
+
+@pytest.mark.parametrize(("start", "end"), [(0.05, 0.4), (0.5, 0.9), (1.3, 1.9), (1.2, 1.25), (0.8, 1.6), (1.05, 1.06)])
+@pytest.mark.parametrize("distance", [-4.0, 0.0, 4.0, 60.0])
+def test_bounds_of_an_epicycloid_s_speed_are_its_extremes(start: float, end: float, distance: float) -> None:
+    """m = 4: the sine is greatest at pi / 3, within the span, before or behind it."""
+    curve = EpicycloidParallel(30.0, 4.0, distance, -0.1, 0.05, 2.0)
+    most = float(np.abs(curve.derivative(np.linspace(start, end, 20_001))).max())
+    assert most <= curve.derivative_bound(1, start, end) * (1 + 1e-12)
+    assert curve.derivative_bound(1, start, end) <= most * (1 + 1e-6)
+    for order in (2, 3):
+        assert float(np.abs(curve.derivative(np.linspace(start, end, 999), order)).max()) <= curve.derivative_bound(
+            order, start, end
+        )
