@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import lru_cache, partial
+from functools import cache, partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -86,14 +86,13 @@ class WheelSections(Record):
 def wheel_sections(outline: Boundary, root_radius: float, holes: HubHoles) -> WheelSections:
     """The boundaries of a wheel: its outline, which stays outside ``root_radius`` mm, and its holes."""
 
-    def hole(index: int) -> Boundary:
-        def boundary(offset: float, depth: float) -> Profile:
-            # an offset inwards has rounded the corners already: they stay round
-            if offset < 0 or depth == 0:
-                return holes.profiles(offset - depth)[index]
-            return holes.widened(depth).profiles(offset)[index]
+    @cache
+    def cut(offset: float, depth: float) -> tuple[Profile, ...]:
+        # an offset inwards has rounded the corners already: they stay round
+        return holes.profiles(offset - depth) if offset < 0 or depth == 0 else holes.widened(depth).profiles(offset)
 
-        return boundary
+    def hole(index: int) -> Boundary:
+        return lambda offset, depth: cut(offset, depth)[index]
 
     boundaries = tuple(hole(i) for i in range(holes.number))
     first = 0 if holes.bore is None else 1
@@ -247,7 +246,7 @@ class _Wheel:
             inset = stations[0][1] if cuts[1] == cuts[0] else _inset(profile, self.offset, cuts[1], "above", who)
             stations.append((heights[1], inset))
         loops = list(dict.fromkeys(self.made.loop(p, z) for z, p in stations))
-        at = lru_cache(maxsize=None)(partial(profile, self.offset))
+        at = cache(partial(profile, self.offset))
 
         def below(z: float) -> Profile:
             return at(round(heights[0] + cuts[0] - z, _DEPTH_DIGITS))
