@@ -44,6 +44,7 @@ _MARKS = {
     "N_": "t",
     "NC_": "ct",
     "message": "t",
+    "fault": "t",
     "counted": "tp",
     "in_context": "ct",
     ".text": "t",

@@ -87,7 +87,7 @@ def _row(item: Written, folder: Path, told: Words) -> list[str]:
 def _remarks(written: Sequence[Written], told: Words) -> list[str]:
     lines = []
     for item in written:
-        lines += [told.text("FAILED: {why}", why=f"{item.job.path}: {failure}") for failure in item.failures]
+        lines += [told.text("FAILED: {why}", why=f"{item.job.path}: {told.say(failure)}") for failure in item.failures]
     # what several files share is said once
     labels: dict[str, list[str]] = {}
     for item in written:
@@ -118,7 +118,7 @@ def verify_table(results: list[Recheck], told: Words) -> None:
         # a preview has neither: it is compared byte by byte
         declared, tolerance = (f"{r.declared:.3g}", f"{r.tolerance:g}") if r.tolerance else ("-", "-")
         rows.append([str(r.file), measured, declared, tolerance, same, state])
-        remarks += [told.text("FAILED: {why}", why=f"{r.file}: {failure}") for failure in r.verdict.failures]
+        remarks += [told.text("FAILED: {why}", why=f"{r.file}: {told.say(failure)}") for failure in r.verdict.failures]
     _show("", header, rows, remarks)
 
 

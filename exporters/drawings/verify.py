@@ -17,6 +17,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import distance_to_curve, distance_to_curves
 from parts.base.readback import ReadError
+from parts.base.texts import fault
 from parts.drawing.canvas import Box, Canvas, Run
 from parts.drawing.expected import Expected, Meshing
 from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText
@@ -51,7 +52,14 @@ def _check(
 ) -> None:
     canvas = expected.canvas
     if max(abs(sheet.width - canvas.width), abs(sheet.height - canvas.height)) > _PAPER:
-        failures.append(f"has paper of {sheet.width:g} x {sheet.height:g} mm instead of {canvas.paper}")
+        failures.append(
+            fault(
+                "has paper of {width:g} x {height:g} mm instead of {paper}",
+                width=sheet.width,
+                height=sheet.height,
+                paper=canvas.paper,
+            )
+        )
     reach = max([canvas.width, canvas.height, *(c.radius for c in expected.circles)])
     allowed = tolerance + _ROUNDING * reach
     _check_circles(sheet, expected, allowed, measured, failures)
@@ -81,7 +89,14 @@ def _check_circles(
             off = min((float(np.abs(r - circle.radius).max()) for r in spokes), default=math.inf)
         worst = max(worst, off)
         if not off <= allowed:
-            failures.append(f"{circle.layer}: no circle of {circle.radius:.6f} mm within {off:.3g} mm")
+            failures.append(
+                fault(
+                    "{layer}: no circle of {radius:.6f} mm within {off:.3g} mm",
+                    layer=circle.layer,
+                    radius=circle.radius,
+                    off=off,
+                )
+            )
     measured["circles"] = float(len(expected.circles))
     measured["circle_deviation"] = worst
 
@@ -101,7 +116,7 @@ def _check_curves(
             worst = max(worst, off * paper.scale, float(ends) * paper.scale)
     measured["max_deviation"] = worst
     if not worst <= allowed:
-        failures.append(f"outlines deviate by {worst:.3g} mm from the exact ones")
+        failures.append(fault("outlines deviate by {worst:.3g} mm from the exact ones", worst=worst))
 
 
 def _check_meshing(
@@ -113,18 +128,24 @@ def _check_meshing(
     pitches = [a.radius * a.sweep for a in sheet.arcs if a.layer == "WORKING_PITCH"]
     pitches += [abs(x.end - x.start) for x in sheet.lines if x.layer == "WORKING_PITCH"]
     if not (lines["LINE_OF_ACTION"] and lines["ACTIVE_LINE"] and arcs and pitches):
-        failures.append("the line of action, its active part, the arc of action or the pitch is missing")
+        failures.append(fault("the line of action, its active part, the arc of action or the pitch is missing"))
         return
     action, active = lines["LINE_OF_ACTION"][0], lines["ACTIVE_LINE"][0]
     way = (action.end - action.start) / abs(action.end - action.start)
     for centre, radius in wanted.tangents:
         off = abs(abs(((centre - action.start) / way).imag) - radius)
         if not off <= 2 * allowed + 1e-9 * radius:
-            failures.append(f"the line of action misses the base circle of {radius:.6f} mm by {off:.3g} mm")
+            failures.append(
+                fault(
+                    "the line of action misses the base circle of {radius:.6f} mm by {off:.3g} mm",
+                    radius=radius,
+                    off=off,
+                )
+            )
     for point in (active.start, active.end):
         off = abs(((point - action.start) / way).imag)
         if not off <= 2 * allowed:
-            failures.append(f"the active line leaves the line of action by {off:.3g} mm")
+            failures.append(fault("the active line leaves the line of action by {off:.3g} mm", off=off))
     base_pitch = 2 * math.pi * wanted.tangents[0][1] / wanted.teeth
     length, arc = abs(active.end - active.start), arcs[0].radius * arcs[0].sweep
     measured["contact_ratio_by_line"] = length / base_pitch
@@ -135,10 +156,21 @@ def _check_meshing(
         ("working pitch", pitches[0], wanted.pitch_length),
     ):
         if not abs(value - right) <= 2 * allowed:
-            failures.append(f"the {name} measures {value:.6f} mm instead of {right:.6f} mm")
+            failures.append(
+                fault(
+                    "the {name} measures {value:.6f} mm instead of {right:.6f} mm", name=name, value=value, right=right
+                )
+            )
     for name in ("contact_ratio_by_line", "contact_ratio_by_arc"):
         if not abs(measured[name] - wanted.contact_ratio) <= max(1e-6, 4 * allowed / wanted.pitch_length):
-            failures.append(f"{name} measures {measured[name]:.7f} instead of {wanted.contact_ratio:.7f}")
+            failures.append(
+                fault(
+                    "{name} measures {found:.7f} instead of {wanted:.7f}",
+                    name=name,
+                    found=measured[name],
+                    wanted=wanted.contact_ratio,
+                )
+            )
 
 
 def _check_words(sheet: ReadSheet, canvas: Canvas, measured: dict[str, float], failures: list[str]) -> None:
@@ -148,10 +180,12 @@ def _check_words(sheet: ReadSheet, canvas: Canvas, measured: dict[str, float], f
     boxes = [_box(t).grown(-sheet.rounding) for t in sheet.texts]
     for index, box in enumerate(boxes):
         if not box.within(canvas.reach):
-            failures.append(f"{sheet.texts[index].text} leaves the frame")
+            failures.append(fault("{text} leaves the frame", text=sheet.texts[index].text))
         for other in range(index):
             if box.overlaps(boxes[other]):
-                failures.append(f"{sheet.texts[index].text} stands over {sheet.texts[other].text}")
+                failures.append(
+                    fault("{text} stands over {other}", text=sheet.texts[index].text, other=sheet.texts[other].text)
+                )
     measured["words"] = float(len(boxes))
 
 
@@ -160,15 +194,19 @@ def _check_places(sheet: ReadSheet, canvas: Canvas, failures: list[str]) -> None
     runs = [run for text in canvas.texts for run in text.runs]
     missing = Counter(run.text for run in runs) - Counter(t.text for t in sheet.texts)
     if missing:
-        failures.append(f"words are missing: {', '.join(sorted(missing))}")
+        failures.append(fault("words are missing: {missing}", missing=", ".join(sorted(missing))))
     for text in sorted({run.text for run in runs if run.text not in missing} | {t.text for t in sheet.texts}):
         wanted = _rows(_marks(run) for run in runs if run.text == text)
         found = _rows(_marks(t) for t in sheet.texts if t.text == text)
         # lengths are as exact as the widths of all letters together
         longest = max((run.width for run in runs if run.text == text), default=0.0)
         away, strange = _unmatched(wanted, found, sheet.rounding * max(1.0, longest / _PER_PLACE))
-        failures += [f"{text} does not stand at {_told(wanted[k, 0])} mm as it should" for k in away]
-        failures += [f"{text} stands at {_told(found[k, 0])} mm where it should not" for k in strange]
+        failures += [
+            fault("{text} does not stand at {at} mm as it should", text=text, at=_told(wanted[k, 0])) for k in away
+        ]
+        failures += [
+            fault("{text} stands at {at} mm where it should not", text=text, at=_told(found[k, 0])) for k in strange
+        ]
 
 
 def _marks(words: Run | ReadText) -> tuple[complex, complex, complex]:
@@ -187,8 +225,24 @@ def _check_strokes(sheet: ReadSheet, canvas: Canvas, allowed: float, failures: l
             return _follows(samples[n], curves[k], allowed)
 
         away, strange = _unmatched(wanted, found, allowed, follows)
-        failures += [f"{layer}: no line from {_told(wanted[k, 0])} to {_told(wanted[k, 2])} mm" for k in away]
-        failures += [f"{layer}: a line too many from {_told(found[k, 0])} to {_told(found[k, 2])} mm" for k in strange]
+        failures += [
+            fault(
+                "{layer}: no line from {start} to {end} mm",
+                layer=layer,
+                start=_told(wanted[k, 0]),
+                end=_told(wanted[k, 2]),
+            )
+            for k in away
+        ]
+        failures += [
+            fault(
+                "{layer}: a line too many from {start} to {end} mm",
+                layer=layer,
+                start=_told(found[k, 0]),
+                end=_told(found[k, 2]),
+            )
+            for k in strange
+        ]
 
 
 def _sampled(curve: CadCurve) -> tuple[Complex, bool]:
@@ -266,4 +320,4 @@ def _check_frame(sheet: ReadSheet, frame: Box, failures: list[str]) -> None:
     """Nothing is drawn beyond the frame."""
     for layer, points in sheet.samples:
         if len(points) != frame.grown(1e-9).holds(points):
-            failures.append(f"{layer}: a curve leaves the frame")
+            failures.append(fault("{layer}: a curve leaves the frame", layer=layer))

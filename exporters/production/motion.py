@@ -17,6 +17,7 @@ from exporters.verification.verdict import Verdict
 from geometry.approximation.chords import approximate_profile
 from geometry.curves.curve import Real
 from parts.base.readback import ReadError
+from parts.base.texts import fault, fault_of
 from parts.scene.placing import Instance
 
 # of numbers in the file, mm
@@ -72,18 +73,24 @@ class MotionJob(Film):
             return Verdict({}, (str(error),))
         failures: list[str] = []
         if list(found.tracks) != [i.id for i in sorted(self.instances, key=lambda i: i.at[2])]:
-            return Verdict({}, (f"holds {', '.join(found.tracks)}",))
+            return Verdict({}, (fault("holds {tracks}", tracks=", ".join(found.tracks)),))
         if found.seconds and not math.isclose(found.seconds, self.seconds, rel_tol=1e-6):
-            failures.append(f"a loop takes {found.seconds:g} s instead of {self.seconds:g} s")
+            failures.append(
+                fault(
+                    "a loop takes {seconds:g} s instead of {wanted:g} s",
+                    seconds=found.seconds,
+                    wanted=self.seconds,
+                )
+            )
         worst, outline = 0.0, 0.0
         for part in dict.fromkeys(i.part for i in self.instances):
             same = [found.tracks[i.id] for i in self.instances if i.part == part]
             profiles = self.parts[part].section(0.0).region.profiles()
             verdict = verify_loops(same[0].loops, profiles, [""] * len(profiles), declared, self.tolerance)
-            failures += [f"{part}: {text}" for text in verdict.failures]
+            failures += [fault_of(part, text) for text in verdict.failures]
             outline = max(outline, verdict.measured.get("max_deviation", 0.0))
             if not all(_is_same(track, same[0]) for track in same):
-                failures.append(f"{part}: its instances differ")
+                failures.append(fault("{part}: its instances differ", part=part))
         for instance in self.instances:
             reach = self.parts[instance.part].section(0.0).region.outer.reach()
             track = found.tracks[instance.id]
@@ -93,7 +100,13 @@ class MotionJob(Film):
             for exact, read in zip(self._points(instance, reach, times), _read(track, reach, times), strict=True):
                 worst = max(worst, float(np.abs(exact - read).max()))
         if not worst + outline <= declared:
-            failures.append(f"an instance is {worst:.3g} mm off its place; {declared:.3g} mm is declared")
+            failures.append(
+                fault(
+                    "an instance is {worst:.3g} mm off its place; {declared:.3g} mm is declared",
+                    worst=worst,
+                    declared=declared,
+                )
+            )
         return Verdict(
             {"max_deviation": outline, "pose_deviation": worst, "loop_seconds": found.seconds}, tuple(failures)
         )

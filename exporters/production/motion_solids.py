@@ -18,6 +18,7 @@ from geometry.base.placement import Placement3
 from geometry.base.record import replace
 from geometry.curves.curve import Real
 from parts.base.readback import ReadError
+from parts.base.texts import fault, fault_of
 from parts.scene.formats import file_kind
 from parts.scene.placing import UPWARDS, Instance
 from parts.solids.mesh import body_mesh
@@ -86,20 +87,29 @@ class SolidFilm(Film):
         except (ReadError, OSError) as error:
             return Verdict({}, (str(error),))
         if list(found.tracks) != [i.id for i in self.instances] or list(found.solids) != list(self.parts):
-            return Verdict({}, (f"holds {', '.join(found.tracks)} of {', '.join(found.solids)}",))
+            return Verdict(
+                {},
+                (fault("holds {tracks} of {solids}", tracks=", ".join(found.tracks), solids=", ".join(found.solids)),),
+            )
         failures: list[str] = []
         if found.seconds and not math.isclose(found.seconds, self.seconds, rel_tol=1e-6):
-            failures.append(f"a loop takes {found.seconds:g} s instead of {self.seconds:g} s")
+            failures.append(
+                fault(
+                    "a loop takes {seconds:g} s instead of {wanted:g} s",
+                    seconds=found.seconds,
+                    wanted=self.seconds,
+                )
+            )
         solid = 0.0
         for name, part in self.parts.items():
             verdict = held(found.solids[name], file_kind("stl", None), part.body(0.0), declared, self.tolerance)
-            failures += [f"{name}: {text}" for text in verdict.failures]
+            failures += [fault_of(name, text) for text in verdict.failures]
             solid = max(solid, verdict.measured.get("max_deviation", 0.0))
         worst = 0.0
         for instance in self.instances:
             track = found.tracks[instance.id]
             if track.solid != instance.part:
-                failures.append(f"{instance.id} is shown as {track.solid}")
+                failures.append(fault("{id} is shown as {solid}", id=instance.id, solid=track.solid))
             probes = np.vstack([np.zeros(3), self.reach(instance) * np.eye(3)])
             # every value that the file has, too
             values = np.concatenate([way[0] for way in (track.places, track.turns)])
@@ -107,7 +117,13 @@ class SolidFilm(Film):
             exact = self._stands(instance, times / self.seconds, probes)
             worst = max(worst, float(np.abs(track.stand(times, probes) - exact).max()))
         if not worst + solid <= declared:
-            failures.append(f"an instance is {worst:.3g} mm off its place; {declared:.3g} mm is declared")
+            failures.append(
+                fault(
+                    "an instance is {worst:.3g} mm off its place; {declared:.3g} mm is declared",
+                    worst=worst,
+                    declared=declared,
+                )
+            )
         measured = {"max_deviation": solid, "pose_deviation": worst, "loop_seconds": found.seconds}
         return Verdict(measured, tuple(failures))
 

@@ -10,7 +10,7 @@ from exporters.production.jobs import FileJob, Made
 from exporters.production.request import Request
 from exporters.verification.verdict import Verdict
 from geometry.base.record import Record
-from parts.base.texts import in_context, words
+from parts.base.texts import fault, in_context, words
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.drawing.parts_list import SECTIONS, ListRow, list_sheets
@@ -61,11 +61,15 @@ class ListJob(Record, FileJob):
         try:
             read = list(csv.reader(file.read_text("utf-8").splitlines(keepends=True), strict=True))
         except (csv.Error, UnicodeDecodeError) as error:
-            return Verdict({}, (f"is no CSV: {error}",))
+            return Verdict({}, (fault("is no CSV: {error}", error=error),))
         wanted = self.lines()
         wrong = [str(n) for n, (a, b) in enumerate(zip(read, wanted, strict=False), 1) if a != b]
-        failures = [f"lines {', '.join(wrong)} differ"] if wrong else []
-        failures += [f"has {len(read)} lines instead of {len(wanted)}"] if len(read) != len(wanted) else []
+        failures = [fault("lines {wrong} differ", wrong=", ".join(wrong))] if wrong else []
+        failures += (
+            [fault("has {count} lines instead of {wanted}", count=len(read), wanted=len(wanted))]
+            if len(read) != len(wanted)
+            else []
+        )
         return Verdict({"lines": float(len(read))}, tuple(failures))
 
     def declared(self, made: Made) -> tuple[float, str]:

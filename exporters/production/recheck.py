@@ -19,6 +19,7 @@ from geometry.base.errors import GeometryError
 from geometry.base.record import Record
 from parts.base.part import Part
 from parts.base.refusal import SceneError
+from parts.base.texts import fault
 from parts.keys.sheet import on_sheet
 from parts.scene.formats import OF_SCENES, FileKind, Form, file_kind
 from parts.scene.load import SceneFile, make_parts, scene_from_resolved
@@ -75,7 +76,7 @@ def recheck(file: Path) -> Recheck:
         previews = {entry["path"]: entry["sha256"] for entry in report["previews"]}
         if file.name in previews:
             same = digest == previews[file.name]
-            return Recheck(file, Verdict({}, () if same else ("the preview has been changed",)), 0.0, 0.0, same)
+            return Recheck(file, Verdict({}, () if same else (fault("the preview has been changed"),)), 0.0, 0.0, same)
         entries = {entry["path"]: entry for entry in report["files"]}
         if file.name in entries:
             return _against(file, source, report, entries[file.name], digest)

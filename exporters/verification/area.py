@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from exporters.formats.read_solid import Model
 from exporters.formats.read_surfaces import area_of
+from parts.base.texts import fault
 
 # into how many pieces spans of splines are cut, one after the other, until their area is the one that is told
 _PIECES = 1, 2, 4, 8
@@ -23,4 +24,4 @@ def area_failures(model: Model, said: str | float | None) -> list[str]:
         if abs(float(said) - area) <= _AREA * area + _LAST_DECIMAL * bounds + change:
             return []
         before = area
-    return [f"says that its surface area is {said} mm^2 instead of {area:.12g} mm^2"]
+    return [fault("says that its surface area is {said} mm^2 instead of {area:.12g} mm^2", said=said, area=area)]

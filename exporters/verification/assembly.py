@@ -15,6 +15,7 @@ from exporters.verification.verdict import Verdict
 from geometry.base.record import Record
 from parts.base.part import Part
 from parts.base.readback import ReadBack, ReadError
+from parts.base.texts import fault, fault_of
 from parts.scene.formats import FileKind
 from parts.scene.placing import Instance
 
@@ -59,9 +60,13 @@ def verify_assembly(
 
 
 def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[ReadBack, Part], Verdict]) -> Verdict:
-    failures = [] if found.title == expected.title else [f'it is named "{found.title}" instead of "{expected.title}"']
-    failures += _name_failures("part", [p.name for p in found.prototypes], list(expected.parts))
-    failures += _name_failures("instance", [o.name for o in found.occurrences], list(expected.occurrences))
+    failures = (
+        []
+        if found.title == expected.title
+        else [fault('it is named "{title}" instead of "{wanted}"', title=found.title, wanted=expected.title)]
+    )
+    failures += _name_failures(fault("part"), [p.name for p in found.prototypes], list(expected.parts))
+    failures += _name_failures(fault("instance"), [o.name for o in found.occurrences], list(expected.occurrences))
     measured: dict[str, float] = {"parts": len(found.prototypes), "instances": len(found.occurrences)}
     reach = {name: part.body(expected.offset).reach() for name, part in expected.parts.items()}
     worst_place = 0.0
@@ -71,13 +76,22 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[R
         part, place, wanted = expected.occurrences[name]
         prototype = found.prototypes[index].name
         if prototype != part:
-            failures.append(f"instance {name} is {prototype} instead of {part}")
+            failures.append(
+                fault("instance {name} is {prototype} instead of {part}", name=name, prototype=prototype, part=part)
+            )
         if within not in (None, wanted):
-            failures.append(f'instance {name} stands in "{within}" instead of "{wanted}"')
+            failures.append(
+                fault(
+                    'instance {name} stands in "{within}" instead of "{wanted}"',
+                    name=name,
+                    within=within,
+                    wanted=wanted,
+                )
+            )
         off = _displacement(placed, place, reach[part])
         worst_place = max(worst_place, off)
         if not off <= _PLACE + _DIGITS * (reach[part] + float(np.abs(place[:, 3]).max())):
-            failures.append(f"instance {name} stands {off:.6g} mm off its place")
+            failures.append(fault("instance {name} stands {off:.6g} mm off its place", name=name, off=off))
     measured["max_displacement"] = worst_place
     volume = bound = 0.0
     for index, (name, shape, colour) in enumerate(found.prototypes):
@@ -86,9 +100,16 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[R
         verdict = check(shape, expected.parts[name])
         share = verdict.measured.get("volume", 0.0) * sum(o.prototype == index for o in found.occurrences)
         volume, bound = volume + share, bound + share * verdict.measured.get("volume_bound", 0.0)
-        failures += [f"{name}: {failure}" for failure in verdict.failures]
+        failures += [fault_of(name, failure) for failure in verdict.failures]
         if not same_shade(colour, expected.parts[name].colour):
-            failures.append(f"{name} is coloured {colour} instead of {expected.parts[name].colour}")
+            failures.append(
+                fault(
+                    "{name} is coloured {colour} instead of {wanted}",
+                    name=name,
+                    colour=colour,
+                    wanted=expected.parts[name].colour,
+                )
+            )
         deviation = verdict.measured.get("max_deviation", float("inf"))
         measured["max_deviation"] = max(measured.get("max_deviation", 0.0), deviation)
         # what the probes say, under the part's name
@@ -98,10 +119,16 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[R
 
 def _name_failures(what: str, found: list[str], expected: list[str]) -> list[str]:
     """Names that are missing, strange or there more than once."""
-    failures = [f"{what} {name} is missing" for name in expected if name not in found]
-    failures += [f'{what} "{name}" does not belong there' for name in dict.fromkeys(found) if name not in expected]
+    failures = [fault("{what} {name} is missing", what=what, name=name) for name in expected if name not in found]
+    failures += [
+        fault('{what} "{name}" does not belong there', what=what, name=name)
+        for name in dict.fromkeys(found)
+        if name not in expected
+    ]
     return failures + [
-        f"{what} {name} is there {found.count(name)} times" for name in expected if found.count(name) > 1
+        fault("{what} {name} is there {times} times", what=what, name=name, times=found.count(name))
+        for name in expected
+        if found.count(name) > 1
     ]
 
 

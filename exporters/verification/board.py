@@ -25,6 +25,7 @@ from geometry.plane.contour import edge_box, edge_points
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.readback import ReadError
+from parts.base.texts import fault, fault_of
 from parts.keys.boards import BoardSpec
 from parts.scene.formats import FileKind
 
@@ -129,7 +130,14 @@ def _verdict(
             layer = region.layers()[owners[i][1]]
             wanted = "CUT_INNER" if layer == "CUT_OUTER" and inside[i] else layer
             if loops[i].layer != wanted:
-                failures.append(f"{piece.id}: a contour stands on {loops[i].layer} instead of {wanted}")
+                failures.append(
+                    fault(
+                        "{id}: a contour stands on {layer} instead of {wanted}",
+                        id=piece.id,
+                        layer=loops[i].layer,
+                        wanted=wanted,
+                    )
+                )
         # in the order of the part's own profiles, so that copies compare
         back = [x for _, x in sorted(zip((owners[i][1] for i in own), back, strict=True), key=lambda row: row[0])]
         if piece.part not in first:
@@ -137,9 +145,11 @@ def _verdict(
             said = verify_loops(back, region.profiles(), region.layers(), declared, tolerance)
             worst = max(worst, said.measured.get("max_deviation", math.inf))
             shortest = min(shortest, said.measured.get("shortest_edge", math.inf))
-            failures += [f"{piece.id}: {failure}" for failure in said.failures]
+            failures += [fault_of(piece.id, failure) for failure in said.failures]
         elif (off := _unlike(back, first[piece.part])) > _ALIKE:
-            failures.append(f"{piece.id} is off the other {piece.part} by {off:.3g} mm")
+            failures.append(
+                fault("{id} is off the other {part} by {off:.3g} mm", id=piece.id, part=piece.part, off=off)
+            )
     measured |= {"max_deviation": worst, "shortest_edge": shortest}
     failures += _room_failures(expected, material, measured)
     names = [p.moved(np.array(stroke)) for p in expected.pieces for stroke in expected.region(p).strokes]
@@ -224,10 +234,10 @@ def _order_failures(loops: Sequence[Loop], inside: Sequence[Sequence[int]]) -> I
     """Nothing is cut after what it lies in, nor after the layer that follows its own."""
     layers = [("ENGRAVE", "CUT_INNER", "CUT_OUTER").index(x.layer) for x in loops]
     if any(b < a for a, b in pairwise(layers)):
-        yield "a contour comes after the layer that follows its own"
+        yield fault("a contour comes after the layer that follows its own")
     cut = [[k for k in others if loops[k].layer != "ENGRAVE"] for others in inside]
     if any(other < index for index, others in enumerate(cut) for other in others):
-        yield "a contour is cut after the one that it lies in"
+        yield fault("a contour is cut after the one that it lies in")
 
 
 def _unlike(back: Sequence[Loop], first: Sequence[Loop]) -> float:
@@ -261,12 +271,16 @@ def _room_failures(
     measured["least_margin"] = float(edges.min()) - _SAG
     if measured["least_margin"] < board.margin - _KEPT:
         piece = expected.pieces[int(edges.min(axis=1).argmin())]
-        found = f"{measured['least_margin']:.6g} mm from the edge of the board"
-        yield f"{piece.id} lies {found} instead of {board.margin:g}"
+        yield fault(
+            "{id} lies {found:.6g} mm from the edge of the board instead of {margin:g}",
+            id=piece.id,
+            found=measured["least_margin"],
+            margin=board.margin,
+        )
     tree, every = shapely.STRtree(list(material)), np.array(material, dtype=object)
     for a, b in zip(*tree.query(every, predicate="intersects").tolist(), strict=True):
         if a < b:
-            yield f"{expected.pieces[a].id} and {expected.pieces[b].id} overlap"
+            yield fault("{id} and {other} overlap", id=expected.pieces[a].id, other=expected.pieces[b].id)
     near = zip(*tree.query(every, predicate="dwithin", distance=board.gap + 1.0).tolist(), strict=True)
     pairs = [(a, b) for a, b in near if a < b]
     if not pairs:
@@ -276,7 +290,9 @@ def _room_failures(
     measured["least_gap"] = gaps[nearest]
     if gaps[nearest] < board.gap - _KEPT:
         a, b = (expected.pieces[k].id for k in pairs[nearest])
-        yield f"{a} and {b} lie {gaps[nearest]:.6g} mm apart instead of {board.gap:g}"
+        yield fault(
+            "{a} and {b} lie {nearest:.6g} mm apart instead of {gap:g}", a=a, b=b, nearest=gaps[nearest], gap=board.gap
+        )
 
 
 def _distance(one: BaseGeometry, two: BaseGeometry, reach: float) -> float:

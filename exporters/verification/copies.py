@@ -13,6 +13,7 @@ from exporters.formats.read_part21 import Index, Real
 from exporters.formats.read_solid import GAP, Model
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.body import Body
+from parts.base.texts import fault
 
 # nets that are no copies of each other differ by more in one of so many measures, mm
 _APART, _MEASURES = 1e-4, 3
@@ -31,7 +32,13 @@ def copy_failures(model: Model, body: Body) -> list[str]:
             # others are edges of chamfers on bores
             off = np.abs(own[members] - np.median(own[members], axis=0)).max(axis=1) * (len(members) % count == 0)
             if off.max() > GAP:
-                failures.append(f"#{who[members[off.argmax()]]} of the STEP file is {off.max():.3g} mm off its copies")
+                failures.append(
+                    fault(
+                        "#{entity} of the STEP file is {off:.3g} mm off its copies",
+                        entity=who[members[off.argmax()]],
+                        off=off.max(),
+                    )
+                )
     return failures
 
 

@@ -25,6 +25,7 @@ from exporters.verification.verdict import (
     volume_failures,
 )
 from geometry.curves.curve import Real
+from parts.base.texts import fault
 
 if TYPE_CHECKING:
     from geometry.solids.measured import Faced, Measured
@@ -56,9 +57,9 @@ def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: f
     reach = body.reach()
     failures += deviation_failures(deviation, declared, tolerance, reach)
     if lone:
-        failures.append(f"{lone} faces of the part have no triangle")
+        failures.append(fault("{count} faces of the part have no triangle", count=lone))
     if not abs(volume - exact) <= declared * float(sizes.sum()) / 2 + 1e-9 * exact:
-        failures.append(f"volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3")
+        failures.append(fault("volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3", volume=volume, exact=exact))
     edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
     measured = count | {
         "volume": volume,
@@ -176,7 +177,11 @@ def verify_faced_solid(found: ReadSolid, body: Faced, declared: float, tolerance
             starts = np.cumsum([0, *(len(points[face]) for face in mine[:-1])])
             away[index, mine] = np.maximum.reduceat(surface.distance(np.concatenate([points[f] for f in mine])), starts)
     used, worst = set(away.argmin(axis=0).tolist()), float(away.min(axis=0).max())
-    failures = [f"a {surface.what} of the part is missing" for i, surface in enumerate(surfaces) if i not in used]
+    failures = [
+        fault("a {what} of the part is missing", what=surface.what)
+        for i, surface in enumerate(surfaces)
+        if i not in used
+    ]
     failures += deviation_failures(worst, declared, tolerance, body.reach())
     volume, exact = float(model.flux.sum()), body.moments.volume
     walls = float(model.area[np.isin(model.kind, (EXTRUSION, SPLINE))].sum())

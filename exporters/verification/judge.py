@@ -17,6 +17,7 @@ from geometry.base.findings import Finding
 from geometry.base.record import replace
 from parts.base.part import Part
 from parts.base.readback import Probe, ReadBack, ReadError
+from parts.base.texts import fault, fault_of
 from parts.scene.formats import FileKind, Form
 
 if TYPE_CHECKING:
@@ -92,7 +93,7 @@ def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
     if kind.form is not Form.FACES:
         if found.names() is None or (title := cast("ReadMesh", found).title) == part.title:
             return []
-        return [f"says of its title: {title} instead of {part.title}"]
+        return [fault("says of its title: {title} instead of {wanted}", title=title, wanted=part.title)]
     said = cast("ReadSolid", found).said
     expected = {
         "title": None if part.product_name == part.id else part.product_name,
@@ -100,8 +101,14 @@ def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
         "material name": part.material,
         "density": part.density,
     }
-    wrong = [f"says of its {k}: {said.get(k)} instead of {v}" for k, v in expected.items() if said.get(k) != v]
-    return wrong + [f"does not say its {what}" for what in ("volume", "surface area") if what not in said]
+    wrong = [
+        fault("says of its {key}: {said} instead of {wanted}", key=k, said=said.get(k), wanted=v)
+        for k, v in expected.items()
+        if said.get(k) != v
+    ]
+    return wrong + [
+        fault("does not say its {what}", what=what) for what in ("volume", "surface area") if what not in said
+    ]
 
 
 def signed(file: Path, kind: FileKind, author: str, organisation: str, verdict: Verdict) -> Verdict:
@@ -115,7 +122,11 @@ def signed(file: Path, kind: FileKind, author: str, organisation: str, verdict: 
     except (ReadError, OSError) as error:
         return replace(verdict, failures=(str(error),))
     pairs = zip(("author", "organisation"), found, (author, organisation), strict=True)
-    wrong = tuple(f'its {what} is "{own}" instead of "{told}"' for what, own, told in pairs if own != told)
+    wrong = tuple(
+        fault('its {what} is "{own}" instead of "{told}"', what=what, own=own, told=told)
+        for what, own, told in pairs
+        if own != told
+    )
     return replace(verdict, failures=wrong)
 
 
@@ -183,11 +194,12 @@ def with_probes(found: ReadBack, probes: Iterable[Probe], offset: float, declare
     """What some probes say, measured under their names where they have some; of remarks of a kind the worst one."""
     worst: dict[str, Finding] = {}
     for probe in probes:
-        mark, who = (f"{probe.name}_", f"{probe.name}: ") if probe.name else ("", "")
+        mark = f"{probe.name}_" if probe.name else ""
         try:
             said = probe.run(found, offset, declared)
         except ReadError as refusal:
-            verdict = replace(verdict, failures=(*verdict.failures, f"{who}{refusal}"))
+            wrong = fault_of(probe.name, str(refusal)) if probe.name else str(refusal)
+            verdict = replace(verdict, failures=(*verdict.failures, wrong))
             continue
         measured = verdict.measured | {f"{mark}{key}": value for key, value in said.measured.items()}
         verdict = Verdict(measured, (*verdict.failures, *said.failures))

@@ -13,6 +13,7 @@ from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.plane.measure import profile_area, profile_length
 from geometry.solids.body import Body, Wall
 from geometry.solids.mass import body_moments
+from parts.base.texts import fault
 
 # heights are float32 numbers, rounded twice where a file holds them as text
 _LEVEL = 2.0**-23
@@ -34,7 +35,7 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     index = np.abs(mesh.vertices[:, 2, None] - levels).argmin(axis=1)
     off = np.abs(mesh.vertices[:, 2] - levels[index]) > _LEVEL * np.abs(levels).max()
     if np.any(off & ~_within_screws(body, mesh.vertices[:, 2]) & ~on_chamfers(body, mesh.vertices[:, 2])):
-        return Verdict(measured, ("a vertex stands off every face",))
+        return Verdict(measured, (fault("a vertex stands off every face"),))
     heights = np.where(off, mesh.vertices[:, 2], levels[index])
     mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], heights]), mesh.triangles)
     corners = mesh.vertices[mesh.triangles]
@@ -70,10 +71,12 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
         edges.append(verdict.measured["shortest_edge"])
         border += profile_length(body.loop_profile(wall.lower))
     if np.any(upright):
-        failures.append("a wall does not end at the faces of the part")
+        failures.append(fault("a wall does not end at the faces of the part"))
     exact = body_moments(body).volume
     if abs(measured["volume"] - exact) > border * declared * (levels[-1] - levels[0]):
-        failures.append(f"volume {measured['volume']:.9g} mm^3 instead of {exact:.9g} mm^3")
+        failures.append(
+            fault("volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3", volume=measured["volume"], exact=exact)
+        )
     measured |= {
         "volume_error": measured["volume"] / exact - 1,
         "max_deviation": worst,
@@ -127,11 +130,15 @@ def _cap_failures(body: Body, corners: NDArray[np.float64], declared: float) -> 
         mine = (heights == z) & ((doubled > 0) == up)
         found = float(np.abs(doubled[mine]).sum() / 2)
         if abs(found - area) > slack + 1e-12 * area:
-            failures.append(f"the face at z = {z:g} has {found:.9g} mm^2 instead of {area:.9g} mm^2")
+            failures.append(
+                fault(
+                    "the face at z = {z:g} has {found:.9g} mm^2 instead of {area:.9g} mm^2", z=z, found=found, area=area
+                )
+            )
     known = np.array([[z, up] for z, up in expected])
     strange = ~np.any((heights[:, None] == known[:, 0]) & ((doubled > 0)[:, None] == known[:, 1]), axis=1)
     if np.any(strange):
-        failures.append("triangles of a face overlap")
+        failures.append(fault("triangles of a face overlap"))
     return failures
 
 
@@ -149,13 +156,13 @@ def _verify_walls(
     found = []
     if all(body.is_upright(w) for w in walls):
         if not np.all(_stands(mesh, triangles)):
-            return [(Verdict({}, ("the walls do not stand upright between both faces",)), 0.0)]
+            return [(Verdict({}, (fault("the walls do not stand upright between both faces"),)), 0.0)]
         layers = [(pair[0], triangles)]
     else:
         low, high = z[triangles].min(axis=1), z[triangles].max(axis=1)
         slices = np.unique(z[triangles])
         if tuple(slices[[0, -1]]) != pair or np.any(np.searchsorted(slices, high) - np.searchsorted(slices, low) != 1):
-            return [(Verdict({}, ("a chamfer does not run from slice to slice between its ends",)), 0.0)]
+            return [(Verdict({}, (fault("a chamfer does not run from slice to slice between its ends"),)), 0.0)]
         layers = [(level, triangles[low == level]) for level in slices[:-1].tolist()]
         layers.append((pair[1], triangles[high == pair[1]]))
         worst = chamfer_deviation(slice_points(mesh, triangles), body, declared)

@@ -17,6 +17,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Contour, edge_points, signed_area
 from geometry.plane.measure import distance_to_profile, profile_area, profile_disc
 from geometry.plane.profile import Profile
+from parts.base.texts import fault
 
 # how many points of a file are measured: all edges get at least 3 between their ends
 _POINTS = 10_000
@@ -43,16 +44,19 @@ def verify_loops(
 ) -> Verdict:
     """Closed loops against exact profiles; ``layers``: where each profile's loop must stand (empty: anywhere)."""
     if len(loops) != len(profiles):
-        return Verdict({"contours": len(loops)}, (f"{len(loops)} contours instead of {len(profiles)}",))
+        return Verdict(
+            {"contours": len(loops)},
+            (fault("{count} contours instead of {wanted}", count=len(loops), wanted=len(profiles)),),
+        )
     order = [loop.layer.upper() for loop in loops if loop.layer.upper() in _ORDER]
     later = [b for a, b in pairwise(order) if _ORDER.index(b) < _ORDER.index(a)]
-    failures = [f"a contour on {later[0]} comes after one that lets it fall"] if later else []
+    failures = [fault("a contour on {later} comes after one that lets it fall", later=later[0])] if later else []
     worst, shortest = 0.0, float("inf")
     unmatched = list(loops)
     for profile, layer in zip(profiles, layers, strict=True):
         loop = unmatched.pop(_nearest([x.vertices for x in unmatched], profile))
         if loop.layer and loop.layer.upper() != layer:
-            failures.append(f"a contour stands on {loop.layer} instead of {layer}")
+            failures.append(fault("a contour stands on {layer} instead of {wanted}", layer=loop.layer, wanted=layer))
         deviation, found = _check_loop(loop, profile, declared, known_simple)
         worst = max(worst, deviation)
         shortest = min(shortest, float(np.abs(np.roll(loop.vertices, -1) - loop.vertices).min()))
@@ -64,10 +68,10 @@ def verify_loops(
 def stroke_failures(found: Sequence[Complex], strokes: Sequence[Complex], declared: float) -> tuple[str, ...]:
     """What is wrong with the engraved strokes of a file, each point within the declared error of its own, mm."""
     if len(found) != len(strokes):
-        return (f"{len(found)} engraved strokes instead of {len(strokes)}",)
+        return (fault("{count} engraved strokes instead of {wanted}", count=len(found), wanted=len(strokes)),)
     for one, exact in zip(found, strokes, strict=True):
         if len(one) != len(exact) or not np.abs(one - exact).max() <= declared:
-            return ("an engraved stroke is not where it should be",)
+            return (fault("an engraved stroke is not where it should be"),)
     return ()
 
 
@@ -83,7 +87,10 @@ def verify_samples(
     The samples' polygon knows it to a part in 500.
     """
     if len(loops) != len(profiles):
-        return Verdict({"contours": float(len(loops))}, (f"{len(loops)} contours instead of {len(profiles)}",))
+        return Verdict(
+            {"contours": float(len(loops))},
+            (fault("{count} contours instead of {wanted}", count=len(loops), wanted=len(profiles)),),
+        )
     failures: list[str] = []
     worst, left = 0.0, list(loops)
     found = list(areas if areas is not None else (signed_area(x, np.zeros(len(x))) for x in loops))
@@ -92,9 +99,9 @@ def verify_samples(
         loop, area, exact = left.pop(index), abs(found.pop(index)), abs(profile_area(profile))
         worst = max(worst, _samples_deviation(loop, profile, declared))
         if not is_simple(loop):
-            failures.append("a contour crosses itself")
+            failures.append(fault("a contour crosses itself"))
         if abs(area / exact - 1) > _AREA:
-            failures.append(f"encloses {area:.6g} mm^2 instead of {exact:.6g} mm^2")
+            failures.append(fault("encloses {area:.6g} mm^2 instead of {exact:.6g} mm^2", area=area, exact=exact))
     failures += deviation_failures(worst, declared, tolerance, max(p.reach() for p in profiles))
     return Verdict({"contours": float(len(loops)), "max_deviation": worst}, tuple(failures))
 
@@ -139,15 +146,17 @@ def _check_loop(loop: Loop, profile: Profile, declared: float, known_simple: boo
         return float("inf"), ["a contour holds no shape or a coordinate that is not a number"]
     failures = []
     if np.any(starts == ends):
-        failures.append("a contour repeats a vertex")
+        failures.append(fault("a contour repeats a vertex"))
     exact, found = profile_area(profile), signed_area(starts, loop.bulges)
     deviation, length = _deviation(loop, profile, declared)
     if abs(abs(found) - abs(exact)) > max(deviation, declared) * length + 1e-12 * abs(exact):
-        failures.append(f"encloses {abs(found):.9g} mm^2 instead of {abs(exact):.9g} mm^2")
+        failures.append(
+            fault("encloses {found:.9g} mm^2 instead of {exact:.9g} mm^2", found=abs(found), exact=abs(exact))
+        )
     shares = _shares(len(starts))
     few = shares[:: max(1, len(shares) // 4)]
     if not known_simple and not is_simple(edge_points(starts, ends, loop.bulges, few).ravel()):
-        failures.append("a contour crosses itself")
+        failures.append(fault("a contour crosses itself"))
     return deviation, failures
 
 

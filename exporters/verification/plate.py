@@ -10,6 +10,7 @@ from exporters.formats.reading import ASSEMBLY_READERS
 from exporters.verification.assembly import ExpectedAssembly, verify_assembly
 from exporters.verification.verdict import Verdict
 from geometry.base.record import Record, replace
+from parts.base.texts import fault
 from parts.keys.boards import BedSpec
 from parts.scene.formats import FileKind
 
@@ -42,7 +43,7 @@ def _on_bed(file: Path, kind: FileKind, bed: BedSpec, declared: float, verdict: 
         low, high = corners.min(axis=0), corners.max(axis=0)
         least, most = np.minimum(least, low), np.maximum(most, high)
         if np.any(low < edge - declared) or np.any(high > reach - edge + declared):
-            failures.append(f"{name} does not lie on the bed")
+            failures.append(fault("{name} does not lie on the bed", name=name))
         hulls.append(shapely.MultiPoint(np.unique(corners[:, :2], axis=0)).convex_hull)
     measured = {"least_margin": float(min(least[:2].min(), (reach - most)[:2].min())), "height": float(most[2])}
     one, two = shapely.STRtree(hulls).query(np.array(hulls, dtype=object), predicate="dwithin", distance=bed.gap + 1.0)
@@ -52,5 +53,13 @@ def _on_bed(file: Path, kind: FileKind, bed: BedSpec, declared: float, verdict: 
             measured["least_gap"] = min(gap, measured.get("least_gap", gap))
             if gap < bed.gap - declared:
                 names = [found.occurrences[k].name for k in (a, b)]
-                failures.append(f"{names[0]} and {names[1]} stand {gap:.6g} mm apart instead of {bed.gap:g}")
+                failures.append(
+                    fault(
+                        "{names} and {other} stand {gap:.6g} mm apart instead of {wanted:g}",
+                        names=names[0],
+                        other=names[1],
+                        gap=gap,
+                        wanted=bed.gap,
+                    )
+                )
     return replace(verdict, measured=verdict.measured | measured, failures=tuple(failures))

@@ -26,6 +26,7 @@ from geometry.plane.measure import distance_to_nearest, distance_to_profile
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body, Wall
 from geometry.solids.mass import body_moments, wall_area
+from parts.base.texts import fault
 
 # heights of walls are told apart by so many digits
 _DIGITS = 6
@@ -61,7 +62,7 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
         of = screw_deviation if body.has_screws() else chamfer_deviation
         worst = max(worst, of(points, body, declared))
     elif body.has_screws():
-        failures.append("the solid has no screw surface")
+        failures.append(fault("the solid has no screw surface"))
     failures += deviation_failures(worst, declared, tolerance, reach)
     measured = {
         "volume": volume,
@@ -139,7 +140,7 @@ def _wall_deviation(model: Model, walls: Index, body: Body, declared: float) -> 
     for z in np.unique(heights).tolist():
         profiles = [body.loop_profile(w.lower) for w in body.walls if _stands(body, w, z)]
         if not profiles:
-            failures.append(f"a wall stands at z = {z:.9g} mm, where there is none")
+            failures.append(fault("a wall stands at z = {z:.9g} mm, where there is none", z=z))
             continue
         mine = points[heights == z]
         places = (mine[..., 0] + 1j * mine[..., 1]).ravel()
@@ -169,7 +170,7 @@ def _cylinder_failures(cylinders: int, body: Body) -> list[str]:
     more = cylinders - upright
     if more == turned or (turned and more > 0 and more % turned == 0):
         return []
-    return [f"{cylinders} cylinders instead of {upright + turned}"]
+    return [fault("{count} cylinders instead of {wanted}", count=cylinders, wanted=upright + turned)]
 
 
 def _cylinders(profile: Profile, *, turned: bool = False) -> int:

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from exporters.formats.readback import ReadMesh
 from parts.base.readback import ReadError
+from parts.base.texts import fault
 
 Triangles = NDArray[np.int64]
 
@@ -20,18 +21,18 @@ def topology_failures(mesh: ReadMesh) -> list[str]:
     """Watertight, manifold, consistently turned, no triangle without area."""
     t = mesh.triangles
     if np.any((t[:, 0] == t[:, 1]) | (t[:, 1] == t[:, 2]) | (t[:, 2] == t[:, 0])):
-        return ["a triangle has two equal corners"]
+        return [fault("a triangle has two equal corners")]
     corners = mesh.vertices[t]
     doubled = np.linalg.norm(doubled_normals(corners), axis=1)
     if not np.all(doubled > 0):
-        return ["a triangle has no area"]
+        return [fault("a triangle has no area")]
     n = len(mesh.vertices)
     edges = np.concatenate([t[:, [0, 1]], t[:, [1, 2]], t[:, [2, 0]]]).astype(np.int64)
     forward, backward = np.sort(edges[:, 0] * n + edges[:, 1]), np.sort(edges[:, 1] * n + edges[:, 0])
     if np.any(forward[1:] == forward[:-1]):
-        return ["two triangles run along one edge the same way"]
+        return [fault("two triangles run along one edge the same way")]
     if not np.array_equal(forward, backward):
-        return ["the mesh is not closed: an edge has a triangle on one side only"]
+        return [fault("the mesh is not closed: an edge has a triangle on one side only")]
     return []
 
 

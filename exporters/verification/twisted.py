@@ -13,6 +13,7 @@ from exporters.verification.topology import Triangles, chains
 from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.plane.measure import distance_to_profile, profile_area, profile_length
 from geometry.solids.body import Body, Wall
+from parts.base.texts import fault
 
 # places of a triangle that are measured beside its corners: the middles of its edges, its centre, and between them
 _PLACES = np.array([(1, 1, 0), (0, 1, 1), (1, 0, 1), (1, 1, 1), (4, 1, 1), (1, 4, 1), (1, 1, 4)], dtype=float)
@@ -29,13 +30,13 @@ def verify_twisted(
     edges and faces lie within the declared error.
     """
     if not len(triangles):
-        return Verdict({"max_deviation": np.inf, "shortest_edge": np.inf}, ("a screw surface is missing",))
+        return Verdict({"max_deviation": np.inf, "shortest_edge": np.inf}, (fault("a screw surface is missing"),))
     profile, z = body.loop_profile(wall.lower), mesh.vertices[:, 2]
     levels, index = np.unique(z[triangles], return_inverse=True)
     index = index.reshape(triangles.shape)
     failures = []
     if np.any(np.ptp(index, axis=1) != 1) or (levels[0], levels[-1]) != body.height(wall):
-        failures.append("a screw surface does not run from slice to slice between its ends")
+        failures.append(fault("a screw surface does not run from slice to slice between its ends"))
     area, length = abs(profile_area(profile)), profile_length(profile)
     order = np.argsort(index.min(axis=1), kind="stable")
     starts = np.searchsorted(index.min(axis=1)[order], np.arange(len(levels)))
@@ -47,9 +48,18 @@ def verify_twisted(
         outline = body.moved_back(wall, mesh.vertices[loops[0]])
         found = 0.5 * abs(float(np.sum((np.conj(outline) * np.roll(outline, -1)).imag)))
         if len(loops) > 1:
-            failures.append(f"the slice at z = {level:.6g} mm has {len(loops)} outlines")
+            failures.append(
+                fault("the slice at z = {level:.6g} mm has {count} outlines", level=level, count=len(loops))
+            )
         elif abs(found - area) > declared * length + 1e-12 * area:
-            failures.append(f"the slice at z = {level:.6g} mm encloses {found:.9g} mm^2 instead of {area:.9g} mm^2")
+            failures.append(
+                fault(
+                    "the slice at z = {level:.6g} mm encloses {found:.9g} mm^2 instead of {area:.9g} mm^2",
+                    level=level,
+                    found=found,
+                    area=area,
+                )
+            )
     corners = mesh.vertices[triangles]
     places = _PLACES if len(triangles) < _MANY else _PLACES[3:4]
     shares = places / places.sum(axis=1, keepdims=True)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from geometry.base.findings import Finding
 from geometry.base.record import Record
+from parts.base.texts import fault
 
 # rounding of the measurement itself, as a part of the section's size
 _ROUNDING = 1e-13
@@ -31,15 +32,29 @@ def deviation_failures(worst: float, declared: float, tolerance: float, reach: f
     allowed = _ROUNDING * reach
     failures = []
     if not worst <= tolerance + allowed:
-        failures.append(f"deviates by {worst:.6g} mm from the exact outline; the tolerance is {tolerance:g} mm")
+        failures.append(
+            fault(
+                "deviates by {worst:.6g} mm from the exact outline; the tolerance is {tolerance:g} mm",
+                worst=worst,
+                tolerance=tolerance,
+            )
+        )
     elif not worst <= declared + allowed:
-        failures.append(f"deviates by {worst:.6g} mm, more than the declared {declared:.6g} mm")
+        failures.append(
+            fault(
+                "deviates by {worst:.6g} mm, more than the declared {declared:.6g} mm", worst=worst, declared=declared
+            )
+        )
     return failures
 
 
 def precision_failures(said: float, precision: float) -> list[str]:
     """What is wrong with the distance within which a file calls points one, mm."""
-    return [] if said == precision else [f"calls points one within {said:g} mm instead of {precision:g} mm"]
+    return (
+        []
+        if said == precision
+        else [fault("calls points one within {said:g} mm instead of {precision:g} mm", said=said, precision=precision)]
+    )
 
 
 def volume_bound(exact: float, area: float, walls: float, declared: float) -> float:
@@ -54,7 +69,9 @@ def volume_failures(volume: float, exact: float, bound: float, said: str | float
     """What is wrong with a volume, mm^3: measured off by more than a bound, or told in the file as another."""
     failures = []
     if not abs(volume - exact) <= bound:
-        failures.append(f"volume {volume:.12g} mm^3 instead of {exact:.12g} mm^3")
+        failures.append(fault("volume {volume:.12g} mm^3 instead of {exact:.12g} mm^3", volume=volume, exact=exact))
     if said is not None and not abs(float(said) - exact) <= bound:
-        failures.append(f"says that its volume is {said} mm^3 instead of {exact:.12g} mm^3")
+        failures.append(
+            fault("says that its volume is {said} mm^3 instead of {exact:.12g} mm^3", said=said, exact=exact)
+        )
     return failures

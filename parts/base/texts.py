@@ -3,8 +3,8 @@
 A text is a msgid, or a ``Message``: a msgid with the numbers for its ``{name}`` placeholders, put off until the
 language is known. Data keep texts; ``words(language).say(text)`` tells them. English reads no file.
 
-The marks that the extraction finds (``python -m tests.catalogues``): ``N_``, ``NC_``, ``message``, ``counted``,
-``in_context`` and the methods ``text``, ``plural`` and ``term``, where their msgids are literals.
+The marks that the extraction finds (``python -m tests.catalogues``): ``N_``, ``NC_``, ``message``, ``fault``,
+``counted``, ``in_context`` and the methods ``text``, ``plural`` and ``term``, where their msgids are literals.
 """
 
 from __future__ import annotations
@@ -45,6 +45,13 @@ class Message(NamedTuple):
 Text = str | Message
 
 
+class Fault(str):
+    """What is wrong with a file: in English, as reports keep it, with the message that tells it in other languages."""
+
+    __slots__ = ("message",)
+    message: Message
+
+
 def N_(text: str) -> str:
     """Mark a msgid for extraction: the same text."""
     return text
@@ -58,6 +65,18 @@ def NC_(context: str, text: str) -> str:
 def message(msgid: str, /, **numbers: object) -> Message:
     """A text with what its placeholders stand for."""
     return Message(msgid, numbers)
+
+
+def fault(msgid: str, /, **numbers: object) -> str:
+    """What is wrong with a file."""
+    told = Fault(msgid.format(**numbers))
+    told.message = message(msgid, **numbers)
+    return told
+
+
+def fault_of(who: str, what: str) -> str:
+    """What is wrong with one of several."""
+    return fault("{who}: {what}", who=who, what=what)
 
 
 def in_every_language(msgid: str) -> dict[str, str]:
@@ -118,9 +137,11 @@ class Words(NamedTuple):
 
     def say(self, text: Text) -> str:
         """A text that may have waited, with all that it holds."""
+        if isinstance(text, Fault):
+            text = text.message
         if isinstance(text, str):
             return self.text(text)
-        numbers = {name: self.say(n) if isinstance(n, Message) else n for name, n in text.numbers.items()}
+        numbers = {name: self.say(n) if isinstance(n, Message | Fault) else n for name, n in text.numbers.items()}
         if text.many:
             count = text.numbers[text.by]
             assert isinstance(count, int | float)

@@ -15,6 +15,7 @@ from geometry.cams.motion.follower_motion import TURN
 from geometry.curves.curve import Real
 from geometry.plane.measure import distance_to_profile
 from parts.base.readback import Probed, ReadBack, ReadError, ReadLoop
+from parts.base.texts import N_, fault, fault_of
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
@@ -63,21 +64,24 @@ class TurningProbe(Record):
         lost = np.isnan(error) & np.isfinite(bound)
         if np.any(lost):
             at = math.degrees(angle[lost][0])
-            return Probed(failures=(f"{self._who}the follower finds no outline at cam angle {at:.6g} degrees",))
+            failure = fault("the follower finds no outline at cam angle {at:.6g} degrees", at=at)
+            return Probed(failures=self._named((failure,)))
         loose = np.isinf(bound)
         found = {} if np.any(loose) else lift_errors(error, law, TURN / ANGLES, swings=cam.swings, round_about=True)
         error, bound = np.where(loose, 0.0, error), np.where(loose, 0.0, bound)
-        wrong = lift_failure(error, bound, lambda k: f"at cam angle {k * 360 / ANGLES:.6g} degrees", swings=cam.swings)
-        failures = tuple(f"{self._who}{failure}" for failure in wrong)
+        wrong = lift_failure(error, bound, lambda k: at_angle(k * 360 / ANGLES), swings=cam.swings)
+        failures = self._named(wrong)
         if np.any(loose):
             # at a pressure angle of nearly 90 degrees an outline that is as good as it says does not hold a follower
             slips = Finding("follower_may_slip", math.degrees(angle[loose][0]), allowed)
             return Probed(failures=failures, findings=(slips,))
         return Probed(found, failures, lift_jumps(found, swings=cam.swings) if file.has_arcs else ())
 
-    @property
-    def _who(self) -> str:
-        return f"{self.name} wall: " if self.name else ""
+    def _named(self, failures: tuple[str, ...]) -> tuple[str, ...]:
+        walls = {"inner": N_("inner wall"), "outer": N_("outer wall")}
+        return (
+            tuple(fault_of(fault(walls.get(self.name, self.name)), one) for one in failures) if self.name else failures
+        )
 
 
 def wall_probe(wall: CamWall, *, alone: bool) -> TurningProbe:
@@ -101,11 +105,13 @@ class SlidingProbe(Record):
         law = cam.motion.value(travel)
         error = rolled_lift(cam, outline, 2 * ANGLES, offset)[: ANGLES + 1] - law
         if np.any(np.isnan(error)):
-            text = f"the follower finds no edge at {travel[np.isnan(error)][0]:.6g} mm of travel"
+            text = fault("the follower finds no edge at {error:.6g} mm of travel", error=travel[np.isnan(error)][0])
             return Probed(failures=(text,))
         bound = travel_bound(cam, declared + _ROUNDING * float(np.abs(cam.centre(travel)).max()))
         found = lift_errors(error, law, cam.motion.travel / ANGLES, swings=cam.swings, round_about=False)
-        failure = lift_failure(error, bound, lambda k: f"at {travel[k]:.6g} mm of travel", swings=cam.swings)
+        failure = lift_failure(
+            error, bound, lambda k: fault("at {travel:.6g} mm of travel", travel=travel[k]), swings=cam.swings
+        )
         return Probed(found, failure, lift_jumps(found, swings=cam.swings) if file.has_arcs else ())
 
 
@@ -153,8 +159,17 @@ def lift_failure(error: Real, bound: Real, place: Callable[[int], str], *, swing
     worst = int(np.argmax(excess))
     if excess[worst] <= 0:
         return ()
-    size = f"{math.degrees(abs(error[worst])):.6g} degrees" if swings else f"{abs(error[worst]):.6g} mm"
-    return (f"the follower's lift is wrong by {size} {place(worst)}, more than the outline's error allows",)
+    if swings:
+        size = fault("{size:.6g} degrees", size=math.degrees(abs(error[worst])))
+    else:
+        size = fault("{size:.6g} mm", size=abs(error[worst]))
+    text = N_("the follower's lift is wrong by {size} {place}, more than the outline's error allows")
+    return (fault(text, size=size, place=place(worst)),)
+
+
+def at_angle(degrees: float) -> str:
+    """A place of the cam."""
+    return fault("at cam angle {degrees:.6g} degrees", degrees=degrees)
 
 
 def lift_jumps(found: dict[str, float], *, swings: bool) -> tuple[Finding, ...]:

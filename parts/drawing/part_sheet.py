@@ -13,6 +13,7 @@ from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_curve
+from parts.base.texts import fault
 from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text, text_width
 from parts.drawing.cells import wrapped
 from parts.drawing.choice import Asked, blank, sheet_for
@@ -71,20 +72,22 @@ class PartMeasures(Record):
             worst = max(worst, off)
         measured["max_deviation"] = worst
         if not worst <= allowed:
-            failures.append(f"outlines deviate by {worst:.3g} mm from the exact ones")
+            failures.append(fault("outlines deviate by {worst:.3g} mm from the exact ones", worst=worst))
         if sheet.dimensions is None:
             return
         wanted = self.canvas.dimensions
         if len(sheet.dimensions) != len(wanted):
-            failures.append(f"{len(sheet.dimensions)} dimensions instead of {len(wanted)}")
+            failures.append(
+                fault("{count} dimensions instead of {wanted}", count=len(sheet.dimensions), wanted=len(wanted))
+            )
             return
         off = max((abs(a.value - b.value) for a, b in zip(sheet.dimensions, wanted, strict=True)), default=0.0)
         measured["dimensions"], measured["dimension_deviation"] = float(len(wanted)), off
         if not off <= _SAME:
-            failures.append(f"a dimension measures {off:.3g} mm beside the model")
+            failures.append(fault("a dimension measures {off:.3g} mm beside the model", off=off))
         for read, one in zip(sheet.dimensions, wanted, strict=True):
             if read.text != one.text:
-                failures.append(f"a dimension says {read.text} instead of {one.text}")
+                failures.append(fault("a dimension says {text} instead of {other}", text=read.text, other=one.text))
 
 
 class Block(Record):

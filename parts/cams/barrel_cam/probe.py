@@ -18,7 +18,8 @@ from geometry.cams.contact.rolled import rolled_lift
 from geometry.cams.motion.follower_motion import TURN
 from geometry.curves.curve import Real
 from parts.base.readback import Probed, ReadBack, ReadError
-from parts.cams.probes import ANGLES, lift_errors, lift_failure, lift_jumps
+from parts.base.texts import N_, fault
+from parts.cams.probes import ANGLES, at_angle, lift_errors, lift_failure, lift_jumps
 
 # triangles of one radius or one height are no walls: this part of the size is rounding
 _FLAT = 1e-5
@@ -56,7 +57,7 @@ class GrooveRoller(Record):
         lost = ~np.isfinite(np.array([place[side] for side in cam.sides])).all(axis=0)
         if lost.any():
             at = 360 * int(np.argmax(lost)) / ANGLES
-            return Probed(failures=(f"the roller finds no wall at cam angle {at:.6g} degrees",))
+            return Probed(failures=(fault("the roller finds no wall at cam angle {at:.6g} degrees", at=at),))
         worst = wall_height(cam, walls, _SLACK * declared)
         measured = {"lift_error": worst.bound}
         if cam.is_groove:
@@ -65,9 +66,8 @@ class GrooveRoller(Record):
         allowed = _allowed(cam, worst.angle, worst.depth, worst.upright, declared)
         if worst.found <= allowed + _ROUNDING * max(cam.outer, body.length):
             return Probed(measured)
-        where = f"cam angle {math.degrees(worst.angle):.6g} degrees"
-        text = f"the roller's place is wrong by {worst.found:.6g} mm at {where}, more than the walls allow"
-        return Probed(measured, (text,))
+        text = N_("the roller's place is wrong by {found:.6g} mm {place}, more than the walls allow")
+        return Probed(measured, (fault(text, found=worst.found, place=at_angle(math.degrees(worst.angle))),))
 
     def _on_outlines(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """Along the edges of the jackets, the upper one above the groove."""
@@ -87,13 +87,13 @@ class GrooveRoller(Record):
             error = (rolled_lift(wall, loop.outline(), ANGLES, offset, below=side == LOWER) - law)[kept]
             if np.any(np.isnan(error)):
                 lost = math.degrees(angle[kept][np.isnan(error)][0])
-                return Probed(failures=(f"the roller finds no wall at cam angle {lost:.6g} degrees",))
+                return Probed(failures=(fault("the roller finds no wall at cam angle {at:.6g} degrees", at=lost),))
             found = lift_errors(error, law[kept], TURN / ANGLES, swings=False, round_about=offset >= 0)
             measured = {key: max(value, measured.get(key, 0.0)) for key, value in found.items()}
             bound = _allowed(cam, angle, cam.outer, cosine, declared) + _ROUNDING * max(cam.outer, body.length)
             bound = np.maximum(np.maximum(np.roll(bound, 1), np.roll(bound, -1)), bound)[kept]
             at = np.degrees(angle[kept])
-            place = lambda k, at=at: f"at cam angle {at[k]:.6g} degrees"  # noqa: E731
+            place = lambda k, at=at: at_angle(at[k])  # noqa: E731
             failures += lift_failure(error, bound, place, swings=False)
         return Probed(measured, failures, lift_jumps(measured, swings=False) if file.has_arcs else ())
 

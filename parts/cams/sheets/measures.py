@@ -8,6 +8,7 @@ import numpy as np
 
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Curve, Real
+from parts.base.texts import fault
 from parts.drawing.canvas import Paper
 from parts.drawing.readback import ReadLine, ReadSheet
 
@@ -44,7 +45,7 @@ class CamMeasures(Record):
                 worst = max(worst, float(np.abs(ends[:, None] - points).min(axis=1).max()))
         measured["diagram_deviation"] = worst
         if not worst <= allowed:
-            failures.append(f"diagrams deviate by {worst:.3g} mm from the exact ones")
+            failures.append(fault("diagrams deviate by {worst:.3g} mm from the exact ones", worst=worst))
         self._check_lines(sheet, allowed, measured, failures)
         self._check_lift(sheet, allowed, measured, failures)
         if self.joint is not None:
@@ -67,7 +68,7 @@ class CamMeasures(Record):
             worst = max(worst, off)
             if not off <= allowed:
                 at = f"({start.real:.3f}, {start.imag:.3f}) - ({end.real:.3f}, {end.imag:.3f})"
-                failures.append(f"{layer}: no line {at} within {off:.3g} mm")
+                failures.append(fault("{layer}: no line {at} within {off:.3g} mm", layer=layer, at=at, off=off))
         measured["lines"] = float(len(self.lines))
         measured["line_deviation"] = worst
 
@@ -80,14 +81,20 @@ class CamMeasures(Record):
         measured["lift_by_diagram"] = float(every.max() - every.min()) * self.lift_scale
         # an extreme within a curve lies between its samples: of a table of points only
         if not measured["lift_by_diagram"] <= self.lift + 2 * allowed * self.lift_scale:
-            failures.append(f"the diagram of S measures {measured['lift_by_diagram']:.6f} instead of {self.lift:.6f}")
+            failures.append(
+                fault(
+                    "the diagram of S measures {measured:.6f} instead of {lift:.6f}",
+                    measured=measured["lift_by_diagram"],
+                    lift=self.lift,
+                )
+            )
 
     def _check_radius(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
         """The lowest point in which a tangent at gamma_min meets the line of the offset is the nearest axis."""
         assert self.joint is not None
         tangents = [x for x in sheet.lines if x.layer == "GAMMA_TANGENT"]
         if not tangents:
-            failures.append("the tangents of the joint diagram are missing")
+            failures.append(fault("the tangents of the joint diagram are missing"))
             return
         model = [self._height(x) for x in tangents]
         height = min(*model, 0.0)
@@ -96,7 +103,7 @@ class CamMeasures(Record):
         # the ends of a line carry its middle
         if not off <= 8 * allowed:
             text = f"{measured['least_radius_by_diagram']:.6f} mm instead of {self.least_radius:.6f} mm"
-            failures.append(f"the tangents give the least radius {text}")
+            failures.append(fault("the tangents give the least radius {text}", text=text))
 
     def _height(self, line: ReadLine) -> float:
         assert self.joint is not None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from geometry.base.record import Record
+from parts.base.texts import fault
 from parts.drawing.canvas import Box, Canvas, standard_scale
 from parts.drawing.labels import Labeller
 from parts.drawing.readback import ReadLine, ReadSheet
@@ -129,12 +130,19 @@ class PlanMeasures(Record):
         for layer, wanted in (("VELOCITY", self.plans.spans()), ("ANGULAR_VELOCITY", self.plans.rays())):
             found = [x for x in sheet.lines if x.layer == layer]
             if len(found) != len(wanted):
-                failures.append(f"{layer}: {len(found)} lines instead of {len(wanted)}")
+                failures.append(
+                    fault(
+                        "{layer}: {count} lines instead of {wanted}",
+                        layer=layer,
+                        count=len(found),
+                        wanted=len(wanted),
+                    )
+                )
                 continue
             off = max(max(abs(x.start - a), abs(x.end - b)) for x, (_, a, b) in zip(found, wanted, strict=True))
             measured[f"{layer.lower()}_deviation"] = off
             if not off <= allowed:
-                failures.append(f"{layer}: a line is {off:.3g} mm off")
+                failures.append(fault("{layer}: a line is {off:.3g} mm off", layer=layer, off=off))
             slopes = {link: _slope(line) for line, (link, _, _) in zip(found, wanted, strict=True)}
             for link, slope in slopes.items():
                 if link == driver or not abs(slope) > _LEAST * max(map(abs, slopes.values())):
@@ -145,7 +153,9 @@ class PlanMeasures(Record):
                 # the guidelines read it off a drawing: within a thousandth, where the dividers' points allow it
                 least = min(abs((x.end - x.start).real) for x in found)
                 if not abs(ratio / right - 1) <= max(1e-3, 8 * allowed / max(least, 1e-300)):
-                    failures.append(f"{name} measures {ratio:.6g} instead of {right:.6g}")
+                    failures.append(
+                        fault("{name} measures {ratio:.6g} instead of {right:.6g}", name=name, ratio=ratio, right=right)
+                    )
 
 
 def _slope(line: ReadLine) -> float:

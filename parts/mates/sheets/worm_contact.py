@@ -14,6 +14,7 @@ from geometry.base.record import Record, replace
 from geometry.curves.bspline import BSpline, basis_matrix
 from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.field import Field
+from parts.base.texts import fault
 from parts.drawing.canvas import TITLE_TEXT, Box, Canvas, Paper, Stroke, decimal, scale_text
 from parts.drawing.choice import Asked, sheet_for
 from parts.drawing.expected import Expected
@@ -97,7 +98,14 @@ class WormMeasures(Record):
             wanted = [curve for curve in self.curves if curve.layer == layer]
             found = [points for name, points in sheet.samples if name == layer]
             if len(found) < len(wanted):
-                failures.append(f"{layer}: {len(found)} lines instead of {len(wanted)}")
+                failures.append(
+                    fault(
+                        "{layer}: {count} lines instead of {wanted}",
+                        layer=layer,
+                        count=len(found),
+                        wanted=len(wanted),
+                    )
+                )
                 continue
             # files keep the order of drawing within a layer
             for points, curve in zip(found, wanted, strict=False):
@@ -110,7 +118,7 @@ class WormMeasures(Record):
                 worst = max(worst, curve.paper.scale * float(max(off, ends)))
         measured["contact_line_deviation"] = worst
         if not worst <= allowed:
-            failures.append(f"lines of contact are {worst:.3g} mm off")
+            failures.append(fault("lines of contact are {worst:.3g} mm off", worst=worst))
 
 
 def worm_sheet(mating: WormMating, field: Field, title: str, asked: Asked) -> Expected:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Callable
 from functools import cache
@@ -97,6 +98,23 @@ def test_a_dxf_that_was_only_saved_again_passes(originals: Path, tmp_path: Path,
     file, entry = copied(originals, name, tmp_path)
     spoil.change_dxf(file, 1, lambda rows, at: rows, 0.5)
     assert failures(file, entry) == ()
+
+
+def test_what_is_wrong_is_told_in_the_language_that_is_asked_for(
+    originals: Path, tmp_path: Path, capsys: pytest.CaptureFixture
+) -> None:
+    """Reports and tools read it in English."""
+    file, entry = copied(originals, next(iter(FORMATS)), tmp_path)
+    spoil.change_dxf(file, -1, spoil.ROW_CHANGES[0], 0.5)
+    wrong = failures(file, entry)
+    assert any("deviates by" in failure for failure in wrong)
+    capsys.readouterr()
+    assert run("verify", file, "--language", "uk") == 1
+    told = capsys.readouterr().out
+    assert "відхиляється від точного контуру на" in told
+    assert "deviates" not in told
+    assert run("verify", file, "--json") == 1
+    assert json.loads(capsys.readouterr().out)["failures"] == list(wrong)
 
 
 @pytest.mark.sampled(4)
