@@ -20,6 +20,7 @@ from exporters.verification.outlines import is_simple, stroke_failures, verify_l
 from exporters.verification.solid import verify_solid
 from exporters.verification.topology import topology_failures
 from exporters.verification.verdict import Verdict, deviation_failures, precision_failures, volume_failures
+from geometry.approximation.chords import approximate_profile
 from geometry.plane.profile import Label, circle
 from geometry.solids.body import Body
 from geometry.solids.mass import body_moments
@@ -306,3 +307,22 @@ def test_bounds_of_a_verdict_are_kept_from_both_sides() -> None:
     assert volume_failures(100.0, 100.0, 1e-3, "100.002") == [
         "says that its volume is 100.002 mm^3 instead of 100 mm^3"
     ]
+
+
+def test_every_edge_of_a_period_is_measured_and_every_period() -> None:
+    """One corner of a tooth off in each tooth alike, whichever it is; and one corner of one tooth alone."""
+    profile = next(p for p in body_of("hub").profiles if p.count == 9)
+    loop = approximate_profile(profile, 1e-3, arcs=True).geometry
+    vertices, bulges = loop.expanded()
+    period = len(vertices) // 9
+    for places in (range(0, period, 3), [period - 1]):
+        for at in places:
+            for teeth in (range(9), [4], [8]):
+                moved = vertices.copy()
+                moved[[k * period + at for k in teeth]] *= 1 + 1e-3
+                off = float(np.abs(moved - vertices).max())
+                found = verify_loops([Loop(moved, bulges, "")], [profile], [""], 1e-3, 1.0)
+                assert any("more than the declared" in f for f in found.failures), (at, teeth)
+                assert found.measured["max_deviation"] <= off + 1e-3
+    good = verify_loops([Loop(vertices, bulges, "")], [profile], [""], 1e-3, 1.0)
+    assert good.failures == ()

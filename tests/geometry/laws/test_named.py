@@ -313,3 +313,16 @@ def test_a_reversed_law_is_upside_down() -> None:
     law = polynomial_law([(0.0, 0, 0.0), (0.0, 1, 0.0), (1.0, 0, 1.0)])
     u = np.linspace(0, 1, 33)
     assert np.allclose(law.reversed_in_time().value(u), 1 - law.value(1 - u), atol=1e-15)
+
+
+def test_what_is_shared_cannot_be_changed_by_one_of_its_users() -> None:
+    """Extremes are told once for all who ask."""
+    piece = polynomial_345().pieces[0]
+    found = piece.extremes(1)
+    assert piece.extremes(1) is found
+    with pytest.raises(ValueError, match="read-only"):
+        found[0] = 1.0
+    assert found == pytest.approx([0.0, 0.5, 1.0], abs=1e-9)
+    # s'' of 3-4-5 is greatest where 1 - 6 u + 6 u^2 = 0
+    inner = [(1 - 1 / math.sqrt(3)) / 2, (1 + 1 / math.sqrt(3)) / 2]
+    assert piece.extremes(2) == pytest.approx([0.0, *inner, 1.0], abs=1e-9)
