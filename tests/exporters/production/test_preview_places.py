@@ -164,3 +164,39 @@ def test_a_board_holds_all_that_is_cut_from_it_and_says_what_that_is(built: Path
         assert top + high < y < height
         following = [float(other.get("x", "")) for other in samples if float(other.get("x", "")) > sx]
         assert x + 0.45 * size * len(text) < min(following, default=width)
+
+
+BARS = """
+[beds.printer]
+width = 200.0
+depth = 200.0
+height = 100.0
+[[exports]]
+format = "3mf"
+purpose = "plate"
+"""
+
+
+def test_words_on_a_plate_s_pieces_are_as_large_as_these_have_room_for(tmp_path: Path) -> None:
+    """Wide, narrow and small pieces: the name where it has room, else its number, never over the edge."""
+    sizes = {"wide": (60.0, 20.0), "small": (3.2, 3.2), "short": (14.0, 8.0)}
+    keys = "[parts.{}]\nkind = 'plate'\nwidth = {}\nheight = {}\nface_width = 4.0\n"
+    text = "".join(keys.format(name, *size) for name, size in sizes.items())
+    (tmp_path / "p.toml").write_text(text + BARS, encoding="utf-8")
+    assert run("build", tmp_path / "p.toml", "--out", tmp_path, "-q", "--no-verify") == 0
+    root, _, _ = opened(tmp_path / "p" / "p.plate.1.preview.svg")
+    pieces = [shape(path) for path in root.iter(f"{SVG}path")]
+    told = [(text.replace("\xa0", " "), x, y, size) for text, x, y, size in words(root)]
+    seen = {}
+    for piece in pieces:
+        (word,) = [row for row in told if piece.contains(shapely.Point(row[1], row[2] - 0.35 * row[3]))]
+        text, x, y, size = word
+        half = 0.55 * size * len(text) / 2
+        assert piece.buffer(0.02).contains(shapely.box(x - half, y - 0.85 * size, x + half, y + 0.15 * size))
+        left, top, right, bottom = piece.bounds
+        name = min(sizes, key=lambda n: abs(sizes[n][0] * sizes[n][1] - (right - left) * (bottom - top)))
+        seen[name] = (text.lstrip("123 "), size)
+    assert seen["wide"][0] == "wide"
+    assert seen["short"][0] in ("", "short")
+    # a number alone, in letters of three quarters: larger ones are higher than the piece
+    assert seen["small"] == ("", pytest.approx(0.75 * seen["wide"][1]))
