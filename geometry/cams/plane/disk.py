@@ -287,7 +287,13 @@ def oscillating_cam(
             raise ParameterError(
                 "base_circle_radius", base_circle_radius, "face_beyond_pivot", limit(most, base_circle_radius)
             )
-        start = math.asin((base_circle_radius + face_offset) / centre_distance)
+        start, low = math.asin((base_circle_radius + face_offset) / centre_distance), motion.extremes()[0]
+        if not start + low > 0:
+            # a face that begins farther from the line of centres does not come over it
+            least = centre_distance * math.sin(1e-6 - low) - face_offset
+            raise ParameterError(
+                "base_circle_radius", base_circle_radius, "swings_beyond_centres", limit(least, base_circle_radius)
+            )
         slowest = _slowest_turning(motion, sense)
         if not slowest > 0:
             # S' goes with the lift

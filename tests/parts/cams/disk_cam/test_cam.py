@@ -291,6 +291,9 @@ WRONG: dict[str, tuple[dict[str, Any], str, str]] = {
     "angle that no axis keeps": (BARE | {"oscillating": {"arm_length": 80.0}, "least_transmission_angle_deg": 88.0},
                                  "least_transmission_angle_deg", "no_axis_keeps_angle"),
     "roller of a small rocker": (BARE | AT_50 | {"follower_radius": 70.0}, "follower_radius", "fills_prime_circle"),
+    "face behind the pivot": (
+        CAMS["oscillating flat"] | {"oscillating": {"centre_distance": 95.0, "sense": "with", "face_offset": -90.0}},
+        "base_circle_radius", "swings_beyond_centres"),
     "wild swing": (CAMS["oscillating roller"] | {"swing_deg": 170.0}, "swing_deg", "swings_beyond_centres"),
     "fast flat rocker": (CAMS["oscillating flat"] | {"swing_deg": 75.0}, "swing_deg", "flat_outruns_cam"),
     "impact": (ROLLER | {"phases": [PHASES[0] | {"law": "constant_velocity"}, *PHASES[1:]]}, "phases[1].law",
