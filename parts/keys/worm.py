@@ -21,7 +21,7 @@ Quotient = Annotated[float, Meta(gt=0, le=1000, description="q = d1 / m")]
 # of a worm that gives neither q nor a lead angle
 USUAL_QUOTIENT = 10.0
 # how much larger a q is tried than one that does not do
-WIDER = (1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 5.0, 10.0, 20.0)
+_WIDER = (1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 5.0, 10.0, 20.0)
 # how near to the last one that holds a value of a wheel is found, modules or part of it
 NEAR = 8e-4
 WormQuotient = Annotated[
@@ -101,6 +101,11 @@ def quotient_of(keys: Led) -> float:
     return wanted
 
 
+def larger_quotients(start: float, most: float = math.inf) -> list[float]:
+    """Diameter quotients that are tried, larger and larger ones, ``most`` the last."""
+    return [*(end for share in _WIDER if (end := start * share) < most), *([most] if most < math.inf else [])]
+
+
 def wider(
     refusal: ParameterError,
     does: Callable[[float], bool],
@@ -119,9 +124,7 @@ def wider(
         start = float(str(refusal.value if own is None else own.value))
         if own is not None and kept(stands or does, start):
             return own
-        ends = [end for share in WIDER if (end := start * share) < most]
-        if most < math.inf:
-            ends.append(most)
+        ends = larger_quotients(start, most)
         found = nearest(does, start, ends, share=NEAR if stands else 0.0)
         if stands is None or found is None or not isinstance(found.value, float) or kept(stands, found.value):
             return found

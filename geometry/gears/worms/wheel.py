@@ -284,7 +284,10 @@ class WormTeeth(Record, dict=True):
         root, end = hob.cut(hob.round(np.full(len(z), np.pi / 2)), z), hob.cut(hob.round(normal), z)
         begin, last = hob.cut(hob.flank(inner), z), hob.cut(hob.flank(outer), z)
         goes_on = (root.steepness * end.steepness > 0) & (begin.slid <= last.slid)
-        return (np.sqrt(np.abs(root.steepness / end.steepness)), np.abs(begin.steepness / last.steepness)), goes_on
+        # what has no side in its plane does not go on
+        with np.errstate(invalid="ignore", divide="ignore"):
+            rounded, straight = root.steepness / end.steepness, begin.steepness / last.steepness
+        return (np.sqrt(np.abs(rounded)), np.abs(straight)), goes_on
 
     def _fillet_end(self, z: Real) -> Real:
         """Normals of the rounding, rad, at which fillets reach the tip."""

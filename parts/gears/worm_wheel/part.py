@@ -21,7 +21,6 @@ from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes, wide_bo
 from parts.keys.wheel import HubTable, WebTable, wheel_shape
 from parts.keys.worm import (
     NEAR,
-    WIDER,
     Addendum,
     AxialModule,
     Clearance,
@@ -36,6 +35,7 @@ from parts.keys.worm import (
     WormAngle,
     WormHand,
     hob_quotient,
+    larger_quotients,
     wider,
     worm_of,
 )  # fmt: skip
@@ -243,10 +243,10 @@ def _toothless(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
     for does, key, values in _suspects(keys, refusal):
         margins = [_left_by(keys, holds, key) for holds in (does, _is_made)]
         least = next((k for k, value in enumerate(values) if all(kept(holds, value) for holds in margins)), None)
-        ends, given = values[least:], getattr(keys, key)
         if least is not None:
-            break
-    return ParameterError(key, given, refusal.code, cure)
+            ends, given = values[least:], getattr(keys, key)
+            return ParameterError(key, given, refusal.code, cure)
+    return refusal
 
 
 def _suspects(
@@ -265,14 +265,11 @@ def _suspects(
         yield _stands, "hob_diameter_quotient", (quotient,)
     # teeth of less than is of use are more than none
     yield _stands, "addendum_coefficient", _ADDENDA[-1:]
-    most = [larger] if larger > quotient else []
-    yield (
-        _of_use,
-        "diameter_quotient",
-        [q for q in (quotient * share for share in WIDER) if not most or q < larger] + most,
-    )
+    yield _of_use, "diameter_quotient", larger_quotients(quotient, larger if larger > quotient else math.inf)
     yield _stands, "number_of_starts", range(keys.number_of_starts - 1, 0, -1)
     yield _stands, "addendum_coefficient", _LOW
+    if keys.profile_shift_coefficient:
+        yield _stands, "profile_shift_coefficient", (0.0,)
 
 
 def _cured(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
@@ -282,8 +279,8 @@ def _cured(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
         return _toothless(keys, refusal)
     does, stands = (_left_by(keys, margin, "diameter_quotient") for margin in (_stands, _is_made))
     most = keys.hob_diameter_quotient or math.inf
-    if refusal.name == "diameter_quotient" and most < math.inf and not kept(stands, most):
-        # none up to that of its hob does
+    quotients = larger_quotients(keys.diameter_quotient, most) if refusal.name == "diameter_quotient" else ()
+    if quotients and not any(kept(does, quotient) for quotient in reversed(quotients)):
         return _toothless(keys, refusal)
     return wider(refusal, does, stands, most)
 

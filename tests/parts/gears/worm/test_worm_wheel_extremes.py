@@ -243,6 +243,12 @@ def test_what_no_addendum_cures_is_told_in_the_key_that_does(
         # before: no value, since none as large as the hob was tried
         ({"module": 4.0, "number_of_starts": 3, "diameter_quotient": 2.4, "form": "ZN2", "number_of_teeth": 101,
           "hob_diameter_quotient": 2.467}, "diameter_quotient"),
+        # before: no value, since that key was asked for a quarter of the usual width, or not at all
+        ({"module": 0.5, "number_of_starts": 6, "diameter_quotient": 3.539, "form": "ZN2", "number_of_teeth": 10,
+          "hob_diameter_quotient": 3.952, "profile_shift_coefficient": 1.72, "addendum_coefficient": 0.892,
+          "hob_rounding_coefficient": 0.294}, "profile_shift_coefficient"),
+        ({"module": 2.0, "diameter_quotient": 2.3, "number_of_teeth": 20, "profile_shift_coefficient": 1.0,
+          "axial_thinning": 0.354}, "addendum_coefficient"),
     ],
 )  # fmt: skip
 def test_beyond_what_is_offered_nothing_is_made(keys: dict[str, Any], key: str) -> None:
