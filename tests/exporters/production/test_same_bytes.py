@@ -53,6 +53,13 @@ def test_an_old_processor_writes_the_same_files(tmp_path: Path, here: Callable[[
         assert unlike(elsewhere([scene], OLD, tmp_path / scene), here(scene)) == []
 
 
+def stl(triangles: list[list[int]]) -> bytes:
+    """A mesh over places in a row, unturned."""
+    rows = np.zeros((len(triangles), 12), dtype="<f4")
+    rows[:, 3::3] = triangles
+    return bytes(80) + len(rows).to_bytes(4, "little") + b"".join(row.tobytes() + bytes(2) for row in rows)
+
+
 @pytest.mark.parametrize(
     ("one", "two", "alike"),
     [
@@ -62,6 +69,10 @@ def test_an_old_processor_writes_the_same_files(tmp_path: Path, here: Callable[[
         (b"A99,99 0 1", b"A98,98 0 1", False),
         (b"#18=A(#17)", b"#18=A(#16)", False),
         (b"A(1.)", b"B(1.)", False),
+        (b'<vertex x="1"/><triangle v1="0" v2="1" v3="2"/>', b'<vertex x="1"/><triangle v1="1" v2="3" v3="2"/>', True),
+        (b'<vertex x="1"/><triangle v1="0" v2="1" v3="2"/>', b'<vertex x="2"/><triangle v1="0" v2="1" v3="2"/>', False),
+        (stl([[0, 1, 2], [0, 2, 3]]), stl([[0, 1, 3], [1, 2, 3]]), True),
+        (stl([[0, 1, 2], [0, 2, 3]]), stl([[0, 1, 2], [0, 2, 4]]), False),
     ],
 )
 def test_only_the_last_digits_may_differ(one: bytes, two: bytes, alike: bool) -> None:
