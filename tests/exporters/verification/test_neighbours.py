@@ -15,12 +15,14 @@ import pytest
 
 from exporters.formats.read_step import ReadSolid, read_step
 from exporters.formats.readback import Loop, ReadMesh
+from exporters.verification.faces import verify_faced_mesh, verify_faced_solid
 from exporters.verification.mesh import verify_mesh
 from exporters.verification.outlines import is_simple, stroke_failures, verify_loops, verify_samples
 from exporters.verification.solid import verify_solid
 from exporters.verification.topology import topology_failures
 from exporters.verification.verdict import Verdict, deviation_failures, precision_failures, volume_failures
 from geometry.approximation.chords import approximate_profile
+from geometry.base.record import replace
 from geometry.plane.profile import Label, circle
 from geometry.solids.body import Body
 from geometry.solids.mass import body_moments
@@ -326,3 +328,70 @@ def test_every_edge_of_a_period_is_measured_and_every_period() -> None:
                 assert found.measured["max_deviation"] <= off + 1e-3
     good = verify_loops([Loop(vertices, bulges, "")], [profile], [""], 1e-3, 1.0)
     assert good.failures == ()
+
+
+def ring_of(radius: float = 35.0, high: float = 6.0, bore: float = 20.0) -> Any:
+    points = [(bore, 0.0), (radius, 0.0), (radius, high / 2), (radius - 5, high), (bore, high)]
+    keys = {"kind": "turned", "points": [{"r": r, "z": z} for r, z in points]}
+    body = make_parts(scene_from_dict({"parts": {"p": keys}}, "t", "t"), "t")[0]["p"].body(0.0)
+    assert body.is_faced
+    return body
+
+
+@pytest.mark.parametrize(
+    "change", [{"radius": 35.002}, {"high": 6.002}, {"bore": 19.998}, {"bore": 0.0}, {"radius": 36.0, "bore": 18.9}]
+)
+def test_a_turned_part_is_no_neighbour_of_its_own(change: dict[str, float], tmp_path: Path) -> None:
+    """Its faces in STEP and its mesh, which differ by less than a chord does, and more."""
+    body, other_ = ring_of(), ring_of(**change)
+    made = body_mesh(body, mesh_outlines(body, 1e-3, 0.0))
+    mesh = ReadMesh(made.vertices, made.triangles)
+    assert verify_faced_mesh(mesh, body, 1e-3, 1e-3).failures == ()
+    assert "deviates by" in told(verify_faced_mesh(mesh, other_, 1e-3, 1e-3))
+    file = tmp_path / "p.step"
+    file.write_text(step_text(StepPart("p", solid_faces(body, solid_curves(body, 1e-6))), StepForm()), "ascii")
+    solid = read_step(file)
+    assert verify_faced_solid(solid, body, 1e-6, 1e-6).failures == ()
+    wrong = told(verify_faced_solid(solid, other_, 1e-6, 1e-6))
+    assert "deviates by" in wrong
+    assert "mm^3 instead of" in wrong
+
+
+@pytest.mark.parametrize("name", ["plate", "ring"])
+def test_what_a_step_says_of_itself_is_held_on_its_own(name: str, tmp_path: Path) -> None:
+    body, judge = (body_of("plate"), verify_solid) if name == "plate" else (ring_of(), verify_faced_solid)
+    file = tmp_path / "p.step"
+    part = StepPart("p", solid_faces(body, solid_curves(body, 1e-6)))
+    file.write_text(step_text(part, StepForm()), "ascii")
+    solid = read_step(file)
+    volume, area = float(solid.model.flux.sum()), float(solid.model.area.sum())
+    good = replace(solid, said={"volume": volume, "surface area": area})
+    assert judge(good, body, 1e-6, 1e-6).failures == ()
+    for key, value, word in (("volume", volume, "its volume is"), ("surface area", area, "its surface area is")):
+        for share, well in ((1e-10, True), (1e-5, False), (-1e-5, False)):
+            wrong = told(judge(replace(good, said=dict(good.said) | {key: value * (1 + share)}), body, 1e-6, 1e-6))
+            assert (wrong == "") is well, (key, share)
+            assert well or word in wrong
+    assert "calls points one within 2e-07" in told(judge(replace(good, precision=2e-7), body, 1e-6, 1e-6))
+
+
+def test_a_wall_in_two_pieces_where_it_is_one_is_told() -> None:
+    """The bore of a gear with a hub, cut across at the height of its face: no cap is there."""
+    mesh, body = mesh_of("hub"), body_of("hub")
+    bore = np.hypot(*mesh.vertices[:, :2].T) < 2.6
+    wall = bore[mesh.triangles].all(axis=1) & (np.ptp(mesh.vertices[mesh.triangles][:, :, 2], axis=1) > 0)
+    foot = np.flatnonzero(bore & (mesh.vertices[:, 2] == 0))
+    head = np.flatnonzero(bore & (mesh.vertices[:, 2] == mesh.vertices[:, 2].max()))
+    around = [ring[np.argsort(np.angle(mesh.vertices[ring, 0] + 1j * mesh.vertices[ring, 1]))] for ring in (foot, head)]
+    middle = mesh.vertices[around[0]].copy()
+    middle[:, 2] = 1.5
+    count = len(foot)
+    rows = [around[0], len(mesh.vertices) + np.arange(count), around[1]]
+    made = []
+    for low, high in ((rows[0], rows[1]), (rows[1], rows[2])):
+        for k in range(count):
+            a, b, c, d = low[k], low[(k + 1) % count], high[k], high[(k + 1) % count]
+            made += [[a, c, b], [b, c, d]]
+    cut = ReadMesh(np.vstack([mesh.vertices, middle]), np.vstack([mesh.triangles[~wall], np.array(made)]))
+    assert topology_failures(cut) == []
+    assert re.search("does not end at the faces|no edge at one", said_of(verify_mesh, cut, body, NEAR))
