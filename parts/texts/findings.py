@@ -158,6 +158,10 @@ FINDINGS: dict[str, Text] = {
         "the hob of hob_diameter_quotient leaves teeth that run {value:.2g} mm into the worm; a wheel with "
         "axial_thinning of {limit:.6g} mm clears it"
     ),
+    "worm_wheel_narrow": N_(
+        "without face_width the rim is {value:.4g} mm wide: there are no whole teeth on more of the {limit:.4g} mm of "
+        "GOST 19650"
+    ),
     "worm_wheel_no_flank": N_(
         "from {value:.5g} mm beside the mid plane to the end of the face, {limit:.5g} mm, the fillet of the hob's tip "
         "reaches the tip of the teeth: there is no flank"

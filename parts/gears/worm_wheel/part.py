@@ -357,6 +357,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         """Its sizes, and how long the worm is where it touches them."""
         import numpy as np
 
+        from geometry.base.findings import Finding
         from geometry.gears.worms.field import Field
 
         drive, teeth = thing.drive, thing.teeth
@@ -379,7 +380,10 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
             sizes["hob_swivel_deg"] = math.degrees(teeth.hob.swivel)
         else:
             sizes["worm_length_used"] = Field(teeth, drive.worm.form_radius, drive.worm.tip_radius).length_used()
-        return Report(_findings(teeth, keys.outer_diameter), circles, sizes)
+        found = _findings(teeth, keys.outer_diameter)
+        if keys.face_width is None and teeth.width < _USEFUL * drive.most_face_width:
+            found = (*found, Finding("worm_wheel_narrow", teeth.width, drive.most_face_width))
+        return Report(found, circles, sizes)
 
 
 WORM_WHEEL = WormWheelKind()

@@ -19,7 +19,7 @@ from geometry.gears.worms.wheel import WormTeeth
 from geometry.gears.worms.wheel_faces import wheel_splines
 from geometry.gears.worms.wheel_measures import FLANK
 from parts.base.refusal import SceneError
-from parts.gears.worm_wheel.part import WormWheelSpec, drive_of, teeth_of
+from parts.gears.worm_wheel.part import WORM_WHEEL, WormWheelSpec, drive_of, teeth_of
 from parts.scene.load import make_parts, scene_from_dict
 from tests.sampling import examples
 
@@ -258,7 +258,10 @@ def test_beyond_what_is_offered_nothing_is_made(keys: dict[str, Any], key: str) 
     assert refused.value.key == f"parts.wheel.{key}"
     assert offered is not None
     assert isinstance(offered.value, float)
-    _built(keys | {key: offered.value})
+    spec = WormWheelSpec(**keys | {key: offered.value})
+    told = [finding.code for finding in WORM_WHEEL.report(spec, WORM_WHEEL.thing(spec, {})).findings]
+    # all but nothing of the usual width is left at the very edge
+    assert ("worm_wheel_narrow" in told) == ("face_width" not in keys | {key: 0.0})
     step = max(1e-3 * offered.value, 1e-3) * (1 if offered.side == "at_most" else -1)
     with pytest.raises(SceneError):
         _built(keys | {key: offered.value + step})
