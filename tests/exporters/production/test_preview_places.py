@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 import re
+from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
 
+import ezdxf
 import numpy as np
 import pytest
 import shapely
 
+from exporters.production.recheck import recheck
 from tests.exporters.making import run
 from tests.exporters.production.test_checks_told import PARTS
 
@@ -200,3 +203,26 @@ def test_words_on_a_plate_s_pieces_are_as_large_as_these_have_room_for(tmp_path:
     assert seen["short"][0] in ("", "short")
     # a number alone, in letters of three quarters: larger ones are higher than the piece
     assert seen["small"] == ("", pytest.approx(0.75 * seen["wide"][1]))
+
+
+def test_ways_and_lengths_of_a_board_are_those_of_its_file(built: Path) -> None:
+    """In the order of the file: engraved strokes from end to end, contours round from where they begin."""
+    file = built / "s.board.1.dxf"
+    measured = recheck(file).verdict.measured
+    at, way, engraved, cut = 0j, 0.0, 0.0, 0.0
+    for entity in ezdxf.readfile(file).modelspace().query("LWPOLYLINE"):
+        rows = [(complex(x, y), bulge) for x, y, bulge in entity.get_points("xyb")]
+        way += abs(rows[0][0] - at)
+        closed = entity.closed
+        length = 0.0
+        for (start, bulge), (end, _) in pairwise([*rows, rows[0]] if closed else rows):
+            angle = 4 * math.atan(abs(bulge))
+            length += abs(end - start) if not angle else abs(end - start) / 2 / math.sin(angle / 2) * angle
+        at = rows[0][0] if closed else rows[-1][0]
+        if closed:
+            cut += length
+        else:
+            engraved += length
+    assert measured["engraved_length"] == pytest.approx(engraved, rel=1e-9)
+    assert measured["cut_length"] == pytest.approx(cut, rel=1e-9)
+    assert measured["way_between"] == pytest.approx(way, rel=1e-9)

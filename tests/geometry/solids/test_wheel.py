@@ -20,6 +20,8 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.mass import body_moments
 from geometry.solids.wheel import Hub, Web, WheelShape, check_wheel, wheel_body, wheel_sections
 from geometry.solids.windows import RoundHoles, Spokes
+from parts.base.refusal import SceneError
+from parts.scene.load import make_parts, scene_from_dict
 from parts.solids.mesh import body_mesh, mesh_outlines
 from tests.brute import works
 from tests.sampling import examples
@@ -196,3 +198,27 @@ def test_a_chamfer_that_eats_the_tip_names_the_largest_that_does_not() -> None:
     judged(wheel(WheelShape(20.0, chamfer_below=limit), HubHoles()))
     with pytest.raises(ParameterError):
         wheel(WheelShape(20.0, chamfer_below=limit * 1.01), HubHoles())
+
+
+def test_chamfers_may_meet_but_not_cross() -> None:
+    """Together as wide as the face: an edge is left; the larger one is named where they are more, with what works."""
+
+    def levels(below: float, above: float) -> tuple[float, ...]:
+        keys = {"kind": "spur_gear", "module": 4.0, "number_of_teeth": 20, "face_width": 1.2,
+                "face_chamfer": {"below": below, "above": above}}  # fmt: skip
+        return tuple(make_parts(scene_from_dict({"parts": {"p": keys}}, "t", "t"), "t")[0]["p"].body(0.0).levels())
+
+    assert levels(0.6, 0.6) == (0.0, 0.6, 1.2)
+    assert levels(0.5, 0.4) == pytest.approx((0.0, 0.5, 0.8, 1.2))
+    for below, above, key, most in (
+        (0.6, 0.6001, "above", 0.6),
+        (0.7, 0.5001, "below", 0.6999),
+        (0.3, 1.0, "above", 0.9),
+    ):
+        with pytest.raises(SceneError) as refused:
+            levels(below, above)
+        assert (refused.value.key, refused.value.code) == (f"parts.p.face_chamfer.{key}", "chamfers_meet")
+        assert refused.value.nearest is not None
+        offered = float(refused.value.nearest.value)
+        assert most - 2.1e-4 < offered <= most
+        assert levels(*((offered, above) if key == "below" else (below, offered)))
