@@ -31,6 +31,7 @@ from parts.scene.load import make_parts, scene_from_dict
 from parts.solids.faces import solid_curves, solid_faces
 from parts.solids.mesh import body_mesh, mesh_outlines
 from parts.solids.step_text import StepForm, StepPart, step_text
+from tests.exporters.formats.test_step_spoiled import pole
 
 PLATE: dict[str, Any] = {"kind": "plate", "width": 20.0, "height": 12.0, "face_width": 3.0,
                          "holes": [{"diameter": 4.0, "at": [3.0, 1.0]}]}  # fmt: skip
@@ -395,3 +396,27 @@ def test_a_wall_in_two_pieces_where_it_is_one_is_told() -> None:
     cut = ReadMesh(np.vstack([mesh.vertices, middle]), np.vstack([mesh.triangles[~wall], np.array(made)]))
     assert topology_failures(cut) == []
     assert re.search("does not end at the faces|no edge at one", said_of(verify_mesh, cut, body, NEAR))
+
+
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
+def test_a_tooth_that_is_no_copy_of_the_others_is_told(share: float, tmp_path: Path) -> None:
+    """A pole moved along its own edge by twice the tolerance: all of it still lies on the part."""
+    body, file = body_of("hub"), tmp_path / "p.step"
+    text = step_text(StepPart("p", solid_faces(body, solid_curves(body, 1e-6))), StepForm())
+    # a file that calls points one within so much may have edges beside their faces
+    file.write_text(pole(text, share, 1.0).replace("1.E-07", "1.E-06"), "ascii")
+    assert "off its copies" in told(verify_solid(read_step(file), body, 1.0, 1.0))
+    file.write_text(text, "ascii")
+    assert verify_solid(read_step(file), body, 1e-6, 1e-6).failures == ()
+
+
+def test_the_area_of_a_cone_to_its_apex_is_that_of_the_formula(tmp_path: Path) -> None:
+    """pi r (r + sqrt(r^2 + h^2)), and a flat one."""
+    for high in (12.0, 0.5):
+        keys = {"kind": "turned", "points": [{"r": 0.0, "z": 0.0}, {"r": 5.0, "z": 0.0}, {"r": 0.0, "z": high}]}
+        body = make_parts(scene_from_dict({"parts": {"p": keys}}, "t", "t"), "t")[0]["p"].body(0.0)
+        file = tmp_path / "c.step"
+        file.write_text(step_text(StepPart("p", solid_faces(body, solid_curves(body, 1e-6))), StepForm()), "ascii")
+        model = read_step(file).model
+        assert model.area.sum() == pytest.approx(math.pi * 5 * (5 + math.hypot(5, high)), rel=1e-9)
+        assert model.flux.sum() == pytest.approx(math.pi * 25 * high / 3, rel=1e-9)
