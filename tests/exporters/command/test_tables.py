@@ -93,7 +93,6 @@ def test_what_was_verified_is_told_with_its_faults(capsys: pytest.CaptureFixture
 def test_a_terminal_has_the_same_table_drawn(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    pytest.importorskip("rich")
     monkeypatch.setenv("COLUMNS", "200")
     monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
     converge_tables(RUNGS, ORDERS, [], words("en"))

@@ -260,7 +260,6 @@ def test_the_nearest_pair_of_gears_is_offered() -> None:
     ("exports[1].drawing.requirements[2]", 'drawing = { requirements = ["fine", "漢"] }\n'),
 ])  # fmt: skip
 def test_words_that_a_pdf_cannot_write_are_named_by_their_key(place: str, keys: str) -> None:
-    pytest.importorskip("fpdf", reason="fpdf2 is an extra")
     slab = 'kind = "plate"\nwidth = 30.0\nheight = 20.0\nface_width = 4.0\n'
     export = '[[exports]]\nformat = "pdf"\npurpose = "part"\n'
     parts = f"{keys}{slab}" if keys.startswith("[parts") else f"[parts.slab]\n{slab}"

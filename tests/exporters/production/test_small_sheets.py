@@ -65,8 +65,6 @@ def expected() -> Expected:
 
 @pytest.fixture(scope="module", params=FORMS)
 def file(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    if request.param == ".pdf":
-        pytest.importorskip("fpdf", reason="fpdf2 is an extra")
     path = tmp_path_factory.mktemp("sheet") / f"s{request.param}"
     write_sheets(path, [expected().canvas], "Sheet")
     return path
