@@ -67,6 +67,11 @@ class DiskCam(Record):
         """Whether S is an angle."""
         return not isinstance(self.mount, Translating)
 
+    @property
+    def base_radius(self) -> float:
+        """Radius of the base circle, mm."""
+        return float(abs(self.reference_point(0.0))) - self.radius
+
     def way(self, angle: Real, point: Complex) -> Complex:
         """Velocity of the follower's material at ``point`` (fixed frame) per unit of S, at cam angles."""
         return self.mount.velocity(np.ones(np.shape(angle)), point)

@@ -67,12 +67,8 @@ def whole_profile(cam: DiskCam) -> Profile:
     if shape.gaps:
         worst = max(shape.gaps, key=lambda g: g.lost_lift)
         at = float(np.degrees((worst.start + worst.end) / 2))
-        raise UndercutError("base_circle_radius", _base_radius(cam), "undercut_at", at=at, lost=worst.lost_lift)
+        raise UndercutError("base_circle_radius", cam.base_radius, "undercut_at", at=at, lost=worst.lost_lift)
     return shape.profile
-
-
-def _base_radius(cam: DiskCam) -> float:
-    return float(abs(cam.reference_point(0.0))) - cam.radius
 
 
 def _within_turn(arcs: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:

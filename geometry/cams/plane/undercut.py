@@ -137,7 +137,7 @@ def kept_arcs(cam: DiskCam, grow: float = 0.0) -> Kept:
     if np.all(stays):
         return Kept(((0.0, TURN),), ())
     if not np.any(stays):
-        raise UndercutError("base_circle_radius", _size(cam), "nothing_left_of_profile")
+        raise UndercutError("base_circle_radius", cam.base_radius, "nothing_left_of_profile")
     # runs of samples that stay, cyclic: begin after a lost sample
     first = int(np.flatnonzero(~stays)[-1]) + 1
     order = (np.arange(len(angles)) + first) % len(angles)
@@ -183,16 +183,12 @@ def lost_to_undercut(cam: DiskCam, grow: float = 0.0) -> float | None:
         return math.inf
     if lost is None:
         return 0.0 if _folds(cam, grow) else None
-    return lost if lost > _REACH * (1.0 if cam.swings else _size(cam)) else 0.0
+    return lost if lost > _REACH * (1.0 if cam.swings else cam.base_radius) else 0.0
 
 
 def is_uncut(cam: DiskCam, grow: float = 0.0) -> bool:
     """Whether nothing is lost to undercut, without asking how much where the envelope runs back."""
     return is_whole(cam, grow) or lost_to_undercut(cam, grow) is None
-
-
-def _size(cam: DiskCam) -> float:
-    return float(abs(cam.reference_point(0.0))) - cam.radius
 
 
 def _samples(cam: DiskCam, grow: float) -> tuple[Real, np.ndarray, Complex]:
@@ -302,7 +298,7 @@ def _crossing(
         not abs(point - other) <= TOLERANCES.relative_join * max(abs(point), 1e-300)
         or abs(math.remainder(a - b, TURN)) < 1e-9
     ):
-        raise UndercutError("base_circle_radius", _size(cam), "profile_falls_apart")
+        raise UndercutError("base_circle_radius", cam.base_radius, "profile_falls_apart")
     return a, b, (point + other) / 2
 
 

@@ -31,7 +31,6 @@ from parts.cams.disk_cam.part import (
     CAM,
     USUAL_ROLLER_SHARE,
     CamSpec,
-    base_radius,
     largest_roller_radius,
     pressure_angles,
 )
@@ -185,7 +184,7 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
             rocker_sizes(page, cam, cam.mount, asked)
     if keys.least_curvature_radius:
         page.add("curvature_reserve", keys.least_curvature_radius)
-    base = base_radius(cam)
+    base = cam.base_radius
     derived = cam.is_flat and keys.base_circle_radius is None and keys.least_curvature_radius > 0
     exact = derived and abs(base - flat_base_radius(cam.motion).value - keys.least_curvature_radius) < 1e-12 * base
     told = ("{r_0} + {rho}", LESSON_4) if exact else ("", "")

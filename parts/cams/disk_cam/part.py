@@ -125,11 +125,6 @@ class FacedKeys(Protocol):
     plate_diameter: float | None
 
 
-def base_radius(cam: DiskCam) -> float:
-    """Radius of the base circle, mm."""
-    return float(abs(cam.reference_point(0.0))) - cam.radius
-
-
 def cam_of(keys: CamSpec) -> DiskCam:
     """The cam of the keys, not yet checked for undercut; refusals speak in the scene's keys."""
     from geometry.cams.plane.disk import FollowerKind, translating_cam
@@ -349,9 +344,9 @@ def check_face(keys: FacedKeys, cam: DiskCam, *, plain: bool) -> None:
 
 def cam_circles(cam: DiskCam) -> dict[str, float]:
     """Named diameters of a cam, mm."""
-    circles = {"base_circle_diameter": 2 * base_radius(cam)}
+    circles = {"base_circle_diameter": 2 * cam.base_radius}
     if cam.radius > 0:
-        circles["prime_circle_diameter"] = 2 * (base_radius(cam) + cam.radius)
+        circles["prime_circle_diameter"] = 2 * (cam.base_radius + cam.radius)
     return circles
 
 
@@ -510,7 +505,7 @@ class Cam(DiskKind[CamSpec, "DiskCam"]):
         if lost is not None or hollow:
             if (refusal := by_impact(keys.phases, cam.motion, both=False)) is not None:
                 raise refusal
-            base = base_radius(cam)
+            base = cam.base_radius
             if hollow and lost is None:
                 cure = limit(least * (1 + _SPARE), base)
                 raise UndercutError("base_circle_radius", base, "undercut_hollow", cure, radius=base - least)

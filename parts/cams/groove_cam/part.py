@@ -20,7 +20,6 @@ from parts.base.kind import Kind, Others, Report
 from parts.cams.disk_cam.part import (
     CamSpec,
     OscillatingTable,
-    base_radius,
     by_impact,
     cam_circles,
     cam_of,
@@ -149,7 +148,7 @@ def _roller_cam(spec: GrooveCamSpec) -> DiskCam:
         first = cam_of(as_cam)
         limit = math.radians(90 - angle)
         both = roller_prime_radius(first.motion, spec.follower_offset, limit, limit) - spec.follower_radius
-        as_cam = replace(as_cam, base_circle_radius=max(both, base_radius(first)))
+        as_cam = replace(as_cam, base_circle_radius=max(both, first.base_radius))
     return cam_of(as_cam)
 
 
@@ -163,7 +162,7 @@ def _check_walls(keys: GrooveCamSpec, cam: DiskCam) -> None:
         return
     if (refusal := by_impact(keys.phases, cam.motion, both=True)) is not None:
         raise refusal
-    base = base_radius(cam)
+    base = cam.base_radius
 
     def works(value: float) -> bool:
         other = _roller_cam(replace(keys, base_circle_radius=value))

@@ -18,7 +18,7 @@ from geometry.solids.wheel import WheelShape, check_wheel
 from parts.base.kind import Others, Report
 from parts.base.links import owner_of
 from parts.base.part_keys import MaterialKeys
-from parts.cams.disk_cam.part import EVEN_CAM, CamSpec, base_radius, cam_findings, cam_of, cam_quantities, larger_bases
+from parts.cams.disk_cam.part import EVEN_CAM, CamSpec, cam_findings, cam_of, cam_quantities, larger_bases
 from parts.cams.wheel import Turned, inner_radius
 from parts.keys.base import degrees, mm
 from parts.keys.holes import BoreTable, HolesTable, RoundBoreTable, bore_of, hub_holes, wide_bore
@@ -129,7 +129,7 @@ def _pair(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam) -> Conjugate:
         raise ParameterError("arm_length", keys.arm_length, "stem_has_no_arm", Nearest(None))
     radius = owner.follower_radius if keys.follower_radius is None else keys.follower_radius
     if given is None:
-        base = base_radius(first) if keys.base_circle_radius is None else keys.base_circle_radius
+        base = first.base_radius if keys.base_circle_radius is None else keys.base_circle_radius
         distance = _distance_of_base(first, base, radius, keys.arm_length)
     else:
         distance = math.radians(given) if swings else given
@@ -149,7 +149,7 @@ def _nearest_distance(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam, ke
     from geometry.cams.plane.undercut import is_whole
 
     radius = owner.follower_radius if keys.follower_radius is None else keys.follower_radius
-    usual = _distance_of_base(first, base_radius(first), radius, keys.arm_length)
+    usual = _distance_of_base(first, first.base_radius, radius, keys.arm_length)
     end = math.degrees(usual) if key == "roller_angle_deg" else usual
 
     def works(value: float) -> bool:

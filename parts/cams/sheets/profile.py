@@ -13,7 +13,6 @@ from geometry.cams.plane.disk import FollowerKind
 from geometry.cams.plane.shape import cam_shape, whole_profile
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc
-from parts.cams.disk_cam.part import base_radius
 from parts.cams.sheets.diagrams import Drawn, arrow
 from parts.cams.sheets.links import draw_links, frame_ray, linkage_cam_of, links_reach, name_links, pivots
 from parts.cams.sheets.picture import CamPicture, thinned
@@ -46,7 +45,7 @@ class Reach(Record):
 def reach_of(picture: CamPicture, scale: float) -> Reach:
     """What the construction needs at a scale, model mm; ``whole`` without the numbers."""
     cam = picture.cam
-    base = base_radius(cam)
+    base = cam.base_radius
     angles = np.concatenate([cam.motion.stack.extremes(0)[1], np.linspace(0, _TURN, 181)])
     far = float(np.abs(cam.reference_point(angles)).max())
     rays = far + (cam.radius if cam.kind is FollowerKind.ROLLER else 0.0) + _BEYOND / scale
