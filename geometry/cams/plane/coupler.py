@@ -100,7 +100,7 @@ class CouplerMount(Record):
 class LinkageCam(DiskCam):
     """A disk cam whose follower is carried by a coupler; S drives the linkage, in mm of a slider or rad of a rocker."""
 
-    mount: CouplerMount  # type: ignore[assignment]
+    mount: CouplerMount
 
     @property
     def swings(self) -> bool:

@@ -18,7 +18,7 @@ from geometry.base.record import Record
 from geometry.base.series import taylor
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion
 from geometry.cams.motion.guides import Mount, Oscillating, Translating, oscillating_start_angle
-from geometry.cams.plane.curves import CentreEnvelope, FaceEnvelope
+from geometry.cams.plane.curves import CentreEnvelope, Faced, FaceEnvelope
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
 
@@ -39,7 +39,7 @@ class DiskCam(Record):
     """
 
     motion: FollowerMotion
-    mount: Mount
+    mount: Faced
     kind: FollowerKind
     radius: float = 0.0
 
@@ -74,7 +74,8 @@ class DiskCam(Record):
 
     def way(self, angle: Real, point: Complex) -> Complex:
         """Velocity of the follower's material at ``point`` (fixed frame) per unit of S, at cam angles."""
-        return self.mount.velocity(np.ones(np.shape(angle)), point)
+        mount: Mount = self.swing if self.swings else self.slide
+        return mount.velocity(np.ones(np.shape(angle)), point)
 
     def curve(self, piece: LawPiece, grow: float = 0.0) -> CentreEnvelope | FaceEnvelope:
         """The exact cam over one piece of the motion, over growing cam angle; ``grow`` mm out of the material."""
@@ -188,6 +189,7 @@ class DiskCam(Record):
                 height, turned = (point * np.conj(normal)).real - offset, np.angle(normal)
                 if isinstance(mount, Translating):
                     return np.pi / 2 - turned, height - mount.start_height
+                mount = self.swing
                 psi = np.arcsin((height + mount.face_offset) / mount.centre_distance)
                 return mount.sense * (np.pi / 2 - psi) - turned, psi - mount.start_angle
             pitch = point + (self.radius - offset) * normal
@@ -195,6 +197,7 @@ class DiskCam(Record):
             if isinstance(mount, Translating):
                 height = np.sqrt((reach - mount.offset) * (reach + mount.offset))
                 return np.angle((mount.offset + 1j * height) / pitch), height - mount.start_height
+            mount = self.swing
             d, arm = mount.centre_distance, mount.arm_length
             # half-angle form of the law of cosines
             half = (reach - abs(d - arm)) * (reach + abs(d - arm)) / (4 * d * arm)
@@ -207,6 +210,7 @@ class DiskCam(Record):
         if isinstance(mount, Translating):
             reach = np.full(np.shape(angle), np.inf) if self.is_flat else np.abs(self.reference_point(angle))
             return reach - abs(mount.offset)
+        mount = self.swing
         d, arm = mount.centre_distance, mount.arm_length
         if self.is_flat:
             height = mount.face(taylor(self.motion.values(angle, 0)))[0][0] + mount.face_offset

@@ -26,7 +26,7 @@ def lost_lift(cam: DiskCam, angle: Real, corner: complex, distance: float) -> Re
     fixed = corner * np.exp(1j * angle)
     if isinstance(cam.mount, Translating):
         return _translating(cam, cam.mount, angle, fixed, distance)
-    return _oscillating(cam, cam.mount, angle, fixed, distance)
+    return _oscillating(cam, cam.swing, angle, fixed, distance)
 
 
 def _translating(cam: DiskCam, mount: Translating, angle: Real, corner: Complex, distance: float) -> Real:

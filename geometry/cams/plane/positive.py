@@ -86,6 +86,7 @@ def conjugate_cam(
         # seen from the other side of the axis: everything turned by half a turn
         second = DiskCam(motion, Translating(-mount.offset, height), FollowerKind.ROLLER, radius)
         return Conjugate(second, math.pi)
+    mount = cam.swing
     start = TURN - mount.start_angle - roller_distance
     if not start - highest > 0 or not start - cam.motion.extremes()[0] < math.pi:
         low, high = math.pi - mount.start_angle - cam.motion.extremes()[0], TURN - mount.start_angle - highest

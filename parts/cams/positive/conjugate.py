@@ -175,6 +175,7 @@ def _distance_of_base(first: DiskCam, base: float, radius: float, arm_length: fl
             least = limit(offset * (1 + 1e-9) - radius, base)
             raise ParameterError("base_circle_radius", base, "base_circle_within_offset", least)
         return mount.start_height + highest + math.sqrt((prime - mount.offset) * (prime + mount.offset))
+    mount = first.swing
     arm = mount.arm_length if arm_length is None else arm_length
     try:
         nearest_angle = oscillating_start_angle(base, mount.centre_distance, arm, radius)

@@ -220,7 +220,7 @@ def number_positions(canvas: Canvas, picture: CamPicture, paper: Paper) -> None:
         radius = abs(ray) + _NUMBER / paper.scale
         start = radius * ray / abs(ray)
     else:
-        radius = mount.centre_distance + _NUMBER / paper.scale
+        radius = cam.swing.centre_distance + _NUMBER / paper.scale
         start = complex(radius, 0.0)
     widest = text_width(str(len(picture.positions)), SMALL_TEXT) + 1.0
     angles = np.array([p.angle for p in picture.positions])
@@ -259,5 +259,6 @@ def name_profile(labels: Labeller, picture: CamPicture, paper: Paper, *, by_hand
             name_links(labels, picture, linked, paper)
     else:
         spoke = cmath.exp(1j * math.radians(20))
-        point = paper.point(mount.centre_distance * spoke)
-        labels.name(f"d = {say(mount.centre_distance)}", point, SMALL_TEXT, prefer=-spoke, answer=False)
+        distance = cam.swing.centre_distance
+        point = paper.point(distance * spoke)
+        labels.name(f"d = {say(distance)}", point, SMALL_TEXT, prefer=-spoke, answer=False)
