@@ -176,7 +176,7 @@ def _of_use(keys: WormWheelSpec) -> bool:
 def _stands(keys: WormWheelSpec) -> bool:
     """Whether some width has whole teeth that bend nowhere, or all of one that is asked for has any, at a glance."""
     teeth = _asked_teeth(keys, drive_of(keys)).glanced
-    return teeth.sliver.is_even if keys.face_width is None else teeth.ended is None
+    return not teeth.sliver.is_creased if keys.face_width is None else teeth.ended is None
 
 
 def _is_made(keys: WormWheelSpec) -> bool:
@@ -184,7 +184,9 @@ def _is_made(keys: WormWheelSpec) -> bool:
     from geometry.gears.worms.wheel_faces import is_fitting
 
     teeth = _asked_teeth(keys, drive_of(keys))
-    return is_fitting(teeth.sliver if keys.face_width is None else teeth)
+    if keys.face_width is not None:
+        return is_fitting(teeth)
+    return not teeth.sliver.is_creased and is_fitting(teeth.sliver)
 
 
 def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
