@@ -109,24 +109,24 @@ def larger_quotients(start: float, most: float = math.inf) -> list[float]:
 def wider(
     refusal: ParameterError,
     does: Callable[[float], bool],
-    stands: Callable[[float], bool] | None = None,
+    stands: Callable[[float], bool],
     most: float = math.inf,
 ) -> ParameterError:
     """A refusal of the diameter quotient with the least that does for the whole part, from its own limit on.
 
-    ``does``: a margin of the part; ``stands``: the part itself, where that is more and costly; ``most``: that may be.
+    ``does``: a margin of the part; ``stands``: the part itself, which is more and costly; ``most``: that may be.
     """
-    if refusal.name != "diameter_quotient" or refusal.code == "either_key":
+    if refusal.name != "diameter_quotient":
         return refusal
 
     def cure() -> Nearest | None:
         own = refusal.nearest
         start = float(str(refusal.value if own is None else own.value))
-        if own is not None and kept(stands or does, start):
+        if own is not None and kept(stands, start):
             return own
         ends = larger_quotients(start, most)
-        found = nearest(does, start, ends, share=NEAR if stands else 0.0)
-        if stands is None or found is None or not isinstance(found.value, float) or kept(stands, found.value):
+        found = nearest(does, start, ends, share=NEAR)
+        if found is None or not isinstance(found.value, float) or kept(stands, found.value):
             return found
         # costly, so by a few trials
         return nearest(stands, found.value, [end for end in ends if end > found.value], share=NEAR)

@@ -177,6 +177,26 @@ def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_p
             },
             "addendum_coefficient",
         ),
+        # before: no value, since the last that leaves a land leaves a rounding no room, or the thread no length
+        ({"tip_rounding": 1.2, "axial_thinning": 5.0}, "axial_thinning"),
+        (
+            {
+                "module": 3.819,
+                "number_of_starts": 7,
+                "diameter_quotient": 7.153,
+                "tip_clearance_coefficient": 0.694,
+                "thread_length": 11.54,
+                "thread_ends": "run_out",
+                "run_out_deg": 95.9,
+                "tip_rounding": 1.092,
+            },
+            "tip_rounding",
+        ),
+        # before: no value, since no quotient cures what another key does
+        (
+            {"diameter_quotient": 8.0, "pressure_angle_deg": 30.0, "form": "ZN1", "number_of_starts": 5},
+            "addendum_coefficient",
+        ),
         ({"shaft_above": [{"diameter": 45.0, "length": 5.0}]}, "shaft_above[1].diameter"),
         ({"shaft_below": [{"diameter": 20.0, "length": 5.0, "chamfer": 6.0}]}, "shaft_below[1].chamfer"),
         # before: a groove between both
