@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from parts.base.mate import End, MateKeys, MateKind, Mating
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, placed
@@ -145,14 +144,22 @@ def solid_refused(part: Part, refusal: ParameterError, source: str) -> SceneErro
     """The refusal of a part's solid in the key that asks for it."""
     told = as_typed(part.keys, refusal)
     error = placed(source, f"parts.{part.id}", told, unit_of(type(part.keys), told.name))
-    if told.name.startswith("face_chamfer") and isinstance(told.value, float):
+    given = told.value
+    if told.name.startswith("face_chamfer") and isinstance(given, float):
 
         def works(chamfer: float) -> bool:
             part.made_by.solid(tried(part.keys, told.name, chamfer), part.thing, 0.0)
             return True
 
-        # every margin of the solid at once, with what the mates have left of the part
-        error.offer(partial(nearest, works, told.value, 0.0))
+        def cure() -> Nearest | None:
+            """Its own margin; all of them where another one is narrower, or one number stands for both faces."""
+            found = refusal.nearest if told is refusal else None
+            if found is None or not isinstance(found.value, float):
+                return nearest(works, given, 0.0)
+            return found if kept(works, found.value) else nearest(works, found.value, 0.0)
+
+        # with what the mates have left of the part
+        error.offer(cure)
     return error
 
 
