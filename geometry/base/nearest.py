@@ -64,16 +64,17 @@ def nearest(
             between = (good + bad) // 2
             good, bad = (between, bad) if tried(between) else (good, between)
         return limit(good, given)
-    rough, before = enough > 0 or share > 0, good
+    rough, held = enough > 0 or share > 0, [good]
     while left > 0 and abs(good - bad) > max(enough, share * abs(good), _told_apart(max(abs(good), abs(bad)), digits)):
         middle = _roundest(*sorted((good, bad))) if rough else (good + bad) / 2
         if tried(middle):
-            good, before = middle, good
+            good = middle
+            held.append(middle)
         else:
             bad = middle
-    # at the very edge rounding may decide: then the one before it is told
-    for found in dict.fromkeys(limit(float(last), given, digits=digits) for last in (good, before)):
-        if isinstance(found.value, float) and (found.value in (good, before) or kept(holds, found.value)):
+    # at the very edge rounding may decide: then one before it is told
+    for found in dict.fromkeys(limit(float(last), given, digits=digits) for last in reversed(held)):
+        if isinstance(found.value, float) and (found.value in held or (left > -2 and tried(found.value))):
             return found
     return None
 

@@ -602,7 +602,7 @@ class WormTeeth(Record, dict=True):
     @cached_property
     def is_creased(self) -> bool:
         """Whether flanks run over the base circle of an involute worm, below which it is radial: they bend there."""
-        return bool(self._plain_levels.outer.min() < self.hob.worm.flank.least_radius)
+        return self._torn is None and bool(self._plain_levels.outer.min() < self.hob.worm.flank.least_radius)
 
     @property
     def is_even(self) -> bool:

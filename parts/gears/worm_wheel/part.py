@@ -232,7 +232,8 @@ def _toothless(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
     """No tooth is left that splines follow: in the key that takes it away, with the value that leaves some."""
 
     def cure() -> Nearest | None:
-        near = NEAR * (keys.module if key == "axial_thinning" else 1.0)
+        # all others are told to a share of their own
+        near = NEAR if key == "profile_shift_coefficient" else 0.0
         made = _left_by(keys, _is_made, key)
         found = nearest(_left_by(keys, _stands, key), given, ends, enough=near, share=NEAR)
         if found is None or not isinstance(found.value, int | float) or kept(made, found.value):
@@ -269,7 +270,7 @@ def _suspects(
     yield _stands, "addendum_coefficient", _ADDENDA[-1:]
     yield _of_use, "diameter_quotient", larger_quotients(quotient, larger if larger > quotient else math.inf)
     yield _stands, "number_of_starts", range(keys.number_of_starts - 1, 0, -1)
-    yield _stands, "addendum_coefficient", _LOW
+    yield _stands, "addendum_coefficient", (*_ADDENDA, *_LOW)
     if keys.profile_shift_coefficient:
         yield _stands, "profile_shift_coefficient", (0.0,)
 

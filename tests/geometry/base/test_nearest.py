@@ -91,6 +91,9 @@ def test_where_rounding_decides_at_the_edge_the_one_before_is_told() -> None:
     assert nearest(lambda v: v <= 1 or v == 1.03125, 2.0, 0.0, enough=0.02) is not None
     flickers = nearest(lambda v: v <= 45.9 or v in (45.9375, 45.96875), 53.37, 1.0, share=1e-3)
     assert flickers == Nearest(45.9375, "at_most")
+    # neither of the last two holds as it is told
+    twice = nearest(lambda v: v <= 0.348 or v in (0.349609375, 0.35009765625), 0.3722, 0.3418, share=8e-4)
+    assert twice == Nearest(0.3476, "at_most")
 
 
 def test_what_would_be_told_must_hold_itself() -> None:

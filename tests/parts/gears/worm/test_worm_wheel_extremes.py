@@ -16,7 +16,7 @@ from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.worms.hob import oversized_hob
 from geometry.gears.worms.wheel import WormTeeth
-from geometry.gears.worms.wheel_faces import wheel_splines
+from geometry.gears.worms.wheel_faces import fitting, wheel_splines
 from geometry.gears.worms.wheel_measures import FLANK
 from parts.base.refusal import SceneError
 from parts.gears.worm_wheel.part import WORM_WHEEL, WormWheelSpec, drive_of, teeth_of
@@ -249,6 +249,9 @@ def test_what_no_addendum_cures_is_told_in_the_key_that_does(
           "hob_rounding_coefficient": 0.294}, "profile_shift_coefficient"),
         ({"module": 2.0, "diameter_quotient": 2.3, "number_of_teeth": 20, "profile_shift_coefficient": 1.0,
           "axial_thinning": 0.354}, "addendum_coefficient"),
+        # before: no value, since only some between those that were tried leave teeth
+        ({"module": 0.993, "diameter_quotient": 38.799, "number_of_teeth": 12, "profile_shift_coefficient": 1.6,
+          "hob_diameter_quotient": 41.568, "addendum_coefficient": 1.468}, "addendum_coefficient"),
     ],
 )  # fmt: skip
 def test_beyond_what_is_offered_nothing_is_made(keys: dict[str, Any], key: str) -> None:
@@ -276,6 +279,20 @@ def test_ends_that_rounding_tells_apart_are_one() -> None:
     ends = [*teeth.flank_ends, *(end for ridge in teeth.ridges for end in ridge)]
     assert any(0 < abs(abs(one) - abs(other)) < 1e-12 for one in ends for other in ends)
     assert np.diff(teeth.breaks).min() > 1e-3
+
+
+def test_teeth_that_stand_at_a_glance_and_at_no_whole_width_are_made_narrower() -> None:
+    keys = {"module": 0.137, "diameter_quotient": 3.4, "addendum_coefficient": 0.148, "number_of_teeth": 14}
+    drive = drive_of(WormWheelSpec(**keys, profile_shift_coefficient=-0.642))
+    hob, outer = oversized_hob(drive, 0.2, 3.415), drive.default_outer_diameter / 2
+    teeth = WormTeeth(hob, drive.centre_distance, drive.throat_radius, outer, drive.most_face_width)
+    # before: a traceback
+    assert teeth.ended is not None
+    assert not teeth.is_creased
+    # before: none, since at two places just below the edge splines do not follow
+    found = fitting(teeth)
+    assert found is not None
+    assert found.width > 0.3
 
 
 @pytest.mark.heavy
