@@ -30,8 +30,8 @@ Real = NDArray[np.float64]
 # of a search
 _Looked = tuple[Real, Real, NDArray[np.intp], NDArray[np.intp]]
 
-# radii of the thread and angles of its rounding at which a side is looked for
-_RADII, _ANGLES, _FIRST_STEP = 257, 129, 1e-7
+# radii of the thread, where few heights are looked at too, and angles of its rounding at which a side is looked for
+_RADII, _FEW_RADII, _ANGLES, _FIRST_STEP = 257, 97, 129, 1e-7
 # of a fillet that cuts a flank: radii from which their crossing is sought, Newton's steps, the step of slopes (mm and
 # rad), how near both end at least and when that is enough; up to which depth, of the hob's size, undercut is none, and
 # to which so shallow that its crossing lies by the first terms of both curves half as far again as the turning
@@ -51,9 +51,9 @@ _ABOVE = 1.01
 _LEAST_SHARE = 1e-9
 # a space between two teeth is no shallower, a whole tooth's flank no narrower, modules
 _LEAST_DEPTH = 0.04
-# heights at which a face is looked at, some of them for a glance, how well places between them are known, and how far
-# two are apart at least, part of the width
-_LEVELS, _GLANCE, _SETTLED, _SAME = 97, 7, 1e-9, 4e-9
+# heights at which a face is looked at, fewer for trials, some of them for a glance, how well places between them are
+# known, and how far two are apart at least, part of the width
+_LEVELS, _FEW_LEVELS, _GLANCE, _SETTLED, _SAME = 97, 49, 7, 1e-9, 4e-9
 # how far beyond the ends of a part the foot of a perpendicular may lie, and how far the contact has to run on beyond
 # the tip, as shares of it
 BEYOND, _RUNS_ON = 0.02, 0.002
@@ -225,11 +225,11 @@ class WormTeeth(Record, dict=True):
         form, column = hob.form_radius, np.arange(len(z))
         radii, reach, first, at = looked or self._search(z)
         # a flank that turns back below the tip cuts the fillet there, though it began beyond
-        back = (first > 0) & (at < _RADII) & (reach[np.minimum(at, _RADII) - 1, column] < tip)
+        back = (first > 0) & (at < len(radii)) & (reach[np.minimum(at, len(radii)) - 1, column] < tip)
         beyond = reach[0] >= tip
         all_fillet = beyond & ~back
         at = np.where(all_fillet, 1, at)
-        if not (at < _RADII).all():
+        if not (at < len(radii)).all():
             raise NoTooth("worm_wheel_flank_ends")
 
         whole, outer = ~all_fillet, np.full(len(z), form)
@@ -375,16 +375,16 @@ class WormTeeth(Record, dict=True):
         form = self.hob.form_radius
         least = np.maximum(np.abs(heights) / math.cos(self.hob.swivel) * (1 + _LEAST_SHARE), self._least_radius)
         # the first step is a small one: it tells whether the flank turns back at once
-        shares = np.linspace(0.0, 1.0, _RADII)
+        shares = np.linspace(0.0, 1.0, count := _FEW_RADII if self.levels < _LEVELS else _RADII)
         shares[1] = _FIRST_STEP
         radii = form + (least - form) * shares[:, None]
         reach = self._reach(radii, heights)
         with np.errstate(invalid="ignore"):
             falls = ~(np.diff(reach, axis=0) > 0)
-        number = np.arange(_RADII)[:, None]
+        number = np.arange(count)[:, None]
         beyond = (reach >= self.tip_radius(heights)) & (number > 0)
         beyond[1:] &= ~falls
-        at = np.where(beyond.any(axis=0), beyond.argmax(axis=0), _RADII)
+        at = np.where(beyond.any(axis=0), beyond.argmax(axis=0), count)
         first = np.where(falls & (number[1:] <= at), number[1:], 0).max(axis=0)
         return radii, reach, first, at
 
@@ -511,6 +511,11 @@ class WormTeeth(Record, dict=True):
     def glanced(self) -> WormTeeth:
         """The same for a search, which looks at few heights of many wheels."""
         return replace(self, levels=_GLANCE, loose=True)
+
+    @property
+    def tried(self) -> WormTeeth:
+        """The same for a search that asks whether splines follow, of what is looked at in full before it is made."""
+        return replace(self, levels=_FEW_LEVELS, loose=True)
 
     @property
     def sliver(self) -> WormTeeth:

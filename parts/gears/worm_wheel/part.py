@@ -183,7 +183,7 @@ def _is_made(keys: WormWheelSpec) -> bool:
     """Whether there are teeth of some width, or of the one that is asked for, that splines follow."""
     from geometry.gears.worms.wheel_faces import is_fitting
 
-    teeth = _asked_teeth(keys, drive_of(keys))
+    teeth = _asked_teeth(keys, drive_of(keys)).tried
     if keys.face_width is not None:
         return is_fitting(teeth)
     return not teeth.sliver.is_creased and is_fitting(teeth.sliver)
