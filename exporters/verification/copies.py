@@ -11,6 +11,7 @@ import numpy as np
 
 from exporters.formats.read_part21 import Index, Real
 from exporters.formats.read_solid import GAP, Model
+from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.body import Body
 from parts.base.texts import fault
@@ -27,8 +28,8 @@ def copy_failures(model: Model, body: Body) -> list[str]:
         return []
     failures = []
     for poles, who in _nets(model):
-        own = _turned_home(poles)
-        for members in _alike(own):
+        own, places = _turned_home(poles, count)
+        for members in _alike(own, places):
             # others are edges of chamfers on bores
             off = np.abs(own[members] - np.median(own[members], axis=0)).max(axis=1) * (len(members) % count == 0)
             if off.max() > GAP:
@@ -42,11 +43,11 @@ def copy_failures(model: Model, body: Body) -> list[str]:
     return failures
 
 
-def _alike(own: Real) -> list[Index]:
-    """The rows of each class of copies: in one measure after the other they lie next to each other."""
+def _alike(own: Real, places: Complex) -> list[Index]:
+    """The rows of each class of copies: in one measure after the other, and in their places, they lie together."""
     classes = [np.arange(len(own))]
-    for number in range(1, _MEASURES + 1):
-        told = own @ np.sin(number * np.arange(1.0, own.shape[1] + 1))
+    sines = (np.sin(number * np.arange(1.0, own.shape[1] + 1)) for number in range(1, _MEASURES + 1))
+    for told in (places.real, places.imag, *(own @ weights for weights in sines)):
         ordered = [rows[np.argsort(told[rows])] for rows in classes]
         classes = [c for rows in ordered for c in np.split(rows, np.flatnonzero(np.diff(told[rows]) > _APART) + 1)]
     return classes
@@ -62,8 +63,10 @@ def _nets(model: Model) -> Iterator[tuple[Real, Index]]:
             yield poles[edges], model.edges[numbers[edges]]
 
 
-def _turned_home(poles: Real) -> Real:
-    """Nets turned about the axis until their middles stand on +x, (n, 3 k)."""
+def _turned_home(poles: Real, count: int) -> tuple[Real, Complex]:
+    """Nets turned about the axis until their middles stand on +x, (n, 3 k); where in its period each stood."""
     flat = poles[..., 0] + 1j * poles[..., 1]
-    flat *= np.exp(-1j * np.angle(flat.mean(axis=1)))[:, None]
-    return np.concatenate([flat.real, flat.imag, poles[..., 2]], axis=1)
+    angles = np.angle(flat.mean(axis=1))
+    flat *= np.exp(-1j * angles)[:, None]
+    # teeth of one period may be alike but for the fit of their splines
+    return np.concatenate([flat.real, flat.imag, poles[..., 2]], axis=1), np.exp(1j * count * angles)

@@ -89,12 +89,11 @@ def flank_starts(flanks: Flanks) -> tuple[Real, Real, int]:
         last = _SAMPLES - 1 - np.argmax(back[rows, ::-1], axis=1)
         part = flanks.chosen(rows)
         turning = _turning(part, s[rows, last], s[rows, last + 1])
-        start[rows], contact[rows] = _crossings(part, turning, limit[rows])
+        start[rows], contact[rows] = _crossings(part, joint[rows], turning, limit[rows])
         if np.any(flanks.sign * (flanks.at_tip - start) <= 0):
             raise UndercutError("undercut", float(rows.size), "undercut_leaves_no_flank")
         size = float(np.max(np.abs(part.flank(start[rows])[0])))
-        apart = np.abs(part.fillet(contact[rows])[0] - part.flank(start[rows])[0])
-        if np.any(apart > TOLERANCES.relative_join * size):
+        if np.any(_apart(part, start[rows], contact[rows]) > TOLERANCES.relative_join * size):
             raise UndercutError("undercut", float(rows.size), "undercut_leaves_no_flank_to_fillet")
         _check_waist(flanks, contact)
     return start, contact, int(rows.size)
@@ -109,31 +108,55 @@ def _turning(part: Flanks, low: Real, high: Real) -> Real:
     return high
 
 
-def _crossings(part: Flanks, turning: Real, limit: Real) -> tuple[Real, Real]:
-    """Where the fillets cross the flanks above their turning points: edges of polygons that cross, refined."""
+def _crossings(part: Flanks, joint: Real, turning: Real, limit: Real) -> tuple[Real, Real]:
+    """Where the fillets cross the flanks above their turning points: edges of polygons that cross, refined.
+
+    What little undercut takes is less than the digits of points: the cusp's own crossing stands there.
+    """
     # a crossing of little undercut lies near the fillet's end and near the flank's turning point
     near = 1 - np.geomspace(1e-9, 0.5, 2 * _SAMPLES)[::-1]
     share = np.unique(np.concatenate([np.linspace(0, 1, 2 * _SAMPLES), near]))
     u = share * limit[:, None]
     s = turning[:, None] + np.linspace(0, 1, 4 * _SAMPLES) ** 2 * (part.at_tip - turning)[:, None]
     fillets, flanks = part.columns().fillet(u)[0], part.columns().flank(s)[0]
-    start, contact = turning.copy(), limit.copy()
-    found = [_first_crossing(a, b) for a, b in zip(fillets, flanks, strict=True)]
-    rows = np.array([k for k, place in enumerate(found) if place is not None], dtype=int)
-    if not rows.size:
-        return start, contact
-    chosen = part.chosen(rows)
-    index = np.array([place for place in found if place is not None]).T
-    a, b = (u[rows, index[0]] + u[rows, index[0] + 1]) / 2, (s[rows, index[1]] + s[rows, index[1] + 1]) / 2
+    start, contact = _near_cusps(part, joint, turning, limit)
+    a, b = contact.copy(), start.copy()
+    for row, (one, two) in enumerate(zip(fillets, flanks, strict=True)):
+        place = _first_crossing(one, two)
+        if place is not None:
+            i, j = place
+            a[row], b[row] = (u[row, i] + u[row, i + 1]) / 2, (s[row, j] + s[row, j + 1]) / 2
     for _ in range(_NEWTON_STEPS):
-        (one, v), (two, w) = chosen.fillet(a), chosen.flank(b)
+        (one, v), (two, w) = part.fillet(a), part.flank(b)
         gap = two - one
         whole = (np.conj(v) * w).imag
         with np.errstate(divide="ignore", invalid="ignore"):
             a = a + np.nan_to_num((np.conj(gap) * w).imag / whole)
             b = b + np.nan_to_num((np.conj(gap) * v).imag / whole)
-    contact[rows], start[rows] = a, b
+    # below the turning point both touch at the joint, and beyond its ends no fillet is: that is no crossing
+    there = (part.sign * (b - turning) >= 0) & (a * limit >= 0) & (np.abs(a) <= np.abs(limit))
+    found = there & (_apart(part, b, a) <= TOLERANCES.relative_join * np.abs(part.fillet(a)[0]))
+    return np.where(found, b, start), np.where(found, a, contact)
+
+
+def _near_cusps(part: Flanks, joint: Real, turning: Real, limit: Real) -> tuple[Real, Real]:
+    """Where fillets cross flanks of little undercut, whose turning points are cusps.
+
+    With t from the cusp a flank is (t^2 / 2, k t^3 / 3), the fillet the tangent at the joint t = -d: both meet where
+    2 (t/d)^3 + 3 (t/d)^2 = 1, at t = d / 2.
+    """
+    start = turning + (turning - joint) / 2
+    contact = limit.copy()
+    points = part.flank(start)[0]
+    for _ in range(_NEWTON_STEPS):
+        one, v = part.fillet(contact)
+        contact = contact + (np.conj(v) * (points - one)).real / np.abs(v) ** 2
     return start, contact
+
+
+def _apart(flanks: Flanks, start: Real, contact: Real) -> Real:
+    """Distances from the ends of fillets to the starts of flanks, mm."""
+    return np.abs(flanks.fillet(contact)[0] - flanks.flank(start)[0])
 
 
 def _first_crossing(one: Complex, two: Complex) -> tuple[int, int] | None:

@@ -410,6 +410,18 @@ def test_a_tooth_that_is_no_copy_of_the_others_is_told(share: float, tmp_path: P
     assert verify_solid(read_step(file), body, 1e-6, 1e-6).failures == ()
 
 
+def test_teeth_that_only_look_alike_are_no_copies(tmp_path: Path) -> None:
+    """Of a round oval all teeth are alike, but those of one lobe have splines of their own."""
+    keys = {"kind": "noncircular_gear", "centrode": "oval", "number_of_teeth": 12, "module": 2.0, "axis_ratio": 1.0}
+    body = make_parts(scene_from_dict({"parts": {"p": keys}}, "t", "t"), "t")[0]["p"].body(0.0)
+    file = tmp_path / "p.step"
+    text = step_text(StepPart("p", solid_faces(body, solid_curves(body, 1e-6))), StepForm())
+    file.write_text(text, "ascii")
+    assert verify_solid(read_step(file), body, 1e-6, 1e-6).failures == ()
+    file.write_text(pole(text, 0.5, 1.0).replace("1.E-07", "1.E-06"), "ascii")
+    assert "off its copies" in told(verify_solid(read_step(file), body, 1.0, 1.0))
+
+
 def test_the_area_of_a_cone_to_its_apex_is_that_of_the_formula(tmp_path: Path) -> None:
     """pi r (r + sqrt(r^2 + h^2)), and a flat one."""
     for high in (12.0, 0.5):

@@ -19,7 +19,7 @@ from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from geometry.kinematics.centrodes import FourierRatio, LobedEllipse, RatioCentrode
-from geometry.plane.measure import distance_to_profile
+from geometry.plane.measure import distance_to_profile, profile_area
 from geometry.plane.profile import Label
 from tests import laws
 from tests.oracles import rolled_rack
@@ -138,6 +138,17 @@ def test_pointed_teeth_of_a_tiny_circle_are_refused_as_those_of_the_spur_gear(x:
         tooth_side(spur)
     with pytest.raises(PointedTipError):
         _ = gear(LobedEllipse(1.0, 0.0), 3, x=x).outline
+
+
+def test_undercut_may_be_as_little_as_one_likes() -> None:
+    """It sets in within a chamfer's depth: all sections are closed, each within the one before."""
+    made, onset = gear(OVAL, 30), 0.2164464454
+    assert cut_outline(made, onset).undercut == 0
+    areas = []
+    for beyond in np.geomspace(1e-9, 1e-2, 15).tolist():
+        assert cut_outline(made, onset + beyond).undercut == 2
+        areas.append(profile_area(moved_outline(made, -onset - beyond)))
+    assert np.all(np.diff(areas) < 0)
 
 
 def test_undercut_that_leaves_nothing_is_refused() -> None:
