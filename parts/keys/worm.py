@@ -22,6 +22,8 @@ Quotient = Annotated[float, Meta(gt=0, le=1000, description="q = d1 / m")]
 USUAL_QUOTIENT = 10.0
 # how much larger a q is tried than one that does not do
 _WIDER = (1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 5.0, 10.0, 20.0)
+# pressure angles that are tried, deg
+_ANGLES = (45.0, 40.0, 35.0, 30.0, 25.0, 20.0, 15.0, 10.0)
 # how near to the last one that holds a value of a wheel is found, modules or part of it
 NEAR = 8e-4
 WormQuotient = Annotated[
@@ -104,6 +106,11 @@ def quotient_of(keys: Led) -> float:
 def larger_quotients(start: float, most: float = math.inf) -> list[float]:
     """Diameter quotients that are tried, larger and larger ones, ``most`` the last."""
     return [*(end for share in _WIDER if (end := start * share) < most), *([most] if most < math.inf else [])]
+
+
+def smaller_angles(start: float) -> list[float]:
+    """Pressure angles that are tried, smaller and smaller ones, deg."""
+    return [angle for angle in _ANGLES if angle < start]
 
 
 def wider(

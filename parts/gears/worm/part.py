@@ -34,6 +34,7 @@ from parts.keys.worm import (
     in_degrees,
     larger_quotients,
     quotient_of,
+    smaller_angles,
     worm_of,
 )  # fmt: skip
 
@@ -48,12 +49,11 @@ if TYPE_CHECKING:
 _MOST = 100_000.0
 # addenda that are tried first: lower ones leave a rounding no room, of higher ones grinding wheels leave no foot
 _LOWER = (1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.05, 0.02)
-# keys of which less may do, and parts of theirs that are tried; flatter flanks are, degrees
+# keys of which less may do, and parts of theirs that are tried
 _LESSENED, _LESS = (
     ("tip_rounding", "axial_thinning", "fillet_coefficient", "tip_clearance_coefficient"),
     (0.9, 0.75, 0.5, 0.25, 0.1, 0.0),
 )
-_ANGLES = (45.0, 40.0, 35.0, 30.0, 25.0, 20.0, 15.0, 10.0)
 # of the ends of a thread, degrees
 _USUAL_ANGLES = {"end_angle_deg": 20.0, "run_out_deg": 90.0}
 
@@ -186,7 +186,7 @@ def _values(keys: WormSpec) -> dict[str, Sequence[float]]:
         **lessened,
         "addendum_coefficient": [value for value in _LOWER if value < keys.addendum_coefficient],
         "diameter_quotient": larger_quotients(quotient_of(keys)),
-        "pressure_angle_deg": [angle for angle in _ANGLES if angle < keys.pressure_angle_deg],
+        "pressure_angle_deg": smaller_angles(keys.pressure_angle_deg),
         "number_of_starts": range(keys.number_of_starts - 1, 0, -1),
     }
 

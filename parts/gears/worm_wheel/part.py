@@ -36,6 +36,7 @@ from parts.keys.worm import (
     WormHand,
     hob_quotient,
     larger_quotients,
+    smaller_angles,
     wider,
     worm_of,
 )  # fmt: skip
@@ -59,6 +60,8 @@ _SEEN = 33
 _USEFUL, _TIP = 0.25, 0.02
 # addenda that are tried, and that leave next to nothing, modules
 _ADDENDA, _LOW = (0.8, 0.6, 0.4, 0.2, 0.1), (0.05, 0.02)
+# parts of a shift that are tried
+_LESS_SHIFT = (0.75, 0.5, 0.25, 0.0)
 # keys in whose refusals others may take the teeth away as well
 _TEETH = (
     "addendum_coefficient",
@@ -271,8 +274,9 @@ def _suspects(
     yield _of_use, "diameter_quotient", larger_quotients(quotient, larger if larger > quotient else math.inf)
     yield _stands, "number_of_starts", range(keys.number_of_starts - 1, 0, -1)
     yield _stands, "addendum_coefficient", (*_ADDENDA, *_LOW)
-    if keys.profile_shift_coefficient:
-        yield _stands, "profile_shift_coefficient", (0.0,)
+    if shift := keys.profile_shift_coefficient:
+        yield _stands, "profile_shift_coefficient", [share * shift for share in _LESS_SHIFT]
+    yield _stands, "pressure_angle_deg", smaller_angles(keys.pressure_angle_deg)
 
 
 def _cured(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:

@@ -252,6 +252,10 @@ def test_what_no_addendum_cures_is_told_in_the_key_that_does(
         # before: no value, since only some between those that were tried leave teeth
         ({"module": 0.993, "diameter_quotient": 38.799, "number_of_teeth": 12, "profile_shift_coefficient": 1.6,
           "hob_diameter_quotient": 41.568, "addendum_coefficient": 1.468}, "addendum_coefficient"),
+        # before: no value, since neither that shift nor none leaves teeth
+        ({"module": 12.915, "number_of_starts": 6, "diameter_quotient": 11.226, "form": "ZA", "number_of_teeth": 8,
+          "profile_shift_coefficient": -1.467, "axial_thinning": 6.983, "hob_diameter_quotient": 13.149},
+         "profile_shift_coefficient"),
     ],
 )  # fmt: skip
 def test_beyond_what_is_offered_nothing_is_made(keys: dict[str, Any], key: str) -> None:
