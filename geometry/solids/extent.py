@@ -21,8 +21,9 @@ from geometry.solids.unrolled import Side, unrolled
 _SAMPLES, _SPAN = 17, 4
 # what a peak may stand above its sample, of the second differences; what is too little to be looked for, of the size
 _ABOVE, _ALIKE = 0.2, 1e-9
-# how often the places about a peak are narrowed, to what part, and how many are tried each way
-_ROUNDS, _NARROWED, _TRIED = 10, 0.25, 9
+# how often the places about a peak are tried at most, to what part they are narrowed, and down to what part of the
+# samples' steps; how many are tried each way
+_ROUNDS, _NARROWED, _SETTLED, _TRIED = 60, 0.5, 1e-6, 9
 
 Places = Callable[[Real, Real], Real]
 Held = Callable[[Real, Real], NDArray[np.bool_]]
@@ -56,7 +57,7 @@ def extent(solid: Solid) -> Extent:
         elif isinstance(faces.surface, Torus | Sphere):
             pieces += _bent(solid, faces, best)
     slack = _ALIKE * float(np.abs(best).max())
-    seen: set[tuple[int, float, float]] = set()
+    seen: set[tuple[int, bytes]] = set()
     for piece in pieces:
         _raise(best, piece, slack, seen)
     return Extent(-best[3:6], best[:3], float(best[6]))
@@ -184,30 +185,69 @@ def _within(sides: list[Side], u: Real, v: Real) -> NDArray[np.bool_]:
     return below % 2 == 1
 
 
-def _raise(best: Real, piece: _Piece, slack: float, seen: set[tuple[int, float, float]]) -> None:
-    """Raises the best (7,) to the peaks about a piece's greatest samples; copies of what was ``seen`` have the same."""
+def _raise(best: Real, piece: _Piece, slack: float, seen: set[tuple[int, bytes]]) -> None:
+    """Raises the best (7,) to a piece's peaks; copies of what was ``seen`` have the same."""
     shape, most = piece.measured.shape[:2], _most(piece.measured)
     on: NDArray[np.bool_] | None = None
     for k in np.flatnonzero(most > best + slack).tolist():
         own = piece.measured[..., k]
-        key = (k, round(float(own.max()), 9), round(float(most[k]), 9))
+        key = k, np.round(own, 9).tobytes()
         if key in seen:
             continue
         seen.add(key)
+        above = float(most[k] - own.max())
         if piece.held is not None:
             if on is None:
-                on = piece.held(*(x.ravel() for x in np.meshgrid(piece.u, piece.v, indexing="ij"))).reshape(shape)
+                on = _is_held(piece, *(x.ravel() for x in np.meshgrid(piece.u, piece.v, indexing="ij"))).reshape(shape)
             own = np.where(on, own, -np.inf)
-        at = np.unravel_index(int(np.argmax(own)), shape)
-        middle = [piece.u[at[0]], piece.v[at[1]]]
-        half = [float(np.diff(x).max(initial=0.0)) for x in (piece.u, piece.v)]
-        for _ in range(_ROUNDS):
-            tried = [
-                np.clip(m + h * np.linspace(-1, 1, _TRIED if h else 1), x[0], x[-1])
-                for m, h, x in zip(middle, half, (piece.u, piece.v), strict=True)
-            ]
-            found = _measures(piece.place(tried[0], tried[1]))[..., k]
-            row, column = np.unravel_index(int(np.argmax(found)), found.shape)
-            middle, half = [tried[0][row], tried[1][column]], [h * _NARROWED for h in half]
-        if piece.held is None or piece.held(np.array(middle[:1]), np.array(middle[1:]))[0]:
-            best[k] = max(best[k], float(found.max()))
+        for row, column in _summits(own):
+            if own[row, column] + above > best[k] + slack:
+                best[k] = max(best[k], _peak(piece, k, row, column))
+
+
+def _summits(values: Real) -> list[tuple[int, int]]:
+    """Places (u, v) that none of their neighbours is above, the highest first.
+
+    Of equally high ones the first and the last: what goes once round has its ends in one place.
+    """
+    wide = np.pad(values, 1, constant_values=-np.inf)
+    rows, columns = values.shape
+    around = [wide[i : i + rows, j : j + columns] for i in range(3) for j in range(3)]
+    found: dict[float, list[tuple[int, int]]] = {}
+    for row, column in np.argwhere((values >= np.max(around, axis=0)) & np.isfinite(values)).tolist():
+        found.setdefault(round(float(values[row, column]), 9), []).append((row, column))
+    return [
+        place
+        for height in sorted(found, reverse=True)
+        for place in dict.fromkeys((found[height][0], found[height][-1]))
+    ]
+
+
+def _peak(piece: _Piece, k: int, row: int, column: int) -> float:
+    """The greatest of one measure about a sample; -inf where its place is not on the piece."""
+    ways = piece.u, piece.v
+    middle = [float(piece.u[row]), float(piece.v[column])]
+    half = [float(np.diff(x).max(initial=0.0)) for x in ways]
+    settled = [h * _SETTLED for h in half]
+    for _ in range(_ROUNDS):
+        tried = [
+            np.clip(m + h * np.linspace(-1, 1, _TRIED if h else 1), x[0], x[-1])
+            for m, h, x in zip(middle, half, ways, strict=True)
+        ]
+        found = _measures(piece.place(tried[0], tried[1]))[..., k]
+        at = np.unravel_index(int(np.argmax(found)), found.shape)
+        middle = [float(x[i]) for x, i in zip(tried, at, strict=True)]
+        # a ridge that runs aslant leads out of what was tried: it is followed before this is narrowed
+        inside = all(0 < i < len(x) - 1 or x[i] in (way[0], way[-1]) for x, i, way in zip(tried, at, ways, strict=True))
+        if inside and all(h <= s for h, s in zip(half, settled, strict=True)):
+            break
+        half = [h * _NARROWED for h in half] if inside else half
+    return float(found.max()) if _is_held(piece, np.array(middle[:1]), np.array(middle[1:]))[0] else -np.inf
+
+
+def _is_held(piece: _Piece, u: Real, v: Real) -> NDArray[np.bool_]:
+    """Whether places (n,) are on a piece: those at an end are looked at beside it, where digits do not decide."""
+    if piece.held is None:
+        return np.ones(len(u), dtype=bool)
+    ends = [(float(x[0]), float(x[-1]), _ALIKE * float(x[-1] - x[0])) for x in (piece.u, piece.v)]
+    return piece.held(*(np.clip(x, a + step, b - step) for x, (a, b, step) in zip((u, v), ends, strict=True)))
