@@ -22,9 +22,13 @@ MAY_IMPORT = {"geometry": {"geometry"}, "parts": {"geometry", "parts"}, "exporte
 NOT_IN_GEOMETRY = {"os", "pathlib", "io", "sys", "shutil", "tempfile", "json", "tomllib", "ezdxf", "shapely", "msgspec",
                    "rich", "argparse", "trimesh", "manifold3d", "cadquery", "OCP", "lib3mf", "scipy"}  # fmt: skip
 HEAVY = {"ezdxf", "shapely", "rich", "trimesh", "manifold3d", "cadquery", "OCP", "lib3mf", "scipy", "matplotlib",
-         "distributed", "fpdf"}  # fmt: skip
+         "distributed", "fpdf", "mpmath"}  # fmt: skip
 # a writer is itself imported only where its format is written
-HEAVY_AT_TOP = {"exporters/formats/dxf_file.py": {"ezdxf"}, "exporters/formats/drawing_dxf.py": {"ezdxf"}}
+HEAVY_AT_TOP = {
+    "exporters/formats/dxf_file.py": {"ezdxf"},
+    "exporters/formats/drawing_dxf.py": {"ezdxf"},
+    "exporters/production/atlas.py": {"mpmath"},
+}
 # nothing else may be needed to install and run
 LIGHT = {"numpy", "msgspec"}
 # what every record is made of; a dataclass costs fifty times as much when it is imported

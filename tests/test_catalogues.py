@@ -68,7 +68,7 @@ TYPED = {
         "linear",
         "pair",
     ),
-    *("planetary", "purpose", "steel", "text", "toml", "true", "value", "verify"),
+    *("planetary", "purpose", "steel", "stress", "text", "toml", "true", "value", "verify"),
 }
 # one term for one thing: the word of the catalogue, and what is not said in its place
 TERMS_OF = {

@@ -40,7 +40,7 @@ def test_what_is_missing_is_installed_in_the_readme_s_words() -> None:
     for room in ("parts", "exporters"):
         for file in (ROOT / room).rglob("*.py"):
             told += re.findall(r"pip install (\S+\])", file.read_text("utf-8"))
-    assert {word.lstrip("\"'\\") for word in told} == {".[pdf]", ".[cad]", ".[cluster]"}
+    assert {word.lstrip("\"'\\") for word in told} == {".[pdf]", ".[cad]", ".[cluster]", ".[stress]"}
 
 
 PAGES = {name: (ROOT / name).read_text("utf-8") for name in ("README.md", "CONTRIBUTING.md", "CONVENTIONS.md")}

@@ -219,7 +219,8 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         epilog=told.text("examples:") + _EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("-V", "--version", action="version", version=f"higherpair {__version__}")
+    version = told.text("show program's version number and exit")
+    parser.add_argument("-V", "--version", action="version", version=f"higherpair {__version__}", help=version)
     commands = parser.add_subparsers(
         prog="higherpair", required=True, metavar=told.term("command line", "COMMAND"), parser_class=Parser
     )
@@ -303,6 +304,11 @@ def _parser(told: Words) -> argparse.ArgumentParser:
     converge.add_argument("--part", action="append", default=[], metavar=one, help=told.text("only this part"))
     converge.add_argument("--format", action="append", default=[], metavar="F", help=told.text("only this format"))
     converge.set_defaults(run=_converge)
+    stress = command("stress", told.text("measure how many digits stiff and extreme cases leave"), as_json, quiet)
+    stress.add_argument(
+        "--out", default="out", type=Path, help=told.text("write the results to OUT/stress (default: out)")
+    )
+    stress.set_defaults(run=_stress)
     listing = command("list", told.text("list kinds of parts and built-in scenes"), as_json)
     listing.set_defaults(run=_list)
     calc = command("calc", told.text("print a textbook calculation, step by step"), page)
@@ -578,6 +584,26 @@ def _converge(options: argparse.Namespace) -> int:
             move_into(folder, staging, names)
     converge_tables(rungs, found, [folder / name for name in names], told)
     return FAILED if any(r.measured > r.max_error for r in rungs) else DONE
+
+
+def _stress(options: argparse.Namespace) -> int:
+    from exporters.command.tables import stress_table
+    from exporters.production.moving import alone_in, move_into, staging_folder
+    from exporters.production.stress import atlas, write_stress
+
+    _check_language(options)
+    told, folder = words(_language(options)), options.out / "stress"
+    rows = atlas()
+    with staging_folder(folder) as staging:
+        names = write_stress(staging, rows, told)
+        with alone_in(folder):
+            move_into(folder, staging, names)
+    lost = not all(row.is_stable for row in rows)
+    if options.json:
+        _print_json([""], [{"rows": [row.told for row in rows]}])
+    elif lost or not options.quiet:
+        stress_table(rows, [folder / name for name in names], told)
+    return FAILED if lost else DONE
 
 
 def _list(options: argparse.Namespace) -> int:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from exporters.production.build import Built
     from exporters.production.converge import Order, Rung
     from exporters.production.recheck import Recheck
+    from exporters.production.stress import Row
 
 
 def build_table(plan: Plan, folder: Path, built: Built) -> None:
@@ -172,6 +173,35 @@ def converge_tables(rungs: list[Rung], found: list[Order], files: list[Path], to
         for o in found
     ]
     _show(told.text("orders of convergence"), header, rows, [str(file) for file in files])
+
+
+def stress_table(rows: list[Row], files: list[Path], told: Words) -> None:
+    """Every case from its easiest to its stiffest: condition numbers, errors, and what rounding allows."""
+    header = [
+        told.text("case"),
+        told.text("from"),
+        told.text("to"),
+        told.text("condition"),
+        told.text("relative error"),
+        told.text("of what is allowed"),
+        told.text("verdict"),
+    ]
+    shown = []
+    for case in dict.fromkeys(r.case for r in rows):
+        own = [r for r in rows if r.case == case]
+        stable = all(r.is_stable for r in own)
+        shown.append(
+            [
+                f"{told.text(case)}: {told.text(own[0].varied)}",
+                f"{own[0].value:g}",
+                f"{own[-1].value:g}",
+                f"{max(r.condition for r in own):.2g}",
+                f"{max(r.relative for r in own):.2g}",
+                f"{max(r.error / r.allowed for r in own):.2g}",
+                told.text("stable") if stable else told.text("UNSTABLE"),
+            ]
+        )
+    _show(told.text("stiff and extreme cases against 50 digits"), header, shown, [str(file) for file in files])
 
 
 def _show(title: str, header: Sequence[str], rows: list[list[str]], remarks: list[str]) -> None:

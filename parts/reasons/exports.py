@@ -32,6 +32,7 @@ REASONS = {
     ),
     "mate_of_no_gears": N_("is a {kind} mate; name a pair of gears"),
     "needs_kernel": N_('needs the CAD kernel: pip install ".[cad]" in the folder of higherpair'),
+    "needs_mpmath": N_('needs what computes with 50 digits: pip install ".[stress]" in the folder of higherpair'),
     "needs_pdf": N_('needs what writes PDF: pip install ".[pdf]" in the folder of higherpair'),
     "no_exports": N_(
         'the scene has no exports; add [[exports]] with format = "dxf" (or svg, stl, 3mf, step), or use --format'
