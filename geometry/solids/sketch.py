@@ -155,7 +155,7 @@ class Sketch(Record):
         """The same, turned over about x."""
 
         def over(rings: Sequence[Ring]) -> tuple[Ring, ...]:
-            return tuple(replace(ring, curves=tuple(c.mirrored() for c in ring.curves)) for ring in rings)
+            return tuple(replace(ring, curves=tuple(c.mirrored() for c in reversed(ring.curves))) for ring in rings)
 
         layers = []
         for k in reversed(self.layers):

@@ -308,9 +308,9 @@ def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles) -> Non
         _between("web.rim_diameter", web.rim_diameter, (outer, "holes"), (math.inf, ""))
     _check_heights(shape)
     if not _leaves_faces(shape, root_diameter / 2, holes, 0.0, 0.0):
-        key = "holes" if holes.round_holes else "spokes" if holes.spokes else "hub.diameter" if hub else "bore_diameter"
-        given = hub.diameter if key == "hub.diameter" and hub is not None else None
-        raise ParameterError(key, given, "leaves_no_face_between_edges")
+        # whatever stands beside a hub or a rim was refused above
+        key = "holes" if holes.round_holes else "spokes" if holes.spokes else "bore_diameter"
+        raise ParameterError(key, None, "leaves_no_face_between_edges")
 
 
 def _check_faces(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from geometry.base.errors import ParameterError
 from geometry.solids.bores import KeywayBore
-from geometry.solids.keyways import KEYWAY_TABLES, KeywayRow, keyway_row
+from geometry.solids.keyways import KEYWAY_TABLES, KeywayRow, depth_deviation, keyway_row
 from tests.brute import works
 from tests.geometry.solids.test_bores import outline
 
@@ -51,3 +51,20 @@ def test_every_row_makes_a_bore(row: KeywayRow) -> None:
         # across bore and keyway, as the hub is gauged: d + t2
         points = outline(bore.profile())
         assert np.ptp(points.real) == pytest.approx(diameter + row.hub_depth, rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("to", "wanted"),
+    [(row.to, 0.1 if row.to <= 22 else 0.2 if row.to <= 130 else 0.3) for row in KEYWAY_TABLES["DIN 6885"]],
+)
+def test_deviations_of_depths_are_those_of_gb_t_1563(to: float, wanted: float) -> None:
+    """+0.1 up to 22 mm, +0.2 up to 130 mm, +0.3 beyond, of keyways as they are in the table alone."""
+    row = next(row for row in KEYWAY_TABLES["DIN 6885"] if row.to == to)
+    for in_shaft, depth in ((True, row.shaft_depth), (False, row.hub_depth)):
+        for diameter in (row.over, (row.over + row.to) / 2, row.to):
+            assert depth_deviation(diameter, row.width, depth, in_shaft=in_shaft) == wanted
+        assert depth_deviation(row.to, row.width, depth + 1e-6, in_shaft=in_shaft) is None
+        assert depth_deviation(row.to + 0.01, row.width, depth, in_shaft=in_shaft) is None
+        assert depth_deviation(row.over - 0.01, row.width, depth, in_shaft=in_shaft) is None
+        assert depth_deviation(row.to, row.width + 0.5, depth, in_shaft=in_shaft) is None
+    assert depth_deviation(row.to, row.width, row.shaft_depth, in_shaft=False) is None

@@ -1,5 +1,6 @@
 """Outlines of lines and arcs, moved: against GEOS' buffers of fine polygons."""
 
+import cmath
 import itertools
 import math
 
@@ -10,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geometry.base.errors import GeometryError, OffsetError, ParameterError
+from geometry.base.record import replace
 from geometry.cams.contact.outlines import (
     flat_arm,
     mushroom_arm,
@@ -20,10 +22,10 @@ from geometry.cams.contact.outlines import (
     round_arm,
 )
 from geometry.curves.curve import end_point, start_point
-from geometry.curves.line_arc import Line
+from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import profile_area
-from geometry.plane.profile import Region
-from geometry.solids.plate import Edge, PlateHole, PlateOutline, PlateSlot, moved_edges, rounded
+from geometry.plane.profile import Label, Profile, Region, Segment
+from geometry.solids.plate import Edge, PlateHole, PlateOutline, PlateSlot, belt, moved_edges, rounded
 from tests.sampling import examples
 
 SHAPES = {
@@ -122,3 +124,118 @@ def test_holes_that_meet_something_are_refused(hole: PlateHole | PlateSlot) -> N
 def test_roundings_without_room_are_refused() -> None:
     with pytest.raises(GeometryError, match="roundings"):
         rounded([(0j, 3.0), (4 + 0j, 3.0), (4 + 4j, 3.0), (4j, 3.0)])
+
+
+def common(r: float, s: float, distance: float) -> float:
+    """What two circles have in common."""
+    a, b = (math.acos((distance**2 + p * p - q * q) / (2 * distance * p)) for p, q in ((r, s), (s, r)))
+    return r * r * (a - math.sin(2 * a) / 2) + s * s * (b - math.sin(2 * b) / 2)
+
+
+def two_circles(r: float, s: float, distance: float, turn: complex, *, both: bool) -> tuple[Edge, ...]:
+    """What two circles cover together, or what ``both`` do; the first about the origin, the second along ``turn``."""
+    a, b = (math.acos((distance**2 + p * p - q * q) / (2 * distance * p)) for p, q in ((r, s), (s, r)))
+    angle = cmath.phase(turn)
+    if both:
+        return Arc(0j, r, angle - a, 2 * a), Arc(distance * turn, s, angle + math.pi - b, 2 * b)
+    whole = 2 * math.pi
+    return Arc(0j, r, angle + a, whole - 2 * a), Arc(distance * turn, s, angle - math.pi + b, whole - 2 * b)
+
+
+@pytest.mark.parametrize("turn", [1 + 0j, cmath.exp(2.3j)])
+def test_arcs_that_are_cut_where_they_cross(turn: complex) -> None:
+    """A lens is drawn in by 1 to the lens of circles smaller by 1, two disks grow to disks that are larger by it."""
+    r, s, distance = 10.0, 7.0, 12.0
+    lens = two_circles(r, s, distance, turn, both=True)
+    assert sum_of(moved_edges(lens, 0.0)) == pytest.approx(common(r, s, distance), rel=1e-12)
+    assert sum_of(moved_edges(lens, -1.0)) == pytest.approx(common(r - 1, s - 1, distance), rel=1e-12)
+    # Steiner outwards
+    length = sum(abs(e.sweep) * e.radius for e in lens if isinstance(e, Arc))
+    assert sum_of(moved_edges(lens, 1.5)) == pytest.approx(
+        common(r, s, distance) + 1.5 * length + math.pi * 2.25, rel=1e-12
+    )
+    pair = two_circles(r, s, distance, turn, both=False)
+    for offset in (1.0, 0.25):
+        grown = math.pi * ((r + offset) ** 2 + (s + offset) ** 2) - common(r + offset, s + offset, distance)
+        assert sum_of(moved_edges(pair, offset)) == pytest.approx(grown, rel=1e-12)
+    # circles that are apart when smaller leave no lens
+    with pytest.raises(GeometryError):
+        moved_edges(lens, -2.6)
+    assert sum_of(moved_edges(lens, -2.4)) == pytest.approx(common(r - 2.4, s - 2.4, distance), rel=1e-9)
+
+
+def sum_of(edges: tuple[Edge, ...]) -> float:
+    return profile_area(Profile(tuple(Segment(e, Label.BODY) for e in edges)))
+
+
+def way(edge: Edge) -> float:
+    return abs(edge.end - edge.start) if isinstance(edge, Line) else abs(edge.sweep) * edge.radius
+
+
+def test_belts_are_hulls_of_two_circles() -> None:
+    """Area and length: two tangents, arcs of pi plus and less twice the lean; a belt that is moved is a larger one."""
+    for one, small, two, large in ((1 + 2j, 3.0, 9 - 4j, 5.0), (0j, 5.0, 8 + 0j, 2.0), (2j, 4.0, -7 + 1j, 4.0)):
+        apart = abs(two - one)
+        lean = math.asin((small - large) / apart)
+        side = math.sqrt(apart**2 - (large - small) ** 2)
+        edges = belt((one, small), (two, large))
+        length = 2 * side + small * (math.pi + 2 * lean) + large * (math.pi - 2 * lean)
+        assert sum(map(way, edges)) == pytest.approx(length)
+        area = side * (small + large) + (small**2 * (math.pi + 2 * lean) + large**2 * (math.pi - 2 * lean)) / 2
+        assert sum_of(edges) == pytest.approx(area, rel=1e-12)
+        for offset in (1.0, -0.5):
+            assert sum_of(moved_edges(edges, offset)) == pytest.approx(area + offset * length + math.pi * offset**2)
+        for a, b in itertools.pairwise((*edges, edges[0])):
+            assert end_point(a) == pytest.approx(start_point(b))
+    with pytest.raises(GeometryError, match="end_within_the_other"):
+        belt((0j, 5.0), (3 + 0j, 2.0))
+    belt((0j, 5.0), (3.001 + 0j, 2.0))
+
+
+def test_corners_are_rounded_where_they_turn_either_way() -> None:
+    """An L: five convex corners and a hollow one; each rounding takes or leaves (1 - pi / 4) r^2."""
+    corners = [(0j, 1.0), (6 + 0j, 0.5), (6 + 2j, 0.0), (2 + 2j, 1.5), (2 + 5j, 1.0), (5j, 1e-12)]
+    edges = rounded(corners)
+    quarter = 1 - math.pi / 4
+    area = 6 * 2 + 2 * 3 - quarter * (1 + 0.25 + 1) + quarter * 2.25
+    assert sum_of(edges) == pytest.approx(area, rel=1e-12)
+    # two corners are left sharp, and edges that roundings use up are none
+    assert sum(isinstance(e, Arc) for e in edges) == 4
+    assert all(e.radius in (0.5, 1.0, 1.5) for e in edges if isinstance(e, Arc))
+    whole = rounded([(0j, 2.0), (4 + 0j, 2.0), (4 + 4j, 2.0), (4j, 2.0)])
+    assert len(whole) == 4
+    assert sum_of(whole) == pytest.approx(4 * math.pi, rel=1e-12)
+    obtuse = rounded([(0j, 0.0), (10 + 0j, 0.0), (13 + 4j, 1.0), (3 + 4j, 0.0)])
+    # a corner of the angle t is cut off by r^2 (cot(t / 2) - (pi - t) / 2)
+    turn = math.pi - math.atan2(4, 3)
+    for edges_, angle in (
+        (obtuse, math.atan2(4, 3)),
+        (rounded([(0j, 0.0), (10 + 0j, 1.0), (13 + 4j, 0.0), (3 + 4j, 0.0)]), turn),
+    ):
+        assert sum_of(edges_) == pytest.approx(40 - (1 / math.tan(angle / 2) - (math.pi - angle) / 2), rel=1e-12)
+
+
+def test_a_hole_is_offered_as_large_as_its_place_takes() -> None:
+    """In a plate of 40 x 20: up to the edge, to another hole; a slot by its width; where nothing fits, nothing."""
+    plate = rounded([(c, 0.0) for c in (0j, 40 + 0j, 40 + 20j, 20j)])
+    first = PlateHole(10 + 10j, 6.0)
+    for hole, key, most in ((PlateHole(34 + 10j, 13.0), "diameter", 12.0), (PlateHole(17 + 10j, 9.0), "diameter", 8.0),
+                            (PlateSlot(24 + 6j, 30 + 6j, 13.0), "width", 12.0)):  # fmt: skip
+        with pytest.raises(ParameterError) as refused:
+            PlateOutline(plate, (first, hole)).check_holes(["a.diameter", f"b.{key}"])
+        assert (refused.value.name, refused.value.code) == (f"b.{key}", "hole_reaches_edge")
+        assert refused.value.value == 13.0 or refused.value.value == 9.0
+        offered = refused.value.nearest
+        assert offered is not None
+        assert float(offered.value) == pytest.approx(most, rel=1e-2)
+        assert float(offered.value) <= most
+        PlateOutline(plate, (first, replace(hole, **{key: float(offered.value)}))).check_holes(["a", "b"])
+    with pytest.raises(ParameterError) as refused:
+        PlateOutline(plate, (first, PlateHole(50 + 10j, 3.0))).check_holes(["a.diameter", "b.diameter"])
+    assert (refused.value.code, refused.value.nearest) == ("hole_lies_outside", None)
+    # holes within their limits move with the material
+    for hole, code in ((first, "hole_closed"), (PlateSlot(24 + 6j, 30 + 6j, 6.0), "slot_closed")):
+        with pytest.raises(OffsetError) as closed:
+            hole.profile(3.0)
+        assert (closed.value.code, closed.value.nearest_offset) == (code, pytest.approx(3.0, rel=2e-6))
+        assert profile_area(hole.profile(1.0)) == pytest.approx(-(4 * math.pi + (24 if code == "slot_closed" else 0)))
