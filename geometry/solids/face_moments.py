@@ -26,6 +26,8 @@ _NODES, _ACROSS, _FLAT, _PIECE = 16, 28, 4, math.pi / 4
 _RAISED, _AT_ONCE = 2.5, 200_000
 # pieces are halved until nothing changes by more than this part, and refused above the second one
 _SETTLED, _ENOUGH, _MOST = 1e-12, 1e-9, 4
+# rounding of the shares of faces that are added up: of a thin wall their sum is far smaller than they are
+_ROUNDING = 2e-14
 # a tube is far wider than what a face has of it is off the axis, by this
 _FAR = 3.0
 # integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz
@@ -40,11 +42,11 @@ def face_moments(solid: Solid) -> Moments:
     ConvergenceError
         They do not settle.
     """
-    total = _total(solid, 1)
+    total, _ = _total(solid, 1)
     for halving in range(1, _MOST + 1):
-        finer = _total(solid, 2**halving)
+        finer, shares = _total(solid, 2**halving)
         scale = np.abs(finer).max() + abs(finer[0])
-        change, total = float(np.abs(finer - total).max() / scale), finer
+        change, total = float((np.abs(finer - total).max() - _ROUNDING * shares.max()) / scale), finer
         if change <= _SETTLED:
             break
     if not change <= _ENOUGH:
@@ -52,13 +54,14 @@ def face_moments(solid: Solid) -> Moments:
     return moments_of(total)
 
 
-def _total(solid: Solid, pieces: int) -> Real:
+def _total(solid: Solid, pieces: int) -> tuple[Real, Real]:
+    """The integrals, and the sums of the sizes of what they are added up from."""
     samples = [_samples(solid, edges, pieces) for edges in solid.edges]
     bundle, row = edge_rows(solid)
-    total = np.zeros(_TERMS)
+    shares: list[Real] = []
     for faces in solid.faces:
         if isinstance(faces.surface, SplineSurface):
-            total += _patches(solid, faces.surface, along=faces.along)
+            shares.append(_patches(solid, faces.surface, along=faces.along))
             continue
         rows = len(faces.loops[0][0])
         found = None if isinstance(faces.surface, Extrusion) else charts(solid, faces.surface, rows)
@@ -68,8 +71,9 @@ def _total(solid: Solid, pieces: int) -> Real:
                 ways = np.broadcast_to(senses, edges.shape)[face].tolist()
                 own = [(samples[bundle[e]], row[e], way) for e, way in zip(edges[face].tolist(), ways, strict=True)]
                 loops.append([sample.run(at, forwards=way) for sample, at, way in own])
-            total += _ruled(loops[0]) if found is None else _charted(found[face], loops, along=faces.along)
-    return total
+            share = _ruled(loops[0]) if found is None else _charted(found[face], loops, along=faces.along)
+            shares.append(share)
+    return np.sum(shares, axis=0), np.sum(np.abs(shares), axis=0)
 
 
 class _Run(Record, eq=False):

@@ -101,6 +101,15 @@ def pappus(keys: Keys) -> float:
     return float(abs(np.sum((p.real + q.real) * (np.conj(p) * q).imag)) * math.pi / 3)
 
 
+@pytest.mark.parametrize("wall", [1e-3, 1e-5, 1e-6])
+def test_a_wall_of_nearly_nothing_has_its_volume(wall: float) -> None:
+    """Pi (R^2 - r^2) h, to the rounding of its two cylinders; before: a traceback from 1e-5 mm on."""
+    inner = 50.0 - wall
+    body = body_of(points((inner, 0.0), (50.0, 0.0), (50.0, 5.0), (inner, 5.0)))
+    expected = math.pi * (50.0 - inner) * (50.0 + inner) * 5.0
+    assert body.moments.volume == pytest.approx(expected, rel=1e-12, abs=1e-14 * math.pi * 50.0**2 * 5.0)
+
+
 @pytest.mark.parametrize("name", ["ball", "cone", "funnel", "ring", "lens", "hollow", "bow"])
 def test_volumes_by_pappus(name: str) -> None:
     assert body_of(PARTS[name]).moments.volume == pytest.approx(pappus(PARTS[name]), rel=1e-7)
