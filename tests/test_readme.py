@@ -43,7 +43,10 @@ def test_what_is_missing_is_installed_in_the_readme_s_words() -> None:
     assert {word.lstrip("\"'\\") for word in told} == {".[pdf]", ".[cad]", ".[cluster]", ".[stress]"}
 
 
-PAGES = {name: (ROOT / name).read_text("utf-8") for name in ("README.md", "CONTRIBUTING.md", "CONVENTIONS.md")}
+PAGES = {
+    name: (ROOT / name).read_text("utf-8")
+    for name in ("README.md", "README.uk.md", "CONTRIBUTING.md", "CONVENTIONS.md")
+}
 PLACES = re.compile(r"(?:geometry|parts|exporters|tests|\.ci|out)/[\w./*-]*")
 
 
@@ -79,6 +82,26 @@ def unknown(page: str) -> list[str]:
 @pytest.mark.parametrize("name", PAGES)
 def test_what_a_page_names_is_there(name: str) -> None:
     assert unknown(PAGES[name]) == []
+
+
+def test_the_ukrainian_page_says_what_the_english_one_does() -> None:
+    """Its commands stand there too, but for the language; its pictures and files are there, its kinds exist."""
+
+    def commands(page: str) -> set[str]:
+        fenced = re.findall(r"^```(\w*)\n(.*?)^```", page, re.DOTALL | re.MULTILINE)
+        blocks = "\n".join(text for form, text in fenced if not form)
+        lines = (re.sub(r" --language uk|\.venv/bin/", "", line.partition("#")[0]) for line in blocks.splitlines())
+        return {" ".join(line.split()) for line in lines if line.strip()}
+
+    ours = PAGES["README.uk.md"]
+    assert commands(ours) <= commands(README)
+    assert len(commands(ours)) > 15
+    assert set(re.findall(r"\]\((\.pictures/[\w.]+)\)", ours)) <= set(re.findall(r"\]\((\.pictures/[\w.]+)\)", README))
+    # keys of its scenes are those of the English page
+    tables = [set(re.findall(r"^(\w+) =", page, re.MULTILINE)) for page in (ours, README)]
+    assert tables[0] - tables[1] <= {"language"}
+    assert "](README.uk.md)" in README
+    assert "](README.md)" in ours
 
 
 @pytest.mark.parametrize(
