@@ -27,6 +27,9 @@ TOLERANCES = Tolerances()
 # Edges of solids lie on their faces and end at their vertices this well, mm: as well as CAD kernels tell points apart.
 PRECISION = 1e-7
 
+# |gap| up to this part of the module is contact of teeth: rounding of 1e4 teeth's coordinates and rack A's own 1.6e-9.
+CONTACT_TOLERANCE = 1e-8
+
 # Laser controllers stall on shorter moves; research on receiving programs, section 1.3.
 LEAST_SEGMENT_MM = 0.02
 

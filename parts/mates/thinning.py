@@ -7,6 +7,7 @@ from typing import Protocol
 
 from geometry.base.errors import GeometryError, Nearest, ParameterError, rounded
 from geometry.base.nearest import nearest
+from parts.base.refusal import REMOVED
 
 
 class Thinned(Protocol):
@@ -37,7 +38,8 @@ def shared_thinning(
     Raises
     ------
     ParameterError
-        ``mate.normal_backlash`` is less than there is already, or leaves no whole teeth.
+        ``mate.normal_backlash`` is less than there is already, leaves no whole teeth, or is another than that of two
+        gears which both set their thinning.
     """
     own = [gear.circumferential_thinning for gear in gears]
     free = [index for index, thinning in enumerate(own) if thinning == 0]
@@ -54,11 +56,15 @@ def shared_thinning(
             build(index, thinning)
         return True
 
-    if (backlash / share - given) / cosine - sum(own) < -1e-12 * gears[0].module:
+    missing = (backlash / share - given) / cosine - sum(own)
+    if not free:
+        # calculations print five decimals of it
+        if abs(backlash - least) > 1e-5:
+            raise ParameterError("mate.normal_backlash", backlash, "backlash_is_of_own_thinning", REMOVED, own=least)
+        return 0.0, 0.0
+    if missing < -1e-12 * gears[0].module:
         cure = Nearest(rounded(least, up=True, digits=6), "at_least")
         raise ParameterError("mate.normal_backlash", backlash, "backlash_already_more", cure)
-    if not free:
-        return 0.0, 0.0
     found = each(backlash)
     try:
         if found > 0:

@@ -8,6 +8,9 @@ REASONS = {
     "backlash_already_more": N_(
         "is less than the backlash that the gears already have by their own thinning and distance"
     ),
+    "backlash_is_of_own_thinning": N_(
+        "both gears have a circumferential_thinning of their own, by which it is {own} mm"
+    ),
     "backlash_leaves_no_teeth": N_("leaves no whole teeth"),
     "cam_has_another": N_("must be what the cam is made for"),
     "cam_wants": N_("the cam is made for a {wanted}"),

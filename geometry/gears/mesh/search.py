@@ -22,6 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geometry.base.record import Record
+from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.far_teeth import Measured, promising_places
 from geometry.gears.mesh.least_gap import Copies, Gaps, LeastGap
@@ -31,8 +32,6 @@ from geometry.gears.teeth.tooth import ToothSide
 from geometry.plane.distance import Boundary, Flags, Indices, Verdict, folded, least_in_brackets
 from geometry.plane.profile import Label, Segment
 
-# |gap| up to this part of the module is contact: rounding of 1e4 teeth's coordinates and rack A's own 1.6e-9
-CONTACT_TOLERANCE = 1e-8
 # drive angles in a pitch; positions of a corner on its way through the mesh
 _DRIVE_ANGLES, _CORNER_POSITIONS = 24, 49
 # corners that pass farther away than this, in modules, set no drive angle of interest

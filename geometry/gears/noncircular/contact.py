@@ -12,8 +12,9 @@ import math
 import numpy as np
 
 from geometry.base.record import Record
+from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
-from geometry.gears.mesh.search import CONTACT_TOLERANCE, ContactPlace, PairContact
+from geometry.gears.mesh.search import ContactPlace, PairContact
 from geometry.gears.noncircular.pair import NoncircularPair
 from geometry.gears.noncircular.table import CurveTable
 from geometry.plane.distance import Flags, Indices, Verdict, least_in_brackets, promising

@@ -1,4 +1,4 @@
-"""Backlash asked for: from a GOST 1643 class of side clearance, and the thinning that gives it.
+"""Backlash asked for: from a GOST 1643 class of side clearance, or along the working circle.
 
 Lengths in mm. Angles in rad.
 """
@@ -40,14 +40,6 @@ def guaranteed_normal_backlash(side_clearance_class: str, working_centre_distanc
         most = _DISTANCES[-1]
         raise ParameterError("side_clearance_class", side_clearance_class, "classes_end_at_distance", distance=most)
     return _CLEARANCES[side_clearance_class][index] / 1000
-
-
-def thinning_for(normal_backlash: float, pressure_angle: float) -> float:
-    """Thinning of both gears together at the distance of (3.4), mm: A_1 + A_2 = j_bn / cos(alpha).
-
-    For helical gears both are transverse: j_bt = j_bn / cos(beta_b) goes in.
-    """
-    return normal_backlash / math.cos(pressure_angle)
 
 
 def normal_from_circumferential(circumferential_backlash: float, working_pressure_angle: float) -> float:

@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 
 from geometry.base.errors import rounded
 from geometry.base.record import Record, replace
+from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
-from geometry.gears.mesh.search import CONTACT_TOLERANCE, ContactPlace, PairContact
+from geometry.gears.mesh.search import ContactPlace, PairContact
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.thread import Thread
 from geometry.gears.worms.wheel import Side, WormTeeth

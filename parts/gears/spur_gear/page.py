@@ -99,13 +99,15 @@ def given_data(page: Sheet, normal: SpurGear, gear: SpurGear, helix: float, inde
     page.add("number_of_teeth", gear.number_of_teeth, gear=index)
     shift_data(page, normal.profile_shift_coefficient, helix, index)
     page.add("addendum_coefficient", rack.addendum, gear=index)
-    page.add("tip_clearance_coefficient", rack.tip_clearance, gear=index)
-    page.add("tip_radius_coefficient", rack.tip_radius, gear=index)
+    if normal.cutter is None:
+        page.add("tip_clearance_coefficient", rack.tip_clearance, gear=index)
+        page.add("tip_radius_coefficient", rack.tip_radius, gear=index)
+    else:
+        # of the rack only the addendum is left
+        cutter_data(page, normal.cutter, index)
     if rack.relief is not None:
         page.add("relief_depth_coefficient", rack.relief.depth, gear=index)
         page.add("relief_height_coefficient", rack.relief.height, gear=index)
-    if normal.cutter is not None:
-        cutter_data(page, normal.cutter, index)
     if gear.circumferential_thinning:
         page.add("circumferential_thinning", gear.circumferential_thinning, gear=index)
         if gear.thinning_by_deeper_cut:
@@ -127,10 +129,23 @@ def addendum_formula(shortening: str = "") -> str:
     return f"({{h_a#}} + {{x_n#}}{shortening}) * {{m_n}}"
 
 
+def generating_shift(gear: SpurGear) -> str:
+    """The shift that the root follows, as a placeholder."""
+    return "{x_E#}" if gear.circumferential_thinning and gear.thinning_by_deeper_cut else "{x_n#}"
+
+
 def dedendum_formula(gear: SpurGear) -> str:
-    """The same for h_f - x m, with the shift that the root follows."""
-    deeper = gear.circumferential_thinning and gear.thinning_by_deeper_cut
-    return f"({{h_a#}} + {{c#}} - {'{x_E#}' if deeper else '{x_n#}'}) * {{m_n}}"
+    """h_f - x m of a root that a rack cuts, over placeholders."""
+    return f"({{h_a#}} + {{c#}} - {generating_shift(gear)}) * {{m_n}}"
+
+
+def root_radius_step(page: Sheet, gear: SpurGear, index: int) -> None:
+    """r_f of one gear of a pair; one that a pinion cutter makes has its formula on the page of the gear."""
+    if gear.cutter is None:
+        source = f"practicum (3.{12 + index})"
+        page.add("root_radius", gear.root_radius, f"{{r#}} - {dedendum_formula(gear)}", source, index)
+    else:
+        page.add("root_radius", gear.root_radius, "", "ISO 21771", index)
 
 
 def thickness_formula(gear: SpurGear) -> str:
@@ -148,8 +163,17 @@ def dimensions(page: Sheet, gear: SpurGear, helix: float) -> None:
     page.add("base_diameter", 2 * gear.base_radius, "{d} * cos({alpha})", "practicum, table 1.1")
     formula = "" if gear.given_tip_diameter is not None else f"{{d}} + 2 * {addendum_formula()}"
     page.add("tip_diameter", 2 * gear.tip_radius, formula, "practicum (3.11)" if formula else "")
-    formula = f"{{d}} - 2 * {dedendum_formula(gear)}"
-    page.add("root_diameter", 2 * gear.root_radius, formula, "practicum (3.13)")
+    if gear.cutter is None:
+        formula = f"{{d}} - 2 * {dedendum_formula(gear)}"
+        page.add("root_diameter", 2 * gear.root_radius, formula, "practicum (3.13)")
+    else:
+        total = f"{generating_shift(gear)} + {{x_0}}"
+        formula = f"arcinv(inv({{alpha}}) + 2 * ({total}) * tan({{alpha_n}}) / ({{z}} + {{z_0}}))"
+        page.add("generating_angle_deg", math.degrees(gear.generating_angle), formula, "ISO 21771")
+        formula = "({z} + {z_0}) * {m} * cos({alpha}) / (2 * cos({alpha_w0}))"
+        page.add("generating_distance", gear.generating_distance, formula, "ISO 21771")
+        formula = "2 * {a_w0} - {m} * {z_0} - 2 * ({h_a0} + {x_0}) * {m_n}"
+        page.add("root_diameter", 2 * gear.root_radius, formula, "ISO 21771")
     page.add("root_form_diameter", limits.root_form_diameter(gear), "", "ISO 21771")
 
 
@@ -179,11 +203,13 @@ def _thicknesses(page: Sheet, gear: SpurGear, diameter: float | None) -> None:
 
 def _limits(page: Sheet, gear: SpurGear, helix: float) -> None:
     page.section(N_("Undercut and pointed tip"))
-    sine = math.sin(gear.pressure_angle) ** 2
-    height = "({h_a} + {c} - {rho_f} * (1 - sin({alpha})))" if not helix else ""
-    formula = f"2 * {height} / sin({{alpha}})**2" if height else ""
-    page.add("least_number_of_teeth", 2 * gear.rack.form_dedendum / sine, formula, "ISO 21771")
-    if not helix:
+    rack = gear.cutter is None
+    height = "({h_a} + {c} - {rho_f} * (1 - sin({alpha})))" if rack and not helix else ""
+    if rack:
+        sine = math.sin(gear.pressure_angle) ** 2
+        formula = f"2 * {height} / sin({{alpha}})**2" if height else ""
+        page.add("least_number_of_teeth", 2 * gear.rack.form_dedendum / sine, formula, "ISO 21771")
+    if rack and not helix:
         rule = limits.practicum_undercut(gear).limit
         page.add("least_shift_practicum", rule, "(17 - {z}) / 17", "practicum (1.2)")
     formula = f"{height} - {{z}} * sin({{alpha}})**2 / 2" if height else ""

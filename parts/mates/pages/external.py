@@ -8,26 +8,27 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
-from geometry.base.errors import Nearest, ParameterError, rounded
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record, replace
 from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.pairs.external import ExternalPair, external_pair
-from geometry.gears.pairs.side_clearance import guaranteed_normal_backlash, normal_from_circumferential, thinning_for
+from geometry.gears.pairs.side_clearance import guaranteed_normal_backlash, normal_from_circumferential
 from geometry.gears.shifts.choice import shifts_for_distance
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.helix import Helix
 from geometry.gears.teeth.spur import SpurGear
-from geometry.gears.teeth.transverse import base_helix_angle, transverse_gear
+from geometry.gears.teeth.transverse import normal_share, transverse_gear
 from parts.base.refusal import REMOVED, SceneError, meant
 from parts.base.texts import N_, in_context
 from parts.gears.ring_gear.part import RingGearSpec
-from parts.gears.spur_gear.page import addendum_formula, dedendum_formula, given_data, thickness_formula
+from parts.gears.spur_gear.page import addendum_formula, given_data, root_radius_step, thickness_formula
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, section_of
 from parts.keys.base import in_modules, mm
 from parts.keys.helix import helix_of, in_keys, same_helix
 from parts.mates.pages.internal import InternalKeys, RackKeys, internal_sheet, rack_sheet
 from parts.mates.pages.pair_keys import GEARS, merged, pair_table
 from parts.mates.pages.wishes import wish_refused
+from parts.mates.thinning import shared_thinning
 from parts.pages.contact_steps import (
     Helical,
     backlash_steps,
@@ -189,28 +190,27 @@ def _thinned(keys: PairKeys, normal: tuple[SpurGear, SpurGear], helix: float) ->
         raise ParameterError(asked[0], getattr(keys, asked[0]), "other_is_given", REMOVED, other=asked[1])
     gears = [replace(transverse_gear(g, helix), circumferential_thinning=0.0) for g in normal]
     bare = external_pair(gears[0], gears[1], keys.working_centre_distance if _has_distance(keys, gears) else None)
-    cosine = math.cos(base_helix_angle(gears[0].rack.pressure_angle, helix))
+    alpha = gears[0].rack.pressure_angle
+    share = normal_share(alpha, helix)
     if keys.normal_backlash is not None:
-        wanted = keys.normal_backlash / cosine
+        wanted = keys.normal_backlash
     elif keys.circumferential_backlash is not None:
-        wanted = normal_from_circumferential(keys.circumferential_backlash, bare.working_pressure_angle)
+        wanted = normal_from_circumferential(keys.circumferential_backlash, bare.working_pressure_angle) * share
     else:
-        wanted = guaranteed_normal_backlash(str(keys.side_clearance_class), bare.working_centre_distance) / cosine
-    own = [g.circumferential_thinning for g in normal]
-    angle = gears[0].rack.pressure_angle
-    missing = thinning_for(wanted - bare.normal_backlash, angle) - sum(own)
-    if missing < 0:
-        least = (bare.normal_backlash + sum(own) * math.cos(angle)) * cosine
-        # of the other wishes the nearest is searched for
-        works = Nearest(rounded(least, up=True, digits=6), "at_least") if keys.normal_backlash is not None else None
-        raise ParameterError(asked[0], getattr(keys, asked[0]), "backlash_already_more", works)
-    free = [not a for a in own]
-    if not any(free):
-        return normal
-    share = missing / sum(free)
-    one, two = (
-        replace(g, circumferential_thinning=share) if is_free else g for g, is_free in zip(normal, free, strict=True)
-    )
+        wanted = guaranteed_normal_backlash(str(keys.side_clearance_class), bare.working_centre_distance)
+
+    def build(index: int, thinning: float) -> SpurGear:
+        return section_of(replace(normal[index], circumferential_thinning=thinning), helix)
+
+    try:
+        asked_of = shared_thinning(wanted, normal, build, math.cos(alpha), bare.normal_backlash, share)
+    except ParameterError as error:
+        if keys.normal_backlash is not None:
+            raise error.renamed(asked[0]) from error
+        # of the other wishes the nearest is searched for, where there is one
+        cure = REMOVED if error.code == "backlash_is_of_own_thinning" else None
+        raise ParameterError(asked[0], getattr(keys, asked[0]), error.code, cure, **error.numbers) from error
+    one, two = (replace(g, circumferential_thinning=t) if t else g for g, t in zip(normal, asked_of, strict=True))
     return one, two
 
 
@@ -289,9 +289,7 @@ def _radii(page: Sheet, asked: Asked) -> None:
         source = f"practicum (3.{10 + index})"
         page.add("tip_radius", gear.tip_radius, _tip_formula(asked, index - 1), source, index)
     for index, gear in enumerate(gears, 1):
-        page.add(
-            "root_radius", gear.root_radius, f"{{r#}} - {dedendum_formula(gear)}", f"practicum (3.{12 + index})", index
-        )
+        root_radius_step(page, gear, index)
 
 
 def _tip_formula(asked: Asked, index: int) -> str:

@@ -8,18 +8,17 @@ from geometry.gears.pairs.rack import RackPair
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.spur import SpurGear
 from parts.base.texts import N_
-from parts.gears.spur_gear.page import addendum_formula, dedendum_formula, given_data
+from parts.gears.spur_gear.page import addendum_formula, given_data, root_radius_step
 from parts.pages.contact_steps import ISO, Helical, backlash_steps, heading, limit_steps, overlap_steps, speed_steps
 from parts.pages.force_steps import DrivenKeys, force_steps
 from parts.pages.page import Sheet
 
 
 def first_radii(page: Sheet, gear: SpurGear, helical: Helical) -> None:
-    """Tip and root of the first gear; a given tip and a root that a pinion cut have no formula."""
+    """Tip and root of the first gear; a given tip and a root that a pinion cutter made have no formula."""
     formula = f"{{r1}} + {addendum_formula()}" if gear.given_tip_diameter is None else ""
     page.add("tip_radius", gear.tip_radius, formula, "practicum (3.11)", 1)
-    formula = f"{{r1}} - {dedendum_formula(gear)}" if gear.cutter is None else ""
-    page.add("root_radius", gear.root_radius, formula, "practicum (3.13)", 1)
+    root_radius_step(page, gear, 1)
 
 
 def rack_page(pair: RackPair, topic: str, helical: Helical, keys: DrivenKeys) -> Sheet:

@@ -170,6 +170,15 @@ def test_wishes_are_met() -> None:
     assert values["normal_backlash"] == pytest.approx(0.1, rel=1e-9)
 
 
+@pytest.mark.parametrize("wish", ["normal_backlash=0.3", "circumferential_backlash=0.3", "side_clearance_class=A"])
+def test_a_backlash_beside_two_thinned_gears_is_refused_by_its_key(wish: str) -> None:
+    """Both keep their own thinning, so that the wish was passed over and 0.0940 mm told in its place."""
+    asked = ["module=2", "first.number_of_teeth=20", "second.number_of_teeth=30", "circumferential_thinning=0.05", wish]
+    with pytest.raises(SceneError, match=r"0\.0939693 mm; remove it") as refused:
+        calculate("gear-pair", asked, "text", "en")
+    assert refused.value.key == f"gear-pair.{wish.partition('=')[0]}"
+
+
 def test_sliding_vanishes_at_the_pole_and_is_that_of_speeds() -> None:
     mating: Any = make_parts(load_scene("thesis_internal_pair"), "t")[1][0]
     pair = mating.pair

@@ -97,6 +97,20 @@ def test_a_part_that_sets_its_own_thinning_keeps_it() -> None:
     assert matings[0].normal_backlash == pytest.approx(0.1, rel=1e-9)
 
 
+@pytest.mark.parametrize("kind", ["internal_gear_pair", "rack_pair", "external_gear_pair"])
+def test_a_backlash_that_nothing_is_left_to_give_is_refused(kind: str) -> None:
+    """Both teeth are as thin as their keys say: j_bn = (A_1 + A_2) cos(alpha), and another was passed over."""
+    parts = {"internal_gear_pair": (RING, SUN), "rack_pair": (WHEEL, RACK), "external_gear_pair": (SUN, WHEEL)}[kind]
+    thin = {name: {**keys, "circumferential_thinning": 0.05} for name, keys in zip("ab", parts, strict=True)}
+    mate = {"kind": kind, "first": "a", "second": "b"}
+    own = 0.1 * math.cos(math.radians(20))
+    assert scene(thin, mate)[1][0].normal_backlash == pytest.approx(own, rel=1e-9)
+    assert scene(thin, {**mate, "normal_backlash": round(own, 5)})[1][0].normal_backlash == pytest.approx(own, rel=1e-9)
+    for asked in (0.05, 0.3):
+        with pytest.raises(SceneError, match=f"normal_backlash = {asked}.*{own:.6g} mm; remove it"):
+            scene(thin, {**mate, "normal_backlash": asked})
+
+
 def test_a_wanted_centre_distance_is_kept_and_one_too_small_is_refused() -> None:
     mate = {"kind": "external_gear_pair", "first": "a", "second": "b", "working_centre_distance": 51.6}
     _, matings, stand = scene({"a": SUN, "b": WHEEL}, mate)

@@ -15,7 +15,6 @@ from geometry.gears.pairs.side_clearance import (
     SIDE_CLEARANCE_CLASSES,
     guaranteed_normal_backlash,
     normal_from_circumferential,
-    thinning_for,
 )
 from geometry.gears.shifts.external import ShiftPair, state_of
 from geometry.gears.shifts.tables import MENDED, equalising_shift, gost_16532, guidelines, kudryavtsev
@@ -151,9 +150,10 @@ def test_side_clearance_classes_are_tolerance_grades() -> None:
             guaranteed_normal_backlash(*wrong)
 
 
-def test_thinning_for_a_backlash_gives_it() -> None:
+def test_a_backlash_along_the_working_circle_is_the_normal_one() -> None:
     asked = 0.12
-    thin = thinning_for(asked, math.radians(20)) / 2
+    # A_1 + A_2 = j_bn / cos(alpha)
+    thin = asked / math.cos(math.radians(20)) / 2
     gears = [SpurGear(3.0, z, RACK, 0.2, circumferential_thinning=thin) for z in (20, 31)]
     pair = external_pair(gears[0], gears[1])
     assert pair.normal_backlash == pytest.approx(asked, rel=1e-12)

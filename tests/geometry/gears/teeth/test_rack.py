@@ -184,6 +184,19 @@ def test_interference_is_found_as_overlap() -> None:
     assert RackMesh(pair).contact().verdict is Verdict.OVERLAP
 
 
+@pytest.mark.parametrize("longer", [0.0, 2e-5, 1e-4, 1e-3])
+@pytest.mark.parametrize("x", [0.0, 0.4])
+def test_a_tip_in_a_fillet_is_remarked_where_the_teeth_overlap(longer: float, x: float) -> None:
+    """A rack A as it stands was remarked: its rounding takes 3e-5 modules more than its clearance, 1.6e-9 deep."""
+    basic = iso_53("A")
+    mate = replace(basic, addendum=basic.addendum + longer, tip_clearance=basic.tip_clearance - longer)
+    gear = SpurGear(2.0, 23, basic, x)
+    pair = rack_pair(gear, Rack(2.0, 10, mate, 6.0, 0.0))
+    assert pair.margins()[0].margin < 0
+    overlaps = RackMesh(pair).contact().verdict is Verdict.OVERLAP
+    assert ("fillet_interference_gear" in {f.code for f in pair.findings()}) == overlaps == (longer > 5e-5)
+
+
 @pytest.mark.parametrize("count", [10, pytest.param(2000, marks=pytest.mark.heavy)])
 def test_random_legal_pairs(count: int) -> None:
     numbers, done = random.Random(3), 0
