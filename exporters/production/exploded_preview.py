@@ -76,7 +76,7 @@ def exploded_preview(plan: Plan, folder: Path) -> Path:
     stand = [
         _Thing(t.instance, t.drawing, t.shift + moved[t.instance.id], t.box + moved[t.instance.id]) for t in things
     ]
-    ordered = [stand[k] for k in _from_behind(stand)]
+    ordered = [stand[k] for k in from_behind(np.array([t.box for t in stand]))]
     ends = np.concatenate([_corners(t.box) for t in ordered])
     wide, high = float(np.ptp(ends.real)), float(np.ptp(ends.imag))
     scale = _SIZE / max(wide, high)
@@ -127,13 +127,12 @@ def _corners(box: Real) -> Complex:
     return seen(np.array([[a, b, c] for a in x for b in y for c in z]))
 
 
-def _from_behind(things: Sequence[_Thing]) -> list[int]:
-    """An order in which nothing is drawn over what stands before it: told by planes between boxes."""
-    boxes = np.array([t.box for t in things])
+def from_behind(boxes: Real) -> list[int]:
+    """An order of boxes (n, 2, 3) in which none is drawn over what stands before it: told by planes between them."""
     flat = np.array([[p.real.min(), p.imag.min(), p.real.max(), p.imag.max()] for p in map(_corners, boxes)])
-    before: list[list[int]] = [[] for _ in things]
-    waiting = [0] * len(things)
-    for a, b in combinations(range(len(things)), 2):
+    before: list[list[int]] = [[] for _ in boxes]
+    waiting = [0] * len(boxes)
+    for a, b in combinations(range(len(boxes)), 2):
         if (flat[a, :2] >= flat[b, 2:]).any() or (flat[b, :2] >= flat[a, 2:]).any():
             continue
         first = _first(boxes[a], boxes[b])
@@ -142,7 +141,7 @@ def _from_behind(things: Sequence[_Thing]) -> list[int]:
             before[one].append(two)
             waiting[two] += 1
     depth = boxes.mean(axis=1) @ TOWARDS
-    left = set(range(len(things)))
+    left = set(range(len(boxes)))
     order = []
     while left:
         free = [k for k in left if waiting[k] == 0] or list(left)
@@ -242,13 +241,13 @@ def _leaders(
 ) -> tuple[float, list[int], list[str]]:  # fmt: skip
     """The whole width, the numbers that have a leader to what is seen of their part, and these, in two columns."""
     shown, shapes = [t.instance.part for t in things], [_placed(t, drawings) for t in things]
-    ends = {row.position: end for row in rows if (end := _seen_at(shown, shapes, row.parts)) is not None}
+    ends = {row.position: end for row in rows if (end := seen_at(shown, shapes, row.parts)) is not None}
     placed = {number: _on_paper(end, origin, scale) + _COLUMN for number, end in ends.items()}
     middle = float(np.median([p.real for p in placed.values()])) if placed else 0.0
     lines = []
     for side, at in ((0, 0.0), (1, size.real + 2 * _COLUMN)):
         own = sorted((n for n, p in placed.items() if (p.real > middle) == bool(side)), key=lambda n: placed[n].imag)
-        heights = _spread([placed[n].imag for n in own], 1.5 * _TEXT, size.imag)
+        heights = spread([placed[n].imag for n in own], 1.5 * _TEXT, size.imag)
         for number, y in zip(own, heights, strict=True):
             end, shelf = placed[number], 2 * _TEXT * (1 - 2 * side)
             lines.append(f'<path class="l" d="M{at:.0f},{y:.1f}h{shelf:g}L{end.real:.1f},{end.imag:.1f}"/>')
@@ -257,7 +256,7 @@ def _leaders(
     return size.real + 2 * _COLUMN, list(ends), lines
 
 
-def _seen_at(shown: Sequence[str], shapes: Sequence[BaseGeometry], parts: Sequence[str]) -> complex | None:
+def seen_at(shown: Sequence[str], shapes: Sequence[BaseGeometry], parts: Sequence[str]) -> complex | None:
     """A place well within what is seen of an instance of some parts; ``shown``: all parts from behind, and shapes."""
     import shapely
 
@@ -283,7 +282,7 @@ def _placed(thing: _Thing, drawings: Sequence[tuple[str, Picture]]) -> BaseGeome
     return shapely.transform(drawings[thing.drawing][1].outline, lambda xy: xy + np.array([at.real, at.imag]))
 
 
-def _spread(wanted: Sequence[float], step: float, most: float) -> list[float]:
+def spread(wanted: Sequence[float], step: float, most: float) -> list[float]:
     """Heights in their order, at least a step apart, as near to where they are wanted as may be."""
     found: list[float] = []
     for y in wanted:
