@@ -108,9 +108,9 @@ class PointedTipError(ParameterError):
 
 
 class OffsetError(ParameterError):
-    """An offset that no outline survives, mm, with the one nearest to it that works."""
+    """An offset that no outline survives, mm, with the one nearest to it that works, or 0 where ``moved`` seeks it."""
 
-    def __init__(self, offset: float, reason: str, nearest: float) -> None:
+    def __init__(self, offset: float, reason: str, nearest: float = 0.0) -> None:
         self.reason, self.nearest_offset = reason, nearest
         super().__init__("offset", offset, reason, lambda: limit(nearest, offset, digits=6))
 

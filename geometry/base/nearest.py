@@ -140,7 +140,7 @@ def moved(build: Callable[[float], V], offset: float, code: str = "") -> V:
         Nothing can be made at this one; names the nearest that works.
     """
     if not math.isfinite(offset):
-        raise OffsetError(offset, "not_finite", 0.0)
+        raise OffsetError(offset, "not_finite")
     try:
         return build(offset)
     except GeometryError as refusal:

@@ -56,7 +56,7 @@ def widened_corner(radius: float, depth: float) -> float:
 def within(offset: float, lowest: float, highest: float, reasons: tuple[str, str]) -> None:
     """Refuse an offset beyond the limits at which a curve vanishes, mm; ``reasons`` for the lower and the upper one."""
     if not math.isfinite(offset):
-        raise OffsetError(offset, "not_finite", 0.0)
+        raise OffsetError(offset, "not_finite")
     if offset >= highest:
         raise OffsetError(offset, reasons[1], highest * _INSIDE)
     if offset <= lowest:

@@ -111,7 +111,7 @@ class HubHoles(Record):
             No wall is left between two holes.
         """
         if 2 * depth >= min((w.thickness for w in self._walls_between()), default=math.inf):
-            raise OffsetError(-depth, "no_wall_between_holes", 0.0)
+            raise OffsetError(-depth, "no_wall_between_holes")
         return HubHoles(
             None if self.bore is None else self.bore.widened(depth),
             tuple(replace(group, diameter=group.diameter + 2 * depth) for group in self.round_holes),

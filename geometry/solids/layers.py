@@ -140,7 +140,7 @@ class Layers(Record, dict=True):
                     if (contour, hole) not in profiles:
                         profiles[contour, hole] = contour.moved(offset, hole=hole)
         except GeometryError as refusal:
-            raise OffsetError(offset, str(refusal.args[-1]), 0.0) from refusal
+            raise OffsetError(offset, str(refusal.args[-1])) from refusal
         empty: dict[Contour, bool] = {}
         walls = [empty, *self._depths, empty]
         for k, depths in enumerate(self._depths):

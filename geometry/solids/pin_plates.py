@@ -57,7 +57,7 @@ class PinPlate(Record):
         """
         wall = self.outer_radius - max(self.seats.reach if seats else self.pins.reach, self.holes.reach)
         if -2 * offset >= wall:
-            raise OffsetError(offset, "leaves_no_rim", 0.0)
+            raise OffsetError(offset, "leaves_no_rim")
         own = (self.seats,) if seats else ()
         every = HubHoles(self.holes.bore, (*own, *self.holes.round_holes), self.holes.spokes)
         return Region(circle(self.outer_radius + offset, Label.BODY), every.profiles(offset))
@@ -72,7 +72,7 @@ class PinPlate(Record):
         """
         radius = self.pin_radius + offset
         if radius <= 0 or 2 * offset >= self.pins.wall_between():
-            raise OffsetError(offset, "leaves_no_pins", 0.0)
+            raise OffsetError(offset, "leaves_no_pins")
         return [circle(radius, Label.PIN, centre=centre) for centre in self.pins.centres()]
 
     def body(self, offset: float, *, between: bool = False) -> Body:
@@ -122,6 +122,6 @@ class RoundDisc(Record):
         if self.holes.bore is not None:
             wall = self.radius - self.eccentricity - self.holes.bore_reach
         if self.radius + offset <= 0 or -2 * offset >= wall:
-            raise OffsetError(offset, "leaves_no_wall", 0.0)
+            raise OffsetError(offset, "leaves_no_wall")
         outer = circle(self.radius + offset, Label.BODY, centre=complex(self.eccentricity))
         return Region(outer, self.holes.profiles(offset))

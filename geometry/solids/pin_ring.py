@@ -92,7 +92,7 @@ class SeatCircle(Record):
         if offset == 0 or (offset > 0) == self.fixed:
             here = self.moved(offset)
             if not here.is_whole:
-                raise OffsetError(offset, "closes_ring_between_pins", 0.0)
+                raise OffsetError(offset, "closes_ring_between_pins")
             seat, land = here._arcs()
             return Profile((*_quarters(seat, label), Segment(land, Label.RIM)), self.count, clockwise=True)
         seat, land = self._arcs()
@@ -105,7 +105,7 @@ class SeatCircle(Record):
                 Segment(_corner(land, following, offset), Label.CORNER),
             ]
         except CuspError:
-            raise OffsetError(offset, "closes_seats", 0.0) from None
+            raise OffsetError(offset, "closes_seats") from None
         return Profile(tuple(chain), self.count, clockwise=True)
 
 
@@ -172,12 +172,12 @@ class PinRing(Record):
             A seat, a hole or a wall does not survive.
         """
         if -2 * offset >= self.least_wall():
-            raise OffsetError(offset, "leaves_no_rim", 0.0)
+            raise OffsetError(offset, "leaves_no_rim")
         if self.pins == "holes":
             inner: tuple[Profile, ...] = self.pin_holes.profiles(offset)
             if self.inner_radius > 0:
                 if offset >= self.inner_radius:
-                    raise OffsetError(offset, "closes_ring", 0.0)
+                    raise OffsetError(offset, "closes_ring")
                 inner = (circle(self.inner_radius - offset, Label.RIM, hole=True), *inner)
         else:
             inner = (self.seats.profile(offset),)

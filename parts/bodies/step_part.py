@@ -101,7 +101,7 @@ class StepPart(Kind[StepPartSpec, "FacedBody"]):
     def solid(self, keys: StepPartSpec, thing: FacedBody, offset: float) -> FacedBody:
         """As it is."""
         if offset:
-            raise OffsetError(offset, "step_not_moved", 0.0)
+            raise OffsetError(offset, "step_not_moved")
         return thing
 
     def height(self, keys: StepPartSpec, thing: FacedBody) -> float:

@@ -149,7 +149,7 @@ class _Turned(Kind[K, "HalfSection"]):
                 if radius <= by:
                     raise OffsetError(by, "hole_closed", radius * (1 - 1e-6))
             if outer + by <= max((abs(at) + radius - by for at, radius in through), default=0.0):
-                raise OffsetError(by, "leaves_no_wall", 0.0)
+                raise OffsetError(by, "leaves_no_wall")
             holes = tuple(
                 circle(radius - by, Label.HOLE if at else Label.BORE, hole=True, centre=at) for at, radius in through
             )
@@ -163,7 +163,7 @@ class _Turned(Kind[K, "HalfSection"]):
         from geometry.solids.turned import turned_solid
 
         if offset:
-            raise OffsetError(offset, "turned_as_it_is", 0.0)
+            raise OffsetError(offset, "turned_as_it_is")
         return exact_body(turned_solid(thing, _seam(thing.pockets)))
 
     def sketch(self, keys: K, thing: HalfSection) -> Sketch:

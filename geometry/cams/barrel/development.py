@@ -155,7 +155,7 @@ def _jacket(cam: BarrelCam, side: int, border: float, middle: float, offset: flo
     sense = math.copysign(1.0, border - first.imag)
     level = border + sense * offset
     if min(sense * (level - p.imag) for c in moved for p in (start_point(c), end_point(c))) <= 0:
-        raise OffsetError(offset, "no_jacket", 0.0)
+        raise OffsetError(offset, "no_jacket")
     a, b = end_point(moved[-1]), start_point(moved[0])
     path = [a, complex(a.real, level), complex(b.real, level), b]
     return _profile([*moved, *(Line(p, q) for p, q in pairwise(path))])
@@ -190,7 +190,7 @@ def _cut(curves: list[Curve], height: Callable[[complex], float], *, keep_end: b
             low, high = curve.domain
             kept[0] = curve.trimmed(at, high) if keep_end else curve.trimmed(low, at)
         return kept if keep_end else list(reversed(kept))
-    raise OffsetError(0.0, "no_jacket", 0.0)
+    raise OffsetError(0.0, "no_jacket")
 
 
 def _profile(curves: list[Curve]) -> Profile:

@@ -234,7 +234,7 @@ def disc_region(disc: CycloidalDisc, offset: float = 0.0) -> OffsetRegion:
         The outline would have cusps, or a hole or a wall does not survive; names the nearest offset that works.
     """
     if not math.isfinite(offset):
-        raise OffsetError(offset, "not_finite", 0.0)
+        raise OffsetError(offset, "not_finite")
     least, most = disc.offset_limits()
     if disc.holes.number:
         least = max(least, (disc.holes.reach - disc.root_radius) / 2 * (1 - _MARGIN))

@@ -308,7 +308,7 @@ def lantern_region(gear: LanternGear, offset: float = 0.0) -> OffsetRegion:
 
 def _region(gear: LanternGear, offset: float) -> OffsetRegion:
     if gear.holes.number and gear.root_radius + offset <= gear.holes.reach - offset:
-        raise OffsetError(offset, "leaves_no_rim", 0.0)
+        raise OffsetError(offset, "leaves_no_rim")
     side = lantern_side(gear, offset)
     return OffsetRegion(Region(side.profile(), gear.holes.profiles(offset)), offset, side.findings)
 

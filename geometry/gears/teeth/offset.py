@@ -75,7 +75,7 @@ def _moved_side(gear: SpurGear, offset: float) -> ToothSide:
         return tooth_side(gear)
     if offset < 0:
         if gear.root_radius + offset <= gear.holes.reach - offset:
-            raise OffsetError(offset, "leaves_no_rim", 0.0)
+            raise OffsetError(offset, "leaves_no_rim")
         return assemble_side(SideCurves.of(gear).shrunk(-offset), gear.pitch_angle, blunt=True)
     return grown_side(tooth_side(gear), offset)
 
@@ -160,12 +160,12 @@ def _above_centre_line(
     flags = np.concatenate(outside[: last + 1])
     entered = int(np.flatnonzero(flags)[-1])
     if not flags[:entered].all() or pieces[last].label in (Label.TIP_LAND, Label.TIP_BREAK) or last == len(pieces) - 1:
-        raise OffsetError(bottom, "closes_tooth_spaces", 0.0)
+        raise OffsetError(bottom, "closes_tooth_spaces")
     if pieces[last].label is Label.CORNER and pieces[last + 1].label in (Label.TIP_LAND, Label.TIP_BREAK):
-        raise OffsetError(bottom, "closes_tooth_spaces", 0.0)
+        raise OffsetError(bottom, "closes_tooth_spaces")
     kept = _from_first_above(pieces[last:], lambda point: (point * turn).imag)
     if kept is None:
-        raise OffsetError(bottom, "closes_tooth_spaces", 0.0)
+        raise OffsetError(bottom, "closes_tooth_spaces")
     findings.append(Finding("space_shallowed", abs(start_point(kept[0].curve)), bottom))
     return kept
 

@@ -145,9 +145,9 @@ def rack_side(rack: Rack, offset: float = 0.0) -> RackSide:
     if fillet is None and offset > 0:
         findings.append(Finding("fillet_cusp_trimmed", offset, numbers.fillet))
     if root.imag < -numbers.half_pitch * (1 + TOLERANCES.relative_length):
-        raise OffsetError(offset, "closes_tooth_spaces", 0.0)
+        raise OffsetError(offset, "closes_tooth_spaces")
     if not ((foot - start) * along.conjugate()).real > 0:
-        raise OffsetError(offset, "leaves_no_flank", 0.0)
+        raise OffsetError(offset, "leaves_no_flank")
     segments = [*upper, Segment(Line(start, foot), Label.FLANK), *lower]
     end = complex(root.real, -numbers.half_pitch)
     if root.imag - end.imag > TOLERANCES.relative_length * rack.module:
@@ -293,7 +293,7 @@ def _closed(rack: Rack, chain: list[Segment], offset: float) -> list[Segment]:
     bottom = root + rack.body_height
     if offset < 0:
         if bottom + offset <= root - offset:
-            raise OffsetError(offset, "leaves_no_body", 0.0)
+            raise OffsetError(offset, "leaves_no_body")
         chain = _cut_at(chain, half + offset)
         first, last = start_point(chain[0].curve), end_point(chain[-1].curve)
         corners = [last, complex(bottom + offset, last.imag), complex(bottom + offset, first.imag), first]
@@ -324,7 +324,7 @@ def _cut_at(chain: list[Segment], limit: float) -> list[Segment]:
         pieces = chain if sign > 0 else [Segment(s.curve.reversed(), s.label) for s in reversed(chain)]
         found = first_above([s.curve for s in pieces], partial(below, sign))
         if found is None:
-            raise OffsetError(-limit, "leaves_no_tooth", 0.0)
+            raise OffsetError(-limit, "leaves_no_tooth")
         index, at = found
         curve = pieces[index].curve
         kept = pieces[index + 1 :]

@@ -43,6 +43,6 @@ def root_fillet(
     ellipse = EllipticArc(Arc(0j, radius, touch, -touch), stretch, Placement2(0.0, centre))
     least = min(1 / abs(float(k)) for k in (ellipse.curvature(0.0), ellipse.curvature(touch)))
     if offset >= least:
-        raise OffsetError(offset, "turns_fillets_back", least * (1 - 1e-6))
+        raise OffsetError(offset, "turns_fillets_back")
     curve = ellipse.offset(-offset) if offset else ellipse
     return curve, start_point(curve), end_point(curve)

@@ -60,9 +60,9 @@ class RackHoles(Record):
     def profiles(self, root: float, offset: float, thinnest: float) -> tuple[Profile, ...]:
         """One clockwise profile a hole, moved ``offset`` mm out of the material; the root line is y = -``root``."""
         if offset >= self.diameter / 2:
-            raise OffsetError(offset, "closes_holes", self.diameter / 2 * (1 - 1e-6))
+            raise OffsetError(offset, "closes_holes")
         if -2 * offset >= thinnest:
-            raise OffsetError(offset, "no_wall_beside_holes", -thinnest / 2 * (1 - 1e-6))
+            raise OffsetError(offset, "no_wall_beside_holes")
         places = ((k - (self.count - 1) / 2) * self.spacing for k in range(self.count))
         radius = self.diameter / 2 - offset
         return tuple(circle(radius, Label.HOLE, hole=True, centre=complex(x, -root - self.depth)) for x in places)

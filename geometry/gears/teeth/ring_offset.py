@@ -47,7 +47,7 @@ def _section(gear: RingGear, offset: float) -> OffsetRegion:
     side = _moved_side(gear, offset)
     thinnest = min((wall.thickness for wall in rim_walls(gear)), default=math.inf)
     if -2 * offset >= thinnest:
-        raise OffsetError(offset, "no_wall_beside_holes", -thinnest / 2 * (1 - 1e-6))
+        raise OffsetError(offset, "no_wall_beside_holes")
     outer = circle(gear.outer_radius + offset, Label.RIM)
     return OffsetRegion(Region(outer, (side.profile(), *gear.holes.profiles(offset))), offset, side.findings)
 
@@ -58,7 +58,7 @@ def _moved_side(gear: RingGear, offset: float) -> RingSide:
         return ring_side(gear)
     if offset < 0:
         if gear.root_radius - offset >= gear.outer_radius + offset:
-            raise OffsetError(offset, "leaves_no_rim", 0.0)
+            raise OffsetError(offset, "leaves_no_rim")
         return assemble_ring_side(RingCurves.of(gear).shrunk(-offset), gear.pitch_angle, blunt=True)
     return grown_ring_side(ring_side(gear), offset)
 
@@ -106,7 +106,7 @@ def _grown(segment: Segment, distance: float) -> list[Segment]:
     try:
         moved: Curve = curve.offset(-distance)
     except CuspError as cusp:
-        raise OffsetError(distance, "passes_base_circle_at_tips", 0.0) from cusp
+        raise OffsetError(distance, "passes_base_circle_at_tips") from cusp
     return [Segment(moved, segment.label)]
 
 
@@ -136,7 +136,7 @@ def _joined_to_root(pieces: list[Segment], radius: float) -> tuple[list[Segment]
     """Pieces and root land trimmed to their crossing; no land where they meet beyond the centre line."""
     found = first_above([p.curve for p in pieces], lambda point: radius - abs(point))
     if found is None:
-        raise OffsetError(radius, "closes_tooth_spaces", 0.0)
+        raise OffsetError(radius, "closes_tooth_spaces")
     kept = kept_from(pieces, found)
     angle = cmath.phase(start_point(kept[0].curve))
     if angle >= -TOLERANCES.relative_length:
@@ -151,7 +151,7 @@ def _below_centre_line(pieces: list[Segment], bottom: float, findings: list[Find
         return pieces
     found = first_above([p.curve for p in pieces], lambda point: -point.imag)
     if found is None or found[0] == len(pieces) - 1:
-        raise OffsetError(bottom, "closes_tooth_spaces", 0.0)
+        raise OffsetError(bottom, "closes_tooth_spaces")
     kept = kept_from(pieces, found)
     findings.append(Finding("space_shallowed", abs(start_point(kept[0].curve)), bottom))
     return kept
@@ -161,8 +161,8 @@ def _check_space(pieces: list[Segment]) -> None:
     """Refused where a flank is gone or crosses the space's centre line: the space is closed."""
     flank = next((p.curve for p in pieces if p.label is Label.FLANK), None)
     if flank is None or not isinstance(flank, Reversed):
-        raise OffsetError(0.0, "closes_tooth_spaces", 0.0)
+        raise OffsetError(0.0, "closes_tooth_spaces")
     for piece in pieces:
         points = piece.curve.point(np.linspace(*piece.curve.domain, _SAMPLES))
         if np.imag(points).max() > 1e-12 * float(np.abs(points).max()):
-            raise OffsetError(0.0, "closes_tooth_spaces", 0.0)
+            raise OffsetError(0.0, "closes_tooth_spaces")

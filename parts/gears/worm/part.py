@@ -334,4 +334,4 @@ WORM = WormKind()
 def _still(offset: float) -> None:
     """A thread is not moved out of its material: its parallel surfaces are of no form of flank."""
     if offset != 0:
-        raise OffsetError(offset, "worm_not_moved", 0.0)
+        raise OffsetError(offset, "worm_not_moved")

@@ -343,7 +343,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         from geometry.gears.worms.wheel_faces import wheel_body
 
         if offset != 0:
-            raise OffsetError(offset, "worm_wheel_not_moved", 0.0)
+            raise OffsetError(offset, "worm_wheel_not_moved")
         return wheel_body(thing.wheel)
 
     def sketch(self, keys: WormWheelSpec, thing: WheelThing) -> Sketch:

@@ -19,6 +19,9 @@ from geometry.gears.worms.faces import faced_worm, worm_solid
 from geometry.gears.worms.thread import thread_of
 from geometry.gears.worms.worm import Worm
 from geometry.solids.bores import KeywayBore
+from geometry.solids.extent import extent
+from geometry.solids.face_moments import face_moments
+from geometry.solids.faces import Solid
 from parts.solids.kernel import solids_of
 from parts.solids.step_text import StepForm, StepPart, step_text
 
@@ -48,19 +51,39 @@ BODIES = {
 }
 
 
+def assert_closed(solid: Solid) -> None:
+    """Every edge is run once each way."""
+    uses: Counter[tuple[int, bool]] = Counter()
+    for faces in solid.faces:
+        for edges, ways in faces.loops:
+            for row in edges:
+                uses.update(zip(row.tolist(), np.broadcast_to(ways, row.shape).tolist(), strict=True))
+    count = sum(len(bundle.start) for bundle in solid.edges)
+    assert uses == Counter({(edge, way): 1 for edge in range(count) for way in (True, False)})
+
+
+@pytest.mark.sampled(3)
+@pytest.mark.parametrize("name", ["blunt", *(name for name in BODIES if name != "blunt")])
+def test_faces_hold_what_exact_integrals_say(name: str) -> None:
+    """Volume, centre and inertia of the faces, splines, planes and cones, beside those of the thread's sections."""
+    made = worm_solid(BODIES[name], 1e-2)
+    assert_closed(made.geometry)
+    found, exact = face_moments(made.geometry), worm_moments(BODIES[name])
+    assert found.volume == pytest.approx(exact.volume, rel=1e-6)
+    assert found.centre == pytest.approx(exact.centre, abs=1e-5)
+    assert found.inertia == pytest.approx(exact.inertia, abs=1e-6 * float(np.abs(exact.inertia).max()))
+    extents = extent(made.geometry)
+    envelope = np.array(BODIES[name].envelope())
+    assert [extents.low[2], extents.high[2]] == pytest.approx([envelope[:, 0].min(), envelope[:, 0].max()], abs=1e-6)
+    assert extents.radius == pytest.approx(envelope[:, 1].max(), abs=1e-6)
+
+
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", BODIES)
 def test_the_faces_of_a_worm_are_closed_and_their_files_within_their_bound(name: str, tmp_path: Path) -> None:
     body = BODIES[name]
     made = worm_solid(body, 1e-4)
-    # every edge once each way
-    uses: Counter[tuple[int, bool]] = Counter()
-    for faces in made.geometry.faces:
-        for edges, ways in faces.loops:
-            for row in edges:
-                uses.update(zip(row.tolist(), np.broadcast_to(ways, row.shape).tolist(), strict=True))
-    count = sum(len(bundle.start) for bundle in made.geometry.edges)
-    assert uses == Counter({(edge, way): 1 for edge in range(count) for way in (True, False)})
+    assert_closed(made.geometry)
     text = step_text(StepPart(name, made.geometry), StepForm(10))
     file = tmp_path / "worm.step"
     file.write_text(text)
