@@ -13,9 +13,9 @@ from geometry.curves.curve import Curve
 from tests.test_architecture import product_files
 
 ROOT = Path(__file__).resolve().parent.parent
-# DESIGN, section 3: what the card names, four pages, a licence, and dot-files
-TOP_LEVEL = {"pyproject.toml", "geometry", "exporters", "parts", "tests", "out", "README.md", "LICENSE",
-             "MANIFEST.in", "CHANGELOG.md", "CONTRIBUTING.md", "CONVENTIONS.md", "DERIVATIONS.md"}  # fmt: skip
+# DESIGN, section 3: what the card names, five pages, a licence, and dot-files
+TOP_LEVEL = {"pyproject.toml", "geometry", "exporters", "parts", "tests", "out", "README.md",
+             "README.uk.md", "LICENSE", "MANIFEST.in", "CHANGELOG.md", "CONTRIBUTING.md", "CONVENTIONS.md", "DERIVATIONS.md"}  # fmt: skip
 CURVE_METHODS = {name for name in vars(Curve) if not name.startswith("_")}
 TEXT = {".py", ".md", ".toml", ".svg", ".txt", ".cfg", ".yml", ".yaml"}
 

@@ -318,7 +318,7 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         help=told.text(
             "{topics} or {last}",
             topics="spur, ring, rack, tmm42, gear-pair, shift-choice, worm, train, planetary, cam, cycloidal, lantern, "
-            "noncircular, power-table",
+            "noncircular, lever, power-table",
             last="power-module",
         ),
     )

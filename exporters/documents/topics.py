@@ -33,6 +33,7 @@ TOPICS = {
     "cycloidal": "parts.pins.cycloidal_page",
     "lantern": "parts.pins.lantern_page",
     "noncircular": "parts.gears.noncircular_gear.page",
+    "lever": "parts.mates.pages.levers",
     "power-table": "parts.mates.pages.power_table",
     "power-module": "parts.mates.pages.power_module",
 }

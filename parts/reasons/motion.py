@@ -27,6 +27,14 @@ REASONS = {
     "path_too_near_centre": N_("passes the centre too near for this tolerance; {least} mm is reached"),
     "pieces_part": N_("begins at ({x}, {y}), where no piece before it ends"),
     "ring_as_its_wheel": N_("a ring has more teeth than the wheel in it"),
+    "lever_needed": N_("is driven by a lever, which a slider on the crank's rod has not"),
+    "not_among_ten": N_("the guidelines have ten"),
+    "not_four_digits": N_("must be the last four digits of a record-book number, like 1071"),
+    "rod_does_not_reach": N_("does not reach its guide all the way round: {least} mm from it at most"),
+    "rods_do_not_close": N_(
+        "does not close with its rocker all the way round: what they join is {nearest} to {farthest} mm apart"
+    ),
+    "stone_through_pivot": N_("is the length of the crank: the stone would pass through the pivot of its lever"),
     "rolls_on_itself": N_("is fixed to the other wheel: wheels of one body do not mesh"),
     "singular_point": N_("is on a singular circle or at the centre, where the platform moves along one line only"),
     "stands_on_itself": N_("is carried by what it carries"),

@@ -1,0 +1,271 @@
+"""Plane lever mechanisms of class II: a crank about the origin and dyads of Assur, joined one after the other.
+
+The place of a dyad follows from what it is joined to in closed form; over Taylor series in time the same forms give
+velocities and accelerations, exactly. Frame: O1 is the origin, angles are counter-clockwise from +x. Lengths in mm.
+
+Sources: guidelines on coursework (Orenburg), 3.4; I. I. Artobolevsky, Theory of Mechanisms and Machines, 3 and 4.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from geometry.base.errors import ParameterError, limit
+from geometry.base.record import Record
+from geometry.base.series import Series, conjugate, derived, power, product
+from geometry.kinematics.linkage import cosine_range
+
+Real = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+# what an offered length leaves, parts of it: at the very limit the links stand in one line
+_ROOM = 1e-6
+
+
+class Stone(Record):
+    """Links 2 and 3 as a stone on the crank's end that slides in a lever about ``pivot`` (group of kind 3)."""
+
+    pivot: complex
+
+
+class Rods(Record):
+    """A rod from a joint and a rocker about ``pivot`` (group of kind 1), ``side`` 1: the pivot lies on the left of
+    the way from the joint to the rod's other end, seen along it; -1: on the right.
+    """
+
+    pivot: complex
+    rod: float
+    rocker: float
+    side: int = 1
+
+
+class Slider(Record):
+    """A rod from a joint to a slider (group of kind 2): its guide runs through ``on`` at ``angle``, rad.
+
+    ``side`` 1: the slider lies ahead of the joint along the guide, -1: behind it.
+    """
+
+    rod: float
+    on: complex = 0j
+    angle: float = 0.0
+    side: int = 1
+
+
+class Moved(Record):
+    """Points (mm) and directions of links (unit vectors) as Taylor series in time, s, over the crank's positions.
+
+    ``reach``: O3A where a stone slides, mm.
+    """
+
+    points: dict[str, Series]
+    links: dict[str, Series]
+    reach: Series | None = None
+
+    def place(self, name: str) -> Complex:
+        """Where a point is, mm."""
+        return np.asarray(self.points[name][0])
+
+    def velocity(self, name: str) -> Complex:
+        """mm/s."""
+        return np.asarray(self.points[name][1])
+
+    def acceleration(self, name: str) -> Complex:
+        """mm/s^2."""
+        return np.asarray(2 * self.points[name][2])
+
+    def angle(self, link: str) -> Real:
+        """Direction of a link, rad."""
+        return np.angle(self.links[link][0])
+
+    def turning(self, link: str) -> tuple[Real, Real]:
+        """Angular velocity (rad/s) and acceleration (rad/s^2) of a link, counter-clockwise."""
+        rate = product(conjugate(self.links[link]), derived(self.links[link]))
+        return np.imag(rate[0]), np.imag(rate[1])
+
+
+class Levers(Record):
+    """A crank OA of length ``crank`` that turns evenly at ``speed`` (rad/s, counter-clockwise) and its dyads.
+
+    ``first`` joins A: a stone in a lever, a rod with a rocker, or a rod with a slider. ``lever``: O3B on the lever;
+    ``arm``: O3C seen from the direction of the lever (O3A or O3B), complex, mm; ``second`` joins C.
+    """
+
+    crank: float
+    speed: float
+    first: Stone | Rods | Slider
+    lever: float = 0.0
+    arm: complex = 0j
+    second: Rods | Slider | None = None
+
+    @property
+    def links(self) -> int:
+        """n, moving links: each dyad adds two."""
+        return 3 if self.second is None else 5
+
+    @property
+    def lower_pairs(self) -> int:
+        """p5: each dyad adds three."""
+        return 4 if self.second is None else 7
+
+    def moved(self, angles: ArrayLike) -> Moved:
+        """Everything at angles of the crank, rad.
+
+        Raises
+        ------
+        ParameterError
+            What ``closed`` raises.
+        """
+        closed(self)
+        phi = np.asarray(angles, dtype=float)
+        w = 1j * self.speed
+        crank = self.crank * np.exp(1j * phi)
+        end: Series = [crank, w * crank, w * w * crank / 2]
+        if isinstance(self.first, Slider):
+            slider, rod = _slid(end, self.first)
+            return Moved({"A": end, "B": slider}, {"2": rod})
+        reach: Series | None = None
+        if isinstance(self.first, Stone):
+            reach, lever = _unit(_from(end, self.first.pivot))
+            links = {"3": lever}
+        else:
+            joint = _joined(end, self.first)
+            links = {"2": _unit(_minus(joint, end))[1], "3": _unit(_from(joint, self.first.pivot))[1]}
+            lever = links["3"]
+        points = {"A": end, "B": _along(lever, self.lever, self.first.pivot)}
+        if self.second is not None:
+            own = _along(lever, self.arm, self.first.pivot)
+            points["C"] = own
+            if isinstance(self.second, Slider):
+                points["D"], links["4"] = _slid(own, self.second)
+            else:
+                points["D"] = _joined(own, self.second)
+                links["4"] = _unit(_minus(points["D"], own))[1]
+                links["5"] = _unit(_from(points["D"], self.second.pivot))[1]
+        return Moved(points, links, reach)
+
+
+def swing(levers: Levers) -> tuple[float, float]:
+    """The directions between which the lever swings over a turn of the crank, rad; a whole turn where it goes round."""
+    first, a = levers.first, levers.crank
+    assert not isinstance(first, Slider)
+    far, home = abs(first.pivot), cmath.phase(-first.pivot)
+    if isinstance(first, Stone):
+        half = math.asin(a / far) if a < far else math.pi
+        return home - half, home + half
+    # the lever stands still where crank and rod are in line
+    b, c = first.rod, first.rocker
+    ends = [(far**2 + c**2 - (b + k * a) ** 2) / (2 * far * c) for k in (-1, 1)]
+    if not all(-1 < cosine < 1 for cosine in ends):
+        return home - math.pi, home + math.pi
+    low, high = (math.acos(cosine) for cosine in ends)
+    # on the side of O3O1 on which B stands
+    return (home + low, home + high) if first.side > 0 else (home - high, home - low)
+
+
+def closed(levers: Levers) -> None:
+    """Refuse links that cannot follow a whole turn of the crank.
+
+    Raises
+    ------
+    ParameterError
+        ``first.rod``, ``first.pivot`` or ``second.rod``, with the nearest that can.
+    """
+    first, second, a = levers.first, levers.second, levers.crank
+    if isinstance(first, Slider):
+        _refuse_short(first, (-a - _height(first), a - _height(first)), "first.rod")
+        return
+    far = abs(first.pivot)
+    if isinstance(first, Stone):
+        if far == a:
+            raise ParameterError("first.pivot", far, "stone_through_pivot")
+    else:
+        least, most = far - a if far > a else a - far, far + a
+        _refuse_apart(first, (least, most), "first.rod")
+    if second is None:
+        return
+    low, high = swing(levers)
+    length, turn = abs(levers.arm), cmath.phase(levers.arm)
+    if isinstance(second, Slider):
+        # heights of C above the guide: the sine of its direction against it
+        ends = cosine_range(low + turn - second.angle - math.pi / 2, high + turn - second.angle - math.pi / 2)
+        from_pivot = ((first.pivot - second.on) * cmath.exp(-1j * second.angle)).imag
+        _refuse_short(second, (from_pivot + length * ends[0], from_pivot + length * ends[1]), "second.rod")
+        return
+    apart = second.pivot - first.pivot
+    ends = cosine_range(low + turn - cmath.phase(apart), high + turn - cmath.phase(apart))
+    squares = [length**2 + abs(apart) ** 2 - 2 * length * abs(apart) * cosine for cosine in ends]
+    _refuse_apart(second, (math.sqrt(max(min(squares), 0.0)), math.sqrt(max(squares))), "second.rod")
+
+
+def _height(slider: Slider) -> float:
+    """How far the guide passes to the left of the origin's own parallel, mm."""
+    return (slider.on * cmath.exp(-1j * slider.angle)).imag
+
+
+def _refuse_short(slider: Slider, heights: tuple[float, float], name: str) -> None:
+    least = max(map(abs, heights))
+    if slider.rod <= least:
+        raise ParameterError(
+            name, slider.rod, "rod_does_not_reach", limit(least * (1 + _ROOM), slider.rod), least=least
+        )
+
+
+def _refuse_apart(rods: Rods, between: tuple[float, float], name: str) -> None:
+    """A rod and a rocker span distances from |rod - rocker| to rod + rocker."""
+    (near, far), rod, rocker = between, rods.rod, rods.rocker
+    least, most = max(far - rocker, rocker - near), rocker + near
+    if least < rod < most:
+        return
+    cure = None
+    if least * (1 + _ROOM) < most * (1 - _ROOM):
+        cure = limit(least * (1 + _ROOM) if rod <= least else most * (1 - _ROOM), rod)
+    raise ParameterError(name, rod, "rods_do_not_close", cure, nearest=near, farthest=far)
+
+
+def _from(point: Series, pivot: complex) -> Series:
+    return [point[0] - pivot, *point[1:]]
+
+
+def _minus(one: Series, two: Series) -> Series:
+    return [a - b for a, b in zip(one, two, strict=True)]
+
+
+def _along(direction: Series, by: complex, pivot: complex) -> Series:
+    """The point that lies ``by`` from a pivot in the frame of a link."""
+    return [pivot + by * direction[0], *(by * d for d in direction[1:])]
+
+
+def _unit(vector: Series) -> tuple[Series, Series]:
+    """Length and direction."""
+    square = [np.real(x) for x in product(vector, conjugate(vector))]
+    return power(square, 0.5), product(vector, power(square, -0.5))
+
+
+def _slid(joint: Series, slider: Slider) -> tuple[Series, Series]:
+    """The slider's place, and the direction of its rod."""
+    way = cmath.exp(1j * slider.angle)
+    seen = [x * way.conjugate() for x in _from(joint, slider.on)]
+    across = [np.imag(x) for x in seen]
+    square = [-x for x in product(across, across)]
+    square[0] = square[0] + slider.rod**2
+    ahead = power(square, 0.5)
+    travel = [np.real(x) + slider.side * y for x, y in zip(seen, ahead, strict=True)]
+    place = [way * x for x in travel]
+    place[0] = place[0] + slider.on
+    return place, _unit(_minus(place, joint))[1]
+
+
+def _joined(joint: Series, rods: Rods) -> Series:
+    """The common end of a rod from a joint and a rocker: the corner of a triangle with three known sides."""
+    base = [-x for x in _from(joint, rods.pivot)]
+    square = [np.real(x) for x in product(base, conjugate(base))]
+    inverse = power(square, -1.0)
+    # along and across the way to the pivot, in parts of it
+    along = [(rods.rod**2 - rods.rocker**2) / 2 * x for x in inverse]
+    along[0] = along[0] + 0.5
+    across = [rods.rod**2 * x - y for x, y in zip(inverse, product(along, along), strict=True)]
+    corner = [x - 1j * rods.side * y for x, y in zip(along, power(across, 0.5), strict=True)]
+    return [a + b for a, b in zip(joint, product(base, corner), strict=True)]

@@ -1,0 +1,153 @@
+"""A lever mechanism as a picture: its scheme, both plans, and the diagrams of its output over a turn."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from geometry.base.record import Record
+from geometry.curves.curve import Complex, Real
+from parts.base.texts import N_, Text, Words
+
+# a panel and what stays free about it, px
+_SIDE, _EDGE, _HEAD = 420.0, 34.0, 26.0
+_LINK, _PATH, _AXIS = "#1f4e8c", "#9fb0c0", "#c8ccd0"
+_COLOURS = ("#c03020", "#2060c0", "#209050", "#a06000", "#8030a0", "#008090", "#606060", "#d06090")
+# which points are joined by links, and which of these are blocks on a guide
+_RODS = (("O1", "A"), ("A", "B"), ("O3", "B"), ("O3", "C"), ("C", "D"), ("O5", "D"))
+# of a path and a diagram every such point is drawn
+_EVERY = 10
+
+
+class Vector(Record):
+    """A vector of a plan from ``start`` to ``end``, m/s or m/s^2."""
+
+    name: str
+    start: complex
+    end: complex
+
+
+class Plan(Record):
+    """Vectors about a pole, and how much 1 mm of paper stands for."""
+
+    vectors: tuple[Vector, ...]
+    scale: float
+
+
+class LeverPicture(Record, eq=False):
+    """``points`` in the first position, their ``paths`` over a turn, mm, ``fixed`` pivots; whether a ``stone`` slides;
+    ``diagram``: angle (deg), travel (mm), velocity (m/s) and acceleration (m/s^2) of the output.
+    """
+
+    points: Mapping[str, complex]
+    paths: Mapping[str, Complex]
+    fixed: Mapping[str, complex]
+    stone: bool
+    velocities: Plan
+    accelerations: Plan
+    diagram: tuple[Real, Real, Real, Real]
+
+    def svg(self, words: Words) -> str:
+        """The picture in a language."""
+        panels: list[tuple[Text, list[str]]] = [
+            (N_("Scheme"), list(self._scheme())),
+            (N_("Plan of velocities"), list(_plan(self.velocities))),
+            (N_("Plan of accelerations"), list(_plan(self.accelerations))),
+            (N_("Output over a turn"), list(self._diagrams(words))),
+        ]
+        lines = []
+        step = _SIDE + 2 * _EDGE
+        for number, (title, drawn) in enumerate(panels):
+            x, y = number % 2 * step + _EDGE, number // 2 * (step + _HEAD) + _EDGE + _HEAD
+            lines.append(f'<g transform="translate({x:.1f} {y:.1f})">')
+            lines += [_text(0, -14, words.say(title), "#202830"), *drawn, "</g>"]
+        width, height = 2 * step, 2 * (step + _HEAD)
+        box = f'viewBox="0 0 {width:.0f} {height:.0f}" width="{width:.0f}" height="{height:.0f}"'
+        head = f'<svg xmlns="http://www.w3.org/2000/svg" {box}>'
+        return "\n".join([head, '<rect width="100%" height="100%" style="fill:#ffffff"/>', *lines, "</svg>", ""])
+
+    def _scheme(self) -> Iterator[str]:
+        known = {**self.fixed, **self.points}
+        view = _View(np.concatenate([np.array([*known.values()]), *self.paths.values()]))
+        for path in self.paths.values():
+            yield view.line(np.append(path[::_EVERY], path[0]), _PATH, 1.0)
+        for one, two in _RODS:
+            if one not in known or two not in known or (self.stone and (one, two) == ("A", "B")):
+                continue
+            yield view.line(np.array([known[one], known[two]]), _LINK, 3.0)
+        for name, at in known.items():
+            x, y = view.at(at)
+            fill = "#202830" if name in self.fixed else "#ffffff"
+            yield f'<circle cx="{x:.2f}" cy="{y:.2f}" r="4" style="fill:{fill};stroke:{_LINK};stroke-width:2"/>'
+            yield _text(x + 7, y - 7, name, "#202830")
+        if self.stone:
+            x, y = view.at(known["A"])
+            turn = -math.degrees(np.angle(known["A"] - known["O3"]))
+            style = f"fill:none;stroke:{_LINK};stroke-width:2"
+            place = f"translate({x:.2f} {y:.2f}) rotate({turn:.3f})"
+            yield f'<rect x="-9" y="-6" width="18" height="12" transform="{place}" style="{style}"/>'
+
+    def _diagrams(self, words: Words) -> Iterator[str]:
+        angle, *curves = self.diagram
+        third = _SIDE / 3
+        names = ("S, mm", "V, m/s", "a, m/s²")
+        for number, (name, values) in enumerate(zip(names, curves, strict=True)):
+            low, high = min(float(values.min()), 0.0), max(float(values.max()), 0.0)
+            high = high if high > low else low + 1
+            top = number * third + 14
+            tall = third - 26
+            x = (angle - angle[0]) / 360 * _SIDE
+            y = top + (high - values) / (high - low) * tall
+            zero = top + high / (high - low) * tall
+            axis = f"stroke:{_AXIS};stroke-width:1"
+            yield f'<line x1="0" y1="{zero:.2f}" x2="{_SIDE:.0f}" y2="{zero:.2f}" style="{axis}"/>'
+            points = " ".join(f"{a:.2f},{b:.2f}" for a, b in zip(x[::_EVERY], y[::_EVERY], strict=True))
+            yield f'<polyline points="{points}" style="fill:none;stroke:{_COLOURS[number]};stroke-width:1.6"/>'
+            shown = words.say(name) + f"  {words.decimal(f'{low:.4g}')} … {words.decimal(f'{high:.4g}')}"
+            yield _text(0, top - 3, shown, _COLOURS[number])
+
+
+class _View:
+    """Points of a drawing within a panel, as large as it takes, y up."""
+
+    def __init__(self, points: Complex) -> None:
+        low, high = complex(points.real.min(), points.imag.min()), complex(points.real.max(), points.imag.max())
+        size = max(high.real - low.real, high.imag - low.imag) or 1.0
+        self.scale, self.middle = _SIDE / size, (low + high) / 2
+
+    def at(self, point: complex) -> tuple[float, float]:
+        """Where a point lies in the panel, px."""
+        seen = (point - self.middle) * self.scale
+        return _SIDE / 2 + seen.real, _SIDE / 2 - seen.imag
+
+    def line(self, points: Complex, colour: str, width: float) -> str:
+        """A chain of points."""
+        told = " ".join(f"{x:.2f},{y:.2f}" for x, y in (self.at(complex(p)) for p in points))
+        return f'<polyline points="{told}" style="fill:none;stroke:{colour};stroke-width:{width:g}"/>'
+
+
+def _plan(plan: Plan) -> Iterator[str]:
+    ends = [v.end for v in plan.vectors] + [v.start for v in plan.vectors] + [0j]
+    view = _View(np.array(ends))
+    for number, vector in enumerate(plan.vectors):
+        colour = _COLOURS[number % len(_COLOURS)]
+        yield view.line(np.array([vector.start, vector.end]), colour, 1.8)
+        (x0, y0), (x1, y1) = view.at(vector.start), view.at(vector.end)
+        long = math.hypot(x1 - x0, y1 - y0)
+        if long > 6:
+            # an arrow of 9 px at its end
+            dx, dy = (x1 - x0) / long, (y1 - y0) / long
+            tip = [(x1, y1), (x1 - 9 * dx + 3 * dy, y1 - 9 * dy - 3 * dx), (x1 - 9 * dx - 3 * dy, y1 - 9 * dy + 3 * dx)]
+            told = " ".join(f"{x:.2f},{y:.2f}" for x, y in tip)
+            yield f'<polygon points="{told}" style="fill:{colour}"/>'
+            yield _text((x0 + x1) / 2 + 8 * dy, (y0 + y1) / 2 - 8 * dx, vector.name, colour)
+    x, y = view.at(0j)
+    yield f'<circle cx="{x:.2f}" cy="{y:.2f}" r="3.5" style="fill:#202830"/>'
+
+
+def _text(x: float, y: float, text: str, colour: str) -> str:
+    style = f"font-family:sans-serif;font-size:13px;fill:{colour}"
+    return f'<text x="{x:.2f}" y="{y:.2f}" style="{style}">{html.escape(text)}</text>'

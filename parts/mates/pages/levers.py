@@ -1,0 +1,616 @@
+"""``higherpair calc lever``: structure, velocities and accelerations of a lever mechanism, as plans and over a turn."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from msgspec import Meta, Struct
+
+from geometry.base.errors import ParameterError
+from geometry.kinematics.levers import Levers, Moved, Rods, Slider, Stone, swing
+from parts.base.refusal import REMOVED
+from parts.base.texts import N_, Text, message
+from parts.keys.base import degrees, mm
+from parts.mates.pages.contour_marks import checked_picture
+from parts.mates.pages.lever_picture import LeverPicture, Plan, Vector
+from parts.mates.pages.lever_tasks import ASSIGNMENTS, EXAMPLE, assigned, rows_of_code
+from parts.pages.inputs import checked, refusal
+from parts.pages.page import Printed, Sheet, Table
+
+TOPIC = "lever"
+_GUIDELINES = "guidelines, 3.4"
+_MOST = 1e5
+_Length = mm("length", above=0, most=_MOST)
+_KINDS = {Stone: 3, Rods: 1, Slider: 2}
+# scales of plans: a plan's longest vector stays within this on paper, mm
+_PAPER, _STEPS = 120.0, (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)
+# positions over which the greatest values of a turn are sought
+_FINE = 3600
+# keys that choose the others
+_CHOICE = ("code", "assignment", "variant")
+
+
+_CODE = "last four digits of a record-book number: chooses assignment and rows"
+_BESIDE = "how far the guide passes to the left of O3, of O1 where there is no lever"
+_SIDE = "1: slider ahead of C, or O5 to the left of CD; -1: behind it, or to the right"
+_MASS = "AS2 / AB: centre of mass of the rod AB, whose path the picture then has"
+
+
+class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
+    """Keys of the topic; those of an assignment stand for what is not given."""
+
+    code: Annotated[
+        int | str, Meta(description="last four digits of a record-book number: chooses assignment and rows")
+    ] | (None) = None
+    assignment: Annotated[int, Meta(description="number of an assignment of the guidelines, 1 to 10")] | None = None
+    variant: Annotated[int, Meta(description="its row, 1 to 10")] | None = None
+    first: Annotated[
+        Literal["stone", "rods", "slider"],
+        Meta(description="what A joins: stone in a lever, rod and rocker, slider"),
+    ] = "stone"
+    second: Annotated[Literal["slider", "rocker", "none"], Meta(description="what the lever drives")] = "none"
+    crank_length: Annotated[float, _Length] | None = None
+    start_angle_deg: Annotated[float, degrees("angle of the crank from +x", least=-36_000, most=36_000)] = 0.0
+    speed: Annotated[
+        float, Meta(gt=0, le=1e6, description="angular velocity of the crank", extra={"unit": "rad/s"})
+    ] = 1.0
+    frame_length: Annotated[float, _Length] | None = None
+    frame_angle_deg: Annotated[float, degrees("direction from O1 to O3", least=-360, most=360)] = 0.0
+    coupler_length: Annotated[float, _Length] | None = None
+    lever_length: Annotated[float, _Length] | None = None
+    first_side: Annotated[
+        Literal[1, -1], Meta(description="on which side of AB the pivot O3 lies: 1 left, -1 right")
+    ] = 1
+    arm_length: Annotated[float, _Length] | None = None
+    arm_angle_deg: Annotated[float, degrees("direction of O3C against the lever", least=-360, most=360)] = 0.0
+    rod_length: Annotated[float, _Length] | None = None
+    rocker_length: Annotated[float, _Length] | None = None
+    pivot_distance: Annotated[float, _Length] | None = None
+    pivot_angle_deg: Annotated[float, degrees("direction from O3 to O5", least=-360, most=360)] = 0.0
+    guide_height: Annotated[
+        float, mm("how far the guide passes left of O3 (O1 without a lever)", least=-_MOST, most=_MOST)
+    ] = 0.0
+    guide_angle_deg: Annotated[float, degrees("direction of the guide", least=-360, most=360)] = 0.0
+    second_side: Annotated[
+        Literal[1, -1], Meta(description="slider ahead of C (1) or behind (-1); O5 left or right of CD")
+    ] = 1
+    mass_point: (
+        Annotated[float, Meta(ge=0, le=1, description="AS2 / AB of a connecting rod: its centre of mass")] | None
+    ) = None
+    positions: Annotated[int, Meta(ge=2, le=720, description="positions of the crank in the table")] = 12
+    drawn_crank: Annotated[float, mm("length of the crank on the drawing", above=0, most=1000)] = 30.0
+    velocity_scale: Annotated[float, Meta(gt=0, le=1e6, description="m/s for 1 mm of the plan")] | None = None
+    acceleration_scale: Annotated[float, Meta(gt=0, le=1e9, description="m/s2 for 1 mm of the plan")] | None = None
+    picture: Annotated[str, Meta(description="SVG file of scheme, plans and diagrams to write")] | None = None
+
+
+def sheet(table: dict[str, Any]) -> Sheet:
+    """The page of one mechanism."""
+    keys: LeverKeys = checked(table, LeverKeys, TOPIC)
+    checked_picture(TOPIC, keys.picture, (".svg",))
+    try:
+        chosen, number = _chosen(keys, table)
+        if number is not None:
+            keys = checked(chosen | {k: v for k, v in table.items() if k not in _CHOICE}, LeverKeys, TOPIC)
+        return _Page(keys, number, is_example=_is_example(table)).made()
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=keys) from error
+
+
+def _is_example(table: Mapping[str, Any]) -> bool:
+    return "".join(ch for ch in str(table.get("code", "")) if ch.isdigit()) == EXAMPLE["code"] and set(table) <= {
+        "code",
+        "picture",
+        "positions",
+    }
+
+
+def _chosen(keys: LeverKeys, table: Mapping[str, Any]) -> tuple[dict[str, Any], int | None]:
+    """The keys of an assignment, and its number."""
+    if keys.code is not None:
+        for name in ("assignment", "variant"):
+            if table.get(name) is not None:
+                raise ParameterError(name, table[name], "other_is_given", REMOVED, other="code")
+        number, rows = rows_of_code(str(keys.code))
+        example = {k: v for k, v in EXAMPLE.items() if k != "code"} if _is_example(table) else {}
+        return {**assigned(number, rows), **example}, number
+    if keys.assignment is None:
+        if keys.variant is not None:
+            raise ParameterError("variant", keys.variant, "needs_other", REMOVED, other="assignment")
+        return {}, None
+    return {**assigned(keys.assignment, (1 if keys.variant is None else keys.variant,) * 3)}, keys.assignment
+
+
+def levers_of(keys: LeverKeys) -> Levers:
+    """The mechanism of the keys.
+
+    Raises
+    ------
+    ParameterError
+        A length that the mechanism needs is missing, or one that it has not is given.
+    """
+
+    def needed(name: str) -> float:
+        value = getattr(keys, name)
+        if value is None:
+            raise ParameterError(name, None, "missing_key", None, what=message("a length, mm"))
+        return float(value)
+
+    crank = needed("crank_length")
+    guide = math.radians(keys.guide_angle_deg)
+    across = keys.guide_height * 1j * cmath.exp(1j * guide)
+    if keys.first == "slider":
+        if keys.second != "none":
+            raise ParameterError("second", keys.second, "lever_needed", REMOVED)
+        return Levers(crank, keys.speed, Slider(needed("coupler_length"), across, guide, keys.second_side))
+    pivot = cmath.rect(needed("frame_length"), math.radians(keys.frame_angle_deg))
+    lever = needed("lever_length")
+    first: Stone | Rods = Stone(pivot)
+    if keys.first == "rods":
+        first = Rods(pivot, needed("coupler_length"), lever, keys.first_side)
+    if keys.second == "none":
+        return Levers(crank, keys.speed, first, lever)
+    arm = cmath.rect(keys.arm_length or lever, math.radians(keys.arm_angle_deg))
+    second: Slider | Rods = Slider(needed("rod_length"), pivot + across, guide, keys.second_side)
+    if keys.second == "rocker":
+        other = pivot + cmath.rect(needed("pivot_distance"), math.radians(keys.pivot_angle_deg))
+        second = Rods(other, needed("rod_length"), needed("rocker_length"), keys.second_side)
+    return Levers(crank, keys.speed, first, lever, arm, second)
+
+
+# geometry names the parts of a mechanism, users its lengths
+_NAMES = {"first.rod": "coupler_length", "first.pivot": "frame_length", "second.rod": "rod_length"}
+
+
+class _Page:
+    """The page while it grows: ``at`` is the mechanism in the first position, in mm and s."""
+
+    def __init__(self, keys: LeverKeys, number: int | None, *, is_example: bool) -> None:
+        self.keys, self.number = keys, number
+        self.levers = levers_of(keys)
+        self.printed = _PRINTED if is_example else {}
+        self.page = Sheet(TOPIC, N_("Lever mechanism"), picture_file=keys.picture)
+        self.start = math.radians(keys.start_angle_deg)
+        try:
+            self.at = self.levers.moved(self.start)
+            self.turn = self.levers.moved(self.start + 2 * math.pi * np.arange(_FINE) / _FINE)
+        except ParameterError as error:
+            raise error.renamed(_NAMES.get(error.name, error.name)) from error
+
+    def made(self) -> Sheet:
+        """The whole page."""
+        self._given()
+        self._structure()
+        self._place()
+        self._velocities()
+        self._accelerations()
+        self._over_a_turn()
+        self._plans()
+        self._notes()
+        return self.page
+
+    def _number(self, value: complex | np.ndarray) -> float:
+        return float(np.real(value))
+
+    def _size(self, value: complex | np.ndarray) -> float:
+        """A vector's size in metres, of one in millimetres."""
+        return float(abs(complex(value))) / 1000
+
+    def _given(self) -> None:
+        page, keys = self.page, self.keys
+        page.section(N_("Given"))
+        page.add("crank_angle_deg", keys.start_angle_deg, given=True)
+        page.add("crank_speed", keys.speed, given=True)
+        page.add("crank_length", self.levers.crank, given=True)
+        rod = None if keys.first == "stone" else keys.coupler_length
+        lengths: list[tuple[str, float | None]] = [("first_rod_length", rod)]
+        if keys.first != "slider":
+            lengths += [("frame_length", keys.frame_length), ("frame_angle_deg", keys.frame_angle_deg)]
+            lengths += [("lever_length", keys.lever_length)]
+        if keys.second != "none":
+            lengths += [("lever_arm_length", keys.arm_length or keys.lever_length)]
+            lengths += [("lever_arm_angle_deg", keys.arm_angle_deg), ("second_rod_length", keys.rod_length)]
+        if keys.second == "rocker":
+            lengths += [("second_rocker_length", keys.rocker_length)]
+        if "slider" in (keys.first, keys.second):
+            lengths += [("guide_offset", keys.guide_height)]
+        for name, value in lengths:
+            if value is not None:
+                page.add(name, value, given=True)
+        scale = self.levers.crank / keys.drawn_crank
+        heads = ((N_("length"), ""), (N_("real"), "mm"), (N_("on the drawing"), "mm"))
+        named = [("l_AO1", self.levers.crank)]
+        symbols = {
+            "first_rod_length": "l_AB",
+            "frame_length": "l_O1O3",
+            "lever_length": "l_BO3",
+            "lever_arm_length": "l_CO3",
+            "second_rod_length": "l_CD",
+            "second_rocker_length": "l_DO5",
+        }
+        named += [(symbols[name], value) for name, value in lengths if value is not None and name in symbols]
+        rows = tuple((value, value / scale) for _, value in named)
+        title = message(N_("Lengths on the drawing, {scale:g} m for 1 mm"), scale=scale / 1000)
+        page.tables.append(Table("lengths", title, heads, rows, labels=tuple((symbol,) for symbol, _ in named)))
+
+    def _structure(self) -> None:
+        page, levers = self.page, self.levers
+        page.section(N_("Structure"))
+        page.add("moving_links", levers.links)
+        page.add("lower_pairs", levers.lower_pairs)
+        page.add("higher_pairs", 0)
+        page.add("degree_of_freedom", 1, "3 * {n} - 2 * {p_5} - {p_4}", _GUIDELINES)
+        first, second = _KINDS[type(levers.first)], levers.second
+        if second is None:
+            text = message(
+                N_("class II: the crank (class I) and one group of class 2, order 2, kind {kind}"), kind=first
+            )
+        else:
+            text = message(
+                N_(
+                    "class II: the crank (class I), links 2 and 3 as a group of class 2, order 2, kind {first}, and "
+                    "links 4 and 5 as a group of class 2, order 2, kind {second}"
+                ),
+                first=first,
+                second=_KINDS[type(second)],
+            )
+        page.notes.append(text)
+
+    def _add(
+        self,
+        name: str,
+        value: float,
+        formula: str = "",
+        source: str = "",
+        *,
+        symbol: str = "",
+        key: str = "",
+        of: Text = "",
+    ) -> None:
+        """A step; of the worked example with what it prints, where that is not right."""
+        self.page.add(name, value, formula, source, symbol=symbol, key=key, of=of)
+        if found := self.printed.get(symbol or name):
+            text, why = found
+            self.page.mark_misprint(Printed(text, why))
+
+    def _place(self) -> None:
+        at = self.at
+        self.page.section(N_("Position"))
+        if at.reach is not None:
+            formula = "sqrt({l_0}**2 + {l_1}**2 - 2 * {l_0} * {l_1} * cos({phi_1} - {gamma_0}))"
+            self._add("stone_distance", self._number(at.reach[0]), formula)
+        for link, name in (("2", "first_rod_angle_deg"), ("3", "lever_angle_deg"), ("4", "second_rod_angle_deg")):
+            if link in at.links:
+                self._add(name, math.degrees(self._number(at.angle(link))))
+
+    def _velocities(self) -> None:
+        at = self.at
+        self.page.section(N_("Velocities"))
+        self._point("A", "{omega_1} * {l_1} / 1000")
+        if at.reach is not None:
+            self._add(
+                "point_velocity",
+                self._across(at),
+                "{V_A} * abs(cos({phi_1} - {phi_3}))",
+                _GUIDELINES,
+                symbol="V_A3",
+                key="V_A3",
+                of=N_("A on the lever"),
+            )
+            self._add(
+                "relative_velocity",
+                abs(self._number(at.reach[1])) / 1000,
+                "{V_A} * abs(sin({phi_1} - {phi_3}))",
+                _GUIDELINES,
+                symbol="V_A3A2",
+                of=N_("the stone along the lever"),
+            )
+            self._link("3", "1000 * {V_A3} / {r_A}")
+        elif "2" in at.links:
+            self._relative("2", "B", "A", "l_2")
+        if "3" in at.links and at.reach is None:
+            self._point("B", "")
+            self._link("3", "1000 * {V_B} / {l_3}")
+        elif "3" in at.links:
+            self._point("B", "{omega_3} * {l_3} / 1000")
+        else:
+            self._point("B", "")
+        if "C" in at.points:
+            self._point("C", "{omega_3} * {l_C} / 1000")
+            self._point("D", "")
+            self._relative("4", "D", "C", "l_4")
+            if "5" in at.links:
+                self._link("5", "1000 * {V_D} / {l_5}")
+
+    def _across(self, at: Moved) -> float:
+        rate = abs(self._number(at.turning("3")[0]))
+        assert at.reach is not None
+        return rate * self._number(at.reach[0]) / 1000
+
+    def _point(self, name: str, formula: str) -> None:
+        size = self._size(self.at.velocity(name))
+        self._add(
+            "point_velocity",
+            size,
+            formula,
+            symbol=f"V_{name}",
+            key=f"V_{name}",
+            of=message(N_("point {name}"), name=name),
+        )
+
+    def _link(self, link: str, formula: str) -> None:
+        rate = abs(self._number(self.at.turning(link)[0]))
+        self._add(
+            "link_speed",
+            rate,
+            formula,
+            symbol=f"ω_{link}",
+            key=f"omega_{link}",
+            of=message(N_("link {name}"), name=link),
+        )
+
+    def _relative(self, link: str, of: str, against: str, length: str) -> None:
+        both = f"{of}{against}"
+        size = self._size(self.at.velocity(of) - self.at.velocity(against))
+        self._add(
+            "relative_velocity",
+            size,
+            symbol=f"V_{both}",
+            key=f"V_{both}",
+            of=message(N_("{of} about {against}"), of=of, against=against),
+        )
+        self._link(link, f"1000 * {{V_{both}}} / {{{length}}}")
+
+    def _accelerations(self) -> None:
+        at = self.at
+        self.page.section(N_("Accelerations"))
+        self._accelerated("A", "{omega_1}**2 * {l_1} / 1000")
+        if at.reach is not None:
+            self._add(
+                "coriolis_acceleration",
+                2 * abs(self._number(at.turning("3")[0]) * self._number(at.reach[1])) / 1000,
+                "2 * {omega_3} * {V_r}",
+                _GUIDELINES,
+                symbol="a_A3A2_k",
+                of=N_("the stone in the lever"),
+            )
+            self._about("3", N_("A about O3"), self._number(at.reach[0]), "r_A")
+        elif "2" in at.links:
+            self._about("2", N_("B about A"), abs(complex(at.place("B") - at.place("A"))), "l_2")
+        if at.reach is None and "3" in at.links:
+            self._about("3", N_("B about O3"), self.levers.lever, "l_3")
+        turned = "sqrt(({omega_3}**2)**2 + {eps_3}**2)"
+        self._accelerated("B", f"{{l_3}} * {turned} / 1000" if "3" in at.links else "")
+        if "C" in at.points:
+            self._accelerated("C", f"{{l_C}} * {turned} / 1000")
+            rod = abs(complex(at.place("D") - at.place("C")))
+            self._about("4", N_("D about C"), rod, "l_4")
+            self._accelerated("D", "")
+
+    def _accelerated(self, name: str, formula: str) -> None:
+        size = self._size(self.at.acceleration(name))
+        self._add(
+            "point_acceleration",
+            size,
+            formula,
+            symbol=f"a_{name}",
+            key=f"a_{name}",
+            of=message(N_("point {name}"), name=name),
+        )
+
+    def _about(self, link: str, of: str, length: float, key: str) -> None:
+        """Normal and tangential part of a turn with a link, and its angular acceleration."""
+        speed, change = (abs(self._number(x)) for x in self.at.turning(link))
+        normal, tangential = speed**2 * length / 1000, change * length / 1000
+        self._add(
+            "normal_acceleration",
+            normal,
+            f"{{omega_{link}}}**2 * {{{key}}} / 1000",
+            _GUIDELINES,
+            symbol=f"a_{link}n",
+            key=f"a_{link}n",
+            of=of,
+        )
+        self._add("tangential_acceleration", tangential, symbol=f"a_{link}t", key=f"a_{link}t", of=of)
+        self._add(
+            "link_acceleration",
+            change,
+            f"1000 * {{a_{link}t}} / {{{key}}}",
+            _GUIDELINES,
+            symbol=f"ε_{link}",
+            key=f"eps_{link}",
+            of=message(N_("link {name}"), name=link),
+        )
+
+    @property
+    def _output(self) -> str:
+        return "D" if "D" in self.at.points else "B"
+
+    def _over_a_turn(self) -> None:
+        """The table of equidistant positions, and what is greatest over the turn."""
+        page, name = self.page, self._output
+        page.section(N_("Over a turn"))
+        out = self.turn.place(name)
+        slides = self.keys.second == "slider" or self.keys.first == "slider"
+        way = cmath.exp(1j * math.radians(self.keys.guide_angle_deg))
+        travel = (out * way.conjugate()).real
+        if slides:
+            page.add("output_stroke", float(np.ptp(travel)), of=message(N_("point {name}"), name=name))
+        for term, values in (
+            ("greatest_output_velocity", self.turn.velocity(name)),
+            ("greatest_output_acceleration", self.turn.acceleration(name)),
+        ):
+            page.add(term, float(np.abs(values).max()) / 1000, of=message(N_("point {name}"), name=name))
+        angles = self.start + 2 * math.pi * np.arange(self.keys.positions) / self.keys.positions
+        at = self.levers.moved(angles)
+        columns: list[tuple[tuple[str, str], np.ndarray]] = [(("φ_1", "deg"), np.degrees(angles))]
+        for link in at.links:
+            speed, change = at.turning(link)
+            columns += [((f"φ_{link}", "deg"), np.degrees(at.angle(link))), ((f"ω_{link}", "rad/s"), speed)]
+            columns += [((f"ε_{link}", "rad/s2"), change)]
+        place, speeds, changes = at.place(name), at.velocity(name), at.acceleration(name)
+        if slides:
+            along = [(x * way.conjugate()).real for x in (place, speeds / 1000, changes / 1000)]
+            columns += [((f"S_{name}", "mm"), along[0] - travel.min()), ((f"V_{name}", "m/s"), along[1])]
+            columns += [((f"a_{name}", "m/s2"), along[2])]
+        else:
+            columns += [((f"x_{name}", "mm"), place.real), ((f"y_{name}", "mm"), place.imag)]
+            columns += [((f"V_{name}", "m/s"), np.abs(speeds) / 1000), ((f"a_{name}", "m/s2"), np.abs(changes) / 1000)]
+        rows = tuple(tuple(map(float, row)) for row in zip(*(values for _, values in columns), strict=True))
+        heads = tuple(head for head, _ in columns)
+        page.tables.append(Table("positions", N_("Positions of the crank over one turn"), heads, rows))
+
+    def _plans(self) -> None:
+        """Both plans as vectors with the lengths that they have on paper, and the picture."""
+        velocities, accelerations = self._velocity_vectors(), self._acceleration_vectors()
+        speed_scale = self.keys.velocity_scale or _scale([abs(v.end) for v in velocities])
+        change_scale = self.keys.acceleration_scale or _scale([abs(v.end) for v in accelerations])
+        for key, title, unit, vectors, scale in (
+            ("velocity_plan", N_("Plan of velocities, {scale:g} m/s for 1 mm"), "m/s", velocities, speed_scale),
+            (
+                "acceleration_plan",
+                N_("Plan of accelerations, {scale:g} m/s² for 1 mm"),
+                "m/s2",
+                accelerations,
+                change_scale,
+            ),
+        ):
+            heads = ((N_("vector"), ""), (N_("value"), unit), (N_("direction"), "deg"), (N_("on the plan"), "mm"))
+            rows = []
+            for v in vectors:
+                vector = v.end - v.start
+                rows.append((abs(vector), math.degrees(cmath.phase(vector)), abs(vector) / scale))
+            labels = tuple((v.name,) for v in vectors)
+            self.page.tables.append(Table(key, message(title, scale=scale), heads, tuple(rows), labels=labels))
+        fixed = {"O1": 0j}
+        if not isinstance(self.levers.first, Slider):
+            fixed["O3"] = self.levers.first.pivot
+        if isinstance(self.levers.second, Rods):
+            fixed["O5"] = self.levers.second.pivot
+        share = self.keys.mass_point if "2" in self.at.links else None
+        shown = []
+        for at in (self.at, self.turn):
+            places = {name: at.place(name) for name in at.points}
+            if share is not None:
+                places["S2"] = (1 - share) * places["A"] + share * places["B"]
+            shown.append(places)
+        self.page.picture = LeverPicture(
+            {name: complex(place) for name, place in shown[0].items()},
+            shown[1],
+            fixed,
+            self.at.reach is not None,
+            Plan(tuple(velocities), speed_scale),
+            Plan(tuple(accelerations), change_scale),
+            self._diagram(),
+        )
+
+    def _diagram(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Angle (deg), travel (mm), velocity and acceleration of the output along its way."""
+        name = self._output
+        way = cmath.exp(1j * math.radians(self.keys.guide_angle_deg))
+        angles = self.keys.start_angle_deg + 360 * np.arange(_FINE) / _FINE
+        place, speed, change = (
+            (x * way.conjugate()).real
+            for x in (self.turn.place(name), self.turn.velocity(name) / 1000, self.turn.acceleration(name) / 1000)
+        )
+        return angles, place - place.min(), speed, change
+
+    def _velocity_vectors(self) -> list[Vector]:
+        at = self.at
+        ends = {name: complex(at.velocity(name)) / 1000 for name in at.points}
+        found = [Vector("pa", 0j, ends["A"])]
+        if at.reach is not None:
+            rate, lever = self._number(at.turning("3")[0]), complex(at.links["3"][0])
+            own = 1j * rate * lever * self._number(at.reach[0]) / 1000
+            found += [Vector("pa3", 0j, own), Vector("a3a2", ends["A"], own)]
+        found += [Vector(f"p{name.lower()}", 0j, ends[name]) for name in ends if name != "A"]
+        if "2" in at.links:
+            found.append(Vector("ab", ends["A"], ends["B"]))
+        if "D" in ends:
+            found.append(Vector("cd", ends["C"], ends["D"]))
+        return found
+
+    def _acceleration_vectors(self) -> list[Vector]:
+        at = self.at
+        ends = {name: complex(at.acceleration(name)) / 1000 for name in at.points}
+        found = [Vector("πa", 0j, ends["A"])]
+        if at.reach is not None:
+            rate, change = (self._number(x) for x in at.turning("3"))
+            lever, far = complex(at.links["3"][0]), self._number(at.reach[0]) / 1000
+            normal = -(rate**2) * far * lever
+            coriolis = ends["A"] - 2j * rate * self._number(at.reach[1]) / 1000 * lever
+            own = normal + 1j * change * far * lever
+            found += [Vector("a2k", ends["A"], coriolis), Vector("ka3", coriolis, own)]
+            found += [Vector("πn3", 0j, normal), Vector("n3a3", normal, own)]
+        found += [Vector(f"π{name.lower()}", 0j, ends[name]) for name in ends if name != "A"]
+        for link, one, two in (("2", "A", "B"), ("4", "C", "D")):
+            if link in at.links:
+                rate = self._number(at.turning(link)[0])
+                rod = complex(at.place(two) - at.place(one)) / 1000
+                normal = ends[one] - rate**2 * rod
+                found += [Vector(f"{one.lower()}n{link}", ends[one], normal)]
+                found += [Vector(f"n{link}{two.lower()}", normal, ends[two])]
+        return found
+
+    def _notes(self) -> None:
+        page, levers = self.page, self.levers
+        if self.number is not None:
+            page.notes.append(
+                message(
+                    N_("assignment {number}: {machine}"),
+                    number=self.number,
+                    machine=message(ASSIGNMENTS[self.number][0]),
+                )
+            )
+            if self.number != 1:
+                page.notes.append(
+                    N_(
+                        "the figure of this assignment is lost: how its links stand is the usual scheme of such a "
+                        "machine, assumed; frame_angle_deg, arm_angle_deg, guide_height, first_side and second_side "
+                        "change it"
+                    )
+                )
+        if isinstance(levers.first, Stone):
+            most = abs(levers.first.pivot) + levers.crank
+            if levers.lever < most:
+                text = N_("the stone leaves the lever: it goes to {most:g} mm from O3, the lever ends at {length:g} mm")
+                page.notes.append(message(text, most=most, length=levers.lever))
+        if not isinstance(levers.first, Slider):
+            low, high = swing(levers)
+            if high - low < 2 * math.pi:
+                page.notes.append(message(N_("the lever swings by {angle:.4g}°"), angle=math.degrees(high - low)))
+            else:
+                page.notes.append(N_("the lever goes all the way round"))
+
+
+def _scale(sizes: list[float]) -> float:
+    """The finest of the usual scales at which the longest vector has room."""
+    most = max(sizes) / _PAPER
+    if not most > 0:
+        return 1.0
+    decade = 10.0 ** math.floor(math.log10(most))
+    return next(step * decade for step in _STEPS if step * decade >= most * (1 - 1e-12))
+
+
+_OFF_PLAN = N_("measured off the plan")
+# the worked example: what it prints where the mechanism itself gives another number, and why
+_PRINTED: dict[str, tuple[str, Text]] = {
+    "stone_distance": ("887", _OFF_PLAN),
+    "ω_3": ("13.2", _OFF_PLAN),
+    "V_B": ("14.22", _OFF_PLAN),
+    "V_C": ("3.56", N_("from ω_3 = 13.2")),
+    "V_D": ("3.58", N_("pd_5 = 36.8 mm, not 35.8: both plans fit together with the guide through O3 alone")),
+    "ω_4": ("0.542", N_("c_4d_4 = 4.4 mm, not 4.1: that is V_C sin φ_3, the rod parallel to its guide")),
+    "a_A3A2_k": ("73.1", N_("from ω_3 = 13.2")),
+    "a_3n": ("154.6", N_("from ω_3 = 13.2")),
+    "ε_3": ("42.6", _OFF_PLAN),
+    "a_B": ("194.1", _OFF_PLAN),
+    "a_C": ("48.6", _OFF_PLAN),
+    "a_4n": ("0.22", N_("from ω_4 = 0.542")),
+    "ε_4": ("64.3", _OFF_PLAN),
+    "a_D": ("0.3", N_("0.1 mm of the plan, which is how finely it can be read")),
+}

@@ -1,0 +1,221 @@
+"""``calc lever``: the guidelines' worked example and assignments, plans that close, wrong input by its key."""
+
+from __future__ import annotations
+
+import cmath
+import json
+import math
+import xml.etree.ElementTree as ET
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.documents.topics import calculate
+from parts.base.refusal import SceneError
+from tests.exporters.documents.test_calc import evaluated, sheet_for
+
+ROWS = json.loads((Path(__file__).parents[2] / "published" / "levers.json").read_text(encoding="utf-8"))["cases"]
+CASES = {case["id"].removeprefix("003."): case for case in ROWS}
+FULL = CASES["ex.full"]["recomputed"]
+
+
+@cache
+def calculated(*keys: str) -> dict[str, Any]:
+    return json.loads(calculate("lever", keys, "json", "en"))
+
+
+def value(data: dict[str, Any], symbol: str) -> float:
+    return next(s["value"] for s in data["steps"] if s["symbol"] == symbol)
+
+
+SYMBOLS = {
+    "V_A_m_s": "V_A", "V_A3_m_s": "V_A3", "V_A3A2_m_s": "V_A3A2", "omega3_rad_s": "ω_3", "V_B_m_s": "V_B",
+    "V_C_m_s": "V_C", "a_A_m_s2": "a_A", "a_Coriolis_m_s2": "a_A3A2_k", "a_n_A3_m_s2": "a_3n", "a_t_A3_m_s2": "a_3t",
+    "eps3_rad_s2": "ε_3", "a_B_m_s2": "a_B", "a_C_m_s2": "a_C", "omega4_rad_s": "ω_4", "V_D_m_s": "V_D",
+    "V_DC_m_s": "V_DC", "eps4_rad_s2": "ε_4", "a_t_DC_m_s2": "a_4t", "a_n_DC_m_s2": "a_4n",
+    "psi_deg": "φ_3", "delta_CD_deg": "φ_4",
+}  # fmt: skip
+
+
+def test_the_worked_example_is_recomputed() -> None:
+    data = calculated("code=1071")
+    for name, symbol in SYMBOLS.items():
+        assert value(data, symbol) == pytest.approx(FULL[name], rel=1e-10), symbol
+    assert value(data, "l_AO3") == pytest.approx(1000 * FULL["O3A_m"], rel=1e-12)
+    assert value(data, "a_D") == pytest.approx(abs(FULL["a_D_m_s2"]), abs=1e-9)
+    given = CASES["ex.lengths"]["recomputed"]
+    for name, symbol in (("O1O3_m", "l_O1O3"), ("BO3_m", "l_BO3"), ("CO3_m", "l_CO3"), ("CD_m", "l_CD")):
+        assert value(data, symbol) == pytest.approx(1000 * given[name], rel=1e-12)
+    assert [value(data, s) for s in ("n", "p_5", "p_4", "W")] == [5, 7, 0, 1]
+
+
+@pytest.mark.parametrize(
+    ("case", "symbol", "number"),
+    [("omega3", "ω_3", "13.2"), ("V_B", "V_B", "14.22"), ("V_C", "V_C", "3.56"), ("V_D", "V_D", "3.58"),
+     ("omega4", "ω_4", "0.542"), ("a_cor", "a_A3A2_k", "73.1"), ("a_n", "a_3n", "154.6"), ("eps3", "ε_3", "42.6"),
+     ("a_B", "a_B", "194.1"), ("a_C", "a_C", "48.6"), ("a_n_DC", "a_4n", "0.22"), ("eps4", "ε_4", "64.3"),
+     ("a_D", "a_D", "0.3")],
+)  # fmt: skip
+def test_what_the_example_prints_is_told_beside_the_right_number(case: str, symbol: str, number: str) -> None:
+    assert any(str(printed).rstrip("0") == number.rstrip("0") for printed in CASES[f"ex.{case}"]["printed"].values())
+    told = next(s for s in calculated("code=1071")["steps"] if s["symbol"] == symbol)
+    assert f": {number} (" in told["misprint"]
+    # of another number there is nothing to tell, though its keys are the same
+    other = calculated("assignment=1", "variant=7", "start_angle_deg=20", "speed=40")
+    assert value(other, symbol) == pytest.approx(told["value"], rel=1e-12)
+    assert not [s for s in other["steps"] if "misprint" in s]
+
+
+def _rows(data: dict[str, Any], name: str) -> list[list[Any]]:
+    return [list(row.values()) for row in data[name]]
+
+
+def test_both_plans_have_the_lengths_of_the_example() -> None:
+    data = calculated("code=1071")
+    speeds = {row[0]: row[-1] for row in _rows(data, "velocity_plan")}
+    changes = {row[0]: row[-1] for row in _rows(data, "acceleration_plan")}
+    for found, name, case, key in (
+        (speeds, "pa", "V_A", "pa_mm"), (speeds, "pa3", "V_A3", "a3o3_mm"), (speeds, "a3a2", "V_A3", "a3a2_mm"),
+        (speeds, "pb", "V_B", "pb_mm"), (speeds, "pd", "V_D", "pd5_mm"), (speeds, "cd", "omega4", "c4d4_mm"),
+        (changes, "πa", "a_A", "pi_a_mm"), (changes, "n3a3", "eps3", "n3a3_mm"), (changes, "πb", "a_B", "b3o3_mm"),
+        (changes, "πc", "a_C", "c3o3_mm"), (changes, "n4d", "eps4", "n4d4_mm"),
+    ):  # fmt: skip
+        assert found[name] == pytest.approx(CASES[f"ex.{case}"]["recomputed"][key], rel=1e-6), name
+    drawn = {row[0]: row[-1] for row in _rows(data, "lengths")}
+    for name, right in CASES["ex.drawing_lengths"]["recomputed"].items():
+        symbol = {"AO1_mm": "l_AO1"}.get(name, f"l_{name.removesuffix('_mm')}")
+        assert drawn[symbol] == pytest.approx(right, rel=1e-12)
+
+
+@pytest.mark.parametrize("keys", [("code=1071",), ("assignment=4",), ("assignment=8",), ("assignment=10",)], ids=str)
+def test_plans_close(keys: tuple[str, ...]) -> None:
+    """Along any other way from the pole a vector ends where the direct one does."""
+    ways = {
+        "velocity_plan": [("pa3", ("pa", "a3a2")), ("pb", ("pa", "ab")), ("pd", ("pc", "cd"))],
+        "acceleration_plan": [("πa", ("πn3", "n3a3", "-ka3", "-a2k")), ("πb", ("πa", "an2", "n2b")),
+                              ("πd", ("πc", "cn4", "n4d"))],
+    }  # fmt: skip
+    closed = 0
+    for table, checks in ways.items():
+        vectors = {r[0]: cmath.rect(r[1], math.radians(r[2])) for r in _rows(calculated(*keys), table)}
+        for direct, way in checks:
+            if direct in vectors and all(step.lstrip("-") in vectors for step in way):
+                total = sum(-vectors[s[1:]] if s.startswith("-") else vectors[s] for s in way)
+                assert abs(total - vectors[direct]) < 1e-9 * max(map(abs, vectors.values()))
+                closed += 1
+    assert closed >= 2
+
+
+@pytest.mark.parametrize("variant", range(1, 11))
+def test_variants_of_the_first_assignment(variant: int) -> None:
+    right, data = CASES[f"task1.variant{variant}"]["recomputed"], calculated("assignment=1", f"variant={variant}")
+    for name in ("V_A_m_s", "V_A3A2_m_s", "V_B_m_s", "V_C_m_s", "a_B_m_s2", "a_C_m_s2"):
+        assert value(data, SYMBOLS[name]) == pytest.approx(abs(right[name]), rel=1e-9, abs=1e-9), name
+    assert value(data, "ω_3") == pytest.approx(abs(right["omega3_rad_s"]), rel=1e-9)
+    assert value(data, "ε_3") == pytest.approx(abs(right["eps3_signed_rad_s2"]), rel=1e-9, abs=1e-9)
+    # variant 6: the stone leaves its lever (3.5 against 3.0 cranks)
+    assert any("leaves the lever" in note for note in data["notes"]) == (variant == 6)
+
+
+@pytest.mark.parametrize("height", [-0.3, -0.2, -0.1, 0.1, 0.2])
+def test_other_guides_of_the_example(height: float) -> None:
+    right = CASES[f"ex.guide.{height}"]["recomputed"]
+    data = calculated("assignment=1", "variant=7", "start_angle_deg=20", "speed=40", f"guide_height={1000 * height}")
+    assert value(data, "φ_4") == pytest.approx(right["delta_CD_deg"], rel=1e-10)
+    assert value(data, "ω_4") == pytest.approx(abs(right["omega4_rad_s"]), rel=1e-9)
+    assert value(data, "V_D") == pytest.approx(right["V_D_m_s"], rel=1e-10)
+    assert value(data, "ε_4") == pytest.approx(right["eps4_rad_s2"], rel=1e-9)
+    assert value(data, "a_D") == pytest.approx(abs(right["a_D_m_s2"]), rel=1e-8)
+
+
+@pytest.mark.parametrize("assignment", range(1, 11))
+def test_every_assignment_moves_all_round(assignment: int) -> None:
+    """Every row of it; what the tables tell is what the steps tell, and the output comes back to where it began."""
+    for variant in range(1, 11):
+        data = calculated(f"assignment={assignment}", f"variant={variant}", "positions=24")
+        rows = np.array(_rows(data, "positions"), dtype=float)
+        assert rows.shape[0] == 24
+        assert np.allclose(np.diff(rows[:, 0]), 15.0)
+        assert np.isfinite(rows).all()
+        # the first row is the position of the steps
+        first = data["positions"][0]
+        link = "ω_2" if "ω_2" in first else "ω_3"
+        assert abs(first[link]) == pytest.approx(value(data, link))
+        # what slides comes back: its velocity over the turn is nothing in the mean, and its stroke is seen
+        if "S_D" in first or "S_B" in first:
+            out = "D" if "S_D" in first else "B"
+            speeds = [row[f"V_{out}"] for row in data["positions"]]
+            assert abs(np.mean(speeds)) < 0.03 * np.abs(speeds).max()
+            travel = np.ptp([row[f"S_{out}"] for row in data["positions"]])
+            assert 0.9 * value(data, "H") < travel <= value(data, "H") * (1 + 1e-9)
+
+
+def test_the_choice_by_number_is_that_of_the_guidelines() -> None:
+    """Row 1 for a, 10 for b, 7 for v, assignment 1."""
+    right, data = CASES["selection"]["recomputed"], calculated("code=10-71")
+    assert value(data, "φ_1") == right["phi0_deg"]
+    assert value(data, "ω_1") == right["omega1_rad_s"]
+    assert value(data, "l_AO1") == 1000 * right["AO1_m"]
+    assert value(data, "l_O1O3") / value(data, "l_AO1") == pytest.approx(right["O1O3/AO1"])
+    assert value(data, "l_CD") / value(data, "l_CO3") == pytest.approx(right["CD/CO3"])
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["lever code=1071", "lever assignment=4 variant=3", "lever assignment=8 variant=2", "lever assignment=10",
+     "lever assignment=2 variant=5"],
+)  # fmt: skip
+def test_every_printed_formula_gives_its_value(words: str) -> None:
+    checked = [step for step in sheet_for(words).steps() if step.formula]
+    assert len(checked) >= 4
+    for step in checked:
+        assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.symbol, step.formula)
+
+
+def test_the_picture_shows_scheme_plans_and_diagrams(tmp_path: Path) -> None:
+    file = tmp_path / "lever.svg"
+    calculate("lever", ["code=1071", f"picture={file}"], "text", "uk")
+    words = [e.text for e in ET.parse(file).iter() if e.tag.endswith("}text")]
+    assert {"O1", "O3", "A", "B", "C", "D", "pa", "pa3", "a3a2", "πa", "a2k"} <= set(words)
+    assert "План швидкостей" in words
+    # the links as drawn are as long as they are, in one scale
+    lines = [
+        e.attrib["points"]
+        for e in ET.parse(file).iter()
+        if e.tag.endswith("polyline") and "width:3" in e.attrib["style"]
+    ]
+    ends = [[complex(*map(float, p.split(","))) for p in line.split()] for line in lines]
+    sizes = sorted(abs(a - b) for a, b in ends)
+    assert np.allclose(np.array(sizes) / sizes[0], np.array(sorted([300, 1080, 270, 756])) / 270, rtol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("keys", "key", "code", "nearest"),
+    [
+        (("assignment=11",), "assignment", "not_among_ten", 10),
+        (("assignment=1", "variant=0"), "variant", "not_among_ten", 1),
+        (("variant=2",), "variant", "needs_other", None),
+        (("code=107",), "code", "not_four_digits", None),
+        (("code=1071", "variant=2"), "variant", "other_is_given", None),
+        ((), "crank_length", "missing_key", None),
+        (("crank_length=30",), "frame_length", "missing_key", None),
+        (("crank_length=30", "first=slider", "coupler_length=30"), "coupler_length", "rod_does_not_reach", 30.0001),
+        (("crank_length=30", "first=slider", "coupler_length=90", "second=slider"), "second", "lever_needed", None),
+        (("crank_length=30", "frame_length=30", "lever_length=90"), "frame_length", "stone_through_pivot", None),
+        (("assignment=1", "rod_length=50"), "rod_length", "rod_does_not_reach", 200.8801),
+        (("assignment=4", "coupler_length=900"), "coupler_length", "rods_do_not_close", 517.9994),
+    ],
+)  # fmt: skip
+def test_wrong_input_is_refused_by_its_key(keys: tuple[str, ...], key: str, code: str, nearest: object) -> None:
+    with pytest.raises(SceneError) as found:
+        calculate("lever", keys, "text", "en")
+    assert (found.value.key.rpartition(".")[2], found.value.code) == (key, code)
+    if nearest is not None:
+        offered = found.value.nearest
+        assert offered is not None
+        assert offered.value == pytest.approx(nearest, rel=2e-6)
+        changed = [k for k in keys if not k.startswith(f"{key}=")]
+        calculate("lever", [*changed, f"{key}={offered.value}"], "text", "en")
