@@ -14,8 +14,10 @@ from tests.test_architecture import product_files
 
 ROOT = Path(__file__).resolve().parent.parent
 # DESIGN, section 3: what the card names, five pages, a licence, and dot-files
-TOP_LEVEL = {"pyproject.toml", "geometry", "exporters", "parts", "tests", "out", "README.md",
-             "README.uk.md", "LICENSE", "MANIFEST.in", "CHANGELOG.md", "CONTRIBUTING.md", "CONVENTIONS.md", "DERIVATIONS.md"}  # fmt: skip
+TOP_LEVEL = {
+    "pyproject.toml", "geometry", "exporters", "parts", "tests", "out", "README.md", "README.uk.md", "LICENSE",
+    "MANIFEST.in", "CHANGELOG.md", "CONTRIBUTING.md", "CONVENTIONS.md", "DERIVATIONS.md",
+}  # fmt: skip
 CURVE_METHODS = {name for name in vars(Curve) if not name.startswith("_")}
 TEXT = {".py", ".md", ".toml", ".svg", ".txt", ".cfg", ".yml", ".yaml"}
 
