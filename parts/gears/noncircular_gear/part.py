@@ -315,28 +315,22 @@ def _to_blame(keys: NoncircularGearSpec, refusal: ParameterError) -> ParameterEr
     if found is not None:
         return told(found.name, found.value, partial(nearest, found.works, found.value, found.harmless))
     z, key = keys.number_of_teeth, keys.slender_key
-    more = _more_teeth(keys)
     slender = getattr(keys, key)
+    # both gears of a pair would need more teeth
+    more = None if keys.mate_number_of_teeth is not None else _more_teeth(keys)
     if more is None and keys.centrode != "ratio" and slender is not None:
         end = next((value for value in _rounder(key, slender) if works(key, value)), None)
         if end is not None:
             return told(key, slender, partial(nearest, partial(works, key), slender, end, digits=5))
-    if more is None or keys.mate_number_of_teeth is not None:
-        # both gears of a pair would need more teeth, or a rounder centrode
+    if more is None:
         return told("number_of_teeth", z, lambda: None)
     return told("number_of_teeth", z, partial(nearest, partial(works, "number_of_teeth"), z, more))
 
 
 def _more_teeth(keys: NoncircularGearSpec) -> int | None:
-    """A greater number of teeth with which the gear can be cut on the same centrode, its mate's in proportion."""
-    z, other = keys.number_of_teeth, keys.mate_number_of_teeth
-    for times in (2, 4, 6):
-        mate = None if other is None else other * times
-        if times * max(z, other or 0) > MOST_TEETH:
-            return None
-        if _builds(replace(keys, number_of_teeth=times * z, mate_number_of_teeth=mate)):
-            return times * z
-    return None
+    """A greater number of teeth with which the gear and its mate of as many can be cut on the same centrode."""
+    offers = (times * keys.number_of_teeth for times in (2, 4, 6))
+    return next((z for z in offers if z <= MOST_TEETH and _builds(replace(keys, number_of_teeth=z))), None)
 
 
 def _rounder(key: str, asked: float) -> list[float]:
@@ -344,7 +338,8 @@ def _rounder(key: str, asked: float) -> list[float]:
     if key == "axis_ratio":
         return [1 + (asked - 1) * k for k in (0.95, 0.8, 0.6, 0.4, 0.2, 0.1, 0.05)]
     # 1 - e counts where e is near 1
-    return [1 - (1 - asked) * 2.0**k for k in range(1, 16) if (1 - asked) * 2.0**k <= 1]
+    near_one = [1 - (1 - asked) * 2.0**k for k in range(1, 16) if (1 - asked) * 2.0**k <= 1]
+    return [*near_one, *(asked * k for k in (0.95, 0.8, 0.6, 0.4, 0.2, 0.1, 0.05) if asked < 0.5)]
 
 
 def _smaller_amplitudes(keys: NoncircularGearSpec, key: str) -> Nearest | None:

@@ -8,7 +8,9 @@ import re
 from pathlib import Path
 
 import mpmath
+import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from exporters.command.cli import main
 from exporters.production.check import scene_checks
@@ -69,6 +71,35 @@ def test_refusals_name_a_value_that_works(keys: str, key: str, pattern: str) -> 
     found = re.search(pattern, str(refusal.value))
     assert found, str(refusal.value)
     made(re.sub(rf"(?m)^{key} = .*", f"{key} = {found[1]}", keys))
+
+
+def test_a_mate_of_a_convex_driver_that_is_hollow_is_told_the_greatest_eccentricity() -> None:
+    """Three lobes in four: r^2 + 2 r'^2 - r r'' >= 0 of the mate's polar radius; no value was offered."""
+    keys = 'centrode = "oval"\nlobes = 3\neccentricity = {}\nmodule = 2.0\nrole = "mate"\nnumber_of_teeth = 44\n'
+    keys += "mate_number_of_teeth = 33"
+    with pytest.raises(SceneError, match=r"eccentricity = 0.1.*at most ([\d.]+) works") as refused:
+        made(keys.format(0.1))
+    works = refused.value.nearest.value
+
+    def least(e: float) -> float:
+        """The least of it over the driver's lobe; a from the mate's whole turn, by Simpson's rule of a smooth period."""
+        angle = np.linspace(0, 2 * math.pi / 3, 4001)
+        radius = 1 / (1 - e * np.cos(3 * angle))
+        slope, bend = -3 * e * np.sin(3 * angle) * radius**2, -9 * e * np.cos(3 * angle) * radius**2
+        bend = bend + 2 * slope**2 / radius
+
+        def turned(a: float) -> float:
+            return float(np.mean((radius / (a - radius))[:-1]) - 0.75)
+
+        a = brentq(turned, radius.max() * 1.01, 10)
+        # the mate's polar radius a - r over its own angle, d phi_2 = r / (a - r) d phi_1
+        own, rate = a - radius, radius / (a - radius)
+        first = -slope / rate
+        second = (-bend / rate + slope * (slope * a / own**2) / rate**2) / rate
+        return float((own**2 + 2 * first**2 - own * second).min())
+
+    assert least(works) > -1e-9
+    assert least(works * 1.001) < 0
 
 
 def test_a_concave_ratio_names_a_share_that_works() -> None:
