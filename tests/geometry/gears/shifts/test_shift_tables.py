@@ -150,6 +150,89 @@ def test_side_clearance_classes_are_tolerance_grades() -> None:
             guaranteed_normal_backlash(*wrong)
 
 
+# ISO 286-1:2010, table 1: standard tolerance grades, micrometres, of sizes over each step up to the next one
+STEPS = (50, 80, 120, 180, 250, 315, 400, 500, 630, 800, 1000, 1250, 1600, 2000)
+GRADES = {
+    "E": (30, 35, 40, 46, 52, 57, 63, 70, 80, 90, 105, 125, 150),
+    "D": (46, 54, 63, 72, 81, 89, 97, 110, 125, 140, 165, 195, 230),
+    "C": (74, 87, 100, 115, 130, 140, 155, 175, 200, 230, 260, 310, 370),
+    "B": (120, 140, 160, 185, 210, 230, 250, 280, 320, 360, 420, 500, 600),
+    "A": (190, 220, 250, 290, 320, 360, 400, 440, 500, 560, 660, 780, 920),
+}
+
+
+@pytest.mark.parametrize("name", GRADES)
+def test_a_class_has_its_grade_in_every_range(name: str) -> None:
+    """IT7 to IT11; ranges end with their upper number, of which GOST 1643 has 125 where ISO 286 has 120."""
+    for low, high, grade in zip(STEPS[:-1], STEPS[1:], GRADES[name], strict=True):
+        low, high = (125 if x == 120 else x for x in (low, high))
+        for distance in (low + 1e-6, (low + high) / 2, high):
+            assert guaranteed_normal_backlash(name, distance) == grade / 1000
+            assert guaranteed_normal_backlash("H", distance) == 0.0
+    assert guaranteed_normal_backlash(name, 1.0) == GRADES[name][0] / 1000
+    with pytest.raises(ParameterError) as refused:
+        guaranteed_normal_backlash(name, 2000.001)
+    assert (refused.value.code, refused.value.numbers) == ("classes_end_at_distance", {"distance": 2000})
+    with pytest.raises(ParameterError) as refused:
+        guaranteed_normal_backlash(name.lower(), 100.0)
+    assert (refused.value.code, refused.value.nearest) == ("not_one_of", Nearest("C"))
+    assert refused.value.numbers == {"known": ("H", "E", "D", "C", "B", "A")}
+
+
+def test_mended_cells_tell_what_is_printed_and_what_is_right() -> None:
+    for mended in MENDED:
+        key = f"{mended.first_teeth}/{mended.second_teeth}"
+        printed, right = PRINTED[mended.table[0].replace("В", "V").replace("Г", "G")], "V_misprints"
+        if mended.table == "Г.1":
+            right = "G_misprints"
+            assert (mended.printed, mended.right) == ((printed[key],), (PRINTED[right][key],))
+            assert kudryavtsev(mended.first_teeth, mended.second_teeth).mended is mended
+        else:
+            assert (list(mended.printed), list(mended.right)) == (printed[key], PRINTED[right][key])
+
+
+def test_where_the_rules_of_gost_16532_begin_and_end() -> None:
+    zero, third, half = (0.0, 0.0), (0.3, -0.3), (0.5, 0.5)
+    for pair, kinematic, wanted in (
+        ((20, 20), False, [half]), ((21, 21), False, [zero, half]), ((30, 31), False, [zero, half]),
+        ((31, 31), False, [zero]), ((14, 49), False, [third, half]), ((14, 48), False, [half]),
+        ((13, 60), False, [half]), ((20, 70), False, [third, half]), ((10, 10), False, [half]),
+        ((21, 80), False, [zero, half]), ((17, 17), True, [zero]), ((16, 22), True, [third]), ((12, 22), True, [third]),
+        ((17, 40), True, [zero]),
+    ):  # fmt: skip
+        found = gost_16532(*pair, kinematic=kinematic)
+        assert [(s.first, s.second) for s in found] == wanted
+        assert {(s.table, s.tip_shortening, s.mended, s.between) for s in found} == {
+            ("GOST 16532-70", None, None, None)
+        }
+    for pair, kinematic, key, code, least in (
+        ((9, 20), False, "first.number_of_teeth", "no_recommendation", 10),
+        ((11, 30), True, "first.number_of_teeth", "no_recommendation", 12),
+        ((12, 21), True, "second.number_of_teeth", "no_recommendation_with", 22),
+        ((16, 21), True, "second.number_of_teeth", "no_recommendation_with", 22),
+    ):  # fmt: skip
+        with pytest.raises(ParameterError) as refused:
+            gost_16532(*pair, kinematic=kinematic)
+        assert (refused.value.name, refused.value.code) == (key, code)
+        assert refused.value.nearest == Nearest(least, "at_least")
+
+
+def test_pairs_at_the_ends_of_the_tables() -> None:
+    """Five times as many teeth at most; rows of table Г.1 begin and end with their z1."""
+    assert kudryavtsev(12, 60).between is None
+    for pair in ((10, 51), (16, 81), (10, 19), (19, 19)):
+        with pytest.raises(ParameterError) as refused:
+            kudryavtsev(*pair)
+        assert refused.value.code == "not_in_table"
+        one, two = map(int, str(refused.value.numbers["known"]).split("/"))
+        kudryavtsev(one, two)
+    found = kudryavtsev(11, 23)
+    low, high = PRINTED["G"]["11/20"], PRINTED["G"]["11/25"]
+    assert found.between == (20, 25)
+    assert found.second == pytest.approx(low + 0.6 * (high - low))
+    assert (found.first, found.tip_shortening) == (0.66, 0.16)
+
+
 def test_a_backlash_along_the_working_circle_is_the_normal_one() -> None:
     asked = 0.12
     # A_1 + A_2 = j_bn / cos(alpha)

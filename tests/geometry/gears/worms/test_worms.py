@@ -193,3 +193,51 @@ def test_a_flank_that_begins_above_the_root_has_its_corners() -> None:
             nearest = np.abs(np.abs(points) - drive.tip_radius_at(distance)).argmin()
             farthest = max(farthest, abs(along[nearest]))
     assert drive.worm_length_used(20.0) == pytest.approx(2 * farthest, abs=1e-2)
+
+
+@pytest.mark.parametrize("starts", [1, 2, 4])
+@pytest.mark.parametrize("teeth", [30, 80])
+def test_lengths_and_widths_are_those_of_gost_19650(starts: int, teeth: int) -> None:
+    """Least length of the thread by shift and starts, row by row of its table; between two rows the longer one."""
+    rows = {-1.0: 10.5 + starts, -0.5: 8 + 0.06 * teeth, 0.0: 11 + 0.06 * teeth, 0.5: 11 + 0.1 * teeth,
+            1.0: 12 + 0.1 * teeth}  # fmt: skip
+    if starts > 2:
+        rows = {-1.0: 10.5 + starts, -0.5: 9.5 + 0.09 * teeth, 0.0: 12.5 + 0.09 * teeth, 0.5: 12.5 + 0.1 * teeth,
+                1.0: 13 + 0.1 * teeth}  # fmt: skip
+    worm = Worm(2.0, starts, 10.0)
+    for shift, length in rows.items():
+        assert WormDrive(worm, teeth, shift).least_worm_length == pytest.approx(2 * length, rel=1e-12)
+    for low, high in ((-1.0, -0.5), (-0.5, 0.0), (0.0, 0.5), (0.5, 1.0)):
+        for shift in (0.9 * low + 0.1 * high, 0.1 * low + 0.9 * high):
+            assert WormDrive(worm, teeth, shift).least_worm_length == pytest.approx(2 * max(rows[low], rows[high]))
+    # beyond the table its ends
+    assert WormDrive(worm, teeth, -1.4).least_worm_length == pytest.approx(2 * rows[-1.0])
+    assert WormDrive(worm, teeth, 1.4).least_worm_length == pytest.approx(2 * rows[1.0])
+    drive = WormDrive(worm, teeth, 0.3)
+    number, of_starts, of_teeth = drive.least_worm_length_terms
+    assert 2 * (number + of_starts * starts + of_teeth * teeth) == pytest.approx(drive.least_worm_length)
+    assert drive.most_face_width == pytest.approx(0.75 * 24 if starts <= 3 else 0.67 * 24)
+    # d_ae2 <= d_a2 + 6 m / (z_1 + 2)
+    assert drive.most_outer_diameter == pytest.approx(2 * teeth + 2 * 2 * 1.3 + 12 / (starts + 2))
+
+
+def test_sizes_of_a_drive_by_hand() -> None:
+    """m 2, q 10, z 3 / 40, x 0.3: a_w = (40 + 10 + 0.6), the throat and an outside that reaches it."""
+    drive = WormDrive(Worm(2.0, 3, 10.0), 40, 0.3)
+    assert drive.ratio == pytest.approx(40 / 3)
+    assert (drive.reference_radius, drive.centre_distance) == pytest.approx((40.0, 50.6))
+    assert drive.pitch_radius_of_worm == pytest.approx(10.6)
+    assert math.tan(drive.pitch_lead_angle) == pytest.approx(3 / 10.6)
+    assert drive.tip_radius == pytest.approx(42.6)
+    assert drive.root_radius == pytest.approx(40 - 2 * (1 + drive.worm.tip_clearance_coefficient - 0.3))
+    assert drive.throat_radius == pytest.approx(8.0)
+    # a throat round a third of the worm: 2 a_w - r_throat
+    assert drive.default_outer_diameter == pytest.approx(min(85.2 + 12 / 5, 101.2 - 8.0))
+    slim = WormDrive(Worm(2.0, 1, 8.0), 40)
+    assert slim.default_outer_diameter == pytest.approx(min(84 + 4, 96 - 6))
+    thick = WormDrive(Worm(2.0, 1, 5.0), 40)
+    assert thick.throat_radius == pytest.approx(3.0)
+    assert thick.default_outer_diameter == pytest.approx(min(84 + 4, 90 - 3))
+    for distance in (0.0, 5.0, -5.0):
+        assert drive.tip_radius_at(distance) == pytest.approx(50.6 - math.sqrt(64 - distance**2))
+    assert drive.tip_radius_at(8.0) == math.inf == drive.tip_radius_at(-9.0)
