@@ -39,7 +39,7 @@ def cap_triangles(outer: Contour, holes: Sequence[Contour]) -> tuple[Triangles, 
     rings = [np.arange(end - len(loop), end) for loop, end in zip(loops, ends.tolist(), strict=True)]
     if _area(loops[0]) < 0:
         # the rim of a recess runs clockwise as a wall, but bounds the floor from outside
-        rings[0], outer = rings[0][::-1], Contour(loops[0][::-1], np.zeros(len(loops[0])))
+        rings[0], outer = rings[0][::-1], Contour(loops[0], np.zeros(len(loops[0])))
     rings[1:] = [ring if _area(points[ring]) < 0 else ring[::-1] for ring in rings[1:]]
     area = sum(_area(points[ring]) for ring in rings)
     for attempt in (_by_teeth, _by_sectors, _whole):
@@ -97,7 +97,7 @@ def library_triangles(points: Complex, rings: list[Triangles]) -> Triangles:
 def is_round(contour: Contour) -> bool:
     """Whether all vertices stand on one circle about the origin."""
     radii = np.abs(contour.vertices)
-    return bool(np.ptp(radii) <= 1e-12 * radii.max())
+    return bool(np.ptp(radii) <= 1e-12 * radii[0])
 
 
 def _is_star(ring: Complex) -> bool:
@@ -113,7 +113,7 @@ def _teeth(outline: Contour) -> tuple[list[Triangles], Triangles]:
     # the period begins with the tooth and ends with the root land, whose corners all stand on the ring
     tooth_end = _last_of_tooth(outline)
     land = np.append(np.arange(tooth_end, size), 0) if tooth_end < size else np.array([0])
-    ring = distinct((land + (np.arange(count) * size)[:, None]) % (size * count))
+    ring = distinct(np.add.outer(land, np.arange(count) * size) % (size * count))
     polygon = np.append(outline.vertices, outline.period_ends()[-1])[: tooth_end + 1]
     return [_placed(_polygon_triangles(polygon), size, count)], ring
 
@@ -130,7 +130,7 @@ def _by_sectors(
 ) -> tuple[Triangles, Complex]:
     """One whole sector between an aligned bore and a tooth, clipped and placed."""
     size, count = len(outer.vertices), outer.count
-    if count < 2 or len(holes) != 1 or len(holes[0]) % count or not is_round(holes[0]):
+    if count < 3 or len(holes) != 1 or len(holes[0]) % count or not is_round(holes[0]):
         raise ThinWallError("the bore has no corners of its own behind every tooth")
     total, steps = size * count, len(holes[0]) // count
     period = np.arange(count)[:, None]
@@ -177,11 +177,8 @@ def _placed(triangles: Triangles, size: int, count: int) -> Triangles:
 def _polygon_triangles(polygon: Complex) -> Triangles:
     """Triangles of one tooth above the chord between its roots: a ladder up both sides, or ear clipping."""
     ladder = _ladder(polygon)
-    doubled = _cross(polygon, ladder)
-    area = 0.5 * float(np.sum((np.conj(polygon) * np.roll(polygon, -1)).imag))
-    if np.all(doubled > 0) and np.isclose(0.5 * doubled.sum(), area, rtol=1e-9):
-        return ladder
-    return _ear_clipped(polygon)
+    # the signed areas of any ladder are the polygon's: where none is turned over it fills that
+    return ladder if np.all(_cross(polygon, ladder) > 0) else _ear_clipped(polygon)
 
 
 def _ladder(polygon: Complex) -> Triangles:
@@ -197,7 +194,7 @@ def _ladder(polygon: Complex) -> Triangles:
         else:
             triangles.append((low, high - 1, high))
             high -= 1
-    return np.array(triangles, dtype=np.int64).reshape(-1, 3)
+    return np.array(triangles, dtype=np.int64).reshape(len(triangles), 3)
 
 
 def _ear_clipped(polygon: Complex) -> Triangles:

@@ -15,6 +15,7 @@ from parts.solids.caps import Triangles, library_triangles
 
 # how near to the bounds cells may come, and how closely these are sampled for it, in cells
 _CLEAR, _SAMPLED = 0.45, 0.2
+_AROUND = _CLEAR * np.array([complex(x, y) for x in (-1, 0, 1) for y in (-1, 0, 1)])
 _MOST_CELLS, _MOST_ROUNDS, _ROUNDING = 400_000, 1000, 1e-9
 
 
@@ -48,7 +49,7 @@ def constrained(rings: Sequence[Complex], cells: Cells | None) -> Triangles:
     doubled = _turned(points, triangles)
     if not (np.all(doubled >= 0) and np.isclose(0.5 * doubled.sum(), area, rtol=1e-9)):
         raise ThinWallError("the outlines touch or cross at this tolerance; make it smaller")
-    kept = np.concatenate([np.stack([n, np.roll(n, -1)], axis=1) for n in numbers[: len(rings)]])
+    kept = np.concatenate([np.stack([n, np.roll(n, 1)], axis=1) for n in numbers[: len(rings)]])
     return _flipped(points, triangles, kept)
 
 
@@ -63,7 +64,7 @@ def _flipped(points: Complex, triangles: Triangles, kept: Triangles) -> Triangle
     fixed = np.sort(kept, axis=1) @ np.array([count, 1])
     for _ in range(_MOST_ROUNDS):
         sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-        owner, apex = np.tile(np.arange(len(triangles)), 3), triangles.T[[2, 0, 1]].ravel()
+        apex = triangles.T[[2, 0, 1]].ravel()
         key = np.sort(sides, axis=1) @ np.array([count, 1])
         order = np.argsort(key, kind="stable")
         twin = np.flatnonzero(key[order][1:] == key[order][:-1])
@@ -74,7 +75,7 @@ def _flipped(points: Complex, triangles: Triangles, kept: Triangles) -> Triangle
         wrong = np.flatnonzero(_in_circle(a, b, c, d) & (_cross(d, b, c) > 0) & (_cross(a, d, c) > 0))
         if not wrong.size:
             break
-        first, second = owner[one[wrong]], owner[two[wrong]]
+        first, second = one[wrong] % len(triangles), two[wrong] % len(triangles)
         chosen = np.full(len(triangles), len(wrong))
         np.minimum.at(chosen, first, np.arange(len(wrong)))
         np.minimum.at(chosen, second, np.arange(len(wrong)))
@@ -103,41 +104,38 @@ def inner_cells(rings: Sequence[Complex]) -> Cells | None:
     """The cells of a unit grid that stand clear of the bounds of a region, if there are any."""
     whole = np.concatenate(rings)
     low = complex(whole.real.min(), whole.imag.min())
-    wide, high = (int(np.ceil(x)) for x in (np.ptp(whole.real), np.ptp(whole.imag)))
+    # a cell that passes the least rectangle about the region does not stand clear
+    wide, high = int(np.ptp(whole.real)), int(np.ptp(whole.imag))
     if wide * high > _MOST_CELLS:
         raise ThinWallError("a face asks for more cells than a file can carry")
-    near = np.zeros((wide + 2, high + 2), dtype=bool)
+    near = np.zeros((wide, high), dtype=bool)
     # crossings of the rows' middles, for what lies inside
-    middles = low.imag + np.arange(high + 2) + 0.5
-    change = np.zeros((wide + 3, high + 2), dtype=np.int64)
+    middles = low.imag + np.arange(high) + 0.5
+    change = np.zeros((wide + 1, high), dtype=np.int64)
     for ring in rings:
-        after = np.roll(ring, -1)
-        for a, b in zip(ring.tolist(), after.tolist(), strict=True):
-            steps = max(2, int(abs(b - a) / _SAMPLED) + 2)
-            spots = a + (b - a) * np.linspace(0, 1, steps) - low
-            for dx in (-_CLEAR, 0.0, _CLEAR):
-                for dy in (-_CLEAR, 0.0, _CLEAR):
-                    i, j = np.floor(spots.real + dx).astype(int), np.floor(spots.imag + dy).astype(int)
-                    good = (i >= 0) & (j >= 0) & (i < wide + 2) & (j < high + 2)
-                    near[i[good], j[good]] = True
+        for a, b in zip(ring.tolist(), np.roll(ring, 1).tolist(), strict=True):
+            steps = int(abs(b - a) / _SAMPLED) + 2
+            spots = (a + (b - a) * np.linspace(0, 1, steps) - low)[:, None] + _AROUND
+            i, j = np.floor(spots.real).astype(int), np.floor(spots.imag).astype(int)
+            good = (i >= 0) & (j >= 0) & (i < wide) & (j < high)
+            near[i[good], j[good]] = True
             rows = np.flatnonzero((min(a.imag, b.imag) <= middles) & (middles < max(a.imag, b.imag)))
-            if rows.size:
-                x = a.real + (b.real - a.real) * (middles[rows] - a.imag) / (b.imag - a.imag) - low.real
-                # cells whose middle lies to the right of it
-                np.add.at(change, (np.clip(np.ceil(x - 0.5).astype(int), 0, wide + 2), rows), 1)
+            x = a.real + (b.real - a.real) * (middles[rows] - a.imag) / (b.imag - a.imag) - low.real
+            # cells whose middle lies to the right of it
+            np.add.at(change, (np.minimum(np.ceil(x - 0.5).astype(int), wide), rows), 1)
     inside = (np.cumsum(change, axis=0)[:-1] % 2 == 1) & ~near
     # cells that meet in a corner only would pinch the region about them
     for a, b in (((0, 0), (1, 1)), ((0, 1), (1, 0))):
-        one, two = (inside[x : x + wide + 1, y : y + high + 1] for x, y in (a, b))
-        other = [inside[x : x + wide + 1, y : y + high + 1] for x, y in ((a[0], b[1]), (b[0], a[1]))]
+        one, two = (inside[x : x + wide - 1, y : y + high - 1] for x, y in (a, b))
+        other = [inside[x : x + wide - 1, y : y + high - 1] for x, y in ((a[0], b[1]), (b[0], a[1]))]
         one &= ~(one & two & ~other[0] & ~other[1])
     i, j = np.nonzero(inside)
     if not len(i):
         return None
-    step = high + 3
+    step = high + 1
     corners = (i * step + j)[:, None] + np.array([0, step, step + 1, 1])
     used, local = np.unique(corners, return_inverse=True)
-    local = local.reshape(-1, 4)
+    local = local.reshape(corners.shape)
     points = low + (used // step) + 1j * (used % step)
     triangles = np.concatenate([local[:, [0, 1, 2]], local[:, [0, 2, 3]]])
     return Cells(points, triangles, _loops(local, len(used)))
