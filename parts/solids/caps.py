@@ -244,10 +244,10 @@ def _annulus(points: Complex, outer: Triangles, inner: Triangles) -> Triangles:
 
 
 def _middle_angles(ring: Complex) -> NDArray[np.float64]:
-    """Increasing angles of the middles of a ring's edges, the ring starting near angle 0."""
+    """Increasing angles of the middles of a ring's edges, twice as large, the ring starting near angle 0."""
     start = np.mod(np.angle(ring), 2 * np.pi)
     # rounded: corners that stand one behind the other are a tie on any machine
-    return np.round((start + np.append(start[1:], start[0] + 2 * np.pi)) / 2, _ANGLE_DIGITS)
+    return np.round(start + np.append(start[1:], start[0] + 2 * np.pi), _ANGLE_DIGITS)
 
 
 def _cross(points: Complex, triangles: Triangles) -> NDArray[np.float64]:

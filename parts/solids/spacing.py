@@ -44,9 +44,7 @@ class Bends:
         # a twist asks for both: shared as the bends are
         share = np.sqrt((along.mean() + twist.mean()) / max(across.mean() + twist.mean(), 1e-300))
         self.along, self.across = along + share * twist, across + twist / max(share, 1e-300)
-        up, down = (
-            np.abs(own[0] / share**2 + s * 2 * own[1] / share + own[2]).mean() if share > 0 else 0.0 for s in (1, -1)
-        )
+        up, down = (np.abs(own[0] + share * (2 * way * own[1] + share * own[2])).mean() for way in (1, -1))
         # the same on any machine where both are alike
         self.rising = bool(up <= _TIE * down)
 
@@ -58,7 +56,7 @@ class Bends:
     def rows(self, sag: float) -> tuple[Real, list[Real]]:
         """Shares of v of the rows within, and of u in each; at least one of both."""
         t = graded(self.v, self.across.max(axis=0), sag)
-        t = t if len(t) > 2 else np.array([0.0, 0.5, 1.0])
+        t = t if len(t) > 2 else np.linspace(0, 1, 3)
         rows = []
         for low, high in zip(t[:-2], t[2:], strict=True):
             near = slice(max(int(np.searchsorted(self.v, low)) - 1, 0), int(np.searchsorted(self.v, high)) + 1)

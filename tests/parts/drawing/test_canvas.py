@@ -1,18 +1,37 @@
-"""Curves of a drawing: one fit of a shape that stands in several places, which lies in each."""
+"""What a sheet is made of: words and their room, boxes, scales, curves that are fitted once, lines of the standard."""
 
 from __future__ import annotations
 
 import cmath
+import colorsys
 import math
 
 import numpy as np
+import pytest
 
+from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2
+from geometry.base.record import replace
 from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Carried
 from geometry.curves.ellipse import EllipticArc
-from geometry.curves.line_arc import Arc
-from parts.drawing.canvas import Canvas, fitted
+from geometry.curves.line_arc import Arc, Line
+from parts.drawing.canvas import (
+    SCALES,
+    STYLES,
+    Box,
+    Canvas,
+    Paper,
+    Stroke,
+    draw,
+    fitted,
+    rising_text,
+    scale_name,
+    scale_text,
+    standard_scale,
+    text_of,
+    text_width,
+)
 
 
 def test_a_shape_in_three_places_lies_in_each() -> None:
@@ -33,3 +52,254 @@ def test_a_shape_in_three_places_lies_in_each() -> None:
         # the same fit: its knots
         assert spline.knots is found[0].knots  # type: ignore[union-attr]
     assert 0 < canvas.max_error <= tolerance
+
+
+@pytest.mark.parametrize(
+    ("most", "height", "narrow"),
+    # natural lengths are those of capitals: 7, 5, 3.5, 2.5, 1.8 mm high
+    [(None, 5.0, 1.0), (1.0, 5.0, 1.0), (0.9, 5.0, 0.9), (0.89, 3.5, 1.0), (0.5, 2.5, 1.0), (0.46, 2.5, 0.92),
+     (0.2, 1.8, 0.2 * 5 / 1.8)],
+)  # fmt: skip
+def test_letters_are_narrowed_made_smaller_or_narrowed_as_far_as_they_must(
+    most: float | None, height: float, narrow: float
+) -> None:
+    natural = text_width("Gear z", 5.0)
+    made = text_of("Gear z", 3 + 4j, 5.0, None if most is None else (most + 1e-9) * natural)
+    (run,) = made.runs
+    assert (run.height, run.at, run.way) == (height, 3 + 4j, 1.0)
+    assert run.width == pytest.approx(narrow * text_width("Gear z", height), rel=1e-6)
+    assert made.box.left == 3
+    assert made.box.right == pytest.approx(3 + run.width)
+    assert (made.box.low, made.box.high) == pytest.approx((4 - 0.3 * height, 4 + 1.05 * height))
+
+
+def test_a_height_that_is_none_of_the_standard_is_the_next_lower_one() -> None:
+    heights = {6.9: 5.0, 3.5: 3.5, 1.9: 1.8, 1.0: 1.8}
+    assert {asked: text_of("x", 0j, asked).runs[0].height for asked in heights} == heights
+
+
+def test_an_index_stands_lower_by_a_fifth_and_is_one_size_smaller() -> None:
+    made = text_of("d_{f2} = 5", 10 + 1j, 5.0)
+    assert made.text == "df2 = 5"
+    assert [(r.text, r.height) for r in made.runs] == [("d", 5.0), ("f2", 3.5), ("= 5", 5.0)]
+    d, low, rest = made.runs
+    assert (d.at, low.at.imag, rest.at.imag) == (10 + 1j, 0.0, 1.0)
+    assert low.at.real == pytest.approx(10 + text_width("d", 5.0))
+    assert rest.at.real == pytest.approx(low.at.real + text_width("f2", 3.5) + text_width(" ", 5.0))
+    assert made.box.right == pytest.approx(rest.at.real + text_width("= 5", 5.0))
+    assert text_width("d_{f2} = 5", 5.0) == pytest.approx(made.box.right - 10)
+    # an index hangs lower than what is not
+    assert made.box.low == pytest.approx(1 - max(0.2 * 5 + 0.3 * 3.5, 0.3 * 5))
+    # the least letters have none smaller
+    assert [r.height for r in text_of("d_{a}", 0j, 1.8).runs] == [1.8, 1.8]
+
+
+def test_signs_of_per_cent_stand_apart_and_spaces_take_their_room() -> None:
+    assert [r.text for r in text_of("5%% and 1%", 0j, 5.0).runs] == ["5%", "% and 1%"]
+    (run,) = text_of("  x ", 0j, 5.0).runs
+    assert (run.text, run.at.real) == ("x", pytest.approx(text_width("  ", 5.0)))
+    assert text_of("  x ", 0j, 5.0).box.right == pytest.approx(text_width("  x ", 5.0))
+    empty = text_of("", 2 + 3j, 5.0, 10.0)
+    assert (empty.runs, empty.box) == ((), Box(2.0, 3.0, 2.0, 3 + 1.05 * 5))
+
+
+@pytest.mark.parametrize("way", [1j, -1, -1j, 1])
+def test_turned_words_lie_as_they_would_turned_about_their_beginning(way: complex) -> None:
+    plain, found = text_of("x_{12}y", 0j, 3.5), rising_text("x_{12}y", 7 - 2j, 3.5, way=way)
+    assert found.text == plain.text
+    for one, two in zip(found.runs, plain.runs, strict=True):
+        assert (one.text, one.height, one.width, one.way) == (two.text, two.height, two.width, way)
+        assert one.at == pytest.approx(7 - 2j + way * two.at)
+    corners = [
+        7 - 2j + way * complex(x, y) for x in (plain.box.left, plain.box.right) for y in (plain.box.low, plain.box.high)
+    ]
+    xs, ys = sorted(c.real for c in corners), sorted(c.imag for c in corners)
+    assert [found.box.left, found.box.low, found.box.right, found.box.high] == pytest.approx(
+        [xs[0], ys[0], xs[-1], ys[-1]]
+    )
+
+
+def test_students_see_of_a_size_its_name_alone() -> None:
+    """As long as the name is; of what they find out nothing, all of anything else."""
+    size = text_of("d_{a} = 5.00", 0j, 3.5)
+    (asked,) = size.asked()
+    assert asked.text == "da ="
+    assert [r.text for r in asked.runs] == ["d", "a", "="]
+    assert asked.runs[-1].width == pytest.approx(text_width("=", 3.5))
+    (plain,) = text_of("r = -5", 0j, 3.5).asked()
+    assert [(r.text, r.width) for r in plain.runs] == [("r =", pytest.approx(text_width("r =", 3.5)))]
+    for told in ("speed is 5", "two words = 5", "r = x"):
+        assert [t.text for t in text_of(told, 0j).asked()] == [told]
+    assert list(replace(text_of("5.00", 0j), answer=True).asked()) == []
+    given = replace(size, answer=False)
+    assert list(given.asked()) == [given]
+
+
+def test_boxes_overlap_in_inner_points_alone() -> None:
+    box = Box(0.0, 0.0, 4.0, 2.0)
+    assert box.grown(0.5) == Box(-0.5, -0.5, 4.5, 2.5)
+    apart = [(4.0, 0.0, 5.0, 2.0), (-1.0, -1.0, 5.0, 0.0), (-2.0, 0.5, 0.0, 1.0), (0.0, 2.0, 4.0, 3.0)]
+    across = [
+        (3.9, 1.9, 5.0, 3.0),
+        (-0.1, 0.0, 4.0, 2.0),
+        (0.0, -0.1, 4.0, 2.0),
+        (0.0, 0.0, 4.1, 2.0),
+        (0.0, 0.0, 4.0, 2.1),
+    ]
+    within = [(1.0, 0.5, 2.0, 1.0), (0.0, 0.0, 4.0, 2.0)]
+    for sides in (*apart, *across, *within):
+        other = Box(*sides)
+        assert box.overlaps(other) is other.overlaps(box) is (sides not in apart)
+        assert other.within(box) is (sides in within)
+    points = np.array([0j, 1 + 1j, 3.9 + 1.9j, 4 + 1j, 1 + 2j, -1 + 1j, 1 - 1j, 5 + 1j, 1 + 3j, 0.1 + 0.1j])
+    assert box.holds(points) == 3
+
+
+def test_a_canvas_has_its_frame_and_what_stands_about_it() -> None:
+    """GOST 2.104: 20 mm free on the left, 5 mm elsewhere; a block takes a band, its columns stand outside."""
+    canvas = Canvas(297.0, 210.0, "A4", band=55.0, columns=12.0, foot=3.0)
+    assert canvas.frame == Box(20.0, 5.0, 292.0, 205.0)
+    assert canvas.content == Box(20.0, 60.0, 292.0, 205.0)
+    assert canvas.reach == Box(8.0, 2.0, 292.0, 205.0)
+    assert Canvas(297.0, 210.0, "A4", margins=(8.0, 7.0)).frame == Box(8.0, 7.0, 290.0, 203.0)
+    assert [Canvas(w, h, "").letters for w, h in ((420.0, 297.0), (297.0, 420.0), (421.0, 297.0), (297.0, 421.0))] == [
+        2.5, 2.5, 3.5, 3.5]  # fmt: skip
+
+
+def test_strokes_are_those_asked_for() -> None:
+    canvas = Canvas(100.0, 100.0, "")
+    canvas.box("TABLE", Box(1.0, 2.0, 5.0, 4.0))
+    canvas.line("FRAME", 0j, 3 + 4j)
+    canvas.arc("TABLE", Arc(0j, 1.0, 0.0, 1.0))
+    ends = [
+        (s.layer, complex(s.curve.point(s.curve.domain[0])), complex(s.curve.point(s.curve.domain[1])))
+        for s in canvas.strokes
+    ]
+    assert ends[:4] == [
+        ("TABLE", a, b) for a, b in ((1 + 2j, 5 + 2j), (5 + 2j, 5 + 4j), (5 + 4j, 1 + 4j), (1 + 4j, 1 + 2j))
+    ]
+    assert ends[4] == ("FRAME", 0j, 3 + 4j)
+    # in the order of styles, not in that of strokes
+    assert canvas.layers == ["FRAME", "TABLE"]
+    assert (
+        canvas.write("x", 1 + 1j, 3.5, answer=True)
+        == canvas.texts[0]
+        == replace(text_of("x", 1 + 1j, 3.5), answer=True)
+    )
+    canvas.write_rising("y", 1 + 1j, 2.5, 100.0, -1)
+    assert canvas.texts[1] == rising_text("y", 1 + 1j, 2.5, 100.0, -1)
+
+
+def test_squared_paper_has_a_line_every_2_5_mm() -> None:
+    canvas = Canvas(100.0, 100.0, "")
+    canvas.squares(Box(10.0, 20.0, 21.0, 30.0))
+    lines = [
+        (complex(s.curve.point(s.curve.domain[0])), complex(s.curve.point(s.curve.domain[1]))) for s in canvas.strokes
+    ]
+    upright = [(complex(x, 20), complex(x, 30)) for x in (10.0, 12.5, 15.0, 17.5, 20.0)]
+    level = [(complex(10, y), complex(21, y)) for y in (20.0, 22.5, 25.0, 27.5, 30.0)]
+    assert lines == upright + level
+    assert {s.layer for s in canvas.strokes} == {"ORDINATE"}
+
+
+def test_obstacles_are_points_of_all_strokes_half_a_millimetre_apart() -> None:
+    canvas = Canvas(100.0, 100.0, "")
+    assert canvas.obstacles().tolist() == []
+    canvas.line("FRAME", 0j, 10 + 0j)
+    canvas.line("FRAME", 5j, 0.1 + 5j)
+    canvas.arc("FRAME", Arc(50 + 50j, 10.0, 0.0, math.pi))
+    canvas.line("FRAME", 0j, 3000j)
+    found = canvas.obstacles()
+    line, short, arc, long = np.split(found, [20, 22, 22 + 62])
+    assert line == pytest.approx(np.linspace(0, 10, 20))
+    assert short == pytest.approx(np.array([5j, 0.1 + 5j]))
+    assert arc == pytest.approx(50 + 50j + 10 * np.exp(1j * np.linspace(0, math.pi, 62)))
+    assert len(long) == 4000
+
+
+@pytest.mark.parametrize("power", [-3, -1, 0, 2])
+def test_a_scale_is_the_least_round_one_that_is_not_below(power: int) -> None:
+    for needed, found in (
+        (1.0, 1.0),
+        (1.01, 2.0),
+        (2.0, 2.0),
+        (2.1, 2.5),
+        (2.6, 4.0),
+        (4.1, 5.0),
+        (5.1, 10.0),
+        (9.99, 10.0),
+    ):
+        assert standard_scale(needed * 10.0**power) == pytest.approx(found * 10.0**power, rel=1e-12)
+    assert standard_scale(2.0 * 10.0**power * (1 + 5e-10)) == pytest.approx(2.0 * 10.0**power)
+    assert standard_scale(2.0 * 10.0**power * (1 + 2e-9)) == pytest.approx(2.5 * 10.0**power)
+
+
+@pytest.mark.parametrize("needed", [0.0, -1.0, math.inf, math.nan])
+def test_no_scale_is_made_of_nothing(needed: float) -> None:
+    with pytest.raises(ParameterError) as caught:
+        standard_scale(needed)
+    assert (caught.value.name, caught.value.code) == ("scale", "not_finite_above_zero")
+
+
+def test_scales_are_told_as_the_standard_has_them() -> None:
+    """GOST 2.302: enlarged and made smaller; 1:1 is as it is."""
+    assert [scale_name(s) for s in (2.0, 2.5, 1.0, 0.5, 0.4, 100.0)] == ["2:1", "2.5:1", "1:1", "1:2", "1:2.5", "100:1"]
+    assert [scale_text(0.4, language) for language in ("en", "uk")] == ["1:2.5", "1:2,5"]
+    # the greatest first, each as large as its name says
+    named = [100, 50, 40, 20, 10, 5, 4, 2.5, 2, 1]
+    down = [2, 2.5, 4, 5, 10, 15, 20, 25, 40, 50, 75, 100, 200, 400, 500, 800, 1000]
+    assert list(SCALES) == pytest.approx([*named, *(1 / x for x in down)])
+
+
+def test_paper_enlarges_and_moves_every_curve() -> None:
+    paper = Paper(2.5, 10 + 20j)
+    assert paper.point(3 - 1j) == 17.5 + 17.5j
+    spline = BSpline(2, np.array([0.0, 0, 0, 1, 1, 1]), np.array([0, 1 + 1j, 2]))
+    for curve in (Line(1j, 4 + 0j), Arc(1 + 1j, 3.0, 0.5, -2.0), spline):
+        t = np.linspace(*curve.domain, 5)
+        assert paper.scaled(curve).point(t) == pytest.approx(10 + 20j + 2.5 * curve.point(t))
+    canvas = Canvas(100.0, 100.0, "")
+    draw(canvas, "CAM", [Line(1j, 4 + 0j)], paper)
+    assert canvas.strokes == [Stroke("CAM", Line(10 + 22.5j, 20 + 20j))]
+
+
+def test_mirror_images_share_one_fit() -> None:
+    shape = EllipticArc(Arc(0j, 30.0, 0.2, 1.9), 0.4, Placement2())
+    canvas = Canvas(0.0, 0.0, "")
+    line = Line(0j, 1 + 0j)
+    one, two, three = fitted(canvas, [shape, shape.mirrored(), line], 2.0, 1e-3)
+    assert three is line
+    assert isinstance(one, BSpline)
+    assert isinstance(two, BSpline)
+    assert sorted(np.conj(one.poles), key=lambda z: z.real) == pytest.approx(sorted(two.poles, key=lambda z: z.real))
+    # its error is told on paper
+    whole = Canvas(0.0, 0.0, "")
+    fitted(whole, [shape], 1.0, 1e-3)
+    assert 0 < whole.max_error <= 1e-3
+    assert canvas.max_error == pytest.approx(2 * whole.max_error, rel=0.5)
+
+
+# what AutoCAD shows for an index: hue of a colour, or black and grey
+HUES = {1: 0, 30: 30, 3: 120, 4: 180, 5: 240, 6: 300}
+
+
+@pytest.mark.parametrize("layer", STYLES)
+def test_a_layer_has_one_colour_in_both_formats_and_a_width_of_the_standard(layer: str) -> None:
+    """Widths of ISO 128-20 or those a DXF file knows, dashes of GOST 2.303; index 7 is black, 8 grey."""
+    style = STYLES[layer]
+    red, green, blue = (int(style.colour[k : k + 2], 16) / 255 for k in (1, 3, 5))
+    hue, _, _ = colorsys.rgb_to_hsv(red, green, blue)
+    if style.aci in HUES:
+        assert abs((360 * hue - HUES[style.aci] + 180) % 360 - 180) < 20
+        assert max(red, green, blue) - min(red, green, blue) > 0.4
+    else:
+        assert red == green == blue
+        assert style.aci == (7 if red < 0.3 else 8)
+    assert round(100 * style.width, 6) in (13, 18, 25, 35, 50, 60, 70, 90, 100)
+    if style.dashes:
+        dash, gap, *rest = style.dashes
+        if rest:
+            dot, other = rest
+            assert (5 <= dash <= 30, 3 <= gap + dot + other <= 5, gap == other, dot < 1) == (True, True, True, True)
+        else:
+            assert (2 <= dash <= 8, 1 <= gap <= 2) == (True, True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from geometry.base.record import replace
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Contour
 from parts.solids.caps import aligned_bore, begun_at, cap_triangles, is_round, start_in_space
+from tests.parts.solids.filling import Three, filled, sides_of, turned
 
 
 def polar(*corners: tuple[float, float]) -> Complex:
@@ -65,41 +67,18 @@ REGIONS: dict[str, tuple[Contour, tuple[Contour, ...]]] = {
 }
 
 
-def corners(outer: Contour, holes: Sequence[Contour], added: Complex) -> list[complex]:
-    return list(np.concatenate([*(c.expanded()[0] for c in (outer, *holes)), added]).tolist())
-
-
-def area(ring: Complex) -> float:
-    return 0.5 * float(np.sum((np.conj(ring) * np.roll(ring, -1)).imag))
-
-
-def turned(a: complex, b: complex, c: complex) -> float:
-    return ((b - a).conjugate() * (c - a)).imag
-
-
-def filled(outer: Contour, holes: Sequence[Contour]) -> tuple[list[tuple[int, int, int]], list[complex]]:
-    """Triangles that fill a region: counter-clockwise, of its area, their free sides those of its bounds."""
+def filled_caps(outer: Contour, holes: Sequence[Contour]) -> tuple[list[Three], list[complex]]:
+    """Triangles that fill a region, and the corners of its bounds with those that were added."""
     found, added = cap_triangles(outer, holes)
-    points = corners(outer, holes, added)
-    triangles = [(a, b, c) for a, b, c in found.tolist()]
-    doubled = [turned(points[a], points[b], points[c]) for a, b, c in triangles]
-    assert min(doubled) > 0
     loops = [c.expanded()[0] for c in (outer, *holes)]
-    assert sum(doubled) / 2 == pytest.approx(abs(area(loops[0])) - sum(abs(area(x)) for x in loops[1:]), rel=1e-12)
-    sides = [side for a, b, c in triangles for side in ((a, b), (b, c), (c, a))]
-    assert len(set(sides)) == len(sides)
-    bounds, start = set(), 0
-    for loop in loops:
-        bounds |= {frozenset((start + k, start + (k + 1) % len(loop))) for k in range(len(loop))}
-        start += len(loop)
-    assert {frozenset(side) for side in set(sides) - {s[::-1] for s in sides}} == bounds
-    assert {k for one in triangles for k in one} == set(range(len(points)))
-    return triangles, points
+    points = np.concatenate([*loops, added]).tolist()
+    ends = np.cumsum([0, *(len(x) for x in loops)]).tolist()
+    return filled(points, found.tolist(), [range(a, b) for a, b in pairwise(ends)]), points
 
 
 @pytest.mark.parametrize("name", REGIONS)
 def test_triangles_fill_the_region(name: str) -> None:
-    filled(*REGIONS[name])
+    filled_caps(*REGIONS[name])
 
 
 @pytest.mark.parametrize("name", REGIONS)
@@ -115,7 +94,7 @@ def test_every_tooth_is_alike(name: str) -> None:
     """Turned by a pitch, triangles come upon triangles: corner k upon the corner a period on."""
     outer, holes = REGIONS[name]
     holes = tuple(polygon(12, 3.0) for _ in holes)
-    triangles, points = filled(outer, holes)
+    triangles, points = filled_caps(outer, holes)
     whole, turn = len(outer), 1j
     places = {(round(p.real, 6), round(p.imag, 6)): k for k, p in enumerate(points)}
     after = [places[round((p * turn).real, 6), round((p * turn).imag, 6)] for p in points]
@@ -127,7 +106,7 @@ def test_every_tooth_is_alike(name: str) -> None:
 @pytest.mark.parametrize("name", ["wheel", "bored", "bored anyhow", "off its middle", "windows"])
 def test_a_tooth_is_cut_off_at_its_root(name: str) -> None:
     """What has a corner above the root has all of them in that tooth, and there are two fewer than its corners."""
-    triangles, _ = filled(*REGIONS[name])
+    triangles, _ = filled_caps(*REGIONS[name])
     size = len(WHEEL.vertices)
     for k in range(4):
         above = set(range(k * size + 1, k * size + 6))
@@ -137,7 +116,7 @@ def test_a_tooth_is_cut_off_at_its_root(name: str) -> None:
 
 
 def test_a_tooth_that_hooks_over_is_cut_off_at_its_root_too() -> None:
-    triangles, _ = filled(*REGIONS["hooked"])
+    triangles, _ = filled_caps(*REGIONS["hooked"])
     for k in range(4):
         above = set(range(k * 8 + 1, k * 8 + 6))
         own = [x for x in triangles if above & set(x)]
@@ -147,14 +126,11 @@ def test_a_tooth_that_hooks_over_is_cut_off_at_its_root_too() -> None:
 
 def test_a_tooth_is_a_ladder() -> None:
     """Rungs go up: what lies beyond one is no lower, from the chord between the roots, than either of its ends."""
-    triangles, points = filled(WHEEL, ())
+    triangles, points = filled_caps(WHEEL, ())
     tooth = {0, 1, 2, 3, 4, 5, 6}
     base = points[6] - points[0]
     height = [-turned(points[0], points[6], points[k]) / abs(base) for k in range(7)]
-    rungs = {
-        tuple(sorted(side)) for x in triangles if set(x) <= tooth for side in ((x[0], x[1]), (x[1], x[2]), (x[2], x[0]))
-    }
-    rungs = {(a, b) for a, b in rungs if b - a > 1}
+    rungs = {(min(a, b), max(a, b)) for x in triangles if set(x) <= tooth for a, b, _ in sides_of(x) if abs(a - b) > 1}
     assert len(rungs) == 5
     for low, high in rungs:
         assert min(height[low + 1 : high]) >= max(height[low], height[high]) - 1e-9
@@ -167,7 +143,7 @@ def test_edges_of_a_ring_take_the_corner_across_at_their_middle_angle(name: str)
     Where the middles of both are one angle, the inner edge is taken first.
     """
     outer, holes = REGIONS[name]
-    triangles, points = filled(outer, holes)
+    triangles, points = filled_caps(outer, holes)
     whole, bore = len(outer), len(holes[0])
     land = [k for k in range(whole) if abs(abs(points[k]) - 10) < 1e-9]
     inner = list(range(whole + bore - 1, whole - 1, -1))
@@ -197,14 +173,14 @@ def angle(way: complex) -> float:
 
 def test_a_wheel_without_a_bore_has_one_corner_more_in_its_middle() -> None:
     for outer in (WHEEL, SHARP):
-        triangles, points = filled(outer, ())
+        triangles, points = filled_caps(outer, ())
         assert points[len(outer) :] == [0]
         rim = 16 if outer is WHEEL else 4
         assert sum(len(outer) in x for x in triangles) == rim
     assert len(cap_triangles(*REGIONS["bored"])[1]) == len(cap_triangles(*REGIONS["bent"])[1]) == 0
     # the axis does not see every edge: no corner there
     far = replace(PLATE, vertices=PLATE.vertices + 40)
-    assert len(filled(far, ())[1]) == len(far)
+    assert len(filled_caps(far, ())[1]) == len(far)
 
 
 def thin(bore: float, teeth: int = 12) -> tuple[Contour, Contour]:
@@ -232,7 +208,7 @@ def test_a_rim_thinner_than_its_chords_is_cut_by_sectors(teeth: int) -> None:
     """Chords across the teeth pass the bore; so each tooth keeps what stands behind it, one sector like the other."""
     rim, bore = thin(9.95, teeth)
     assert 10 * math.cos(math.radians(8 * 12 / teeth)) < 9.95 * math.cos(math.pi / 72)
-    triangles, points = filled(rim, (bore,))
+    triangles, points = filled_caps(rim, (bore,))
     pitch = 360 / teeth
     for x in triangles:
         turns = [(math.degrees(angle(points[k])) / pitch + 8 / 30) % teeth for k in x]

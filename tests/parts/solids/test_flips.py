@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
 
 import numpy as np
 import pytest
@@ -13,6 +13,7 @@ from geometry.base.errors import ThinWallError
 from geometry.curves.curve import Complex
 from parts.solids.caps import Triangles
 from parts.solids.flips import Cells, constrained, inner_cells
+from tests.parts.solids.filling import area, filled, sides_of, turned
 
 # how near to the bounds cells may come, and by how much samples of these may miss it, in cells
 CLEAR, MISSED = 0.45, 0.11
@@ -41,14 +42,6 @@ REGIONS = {
 }
 
 
-def area(ring: Complex) -> float:
-    return 0.5 * float(np.sum((np.conj(ring) * np.roll(ring, -1)).imag))
-
-
-def turned(a: complex, b: complex, c: complex) -> float:
-    return ((b - a).conjugate() * (c - a)).imag
-
-
 def in_circle(a: complex, b: complex, c: complex, d: complex) -> float:
     """The determinant that is above 0 where d lies within the circle about a, b, c, counter-clockwise."""
     rows = [[p.real - d.real, p.imag - d.imag, abs(p - d) ** 2] for p in (a, b, c)]
@@ -58,21 +51,9 @@ def in_circle(a: complex, b: complex, c: complex, d: complex) -> float:
 def held(rings: tuple[Complex, ...], cells: Cells | None, found: Triangles) -> None:
     """They fill the region, keep its edges, and no corner across an edge that is free lies within a circle."""
     points = np.concatenate([*rings, cells.points if cells else np.zeros(0)]).tolist()
-    doubled = [turned(*(points[k] for k in one)) for one in found.tolist()]
-    assert min(doubled) > 0
-    assert 0.5 * sum(doubled) == pytest.approx(sum(area(ring) for ring in rings), rel=1e-12)
-    assert set(found.ravel().tolist()) == set(range(len(points)))
-    across: dict[tuple[int, int], int] = {}
-    for a, b, c in found.tolist():
-        for one, two, apex in ((a, b, c), (b, c, a), (c, a, b)):
-            assert (one, two) not in across
-            across[one, two] = apex
-    start, bounds = 0, set()
-    for ring in rings:
-        bounds |= {(start + k, start + (k + 1) % len(ring)) for k in range(len(ring))}
-        start += len(ring)
-    # each side is that of two triangles, but for the bounds, which run as the triangles beside them do
-    assert {side for side in across if side[::-1] not in across} == bounds
+    ends = np.cumsum([0, *(len(ring) for ring in rings)]).tolist()
+    triangles = filled(points, found.tolist(), [range(a, b) for a, b in pairwise(ends)])
+    across = {(one, two): apex for x in triangles for one, two, apex in sides_of(x)}
     for (one, two), apex in across.items():
         if (two, one) in across:
             four = [points[k] for k in (one, two, apex, across[two, one])]
@@ -135,7 +116,7 @@ def test_loops_run_round_the_cells_clockwise_and_meet_nowhere(name: str) -> None
     assert [turned(*one) for one in corners.tolist()] == pytest.approx([1.0] * len(corners), abs=1e-9)
     count = len(indices(REGIONS[name], cells))
     assert len(cells.triangles) == 2 * count
-    assert sum(area(cells.points[loop]) for loop in cells.loops) == pytest.approx(-count, rel=1e-12)
+    assert sum(area(cells.points[loop].tolist()) for loop in cells.loops) == pytest.approx(-count, rel=1e-12)
     every = np.concatenate(cells.loops)
     assert len(np.unique(every)) == len(every)
     for loop in cells.loops:
