@@ -82,7 +82,7 @@ def test_a_mate_of_a_convex_driver_that_is_hollow_is_told_the_greatest_eccentric
     works = refused.value.nearest.value
 
     def least(e: float) -> float:
-        """The least of it over the driver's lobe; a from the mate's whole turn, by Simpson's rule of a smooth period."""
+        """The least of it over the driver's lobe; a from the mate's whole turn, by means over a smooth period."""
         angle = np.linspace(0, 2 * math.pi / 3, 4001)
         radius = 1 / (1 - e * np.cos(3 * angle))
         slope, bend = -3 * e * np.sin(3 * angle) * radius**2, -9 * e * np.cos(3 * angle) * radius**2
