@@ -55,6 +55,11 @@ def exact_point(curve: Curve) -> ExactPoint:
         return lambda t: _parallel(exact_point(curve.base), curve.distance, t)
     if isinstance(curve, Reversed):
         return lambda t: exact_point(curve.original)(-t)
+    if isinstance(curve, Mirrored):
+        return lambda t: MP.conj(exact_point(curve.base)(-t))
+    if isinstance(curve, Carried):
+        place = curve.placement
+        return lambda t: MP.expj(MP.mpf(place.angle)) * exact_point(curve.base)(t) + MP.mpc(place.translation)
     raise TypeError(type(curve))
 
 
@@ -191,12 +196,19 @@ def check_derivative_bound(curve: Curve) -> None:
         for order in (1, 2, 3, 4):
             bound = curve.derivative_bound(order, start, end)
             if bound is None:
-                assert isinstance(curve, OffsetCurve) or isinstance(getattr(curve, "original", None), OffsetCurve)
+                assert isinstance(_plain(curve), OffsetCurve)
                 continue
             largest = float(np.max(np.abs(curve.derivative(t, order))))
             assert bound >= largest * (1 - 1e-13)
-            if not isinstance(getattr(curve, "original", curve), TrochoidFillet | EllipticFillet | CutterFillet):
+            if not isinstance(_plain(curve), TrochoidFillet | EllipticFillet | CutterFillet):
                 assert bound <= largest * (1 + 1e-13)  # these bounds are attained
+
+
+def _plain(curve: Curve) -> Curve:
+    """What is reversed, mirrored or carried."""
+    while isinstance(curve, Reversed | Mirrored | Carried):
+        curve = curve.original if isinstance(curve, Reversed) else curve.base
+    return curve
 
 
 def check_reversal(curve: Curve) -> None:

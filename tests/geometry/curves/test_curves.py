@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from hypothesis import strategies as st
 from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
 from geometry.base.record import replace
-from geometry.curves.curve import Curve, OffsetCurve, Reversed
+from geometry.curves.curve import Carried, Curve, Mirrored, OffsetCurve, Reversed
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.ellipse import EllipticArc, ellipse_angle
 from geometry.curves.elliptic_fillet import EllipticFillet
@@ -62,14 +63,19 @@ EXAMPLES: dict[str, Curve] = {
     "parallel of an arc": OffsetCurve(Arc(1j, 5.0, 0.0, 2.0), 1.2),
 }
 EXAMPLES |= {f"reversed {name}": Reversed(curve) for name, curve in EXAMPLES.items()}
+# what carries and mirrors any of them, each about curves that bound their derivatives, trim and turn back differently
+HELD = ("involute", "fillet", "elliptic fillet, upper side", "ring fillet", "parallel of a trochoid")
+EXAMPLES |= {f"mirrored {name}": Mirrored(EXAMPLES[name]) for name in HELD}
+EXAMPLES |= {f"carried {name}": Carried(EXAMPLES[name], Placement2(0.7, 3 - 2j)) for name in HELD}
 EVERY = pytest.mark.parametrize("curve", EXAMPLES.values(), ids=EXAMPLES.keys())
 
 
 def test_every_class_is_among_the_examples() -> None:
     kinds = {type(c) for c in EXAMPLES.values()}
     fillets = {TrochoidFillet, EllipticFillet, CutterFillet}
-    assert kinds == {Line, Arc, EllipticArc, Involute, Trochoid, OffsetCurve, Reversed} | fillets
-    assert {type(c.original) for c in EXAMPLES.values() if isinstance(c, Reversed)} == kinds - {Reversed}
+    carriers = {Reversed, Mirrored, Carried}
+    assert kinds == {Line, Arc, EllipticArc, Involute, Trochoid, OffsetCurve} | carriers | fillets
+    assert {type(c.original) for c in EXAMPLES.values() if isinstance(c, Reversed)} == kinds - carriers
     assert all(isinstance(c, Curve) for c in EXAMPLES.values())
 
 
@@ -312,3 +318,58 @@ def test_the_angle_of_a_normal_is_square_to_the_tangent_there(stretch: float) ->
     for normal in (0.0, 0.3, 0.7, 1.2, 1.5):
         tangent = complex(curve.tangent(ellipse_angle(normal, stretch)))
         assert (tangent * np.exp(-1j * normal)) == pytest.approx(1j, abs=1e-14)
+
+
+@pytest.mark.parametrize("name", [name for name in EXAMPLES if name.startswith(("mirrored", "carried"))])
+def test_laws_of_what_is_mirrored_and_carried(name: str) -> None:
+    """As of the curve itself; bounds of stretches are those of the stretches they come from, ends in their order."""
+    curve = EXAMPLES[name]
+    laws.check_derivative_bound(curve)
+    laws.check_reversal(curve)
+    laws.check_placement(curve, Placement2(-1.1, 3 + 0.5j))
+    laws.check_trimming(curve, 0.2, 0.7)
+    base = curve.base  # type: ignore[attr-defined]
+    for distance in () if isinstance(base, OffsetCurve) else (0.05, -0.05, 3.0, -3.0, 30.0, -30.0):
+        laws.check_cusp(curve, distance)
+    edges = np.linspace(*curve.domain, 5)
+    if not isinstance(base, OffsetCurve):
+        found = curve.derivative_bounds(edges, (1, 2, 3))
+        for k, (a, b) in enumerate(pairwise(edges.tolist())):
+            assert found[:, k] == pytest.approx([curve.derivative_bound(order, a, b) for order in (1, 2, 3)], rel=1e-12)
+    twin = curve.mirrored()
+    t = np.linspace(0, 1, 7)
+    low, high = curve.domain
+    start, end = twin.domain
+    assert twin.point(start + t * (end - start)) == pytest.approx(np.conj(curve.point(high - t * (high - low))))
+    assert [complex(x) for x in curve.knots] == [complex(x) for x in base.knots]
+
+
+def test_a_mirrored_curve_names_its_own_cusp() -> None:
+    curve = Mirrored(EXAMPLES["involute"])
+    distance = 21.6 * 0.2
+    with pytest.raises(CuspError) as caught:
+        curve.offset(distance)
+    assert caught.value.distance == distance
+    assert curve.domain[0] <= caught.value.t <= curve.domain[1]
+    assert abs(1 - distance * float(curve.curvature(caught.value.t))) <= 1e-12
+
+
+@pytest.mark.parametrize(("start", "end"), [(0.0, 1.2), (-0.9, 1.2), (-1.2, -0.1), (0.2, 1.2)])
+def test_the_cusp_of_a_fillet_is_the_nearest_to_its_root(start: float, end: float) -> None:
+    """The first place, by size, at which its speed stops being positive: on a fine net, for either family."""
+    for curve in (
+        EllipticFillet(23.0, -3.0, 30.0, 0.0, start, end, 20.0, 1.3),
+        EllipticFillet(23.0, 1.74, -0.05, -0.1, start, end, 0.76, 1.3),
+        EllipticFillet(23.0, -6.0, 12.0, 0.0, start, end, 3.0, 1.3),
+        TrochoidFillet(23.0, -3.0, 30.0, 0.0, start, end),
+        TrochoidFillet(23.0, 1.74, -0.24, -0.1, start, end),
+        CutterFillet(60.0, 25.0, -1.5, 30.0, 0.0, start, end),
+    ):
+        u = np.linspace(start, end, 120_001)
+        stopped = u[curve.speed(u) <= 0]
+        if not stopped.size:
+            assert curve.cusp() is None
+            continue
+        found = curve.cusp()
+        assert found is not None
+        assert abs(found) == pytest.approx(np.abs(stopped).min(), abs=1.1 * (end - start) / 120_000)
