@@ -38,6 +38,9 @@ _DECIMALS = {
     "N*m": 4,
     "MPa": 4,
     "W": 4,
+    "J": 4,
+    "kg": 4,
+    "kg*m2": 6,
 }
 
 
@@ -256,6 +259,9 @@ _UNITS = {
     "N*m": NC_("unit", "N·m"),
     "MPa": NC_("unit", "MPa"),
     "W": NC_("unit", "W"),
+    "J": NC_("unit", "J"),
+    "kg": NC_("unit", "kg"),
+    "kg*m2": NC_("unit", "kg·m²"),
 }
 # functions that languages write in their own way
 _FUNCTIONS = (NC_("function", "tan"), NC_("function", "arctan"))

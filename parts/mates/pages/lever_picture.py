@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -37,6 +37,19 @@ class Plan(Record):
     scale: float
 
 
+class Run(Record, eq=False):
+    """Over a turn: angle (deg), moment of the resistance, the even driving one (N m); energies gained (J) by the whole,
+    by the links, by the flywheel.
+    """
+
+    angle: Real
+    resisting: Real
+    driving: float
+    gained: Real
+    of_links: Real
+    of_flywheel: Real
+
+
 class LeverPicture(Record, eq=False):
     """``points`` in the first position, their ``paths`` over a turn, mm, ``fixed`` pivots; whether a ``stone`` slides;
     ``diagram``: angle (deg), travel (mm), velocity (m/s) and acceleration (m/s^2) of the output.
@@ -49,6 +62,7 @@ class LeverPicture(Record, eq=False):
     velocities: Plan
     accelerations: Plan
     diagram: tuple[Real, Real, Real, Real]
+    run: Run | None = None
 
     def svg(self, words: Words) -> str:
         """The picture in a language."""
@@ -58,13 +72,21 @@ class LeverPicture(Record, eq=False):
             (N_("Plan of accelerations"), list(_plan(self.accelerations))),
             (N_("Output over a turn"), list(self._diagrams(words))),
         ]
+        if self.run is not None:
+            run = self.run
+            moments = (("M_c", run.resisting), ("M_d", np.full(len(run.angle), run.driving)))
+            energies = (("ΔT", run.gained), ("ΔT_l", run.of_links), ("ΔT_m", run.of_flywheel))
+            panels += [
+                (N_("Reduced moments, N·m"), list(_together(run.angle, moments, words))),
+                (N_("Gained energy, J; KK_1 is the height of ΔT_m"), list(_together(run.angle, energies, words))),
+            ]
         lines = []
         step = _SIDE + 2 * _EDGE
         for number, (title, drawn) in enumerate(panels):
             x, y = number % 2 * step + _EDGE, number // 2 * (step + _HEAD) + _EDGE + _HEAD
             lines.append(f'<g transform="translate({x:.1f} {y:.1f})">')
             lines += [_text(0, -14, words.say(title), "#202830"), *drawn, "</g>"]
-        width, height = 2 * step, 2 * (step + _HEAD)
+        width, height = 2 * step, (len(panels) + 1) // 2 * (step + _HEAD)
         box = f'viewBox="0 0 {width:.0f} {height:.0f}" width="{width:.0f}" height="{height:.0f}"'
         head = f'<svg xmlns="http://www.w3.org/2000/svg" {box}>'
         return "\n".join([head, '<rect width="100%" height="100%" style="fill:#ffffff"/>', *lines, "</svg>", ""])
@@ -108,6 +130,23 @@ class LeverPicture(Record, eq=False):
             yield f'<polyline points="{points}" style="fill:none;stroke:{_COLOURS[number]};stroke-width:1.6"/>'
             shown = words.say(name) + f"  {words.decimal(f'{low:.4g}')} … {words.decimal(f'{high:.4g}')}"
             yield _text(0, top - 3, shown, _COLOURS[number])
+
+
+def _together(angle: Real, curves: Sequence[tuple[str, Real]], words: Words) -> Iterator[str]:
+    """Curves over the angle in one field, with the least and the greatest of each."""
+    low, high = min(0.0, *(float(v.min()) for _, v in curves)), max(0.0, *(float(v.max()) for _, v in curves))
+    high = high if high > low else low + 1
+    tall, top = _SIDE - 18 * len(curves), 18.0 * len(curves)
+    x = (angle - angle[0]) / (angle[-1] - angle[0]) * _SIDE
+    zero = top + high / (high - low) * tall
+    axis = f"stroke:{_AXIS};stroke-width:1"
+    yield f'<line x1="0" y1="{zero:.2f}" x2="{_SIDE:.0f}" y2="{zero:.2f}" style="{axis}"/>'
+    for number, (name, values) in enumerate(curves):
+        y = top + (high - values) / (high - low) * tall
+        points = " ".join(f"{a:.2f},{b:.2f}" for a, b in zip(x[::_EVERY], y[::_EVERY], strict=True))
+        yield f'<polyline points="{points}" style="fill:none;stroke:{_COLOURS[number]};stroke-width:1.6"/>'
+        ends = (words.decimal(f"{value:.4g}") for value in (float(values.min()), float(values.max())))
+        yield _text(0, 12 + 18 * number, f"{name}  {' … '.join(ends)}", _COLOURS[number])
 
 
 class _View:

@@ -11,18 +11,19 @@ import numpy as np
 from msgspec import Meta, Struct
 
 from geometry.base.errors import ParameterError
+from geometry.kinematics.flywheel import Cycle, mertsalov, travelled
 from geometry.kinematics.levers import Levers, Moved, Rods, Slider, Stone, swing
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
 from parts.keys.base import degrees, mm
 from parts.mates.pages.contour_marks import checked_picture
-from parts.mates.pages.lever_picture import LeverPicture, Plan, Vector
+from parts.mates.pages.lever_picture import LeverPicture, Plan, Run, Vector
 from parts.mates.pages.lever_tasks import ASSIGNMENTS, EXAMPLE, assigned, rows_of_code
 from parts.pages.inputs import checked, refusal
 from parts.pages.page import Printed, Sheet, Table
 
 TOPIC = "lever"
-_GUIDELINES = "guidelines, 3.4"
+_GUIDELINES, _MERTSALOV = "guidelines, 3.4", "guidelines, 2.2.5"
 _MOST = 1e5
 _Length = mm("length", above=0, most=_MOST)
 _KINDS = {Stone: 3, Rods: 1, Slider: 2}
@@ -39,13 +40,16 @@ _BESIDE = "how far the guide passes to the left of O3, of O1 where there is no l
 _SIDE = "1: slider ahead of C, or O5 to the left of CD; -1: behind it, or to the right"
 _MASS = "AS2 / AB: centre of mass of the rod AB, whose path the picture then has"
 
+_MASSES = "substitute masses of the links at A, B, C, D: point_masses.D=12"
+_FORCE = "useful resistance on the slider, against its motion"
+_WAYS = "along which way of its guide the slider is resisted"
+_Mass = Annotated[float, Meta(ge=0, le=1e6, extra={"unit": "kg"})]
+
 
 class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     """Keys of the topic; those of an assignment stand for what is not given."""
 
-    code: Annotated[
-        int | str, Meta(description="last four digits of a record-book number: chooses assignment and rows")
-    ] | (None) = None
+    code: Annotated[int | str, Meta(description=_CODE)] | None = None
     assignment: Annotated[int, Meta(description="number of an assignment of the guidelines, 1 to 10")] | None = None
     variant: Annotated[int, Meta(description="its row, 1 to 10")] | None = None
     first: Annotated[
@@ -71,16 +75,14 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     rocker_length: Annotated[float, _Length] | None = None
     pivot_distance: Annotated[float, _Length] | None = None
     pivot_angle_deg: Annotated[float, degrees("direction from O3 to O5", least=-360, most=360)] = 0.0
-    guide_height: Annotated[
-        float, mm("how far the guide passes left of O3 (O1 without a lever)", least=-_MOST, most=_MOST)
-    ] = 0.0
+    guide_height: Annotated[float, mm(_BESIDE, least=-_MOST, most=_MOST)] = 0.0
     guide_angle_deg: Annotated[float, degrees("direction of the guide", least=-360, most=360)] = 0.0
-    second_side: Annotated[
-        Literal[1, -1], Meta(description="slider ahead of C (1) or behind (-1); O5 left or right of CD")
-    ] = 1
-    mass_point: (
-        Annotated[float, Meta(ge=0, le=1, description="AS2 / AB of a connecting rod: its centre of mass")] | None
-    ) = None
+    second_side: Annotated[Literal[1, -1], Meta(description=_SIDE)] = 1
+    mass_point: Annotated[float, Meta(ge=0, le=1, description=_MASS)] | None = None
+    point_masses: Annotated[dict[str, _Mass], Meta(description=_MASSES)] | None = None
+    resistance: Annotated[float, Meta(gt=0, le=1e9, description=_FORCE, extra={"unit": "N"})] | None = None
+    resisted: Annotated[Literal["forward", "backward", "both"], Meta(description=_WAYS)] = "both"
+    unevenness: Annotated[float, Meta(gt=0, le=0.5, description="delta: gives the flywheel")] | None = None
     positions: Annotated[int, Meta(ge=2, le=720, description="positions of the crank in the table")] = 12
     drawn_crank: Annotated[float, mm("length of the crank on the drawing", above=0, most=1000)] = 30.0
     velocity_scale: Annotated[float, Meta(gt=0, le=1e6, description="m/s for 1 mm of the plan")] | None = None
@@ -177,7 +179,9 @@ class _Page:
         self.start = math.radians(keys.start_angle_deg)
         try:
             self.at = self.levers.moved(self.start)
-            self.turn = self.levers.moved(self.start + 2 * math.pi * np.arange(_FINE) / _FINE)
+            # as many places to each position of the table
+            self.fine = keys.positions * math.ceil(_FINE / keys.positions)
+            self.turn = self.levers.moved(self.start + 2 * math.pi * np.arange(self.fine) / self.fine)
         except ParameterError as error:
             raise error.renamed(_NAMES.get(error.name, error.name)) from error
 
@@ -189,7 +193,8 @@ class _Page:
         self._velocities()
         self._accelerations()
         self._over_a_turn()
-        self._plans()
+        run = self._flywheel()
+        self._plans(run)
         self._notes()
         return self.page
 
@@ -435,7 +440,7 @@ class _Page:
         page, name = self.page, self._output
         page.section(N_("Over a turn"))
         out = self.turn.place(name)
-        slides = self.keys.second == "slider" or self.keys.first == "slider"
+        slides = self._slides
         way = cmath.exp(1j * math.radians(self.keys.guide_angle_deg))
         travel = (out * way.conjugate()).real
         if slides:
@@ -464,7 +469,80 @@ class _Page:
         heads = tuple(head for head, _ in columns)
         page.tables.append(Table("positions", N_("Positions of the crank over one turn"), heads, rows))
 
-    def _plans(self) -> None:
+    @property
+    def _slides(self) -> bool:
+        return "slider" in (self.keys.first, self.keys.second)
+
+    def _flywheel(self) -> Run | None:
+        """The flywheel for an unevenness, from the resistance and the masses of the links; None: not asked for."""
+        keys, page, name = self.keys, self.page, self._output
+        if keys.resistance is None or keys.unevenness is None:
+            for one, other in (("resistance", "unevenness"), ("unevenness", "resistance")):
+                if getattr(keys, one) is not None:
+                    raise ParameterError(one, getattr(keys, one), "needs_other", REMOVED, other=other)
+            return None
+        if not self._slides:
+            raise ParameterError("resistance", keys.resistance, "needs_slider", REMOVED)
+        masses = keys.point_masses or {}
+        for point in masses:
+            if point not in self.turn.points:
+                raise ParameterError("point_masses", point, "no_such_point", None, known=list(self.turn.points))
+        way = cmath.exp(-1j * math.radians(keys.guide_angle_deg))
+        place, ahead, change = (
+            np.append(x, x[0])
+            for x in (
+                (found * way).real / 1000
+                for found in (self.turn.place(name), self.turn.velocity(name), self.turn.acceleration(name))
+            )
+        )
+        ways = {"forward": (True,), "backward": (False,), "both": (True, False)}[keys.resisted]
+        gone = sum((travelled(place, ahead, change, forward=forward) for forward in ways), np.zeros(len(place)))
+        resisting = (
+            keys.resistance * sum(np.maximum(ahead if forward else -ahead, 0.0) for forward in ways) / keys.speed
+        )
+        inertia = np.zeros(len(place))
+        for point, mass in masses.items():
+            speeds = np.abs(self.turn.velocity(point)) / 1000 / keys.speed
+            inertia = inertia + mass * np.append(speeds, speeds[0]) ** 2
+        angle = self.start + 2 * math.pi * np.arange(self.fine + 1) / self.fine
+        wheel = mertsalov(Cycle(angle, keys.resistance * gone, inertia), keys.speed, keys.unevenness)
+        page.section(N_("Flywheel, by Mertsalov"))
+        for point, mass in masses.items():
+            page.add(
+                "point_mass",
+                mass,
+                symbol=f"m_{point}",
+                key=f"m_{point}",
+                of=message(N_("point {name}"), name=point),
+                given=True,
+            )
+        page.add("resisting_force", keys.resistance, given=True)
+        page.add("unevenness", keys.unevenness, given=True)
+        page.add("resisting_work", float(keys.resistance * gone[-1]))
+        page.add("driving_moment", wheel.driving, "{A_c} / (2 * pi)")
+        if masses:
+            page.add("least_reduced_inertia", float(inertia.min()))
+            page.add("greatest_reduced_inertia", float(inertia.max()))
+        page.add("flywheel_energy", wheel.swing)
+        page.add("flywheel_inertia", wheel.moment, "{dT} / ({omega_1}**2 * {delta})", _MERTSALOV)
+        turned = wheel.driving * (angle - angle[0])
+        columns = (
+            (("φ_1", "deg"), np.degrees(angle)),
+            (("M_c", "N*m"), resisting),
+            (("J", "kg*m2"), inertia),
+            (("A_c", "J"), keys.resistance * gone),
+            (("A_d", "J"), turned),
+            (("ΔT", "J"), wheel.gained),
+            (("ΔT_l", "J"), wheel.of_links),
+            (("ΔT_m", "J"), wheel.of_flywheel),
+        )
+        stride = self.fine // keys.positions
+        rows = tuple(tuple(map(float, row)) for row in zip(*(values[::stride] for _, values in columns), strict=True))
+        heads = tuple(head for head, _ in columns)
+        page.tables.append(Table("cycle", N_("Moments, works and energies over the turn"), heads, rows))
+        return Run(np.degrees(angle), resisting, wheel.driving, wheel.gained, wheel.of_links, wheel.of_flywheel)
+
+    def _plans(self, run: Run | None) -> None:
         """Both plans as vectors with the lengths that they have on paper, and the picture."""
         velocities, accelerations = self._velocity_vectors(), self._acceleration_vectors()
         speed_scale = self.keys.velocity_scale or _scale([abs(v.end) for v in velocities])
@@ -506,13 +584,14 @@ class _Page:
             Plan(tuple(velocities), speed_scale),
             Plan(tuple(accelerations), change_scale),
             self._diagram(),
+            run,
         )
 
     def _diagram(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Angle (deg), travel (mm), velocity and acceleration of the output along its way."""
         name = self._output
         way = cmath.exp(1j * math.radians(self.keys.guide_angle_deg))
-        angles = self.keys.start_angle_deg + 360 * np.arange(_FINE) / _FINE
+        angles = self.keys.start_angle_deg + 360 * np.arange(self.fine) / self.fine
         place, speed, change = (
             (x * way.conjugate()).real
             for x in (self.turn.place(name), self.turn.velocity(name) / 1000, self.turn.acceleration(name) / 1000)

@@ -219,3 +219,48 @@ def test_wrong_input_is_refused_by_its_key(keys: tuple[str, ...], key: str, code
         assert offered.value == pytest.approx(nearest, rel=2e-6)
         changed = [k for k in keys if not k.startswith(f"{key}=")]
         calculate("lever", [*changed, f"{key}={offered.value}"], "text", "en")
+
+
+PUMP = ("first=slider", "crank_length=100", "coupler_length=300", "speed=20", "resistance=2000", "unevenness=0.04")
+
+
+def test_a_flywheel_for_a_pump() -> None:
+    """Work over a turn: force by stroke, twice of it where both ways resist; masses at A change nothing."""
+    data = calculated(*PUMP, "resisted=backward", "point_masses.B=10", "point_masses.A=2")
+    assert value(data, "A_c") == pytest.approx(2000 * 0.2, rel=1e-9)
+    assert value(data, "J_min") == pytest.approx(2 * 0.1**2, rel=1e-9)
+    assert value(data, "J_m") == pytest.approx(value(data, "ΔT_m") / (20**2 * 0.04), rel=1e-12)
+    assert value(calculated(*PUMP), "A_c") == pytest.approx(2000 * 0.4, rel=1e-9)
+    heavier = calculated(*PUMP, "resisted=backward", "point_masses.B=10", "point_masses.A=50")
+    assert value(heavier, "J_m") == pytest.approx(value(data, "J_m"), rel=1e-12)
+    rows = data["cycle"]
+    assert len(rows) == 13
+    for row in rows:
+        # the slider's own kinetic energy, from its velocity in the other table
+        assert row["ΔT"] == pytest.approx(row["A_d"] - row["A_c"], abs=1e-9)
+        assert row["ΔT_m"] == pytest.approx(row["ΔT"] - row["ΔT_l"], abs=1e-9)
+    for row, at in zip(rows, data["positions"], strict=False):
+        assert row["M_c"] == pytest.approx(max(-at["V_B"], 0.0) * 2000 / 20, abs=1e-9)
+        assert row["J"] == pytest.approx(2 * 0.01 + 10 * (at["V_B"] / 20) ** 2, rel=1e-9)
+
+
+def test_a_flywheel_of_the_screen() -> None:
+    data = calculated("code=1071", "resistance=1000", "unevenness=0.02", "point_masses.D=20")
+    assert value(data, "A_c") == pytest.approx(1000 * 2 * value(data, "H") / 1000, rel=1e-8)
+    forward = calculated("code=1071", "resistance=1000", "unevenness=0.02", "resisted=forward")
+    assert value(forward, "A_c") == pytest.approx(1000 * value(data, "H") / 1000, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("keys", "key", "code"),
+    [
+        ((*PUMP[:4], "resistance=2000"), "resistance", "needs_other"),
+        ((*PUMP[:4], "unevenness=0.02"), "unevenness", "needs_other"),
+        ((*PUMP, "point_masses.D=1"), "point_masses", "no_such_point"),
+        (("assignment=10", "resistance=100", "unevenness=0.02"), "resistance", "needs_slider"),
+    ],
+)
+def test_a_flywheel_needs_what_it_follows_from(keys: tuple[str, ...], key: str, code: str) -> None:
+    with pytest.raises(SceneError) as found:
+        calculate("lever", keys, "text", "en")
+    assert (found.value.key.rpartition(".")[2], found.value.code) == (key, code)
