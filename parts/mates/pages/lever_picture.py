@@ -11,6 +11,7 @@ import numpy as np
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from parts.base.texts import N_, Text, Words
+from parts.pages.page import unit_text
 
 # a panel and what stays free about it, px
 _SIDE, _EDGE, _HEAD = 420.0, 34.0, 26.0
@@ -115,8 +116,8 @@ class LeverPicture(Record, eq=False):
     def _diagrams(self, words: Words) -> Iterator[str]:
         angle, *curves = self.diagram
         third = _SIDE / 3
-        names = ("S, mm", "V, m/s", "a, m/s²")
-        for number, (name, values) in enumerate(zip(names, curves, strict=True)):
+        names = (("S", "mm"), ("V", "m/s"), ("a", "m/s2"))
+        for number, ((name, unit), values) in enumerate(zip(names, curves, strict=True)):
             low, high = min(float(values.min()), 0.0), max(float(values.max()), 0.0)
             high = high if high > low else low + 1
             top = number * third + 14
@@ -128,7 +129,8 @@ class LeverPicture(Record, eq=False):
             yield f'<line x1="0" y1="{zero:.2f}" x2="{_SIDE:.0f}" y2="{zero:.2f}" style="{axis}"/>'
             points = " ".join(f"{a:.2f},{b:.2f}" for a, b in zip(x[::_EVERY], y[::_EVERY], strict=True))
             yield f'<polyline points="{points}" style="fill:none;stroke:{_COLOURS[number]};stroke-width:1.6"/>'
-            shown = words.say(name) + f"  {words.decimal(f'{low:.4g}')} … {words.decimal(f'{high:.4g}')}"
+            ends = " … ".join(words.decimal(f"{value:.4g}") for value in (low, high))
+            shown = f"{name}, {unit_text(unit, words)}  {ends}"
             yield _text(0, top - 3, shown, _COLOURS[number])
 
 

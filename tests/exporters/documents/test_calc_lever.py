@@ -181,6 +181,7 @@ def test_the_picture_shows_scheme_plans_and_diagrams(tmp_path: Path) -> None:
     words = [e.text for e in ET.parse(file).iter() if e.tag.endswith("}text")]
     assert {"O1", "O3", "A", "B", "C", "D", "pa", "pa3", "a3a2", "πa", "a2k"} <= set(words)
     assert "План швидкостей" in words
+    assert sum(bool(word) and word.startswith(("S, мм ", "V, м/с ", "a, м/с² ")) for word in words) == 3
     # the links as drawn are as long as they are, in one scale
     lines = [
         e.attrib["points"]
