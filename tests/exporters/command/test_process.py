@@ -187,7 +187,8 @@ def test_the_kernel_is_asked_for_only_where_it_is(
 
 @pytest.mark.parametrize("part", [
     'kind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 20\n', 'kind = "rack"\nmodule = 2.0\nnumber_of_teeth = 8\n',
-    'kind = "plate"\nwidth = 20.0\nheight = 20.0\n', 'kind = "turned"\npoints = [{ r = 0.0, z = 0.0 }, { r = 3.0, z = 0.0 }, { r = 0.0, z = 4.0 }]\n',
+    'kind = "plate"\nwidth = 20.0\nheight = 20.0\n',
+    'kind = "turned"\npoints = [{ r = 0.0, z = 0.0 }, { r = 3.0, z = 0.0 }, { r = 0.0, z = 4.0 }]\n',
 ])  # fmt: skip
 def test_one_part_alone_is_offered_a_mate_of_its_kind(
     part: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -9,11 +9,17 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from exporters.production.catalogue import Task, entry_of
+from exporters.verification import judge
+from exporters.verification.verdict import Verdict
+from parts.scene.load import load_scene
+from parts.scene.variants import axes_of, variants
 from tests.exporters.making import part_keys, read_report, run, write_scene
 from tests.exporters.outside import Gear
 
@@ -105,6 +111,53 @@ def test_what_is_finished_is_kept_and_what_is_spoiled_is_made_again(plain: Path,
     # another scene is another catalogue
     write_scene(scene, {"g": part_keys(Gear(2, 23, bore=6)) | {"material": "brass"}}, [{"format": "dxf"}])
     assert all(len(e["files"]) == bool(e["files"]) for e in catalogued(scene, tmp_path / "o"))
+
+
+@pytest.mark.parametrize(("change", "again"), [
+    (lambda report: report["run"].update(seconds=0.0), False),
+    (lambda report: report["files"][0].update(verified=False), True),
+    (lambda report: report["failed"].append({"path": "x.dxf", "failures": ["bent"]}), True),
+    (lambda report: report["versions"].update(higherpair="0.0.1"), True),
+    (lambda report: report.pop("versions"), True),
+    (lambda report: report["scene"]["parts"]["g"].update(face_width=6.0), True),
+    (lambda report: report["files"][0].update(sha256="0" * 64), True),
+    (lambda report: report["previews"][0].update(sha256="0" * 64), True),
+    (lambda report: report["files"][0].update(path="none.dxf"), True),
+], ids=["seconds", "unverified", "failed", "version", "no version", "scene", "file", "picture", "missing"])  # fmt: skip
+def test_a_folder_is_kept_only_where_its_report_vouches_for_all_of_it(
+    change: Callable[[dict[str, Any]], object], again: bool, tmp_path: Path
+) -> None:
+    scene = scene_in(tmp_path, "svg")
+    (variant,) = variants(load_scene(str(scene)), axes_of(["g.number_of_teeth=23"], load_scene(str(scene))))
+    task = Task(variant, str(scene), tmp_path / "o")
+    told = entry_of(task)
+    assert (told["verdict"], told["key"], told["why"]) == ("ok", None, "")
+    file = tmp_path / "o" / variant.name / "report.json"
+    report = json.loads(file.read_text("utf-8"))
+    change(report)
+    file.write_text(json.dumps(report), encoding="utf-8")
+    before = file.stat().st_ino
+    assert entry_of(task)["files"] == told["files"]
+    assert (file.stat().st_ino != before) is again
+
+
+def test_what_failed_in_a_folder_is_told_file_by_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A row without files of its own that are good, and why; the command fails."""
+    real = judge.verify_part
+
+    def failing(file: Path, *rest: Any) -> Verdict:
+        return Verdict({}, ("bent", "open")) if file.suffix == ".dxf" else real(file, *rest)
+
+    monkeypatch.setattr(judge, "verify_part", failing)
+    scene = scene_in(tmp_path, "dxf", "svg")
+    assert run("catalogue", scene, "--vary", "g.module=1,2", "--out", tmp_path / "o") == 1
+    for entry in json.loads((tmp_path / "o" / "s" / "catalogue.json").read_text("utf-8")):
+        assert (entry["verdict"], entry["why"]) == ("failed", "g.dxf: bent; g.dxf: open")
+        assert [file["path"] for file in entry["files"]] == ["g.svg"]
+    rows = list(csv.DictReader((tmp_path / "o" / "s" / "catalogue.csv").read_text("utf-8").splitlines()))
+    assert [(next(iter(row.values())), row["verdict"], row["file"], row["why"]) for row in rows] == [
+        (m, "failed", "g.svg", "g.dxf: bent; g.dxf: open") for m in ("1", "2")
+    ]
 
 
 @pytest.mark.sampled(1)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from exporters.production.kept import kept_lines
+from exporters.production.kept import Failure, failure_of, kept_lines
 from exporters.verification import judge
 from exporters.verification.verdict import Verdict
 from tests.exporters.making import part_keys, read_report, run, write_scene
@@ -113,3 +113,19 @@ def test_the_lines_speak_both_languages() -> None:
         assert all(any("\u0400" <= c <= "\u04ff" for c in line) is alphabet for line in lines)
         assert all("a.dxf" in line for line in lines)
     assert kept_lines(None, "en") == []
+
+
+def test_why_a_file_is_not_vouched_for() -> None:
+    """All that was wrong with it, whether what lies there is of this scene; nothing of other files."""
+    failed = [
+        {"path": "a.dxf", "failures": ["bent", "open"], "kept": {"fits_scene": True}},
+        {"path": "b.dxf", "failures": ["bent"], "kept": {"fits_scene": False}},
+        {"path": "c.dxf", "failures": [], "kept": None},
+        {"path": "d.dxf"},
+    ]
+    report = {"failed": failed}
+    assert failure_of(report, "a.dxf") == Failure("bent; open", True)
+    assert failure_of(report, "b.dxf") == Failure("bent", False)
+    assert failure_of(report, "c.dxf") == failure_of(report, "d.dxf") == Failure("", False)
+    assert failure_of(report, "e.dxf") is None
+    assert failure_of({}, "a.dxf") is None

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 
 from exporters.command.cli import main
 from exporters.production.preview_labels import Label, Tops, spread_labels
@@ -143,3 +144,62 @@ def test_no_name_stands_partly_beyond_the_picture() -> None:
     square, beyond = np.array([0, 40, 40 + 40j, 40j]), Label("beyond", 40.0, 20.0, 4.0)
     assert Tops([[square]]).shows(beyond, 0) == 1
     assert Tops([[square]], picture=(-3 - 3j, 43 + 43j)).shows(beyond, 0) == 0
+
+
+def test_the_uppermost_part_is_known_all_over_a_picture() -> None:
+    """Squares within squares by even and odd, at the middle of each of 20 x 20 cells, against shapely."""
+    square = np.array([0, 20, 20 + 20j, 20j])
+    rings = [[square], [1 + 1j + 0.9 * square, 5 + 5j + 0.5 * square], [10 + 3j + 0.4 * square, 12 + 5j + 0.2 * square]]
+    polygons = []
+    for loops in rings:
+        outer, *holes = (shapely.Polygon(np.column_stack([loop.real, loop.imag])) for loop in loops)
+        polygons.append(outer.difference(shapely.union_all(holes)))
+    tops = Tops(rings, cells=20)
+    seen = set()
+    for x in np.arange(20) + 0.5:
+        for y in np.arange(20) + 0.5:
+            exact = max(k for k, polygon in enumerate(polygons) if polygon.contains(shapely.Point(x, y)))
+            seen.add(exact)
+            # a word as small as a point: it has half its height of letters about it
+            dot = Label("", x, y + 0.35 * 1e-6, 1e-6)
+            assert [tops.shows(dot, k) for k in range(3)] == [3 if k == exact else 0 for k in range(3)], (x, y)
+    assert seen == {0, 1, 2}
+    assert [tops.seen(k) for k in range(4)] == [True, True, True, False]
+
+
+@pytest.mark.parametrize(("label", "rank"), [
+    # letters of 2: 6.2 wide, 2.6 high with their room; on the square alone, over its edge, beside it, too far
+    (Label("seven", 20.0, 20.0, 2.0), 3), (Label("seven", 1.0, 20.0, 2.0), 1), (Label("seven", -4.0, 20.0, 2.0), 2),
+    (Label("seven", -6.0, 20.0, 2.0), 0), (Label("seven", 20.0, 1.5, 2.0), 1), (Label("seven", 20.0, -1.5, 2.0), 2),
+    (Label("seven", 20.0, -3.5, 2.0), 0), (Label("seven", 20.0, 41.0, 2.0), 1), (Label("seven", 20.0, 43.0, 2.0), 2),
+    (Label("seven", 20.0, 46.0, 2.0), 0), (Label("seven", 44.0, 20.0, 2.0), 2), (Label("seven", 47.0, 20.0, 2.0), 0),
+])  # fmt: skip
+def test_a_word_stands_on_beside_or_away_from_its_part(label: Label, rank: int) -> None:
+    """A square of 40; beside it: nearer than the height of the letters."""
+    tops = Tops([[np.array([0, 40, 40 + 40j, 40j])], [np.array([99, 100, 100 + 1j, 99 + 1j])]], cells=1000)
+    assert tops.shows(label, 0) == rank
+
+
+def test_boxes_of_words_are_as_wide_as_their_letters_and_a_little_more() -> None:
+    """0.62 of the height a letter, 0.15 of it free all round; from the foot of the letters up."""
+    assert Label("four", 10.0, 50.0, 10.0).box == pytest.approx((10 - 12.4 - 1.5, 50 - 10 - 1.5, 10 + 12.4 + 1.5, 51.5))
+
+
+def test_a_word_goes_to_the_nearest_place_that_is_free() -> None:
+    """Nearest by its way across and half as much again of its way up or down; none beyond the last ring."""
+    one, two, three = spread_labels([Label(text, 0.0, 0.0, 4.0) for text in ("aa", "bb", "cc")])
+    assert (one.x, one.y) == (0, 0)
+    step = 4 * 1.3
+    wide = 2 * 0.62 * 4
+    # straight below costs 1.5 steps, beside it a width and a tenth
+    places = [(0, step), (0, -step)] + [
+        (s * wide * w, k * step) for s in (1, -1) for w in (0.6, 1.1, 1.7) for k in (0, 1, -1)
+    ]
+    free = [(x, y) for x, y in places if abs(x) >= wide + 2 * 0.15 * 4 or abs(y) >= step]
+    best = min(abs(x) + 1.5 * abs(y) for x, y in free)
+    assert abs(two.x) + 1.5 * abs(two.y) == pytest.approx(best)
+    assert abs(three.x) + 1.5 * abs(three.y) >= best
+    boxes = [label.box for label in (one, two, three)]
+    assert all(
+        a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1] for k, a in enumerate(boxes) for b in boxes[:k]
+    )

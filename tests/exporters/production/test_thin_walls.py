@@ -1,0 +1,115 @@
+"""Tolerances that leave a wall none of its own, an outline crossed or too many edges: refused with what works."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.formats.registry import shape_of
+from exporters.production.build import build
+from exporters.production.plan import Plan, plan_build
+from geometry.base.errors import ParameterError
+from geometry.base.tolerance import LEAST_SEGMENT_MM
+from geometry.plane.contour import Approximation, Contour
+from parts.base.refusal import SceneError
+from parts.scene.load import scene_from_dict
+
+# a disc of 40 mm with a hole 0.11 mm from its edge, where chords of both lie farthest within
+TURN = math.radians(15)
+DISC: dict[str, Any] = {
+    "kind": "plate", "width": 40.0, "height": 40.0, "corner_radius": 20.0, "face_width": 3.0,
+    "holes": [{"at": [5 * math.cos(TURN), 5 * math.sin(TURN)], "diameter": 2 * 14.89}],
+}  # fmt: skip
+
+
+def planned(part: dict[str, Any], **export: Any) -> Plan:
+    raw = {"parts": {"p": part}, "exports": [export]}
+    return plan_build(scene_from_dict(raw, "s.toml", "s"), "s.toml", [], [])
+
+
+def refused(part: dict[str, Any], folder: Path, **export: Any) -> SceneError:
+    with pytest.raises(SceneError) as found:
+        build(planned(part, **export), folder / "o")
+    assert not (folder / "o").exists()
+    return found.value
+
+
+@pytest.mark.parametrize("form", ["stl", "3mf"])
+def test_chords_through_a_wall_are_refused_with_the_first_half_that_works(form: str, tmp_path: Path) -> None:
+    """At 1 mm they cross, at a half they do not."""
+    found = refused(DISC, tmp_path, format=form, tolerance=1.0)
+    assert (found.key, found.value, found.code) == ("exports[1].tolerance", 1.0, "chords_cross_wall")
+    assert found.numbers["part"] == "p"
+    assert found.nearest is not None
+    assert (found.nearest.value, found.nearest.side) == (0.5, "at_most")
+    assert build(planned(DISC, format=form, tolerance=0.5), tmp_path / "o").well
+
+
+def test_a_wall_for_which_no_half_works_is_to_be_thickened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As it is where all of the halves are tried, or the next one is finer than a mesh can tell."""
+    for name, value in (("_MOST_HALVINGS", 0), ("_LEAST_TOLERANCE", 0.6)):
+        with monkeypatch.context() as patch:
+            patch.setattr(f"exporters.production.build.{name}", value)
+            found = refused(DISC, tmp_path, format="stl", tolerance=1.0)
+            assert (found.key, found.code, found.nearest) == ("exports[1].tolerance", "wall_too_thin_for_mesh", None)
+    with monkeypatch.context() as patch:
+        patch.setattr("exporters.production.build._LEAST_TOLERANCE", 0.5)
+        assert refused(DISC, tmp_path, format="stl", tolerance=1.0).code == "chords_cross_wall"
+
+
+def test_more_edges_than_a_file_carries_are_refused_with_what_leaves_fewer(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The number of arcs goes by the cube root of the tolerance, that of chords by the square root."""
+    gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 12, "face_width": 3.0}
+    for form, more, order in (("svg", {}, 3), ("svg", {"curves": "lines"}, 2), ("stl", {}, 2)):
+        (job,) = planned(gear, format=form, tolerance=0.005, **more).jobs
+        with monkeypatch.context() as patch:
+            patch.setattr("exporters.formats.registry._MOST_EDGES", 100)
+            with pytest.raises(ParameterError) as found:
+                shape_of(job)
+            refusal = found.value
+            edges = refusal.numbers["edges"]
+            assert edges > 100
+            assert (refusal.name, refusal.value, refusal.code) == ("tolerance", 0.005, "too_many_edges")
+            assert refusal.nearest is not None
+            exact = 0.005 * (edges / 100) ** order
+            assert exact <= refusal.nearest.value <= exact + 1e-6
+            # as many as may be
+            patch.setattr("exporters.formats.registry._MOST_EDGES", edges)
+            shape_of(job)
+
+
+def test_what_is_remarked_on_a_file_goes_by_its_part_and_its_edges() -> None:
+    """Teeth of module 2 bear 0.1 mm; a plate has none, CAD files are exact; short edges are counted in all periods."""
+    gear = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 12, "face_width": 3.0}
+    plate = {"kind": "plate", "width": 20.0, "height": 10.0, "face_width": 3.0}
+    hub = gear | {"hub": {"diameter": 12.0, "above": 4.0}, "bore_diameter": 5.0}
+    for part, export, coarse in (
+        (hub, {"format": "svg"}, False), (hub, {"format": "stl"}, False), (hub, {"format": "step"}, False),
+        (gear, {"format": "svg", "tolerance": 0.0999}, False), (gear, {"format": "svg", "tolerance": 0.1001}, True),
+        (gear, {"format": "stl", "tolerance": 0.1001}, True), (plate, {"format": "svg", "tolerance": 0.5}, False),
+        (gear, {"format": "step", "tolerance": 0.1001}, False),
+    ):  # fmt: skip
+        (job,) = planned(part, **export).jobs
+        found = {f.code: f for f in job.remarks({job.shape_key: shape_of(job)})}
+        assert ("coarse_tolerance" in found) is coarse, export
+        if coarse:
+            assert (found["coarse_tolerance"].value, found["coarse_tolerance"].limit) == (
+                0.1001, pytest.approx(0.1, rel=1e-12)
+            )  # fmt: skip
+        assert ("flat_outline" in found) is (part is hub and export["format"] == "svg")
+    (job,) = planned(gear, format="svg").jobs
+    # a period of three edges, one of them short, four times round; and one that is just long enough
+    short, long = 0.99 * LEAST_SEGMENT_MM, 1.01 * LEAST_SEGMENT_MM
+    for length, count in ((short, 4), (long, 0)):
+        places = np.array([10.0, 10 + 1j * length, 8 + 4j])
+        contour = Contour(places, np.zeros(3), 4)
+        found = [f for f in job.remarks({job.shape_key: (Approximation(contour, 0.0, "exact", 0.01),)})]
+        assert [(f.value, f.limit) for f in found if f.code == "short_edges"] == [(count, LEAST_SEGMENT_MM)] * bool(
+            count
+        )
