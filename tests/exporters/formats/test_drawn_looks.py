@@ -139,7 +139,7 @@ FAULTS: dict[str, tuple[Callable[[Drawing], object], str]] = {
     "see-through": (says("transparency", 0x02000080), "a LINE on layer OWN has transparency"),
     "lifted end": (says("end", (5, 8, 1)), "a LINE on layer OWN is lifted out of its plane"),
     "lifted centre": (says("center", (3, 4, -1), "ARC"), "a ARC on layer OWN is lifted"),
-    "lifted pole": (entity("SPLINE", lambda s: s.control_points.__setitem__(1, (1, 3, 0.5))), "a SPLINE on layer OWN is"),
+    "lifted pole": (entity("SPLINE", lambda s: s.control_points.__setitem__(1, (1, 3, 0.5))), "a SPLINE on layer OWN"),
     "a point": (lambda made: made.modelspace().add_point((1, 1), dxfattribs={"layer": "OWN"}), "a POINT stands in the"),
     "no such layer": (says("layer", "NOWHERE"), "layer NOWHERE is not in the layer table"),
     "off": (lambda made: made.layers.get("OWN").off(), "layer OWN is off"),
