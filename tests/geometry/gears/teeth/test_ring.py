@@ -234,7 +234,7 @@ def test_offsets_lie_at_their_distance(gear: RingGear, offset: float) -> None:
     # the same by GEOS, as far as polygons go: nothing is missing, nothing is too much
     exact = polygon(moved, 60)
     assert exact.is_valid
-    buffered = polygon(hole, 60).buffer(-offset, quad_segs=60)
+    buffered = polygon(hole, 60).buffer(-offset, quad_segs=24)
     assert exact.symmetric_difference(buffered).area <= 1e-4 * exact.area
     assert ring_region(gear, offset).region.outer.reach() == pytest.approx(gear.outer_radius + offset, rel=1e-15)
 
@@ -312,3 +312,61 @@ def test_a_cutter_that_nobody_named_is_one_that_works(teeth: int) -> None:
     assert min(m.margin for m in mesh.margins()) >= 0
     assert gear.cutter is not None
     checked_cutter(gear.cutter)
+
+
+def cutter(teeth: int, x: float, rounding: float) -> PinionCutter:
+    return PinionCutter(2.0, teeth, ALPHA, x, tip_rounding=rounding)
+
+
+# rings and offsets at which something is used up, and what is told of it; each was found by its way through the code
+USED_UP: dict[str, tuple[RingGear, float, set[str]]] = {
+    "a rounded root's arc": (ring(34, RoundedRoot(1.16, 0.1), 0.625, tip_rounding=0.17), 0.77,
+                             {"fillet_cusp_trimmed", "space_shallowed"}),
+    "a rounded root's arc, its land left": (
+        ring(70, RoundedRoot(1.38, 0.3), 0.585, circumferential_thinning=0.3, given_tip_diameter=136.6), 0.623,
+        {"fillet_cusp_trimmed"}),
+    "all of a fillet": (ring(34, cutter(30, 0.045, 0.0), 1.19), 0.88, {"fillet_cusp_trimmed"}),
+    "all of a fillet, beside a chamfer": (ring(40, cutter(18, 0.07, 0.05), 1.09, tip_chamfer=1.02), 0.626,
+                                          {"fillet_cusp_trimmed", "space_shallowed"}),
+    "a part of a fillet": (ring(100, cutter(30, 0.21, 0.2), 0.754), 0.529, {"fillet_cusp_trimmed"}),
+    "a part of a fillet and the root": (ring(40, cutter(25, 0.38, 0.2), 0.14, tip_rounding=0.385), 0.83,
+                                        {"fillet_cusp_trimmed", "space_shallowed"}),
+    "nothing": (ring(60, cutter(25, 0.0, 0.2)), 0.1, set()),
+    "a sharp root that opens": (ring(40, RoundedRoot(1.3, 0.0), 0.19, tip_rounding=0.435), -0.1, set()),
+    "a sharp root and the tip rounding": (ring(100, RoundedRoot(1.16, 0.0), 0.8, tip_rounding=0.3), -1.3, set()),
+    "a chamfer": (ring(40, cutter(25, 0.063, 0.1), 1.106, tip_chamfer=0.0734), -0.336, set()),
+    "a chamfer and the tip": (
+        ring(34, cutter(25, -0.16, 0.05), 1.343, tip_chamfer=1.06, circumferential_thinning=0.49), -0.441, set()),
+    "the tip beside a chamfer": (ring(40, cutter(18, 0.07, 0.05), 1.09, tip_chamfer=1.02), -1.05, set()),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", USED_UP)
+def test_a_moved_ring_lies_at_its_distance_whatever_is_used_up(name: str) -> None:
+    """Every point of a period so far from the outline, none nearer to it, the hole as large as GEOS' buffer of it."""
+    gear, offset, told = USED_UP[name]
+    plain, moved = ring_region(gear), ring_region(gear, offset)
+    whole, found = plain.region.holes[0], moved.region.holes[0]
+    points = brute.period_points(found, 24)
+    assert np.abs(brute.distance_to_outline(points, whole, 120) - abs(offset)).max() <= 1e-9 * gear.root_radius
+    assert {f.code for f in moved.findings} - {f.code for f in plain.findings} == told
+    # a hole runs clockwise, period after period
+    turns = np.exp(-2j * math.pi / gear.number_of_teeth * np.arange(gear.number_of_teeth))[:, None]
+    around = [(turns * brute.polygon(p, 24, 1)).ravel() for p in (whole, found)]
+    polygons = [shapely.Polygon(np.column_stack([p.real, p.imag])) for p in around]
+    assert polygons[1].is_valid
+    wanted = polygons[0].buffer(-offset, quad_segs=24)
+    assert polygons[1].symmetric_difference(wanted).area < 1e-3 * gear.number_of_teeth * gear.module**2
+    assert profile_area(moved.region.outer) == pytest.approx(math.pi * (gear.outer_radius + offset) ** 2)
+    if "tip_lost" in told:
+        (finding,) = (f for f in moved.findings if f.code == "tip_lost")
+        assert finding.value == pytest.approx(np.abs(points).min() - gear.tip_radius + offset, abs=1e-3)
+    if "space_shallowed" in told:
+        (finding,) = (f for f in moved.findings if f.code == "space_shallowed")
+        assert finding.value == pytest.approx(np.abs(points).max(), abs=1e-9)
+        assert finding.limit == pytest.approx(gear.root_radius - offset)
+    if "fillet_cusp_trimmed" in told:
+        (finding,) = (f for f in moved.findings if f.code == "fillet_cusp_trimmed")
+        assert finding.value == offset
+        rounding = gear.root.tip_rounding * 2 if isinstance(gear.root, PinionCutter) else 0.0
+        assert finding.limit == pytest.approx(rounding, abs=1e-12)
