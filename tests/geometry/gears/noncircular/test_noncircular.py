@@ -13,7 +13,7 @@ from geometry.base.errors import CuspError, OffsetError, ParameterError, Pointed
 from geometry.base.record import replace
 from geometry.curves.curve import Curve
 from geometry.gears.noncircular.gear import NoncircularGear, cut_outline
-from geometry.gears.noncircular.offset import moved_outline, noncircular_region
+from geometry.gears.noncircular.offset import findings_of, moved_outline, noncircular_region
 from geometry.gears.noncircular.pairing import Centrode, paired
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.spur import SpurGear
@@ -21,6 +21,8 @@ from geometry.gears.teeth.tooth import tooth_side
 from geometry.kinematics.centrodes import FourierRatio, LobedEllipse, RatioCentrode
 from geometry.plane.measure import distance_to_profile, profile_area
 from geometry.plane.profile import Label
+from geometry.solids.bores import RoundBore
+from geometry.solids.hub_holes import HubHoles
 from tests import laws
 from tests.oracles import rolled_rack
 from tests.sampling import some_of
@@ -310,3 +312,81 @@ def test_symmetric_outlines_repeat() -> None:
     assert gear(OVAL, 37).count == 1
     turned = replace(made, first_tooth=0.0)
     assert turned.outline.profile(2).reach() < made.tip_radius * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("offset", [0.15, -0.4])
+def test_offset_outlines_of_few_teeth_are_parallel_and_closed(offset: float) -> None:
+    """Every second piece of a period, corners' arcs among them; as large as GEOS' buffer of the outline."""
+    made = gear(LobedEllipse(1.0, 0.1, 2), 14)
+    exact = made.outline.profile(made.count)
+    moved = noncircular_region(made, offset).region.outer
+    points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 4)) for s in moved.period[::2]])
+    assert np.abs(nearest(points, [s.curve for s in exact.segments()]) - abs(offset)).max() < 1e-9
+    assert any(s.label is Label.CORNER for s in moved.period) == (offset > 0)
+    one, two = (
+        shapely.Polygon([(p.real, p.imag) for s in outline.segments()
+                         for p in s.curve.point(np.linspace(*s.curve.domain, 16)[:-1])])
+        for outline in (exact, moved)
+    )  # fmt: skip
+    assert two.is_valid
+    assert two.symmetric_difference(one.buffer(offset, quad_segs=16)).area < 3e-3 * one.length * abs(offset)
+    assert profile_area(moved) == pytest.approx(two.area, rel=5e-4)
+
+
+def test_holes_leave_a_rim_between_them_and_the_root() -> None:
+    made = gear(OVAL, 18)
+    bored = replace(made, hub=HubHoles(RoundBore(2 * (made.root_radius - 0.8))))
+    noncircular_region(bored, -0.4 * (1 - 1e-6))
+    with pytest.raises(OffsetError) as refused:
+        noncircular_region(bored, -0.4 * (1 + 1e-6))
+    assert refused.value.reason == "leaves_no_rim"
+    assert refused.value.nearest_offset == pytest.approx(-0.4, rel=1e-8)
+    assert refused.value.nearest_offset > -0.4
+
+
+def test_what_is_legal_and_poor_is_told() -> None:
+    """Undercut by the curvature of the centrode, tips by 0.3 modules, rims by one."""
+    good = gear(LobedEllipse(1.0, 0.05, 2), 36)
+    assert findings_of(good) == ()
+    steep = gear(LobedEllipse(1.0, 0.2, 2), 22)
+    (undercut,) = (f for f in findings_of(steep) if f.code == "undercut_on_centrode")
+    form = 1.25 - 0.38 * (1 - math.sin(ALPHA))
+    assert undercut.limit == pytest.approx(form * 2.0 / math.sin(ALPHA) ** 2)
+    angles = np.linspace(0, 2 * math.pi, 20_001)
+    radius = steep.pairing.centrode.series(angles, 2)  # type: ignore[union-attr]
+    r, r1, r2 = radius[0], radius[1], 2 * radius[2]
+    bend = (r * r + 2 * r1 * r1 - r * r2) / (r * r + r1 * r1) ** 1.5
+    assert undercut.value == pytest.approx(1 / bend.max(), rel=1e-6)
+    for x, told in ((0.4, False), (0.8, True)):
+        thin = gear(LobedEllipse(1.0, 0.05, 2), 20, x=x)
+        found = [f for f in findings_of(thin) if f.code == "thin_tip"]
+        assert bool(found) == told
+        if told:
+            assert (found[0].value, found[0].limit) == (thin.outline.tip_thickness, pytest.approx(0.6))
+            assert found[0].value < 0.6
+    for rim, told in ((2.001, False), (1.999, True)):
+        bored = replace(good, hub=HubHoles(RoundBore(2 * (good.root_radius - rim))))
+        found = [f for f in findings_of(bored) if f.code == "thin_rim"]
+        assert [(f.value, f.limit) for f in found] == ([(pytest.approx(rim), 2.0)] if told else [])
+
+
+def test_pairings_are_alike_by_their_numbers() -> None:
+    one = paired(LobedEllipse(1.0, 0.2, 2), (22, 22), 2.0, None)
+    assert one.is_like(paired(LobedEllipse(1.0, 0.2, 2), (22, 22), 2.0, None))
+    ratio = FourierRatio(1.0, (0.25,), (0.1,))
+    other = paired(RatioCentrode(ratio, 1.0), (18, 18), 2.0, None)
+    assert other.is_like(paired(RatioCentrode(ratio, 1.0), (18, 18), 2.0, None))
+    oval = LobedEllipse(1.0, 0.2, 2)
+    flatter = paired(LobedEllipse(1.0, 0.2001, 2), (22, 22), 2.0, None)
+    larger = [
+        paired(oval, teeth, module, None) for teeth, module in (((20, 20), 2.0), ((22, 33), 2.0), ((22, 22), 2.001))
+    ]
+    for wrong in (flatter, *larger, other):
+        assert not one.is_like(wrong)
+        assert not wrong.is_like(one)
+    for waves in (((0.25,), ()), ((0.1,), (0.25,)), ((), (0.25, 0.1)), ((0.25, 0.01), (0.1,))):
+        assert not other.is_like(paired(RatioCentrode(FourierRatio(1.0, *waves), 1.0), (18, 18), 2.0, None))
+    assert one.lobes == (2, 2)
+    assert paired(LobedEllipse(1.0, 0.2, 2), (22, 33), 2.0, None).lobes == (2, 3)
+    assert one.pitch == pytest.approx(2 * math.pi)
+    assert one.pitch * 22 == pytest.approx(one.lines[0].length)
