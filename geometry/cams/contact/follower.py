@@ -9,18 +9,17 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from geometry.base.distinct import distinct
 from geometry.cams.contact.outlines import FollowerEnd
+from geometry.cams.contact.support import support
 from geometry.cams.motion.follower_motion import TURN
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.fence import Fence
 from geometry.cams.plane.shape import cam_shape
-from geometry.curves.curve import Complex, Curve, Real
-from geometry.curves.line_arc import Arc, Line
+from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.search import ContactPlace, PairContact
 from geometry.plane.distance import Verdict
 from geometry.plane.measure import distance_to_profile
@@ -28,7 +27,7 @@ from geometry.plane.profile import Label, Profile
 
 # |gap| up to this part of the follower's distance from the axis is contact
 CONTACT_TOLERANCE = 1e-8
-_ANGLES, _SAMPLES, _STEPS, _REACH_SAMPLES = 360, 65, 30, 4097
+_ANGLES, _REACH_SAMPLES = 360, 4097
 # samples of each edge of a follower's body, and every how many angles it is looked at
 _BODY_SAMPLES, _BODY_STEP = 33, 5
 
@@ -142,43 +141,5 @@ def _face_gaps(cam: DiskCam, fence: Fence, angles: Real, out: float) -> tuple[Re
     normal = cam.normal(angles)
     height = (cam.reference_point(angles) * np.conj(normal)).real + out
     local = normal * np.exp(-1j * angles)
-    best, where = np.full(angles.shape, -np.inf), np.zeros(angles.shape, dtype=complex)
-    for segment in fence.profile.period:
-        support, point = _support(segment.curve, local)
-        better = support > best
-        best, where = np.where(better, support, best), np.where(better, point, where)
+    best, where = support(fence.profile, local)
     return height - best, where * np.exp(1j * angles)
-
-
-def _support(curve: Curve, direction: Complex) -> tuple[Real, Complex]:
-    """The greatest height of a curve in each direction (n,), and the point that has it."""
-    if isinstance(curve, Arc):
-        # the arc's own point in that direction, where it has one
-        spoke = curve.radius * direction * math.copysign(1.0, curve.sweep)
-        swept = np.mod(math.copysign(1.0, curve.sweep) * (np.angle(spoke) - curve.start_angle), 2 * math.pi)
-        inner = np.where(swept <= abs(curve.sweep), swept, 0.0)
-        points = np.stack(
-            [curve.point(inner), *(np.full(direction.shape, p) for p in curve.point(np.array(curve.domain)))]
-        )
-    else:
-        t = np.linspace(*curve.domain, _SAMPLES)
-        heights = (np.conj(direction)[:, None] * curve.point(t)).real
-        at = np.argmax(heights, axis=1)
-        parameter = t[at]
-        if not isinstance(curve, Line):
-            parameter = _climbed(curve, direction, t, at)
-        points = np.stack([curve.point(parameter), curve.point(t[at])])
-    heights = (np.conj(direction) * points).real
-    chosen = np.argmax(heights, axis=0)
-    lanes = np.arange(len(direction))
-    return heights[chosen, lanes], points[chosen, lanes]
-
-
-def _climbed(curve: Curve, direction: Complex, t: Real, at: Any) -> Real:
-    """Parameters of greatest height beside samples: bisection of the slope between the neighbours."""
-    low, high = t[np.maximum(at - 1, 0)], t[np.minimum(at + 1, len(t) - 1)]
-    for _ in range(_STEPS):
-        middle = (low + high) / 2
-        rising = (np.conj(direction) * curve.derivative(middle)).real > 0
-        low, high = np.where(rising, middle, low), np.where(rising, high, middle)
-    return np.asarray((low + high) / 2)

@@ -7,6 +7,7 @@ import cmath
 import numpy as np
 
 from geometry.base.distinct import distinct
+from geometry.cams.contact.support import support
 from geometry.cams.motion.follower_motion import TURN
 from geometry.cams.motion.guides import Translating
 from geometry.cams.plane.disk import DiskCam
@@ -16,10 +17,9 @@ from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.search import ContactPlace, PairContact
 from geometry.plane.distance import Verdict
 from geometry.plane.measure import distance_to_profile
-from geometry.plane.profile import Label, Profile
+from geometry.plane.profile import Label
 
 _ANGLES = 360
-_SAMPLES = 257
 
 
 def between_rollers(first: DiskCam, pair: Conjugate) -> float:
@@ -67,8 +67,8 @@ def yoke_contact(cam: DiskCam, breadth: float, play: float, tolerance: float, *,
     upper = mount.start_height + cam.motion.value(angles) + play / 2 + out
     lower = upper - breadth - play
     if cam.is_flat:
-        one = upper - _support(profile, 1j * np.exp(-1j * angles))
-        two = -lower - _support(profile, -1j * np.exp(-1j * angles))
+        one = upper - support(profile, 1j * np.exp(-1j * angles))[0]
+        two = -lower - support(profile, -1j * np.exp(-1j * angles))[0]
     else:
         one, two = (distance_to_profile(1j * y * np.exp(-1j * angles), profile) - cam.radius for y in (upper, lower))
     return _judged(angles, one, two, cam.contact(angles), tolerance)
@@ -77,23 +77,6 @@ def yoke_contact(cam: DiskCam, breadth: float, play: float, tolerance: float, *,
 def _angles(cam: DiskCam) -> Real:
     joints = [p.start for p in cam.motion.pieces]
     return distinct(np.concatenate([np.arange(_ANGLES) * TURN / _ANGLES, np.mod(joints, TURN)]))
-
-
-def _support(profile: Profile, direction: Complex) -> Real:
-    """Greatest height of an outline in each direction (n,), mm: samples, and a parabola through the three highest."""
-    best = np.full(direction.shape, -np.inf)
-    for segment in profile.period:
-        t = np.linspace(*segment.curve.domain, _SAMPLES)
-        for _ in range(4):
-            heights = (np.conj(direction)[:, None] * segment.curve.point(t)).real
-            at = np.argmax(heights, axis=1)
-            rows = np.arange(len(direction))
-            best = np.maximum(best, heights[rows, at])
-            # the neighbours of the highest sample, finer; an own grid for each direction
-            grid = np.broadcast_to(t, heights.shape)
-            low, high = grid[rows, np.maximum(at - 1, 0)], grid[rows, np.minimum(at + 1, heights.shape[1] - 1)]
-            t = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, 17)
-    return best
 
 
 def _judged(angles: Real, one: Real, two: Real, points: Complex, tolerance: float) -> PairContact:
