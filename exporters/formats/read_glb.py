@@ -39,9 +39,8 @@ class ReadSolidTrack(Record):
         (one, two, share), (at, other, part) = (_around(*values, times) for values in (self.places, self.turns))
         cosine = np.sum(at * other, axis=-1, keepdims=True)
         other, angle = np.where(cosine < 0, -other, other), np.arccos(np.minimum(np.abs(cosine), 1.0))
-        weights = [
-            np.where(angle > _SAME, np.sin(k * angle) / np.sin(np.maximum(angle, _SAME)), k) for k in (1 - part, part)
-        ]
+        # what both weights have in common is lost as the turn gets its length
+        weights = [np.where(angle > _SAME, np.sin(k * angle), k) for k in (1 - part, part)]
         turn = weights[0] * at + weights[1] * other
         turn = (turn / np.linalg.norm(turn, axis=-1, keepdims=True))[:, None]
         axis, w = turn[..., :3], turn[..., 3:]

@@ -58,11 +58,8 @@ class BoardPiece(Record):
 
     @property
     def turn(self) -> complex:
-        """The factor that turns."""
-        quarters = self.turn_deg / 90
-        if quarters == round(quarters):
-            return _QUARTERS[round(quarters) % 4]
-        return complex(np.exp(1j * math.radians(self.turn_deg)))
+        """The factor that turns: pieces are laid by quarters."""
+        return _QUARTERS[round(self.turn_deg / 90) % 4]
 
     def moved(self, points: Complex) -> Complex:
         """Points of the part where they stand on the board."""
