@@ -23,6 +23,7 @@ REASONS = {
     "no_whole_teeth": N_("would give wheel {wheel} {teeth} teeth, which is not whole"),
     "not_an_efficiency": N_("must be above 0 and at most 1"),
     "not_of_teeth": N_("numbers of teeth must be whole and at least 1, modules above 0"),
+    "of_no_link": N_("belongs to no link of this mechanism, or to no load that it has"),
     "out_of_reach": N_("is {distance} mm from O1, outside of {least} to {most} mm"),
     "path_too_near_centre": N_("passes the centre too near for this tolerance; {least} mm is reached"),
     "pieces_part": N_("begins at ({x}, {y}), where no piece before it ends"),

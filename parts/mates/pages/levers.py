@@ -98,6 +98,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
         chosen, number = _chosen(keys, table)
         if number is not None:
             keys = checked(chosen | {k: v for k, v in table.items() if k not in _CHOICE}, LeverKeys, TOPIC)
+        _refuse_idle(keys, table)
         return _Page(keys, number, is_example=_is_example(table)).made()
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
@@ -127,13 +128,31 @@ def _chosen(keys: LeverKeys, table: Mapping[str, Any]) -> tuple[dict[str, Any], 
     return {**assigned(keys.assignment, (1 if keys.variant is None else keys.variant,) * 3)}, keys.assignment
 
 
+def _refuse_idle(keys: LeverKeys, table: Mapping[str, Any]) -> None:
+    """Refuse keys that a user gave and that no link of the mechanism takes."""
+    slides = "slider" in (keys.first, keys.second)
+    taken = {
+        "frame_length": keys.first != "slider", "frame_angle_deg": keys.first != "slider",
+        "lever_length": keys.first != "slider", "coupler_length": keys.first != "stone",
+        "mass_point": keys.first != "stone", "first_side": keys.first == "rods",
+        "arm_length": keys.second != "none", "arm_angle_deg": keys.second != "none",
+        "rod_length": keys.second != "none", "second_side": keys.second != "none" or keys.first == "slider",
+        "rocker_length": keys.second == "rocker", "pivot_distance": keys.second == "rocker",
+        "pivot_angle_deg": keys.second == "rocker", "guide_height": slides, "guide_angle_deg": slides,
+        "point_masses": keys.resistance is not None, "resisted": keys.resistance is not None,
+    }  # fmt: skip
+    for name, used in taken.items():
+        if name in table and not used:
+            raise ParameterError(name, table[name], "of_no_link", REMOVED)
+
+
 def levers_of(keys: LeverKeys) -> Levers:
     """The mechanism of the keys.
 
     Raises
     ------
     ParameterError
-        A length that the mechanism needs is missing, or one that it has not is given.
+        A length that the mechanism needs is missing.
     """
 
     def needed(name: str) -> float:
