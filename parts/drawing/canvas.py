@@ -210,8 +210,7 @@ def text_of(text: str, at: complex, height: float = TEXT_HEIGHT, most: float | N
         x += width
     # room for what hangs below the line
     hang = max((at.imag - run.at.imag + _HANG * run.height for run in runs), default=0.0)
-    shown = _INDEX.sub(r"\1", text) if "_{" in text else text
-    return Text(shown, tuple(runs), Box(at.real, at.imag - hang, x, at.imag + size * 1.05))
+    return Text(_INDEX.sub(r"\1", text), tuple(runs), Box(at.real, at.imag - hang, x, at.imag + size * 1.05))
 
 
 def rising_text(
@@ -376,12 +375,12 @@ def fitted(canvas: Canvas, curves: Sequence[Curve], scale: float, tolerance: flo
 
     ``tolerance`` in mm on paper; mirror images share one fit, and so does one shape in several places.
     """
-    done: dict[Curve, CadCurve] = {}
-    shapes: dict[Curve, tuple[CadCurve, Placement2]] = {}
+    done: dict[Curve, BSpline] = {}
+    shapes: dict[Curve, tuple[BSpline, Placement2]] = {}
     for curve in curves:
         if isinstance(curve, Arc | Line):
-            done[curve] = curve
-        elif (twin := done.get(curve.mirrored())) is not None and isinstance(twin, BSpline):
+            continue
+        if (twin := done.get(curve.mirrored())) is not None:
             done[curve] = twin.mirrored()
         elif isinstance(curve, Carried) and (found := shapes.get(curve.base)) is not None:
             spline, place = found
@@ -393,7 +392,7 @@ def fitted(canvas: Canvas, curves: Sequence[Curve], scale: float, tolerance: flo
             done[curve] = fit.spline
             if isinstance(curve, Carried):
                 shapes[curve.base] = fit.spline, curve.placement
-    return tuple(done[curve] for curve in curves)
+    return tuple(curve if isinstance(curve, Arc | Line) else done[curve] for curve in curves)
 
 
 def draw(canvas: Canvas, layer: str, curves: Sequence[CadCurve], paper: Paper) -> None:
@@ -425,10 +424,8 @@ def standard_scale(needed: float) -> float:
     if not (needed > 0 and math.isfinite(needed)):
         raise ParameterError("scale", needed, "not_finite_above_zero")
     power = 10.0 ** math.floor(math.log10(needed))
-    for factor in (*_STEPS, 10.0):
-        if factor * power >= needed * (1 - _ROUNDING):
-            return float(f"{factor * power:.6g}")
-    return 10.0 * power
+    factor = next((step for step in _STEPS if step * power >= needed * (1 - _ROUNDING)), 10.0)
+    return float(f"{factor * power:.6g}")
 
 
 def scale_name(scale: float) -> str:

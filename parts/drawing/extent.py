@@ -23,14 +23,16 @@ def farthest(curves: Iterable[Curve], way: complex) -> complex:
     reach = -math.inf
     for curve in curves:
         t = np.linspace(*curve.domain, _SAMPLES)
-        k = int((curve.point(t) / way).real.argmax())
-        low, high = t[max(k - 1, 0)], t[min(k + 1, _SAMPLES - 1)]
-        if _rate(curve, way, low) > 0 > _rate(curve, way, high):
-            at = bracketed_root(partial(_rate, curve, way), low, high).value
-        else:
-            at = t[k]
-        if ((point := complex(curve.point(at))) / way).real > reach + _SAME:
-            best, reach = point, (point / way).real
+        ahead = (curve.point(t) / way).real
+        # the seam of a closed curve is both of its ends
+        for k in np.flatnonzero(ahead >= ahead.max() - _SAME).tolist():
+            low, high = t[max(k - 1, 0)], t[min(k + 1, len(t) - 1)]
+            if _rate(curve, way, low) > 0 > _rate(curve, way, high):
+                at = bracketed_root(partial(_rate, curve, way), low, high).value
+            else:
+                at = t[k]
+            if ((point := complex(curve.point(at))) / way).real > reach + _SAME:
+                best, reach = point, (point / way).real
     return best
 
 
@@ -41,14 +43,18 @@ def reach(profile: Profile, angle: float) -> float:
 
 def crossings(profile: Profile, start: complex, way: complex) -> list[float]:
     """How far from a place along a direction of length 1 an outline crosses the straight line through both, mm."""
-    found = []
+    found, ends = [], []
     for segment in profile.segments():
         curve = segment.curve
         t = np.linspace(*curve.domain, _SAMPLES)
-        above = ((curve.point(t) - start) / way).imag >= 0
+        seen = (curve.point(t) - start) / way
+        above = seen.imag >= 0
+        ends.append((above[0], above[-1], float(seen[0].real)))
         for k in np.flatnonzero(above[:-1] != above[1:]):
             at = bracketed_root(partial(_off, curve, start, way), float(t[k]), float(t[k + 1])).value
             found.append(((complex(curve.point(at)) - start) / way).real)
+    # where segments meet on the line itself rounding puts their ends on one side or on both
+    found += [at for (_, before, _), (after, _, at) in zip(ends[-1:] + ends[:-1], ends, strict=True) if before != after]
     return found
 
 

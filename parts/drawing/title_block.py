@@ -26,10 +26,15 @@ _PEOPLE = 0.5
 _ROLES = ("drawn", "checked", "technical_check", "", "standards_check", "approved")
 
 
+# the head of the table of changes: its columns, mm
+_CHANGES = (("change", 0, 7), ("change_sheet", 7, 17), ("document", 17, 40), ("signature", 40, 55), ("date", 55, 65))
+
+
 class Form(Record):
     """A form of GOST 2.104, mm: its size, lines (where, from, to), the words in all such blocks, what each cell holds.
 
-    ``counts``: cells of the sheet's number and of how many there are, beside their names or below them.
+    ``head``: where the head of the table of changes begins; below it who ``signs``, from the top row down, a row may
+    be free. ``counts``: cells of the sheet's number and of how many there are, beside their names or below them.
     """
 
     size: tuple[float, float]
@@ -37,16 +42,18 @@ class Form(Record):
     thin_rows: tuple[_Line, ...]
     thick_columns: tuple[_Line, ...]
     thin_columns: tuple[_Line, ...]
-    labels: dict[str, _Cell]
+    head: float
+    signs: tuple[str, ...]
+    names: dict[str, _Cell]
     entries: tuple[tuple[str, _Cell, float], ...]
     counts: dict[str, _Cell]
 
-
-def _head(low: float, *roles: str) -> dict[str, _Cell]:
-    """The head of the table of changes, and below it who signs, from the top row down; a row may be free."""
-    columns = (("change", 0, 7), ("change_sheet", 7, 17), ("document", 17, 40), ("signature", 40, 55), ("date", 55, 65))
-    head: dict[str, _Cell] = {key: (left, low, right, low + 5) for key, left, right in columns}
-    return head | {role: (0, low - 5 * k, 17, low + 5 - 5 * k) for k, role in enumerate(roles, 1) if role}
+    @property
+    def labels(self) -> dict[str, _Cell]:
+        """The cells of all words that stand in such blocks."""
+        head: dict[str, _Cell] = {key: (left, self.head, right, self.head + 5) for key, left, right in _CHANGES}
+        rows = ((role, self.head - 5 * k) for k, role in enumerate(self.signs, 1) if role)
+        return head | {role: (0, low, 17, low + 5) for role, low in rows} | self.names
 
 
 # of a drawing, of the first sheet of a text, of its others
@@ -59,7 +66,9 @@ FORM_1 = Form(
         (155, 15, 20), (167, 20, 40), (185, 0, 55),
     ),
     ((140, 20, 35), (145, 20, 35)),
-    {**_head(30, *_ROLES), "letter": (135, 35, 150, 40), "mass": (150, 35, 167, 40), "scale": (167, 35, 185, 40)},
+    30,
+    _ROLES,
+    {"letter": (135, 35, 150, 40), "mass": (150, 35, 167, 40), "scale": (167, 35, 185, 40)},
     (
         ("designation", (65, 40, 185, 55), _LARGE), ("name", (65, 15, 135, 40), _MIDDLE),
         ("material", (65, 0, 135, 15), _MIDDLE), ("letter", (135, 20, 140, 35), TEXT_HEIGHT),
@@ -77,10 +86,9 @@ FORM_2 = Form(
         (165, 15, 25), (185, 0, 40),
     ),
     ((140, 15, 20), (145, 15, 20)),
-    {
-        **_head(25, "drawn", "checked", "", "standards_check", "approved"),
-        "letter": (135, 20, 150, 25), "sheet": (150, 20, 165, 25), "sheets": (165, 20, 185, 25),
-    },
+    25,
+    ("drawn", "checked", "", "standards_check", "approved"),
+    {"letter": (135, 20, 150, 25), "sheet": (150, 20, 165, 25), "sheets": (165, 20, 185, 25)},
     (
         ("designation", (65, 25, 185, 40), _LARGE), ("name", (65, 0, 135, 25), _MIDDLE),
         ("letter", (135, 15, 140, 20), SMALL_TEXT), ("organisation", (135, 0, 185, 15), _MIDDLE),
@@ -93,7 +101,9 @@ FORM_2A = Form(
     ((10, 0, 65),),
     ((0, 0, 15), (7, 0, 15), (17, 0, 15), (40, 0, 15), (55, 0, 15), (65, 0, 15), (175, 0, 15), (185, 0, 15)),
     (),
-    {**_head(0), "sheet": (175, 8, 185, 15)},
+    0,
+    (),
+    {"sheet": (175, 8, 185, 15)},
     (("designation", (65, 0, 175, 15), _LARGE),),
     {"sheet": (175, 0, 185, 8)},
 )
@@ -193,12 +203,13 @@ def draw_title_block(canvas: Canvas, block: TitleBlock, language: str, form: For
     for layer, columns in (("FRAME", form.thick_columns), ("TABLE", form.thin_columns)):
         for x, a, b in columns:
             canvas.line(layer, corner + complex(x, a), corner + complex(x, b))
-    for key, cell in form.labels.items():
+    labels = form.labels
+    for key, cell in labels.items():
         told = words(language).say(_LABELS[key])
         write_cell(canvas, told, _at(corner, cell), SMALL_TEXT, middle=key not in _ROLES)
     for role, name in block.people:
-        if name and role in form.labels:
-            _, low, _, high = form.labels[role]
+        if name and role in labels:
+            _, low, _, high = labels[role]
             write_cell(canvas, name, _at(corner, (17, low, 40, high)), SMALL_TEXT, middle=False)
             if block.date:
                 write_cell(canvas, block.date, _at(corner, (55, low, 65, high)), SMALL_TEXT)
@@ -224,7 +235,7 @@ def draw_turned(canvas: Canvas, designation: str) -> None:
     if not designation:
         return
     made, middle = text_of(designation, 0j, _LARGE, room), complex(box.left + box.right, box.low + box.high) / 2
-    way = -1 if box.right - box.left > box.high - box.low else 1j
+    way = 1j if box.high - box.low > _TURNED[1] else -1
     begin = middle - way * complex(made.box.right, made.runs[0].height) / 2
     canvas.write_rising(designation, begin, _LARGE, room, way)
 

@@ -5,15 +5,17 @@ from __future__ import annotations
 import cmath
 import colorsys
 import math
+from typing import Any
 
 import numpy as np
 import pytest
 
+from geometry.approximation.splines import SplineFit, fit_spline
 from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2
 from geometry.base.record import replace
 from geometry.curves.bspline import BSpline
-from geometry.curves.curve import Carried
+from geometry.curves.curve import Carried, Curve
 from geometry.curves.ellipse import EllipticArc
 from geometry.curves.line_arc import Arc, Line
 from parts.drawing.canvas import (
@@ -90,6 +92,11 @@ def test_an_index_stands_lower_by_a_fifth_and_is_one_size_smaller() -> None:
     assert text_width("d_{f2} = 5", 5.0) == pytest.approx(made.box.right - 10)
     # an index hangs lower than what is not
     assert made.box.low == pytest.approx(1 - max(0.2 * 5 + 0.3 * 3.5, 0.3 * 5))
+    # every second piece is one, a space between two of them is nothing to be written
+    both = text_of("a_{1} _{2}b", 0j, 5.0)
+    assert [(r.text, r.height, r.at.imag) for r in both.runs] == [
+        ("a", 5.0, 0.0), ("1", 3.5, -1.0), ("2", 3.5, -1.0), ("b", 5.0, 0.0)]  # fmt: skip
+    assert both.text == "a1 2b"
     # the least letters have none smaller
     assert [r.height for r in text_of("d_{a}", 0j, 1.8).runs] == [1.8, 1.8]
 
@@ -99,6 +106,11 @@ def test_signs_of_per_cent_stand_apart_and_spaces_take_their_room() -> None:
     (run,) = text_of("  x ", 0j, 5.0).runs
     assert (run.text, run.at.real) == ("x", pytest.approx(text_width("  ", 5.0)))
     assert text_of("  x ", 0j, 5.0).box.right == pytest.approx(text_width("  x ", 5.0))
+    squeezed = text_of("  xxxxx", 0j, 1.8, 4.0)
+    share = text_width("  ", 1.8) / text_width("  xxxxx", 1.8)
+    assert squeezed.runs[0].at.real == pytest.approx(4.0 * share)
+    # what the font lacks is as wide as it is high
+    assert text_width("\u6c34", 5.0) == 5.0
     empty = text_of("", 2 + 3j, 5.0, 10.0)
     assert (empty.runs, empty.box) == ((), Box(2.0, 3.0, 2.0, 3 + 1.05 * 5))
 
@@ -200,6 +212,10 @@ def test_squared_paper_has_a_line_every_2_5_mm() -> None:
     level = [(complex(10, y), complex(21, y)) for y in (20.0, 22.5, 25.0, 27.5, 30.0)]
     assert lines == upright + level
     assert {s.layer for s in canvas.strokes} == {"ORDINATE"}
+    # a whole number of squares ends with one
+    whole = Canvas(100.0, 100.0, "")
+    whole.squares(Box(0.1, 0.1, 7.6, 5.1))
+    assert len(whole.strokes) == 4 + 3
 
 
 def test_obstacles_are_points_of_all_strokes_half_a_millimetre_apart() -> None:
@@ -263,20 +279,34 @@ def test_paper_enlarges_and_moves_every_curve() -> None:
     assert canvas.strokes == [Stroke("CAM", Line(10 + 22.5j, 20 + 20j))]
 
 
-def test_mirror_images_share_one_fit() -> None:
-    shape = EllipticArc(Arc(0j, 30.0, 0.2, 1.9), 0.4, Placement2())
-    canvas = Canvas(0.0, 0.0, "")
-    line = Line(0j, 1 + 0j)
+def test_mirror_images_share_one_fit(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Cubic, twice continuously differentiable; its error is told on paper."""
+    fits: list[SplineFit] = []
+    asked: list[float] = []
+
+    def fit(curve: Curve, tolerance: float, **more: Any) -> SplineFit:
+        asked.append(tolerance)
+        fits.append(fit_spline(curve, tolerance, **more))
+        return fits[-1]
+
+    monkeypatch.setattr("parts.drawing.canvas.fit_spline", fit)
+    shape = EllipticArc(Arc(0j, 30.0, 0.25, 1.75), 0.5, Placement2())
+    canvas, line = Canvas(0.0, 0.0, ""), Line(0j, 1 + 0j)
     one, two, three = fitted(canvas, [shape, shape.mirrored(), line], 2.0, 1e-3)
     assert three is line
     assert isinstance(one, BSpline)
     assert isinstance(two, BSpline)
-    assert sorted(np.conj(one.poles), key=lambda z: z.real) == pytest.approx(sorted(two.poles, key=lambda z: z.real))
-    # its error is told on paper
-    whole = Canvas(0.0, 0.0, "")
-    fitted(whole, [shape], 1.0, 1e-3)
-    assert 0 < whole.max_error <= 1e-3
-    assert canvas.max_error == pytest.approx(2 * whole.max_error, rel=0.5)
+    (made,) = fits
+    assert made.spline is one
+    assert (asked, one.degree) == ([5e-4], 3)
+    ends = [np.conj(two.point(np.array(two.domain))), one.point(np.array(one.domain))]
+    assert sorted(ends[0], key=lambda z: z.imag) == pytest.approx(sorted(ends[1], key=lambda z: z.imag))
+    inner = np.unique(one.knots, return_counts=True)[1][1:-1]
+    assert len(inner) == 0 or inner.max() == 1
+    assert canvas.max_error == pytest.approx(2 * made.max_error)
+    assert canvas.sampled is (made.bound == "sampled")
+    fitted(canvas, [EllipticArc(Arc(0j, 1.0, 0.2, 0.1), 0.4, Placement2())], 2.0, 1.0)
+    assert canvas.max_error == pytest.approx(2 * made.max_error)
 
 
 # what AutoCAD shows for an index: hue of a colour, or black and grey

@@ -210,6 +210,18 @@ def test_a_signature_without_a_date_leaves_its_cell_free() -> None:
     assert not [t for t in canvas.texts if 55 < t.box.left - corner.real < 65 and t.box.low - corner.imag < 5]
 
 
+def test_long_names_dates_and_designations_are_squeezed_into_their_cells() -> None:
+    """0.8 mm are free on both sides: of 23, of 10, of 70 mm."""
+    long = "words of a length that no cell has " * 3
+    canvas, corner = drawn("1", TitleBlock("Gear", date=long, people=(("drawn", long),)))
+    name, date = (text(canvas, long, (x, 25, wide, 5), corner) for x, wide in ((17, 23), (55, 10)))
+    assert [name.box.left - corner.real, name.box.right - corner.real] == pytest.approx([17.8, 39.2])
+    assert [date.box.left - corner.real, date.box.right - corner.real] == pytest.approx([55.8, 64.2])
+    turned = Canvas(420.0, 297.0, "A3")
+    draw_turned(turned, long)
+    assert [turned.texts[0].box.left, turned.texts[0].box.right] == pytest.approx([20.8, 89.2])
+
+
 def test_columns_of_the_margin_have_their_lines_and_words() -> None:
     """GOST 2.104, graphs 19 to 25: names in the first 5 mm, in the middle of their length, read from the right."""
     canvas, _ = drawn("1")
@@ -273,7 +285,7 @@ def test_a_block_takes_the_keys_of_its_table() -> None:
     assert (alone.sheet, alone.sheets) == (1, 1)
 
 
-def held(rows_: int, wide: float, letter: str = "n") -> int:
+def held(rows_: int, wide: float, letter: str = "i") -> int:
     """How many of one letter a cell holds: full rows of 2.5 mm, the last of 1.8 mm narrowed to nine tenths."""
     each = int((wide - 1.6) / text_width(letter, 2.5) + 1e-9)
     return each * (rows_ - 1) + int((wide - 1.6) / (0.9 * text_width(letter, 1.8)) + 1e-9)
@@ -287,25 +299,25 @@ def held(rows_: int, wide: float, letter: str = "n") -> int:
 )  # fmt: skip
 def test_words_that_a_cell_does_not_hold_are_refused(key: str, rows_: int, wide: float) -> None:
     most = held(rows_, wide)
-    keys = {"name": "x", key: "n" * most}
+    keys = {"name": "x", key: "i" * most}
     check_held(TitleBlock(**keys), FORM_1, turned=False)
-    keys[key] += "n"
+    keys[key] += "i"
     with pytest.raises(ParameterError) as caught:
         check_held(TitleBlock(**keys), FORM_1, turned=False)
     assert (caught.value.name, caught.value.code) == (key, "cell_holds_letters")
-    assert (caught.value.value, caught.value.numbers) == ("n" * (most + 1), {"most": most})
+    assert (caught.value.value, caught.value.numbers) == ("i" * (most + 1), {"most": most})
 
 
 @pytest.mark.parametrize(("turned", "wide"), [(True, 70)])
 def test_a_turned_designation_and_narrow_cells_hold_one_line(turned: bool, wide: float) -> None:
     """Graph 26 has one line; names and dates are narrowed to half of their width."""
-    one = int((wide - 1.6) / (0.9 * text_width("n", 1.8)))
-    name, date = (int((cell - 1.6) / (0.5 * text_width("n", 1.8))) for cell in (23, 10))
-    fine = TitleBlock("x", designation="n" * one, date="n" * date, people=(("drawn", "n" * name), ("approved", "n")))
+    one = int((wide - 1.6) / (0.9 * text_width("i", 1.8)))
+    name, date = (int((cell - 1.6) / (0.5 * text_width("i", 1.8))) for cell in (23, 10))
+    fine = TitleBlock("x", designation="i" * one, date="i" * date, people=(("drawn", "i" * name), ("approved", "i")))
     check_held(fine, FORM_1, turned=turned)
     wrong = {
-        "designation": TitleBlock("x", designation="n" * (one + 1)), "date": TitleBlock("x", date="n" * (date + 1)),
-        "approved": TitleBlock("x", people=(("drawn", "n"), ("approved", "n" * (name + 1)))),
+        "designation": TitleBlock("x", designation="i" * (one + 1)), "date": TitleBlock("x", date="i" * (date + 1)),
+        "approved": TitleBlock("x", people=(("drawn", "i"), ("approved", "i" * (name + 1)))),
     }  # fmt: skip
     for key, most in (("designation", one), ("date", date), ("approved", name)):
         with pytest.raises(ParameterError) as caught:
@@ -345,7 +357,7 @@ def test_lines_of_a_cell_stand_about_its_middle_a_step_of_1_6_heights_apart() ->
 @pytest.mark.parametrize(("high", "size"), [(25.01, 5.0), (24.99, 4.5), (19.0, 3.5), (13.01, 2.5)])
 def test_letters_become_smaller_by_half_a_millimetre_until_all_lines_have_room(high: float, size: float) -> None:
     """Of steps of 1.6 heights of capitals three have room in a cell but for a millimetre."""
-    word = "n" * int(25 / text_width("n", 2.5))
+    word = "i" * int(25 / text_width("i", 2.5))
     found = written(f"{word} {word} {word}", Box(0.0, 0.0, 39.6, high), 5.0)
     assert [t.text for t in found] == [word] * 3
     assert 3 * 1.6 * size <= high - 1
@@ -356,7 +368,7 @@ def test_letters_become_smaller_by_half_a_millimetre_until_all_lines_have_room(h
 
 @pytest.mark.parametrize(("high", "lines"), [(12.9, 2), (8.9, 1), (2.0, 1)])
 def test_what_has_no_room_in_the_least_letters_is_squeezed_into_the_last_line(high: float, lines: int) -> None:
-    word = "n" * int(25 / text_width("n", 2.5))
+    word = "i" * int(25 / text_width("i", 2.5))
     found = written(f"{word} {word} {word}", Box(0.0, 0.0, 39.6, high), 5.0)
     assert [t.text for t in found] == [word] * (lines - 1) + [" ".join([word] * (4 - lines))]
     assert found[-1].box.right - found[-1].box.left == pytest.approx(shown(found[-1].text, 2.5, 38.0)[1])
@@ -365,10 +377,10 @@ def test_what_has_no_room_in_the_least_letters_is_squeezed_into_the_last_line(hi
 @pytest.mark.parametrize("size", [2.5, 5.0])
 def test_a_word_that_no_line_holds_goes_on_in_the_next_one(size: float) -> None:
     """A line holds what is no longer in the least letters, narrowed; what is broken is so in letters of their size."""
-    each, most = (int(30 / text_width("n", h) / narrowed) for h, narrowed in ((size, 1.0), (1.8, 0.9)))
-    assert wrapped("n" * most, 30.0, size) == ["n" * most]
-    assert wrapped("a " + "n" * (most + 1), 30.0, size)[:2] == ["a", "n" * each]
-    assert "".join(wrapped("n" * (most + 1), 30.0, size)) == "n" * (most + 1)
+    each, most = (int(30 / text_width("i", h) / narrowed) for h, narrowed in ((size, 1.0), (1.8, 0.9)))
+    assert wrapped("i" * most, 30.0, size) == ["i" * most]
+    assert wrapped("a " + "i" * (most + 1), 30.0, size)[:2] == ["a", "i" * each]
+    assert "".join(wrapped("i" * (most + 1), 30.0, size)) == "i" * (most + 1)
     assert wrapped(" a  b ", 30.0, size) == ["a b"]
     assert wrapped("", 30.0, size) == []
 
