@@ -211,9 +211,32 @@ def test_upright_and_level_lines_are_met_too() -> None:
         assert ink.holds([], Box(at.real, at.imag, at.real + 2.0, at.imag + 1.0)) is free
     for low, free in ((0.39, False), (0.41, True), (-1.39, False), (-1.41, True), (-0.5, False)):
         assert ink.holds([], Box(7.0, low, 9.0, low + 1.0)) is free
+    # an arc is no chord
+    bow = Ink()
+    bow.add(Arc(0j, 10.0, 0.0, math.pi))
+    assert not bow.holds([], Box(-1.0, 9.5, 1.0, 10.5))
+    assert bow.holds([], Box(-1.0, -0.3, 1.0, 0.3))
     # beyond the end of a line there is room
     assert ink.holds([], Box(4.0, 10.41, 6.0, 11.0))
     assert not ink.holds([], Box(4.0, 10.39, 6.0, 11.0))
+
+
+@pytest.mark.parametrize("way", [1, 1j, -1, -1j])
+def test_words_and_their_lines_keep_off_other_words(way: complex) -> None:
+    """0.4 mm to each side; words alone, and a leader that passes beside."""
+    ink = Ink()
+    ink.add(Line(100 + 0j, 100 + 1j))
+    ink.boxes.append(Box(-3.0, -1.0, 3.0, 1.0))
+    reach = 3.0 if way.real else 1.0
+    for away, free in ((0.35, False), (0.45, True)):
+        middle = way * (reach + 0.5 + away)
+        words = Box(middle.real - 0.5, middle.imag - 0.5, middle.real + 0.5, middle.imag + 0.5)
+        assert ink.holds([], words) is free
+        foot = way * (reach + away)
+        leader = Line(foot + 9j * way, foot - 9j * way)
+        assert ink.holds([leader], Box(50.0, 50.0, 51.0, 51.0)) is free
+        # a leader over its own words is none
+        assert not ink.holds([Line(49 + 50.5j, 52 + 50.5j)], Box(50.0, 50.0, 51.0, 51.0))
 
 
 @pytest.mark.parametrize(
@@ -226,14 +249,15 @@ def test_upright_and_level_lines_are_met_too() -> None:
     ],
 )  # fmt: skip
 def test_a_level_line_seems_one_with_another_that_is_near(line: Line, under: bool) -> None:
-    ink = Ink()
-    ink.add(Line(0j, 10 + 0j))
-    # one that rises is another
-    ink.add(Line(20 + 0j, 30 + 0.31j))
-    assert ink.under(line) is under
-    rising = Ink()
-    rising.add(Line(20 + 0j, 30 + 0.29j))
-    assert rising.under(Line(20 + 0j, 30 + 0j))
+    for up in (0j, 7j):
+        ink = Ink()
+        ink.add(Line(up, 10 + up))
+        # one that rises is another
+        ink.add(Line(20 + up, 30 + 0.31j + up))
+        assert ink.under(Line(line.start + up, line.end + up)) is under
+        rising = Ink()
+        rising.add(Line(20 + up, 30 + 0.29j + up))
+        assert rising.under(Line(20 + up, 30 + up))
 
 
 # what a new line costs by what it crosses: GOST 2.307 allows extension lines to cross each other, not dimension lines
@@ -298,10 +322,15 @@ def test_dimension_lines_and_leaders_do_not_lie_on_lines(line: Line, lies: bool)
     ink.add(Line(0j, 10 + 0j), "edge")
     for role, cost in (("edge", 0.0), ("extension", 0.0), ("dimension", 10.0), ("leader", 10.0)):
         assert ink.costs([{role: [line]}]) == [cost if lies else 0.0]  # type: ignore[dict-item]
-        turned = [Line(a.start * 1j, a.end * 1j) for a in (line,)]
-        up = Ink()
-        up.add(Line(10j, 0j), "edge")
-        assert up.costs([{role: turned}]) == [cost if lies else 0.0]  # type: ignore[dict-item]
+        for way, at in ((1j, 3 - 8j), (cmath.rect(1.0, 0.4), 20 + 5j)):
+            leaning = Ink()
+            leaning.add(Line(at + 10 * way, at), "edge")
+            turned = [Line(at + line.start * way, at + line.end * way)]
+            assert leaning.costs([{role: turned}]) == [cost if lies else 0.0]  # type: ignore[dict-item]
+            # one that leans by more than a ten-thousandth crosses it
+            steep = [Line(at + way * (2 - 0.05j), at + way * (8 + 0.05j))]
+            own = COSTS["edge", role]  # type: ignore[index]
+            assert leaning.costs([{role: steep}]) == [own]  # type: ignore[dict-item]
 
 
 def test_leaders_that_run_over_dimension_lines_are_counted() -> None:
