@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import gc
 import os
 import signal
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 DONE, FAILED, INTERRUPTED = 0, 1, 130
 # so many things are made between two searches for circles of them
 _MADE = 100_000
+_OURS = {"geometry", "parts", "exporters"}
 T = TypeVar("T")
 _EXAMPLES = """
   higherpair build practicum_pair
@@ -57,18 +59,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # whoever read the output has left: nothing more can be said to it
         sys.stdout = _nowhere()
         return DONE
-    except OSError as error:
-        told, why = words(_language(options)), error.strerror or str(error)
-        why = f"{error.filename}: {why}" if error.filename else why
-        text = told.text("{why}; choose another place", why=why)
-        if "out" in options:
-            text = told.text("{why}; choose another place with --out", why=why)
-        print(f"higherpair: {text}", file=sys.stderr)
-        return WRONG_INPUT
-    except MemoryError:
-        text = words(_language(options)).text(
-            "the memory does not suffice; a larger tolerance or fewer parts need less"
-        )
+    except (OSError, MemoryError, ImportError) as error:
+        if (text := _outside(error, options)) is None:
+            raise
         print(f"higherpair: {text}", file=sys.stderr)
         return WRONG_INPUT
     except ValueError as error:
@@ -81,6 +74,39 @@ def main(arguments: Sequence[str] | None = None) -> int:
     finally:
         for stop, handler in previous.items():
             signal.signal(stop, handler)
+
+
+def _outside(error: OSError | MemoryError | ImportError, options: argparse.Namespace) -> str | None:
+    """What a disk, a memory or an installation that is not enough is told by; None of an import of our own."""
+    told = words(ENGLISH)
+    # a memory that is full may hold no other language
+    with suppress(OSError, MemoryError, ImportError):
+        told = words(_language(options))
+    if isinstance(error, ImportError):
+        library = _library(error)
+        return library and told.text(
+            "{library} cannot be loaded: it is not installed whole, or the memory does not suffice", library=library
+        )
+    if isinstance(error, MemoryError) or error.errno == errno.ENOMEM:
+        return told.text("the memory does not suffice; a larger tolerance or fewer parts need less")
+    why = error.strerror or str(error)
+    why = f"{error.filename}: {why}" if error.filename else why
+    if "out" in options:
+        return told.text("{why}; choose another place with --out", why=why)
+    return told.text("{why}; choose another place", why=why)
+
+
+def _library(error: BaseException | None) -> str | None:
+    """The library that could not be imported; None where it is one of our packages."""
+    while error is not None:
+        file, name = Path(getattr(error, "path", None) or ""), getattr(error, "name", None) or ""
+        # a shared library tells its own name without that of its package
+        beneath = [file.relative_to(place).parts for place in sys.path if place and file.is_relative_to(place)]
+        library = min(beneath, key=len)[0] if beneath else name.partition(".")[0]
+        if library and library not in _OURS:
+            return library
+        error = error.__cause__ or error.__context__
+    return None
 
 
 def run() -> int:

@@ -67,7 +67,12 @@ def _model() -> Model:
     import lib3mf
     from lib3mf import Lib3MF
 
-    model = lib3mf.get_wrapper().CreateModel()
+    try:
+        library = lib3mf.get_wrapper()
+    except Lib3MF.ELib3MFException as error:
+        # its own library is loaded here, not as it is imported
+        raise ImportError(str(error), name="lib3mf") from error
+    model = library.CreateModel()
     model.SetUnit(Lib3MF.ModelUnit.MilliMeter)
     return model
 

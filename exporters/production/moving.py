@@ -109,10 +109,7 @@ def _put_back(folder: Path) -> None:
     if not is_half_moved(folder):
         return
     moving = folder / _MOVING
-    try:
-        names = [name for name in map(str, json.loads((moving / _NAMES).read_text("utf-8"))) if Path(name).name == name]
-    except ValueError as error:
-        raise OSError(errno.EINVAL, "a damaged list of files", str(moving / _NAMES)) from error
+    names = _listed(moving / _NAMES)
     for name in reversed(names):
         if not (moving / name).exists():
             with suppress(FileNotFoundError):
@@ -124,6 +121,17 @@ def _put_back(folder: Path) -> None:
     undone = folder / f"{_STAGING}{os.getpid()}-undone"
     moving.rename(undone)
     _remove(undone)
+
+
+def _listed(file: Path) -> list[str]:
+    """The files that a list names, without what leads out of their folder."""
+    try:
+        names = json.loads(file.read_text("utf-8"))
+    except (ValueError, RecursionError):
+        names = None
+    if not (isinstance(names, list) and all(isinstance(name, str) and "\0" not in name for name in names)):
+        raise OSError(errno.EINVAL, "a damaged list of files", str(file))
+    return [name for name in names if name not in ("", "..") and Path(name).name == name]
 
 
 def _remove(staging: Path) -> None:

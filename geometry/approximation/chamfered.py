@@ -52,7 +52,7 @@ def chamfered_outlines(
     """
     error = math.inf
     for share in _SHARES:
-        outline = spline_outline(whole, share * tolerance, degree=degree, continuity=degree - 1)
+        outline = spline_outline(whole, share * tolerance, degree=degree, continuity=degree - 1, at_knots=True)
         made = []
         for pieces in chamfers:
             above = outline

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from geometry.approximation.splines import SplineFit, fit_spline
+from geometry.approximation.splines import MOST_SPANS, SplineFit, fit_spline
+from geometry.base.errors import ConvergenceError
 from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
@@ -17,6 +18,8 @@ from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile, Segment
 
 CadCurve = Arc | Line | BSpline
+# spans of a spline over the knots of a curve, a knot: with more it is shorter to end one at each
+_SPANS_A_KNOT = 2
 
 
 class Outline(Record):
@@ -62,18 +65,24 @@ def parted(profile: Profile) -> Profile:
 
 
 def spline_outline(
-    profile: Profile, tolerance: float, *, degree: int, continuity: int, turned: bool = False
+    profile: Profile, tolerance: float, *, degree: int, continuity: int, turned: bool = False, at_knots: bool = False
 ) -> Outline:
     """An exact profile as arcs, lines and B-splines within ``tolerance`` mm.
 
-    ``turned``: for screw surfaces; only arcs about the axis stay arcs, all else becomes a B-spline.
+    One spline runs over the knots of a curve, as over the rows of a table, where the tolerance lets it; where it does
+    not, or ``at_knots``, one stands for each part. ``turned``: for screw surfaces; only arcs about the axis stay arcs,
+    all else becomes a B-spline.
     """
     done: dict[Curve, BSpline] = {}
     # the latest of each kind of curves that differ little from one to the next
     alike: dict[object, SplineFit] = {}
     period: list[CadCurve] = []
     worst, certified = 0.0, True
-    for curve in (s.curve for s in parted(profile).period):
+    # a spline is no whole loop
+    at_knots = at_knots or (len(profile.period), profile.count) == (1, 1)
+    left = [s.curve for s in (parted(profile) if at_knots else profile).period][::-1]
+    while left:
+        curve = left.pop()
         if isinstance(curve, Line) and turned:
             period.append(BSpline(1, np.array([0.0, 0.0, 1.0, 1.0]), np.array([curve.start, curve.end])))
             continue
@@ -86,7 +95,16 @@ def spline_outline(
             spline = twin.mirrored()
         else:
             family = getattr(curve, "family", None)
-            fit = fit_spline(curve, tolerance, degree=degree, continuity=continuity, like=alike.get(family))
+            most = _SPANS_A_KNOT * (len(curve.knots) + 1) if curve.knots.size else MOST_SPANS
+            try:
+                fit = fit_spline(
+                    curve, tolerance, degree=degree, continuity=continuity, like=alike.get(family), most=most
+                )
+            except ConvergenceError:
+                if not curve.knots.size:
+                    raise
+                left += curve.parts()[::-1]
+                continue
             if family is not None:
                 alike[family] = fit
             spline, worst = fit.spline, max(worst, fit.max_error)

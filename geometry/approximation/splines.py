@@ -24,7 +24,7 @@ from geometry.curves.bspline import BSpline, Index, basis, distance_bound, feet
 from geometry.curves.curve import Complex, Curve, Real, end_point, start_point
 
 _LEAST_DEGREE, _MOST_DEGREE = 3, 9
-_MOST_SPANS = 512
+MOST_SPANS = 512
 _MAP_NODES = 257
 # samples of a span beyond the degree
 _EXTRA_SAMPLES = 3
@@ -139,7 +139,13 @@ class _Draft(Record):
 
 
 def fit_spline(
-    curve: Curve, tolerance: float, *, degree: int, continuity: int, like: SplineFit | None = None
+    curve: Curve,
+    tolerance: float,
+    *,
+    degree: int,
+    continuity: int,
+    like: SplineFit | None = None,
+    most: int = MOST_SPANS,
 ) -> SplineFit:
     """B-spline within ``tolerance`` mm of a curve, near the least number of poles.
 
@@ -155,7 +161,7 @@ def fit_spline(
     CuspError
         The curve turns back.
     ConvergenceError
-        512 spans are not enough, or rounding keeps the error above the tolerance.
+        ``most`` spans are not enough, or rounding keeps the error above the tolerance.
     """
     if not tolerance > 0:
         raise ParameterError("tolerance", tolerance, "not_above_zero")
@@ -166,7 +172,7 @@ def fit_spline(
     spans = spans if spans > _FEW_SPANS else 1
     goal, made, refitted = tolerance, (_PILOT_SPANS, tolerance), 0
     for _ in range(_MOST_TRIES):
-        if spans > _MOST_SPANS:
+        if spans > most:
             break
         if (spans, goal) != made:
             draft, made = _fitted(curve, parameter, spans, degree, continuity, _AIM * goal), (spans, goal)

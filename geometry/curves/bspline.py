@@ -219,6 +219,9 @@ def distance_bound(curve: Curve, spline: BSpline, x: Real, t: Real) -> tuple[flo
     start[0], start[-1] = curve.domain
     start = np.maximum.accumulate(start)
     bounds = curve.derivative_bounds(start[edges], (2, 3, 4))
+    if curve.knots.size:
+        grid, start, within = _cut_at_knots(curve, spline, grid, start)
+        part = part[within]
     fourth = spline.derivative_bound(4, span_index(spline.degree, spline.knots, (grid[:-1] + grid[1:]) / 2))
     cells = _cell_ends(curve, spline, np.stack([grid[:-1], grid[1:]]), np.stack([start[:-1], start[1:]]))
     moduli, count, certified = bounds[:, part], len(part), bool(np.all(np.isfinite(bounds)))
@@ -251,6 +254,29 @@ def _grid(spline: BSpline) -> tuple[Real, Index, Index]:
     parts = min(spans * per_span, max(spans, _LEAST_PARTS))
     edges = np.arange(parts + 1) * (spans * per_span) // parts
     return grid, np.repeat(np.arange(parts), np.diff(edges)), edges
+
+
+def _cut_at_knots(curve: Curve, spline: BSpline, grid: Real, start: Real) -> tuple[Real, Real, Index]:
+    """Ends of cells and their feet, with a cell's end at every knot of the curve, and the cell that each was part of.
+
+    Within a cell the curve is one formula: the rest is bounded by its fourth derivative.
+    """
+    knots, cell = curve.knots, np.arange(len(grid) - 1)
+    low = np.clip(np.searchsorted(start, knots, side="right") - 1, 0, len(cell) - 1)
+    points, ways = curve.point(knots), curve.tangent(knots)
+    at = np.interp(knots, start, grid)
+    for _ in range(_FOOT_STEPS):
+        along = (np.conj(ways) * spline.derivative(at)).real
+        ahead = (np.conj(ways) * (points - spline.point(at))).real
+        at = np.clip(at + ahead / np.where(along > 0, along, np.inf), grid[low], grid[low + 1])
+    # a knot at an end of a cell is the foot of that end
+    first, last = at - grid[low] <= _LEAST_CELL, grid[low + 1] - at <= _LEAST_CELL
+    start[low[first]], start[low[last] + 1] = knots[first], knots[last]
+    inner = ~(first | last)
+    low, at, knots = low[inner], at[inner], knots[inner]
+    order = np.argsort(np.concatenate([grid, at]), kind="stable")
+    ends, feet_there = np.concatenate([grid, at]), np.concatenate([start, knots])
+    return ends[order], feet_there[order], np.sort(np.concatenate([cell, low]))
 
 
 def _cell_ends(curve: Curve, spline: BSpline, x: Real, foot: Real) -> _Ends:

@@ -268,7 +268,7 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | No
 
         if isinstance(error, tomllib.TOMLDecodeError) and (found := slip(text_of(raw_bytes), str(error))):
             raise SceneError(source, "", None, found[0], None, **found[1]) from None
-        code = "not_toml" if str(error) else "too_deep"
+        code = "too_deep" if isinstance(error, RecursionError) else "not_toml"
         raise SceneError(source, "", None, code, None, why=told_toml(text_of(raw_bytes), str(error))) from None
     try:
         return scene_from_dict(raw, source, name, language)

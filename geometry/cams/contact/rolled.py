@@ -39,6 +39,9 @@ _TURNS, _MET, _STIR = 12, 1e-14, 1e-6
 _END = 1e-6
 # and by so much an angle may be missed where an edge is touched
 _TOUCHED = 1e-3
+# the slope at a cell's end is that over this share of it, or over this turn where it is longer, rad; turns below the
+# least one are digits
+_SLOPE_SHARE, _SLOPE_TURN, _LEAST_TURN = 1e-4, 1e-9, 1e-12
 
 
 class Rounds(Record):
@@ -189,7 +192,8 @@ def rolled_lift(cam: Stopped, outline: Outline, count: int, offset: float = 0.0,
 def _stopped(cam: Stopped, outline: Outline, count: int, offset: float, below: bool, end: float) -> Real:
     """The same of edges that reach on by ``end`` steps of the grid at both ends."""
     sign = 1.0 if below else -1.0
-    lift = np.full(count, -np.inf)
+    # stops at the angles themselves, and such as are known beside them alone
+    lift, near = np.full((2, count), -np.inf)
     step = TURN / count
     for family in outline.families():
         # a face that lies on a line touches its ends at the same angle
@@ -201,10 +205,33 @@ def _stopped(cam: Stopped, outline: Outline, count: int, offset: float, below: b
         edge, t0, t1, target = _crossings(cam, family, step, offset, end)
         t = _solve(cam, family, edge, t0, t1, step * target.astype(np.float64), offset)
         angle, height = cam.stop(*family.at(edge, t), offset)
+        off = _folded(angle - step * target)
         # where the normal turns about at once, a cell has no such angle
-        met = np.abs(_folded(angle - step * target)) <= _TOUCHED * step
+        met = np.abs(off) <= _TOUCHED * step
+        beside = met & (np.abs(off) > _MET)
+        slope = _slope(cam, family, edge[beside], t[beside], (t0 + t1 - t)[beside], offset)
+        known = np.isfinite(slope)
+        height[beside] -= np.where(known, off[beside] * slope, 0.0)
+        np.fmax.at(near, (target % count)[beside], sign * height[beside])
+        met[beside] = known
         np.fmax.at(lift, (target % count)[met], sign * height[met])
+    lift = np.where(np.isfinite(lift), lift, near)
     return np.where(np.isfinite(lift), sign * lift, np.nan)
+
+
+def _slope(cam: Stopped, family: Edges, edge: Index, t: Real, inward: Real, offset: float) -> Real:
+    """How fast a follower rises at the end t of a cell, whose other end is ``inward``; NaN where digits hide it."""
+
+    def way(share: Real) -> tuple[Real, Real]:
+        ahead, raised = cam.stop(*family.at(edge, t + share * (inward - t)), offset)
+        return _folded(ahead - angle), raised - height
+
+    angle, height = cam.stop(*family.at(edge, t), offset)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        whole = np.abs(way(np.ones(len(t)))[0])
+        share = np.where(np.isfinite(whole), np.clip(_SLOPE_TURN / whole, _SLOPE_SHARE, 1.0), _SLOPE_SHARE)
+        turned, risen = way(share)
+        return np.where(np.abs(turned) > _LEAST_TURN, risen / turned, np.nan)
 
 
 def _supported(cam: Stopped, edges: Smooth, count: int, offset: float) -> Real:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeVar
 
 from msgspec import Meta, Struct
@@ -260,32 +259,33 @@ def _least_rocker(keys: CamSpec, swing: OscillatingTable, motion: FollowerMotion
         steep = math.radians(90 - tried)
         return oscillating_axis(motion, arm, swing.turning, steep, steep)
 
-    def ends(away: float) -> tuple[float, float]:
-        steep = math.radians(90 - angle)
+    def ends(away: float, tried: float = angle) -> tuple[float, float]:
+        steep = math.radians(90 - tried)
         return oscillating_start_angles(motion, arm, away, swing.turning, steep, steep)
+
+    def no_axis(keeps: Callable[[float], bool]) -> ParameterError:
+        key = "least_transmission_angle_deg"
+        return ParameterError(key, angle, "no_axis_keeps_angle", lambda: nearest(keeps, angle, _EASIER))
 
     if distance is None:
         try:
             found = best(angle)
         except ConvergenceError as error:
-
-            def keeps(tried: float) -> bool:
-                return best(tried).prime_radius <= _MOST
-
-            key, cure = "least_transmission_angle_deg", lambda: nearest(keeps, angle, _EASIER)
-            raise ParameterError(key, angle, "no_axis_keeps_angle", cure) from error
+            raise no_axis(lambda tried: best(tried).prime_radius <= _MOST) from error
         distance, start = found.centre_distance, found.start_angle
         end = max(start, ends(distance)[1])
     else:
         start, end = ends(distance)
         if not start < end:
+            away = distance
+            try:
+                # the distance of the smallest cam serves, where any does
+                far = best(angle).centre_distance
+            except ConvergenceError as error:
+                raise no_axis(lambda tried: operator.lt(*ends(away, tried))) from error
 
             def cured() -> Nearest | None:
-                # the distance of the smallest cam serves, where any does
-                with suppress(ConvergenceError):
-                    far = best(angle).centre_distance
-                    return nearest(lambda x: operator.lt(*ends(x)), distance, [far * 1.000001, far * 1.01, far * 1.5])
-                return None
+                return nearest(lambda x: operator.lt(*ends(x)), away, [far * 1.000001, far * 1.01, far * 1.5])
 
             raise ParameterError("centre_distance", distance, "pivot_keeps_no_angle", cured)
     prime, most = (oscillating_prime_radius(psi, distance, arm) for psi in (start, end))

@@ -81,3 +81,12 @@ def test_a_package_that_unpacks_to_a_thousand_times_its_size(
         capsys.readouterr()
         assert run("verify", again / "g.3mf") == 1
         assert "unpacks to" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("text", ["a = " + "[" * 9000 + "]" * 9000, "a = " + "{a = " * 9000 + "1" + "}" * 9000])
+def test_a_scene_that_is_nested_without_end(tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str) -> None:
+    (tmp_path / "s.toml").write_text(text)
+    assert run("build", tmp_path / "s.toml", "--out", tmp_path) == 2
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1
+    assert "nested too deeply: a scene needs three levels" in told

@@ -17,6 +17,7 @@ from types import FrameType
 from typing import Any
 
 import pytest
+import shapely
 
 from tests.exporters.making import part_keys, run, table, write_scene
 from tests.exporters.outside import Gear
@@ -214,6 +215,45 @@ def test_memory_that_does_not_suffice_is_one_line(
         "higherpair: the memory does not suffice; a larger tolerance or fewer parts need less\n"
     )
     assert not (tmp_path / "o").exists()
+
+
+@pytest.mark.parametrize(
+    "error",
+    [ImportError("lib.so: failed to map segment", name="lib", path=shapely.lib.__file__),
+     ModuleNotFoundError("No module named 'shapely'", name="shapely"), OSError(12, "Cannot allocate memory")],
+    ids=["mapped", "missing", "system"],
+)  # fmt: skip
+def test_a_library_that_cannot_be_loaded_is_one_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], error: Exception
+) -> None:
+    """What a memory that is too small does to a shared library; numpy tells its own in a page around that."""
+    import exporters.formats.stl
+
+    def lost(*given: object) -> None:
+        if isinstance(error, ImportError):
+            raise ImportError("a page about numpy\n" * 9) from error
+        raise error
+
+    monkeypatch.setattr(exporters.formats.stl, "write_stl", lost)
+    assert run("build", scene_of(tmp_path, 12), "--out", tmp_path / "o", "--format", "stl") == 2
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1
+    assert ("shapely cannot be loaded" in told) == isinstance(error, ImportError)
+    assert "the memory does not suffice" in told
+    assert not (tmp_path / "o").exists()
+
+
+def test_a_fault_of_our_own_import_is_no_fault_of_the_installation(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import exporters.formats.stl
+
+    def lost(*given: object) -> None:
+        raise ImportError("cannot import name", name="exporters.formats.stl", path=exporters.formats.stl.__file__)
+
+    monkeypatch.setattr(exporters.formats.stl, "write_stl", lost)
+    with pytest.raises(ImportError):
+        run("build", scene_of(tmp_path, 12), "--out", tmp_path / "o", "--format", "stl")
 
 
 @pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="names there are Unicode")

@@ -221,13 +221,23 @@ def test_cleaning_follows_no_link(tmp_path: Path, name: str) -> None:
 def test_a_list_of_files_names_none_outside_the_folder(tmp_path: Path) -> None:
     folder = tmp_path / "out" / "s"
     (folder / ".moving" / ".replaced").mkdir(parents=True)
-    (folder / ".moving" / ".names").write_text('["../../kept", "g.svg"]')
+    (folder / ".moving" / ".names").write_text('["../../kept", "..", "", "g.svg"]')
     (tmp_path / "kept").write_text("mine")
     assert run("build", scene_of(tmp_path, OLD, "svg"), "--out", tmp_path / "out") == 0
     assert (tmp_path / "kept").read_text() == "mine"
-    (folder / ".moving").mkdir()
-    (folder / ".moving" / ".names").write_text("[")
+
+
+@pytest.mark.parametrize("names", ["[", "5", "null", '{"g.svg": 1}', "[5]", '["\\u0000"]', "[" * 100_000])
+def test_a_list_of_files_that_is_none_is_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], names: str
+) -> None:
+    moving = tmp_path / "out" / "s" / ".moving"
+    moving.mkdir(parents=True)
+    (moving / ".names").write_text(names)
     assert run("build", scene_of(tmp_path, OLD, "svg"), "--out", tmp_path / "out") == 2
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1
+    assert "a damaged list of files" in told
 
 
 FORMATS = ("dxf", "svg", "stl", "3mf", "sheet") + (("step",) if find_spec("OCP") else ())

@@ -178,6 +178,28 @@ def test_the_cams_of_an_assembly_are_rolled(tmp_path: Path) -> None:
     assert any("lift is wrong" in failure for failure in verdict.failures)
 
 
+def test_an_angle_beside_a_cell_of_an_edge_is_not_taken_for_its_end() -> None:
+    """Edges are searched cell by cell; every contact here is just before the middle of an arc, an end of two cells.
+
+    Over a circle of radius R whose centre turns c from the axis a roller stands at
+    y = c sin phi + sqrt((R + r)^2 - (e - c cos phi)^2).
+    """
+    big, out, small, aside = 40.0, 9.0, 6.0, 4.0
+    model = part_of(CAMS["roller"]).thing
+    assert model is not None
+    cam = translating_cam(model.motion, FollowerKind.ROLLER, 35.0, radius=small, follower_offset=aside)
+    assert isinstance(cam.mount, Translating)
+    phi = np.radians(np.arange(0, 360, 30))
+    centre = out * np.exp(1j * phi)
+    height = centre.imag + np.sqrt((big + small) ** 2 - (aside - centre.real) ** 2)
+    touched = np.unwrap(np.angle((aside + 1j * height - centre) * np.exp(-1j * phi)))[::-1]
+    for beside in (0.0, 2e-7):
+        ends = np.stack([touched - 0.1, touched + 0.1 + 2 * beside], axis=1).ravel()
+        sweeps = np.diff(np.append(ends, ends[0] + 2 * np.pi))
+        found = rolled_lift(cam, outline_of_loop(out + big * np.exp(1j * ends), np.tan(sweeps / 4)), 12)
+        assert np.abs(found + cam.mount.start_height - height).max() < 1e-11
+
+
 @pytest.mark.parametrize("swings", [False, True])
 def test_a_face_is_held_by_edges_that_turn_within_a_millionth_of_their_length(swings: bool) -> None:
     """As splines do beside a cusp; the oracle is the farthest of half a million points, crowded at their ends."""

@@ -290,6 +290,9 @@ WRONG: dict[str, tuple[dict[str, Any], str, str]] = {
                        "oscillating.centre_distance", "pivot_keeps_no_angle"),
     "angle that no axis keeps": (BARE | {"oscillating": {"arm_length": 80.0}, "least_transmission_angle_deg": 88.0},
                                  "least_transmission_angle_deg", "no_axis_keeps_angle"),
+    "angle that no axis keeps at its distance": (
+        BARE | {"oscillating": SWING, "least_transmission_angle_deg": 88.0},
+        "least_transmission_angle_deg", "no_axis_keeps_angle"),
     "roller of a small rocker": (BARE | AT_50 | {"follower_radius": 70.0}, "follower_radius", "fills_prime_circle"),
     "face behind the pivot": (
         CAMS["oscillating flat"] | {"oscillating": {"centre_distance": 95.0, "sense": "with", "face_offset": -90.0}},

@@ -14,7 +14,10 @@ from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
 from exporters.command.cli import main
-from geometry.cams.motion.follower_motion import dwell, follower_motion, return_, rise
+from geometry.approximation.splines import spline_of_spans
+from geometry.cams.motion.follower_motion import dwell, follower_motion, motion_of_table, return_, rise
+from geometry.cams.motion.guides import Translating
+from geometry.cams.plane.curves import CentreEnvelope
 from geometry.laws.named import polynomial_345, sine
 
 LIFT, OFFSET, RADIUS = 20.0, 5.0, 8.0
@@ -122,6 +125,36 @@ def test_chords_run_over_the_rows_too(tmp_path: Path) -> None:
     assert len(corners) < 200
     points = (corners[:, None] + (np.roll(corners, -1) - corners)[:, None] * np.linspace(0, 1, 99)).ravel()
     assert farthest(points, exact("roller", lifts, 100_001)) <= declared + 1e-7
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize(("follower", "rows"), [("roller", 180), ("flat", 360), ("roller", 2000)])
+def test_splines_run_over_the_rows_too(tmp_path: Path, follower: str, rows: int) -> None:
+    """One was written for every row, 2000 of them in half a minute."""
+    lifts = table(rows, 12)
+    file, declared = built(tmp_path, follower, of_rows(lifts), 1e-6, 'dxf"\npurpose = "drawing')
+    splines = [e.construction_tool() for e in ezdxf.readfile(file).modelspace().query("SPLINE")]
+    assert len(splines) < rows / 8
+    share = np.linspace(0, 1, 60_000 // len(splines))
+    places = [spline.points(spline.knots()[0] + (spline.knots()[-1] - spline.knots()[0]) * share) for spline in splines]
+    points = np.array([complex(p.x, p.y) for one in places for p in one])
+    assert farthest(points, exact(follower, lifts, 400_001)) <= declared + 1e-8
+
+
+@pytest.mark.parametrize("rows", [12, 90])
+def test_the_bound_of_a_spline_over_rows_holds(rows: int) -> None:
+    """At a row the second derivative jumps: no Taylor series goes on there. One span over all rows is far off."""
+    lifts = table(rows, 12)
+    motion = motion_of_table([math.radians(a) for a, _ in lifts], [s for _, s in lifts])
+    height = math.sqrt((BASES["roller"] + RADIUS) ** 2 - OFFSET**2)
+    curve = CentreEnvelope(motion.stack, Translating(OFFSET, height), 0.1, 1.6, -RADIUS)
+    assert curve.knots.size
+    fit = spline_of_spans(curve, 1, degree=5, continuity=4)
+    places = np.linspace(*fit.spline.domain, 20_001)
+    worst = farthest(fit.spline.point(places), curve.point(np.linspace(0.1, 1.6, 400_001)))
+    assert worst <= fit.max_error + 1e-9
+    assert fit.max_error <= 1.1 * worst
+    assert fit.bound == "certified"
 
 
 def test_an_undercut_table_is_told_and_its_cure_works(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
