@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, Literal, Protocol
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cache, partial
+from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeVar
 
-from msgspec import Meta
+from msgspec import Meta, Struct
+from msgspec.structs import replace as changed
 
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import kept, nearest
@@ -15,15 +17,18 @@ from parts.keys.base import degrees, in_modules, mm
 if TYPE_CHECKING:
     from geometry.gears.worms.worm import Worm
 
+K = TypeVar("K", bound=Struct)
 AxialModule = Annotated[float, mm("axial module of the worm", above=0, most=1000, example=2.0)]
 Starts = Annotated[int, Meta(ge=1, le=50, description="starts of the worm, z1")]
 Quotient = Annotated[float, Meta(gt=0, le=1000, description="q = d1 / m")]
 # of a worm that gives neither q nor a lead angle
 USUAL_QUOTIENT = 10.0
-# how much larger a q is tried than one that does not do
-_WIDER = (1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 5.0, 10.0, 20.0)
-# pressure angles that are tried, deg
+# values that are tried of keys that may take thread or teeth away: of addenda lower ones leave a rounding no room,
+# higher ones grinding wheels no foot; how much larger a q; angles, deg; parts of what is given
+_ADDENDA = (1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.05, 0.02)
+_WIDER = (1.1, 1.25, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0)
 _ANGLES = (45.0, 40.0, 35.0, 30.0, 25.0, 20.0, 15.0, 10.0)
+_LESS = (0.9, 0.75, 0.5, 0.25, 0.1, 0.0)
 # how near to the last one that holds a value of a wheel is found, modules or part of it
 NEAR = 8e-4
 WormQuotient = Annotated[
@@ -103,42 +108,76 @@ def quotient_of(keys: Led) -> float:
     return wanted
 
 
-def larger_quotients(start: float, most: float = math.inf) -> list[float]:
-    """Diameter quotients that are tried, larger and larger ones, ``most`` the last."""
-    return [*(end for share in _WIDER if (end := start * share) < most), *([most] if most < math.inf else [])]
+def ways_out(
+    keys: Threaded, before: Iterable[str], after: Iterable[str] = (), most: float = math.inf
+) -> dict[str, Sequence[float]]:
+    """Keys that alone may leave thread or teeth, and values of each, less and less wrong.
 
-
-def smaller_angles(start: float) -> list[float]:
-    """Pressure angles that are tried, smaller and smaller ones, deg."""
-    return [angle for angle in _ANGLES if angle < start]
-
-
-def wider(
-    refusal: ParameterError,
-    does: Callable[[float], bool],
-    stands: Callable[[float], bool],
-    most: float = math.inf,
-) -> ParameterError:
-    """A refusal of the diameter quotient with the least that does for the whole part, from its own limit on.
-
-    ``does``: a margin of the part; ``stands``: the part itself, which is more and costly; ``most``: that may be.
+    ``before`` and ``after`` all others: keys of which less may do; ``most``: that the diameter quotient may be.
     """
-    if refusal.name != "diameter_quotient":
+    first, last = (
+        {key: [share * value for share in _LESS] for key in names if (value := getattr(keys, key))}
+        for names in (before, after)
+    )
+    quotient = keys.diameter_quotient or USUAL_QUOTIENT
+    larger = [value for share in _WIDER if (value := share * quotient) < most]
+    return {
+        **first,
+        "addendum_coefficient": [value for value in _ADDENDA if value < keys.addendum_coefficient],
+        "diameter_quotient": [*larger, *([most] if quotient < most < math.inf else [])],
+        "number_of_starts": range(keys.number_of_starts - 1, 0, -1),
+        "pressure_angle_deg": [angle for angle in _ANGLES if angle < keys.pressure_angle_deg],
+        **last,
+    }
+
+
+def cured(
+    refusal: ParameterError,
+    keys: K,
+    ways: Mapping[str, Sequence[float]],
+    looks: Sequence[Callable[[K], bool]],
+    useful: Callable[[K], bool] | None = None,
+    share: float = 0.0,
+) -> ParameterError:
+    """A refusal in a key that alone cures it, with the value nearest to the given one that is made, to a ``share``.
+
+    Its own key is the first where it has a limit, then those of ``ways`` in turn; of these the first of which a value
+    is ``useful``, else made. ``looks``: whether a part is made; each is closer than that before it, the last decides.
+    """
+    if refusal.name not in ways:
         return refusal
+    own, fallback = refusal.nearest, None
+    limits = {} if own is None or not isinstance(own.value, int | float) else {refusal.name: own.value}
 
-    def cure() -> Nearest | None:
-        own = refusal.nearest
-        start = float(str(refusal.value if own is None else own.value))
-        if own is not None and kept(stands, start):
-            return own
-        ends = larger_quotients(start, most)
-        found = nearest(does, start, ends, share=NEAR)
-        if found is None or not isinstance(found.value, float) or kept(stands, found.value):
-            return found
-        # costly, so by a few trials
-        return nearest(stands, found.value, [end for end in ends if end > found.value], share=NEAR)
+    @cache
+    def works(look: Callable[[K], bool], key: str, value: float) -> bool:
+        return kept(look, changed(keys, **{key: value}))
 
-    return ParameterError(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
+    def cure(key: str, start: float, ends: Sequence[float]) -> Nearest | None:
+        place, found = start, None
+        for look in looks:
+            holds = partial(works, look, key)
+            if found is None or not holds(place):
+                beyond = [end for end in ends if (end - place) * (place - start) >= 0]
+                found = nearest(holds, place, beyond, share=share)
+                if found is None or not isinstance(found.value, int | float):
+                    return None
+                place = found.value
+        return found
+
+    for key in dict.fromkeys((*limits, *ways)):
+        given: float = getattr(keys, key)
+        if (start := limits.get(key, given)) != given and works(looks[0], key, start):
+            return refusal
+        ends = [end for end in ways[key] if end != start and (end - start) * (start - given) >= 0]
+        told = ParameterError(key, given, refusal.code, partial(cure, key, start, ends), **refusal.numbers)
+        for end in ends:
+            if not all(works(look, key, end) for look in looks):
+                continue
+            if useful is None or kept(useful, changed(keys, **{key: end})):
+                return told
+            fallback = fallback or told
+    return fallback or refusal
 
 
 def in_degrees(refusal: ParameterError, keys: Led) -> ParameterError:

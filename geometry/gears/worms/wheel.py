@@ -51,9 +51,9 @@ _ABOVE = 1.01
 _LEAST_SHARE = 1e-9
 # a space between two teeth is no shallower, a whole tooth's flank no narrower, modules
 _LEAST_DEPTH = 0.04
-# heights at which a face is looked at, fewer for trials, some of them for a glance, how well places between them are
-# known, and how far two are apart at least, part of the width
-_LEVELS, _FEW_LEVELS, _GLANCE, _SETTLED, _SAME = 97, 49, 7, 1e-9, 4e-9
+# heights at which a face is looked at, fewer for trials, some of them for a glance; how well places between them are
+# known, those at which a face comes to a point, these for a search, how far two are apart at least, part of the width
+_LEVELS, _FEW_LEVELS, _GLANCE, _SETTLED, _CLOSE, _NEARLY, _SAME = 97, 49, 7, 1e-9, 1e-14, 1e-10, 4e-9
 # how far beyond the ends of a part the foot of a perpendicular may lie, and how far the contact has to run on beyond
 # the tip, as shares of it
 BEYOND, _RUNS_ON = 0.02, 0.002
@@ -61,15 +61,15 @@ BEYOND, _RUNS_ON = 0.02, 0.002
 # that are not about to fold it is 0.07 and more
 _FOLD, _STILL = np.linspace(0.0, 1.0, 17)[:, None], 2e-2
 # shares of a bracket of such an end at which it is looked for
-_PARTS = np.linspace(0.0, 1.0, 9)[:, None]
+_PARTS = np.linspace(0.0, 1.0, 17)[:, None]
 # how far beside an end of undercut it is looked at, and how well that end is known then, part of the width
 _BESIDE, _ABOUT = (-1e-2, -1e-3, 1e-3, 1e-2), 1e-5
 # of pictures: points of which a few are drawn, and how near their chords are, part of the size
 _DRAWN, _SEEN = 33, 2e-4
 # the least width that is one, part of the hob's radius; how near to the widest one is found, part of it, and parts of
 # one that all but stands
-_LEAST_WIDTH, _NEAR_WIDTH = 3e-2, 5e-4
-LESS = (0.995, 0.98, 0.9, 0.7, 0.3, 0.1, 0.03)
+_LEAST_WIDTH, NEAR_WIDTH = 3e-2, 8e-4
+_LESS = (0.995, 0.98, 0.9, 0.7, 0.3, 0.1, 0.03)
 
 
 class NoTooth(Exception):
@@ -294,7 +294,7 @@ class WormTeeth(Record, dict=True):
         hob, tip = self.hob, self.tip_radius(z)
 
         def past(normal: Real) -> Real:
-            return np.abs(hob.cut(hob.round(normal), z).plane) - tip
+            return self._left_at(hob.round(normal), z) - tip
 
         low, high = np.full(len(z), hob.least_normal), np.full(len(z), math.pi / 2)
         # where flank and fillet both end at the tip there is nothing between
@@ -396,7 +396,11 @@ class WormTeeth(Record, dict=True):
 
     def _reach(self, radius: Real, heights: Real) -> Real:
         """Distance from the wheel's axis of what the flank leaves, mm; infinite from where its contact runs off on."""
-        cut = self.hob.cut(self.hob.flank(radius), heights)
+        return self._left_at(self.hob.flank(radius), heights)
+
+    def _left_at(self, points: Meridian, heights: Real) -> Real:
+        """The same of what points of the thread leave, mm."""
+        cut = self.hob.cut(points, heights)
         return np.where(cut.found & (cut.steepness < 0), np.abs(cut.plane), np.inf)
 
     def _turning(self, low: Real, high: Real, heights: Real) -> Real:
@@ -462,7 +466,8 @@ class WormTeeth(Record, dict=True):
             normal = normal - (np.conj(off) * one).imag / cross
         if not float(np.abs(off)[crosses].max(initial=0.0)) <= _MET * hob.tip_radius:
             raise NoTooth("worm_wheel_undercut")
-        return radius, normal
+        # few radii tell of a crossing just beyond the tip that it is before it
+        return np.where(radius < high, np.nan, radius), normal
 
     def flank(self, side: Side, share: Real | float) -> Cut:
         """The lower flank at shares (m, 1) from fillet (0) to tip (1), at the side's heights: (m, n)."""
@@ -522,38 +527,35 @@ class WormTeeth(Record, dict=True):
         """The same of the least width, or of their own."""
         return replace(self, width=min(self.width, _LEAST_WIDTH * self.hob.tip_radius))
 
-    def narrowed(self, *, even: bool = False) -> WormTeeth:
-        """The teeth with as much of the width as has whole ones at every height; themselves where none has.
+    def narrowed(self) -> WormTeeth:
+        """The teeth with as much of the width as has whole ones at every height; themselves where none has."""
+        return self.widest(WormTeeth.is_whole) or self
 
-        ``even``: and as has flanks that bend nowhere.
+    def widest(
+        self, stands: Callable[[WormTeeth], bool], *closer: Callable[[WormTeeth], bool], share: float = NEAR_WIDTH
+    ) -> WormTeeth | None:
+        """The same of the greatest width at which they stand, at a glance and in full or by ``closer`` looks, or None.
+
+        Each look is a closer one than that before it, and the last decides. ``share``: of it, how near it is found.
         """
-
-        return self._widest(lambda teeth: teeth.is_even if even else teeth.is_whole) or self
-
-    def _widest(self, stands: Callable[[WormTeeth], bool]) -> WormTeeth | None:
-        """The same of the greatest width at which they stand, their own or one that is found; None where none is."""
-        if stands(self):
+        looks = [lambda teeth: stands(teeth.glanced), *(closer or (stands,))]
+        if looks[-1](self):
             return self
 
-        def does(levels: int, width: float) -> bool:
-            return stands(replace(self, width=width, levels=levels, loose=True))
+        def does(look: Callable[[WormTeeth], bool], width: float) -> bool:
+            # what the last finds is looked at again by whoever takes it
+            return look(replace(self, width=width, loose=look is not looks[-1]))
 
-        least, widest = self.sliver.width, self.width
+        width, least = self.width, self.sliver.width
         ends = [least]
-        for levels in (_GLANCE, self.levels):
-            found = nearest(partial(does, levels), widest, ends, share=_NEAR_WIDTH)
-            if found is None or not isinstance(found.value, float):
-                return None
-            whole = replace(self, width=found.value)
-            if levels == self.levels or stands(whole):
-                return whole
-            widest = found.value
-            ends = [*(width for share in LESS if (width := share * widest) > least), least]
-        return None
-
-    def standing(self) -> WormTeeth | None:
-        """The teeth with as much of the width as has some at every height; None where that is next to nothing."""
-        return self._widest(lambda teeth: teeth.ended is None)
+        for look in looks:
+            if not does(look, width):
+                found = nearest(partial(does, look), width, ends, share=share)
+                if found is None or not isinstance(found.value, float):
+                    return None
+                width = found.value
+            ends = [*(less for part in _LESS if (less := part * width) > least), least]
+        return replace(self, width=width)
 
     def checked(self) -> WormTeeth:
         """The teeth themselves, where some of them is left at every height.
@@ -568,7 +570,7 @@ class WormTeeth(Record, dict=True):
             return self
 
         def cure() -> Nearest | None:
-            found = self.standing()
+            found = self.widest(WormTeeth.stands)
             return limit(found.width, self.width) if found else None
 
         raise ParameterError("face_width", self.width, self.ended, cure)
@@ -595,7 +597,10 @@ class WormTeeth(Record, dict=True):
             return "worm_wheel_pointed"
         return "worm_wheel_all_fillet" if bool(self._plain_levels.all_fillet.any()) else None
 
-    @property
+    def stands(self) -> bool:
+        """Whether some of every tooth is left at every height."""
+        return self.ended is None
+
     def is_whole(self) -> bool:
         """Whether every tooth has a tip and a flank at every height, the flank not of next to nothing."""
         if self.lessened is not None:
@@ -609,10 +614,13 @@ class WormTeeth(Record, dict=True):
         """Whether flanks run over the base circle of an involute worm, below which it is radial: they bend there."""
         return self._torn is None and bool(self._plain_levels.outer.min() < self.hob.worm.flank.least_radius)
 
-    @property
+    def is_smooth(self) -> bool:
+        """Whether some of every tooth is left and its flanks bend nowhere."""
+        return self.stands() and not self.is_creased
+
     def is_even(self) -> bool:
         """Whether every tooth is whole and its flanks bend nowhere."""
-        return self.is_whole and not self.is_creased
+        return self.is_whole() and not self.is_creased
 
     @cached_property
     def _torn(self) -> str | None:
@@ -678,7 +686,7 @@ class WormTeeth(Record, dict=True):
 
         # half a turn about the middle of a tooth makes one end of the face the other
         upper = slice(len(pointed) // 2, None)
-        ends = self._crossed(left, self._levels[upper], self._plain_thickness[upper])
+        ends = [*self._turns(lambda z: left(z) <= 0, self._levels[upper], pointed[upper])]
         ends += [self.width / 2] if pointed[-1] else []
         ends = [*(-z for z in reversed(ends)), *ends]
         return tuple(zip(ends[::2], ends[1::2], strict=True))
@@ -694,17 +702,8 @@ class WormTeeth(Record, dict=True):
             border = np.where(plain.all_fillet, form, self.fillet(plain, 1.0).plane)
             return np.abs(border) - np.abs(self.flank(self._topped(plain), 1.0).plane)
 
-        return tuple(self._crossed(lambda z: beyond(self._plain(z)), self._levels, beyond(self._plain_levels)))
-
-    def _crossed(self, of: Callable[[Real], Real], levels: Real, sampled: Real) -> list[float]:
-        """Heights at which a function that is sampled at some goes through 0, mm."""
-        signs = sampled > 0
-        at = np.flatnonzero(signs[1:] != signs[:-1])
-        if not at.size:
-            return []
-        low, high = at, at + 1
-        ends = bracketed_roots(of, levels[low], levels[high], sampled[low], sampled[high], enough=self._enough)
-        return [float(end) for end in ends]
+        held = beyond(self._plain_levels) > 0
+        return self._turns(lambda z: beyond(self._plain(z)) > 0, self._levels, held)
 
     @cached_property
     def undercut_ends(self) -> tuple[float, ...]:
@@ -713,14 +712,20 @@ class WormTeeth(Record, dict=True):
 
     def _undercut_from(self, settled: float) -> tuple[float, ...]:
         """The same known that well, part of the width."""
-        z, cut = self._levels, self._looked[2] > 0
-        at = np.flatnonzero(cut[1:] != cut[:-1])
-        low, high, column = z[at], z[at + 1], np.arange(len(at))
+        return self._turns(lambda z: self._search(z)[2] > 0, self._levels, self._looked[2] > 0, settled)
+
+    def _turns(
+        self, holds: Callable[[Real], NDArray[np.bool_]], levels: Real, held: NDArray[np.bool_], settled: float = 0.0
+    ) -> tuple[float, ...]:
+        """Heights at which what is ``held`` at some turns over, known to a part of the width, mm."""
+        settled = settled or (_NEARLY if self.loose else _CLOSE)
+        at = np.flatnonzero(held[1:] != held[:-1])
+        low, high, column = levels[at], levels[at + 1], np.arange(len(at))
         while (high - low > settled * self.width).any():
             places = low + (high - low) * _PARTS
-            same = (self._search(places.ravel())[2] > 0).reshape(places.shape) == cut[at]
+            same = holds(places.ravel()).reshape(places.shape) == held[at]
             # the first that is otherwise, and the one before it
-            k = np.where(same.all(axis=0), len(_PARTS) - 1, same.argmin(axis=0))
+            k = np.where(same.all(axis=0), len(_PARTS) - 1, np.maximum(same.argmin(axis=0), 1))
             low, high = places[k - 1, column], places[k, column]
         return tuple(((low + high) / 2).tolist())
 

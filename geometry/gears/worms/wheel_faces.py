@@ -8,7 +8,7 @@ Poles interpolate the exact envelope at Greville's places; the error is that of 
 from __future__ import annotations
 
 import cmath
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache, partial
 from itertools import pairwise
 
@@ -17,14 +17,13 @@ import numpy as np
 from geometry.approximation.outline import CadCurve, Outline
 from geometry.approximation.tensor import clamped, greville, tensor_poles
 from geometry.base.errors import ConvergenceError, GeometryError
-from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline, basis_matrix
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.worms.hob import Cut
-from geometry.gears.worms.wheel import LESS, NoTooth, WormTeeth
+from geometry.gears.worms.wheel import NEAR_WIDTH, NoTooth, WormTeeth
 from geometry.gears.worms.wheel_measures import FILLET, FLANK, WormWheel
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile
@@ -47,8 +46,6 @@ _WANTED, _ENOUGH = 1e-6, (12, 48)
 _CLOSER = 2
 # so many spans are one more when they are too few
 _SLOW = 6
-# how near to the widest that splines follow one is found, part of it
-_NEARLY = 8e-4
 # of the curves of a ring
 _ROOT, _TIP = 0, 3
 # where between two places of interpolation errors are greatest
@@ -110,37 +107,35 @@ def wheel_splines(wheel: WormWheel, tolerance: float) -> WheelSplines:
 
 # what a refusal offers is asked for again by whoever judges the offer
 @lru_cache(maxsize=4)
-def fitting(teeth: WormTeeth) -> WormTeeth | None:
-    """The widest narrower teeth, themselves first, that splines come near; or None."""
-    if is_fitting(teeth):
-        return teeth
+def fitting(
+    teeth: WormTeeth, stands: Callable[[WormTeeth], bool] = WormTeeth.is_smooth, share: float = NEAR_WIDTH
+) -> WormTeeth | None:
+    """The widest narrower teeth, to a share, themselves first, that stand and that splines come near; or None."""
 
-    def follows(width: float) -> bool:
-        narrower = replace(teeth, width=width, loose=True)
-        # of what bends splines follow next to nothing
-        return narrower.ended is None and not narrower.is_creased and is_fitting(narrower)
-
-    least = teeth.sliver.width
-    ends = [*(width for share in LESS if (width := share * teeth.width) > least), least]
-    found = nearest(follows, teeth.width, ends, share=_NEARLY)
-    return replace(teeth, width=found.value) if found and isinstance(found.value, float) else None
+    looks: list[Callable[[WormTeeth], bool]] = [
+        lambda narrower: stands(narrower.tried),
+        lambda narrower: is_fitting(narrower.tried, outermost=True),
+        lambda narrower: stands(narrower) and is_fitting(narrower),
+    ]
+    return teeth.widest(stands, *looks, share=share)
 
 
 @lru_cache(maxsize=16)
-def is_fitting(teeth: WormTeeth) -> bool:
-    """Whether teeth stand over their whole width, and splines come near."""
+def is_fitting(teeth: WormTeeth, *, outermost: bool = False) -> bool:
+    """Whether teeth stand over their whole width, and splines come near; ``outermost``: at their ends at least."""
     try:
-        return teeth.ended is None and _are_followed(teeth)
+        return teeth.stands() and _are_followed(teeth, outermost=outermost)
     except (GeometryError, NoTooth):
         return False
 
 
-def _are_followed(teeth: WormTeeth) -> bool:
+def _are_followed(teeth: WormTeeth, *, outermost: bool) -> bool:
     """Whether somewhat less than the most spans come as near as files want."""
     least = _ROUNDING * teeth.outer_radius
     target, edges = max(_SHARE * _WANTED / _MARGIN, least), max(_EDGES, least)
     # the outermost ones bend the most
-    for band in sorted(pairwise(teeth.breaks), key=lambda band: -abs(sum(band))):
+    bands = sorted(pairwise(teeth.breaks), key=lambda band: -abs(sum(band)))
+    for band in bands[:2] if outermost else bands:
         for part in (FILLET, FLANK) if _has_flank(teeth, band) else (FILLET,):
             for spans in _ENOUGH:
                 away, edge = _along(teeth, part, band, spans)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct, field
@@ -12,7 +10,6 @@ from msgspec.structs import replace as changed
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
 from geometry.base.findings import Finding
-from geometry.base.nearest import kept, nearest
 from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
@@ -31,10 +28,10 @@ from parts.keys.worm import (
     WormAngle,
     WormHand,
     WormQuotient,
+    cured,
     in_degrees,
-    larger_quotients,
     quotient_of,
-    smaller_angles,
+    ways_out,
     worm_of,
 )  # fmt: skip
 
@@ -47,13 +44,8 @@ if TYPE_CHECKING:
     from geometry.solids.sketch import Sketch
 
 _MOST = 100_000.0
-# addenda that are tried first: lower ones leave a rounding no room, of higher ones grinding wheels leave no foot
-_LOWER = (1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.05, 0.02)
-# keys of which less may do, and parts of theirs that are tried
-_LESSENED, _LESS = (
-    ("tip_rounding", "axial_thinning", "fillet_coefficient", "tip_clearance_coefficient"),
-    (0.9, 0.75, 0.5, 0.25, 0.1, 0.0),
-)
+# keys of which less may do
+_LESSENED = ("tip_rounding", "axial_thinning", "fillet_coefficient", "tip_clearance_coefficient")
 # of the ends of a thread, degrees
 _USUAL_ANGLES = {"end_angle_deg": 20.0, "run_out_deg": 90.0}
 
@@ -149,12 +141,12 @@ def told_worm(keys: WormSpec) -> WormSpec:
 
 
 def _made(keys: WormSpec) -> WormBody:
-    """The worm's solid, checked to exist."""
+    """The solid of a worm with a quotient, checked to exist."""
     from geometry.gears.worms.body import Step, WormBody
     from geometry.gears.worms.thread import thread_of
 
     _check_ends(keys)
-    thread = thread_of(worm_of(told_worm(keys), keys.fillet_coefficient, keys.axial_thinning), keys.tip_rounding)
+    thread = thread_of(worm_of(keys, keys.fillet_coefficient, keys.axial_thinning), keys.tip_rounding)
     root = thread.worm.root_radius
     holes = hub_holes(bore_of(keys), None, None)
     if holes.bore is not None:
@@ -169,50 +161,6 @@ def _made(keys: WormSpec) -> WormBody:
     bore = bores[0] if bores else None
     body = WormBody(thread, keys.thread_length, angle, below, above, bore, keys.thread_ends, run_out)
     return body.checked()
-
-
-def _with(keys: WormSpec, key: str, value: float) -> WormSpec:
-    """The same keys but for one; a quotient stands in place of a lead angle."""
-    changes: dict[str, float | None] = {key: value}
-    return changed(keys, **(changes | {"lead_angle_deg": None} if key == "diameter_quotient" else changes))
-
-
-def _values(keys: WormSpec) -> dict[str, Sequence[float]]:
-    """Keys that may take the thread away, and values of each, less and less wrong."""
-    lessened: dict[str, Sequence[float]] = {
-        key: [share * given for share in _LESS] for key in _LESSENED if (given := getattr(keys, key))
-    }
-    return {
-        **lessened,
-        "addendum_coefficient": [value for value in _LOWER if value < keys.addendum_coefficient],
-        "diameter_quotient": larger_quotients(quotient_of(keys)),
-        "pressure_angle_deg": smaller_angles(keys.pressure_angle_deg),
-        "number_of_starts": range(keys.number_of_starts - 1, 0, -1),
-    }
-
-
-def _cured(keys: WormSpec, refusal: ParameterError) -> ParameterError:
-    """A refusal of the thread in a key that alone leaves the whole worm, its own the first, with its nearest value."""
-    if refusal.name not in (values := _values(keys)) or refusal.code == "either_key":
-        return refusal
-    own = refusal.nearest
-    for key in dict.fromkeys((refusal.name, *values)):
-        given = quotient_of(keys) if key == "diameter_quotient" else getattr(keys, key)
-        start, tried = given, values[key]
-
-        def works(value: float, key: str = key) -> bool:
-            return _made(_with(keys, key, value)) is not None
-
-        if key == refusal.name and own is not None and isinstance(own.value, int | float):
-            if kept(works, start := own.value):
-                return in_degrees(refusal, keys)
-            # from its own limit on
-            tried = larger_quotients(start) if key == "diameter_quotient" else [end for end in tried if end < start]
-        least = next((k for k, value in enumerate(tried) if kept(works, value)), None)
-        if least is not None:
-            cure = partial(nearest, works, tried[least - 1] if least else start, tried[least])
-            return in_degrees(ParameterError(key, given, refusal.code, cure, **refusal.numbers), keys)
-    return in_degrees(refusal, keys)
 
 
 def _check_shaft(keys: WormSpec, root: float) -> None:
@@ -260,10 +208,12 @@ class WormKind(Kind[WormSpec, "WormBody"]):
 
     def thing(self, keys: WormSpec, others: Others) -> WormBody:
         """The worm's solid, checked to exist."""
+        told = told_worm(keys)
         try:
-            return _made(keys)
+            return _made(told)
         except ParameterError as refusal:
-            raise _cured(keys, refusal) from refusal
+            found = cured(refusal, told, ways_out(told, _LESSENED), [lambda worm: _made(worm) is not None])
+            raise in_degrees(found, keys) from refusal
 
     def section(self, keys: WormSpec, thing: WormBody, offset: float) -> OffsetRegion:
         """The section across the axis in the middle of the thread."""

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
-from msgspec.structs import replace as changed
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
-from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record, replace
 from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
@@ -34,10 +30,9 @@ from parts.keys.worm import (
     WheelShift,
     WormAngle,
     WormHand,
+    cured,
     hob_quotient,
-    larger_quotients,
-    smaller_angles,
-    wider,
+    ways_out,
     worm_of,
 )  # fmt: skip
 
@@ -58,18 +53,10 @@ _LEAST_TEETH = 8
 _SEEN = 33
 # part of the usual width that a wheel is of use with; its tip in the middle, modules
 _USEFUL, _TIP = 0.25, 0.02
-# addenda that are tried, and that leave next to nothing, modules
-_ADDENDA, _LOW = (0.8, 0.6, 0.4, 0.2, 0.1), (0.05, 0.02)
-# parts of a shift that are tried
-_LESS_SHIFT = (0.75, 0.5, 0.25, 0.0)
-# keys in whose refusals others may take the teeth away as well
-_TEETH = (
-    "addendum_coefficient",
-    "axial_thinning",
-    "hob_rounding_coefficient",
-    "number_of_starts",
-    "tip_clearance_coefficient",
-)
+# how near to the widest a default width is, part of it
+_NEAR = 5e-3
+# more teeth that are tried
+_MORE_TEETH = (1.1, 1.25, 1.5, 2.0, 3.0)
 # an outside is reached that near, mm; below so many degrees a corner is sharp: a throat wraps a third of the worm
 _REACHED, _SHARP = 1e-3, 29.9
 
@@ -164,132 +151,73 @@ def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
 
 
 def _of_use(keys: WormWheelSpec) -> bool:
-    """Whether teeth are whole, of some thickness, and bend nowhere over a part of the width that is of use.
-
-    Where a width is asked for, whether they stand over all of it.
-    """
+    """Whether teeth are whole, of some thickness, and bend nowhere over a part of the width that is of use."""
     if keys.face_width is not None:
-        return _stands(keys)
+        return True
     teeth = _asked_teeth(keys, drive_of(keys)).glanced
     teeth = replace(teeth, width=_USEFUL * teeth.width)
     # what is not whole anywhere has no tip to ask for
-    return teeth.is_even and float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0]) > _TIP * keys.module
+    return teeth.is_even() and float((teeth.thickness(0.0) * teeth.tip_radius(0.0))[0]) > _TIP * keys.module
 
 
-def _stands(keys: WormWheelSpec) -> bool:
-    """Whether some width has whole teeth that bend nowhere, or all of one that is asked for has any, at a glance."""
-    teeth = _asked_teeth(keys, drive_of(keys)).glanced
-    return not teeth.sliver.is_creased if keys.face_width is None else teeth.ended is None
+def _least(keys: WormWheelSpec) -> WormTeeth:
+    """The teeth of the least width, or of the one that is asked for."""
+    teeth = _asked_teeth(keys, drive_of(keys))
+    return teeth.sliver if keys.face_width is None else teeth
+
+
+def _is_seen(keys: WormWheelSpec) -> bool:
+    """Whether there are such teeth at a glance, which bend nowhere by default, and splines follow their ends."""
+    from geometry.gears.worms.wheel_faces import is_fitting
+
+    least = _least(keys)
+    glanced = least.glanced
+    stands = glanced.is_smooth() if keys.face_width is None else glanced.stands()
+    return stands and is_fitting(least.tried, outermost=True)
 
 
 def _is_made(keys: WormWheelSpec) -> bool:
-    """Whether there are teeth of some width, or of the one that is asked for, that splines follow."""
+    """Whether there are such teeth, and splines follow all of them."""
     from geometry.gears.worms.wheel_faces import is_fitting
 
-    teeth = _asked_teeth(keys, drive_of(keys)).tried
-    if keys.face_width is not None:
-        return is_fitting(teeth)
-    return not teeth.sliver.is_creased and is_fitting(teeth.sliver)
+    return is_fitting(_least(keys))
 
 
 def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     """The teeth of the whole width, or where none is given of as much of it as has some."""
+    from geometry.gears.worms.wheel import WormTeeth
     from geometry.gears.worms.wheel_faces import fitting, is_fitting
 
+    def narrower() -> Nearest | None:
+        found = fitting(teeth, WormTeeth.stands)
+        return limit(found.width, teeth.width) if found else None
+
     teeth = _asked_teeth(keys, drive)
+    least = teeth.sliver
     if keys.face_width is None:
-        even = teeth.narrowed(even=True)
-        whole = even if even.is_even and even.width >= _USEFUL * teeth.width else teeth.narrowed()
-        # faces may break off where none of the known ends is
-        found = fitting(whole)
+        even = fitting(teeth, WormTeeth.is_even, _NEAR)
+        if even is not None and even.width >= _USEFUL * teeth.width:
+            return even
+        found = fitting(teeth, WormTeeth.is_whole, _NEAR) or fitting(teeth, WormTeeth.is_smooth, _NEAR)
         if found is not None:
             return found
-        code = "worm_wheel_below_base" if whole.is_creased else "worm_wheel_faces_break"
-        raise ParameterError("addendum_coefficient", keys.addendum_coefficient, code)
-    try:
-        teeth = teeth.checked()
-    except ParameterError as wide:
-        raise ParameterError(wide.name, wide.value, wide.code, partial(_narrower, teeth)) from wide
-    if is_fitting(teeth):
+    elif is_fitting(teeth):
         return teeth
-    if teeth.is_creased and fitting(teeth) is None:
-        raise ParameterError("addendum_coefficient", keys.addendum_coefficient, "worm_wheel_below_base")
-    raise ParameterError("face_width", teeth.width, "worm_wheel_faces_break", partial(_narrower, teeth))
-
-
-def _narrower(teeth: WormTeeth) -> Nearest | None:
-    """The widest of their faces that stands and that splines follow."""
-    from geometry.gears.worms.wheel_faces import fitting
-
-    standing = teeth.standing()
-    found = standing and fitting(standing)
-    return limit(found.width, teeth.width) if found else None
-
-
-def _left_by(keys: WormWheelSpec, does: Callable[[WormWheelSpec], bool], key: str) -> Callable[[float], bool]:
-    """Whether a margin holds of the same keys but for one."""
-    return lambda value: does(changed(keys, **{key: value}))
-
-
-def _toothless(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
-    """No tooth is left that splines follow: in the key that takes it away, with the value that leaves some."""
-
-    def cure() -> Nearest | None:
-        # all others are told to a share of their own
-        near = NEAR if key == "profile_shift_coefficient" else 0.0
-        made = _left_by(keys, _is_made, key)
-        found = nearest(_left_by(keys, _stands, key), given, ends, enough=near, share=NEAR)
-        if found is None or not isinstance(found.value, int | float) or kept(made, found.value):
-            return found
-        # splines do not follow some that run all but along the contact's way to infinity
-        less = _LOW if key == "addendum_coefficient" else ()
-        beyond = [end for end in (*ends, *less) if (end - found.value) * (found.value - given) > 0]
-        return nearest(made, found.value, beyond, enough=near, share=NEAR)
-
-    for does, key, values in _suspects(keys, refusal):
-        margins = [_left_by(keys, holds, key) for holds in (does, _is_made)]
-        least = next((k for k, value in enumerate(values) if all(kept(holds, value) for holds in margins)), None)
-        if least is not None:
-            ends, given = values[least:], getattr(keys, key)
-            return ParameterError(key, given, refusal.code, cure)
-    return refusal
-
-
-def _suspects(
-    keys: WormWheelSpec, refusal: ParameterError
-) -> Iterator[tuple[Callable[[WormWheelSpec], bool], str, Sequence[float]]]:
-    """Margins, keys that may take the teeth away, the least missed first, and values of each, less and less wrong."""
-    quotient, larger = keys.diameter_quotient, keys.hob_diameter_quotient or 0.0
-    if keys.axial_thinning:
-        yield _of_use, "axial_thinning", (0.0,)
-    elif refusal.name == "hob_rounding_coefficient" and (found := refusal.nearest) and isinstance(found.value, float):
-        yield _is_made, refusal.name, (found.value, found.value / 2, 0.0)
-    if keys.profile_shift_coefficient:
-        yield _of_use, "profile_shift_coefficient", (0.0,)
-    yield _of_use, "addendum_coefficient", _ADDENDA
-    if larger > quotient:
-        yield _stands, "hob_diameter_quotient", (quotient,)
-    # teeth of less than is of use are more than none
-    yield _stands, "addendum_coefficient", _ADDENDA[-1:]
-    yield _of_use, "diameter_quotient", larger_quotients(quotient, larger if larger > quotient else math.inf)
-    yield _stands, "number_of_starts", range(keys.number_of_starts - 1, 0, -1)
-    yield _stands, "addendum_coefficient", (*_ADDENDA, *_LOW)
-    if shift := keys.profile_shift_coefficient:
-        yield _stands, "profile_shift_coefficient", [share * shift for share in _LESS_SHIFT]
-    yield _stands, "pressure_angle_deg", smaller_angles(keys.pressure_angle_deg)
+    elif is_fitting(least.tried):
+        raise ParameterError("face_width", teeth.width, teeth.ended or "worm_wheel_faces_break", narrower)
+    code = "worm_wheel_below_base" if least.is_creased else least.ended or "worm_wheel_faces_break"
+    raise ParameterError("addendum_coefficient", keys.addendum_coefficient, code)
 
 
 def _cured(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
-    """A refusal of worm, hob or teeth with the value that leaves a wheel."""
-
-    if refusal.name in _TEETH:
-        return _toothless(keys, refusal)
-    does, stands = (_left_by(keys, margin, "diameter_quotient") for margin in (_stands, _is_made))
-    most = keys.hob_diameter_quotient or math.inf
-    quotients = larger_quotients(keys.diameter_quotient, most) if refusal.name == "diameter_quotient" else ()
-    if quotients and not any(kept(does, quotient) for quotient in reversed(quotients)):
-        return _toothless(keys, refusal)
-    return wider(refusal, does, stands, most)
+    """A refusal of worm, hob or teeth in the key and with the value that leaves a wheel."""
+    quotient, hob = keys.diameter_quotient, keys.hob_diameter_quotient or math.inf
+    less = ("axial_thinning", "profile_shift_coefficient"), ("hob_rounding_coefficient", "tip_clearance_coefficient")
+    ways = ways_out(keys, *less, hob)
+    if quotient < hob < math.inf:
+        ways = {"hob_diameter_quotient": (quotient,), **ways}
+    ways["number_of_teeth"] = [round(share * keys.number_of_teeth) for share in _MORE_TEETH]
+    return cured(refusal, keys, ways, (_is_seen, _is_made), _of_use, NEAR)
 
 
 def _about(keys: WormWheelSpec, drive: WormDrive, teeth: WormTeeth) -> WheelThing:

@@ -35,12 +35,17 @@ def _depth(teeth: WormTeeth, height: float, more: float = 0.0, out: float = 0.0)
     """
     hob, worm = replace(teeth.hob, tip_radius=teeth.hob.tip_radius + more), teeth.hob.worm
     side, shares = teeth.side(np.array([height])), np.linspace(0.0, 1.0, 7)[:, None]
-    points = np.concatenate([teeth.fillet(side, shares).plane, teeth.flank(side, shares).plane])
+    cuts = [teeth.fillet(side, shares), teeth.flank(side, shares)]
+    points = np.concatenate([cut.plane for cut in cuts])
     reach = 2 * float(np.abs(points).max())
-    slid = np.linspace(-reach, reach, 3001)
+    near = np.concatenate([cut.slid for cut in cuts]) + reach * np.linspace(-0.01, 0.01, 21)
+    slid = np.concatenate([np.linspace(-reach, reach, 3001), near.ravel()])
     angle = (math.pi - worm.number_of_starts / worm.parameter * slid) / teeth.number_of_teeth
     turned = points * np.exp(1j * angle)
-    x, y, z = hob.centre_distance + out - turned.real, -height, -turned.imag
+    # the hob's axis is swivelled about the line of centres
+    sine, cosine = math.sin(hob.swivel), math.cos(hob.swivel)
+    x, y = hob.centre_distance + out - turned.real, -height * cosine - turned.imag * sine
+    z = height * sine - turned.imag * cosine
     radius = np.hypot(x, y)
     corner = np.sqrt(np.maximum(hob.rounding**2 - np.maximum(radius - hob.tip_radius + hob.rounding, 0.0) ** 2, 0.0))
     flank = worm.half_thickness(np.clip(radius, max(worm.flank.least_radius, 1e-6), hob.form_radius))
@@ -170,7 +175,7 @@ def test_a_face_that_no_hob_reaches_is_told_the_widest_that_stands() -> None:
     [
         # before: nothing was offered, since the widest stood by rounding, or splines followed a tenth of it
         pytest.param({"form": "ZK1", "module": 5.0, "number_of_starts": 7, "diameter_quotient": 12.231,
-          "number_of_teeth": 14, "hob_diameter_quotient": 12.897, "face_width": 73.11}, 43.0, 46.0,
+          "number_of_teeth": 14, "hob_diameter_quotient": 12.897, "face_width": 73.11}, 55.0, 57.0,
           marks=pytest.mark.heavy),
         ({"module": 1.0, "number_of_starts": 4, "diameter_quotient": 6.49, "number_of_teeth": 17, "face_width": 8.72},
           1.2, 1.3),
@@ -256,6 +261,18 @@ def test_what_no_addendum_cures_is_told_in_the_key_that_does(
         ({"module": 12.915, "number_of_starts": 6, "diameter_quotient": 11.226, "form": "ZA", "number_of_teeth": 8,
           "profile_shift_coefficient": -1.467, "axial_thinning": 6.983, "hob_diameter_quotient": 13.149},
          "profile_shift_coefficient"),
+        # before: an addendum that nobody gave, since the hob's threads are thinned too
+        ({"module": 5.226, "number_of_starts": 2, "diameter_quotient": 47.302, "form": "ZA", "number_of_teeth": 291,
+          "pressure_angle_deg": 23.69, "profile_shift_coefficient": 0.748, "axial_thinning": 0.1478,
+          "hob_rounding_coefficient": 0.444}, "hob_rounding_coefficient"),
+        # before: no value, since no face is narrow enough; and what ends of a face allow all of it does not
+        ({"module": 1.348, "diameter_quotient": 2.612, "number_of_teeth": 187, "pressure_angle_deg": 14.1,
+          "face_width": 6.223}, "diameter_quotient"),
+        # before: no value, since no lesser hob leaves a face that splines follow
+        ({"module": 10.235, "number_of_starts": 5, "diameter_quotient": 3.115, "form": "ZN2", "number_of_teeth": 281,
+          "pressure_angle_deg": 13.64, "addendum_coefficient": 0.786, "tip_clearance_coefficient": 0.492,
+          "profile_shift_coefficient": 1.578, "hob_diameter_quotient": 3.354, "face_width": 17.034},
+         "diameter_quotient"),
     ],
 )  # fmt: skip
 def test_beyond_what_is_offered_nothing_is_made(keys: dict[str, Any], key: str) -> None:
@@ -267,11 +284,36 @@ def test_beyond_what_is_offered_nothing_is_made(keys: dict[str, Any], key: str) 
     assert isinstance(offered.value, float)
     spec = WormWheelSpec(**keys | {key: offered.value})
     told = [finding.code for finding in WORM_WHEEL.report(spec, WORM_WHEEL.thing(spec, {})).findings]
-    # all but nothing of the usual width is left at the very edge
-    assert ("worm_wheel_narrow" in told) == ("face_width" not in keys | {key: 0.0})
+    if "face_width" in keys | {key: 0.0}:
+        assert "worm_wheel_narrow" not in told
+    elif key != "hob_rounding_coefficient":
+        # all but nothing of the usual width is left at the very edge, or of the flanks
+        assert {"worm_wheel_narrow", "worm_wheel_no_flank"} & {*told}
     step = max(1e-3 * offered.value, 1e-3) * (1 if offered.side == "at_most" else -1)
     with pytest.raises(SceneError):
         _built(keys | {key: offered.value + step})
+
+
+# before: widths of 3.4218, 0.8041 and 1.4838 at most, since fillets that run off beyond the tip were followed to where
+# they come back, and crossings just beyond the tip were taken for ones before it
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"module": 0.206, "number_of_starts": 5, "diameter_quotient": 17.777, "form": "ZN1", "number_of_teeth": 29,
+         "addendum_coefficient": 1.441, "axial_thinning": 0.0087, "profile_shift_coefficient": -0.385,
+         "hob_diameter_quotient": 22.568, "face_width": 3.6},
+        {"module": 0.611, "number_of_starts": 8, "diameter_quotient": 7.454, "form": "ZA", "number_of_teeth": 25,
+         "hand": "left", "pressure_angle_deg": 23.26, "tip_clearance_coefficient": 0.065, "axial_thinning": 0.0467,
+         "profile_shift_coefficient": -1.487, "hob_diameter_quotient": 7.941, "face_width": 2.216},
+        {"module": 0.442, "number_of_starts": 5, "diameter_quotient": 4.925, "form": "ZN2", "number_of_teeth": 53,
+         "profile_shift_coefficient": -1.127, "hob_diameter_quotient": 5.281, "face_width": 1.8},
+    ],
+)  # fmt: skip
+def test_fillets_of_larger_hobs_end_at_the_tip(keys: dict[str, Any]) -> None:
+    teeth = _built(keys).teeth
+    assert any(abs(end) < teeth.width / 2 for end in teeth.flank_ends)
+    for height in np.linspace(-teeth.width / 2, teeth.width / 2, 9):
+        assert _depth(teeth, float(height)) < _ROUNDING
 
 
 def test_ends_that_rounding_tells_apart_are_one() -> None:
