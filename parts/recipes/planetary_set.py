@@ -20,12 +20,15 @@ from geometry.base.record import Record
 from geometry.base.tolerance import PLACED_MM
 from geometry.gears.planetary.assembly import Satellites, given_set, least_angle
 from geometry.gears.planetary.fitting import Fitting
-from geometry.gears.planetary.sets import LINKS, SCHEMES, PlanetarySet, ratio_of
+from geometry.gears.planetary.sets import LINKS, SCHEMES, PlanetarySet, Scheme, ratio_of
 from geometry.gears.shifts.external import Requirements
 from geometry.gears.teeth.basic_rack import ISO_53_ANGLE, iso_53
+from geometry.gears.teeth.helix import Hand
+from geometry.gears.teeth.transverse import transverse_angle
 from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
 from parts.keys.base import degrees, mm
+from parts.keys.helix import HelixAngle
 from parts.keys.mate import further
 from parts.recipes.making import made_of
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
@@ -88,6 +91,8 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     normal_backlash: Annotated[float, mm("normal backlash of both meshes", least=0, most=100, example=0.1)] | None = (
         None
     )
+    helix_angle_deg: HelixAngle = 0.0
+    hand: Annotated[Literal["right", "left"], Meta(description="hand of wheel 1; of the others as they mesh")] = "right"
     driver: Annotated[
         Literal["first", "second", "carrier", "none"],
         Meta(description="what is driven: wheel 1, wheel 3, the carrier, or none of them here"),
@@ -129,6 +134,7 @@ class _Wheel(Record):
     shift: float
     is_ring: bool
     height: float
+    hand: Hand = "right"
 
 
 class _Set(Record):
@@ -180,6 +186,7 @@ class PlanetarySetRecipe(Recipe[PlanetarySetKeys]):
             found.origins[f"{path}.number_of_teeth"] = f"teeth[{wheel.item}]"
             found.origins[f"{path}.module"] = "module"
             found.origins[f"{path}.face_width"] = "face_width"
+            found.origins[f"{path}.helix_angle_deg"] = "helix_angle_deg"
             if keys.shifts is not None:
                 found.origins[f"{path}.profile_shift_coefficient"] = f"shifts[{wheel.item}]"
         _add_meshes(made, found)
@@ -200,7 +207,8 @@ def _settled(keys: PlanetarySetKeys) -> _Set:
     if keys.second_module is not None and not scheme.double:
         raise ParameterError("second_module", keys.second_module, "one_rim_one_module")
     modules = keys.module, keys.second_module or keys.module
-    one = given_set(scheme, keys.teeth, (Fraction(str(modules[0])), Fraction(str(modules[1]))))
+    cosine = Fraction(math.cos(math.radians(keys.helix_angle_deg)))
+    one = given_set(scheme, keys.teeth, (Fraction(str(modules[0])), Fraction(str(modules[1]))), cosine)
     if one.carried_ratio == 1:
         raise ParameterError("teeth", keys.teeth, "transmits_nothing")
     places = Satellites(keys.satellites, keys.spacing, keys.identical).places(one)
@@ -210,21 +218,30 @@ def _settled(keys: PlanetarySetKeys) -> _Set:
     items = (1, 2, 3, 4) if scheme.double else (1, 2, 2, 3)
     rings = scheme.internal[0], False, False, scheme.internal[1]
     columns = zip(_WHEELS[keys.scheme], items, one.teeth, (modules[0],) * 2 + (modules[1],) * 2, shifts, rings, heights,
-                  strict=True)  # fmt: skip
+                  _hands(keys, scheme), strict=True)  # fmt: skip
     first, rim, second_rim, last = (_Wheel(*column) for column in columns)
     return _Set(keys, one.carried_ratio, (first, rim, second_rim, last), distance, places)
+
+
+def _hands(keys: PlanetarySetKeys, scheme: Scheme) -> tuple[Hand, Hand, Hand, Hand]:
+    """Of wheels 1, 2, 2', 3: both rims of a satellite alike, mates opposite, a ring as its rim."""
+    other: dict[Hand, Hand] = {"right": "left", "left": "right"}
+    first: Hand = keys.hand if keys.helix_angle_deg >= 0 else other[keys.hand]
+    rim = first if scheme.internal[0] else other[first]
+    return first, rim, rim, rim if scheme.internal[1] else other[rim]
 
 
 def _fitted(
     keys: PlanetarySetKeys, one: PlanetarySet, places: tuple[Fraction, ...]
 ) -> tuple[float, tuple[float, float, float, float]]:
     """Distance and shifts as ``calc planetary`` chooses them."""
-    fitting = Fitting(iso_53("A"), _WISH, least_angle(places), 0.0, keys.working_centre_distance)
+    beta = abs(math.radians(keys.helix_angle_deg))
+    fitting = Fitting(iso_53("A"), _WISH, least_angle(places), 0.0, keys.working_centre_distance, beta)
     fit = fitting.fit(one)
     if fit is None:
         one_distance, other = (float(d) for d in one.distances)
         raise ParameterError("teeth", keys.teeth, "no_shifts_fit", first=one_distance, second=other)
-    return fit.distance, fit.shifts
+    return fit.distance, fit.normal_shifts
 
 
 def _given_shifts(keys: PlanetarySetKeys, one: PlanetarySet) -> tuple[float, tuple[float, float, float, float]]:
@@ -235,12 +252,12 @@ def _given_shifts(keys: PlanetarySetKeys, one: PlanetarySet) -> tuple[float, tup
     x1, x2, *rest = given
     shifts = (x1, x2, rest[0] if one.scheme.double else x2, rest[-1])
     found = []
-    for span, module, total in zip(one.spans, one.modules, _totals(one, shifts), strict=True):
-        value = involute_function(ISO_53_ANGLE) + 2 * math.tan(ISO_53_ANGLE) * total / span
+    angle = transverse_angle(ISO_53_ANGLE, math.radians(keys.helix_angle_deg))
+    for span, reference, total in zip(one.spans, one.distances, _totals(one, shifts), strict=True):
+        value = involute_function(angle) + 2 * math.tan(ISO_53_ANGLE) * total / span
         if value < 0:
             raise ParameterError("shifts", given, "shifts_leave_no_angle")
-        working = inverse_involute(value)
-        found.append(float(module) * span * math.cos(ISO_53_ANGLE) / (2 * math.cos(working)))
+        found.append(float(reference) * math.cos(angle) / math.cos(inverse_involute(value)))
     if keys.working_centre_distance is not None:
         return keys.working_centre_distance, shifts
     if abs(found[0] - found[1]) > PLACED_MM:
@@ -264,6 +281,8 @@ def _wheel_part(made: _Set, wheel: _Wheel) -> Table:
         "profile_shift_coefficient": wheel.shift,
         "face_width": keys.face_width,
     }
+    if keys.helix_angle_deg:
+        table |= {"helix_angle_deg": abs(keys.helix_angle_deg), "hand": wheel.hand}
     if wheel.is_ring and keys.frame:
         screws, outside = _rim(made, wheel)
         holes = {"count": 4, "diameter": _SCREW, "start_deg": 45.0, "pitch_circle_diameter": 2 * screws}
@@ -285,8 +304,9 @@ def _rim(made: _Set, ring: _Wheel) -> tuple[float, float]:
 
     Feet stand there, out of the way of a satellite's larger rim below the ring.
     """
-    root = math.ceil(2 * ring.module * (ring.teeth / 2 + 1.25 + ring.shift)) / 2
-    passed = made.distance + max(w.module * (w.teeth / 2 + 1 + w.shift) for w in made.wheels[1:3])
+    cosine = math.cos(math.radians(made.keys.helix_angle_deg))
+    root = math.ceil(2 * ring.module * (ring.teeth / cosine / 2 + 1.25 + ring.shift)) / 2
+    passed = made.distance + max(w.module * (w.teeth / cosine / 2 + 1 + w.shift) for w in made.wheels[1:3])
     screws = max(root + _RIM / 2 + 1, math.ceil(2 * (passed + 1.25 * _SCREW + 1)) / 2)
     return screws, screws + _RIM / 2
 

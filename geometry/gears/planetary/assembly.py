@@ -7,15 +7,17 @@ from fractions import Fraction
 from typing import Literal
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.gears.planetary.sets import PlanetarySet, Scheme
 
 # by how much teeth are changed for a set that can be assembled
 _NEARBY = 4
 
 
-def given_set(scheme: Scheme, teeth: Sequence[int], modules: tuple[Fraction, Fraction]) -> PlanetarySet:
-    """The set of teeth z1, z2, z3, or z1, z2, z2', z3 of a scheme.
+def given_set(
+    scheme: Scheme, teeth: Sequence[int], modules: tuple[Fraction, Fraction], cosine: Fraction = Fraction(1)
+) -> PlanetarySet:
+    """The set of teeth z1, z2, z3, or z1, z2, z2', z3 of a scheme; ``cosine``: of the helix angle.
 
     Raises
     ------
@@ -26,7 +28,7 @@ def given_set(scheme: Scheme, teeth: Sequence[int], modules: tuple[Fraction, Fra
     if len(teeth) != wanted:
         raise ParameterError("teeth", list(teeth), "wheels_of_scheme", wheels=wanted)
     z1, z2, *rest = teeth
-    one = PlanetarySet(scheme, (z1, z2, rest[0] if scheme.double else z2, rest[-1]), modules)
+    one = PlanetarySet(scheme, (z1, z2, rest[0] if scheme.double else z2, rest[-1]), modules, cosine)
     for span, ring, rim in zip(one.spans, (z1, one.teeth[3]), one.teeth[1:3], strict=True):
         if span <= 0:
             raise ParameterError("teeth", list(teeth), "ring_not_above_rim", ring=ring, rim=rim)
@@ -105,4 +107,4 @@ def _coaxial(one: PlanetarySet, z1: int, z2: int, z2p: int) -> PlanetarySet | No
     (m1, m2), (inside1, inside2) = one.modules, one.scheme.internal
     span = m1 * (z1 - z2 if inside1 else z1 + z2) / m2
     z3 = span + z2p if inside2 else span - z2p
-    return PlanetarySet(one.scheme, (z1, z2, z2p, int(z3)), one.modules) if z3.denominator == 1 and z3 >= 3 else None
+    return replace(one, teeth=(z1, z2, z2p, int(z3))) if z3.denominator == 1 and z3 >= 3 else None

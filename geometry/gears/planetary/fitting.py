@@ -1,7 +1,8 @@
 """The shifts that bring both meshes of a planetary set to one centre distance, and what keeps them from working.
 
 Conditions are those of the blocking contours of external and internal pairs; rings are judged with a rounded root, so
-that no cutter decides. Lengths in mm, shifts in modules of their own mesh.
+that no cutter decides. Helical teeth are judged in their transverse section. Lengths in mm, shifts in modules of
+their own mesh, transverse ones but for ``Fit.normal_shifts``.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from geometry.gears.shifts.internal_shifts import InternalShiftPair, InternalSta
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.limits import Margin
 from geometry.gears.teeth.ring import RoundedRoot
+from geometry.gears.teeth.transverse import transverse_rack
 
 # modules: how far the distance is moved and the rims are shifted, in which steps
 _FARTHEST, _MOST_SHIFT, _STEP = 1.5, 1.0, 0.05
@@ -29,23 +31,31 @@ _ROUNDING = 1e-9
 
 
 class RimMesh(Record, dict=True):
-    """One mesh of a set: a rim of the satellite with its central wheel, a ring where it is internal."""
+    """One mesh of a set: a rim of the satellite with its central wheel, a ring where it is internal.
+
+    ``module``, mm, and ``rack`` are those of the transverse section; the helix angle in rad.
+    """
 
     central: int
     rim: int
     internal: bool
     module: float
     rack: BasicRack
+    helix_angle: float = 0.0
 
     @property
     def span(self) -> int:
         """Sum or difference of the teeth: twice the reference distance in modules."""
         return self.central - self.rim if self.internal else self.central + self.rim
 
+    @property
+    def _in_ring(self) -> InternalShiftPair:
+        return InternalShiftPair(self.rim, self.central, self.rack, RoundedRoot(), helix_angle=self.helix_angle)
+
     @cached_property
     def _pair(self) -> ShiftPair | InternalShiftPair:
         if self.internal:
-            return InternalShiftPair(self.rim, self.central, self.rack, RoundedRoot())
+            return self._in_ring
         return ShiftPair(self.rim, self.central, self.rack)
 
     def shift_total(self, distance: float) -> float | None:
@@ -98,10 +108,13 @@ class RimMesh(Record, dict=True):
         return math.ceil((self.rack.form_dedendum - self.rim * sine**2 / 2) * 1e4) / 1e4
 
     def clearing_shift(self) -> float | None:
-        """The least equal shift of rim and ring, in hundredths, that clears the ring's tips of the rim's involutes."""
-        pair = InternalShiftPair(self.rim, self.central, self.rack, RoundedRoot())
+        """The least equal shift of rim and ring that clears the ring's tips of the rim's involutes.
+
+        In hundredths of the normal module, which it is told in.
+        """
+        pair, cosine = self._in_ring, math.cos(self.helix_angle)
         tried = (k / 100 for k in range(200))
-        return next((x for x in tried if min(interferences(pair, x, x)[:2]) >= -_ROUNDING), None)
+        return next((x for x in tried if min(interferences(pair, x * cosine, x * cosine)[:2]) >= -_ROUNDING), None)
 
     @property
     def allowed_ring_addendum(self) -> float:
@@ -130,6 +143,13 @@ class Fit(Record):
         one, two = self.meshes
         return one.state(x2, x1), two.state(x2p, x3)
 
+    @property
+    def normal_shifts(self) -> tuple[float, float, float, float]:
+        """The shifts of z1, z2, z2', z3 in normal modules."""
+        cosine = math.cos(self.meshes[0].helix_angle)
+        x1, x2, x2p, x3 = (x / cosine for x in self.shifts)
+        return x1, x2, x2p, x3
+
     def broken(self) -> tuple[tuple[Margin, ...], tuple[Margin, ...]]:
         """The conditions that each mesh does not keep, and with the first the neighbours' gap."""
         x1, x2, x2p, x3 = self.shifts
@@ -150,7 +170,7 @@ class Fit(Record):
 
 
 class Fitting(Record):
-    """How a set is fitted: the rack, what its meshes keep, the distance that is wanted, if any, mm.
+    """How a set is fitted: normal rack and helix angle (rad), what its meshes keep, the distance wanted, if any, mm.
 
     ``apart``: the least angle between two satellites, parts of a turn, None where there is one only; their tips keep
     ``least_gap``, mm.
@@ -161,6 +181,7 @@ class Fitting(Record):
     apart: Fraction | None
     least_gap: float = 0.0
     distance: float | None = None
+    helix_angle: float = 0.0
 
     def fit(self, teeth: PlanetarySet) -> Fit | None:
         """The fit with the least change of distance, then of shifts, that keeps everything; None: there is none."""
@@ -177,8 +198,10 @@ class Fitting(Record):
 
     def _meshes(self, teeth: PlanetarySet) -> tuple[RimMesh, RimMesh]:
         z1, z2, z2p, z3 = teeth.teeth
-        (one, two), (m1, m2) = teeth.scheme.internal, map(float, teeth.modules)
-        return RimMesh(z1, z2, one, m1, self.rack), RimMesh(z3, z2p, two, m2, self.rack)
+        (one, two), beta = teeth.scheme.internal, self.helix_angle
+        rack = transverse_rack(self.rack, beta) if beta else self.rack
+        m1, m2 = (float(m) / math.cos(beta) for m in teeth.modules)
+        return RimMesh(z1, z2, one, m1, rack, beta), RimMesh(z3, z2p, two, m2, rack, beta)
 
     def _distances(self, teeth: PlanetarySet) -> Iterator[float]:
         """From between both reference distances outwards, mm."""
@@ -204,8 +227,9 @@ class Fitting(Record):
     def _rim_shifts(self, mesh: RimMesh) -> list[float]:
         """The shifts of a rim that are tried, the least first; that at which it is no longer undercut among them."""
         least = -_MOST_SHIFT if self.wish.allow_undercut else mesh.least_rim_shift
-        steps = range(1, round(_MOST_SHIFT / _STEP) + 1)
-        tried = [0.0, *(sign * round(k * _STEP, 10) for k in steps for sign in (1, -1)), mesh.least_rim_shift]
+        steps, cosine = range(1, round(_MOST_SHIFT / _STEP) + 1), math.cos(mesh.helix_angle)
+        # round numbers of normal modules
+        tried = [0.0, *(sign * round(k * _STEP, 10) * cosine for k in steps for sign in (1, -1)), mesh.least_rim_shift]
         return sorted((x for x in tried if least <= x <= _MOST_SHIFT), key=lambda x: (abs(x), x))
 
     def _keeps(self, mesh: RimMesh, distance: float, rim_shift: float) -> bool:

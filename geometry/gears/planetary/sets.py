@@ -79,11 +79,15 @@ def sine_of(turn: Fraction) -> Fraction:
 
 
 class PlanetarySet(Record, dict=True):
-    """Teeth z1, z2, z2', z3 of a scheme and the modules, mm, of the meshes 1-2 and 2'-3."""
+    """Teeth z1, z2, z2', z3 of a scheme and the modules, mm, of the meshes 1-2 and 2'-3.
+
+    ``cosine``: of the helix angle of all wheels; modules are then those of the normal section, as heights have them.
+    """
 
     scheme: Scheme
     teeth: tuple[int, int, int, int]
     modules: tuple[Fraction, Fraction] = (Fraction(1), Fraction(1))
+    cosine: Fraction = Fraction(1)
 
     @property
     def name(self) -> str:
@@ -107,7 +111,7 @@ class PlanetarySet(Record, dict=True):
     @property
     def distances(self) -> tuple[Fraction, Fraction]:
         """Reference centre distances of both meshes, mm; a set without shifts is coaxial where they are equal."""
-        one, two = (m * s / 2 for m, s in zip(self.modules, self.spans, strict=True))
+        one, two = (m * s / (2 * self.cosine) for m, s in zip(self.modules, self.spans, strict=True))
         return one, two
 
     @cached_property
@@ -150,7 +154,7 @@ class PlanetarySet(Record, dict=True):
     @property
     def rim_reach(self) -> Fraction:
         """Tip diameter of the larger rim, mm, by its teeth."""
-        return max(m * (z + 2 * TIP) for m, z in zip(self.modules, self.teeth[1:3], strict=True))
+        return max(m * (z / self.cosine + 2 * TIP) for m, z in zip(self.modules, self.teeth[1:3], strict=True))
 
     def fits(self, apart: Fraction, gap: Fraction = Fraction(0)) -> bool:
         """Whether tips of satellites a part of a turn apart keep ``gap``, mm, the bound included."""
@@ -169,14 +173,14 @@ class PlanetarySet(Record, dict=True):
         """What the set takes, mm, by its teeth: the rings' root circles, and the circle that satellites' tips reach."""
         reach = 2 * self.distances[0] + self.rim_reach
         wheels = zip(self.scheme.internal, self.modules, (self.teeth[0], self.teeth[3]), strict=True)
-        return max(reach, *(m * (z + 2 * (ROOT if internal else TIP)) for internal, m, z in wheels))
+        return max(reach, *(m * (z / self.cosine + 2 * (ROOT if internal else TIP)) for internal, m, z in wheels))
 
 
 class Search(Record):
     """What sets are sought: the ratio's range (bounds included), who drives whom, and the limits.
 
     ``teeth_off``: how many teeth coaxiality may be off, to be made up by shifts; ``gap`` between satellites' tips and
-    ``diameter`` in mm; ``identical``: the rims of all satellites are clocked alike.
+    ``diameter`` in mm; ``identical``: the rims of all satellites are clocked alike; ``cosine``: of the helix angle.
     """
 
     scheme: Scheme
@@ -190,6 +194,7 @@ class Search(Record):
     gap: Fraction = Fraction(0)
     diameter: Fraction | None = None
     identical: bool = True
+    cosine: Fraction = Fraction(1)
 
 
 def found_sets(wish: Search) -> list[PlanetarySet]:
@@ -201,7 +206,7 @@ def found_sets(wish: Search) -> list[PlanetarySet]:
     middle = (wish.ratios[0] + wish.ratios[1]) / 2
     found: list[tuple[Fraction, Fraction, PlanetarySet]] = []
     for row in _assembled(wish, teeth).T.tolist():
-        one = PlanetarySet(wish.scheme, tuple(row), wish.modules)
+        one = PlanetarySet(wish.scheme, tuple(row), wish.modules, wish.cosine)
         ratio = ratio_of(one.carried_ratio, wish.driver, wish.driven)
         if ratio is None or not wish.ratios[0] <= ratio <= wish.ratios[1]:
             continue
@@ -303,7 +308,8 @@ def _assembled(wish: Search, teeth: Numbers) -> Numbers:
         teeth = teeth[:, places % wish.satellites == 0]
         z1, z2, z2p, z3 = teeth
     m1, m2 = map(float, wish.modules)
-    reach = np.maximum(m1 * (z2 + 2 * TIP), m2 * (z2p + 2 * TIP)) + float(wish.gap)
+    height = 2 * TIP * float(wish.cosine)
+    reach = np.maximum(m1 * (z2 + height), m2 * (z2p + height)) + float(wish.gap * wish.cosine)
     arm = m1 * (z1 - z2 if wish.scheme.internal[0] else z1 + z2)
     sine = math.sin(math.pi / wish.satellites) if wish.satellites > 1 else math.inf
     return teeth[:, reach <= arm * sine * (1 + 1e-9)]

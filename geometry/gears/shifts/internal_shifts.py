@@ -23,6 +23,8 @@ from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_limits import generation
 from geometry.gears.teeth.ring_tooth import rounded_root_plug
 from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import normal_angle
+from geometry.gears.teeth.transverse_ring import transverse_ring
 
 _NAN = math.nan
 CUTTING = ("involute_interference", "trochoid_interference", "radial_assembly")
@@ -31,7 +33,8 @@ CUTTING = ("involute_interference", "trochoid_interference", "radial_assembly")
 class InternalShiftPair(Record):
     """Numbers of teeth, the pinion's rack or cutter, the ring's cutter or rounded root (module 1), for any shifts.
 
-    ``least_tip_diameter``: the ring's tip is no deeper than that, modules, as ``RingGear`` has it.
+    ``least_tip_diameter``: the ring's tip is no deeper than that, modules, as ``RingGear`` has it. With a
+    ``helix_angle``, rad, all is of the transverse section, but for the ring's addendum and root: in normal modules.
     """
 
     first_teeth: int
@@ -42,6 +45,7 @@ class InternalShiftPair(Record):
     plain_tip: bool = False
     pinion_cutter: PinionCutter | None = None
     least_tip_diameter: float = 0.0
+    helix_angle: float = 0.0
 
     def __hash__(self) -> int:
         # what all caches are asked by: cheap rather than fine
@@ -63,8 +67,10 @@ class InternalShiftPair(Record):
 
     def ring(self, shift: float) -> RingGear:
         """The ring at a shift, module 1, its rim beyond any root."""
-        angle, rim = self.rack.pressure_angle, 4.0 * self.second_teeth + 100
-        gear = RingGear(1.0, self.second_teeth, angle, rim, self.root, shift, self.ring_addendum, self.plain_tip)
+        angle, rim = normal_angle(self.rack.pressure_angle, self.helix_angle), 4.0 * self.second_teeth + 100
+        m, x = math.cos(self.helix_angle), shift / math.cos(self.helix_angle)
+        gear = RingGear(m, self.second_teeth, angle, rim, self.root, x, self.ring_addendum, self.plain_tip)
+        gear = transverse_ring(gear, self.helix_angle)
         return replace(gear, least_tip_diameter=self.least_tip_diameter) if self.least_tip_diameter else gear
 
 

@@ -29,6 +29,7 @@ from parts.base.texts import N_, Message, Text, listed, message
 from parts.gears.spur_gear.part import RackTable, basic_rack_of
 from parts.keys.base import degrees, in_modules, mm
 from parts.keys.cutter import RackName
+from parts.keys.helix import HelixAngle
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet, Table
 
@@ -100,7 +101,10 @@ class PlanetaryKeys(Struct, forbid_unknown_fields=True):
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     pressure_angle_deg: Annotated[float, degrees("pressure angle", least=5, most=45)] = 20.0
     basic_rack: RackName | RackTable = "ISO 53 A"
-    least_contact_ratio: Annotated[float, Meta(ge=0.5, le=3, description="contact ratio to keep")] = 1.1
+    helix_angle_deg: HelixAngle = 0.0
+    least_contact_ratio: Annotated[
+        float, Meta(ge=0.5, le=3, description="contact ratio to keep, of helical teeth that of the transverse section")
+    ] = 1.1
     least_tip_thickness: Annotated[float, in_modules("tip thickness to keep", least=0, most=1)] = 0.25
     rows: Annotated[int, Meta(ge=1, le=1000, description="how many of the sets found are shown")] = 20
 
@@ -139,9 +143,11 @@ class _Page:
             raise ParameterError("second_module", keys.second_module, "one_rim_one_module", Nearest(None))
         self.modules = _exact(keys.module), _exact(keys.second_module or keys.module)
         rack = basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg))
+        self.helix = math.radians(abs(keys.helix_angle_deg))
+        self.cosine = Fraction(math.cos(self.helix))
         wish = Requirements(keys.least_tip_thickness, keys.least_contact_ratio)
         apart = Fraction(1, keys.satellites) if keys.satellites > 1 else None
-        self.fitting = Fitting(rack, wish, apart, keys.least_gap, keys.working_centre_distance)
+        self.fitting = Fitting(rack, wish, apart, keys.least_gap, keys.working_centre_distance, self.helix)
         self.sheet = Sheet(TOPIC, _TITLES[keys.scheme])
 
     def made(self) -> Sheet:
@@ -206,6 +212,7 @@ class _Page:
             _exact(keys.least_gap),
             None if keys.largest_diameter is None else _exact(keys.largest_diameter),
             keys.identical,
+            self.cosine,
         )
 
         def within(percent: Fraction) -> list[PlanetarySet]:
@@ -225,7 +232,7 @@ class _Page:
 
     def _given(self, teeth: list[int]) -> PlanetarySet:
         """The set that was typed."""
-        one = given_set(self.scheme, teeth, self.modules)
+        one = given_set(self.scheme, teeth, self.modules, self.cosine)
         if not ratio_of(one.carried_ratio, self.driver, self.driven):
             raise ParameterError("teeth", teeth, "transmits_nothing")
         return one
@@ -256,7 +263,7 @@ class _Page:
             assert self.keys.ratio is not None
             off = float(100 * (ratio / _exact(self.keys.ratio) - 1))
             nan = math.nan
-            shifts = (nan,) * 4 if fit is None else fit.shifts
+            shifts = (nan,) * 4 if fit is None else fit.normal_shifts
             sizes = (float(one.diameter), nan, nan) if fit is None else (fit.diameter, fit.distance, fit.gap)
             most = float(one.most_satellites(_exact(self.keys.least_gap)))
             columns = [*map(float, one.teeth), float(ratio), off, *sizes, most, *shifts]
@@ -312,11 +319,7 @@ class _Page:
         """Coaxiality, assembly and neighbours, by the teeth."""
         page, keys = self.sheet, self.keys
         page.section(N_("Conditions, by the teeth"))
-        page.add("module", keys.module, of=message("mesh {wheels}", wheels="1-2") if self.scheme.double else "")
-        if self.scheme.double:
-            page.add(
-                "module", float(self.modules[1]), key="m_2", symbol="m'", of=message("mesh {wheels}", wheels="2'-3")
-            )
+        self._modules()
         module = "{m_2}" if self.scheme.double else "{m}"
         one_sign, two_sign = ("-" if internal else "+" for internal in self.scheme.internal)
         d1, d2 = map(float, one.distances)
@@ -343,23 +346,38 @@ class _Page:
         page.add("neighbour_distance", chord, "2 * {a_12} * sin({theta_s} / 2)")
         page.add("most_satellites", one.most_satellites(_exact(keys.least_gap)))
 
+    def _modules(self) -> None:
+        """Of each mesh, ``{m}`` and ``{m_2}`` in formulas; of helical teeth the normal and the transverse."""
+        page, meshes = self.sheet, ("1-2", "2'-3") if self.scheme.double else ("",)
+        if self.helix:
+            page.add("helix_angle_deg", math.degrees(self.helix))
+        for wheels, module, mark, key in zip(meshes, self.modules, ("", "'"), ("", "_2"), strict=False):
+            of = message("mesh {wheels}", wheels=wheels) if wheels else ""
+            if not self.helix:
+                page.add("module", float(module), of=of, symbol=f"m{mark}", key=f"m{key}")
+                continue
+            page.add("module", float(module), of=of, symbol=f"m_n{mark}", key=f"m_n{key}")
+            value, formula = float(module / self.cosine), f"{{m_n{key}}} / cos({{beta}})"
+            page.add("transverse_module", value, formula, "ISO 21771", of=of, symbol=f"m_t{mark}", key=f"m{key}")
+
     def _fit(self, one: PlanetarySet, fit: Fit) -> None:
         """Distance, shifts and what they give."""
-        page, x = self.sheet, fit.shifts
+        page, x = self.sheet, fit.normal_shifts
         page.section(N_("Shifts for one centre distance"))
         page.add("working_centre_distance", fit.distance)
         for k, wheel in enumerate(_WHEELS):
             if self.scheme.double or wheel != "2'":
                 shift = 0.0 if abs(x[k]) < 1e-12 else x[k]
                 of = message("wheel {wheel}", wheel=wheel)
-                page.add("profile_shift_coefficient", shift, symbol=f"x_{wheel}", key=f"x_{_KEYS[k][2:]}", of=of)
+                symbol = f"x_n{wheel}" if self.helix else f"x_{wheel}"
+                page.add("profile_shift_coefficient", shift, symbol=symbol, key=f"x_{_KEYS[k][2:]}", of=of)
         rim = "2'" if self.scheme.double else "2"
         for wheels, mesh, state in zip(("1-2", f"{rim}-3"), fit.meshes, fit.states(), strict=True):
             of = message("mesh {wheels}", wheels=wheels)
             page.add("working_pressure_angle_deg", math.degrees(state.working_pressure_angle), of=of)
             page.add("contact_ratio", state.contact_ratio, "", "practicum (3.20)", of=of)
             if isinstance(state, InternalState):
-                page.add("ring_tip_addendum", mesh.central / 2 - state.ring.tip_radius, of=of)
+                page.add("ring_tip_addendum", self._ring_addendum(mesh, state), of=of)
         if math.isfinite(fit.gap):
             page.add("satellite_gap", fit.gap)
         page.add("set_diameter", fit.diameter)
@@ -373,18 +391,22 @@ class _Page:
         meshes = zip(("1-2", f"{rim}-3"), plain.meshes, plain.broken(), strict=True)
         return [(wheels, mesh, [m.name for m in broken]) for wheels, mesh, broken in meshes]
 
+    def _ring_addendum(self, mesh: RimMesh, state: InternalState) -> float:
+        """How far a ring's teeth stand inside its reference circle, normal modules."""
+        return (mesh.central / 2 - state.ring.tip_radius) / math.cos(self.helix)
+
     def _interference(self, wheels: str, mesh: RimMesh, broken: list[str]) -> None:
         """What an unshifted ring and its satellite break, the verdict by exact contact, and the shift that cures it."""
         state = mesh.state(0.0, 0.0)
         name = next((n for n in broken if n in ("involute_interference", "trochoid_interference")), None)
         if name is None or not isinstance(state, InternalState):
             return
-        addendum = mesh.central / 2 - state.ring.tip_radius
+        addendum, allowed = self._ring_addendum(mesh, state), mesh.allowed_ring_addendum / math.cos(self.helix)
         told: list[Text] = [
             message(
                 "mesh {wheels} without shifts: {what}: the ring's addendum is {addendum:.4g}, at most {allowed:.4g} is "
                 "clear of whole involutes",
-                wheels=wheels, what=_fault(name), addendum=addendum, allowed=mesh.allowed_ring_addendum,
+                wheels=wheels, what=_fault(name), addendum=addendum, allowed=allowed,
             )
         ]  # fmt: skip
         # a search for sets is not to wait for a search for contact
@@ -430,7 +452,7 @@ class _Page:
             self._interference(wheels, mesh, broken)
         unseen = replace(self.fitting, wish=replace(self.fitting.wish, allow_undercut=True)).fit(one)
         if unseen is not None:
-            shown = ", ".join(f"{x:.4f}" for k, x in enumerate(unseen.shifts) if self.scheme.double or k != 2)
+            shown = ", ".join(f"{x:.4f}" for k, x in enumerate(unseen.normal_shifts) if self.scheme.double or k != 2)
             text = N_("with undercut below the active flank: a_w = {distance:.4f} mm, shifts {shifts}")
             page.notes.append(message(text, distance=unseen.distance, shifts=shown))
 
@@ -459,11 +481,15 @@ def _exact_verdict(mesh: RimMesh, keys: PlanetaryKeys) -> str | None:
     from geometry.gears.mesh.gears import GearMesh
     from geometry.gears.pairs.internal import internal_pair
     from geometry.gears.teeth.spur import SpurGear
+    from geometry.gears.teeth.transverse import transverse_gear
     from parts.gears.ring_gear.part import RingGearSpec, settled_section
 
+    beta, rack = keys.helix_angle_deg, basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg))
     try:
-        ring = RingGearSpec(module=1.0, number_of_teeth=mesh.central, pressure_angle_deg=keys.pressure_angle_deg)
-        pair = internal_pair(SpurGear(1.0, mesh.rim, mesh.rack), settled_section(ring))
-        return GearMesh(pair).contact().verdict.name
+        ring = RingGearSpec(
+            module=1.0, number_of_teeth=mesh.central, pressure_angle_deg=keys.pressure_angle_deg, helix_angle_deg=beta
+        )
+        pinion = transverse_gear(SpurGear(1.0, mesh.rim, rack), math.radians(abs(beta)))
+        return GearMesh(internal_pair(pinion, settled_section(ring))).contact().verdict.name
     except ParameterError:
         return None

@@ -66,6 +66,7 @@ SHEETS = [
     ("tmm42", "practicum_pair", "part=wheel"),
     ("train", "case=practicum_1"),
     ("planetary", "scheme=david", "teeth=[50,30,20,60]", "satellites=4"),
+    ("planetary", "scheme=one_external_one_internal", "teeth=[18,36,20,72]", "helix_angle_deg=-20"),
     ("gear-pair", "practicum_pair", "speed_rpm=300"),
     ("gear-pair", *PAIR),
     ("gear-pair", *PAIR, "helix_angle_deg=30", "working_centre_distance=125", "second.profile_shift_coefficient=0"),

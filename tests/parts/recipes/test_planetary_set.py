@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+from scipy.optimize import brentq
 from shapely import affinity
 
 from exporters.command.cli import main
@@ -154,6 +155,7 @@ def drawn(seed: int) -> tuple[SceneFile, dict[str, Any]]:
             "scheme": scheme, "teeth": teeth, "satellites": random.randint(1, 6), "identical": random.random() < 0.5,
             "spacing": random.choice(["equal", "unequal"]), "module": random.choice([0.5, 1.0, 2.5]),
             "direction_deg": random.uniform(-180, 180), "driver": driver, "held": held, "turns": 1.0,
+            "helix_angle_deg": random.choice([0.0, 0.0, 18.0, -27.5]),
         }  # fmt: skip
         try:
             made = scene(**keys)
@@ -161,6 +163,36 @@ def drawn(seed: int) -> tuple[SceneFile, dict[str, Any]]:
         except SceneError:
             continue
         return made, keys
+
+
+@pytest.mark.parametrize(("name", "teeth", "hands"), [
+    ("james", [20, 31, 80], {"sun": "left", "satellite": "right", "ring": "right"}),
+    ("david", [25, 26, 25, 24], {"sun": "left", "satellite": "right", "second_satellite": "right",
+                                 "second_sun": "left"}),
+    ("two_internal", [60, 20, 24, 65], {"ring": "left", "satellite": "left", "second_satellite": "left",
+                                        "second_ring": "left"}),
+])  # fmt: skip
+def test_wheels_of_a_helical_set_meet_at_one_distance_with_hands_that_mesh(
+    name: str, teeth: list[int], hands: dict[str, str]
+) -> None:
+    """ISO 21771: inv(alpha_wt) = inv(alpha_t) + 2 tan(alpha_n) sum(x_n) / sum(z), and a_w cos(alpha_wt)."""
+    made = resolved(scene(scheme=name, teeth=teeth, satellites=1, helix_angle_deg=-24.0, module=1.5))["parts"]
+    wheels = {name: part for name, part in made.items() if "number_of_teeth" in part}
+    assert {name: part["hand"] for name, part in wheels.items()} == hands
+    assert {part["helix_angle_deg"] for part in wheels.values()} == {24.0}
+    beta, normal = math.radians(24), math.radians(20)
+    section = math.atan(math.tan(normal) / math.cos(beta))
+    rim = "second_satellite" if "second_satellite" in wheels else "satellite"
+    found = []
+    for one, two in ((CENTRAL[name][0], "satellite"), (CENTRAL[name][1], rim)):
+        sign = -1 if wheels[one]["kind"] == "ring_gear" else 1
+        z = wheels[one]["number_of_teeth"] + sign * wheels[two]["number_of_teeth"]
+        x = wheels[one]["profile_shift_coefficient"] + sign * wheels[two]["profile_shift_coefficient"]
+        wanted = math.tan(section) - section + 2 * math.tan(normal) * x / z
+        working = brentq(lambda a, wanted=wanted: math.tan(a) - a - wanted, 0.0, 1.5, xtol=1e-15)
+        found.append(1.5 * z / math.cos(beta) / 2 * math.cos(section) / math.cos(working))
+    assert found[0] == pytest.approx(found[1], abs=1e-9)
+    assert made["carrier"]["pin_circle_diameter"] == pytest.approx(2 * found[0], abs=1e-9)
 
 
 @pytest.mark.sampled(2)

@@ -16,6 +16,7 @@ from geometry.gears.planetary.sets import SCHEMES, Search, found_sets
 from geometry.gears.shifts.external import Requirements
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import transverse_gear
 from parts.gears.ring_gear.part import RingGearSpec, settled_section
 
 RACK = BasicRack(math.radians(20), 1.0, 0.25, 0.38)
@@ -25,23 +26,32 @@ WISHES = [("james", "2.5", 3), ("james", "12", 3), ("david", "-4", 3), ("david",
 
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(("scheme", "ratio", "satellites"), WISHES)
-@pytest.mark.parametrize("seed", range(4))
-def test_fitted_sets_are_in_contact_without_overlap(scheme: str, ratio: str, satellites: int, seed: int) -> None:
-    u = Fraction(ratio)
+@pytest.mark.parametrize(("seed", "helix_deg"), [(0, 0.0), (1, 0.0), (2, 0.0), (3, 0.0), (0, 22.0), (1, 35.0)])
+def test_fitted_sets_are_in_contact_without_overlap(
+    scheme: str, ratio: str, satellites: int, seed: int, helix_deg: float
+) -> None:
+    """Helical sets too: contact in the transverse section of the wheels that the normal shifts make."""
+    u, beta = Fraction(ratio), math.radians(helix_deg)
     bounds = u - abs(u) / 100, u + abs(u) / 100
-    found = found_sets(Search(SCHEMES[scheme], bounds, satellites=satellites))
+    wish = Search(SCHEMES[scheme], bounds, satellites=satellites, cosine=Fraction(math.cos(beta)))
+    found = found_sets(wish)
     apart = Fraction(1, satellites) if satellites > 1 else None
     one = random.Random(seed).choice(found)
-    fit = Fitting(RACK, Requirements(0.25, 1.1), apart).fit(one)
+    fit = Fitting(RACK, Requirements(0.25, 1.1), apart, helix_angle=beta).fit(one)
     assert fit is not None
-    x1, x2, x2p, x3 = fit.shifts
+    x1, x2, x2p, x3 = fit.normal_shifts
     for mesh, x_rim, x_central in ((fit.meshes[0], x2, x1), (fit.meshes[1], x2p, x3)):
-        rim = SpurGear(1.0, mesh.rim, RACK, x_rim)
+        rim = transverse_gear(SpurGear(1.0, mesh.rim, RACK, x_rim), beta)
         if mesh.internal:
-            keys = RingGearSpec(module=1.0, number_of_teeth=mesh.central, profile_shift_coefficient=x_central)
+            keys = RingGearSpec(
+                module=1.0,
+                number_of_teeth=mesh.central,
+                profile_shift_coefficient=x_central,
+                helix_angle_deg=helix_deg,
+            )
             pair = internal_pair(rim, settled_section(keys))
         else:
-            pair = external_pair(rim, SpurGear(1.0, mesh.central, RACK, x_central))
+            pair = external_pair(rim, transverse_gear(SpurGear(1.0, mesh.central, RACK, x_central), beta))
         assert pair.working_centre_distance == pytest.approx(fit.distance, abs=1e-9)
         assert GearMesh(pair).contact().verdict.name == "CONTACT"
         # tips of neighbours, by the rim as it is built
