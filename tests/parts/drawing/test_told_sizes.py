@@ -1,0 +1,74 @@
+"""What drawings of every kind tell, before any file is written: all sizes, radii at arcs, signs at lines."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from geometry.base.record import replace
+from geometry.curves.curve import Curve
+from geometry.curves.line_arc import Arc, Line
+from parts.drawing.working import PartDrawing, View
+from tests.exporters.production.test_part_drawings import PARTS, SIZES
+from tests.parts.drawing.test_sections import drawing_of
+from tests.parts.drawing.test_views import PARTS as MORE
+from tests.parts.drawing.test_views import off
+
+NEAR = 1e-6
+DRAWN = {**PARTS, **{name: keys for name, keys in MORE.items() if name.removeprefix("drawn ") not in PARTS}}
+
+
+@cache
+def drawn(name: str) -> PartDrawing:
+    return drawing_of(DRAWN[name])
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_every_size_of_the_keys_is_told_and_no_other(name: str) -> None:
+    told = [one.value for view in drawn(name).views for one in (*view.sizes, *view.rounds)]
+    assert sorted(told) == pytest.approx(sorted(SIZES[name]), abs=NEAR)
+
+
+def pieces(curves: list[Curve]) -> np.ndarray:
+    points = [c.point(np.linspace(*c.domain, 2 if isinstance(c, Line) else 257)) for c in curves]
+    return np.concatenate([np.stack([p[:-1], p[1:]], axis=1) for p in points])
+
+
+def astray(view: View) -> list[str]:
+    """Radii and diameters that are no arc's or point beside it, signs that stand at no line."""
+    found = list[str]()
+    arcs = [curve for _, curve in view.strokes if isinstance(curve, Arc)]
+    for one in view.rounds:
+        for centre, angles in ((one.centre, one.angles), *one.also):
+            same: list[Curve] = [a for a in arcs if abs(a.centre - centre) < NEAR and abs(a.radius - one.radius) < NEAR]
+            ends = centre + one.radius * np.exp(1j * np.radians(angles))
+            if not same or (one.is_radius and off(pieces(same), ends).max() > 1e-3 * one.radius):
+                found.append(f"{one.name} at no arc")
+    axes = [end for axis in view.axes for end in (axis.start, axis.end)]
+    lines = pieces([curve for _, curve in view.strokes])
+    for note in view.notes:
+        for at in (note.at, *(other for other, _ in note.also)):
+            # a number about a hole stands beside its circle
+            stands = at if note.about is None else at + note.about
+            gap = min(abs(stands - end) for end in axes) if note.goes_on else off(lines, np.array([stands]))[0]
+            if gap > 1e-3:
+                found.append(f"{note.text} at no line")
+    return found
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_radii_stand_at_their_arcs_and_signs_at_lines(name: str) -> None:
+    assert [astray(view) for view in drawn(name).views] == [[] for _ in drawn(name).views]
+
+
+def test_a_radius_and_a_sign_that_are_moved_are_seen() -> None:
+    view = next(view for view in drawn("plate").views if view.rounds and view.notes)
+    (one, *rounds), (note, *notes) = view.rounds, view.notes
+    assert astray(replace(view, rounds=(replace(one, centre=one.centre + 0.01), *rounds)))
+    assert astray(replace(view, rounds=(replace(one, radius=one.radius * 1.01), *rounds)))
+    assert astray(replace(view, notes=(replace(note, at=note.at + 0.1 + 0.1j), *notes)))
+    rounded = next(one for one in view.rounds if one.is_radius)
+    turned = replace(rounded, angles=tuple(angle + 90.0 for angle in rounded.angles))
+    assert astray(replace(view, rounds=(turned,)))
