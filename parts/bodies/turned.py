@@ -265,7 +265,7 @@ def _check_shaft(keys: ShaftSpec) -> None:
             cure = limit(least * (1 - 1e-6), keys.bore_diameter, digits=6)
             raise ParameterError("bore_diameter", keys.bore_diameter, "leaves_no_wall", cure)
         place = step.chamfer
-        for number, groove in enumerate(sorted(step.grooves, key=lambda g: g.at), 1):
+        for number, groove in sorted(enumerate(step.grooves, 1), key=lambda pair: pair[1].at):
             name = f"steps[{k}].grooves[{number}]"
             if groove.diameter >= step.diameter:
                 cure = limit(step.diameter * (1 - 1e-6), groove.diameter, digits=6)
@@ -283,7 +283,7 @@ def _check_shaft(keys: ShaftSpec) -> None:
             most = limit(room * (1 - 1e-6), step.chamfer, digits=6)
             raise ParameterError(f"steps[{k}].chamfer", step.chamfer, "chamfer_leaves_nothing_of_step", most)
         if mouth >= step.diameter - 2 * step.chamfer:
-            most = limit(step.diameter - 2 * step.chamfer, mouth, digits=6)
+            most = limit((step.diameter - 2 * step.chamfer) * (1 - 1e-6), mouth, digits=6)
             raise ParameterError("centre_holes.mouth", mouth, "leaves_no_wall", most)
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import msgspec
 from msgspec import Meta, Struct
 
-from geometry.base.errors import Nearest, OffsetError, ParameterError
+from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
@@ -81,10 +81,6 @@ class CycloidalDiscKind(Kind[CycloidalDiscSpec, "CycloidalDisc"]):
                 keys.pin_circle_shift,
             )
         )
-        if not disc.root_radius > 0:
-            raise ParameterError(
-                "pin_diameter", keys.pin_diameter, "leaves_nothing_in_valleys", partial(_thinner, disc)
-            )
         table = keys.output_holes
         own: tuple[RoundHoles, ...] = () if table is None else (_output_group(table, keys.eccentricity),)
         holes = holes_of(keys, *own)
@@ -141,15 +137,6 @@ class CycloidalDiscKind(Kind[CycloidalDiscSpec, "CycloidalDisc"]):
 
 
 CYCLOIDAL_DISC = CycloidalDiscKind()
-
-
-def _thinner(disc: CycloidalDisc) -> Nearest | None:
-    """The thickest pins that leave something in the valleys."""
-
-    def leaves(size: float) -> bool:
-        return replace(disc, pin_diameter=size).root_radius > 0
-
-    return nearest(leaves, disc.pin_diameter, disc.pin_diameter * 1e-3)
 
 
 def _check_bore(bore: float, group: RoundHoles, disc: CycloidalDisc) -> None:

@@ -31,7 +31,6 @@ REASONS = {
     ),
     "leaves_no_wall": N_("leaves no wall"),
     "leaves_no_wall_about_bore": N_("leaves no wall about the bore"),
-    "leaves_nothing_in_valleys": N_("leaves nothing in the valleys"),
     "only_of_solid_pins": N_('is for pins = "solid"'),
     "output_holes_do_not_fit": N_("holes of {diameter} mm (pin + 2 e + clearance) do not fit"),
     "output_holes_fit_elsewhere": N_(

@@ -1,0 +1,291 @@
+"""Turned, flat and layered bodies: every limit of their keys at both its sides, what they report, what moves."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from parts.base.part import Part
+from parts.scene.load import make_parts, scene_from_dict
+from tests.parts.limits import check_limit, check_refused, offset_limits, refused, scene_of, with_key
+
+
+def steps(*rows: dict[str, Any], **more: Any) -> dict[str, Any]:
+    return {"kind": "shaft", "steps": list(rows), **more}
+
+
+def step(diameter: float, length: float, **more: Any) -> dict[str, Any]:
+    return {"diameter": diameter, "length": length, **more}
+
+
+GROOVE = {"at": 10.0, "width": 2.0, "diameter": 16.0}
+SHAFT = steps(step(20.0, 40.0, chamfer=1.0), step(28.0, 25.0), step(24.0, 30.0, chamfer=2.0))
+GROOVED = steps(step(20.0, 40.0, chamfer=1.0, grooves=[GROOVE]), step(28.0, 25.0))
+CENTRED = SHAFT | {"centre_holes": {"diameter": 2.0}}
+KEYED = steps(step(20.0, 40.0, chamfer=1.0, fillet=0.5, keyways=[
+    {"at": 5.0, "length": 20.0, "width": 6.0, "depth": 3.5}]), step(28.0, 25.0))  # fmt: skip
+TUBE = KEYED | {"bore_diameter": 9.0}
+TURNED: dict[str, Any] = {"kind": "turned", "points": [
+    {"r": r, "z": z} for r, z in ((5.0, 0.0), (30.0, 0.0), (30.0, 8.0), (5.0, 8.0))]}  # fmt: skip
+HOLED = TURNED | {"holes": {"count": 4, "diameter": 6.0, "pitch_circle_diameter": 40.0}}
+PLATE: dict[str, Any] = {"kind": "plate", "width": 60.0, "height": 40.0, "face_width": 4.0}
+CARRIER: dict[str, Any] = {"kind": "carrier_plate", "number_of_pins": 3, "pin_circle_diameter": 80.0,
+                           "pin_diameter": 6.0, "face_width": 4.0}  # fmt: skip
+WAY, GR = "steps[1].keyways[1]", "steps[1].grooves[1]"
+# degrees between keyways of half a width of 0.3 and a floor at 0.65 of the radius
+APART = math.degrees(4 * math.asin(0.3) + math.acos(0.65))
+RIM = math.sqrt(10**2 - 3**2)
+
+LIMITS: list[tuple[dict[str, Any], str, str, float, str, dict[str, float]]] = [
+    # bores below the thinnest place, grooves below their step
+    (steps(step(28.0, 25.0), step(20.0, 40.0)), "bore_diameter", "leaves_no_wall", 20.0, "at_most", {}),
+    (GROOVED, "bore_diameter", "leaves_no_wall", 16.0, "at_most", {}),
+    (GROOVED, f"{GR}.diameter", "groove_not_in_step", 20.0, "at_most", {}),
+    # the cone of a centre hole is wider than its pilot and leaves a rim of both end faces
+    (CENTRED, "centre_holes.mouth", "mouth_within_pilot", 2.0, "at_least", {"diameter": 2.0}),
+    (CENTRED, "centre_holes.mouth", "leaves_no_wall", 18.0, "at_most", {}),
+    (steps(step(28.0, 25.0), step(20.0, 40.0, chamfer=3.0), centre_holes={"diameter": 2.0}), "centre_holes.mouth",
+     "leaves_no_wall", 14.0, "at_most", {}),
+    (SHAFT, "steps[1].chamfer", "chamfer_leaves_nothing_of_step", 10.0, "at_most", {}),
+    (SHAFT | {"bore_diameter": 6.0}, "steps[1].chamfer", "chamfer_leaves_nothing_of_step", 7.0, "at_most", {}),
+    (SHAFT | {"bore_diameter": 6.0}, "steps[3].chamfer", "chamfer_leaves_nothing_of_step", 9.0, "at_most", {}),
+    (PLATE, "corner_radius", "rounding_above_half_side", 20.0, "at_most", {}),
+    (PLATE | {"engraved": [{"start": [0, 0], "end": [5, 0], "width": 1.0}]}, "engraved[1].depth",
+     "engraved_too_deep", 2.0, "at_most", {}),
+    # round ends of 2.4 pins: sides of neighbours meet at 7.2 / sin(60), of arms of 7.2 and 3.6 at right angles at their
+    # corner
+    (CARRIER, "hub_diameter", "arms_meet", 2 * 7.2 / math.sin(math.pi / 3), "at_least", {}),
+    (CARRIER | {"number_of_pins": 2, "spacers": {"count": 2, "pitch_circle_diameter": 60.0, "diameter": 3.0,
+                                                 "start_deg": 90.0}},
+     "hub_diameter", "arms_meet", 2 * math.hypot(7.2, 3.6), "at_least", {}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("part", "key", "code", "limit", "side", "numbers"), LIMITS, ids=[f"{r[0]['kind']} {r[1]} {r[2]}" for r in LIMITS]
+)
+def test_a_limit_is_told_and_holds(
+    part: dict[str, Any], key: str, code: str, limit: float, side: str, numbers: dict[str, float]
+) -> None:
+    check_limit(scene_of(part), f"parts.p.{key}", code, limit, side, **numbers)
+
+
+# limits of which no value is told: key, the last value that is made, the first that is refused, its code, numbers
+WITHOUT: list[tuple[dict[str, Any], str, float, float, str, dict[str, float]]] = [
+    # grooves between both chamfers of their step, behind the one before
+    (GROOVED, f"{GR}.at", 1.001, 1.0, "groove_beyond_step", {"least": 1.0, "length": 40.0}),
+    (GROOVED, f"{GR}.at", 36.999, 37.0, "groove_beyond_step", {"least": 1.0, "length": 40.0}),
+    (steps(step(20.0, 40.0, grooves=[GROOVE | {"at": 20.0}, GROOVE])), "steps[1].grooves[1].at", 12.001, 12.0,
+     "groove_beyond_step", {"least": 12.0, "length": 40.0}),
+    # a floor below the rim and above the bore
+    (KEYED, f"{WAY}.depth", 10 - RIM + 1e-6, 10 - RIM - 1e-6, "keyway_of_no_depth", {}),
+    (TUBE, f"{WAY}.depth", 5.499, 5.5, "keyway_of_no_depth", {}),
+    (KEYED, f"{WAY}.length", 6.001, 6.0, "keyway_shorter_than_wide", {"width": 6.0}),
+    # off the chamfer or the fillet of its step, whichever is larger, at both ends
+    (KEYED, f"{WAY}.at", 1.001, 1.0, "keyway_beyond_step", {"length": 40.0}),
+    (KEYED, f"{WAY}.at", 18.999, 19.0, "keyway_beyond_step", {"length": 40.0}),
+    (steps(step(20.0, 40.0, fillet=1.5, keyways=KEYED["steps"][0]["keyways"]), step(28.0, 25.0)), f"{WAY}.at", 1.501,
+     1.5, "keyway_beyond_step", {"length": 40.0}),
+    # a groove's walls at 10 and 12
+    (GROOVED | {"steps": [GROOVED["steps"][0] | {"keyways": [{"at": 15.0, "length": 10.0, "width": 3.0,
+                                                              "depth": 1.5}]}]},
+     f"{WAY}.at", 12.001, 12.0, "keyway_beyond_step", {"length": 40.0}),
+    # two alike beside each other, apart by their half widths and what is behind their floors
+    (KEYED | {"steps": [KEYED["steps"][0] | {"keyways": [KEYED["steps"][0]["keyways"][0] | {"angle_deg": a}
+                                                         for a in (0.0, 90.0)]}]},
+     "steps[1].keyways[2].angle_deg", APART + 1e-6, APART - 1e-6, "keyways_meet", {}),
+    # behind each other they may stand in one direction
+    (KEYED | {"steps": [KEYED["steps"][0] | {"keyways": [KEYED["steps"][0]["keyways"][0] | {"at": at, "length": 8.0}
+                                                         for at in (4.0, 20.0)]}]},
+     "steps[1].keyways[2].at", 12.001, 12.0, "keyways_meet", {}),
+    # holes of turned parts stand apart
+    (TURNED | {"holes": [{"count": 1, "diameter": 6.0, "pitch_circle_diameter": 40.0},
+                         {"count": 1, "diameter": 4.0, "pitch_circle_diameter": 30.0}]},
+     "holes[1].pitch_circle_diameter", 40.001, 40.0, "hole_reaches_edge", {}),
+    (CARRIER, "hub_diameter", 79.999, 80.0, "hub_reaches_pins", {"circle": 80.0}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("part", "key", "within", "beyond", "code", "numbers"), WITHOUT)
+def test_a_limit_that_no_value_is_told_of_holds(
+    part: dict[str, Any], key: str, within: float, beyond: float, code: str, numbers: dict[str, float]
+) -> None:
+    raw, place = scene_of(part), f"parts.p.{key}"
+    assert refused(with_key(raw, place, within)) is None
+    refusal = refused(with_key(raw, place, beyond))
+    assert refusal is not None
+    assert refusal.code == code
+    if code not in ("keyways_meet", "hole_reaches_edge"):
+        assert (refusal.key, refusal.value) == (place, beyond)
+    assert refusal.numbers == numbers
+
+
+def test_a_groove_is_named_as_it_is_written() -> None:
+    """As it was: by its place along the step, where the scene has them in another order."""
+    wrong = steps(step(20.0, 40.0, grooves=[GROOVE | {"at": 20.0, "diameter": 21.0}, GROOVE]))
+    refusal = refused(scene_of(wrong))
+    assert refusal is not None
+    assert refusal.key == "parts.p.steps[1].grooves[1].diameter"
+
+
+REFUSED: list[tuple[dict[str, Any], str, object, str, object]] = [
+    (CENTRED, "bore_diameter", 3.0, "either_key", 0.0),
+    (CARRIER | {"outer_diameter": 100.0}, "hub_diameter", 50.0, "is_round_already", None),
+    (CARRIER, "directions_deg", [0.0, 90.0], "not_one_a_pin", ...),
+    # no key that is as wide as DIN 6885 wants it is known for a shaft of 3
+    (steps(step(20.0, 40.0, keyways=[{"at": 5.0, "length": 20.0}])), "steps[1].diameter", 3.0, "no_keyway_row", ...),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("part", "key", "value", "code", "works"), REFUSED)
+def test_keys_that_do_not_go_together_are_told(
+    part: dict[str, Any], key: str, value: object, code: str, works: object
+) -> None:
+    raw = scene_of(part)
+    if code == "no_keyway_row":
+        found = refused(with_key(raw, f"parts.p.{key}", value))
+        assert found is not None
+        assert found.key == f"parts.p.{key}"
+        return
+    check_refused(raw, f"parts.p.{key}", value, code, works)
+
+
+def part_of(part: dict[str, Any]) -> Part:
+    return make_parts(scene_from_dict(scene_of(part), "s", "s"), "s")[0]["p"]
+
+
+def test_turned_bodies_report_what_they_are() -> None:
+    assert part_of(SHAFT).quantities == {"outer_diameter": 28.0, "length": 95.0}
+    assert part_of(SHAFT | {"bore_diameter": 6.0}).quantities == {
+        "outer_diameter": 28.0, "bore_diameter": 6.0, "length": 95.0}  # fmt: skip
+    assert part_of(TURNED).quantities == {"outer_diameter": 60.0, "bore_diameter": 10.0, "length": 8.0}
+    assert part_of(CARRIER).circles == {"pin_circle_diameter": 80.0}
+    assert part_of(CARRIER).quantities == {"number_of_pins": 3.0, "pin_diameter": 6.0}
+    assert not part_of(TURNED).is_plate
+
+
+def test_bodies_are_seen_along_their_axis_with_all_that_goes_through() -> None:
+    """A ring of walls inside, between and outside of its holes; a tube between bore and outside."""
+    region = part_of(HOLED).section(0.0).region
+    assert region.outer.reach() == pytest.approx(30.0)
+    assert len(region.holes) == 5
+    centres = sorted(((s.curve.centre.real, s.curve.centre.imag) for p in region.holes  # type: ignore[attr-defined]
+                      for s in p.period[:1]), key=lambda c: (round(c[0], 6), round(c[1], 6)))  # fmt: skip
+    assert np.ravel(centres) == pytest.approx([-20, 0, 0, -20, 0, 0, 0, 20, 20, 0], abs=1e-9)
+    offset_limits(HOLED, (23 - 30) / 2, 3.0)
+    offset_limits(SHAFT | {"bore_diameter": 6.0}, (3 - 14) / 2, 3.0)
+    with pytest.raises(ValueError, match="turned_as_it_is"):
+        part_of(TURNED).body(0.1)
+
+
+def volume(part: dict[str, Any]) -> float:
+    made = part_of(part)
+    return float(made.made_by.moments(made.body(0.0)).volume)
+
+
+def cone(low: float, high: float, length: float) -> float:
+    """A frustum between two diameters."""
+    return math.pi * length / 12 * (low**2 + low * high + high**2)
+
+
+def test_volumes_of_shafts_are_those_of_their_pieces() -> None:
+    """Cylinders, frustums at chamfers, rings at grooves; pilots with their cones of 60 and tips of 120 degrees."""
+    plain = cone(18, 20, 1) + cone(20, 20, 39) + cone(28, 28, 25) + cone(24, 24, 28) + cone(24, 20, 2)
+    assert volume(SHAFT) == pytest.approx(plain, rel=1e-12)
+    assert volume(SHAFT | {"bore_diameter": 6.0}) == pytest.approx(plain - cone(6, 6, 95), rel=1e-12)
+    ring = cone(20, 20, 2) - cone(16, 16, 2)
+    one = cone(18, 20, 1) + cone(20, 20, 39) + cone(28, 28, 25)
+    assert volume(GROOVED) == pytest.approx(one - ring, rel=1e-12)
+    for more, mouth, depth in (({}, 4.24, 2.0), ({"mouth": 5.0, "depth": 0.5}, 5.0, 0.5), ({"depth": 0.0}, 4.24, 0.0)):
+        centre = {"diameter": 2.0, **more}
+        leg = (mouth - 2.0) / 2 / math.tan(math.radians(30))
+        hole = cone(mouth, 2.0, leg) + cone(2.0, 2.0, depth) + cone(2.0, 0.0, 1 / math.tan(math.radians(60)))
+        assert volume(SHAFT | {"centre_holes": centre}) == pytest.approx(plain - 2 * hole, rel=1e-12)
+
+
+def test_a_fillet_stands_in_the_corner_below_the_higher_step() -> None:
+    """Of the lower of both steps: (1 - pi/4) r^2 turned about the axis at the distance of its centre of area."""
+    for rows, radius in (((step(20.0, 40.0, fillet=2.0), step(28.0, 25.0)), 10.0),
+                         ((step(28.0, 25.0), step(20.0, 40.0, fillet=2.0)), 10.0)):  # fmt: skip
+        area = (1 - math.pi / 4) * 4
+        # a square less a quarter of a circle about its far corner
+        at = (4 * 1.0 - math.pi * (2 - 8 / (3 * math.pi))) / area
+        bare = cone(20, 20, 40) + cone(28, 28, 25)
+        assert volume(steps(*rows)) == pytest.approx(bare + 2 * math.pi * (radius + at) * area, rel=1e-9)
+
+
+UPPER = {"thickness": 3.0, "polygons": [{"points": [[-20.0, -17.0], [50.0, -17.0], [50.0, 20.0], [-20.0, 20.0]]}]}
+LAYER: dict[str, Any] = {"kind": "layered", "layers": [{"thickness": 4.0, "circles": [{"diameter": 30.0}]}, UPPER]}
+
+
+def layer(**table: Any) -> dict[str, Any]:
+    return {"kind": "layered", "layers": [{"thickness": 2.0, **table}]}
+
+
+def points(*rows: tuple[float, ...]) -> list[dict[str, float]]:
+    return [dict(zip(("x", "y", "arc"), row, strict=False)) for row in rows]
+
+
+def test_layers_report_their_box_and_hold_what_their_outlines_enclose() -> None:
+    assert part_of(LAYER).quantities == {"width": 70.0, "height": 37.0, "length": 7.0}
+    assert not part_of(LAYER).is_plate
+    square = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]]
+    for corners in (square, square[::-1]):
+        assert volume(layer(polygons=[{"points": corners}])) == pytest.approx(72.0)
+        rounded = 36 - (4 - math.pi) * 1.5**2
+        assert volume(layer(polygons=[{"points": corners, "corner_radius": 1.5}])) == pytest.approx(2 * rounded)
+    assert volume(layer(slots=[{"start": [1, 2], "end": [5, 5], "width": 2.0}])) == pytest.approx(2 * (10 + math.pi))
+    # a segment over a chord of 6, of radius 5: 25 asin(0.6) - 3 * 4
+    cap = 25 * math.asin(0.6) - 12
+    corners = [(0.0, 0.0), (6.0, 0.0), (6.0, 6.0), (0.0, 6.0)]
+    for rows in (corners, corners[::-1]):
+        for arc, area in ((0.0, 36.0), (5.0, 36 + cap), (-5.0, 36 - cap), (3.0, 36 + 4.5 * math.pi)):
+            made = layer(outlines=[{"points": points((*rows[0], arc), *rows[1:])}])
+            # above 0 it bulges out, whichever way round the points are written
+            assert volume(made) == pytest.approx(2 * area), (rows, arc)
+    # of two points: a circle of two halves, a lens
+    assert volume(layer(outlines=[{"points": points((0, 0, 3), (6, 0, 3))}])) == pytest.approx(2 * 9 * math.pi)
+    assert volume(layer(outlines=[{"points": points((0, 0, 5), (6, 0, 5))}])) == pytest.approx(4 * cap)
+
+
+OUTLINE = layer(outlines=[{"points": points((0, 0, 5), (6, 0), (6, 6), (0, 6))}])
+NOTHING = "layers[1].outlines[1].points"
+
+
+def test_outlines_that_enclose_nothing_and_arcs_below_their_chords_are_refused() -> None:
+    arc = "parts.p.layers[1].outlines[1].points[1].arc"
+    check_limit(scene_of(OUTLINE), arc, "arc_shorter_than_chord", 3.0, "at_least")
+    mirrored = with_key(scene_of(OUTLINE), arc, -5.0)
+    check_limit(mirrored, arc, "arc_shorter_than_chord", -3.0, "at_most")
+    for rows in (((0, 0), (6, 0), (6, 0), (0, 6)), ((0, 0), (6, 0)), ((0, 0, 5), (6, 0, -5)), ((0, 0, -5), (6, 0, -5))):
+        found = refused(scene_of(layer(outlines=[{"points": points(*rows)}])))
+        assert found is not None
+        assert (found.key, found.code, found.value) == (f"parts.p.{NOTHING}", "outline_of_nothing", len(rows))
+    found = refused(scene_of(layer()))
+    assert found is not None
+    assert (found.key, found.code) == ("parts.p.layers[1]", "layer_of_nothing")
+
+
+def test_a_side_that_is_too_short_for_its_axles_is_told_how_long_it_has_to_be() -> None:
+    """A hole of 6 mm at 28 from the middle: 62 and two walls of 0.05; the plate that grows holds it as it is."""
+    wheel = {"kind": "spur_gear", "module": 1.0, "number_of_teeth": 20, "bore_diameter": 5.0}
+    frame = PLATE | {"width": 50.0, "holes": [{"axis_of": "w", "diameter": 6.0}]}
+    raw = {"parts": {"w": wheel, "f": frame}, "instances": {"w": {"part": "w", "at": [28.0, 3.0, 0.0]}},
+           "exports": [{"format": "svg"}]}  # fmt: skip
+    found = refused(raw)
+    assert found is not None
+    assert (found.key, found.code, found.value) == ("parts.f.width", "hole_of_axle_outside", 50.0)
+    assert {name: found.numbers[name] for name in ("axle", "x", "y")} == {"axle": "w", "x": 28.0, "y": 3.0}
+    assert found.nearest is not None
+    assert found.nearest.side == "at_least"
+    assert found.nearest.value == pytest.approx(62.0, abs=0.11)
+    assert refused(with_key(raw, "parts.f.width", found.nearest.value)) is None
+    assert refused(with_key(raw, "parts.f.width", 62.0 - 1e-3)) is not None
+    grown = make_parts(scene_from_dict(with_key(raw, "parts.f.beyond_axles", 9.0), "s", "s"), "s")[0]["f"]
+    corners = [complex(s.curve.point(s.curve.domain[0])) for s in grown.section(0.0).region.outer.segments()]
+    assert max(p.real for p in corners) == pytest.approx(37.0)
+    assert min(p.real for p in corners) == pytest.approx(-25.0)
+    assert max(p.imag for p in corners) == pytest.approx(20.0)
