@@ -42,7 +42,10 @@ def rounded(value: float, *, up: bool, digits: int = 4) -> float:
         # beyond that a double has no power of ten
         digits = min(max(digits, 3 - math.floor(math.log10(abs(value)))), 300)
     shift = 10.0**digits
-    return (math.ceil if up else math.floor)(value * shift) / shift
+    steps = (math.ceil if up else math.floor)(value * shift)
+    # a product that is rounded past the value is a step too near
+    steps += (steps / shift < value) if up else -(steps / shift > value)
+    return steps / shift
 
 
 def limit(value: float, given: float, *, digits: int = 4) -> Nearest:

@@ -167,11 +167,6 @@ def _tried(keys: F, refusal: ParameterError, whole: Callable[[F], bool]) -> Para
     return ParameterError(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
 
 
-def _check_pin(diameter: float, width: float) -> None:
-    if not diameter < width:
-        raise ParameterError("pin_diameter", diameter, "no_wall_about_pin", limit(width * 0.9999, diameter))
-
-
 def _check_end(keys: FollowerSpec | FollowerArmSpec, more: Mapping[str, tuple[str, ...]]) -> None:
     """Keys that belong to other ends are refused, and a mushroom has a radius."""
     owners = {"follower_radius": ("mushroom",), "pin_diameter": ("roller",), **more}
@@ -209,7 +204,6 @@ class Follower(Ended[FollowerSpec]):
         if keys.end in ("flat", "mushroom") and keys.plate_diameter == 0:
             works = Nearest(2 * keys.stem_width)
             raise ParameterError("plate_diameter", 0.0, "follower_without_plate", works, end=keys.end)
-        _check_pin(keys.pin_diameter, keys.stem_width)
         edges = _edges(keys, _stem_edges, _STEM_SIZES)
         outline = checked_outline(edges, keys, [("pin_diameter", 0j, keys.pin_diameter)] if keys.pin_diameter else ())
         radius = keys.follower_radius if keys.end == "mushroom" else 0.0
@@ -228,10 +222,6 @@ class FollowerArm(Ended[FollowerArmSpec]):
         from geometry.cams.plane.disk import FollowerKind
 
         _check_end(keys, {"face_offset": ("flat",)})
-        if not keys.pivot_diameter < keys.boss_diameter:
-            most = limit(keys.boss_diameter * 0.9999, keys.pivot_diameter)
-            raise ParameterError("pivot_diameter", keys.pivot_diameter, "no_wall_in_boss", most)
-        _check_pin(keys.pin_diameter, keys.width)
         edges = _edges(keys, _arm_edges, _ARM_SIZES)
         own = [("pivot_diameter", 0j, keys.pivot_diameter), ("pin_diameter", keys.arm_length + 0j, keys.pin_diameter)]
         outline = checked_outline(edges, keys, [hole for hole in own if hole[2] > 0])

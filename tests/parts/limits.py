@@ -44,6 +44,7 @@ def check_limit(
     ``side``: "at_most" or "at_least"; ``near``: part of the limit that it is tried beside; ``numbers``: what the
     refusal tells besides.
     """
+    limit = float(limit)
     way = near * max(abs(limit), 1e-3) * (1 if side == "at_most" else -1)
     assert refused(with_key(raw, key, limit - way)) is None
     refusal = refused(with_key(raw, key, limit + way))

@@ -104,10 +104,16 @@ def test_what_would_be_told_must_hold_itself() -> None:
 @given(value=st.floats(min_value=-1e6, max_value=1e6), digits=st.integers(2, 9))
 def test_limits_are_rounded_to_their_side(value: float, digits: int) -> None:
     up, down = rounded(value, up=True, digits=digits), rounded(value, up=False, digits=digits)
-    assert down <= value <= up or math.isclose(down, value, rel_tol=1e-12) or math.isclose(up, value, rel_tol=1e-12)
+    assert down <= value <= up
     assert up - down <= 1.01 * 10.0**-digits + 4e-16 * abs(value)
     assert limit(value, value + 1).side == "at_most"
     assert limit(value, value - 1).side == "at_least"
+
+
+def test_a_limit_a_hair_beside_a_round_number_stays_on_its_side() -> None:
+    """As it was: the product with a power of ten was rounded onto the number, and what was offered did not work."""
+    assert rounded(18 + 10.1 + 2 * 0.05, up=True) == 28.2001
+    assert rounded(13.899999999999999, up=False) == 13.8999
 
 
 def test_a_limit_in_another_unit_keeps_its_side() -> None:

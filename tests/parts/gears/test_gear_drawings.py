@@ -286,6 +286,27 @@ def test_a_thread_that_runs_out_is_told_as_far_as_it_is_whole() -> None:
     assert thread == (pytest.approx(-25 - 15.2j), pytest.approx(25 - 15.2j), "below", "", "")
 
 
+def test_a_thread_cut_off_straight_is_told_by_its_end_faces() -> None:
+    """No cones: the cylinder of the tips from end to end, both faces from the axis to the root and on to the tips."""
+    (view,) = drawing_of(WORM | {"end_angle_deg": 0.0}).views
+    outside = [-25 + 0j, -25 + 15.2j, -25 + 24j, 25 + 24j, 25 + 15.2j, 25 + 0j]
+    assert straight(view, VISIBLE) == mirrored({near(a, b) for a, b in pairwise(outside)})
+    told = {name: (row[0], row[1]) for name, row in sizes(view).items()}
+    assert told == {"outer_diameter.1": (-25 - 24j, -25 + 24j), "length": (-25 - 24j, 25 - 24j)}
+
+
+def test_the_rim_of_a_worm_wheel_is_hollow_about_its_worm() -> None:
+    """m 4, q 10, z 30: axes 80 apart, throat at 64, roots at 55.2: arcs of 16 and 24.8 mm about the worm's axis."""
+    wheel = {"kind": "worm_wheel", "module": 4.0, "number_of_teeth": 30, "face_width": 20.0, "bore_diameter": 25.0}
+    section = drawing_of(wheel).views[0]
+    arcs = {(round(abs(c.centre.imag), 6), round(c.centre.real, 6), round(c.radius, 6))
+            for _, c in section.strokes if isinstance(c, Arc)}  # fmt: skip
+    assert arcs == {(80.0, 10.0, 16.0), (80.0, 10.0, 24.8)}
+    hatched = {round(c.radius, 6) for loop in section.hatched for c in loop if isinstance(c, Arc)}
+    assert hatched == {24.8}
+    assert {abs(a.start.imag) for a in section.axes} == {0.0, 60.0}
+
+
 def words_of(keys: dict[str, Any]) -> tuple[str, ...]:
     return drawing_of(keys).requirements[1:]
 
