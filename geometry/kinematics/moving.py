@@ -121,26 +121,6 @@ class Moving(Record):
                 bodies[name] = self._moved(name, joint, bodies[joint.on], (t, order), inputs)
         return {name: self._pose(name, bodies[name]) for name in wanted}
 
-    def turn(self, link: str, t: float | Fraction) -> float:
-        """How far a link has turned at one t, rad within half a turn either way; a slide's travel, mm.
-
-        Rounded once where all drives are lines, and whatever stands between them.
-        """
-        body = self.stands.body(link)
-        at = np.asarray(float(t))
-        inputs = {name: drive.law(at, 0) for name, drive in self.drives.items() if drive.law}
-        course = self.courses[body]
-        for name, _ in course.shares:
-            if name in self.leads:
-                driver = self.leads[name].driver
-                inputs[name] = self.leads[name].ahead([self.pose(driver, at, 0)[1][0] - self.starts[driver][1]])
-            elif name not in inputs:
-                inputs[name] = [self.pose(name, at, 0)[1][0] - self.starts[name][1]]
-        slides = isinstance(self.stands.supports.get(body), Prismatic)
-        own = course.start + course.rate * Fraction(t)
-        way = float(own) * _TRAVEL if slides else float(_reduced(own)) * _TURN
-        return float(way + sum(share * inputs[name][0] for name, share in course.shares))
-
     def _pose(self, link: str, body: _Body) -> Pose:
         return body.origin, [self.starts[link][1] + body.turn[0], *body.turn[1:]]
 

@@ -275,8 +275,7 @@ def _farthest(edges: Smooth, normal: Complex) -> Complex:
     for first in range(0, len(normal), rows):
         out = np.conj(normal[first : first + rows])
         height = (out[:, None] * poles[:, 0]).real
-        far = poles[np.argmax(height, axis=1), 0]
-        top = height.max(axis=1)
+        top, far = height.max(axis=1), np.empty(height.shape[0], dtype=complex)
         which, edge = np.nonzero(height + reach > top[:, None])
         parts = poles[edge]
         for _ in range(_HALVINGS):

@@ -16,7 +16,8 @@ import pytest
 from geometry.base.errors import ParameterError
 from geometry.base.series import Series
 from geometry.curves.curve import Real
-from geometry.kinematics.mechanism import FRAME, Fixed, Group, Joint, Mechanism, Prismatic, Revolute, Rolling
+from geometry.kinematics.groups import parallel_cranks
+from geometry.kinematics.mechanism import FRAME, Fixed, Group, Joint, Mechanism, Prismatic, Revolute, Rolling, Uneven
 from geometry.kinematics.moving import Drive, moving
 from tests.oracles.envelope import instant_centre
 
@@ -89,8 +90,6 @@ def test_a_train_of_1e12_stands_within_1e_12_of_a_pitch() -> None:
         exact -= exact > Fraction(1, 2)
         found = float(train.pose("12", np.array(t), 1)[1][0])
         assert abs(found / (2 * math.pi) - exact) < 1e-12 / 20
-        assert train.turn("12", t) == pytest.approx(found, abs=1e-14)
-    assert train.turn("12", Fraction(1, 3)) == pytest.approx(2 * math.pi / 3, rel=1e-15)
 
 
 def test_satellites_go_round_with_their_carrier() -> None:
@@ -120,7 +119,6 @@ def test_two_drives_and_a_law() -> None:
     # w_H = (z1 w1 + z3 w3) / (z1 + z3)
     wanted = [(2 * math.pi * (0.25 + 2 * 0.3) + 3 * math.sin(0.3)) / 4, (4 * math.pi + 3 * math.cos(0.3)) / 4]
     assert [float(x) for x in angle] == pytest.approx([*wanted, -3 * math.sin(0.3) / 8])
-    assert both.turn("H", 0.3) == pytest.approx(wanted[0])
     assert [complex(x) for x in place] == [0, 0, 0]
 
 
@@ -133,7 +131,65 @@ def test_a_rack_travels_and_carries() -> None:
     place, angle = moved.pose("pen", np.array(2.5), 1)
     assert complex(place[0]) == pytest.approx(3j + cmath.rect(2.5 * math.pi * 2.5 * 20, 0.3), rel=1e-14)
     assert (float(angle[0]), float(angle[1])) == (0.1, 0.0)
-    assert moved.turn("rack", 2.5) == pytest.approx(2.5 * math.pi * 50, rel=1e-15)
+    assert complex(place[1]) == pytest.approx(cmath.rect(50 * math.pi, 0.3), rel=1e-14)
+
+
+def waving(turn: Series) -> Series:
+    """0.2 sin x and its coefficients over t, to the second."""
+    x = [*turn, 0.0, 0.0]
+    found = [0.2 * np.sin(x[0]), 0.2 * np.cos(x[0]) * x[1], 0.1 * (2 * np.cos(x[0]) * x[2] - np.sin(x[0]) * x[1] ** 2)]
+    return found[: len(turn)]
+
+
+@pytest.mark.parametrize("driver", ["1", "2"])
+def test_an_uneven_wheel_is_ahead_of_its_ratio_by_what_its_driver_says(driver: str) -> None:
+    """Teeth 20 and 40 the other way round: psi = -phi / 2, and 0.2 sin of the driver's turn beyond."""
+    mesh = Rolling("external", "1", "2", (20, 40), uneven=Uneven(driver, waving))
+    moved = moving(Mechanism((Revolute("1"), Revolute("2", at=60), mesh)), (Drive(driver, Fraction(1, 10)),))
+    other, ratio = ("2", -0.5) if driver == "1" else ("1", -2.0)
+    for t in (0.0, 0.3, 1.7, 4.4):
+        turn = 2 * math.pi * t / 10
+        place, angle = moved.pose(other, np.array(t), 1)
+        wanted = ratio * turn + 0.2 * math.sin(turn)
+        assert math.remainder(float(angle[0]) - wanted, 2 * math.pi) == pytest.approx(0.0, abs=1e-14)
+        assert float(angle[1]) == pytest.approx(math.pi / 5 * (ratio + 0.2 * math.cos(turn)), rel=1e-14)
+        assert complex(place[0]) == (60 if other == "2" else 0)
+
+
+def test_a_link_on_parallel_cranks_turns_as_the_link_below() -> None:
+    """A base that turns, an arm on it, and three cranks as long as that arm: each crank turns as the arm does.
+
+    A wheel that gears with the first crank is driven by what the group leaves it.
+    """
+    pivots = (30.0 + 0j, -10.0 + 20j, 5.0 - 25j)
+    cranks = parallel_cranks("link", ("a", "b", "c"), ("base", pivots), ("arm", 12.0 + 5j))
+    joints = (
+        Revolute("base", at=3 + 4j), Revolute("arm", on="base", at=8 + 4j), cranks,
+        Revolute("wheel", on="base", at=60.0), Rolling("external", "a", "wheel", (20, 30), on="base"),
+    )  # fmt: skip
+    starts = {"base": (3 + 4j, 0.3), "arm": (8 + 4j, -0.2)}
+    moved = moving(Mechanism(joints, starts=starts), (Drive("base", Fraction(1, 8)), Drive("arm", Fraction(-1, 5))))
+    for t in (0.0, 0.4, 0.9):
+        base, arm = 2 * math.pi * t / 8, -2 * math.pi * t / 5
+        axis = 3 + 4j + 5 * cmath.exp(1j * base)
+        # the frame of the arm was at -0.2 rad, that of the base at 0.3
+        end = axis + (12 + 5j) * cmath.exp(1j * (arm - 0.2))
+        wanted = {"link": (end, 0.3 + base)}
+        for name, pivot in zip("abc", pivots, strict=True):
+            wanted[name] = axis + pivot * cmath.exp(1j * (base + 0.3)), arm - 0.2
+        for name, (place, angle) in wanted.items():
+            found = moved.pose(name, np.array(t), 2)
+            assert complex(found[0][0]) == pytest.approx(place, rel=1e-13)
+            assert float(found[1][0]) == pytest.approx(angle, rel=1e-13, abs=1e-14)
+            before, after = (moved.pose(name, np.array(t + k * 1e-4), 0) for k in (-1, 1))
+            for value, low, high in zip(found, before, after, strict=True):
+                assert complex(value[1]) == pytest.approx(complex((high[0] - low[0]) / 2e-4), abs=1e-5)
+                bend = complex((high[0] - 2 * value[0] + low[0]) / 1e-8)
+                assert 2 * complex(value[2]) == pytest.approx(bend, abs=1e-4)
+        # against the base the wheel turns 2/3 of the crank's turn, the other way
+        wheel = moved.pose("wheel", np.array(t), 1)[1]
+        assert float(wheel[0]) == pytest.approx(base - (arm - base) * 2 / 3, rel=1e-13, abs=1e-14)
+        assert float(wheel[1]) == pytest.approx(2 * math.pi * (1 / 8 + 2 / 3 * (1 / 5 + 1 / 8)), rel=1e-13)
 
 
 def test_what_moves_itself_is_refused() -> None:
