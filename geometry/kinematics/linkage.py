@@ -170,7 +170,7 @@ class RockerGuide(Record):
 
     def turn(self, joint: Series, length: float) -> Series:
         """exp(i theta) of the coupler; NaN where it does not close."""
-        way: Series = [self.pivot - joint[0], *(-x for x in joint[1:])]
+        way = self._way(joint)
         square: Series = [x.real for x in product(way, conjugate(way))]
         with np.errstate(invalid="ignore"):
             root = power(self._radicand(square, length), 0.5)
@@ -180,6 +180,10 @@ class RockerGuide(Record):
         whole = product(way, beside)
         with np.errstate(invalid="ignore"):
             return quotient(whole, [2 * length * x for x in square])
+
+    def _way(self, joint: Series) -> Series:
+        """q from joint A to the pivot."""
+        return [self.pivot - joint[0], *(-x for x in joint[1:])]
 
     def _radicand(self, square: Series, length: float) -> Series:
         outer: Series = [(length + self.length) ** 2 - square[0], *(-x for x in square[1:])]
@@ -191,7 +195,7 @@ class RockerGuide(Record):
     def turn_bound(self, joint: Series, length: float, room: tuple[float, float], at: Middle) -> Series:
         """Bounds of the moduli of that series; the root's binomials alternate but for its first term."""
         middle, half = at
-        here: Series = [self.pivot - middle[0], *(-x for x in middle[1:])]
+        here = self._way(middle)
         way = sharpened([abs(self.pivot) + joint[0], *joint[1:]], here, half)
         square_here: Series = [x.real for x in product(here, conjugate(here))]
         square = sharpened(product(way, way), square_here, half)

@@ -247,7 +247,7 @@ def _line(course: _Course, t: Real, *, slides: bool) -> Real:
     # whole turns are dropped from the product's two parts (Dekker), and from what the rate is beyond a float
     turns = rate * t
     rest = _beyond(rate, t, turns) + float(course.rate - Fraction(rate)) * t
-    found = (turns - np.rint(turns)) + (rest - np.rint(rest)) + float(_reduced(course.start))
+    found = (turns - np.rint(turns)) + (rest - np.rint(rest)) + float(course.start % 1)
     return np.asarray((found - np.rint(found)) * _TURN)
 
 
@@ -262,9 +262,3 @@ def _halves(value: Real) -> tuple[Real, Real]:
     big = 134217729.0 * value
     high = big - (big - value)
     return high, value - high
-
-
-def _reduced(turns: Fraction) -> Fraction:
-    """Within half a turn either way."""
-    rest = turns % 1
-    return rest - 1 if rest > Fraction(1, 2) else rest

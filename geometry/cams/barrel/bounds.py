@@ -54,10 +54,7 @@ def edge_bounds(cam: BarrelCam, piece: LawPiece, radius: float, order: int, a: R
             rho[k] = rest / slope
         arm = _arm_bounds(cam, rho, rate, aside, least, most)
         plane = [x + p + z for x, p, z in zip(rho, aside, arm, strict=False)]
-        turning: Series = []
-        for k in range(order):
-            total = (k + 1) * plane[k + 1] + sum(plane[j] * turning[k - j] for j in range(1, k + 1))
-            turning.append(total / radius)
+        turning = product(derived(plane), majorant_power(radius, plane[1:], -1.0))
         proven = (slope > 0) & (least > 0) & (lean < 1)
     polar = [np.full(np.shape(reach), math.inf), *(t / (k + 1) for k, t in enumerate(turning))]
     if order:

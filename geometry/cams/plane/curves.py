@@ -22,6 +22,7 @@ from geometry.base.series import (
     conjugate,
     derived,
     exponential,
+    majorant_power,
     power,
     product,
     quotient,
@@ -282,10 +283,7 @@ class FaceEnvelope(CamSpan, Record):
         # phi' is farther from 0 than this: its value at the middle less half the interval times |phi''|
         least = np.abs(self.support((a + b) / 2, 1)[1][1]) - (b - a) / 2 * rate[1]
         with np.errstate(divide="ignore", invalid="ignore"):
-            inverse = [1 / least]
-            for k in range(1, order + 1):
-                inverse.append(sum(rate[j] * inverse[k - j] for j in range(1, k + 1)) / least)
-            arm = product(derived(height), inverse)
+            arm = product(derived(height), majorant_power(least, rate[1 : order + 1], -1.0))
         speed = [x + y for x, y in zip(product(height, rate), derived(arm), strict=False)]
         normal = exponential([0.0 * rate[0], *(rate[k - 1] / k for k in range(1, order))])
         found = product(speed, normal)

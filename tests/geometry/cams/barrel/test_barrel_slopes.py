@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from geometry.base.record import replace
+from geometry.cams.barrel.body import Ring, Track
 from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam, SwingGuide
 from geometry.cams.motion.follower_motion import PhaseKind
 from tests.geometry.cams.barrel.test_barrel import CAMS, INNER, OUTER
@@ -111,3 +112,21 @@ def test_points_off_a_wall_are_so_far_from_the_roller(cam: BarrelCam, side: int)
     assert found == pytest.approx(near, abs=1e-9)
     assert np.abs(np.angle(np.exp(1j * (at - angles)))).max() < 0.25
     assert np.sign(cam.nearest(points)[1]) == pytest.approx(np.full(30, float(side)))
+
+
+@CAMS
+@pytest.mark.parametrize("side", [UPPER, LOWER])
+def test_a_wall_ends_at_its_cylinders(cam: BarrelCam, side: int) -> None:
+    """A point of the wall's own continuation beyond an end is as far from the wall as from its cylinder."""
+    track = Track(side, Ring(INNER, side=side), Ring(OUTER, side=side))
+    for radius, beyond in ((INNER - 0.5, 0.5), (INNER, 0.0), (26.0, 0.0), (OUTER, 0.0), (OUTER + 0.8, 0.8)):
+        points = cam.wall(ANGLES, side, radius)
+        assert track.distance(cam, points) == pytest.approx(beyond, abs=1e-9)
+        # a mm off the roller's way, by the hypotenuse; the other wall, and what is far beyond, has no distance
+        off = points + np.array([0.0, 0.0, 0.01 * side])
+        away = cam.distance(off)
+        assert np.all((away > 0) & (away < 0.0101))
+        assert track.distance(cam, off) == pytest.approx(np.hypot(away, beyond), abs=1e-9)
+    far = [cam.wall(ANGLES, -side, 26.0), cam.wall(ANGLES, side, OUTER + 0.06 * INNER), cam.wall(ANGLES, side, 20.0)]
+    for points in far:
+        assert np.isinf(track.distance(cam, points)).all()

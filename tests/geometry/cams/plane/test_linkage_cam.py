@@ -361,6 +361,21 @@ def test_what_cannot_be_is_refused(name: str) -> None:
     assert (caught.value.name, caught.value.code) == (key, code)
 
 
+@pytest.mark.parametrize(
+    ("length", "code", "least", "most"),
+    [(50.0, "linkage_comes_apart", 110.0, 150.0), (20.0, "linkage_never_closes", 140.0, 120.0)],
+)
+def test_couplers_that_do_not_close_are_told_between_which_lengths_they_would(
+    length: float, code: str, least: float, most: float
+) -> None:
+    """A slider that moves 60 mm away from a pivot 100 mm behind it: joint A from 100 to 160 mm off a rocker's pivot."""
+    linkage = Linkage(SliderDrive(0j, 0.0), 160.0, RockerGuide(-100 + 0j, length))
+    with pytest.raises(ParameterError) as caught:
+        linkage_cam(motion(60.0), ROLLER, linkage, 0j, radius=5.0)
+    assert (caught.value.name, caught.value.value, caught.value.code) == ("coupler_length", 160.0, code)
+    assert caught.value.numbers == pytest.approx({"least": least, "most": most})
+
+
 @pytest.mark.parametrize("kind", ["translating", "rocker"])
 @pytest.mark.parametrize("degrees", [30, 60, 100])
 def test_savvins_rollers_by_his_corrected_formulas(kind: str, degrees: int) -> None:

@@ -11,6 +11,7 @@ from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.cams.motion.follower_motion import PhaseKind, dwell, follower_motion, return_, rise
 from geometry.cams.plane.disk import FollowerKind, oscillating_cam, translating_cam
 from geometry.cams.plane.synthesis import (
+    AxisRegion,
     axis_region,
     convex_roller_base_radius,
     flat_base_radius,
@@ -58,6 +59,21 @@ def test_the_best_offset_is_the_best(law: str) -> None:
         assert best == pytest.approx(region.least_prime_radius(offset))
         for e in np.linspace(-60, 60, 2401):
             assert region.least_prime_radius(float(e)) >= best * (1 - 1e-12)
+
+
+def test_the_nearest_axis_of_lines_is_their_foot_or_a_crossing() -> None:
+    """s_0 >= a - e c: a line's distance from the origin is a / sqrt(1 + c^2), its foot at e = a c / (1 + c^2)."""
+    for a, c in ((20.0, 1.7), (20.0, -0.6), (5.0, 0.3)):
+        offset, height = AxisRegion(((a, c),)).best()
+        assert (offset, height) == pytest.approx((a * c / (1 + c * c), a / (1 + c * c)), rel=1e-12)
+    # inclined both ways: above their crossing, were it not nearer at a foot
+    offset, height = AxisRegion(((20.0, 1.5), (15.0, -1.0))).best()
+    assert (offset, height) == pytest.approx((2.0, 17.0), rel=1e-12)
+    offset, height = AxisRegion(((20.0, 1.5), (2.0, -0.1))).best()
+    assert (offset, height) == pytest.approx((30 / 3.25, 20 / 3.25), rel=1e-12)
+    # the axis stands no higher than the roller's lowest centre
+    assert AxisRegion(((-4.0, 0.5), (-6.0, -0.5))).best() == (0.0, 0.0)
+    assert AxisRegion(((-4.0, 0.5),)).least_height(-10.0) == 1.0
 
 
 def test_flat_radius_is_the_edge_of_undercut() -> None:
