@@ -1,6 +1,7 @@
 """From the mates of a scene to matings. A mate may change a part only in its tip diameter and its thinning.
 
-Both happen before any region is built: the shortest tip and the largest thinning that any mate asks for win.
+Both happen before any region is built: the shortest tip that any mate asks for wins, and thinning is shared out so that
+mates have the backlash that they ask for.
 """
 
 from __future__ import annotations
@@ -31,19 +32,54 @@ def mated(
     def changed(name: str, **values: float) -> None:
         final[name] = replace(final[name], thing=replace(final[name].thing, **values))
 
-    thinning: dict[str, float] = {}
-    for mate in mates:
-        for end, asked in zip((mate.first, mate.second), _kind(mate).thinning(mate, *both(mate)), strict=True):
-            thinning[part_of[end]] = max(thinning.get(part_of[end], 0.0), asked)
-    for name, asked in thinning.items():
-        if asked:
-            changed(name, circumferential_thinning=asked)
+    asked = [((part_of[m.first], part_of[m.second]), _kind(m).thinning(m, *both(m))) for m in mates]
+    for name, thinning in shared_out(asked).items():
+        if thinning:
+            changed(name, circumferential_thinning=thinning)
     # every mate tells its tips before any is changed
     for mate, tips in [(m, _kind(m).tips(m, *both(m))) for m in mates]:
         for end, radius in zip((mate.first, mate.second), tips, strict=True):
             if radius is not None and radius < final[part_of[end]].thing.tip_radius:
                 changed(part_of[end], given_tip_diameter=2 * radius)
     return final, [_kind(m).mating(m, *both(m)) for m in mates]
+
+
+# what a mate asks of its two parts alone: their ids, and the thinning of each, mm
+Asked = tuple[tuple[str, str], tuple[float, float]]
+
+
+def shared_out(asked: Sequence[Asked]) -> dict[str, float]:
+    """The thinning of parts, mm, from what each mate asks of its two alone.
+
+    A part that another mate has thinned already leaves its mate what is lacking. Mates that ask for most are served
+    first, or last, whichever gives less beyond what was asked for: nothing in a train of two pairs, or of like ones.
+    """
+    rising = sorted(asked, key=lambda one: sum(one[1]))
+    ways = [_served(order) for order in (rising[::-1], rising)]
+    return min(ways, key=lambda given: sum(abs(_lacking(given, one)) for one in asked))
+
+
+def _served(asked: Sequence[Asked]) -> dict[str, float]:
+    """The same, mate after mate."""
+    given: dict[str, float] = {}
+    for one in asked:
+        bearing = _bearing(one)
+        taking = [part for part in bearing if part not in given] or bearing
+        lacking = max(_lacking(given, one), 0.0)
+        # once, though a part may mesh with another of its kind
+        for part in dict.fromkeys(taking):
+            given[part] = given.get(part, 0.0) + lacking / len(taking)
+    return given
+
+
+def _bearing(one: Asked) -> list[str]:
+    """The parts that a mate asks to be thinned."""
+    return [part for part, share in zip(*one, strict=True) if share > 0]
+
+
+def _lacking(given: Mapping[str, float], one: Asked) -> float:
+    """What both parts of a mate have too little, mm; below 0: too much."""
+    return sum(one[1]) - sum(given.get(part, 0.0) for part in _bearing(one))
 
 
 def _kind(mate: MateKeys) -> Any:

@@ -97,6 +97,35 @@ def test_a_part_that_sets_its_own_thinning_keeps_it() -> None:
     assert matings[0].normal_backlash == pytest.approx(0.1, rel=1e-9)
 
 
+@pytest.mark.parametrize("wanted", [(0.1, 0.2, 0.1), (0.2, 0.1, 0.25), (0.3, 0.2, 0.15), (0.1,) * 3])
+def test_each_mate_of_a_train_has_the_backlash_that_it_asks_for(wanted: tuple[float, float, float]) -> None:
+    """By (A_1 + A_2) cos(alpha) of each pair; a gear between two had the larger thinning, and both pairs more."""
+    train = {"a": SUN, "b": WHEEL, "c": {**SUN, "number_of_teeth": 22}, "d": WHEEL}
+    links = [("a", "b"), ("b", "c"), ("c", "d")]
+    raw = {
+        "parts": train,
+        "mates": [
+            {"kind": "external_gear_pair", "first": one, "second": two, "normal_backlash": asked}
+            for (one, two), asked in zip(links, wanted, strict=True)
+        ],
+    }
+    made, matings = make_parts(scene_from_dict(raw, "t", "t"), "t")
+    assert [m.normal_backlash for m in matings] == pytest.approx(list(wanted), rel=1e-9)
+    cosine = math.cos(math.radians(20))
+    for (one, two), asked in zip(links, wanted, strict=True):
+        thinnings = [made[k].thing.circumferential_thinning for k in (one, two)]
+        assert sum(thinnings) * cosine == pytest.approx(asked, rel=1e-9)
+
+
+def test_a_gear_that_meshes_with_its_like_is_thinned_by_half() -> None:
+    raw = {
+        "parts": {"a": SUN},
+        "instances": {"one": {"part": "a"}, "two": {"part": "a"}},
+        "mates": [{"kind": "external_gear_pair", "first": "one", "second": "two", "normal_backlash": 0.1}],
+    }
+    assert make_parts(scene_from_dict(raw, "t", "t"), "t")[1][0].normal_backlash == pytest.approx(0.1, rel=1e-9)
+
+
 @pytest.mark.parametrize("kind", ["internal_gear_pair", "rack_pair", "external_gear_pair"])
 def test_a_backlash_that_nothing_is_left_to_give_is_refused(kind: str) -> None:
     """Both teeth are as thin as their keys say: j_bn = (A_1 + A_2) cos(alpha), and another was passed over."""
