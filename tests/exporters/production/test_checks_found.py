@@ -138,7 +138,7 @@ def test_pairs_tell_where_they_are_nearest_and_how_far_they_are_driven() -> None
     assert "verdict" not in plain
     assert "transmission_error" not in plain
     assert plain["kind"] == "external_gear_pair"
-    # no nearer than they stand: in the middle of its play a pair drawn apart has that way by the sine of 20 degrees on either flank
+    # drawn apart it has the way by the sine of 20 degrees on either flank, in the middle of its play
     mating = placing.mates[0].mating
     apart = check_pair(mating, "en", centre_shift=0.02, tolerance=1e-6)
     assert apart["verdict"] == "clear"
