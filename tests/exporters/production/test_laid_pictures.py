@@ -29,6 +29,12 @@ BARREL = (
 )
 
 
+WORM = (
+    '[parts.worm]\nkind = "worm"\ntitle = "worm"\nmodule = 1.0\nnumber_of_starts = 1\ndiameter_quotient = 10.0\n'
+    "thread_length = 5.0\n"
+)
+
+
 def picture(text: str, folder: Path) -> tuple[ElementTree.Element, tuple[float, float]]:
     plan = plan_build(scene_from_toml(text.encode(), "s.toml", "s"), "s", [], [])
     (file,) = laid_previews(plan, folder)
@@ -36,9 +42,9 @@ def picture(text: str, folder: Path) -> tuple[ElementTree.Element, tuple[float, 
     return root, size
 
 
-def test_of_a_part_its_section_or_its_hull_is_seen(tmp_path: Path) -> None:
-    """A plate is its section; a drum's development is no view of it."""
-    text = PLATE.format("slab", 40.0, 12.0) + BARREL + BED.format(wide=120.0, more="")
+def test_of_a_part_its_section_its_hull_or_both_are_seen(tmp_path: Path) -> None:
+    """A plate is its section; a drum's development is no view; a worm's section is less than its thread sweeps."""
+    text = PLATE.format("slab", 40.0, 12.0) + BARREL + WORM + BED.format(wide=120.0, more="")
     root, _ = picture(text, tmp_path)
     by_fill: dict[str, list[ElementTree.Element]] = {}
     for path in root.iter(f"{SVG}path"):
@@ -46,7 +52,7 @@ def test_of_a_part_its_section_or_its_hull_is_seen(tmp_path: Path) -> None:
     samples = [r for r in root.iter(f"{SVG}rect") if "stroke-width" in r.get("style", "")][1:]
     legend = [text.replace("\xa0", " ") for text, *_ in words(root) if re.match(r"\d: 1 × ", text.replace("\xa0", " "))]
     fills = {
-        row.split(" × ")[1]: re.findall(r"fill:(#\w+)", r.get("style", ""))[0]
+        row.split(" × ")[1].split(" ")[0]: re.findall(r"fill:(#\w+)", r.get("style", ""))[0]
         for row, r in zip(legend, samples, strict=True)
     }
     (slab,) = by_fill[fills["slab"]]
@@ -54,6 +60,11 @@ def test_of_a_part_its_section_or_its_hull_is_seen(tmp_path: Path) -> None:
     (barrel,) = by_fill[fills["barrel"]]
     # chords within 0.02 mm, that much wider
     assert shape(barrel).area == pytest.approx(math.pi * 4.02**2, rel=5e-3)
+    thread, section = by_fill[fills["worm"]]
+    tip = 10 / 2 + 1.0
+    assert shape(thread).area == pytest.approx(math.pi * (tip + 0.02) ** 2, rel=5e-3)
+    assert shape(section).area < 0.95 * shape(thread).area
+    assert shape(thread).buffer(0.05).contains(shape(section))
 
 
 @pytest.mark.parametrize(("wide", "high"), [(60.0, 20.0), (24.0, 20.0), (19.0, 20.0), (14.0, 8.0), (3.0, 3.0)])
