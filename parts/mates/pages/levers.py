@@ -53,8 +53,7 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     assignment: Annotated[int, Meta(description="number of an assignment of the guidelines, 1 to 10")] | None = None
     variant: Annotated[int, Meta(description="its row, 1 to 10")] | None = None
     first: Annotated[
-        Literal["stone", "rods", "slider"],
-        Meta(description="what A joins: stone in a lever, rod and rocker, slider"),
+        Literal["stone", "rods", "slider"], Meta(description="what A joins: stone in a lever, rod and rocker, slider")
     ] = "stone"
     second: Annotated[Literal["slider", "rocker", "none"], Meta(description="what the lever drives")] = "none"
     crank_length: Annotated[float, _Length] | None = None
