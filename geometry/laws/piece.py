@@ -129,11 +129,8 @@ class LawPiece(Record):
 
 @lru_cache(maxsize=512)
 def _extremes(piece: LawPiece, order: int) -> Real:
-    if piece.is_constant:
-        inner = np.zeros(0)
-    else:
-        t = np.linspace(piece.start, piece.end, _EXTREME_SAMPLES)
-        inner = sign_changes(lambda x: piece.value(x, order + 1), t)
+    t = np.linspace(piece.start, piece.end, _EXTREME_SAMPLES)
+    inner = sign_changes(lambda x: piece.value(x, order + 1), t)
     found = np.concatenate([[piece.start], inner, [piece.end]])
     # shared by all who ask
     found.flags.writeable = False
