@@ -180,7 +180,7 @@ def _told(value: float, given: float) -> Nearest:
 
 def _is_whole(disc: CycloidalDisc) -> bool:
     """Whether an outline exists, whatever the pins do to each other."""
-    if not 0 < disc.generating_pin_radius <= disc.generating_radius * (1 - _LEAST_RING):
+    if not disc.generating_pin_radius > 0 or not _leaves_disc(disc):
         return False
     least, most = _eccentricities(disc)
     return least <= disc.eccentricity <= most
@@ -196,21 +196,18 @@ def _check_pins(disc: CycloidalDisc) -> None:
     if not disc.generating_pin_radius > 0:
         least = -disc.pin_diameter / 2 * (1 - _MARGIN)
         raise ParameterError("pin_clearance", disc.pin_clearance, "leaves_no_pin", _told(least, disc.pin_clearance))
-    if disc.generating_pin_radius <= disc.generating_radius * (1 - _LEAST_RING):
+    if _leaves_disc(disc):
         return
-    # the pins themselves leave a disc: what takes more than they do is to blame
-    for key in ("pin_circle_shift", "pin_clearance"):
-        if getattr(disc, key) > 0 and (key == "pin_clearance" or _leaves_disc(replace(disc, pin_circle_shift=0.0))):
-            room = true * (1 - _LEAST_RING)
-            if key == "pin_circle_shift":
-                room = true - disc.generating_pin_radius / (1 - _LEAST_RING)
-            else:
-                room -= disc.pin_diameter / 2 + max(disc.pin_circle_shift, 0.0)
-            raise ParameterError(key, getattr(disc, key), "leaves_no_disc", partial(_nearest, disc, key, 0.0, room))
-    raise ParameterError("pin_circle_shift", disc.pin_circle_shift, "leaves_no_disc", Nearest(0.0))
+    # pins that do not touch leave a disc themselves: what takes more than they do is to blame
+    if disc.pin_circle_shift > 0 and _leaves_disc(replace(disc, pin_circle_shift=0.0)):
+        key, room = "pin_circle_shift", true - disc.generating_pin_radius / (1 - _LEAST_RING)
+    else:
+        key, room = "pin_clearance", disc.generating_radius * (1 - _LEAST_RING) - disc.pin_diameter / 2
+    raise ParameterError(key, getattr(disc, key), "leaves_no_disc", partial(_nearest, disc, key, 0.0, room))
 
 
 def _leaves_disc(disc: CycloidalDisc) -> bool:
+    """Whether a pin is smaller than the circle that draws the outline."""
     return disc.generating_pin_radius <= disc.generating_radius * (1 - _LEAST_RING)
 
 
