@@ -8,15 +8,18 @@ import math
 import pytest
 
 from geometry.base.errors import ParameterError
-from geometry.gears.pairs.external import external_pair
+from geometry.gears.pairs.external import ExternalPair, external_pair
+from geometry.gears.pairs.internal import InternalPair
 from geometry.gears.pairs.sliding import active_line, specific_sliding
 from geometry.gears.pictures.readings import profile_readings
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.basic_rack import TipRelief, iso_53
 from geometry.gears.teeth.spur import SpurGear
 from tests.brute import works
+from tests.geometry.gears.pairs.test_internal_pair import pair_of
 
 RACK = iso_53()
+RINGED = pair_of(20, 61, 0.2, 0.3, 2.0)
 PAIR = external_pair(SpurGear(10.0, 13, RACK, 0.694), SpurGear(10.0, 21, RACK, 0.384))
 
 
@@ -39,6 +42,18 @@ def test_sliding_is_that_of_the_touching_points(share: float) -> None:
     factors = line.speed_factors(PAIR.working_radii[0])
     if share in (0.0, 1.0):
         assert abs(one - two) / PAIR.working_radii[0] == pytest.approx(factors[round(share)], rel=1e-9)
+
+
+@pytest.mark.parametrize("pair", [PAIR, RINGED], ids=["external", "internal"])
+def test_active_flanks_lie_between_the_ends_of_contact(pair: ExternalPair | InternalPair) -> None:
+    """Radii of the points where contact begins and ends, seen from either axis; of a ring the axis is on this side."""
+    line = active_line(pair)
+    alpha = pair.working_pressure_angle
+    foot, along = pair.first.base_radius * cmath.exp(-1j * alpha), 1j * cmath.exp(-1j * alpha)
+    ends = [foot + at * along for at in (line.start, line.start + line.length)]
+    for found, axis in zip(pair.active_profile_radii, (0.0, pair.sign * pair.working_centre_distance), strict=True):
+        assert found == pytest.approx(sorted(abs(point - axis) for point in ends), rel=1e-12)
+        assert found[0] < found[1]
 
 
 def test_the_parts_of_the_active_line() -> None:

@@ -85,6 +85,42 @@ def test_closed_forms_agree_with_built_pairs() -> None:
     } <= kinds
 
 
+def told(made: ExternalPair, pair: ShiftPair, x1: float, x2: float) -> dict[str, float]:
+    """What each condition compares, less its limit where it has one, by the built pair's own sizes, in modules."""
+    alpha = made.working_pressure_angle
+    reaches = [math.sqrt(g.tip_radius**2 - g.base_radius**2) - g.base_radius * math.tan(alpha) for g in made.gears]
+    found = {"working_angle": math.tan(alpha) - alpha, "approach": reaches[1], "recess": reaches[0]}
+    found["contact_ratio"] = made.contact_ratio
+    for i, (who, gear) in enumerate(zip(("first", "second"), made.gears, strict=True)):
+        found[f"tip_thickness_{who}"] = limits.tip_thickness(gear)
+        # h_Ff sin^2 less z / 2 sin^2: the rack's straight flank ends where the line of action begins
+        sine = math.sin(pair.rack.pressure_angle) ** 2
+        found[f"undercut_{who}"] = (x1, x2)[i] - (pair.rack.form_dedendum - gear.number_of_teeth / 2 * sine)
+        found[f"active_flank_{who}"] = made.margins()[i].margin
+    return found
+
+
+def test_each_condition_is_what_its_name_says() -> None:
+    wish = Requirements(0.25, 1.15, pole_inside=True)
+    limits_of = {"tip_thickness_first": 0.25, "tip_thickness_second": 0.25, "contact_ratio": 1.15}
+    for pair, x1, x2, made in random_states(7, 12):
+        value = told(made, pair, x1, x2)
+        for name, condition in conditions(pair).items():
+            if condition.name == "equal_sliding":
+                continue
+            assert name == (condition.name if condition.level is None else f"{condition.name} {condition.level:g}")
+            wanted = value[condition.name] - (condition.level or 0.0)
+            assert condition.margin(x1, x2) == pytest.approx(wanted, rel=1e-7, abs=1e-7)
+        asked = {m.name: m for m in margins(pair, wish, x1, x2)}
+        assert asked.keys() == value.keys()
+        for name, margin in asked.items():
+            assert margin.margin == pytest.approx(value[name] - limits_of.get(name, 0.0), rel=1e-7, abs=1e-7)
+            assert margin.margin == margin.value - margin.limit
+        assert least_margin(pair, wish, x1, x2) <= min(m.margin for n, m in asked.items() if "active" not in n)
+        loose = {m.name for m in margins(pair, replace(wish, allow_undercut=True, pole_inside=False), x1, x2)}
+        assert asked.keys() - loose == {"undercut_first", "undercut_second", "approach", "recess"}
+
+
 def test_form_tangent_is_the_built_one_undercut_or_not() -> None:
     for z, x in ((8, 0.0), (8, 0.56), (17, 0.0), (30, -0.9), (30, 0.2)):
         gear = SpurGear(1.0, z, RACK, x, z + 1.0)
