@@ -92,7 +92,8 @@ def checks(pair: InternalShiftPair, x1: float, x2: float) -> dict[str, float]:
     start, end = math.sqrt(max(ring_tip**2 - high**2, 0)) - line, math.sqrt(tip**2 - low**2)
     feet = (specific_sliding(start, line, made.gear_ratio, -1)[0],
             specific_sliding(end, line, made.gear_ratio, -1)[1])  # fmt: skip
-    return found | {"approach": pole - start, "recess": end - pole, "equal_sliding": feet[1] - feet[0]}
+    found |= {"approach": pole - start, "recess": end - pole, "equal_sliding": feet[1] - feet[0]}
+    return found | {"sliding_first": feet[0], "sliding_second": feet[1]}
 
 
 def values(pair: InternalShiftPair, x1: float, x2: float) -> dict[str, float]:
@@ -100,7 +101,11 @@ def values(pair: InternalShiftPair, x1: float, x2: float) -> dict[str, float]:
     known = conditions(pair)
     levelled = {"tip_thickness_first 0", "tip_thickness_second 0", "tip_clearance_first 0", "tip_clearance_second 0"}
     found = {n.removesuffix(" 0"): c.margin(x1, x2) for n, c in known.items() if c.level is None or n in levelled}
-    return found | {"contact_ratio": internal_state(pair, x1, x2).contact_ratio}
+    state = internal_state(pair, x1, x2)
+    sliding = state.root_sliding(pair.gear_ratio)
+    return found | {
+        "contact_ratio": state.contact_ratio, "sliding_first": sliding[0], "sliding_second": sliding[1]
+    }  # fmt: skip
 
 
 def random_states(seed: int, count: int) -> list[tuple[InternalShiftPair, float, float, dict[str, float]]]:
