@@ -153,27 +153,27 @@ def cured(
     def works(look: Callable[[K], bool], key: str, value: float) -> bool:
         return kept(look, changed(keys, **{key: value}))
 
+    def stays(key: str, value: float) -> bool:
+        return works(looks[0], key, value) and works(looks[-1], key, value)
+
     def cure(key: str, start: float, ends: Sequence[float]) -> Nearest | None:
-        place, found = start, None
+        place = start
         for look in looks:
-            holds = partial(works, look, key)
-            if found is None or not holds(place):
-                beyond = [end for end in ends if (end - place) * (place - start) >= 0]
-                found = nearest(holds, place, beyond, share=share)
-                if found is None or not isinstance(found.value, int | float):
-                    return None
-                place = found.value
-        return found
+            beyond = [end for end in ends if (end - place) * (place - start) >= 0]
+            found = nearest(partial(works, look, key), place, beyond, share=share)
+            if found is None or not isinstance(found.value, int | float):
+                return None
+            if works(looks[-1], key, place := found.value):
+                return found
+        return None
 
     for key in dict.fromkeys((*limits, *ways)):
         given: float = getattr(keys, key)
-        if (start := limits.get(key, given)) != given and works(looks[0], key, start):
+        if (start := limits.get(key, given)) != given and stays(key, start):
             return refusal
         ends = [end for end in ways[key] if end != start and (end - start) * (start - given) >= 0]
         told = ParameterError(key, given, refusal.code, partial(cure, key, start, ends), **refusal.numbers)
-        for end in ends:
-            if not all(works(look, key, end) for look in looks):
-                continue
+        for end in filter(partial(stays, key), ends):
             if useful is None or kept(useful, changed(keys, **{key: end})):
                 return told
             fallback = fallback or told

@@ -139,7 +139,7 @@ REASONS = {
     "hob_pointed": N_("the hob's thread is pointed before it reaches the root of the wheel"),
     "hob_rounding_too_large": N_("the roundings of the hob's tip leave no land between them"),
     "hob_smaller_than_worm": N_("must not be less than the worm's, which would not fit into the teeth of its wheel"),
-    "within_throat": N_("lies within the throat, {diameter} mm"),
+    "within_throat": N_("the throat, {diameter} mm, lies outside of outer_diameter"),
     "worm_wheel_not_moved": N_("is not for a worm wheel: thin its teeth by axial_thinning"),
     "worm_wheel_faces_break": N_("the hob's tip breaks the faces of the teeth: a narrower rim or fewer starts"),
     "worm_wheel_all_fillet": N_("the fillet of the hob's tip reaches the tip of the teeth at the ends of the face"),

@@ -166,14 +166,18 @@ def _least(keys: WormWheelSpec) -> WormTeeth:
     return teeth.sliver if keys.face_width is None else teeth
 
 
-def _is_seen(keys: WormWheelSpec) -> bool:
-    """Whether there are such teeth at a glance, which bend nowhere by default, and splines follow their ends."""
+def _stands(keys: WormWheelSpec) -> bool:
+    """Whether there are such teeth, a glance first, and by default they bend nowhere."""
+    least = _least(keys)
+    looks = least.glanced, least.tried
+    return all(look.is_smooth() if keys.face_width is None else look.stands() for look in looks)
+
+
+def _begins(keys: WormWheelSpec) -> bool:
+    """Whether splines follow the ends of such teeth, which are the first that they leave."""
     from geometry.gears.worms.wheel_faces import is_fitting
 
-    least = _least(keys)
-    glanced = least.glanced
-    stands = glanced.is_smooth() if keys.face_width is None else glanced.stands()
-    return stands and is_fitting(least.tried, outermost=True)
+    return is_fitting(_least(keys).tried, outermost=True)
 
 
 def _is_made(keys: WormWheelSpec) -> bool:
@@ -213,11 +217,12 @@ def _cured(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
     """A refusal of worm, hob or teeth in the key and with the value that leaves a wheel."""
     quotient, hob = keys.diameter_quotient, keys.hob_diameter_quotient or math.inf
     less = ("axial_thinning", "profile_shift_coefficient"), ("hob_rounding_coefficient", "tip_clearance_coefficient")
-    ways = ways_out(keys, *less, hob)
+    more = [round(share * keys.number_of_teeth) for share in _MORE_TEETH]
+    # its own limit alone may do of an outside within the throat
+    ways = {**ways_out(keys, *less, hob), "number_of_teeth": more, "outer_diameter": ()}
     if quotient < hob < math.inf:
         ways = {"hob_diameter_quotient": (quotient,), **ways}
-    ways["number_of_teeth"] = [round(share * keys.number_of_teeth) for share in _MORE_TEETH]
-    return cured(refusal, keys, ways, (_is_seen, _is_made), _of_use, NEAR)
+    return cured(refusal, keys, ways, (_stands, _begins, _is_made), _of_use, NEAR)
 
 
 def _about(keys: WormWheelSpec, drive: WormDrive, teeth: WormTeeth) -> WheelThing:
