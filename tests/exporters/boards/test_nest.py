@@ -59,10 +59,10 @@ def test_repeated_boards_leave_what_they_do_not_hold() -> None:
 
 def test_small_ones_lie_in_holes_where_they_have_room() -> None:
     """Rings with a hole of 64 mm: a disc of 58 goes in with its gaps, one of 62 does not; copies stand elsewhere."""
-    ring = shapely.Point(0, 0).buffer(40).difference(shapely.Point(0, 0).buffer(32))
+    ring = shapely.Point(0, 0).buffer(40, 8).difference(shapely.Point(0, 0).buffer(32))
     room = Room(84, 84, 1, 2)
     for radius, boards in ((29.0, 2), (31.0, 4)):
-        disc = shapely.Point(100, -50).buffer(radius)
+        disc = shapely.Point(100, -50).buffer(radius, 8)
         made = checked({"ring": (ring, 2), "disc": (disc, 1), "copy": (translate(disc, 7, -3), 1)}, room)
         assert len(made) == boards
         assert sorted(one.shape for pieces in made for one, _ in pieces if one.shape != "ring") == ["copy", "disc"]
