@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 from geometry.base.errors import ParameterError
-from geometry.base.record import Record, replace
+from geometry.base.nearest import nearest
+from geometry.base.record import Record
 from geometry.gears.teeth import measurement
 from geometry.gears.teeth.measurement import SPAN_CONTACT, Measured, Span
 from geometry.gears.teeth.ring import RingGear
@@ -175,6 +177,24 @@ def _real_part(page: Sheet, gear: Measured, best: Span, asked: Asked, side: _Sid
         page.add("thinning_from_span", thinned.circumferential_thinning, formula, ISO)
 
 
+def _after_kerf(gear: Measured, pin: float, kerf: float, helix: float) -> float:
+    """The size over pins that a cut without correction leaves, mm; of a ring between them.
+
+    In a space whose flanks lie half a kerf deeper a pin sits as one that is thinner by the kerf sits in the space.
+    """
+
+    def size(cut: float) -> float:
+        if not pin > cut:
+            raise ParameterError("kerf", cut, "kerf_drops_pin", pin=pin)
+        return measurement.over_pins(gear, pin - cut, helix).length + gear.sign * cut
+
+    try:
+        return size(kerf)
+    except ParameterError as refusal:
+        cure = partial(nearest, lambda cut: size(cut) > 0, kerf, 0.0)
+        raise ParameterError("kerf", kerf, "kerf_drops_pin", cure, pin=pin) from refusal
+
+
 def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     """Pins, balls where the teeth are helical, and when pins give the same there."""
     tool, helix = "ball" if asked.helix else "pin", asked.helix
@@ -206,9 +226,7 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     if gear.circumferential_thinning:
         page.add(f"{size}_nominal", measurement.over_pins(measurement.nominal(gear), pin, helix).length)
     if asked.kerf:
-        thinner = gear.circumferential_thinning + asked.kerf / measurement.normal_share(gear, helix)
-        cut = replace(gear, circumferential_thinning=thinner)
-        page.add(f"{size}_after_kerf", measurement.over_pins(cut, pin, helix).length)
+        page.add(f"{size}_after_kerf", _after_kerf(gear, pin, asked.kerf, helix))
     page.add(f"{tool}_contact_diameter", found.contact_diameter)
     if asked.measured_size is not None:
         page.add(f"measured_{size}", asked.measured_size)

@@ -16,6 +16,7 @@ REASONS = {
     "given_twice": N_("is given twice: once is enough"),
     "groove_below_ball": N_("must be wider than the ball: above {least} mm"),
     "has_a_value": N_("{key} has a value already; remove one of them"),
+    "kerf_drops_pin": N_("leaves spaces so wide that a pin of {pin} mm falls between the flanks"),
     "keys_not_a_scene": N_("takes keys only, no scene"),
     "needs_other": N_("needs {other} too"),
     "no_dxf": N_("is not a DXF that can be read"),

@@ -27,6 +27,8 @@ G = TypeVar("G", "SpurGear", "RingGear")
 
 # practicum, condition below (1.3): S_a >= 0.3 m
 LEAST_TIP_THICKNESS = 0.3
+# modules: shorter chamfers, roundings and thinnings are not offered
+_LEAST_OFFERED = 1e-6
 # practicum (1.2): xi_min = (17 - z) / 17
 PRACTICUM_LEAST_TEETH = 17
 
@@ -208,11 +210,15 @@ _NAMES = {"given_tip_diameter": "tip_diameter"}
 
 
 def corner_suspects(gear: G, builds: Callable[[G], bool]) -> list[Suspect]:
-    """Parameters of any toothed part that may be to blame: broken tip corners and thinning."""
+    """Parameters of any toothed part that may be to blame: broken tip corners and thinning.
+
+    A length within rounding of 0 is none: where only such a chamfer reaches a flank, 0 is offered.
+    """
+    least = _LEAST_OFFERED * gear.module
 
     def with_field(name: str, value: float) -> bool:
         field: dict[str, Any] = {name: value}
-        return builds(replace(gear, **field))
+        return (value == 0 or value >= least) and builds(replace(gear, **field))
 
     names = ("tip_chamfer", "tip_rounding", "circumferential_thinning")
     return [Suspect(name, getattr(gear, name), 0.0, partial(with_field, name)) for name in names]

@@ -188,6 +188,9 @@ def _thinned(keys: PairKeys, normal: tuple[SpurGear, SpurGear], helix: float) ->
         return normal
     if len(asked) > 1:
         raise ParameterError(asked[0], getattr(keys, asked[0]), "other_is_given", REMOVED, other=asked[1])
+    for name, gear in zip(GEARS, normal, strict=True):
+        # what no backlash is to blame for
+        _section_of(keys, name, gear)
     gears = [replace(transverse_gear(g, helix), circumferential_thinning=0.0) for g in normal]
     bare = external_pair(gears[0], gears[1], keys.working_centre_distance if _has_distance(keys, gears) else None)
     alpha = gears[0].rack.pressure_angle

@@ -232,6 +232,20 @@ def test_a_kerf_that_was_forgotten_shows_in_span_and_pins() -> None:
     assert cut["over_pins_after_kerf"] == pytest.approx(thinner["over_pins"] + 0.2, rel=1e-12)
 
 
+def test_a_kerf_that_leaves_a_pointed_tooth_or_drops_the_pin() -> None:
+    """Sizes over pins need no tip: a thin one was refused by a key that does not exist; a wide cut, by the pin's."""
+    keys = "spur module=0.5 pressure_angle_deg=25 number_of_teeth=9 profile_shift_coefficient=0.48"
+    plain = values_of(keys + " pin_diameter=0.9")["values"]
+    assert plain["tip_thickness"] < 0.1
+    cut = values_of(keys + " pin_diameter=1.0 kerf=0.1")["values"]
+    assert cut["over_pins_after_kerf"] == pytest.approx(plain["over_pins"] + 0.1, rel=1e-12)
+    for asked in (keys, "ring module=2 number_of_teeth=63"):
+        with pytest.raises(SceneError, match=r"kerf = 5\.0: .*at most ([\d.]+) mm works") as refused:
+            calculate(asked.split()[0], [*asked.split()[1:], "kerf=5"], "text", "en")
+        assert refused.value.nearest is not None
+        values_of(f"{asked} kerf={refused.value.nearest.value}")
+
+
 def test_the_scene_gives_the_language(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     scene = tmp_path / "pair.toml"
     scene.write_text(

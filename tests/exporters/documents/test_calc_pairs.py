@@ -179,6 +179,14 @@ def test_a_backlash_beside_two_thinned_gears_is_refused_by_its_key(wish: str) ->
     assert refused.value.key == f"gear-pair.{wish.partition('=')[0]}"
 
 
+def test_a_gear_that_cannot_exist_is_no_fault_of_the_backlash() -> None:
+    asked = ["module=2.5", "first.number_of_teeth=9", "first.profile_shift_coefficient=0.689",
+             "second.number_of_teeth=12", "normal_backlash=0.1"]  # fmt: skip
+    with pytest.raises(SceneError, match="pointed") as refused:
+        calculate("gear-pair", asked, "text", "en")
+    assert refused.value.key == "gear-pair.first.profile_shift_coefficient"
+
+
 def test_sliding_vanishes_at_the_pole_and_is_that_of_speeds() -> None:
     mating: Any = make_parts(load_scene("thesis_internal_pair"), "t")[1][0]
     pair = mating.pair

@@ -211,6 +211,18 @@ def test_a_refusal_names_a_value_that_works(gear: SpurGear) -> None:
         checked_gear(replace(gear, **{field: nearer}))
 
 
+def test_a_chamfer_flatter_than_the_flank_is_offered_none() -> None:
+    """Where the flank leans more than 45 degrees at the tip no such chamfer reaches it; 5.8e-12 mm was offered."""
+    gear = SpurGear(1.0, 9, iso_53("B"), 0.6, tip_chamfer=0.08)
+    # of the flank against the radius through the chamfer's foot
+    assert math.acos(gear.base_radius / (gear.tip_radius - 0.08)) > math.radians(45)
+    with pytest.raises(ParameterError) as refused:
+        checked_gear(gear)
+    assert refused.value.name == "tip_chamfer"
+    assert refused.value.nearest is not None
+    assert refused.value.nearest.value == 0.0
+
+
 def test_a_refusal_finds_the_key_that_can_help() -> None:
     """Pointed at every shift within reach, but sound with a smaller tip diameter: some value that works is named."""
     gear = SpurGear(1.0, 3, iso_53("A", math.radians(30)), 1.2885, circumferential_thinning=0.254)
