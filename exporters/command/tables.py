@@ -197,7 +197,7 @@ def stress_table(rows: list[Row], files: list[Path], told: Words) -> None:
                 f"{own[-1].value:g}",
                 f"{max(r.condition for r in own):.2g}",
                 f"{max(r.relative for r in own):.2g}",
-                f"{max(r.error / r.allowed for r in own):.2g}",
+                f"{max(r.error / r.bound for r in own):.2g}",
                 told.text("stable") if stable else told.text("UNSTABLE"),
             ]
         )

@@ -38,12 +38,12 @@ class Row(Record):
     result: complex
     error: float
     condition: float
-    allowed: float
+    bound: float
 
     @property
     def is_stable(self) -> bool:
         """Whether it is within what rounding explains."""
-        return self.error <= self.allowed
+        return self.error <= self.bound
 
     @property
     def relative(self) -> float:
@@ -60,7 +60,7 @@ class Row(Record):
         """The row as CSV and JSON have it."""
         return {
             "case": self.case, "varied": self.varied, "value": self.value, "result": self.numbers, "error": self.error,
-            "condition": self.condition, "allowed": self.allowed, "stable": self.is_stable,
+            "condition": self.condition, "allowed": self.bound, "stable": self.is_stable,
         }  # fmt: skip
 
 

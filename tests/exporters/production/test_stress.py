@@ -97,7 +97,7 @@ def test_condition_numbers_are_those_of_calculus() -> None:
     assert row.condition == pytest.approx(3.0, rel=1e-12)
     # 1.5^3 is exact in both; whole numbers have no rounding
     assert row.error == 0
-    assert row.allowed == pytest.approx(10 * 2.0**-53 * 4 * 1.5**3)
+    assert row.bound == pytest.approx(10 * 2.0**-53 * 4 * 1.5**3)
 
 
 def test_truths_are_those_of_other_sources() -> None:
