@@ -60,9 +60,7 @@ class TransmissionError(Record):
         if overlap_ratio <= 0 or len(self.errors) < 2:
             return self
         angles, errors = np.array(self.drive_angles), np.array(self.errors)
-        if overlap_ratio >= 1:
-            return replace(self, errors=(float(errors.max()),) * len(errors))
-        face = overlap_ratio * self.pitch
+        face = min(overlap_ratio, 1.0) * self.pitch
         way = np.concatenate([angles + k * self.pitch for k in (-1, 0, 1, 2)])
         value = np.tile(errors, 4)
         starts = np.sort(np.mod(np.concatenate([angles, angles - face]), self.pitch))

@@ -224,6 +224,12 @@ def test_the_larger_obstacle_rules() -> None:
     assert min(wide.errors) == pytest.approx(-2.0)
 
 
+@pytest.mark.parametrize("overlap", [1.0, 1.3, 7.0])
+def test_a_face_of_a_pitch_and_more_is_ruled_by_the_greatest_of_all(overlap: float) -> None:
+    error = TransmissionError(1, (0.1, 0.25, 0.5, 0.75), (0.0, -1.0, -3.0, 0.25), 1.0, 1.0)
+    assert set(error.over_face(overlap).errors) == {0.25}
+
+
 @pytest.mark.parametrize("overlap", [0.07, 0.31, 0.8])
 def test_a_face_is_ruled_by_its_section_that_is_farthest_ahead(overlap: float) -> None:
     """Against the greatest of a fine row of sections of the same broken line, wherever the face begins."""

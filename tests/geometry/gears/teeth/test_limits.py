@@ -306,3 +306,17 @@ def test_any_refusal_by_shift_is_cured_by_its_remedy(x: float, teeth: int, degre
     assert isinstance(error, ParameterError)
     assert error.name in ("profile_shift_coefficient", "number_of_teeth")
     assert checked_gear(replace(gear, **{error.name: brute.works(error)}))
+
+
+def test_where_neither_shift_nor_tip_cures_more_teeth_do() -> None:
+    """One tooth: refused with the least number above it that can be built."""
+    gear = SpurGear(5.0, 1, BasicRack(math.radians(20), 0.7929, 0.3158, 0.0103), -1.5625)
+    with pytest.raises(ParameterError) as caught:
+        checked_gear(gear)
+    assert (caught.value.name, caught.value.value, caught.value.code) == ("number_of_teeth", 1, "leaves_no_flank")
+    cure = caught.value.nearest
+    assert cure is not None
+    assert cure.side == "at_least"
+    checked_gear(replace(gear, number_of_teeth=int(cure.value)))
+    with pytest.raises(ParameterError):
+        tooth_side(replace(gear, number_of_teeth=int(cure.value) - 1))

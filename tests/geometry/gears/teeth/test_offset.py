@@ -15,7 +15,7 @@ from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
 from geometry.curves.trochoid import TrochoidFillet
 from geometry.gears.teeth.basic_rack import BasicRack, TipRelief, full_round_radius, iso_53
-from geometry.gears.teeth.offset import gear_region
+from geometry.gears.teeth.offset import chamfered_outline, gear_region
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from geometry.plane.measure import profile_area
@@ -246,3 +246,37 @@ def test_a_rim_that_vanishes_is_refused() -> None:
 def test_hostile_offsets_are_refused(offset: float) -> None:
     with pytest.raises(ParameterError):
         gear_region(GEARS["z23"], offset)
+
+
+@pytest.mark.parametrize("deepest", [0.3, 1.0])
+def test_a_tip_rounding_shrinks_with_a_chamfer_to_no_less_than_a_quarter(deepest: float) -> None:
+    """0.5 of a rounding lose 0.3 of it where the chamfer is 0.3 deep; of one of 1 mm 0.375, evenly with its depth.
+
+    Where it does not shrink as it is chamfered its face is no cone, and the arc is told as any curve.
+    """
+    gear = SpurGear(3.0, 20, iso_53(), tip_rounding=0.5)
+    shrinking = 1.0 if deepest < 0.375 else 0.375 / deepest
+    for share in (0.0, 0.4, 1.0):
+        depth = share * deepest
+        outline = chamfered_outline(gear, 0.0, depth, deepest)
+        breaks = [s.curve for s in outline.period if s.label is Label.TIP_BREAK]
+        assert len(breaks) == 2
+        for curve in breaks:
+            points = curve.point(np.linspace(*curve.domain, 9))
+            middle = points[4]
+            # a circle through three of its points
+            a, b = points[0] - middle, points[8] - middle
+            centre = middle - 1j * (abs(a) ** 2 * b - abs(b) ** 2 * a) / (2 * (a.conjugate() * b).imag)
+            assert np.abs(points - centre) == pytest.approx(0.5 - shrinking * depth, rel=1e-9)
+            assert isinstance(curve, Arc) == (deepest < 0.375)
+        assert all(isinstance(s.curve, Arc) for s in outline.period if s.label in (Label.TIP_LAND, Label.ROOT_LAND))
+        # segment for segment the outline itself, its tips lower by the depth
+        assert [s.label for s in outline.period] == [s.label for s in tooth_side(gear).profile().period]
+        land = next(s.curve for s in outline.period if s.label is Label.TIP_LAND)
+        assert np.abs(land.point(land.domain[0])) == pytest.approx(gear.tip_radius - depth, rel=1e-12)
+
+
+def test_a_sharp_tip_stays_sharp_in_a_chamfer() -> None:
+    outline = chamfered_outline(SpurGear(3.0, 20, iso_53()), 0.1, 0.5, 1.0)
+    assert Label.TIP_BREAK not in {s.label for s in outline.period}
+    assert all(isinstance(s.curve, Arc) for s in outline.period if s.label in (Label.TIP_LAND, Label.ROOT_LAND))

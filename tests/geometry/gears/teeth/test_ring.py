@@ -370,3 +370,29 @@ def test_a_moved_ring_lies_at_its_distance_whatever_is_used_up(name: str) -> Non
         assert finding.value == offset
         rounding = gear.root.tip_rounding * 2 if isinstance(gear.root, PinionCutter) else 0.0
         assert finding.limit == pytest.approx(rounding, abs=1e-12)
+
+
+@pytest.mark.parametrize("rim", [1.999, 2.001])
+@pytest.mark.parametrize("thickness", [0.299, 0.301])
+def test_thin_tips_and_rims_are_told_below_their_limits(rim: float, thickness: float) -> None:
+    """A rim of a module outside the root, and 0.3 modules of a tip: its diameter is sought by its own thickness."""
+    gear = RingGear(2.0, 60, math.radians(20), 200.0, RoundedRoot(), 0.8)
+
+    def with_tip(radius: float) -> RingGear:
+        return replace(gear, given_tip_diameter=2 * radius)
+
+    # s_a = 2 r (pi / (2 z) - 2 x tan(alpha) / z - inv alpha + inv alpha_a) of a ring's tooth, thinner inwards
+    def width(radius: float) -> float:
+        at = math.acos(gear.base_radius / radius)
+        lean = math.tan(math.radians(20))
+        return 2 * radius * (math.pi / 120 - 1.6 * lean / 60 - (lean - math.radians(20)) + math.tan(at) - at)
+
+    low, high = gear.base_radius * 1.0001, 60.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if width(middle) < thickness * 2 else (low, middle)
+    made = replace(with_tip(low), outer_diameter=2 * (gear.root_radius + rim))
+    wanted = [("thin_tip", thickness * 2, 0.6)] if thickness < 0.3 else []
+    wanted += [("thin_ring_rim", rim, 2.0)] if rim < 2 else []
+    found = [(f.code, f.value, f.limit) for f in ring_limits.findings(made)]
+    assert found == [(code, pytest.approx(value, rel=1e-9), pytest.approx(least)) for code, value, least in wanted]
