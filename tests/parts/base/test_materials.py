@@ -64,6 +64,37 @@ def test_a_material_is_known_by_its_name_anywhere_in_the_text(text: str | None, 
     assert density_of(text) == density
 
 
+# data sheets and annexes of standards: EN 1561, EN 1563, GOST 1412 (irons), EN 10088-1, EN 573 (wrought aluminium),
+# CEN/TS 13388 (copper), makers of tool steels, plastics and filaments
+SHEETS = {
+    "100Cr6": 7.81, "41CrAlMo7": 7.71, "HS6-5-2": 8.15, "HS18-0-1": 8.7, "X153CrMoV12": 7.7, "110Г13Л": 7.89,
+    "1.4301": 7.9, "1.4401": 8.0, "1.4571": 8.0, "1.4016": 7.7, "1.4021": 7.7,
+    "GJL-150": 7.1, "GJL-200": 7.15, "GJL-250": 7.2, "GJL-300": 7.25, "GJL-350": 7.3, "GJS-400": 7.1, "GJS-500": 7.1,
+    "GJS-600": 7.2, "GJS-700": 7.2, "СЧ10": 6.8, "СЧ15": 7.0, "СЧ20": 7.1, "СЧ25": 7.2, "СЧ30": 7.3, "СЧ35": 7.4,
+    "CW614N": 8.47, "CW617N": 8.43, "CW508L": 8.44, "CuZn30": 8.53, "Л68": 8.6, "ЛС59-1": 8.45, "Л60": 8.4,
+    "ЛЦ40С": 8.5, "C36000": 8.5, "CuSn8": 8.8, "CuSn12": 8.7, "БрО10С10": 9.1, "CuAl10Fe3Mn2": 7.6,
+    "CuAl10Ni5Fe4": 7.6, "БрБ2": 8.2, "БрКМц3-1": 8.4, "Cu-ETP": 8.94,
+    "AW-6060": 2.7, "AW-1050A": 2.71, "АМц": 2.73, "Д1": 2.8, "AW-2017A": 2.79, "AW-2024": 2.78, "AW-5052": 2.68,
+    "AW-5754": 2.67, "AW-5083": 2.66, "АМг5": 2.65, "АМг6": 2.64, "AlSi7Mg": 2.66, "В95": 2.85, "AW-7075": 2.81,
+    "AZ91": 1.8, "ВТ1-0": 4.5, "Ti6Al4V": 4.43, "Zamak": 6.7, "Б83": 7.38,
+    "PLA": 1.24, "ABS": 1.04, "PETG": 1.27, "ASA": 1.07, "TPU": 1.21, "HIPS": 1.04, "SBS": 1.05, "POM-C": 1.41,
+    "POM-H": 1.42, "PA6": 1.13, "PA66": 1.14, "PA6-G": 1.15, "PA6-GF30": 1.36, "PA12": 1.01, "PA11": 1.05, "PP": 0.91,
+    "PE-HD": 0.95, "LDPE": 0.92, "PE-UHMW": 0.93, "PVC": 1.4, "PET": 1.38, "PEEK": 1.31, "PTFE": 2.18, "PMMA": 1.19,
+    "PC": 1.2, "гетинакс": 1.4, "FR4": 1.85, "CFRP": 1.55, "NBR": 1.2, "HDF": 0.85, "OSB": 0.62, "balsa": 0.16,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SHEETS)
+def test_a_density_is_that_of_data_sheets(name: str) -> None:
+    assert density_of(name) == SHEETS[name]
+
+
+def test_a_material_weighs_the_same_in_either_language() -> None:
+    """Each English name by its translation, which stands in the table of marks."""
+    told = {name: words("uk").text(name) for name in NAMES}
+    assert [name for name, other in told.items() if DENSITIES.get(other) != NAMES[name]] == []
+
+
 def test_no_name_stands_with_two_densities() -> None:
     """Neither twice in the table nor once in Cyrillic and once in Latin letters; all of them are whole words."""
     rows = [name for _, row in ROWS for name in row.split(", ")] + list(NAMES)
