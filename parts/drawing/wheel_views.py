@@ -346,9 +346,10 @@ def bore_note(ends: tuple[float, float], wall: float, words: str) -> Note:
 
 def exact_teeth(outline: Profile, count: int, turn: float, tip: float) -> list[Stroke]:
     """``count`` teeth about the upward direction of a profile that is turned, as they are; the tip circle elsewhere."""
-    step, first = outline.pitch_angle, _UP - turn
-    middle = round(first / step)
-    shown = range(middle - (count - 1) // 2, middle - (count - 1) // 2 + count)
+    step = outline.pitch_angle
+    # of two ranges that are as near to it the one before it, on any machine
+    first = math.ceil((_UP - turn) / step - count / 2 - _NEAR)
+    shown = range(first, first + count)
     found: list[Stroke] = []
     for k in shown:
         placement = Placement2(turn + step * k)
