@@ -230,7 +230,10 @@ class _Order:
         if not len(thick):
             return True
         nearest = float((-thick.imag * ahead).min())
-        beside = math.hypot(*(a - b for a, b in zip(coming.at, standing.at, strict=True)))
+        # from the wheel's axis, whatever the height at which its frame stands
+        away = [a - b for a, b in zip(coming.at, standing.at, strict=True)]
+        up = math.fsum(a * b for a, b in zip(away, standing.axis, strict=True))
+        beside = math.dist(away, [up * x for x in standing.axis])
         reach = self.parts[standing.part].body(0.0).section_reach()
         return math.hypot(max(beside - float(thick.real.max()), 0.0), nearest) > reach
 
