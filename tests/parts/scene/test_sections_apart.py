@@ -68,7 +68,7 @@ def at(
     ("one", "two", "gap"),
     [
         # about one axis
-        (at("rod"), at("tube"), 1.0), (at("rod", z=-3), at("tube", z=2), 1.0), 
+        (at("rod"), at("tube"), 1.0), (at("rod", z=-3), at("tube", z=2), 1.0),
         (at("rod", z=25.5), at("tube"), math.hypot(1, 5.5)),
         (at("thick", z=22.5), at("tube"), 2.5), (at("thick", z=-31), at("tube"), 1.0),
         (at("rod", z=-15.5), at("cap"), 0.5),
