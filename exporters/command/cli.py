@@ -16,7 +16,7 @@ from types import FrameType
 from typing import TYPE_CHECKING, Any, NoReturn, TextIO, TypeVar
 
 from exporters import __version__
-from exporters.command.parser import WRONG_INPUT, Misused, Parser, speaking
+from exporters.command.parser import WRONG_INPUT, Misused, Parser, parsed, speaking
 from parts.base.texts import ENGLISH, Words, languages, words
 
 if TYPE_CHECKING:
@@ -128,7 +128,7 @@ def _parsed(arguments: list[str]) -> argparse.Namespace:
     if not given and not {"-h", "--help"} & {*arguments}:
         try:
             with speaking(words(ENGLISH)):
-                return _parser(words(ENGLISH)).parse_args(arguments)
+                return parsed(_parser(words(ENGLISH)), arguments)
         except Misused:
             # to be told again, in the language of the scene
             pass
@@ -136,7 +136,7 @@ def _parsed(arguments: list[str]) -> argparse.Namespace:
     told = words(asked if asked in languages() else ENGLISH)
     with speaking(told):
         try:
-            return _parser(told).parse_args(arguments)
+            return parsed(_parser(told), arguments)
         except Misused as misused:
             print(misused, file=sys.stderr)
             sys.exit(WRONG_INPUT)
@@ -237,7 +237,7 @@ def _interrupted() -> int:
     return INTERRUPTED
 
 
-def _parser(told: Words) -> argparse.ArgumentParser:
+def _parser(told: Words) -> Parser:
     Parser.words = told
     parser = Parser(
         prog="higherpair",
@@ -294,7 +294,7 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         default="reader",
         help=told.text("what reads STEP files back: our reader, or the CAD kernel too"),
     )
-    build.set_defaults(run=_build)
+    build.set_defaults(run=_build, several=("scenes", str))
     catalogue = command("catalogue", told.text("build a scene for every combination of the values of some keys"), quiet)
     catalogue.add_argument("scene", metavar=told.term("command line", "SCENE"), help=scene)
     catalogue.add_argument(
@@ -318,12 +318,12 @@ def _parser(told: Words) -> argparse.ArgumentParser:
     check.add_argument(
         "--steps", action="store_true", help=told.text("print the order of assembly too, if the scene has one")
     )
-    check.set_defaults(run=_check)
+    check.set_defaults(run=_check, several=("scenes", str))
     verify = command(
         "verify", told.text("read files back and compare them with the part in their report"), as_json, quiet
     )
     verify.add_argument("files", nargs="+", type=Path, metavar=told.term("command line", "FILE"))
-    verify.set_defaults(run=_verify)
+    verify.set_defaults(run=_verify, several=("files", Path))
     converge = command("converge", told.text("measure error against run time, over a ladder of tolerances"))
     converge.add_argument("scene", help=scene)
     converge.add_argument("--out", default="out", type=Path, help=out)
@@ -360,7 +360,7 @@ def _parser(told: Words) -> argparse.ArgumentParser:
         metavar="F",
         help=told.text("text, md, html, json, or the tables alone as csv (default: text)"),
     )
-    calc.set_defaults(run=_calc)
+    calc.set_defaults(run=_calc, several=("words", str))
     new = command("new", told.text("print a scene with comments to start from; for a mate, its table"), page)
     new.add_argument(
         "kind",
@@ -503,12 +503,12 @@ def _print_json(asked: Sequence[object], found: Sequence[object]) -> None:
 
 
 def _mate_for(parts: Iterable[Part]) -> str:
-    """The first kind of mate that joins one of the parts to another."""
+    """The first kind of mate that joins one of the parts to another; what none is for can be fixed."""
     from parts.mates.registry import MATES
 
     kinds = {part.made_by.name for part in parts}
     mates = (mate for mate in MATES.values() if mate.joins and any(kinds & {*pair} for pair in mate.joins))
-    return next((mate.name for mate in mates), "external_gear_pair")
+    return next((mate.name for mate in mates), "fixed")
 
 
 def _check(options: argparse.Namespace) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import NoReturn
 
@@ -46,6 +46,26 @@ class Parser(argparse.ArgumentParser):
         """One line, and where there is more."""
         text = self.words.text("{message}; see `{command} --help`", message=message, command=self.prog)
         raise Misused(f"higherpair: {text}")
+
+
+def parsed(parser: Parser, arguments: Sequence[str]) -> argparse.Namespace:
+    """What a command line says. Words behind options belong to those before them, which argparse leaves over.
+
+    ``several`` of a command: the name of its positional words, and what one of them is made by.
+
+    Raises
+    ------
+    Misused
+        Words that mean nothing.
+    """
+    options, rest = parser.parse_known_args(arguments)
+    several: tuple[str, Callable[[str], object]] | None = getattr(options, "several", None)
+    if strange := [word for word in rest if several is None or word.startswith("-")]:
+        parser.error(parser.words.text("unrecognized arguments: %s") % " ".join(strange))
+    if several is not None:
+        name, made_by = several
+        getattr(options, name).extend(map(made_by, rest))
+    return options
 
 
 @contextmanager

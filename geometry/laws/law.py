@@ -16,6 +16,8 @@ _SMOOTH = 1e-9
 # velocity and acceleration
 Rates = tuple[float, float]
 AT_REST: Rates = (0.0, 0.0)
+# what the name of a law that is run backwards ends in
+REVERSED = ", reversed"
 
 
 class Law(Record):
@@ -64,7 +66,7 @@ class Law(Record):
         for piece in reversed(self.pieces):
             back = piece.reversed_in_time().placed(0.0, 1.0, 1.0, -1.0)
             pieces.append(back.spanning(1.0 - piece.end, 1.0 - piece.start))
-        return Law(f"{self.name}, reversed", tuple(pieces))
+        return Law(f"{self.name}{REVERSED}", tuple(pieces))
 
 
 def piecewise_value(pieces: tuple[LawPiece, ...], t: Real, order: int) -> Real:

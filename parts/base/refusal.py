@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 
 from msgspec import Struct
@@ -47,9 +48,43 @@ class SceneError(Curable, ValueError):
 REMOVED = Nearest(None)
 
 
-# words of other books for our keys, to which no letter leads
+# words of other books for our keys and values, to which no letter leads; small letters, one "_" between words
 _SYNONYMS = {
+    "3_4_5": ("polynomial_345",),
+    "345": ("polynomial_345",),
+    "4_5_6_7": ("polynomial_4567",),
+    "4567": ("polynomial_4567",),
+    "bestehorn": ("sine",),
+    "center_distance": ("centre_distance", "oscillating"),
+    "centre_distance": ("oscillating",),
+    "cubic": ("linearly_decreasing",),
+    "curved": ("mushroom",),
+    "cycloid": ("sine",),
+    "cycloidal": ("sine",),
+    "down": ("return_",),
+    "drop": ("return_",),
     "eccentricity": ("follower_offset",),
+    "fall": ("return_",),
+    "h": ("lift",),
+    "harmonic": ("cosine",),
+    "inclined_sine": ("sine",),
+    "knife": ("pointed",),
+    "knife_edge": ("pointed",),
+    "law": ("phases",),
+    "linear": ("constant_velocity", "lines"),
+    "max_pressure_angle": ("least_transmission_angle_deg",),
+    "motion": ("phases",),
+    "parabolic": ("constant_acceleration",),
+    "pause": ("dwell",),
+    "rest": ("dwell",),
+    "roller_diameter": ("follower_radius",),
+    "segments": ("phases",),
+    "shm": ("cosine",),
+    "simple_harmonic": ("cosine",),
+    "sinusoidal": ("sine",),
+    "spherical": ("mushroom",),
+    "uniform": ("constant_velocity",),
+    "up": ("rise",),
     "table": ("motion_table", "poles"),
     "teeth": ("number_of_teeth",),
     "stroke": ("lift",),
@@ -64,8 +99,9 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
     import difflib
 
     word = None if word is None else in_latin(str(word))
-    if word in _SYNONYMS and word not in known:
-        match = [name for name in _SYNONYMS[word] if name in known]
+    plain = "" if word is None else re.sub("[ _-]+", "_", word.lower())
+    if plain in _SYNONYMS and word not in known:
+        match = [name for name in _SYNONYMS[plain] if name in known]
     else:
         match = [] if word is None else difflib.get_close_matches(word, list(known), 1, 0.5)
         if not match and word is not None:

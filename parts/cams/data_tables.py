@@ -10,7 +10,7 @@ from parts.base.texts import N_, Text, listed, message
 from parts.cams.disk_cam.page import sheet, table_from
 from parts.cams.groove_cam.piece import GroovePieceSpec
 from parts.pages.cam_steps import law_text
-from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, row_of, rows_of, term_row
+from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, row_of, rows_of
 from parts.pages.inputs import SceneKeys
 from parts.pages.page import Sheet
 from parts.pages.terms import TERMS
@@ -19,10 +19,13 @@ _MOTION = ("lift", "swing_deg")
 # what the drawing itself has a size of is no row: diameters, depths, the base circle where its disk shows it
 _LEAST = "least_base_circle_radius", "least_cam_radius"
 _SIZES = (
-    "follower_radius", "roller_diameter", "follower_offset", "centre_distance", "arm_length", "pivot_offset",
-    "pivot_height", "start_angle_deg", "second_follower_radius", "roller_angle_deg", "driven_pivot_x",
-    "driven_pivot_y", "driven_length", "driven_start_angle_deg", "coupler_length", "guide_pivot_x", "guide_pivot_y",
-    "guide_length", "coupler_point_x", "coupler_point_y", *_LEAST, "base_height", "whole_travel", "groove_width",
+    "follower_radius", "roller_diameter", "cone_angle_deg", "follower_offset", "centre_distance", "arm_length",
+    "face_offset", "pivot_offset", "pivot_height", "start_angle_deg", "roller_distance", "inner_roller_angle_deg",
+    "second_arm_length", "second_follower_radius", "driven_pivot_x", "driven_pivot_y", "driven_length",
+    "driven_start_angle_deg", "driven_start_x", "driven_start_y", "driven_direction_deg", "coupler_length",
+    "guide_pivot_x", "guide_pivot_y", "guide_length", "guide_through_x", "guide_through_y", "guide_direction_deg",
+    "coupler_point_x", "coupler_point_y", "follower_direction_deg", *_LEAST, "base_height", "whole_travel",
+    "groove_width",
 )  # fmt: skip
 # the table of positions of each kind, and its columns that a maker needs
 _POLAR = ("phi", "S", "r", "theta")
@@ -40,8 +43,6 @@ _FOLLOWERS: dict[str, Text] = {
     "mushroom": N_("mushroom"),
     "flat": N_("flat"),
 }
-# rows that are called by what the part has of what its kind may have
-_RADII: dict[str, Text] = {"roller": N_("radius of the roller"), "mushroom": N_("radius of the mushroom's face")}
 
 
 def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTable:
@@ -54,7 +55,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     return DataTable(
         (
             (*rows_of(page, _MOTION), *_phases(page)),
-            (*_follower(part), *_rocker(part, page), *_sizes(part, page)),
+            (*_follower(part), *_sizes(part, page)),
             _datum(part),
         ),
         chosen_columns(found, columns),
@@ -86,22 +87,10 @@ def _follower(part: Part) -> tuple[DataRow, ...]:
 
 
 def _sizes(part: Part, page: Sheet) -> list[DataRow]:
-    """Sizes under the names that they have at this form of the cam."""
-    names = dict[str, Text]()
-    if radius := _RADII.get(getattr(part.keys, "follower", "roller")):
-        names["follower_radius"] = radius
+    """Sizes that the calculation tells, in the order of drawings."""
     shown = _LEAST if "base_circle_diameter" in part.circles else ()
     steps = {step.name: step for step in page.steps() if step.name in _SIZES and step.name not in shown}
-    found = ((name, row_of(steps[name])) for name in _SIZES if name in steps)
-    return [replace(row, name=names.get(name, row.name)) for name, row in found]
-
-
-def _rocker(part: Part, page: Sheet) -> tuple[DataRow, ...]:
-    """Where a follower swings, as far as the calculation does not tell it."""
-    table = getattr(part.keys, "oscillating", None)
-    told, names = {step.name for step in page.steps()}, ("centre_distance", "arm_length")
-    found = ((name, getattr(table, name, None)) for name in names if name not in told)
-    return tuple(term_row(name, value) for name, value in found if value)
+    return [row_of(steps[name]) for name in _SIZES if name in steps]
 
 
 def _datum(part: Part) -> tuple[DataRow, ...]:

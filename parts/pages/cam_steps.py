@@ -12,11 +12,11 @@ from msgspec import Meta
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record, replace
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion, Phase, PhaseKind
-from geometry.cams.plane.disk import DiskCam
+from geometry.cams.plane.disk import DiskCam, FollowerKind
 from geometry.cams.plane.graphical import INTERVALS, LEAST_INTERVALS, MOST_INTERVALS
 from geometry.cams.plane.synthesis import least_hollow_radius
 from geometry.curves.curve import Complex, Real
-from geometry.laws.law import AT_REST, Rates
+from geometry.laws.law import AT_REST, REVERSED, Rates
 from geometry.laws.piece import LawPiece
 from parts.base.texts import N_, Message, Text, filled, message
 from parts.keys.base import degrees
@@ -46,6 +46,10 @@ _LAWS = (
     N_("polynomial of degree {degree}"),
     N_("B-spline of degree {degree}"),
 )
+_RADII: dict[FollowerKind, Text] = {
+    FollowerKind.ROLLER: N_("radius of the roller"),
+    FollowerKind.MUSHROOM: N_("radius of the mushroom's face"),
+}
 _PHASES = {"rise": "rise", "far": "far_dwell", "return": "return", "near": "near_dwell"}
 
 # radii of curvature beyond this many sizes of a cam are those of straight lines
@@ -156,6 +160,12 @@ def phase_steps(page: Sheet, phases: Phases) -> None:
         page.add(term, phases.size(phase), symbol=f"{TERMS[term].symbol}{index[name]}" if many else "")
 
 
+def radius_step(page: Sheet, kind: FollowerKind, radius: float) -> None:
+    """The radius of a roller or of a mushroom's face, mm, by its name; a point and a flat face have none."""
+    if radius:
+        page.add("follower_radius", radius, called=_RADII[kind])
+
+
 def coefficient_steps(page: Sheet, phases: Phases) -> None:
     """Law, h and the peaks of each moving phase: S'_max = C_v h / phi, S''_max = C_a h / phi^2."""
     titles = {"rise": N_("Rise: {law}"), "return": N_("Return: {law}")}
@@ -182,7 +192,9 @@ def coefficient_steps(page: Sheet, phases: Phases) -> None:
 
 
 def law_text(name: str) -> Message:
-    """A law by its name, which may end in a degree."""
+    """A law by its name, which may end in a degree, and be run backwards."""
+    if (forward := name.removesuffix(REVERSED)) != name:
+        return message("{law}, reversed", law=law_text(forward))
     kind, _, last = name.rpartition(" ")
     return message(f"{kind} {{degree}}", degree=last) if last.isdigit() else message(name)
 

@@ -72,7 +72,8 @@ class DataTable(Record):
 
 def row_of(step: Step) -> DataRow:
     """A step of a calculation as a row."""
-    return replace(term_row(step.name, step.value), symbol=step.symbol, unit=step.unit)
+    row = term_row(step.name, step.value)
+    return replace(row, name=step.called or row.name, symbol=step.symbol, unit=step.unit)
 
 
 def term_row(name: str, value: Value) -> DataRow:

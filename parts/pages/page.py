@@ -69,7 +69,8 @@ class Known(Record):
 class Step(Record):
     """One line of a calculation; ``gear`` is 0 (neither), 1 or 2; ``inputs`` is what its formula's keys stood for.
 
-    ``of``: which of several steps of the same name it is; ``given``: no result of the calculation.
+    ``of``: which of several steps of the same name it is; ``called``: what it is here, where the term's name says too
+    much or too little; ``given``: no result of the calculation.
     """
 
     name: str
@@ -82,6 +83,7 @@ class Step(Record):
     printed: Printed | None = None
     inputs: Mapping[str, Known] = field(default_factory=dict)
     of: Text = ""
+    called: Text = ""
     given: bool = False
 
 
@@ -138,9 +140,13 @@ class Sheet(Draft):
         symbol: str = "",
         key: str = "",
         of: Text = "",
+        called: Text = "",
         given: bool = False,
     ) -> None:
-        """A step; later formulas know its value by the term's key; ``symbol`` and ``key`` stand in for the term's."""
+        """A step; later formulas know its value by the term's key.
+
+        ``symbol``, ``key`` and ``called`` stand in for the term's symbol, key and name.
+        """
         term = TERMS[name]
         index = str(gear) if gear else ""
         shown = _numbered(symbol or term.symbol, index)
@@ -149,9 +155,8 @@ class Sheet(Draft):
         if unknown := [placeholder for placeholder in needed if placeholder not in self.known]:
             raise KeyError(f"{name}: {', '.join(unknown)} not known yet")
         inputs = {placeholder: self.known[placeholder] for placeholder in needed}
-        step = Step(
-            name, gear, shown, value, term.unit, formula, source, self.printed.get((name, gear)), inputs, of, given
-        )
+        printed = self.printed.get((name, gear))
+        step = Step(name, gear, shown, value, term.unit, formula, source, printed, inputs, of, called, given)
         self.sections[-1].steps.append(step)
         self.known[(key or term.key) + index] = Known(shown, value, term.unit)
 

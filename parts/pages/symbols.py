@@ -10,6 +10,8 @@ from parts.base.texts import NC_, Words
 _INDICES = {
     "_д.в.": NC_("index", "_far"),
     "_б.в.": NC_("index", "_near"),
+    "_від.з": NC_("index", "_rise.o"),
+    "_наб.з": NC_("index", "_ret.o"),
     "_від": NC_("index", "_rise"),
     "_наб": NC_("index", "_ret"),
     "_екв": NC_("index", "_e"),

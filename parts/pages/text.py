@@ -32,7 +32,7 @@ def source_text(source: str, words: Words) -> str:
 
 def step_name(step: Step, words: Words) -> str:
     """The quantity in words, with the gear it belongs to."""
-    name = words.text(TERMS[step.name].name)
+    name = words.say(step.called) if step.called else words.text(TERMS[step.name].name)
     more = words.text("gear {number}", number=step.gear) if step.gear else words.say(step.of)
     return f"{name}, {more}" if more else name
 

@@ -112,8 +112,10 @@ FINDINGS: dict[str, Text] = {
     ),
     "flat_outline": N_("a flat outline holds only the section; STL, 3MF and STEP have the whole solid"),
     "never_moves": N_("the follower never moves: all phases are dwells, the cam is a round disk"),
-    "rigid_impact": N_("rigid impact: velocity jumps by {value:.4g} per rad at cam angle {limit:.4g} deg"),
-    "soft_impact": N_("soft impact: acceleration jumps by {value:.4g} per rad^2 at cam angle {limit:.4g} deg"),
+    "rigid_impact": N_("rigid impact: S' jumps by {value:.4g} mm/rad at cam angle {limit:.4g} deg"),
+    "soft_impact": N_("soft impact: S'' jumps by {value:.4g} mm/rad^2 at cam angle {limit:.4g} deg"),
+    "swung_rigid_impact": N_("rigid impact: S' jumps by {value:.4g} deg/rad at cam angle {limit:.4g} deg"),
+    "swung_soft_impact": N_("soft impact: S'' jumps by {value:.4g} deg/rad^2 at cam angle {limit:.4g} deg"),
     "steep_pressure_angle": N_("pressure angle {value:.2f} deg on the rise, usual is at most {limit:.0f} deg"),
     "transmission_angle_not_kept": N_(
         "the transmission angle falls to {value:.4g} deg, below the {limit:.4g} deg asked for, since the "
@@ -133,11 +135,16 @@ FINDINGS: dict[str, Text] = {
         "ENGRAVE, not cut through; groove_piece gives plates to glue"
     ),
     "wedge_rigid_impact": N_("rigid impact: S' jumps by {value:.4g} at {limit:.4g} mm of travel"),
-    "wedge_soft_impact": N_("soft impact: S'' jumps by {value:.4g} per mm^2 at {limit:.4g} mm of travel"),
+    "wedge_soft_impact": N_("soft impact: S'' jumps by {value:.4g} 1/mm at {limit:.4g} mm of travel"),
+    "wedge_swung_rigid_impact": N_("rigid impact: S' jumps by {value:.4g} deg/mm at {limit:.4g} mm of travel"),
+    "wedge_swung_soft_impact": N_("soft impact: S'' jumps by {value:.4g} deg/mm^2 at {limit:.4g} mm of travel"),
     "large_roller": N_(
         "roller radius {value:.4g} mm is above 0.8 of the least radius of the pitch curve ({limit:.4g} mm)"
     ),
     "steep_groove": N_("pressure angle {value:.2f} deg at the groove's floor, usual is at most {limit:.0f} deg"),
+    "steep_track": N_(
+        "pressure angle {value:.2f} deg at the inner edge of the track, usual is at most {limit:.0f} deg"
+    ),
     "large_groove_roller": N_(
         "half the groove's width {value:.4g} mm is above 0.8 of the one that undercuts ({limit:.4g} mm)"
     ),

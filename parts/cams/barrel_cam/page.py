@@ -12,7 +12,7 @@ from geometry.cams.barrel.cam import LOWER, UPPER, AxialGuide, BarrelCam, SwingG
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.curves.curve import Real
 from geometry.laws.piece import LawPiece
-from parts.base.texts import N_, message
+from parts.base.texts import N_, Message, filled, message
 from parts.cams.barrel_cam.part import BARREL_CAM
 from parts.cams.disk_cam.speed_page import speed_section
 from parts.keys.barrel import BarrelCamSpec
@@ -51,6 +51,8 @@ def sheet(keys: BarrelKeys) -> Sheet:
     page.section(N_("Characteristics"))
     phase_steps(page, phases)
     page.add("roller_diameter", keys.roller_diameter)
+    if cam.taper:
+        page.add("cone_angle_deg", math.degrees(2 * math.atan(cam.taper)))
     if isinstance(cam.guide, SwingGuide):
         page.add("arm_length", cam.guide.arm_length)
         page.add("pivot_offset", cam.guide.pivot_offset)
@@ -73,18 +75,22 @@ def _sizes(page: Sheet, keys: BarrelKeys, body: BarrelBody) -> None:
     cam = body.cam
     page.section(N_("Sizes"))
     page.add("outer_diameter", 2 * cam.outer)
-    page.add("groove_depth", keys.groove_depth)
+    page.add("groove_depth", keys.groove_depth, called="" if cam.is_groove else N_("width of the track"))
     page.add("floor_diameter" if cam.is_groove else "inner_diameter", 2 * cam.inner, "{D} - 2 * {t}")
     if cam.is_groove:
         page.add("clearance", keys.clearance)
         page.add("groove_width", 2 * cam.radius, "{d} + {c_r}")
     page.add("barrel_length", body.length)
     page.add("roller_height", float(cam.place(0.0, 0)[0].imag))
-    for kind, name in ((PhaseKind.RISE, "rise"), (PhaseKind.RETURN, "return")):
+    for kind, name, called in (
+        (PhaseKind.RISE, "rise", N_("greatest pressure angle {where}, rise")),
+        (PhaseKind.RETURN, "return", N_("greatest pressure angle {where}, return")),
+    ):
         pieces = cam.motion.moving_pieces(kind)
         if not pieces:
             continue
-        page.add(f"pressure_angle_{name}_deg", math.degrees(cam.greatest_pressure_angle(kind)[0]))
+        steepest = math.degrees(cam.greatest_pressure_angle(kind)[0])
+        page.add(f"pressure_angle_{name}_deg", steepest, called=filled(called, where=_steepest_at(cam)))
         if isinstance(cam.guide, AxialGuide):
             sign = 1 if kind is PhaseKind.RISE else -1
             steep = max(float((sign * p.value(p.extremes(1), 1)).max()) for p in pieces)
@@ -94,26 +100,35 @@ def _sizes(page: Sheet, keys: BarrelKeys, body: BarrelBody) -> None:
     page.add("largest_roller_diameter", BARREL_CAM.report(keys, body).quantities["largest_roller_diameter"])
 
 
+def _steepest_at(cam: BarrelCam) -> Message:
+    """Where the pressure angle is greatest: nearest to the cam's axis."""
+    return message("at the floor") if cam.is_groove else message("at the inner edge of the track")
+
+
 def _positions(cam: BarrelCam, step: float, speed_rpm: float | None, *, swings: bool) -> Table:
-    """phi, S, S', S'', the greater pressure angle of the walls at the floor, the roller's axis y, z."""
+    """phi, S, S', S'', the greater pressure angle of the walls where it is steepest, the roller's axis y, z."""
     degrees, angle = cam_angles(cam.motion, step)
     motion = [cam.motion.value(angle, k) for k in range(3)]
     columns, heads = motion_columns(motion, degrees, swings=swings, speed=angular_speed(speed_rpm))
     slope = np.max([_by_piece(cam, angle, lambda p, t, s=side: cam.pressure_angle(t, cam.inner, p, s))
                     for side in cam.sides], axis=0)  # fmt: skip
     place = np.asarray(cam.place(angle, 0)[0])
-    title = N_("Positions: cam angle, motion, pressure angle at the floor, the roller's axis across and along the cam")
+    title = message(
+        "Positions: cam angle, motion, pressure angle {where}, the roller's axis across and along the cam",
+        where=_steepest_at(cam),
+    )
     heads += [("nu", "deg"), ("y", "mm"), ("z", "mm")]
     return table_of("positions", title, [*columns, np.degrees(slope), place.real, place.imag], heads)
 
 
 def _walls(cam: BarrelCam, step: float) -> list[Table]:
-    """x, z and radius of curvature of every wall, unrolled on the outer cylinder and on the floor."""
+    """x, z and radius of curvature of every wall, unrolled on the outer cylinder and on the inner one."""
     degrees, angle = cam_angles(cam.motion, step)
+    inner = message("Development of the floor") if cam.is_groove else message("Development of the inner cylinder")
     made = []
     for name, radius, title in (
         ("development", cam.outer, message("Development of the outer cylinder")),
-        ("development_floor", cam.inner, message("Development of the floor")),
+        ("development_floor", cam.inner, inner),
     ):
         columns, heads = [degrees], [("phi", "deg")]
         for side in cam.sides:

@@ -25,6 +25,7 @@ from parts.cams.barrel_cam.roller import (
     taper,
     thinnest,
 )
+from parts.cams.disk_cam.part import impact_findings
 from parts.keys.barrel import BarrelCamSpec, SwingingTable
 from parts.keys.cam import USUAL_PRESSURE_ANGLE, check_stroke, motion_of, rough_law
 from parts.keys.holes import bore_of, hub_holes, wide_bore
@@ -288,16 +289,14 @@ def _quantities(keys: BarrelCamSpec, body: BarrelBody) -> dict[str, float]:
 def _findings(keys: BarrelCamSpec, cam: BarrelCam) -> tuple[Finding, ...]:
     from geometry.cams.motion.follower_motion import PhaseKind
 
-    found = []
-    soft = [(abs(j.jumps[2]), math.degrees(j.angle)) for j in cam.motion.impacts()]
-    if soft:
-        found.append(Finding("soft_impact", *max(soft)))
-    usual = USUAL_PRESSURE_ANGLE[keys.oscillating is not None]
+    swings = keys.oscillating is not None
+    found = impact_findings(cam.motion, swings=swings)
+    usual = USUAL_PRESSURE_ANGLE[swings]
     # a groove pushes both ways, a spring takes the return of an end cam
     kinds = (PhaseKind.RISE, PhaseKind.RETURN) if cam.is_groove else (PhaseKind.RISE,)
     steepest = math.degrees(max(cam.greatest_pressure_angle(kind)[0] for kind in kinds))
     if steepest > usual + 1e-9:
-        found.append(Finding("steep_groove", steepest, usual))
+        found.append(Finding("steep_groove" if cam.is_groove else "steep_track", steepest, usual))
     limit = _USUAL_ROLLER_SHARE * largest_radius(cam, kept_apex(keys))
     if cam.radius > limit:
         found.append(Finding("large_groove_roller", cam.radius, limit))

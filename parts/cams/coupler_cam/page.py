@@ -34,6 +34,7 @@ from parts.pages.cam_steps import (
     impact_notes,
     phase_steps,
     positions,
+    radius_step,
     table_of,
 )
 from parts.pages.inputs import calculation
@@ -73,8 +74,7 @@ def sheet(keys: LinkageKeys) -> Sheet:
     page, phases = Sheet(TOPIC, title), Phases(cam.motion.phases, cam.motion.lift, cam.swings)
     page.section(N_("Characteristics"))
     phase_steps(page, phases)
-    if cam.radius:
-        page.add("follower_radius", cam.radius)
+    radius_step(page, cam.kind, cam.radius)
     _linkage(page, keys, cam)
     coefficient_steps(page, phases)
     _sizes(page, keys, cam)

@@ -241,7 +241,7 @@ def linkage_findings(keys: LinkageCamSpec, cam: LinkageCam) -> tuple[Finding, ..
     from geometry.cams.motion.follower_motion import PhaseKind
     from geometry.cams.plane.synthesis import greatest_pressure_angle, least_convex_radius
 
-    found = impact_findings(cam.motion)
+    found = impact_findings(cam.motion, swings=cam.swings)
     steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
     if steepest > _USUAL_PRESSURE_ANGLE + 1e-9:
         found.append(Finding("steep_pressure_angle", steepest, _USUAL_PRESSURE_ANGLE))

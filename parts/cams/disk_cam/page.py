@@ -51,6 +51,7 @@ from parts.pages.cam_steps import (
     impact_notes,
     phase_steps,
     positions,
+    radius_step,
 )
 from parts.pages.inputs import PLACE, SceneKeys, calculation, given
 from parts.pages.misprints import printed_for_rise
@@ -159,12 +160,23 @@ def characteristics(page: Sheet, keys: Any, cam: DiskCam) -> None:
     """The characteristics table of the sheets: H, phases, E, gamma_min."""
     page.section(N_("Characteristics"))
     phase_steps(page, phases_of(cam))
-    if not cam_swings(cam):
+    if isinstance(cam.mount, Oscillating):
+        _arm_steps(page, keys, cam, cam.mount)
+    else:
         page.add("follower_offset", keys.follower_offset)
     if keys.least_transmission_angle_deg is not None:
         page.add("least_transmission_angle_deg", keys.least_transmission_angle_deg)
-    if cam.radius:
-        page.add("follower_radius", cam.radius)
+    radius_step(page, cam.kind, cam.radius)
+
+
+def _arm_steps(page: Sheet, keys: Any, cam: DiskCam, mount: Oscillating) -> None:
+    """How the follower swings, as the scene has it: the pivot, the arm, or the face beside the pivot."""
+    if keys.oscillating.centre_distance is not None:
+        page.add("centre_distance", mount.centre_distance)
+    if cam.is_flat:
+        page.add("face_offset", mount.face_offset)
+    else:
+        page.add("arm_length", mount.arm_length)
 
 
 def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
@@ -181,7 +193,7 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
         if cam.is_flat:
             _rocker(page, keys, cam, cam.mount)
         elif asked is not None:
-            rocker_sizes(page, cam, cam.mount, asked)
+            rocker_sizes(page, keys, cam, cam.mount)
     if keys.least_curvature_radius:
         page.add("curvature_reserve", keys.least_curvature_radius)
     base = cam.base_radius
@@ -212,6 +224,8 @@ def reached(page: Sheet, cam: DiskCam) -> None:
     """Initial height, and the pressure angles that the cam has."""
     if isinstance(cam.mount, Translating):
         page.add("initial_height", cam.mount.start_height)
+    if isinstance(cam.mount, Oscillating):
+        page.add("start_angle_deg", math.degrees(cam.mount.start_angle))
     for name, angle in pressure_angles(cam).items():
         page.add(name, angle)
     if not cam.is_flat and cam.motion.moving_pieces(PhaseKind.RISE):
@@ -228,10 +242,11 @@ def _rocker(page: Sheet, keys: CamKeys, cam: DiskCam, mount: Oscillating) -> Non
         page.add("least_prime_circle_radius", least.prime_radius)
 
 
-def rocker_sizes(page: Sheet, cam: DiskCam, mount: Oscillating, transmission_angle_deg: float) -> None:
+def rocker_sizes(page: Sheet, keys: Any, cam: DiskCam, mount: Oscillating) -> None:
     """The least prime circle of a swinging roller at its pivot's distance and at the best one, by gamma both ways."""
-    steep, arm = math.radians(90 - transmission_angle_deg), mount.arm_length
-    page.add("centre_distance", mount.centre_distance)
+    steep, arm = math.radians(90 - keys.least_transmission_angle_deg), mount.arm_length
+    if keys.oscillating.centre_distance is None:
+        page.add("centre_distance", mount.centre_distance)
     for limit, name in ((None, "least_rise_radius"), (steep, "least_prime_circle_radius")):
         low, high = oscillating_start_angles(cam.motion, arm, mount.centre_distance, mount.sense, steep, limit)
         if low <= high:

@@ -20,7 +20,7 @@ from parts.base.kind import Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
 from parts.cams.wheel import DiskKeys, Turned, check_disk, inner_radius, marked_holes
-from parts.keys.base import mm
+from parts.keys.base import mm, start
 from parts.keys.cam import (
     USUAL_PRESSURE_ANGLE,
     BaseCircle,
@@ -77,7 +77,9 @@ class OscillatingTable(Struct, forbid_unknown_fields=True):
         ]
         | None
     ) = None
-    arm_length: Annotated[float, mm("from the pivot to the roller's centre; not for flat", least=0, most=_MOST)] = 0.0
+    arm_length: Annotated[
+        float, mm("from the pivot to the roller's centre; not for flat", least=0, most=_MOST), start(80.0)
+    ] = 0.0
     sense: Annotated[
         Literal["against", "with"], Meta(description="how the follower rises: against or with the cam's turning")
     ] = "against"
@@ -412,13 +414,14 @@ def pressure_angles(cam: DiskCam) -> dict[str, float]:
     }
 
 
-def impact_findings(motion: FollowerMotion) -> list[Finding]:
-    """The greatest rigid and the greatest soft impact of a motion, with its cam angle, degrees."""
+def impact_findings(motion: FollowerMotion, *, swings: bool) -> list[Finding]:
+    """The greatest rigid and the greatest soft impact of a motion, in mm or degrees, with its cam angle, degrees."""
+    code, unit = ("swung_{}_impact", math.degrees(1.0)) if swings else ("{}_impact", 1.0)
     found = []
     for impact, order in (("rigid", 1), ("soft", 2)):
-        jumps = [(abs(j.jumps[order]), math.degrees(j.angle)) for j in motion.impacts() if j.impact == impact]
+        jumps = [(abs(j.jumps[order]) * unit, math.degrees(j.angle)) for j in motion.impacts() if j.impact == impact]
         if jumps:
-            found.append(Finding(f"{impact}_impact", *max(jumps)))
+            found.append(Finding(code.format(impact), *max(jumps)))
     return found
 
 
@@ -455,8 +458,8 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
     found = []
     if all(piece.is_constant for piece in cam.motion.pieces):
         found.append(Finding("never_moves", 0.0, spec.lift or spec.swing_deg))
-    found += impact_findings(cam.motion)
     swings = spec.oscillating is not None
+    found += impact_findings(cam.motion, swings=swings)
     steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
     if steepest > USUAL_PRESSURE_ANGLE[swings] + 1e-9:
         found.append(Finding("steep_pressure_angle", steepest, USUAL_PRESSURE_ANGLE[swings]))

@@ -65,7 +65,7 @@ def _sizes(page: Sheet, keys: GrooveKeys, disk: GrooveDisk) -> None:
         least = roller_prime_radius(cam.motion, keys.follower_offset, limit, limit)
         page.add("least_radius_both_ways", least, "", LESSON_5)
     if isinstance(cam.mount, Oscillating) and asked is not None:
-        rocker_sizes(page, cam, cam.mount, asked)
+        rocker_sizes(page, keys, cam, cam.mount)
     page.add("least_base_circle_radius", cam.base_radius)
     reached(page, cam)
     page.add("least_curvature_radius", least_convex_radius(cam).value)

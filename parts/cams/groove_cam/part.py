@@ -233,7 +233,7 @@ def _findings(spec: GrooveCamSpec, disk: GrooveDisk) -> tuple[Finding, ...]:
     from geometry.cams.motion.follower_motion import PhaseKind
     from geometry.cams.plane.synthesis import greatest_pressure_angle
 
-    found = impact_findings(disk.cam.motion)
+    found = impact_findings(disk.cam.motion, swings=disk.cam.swings)
     # a groove drives both ways: the limit holds for the return too
     usual = USUAL_PRESSURE_ANGLE[spec.oscillating is not None]
     for kind, code in ((PhaseKind.RISE, "steep_pressure_angle"), (PhaseKind.RETURN, "steep_return_pressure_angle")):

@@ -79,6 +79,7 @@ def _second(page: Sheet, second: SecondCam, keys: CamKeys) -> None:
     page.section(N_("Second disk"))
     between = between_rollers(second.first, second.pair)
     if cam_swings(cam):
+        page.add("inner_roller_angle_deg", 360.0 - math.degrees(between))
         page.add("roller_angle_deg", math.degrees(between))
         page.add("second_arm_length", cam.swing.arm_length)
     else:

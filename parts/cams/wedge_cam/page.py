@@ -22,6 +22,7 @@ from parts.pages.cam_steps import (
     grid,
     motion_columns,
     phase_steps,
+    radius_step,
     straightened,
     table_of,
     with_left_sides,
@@ -57,8 +58,7 @@ def sheet(keys: WedgeKeys) -> Sheet:
     page.section(N_("Characteristics"))
     phase_steps(page, phases)
     page.add("whole_travel", cam.motion.travel)
-    if cam.radius:
-        page.add("follower_radius", cam.radius)
+    radius_step(page, cam.kind, cam.radius)
     page.add("base_height", keys.base_height)
     if isinstance(cam.mount, Swinging):
         page.add("arm_length", cam.mount.arm_length)

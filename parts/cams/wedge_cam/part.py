@@ -340,7 +340,7 @@ def _steepest(cam: WedgeCam) -> float:
 
 def wedge_findings(keys: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
     """Impacts where the velocity or the acceleration jumps, and a steep pressure angle."""
-    found, pieces = [], cam.motion.pieces
+    found, pieces, swings = [], cam.motion.pieces, keys.oscillating is not None
     low, high = cam.motion.extremes()
     for order, name in ((1, "rigid"), (2, "soft")):
         # the follower rests before and after the travel
@@ -351,9 +351,10 @@ def wedge_findings(keys: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
         jumps = [(abs(b - a), at) for a, b, at in zip(ends, starts, places, strict=True)]
         size, at = max(jumps)
         if size > _JUMP * (high - low) / cam.motion.travel**order:
-            found.append(Finding(f"wedge_{name}_impact", size, at))
+            code, unit = ("wedge_swung", math.degrees(1.0)) if swings else ("wedge", 1.0)
+            found.append(Finding(f"{code}_{name}_impact", size * unit, at))
             break
-    usual, steepest = USUAL_PRESSURE_ANGLE[keys.oscillating is not None], math.degrees(_steepest(cam))
+    usual, steepest = USUAL_PRESSURE_ANGLE[swings], math.degrees(_steepest(cam))
     if steepest > usual + 1e-9:
         found.append(Finding("steep_pressure_angle", steepest, usual))
     return tuple(found)

@@ -123,6 +123,54 @@ def test_a_wrong_command_line_gets_one_line(arguments: tuple[str, ...], capsys: 
     assert "--help" in complaint(capsys, *arguments)
 
 
+SPUR = ("calc", "spur", "module=2", "number_of_teeth=23")
+
+
+@pytest.mark.parametrize(
+    ("usual", "other"),
+    [
+        ((*SPUR, "--format", "json"), ("calc", "--format", "json", *SPUR[1:])),
+        ((*SPUR, "--format", "json"), (*SPUR[:3], "--format", "json", *SPUR[3:])),
+        (("check", "james", "david", "--json"), ("check", "james", "--json", "david")),
+    ],
+    ids=["all behind", "some behind", "scenes"],
+)
+def test_options_may_stand_among_the_words(
+    usual: tuple[str, ...], other: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = []
+    for arguments in (usual, other):
+        assert run(*arguments) == 0
+        said.append(capsys.readouterr().out)
+    assert said[0] == said[1] != ""
+    assert "unrecognized arguments: --nothing;" in complaint(capsys, *other, "--nothing")
+
+
+def test_what_is_left_over_of_a_command_of_one_scene_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert "unrecognized arguments: more;" in complaint(capsys, "new", "spur_gear", "--expand", "more")
+
+
+@pytest.mark.parametrize(("kind", "mate"), [("barrel_cam", "fixed"), ("cam", "cam_follower")])
+def test_a_part_alone_is_offered_a_mate_of_its_kind(
+    kind: str, mate: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "alone.toml"
+    file.write_text(new_scene(capsys, kind), encoding="utf-8")
+    assert f'add [[mates]] kind = "{mate}"' in complaint(capsys, "check", file)
+    joins = MATES[mate].joins
+    assert joins is None or any(kind in pair for pair in joins)
+
+
+def test_the_arm_that_a_new_cam_shows_swings(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Its pivot and its arm reach the circle of the base circle and the roller that stand above them."""
+    for kind in ("cam", "groove_cam"):
+        text = re.sub(r"^lift = .*", "swing_deg = 15.0", new_scene(capsys, kind), flags=re.MULTILINE)
+        text = re.sub(r"^# (?=oscillating = )", "", text, flags=re.MULTILINE)
+        file = tmp_path / "swing.toml"
+        file.write_text(text, encoding="utf-8")
+        assert run("build", file, "--out", tmp_path / "o", "--format", "svg") == 0, capsys.readouterr().err
+
+
 def test_wrong_input_leaves_no_file_and_no_folder(
     tmp_path: Path, scene: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -329,3 +329,59 @@ def test_a_cosine_law_has_a_jerk_where_both_of_its_phases_meet_without_a_dwell(
     words = ["kind=cam", "follower=pointed", "lift=20", "base_circle_radius=40", f"phases=[{','.join(phases)}]"]
     found = re.findall(r"C_j = (\S+)", calculate("cam", words, "text", "en"))
     assert found == [f"{math.pi**3 / 2:.6f}" if jerks else "∞"] * 2
+
+
+@pytest.mark.parametrize("sense", ["against", "with"])
+def test_the_page_of_a_swinging_follower_tells_pivot_and_arm(sense: str) -> None:
+    """The roller's centre, pivot and axis make a triangle: (R + r)^2 = d^2 + L^2 - 2 d L cos psi_0."""
+    swing = f'oscillating={{centre_distance=90, arm_length=70, sense="{sense}"}}'
+    data = calculated("follower=roller", "follower_radius=8", "base_circle_radius=32", "swing_deg=20", swing,
+                      phases(100, 50, 140, "sine"))  # fmt: skip
+    first = [step["name"] for step in data["steps"] if step["section"] == "Characteristics"]
+    assert {"swing_deg", "centre_distance", "arm_length", "follower_radius"} <= {*first}
+    values = data["values"]
+    d, arm, start = values["centre_distance"], values["arm_length"], math.radians(values["start_angle_deg"])
+    assert (d, arm) == (90, 70)
+    assert d**2 + arm**2 - 2 * d * arm * math.cos(start) == pytest.approx((32 + 8) ** 2, rel=1e-12)
+    flat = calculated("follower=flat", "base_circle_radius=40", "swing_deg=8", phases(100, 50, 140, "sine"),
+                      f'oscillating={{centre_distance=120, face_offset=-5, sense="{sense}"}}')["values"]  # fmt: skip
+    # the face stands R from the axis and f from the pivot's parallel
+    assert 120 * math.sin(math.radians(flat["start_angle_deg"])) == pytest.approx(40 + flat["face_offset"], rel=1e-12)
+    assert flat["face_offset"] == -5
+    assert "arm_length" not in flat
+
+
+def test_a_pivot_that_is_found_is_a_result_and_one_that_is_given_is_not() -> None:
+    words = ["follower=roller", "follower_radius=8", "swing_deg=20", "least_transmission_angle_deg=50",
+             phases(100, 50, 140, "sine")]  # fmt: skip
+    for place, more in (("Sizes", ""), ("Characteristics", "centre_distance=90, ")):
+        steps = calculated(*words, f"oscillating={{{more}arm_length=70}}")["steps"]
+        assert [step["section"] for step in steps if step["name"] == "centre_distance"] == [place]
+
+
+def test_a_radius_is_called_by_what_has_it() -> None:
+    for follower, name in (("roller", "radius of the roller"), ("mushroom", "radius of the mushroom's face")):
+        words = (f"follower={follower}", "follower_radius=8", "base_circle_radius=40", "lift=10")
+        steps = calculated(*words, phases(120, 30, 120, "sine"))["steps"]
+        assert [step["text"] for step in steps if step["name"] == "follower_radius"] == [name]
+
+
+# what other books call a law, and its s at a quarter of the phase by their formulas
+OF_OTHER_BOOKS = {
+    "simple harmonic": (1 - math.cos(math.pi / 4)) / 2,
+    "Cycloidal": 0.25 - math.sin(math.pi / 2) / (2 * math.pi),
+    "inclined_sine": 0.25 - math.sin(math.pi / 2) / (2 * math.pi),
+    "parabolic": 2 * 0.25**2,
+    "cubic": 3 * 0.25**2 - 2 * 0.25**3,
+    "3-4-5": 10 * 0.25**3 - 15 * 0.25**4 + 6 * 0.25**5,
+    "4-5-6-7": 35 * 0.25**4 - 84 * 0.25**5 + 70 * 0.25**6 - 20 * 0.25**7,
+    "uniform": 0.25,
+}
+
+
+@pytest.mark.parametrize("name", OF_OTHER_BOOKS)
+def test_laws_by_the_names_of_other_books_are_offered_ours(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    line = complaint(capsys, "calc", "cam", "follower=pointed", "lift=1", phases(120, 30, 120, name))
+    offered = line.rpartition("did you mean ")[2].rstrip("?\n")
+    rows = calculated("follower=pointed", "lift=1", "base_circle_radius=40", phases(120, 30, 120, offered))["positions"]
+    assert next(row["S"] for row in rows if row["phi"] == 30) == pytest.approx(OF_OTHER_BOOKS[name], abs=1e-14)

@@ -260,3 +260,30 @@ def test_a_stem_on_a_wedge_leans_by_the_slope_of_its_lift() -> None:
     slope = column(rows, "S'")
     assert slope.min() < 0 < slope.max()
     assert column(rows, "nu") == pytest.approx(np.degrees(np.arctan(slope)), abs=1e-9)
+
+
+def test_an_end_cam_has_a_track_and_no_groove() -> None:
+    for language, word in (("en", "groove"), ("uk", "паз")):
+        assert word in calculate("cam", ["barrel_cam", "part=barrel"], "text", language).lower()
+        assert word not in calculate("cam", ["barrel_cam", "part=end"], "text", language).lower()
+
+
+@pytest.mark.parametrize("given", [[], ["cone_angle_deg=12"]], ids=["apex on the axis", "given"])
+def test_the_cone_of_a_roller_is_told(given: list[str]) -> None:
+    """With its apex on the cam's axis a roller of diameter d at the radius R has the angle 2 arctan(d / 2 R)."""
+    values = calculated(*SWINGING_BARREL, "roller_form=conical", *given)["values"]
+    assert values["cone_angle_deg"] == pytest.approx(12 if given else math.degrees(2 * math.atan(5 / 45)), rel=1e-12)
+    assert "cone_angle_deg" not in calculated(*SWINGING_BARREL)["values"]
+
+
+def test_the_angle_between_both_arms_is_told_on_either_side() -> None:
+    """Each arm stands at the angle that the triangle of pivot, axis and roller has, the two on either side of d."""
+    values = calculated("conjugate_cams")["values"]
+
+    def from_line_of_centres(arm: float, reach: float) -> float:
+        return math.degrees(math.acos((90**2 + arm**2 - reach**2) / (2 * 90 * arm)))
+
+    # the second roller is nearest to the axis where the first is highest
+    first, second = from_line_of_centres(78, 32 + 8) + 18, from_line_of_centres(78, 34 + 7)
+    assert values["inner_roller_angle_deg"] == pytest.approx(first + second, rel=1e-12)
+    assert values["roller_angle_deg"] == pytest.approx(360 - first - second, rel=1e-12)

@@ -10,8 +10,10 @@ import pytest
 
 from exporters.documents.render import SPOKEN
 from exporters.documents.topics import calculate
+from geometry.laws.named import NAMED_LAWS
 from parts.base.texts import words
-from parts.pages.cam_steps import as_typed
+from parts.keys.law import LawTable, law_of
+from parts.pages.cam_steps import as_typed, law_text
 from parts.pages.page import number, pretty
 from parts.pages.symbols import symbol_text
 from parts.pages.terms import TERMS
@@ -44,6 +46,15 @@ def test_an_english_calculation_has_no_ukrainian_letter(topic: str, asked: list[
     told = calculate(topic, asked, form, "en")
     assert CYRILLIC.findall(told) == []
     assert CYRILLIC.search(calculate(topic, asked, form, "uk"))
+
+
+@pytest.mark.parametrize("name", NAMED_LAWS)
+def test_every_law_is_told_in_ukrainian_backwards_too(name: str) -> None:
+    """No word of English is left; a name of a person and CV are no words."""
+    for back in (False, True):
+        told = words("uk").say(law_text(law_of(LawTable(name=name, reverse=back), "law").name))
+        assert CYRILLIC.search(told), told
+        assert re.findall(r"(?i)[a-z]{3,}", told) == [], told
 
 
 CAM = ["follower=roller", "follower_radius=10", "lift=30", "base_circle_radius=50", 'phases=[{move="rise", angle_deg=95'

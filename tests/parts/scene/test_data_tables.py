@@ -47,14 +47,10 @@ CALLED = {
     "pressure angle of the basic rack": "pressure angle of the rack",
     "fillet radius of the basic rack, in modules": "rounding of the rack's tip, in modules",
     "pitch": "pitch of the rack",
-    "radius of the roller": "radius of the roller or mushroom",
-    "width of the track": "depth of the groove",
-    "radius of the mushroom's face": "radius of the roller or mushroom",
 }
 # what of a mate, and of the scene's keys, stands in a table, and is no step of the part's own calculation
 BESIDE = {"teeth of the mate", "drawing of the mate", "centre distance", "number of starts of the worm",
-          "from the axis of the cam to the pivot", "length of the arm", "left end of the plate",
-          "its lower edge"}  # fmt: skip
+          "left end of the plate", "its lower edge"}  # fmt: skip
 
 
 @cache

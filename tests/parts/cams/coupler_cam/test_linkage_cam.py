@@ -221,7 +221,7 @@ def test_remarks_speak_both_languages() -> None:
              PHASES[3] | {"angle_deg": 130.0}]  # fmt: skip
     poor = FOUR | {"phases": steep, "coupler_length": 39.0, "follower_radius": 16.0, "least_curvature_radius": 100.0}
     found = {f.code: f for f in parts_of({"cam": poor})["cam"].findings}
-    assert {"soft_impact", "steep_pressure_angle", "linkage_curvature_radius"} <= set(found)
+    assert {"swung_soft_impact", "steep_pressure_angle", "linkage_curvature_radius"} <= set(found)
     steepest = parts_of({"cam": poor})["cam"].quantities["pressure_angle_rise_deg"]
     assert found["steep_pressure_angle"].value == pytest.approx(steepest)
     told = parts_of({"cam": FOUR | {"coupler_length": 60.0, "guide": GUIDE | {"length": 115.0}}})["cam"]

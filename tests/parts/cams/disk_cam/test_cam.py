@@ -224,6 +224,32 @@ def test_notes_on_impacts_rollers_and_pressure() -> None:
     assert part_of(ROLLER).findings == ()
 
 
+@pytest.mark.parametrize("kind", ["disk", "groove", "barrel", "wedge"])
+def test_jumps_of_a_swinging_follower_are_told_in_the_degrees_of_its_swing(kind: str) -> None:
+    """Simple harmonic motion of psi over phi: S'' = psi / 2 (pi / phi)^2 at its ends, S' = 0."""
+    swing, angle = 12.0, 120.0
+    moves = [("rise", angle, "cosine"), ("dwell", 60.0, ""), ("return_", 130.0, "sine"), ("dwell", 50.0, "")]
+    way = "travel" if kind == "wedge" else "angle_deg"
+    phases = [{"move": move, way: size} | ({"law": law} if law else {}) for move, size, law in moves]
+    common: dict[str, Any] = {"swing_deg": swing, "phases": phases}
+    arm = {"centre_distance": 90.0, "arm_length": 80.0}
+    keys: dict[str, Any] = {
+        "disk": {"kind": "cam", "follower": "roller", "follower_radius": 8.0, "base_circle_radius": 30.0,
+                 "oscillating": arm},
+        "groove": {"kind": "groove_cam", "follower_radius": 8.0, "base_circle_radius": 30.0, "groove_depth": 5.0,
+                   "oscillating": arm, "roller_clearance": 0.1},
+        "barrel": {"kind": "barrel_cam", "form": "groove", "outer_diameter": 90.0, "roller_diameter": 10.0,
+                   "groove_depth": 8.0, "oscillating": {"arm_length": 80.0}},
+        "wedge": {"kind": "wedge_cam", "follower": "roller", "follower_radius": 5.0, "base_height": 20.0,
+                  "oscillating": {"arm_length": 80.0, "pivot_height": 20.0}},
+    }[kind]  # fmt: skip
+    per = angle if kind == "wedge" else math.radians(angle)
+    code = "wedge_swung_soft_impact" if kind == "wedge" else "swung_soft_impact"
+    (found,) = (f for f in part_of(keys | common).findings if "impact" in f.code)
+    assert found.code == code
+    assert found.value == pytest.approx(swing / 2 * (math.pi / per) ** 2, rel=1e-9)
+
+
 def without(key: str) -> dict[str, Any]:
     return {k: v for k, v in ROLLER.items() if k != key}
 
