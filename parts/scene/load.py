@@ -568,8 +568,8 @@ _SELDOM = (
 
 
 def resolved(scene: SceneFile) -> dict[str, Any]:
-    """The scene as plain data with every default filled in and every group told out."""
-    data: dict[str, Any] = msgspec.to_builtins(scene)
+    """The scene as JSON has it, pairs as lists too, with every default filled in and every group told out."""
+    data: dict[str, Any] = msgspec.json.decode(msgspec.json.encode(scene))
     del data["origins"]
     # told where there are some
     for key in [key for key in (*PURPOSES_LAID, "steps") if not data[key]]:
