@@ -143,6 +143,6 @@ def test_a_report_is_a_table_of_json_or_none(tmp_path: Path) -> None:
         assert report.report_language(tmp_path / "any.svg") == language
     file.unlink()
     file.mkdir()
-    with pytest.raises(OSError):
+    with pytest.raises(IsADirectoryError):
         report.read_report(tmp_path)
     assert report.report_language(tmp_path / "any.svg") == "en"
