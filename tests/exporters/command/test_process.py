@@ -193,7 +193,7 @@ def test_the_kernel_is_asked_for_only_where_it_is(
 def test_one_part_alone_is_offered_a_mate_of_its_kind(
     part: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """One that joins such parts, where any does; else that of gears."""
+    """One that joins such parts, where any does; else the one that fixes any."""
     (tmp_path / "s.toml").write_text(f"[parts.a]\n{part}", encoding="utf-8")
     assert run("check", tmp_path / "s.toml") == 2
     told = capsys.readouterr().err
@@ -201,7 +201,7 @@ def test_one_part_alone_is_offered_a_mate_of_its_kind(
     (mate,) = re.findall(r'add \[\[mates\]\] kind = "(\w+)"', told)
     kind = part.split('"')[1]
     joining = [name for name in MATES if any(kind in pair for pair in MATES[name].joins or ())]
-    assert mate in (joining or ["external_gear_pair"])
+    assert mate in (joining or ["fixed"])
 
 
 def test_an_environment_keeps_the_threads_that_it_asks_for(monkeypatch: pytest.MonkeyPatch) -> None:
