@@ -37,8 +37,9 @@ _RADII, _FEW_RADII, _ANGLES, _FIRST_STEP = 257, 97, 129, 1e-7
 # to which so shallow that its crossing lies by the first terms of both curves half as far again as the turning
 _CROSSINGS, _NEWTON_STEPS, _SLOPE, _MET, _SURE, _BARELY, _SHALLOW, _CROSSED = 65, 8, 1e-6, 1e-10, 1e-14, 1e-6, 3e-4, 1.5
 _ABOUT_IT = np.array([-_SLOPE, 0.0, _SLOPE])[:, None]
-# how deep a flank cuts a side that is a fillet before it is seen, part of the pitch
-_DEEP = 1e-2
+# how deep a flank cuts a side that is a fillet before it is seen, part of the pitch; how little of the hob leaves
+# none, part of it
+_DEEP, _THIN = 1e-2, 1e-5
 # how near a flank gets to the tip, and for a search, part of the hob's size
 _AT_TIP, _LOOSELY = 1e-8, 1e-10
 # shares of each part of both sides between which a ridge is sought
@@ -224,8 +225,13 @@ class WormTeeth(Record, dict=True):
             raise NoTooth("worm_wheel_not_reached")
         form, column = hob.form_radius, np.arange(len(z))
         radii, reach, first, at = looked or self._search(z)
-        # a flank that turns back below the tip cuts the fillet there, though it began beyond
-        back = (first > 0) & (at < len(radii)) & (reach[np.minimum(at, len(radii)) - 1, column] < tip)
+        # a flank that turns back below the tip cuts the fillet there, though it began beyond; it may turn between radii
+        turns = np.flatnonzero((first > 0) & (at < len(radii)))
+        turning = np.full(len(z), np.nan)
+        beside = (radii[first[turns] + step, turns] for step in (1, -1))
+        turning[turns] = self._turning(*beside, z[turns])
+        back = np.zeros(len(z), dtype=bool)
+        back[turns] = self._reach(turning[turns], z[turns]) < tip[turns]
         beyond = reach[0] >= tip
         all_fillet = beyond & ~back
         at = np.where(all_fillet, 1, at)
@@ -238,21 +244,18 @@ class WormTeeth(Record, dict=True):
             return self._reach(radius, z[whole]) - tip[whole]
 
         if whole.any():
-            ends = radii[(at - 1)[whole], column[whole]], radii[at[whole], column[whole]]
+            low = np.where(beyond, turning, radii[at - 1, column])
+            ends = low[whole], radii[at[whole], column[whole]]
             outer[whole] = bracketed_roots(past, *ends, *map(past, ends), enough=self._enough)
             if not (np.abs(past(outer[whole])) <= _AT_TIP * hob.tip_radius).all():
                 # the contact of a swivelled hob leaves the plane before its flank gets to the tip
                 raise NoTooth("worm_wheel_flank_ends")
         undercut = (first > 0) & ~all_fillet
         inner, normal = np.full(len(z), form), np.full(len(z), hob.least_normal)
-        if undercut.any():
-            column, first = column[undercut], first[undercut]
-            turning = self._turning(radii[first + 1, column], radii[first - 1, column], z[undercut])
-            # where undercut is just beginning both end where they touch
-            deep = form - turning > _BARELY * hob.tip_radius
-            cut = np.flatnonzero(undercut)[deep]
-            if cut.size:
-                inner[cut], normal[cut] = self._crossing(z[cut], turning[deep], outer[cut])
+        # where undercut is just beginning both end where they touch
+        cut = np.flatnonzero(undercut & (form - turning > _BARELY * hob.tip_radius))
+        if cut.size:
+            inner[cut], normal[cut] = self._crossing(z[cut], turning[cut], outer[cut])
         # beyond the tip
         uncrossed = np.isnan(inner)
         if not beyond[uncrossed].all():
@@ -443,7 +446,7 @@ class WormTeeth(Record, dict=True):
             own = np.interp(np.abs(lines[:, k]), reach[:last, k], np.angle(curves[:last, k]), right=np.nan)
             ahead = np.angle(lines[:, k]) - own
             change = np.flatnonzero(ahead[1:] * ahead[:-1] <= 0)
-            if not change.size:
+            if not change.size or low[k] - high[k] < _THIN * hob.tip_radius:
                 radius[k] = normal[k] = np.nan
                 continue
             at = int(change[0])

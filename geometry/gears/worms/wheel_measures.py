@@ -26,7 +26,7 @@ _ALONG, _MOST_ALONG, _ACROSS = 32, 256, 32
 # where these are enough, part of the integrals
 _SETTLED = 1e-9
 # heights of a band and shares from which the foot of a perpendicular is sought, its steps, the step of derivatives
-_LEVELS, _SHARES, _STEPS, _SHIFT = 65, 129, 64, 1e-5
+_LEVELS, _SHARES, _STEPS, _SHIFT = 97, 129, 64, 1e-5
 # how near along a side a foot is found, modules
 _FOUND = 1e-6
 # points that are looked at a time, and how near the border of flank and fillet both are looked at, modules
@@ -211,8 +211,9 @@ class WormWheel(Record, dict=True):
 
     @cached_property
     def _table(self) -> Side:
-        """The lower side at heights that are dense in every band."""
-        bands = [np.linspace(low, high, _LEVELS) for low, high in pairwise(self.teeth.breaks)]
+        """The lower side at heights that are dense in every band, and more so at its ends: there flanks vanish."""
+        shares = (1 - np.cos(np.linspace(0.0, math.pi, _LEVELS))) / 2
+        bands = [low + (high - low) * shares for low, high in pairwise(self.teeth.breaks)]
         return self.teeth.side(np.unique(np.concatenate(bands)))
 
     @cached_property

@@ -254,6 +254,10 @@ def test_what_no_addendum_cures_is_told_in_the_key_that_does(
           "hob_rounding_coefficient": 0.294}, "profile_shift_coefficient"),
         ({"module": 2.0, "diameter_quotient": 2.3, "number_of_teeth": 20, "profile_shift_coefficient": 1.0,
           "axial_thinning": 0.354}, "addendum_coefficient"),
+        # before: 5.2148, since a flank that dips below the tip between two radii was missed, here and there
+        ({"module": 1.039, "number_of_starts": 7, "diameter_quotient": 11.395, "form": "ZN2", "number_of_teeth": 74,
+          "pressure_angle_deg": 13.81, "axial_thinning": 0.294, "hob_rounding_coefficient": 0.295,
+          "face_width": 13.905}, "face_width"),
         # before: no value, since only some between those that were tried leave teeth
         ({"module": 0.993, "diameter_quotient": 38.799, "number_of_teeth": 12, "profile_shift_coefficient": 1.6,
           "hob_diameter_quotient": 41.568, "addendum_coefficient": 1.468}, "addendum_coefficient"),
@@ -310,10 +314,16 @@ def test_beyond_what_is_offered_nothing_is_made(keys: dict[str, Any], key: str) 
     ],
 )  # fmt: skip
 def test_fillets_of_larger_hobs_end_at_the_tip(keys: dict[str, Any]) -> None:
-    teeth = _built(keys).teeth
+    wheel = _built(keys).wheel
+    teeth = wheel.teeth
     assert any(abs(end) < teeth.width / 2 for end in teeth.flank_ends)
     for height in np.linspace(-teeth.width / 2, teeth.width / 2, 9):
         assert _depth(teeth, float(height)) < _ROUNDING
+    # before: up to 8e-5 mm, since the places at which vanishing flanks begin and end were linear between heights
+    near = np.ravel([end + teeth.width * np.array([-3e-3, -3e-4, 3e-4, 3e-3]) for end in teeth.flank_ends])
+    plane = teeth.flank(teeth.side(near), np.linspace(0.0, 1.0, 9)[:, None]).plane
+    points = np.stack([plane.real, plane.imag, np.broadcast_to(near + wheel.middle, plane.shape)], axis=-1)
+    assert wheel.from_sides(points.reshape(-1, 3)).max() < 1e-9
 
 
 def test_ends_that_rounding_tells_apart_are_one() -> None:
