@@ -228,8 +228,8 @@ class WormTeeth(Record, dict=True):
         # a flank that turns back below the tip cuts the fillet there, though it began beyond; it may turn between radii
         turns = np.flatnonzero((first > 0) & (at < len(radii)))
         turning = np.full(len(z), np.nan)
-        beside = (radii[first[turns] + step, turns] for step in (1, -1))
-        turning[turns] = self._turning(*beside, z[turns])
+        number = first[turns]
+        turning[turns] = self._turning(radii[number + 1, turns], radii[number - 1, turns], z[turns])
         back = np.zeros(len(z), dtype=bool)
         back[turns] = self._reach(turning[turns], z[turns]) < tip[turns]
         beyond = reach[0] >= tip
