@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 import re
 from collections.abc import Iterator
@@ -372,19 +373,30 @@ def _pockets(keys: ShaftSpec) -> Iterator[Pocket]:
                 raise ParameterError(f"{name}.at", way.at, "keyway_beyond_step", length=step.length)
             turn = math.radians(way.angle_deg)
             found = Pocket(z + ends[0], z + ends[1], width, floor, turn, way.ends == "round")
-            for other in made:
-                near = abs(math.remainder(turn - other.angle, math.tau))
-                wide = math.asin(width / 2 / radius) + math.asin(other.width / 2 / radius)
-                # behind their floors they may meet too
-                if (
-                    near <= 2 * wide + math.acos(min(1.0, floor / radius))
-                    and found.low <= other.high
-                    and other.low <= found.high
-                ):
-                    raise ParameterError(f"{name}.angle_deg", way.angle_deg, "keyways_meet")
+            if any(
+                found.low <= other.high and other.low <= found.high and _meet(found, other, radius) for other in made
+            ):
+                raise ParameterError(f"{name}.angle_deg", way.angle_deg, "keyways_meet")
             made.append(found)
             yield found
         z += step.length
+
+
+def _meet(one: Pocket, other: Pocket, radius: float) -> bool:
+    """Whether the sections of two keyways of a step, each as wide as at its floor, have a point in common."""
+    corners = []
+    for pocket in (one, other):
+        half = pocket.width / 2
+        rim = math.sqrt(radius**2 - half**2)
+        corners.append(
+            [cmath.rect(1.0, pocket.angle) * complex(x, y) for x in (pocket.floor, rim) for y in (-half, half)]
+        )
+    # convex ones are apart where the normal of a side parts them; behind the chords of the rim they are apart then too
+    for way in (cmath.rect(1.0, pocket.angle + turn) for pocket in (one, other) for turn in (0.0, math.pi / 2)):
+        first, second = ([(point * way.conjugate()).real for point in points] for points in corners)
+        if max(first) < min(second) or max(second) < min(first):
+            return False
+    return True
 
 
 TURNED, SHAFT = Turned(), Shaft()

@@ -36,7 +36,8 @@ CARRIER: dict[str, Any] = {"kind": "carrier_plate", "number_of_pins": 3, "pin_ci
                            "pin_diameter": 6.0, "face_width": 4.0}  # fmt: skip
 WAY, GR = "steps[1].keyways[1]", "steps[1].grooves[1]"
 # degrees between keyways of half a width of 0.3 and a floor at 0.65 of the radius
-APART = math.degrees(4 * math.asin(0.3) + math.acos(0.65))
+APART = math.degrees(2 * math.atan(3 / 6.5))
+UNLIKE = math.degrees(math.asin(3 / math.sqrt(82)) + math.atan(1 / 9))
 RIM = math.sqrt(10**2 - 3**2)
 
 LIMITS: list[tuple[dict[str, Any], str, str, float, str, dict[str, float]]] = [
@@ -93,10 +94,19 @@ WITHOUT: list[tuple[dict[str, Any], str, float, float, str, dict[str, float]]] =
     (GROOVED | {"steps": [GROOVED["steps"][0] | {"keyways": [{"at": 15.0, "length": 10.0, "width": 3.0,
                                                               "depth": 1.5}]}]},
      f"{WAY}.at", 12.001, 12.0, "keyway_beyond_step", {"length": 40.0}),
-    # two alike beside each other, apart by their half widths and what is behind their floors
+    # two alike beside each other: a corner of each floor in the plane between them
     (KEYED | {"steps": [KEYED["steps"][0] | {"keyways": [KEYED["steps"][0]["keyways"][0] | {"angle_deg": a}
                                                          for a in (0.0, 90.0)]}]},
      "steps[1].keyways[2].angle_deg", APART + 1e-6, APART - 1e-6, "keyways_meet", {}),
+    # a narrow one, 1 deep, beside it: a corner of its floor, 9 and 1, is 3 off the other's middle plane
+    (KEYED | {"steps": [KEYED["steps"][0] | {"keyways": [
+        KEYED["steps"][0]["keyways"][0] | keys for keys in ({"angle_deg": 0.0}, {"width": 2.0, "depth": 1.0,
+                                                                                "length": 10.0})]}]},
+     "steps[1].keyways[2].angle_deg", UNLIKE + 1e-6, UNLIKE - 1e-6, "keyways_meet", {}),
+    (KEYED | {"steps": [KEYED["steps"][0] | {"keyways": [
+        KEYED["steps"][0]["keyways"][0] | keys for keys in ({"angle_deg": 0.0}, {"width": 2.0, "depth": 1.0,
+                                                                                "length": 10.0})]}]},
+     "steps[1].keyways[2].angle_deg", -UNLIKE - 1e-6, -UNLIKE + 1e-6, "keyways_meet", {}),
     # behind each other they may stand in one direction
     (KEYED | {"steps": [KEYED["steps"][0] | {"keyways": [KEYED["steps"][0]["keyways"][0] | {"at": at, "length": 8.0}
                                                          for at in (4.0, 20.0)]}]},
