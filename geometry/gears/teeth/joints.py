@@ -10,6 +10,7 @@ import cmath
 import math
 from typing import TYPE_CHECKING, TypeAlias
 
+from geometry.base.errors import UndercutError
 from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.intersect import crossing_circle
@@ -33,7 +34,13 @@ def joint_roll(fillet: GearFillet, base_radius: float) -> float:
 
 
 def fillet_flank_joint(fillet: GearFillet, flank: Involute) -> tuple[GearFillet, Involute]:
-    """Fillet and flank trimmed to their common point: tangent, or the true crossing where undercut."""
+    """Fillet and flank trimmed to their common point: tangent, or the true crossing where undercut.
+
+    Raises
+    ------
+    UndercutError
+        The fillet takes all of the flank: they have no point in common.
+    """
     roll = joint_roll(fillet, flank.base_radius)
     if roll >= 0:
         return fillet, replace(flank, start_roll=roll)
@@ -46,6 +53,8 @@ def fillet_flank_joint(fillet: GearFillet, flank: Involute) -> tuple[GearFillet,
     if lead(at_base) <= 0:
         # the cut into the flank is below rounding: both meet on the base circle
         return replace(fillet, end=at_base), flank
+    if (left := lead(fillet.end)) > 0:
+        raise UndercutError("undercut", left, "no_involute_below_tip")
     crossing = bracketed_root(lead, at_base, fillet.end).value
     radius = abs(complex(fillet.point(crossing)))
     return replace(fillet, end=crossing), replace(flank, start_roll=flank.roll_at_radius(radius))

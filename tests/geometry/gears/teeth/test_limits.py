@@ -223,6 +223,17 @@ def test_a_chamfer_flatter_than_the_flank_is_offered_none() -> None:
     assert refused.value.nearest.value == 0.0
 
 
+@pytest.mark.parametrize("x", [-1.862, -1.9, -2.2])
+def test_a_helical_gear_whose_fillet_takes_all_of_the_flank_is_refused(x: float) -> None:
+    """Fillet and flank have no point in common: that the search for one found none was a traceback."""
+    gear = SpurGear(8.0, 7, BasicRack(math.radians(10), 1.0, 0.25, 0.38), x)
+    with pytest.raises(ParameterError) as refused:
+        checked_gear(gear, math.radians(12))
+    assert refused.value.name == "profile_shift_coefficient"
+    assert refused.value.nearest is not None
+    checked_gear(replace(gear, profile_shift_coefficient=refused.value.nearest.value), math.radians(12))
+
+
 def test_a_refusal_finds_the_key_that_can_help() -> None:
     """Pointed at every shift within reach, but sound with a smaller tip diameter: some value that works is named."""
     gear = SpurGear(1.0, 3, iso_53("A", math.radians(30)), 1.2885, circumferential_thinning=0.254)
