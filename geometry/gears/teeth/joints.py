@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
 GearFillet: TypeAlias = "TrochoidFillet | EllipticFillet | CutterFillet"
 
+# rad: a few last digits of a polar angle
+_ROUNDING = 1e-15
+
 
 def joint_roll(fillet: GearFillet, base_radius: float) -> float:
     """Roll angle of the flank point cut by the end of the cutter's flank, rad; negative: undercut."""
@@ -50,7 +53,7 @@ def fillet_flank_joint(fillet: GearFillet, flank: Involute) -> tuple[GearFillet,
         return cmath.phase(point) - flank.polar_angle_at_radius(abs(point))
 
     at_base = parameter_at_radius(fillet, flank.base_radius)
-    if lead(at_base) <= 0:
+    if lead(at_base) <= _ROUNDING:
         # the cut into the flank is below rounding: both meet on the base circle
         return replace(fillet, end=at_base), flank
     if (left := lead(fillet.end)) > 0:
