@@ -85,13 +85,23 @@ def _whole(
 
 
 def library_triangles(points: Complex, rings: list[Triangles]) -> Triangles:
-    """Triangles of any polygon with holes; no vertex is added."""
+    """Triangles of any polygon with holes; no vertex is added.
+
+    Raises
+    ------
+    ThinWallError
+        They do not fill it: rings (the first outside, the others clockwise) touch or cross.
+    """
     import manifold3d
 
     # chords that meet within a few roundings are one to the library
     epsilon = 1e-14 * float(np.max(np.abs(points)))
     polygons = [np.stack([points[r].real, points[r].imag], axis=1) for r in rings]
-    return np.concatenate(rings)[manifold3d.triangulate(polygons, epsilon).astype(np.int64)]
+    triangles: Triangles = np.concatenate(rings)[manifold3d.triangulate(polygons, epsilon).astype(np.int64)]
+    doubled = _cross(points, triangles)
+    if not (np.all(doubled >= 0) and np.isclose(0.5 * doubled.sum(), sum(_area(points[r]) for r in rings), rtol=1e-9)):
+        raise ThinWallError("the outlines touch or cross at this tolerance; make it smaller")
+    return triangles
 
 
 def is_round(contour: Contour) -> bool:

@@ -432,13 +432,14 @@ class _Mesher:
                 triangles, inner = rows_between(grid, t, tried, rising=bends.rising)
                 table = np.concatenate([grid.ring(), inner])
                 at = np.concatenate([places[which], template.scattered(inner)[0]], axis=1)
-                if not _folded(template, at, table, triangles):
+                table, at, apart = _parted(grid, table, at, triangles)
+                if not _folded(template, at, table, apart):
                     break
-            off = _triangle_errors(template, at, table, triangles)
+            off = _triangle_errors(template, at, table, apart)
             error = _MARGIN * float(off.max())
             if error <= self.tolerance and self.proof is None:
                 # many places in the triangles that lie worst
-                worst = triangles[off >= _WORST * off.max()]
+                worst = apart[off >= _WORST * off.max()]
                 error = max(error, _CLOSE * _dense_error(template, at, table, worst))
             if error <= self.tolerance:
                 self.passed[key] = sag
@@ -604,28 +605,14 @@ def _fanned(chart: Chart, u: Real, v: Real) -> Real:
 def _closed(
     chart: Chart, loops: list[list[Side]], numbers: list[list[Triangles]]
 ) -> tuple[list[Complex], list[Triangles]]:
-    """The loops as rings of points u + iv with their numbers; what goes round the axis is cut open and joined."""
-    rings, names, open_ones = [], [], []
+    """The loops as rings of points u + iv with their numbers; surfaces of revolution have seams (kernels make them)."""
+    rings, names = [], []
     for bounds, own in zip(loops, numbers, strict=True):
         sides = [s if s.run is not None else _at_steps(s) for s in bounds]
-        ring = np.concatenate([(s.u + 1j * s.v)[:-1] for s in sides])
-        name = np.concatenate([np.broadcast_to(n, s.u.shape)[:-1] for s, n in zip(sides, own, strict=True)])
-        turns = round(float(sides[-1].u[-1] - sides[0].u[0]) / (2 * math.pi))
-        if turns:
-            open_ones.append((turns, np.append(ring, ring[0] + turns * 2 * math.pi), np.append(name, name[0])))
-        else:
-            rings.append(ring)
-            names.append(name)
-    if len(open_ones) == 2:
-        (_, low, low_names), (_, high, high_names) = sorted(open_ones, key=lambda x: -x[0])
-        # the upper one runs back; begun where the lower one ends
-        start = int(np.argmin(np.abs(np.angle(np.exp(1j * (high[:-1].real - low[-1].real))))))
-        turned = np.concatenate([high[start:-1], high[: start + 1] - 2 * math.pi])
-        turned = turned + 2 * math.pi * round((low[-1].real - turned[0].real) / (2 * math.pi))
-        rings.insert(0, np.concatenate([low, turned]))
-        names.insert(0, np.concatenate([low_names, high_names[start:-1], high_names[: start + 1]]))
-    elif open_ones:
-        raise ThinWallError("a face goes round its axis without an end")
+        if round(float(sides[-1].u[-1] - sides[0].u[0]) / (2 * math.pi)):
+            raise ThinWallError("a face goes round its axis without a seam")
+        rings.append(np.concatenate([(s.u + 1j * s.v)[:-1] for s in sides]))
+        names.append(np.concatenate([np.broadcast_to(n, s.u.shape)[:-1] for s, n in zip(sides, own, strict=True)]))
     if chart.is_plane:
         return rings, names
     # holes lie within the turn that is cut open
@@ -645,13 +632,15 @@ def _spliced(rings: list[Complex], names: list[Triangles]) -> tuple[list[Complex
     ring, name = rings[0], names[0]
     apart: list[int] = []
     for k in range(1, len(rings)):
-        shared, at, to = np.intersect1d(name, names[k], return_indices=True)
-        if not len(shared):
+        same = np.argwhere(name[:, None] == names[k])
+        if not len(same):
             apart.append(k)
             continue
-        way = np.roll(rings[k], -to[0]) + (ring[at[0]] - rings[k][to[0]])
-        ring = np.concatenate([ring[: at[0]], way, ring[at[0] :]])
-        name = np.concatenate([name[: at[0]], np.roll(names[k], -to[0]), name[at[0] :]])
+        # a vertex of a seam stands on both sides of the face, a pole at many angles: where the hole lies already
+        at, to = same[np.abs(ring[same[:, 0]] - rings[k][same[:, 1]]).argmin()].tolist()
+        way = np.roll(rings[k], -to) + (ring[at] - rings[k][to])
+        ring = np.concatenate([ring[:at], way, ring[at:]])
+        name = np.concatenate([name[:at], np.roll(names[k], -to), name[at:]])
     return [ring, *(rings[k] for k in apart)], [name, *(names[k] for k in apart)]
 
 
@@ -667,6 +656,29 @@ def _templates(poles: Real) -> Triangles:
     scale = _ALIKE * max(float(np.abs(poles).max()), 1e-300)
     _, first = np.unique(np.round(lengths / scale / 100), axis=0, return_index=True)
     return np.sort(first)
+
+
+def _parted(grid: Grid, table: Real, points: Real, triangles: Triangles) -> tuple[Real, Real, Triangles]:
+    """Places (k, 2), points (n, k, 3) and triangles, of which each that ends in a pole has a corner of its own there.
+
+    It lies on the side that is a point, in the middle of its triangle.
+    """
+    poles = grid.collapsed()
+    if not len(poles):
+        return table, points, triangles
+    row, corner = np.nonzero(np.isin(triangles, poles))
+    own = table[triangles[row]]
+    along = next(k for k, (_, _, names) in enumerate(grid.sides) if len(names) == 1) % 2
+    places = own[np.arange(len(row)), corner]
+    others = own.sum(axis=1) - places
+    places[:, along] = others[:, along] / 2
+    apart = triangles.copy()
+    apart[row, corner] = len(table) + np.arange(len(row))
+    return (
+        np.concatenate([table, places]),
+        np.concatenate([points, points[:, triangles[row, corner]]], axis=1),
+        apart,
+    )
 
 
 def _key(poles: Real) -> bytes:

@@ -44,18 +44,8 @@ def constrained(rings: Sequence[Complex], cells: Cells | None) -> Triangles:
         found.append(cells.triangles + sizes[-1])
         numbers += [loop + sizes[-1] for loop in cells.loops]
     found.append(library_triangles(points, numbers))
-    triangles = np.concatenate(found)
-    area = sum(0.5 * float(np.sum((np.conj(ring) * np.roll(ring, -1)).imag)) for ring in rings)
-    doubled = _turned(points, triangles)
-    if not (np.all(doubled >= 0) and np.isclose(0.5 * doubled.sum(), area, rtol=1e-9)):
-        raise ThinWallError("the outlines touch or cross at this tolerance; make it smaller")
     kept = np.concatenate([np.stack([n, np.roll(n, 1)], axis=1) for n in numbers[: len(rings)]])
-    return _flipped(points, triangles, kept)
-
-
-def _turned(points: Complex, triangles: Triangles) -> Real:
-    a, b, c = points[triangles].T
-    return np.asarray((np.conj(b - a) * (c - a)).imag)
+    return _flipped(points, np.concatenate(found), kept)
 
 
 def _flipped(points: Complex, triangles: Triangles, kept: Triangles) -> Triangles:
