@@ -177,7 +177,7 @@ def cured(
             if useful is None or kept(useful, changed(keys, **{key: end})):
                 return told
             fallback = fallback or told
-    return fallback or refusal
+    return fallback or ParameterError(refusal.name, refusal.value, refusal.code, None, **refusal.numbers)
 
 
 def in_degrees(refusal: ParameterError, keys: Led) -> ParameterError:

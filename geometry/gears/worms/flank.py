@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -75,7 +75,7 @@ class ArchimedeanFlank(Flank):
         return np.full(np.shape(radius), math.tan(self.angle))
 
 
-class InvoluteFlank(Flank):
+class InvoluteFlank(Flank, dict=True):
     """ZI: an involute helical gear of few teeth; straight in planes that touch the base cylinder."""
 
     @property
@@ -83,7 +83,7 @@ class InvoluteFlank(Flank):
         """gamma_b, rad: cos gamma_b = cos alpha_n cos gamma."""
         return math.acos(math.cos(self.angle) * math.cos(self.screw.lead_angle))
 
-    @property
+    @cached_property
     def least_radius(self) -> float:
         """The base radius p / tan gamma_b, mm."""
         return self.screw.parameter / math.tan(self.base_lead_angle)

@@ -10,14 +10,13 @@ may meet below it: the tooth then ends in a ridge.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cached_property, partial
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_roots
@@ -193,6 +192,15 @@ class WormTeeth(Record, dict=True):
             self._known[key] = self._side(z)
         return self._known[key]
 
+    def seek(self, runs: Iterable[Real]) -> None:
+        """Find sides at runs of heights, which are asked for one after the other, all together."""
+        new = {z.tobytes(): z for z in runs}
+        new = {key: z for key, z in new.items() if key not in self._known}
+        if new:
+            side, end = self._side(np.concatenate([*new.values()])), 0
+            for key, z in new.items():
+                self._known[key] = side.only(np.arange(end, end := end + len(z)))
+
     @cached_property
     def _known(self) -> dict[bytes, Side]:
         """Sides by their heights: faces are fitted part by part at the same ones."""
@@ -228,10 +236,11 @@ class WormTeeth(Record, dict=True):
         # a flank that turns back below the tip cuts the fillet there, though it began beyond; it may turn between radii
         turns = np.flatnonzero((first > 0) & (at < len(radii)))
         turning = np.full(len(z), np.nan)
-        number = first[turns]
-        turning[turns] = self._turning(radii[number + 1, turns], radii[number - 1, turns], z[turns])
         back = np.zeros(len(z), dtype=bool)
-        back[turns] = self._reach(turning[turns], z[turns]) < tip[turns]
+        if turns.size:
+            number = first[turns]
+            turning[turns] = self._turning(radii[number + 1, turns], radii[number - 1, turns], z[turns])
+            back[turns] = self._reach(turning[turns], z[turns]) < tip[turns]
         beyond = reach[0] >= tip
         all_fillet = beyond & ~back
         at = np.where(all_fillet, 1, at)
@@ -532,51 +541,26 @@ class WormTeeth(Record, dict=True):
 
     def narrowed(self) -> WormTeeth:
         """The teeth with as much of the width as has whole ones at every height; themselves where none has."""
-        return self.widest(WormTeeth.is_whole) or self
+        return self.widest(lambda teeth: teeth.glanced.is_whole(), WormTeeth.is_whole) or self
 
-    def widest(
-        self, stands: Callable[[WormTeeth], bool], *closer: Callable[[WormTeeth], bool], share: float = NEAR_WIDTH
-    ) -> WormTeeth | None:
-        """The same of the greatest width at which they stand, at a glance and in full or by ``closer`` looks, or None.
+    def widest(self, *looks: Callable[[WormTeeth], bool], share: float = NEAR_WIDTH) -> WormTeeth | None:
+        """The same of the greatest width that looks find well, or None.
 
         Each look is a closer one than that before it, and the last decides. ``share``: of it, how near it is found.
         """
-        looks = [lambda teeth: stands(teeth.glanced), *(closer or (stands,))]
-        if looks[-1](self):
-            return self
+        width, least = self.width, self.sliver.width
 
         def does(look: Callable[[WormTeeth], bool], width: float) -> bool:
-            # what the last finds is looked at again by whoever takes it
-            return look(replace(self, width=width, loose=look is not looks[-1]))
+            return look(replace(self, width=width))
 
-        width, least = self.width, self.sliver.width
-        ends = [least]
         for look in looks:
             if not does(look, width):
+                ends = [*(less for part in _LESS if (less := part * width) > least), least]
                 found = nearest(partial(does, look), width, ends, share=share)
                 if found is None or not isinstance(found.value, float):
                     return None
                 width = found.value
-            ends = [*(less for part in _LESS if (less := part * width) > least), least]
         return replace(self, width=width)
-
-    def checked(self) -> WormTeeth:
-        """The teeth themselves, where some of them is left at every height.
-
-        Raises
-        ------
-        ParameterError
-            The face is wider than teeth stand: the flank ends below the tip, undercut leaves none, both sides meet at
-            the root, or the hob does not reach the rim.
-        """
-        if self.ended is None:
-            return self
-
-        def cure() -> Nearest | None:
-            found = self.widest(WormTeeth.stands)
-            return limit(found.width, self.width) if found else None
-
-        raise ParameterError("face_width", self.width, self.ended, cure)
 
     @cached_property
     def ended(self) -> str | None:

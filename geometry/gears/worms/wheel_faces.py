@@ -8,7 +8,9 @@ Poles interpolate the exact envelope at Greville's places; the error is that of 
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import lru_cache, partial
 from itertools import pairwise
 
@@ -112,38 +114,54 @@ def fitting(
 ) -> WormTeeth | None:
     """The widest narrower teeth, to a share, themselves first, that stand and that splines come near; or None."""
 
-    looks: list[Callable[[WormTeeth], bool]] = [
-        lambda narrower: stands(narrower.tried),
-        lambda narrower: is_fitting(narrower.tried, outermost=True),
-        lambda narrower: stands(narrower) and is_fitting(narrower),
-    ]
-    return teeth.widest(stands, *looks, share=share)
+    def ends(narrower: WormTeeth) -> bool:
+        return is_fitting(narrower.tried, outermost=True)
+
+    def fits(narrower: WormTeeth) -> bool:
+        return stands(narrower) and is_fitting(narrower)
+
+    if fits(teeth):
+        return teeth
+    found = teeth.widest(
+        lambda narrower: stands(narrower.glanced), lambda narrower: stands(narrower.tried), share=share
+    )
+    if found is None:
+        return None
+    # what breaks a face breaks every wider one
+    found = replace(found, width=min(found.width, 2 * _broken(found.tried)))
+    return replace(found, width=min(found.width, 2 * _broken(found))).widest(ends, fits, share=share)
+
+
+def is_fitting(teeth: WormTeeth, *, outermost: bool = False) -> bool:
+    """Whether teeth stand over their whole width, and splines come near; ``outermost``: at their ends at least."""
+    return teeth.stands() and _broken(teeth, outermost=outermost) == math.inf
 
 
 @lru_cache(maxsize=16)
-def is_fitting(teeth: WormTeeth, *, outermost: bool = False) -> bool:
-    """Whether teeth stand over their whole width, and splines come near; ``outermost``: at their ends at least."""
-    try:
-        return teeth.stands() and _are_followed(teeth, outermost=outermost)
-    except (GeometryError, NoTooth):
-        return False
-
-
-def _are_followed(teeth: WormTeeth, *, outermost: bool) -> bool:
-    """Whether somewhat less than the most spans come as near as files want."""
+def _broken(teeth: WormTeeth, *, outermost: bool = False) -> float:
+    """Where the innermost band ends to which somewhat less than the most spans do not come near, mm; else infinite."""
     least = _ROUNDING * teeth.outer_radius
     target, edges = max(_SHARE * _WANTED / _MARGIN, least), max(_EDGES, least)
-    # the outermost ones bend the most
-    bands = sorted(pairwise(teeth.breaks), key=lambda band: -abs(sum(band)))
-    for band in bands[:2] if outermost else bands:
-        for part in (FILLET, FLANK) if _has_flank(teeth, band) else (FILLET,):
-            for spans in _ENOUGH:
-                away, edge = _along(teeth, part, band, spans)
-                if away <= target and edge <= edges and _across(teeth, part, band, spans) <= target:
-                    break
-            else:
-                return False
-    return True
+
+    def breaks(part: int, band: tuple[float, float], spans: int) -> bool:
+        try:
+            away, edge = _along(teeth, part, band, spans)
+            return not (away <= target and edge <= edges and _across(teeth, part, band, spans) <= target)
+        except NoTooth:
+            return True
+
+    try:
+        bands = sorted(pairwise(teeth.breaks), key=lambda band: abs(sum(band)))
+        bands = bands[-2:] if outermost else bands
+        left = [(part, band) for band in bands for part in ((FILLET, FLANK) if _has_flank(teeth, band) else (FILLET,))]
+    except (GeometryError, NoTooth):
+        return teeth.width / 2
+    for spans in _ENOUGH:
+        # a side that is none is found again in its band
+        with suppress(NoTooth):
+            teeth.seek(z for _, band in left for z in (np.linspace(*band, _LINES), *_places(band, spans)))
+        left = [(part, band) for part, band in left if breaks(part, band, spans)]
+    return max(map(abs, left[0][1])) if left else math.inf
 
 
 def _fits(teeth: WormTeeth, tolerance: float) -> dict[tuple[float, float], list[_Fit]]:
@@ -206,7 +224,7 @@ def _spans(teeth: WormTeeth, part: int, band: tuple[float, float], target: float
 def _across(teeth: WormTeeth, part: int, band: tuple[float, float], spans: int) -> float:
     """How far lines of a part in planes are off on so many spans, mm."""
     heights = np.linspace(*band, _LINES)
-    places, between, weights = _interpolation(_shares(teeth, part, spans))
+    places, between, weights = _interpolation(spans, _closer(teeth, part))
     found = weights @ _points(teeth, part, places, heights).plane
     return float(_away(found, _points(teeth, part, between, heights)).max())
 
@@ -223,19 +241,22 @@ def _spans_along(teeth: WormTeeth, part: int, band: tuple[float, float], target:
 def _along(teeth: WormTeeth, part: int, band: tuple[float, float], spans: int) -> tuple[float, float]:
     """How far lines of a part from end to end of a band are off on so many spans, and its edge, mm."""
     shares = np.linspace(0.0, 1.0, _LINES)
-    places, between, weights = _interpolation(np.linspace(*band, spans + 1))
+    (places, between), weights = _places(band, spans), _interpolation(spans)[2]
     found = _points(teeth, part, shares, places).plane @ weights.T
     away = float(_away(found, _points(teeth, part, shares, between)).max())
     return away, _edge_error(teeth, part, band, found, between)
 
 
-def _shares(teeth: WormTeeth, part: int, spans: int, *, inwards: bool = False) -> Real:
-    """Shares of a part at the ends of spans from the root on, or from the tip, even where that follows it best."""
+def _closer(teeth: WormTeeth, part: int) -> int:
+    """By which power spans across a part come closer at its tip than at its root."""
+    # beyond the tip the contact of a swivelled hob turns back in the plane
+    return _CLOSER if part == FLANK and teeth.hob.swivel else 1
+
+
+def _ends(spans: int, power: int = 1, *, inwards: bool = False) -> Real:
+    """Shares at the ends of spans that come closer by a power at the last of them, ``inwards`` at the first."""
     even = np.linspace(0.0, 1.0, spans + 1)
-    if part != FLANK or teeth.hob.swivel == 0:
-        return even
-    # beyond the tip the contact of a swivelled hob turns back in the plane: the nearer the closer
-    return np.asarray(even**_CLOSER if inwards else 1 - (1 - even) ** _CLOSER)
+    return np.asarray(even**power if inwards or power == 1 else 1 - (1 - even) ** power)
 
 
 def _between(places: Real) -> Real:
@@ -243,12 +264,20 @@ def _between(places: Real) -> Real:
     return np.concatenate([places[:-1] + share * np.diff(places) for share in _BETWEEN])
 
 
-def _interpolation(ends: Real) -> tuple[Real, Real, Real]:
-    """Places of interpolation on spans with such ends, places between them, and what gives the values there, (m, n)."""
-    knots = clamped(_DEGREE, ends)
+@lru_cache(maxsize=128)
+def _interpolation(spans: int, closer: int = 1) -> tuple[Real, Real, Real]:
+    """Shares of interpolation on spans, shares between them, and what gives the values there, (m, n)."""
+    knots = clamped(_DEGREE, _ends(spans, closer))
     places = greville(_DEGREE, knots)
     between = _between(places)
     return places, between, basis_matrix(_DEGREE, knots, between) @ np.linalg.inv(basis_matrix(_DEGREE, knots, places))
+
+
+def _places(band: tuple[float, float], spans: int) -> tuple[Real, Real]:
+    """Heights of interpolation on spans along a band, and between them, mm."""
+    low, high = band
+    places, between, _ = _interpolation(spans)
+    return low + (high - low) * places, low + (high - low) * between
 
 
 def _edge_error(teeth: WormTeeth, part: int, band: tuple[float, float], found: Complex, heights: Real) -> float:
@@ -276,7 +305,7 @@ class _Fit(Record, eq=False):
 
 def _fitted(teeth: WormTeeth, part: int, band: tuple[float, float], spans: tuple[int, int]) -> _Fit:
     """The spline of a lower fillet or flank."""
-    u_knots = clamped(_DEGREE, _shares(teeth, part, spans[0]))
+    u_knots = clamped(_DEGREE, _ends(spans[0], _closer(teeth, part)))
     v_knots = clamped(_DEGREE, np.linspace(*band, spans[1] + 1))
     places = greville(_DEGREE, u_knots), greville(_DEGREE, v_knots)
     exact = _points(teeth, part, *places)
@@ -356,7 +385,7 @@ def _ring(made: BodyFaces, teeth: WormTeeth, strips: Sequence[Strip], end: int, 
     if present[3]:
         period.append(_arc(complex(tip[0]), top))
     if present[4]:
-        inwards = clamped(_DEGREE, _shares(teeth, FLANK, len(flank_knots[0]) - 2 * _DEGREE - 1, inwards=True))
+        inwards = clamped(_DEGREE, _ends(len(flank_knots[0]) - 2 * _DEGREE - 1, _closer(teeth, FLANK), inwards=True))
         period.append(BSpline(_DEGREE, inwards, upper_flank))
     period.append(BSpline(_DEGREE, fillet_knots, upper_fillet))
     outline = Outline(tuple(period), teeth.number_of_teeth, 0.0, "sampled")

@@ -6,7 +6,7 @@ Frame: the axis is z, a thread lies about z = 0 on +x; a right-hand worm's threa
 from __future__ import annotations
 
 import math
-from functools import partial
+from functools import cached_property, partial
 from typing import Literal
 
 import numpy as np
@@ -24,7 +24,7 @@ Hand = Literal["right", "left"]
 LEAST_LAND = 1e-3
 
 
-class Worm(Record):
+class Worm(Record, dict=True):
     """A cylindrical worm; coefficients are in axial modules.
 
     ``diameter_quotient``: q = d_1 / m; ``pressure_angle`` (rad): axial for ZA, in the normal for ZI, ZN1 and ZN2, of
@@ -78,14 +78,14 @@ class Worm(Record):
         """r_f1, mm."""
         return self.reference_radius - (self.addendum_coefficient + self.tip_clearance_coefficient) * self.module
 
-    @property
+    @cached_property
     def screw(self) -> Screw:
         """Reference radius, advance, and both halves of the axial pitch."""
         quarter = math.pi * self.module / 4
         thin = self.thinning / 2
         return Screw(self.reference_radius, self.parameter, quarter - thin, quarter + thin)
 
-    @property
+    @cached_property
     def flank(self) -> Flank:
         """Its form of flank."""
         return FORMS[self.form](self.screw, self.pressure_angle, self.wheel_diameter)

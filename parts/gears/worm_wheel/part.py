@@ -199,10 +199,7 @@ def teeth_of(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:
     teeth = _asked_teeth(keys, drive)
     least = teeth.sliver
     if keys.face_width is None:
-        even = fitting(teeth, WormTeeth.is_even, _NEAR)
-        if even is not None and even.width >= _USEFUL * teeth.width:
-            return even
-        found = fitting(teeth, WormTeeth.is_whole, _NEAR) or fitting(teeth, WormTeeth.is_smooth, _NEAR)
+        found = fitting(teeth, WormTeeth.is_even, _NEAR) or fitting(teeth, WormTeeth.is_smooth, _NEAR)
         if found is not None:
             return found
     elif is_fitting(teeth):

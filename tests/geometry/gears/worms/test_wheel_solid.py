@@ -27,7 +27,8 @@ def _wheel(drive: WormDrive, width: float, outer: float, hob: Hob | None = None,
     teeth = WormTeeth(hob, drive.centre_distance, drive.throat_radius, outer, width)
     rim = circle(0.9 * drive.root_radius, Label.BODY)
     bore = circle(0.2 * drive.root_radius, Label.BORE, hole=True)
-    return WormWheel(teeth.checked(), plate(Region(rim, (bore,)), 0.0, width), rim)
+    assert teeth.ended is None
+    return WormWheel(teeth, plate(Region(rim, (bore,)), 0.0, width), rim)
 
 
 # contact that runs far beside the mid plane
