@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import ezdxf
@@ -14,12 +15,15 @@ from geometry.base.tolerance import DRAWN_DECIMALS
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.contour import edge_box
 
-_LAYER = "OUTLINE"
+_LAYER, _PITCH = "OUTLINE", "PITCH_CURVE"
 _MILLIMETRES = 4
 
 
-def write_drawing_dxf(file: Path, boundaries: tuple[Outline, ...]) -> dict[str, int]:
-    """Write every boundary curve by curve on one layer; returns the number of entities of each kind."""
+def write_drawing_dxf(file: Path, boundaries: Sequence[Outline], paths: Sequence[Outline] = ()) -> dict[str, int]:
+    """Write every boundary curve by curve on one layer, and paths of a follower's centre on another one, thin and grey.
+
+    Returns the number of entities of each kind.
+    """
     with fixed_metadata():
         drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
     drawing.header["$LUNITS"] = 2
@@ -28,9 +32,11 @@ def write_drawing_dxf(file: Path, boundaries: tuple[Outline, ...]) -> dict[str, 
     space = drawing.modelspace()
     counts: dict[str, int] = {}
     corners: list[complex] = []
-    for boundary in boundaries:
-        for curve in boundary.curves():
-            kind = add_curve(space, curve, _LAYER)
+    if paths:
+        drawing.layers.add(_PITCH, color=8, lineweight=25)
+    for layer, outlines in ((_LAYER, boundaries), (_PITCH, paths)):
+        for curve in (one for outline in outlines for one in outline.curves()):
+            kind = add_curve(space, curve, layer)
             counts[kind] = counts.get(kind, 0) + 1
             corners += _box(curve)
     x, y = [c.real for c in corners], [c.imag for c in corners]

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ezdxf.entities import Arc, Circle, Dimension, DXFGraphic, Line, Spline, Text
     from ezdxf.math import BSpline, Vec3
 
-_LAYER = "OUTLINE"
+_LAYER, _PITCH = "OUTLINE", "PITCH_CURVE"
 _MILLIMETRES = 4
 _PER_CURVE = 25
 # what a dimension's own number may be off by, part of it
@@ -37,8 +37,8 @@ _PLAIN = {
 }  # fmt: skip
 # what a spline on a sheet may say beside, and only it
 _DASH = "CONTINUOUS"
-# colour and line type of the layer of a drawing
-_LOOK = (7, "CONTINUOUS")
+# colour, line type and width of the layers of a drawing, the width in hundredths of a mm
+_LOOKS = {_LAYER: (7, "CONTINUOUS", 50), _PITCH: (8, "CONTINUOUS", 25)}
 # curves that turn so far get ten times as many samples, and arcs are smooth for so long, degrees
 _LONG, _SPAN = 90.0, 5.0
 
@@ -264,9 +264,10 @@ def opened(file: Path, *, audit: bool = True) -> Drawing:
 
 
 class ReadDrawing(Record):
-    """A drawing of true curves on one layer."""
+    """A drawing of true curves: the outlines on one layer, ``paths`` of a follower's centre on another."""
 
     curves: tuple[DrawnCurve, ...]
+    paths: tuple[DrawnCurve, ...] = ()
     has_arcs = False
     is_flat = True
     colour = None
@@ -277,6 +278,10 @@ class ReadDrawing(Record):
     def loops(self) -> list[Complex]:
         """The closed outlines, densely sampled."""
         return chained([curve.samples() for curve in self.curves])
+
+    def path_loops(self) -> list[Complex]:
+        """The closed paths of a follower's centre, densely sampled."""
+        return chained([curve.samples() for curve in self.paths]) if self.paths else []
 
     def section(self, z: float) -> tuple[SmoothLoop, ...]:
         """The closed outlines as polynomials."""
@@ -300,12 +305,15 @@ def read_drawing(file: Path) -> ReadDrawing:
     if document.header.get("$INSUNITS") != _MILLIMETRES:
         raise ReadError("the DXF is not in mm ($INSUNITS is not 4)")
     for entity in document.modelspace():
-        if entity.dxf.layer.upper() != _LAYER:
+        if entity.dxf.layer.upper() not in _LOOKS:
             raise ReadError(f"a {entity.dxftype()} stands on layer {entity.dxf.layer} instead of {_LAYER}")
-    curves = tuple(drawn(document)[0])
-    if curves and look_of(document, _LAYER) != _LOOK:
-        raise ReadError(f"layer {_LAYER} looks otherwise than it should")
-    return ReadDrawing(curves)
+    found: dict[str, list[DrawnCurve]] = {name: [] for name in _LOOKS}
+    for curve in drawn(document)[0]:
+        found[curve.layer.upper()].append(curve)
+    for name, curves in found.items():
+        if curves and (*look_of(document, name), document.layers.get(name).dxf.lineweight) != _LOOKS[name]:
+            raise ReadError(f"layer {name} looks otherwise than it should")
+    return ReadDrawing(tuple(found[_LAYER]), tuple(found[_PITCH]))
 
 
 def look_of(document: Drawing, name: str) -> tuple[int, str]:

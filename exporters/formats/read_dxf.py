@@ -29,6 +29,8 @@ _COLOURS = {"ENGRAVE": 5, "CUT_INNER": 3, "CUT_OUTER": 1}
 _SHAPE = {0, 5, 8, 10, 20, 42, 66, 70, 90, 91, 100, 102, 210, 220, 230, 330, 360}
 _PLAIN_NUMBERS = {30: 0.0, 38: 0.0, 39: 0.0, 40: 0.0, 41: 0.0, 43: 0.0, 48: 1.0, 60: 0.0, 62: 256.0, 67: 0.0,
                   71: 0.0, 72: 0.0, 73: 0.0, 74: 0.0, 75: 0.0, 370: -1.0}  # fmt: skip
+# lines of a cut are thin, in hundredths of a mm; below 0: as programs draw them
+_WIDEST = 25
 _PLAIN_WORDS = {6: {"BYLAYER"}, 410: {"MODEL"}}
 _EXTRUSION = (210, 220, 230)
 
@@ -149,6 +151,8 @@ def _layers(sections: dict[str, Pairs]) -> set[str]:
             raise ReadError(f"layer {name} is transparent")
         if record.first(6, "Continuous").upper() != "CONTINUOUS":
             raise ReadError(f"layer {name} is not drawn through")
+        if int(record.first(370, "-3")) > _WIDEST:
+            raise ReadError(f"layer {name} is drawn wider than {_WIDEST / 100} mm")
     return found
 
 

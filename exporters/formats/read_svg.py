@@ -23,6 +23,8 @@ _KNOWN = {
     "circle": {"cx", "cy", "r", "id", "style"},
 }
 _STYLE = re.compile(r"fill:none;stroke:(#[0-9a-f]{6});stroke-width:(\d*\.?\d+)")
+# lines of a cut are thin, mm
+_WIDEST = 0.25
 _LAYERS = {"#0000ff": "ENGRAVE", "#00ff00": "CUT_INNER", "#ff0000": "CUT_OUTER"}
 _SVG = "{http://www.w3.org/2000/svg}"
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
@@ -88,7 +90,7 @@ def _layer(element: Element) -> str:
     """What is done along an outline, as its colour tells a laser program; its id must not tell otherwise."""
     style, name = re.sub(r"\s|;\s*$", "", element.get("style", "").lower()), element.get("id", "").upper()
     shown = _STYLE.fullmatch(style)
-    if shown is None or shown[1] not in _LAYERS or not float(shown[2]) > 0:
+    if shown is None or shown[1] not in _LAYERS or not 0 < float(shown[2]) <= _WIDEST:
         raise ReadError(f'an outline of the SVG has the style "{style}"')
     layer = _LAYERS[shown[1]]
     if name and name != layer:

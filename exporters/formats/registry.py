@@ -21,7 +21,7 @@ from geometry.base.tolerance import DRAWN_ROUNDING, LEAST_SEGMENT_MM, written_de
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation
 from geometry.plane.offset_region import OffsetRegion
-from geometry.plane.profile import Region
+from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.scene.formats import FileKind, file_kind
 from parts.scene.load import ExportSpec
@@ -84,6 +84,17 @@ class Content(Record):
     def body(self) -> Body | FacedBody:
         """The exact solid, moved like the section."""
         return self.part.body(self.section.offset)
+
+    @property
+    def pitch_curve(self) -> Profile | None:
+        """The path of the follower's centre, where the export asks for it and the part has one."""
+        return self.part.pitch_curve if self.export.pitch_curve else None
+
+    @property
+    def outlines(self) -> tuple[Profile, ...]:
+        """What a drawing holds: the boundaries of the section, holes first, then the pitch curve."""
+        path = self.pitch_curve
+        return (*self.section.region.profiles(), *([] if path is None else [path]))
 
     @property
     def exact(self) -> Region | Body | FacedBody:
@@ -156,7 +167,7 @@ def _splines(content: Content, tolerance: float) -> Curves:
     """Cubics, which drawings read everywhere."""
     from geometry.approximation.outline import spline_outline
 
-    return tuple(spline_outline(p, tolerance, degree=3, continuity=2) for p in content.section.region.profiles())
+    return tuple(spline_outline(p, tolerance, degree=3, continuity=2) for p in content.outlines)
 
 
 def _chords(content: Content, tolerance: float) -> Chords:
@@ -194,7 +205,7 @@ def _flat_rounding(content: Content) -> float:
 
 
 def _drawing_rounding(content: Content) -> float:
-    return DRAWN_ROUNDING + _DIGITS * content.section.region.outer.reach()
+    return DRAWN_ROUNDING + _DIGITS * max(profile.reach() for profile in content.outlines)
 
 
 def _mesh_rounding(content: Content) -> float:
@@ -219,7 +230,8 @@ def _write_laser_dxf(content: Content, made: Chords, file: Path) -> dict[str, in
 def _write_drawing_dxf(content: Content, made: Curves, file: Path) -> dict[str, int]:
     from exporters.formats.drawing_dxf import write_drawing_dxf
 
-    return write_drawing_dxf(file, made)
+    count = len(content.section.region.profiles())
+    return write_drawing_dxf(file, made[:count], made[count:])
 
 
 def _write_svg(content: Content, made: Chords, file: Path) -> dict[str, int]:

@@ -146,8 +146,8 @@ class Job(Content, FileJob):
 
     @property
     def told(self) -> dict[str, Any]:
-        """The part."""
-        return {"part": self.part.id}
+        """The part, and whether its pitch curve is there."""
+        return {"part": self.part.id, **({} if self.pitch_curve is None else {"pitch_curve": True})}
 
     @property
     def offset(self) -> float:
@@ -163,7 +163,7 @@ class Job(Content, FileJob):
         # of a body told by its faces every format has the same mesh
         shared = self.kind.form is Form.TRIANGLES and self.body.is_faced
         form = Form.TRIANGLES if shared else self.kind.name
-        return (self.part.id, form, export.tolerance, export.curves, section.offset, boundaries)
+        return (self.part.id, form, export.tolerance, export.curves, section.offset, boundaries, export.pitch_curve)
 
     def chords(self, made: Made) -> Chords:
         """Its boundaries, of a laser file or a mesh."""
@@ -185,7 +185,9 @@ class Job(Content, FileJob):
         """Read it back, measure, and put it to the part's probes."""
         from exporters.verification import judge
 
-        verdict = judge.verify_part(file, self.kind, self.part, self.offset, declared, self.tolerance)
+        verdict = judge.verify_part(
+            file, self.kind, self.part, self.offset, declared, self.tolerance, pitch_curve=self.pitch_curve
+        )
         return judge.signed(file, self.kind, self.export.author, self.export.organisation, verdict)
 
     def remarks(self, made: Made) -> list[Finding]:

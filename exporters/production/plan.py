@@ -14,7 +14,7 @@ from geometry.base.record import Record, replace
 from geometry.plane.offset_region import OffsetRegion
 from parts.base.part import Part
 from parts.base.reasons import reason
-from parts.base.refusal import SceneError, meant, placed
+from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.texts import N_, Message, Text, filled, message
 from parts.keys.boards import PURPOSES_LAID
 from parts.keys.sheet import on_sheet
@@ -130,6 +130,8 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             sheets.append(_of_scene(asked))
             _take(sheets[-1].path, where, taken, source)
             continue
+        if export.pitch_curve and not any(parts[p].pitch_curve for p in asked.wanted):
+            raise SceneError(source, f"{where}.pitch_curve", True, "no_pitch_curve", REMOVED)
         made = []
         for part_id in asked.wanted:
             if only_parts and part_id not in only_parts:

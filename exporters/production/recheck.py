@@ -109,7 +109,9 @@ def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, A
     kind = file_kind(entry["format"], entry["purpose"])
     also = audited if kind.form is Form.ARCS and kind.format == "dxf" else None
     offset = float(entry["offset"])
-    verdict = _signed(file, kind, entry, verify_part(file, kind, part, offset, declared, tolerance, also))
+    path = part.pitch_curve if entry.get("pitch_curve") else None
+    verdict = verify_part(file, kind, part, offset, declared, tolerance, also, path)
+    verdict = _signed(file, kind, entry, verdict)
     verdict = _by_kernel_too(file, kind, [part], offset, verdict)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
 

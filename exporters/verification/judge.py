@@ -17,14 +17,14 @@ from geometry.base.findings import Finding
 from geometry.base.record import replace
 from parts.base.part import Part
 from parts.base.readback import Probe, ReadBack, ReadError
-from parts.base.texts import fault, fault_of
+from parts.base.texts import N_, fault, fault_of
 from parts.scene.formats import FileKind, Form
 
 if TYPE_CHECKING:
     from exporters.formats.read_drawing import ReadDrawing
     from exporters.formats.read_step import ReadSolid
     from exporters.formats.readback import ReadMesh, ReadOutlines
-    from geometry.plane.profile import Region
+    from geometry.plane.profile import Profile, Region
     from geometry.solids.body import Body
     from geometry.solids.measured import Faced
 
@@ -39,17 +39,21 @@ def verify_part(
     declared: float,
     tolerance: float,
     also: Callable[[Path], None] | None = None,
+    pitch_curve: Profile | None = None,
 ) -> Verdict:
     """Read a part's file back, hold it against the part moved ``offset`` mm out of its material, and probe it.
 
     ``declared``: the error that its report states, mm; the measured one must not exceed it or ``tolerance``.
-    ``also``: what else is asked of a file that is good so far; it raises ``ReadError``.
+    ``also``: what else is asked of a file that is good so far; it raises ``ReadError``. ``pitch_curve``: what a drawing
+    must hold beside the part, and nothing else.
     """
     flat = part.cut if kind.form is Form.ARCS else part.section
     exact = part.body(offset) if kind.is_solid else flat(offset).region
     try:
         found = READERS[kind.name](file)
         verdict = held(found, kind, exact, declared, tolerance, part.id)
+        if kind.form is Form.SPLINES:
+            verdict = _with_paths(cast("ReadDrawing", found), pitch_curve, declared, tolerance, verdict)
         if found.names() is not None and not same_shade(found.colour, part.colour):
             raise ReadError(f"{part.id} is coloured {found.colour} instead of {part.colour}")
         verdict = replace(verdict, failures=(*verdict.failures, *said_failures(found, kind, part)))
@@ -149,6 +153,23 @@ def _drawing(found: ReadDrawing, region: Region, declared: float, tolerance: flo
     from exporters.verification.outlines import verify_samples
 
     return verify_samples(found.loops(), region.profiles(), declared, tolerance)
+
+
+def _with_paths(
+    found: ReadDrawing, pitch_curve: Profile | None, declared: float, tolerance: float, verdict: Verdict
+) -> Verdict:
+    """A verdict that counts the pitch curve of a drawing too."""
+    from exporters.verification.outlines import verify_samples
+
+    if pitch_curve is None and not found.paths:
+        return verdict
+    wanted = [] if pitch_curve is None else [pitch_curve]
+    own = verify_samples(found.path_loops(), wanted, declared, tolerance)
+    measured = dict(verdict.measured)
+    if "max_deviation" in own.measured and wanted:
+        measured["max_deviation"] = max(measured["max_deviation"], own.measured["max_deviation"])
+    failures = (fault_of(N_("pitch curve"), failure) for failure in own.failures)
+    return replace(verdict, measured=measured, failures=(*verdict.failures, *failures))
 
 
 def _mesh(found: ReadMesh, body: Body | Faced, declared: float, tolerance: float) -> Verdict:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from geometry.base.findings import Finding
     from geometry.plane.offset_region import OffsetRegion
+    from geometry.plane.profile import Profile
     from geometry.solids.body import Body
     from geometry.solids.faced import FacedBody
     from geometry.solids.mass import Moments
@@ -174,6 +175,10 @@ class Kind(Generic[K, T]):
     def report(self, keys: K, thing: T) -> Report:
         """Remarks and named results."""
         return Report()
+
+    def pitch_curve(self, keys: K, thing: T) -> Profile | None:
+        """The closed path of a round follower's centre, in the frame of the part; None: it has none."""
+        return None
 
     def probes(self, keys: K, thing: T) -> tuple[Probe, ...]:
         """What its files must also do: a follower rolled over them, a pin that fits."""

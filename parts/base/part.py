@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     import trimesh
 
     from geometry.plane.offset_region import OffsetRegion
+    from geometry.plane.profile import Profile
     from geometry.solids.body import Body
     from geometry.solids.faced import FacedBody
     from parts.base.kind import Kind, Report, Stock
@@ -110,6 +111,11 @@ class Part(Record, dict=True):
     def body(self) -> Callable[[float], Body | FacedBody]:
         """The exact solid, every boundary moved so many mm out of the material."""
         return lru_cache(maxsize=2)(lambda offset: self.made_by.solid(self.keys, self.thing, offset))
+
+    @cached_property
+    def pitch_curve(self) -> Profile | None:
+        """The closed path of a round follower's centre, where the part has one."""
+        return self.made_by.pitch_curve(self.keys, self.thing)
 
     @cached_property
     def face_width(self) -> float:

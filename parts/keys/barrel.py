@@ -8,7 +8,7 @@ from msgspec import Meta, Struct
 
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import BoreDiameter, degrees, mm, start
-from parts.keys.cam import MotionTable, Phases, Swing, turn
+from parts.keys.cam import MotionTable, Phases, Swing, TableTolerance, turn
 from parts.keys.holes import BoreTable
 from parts.keys.law import with_own_laws
 from parts.keys.wheel import HubTable
@@ -85,6 +85,7 @@ class BarrelCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", 
     swing_deg: Swing = 0.0
     phases: Annotated[Phases, with_own_laws(turn("polynomial_345"))] | None = None
     motion_table: MotionTable | None = None
+    table_tolerance: TableTolerance = 0.0
     oscillating: SwingingTable | None = None
     clearance: Annotated[float, mm("groove wider than the roller by this", least=0, most=100)] = 0.0
     length: (

@@ -59,6 +59,14 @@ MotionTable = Annotated[
         examples=[[[0.0, 0.0], [120.0, 10.0], [240.0, 5.0]]],
     ),
 ]
+TableTolerance = Annotated[
+    float,
+    Meta(
+        ge=0,
+        le=1000,
+        description="motion_table: how far its rows may be left, mm or deg, so that a measured motion runs smoothly",
+    ),
+]
 FollowerRadius = Annotated[float, mm("radius of the roller or mushroom", least=0, most=_MOST), start(8.0)]
 BaseCircle = Annotated[
     float, mm("base circle; default: the least by least_transmission_angle_deg", above=0, most=_MOST), start(30.0)
@@ -84,6 +92,7 @@ class Moved(Stroke, Protocol):
 
     phases: list[PhaseTable] | None
     motion_table: list[tuple[float, float]] | None
+    table_tolerance: float
 
 
 class MovingPhase(Protocol):
@@ -119,10 +128,14 @@ def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
         if lift != 0:
             raise ParameterError(key, lift, "lift_in_table", Nearest(0.0))
         try:
-            return motion_of_table([math.radians(a) for a, _ in table], [s * unit for _, s in table])
+            lifts = [s * unit for _, s in table]
+            return motion_of_table([math.radians(a) for a, _ in table], lifts, keys.table_tolerance * unit)
         except ParameterError as refusal:
-            # a lift of a row stands in the unit of its key
-            raise refusal.renamed(refusal.name, 1 / unit if refusal.name.endswith("[2]") else None) from refusal
+            # a lift of a row, and what it may be left by, stand in the unit of its key
+            in_unit = refusal.name.endswith("[2]") or refusal.name == "table_tolerance"
+            raise refusal.renamed(refusal.name, 1 / unit if in_unit else None) from refusal
+    if keys.table_tolerance:
+        raise ParameterError("table_tolerance", keys.table_tolerance, "tolerance_without_table", Nearest(0.0))
     if phases is None:
         raise ParameterError("phases", None, "phases_or_table")
     if not lift > 0:
@@ -140,6 +153,13 @@ def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
     _check_whole_turn(phases)
     _check_return(phases)
     return follower_motion(with_joins(made, closed=True))
+
+
+def table_quantities(motion: FollowerMotion, *, swings: bool) -> dict[str, float]:
+    """How far a smoothed motion leaves the rows of its table, mm or degrees; nothing of another one."""
+    if motion.left_rows is None:
+        return {}
+    return {"table_deviation_deg": math.degrees(motion.left_rows)} if swings else {"table_deviation": motion.left_rows}
 
 
 def check_stroke(keys: Stroke, swings: bool, *, tabled: bool, table: str = "oscillating") -> None:

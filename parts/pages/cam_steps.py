@@ -81,12 +81,16 @@ Speed = Annotated[float, Meta(gt=0, le=1e6, description="of the cam: adds veloci
 
 
 class Phases(Record):
-    """The phases of a motion with its lift, mm (rad where it ``swings``), over the cam's angle or a plate's travel."""
+    """The phases of a motion with its lift, mm (rad where it ``swings``), over the cam's angle or a plate's travel.
+
+    ``left_rows``: of a smoothed table, how far its rows are left, mm or rad.
+    """
 
     phases: tuple[Phase, ...]
     lift: float
     swings: bool = False
     slides: bool = False
+    left_rows: float | None = None
 
     def named(self) -> list[tuple[str, Phase]]:
         """Every phase as rise, far, return or near; a dwell is far above half of the lift."""
@@ -151,6 +155,9 @@ def phase_steps(page: Sheet, phases: Phases) -> None:
         page.add("swing_deg", as_typed(math.degrees(phases.lift)))
     else:
         page.add("lift", as_typed(phases.lift))
+    if phases.left_rows is not None:
+        unit = math.degrees(1.0) if phases.swings else 1.0
+        page.add("table_deviation_deg" if phases.swings else "table_deviation", phases.left_rows * unit)
     named = phases.named()
     index = dict.fromkeys(_PHASES, 0)
     for name, phase in named:

@@ -158,6 +158,7 @@ REASONS = {
     "profile_folds": N_("the cam is undercut: its profile turns back on itself, by less than can be seen of its lift"),
     "profile_falls_apart": N_("the undercut profile falls apart"),
     "ramps_above_width": N_("the ramps together must be from 0 to 1 of the width"),
+    "rest_within_tolerance": N_("is so large that a follower at rest keeps it: it must be below half of the lift"),
     "rests_all_turn": N_("the follower rests all the turn"),
     "roller_is_a_part": N_("is for {ends} followers; a roller is a part of its own"),
     "roller_outruns_surface": N_(
@@ -191,6 +192,7 @@ REASONS = {
     "undercut_all": N_("the cam is undercut and loses all of the profile"),
     "undercut_at": N_("the cam is undercut at {at} degrees: {lost} of lift is lost there"),
     "undercut_by_impact": N_("the cam is undercut where the velocity jumps, whatever its size"),
+    "tolerance_without_table": N_("is for motion_table, which is not given"),
     "undercut_hollow": N_("the cam is undercut: its least radius of curvature would be {radius} mm"),
     "undercut_inner_wall": N_("the groove's inner wall is undercut: the roller would lose lift"),
     "undercut_outer_wall": N_("the groove's outer wall is undercut: the roller would lose lift"),

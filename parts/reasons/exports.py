@@ -39,6 +39,7 @@ REASONS = {
     ),
     "no_flat_outline": N_("has no flat outline; write it to STEP, STL or 3MF"),
     "no_outline": N_("gives no whole outline: {why}"),
+    "no_pitch_curve": N_("none of its parts has a pitch curve, along which the centre of a roller or mushroom runs"),
     "no_report": N_("is damaged (it is not the JSON of a report); build the scene again"),
     "no_report_beside": N_("no {name} beside it; build the scene again to get one"),
     "no_assembly_view": N_("an assembly drawing has no view of a {kind} ({part}); leave it out by parts = [...]"),

@@ -28,6 +28,7 @@ from parts.keys.cam import (
     Lift,
     MotionTable,
     Phases,
+    TableTolerance,
     turn,
 )
 from parts.keys.law import with_own_laws
@@ -45,8 +46,8 @@ _MARK, _LEAST_MARK, _LEAST_AXLE = 2.0, 0.5, 0.5
 # mm: thickness and rounding of a flat follower's plate; of the frame, corners and least width
 _PLATE, _ROUNDING, _CORNER, _FRAME_WIDTH = 8.0, 3.0, 6.0, 60.0
 _CAM_KEYS = (
-    "follower", "lift", "phases", "motion_table", "follower_radius", "follower_offset", "base_circle_radius",
-    "least_transmission_angle_deg", "least_curvature_radius",
+    "follower", "lift", "phases", "motion_table", "table_tolerance", "follower_radius", "follower_offset",
+    "base_circle_radius", "least_transmission_angle_deg", "least_curvature_radius",
 )  # fmt: skip
 _COLOURS = {
     "cam": "#d9b27c", "roller": "#d8d8d8", "washer": "#c9b79c", "spacer": "#c9b79c", "follower": "#a8c4a0",
@@ -66,6 +67,7 @@ class CamModelKeys(RecipeKeys, kw_only=True, tag="cam_model"):
     lift: Lift = 0.0
     phases: Annotated[Phases, with_own_laws(turn("polynomial_345"))] | None = None
     motion_table: MotionTable | None = None
+    table_tolerance: TableTolerance = 0.0
     follower_radius: FollowerRadius = 0.0
     follower_offset: FollowerOffset = 0.0
     base_circle_radius: BaseCircle | None = None

@@ -131,6 +131,12 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
         | None
     ) = None
     assembly: Annotated[bool, Meta(description="step, 3mf: one file of all instances in their places")] = False
+    pitch_curve: Annotated[
+        bool,
+        Meta(
+            description='dxf with purpose = "drawing": the path of the follower\'s centre too, on the layer PITCH_CURVE'
+        ),
+    ] = False
     author: Annotated[str, Meta(max_length=200, description="step: the author, for its header")] = ""
     organisation: Annotated[str, Meta(max_length=200, description="step: school, group or firm, for its header")] = ""
     shared: Annotated[bool, Meta(description="step: equal surfaces are written once; false: one for each face")] = True
@@ -486,6 +492,8 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
     kind = file_kind(spec.format, spec.purpose)
     if spec.kerf and kind.form is Form.TRIANGLES:
         raise SceneError(source, f"{place}.kerf", spec.kerf, "kerf_of_a_print", REMOVED, offset=spec.kerf / 2)
+    if spec.pitch_curve and kind.form is not Form.SPLINES:
+        refuse("pitch_curve", "only_for_purpose", purpose="drawing")
     if kind.is_cad:
         if spec.kerf:
             refuse("kerf", "shows_the_part")

@@ -41,6 +41,8 @@ QUANTITIES: dict[str, str] = {
     "roller_sliding": N_("roller's sliding, share of its rolling"),
     "groove_width": N_("groove width, mm"),
     "groove_depth": N_("groove depth, mm"),
+    "table_deviation": N_("greatest distance of the motion from a row of its table, mm"),
+    "table_deviation_deg": N_("greatest distance of the motion from a row of its table, deg"),
     "follower_offset": N_("follower offset E, mm"),
     "pressure_angle_rise_deg": N_("greatest pressure angle, rise, deg"),
     "pressure_angle_return_deg": N_("greatest pressure angle, return, deg"),

@@ -114,10 +114,12 @@ class FollowerMotion(PieceMotion, Record, dict=True):
     """S over the cam angle: analytic pieces from 0 to 2 pi, and the phases they came from (none for a table).
 
     S is counted from the lowest position that the phases begin with; the cam turns counter-clockwise.
+    ``left_rows``: of a smoothed table, how far the motion leaves its rows at most, mm or rad.
     """
 
     pieces: tuple[LawPiece, ...]
     phases: tuple[Phase, ...] = ()
+    left_rows: float | None = None
 
     @cached_property
     def stack(self) -> PieceStack:
@@ -236,16 +238,17 @@ def follower_motion(phases: Sequence[Phase]) -> FollowerMotion:
     return FollowerMotion(tuple(pieces), tuple(phases))
 
 
-def motion_of_table(angles: Sequence[float], lifts: Sequence[float]) -> FollowerMotion:
+def motion_of_table(angles: Sequence[float], lifts: Sequence[float], tolerance: float = 0.0) -> FollowerMotion:
     """A measured or foreign motion: a periodic cubic spline (C2) through lifts at rising cam angles, rad.
 
-    The first point is repeated at one turn after it; a last row that already says so may stand there.
+    The first point is repeated at one turn after it; a last row that already says so may stand there. ``tolerance``:
+    the rows may be left by so much, in their own unit, so that the motion bends least: ``geometry.laws.smoothing``.
 
     Raises
     ------
     ParameterError
         Fewer than 3 points, angles that do not rise or span more than one turn, a last row that contradicts the
-        first, or all at one height.
+        first, all at one height, or a tolerance within which a follower at rest would stand.
     """
     at, values = np.asarray(angles, dtype=float), np.asarray(lifts, dtype=float)
     key = "motion_table"
@@ -269,8 +272,17 @@ def motion_of_table(angles: Sequence[float], lifts: Sequence[float]) -> Follower
         raise _beyond_turn(key, at, "table_beyond_turn")
     if not np.ptp(values) > 0:
         raise ParameterError(key, len(values), "table_without_lift")
+    left_rows = None
+    if tolerance:
+        if not tolerance < (most := float(np.ptp(values)) / 2):
+            works = limit(most * (1 - 1e-9), tolerance, digits=9)
+            raise ParameterError("table_tolerance", tolerance, "rest_within_tolerance", works)
+        from geometry.laws.smoothing import smoothed
+
+        rows, values = values, smoothed(at, values, TURN, tolerance)
+        left_rows = float(np.abs(rows - values).max())
     closed = cubic_pieces(np.append(at, TURN), np.append(values, values[0]), periodic=True)
-    return FollowerMotion(tuple(LawPiece(a, b, c) for a, b, c in closed))
+    return FollowerMotion(tuple(LawPiece(a, b, c) for a, b, c in closed), left_rows=left_rows)
 
 
 def _beyond_turn(key: str, at: Real, code: str) -> ParameterError:

@@ -46,7 +46,7 @@ def sheet(keys: BarrelKeys) -> Sheet:
     """The calculation of a cylindrical cam."""
     body = BARREL_CAM.thing(keys, {})
     cam, swings = body.cam, keys.oscillating is not None
-    phases = Phases(cam.motion.phases, cam.motion.lift, swings)
+    phases = Phases(cam.motion.phases, cam.motion.lift, swings, left_rows=cam.motion.left_rows)
     page = Sheet(TOPIC, N_("Cylindrical cam"))
     page.section(N_("Characteristics"))
     phase_steps(page, phases)

@@ -27,7 +27,7 @@ from parts.cams.barrel_cam.roller import (
 )
 from parts.cams.disk_cam.part import impact_findings
 from parts.keys.barrel import BarrelCamSpec, SwingingTable
-from parts.keys.cam import USUAL_PRESSURE_ANGLE, check_stroke, motion_of, rough_law
+from parts.keys.cam import USUAL_PRESSURE_ANGLE, check_stroke, motion_of, rough_law, table_quantities
 from parts.keys.holes import bore_of, hub_holes, wide_bore
 
 if TYPE_CHECKING:
@@ -277,6 +277,7 @@ def _quantities(keys: BarrelCamSpec, body: BarrelBody) -> dict[str, float]:
         found["start_angle_deg"] = math.degrees(cam.guide.start_angle)
     else:
         found["lift"] = cam.motion.lift
+    found |= table_quantities(cam.motion, swings=isinstance(cam.guide, SwingGuide))
     found["start_height"] = float(cam.place(0.0, 0)[0].imag)
     for kind in (PhaseKind.RISE, PhaseKind.RETURN):
         if cam.motion.moving_pieces(kind):

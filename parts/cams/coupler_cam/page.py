@@ -71,7 +71,8 @@ def sheet(keys: LinkageKeys) -> Sheet:
     """The calculation of a linkage cam."""
     cam = LINKAGE_CAM.thing(keys, {})
     title = N_("Cam with its follower on a connecting rod")
-    page, phases = Sheet(TOPIC, title), Phases(cam.motion.phases, cam.motion.lift, cam.swings)
+    motion, page = cam.motion, Sheet(TOPIC, title)
+    phases = Phases(motion.phases, motion.lift, cam.swings, left_rows=motion.left_rows)
     page.section(N_("Characteristics"))
     phase_steps(page, phases)
     radius_step(page, cam.kind, cam.radius)

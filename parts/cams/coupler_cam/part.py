@@ -29,7 +29,16 @@ from parts.cams.disk_cam.part import (
 )
 from parts.cams.wheel import DiskKeys, check_disk
 from parts.keys.base import degrees, mm, start
-from parts.keys.cam import Follower, Phases, check_stroke, motion_of, stroke_key, turn
+from parts.keys.cam import (
+    Follower,
+    Phases,
+    TableTolerance,
+    check_stroke,
+    motion_of,
+    stroke_key,
+    table_quantities,
+    turn,
+)
 from parts.keys.law import with_own_laws
 from parts.keys.linkage import Coordinate, DrivenRocker, DrivenSlider, GuidingRocker, GuidingSlider, drive_of, guide_of
 
@@ -79,6 +88,7 @@ class LinkageCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag
         ]
         | None
     ) = None
+    table_tolerance: TableTolerance = 0.0
     least_curvature_radius: Annotated[float, mm("rho: least convex radius of the cam", least=0, most=_MOST)] = 0.0
 
 
@@ -217,7 +227,7 @@ def _quantities(keys: LinkageCamSpec, cam: LinkageCam) -> dict[str, float]:
     from geometry.cams.plane.synthesis import least_convex_radius
 
     travel = math.degrees(cam.motion.lift) if cam.swings else cam.motion.lift
-    found = {"swing_deg" if cam.swings else "lift": travel}
+    found = {"swing_deg" if cam.swings else "lift": travel} | table_quantities(cam.motion, swings=cam.swings)
     if cam.radius > 0:
         found["follower_radius"] = cam.radius
     found |= pressure_angles(cam)

@@ -127,7 +127,7 @@ def disk_sheet(keys: CamKeys) -> Sheet:
 
 def phases_of(cam: DiskCam) -> Phases:
     """The phases of a disk cam."""
-    return Phases(cam.motion.phases, cam.motion.lift, cam_swings(cam))
+    return Phases(cam.motion.phases, cam.motion.lift, cam_swings(cam), left_rows=cam.motion.left_rows)
 
 
 def disk_page(keys: CamKeys, cam: DiskCam) -> Sheet:

@@ -34,9 +34,11 @@ from parts.keys.cam import (
     MovingPhase,
     Phases,
     Swing,
+    TableTolerance,
     check_stroke,
     motion_of,
     rough_law,
+    table_quantities,
     turn,
 )
 from parts.keys.law import with_own_laws
@@ -99,6 +101,7 @@ class CamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="cam")
     swing_deg: Swing = 0.0
     phases: Annotated[Phases, with_own_laws(turn("polynomial_345"))] | None = None
     motion_table: MotionTable | None = None
+    table_tolerance: TableTolerance = 0.0
     follower_radius: FollowerRadius = 0.0
     follower_offset: FollowerOffset = 0.0
     plate_diameter: (
@@ -378,6 +381,10 @@ class DiskKind(Turned[K, T]):
         shape = cam_shape(thing, offset)
         return shape.profile, shape.gaps
 
+    def pitch_curve(self, keys: K, thing: T) -> Profile | None:
+        """The profile, moved out by the follower's radius."""
+        return self.outline(thing, thing.radius)[0] if thing.radius > 0 else None
+
     def probes(self, keys: K, thing: T) -> tuple[Probe, ...]:
         """The follower, rolled over every file."""
         from parts.cams.probes import TurningProbe
@@ -435,6 +442,7 @@ def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
     else:
         found["swing_deg"] = math.degrees(cam.motion.lift)
         found["start_angle_deg"] = math.degrees(cam.swing.start_angle)
+    found |= table_quantities(cam.motion, swings=cam.swings)
     if cam.radius > 0:
         found["follower_radius"] = cam.radius
     if spec.oscillating is None and not cam.is_flat:

@@ -29,7 +29,16 @@ from parts.cams.disk_cam.part import (
 )
 from parts.cams.wheel import DiskKeys, check_disk, inner_radius
 from parts.keys.base import degrees, mm, start
-from parts.keys.cam import USUAL_PRESSURE_ANGLE, FollowerOffset, Lift, MotionTable, Phases, Swing, turn
+from parts.keys.cam import (
+    USUAL_PRESSURE_ANGLE,
+    FollowerOffset,
+    Lift,
+    MotionTable,
+    Phases,
+    Swing,
+    TableTolerance,
+    turn,
+)
 from parts.keys.law import with_own_laws
 from parts.keys.wheel import shape_of
 
@@ -59,6 +68,7 @@ class GrooveCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag=
     swing_deg: Swing = 0.0
     phases: Annotated[Phases, with_own_laws(turn("sine"))] | None = None
     motion_table: MotionTable | None = None
+    table_tolerance: TableTolerance = 0.0
     follower_offset: FollowerOffset = 0.0
     oscillating: OscillatingTable | None = None
     base_circle_radius: (
@@ -287,6 +297,12 @@ class GrooveCam(Kind[GrooveCamSpec, GrooveDisk]):
         outer, inner = groove_section(thing, offset).region.marks
         wheel = wheel_body(thing.shape, wheel_sections(outline, inner_radius(thing.cam), thing.holes), offset)
         return with_groove(wheel, inner, outer, thing.floor, thing.shape.face_width)
+
+    def pitch_curve(self, keys: GrooveCamSpec, thing: GrooveDisk) -> Profile:
+        """The inner wall, moved out by the roller's radius."""
+        from geometry.cams.plane.walls import inner_wall
+
+        return inner_wall(thing.cam, thing.cam.radius)
 
     def is_plate(self, keys: GrooveCamSpec, thing: GrooveDisk) -> bool:
         """Without hub and chamfers."""

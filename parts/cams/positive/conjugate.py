@@ -274,6 +274,10 @@ class ConjugateCam(Turned[ConjugateCamSpec, SecondCam]):
         shape = cam_shape(thing.cam, offset)
         return shape.profile.placed(Placement2(thing.pair.turn)), shape.gaps
 
+    def pitch_curve(self, keys: ConjugateCamSpec, thing: SecondCam) -> Profile:
+        """The profile, moved out by the roller's radius."""
+        return self.outline(thing, thing.cam.radius)[0]
+
     def report(self, keys: ConjugateCamSpec, thing: SecondCam) -> Report:
         """Those of a disk cam, and how both rollers stand."""
         quantities = cam_quantities(thing.keys, thing.cam) | _between_rollers(thing)

@@ -263,6 +263,11 @@ LEVEL = {"shape": "constant", "width": 1.0, "ordinate": 1.0}
 # keys, the key that is blamed, why
 WRONG: dict[str, tuple[dict[str, Any], str, str]] = {
     "no motion": (without("phases"), "phases", "phases_or_table"),
+    "tolerance without a table": (ROLLER | {"table_tolerance": 0.01}, "table_tolerance", "tolerance_without_table"),
+    "tolerance of half the lift": (
+        {k: v for k, v in ROLLER.items() if k not in ("phases", "lift")}
+        | {"motion_table": [[0.0, 0.0], [120.0, 20.0], [200.0, 12.0], [300.0, 1.0]], "table_tolerance": 10.0},
+        "table_tolerance", "rest_within_tolerance"),
     "both motions": (ROLLER | {"lift": 0.0, "motion_table": [[0.0, 0.0], [120.0, 20.0], [200.0, 12.0]]}, "phases",
                      "phases_or_table"),
     "no lift": (ROLLER | {"lift": 0.0}, "lift", "no_lift"),
