@@ -56,8 +56,15 @@ def recheck(file: Path) -> Recheck:
     Raises
     ------
     SceneError
-        There is no such file, or no report that knows it.
+        There is no such file, it cannot be read, or no report knows it.
     """
+    try:
+        return _rechecked(file)
+    except OSError as error:
+        raise SceneError(str(file), "", None, "unreadable", None, why=error.strerror or str(error)) from error
+
+
+def _rechecked(file: Path) -> Recheck:
     if is_half_moved(file.parent):
         raise SceneError(str(file), "", None, "stopped_while_moving")
     if not file.is_file():

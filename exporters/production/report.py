@@ -99,7 +99,25 @@ def read_report(folder: Path) -> dict[str, Any] | None:
         report = json.loads(content(folder / NAME, _MOST_BYTES).decode("utf-8"))
     except (FileNotFoundError, NotADirectoryError, ValueError, RecursionError):
         return None
-    return report if isinstance(report, dict) else None
+    return report if _is_whole(report) else None
+
+
+def _is_whole(report: object) -> bool:
+    """Whether a report tells of its scene and files as ours do, as far as another build takes something over."""
+    if not (isinstance(report, dict) and isinstance(scene := report.get("scene"), dict)):
+        return False
+    lists = [report.get(key) for key in ("files", "previews", "failed")]
+    lists.append([{"path": name} for name in left] if isinstance(left := report.get("left_behind", []), list) else None)
+    if not all(isinstance(each, list) and all(isinstance(entry, dict) for entry in each) for each in lists):
+        return False
+    kept = [entry["kept"] for entry in report["failed"] if entry.get("kept") is not None]
+    names = [entry.get("path") for each in lists for entry in each or ()]
+    return (
+        isinstance(scene.get("scene", {}), dict)
+        and all(isinstance(name, str) and Path(name).name == name for name in names)
+        and all(isinstance(entry.get("sha256"), str) for entry in (*report["files"], *report["previews"]))
+        and all(isinstance(one, dict) and isinstance(one.get("sha256"), str) and "fits_scene" in one for one in kept)
+    )
 
 
 def report_language(file: Path) -> str:
@@ -109,7 +127,7 @@ def report_language(file: Path) -> str:
     except OSError:
         return ENGLISH
     language = scene.get("scene", {}).get("language") if isinstance(scene, dict) else None
-    return language if language in languages() else ENGLISH
+    return language if isinstance(language, str) and language in languages() else ENGLISH
 
 
 def _merge(report: dict[str, Any], before: dict[str, Any] | None) -> None:

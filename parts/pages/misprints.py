@@ -36,6 +36,8 @@ _PRACTICUM: dict[tuple[str, int], Printed] = {
     ("cosine_of_working_pressure_angle", 0): Printed("0.8836", N_("that is cos 27°55'")),
     ("measured_difference_percent", 0): Printed("0.2 %", N_("(1.14 - 1.137)/1.14 = 0.26 %")),
 }
+# the pressure angle of all of them, and how near to it another one is, rad
+_USUAL, _SAME = math.radians(20), 1e-12
 # guidelines, table 2.1: printed alpha_w that its own shifts do not give, and why
 _GUIDELINES = {
     (9, 11): ("30.28°", N_("x2 = 0.543 would give it")),
@@ -56,9 +58,11 @@ _GUIDELINE_SHIFTS = {
 
 
 def printed_for_pair(
-    teeth: tuple[int, int], shifts: tuple[float, float], module: float
+    teeth: tuple[int, int], shifts: tuple[float, float], module: float, pressure_angle: float
 ) -> Mapping[tuple[str, int], Printed]:
-    """What a source prints wrongly for exactly this pair; empty for any other."""
+    """What a source prints wrongly for exactly this pair, angle in rad; empty for any other."""
+    if abs(pressure_angle - _USUAL) > _SAME:
+        return {}
     if (teeth, shifts, module) == ((13, 21), (0.694, 0.384), 10.0):
         return _PRACTICUM
     if _GUIDELINE_SHIFTS.get(teeth) == shifts:

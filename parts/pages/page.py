@@ -177,6 +177,11 @@ class Sheet(Draft):
         steps = self.sections[-1].steps
         steps[-1] = replace(steps[-1], printed=printed)
 
+    def mark_misprints(self, printed: Mapping[tuple[str, int], Printed]) -> None:
+        """Steps of the last section that a source misprints, by their names and gears."""
+        steps = self.sections[-1].steps
+        steps[:] = [replace(step, printed=printed.get((step.name, step.gear), step.printed)) for step in steps]
+
     def steps(self) -> list[Step]:
         """All steps in order."""
         return [step for section in self.sections for step in section.steps]

@@ -76,6 +76,10 @@ FINDINGS: dict[str, Text] = {
     ),
     "radial_assembly": N_("the pinion goes into the ring only along its axis: {lack:.3g} mm of room is lacking"),
     "thin_ring_rim": N_("thin rim: {value:.3f} mm outside the root circle, less than one module ({limit:.3f} mm)"),
+    "tip_rounding_kept": N_(
+        "a face chamfer of {value:.4g} mm is deeper than three quarters of the tip rounding ({limit:.4g} mm): "
+        "a quarter of that rounding is kept at the end face, where a plain chamfer would leave less"
+    ),
     "rack_rounding_reduced": N_(
         "the tip of the basic rack is rounded by {value:.4f} m: the standard's {limit:.2f} m, which is for 20 degrees, "
         "does not fit at this pressure angle"

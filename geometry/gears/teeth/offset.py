@@ -30,7 +30,7 @@ from geometry.plane.profile import Label, Profile, Region, Segment
 
 _SAMPLES = 65
 # share of a tip rounding's radius that is left at the edge of the deepest face chamfer
-_KEPT_ROUNDING = 0.25
+KEPT_ROUNDING = 0.25
 
 
 def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:
@@ -57,7 +57,7 @@ def chamfered_outline(gear: SpurGear, inset: float, depth: float, deepest: float
     a quarter of its radius, it shrinks evenly to that quarter, so that its face does not end in a point.
     """
     curves = SideCurves.of(gear).shrunk(inset)
-    shrinking = min(1.0, (1 - _KEPT_ROUNDING) * curves.tip_rounding / deepest)
+    shrinking = min(1.0, (1 - KEPT_ROUNDING) * curves.tip_rounding / deepest)
     rounding = curves.tip_rounding - shrinking * depth
     made = assemble_side(replace(curves.shrunk(depth), tip_rounding=rounding), gear.pitch_angle).profile()
     if shrinking == 1.0 or rounding == 0.0:

@@ -22,7 +22,7 @@ from geometry.gears.teeth.basic_rack import (
     iso_53,
 )
 from geometry.gears.teeth.limits import checked_gear, exists, findings, root_form_diameter, tip_thickness
-from geometry.gears.teeth.offset import chamfered_outline, gear_region
+from geometry.gears.teeth.offset import KEPT_ROUNDING, chamfered_outline, gear_region
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
@@ -213,7 +213,7 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
 
     def report(self, keys: SpurGearSpec, thing: SpurGear) -> Report:
         """Diameters and thicknesses, what is poor."""
-        found = (*rack_findings(keys, thing), *findings(thing))
+        found = (*rack_findings(keys, thing), *_chamfer_finding(keys), *findings(thing))
         quantities = tooth_quantities(keys, thing, tip_thickness(thing))
         return Report(found, circles(thing, root_form_diameter(thing)), quantities, section_finding(keys))
 
@@ -228,6 +228,13 @@ def _check_face_chamfer(keys: SpurGearSpec) -> None:
     for key, value in both.items():
         if keys.helix_angle_deg and value > 0:
             raise ParameterError(f"face_chamfer{key}", value, "no_chamfer_on_helix", Nearest(0.0))
+
+
+def _chamfer_finding(keys: SpurGearSpec) -> tuple[Finding, ...]:
+    """The remark that a tip rounding keeps some of its radius where a plain chamfer would leave none: sizes in mm."""
+    given, whole = keys.face_chamfer, (1 - KEPT_ROUNDING) * keys.tip_rounding
+    deepest = max(given.below, given.above) if isinstance(given, FaceChamferTable) else given
+    return (Finding("tip_rounding_kept", deepest, whole),) if deepest > whole > 0 else ()
 
 
 @told_in_keys

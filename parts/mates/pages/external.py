@@ -230,7 +230,8 @@ def _page(asked: Asked) -> Sheet:
     keys = asked.keys
     shifts = (keys.first.profile_shift_coefficient, keys.second.profile_shift_coefficient)
     plain = not (asked.helix or asked.wanted_distance or pair.normal_backlash)
-    printed = printed_for_pair((one.number_of_teeth, two.number_of_teeth), shifts, one.module) if plain else {}
+    teeth, angle = (one.number_of_teeth, two.number_of_teeth), one.rack.pressure_angle
+    printed = printed_for_pair(teeth, shifts, one.module, angle) if plain else {}
     page = Sheet(TOPIC, N_("External gear pair"), printed=printed)
     page.section(N_("Given"))
     for index, (normal, gear) in enumerate(zip(asked.normal, pair.gears, strict=True), 1):

@@ -33,6 +33,7 @@ from parts.mates.pages.contour_marks import Choice, checked_picture, show_choice
 from parts.mates.pages.pair_keys import GEARS
 from parts.pages.contact_steps import working_steps
 from parts.pages.inputs import PLACE, SceneKeys, checked, refusal, told
+from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Printed, Sheet
 
 TOPIC = "shift-choice"
@@ -217,6 +218,7 @@ def _choice(page: Sheet, pair: ShiftPair, wish: Requirements, choice: Choice, nu
     thick = state.tip_thicknesses
     page.both("tip_thickness", (thick[0] * module, thick[1] * module), "", ("practicum (1.3)", "practicum (1.3)"))
     page.both("root_sliding", found.root_sliding, "", ("ISO 21771", "ISO 21771"))
+    page.mark_misprints(printed_for_pair(pair.teeth, (found.first, found.second), module, pair.rack.pressure_angle))
     broken = [m for m in margins(pair, wish, found.first, found.second) if m.margin < -1e-9]
     if broken:
         names = ", ".join(f"{m.name} {m.margin:.4g}" for m in broken)

@@ -240,11 +240,38 @@ def test_verify_complains_about_what_it_cannot_judge(tmp_path: Path, capsys: pyt
     assert run("verify", folder / "g.svg", folder / "g.svg") == 0
 
 
+def test_a_file_that_cannot_be_read_does_not_keep_others_from_being_verified(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It was told to choose another place, and the files after it were not looked at."""
+    build_gear(tmp_path, GEAR, {"format": "svg"})
+    folder = tmp_path / "out" / "s"
+    (folder / "locked.svg").write_bytes((folder / "g.svg").read_bytes())
+    real = Path.read_bytes
+
+    def locked(file: Path) -> bytes:
+        if file.name == "locked.svg":
+            raise PermissionError(13, "Permission denied", str(file))
+        return real(file)
+
+    monkeypatch.setattr(Path, "read_bytes", locked)
+    assert run("verify", folder / "locked.svg", folder / "g.svg") == 2
+    out, error = capsys.readouterr()
+    assert "locked.svg: cannot be read: Permission denied" in error
+    assert error.count("\n") == 1
+    assert "g.svg" in out
+
+
+@pytest.mark.sampled(20)
 @pytest.mark.parametrize("spoil", [
     lambda r: [], lambda r: {}, lambda r: 3, lambda r: {"files": 3}, lambda r: {"files": [3]},
     lambda r: r | {"scene": None}, lambda r: r | {"scene": {}}, lambda r: r | {"scene": {"parts": []}},
     lambda r: r | {"scene": r["scene"] | {"parts": {}}}, lambda r: r | {"scene": r["scene"] | {"parts": {"g": 3}}},
     lambda r: r | {"scene": r["scene"] | {"exports": 3}}, lambda r: r | {"scene": r["scene"] | {"exports": [3]}},
+    *(lambda r, k=k, v=v: r | {k: v} for k in ("files", "previews", "failed", "left_behind")
+      for v in (None, 5, {}, [None], [[]], [{"path": 5}], [{"path": "../g.svg", "sha256": ""}])),
+    *(lambda r, v=v: r | {"failed": [{"path": "h.svg", "failures": [], "kept": v}]} for v in (5, [1], {}, {"sha256": 1})),
+    *(lambda r, v=v: r | {"scene": v} for v in ([], [1], "x", {"scene": []}, {"scene": {"language": []}})),
     *(lambda r, k=k: r | {"files": [{x: y for x, y in r["files"][0].items() if x != k}]}
       for k in ("part", "offset", "tolerance", "max_error", "format", "sha256", "path")),
     *(lambda r, k=k, v=v: r | {"files": [r["files"][0] | {k: v}]}
@@ -257,6 +284,9 @@ def test_a_damaged_report_is_one_line_too(tmp_path: Path, capsys: pytest.Capture
     folder = tmp_path / "out" / "s"
     (folder / "report.json").write_text(json.dumps(spoil(report)), encoding="utf-8")  # type: ignore[operator]
     complaint(capsys, "verify", folder / "g.svg")
+    # another build takes nothing over from it
+    assert run("build", tmp_path / "s.toml", "--out", tmp_path / "out", "--format", "svg", "--no-verify") == 0
+    assert run("verify", folder / "g.svg") == 0
 
 
 @pytest.mark.sampled(3)

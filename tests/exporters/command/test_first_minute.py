@@ -203,6 +203,18 @@ def test_a_long_value_of_a_calculation_is_no_file_name(capsys: pytest.CaptureFix
     assert "module" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("words", [("calc", "spur"), ("build",), ("check",), ("verify",)])
+@pytest.mark.parametrize("length", [251, 255, 256])
+def test_a_name_that_is_too_long_is_no_matter_of_another_place(
+    words: tuple[str, ...], length: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With its ending it is longer than names may be: asked whether such a file stands there, the system complains."""
+    assert run(*words, "a" * length) == 2
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1
+    assert "choose another place" not in told
+
+
 def test_the_version_has_a_short_name(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as ended:
         main(["-V"])

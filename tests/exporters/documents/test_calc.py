@@ -131,6 +131,21 @@ def test_the_practicum_and_the_guidelines(case: dict[str, Any]) -> None:
         assert case["printed"].split()[0] in steps[0]["misprint"]
 
 
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("case", [c for c in PRACTICUM if "table2_1" in c["id"]], ids=lambda c: c["id"])
+def test_the_doubtful_rows_of_table_2_1_are_told_where_shifts_are_chosen(case: dict[str, Any]) -> None:
+    """Printed alpha_w that the row's own shifts do not give: in the choice by that table, and at 20 degrees alone."""
+    pair = " ".join(word for word in case["words"].split()[1:] if "shift" not in word)
+    data = values_of(f"shift-choice {pair}")
+    mine = [s for s in data["steps"] if s["section"].endswith("least wear by table 2.1")]
+    (angle,) = (s for s in mine if s["name"] == "working_pressure_angle_deg")
+    assert angle["value"] == pytest.approx(case["recomputed"], rel=1e-12)
+    assert (case["printed"] in angle.get("misprint", "")) == case.get("misprint", False)
+    assert not any("misprint" in s for s in data["steps"] if s not in mine and s["name"] == angle["name"])
+    other = case["words"].replace("module=1", "module=1 pressure_angle_deg=25")
+    assert not [s for s in values_of(other)["steps"] if "misprint" in s]
+
+
 def test_only_the_printed_pair_is_flagged() -> None:
     words = "gear-pair module=10 first.number_of_teeth=13 second.number_of_teeth=21 first.profile_shift_coefficient=0.7"
     assert not [s for s in values_of(words)["steps"] if "misprint" in s]

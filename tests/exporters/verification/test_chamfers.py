@@ -19,7 +19,7 @@ from exporters.production.plan import plan_build
 from exporters.verification.judge import verify_file
 from exporters.verification.mesh import verify_mesh
 from geometry.base.record import replace
-from geometry.plane.profile import Region
+from geometry.plane.profile import Label, Region
 from parts.scene.formats import FILE_KINDS
 from parts.scene.load import scene_from_dict
 
@@ -124,6 +124,25 @@ def test_the_declared_error_of_a_mesh_holds_on_chamfers(tolerance: float, tmp_pa
     found = roof_distance(points, work.section.region, width).max()
     assert declared / 3 <= found <= declared <= tolerance
     assert verify_mesh(mesh, work.exact, declared, tolerance).failures == ()
+
+
+@pytest.mark.parametrize(
+    ("chamfer", "told"),
+    [(0.3, None), (0.31, 0.31), ({"below": 0.2, "above": 0.4}, 0.4), ({"below": 0.3, "above": 0.1}, None)],
+)
+def test_a_tip_rounding_that_a_plain_chamfer_would_take_is_told(chamfer: Any, told: float | None) -> None:
+    """From three quarters of the radius on it is less by less than the depth."""
+    keys = {"kind": "spur_gear", **GEAR, "tip_rounding": 0.4, "face_chamfer": chamfer}
+    scene = scene_from_dict({"parts": {"g": keys}, "exports": [{"format": "step"}]}, "test", "test")
+    work = plan_build(scene, "test", [], []).jobs[0]
+    found = [(f.value, f.limit) for f in work.part.findings if f.code == "tip_rounding_kept"]
+    assert found == ([] if told is None else [(told, pytest.approx(0.3, rel=1e-12))])
+    # where a quarter is kept, the roof of 45 degrees is left beside it
+    wall, whole, end = max(work.body.chamfers(), key=lambda c: np.ptp([work.body.loops[i].z for i in c[1:]]))
+    tip = [s.curve for s in work.body.section_at(wall, whole, end, 1.0).period if s.label is Label.TIP_BREAK]
+    depth = float(np.ptp([work.body.loops[i].z for i in (whole, end)]))
+    t = np.linspace(*tip[0].domain, 5)
+    assert 1 / np.abs(tip[0].curvature(t)) == pytest.approx(max(0.4 - depth, 0.1), rel=1e-6)
 
 
 @pytest.mark.sampled(1)
