@@ -12,6 +12,8 @@ from itertools import count
 
 import numpy as np
 
+from geometry.base.errors import ParameterError
+from geometry.base.nearest import nearest
 from geometry.base.roots import bracketed_root
 from geometry.laws.piece import Real
 
@@ -19,8 +21,10 @@ from geometry.laws.piece import Real
 _BAND = 4
 # the weight of bending, in cubes of the mean step: where its search begins, and its factor
 _FIRST_WEIGHT, _FACTOR = 1e-2, 10.0
-# how near the greatest distance comes to the tolerance, part of it
-_ENOUGH = 1e-9
+# how near the greatest distance comes to the tolerance, and how far beyond it may be seen, parts of it
+_ENOUGH, _BEYOND = 1e-9, 1e-6
+# how near to the widest tolerance that works the one that is offered comes, part of it
+_ROUGHLY = 0.3
 
 
 def smoothed(places: Real, values: Real, period: float, tolerance: float) -> Real:
@@ -28,6 +32,11 @@ def smoothed(places: Real, values: Real, period: float, tolerance: float) -> Rea
     tolerance; all alike where that is within it.
 
     ``places`` and ``values``: (n,), at least 3; ``period`` beyond the last place less the first.
+
+    Raises
+    ------
+    ParameterError
+        Places so near to each other beside the others that their bending is lost in the last digits at that tolerance.
     """
     level = np.full(len(values), float(np.mean(values)))
     if np.abs(values - level).max() <= tolerance:
@@ -42,14 +51,30 @@ def smoothed(places: Real, values: Real, period: float, tolerance: float) -> Rea
 
     low = high = math.log(_FIRST_WEIGHT)
     step = math.log(_FACTOR)
-    if beyond(low) > 0:
-        low = next(at for k in count(1) if beyond(at := high - k * step) <= 0)
-        high = low + step
-    else:
-        high = next(at for k in count(1) if beyond(at := low + k * step) > 0)
-        low = high - step
-    root = bracketed_root(beyond, low, high, enough=_ENOUGH)
-    return system.smoothed(unit * math.exp(root.value))
+    try:
+        if beyond(low) > 0:
+            low = next(at for k in count(1) if beyond(at := high - k * step) <= 0)
+            high = low + step
+        else:
+            high = next(at for k in count(1) if beyond(at := low + k * step) > 0)
+            low = high - step
+        found = system.smoothed(unit * math.exp(bracketed_root(beyond, low, high, enough=_ENOUGH).value))
+        if np.abs(values - found).max() <= tolerance * (1 + _BEYOND):
+            return found
+    except FloatingPointError:
+        pass
+    raise ParameterError(
+        "table_tolerance",
+        tolerance,
+        "rows_too_uneven",
+        lambda: nearest(
+            lambda less: len(smoothed(places, values, period, less)) > 0,
+            tolerance,
+            [tolerance / 10**k for k in range(1, 7)],
+            digits=9,
+            share=_ROUGHLY,
+        ),
+    )
 
 
 class _System:
@@ -93,7 +118,10 @@ class _System:
 
 
 def _solved(band: Real, right: Real) -> Real:
-    """The solution of a symmetric positive definite system by Cholesky's square roots, row by row."""
+    """The solution of a symmetric positive definite system by Cholesky's square roots, row by row.
+
+    Raises ``FloatingPointError`` where rounding has left a matrix that is not positive definite.
+    """
     rows, x = band.tolist(), right.tolist()
     n = len(rows)
     for k, row in enumerate(rows):
@@ -103,6 +131,8 @@ def _solved(band: Real, right: Real) -> Real:
             other, total = rows[k - d], row[d]
             for e in range(d + 1, min(most, d + _BAND) + 1):
                 total -= row[e] * other[e - d]
+            if d == 0 and not total > 0:
+                raise FloatingPointError
             row[d] = total / other[0] if d else math.sqrt(total)
         total = x[k]
         for d in range(1, most + 1):

@@ -203,6 +203,7 @@ def test_a_long_value_of_a_calculation_is_no_file_name(capsys: pytest.CaptureFix
     assert "module" in capsys.readouterr().err
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("words", [("calc", "spur"), ("build",), ("check",), ("verify",)])
 @pytest.mark.parametrize("length", [251, 255, 256])
 def test_a_name_that_is_too_long_is_no_matter_of_another_place(

@@ -190,7 +190,7 @@ def test_a_report_does_not_depend_on_what_the_process_has_loaded(tmp_path: Path)
     assert not any(str(tmp_path).encode().strip(b"/") in data for data in here.values())
 
 
-def failing(path: Path, kind: FileKind, *rest: Any) -> Verdict:
+def failing(path: Path, kind: FileKind, *rest: Any, **more: Any) -> Verdict:
     """A read-back that finds fault with every DXF."""
     return Verdict({"max_deviation": 1.0}, ("made up",) if kind.name == "dxf" else ())
 

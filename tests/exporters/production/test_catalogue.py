@@ -145,8 +145,8 @@ def test_what_failed_in_a_folder_is_told_file_by_file(tmp_path: Path, monkeypatc
     """A row without files of its own that are good, and why; the command fails."""
     real = judge.verify_part
 
-    def failing(file: Path, *rest: Any) -> Verdict:
-        return Verdict({}, ("bent", "open")) if file.suffix == ".dxf" else real(file, *rest)
+    def failing(file: Path, *rest: Any, **more: Any) -> Verdict:
+        return Verdict({}, ("bent", "open")) if file.suffix == ".dxf" else real(file, *rest, **more)
 
     monkeypatch.setattr(judge, "verify_part", failing)
     scene = scene_in(tmp_path, "dxf", "svg")

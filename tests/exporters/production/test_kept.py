@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -25,8 +26,8 @@ def spoil(monkeypatch: pytest.MonkeyPatch, name: str = "a.dxf") -> None:
     """From now on the read-back of one file finds fault."""
     real = judge.verify_part
 
-    def failing(file: Path, *rest: object) -> Verdict:
-        return Verdict({"max_deviation": 1.0}, (FAULTY,)) if file.name == name else real(file, *rest)  # type: ignore[arg-type]
+    def failing(file: Path, *rest: Any, **more: Any) -> Verdict:
+        return Verdict({"max_deviation": 1.0}, (FAULTY,)) if file.name == name else real(file, *rest, **more)
 
     monkeypatch.setattr(judge, "verify_part", failing)
 

@@ -36,7 +36,7 @@ def bending(spline: CubicSpline) -> float:
     tolerance=st.sampled_from([1e-6, 1e-3, 0.05, 0.6]),
     even=st.booleans(),
 )
-@examples(60)
+@examples(25)
 def test_the_third_derivative_jumps_as_the_rows_are_left(seed: int, rows: int, tolerance: float, even: bool) -> None:
     """Of all curves with this sum of squares none bends less: by variation each jump is the distance of its row over
     the weight of bending, one for all rows; and the farthest row is left by the tolerance.
@@ -84,6 +84,23 @@ def test_a_tolerance_within_which_a_follower_rests_is_refused_from_half_of_the_l
         motion_of_table(angles, lifts, 5.0)
     assert refusal.value.nearest is not None
     assert 4.9999 < float(str(refusal.value.nearest.value)) < 5
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize(("rows", "least"), [(200, 1e-3), (360, 1e-3), (360, 1e-2)])
+def test_rows_too_uneven_are_refused_by_the_tolerance_and_what_is_offered_works(rows: int, least: float) -> None:
+    """A follower nearly at rest: bending weighs so much that rows near to each other are lost in rounding."""
+    steps = np.where(np.arange(rows) % 3 == 0, 1.0, least)
+    places = np.cumsum(steps) - steps[0]
+    places *= TURN / (places[-1] + steps[0])
+    values = 20 * np.cos(places)
+    with pytest.raises(ParameterError) as refusal:
+        smoothed(places, values, TURN, 0.49999999 * float(np.ptp(values)))
+    assert (refusal.value.name, refusal.value.code) == ("table_tolerance", "rows_too_uneven")
+    assert refusal.value.nearest is not None
+    works = float(str(refusal.value.nearest.value))
+    assert works > 1e-4
+    assert 0.99 * works < np.abs(smoothed(places, values, TURN, works) - values).max() < works * (1 + 2e-6)
 
 
 def test_rows_that_are_all_within_the_tolerance_are_level() -> None:

@@ -147,6 +147,7 @@ SMOOTHED = {
 }  # fmt: skip
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", SMOOTHED)
 def test_every_cam_of_a_table_takes_the_tolerance(name: str) -> None:
     key, tolerance = SMOOTHED[name]
