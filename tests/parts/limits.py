@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pytest
 
-from geometry.base.errors import GeometryError
+from geometry.base.errors import GeometryError, OffsetError
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 from tests.offered import GONE, Raw, at, put
@@ -95,10 +96,24 @@ def check_refused(raw: Raw, key: str, value: object, code: str, works: object, *
     assert refused(with_key(wrong, key, GONE if works is None else works)) is None
 
 
-def offset_limits(part: dict[str, Any], low: float, high: float, *, body: bool = False) -> None:
-    """Holds the section (``body``: the solid) of a part to bear offsets between two limits, mm, and none beyond."""
-    made = make_parts(scene_from_dict(scene_of(part), "s", "s"), "s")[0]["p"]
+def offset_limits(
+    part: dict[str, Any], low: float, high: float, *, body: bool = False, **others: dict[str, Any]
+) -> None:
+    """Holds the section (``body``: the solid) of a part to bear offsets between two limits, mm, and none beyond.
+
+    What a refusal offers is the limit, and is borne; ``others``: parts that this one is made of. An infinite limit is
+    none that is known here.
+    """
+    raw = scene_of(part)
+    raw["parts"] |= others
+    made = make_parts(scene_from_dict(raw, "s", "s"), "s")[0]["p"]
+    build = made.body if body else made.section
     for limit, way in ((low, -1), (high, 1)):
-        (made.body if body else made.section)(limit - way * 1e-5)
-        with pytest.raises(GeometryError):
-            (made.body if body else made.section)(limit + way * 1e-5)
+        if math.isinf(limit):
+            continue
+        build(limit - way * 1e-5)
+        with pytest.raises(GeometryError) as caught:
+            build(limit + way * 1e-5)
+        if isinstance(caught.value, OffsetError) and caught.value.nearest_offset:
+            assert caught.value.nearest_offset == pytest.approx(limit, rel=1e-5)
+            build(caught.value.nearest_offset)

@@ -246,7 +246,7 @@ def _moved(keys: BarrelCamSpec, body: BarrelBody, offset: float) -> BarrelBody:
     bores = _holes_of(keys).profiles(offset)
     bore_reach = _holes_of(keys).bore_reach
     if bores and not bore_reach - offset + wall <= moved.inner:
-        raise OffsetError(offset, "no_wall_to_floor", (bore_reach + wall - cam.inner) / 2)
+        raise OffsetError(offset, "no_wall_to_floor", (bore_reach + wall - cam.inner) / 2 * (1 - 1e-9))
     hub = None if body.hub is None else (body.hub[0] + offset, *body.hub[1:])
     return replace(body, cam=moved, bore=bores[0] if bores else None, hub=hub)
 
