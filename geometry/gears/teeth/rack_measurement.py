@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 
-from geometry.base.record import Record
+from geometry.base.errors import ParameterError, limit
+from geometry.base.record import Record, replace
 from geometry.curves.curve import end_point, start_point
 from geometry.gears.teeth.measurement import Chord
 from geometry.gears.teeth.rack import Rack
@@ -62,6 +63,27 @@ def over_pin(rack: Rack, pin_diameter: float, helix_angle: float = 0.0) -> OverP
     stands_out = centre + pin_diameter / 2 > rack.addendum and centre - pin_diameter / 2 > -rack.dedendum
     length = rack.body_height + rack.dedendum + centre + pin_diameter / 2
     return OverPin(pin_diameter, length, contact, low <= contact <= high, stands_out)
+
+
+def rack_with_size(rack: Rack, pin_diameter: float, length: float, helix_angle: float = 0.0) -> Rack:
+    """The rack thinned so that its size over a pin is ``length``, mm.
+
+    By ``over_pin`` M falls by A cos(beta) / (2 tan(alpha_n)).
+
+    Raises
+    ------
+    ParameterError
+        The size is that of a thicker tooth, or so small that the pin would lie on the root.
+    """
+    nominal = replace(rack, circumferential_thinning=0.0)
+    whole = over_pin(nominal, pin_diameter, helix_angle).length
+    if length > whole:
+        raise ParameterError("measured_over_pin", length, "above_nominal", limit(whole, length))
+    if length < (least := rack.body_height + pin_diameter):
+        raise ParameterError("measured_over_pin", length, "pin_falls_through", limit(least, length))
+    alpha = normal_angle(rack.rack.pressure_angle, helix_angle)
+    thinning = 2 * math.tan(alpha) * (whole - length) / math.cos(helix_angle)
+    return replace(rack, circumferential_thinning=thinning)
 
 
 def reference_chord(rack: Rack, helix_angle: float = 0.0) -> Chord:

@@ -26,6 +26,9 @@ class RackKeys(RackSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the topic: those of a rack, and what is measured."""
 
     pin_diameter: Annotated[float, mm("pin in a space", above=0, most=10_000)] | None = None
+    measured_over_pin: (
+        Annotated[float, mm("size from the rack's back over a pin, measured on the part", above=0, most=100_000)] | None
+    ) = None
     kerf: Annotated[float, mm("full width of a cut that was not corrected for", least=0, most=10)] | None = None
 
 
@@ -99,6 +102,12 @@ def _pins(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
         formula = "{M} - {kerf} / 2 * (1 + 1 / sin({alpha_n}))"
         cut = found.length - keys.kerf / 2 * (1 + 1 / math.sin(math.radians(keys.pressure_angle_deg)))
         page.add("over_pin_after_kerf", cut, formula)
+    if keys.measured_over_pin is not None:
+        page.add("measured_over_pin", keys.measured_over_pin)
+        thinned = rack_measurement.rack_with_size(rack, pin, keys.measured_over_pin, helix)
+        own = " + {A}" if rack.circumferential_thinning else ""
+        formula = f"2 * tan({{alpha_n}}) * ({{M}} - {{M_m}}){share.replace('*', '/')}{own}"
+        page.add("thinning_from_rack_size", thinned.circumferential_thinning, formula)
     formula = f"({{D}} * cos({{alpha_n}}) - {{e}}{share}) / (2 * tan({{alpha_n}}))"
     page.add("pin_contact_height", found.contact_height, formula)
     if not (found.touches_flanks and found.stands_out):

@@ -60,7 +60,8 @@ SHEETS = [
      "rounded_root.full_round=false"),
     ("rack", "rack_and_pinion"),
     ("rack", "module=2", "number_of_teeth=12", "circumferential_thinning=0.1", "pin_diameter=3.5", "kerf=0.2"),
-    ("rack", "module=2", "number_of_teeth=12", "circumferential_thinning=0.1", "helix_angle_deg=15", "kerf=0.2"),
+    ("rack", "module=2", "number_of_teeth=12", "circumferential_thinning=0.1", "helix_angle_deg=15", "kerf=0.2",
+     "measured_over_pin=9.7"),
     ("tmm42", "module=10", "reference_diameter=100"),
     ("tmm42", "module=5", "number_of_teeth=20"),
     ("tmm42", "practicum_pair", "part=wheel"),
@@ -336,6 +337,18 @@ def refused(topic: str, *arguments: str) -> SceneError:
             "spur.measured_over_pins",
             "above_nominal",
             22.294,
+        ),
+        (
+            ("rack", "module=2", "number_of_teeth=12", "pin_diameter=3.5", "measured_over_pin=100"),
+            "rack.measured_over_pin",
+            "above_nominal",
+            10.0509,
+        ),
+        (
+            ("rack", "module=2", "number_of_teeth=12", "pin_diameter=3.5", "measured_over_pin=8.4"),
+            "rack.measured_over_pin",
+            "pin_falls_through",
+            8.5,
         ),
         (
             ("ring", "module=2", "number_of_teeth=60", "helix_angle_deg=10", "measured_span=40"),

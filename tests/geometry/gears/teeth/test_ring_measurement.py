@@ -239,6 +239,24 @@ def test_a_broken_tip_is_no_flank() -> None:
         assert not m.over_pins(chamfered, pin).touches_flanks
 
 
+@pytest.mark.parametrize("beta", [0.0, -25.0])
+def test_a_size_over_a_pin_tells_what_a_rack_was_thinned_by(beta: float) -> None:
+    """The size of a rack that is thinned already; and down to a pin that lies on the root."""
+    helix = math.radians(beta)
+    rack = checked_part_rack(Rack(3.0, 5, iso_53(), 10.0, 0.1), helix)
+    for thinning in (0.0, 0.1, 0.37):
+        size = rack_measurement.over_pin(replace(rack, circumferential_thinning=thinning), 5.2, helix).length
+        found = rack_measurement.rack_with_size(rack, 5.2, size, helix)
+        assert found.circumferential_thinning == pytest.approx(thinning, abs=1e-12)
+    sunk = rack_measurement.rack_with_size(rack, 5.2, rack.body_height + 5.2, helix)
+    with pytest.raises(ParameterError):
+        rack_measurement.rack_with_size(rack, 5.2, rack.body_height + 5.2 - 1e-9, helix)
+    wide = (sunk.pitch - sunk.tooth_thickness) / 2 * math.cos(helix)
+    # the foot of the normal from the middle of the pin, half of it above the root line, stands on the flank
+    y = 5.2 / 2 * (1 - math.sin(ALPHA)) - rack.dedendum
+    assert wide + y * math.tan(ALPHA) == pytest.approx(5.2 / 2 * math.cos(ALPHA), abs=1e-12)
+
+
 def test_a_rack_s_pin_lies_on_both_of_its_flanks() -> None:
     for beta, thinning in ((0.0, 0.0), (0.0, 0.2), (25.0, 0.1)):
         helix = math.radians(beta)
