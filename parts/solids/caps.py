@@ -122,7 +122,7 @@ def _teeth(outline: Contour) -> tuple[list[Triangles], Triangles]:
         return [], np.arange(size * count)
     # the period begins with the tooth and ends with the root land, whose corners all stand on the ring
     tooth_end = _last_of_tooth(outline)
-    land = np.append(np.arange(tooth_end, size), 0) if tooth_end < size else np.array([0])
+    land = np.append(np.arange(tooth_end, size), 0)
     ring = distinct(np.add.outer(land, np.arange(count) * size) % (size * count))
     polygon = np.append(outline.vertices, outline.period_ends()[-1])[: tooth_end + 1]
     return [_placed(_polygon_triangles(polygon), size, count)], ring
