@@ -294,6 +294,33 @@ def test_a_refusal_names_the_key_of_the_recipe(keys: dict[str, Any], key: str, c
     assert (found.key, found.code) == (f"assemblies[1].{key}", code)
 
 
+def distance_of(teeth: int, total: float, beta: float = 0.0) -> float:
+    """inv a_wt = inv a_t + 2 tan a_n x / z, a = m_n z cos a_t / (2 cos beta cos a_wt), m_n = 1; z and x with signs."""
+    normal = math.radians(20)
+    angle = math.atan(math.tan(normal) / math.cos(beta))
+    value = math.tan(angle) - angle + 2 * math.tan(normal) * total / teeth
+    working = brentq(lambda a: math.tan(a) - a - value, 1e-6, 1.2, xtol=1e-15)
+    return float(teeth * math.cos(angle) / (2 * math.cos(beta) * math.cos(working)))
+
+
+def test_shifts_that_are_given_make_one_distance() -> None:
+    """The sun's and the satellite's by their sum, the ring's by its difference to the satellite's."""
+    for beta in (0.0, 15.0):
+        keys = {"teeth": [24, 24, 72], "helix_angle_deg": beta, "module": 1.0}
+        found = refusal(**keys, shifts=[0.1, 0.15, 0.6])
+        assert (found.key, found.code) == ("assemblies[1].shifts", "shifts_not_coaxial")
+        assert found.numbers["first"] == pytest.approx(distance_of(48, 0.25, math.radians(beta)), rel=1e-9)
+        assert found.numbers["second"] == pytest.approx(distance_of(48, 0.45, math.radians(beta)), rel=1e-9)
+        made = scene(**keys, shifts=[0.1, 0.15, 0.4])
+        circle = getattr(made.parts["carrier"], "pin_circle_diameter")  # noqa: B009
+        assert circle / 2 == pytest.approx(distance_of(48, 0.25, math.radians(beta)), abs=1e-6)
+    # inv a_w = 0.0149 - 0.0152 is none
+    found = refusal(teeth=[24, 24, 72], shifts=[-0.5, -0.5, -1.5])
+    assert (found.key, found.code) == ("assemblies[1].shifts", "shifts_leave_no_angle")
+    assert distance_of(48, -0.98) < 23.0
+    scene(teeth=[24, 24, 72], shifts=[-0.49, -0.49, -1.47])
+
+
 def test_the_most_satellites_that_fit_are_named() -> None:
     """Ferguson with 50: tips of neighbours keep apart up to pi / asin of tip diameter over twice the distance."""
     keys = {"scheme": "david", "teeth": [100, 101, 100, 99], "identical": False, "working_centre_distance": 200.0}
