@@ -15,7 +15,7 @@ from exporters.production.jobs import AssemblyJob, FileJob, Job, Made, ShapeKey,
 from exporters.production.moving import alone_in, move_into, staging_folder
 from exporters.production.plan import Plan
 from exporters.production.preview import outlines_of, part_preview, scene_preview
-from exporters.production.report import NAME, read_report, write_report
+from exporters.production.report import NAME, whole_report, write_report
 from exporters.verification.verdict import Verdict
 from geometry.base.errors import ConvergenceError, Nearest, ParameterError, ThinWallError, limit, rounded
 from geometry.base.record import Record, replace
@@ -99,7 +99,7 @@ def build(
             previews.append(write_notes(plan, staging))
         names = [item.job.path for item in written if not item.failures]
         with alone_in(folder):
-            before = read_report(folder)
+            before = whole_report(folder)
             seconds = time.perf_counter() - start
             report = staging / NAME
             left = write_report(report, plan, written, previews, checks, seconds, folder, before, partial=partial)

@@ -26,7 +26,7 @@ from exporters.production.build import build
 from exporters.production.check_lines import has_bad_verdict
 from exporters.production.moving import clear, write_whole
 from exporters.production.plan import plan_build
-from exporters.production.report import read_report
+from exporters.production.report import whole_report
 from geometry.base.record import Record
 from parts.base.refusal import SceneError, explained
 from parts.base.texts import words
@@ -78,10 +78,10 @@ def entry_of(task: Task) -> dict[str, Any]:
     try:
         scene = scene_from_resolved(task.variant.scene, task.source)
         clear(folder)
-        report = read_report(folder)
+        report = whole_report(folder)
         if not _is_finished(report, resolved(scene), folder):
             build(plan_build(scene, task.source, [], []), folder)
-            report = read_report(folder)
+            report = whole_report(folder)
     except SceneError as error:
         why = words(task.variant.scene["scene"]["language"]).say(explained(error))
         return {**told, "verdict": REFUSED, "key": error.key, "why": why, "files": []}

@@ -12,7 +12,7 @@ from exporters.formats.readback import MOST_READ_BYTES
 from exporters.production.jobs import assembly_name
 from exporters.production.kept import failure_of
 from exporters.production.moving import is_half_moved
-from exporters.production.report import NAME, read_report
+from exporters.production.report import NAME, whole_report
 from exporters.verification.judge import signed, verify_part
 from exporters.verification.verdict import Verdict, judges
 from geometry.base.errors import GeometryError
@@ -75,7 +75,7 @@ def _rechecked(file: Path) -> Recheck:
     source = str(file.parent / NAME)
     if not (file.parent / NAME).is_file():
         raise SceneError(str(file), "", None, "no_report_beside", None, name=NAME)
-    report = read_report(file.parent)
+    report = whole_report(file.parent)
     try:
         if report is None:
             raise SceneError(source, "", None, "no_report")

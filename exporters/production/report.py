@@ -99,12 +99,20 @@ def read_report(folder: Path) -> dict[str, Any] | None:
         report = json.loads(content(folder / NAME, _MOST_BYTES).decode("utf-8"))
     except (FileNotFoundError, NotADirectoryError, ValueError, RecursionError):
         return None
-    return report if _is_whole(report) else None
+    return report if isinstance(report, dict) else None
 
 
-def _is_whole(report: object) -> bool:
-    """Whether a report tells of its scene and files as ours do, as far as another build takes something over."""
-    if not (isinstance(report, dict) and isinstance(scene := report.get("scene"), dict)):
+def whole_report(folder: Path) -> dict[str, Any] | None:
+    """The report that lies in a folder; None where it does not tell of its scene and files as ours do.
+
+    That far another build takes something over. Raises as ``read_report``.
+    """
+    report = read_report(folder)
+    return report if report is not None and _is_whole(report) else None
+
+
+def _is_whole(report: dict[str, Any]) -> bool:
+    if not isinstance(scene := report.get("scene"), dict):
         return False
     lists = [report.get(key) for key in ("files", "previews", "failed")]
     lists.append([{"path": name} for name in left] if isinstance(left := report.get("left_behind", []), list) else None)
@@ -123,11 +131,12 @@ def _is_whole(report: object) -> bool:
 def report_language(file: Path) -> str:
     """The language of the scene that made a file, as far as its report can tell; English where it cannot."""
     try:
-        scene = (read_report(file.parent) or {}).get("scene", {})
+        told: object = read_report(file.parent)
     except OSError:
         return ENGLISH
-    language = scene.get("scene", {}).get("language") if isinstance(scene, dict) else None
-    return language if isinstance(language, str) and language in languages() else ENGLISH
+    for key in ("scene", "scene", "language"):
+        told = told.get(key) if isinstance(told, dict) else None
+    return told if isinstance(told, str) and told in languages() else ENGLISH
 
 
 def _merge(report: dict[str, Any], before: dict[str, Any] | None) -> None:

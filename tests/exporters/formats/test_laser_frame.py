@@ -216,6 +216,7 @@ SPOILS: dict[str, tuple[Callable[[str], str], str]] = {
        for name, colour in (("ENGRAVE", 5), ("CUT_INNER", 3), ("CUT_OUTER", 1))},
     "true colour": (_layer_says(420, "65280"), "layer CUT_INNER has another colour"),
     "see-through": (_layer_says(1001, "AcCmTransparency"), "layer CUT_INNER is transparent"),
+    "broad": (_layer_says(370, "30"), "layer CUT_INNER is drawn wider than 0.25 mm"),
     "dashed": (_layer_says(6, "DASHED"), "layer CUT_INNER is not drawn through"),
     "a layer twice": (_second_layer, "two layers cut_outer"),
     "a line": (_line_before, "a LINE stands on layer ENGRAVE"),
@@ -257,7 +258,7 @@ def test_a_spoiled_file_is_refused(file: Path) -> None:
 HARMLESS: dict[str, Callable[[str], str]] = {
     **{f"group {c}": _with_group(c, v) for c, v in ((39, "0.0"), (48, "1.0"), (60, "0"), (62, "256"), (6, "ByLayer"),
                                                     (230, "1.0"), (370, "-1"), (1000, "words"))},
-    "thick line type of the layer": _layer_says(370, "50"),
+    "thin lines of the layer": _layer_says(370, "25"),
     "plotted": _layer_says(290, "1"),
     "continuous": _layer_says(6, "CONTINUOUS"),
     "locked": _layer_says(70, "4"),
