@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import codecs
+import re
 import tomllib
 from pathlib import Path
+from typing import Any
 
 from parts.base.texts import told_in
 
 SCENE_FOLDER = Path(__file__).parents[1] / "scenes"
 # a scene that is larger than this is not one
 MOST_BYTES = 4_000_000
+# a key of so many parts in a row, for which tomllib takes the square of the time; one of four is right
+_DEEP_KEY = re.compile(r"""(?m)(?:^|[\[{,])[ \t]*(?:(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*){50}""")
 
 
 def built_in_scenes() -> dict[str, Path]:
@@ -33,3 +37,17 @@ def text_of(raw: bytes) -> str:
         It is neither.
     """
     return raw.decode("utf-16" if raw[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8-sig")
+
+
+def tables_of(raw: bytes) -> dict[str, Any]:
+    """What a scene file holds.
+
+    Raises
+    ------
+    UnicodeDecodeError, tomllib.TOMLDecodeError, RecursionError
+        It is no text, no TOML, or nested far beyond what scenes need.
+    """
+    text = text_of(raw)
+    if _DEEP_KEY.search(text):
+        raise RecursionError
+    return tomllib.loads(text)

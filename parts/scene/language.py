@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
 from parts.base.content import content
 from parts.base.texts import ENGLISH, languages, told_in
-from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
+from parts.scene.files import MOST_BYTES, built_in_scenes, tables_of
 
 # keys that hold words, and may hold them in several languages
 WORDS: tuple[str, ...] = ("title", "label", "material", "notes")
@@ -27,10 +26,10 @@ def language_of(address: str) -> str:
     except (OSError, ValueError):
         return ENGLISH
     try:
-        asked = tomllib.loads(text_of(raw)).get("scene", {}).get("language")
+        asked = tables_of(raw).get("scene", {}).get("language")
     except (ValueError, AttributeError, RecursionError):
         # what is no TOML may still say it
-        found = re.search(rb"""(?m)^\s*language\s*=\s*["']?(\w+)""", raw)
+        found = re.search(rb"""(?m)^[ \t]*language[ \t]*=[ \t]*["']?(\w+)""", raw)
         asked = found[1].decode() if found else ENGLISH
     if asked is None or asked in languages():
         return asked or ENGLISH

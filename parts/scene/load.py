@@ -26,7 +26,7 @@ from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check
 from parts.keys.sheet import CamSpeed, CellsKey, Intervals, MateNumber, PaperKey, RackStep, ScaleKey, check_sheet_keys
 from parts.keys.title import TitleBlockKey
 from parts.keys.working import WorkingTable
-from parts.scene.files import MOST_BYTES, built_in_scenes, text_of
+from parts.scene.files import MOST_BYTES, built_in_scenes, tables_of, text_of
 from parts.scene.formats import ASSEMBLY_FORMATS, Form, file_kind, tolerances_of
 from parts.scene.instances import (
     DriveSpec,
@@ -274,7 +274,7 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | No
     if len(raw_bytes) > MOST_BYTES:
         raise SceneError(source, "", None, "too_large_file", None, most=MOST_BYTES)
     try:
-        raw = tomllib.loads(text_of(raw_bytes))
+        raw = tables_of(raw_bytes)
     except UnicodeDecodeError as error:
         raise SceneError(source, "", None, "not_utf8", None, byte=error.start) from None
     except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:

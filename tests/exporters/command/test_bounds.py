@@ -90,3 +90,17 @@ def test_a_scene_that_is_nested_without_end(tmp_path: Path, capsys: pytest.Captu
     told = capsys.readouterr().err
     assert told.count("\n") == 1
     assert "nested too deeply: a scene needs three levels" in told
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits of POSIX")
+@pytest.mark.parametrize(("text", "said"), [
+    ("[" + "a." * 250_000 + "a]", "nested too deeply"),
+    ("a." * 100_000 + "a = 1", "nested too deeply"),
+    ("x = {b = 1, " + "'a' . " * 250_000 + "a = 1}", "nested too deeply"),
+    ("\n" * 1_000_000 + "=", "Invalid statement"),
+], ids=["table", "key", "key within a line", "empty lines"])  # fmt: skip
+def test_a_scene_that_took_the_square_of_its_length(tmp_path: Path, text: str, said: str) -> None:
+    """Minutes each: tomllib compares the parts of a key, the language was looked for from every line on."""
+    (tmp_path / "s.toml").write_text(text)
+    (line,) = told("check s.toml", cwd=tmp_path)
+    assert said in line
