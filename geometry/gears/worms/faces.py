@@ -310,8 +310,11 @@ class CutThreads(WormRings):
         top = [(e, True) for e in lower.helices[0][above].T] + top
         top_nodes = [lower.corners[0][above, c] for c in range(len(lower.levels) - 1)] + top_nodes
         self.space_arcs = {-1: bottom[: len(circles[-1]) + 1], 1: top[len(lower.levels) - 1 :]}
-        feet, heads = (np.stack([line[k] for line in lines]) for k in (1, 2))
-        edges = self.add_edges(feet.ravel(), heads.ravel(), Straight(UP)).reshape(feet.shape)
+        edges: Index | tuple[()] = ()
+        if lines:
+            # of a short thread there are none
+            feet, heads = (np.concatenate([line[k] for line in lines]) for k in (1, 2))
+            edges = self.add_edges(feet, heads, Straight(UP)).reshape(-1, n)
         at = [(_find(bottom_nodes, foot), _find(top_nodes, head)) for _, foot, head in lines]
         cuts = [(0, 0), *at, (len(bottom), len(top))]
         # faces of alike bounds are one bundle

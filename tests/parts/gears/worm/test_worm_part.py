@@ -25,6 +25,7 @@ from tests.parts.nearest import cured, refused
 from tests.parts.positive_scenes import parts_of
 
 WORM: dict[str, Any] = {"kind": "worm", "module": 5.0, "thread_length": 40.0}
+SHORT = "a thread shorter than its spaces are wide"
 EXTREMES: dict[str, dict[str, Any]] = {
     # before: the plane ring between them had no points to be looked at
     "a shaft just under the root": {"end_angle_deg": 0.0, "shaft_below": [{"diameter": 37.985, "length": 9.0}]},
@@ -34,6 +35,11 @@ EXTREMES: dict[str, dict[str, Any]] = {
     # before: its triangles passed for those of the roundings beside it
     "a land narrower than the tolerance": {
         "number_of_starts": 8, "diameter_quotient": 7.39, "tip_rounding": 0.6166, "thread_length": 44.0
+    },
+    # before: a traceback, since no line crosses the spaces between its ends
+    SHORT: {
+        "module": 0.243, "number_of_starts": 5, "form": "ZN1", "addendum_coefficient": 0.825, "lead_angle_deg": 11.423,
+        "tip_clearance_coefficient": 0.315, "thread_length": 1.077, "end_angle_deg": 41.4,
     },
     "plain ends": {"module": 3.0, "number_of_starts": 2, "thread_length": 16.0, "form": "ZA", "end_angle_deg": 0.0,
                    "shaft_below": [{"diameter": 22.8, "length": 4.0}]},
@@ -116,7 +122,7 @@ def test_the_flat_section_is_that_of_the_screw_surfaces(form: str) -> None:
 
 
 @pytest.mark.parametrize("name", [
-    name if name == "plain ends" else pytest.param(name, marks=pytest.mark.heavy) for name in EXTREMES
+    name if name in ("plain ends", SHORT) else pytest.param(name, marks=pytest.mark.heavy) for name in EXTREMES
 ])  # fmt: skip
 def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_path: Path) -> None:
     rows = []
