@@ -250,3 +250,66 @@ def test_steps_that_are_none_are_refused_by_their_key(steps: list[dict[str, Any]
     from parts.base.refusal import sentence
 
     assert re.search(word, sentence(refusal.value, "en"))
+
+
+ALIKE = """
+[parts]
+base = {{ kind = "plate", width = 300.0, height = 60.0, face_width = 4.0 }}
+wall = {{ kind = "plate", width = 40.0, height = 40.0, face_width = 5.0, holes = {hole} }}
+rod = {{ kind = "pin", diameter = 8.0, length = 6.0 }}
+
+[instances]
+base = {{ at = [0.0, 0.0, {floor}], held = true }}
+one = {{ part = "wall", at = [0.0, 0.0, 0.0], held = true }}
+two = {{ part = "wall", at = [100.0, 0.0, {height}], rotation_deg = {turn}, held = true }}
+first = {{ part = "rod", at = {first}, held = true }}
+second = {{ part = "rod", at = {second}, held = true }}
+
+[[steps]]
+bring = ["one", "two"]
+to = "base"
+along = [0.0, 0.0, -1.0]
+
+[[steps]]
+bring = ["first"]
+to = "one"
+along = {along}
+
+[[steps]]
+bring = ["second"]
+to = "two"
+along = {along}
+
+[[exports]]
+format = "stl"
+"""
+
+
+@pytest.mark.parametrize(
+    ("along", "turn", "height", "first", "second", "hit"),
+    [
+        # upwards through the hole; the second where a wall that is turned on has none, and where it has its own
+        ([0.0, 0.0, 1.0], 90.0, 0.0, [10.0, 0.0, 8.0], [100.0, -10.0, 8.0], True),
+        ([0.0, 0.0, 1.0], 90.0, 0.0, [10.0, 0.0, 8.0], [100.0, 10.0, 8.0], False),
+        ([0.0, 0.0, 1.0], -30.0, 0.0, [10.0, 0.0, 8.0], [100.0 + 5 * 3**0.5, -5.0, 8.0], False),
+        ([0.0, 0.0, 1.0], -30.0, 0.0, [10.0, 0.0, 8.0], [100.0 + 5 * 3**0.5, 5.0, 8.0], True),
+        # over a wall from one side to the other; the second at the height of its own, as much higher as that is
+        ([0.0, 1.0, 0.0], 0.0, 8.0, [0.0, 30.0, 18.0], [100.0, 30.0, 10.0], True),
+        ([0.0, 1.0, 0.0], 0.0, 8.0, [0.0, 30.0, 18.0], [100.0, 30.0, 26.0], False),
+    ],
+)
+def test_of_pairs_that_are_alike_each_is_held_where_it_stands(
+    along: list[float], turn: float, height: float, first: list[float], second: list[float], hit: bool,
+    tmp_path: Path, capsys: Any,
+) -> None:  # fmt: skip
+    """What is found of a pair is taken for others of the same parts, as often as they stand alike to each other."""
+    path = tmp_path / "alike.toml"
+    hole = "[{ at = [10.0, 0.0], diameter = 9.0 }]"
+    floor = -40.0 if along[2] else -10.0
+    path.write_text(
+        ALIKE.format(along=along, turn=turn, height=height, first=first, second=second, floor=floor, hole=hole), "utf-8"
+    )
+    main(["check", str(path), "--json"])
+    order = json.loads(capsys.readouterr().out)["order"]
+    found = {pair for pair in hindered(order) if pair[1] in ("one", "two")}
+    assert found == ({("second", "two")} if hit else set())
