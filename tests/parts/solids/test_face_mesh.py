@@ -37,9 +37,9 @@ from parts.solids.faces import solid_curves, solid_faces
 _SIDEWAYS = np.array([[0.0, -1.0, 0.0]])
 
 
-def ball(radius: float, at: complex = 0j) -> Solid:
-    """A ball with one meridian as its seam."""
-    made = SolidBuilder()
+def ball(radius: float, at: complex = 0j, made: SolidBuilder | None = None) -> Solid:
+    """A ball with one meridian as its seam, beside what is ``made`` already."""
+    made = made or SolidBuilder()
     middle, low, high = (made.add_points(np.array([at]), z) for z in (0.0, -radius, radius))
     south, north = made.add_vertices(low), made.add_vertices(high)
     seam = made.add_edges(south, north, Circular(Frame(middle, _SIDEWAYS, AHEAD), radius))
@@ -60,9 +60,9 @@ def ring(radius: float, tube: float) -> Solid:
     return made.solid()
 
 
-def twisted_prism(size: float, height: float, turn: float) -> Solid:
+def twisted_prism(size: float, height: float, turn: float, made: SolidBuilder | None = None) -> Solid:
     """A square under one that is turned, with bilinear faces between them, whose sides are splines of degree 1."""
-    made, knots = SolidBuilder(), np.array([0.0, 0.0, 1.0, 1.0])
+    made, knots = made or SolidBuilder(), np.array([0.0, 0.0, 1.0, 1.0])
     square = size * np.exp(0.5j * np.pi * np.arange(4))
     points = np.stack([made.add_points(square, 0.0), made.add_points(square * np.exp(1j * turn), height)])
     low, high = (made.add_vertices(own) for own in points)
@@ -110,6 +110,19 @@ def held(solid: Solid, tolerance: float) -> float:
     assert made.max_error <= tolerance
     corners = mesh.faces()
     return float(np.einsum("ij,ij->i", corners[:, 0], doubled_normals(corners)).sum() / 6)
+
+
+def test_a_mesh_is_no_better_proven_than_its_least_face() -> None:
+    """A ball's distance is proven, a twisted face's is sampled: both together are sampled, whichever comes first."""
+    assert face_mesh(ball(3.0), 0.05).bound == "certified"
+    assert face_mesh(twisted_prism(4.0, 5.0, 0.4), 0.05).bound == "sampled"
+    first, second = SolidBuilder(), SolidBuilder()
+    ball(3.0, 20.0 + 0j, first)
+    twisted_prism(4.0, 5.0, 0.4, second)
+    for solid in (twisted_prism(4.0, 5.0, 0.4, first), ball(3.0, 20.0 + 0j, second)):
+        made = face_mesh(solid, 0.05)
+        assert made.bound == "sampled"
+        assert 0 < made.max_error <= 0.05
 
 
 def test_a_ball_and_a_ring_by_closed_forms() -> None:
