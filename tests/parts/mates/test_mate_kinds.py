@@ -361,6 +361,25 @@ def test_the_points_of_herringbones_stand_at_one_height() -> None:
     for height, met in ((0.0, True), (1.0, False), (-1.0, False)):
         found = by_hand(height, 0.0, double_helical=True, face_width=20.0)["herringbone_height"]
         assert (found.met, found.value) == (met, height)
+        # all mates fit within 1e-5 mm
+        assert (found.required, found.tolerance) == (0.0, 1e-5)
+
+
+@pytest.mark.parametrize("turned", [0.0, 0.001, -0.3])
+def test_what_a_mate_by_hand_must_be_is_told_beside_what_it_is(turned: float) -> None:
+    """19 and 33 teeth with a normal module of 2: the distance by their reference circles, the phase by the turn of one
+    and the ratio; of faces no more than that they overlap."""
+    found = by_hand(0.0, turned)
+    distance = (19 + 33) / math.cos(math.radians(25.0))
+    told = found["centre_distance"]
+    assert (told.value, told.required) == (pytest.approx(distance, rel=1e-12), pytest.approx(distance, rel=1e-12))
+    assert told.tolerance == pytest.approx(1e-5, rel=0.1)
+    # the second has to turn back by 19 / 33 of what the first is turned, or on to its next tooth
+    off = (found["phase"].value - found["phase"].required) / 360 * 33
+    wanted = turned / (2 * math.pi) * 19
+    assert math.remainder(off - wanted, 1.0) == pytest.approx(0.0, abs=1e-6)
+    assert abs(off) <= 0.5 + 1e-9
+    assert (found["common_face_width"].required, found["common_face_width"].tolerance) == (0.0, 0.0)
 
 
 def test_a_rack_that_is_drawn_away_gains_twice_the_way_by_sine() -> None:
