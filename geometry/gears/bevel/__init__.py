@@ -1,0 +1,1 @@
+"""Straight bevel gears of exact spherical involutes."""

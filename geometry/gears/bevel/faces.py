@@ -1,0 +1,267 @@
+"""The faces of a straight bevel gear: ruled splines over its flanks and fillets, everything else exact.
+
+Every edge of a tooth is drawn on the back cone once; at the inner end stands the same, smaller, and rays of the apex
+join both. So a surface is as near to the exact cone over its curve as that curve is to the spline.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from functools import lru_cache, partial
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geometry.approximation.outline import spline_outline
+from geometry.approximation.tensor import axis_poles, clamped, greville
+from geometry.base.errors import ConvergenceError
+from geometry.base.record import Record
+from geometry.curves.bspline import BSpline, basis_matrix
+from geometry.curves.curve import Complex, Real, Span, end_point, start_point
+from geometry.curves.line_arc import Arc
+from geometry.gears.bevel.gear import BevelGear
+from geometry.gears.bevel.walls import wall_distance
+from geometry.plane.profile import Label, Profile, Segment
+from geometry.solids.faced import FacedBody, FacedSolid
+from geometry.solids.faces import (
+    Circular,
+    Cone,
+    Cylinder,
+    Faces,
+    Frame,
+    Index,
+    Spline,
+    SplineSurface,
+    Straight,
+    Surface,
+)
+from geometry.solids.measured import Measured
+from geometry.solids.rings import AHEAD, UP, Ring, RingBuilder
+
+_DEGREE, _MOST_SPANS, _SAMPLES, _MARGIN = 7, 64, 11, 1.5
+# kernels join edges and faces within 1e-7 mm
+_TARGET, _ROUNDING = 2e-8, 8e-15
+_RULED = np.array([0.0, 0.0, 1.0, 1.0])
+_SIDES = ("fillet", "flank")
+
+# edges (n,) and whether they run forwards
+Use = tuple[Index, bool]
+
+
+def faced_bevel(gear: BevelGear) -> FacedBody:
+    """A bevel gear as files, mass and checks take it."""
+    walls = tuple(
+        Measured(f"{name} {way:+d}", partial(wall_distance, gear, name, way), gear.number_of_teeth)
+        for name in _SIDES for way in (1, -1)
+    )  # fmt: skip
+    made = lru_cache(maxsize=2)(partial(bevel_solid, gear))
+    ends = 0.0, gear.height, max(gear.outer(gear.tip_angle).real, gear.rim.real)
+    return FacedBody(lambda tolerance: made(min(tolerance, _TARGET)), walls, own_ends=ends)
+
+
+def bevel_solid(gear: BevelGear, tolerance: float) -> FacedSolid:
+    """The faces of a bevel gear, splines within ``tolerance`` mm.
+
+    Raises
+    ------
+    ConvergenceError
+        64 spans for a curve are not enough.
+    """
+    bore = None
+    if gear.blank.bore is not None:
+        bore = spline_outline(gear.blank.bore, tolerance, degree=_DEGREE, continuity=_DEGREE - 1)
+    made = _Bevel(gear, tolerance)
+    made.teeth()
+    holes = None if bore is None else (made.ring(bore, 0.0), made.ring(bore, made.height(gear.front)))
+    made.body(holes)
+    worst = made.worst if bore is None else max(made.worst, bore.max_error)
+    return FacedSolid(made.solid(), worst, "sampled")
+
+
+class SeenEdge(Span, Record):
+    """A part of an edge of a tooth as it is seen along the axis, which is a plane spline."""
+
+    spline: BSpline
+    start: float = 0.0
+    end: float = 1.0
+
+    def point(self, t: ArrayLike) -> Complex:
+        return self.spline.point(t)
+
+    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
+        return self.spline.derivative(t, order)
+
+
+def seen_profile(gear: BevelGear, tolerance: float) -> Profile:
+    """The outer end as it is seen along the axis, splines within ``tolerance`` mm."""
+    sides = []
+    for name, label in zip(_SIDES, (Label.ROOT_FILLET, Label.FLANK), strict=True):
+        knots, poles, _ = _fitted(gear, name, tolerance)
+        sides.append(Segment(SeenEdge(BSpline(_DEGREE, knots, poles[:, 0] + 1j * poles[:, 1])), label))
+    low, high = cmath.phase(start_point(sides[0].curve)), cmath.phase(end_point(sides[1].curve))
+    land = Arc(0j, gear.outer(gear.tip_angle).real, -high, 2 * high)
+    floor = Arc(0j, gear.outer(gear.root_angle).real, low, math.tau / gear.number_of_teeth - 2 * low)
+    back = [Segment(s.curve.reversed(), s.label) for s in reversed(sides)]
+    rise = [Segment(s.curve.mirrored(), s.label) for s in reversed(back)]
+    period = (*rise, Segment(land, Label.TIP_LAND), *back, Segment(floor, Label.ROOT_LAND))
+    return Profile(period, gear.number_of_teeth)
+
+
+def _fitted(gear: BevelGear, name: str, tolerance: float) -> tuple[Real, Real, float]:
+    """Knots, poles (k, 3) of the upper side of tooth 0 on the back cone, and their error, mm."""
+    least, spans = max(min(tolerance, _TARGET) / _MARGIN, _ROUNDING * gear.cone_distance), 1
+    while spans <= _MOST_SPANS:
+        knots = clamped(_DEGREE, np.linspace(0.0, 1.0, spans + 1))
+        poles = axis_poles(_DEGREE, knots, gear.points(name, greville(_DEGREE, knots)), 0)
+        fine = np.linspace(0.0, 1.0, _SAMPLES * spans + 1)
+        error = np.linalg.norm(basis_matrix(_DEGREE, knots, fine) @ poles - gear.points(name, fine), axis=1).max()
+        if float(error) <= least:
+            return knots, poles, _MARGIN * float(error)
+        spans *= 2
+    raise ConvergenceError("spline of a bevel tooth", float(error), spans)
+
+
+# faces ----------------------------------------------------------------------------------------------------------
+
+
+class _Bevel(RingBuilder):
+    """Vertices, edges and faces of one gear; ``worst``: of its splines, mm."""
+
+    def __init__(self, gear: BevelGear, tolerance: float) -> None:
+        super().__init__()
+        self.gear, self.worst = gear, 0.0
+        self.starts = np.arange(gear.number_of_teeth)
+        self.share = gear.inner_distance / gear.cone_distance
+        self.apex = np.array([0.0, 0.0, gear.mounting_distance])
+        self.knots, self.poles = {}, {}
+        for name in _SIDES:
+            self.knots[name], self.poles[name], error = _fitted(gear, name, tolerance)
+            self.worst = max(self.worst, error)
+
+    def height(self, place: complex) -> float:
+        """z of a place of the blank, mm."""
+        return self.gear.mounting_distance - place.imag
+
+    def on_teeth(self, points: Real) -> Index:
+        """Numbers of points (k, 3) of tooth 0 on all teeth, (n, k)."""
+        turn = np.exp(1j * math.tau * self.starts / self.gear.number_of_teeth)
+        plane = turn[:, None] * (points[:, 0] + 1j * points[:, 1])
+        return self.add_points(plane, np.broadcast_to(points[:, 2], plane.shape))
+
+    def face(self, surface: Surface, around: list[Use], *, along: bool = True) -> None:
+        """Faces within edges that turn left about them, as seen from outside."""
+        loop = np.stack([edge for edge, _ in around], axis=1), np.array([way for _, way in around])
+        self.faces.append(Faces(surface, (loop,), along))
+
+    def cone(self, place: complex, slant: float, *, up: bool) -> Cone:
+        """The cone about the axis through a place of the blank, which widens upwards or downwards by ``slant`` rad."""
+        frame = Frame(self.on_axis(self.height(place)), UP if up else -UP, AHEAD)
+        return Cone(frame, place.real, slant)
+
+    def arc(self, place: complex, start: Index, end: Index) -> Index:
+        """Arcs on the circle of a place of the blank, counter-clockwise."""
+        frame = Frame(self.on_axis(self.height(place)), UP, AHEAD)
+        return self.add_edges(start, end, Circular(frame, place.real))
+
+    def teeth(self) -> None:
+        """Flanks, fillets, lands, and what both ends leave between them."""
+        gear, poles = self.gear, self.poles
+        mirror = np.array([1.0, -1.0, 1.0])
+        # from the lower root over the tip to the upper root
+        corners = np.array([poles["fillet"][0], poles["flank"][0], poles["flank"][-1]])
+        corners = np.concatenate([corners * mirror, corners[::-1]])
+        ends, vertices = [], []
+        splines: list[dict[tuple[str, int], Index]] = []
+        for size in (1.0, self.share):
+            points = self.on_teeth(self.shrunk(corners, size))
+            ends.append(points)
+            vertices.append(np.stack([self.add_vertices(column) for column in points.T], axis=1))
+            splines.append({})
+        self.vertices_at = vertices
+        rows: dict[tuple[str, int], list[Index]] = {}
+        for side, (name, place) in [(s, (n, p)) for s in (-1, 1) for p, n in enumerate(_SIDES)]:
+            first, last = (place, place + 1) if side < 0 else (5 - place, 4 - place)
+            for end, size in enumerate((1.0, self.share)):
+                inner = self.on_teeth(self.shrunk(poles[name][1:-1] * (mirror if side < 0 else 1.0), size))
+                row = np.concatenate([ends[end][:, [first]], inner, ends[end][:, [last]]], axis=1)
+                rows.setdefault((name, side), []).append(row)
+                curve = Spline(_DEGREE, self.knots[name], row)
+                splines[end][name, side] = self.add_edges(vertices[end][:, first], vertices[end][:, last], curve)
+        places = [self.place(vertex) for vertex in np.concatenate(vertices, axis=1).T]
+        rays = []
+        for k in range(6):
+            way = places[6 + k] - places[k]
+            way = way / np.linalg.norm(way, axis=1)[:, None]
+            rays.append(self.add_edges(vertices[0][:, k], vertices[1][:, k], Straight(way)))
+        for (name, side), grid in rows.items():
+            place = _SIDES.index(name)
+            first, last = (place, place + 1) if side < 0 else (5 - place, 4 - place)
+            surface = SplineSurface((_DEGREE, 1), self.knots[name], _RULED, np.stack(grid, axis=2))
+            low, high = splines[0][name, side], splines[1][name, side]
+            around = [(low, True), (rays[last], True), (high, False), (rays[first], False)]
+            if side > 0:
+                around = [(edge, not way) for edge, way in reversed(around)]
+            self.face(surface, around, along=side < 0)
+        after = [np.roll(v[:, 0], -1) for v in vertices]
+        circles = (gear.outer, gear.inner)
+        tips = [self.arc(c(gear.tip_angle), v[:, 2], v[:, 3]) for c, v in zip(circles, vertices, strict=True)]
+        roots = [self.arc(c(gear.root_angle), v[:, 5], a) for c, v, a in zip(circles, vertices, after, strict=True)]
+        self.face(self.cone(gear.outer(gear.tip_angle), gear.tip_angle, up=False),
+                  [(tips[0], True), (rays[3], True), (tips[1], False), (rays[2], False)])  # fmt: skip
+        self.face(self.cone(gear.outer(gear.root_angle), gear.root_angle, up=False),
+                  [(roots[0], True), (np.roll(rays[0], -1), True), (roots[1], False), (rays[5], False)])  # fmt: skip
+        feet = self.arc(gear.front, vertices[1][:, 0], vertices[1][:, 5])
+        over = [(splines[1]["fillet", -1], True), (splines[1]["flank", -1], True), (tips[1], True),
+                (splines[1]["flank", 1], False), (splines[1]["fillet", 1], False), (feet, False)]  # fmt: skip
+        slant = math.pi / 2 - gear.pitch_angle
+        self.face(self.cone(gear.front, slant, up=True), over, along=False)
+        self.front_loop = np.stack([feet, roots[1]], axis=1).reshape(1, -1)
+        self._back_cone(splines[0], tips[0], roots[0], slant)
+
+    def shrunk(self, points: Real, size: float) -> Real:
+        """Points nearer to the apex."""
+        return self.apex + size * (points - self.apex)
+
+    def _back_cone(self, splines: dict[tuple[str, int], Index], tips: Index, roots: Index, slant: float) -> None:
+        """From the teeth down to the rim, tooth by tooth."""
+        gear, rim = self.gear, self.gear.rim
+        roots_at = self.vertices_at[0][:, 0]
+        at = self.place(roots_at)
+        plane: Complex = at[:, 0] + 1j * at[:, 1]
+        low = self.add_vertices(self.add_points(np.asarray(plane / np.abs(plane) * rim.real), self.height(rim)))
+        way = at - self.place(low)
+        lines = self.add_edges(low, roots_at, Straight(way / np.linalg.norm(way, axis=1)[:, None]))
+        arcs = self.arc(rim, low, np.roll(low, -1))
+        around = [
+            (arcs, True), (np.roll(lines, -1), True), (roots, False), (splines["fillet", 1], True),
+            (splines["flank", 1], True), (tips, False), (splines["flank", -1], False), (splines["fillet", -1], False),
+            (lines, False),
+        ]  # fmt: skip
+        self.face(self.cone(gear.rim, slant, up=True), around)
+        self.rim_loop = arcs[None]
+
+    def body(self, holes: tuple[Ring, Ring] | None) -> None:
+        """Front, back, hub and bore."""
+        gear, blank = self.gear, self.gear.blank
+        front = [(self.front_loop, np.full(self.front_loop.shape[1], True))]
+        rim = self.rim_loop[:, ::-1], np.full(self.rim_loop.shape[1], False)
+        bored = [] if holes is None else [holes[0].loop(forwards=False)]
+        if holes is not None:
+            self.swept(*holes, UP)
+            front.append(holes[1].loop(forwards=True))
+        self.cap(self.height(gear.front), front, up=True)
+        if not blank.hub_length:
+            self.cap(0.0, [rim, *bored], up=False)
+            return
+        radius = blank.hub_diameter / 2
+        circles, vertices = [], []
+        for z in (0.0, blank.hub_length):
+            vertex = self.add_vertices(self.add_points(np.array([complex(radius)]), z))
+            circles.append(self.add_edges(vertex, vertex, Circular(Frame(self.on_axis(z), UP, AHEAD), radius)))
+            vertices.append(vertex)
+        seam = self.add_edges(vertices[0], vertices[1], Straight(UP))
+        pipe = Cylinder(Frame(self.on_axis(0.0), UP, AHEAD), radius)
+        self.face(pipe, [(circles[0], True), (seam, True), (circles[1], False), (seam, False)])
+        self.cap(blank.hub_length, [rim, (circles[1][:, None], np.array([True]))], up=False)
+        self.cap(0.0, [(circles[0][:, None], np.array([False])), *bored], up=False)

@@ -1,0 +1,355 @@
+"""A straight bevel gear: cones, the exact tooth of its spherical involutes, and the blank that carries it.
+
+All cones meet in the apex. Lengths of the tooth are those of the outer end (GOST 19624-74), on the back cone, which
+stands at right angles on the pitch cone; axial form I.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geometry.base.errors import ConvergenceError, ParameterError, PointedTipError, UndercutError, limit
+from geometry.base.nearest import kept, nearest
+from geometry.base.record import Record, replace
+from geometry.base.roots import bracketed_root
+from geometry.curves.curve import Real
+from geometry.gears.bevel.sphere import SphericalFillet, SphericalInvolute, spatial
+from geometry.plane.profile import Profile
+
+# the tip cone is a cone that opens away from the apex
+STEEPEST = math.radians(89.5)
+# what is no length, part of the module
+_NOTHING = 1e-6
+# least addendum and dedendum, in modules
+_LEAST_HEIGHT = 0.05
+# where a flank that is all undercut is sought, from the given shift on
+_SHIFTS = (0.2, 0.4, 0.6, 0.8, 1.0, 1.4, 2.0)
+# share of a cone distance that a face takes at most
+_MOST_FACE = 0.99
+
+
+class Blank(Record):
+    """What carries the teeth, mm: the rim below the outer root, along the back cone, and the hub behind it."""
+
+    rim_thickness: float
+    hub_diameter: float = 0.0
+    hub_length: float = 0.0
+    bore: Profile | None = None
+
+
+class BevelGear(Record, dict=True):
+    """A straight bevel gear for a mate of ``mate_teeth`` at the shaft angle; mm at the outer end, rad.
+
+    ``thickness_coefficient``: x_tau, by which the tooth is thicker than its shift makes it, in modules; both
+    coefficients of the mate have the other sign. The crown gear that cuts it has the tip rounding.
+    """
+
+    module: float
+    number_of_teeth: int
+    mate_teeth: int
+    face_width: float
+    blank: Blank
+    shaft_angle: float = math.pi / 2
+    pressure_angle: float = math.radians(20.0)
+    addendum_coefficient: float = 1.0
+    tip_clearance_coefficient: float = 0.2
+    tip_radius_coefficient: float = 0.2
+    profile_shift_coefficient: float = 0.0
+    thickness_coefficient: float = 0.0
+    circumferential_thinning: float = 0.0
+
+    # cones ------------------------------------------------------------------------------------------------------
+
+    @property
+    def pitch_angle(self) -> float:
+        """delta: tan delta = sin Sigma / (u + cos Sigma)."""
+        ratio = self.mate_teeth / self.number_of_teeth
+        return math.atan2(math.sin(self.shaft_angle), ratio + math.cos(self.shaft_angle))
+
+    @property
+    def cone_distance(self) -> float:
+        """R_e, outer, mm."""
+        return self.module * self.number_of_teeth / (2 * math.sin(self.pitch_angle))
+
+    @property
+    def inner_distance(self) -> float:
+        """R_i, mm."""
+        return self.cone_distance - self.face_width
+
+    @property
+    def addendum(self) -> float:
+        """h_ae, mm."""
+        return self.module * (self.addendum_coefficient + self.profile_shift_coefficient)
+
+    @property
+    def dedendum(self) -> float:
+        """h_fe, mm."""
+        shift = self.profile_shift_coefficient
+        return self.module * (self.addendum_coefficient + self.tip_clearance_coefficient - shift)
+
+    @property
+    def addendum_angle(self) -> float:
+        """theta_a."""
+        return math.atan(self.addendum / self.cone_distance)
+
+    @property
+    def dedendum_angle(self) -> float:
+        """theta_f."""
+        return math.atan(self.dedendum / self.cone_distance)
+
+    @property
+    def tip_angle(self) -> float:
+        """delta_a."""
+        return self.pitch_angle + self.addendum_angle
+
+    @property
+    def root_angle(self) -> float:
+        """delta_f."""
+        return self.pitch_angle - self.dedendum_angle
+
+    @property
+    def involute(self) -> SphericalInvolute:
+        """Of its base cone: sin delta_b = sin delta cos alpha."""
+        return SphericalInvolute(math.asin(math.sin(self.pitch_angle) * math.cos(self.pressure_angle)))
+
+    @property
+    def virtual_teeth(self) -> float:
+        """z_v of the back cone, z / cos delta (Tredgold)."""
+        return self.number_of_teeth / math.cos(self.pitch_angle)
+
+    # tooth ------------------------------------------------------------------------------------------------------
+
+    @property
+    def thickness(self) -> float:
+        """s_e on the pitch cone, along the arc, mm."""
+        shift = 2 * self.profile_shift_coefficient * math.tan(self.pressure_angle)
+        return self.module * (math.pi / 2 + shift + self.thickness_coefficient) - self.circumferential_thinning
+
+    def half_angle(self, angle: ArrayLike) -> Real:
+        """Azimuth of the flank off the middle of its tooth, at an angle from the axis."""
+        inv = self.involute
+        own = self.thickness / (self.module * self.number_of_teeth)
+        return np.asarray(own + inv.involute_at(self.pitch_angle) - inv.involute_at(angle))
+
+    @cached_property
+    def fillet(self) -> SphericalFillet:
+        """What the tip rounding of the crown gear leaves."""
+        radius = math.atan(self.tip_radius_coefficient * self.module / self.cone_distance)
+        depth = self.dedendum_angle - radius
+        crown = SphericalInvolute(math.pi / 2 - self.pressure_angle)
+        space = math.pi / self.number_of_teeth - self.thickness / (self.module * self.number_of_teeth)
+        half = space * math.sin(self.pitch_angle) + crown.involute_at(math.pi / 2)
+        # the rounding's centre runs on a parallel of the flank
+        aside = half - radius / math.cos(self.pressure_angle) - crown.involute_at(math.pi / 2 + depth)
+        return SphericalFillet(self.pitch_angle, depth, radius, float(aside))
+
+    def fillet_place(self, u: ArrayLike) -> tuple[Real, Real]:
+        """Angle from the axis, and azimuth off the middle of its tooth."""
+        angle, aside = self.fillet.place(u)
+        return angle, math.pi / self.number_of_teeth - aside
+
+    @property
+    def is_undercut(self) -> bool:
+        """Whether the straight flank of the crown gear reaches below the base cone."""
+        touching = math.atan(math.tan(self.pitch_angle) * math.sin(self.pressure_angle))
+        return bool(self.fillet.reach(math.pi / 2 - self.pressure_angle) > touching)
+
+    @cached_property
+    def joint(self) -> tuple[float, float]:
+        """Where fillet and flank meet: ``u`` of the fillet, and the arc of the involute.
+
+        Raises
+        ------
+        UndercutError
+            The fillet takes all of the flank.
+        """
+        inv, end = self.involute, math.pi / 2 - self.pressure_angle
+        if not self.is_undercut:
+            return end, float(inv.arc(self.fillet.place(end)[0]))
+
+        def lead(u: float) -> float:
+            angle, azimuth = self.fillet_place(u)
+            return float(azimuth - self.half_angle(max(float(angle), inv.base)))
+
+        def above_base(u: float) -> float:
+            return float(self.fillet.place(u)[0]) - inv.base
+
+        low = 0.0 if above_base(0.0) > 0 else bracketed_root(above_base, 0.0, end).value
+        try:
+            crossing = bracketed_root(lead, low, end).value
+        except ConvergenceError as error:
+            raise UndercutError(
+                "profile_shift_coefficient", self.profile_shift_coefficient, "no_involute_below_tip"
+            ) from error
+        return crossing, float(inv.arc(max(float(self.fillet.place(crossing)[0]), inv.base)))
+
+    @property
+    def tip_arc(self) -> float:
+        """Of the involute at the tip cone."""
+        return float(self.involute.arc(self.tip_angle))
+
+    @property
+    def tip_land(self) -> float:
+        """s_ae, mm, along the arc of the outer tip circle."""
+        return 2 * float(self.half_angle(self.tip_angle)) * self.outer(self.tip_angle).real
+
+    def tooth_places(self, name: str, share: Real) -> tuple[Real, Real]:
+        """Angles and azimuths of the upper side at shares of its ``fillet`` or its ``flank``, from the root on."""
+        crossing, arc = self.joint
+        if name == "fillet":
+            return self.fillet_place(crossing * share)
+        rolled = arc + (self.tip_arc - arc) * share
+        angle = self.involute.angle(rolled)
+        own = self.thickness / (self.module * self.number_of_teeth)
+        return angle, own + self.involute.involute_at(self.pitch_angle) - self.involute.involute(rolled)
+
+    # the blank --------------------------------------------------------------------------------------------------
+
+    def outer(self, angle: float) -> complex:
+        """Where a ray from the apex meets the back cone: radius and distance from the apex along the axis, mm."""
+        return self._on_cone(self.cone_distance, angle)
+
+    def inner(self, angle: float) -> complex:
+        """The same of the cone at the inner end."""
+        return self._on_cone(self.inner_distance, angle)
+
+    def _on_cone(self, distance: float, angle: float) -> complex:
+        size = distance / math.cos(angle - self.pitch_angle)
+        return complex(size * math.sin(angle), size * math.cos(angle))
+
+    @property
+    def rim(self) -> complex:
+        """Where the back cone ends below the outer root: radius and distance from the apex along the axis, mm."""
+        down = complex(-math.cos(self.pitch_angle), math.sin(self.pitch_angle))
+        return self.outer(self.root_angle) + self.blank.rim_thickness * down
+
+    @property
+    def mounting_distance(self) -> float:
+        """From the apex to the back face, mm."""
+        return self.rim.imag + self.blank.hub_length
+
+    @property
+    def front(self) -> complex:
+        """The inner root circle, in whose plane the front face lies."""
+        return self.inner(self.root_angle)
+
+    @property
+    def height(self) -> float:
+        """From the back face to the inner tip circle, mm."""
+        return self.mounting_distance - min(self.inner(self.tip_angle).imag, self.front.imag)
+
+    def points(self, name: str, share: Real) -> Real:
+        """Points (k, 3) of the upper side of tooth 0 on the back cone, mm; the apex on the axis over the back face."""
+        angle, azimuth = self.tooth_places(name, share)
+        size = self.cone_distance / np.cos(angle - self.pitch_angle)
+        return self.placed(size[..., None] * spatial(angle, azimuth))
+
+    def placed(self, points: Real) -> Real:
+        """From the frame of the apex, z into the gear, to that of the part: the back face at z = 0, the apex above."""
+        return points * np.array([1.0, 1.0, -1.0]) + np.array([0.0, 0.0, self.mounting_distance])
+
+    # limits -----------------------------------------------------------------------------------------------------
+
+    def checked(self) -> BevelGear:
+        """The gear, which exists.
+
+        Raises
+        ------
+        ParameterError
+            It does not: the parameter, why, and the nearest value that works where that one can cure it.
+        """
+        self._check_cones()
+        self._check_tooth()
+        self._check_blank()
+        return self
+
+    def _cured(self, name: str, toward: float | Sequence[float], check: Callable[[BevelGear], None], code: str,
+               error: type[ParameterError] = ParameterError, **numbers: float) -> ParameterError:  # fmt: skip
+        """A refusal that offers the nearest value on the way ``toward`` one with which a check passes."""
+        given = getattr(self, name)
+
+        def holds(value: float) -> bool:
+            changed: dict[str, Any] = {name: value}
+            check(replace(self, **changed))
+            return True
+
+        return error(name, given, code, lambda: nearest(holds, given, toward), **numbers)
+
+    def _check_cones(self) -> None:
+        shift, whole = self.profile_shift_coefficient, self.module * _LEAST_HEIGHT
+        if self.addendum < whole or self.dedendum < whole:
+            low = _LEAST_HEIGHT - self.addendum_coefficient
+            high = self.addendum_coefficient + self.tip_clearance_coefficient - _LEAST_HEIGHT
+            raise ParameterError("profile_shift_coefficient", shift, "bevel_shift_leaves_no_tooth",
+                                 limit(low if shift < low else high, shift))  # fmt: skip
+        if self.tip_angle > STEEPEST:
+            raise self._cured("mate_teeth", self.number_of_teeth, BevelGear._check_cones, "bevel_too_flat",
+                              most=math.degrees(STEEPEST))  # fmt: skip
+        if self.root_angle <= 0 or self.rim_room <= self._wall:
+            raise self._cured("number_of_teeth", 10 * self.number_of_teeth, BevelGear._check_cones, "bevel_no_root")
+        most = _MOST_FACE * self.cone_distance
+        if self.face_width > most:
+            raise ParameterError("face_width", self.face_width, "bevel_face_to_apex", limit(most, self.face_width),
+                                 distance=self.cone_distance)  # fmt: skip
+
+    def _check_tooth(self) -> None:
+        if self.thickness <= _NOTHING * self.module:
+            raise self._cured("circumferential_thinning", 0.0, BevelGear._check_tooth, "thinning_leaves_no_tip")
+        if self.fillet.aside <= _NOTHING * self.module / self.cone_distance:
+            raise self._cured("tip_radius_coefficient", 0.0, BevelGear._check_tooth, "bevel_rounding_too_large")
+        land = float(self.half_angle(self.tip_angle))
+        if land <= _NOTHING / self.number_of_teeth:
+            raise self._cured(
+                "profile_shift_coefficient", 0.0, BevelGear._check_tooth, "bevel_pointed", PointedTipError
+            )
+        if not kept(BevelGear._has_flank, self):
+            more = [self.profile_shift_coefficient + step for step in _SHIFTS]
+            raise self._cured("profile_shift_coefficient", more, BevelGear._check_tooth,
+                              "no_involute_below_tip", UndercutError)  # fmt: skip
+
+    def _has_flank(self) -> bool:
+        """Whether the fillet leaves some of it."""
+        return self.joint[1] < self.tip_arc
+
+    def _check_blank(self) -> None:
+        rim, hub = self.blank.rim_thickness, self.blank.hub_diameter
+        if rim > self.rim_room:
+            raise ParameterError("rim_thickness", rim, "bevel_rim_over_axis", limit(self.rim_room, rim))
+        if hub / 2 > (room := self.rim.real - self._wall):
+            raise ParameterError("hub_diameter", hub, "bevel_hub_over_rim", limit(2 * room, hub), rim=2 * self.rim.real)
+
+    @property
+    def rim_room(self) -> float:
+        """How far down the back cone the rim may reach, mm: there it gets narrower."""
+        return (self.outer(self.root_angle).real - self._wall) / math.cos(self.pitch_angle)
+
+    @property
+    def least_shift(self) -> float:
+        """x without undercut: the crown gear's flank ends at the base cone."""
+
+        def reserve(shift: float) -> float:
+            gear = replace(self, profile_shift_coefficient=shift)
+            touching = math.atan(math.tan(self.pitch_angle) * math.sin(self.pressure_angle))
+            return float(gear.fillet.reach(math.pi / 2 - self.pressure_angle)) - touching
+
+        low, high = -self.addendum_coefficient, self.addendum_coefficient + self.tip_clearance_coefficient
+        while reserve(low) < 0:
+            low -= 2.0
+        return bracketed_root(reserve, low, high).value
+
+    @property
+    def _wall(self) -> float:
+        """The least that is left of a wall, mm."""
+        return 0.01 * self.module
+
+    @property
+    def bore_room(self) -> float:
+        """How far from the axis a bore may reach, mm."""
+        back = self.blank.hub_diameter / 2 if self.blank.hub_length else self.rim.real
+        return min(self.front.real, back) - self._wall

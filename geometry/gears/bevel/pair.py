@@ -1,0 +1,139 @@
+"""Two bevel gears whose apexes are one: what both are together, and the gap between them over a pitch of motion.
+
+Everything is one problem on the unit sphere; a gap there is as many times the cone distance in mm, most at the outer
+end. Azimuths are rotations of each gear about its own axis, from the pitch line on.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+
+import numpy as np
+
+from geometry.base.record import Record
+from geometry.base.tolerance import CONTACT_TOLERANCE
+from geometry.curves.curve import Real
+from geometry.gears.bevel.gear import BevelGear
+from geometry.gears.bevel.sphere import spatial
+from geometry.gears.bevel.walls import tooth_off
+from geometry.gears.mesh.search import ContactPlace, PairContact
+from geometry.plane.distance import Verdict
+from geometry.plane.profile import Label
+
+# drive angles in a pitch; places along a fillet, a flank, half a tip land; teeth to each side of the pitch line
+_DRIVE_ANGLES, _PLACES, _NEAR_TEETH = 24, 17, 3
+
+
+class BevelPair(Record, dict=True):
+    """Two gears of one apex, made for each other."""
+
+    first: BevelGear
+    second: BevelGear
+
+    @property
+    def gears(self) -> tuple[BevelGear, BevelGear]:
+        """Both."""
+        return self.first, self.second
+
+    @property
+    def ratio(self) -> float:
+        """u12, turns of the first for one of the second."""
+        return self.second.number_of_teeth / self.first.number_of_teeth
+
+    @property
+    def normal_backlash(self) -> float:
+        """Between the flanks along the normal at the outer end, mm."""
+        return sum(gear.circumferential_thinning for gear in self.gears) * math.cos(self.first.pressure_angle)
+
+    @cached_property
+    def _rolled(self) -> tuple[float, float]:
+        """Of the line of action from the pitch line to both base circles, rad."""
+        first, second = (float(gear.involute.arc(gear.pitch_angle)) for gear in self.gears)
+        return first, second
+
+    @property
+    def tip_arcs(self) -> tuple[float, float]:
+        """Of the line of action from the pitch line to where it meets the tip of each, rad."""
+        return self.first.tip_arc - self._rolled[0], self.second.tip_arc - self._rolled[1]
+
+    @property
+    def form_reserves(self) -> tuple[float, float]:
+        """By how much the flank of each begins before the mate's tip asks for it, along the line of action, mm."""
+        (first, second), (one, two) = self.gears, self.tip_arcs
+        return (
+            (self._rolled[0] - two - first.joint[1]) * first.cone_distance,
+            (self._rolled[1] - one - second.joint[1]) * first.cone_distance,
+        )
+
+    @property
+    def contact_ratio(self) -> float:
+        """epsilon_alpha: the arc of the line of action on which flanks meet over the base pitch."""
+        lost = sum(max(-reserve, 0.0) for reserve in self.form_reserves) / self.first.cone_distance
+        return (sum(self.tip_arcs) - lost) / (
+            math.sin(self.first.involute.base) * math.tau / self.first.number_of_teeth
+        )
+
+    @property
+    def bottom_clearances(self) -> tuple[float, float]:
+        """Between the root of each and the mate's tip at the outer end, mm."""
+        first, second = self.gears
+        return first.dedendum - second.addendum, second.dedendum - first.addendum
+
+    def contact(self, phase_off: float = 0.0, tolerance: float | None = None) -> PairContact:
+        """Verdict over one pitch; the second is ``phase_off`` rad further round than in the middle of its backlash."""
+        first, second = self.gears
+        allowed = CONTACT_TOLERANCE * first.module if tolerance is None else tolerance
+        drive = np.linspace(0.0, math.tau / first.number_of_teeth, _DRIVE_ANGLES, endpoint=False)
+        # teeth of one stand against spaces of the other, and what turns one forwards turns the other back
+        turned = phase_off + math.pi / second.number_of_teeth - drive * (first.number_of_teeth / second.number_of_teeth)
+        found = [
+            np.minimum(_least(first, second, way, drive, turned), _least(second, first, way, turned, drive))
+            for way in (-1, 1)
+        ]
+        gaps = np.stack(found) * first.cone_distance
+        place = int(gaps.min(axis=0).argmin())
+        at = complex(first.outer(first.pitch_angle).real)
+        worst = ContactPlace(float(gaps.min()), float(drive[place]), at, (Label.FLANK, Label.FLANK))
+        if worst.gap < -allowed:
+            verdict = Verdict.OVERLAP
+        else:
+            verdict = Verdict.CONTACT if float(gaps.max(axis=1).min()) <= allowed else Verdict.CLEAR
+        least = gaps.min(axis=0)
+        return PairContact(
+            verdict, allowed, tuple(drive.tolist()), tuple(least.tolist()),
+            (tuple(gaps[0].tolist()), tuple(gaps[1].tolist())), worst, float(least.max()),
+        )  # fmt: skip
+
+
+def _least(gear: BevelGear, mate: BevelGear, way: int, turned: Real, mate_turned: Real) -> Real:
+    """Least gaps (n,) of the places on one side (+-1) of a gear's teeth from its mate, both turned so (n,), rad."""
+    pitch = math.tau / gear.number_of_teeth
+    # its teeth nearest to the pitch line
+    nearest = turned[:, None] - pitch * np.round(turned[:, None] / pitch)
+    middles = (nearest + pitch * np.arange(-_NEAR_TEETH, _NEAR_TEETH + 1)).ravel()
+    angle, aside = _places(gear, way * middles)
+    x, y, z = np.moveaxis(spatial(angle, middles[:, None] + way * aside), -1, 0)
+    sine, cosine = math.sin(gear.shaft_angle), math.cos(gear.shaft_angle)
+    x, y, z = sine * z - cosine * x, -y, sine * x + cosine * z
+    azimuth = np.arctan2(y, x) - np.repeat(mate_turned, 2 * _NEAR_TEETH + 1)[:, None]
+    return np.asarray(tooth_off(mate, np.arctan2(np.hypot(x, y), z), azimuth).reshape(len(turned), -1).min(axis=1))
+
+
+def _places(gear: BevelGear, middles: Real) -> tuple[Real, Real]:
+    """Angles and azimuths off their middles (n, k) of a side of teeth whose middles stand so; where it drives, too."""
+    share = np.linspace(0.0, 1.0, _PLACES)
+    sides = [gear.tooth_places(name, share) for name in ("fillet", "flank")]
+    top = float(sides[1][1][-1])
+    land = np.full(_PLACES, gear.tip_angle), top * share
+    fixed = [np.concatenate(rows) for rows in zip(*sides, land, strict=True)]
+    # where the line of action meets the flank
+    involute, pitch = gear.involute, gear.pitch_angle
+    own = float(gear.half_angle(pitch))
+    rolled = float(involute.arc(pitch)) + math.sin(involute.base) * (middles + own)
+    rolled = np.clip(rolled, gear.joint[1], gear.tip_arc)
+    meets = involute.angle(rolled)
+    found = []
+    for row, at in zip(fixed, (meets, gear.half_angle(meets)), strict=True):
+        found.append(np.concatenate([np.broadcast_to(row, (len(middles), len(row))), at[:, None]], axis=1))
+    return found[0], found[1]

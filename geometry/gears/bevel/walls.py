@@ -1,0 +1,71 @@
+"""How far places on the unit sphere lie outside of a bevel gear's exact tooth, rad: for files and for mates."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from geometry.curves.curve import Real
+from geometry.gears.bevel.gear import BevelGear
+from geometry.gears.bevel.sphere import spatial
+
+# steps of the search for the foot on a fillet, how far it goes beyond its ends, and for slopes, rad
+_STEPS, _BEYOND, _DIFFERENCE, _TABLE = 8, 0.2, 1e-6, 65
+
+
+def flank_off(gear: BevelGear, angle: Real, aside: Real) -> Real:
+    """Of places at angles from the axis, ``aside`` of their tooth's middle: involutes of one base are parallel."""
+    base = gear.involute.base
+    return np.asarray((aside - gear.half_angle(np.maximum(angle, base))) * math.sin(base))
+
+
+def fillet_off(gear: BevelGear, angle: Real, aside: Real) -> Real:
+    """The same of the fillet, whose normals go through the pitch line; beyond its ends it goes on."""
+    aim = spatial(angle, math.pi / gear.number_of_teeth - aside)
+    fillet, end = gear.fillet, gear.joint[0]
+
+    def pole(u: Real) -> Real:
+        return spatial(np.asarray(fillet.pitch), -fillet.turn(u))
+
+    def off_normal(u: Real) -> Real:
+        """Of the aims from the plane of the normal at ``u``."""
+        normal = np.cross(pole(u), spatial(*fillet.place(u)))
+        return np.asarray((normal * aim).sum(axis=-1) / np.linalg.norm(normal, axis=-1))
+
+    table = np.linspace(0.0, end, _TABLE)
+    u = table[(aim @ spatial(*fillet.place(table)).T).argmax(axis=-1)]
+    furthest = 0.99 * math.acos(math.sin(abs(fillet.depth)))
+    for _ in range(_STEPS):
+        slope = (off_normal(u + _DIFFERENCE) - off_normal(u - _DIFFERENCE)) / (2 * _DIFFERENCE)
+        step = off_normal(u) / np.where(np.abs(slope) > _DIFFERENCE, slope, np.inf)
+        u = np.clip(u - step, -_BEYOND, min(end + _BEYOND, furthest))
+    off = np.linalg.norm(np.cross(spatial(*fillet.place(u)), aim), axis=-1)
+    from_pole = np.linalg.norm(pole(u) - aim, axis=-1)
+    return np.asarray(np.where(from_pole < 2 * np.sin(fillet.reach(u) / 2), off, -off))
+
+
+def tooth_off(gear: BevelGear, angle: Real, azimuth: Real) -> Real:
+    """Of places from the whole of tooth and root, by the nearest of their curves."""
+    pitch = math.tau / gear.number_of_teeth
+    aside = np.abs(azimuth - pitch * np.round(azimuth / pitch))
+    form = float(gear.involute.angle(gear.joint[1]))
+    beside = np.maximum(aside - gear.half_angle(gear.tip_angle), 0.0) * math.sin(gear.tip_angle)
+    above = angle - gear.tip_angle
+    found = np.where(above > 0, np.hypot(above, beside), flank_off(gear, angle, aside))
+    low = angle < form
+    found[low] = fillet_off(gear, angle[low], aside[low])
+    above_root = angle - gear.root_angle
+    return np.asarray(np.where(above_root < 0, above_root, np.minimum(found, above_root)))
+
+
+def wall_distance(gear: BevelGear, name: str, way: int, points: Real) -> Real:
+    """How far points (n, 3) of the part lie from the cones over a ``flank`` or ``fillet`` of a side (+-1), mm."""
+    depth, radius = gear.mounting_distance - points[:, 2], np.hypot(points[:, 0], points[:, 1])
+    azimuth, pitch = np.arctan2(points[:, 1], points[:, 0]), math.tau / gear.number_of_teeth
+    aside, angle = way * (azimuth - pitch * np.round(azimuth / pitch)), np.arctan2(radius, depth)
+    size = np.hypot(depth, radius)
+    if name == "fillet":
+        return np.asarray(size * np.abs(fillet_off(gear, angle, aside)))
+    below = np.maximum(gear.involute.base - angle, 0.0)
+    return np.asarray(size * np.sin(np.minimum(np.hypot(flank_off(gear, angle, aside), below), math.pi / 2)))
