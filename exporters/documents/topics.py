@@ -26,6 +26,7 @@ TOPICS = {
     "tmm42": "parts.gears.spur_gear.device_page",
     "gear-pair": "parts.mates.pages.external",
     "shift-choice": "parts.mates.pages.shift_choice",
+    "bevel": "parts.gears.bevel_gear.page",
     "worm": "parts.gears.worm.page",
     "train": "parts.scene.train_page",
     "planetary": "parts.mates.pages.planetary",

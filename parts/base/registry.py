@@ -35,6 +35,10 @@ KINDS: Index[Kind[Any, Any]] = Index(
             "parts.gears.worm.part:WORM",
             "Cylindrical worm with its shaft, form ZA, ZI, ZN1, ZN2 or ZK1; the middle of its thread lies at z = 0",
         ),
+        "bevel_gear": (
+            "parts.gears.bevel_gear.part:BEVEL_GEAR",
+            "Straight bevel gear of spherical involutes, made for one mate; its back face lies at z = 0",
+        ),
         "cam": (
             "parts.cams.disk_cam.part:CAM",
             "Disk cam; it turns counter-clockwise, cam angle 0 is the start of the first phase",

@@ -73,6 +73,10 @@ MATES: Index[MateKind[Any, Any, Any]] = Index(
             "parts.mates.lantern:LANTERN_PAIR",
             "A lantern (first) and its gear (second): exact centre distance and phase",
         ),
+        "bevel_pair": (
+            "parts.mates.bevel:BEVEL_PAIR",
+            "Two bevel gears made for each other, laid so that the apexes of their cones meet",
+        ),
         "worm_pair": (
             "parts.mates.worm:WORM_PAIR",
             "A worm wheel (first) and its worm (second), laid across the line of centres in the middle of the rim",

@@ -151,6 +151,17 @@ REASONS = {
     "worm_wheel_not_reached": N_("the hob does not reach the rim at the ends of the face: it leaves no space there"),
     "worm_wheel_pointed": N_("the teeth are pointed at the ends of the face"),
     "worm_wheel_undercut": N_("undercut leaves no flank at the ends of the face"),
+    "bevel_face_to_apex": N_("reaches the apex of the cones: the outer cone distance is {distance} mm"),
+    "bevel_hub_half_told": N_("a hub needs its diameter and its length, or mounting_distance"),
+    "bevel_hub_over_rim": N_("the hub is wider than the rim where it begins, {rim} mm"),
+    "bevel_mounted_in_teeth": N_("the back face would lie within the teeth: they end {least} mm from the apex"),
+    "bevel_no_root": N_("the root cone would reach the axis: more teeth"),
+    "bevel_not_moved": N_("is not for a bevel gear, whose flanks would leave the apex: thin its teeth"),
+    "bevel_pointed": N_("the tooth is pointed below its tip cone"),
+    "bevel_rim_over_axis": N_("the back cone would run into the axis"),
+    "bevel_rounding_too_large": N_("does not fit on the tip of the crown gear's teeth"),
+    "bevel_shift_leaves_no_tooth": N_("leaves no addendum or no dedendum"),
+    "bevel_too_flat": N_("the tip cone would be wider than {most} degrees from the axis: a face gear"),
     "worm_not_moved": N_(
         "is not for a worm, which would lose the form of its flanks: thin the thread by axial_thinning"
     ),

@@ -12,6 +12,11 @@ FINDINGS: dict[str, Text] = {
     "undercut_on_centrode": N_(
         "teeth are undercut where the centrode's radius of curvature, {value:.4f} mm at least, is below {limit:.4f} mm"
     ),
+    "bevel_undercut": N_(
+        "the tooth is undercut: its involute begins on a diameter of {value:.4f} mm at the outer end, where the root "
+        "has {limit:.4f} mm"
+    ),
+    "bevel_wide_face": N_("face width {value:.4g} mm is more than the usual {limit:.4g} mm: 0.3 R_e and 10 m"),
     "thin_tip": N_("thin tip: s_a = {value:.3f} mm is below 0.3 m = {limit:.3f} mm"),
     "thin_rim": N_("thin rim: {value:.3f} mm between bore and root circle, less than one module ({limit:.3f} mm)"),
     "relief_not_reached": N_("the tip circle, {value:.3f} mm, lies below the tip relief: this tooth has none"),

@@ -32,6 +32,9 @@ THESIS_WORM = ("module=5", "face_width=26", "worm_length=120", "torque=3.5")
 PAIR = ("module=3", "first.number_of_teeth=12", "second.number_of_teeth=60")
 # regressions that broke others: branch switches at 20 and 25 degrees, steep helix with shift, many teeth, undercut
 SHEETS = [
+    ("bevel", "bevel_pair", "part=pinion", "torque=12"),
+    ("bevel", "module=3", "number_of_teeth=9", "mate_teeth=30", "normal_backlash=0.1", "shaft_angle_deg=75"),
+    ("bevel", "module=3", "number_of_teeth=30", "mate_teeth=16", "thickness_coefficient=0.03", "shaft_angle_deg=120"),
     ("spur", "practicum_pair", "part=pinion"),
     ("spur", "module=2", "number_of_teeth=24", "profile_shift_coefficient=0.3", "circumferential_thinning=0.1",
      "helix_angle_deg=20", "diameter=50"),
@@ -161,6 +164,7 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
     """A printed formula worked out with all digits; angles go in as radians. ``spoilt`` changes its first input."""
     names = {
         "cos": math.cos, "sin": math.sin, "tan": math.tan, "arccos": math.acos, "arctan": math.atan,
+        "arcsin": math.asin,
         "sqrt": math.sqrt, "cbrt": math.cbrt, "abs": abs, "pi": math.pi, "inv": involute_function,
         "arcinv": inverse_involute,
     }  # fmt: skip

@@ -1,0 +1,1 @@
+"""The part kind ``bevel_gear`` and its calculation."""

@@ -1,0 +1,218 @@
+"""The part kind ``bevel_gear``: a straight bevel gear of spherical involutes, made for one mate."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Annotated
+
+from msgspec import Meta
+
+from geometry.base.errors import OffsetError, ParameterError, limit
+from geometry.base.findings import Finding
+from geometry.base.record import replace
+from geometry.gears.bevel.gear import BevelGear, Blank
+from parts.base.kind import Kind, Others, Report
+from parts.base.part_keys import MaterialKeys
+from parts.keys.base import BoreDiameter, degrees, either, in_modules, mm
+from parts.keys.holes import BoreTable, bore_of, hub_holes, wide_bore
+
+if TYPE_CHECKING:
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.solids.faced import FacedBody
+
+_MOST = 100_000.0
+# the usual face width: part of the cone distance, and modules; rim and wall in modules (GOST 19624-74, practice)
+USUAL_SHARE, USUAL_FACE, _USUAL_RIM, _LEAST_RIM = 0.3, 10.0, 2.5, 0.05
+# least thickness of a tip, in modules (the practicum's limit)
+_THIN = 0.3
+
+OuterModule = Annotated[
+    float, mm("outer transverse module m_te, at the back cone", least=0.01, most=1000, example=2.0)
+]  # fmt: skip
+ShaftAngle = Annotated[float, degrees("angle between both axes", least=10, most=170)]
+BevelAngle = Annotated[float, degrees("pressure angle", least=10, most=35)]
+Teeth = Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z", examples=[20])]
+MateTeeth = Annotated[int, Meta(ge=3, le=10_000, description="number of teeth of its mate", examples=[40])]
+Shift = Annotated[float, in_modules("shift coefficient x_e; that of the mate is -x_e", least=-1, most=1)]
+ThicknessShift = Annotated[
+    float, in_modules("change of the tooth's thickness x_tau; that of the mate is -x_tau", least=-1, most=1)
+]
+Addendum = Annotated[float, in_modules("addendum of the basic rack", least=0.1, most=3)]
+TipClearance = Annotated[float, in_modules("tip clearance", least=0, most=1)]
+TipRadius = Annotated[float, in_modules("tip rounding of the crown gear that cuts it", least=0.001, most=2)]
+
+
+class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="bevel_gear"):
+    """Keys of ``bevel_gear``."""
+
+    module: OuterModule
+    number_of_teeth: Teeth
+    mate_teeth: MateTeeth
+    face_width: (
+        Annotated[
+            float,
+            mm("length of the teeth b along the pitch cone; default: the lesser of 0.3 R_e and 10 m",
+               least=0.01, most=10_000, example=12.0),
+        ]
+        | None
+    ) = None  # fmt: skip
+    shaft_angle_deg: ShaftAngle = 90.0
+    pressure_angle_deg: BevelAngle = 20.0
+    profile_shift_coefficient: Shift = 0.0
+    thickness_coefficient: ThicknessShift = 0.0
+    addendum_coefficient: Addendum = 1.0
+    tip_clearance_coefficient: TipClearance = 0.2
+    tip_radius_coefficient: TipRadius = 0.2
+    circumferential_thinning: Annotated[
+        float, mm("thinning of the tooth along the outer pitch circle, for backlash", least=0, most=1000)
+    ] = 0.0
+    rim_thickness: (
+        Annotated[
+            float,
+            mm("rim below the outer root, along the back cone; default: 2.5 m", above=0, most=_MOST, example=5.0),
+        ]
+        | None
+    ) = None
+    hub_diameter: Annotated[float, mm("hub behind the rim; 0 is none", least=0, most=_MOST)] = 0.0
+    hub_length: Annotated[float, mm("length of the hub behind the rim", least=0, most=10_000)] = 0.0
+    mounting_distance: (
+        Annotated[
+            float,
+            mm("from the apex to the back face; it sets hub_length, or without a hub rim_thickness",
+               above=0, most=_MOST, example=50.0),
+        ]
+        | None
+    ) = None  # fmt: skip
+    bore_diameter: BoreDiameter = 0.0
+    bore: BoreTable | None = None
+
+
+def bevel_gear(keys: BevelGearSpec, blank: Blank) -> BevelGear:
+    """The gear of its keys, not yet checked."""
+    gear = BevelGear(
+        keys.module, keys.number_of_teeth, keys.mate_teeth, 0.0, blank,
+        math.radians(keys.shaft_angle_deg), math.radians(keys.pressure_angle_deg), keys.addendum_coefficient,
+        keys.tip_clearance_coefficient, keys.tip_radius_coefficient, keys.profile_shift_coefficient,
+        keys.thickness_coefficient, keys.circumferential_thinning,
+    )  # fmt: skip
+    width = keys.face_width or min(USUAL_SHARE * gear.cone_distance, USUAL_FACE * keys.module)
+    return replace(gear, face_width=width)
+
+
+def _made(keys: BevelGearSpec) -> BevelGear:
+    """The gear with its blank, checked to exist."""
+    holes = hub_holes(bore_of(keys), None, None)
+    if holes.bore is not None:
+        holes.bore.check()
+    usual = _USUAL_RIM * keys.module
+    rim = usual if keys.rim_thickness is None else keys.rim_thickness
+    gear = bevel_gear(keys, Blank(rim, keys.hub_diameter, keys.hub_length, *holes.profiles(0.0)))
+    if keys.rim_thickness is None:
+        # half of what a hub or a bore leaves of it at most
+        room = gear.rim_room - max(keys.hub_diameter / 2, holes.bore_reach) / math.cos(gear.pitch_angle)
+        rim = min(usual, max(room / 2, _LEAST_RIM * keys.module))
+        gear = replace(gear, blank=replace(gear.blank, rim_thickness=rim))
+    if keys.mounting_distance is not None:
+        gear = _mounted(keys, gear, keys.mounting_distance)
+    if bool(gear.blank.hub_diameter) != bool(gear.blank.hub_length):
+        key = "hub_length" if keys.hub_diameter else "hub_diameter"
+        raise ParameterError(key, getattr(keys, key), "bevel_hub_half_told")
+    gear = gear.checked()
+    if holes.bore_reach > gear.bore_room:
+        raise wide_bore(keys, gear.bore_room, "leaves_no_wall")
+    return gear
+
+
+def _mounted(keys: BevelGearSpec, gear: BevelGear, distance: float) -> BevelGear:
+    """The gear whose back face lies so far from the apex, mm."""
+    key = "hub_length" if keys.hub_diameter else "rim_thickness"
+    if getattr(keys, key):
+        raise either("mounting_distance", distance, key)
+    begins = gear.rim.imag if keys.hub_diameter else gear.outer(gear.root_angle).imag
+    if distance <= begins:
+        raise ParameterError("mounting_distance", distance, "bevel_mounted_in_teeth",
+                             limit(begins + 0.01 * keys.module, distance), least=begins)  # fmt: skip
+    if keys.hub_diameter:
+        return replace(gear, blank=replace(gear.blank, hub_length=distance - begins))
+    return replace(gear, blank=replace(gear.blank, rim_thickness=(distance - begins) / math.sin(gear.pitch_angle)))
+
+
+class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
+    """A straight bevel gear: its back face at z = 0, the apex of its cones above, a tooth on +x."""
+
+    name, keys, has_outline = "bevel_gear", BevelGearSpec, False
+    page = "parts.gears.bevel_gear.page"
+
+    def thing(self, keys: BevelGearSpec, others: Others) -> BevelGear:
+        """The gear, checked to exist."""
+        return _made(keys)
+
+    def section(self, keys: BevelGearSpec, thing: BevelGear, offset: float) -> OffsetRegion:
+        """Its outer end as seen along the axis, for pictures: nothing flat is cut from it."""
+        from geometry.gears.bevel.faces import seen_profile
+        from geometry.plane.offset_region import OffsetRegion
+        from geometry.plane.profile import Region
+
+        _still(offset)
+        holes = () if thing.blank.bore is None else (thing.blank.bore,)
+        return OffsetRegion(Region(seen_profile(thing, 1e-6), holes), 0.0, ())
+
+    def solid(self, keys: BevelGearSpec, thing: BevelGear, offset: float) -> FacedBody:
+        """The gear."""
+        from geometry.gears.bevel.faces import faced_bevel
+
+        _still(offset)
+        return faced_bevel(thing)
+
+    def height(self, keys: BevelGearSpec, thing: BevelGear) -> float:
+        """From the back face to the inner tip circle."""
+        return thing.height
+
+    def is_plate(self, keys: BevelGearSpec, thing: BevelGear) -> bool:
+        """Never."""
+        return False
+
+    def report(self, keys: BevelGearSpec, thing: BevelGear) -> Report:
+        """Diameters of the outer end, cones, and where it is mounted."""
+        circles = {
+            "tip_diameter": 2 * thing.outer(thing.tip_angle).real,
+            "reference_diameter": 2 * thing.outer(thing.pitch_angle).real,
+            "root_diameter": 2 * thing.outer(thing.root_angle).real,
+        }
+        quantities = {
+            "face_width": thing.face_width,
+            "outer_cone_distance": thing.cone_distance,
+            "pitch_cone_angle_deg": math.degrees(thing.pitch_angle),
+            "tip_cone_angle_deg": math.degrees(thing.tip_angle),
+            "root_cone_angle_deg": math.degrees(thing.root_angle),
+            "base_cone_angle_deg": math.degrees(thing.involute.base),
+            "virtual_teeth": thing.virtual_teeth,
+            "outer_tip_thickness": thing.tip_land,
+            "mounting_distance": thing.mounting_distance,
+            "tip_circle_to_apex": thing.outer(thing.tip_angle).imag,
+        }
+        return Report(tuple(bevel_findings(thing)), circles, quantities)
+
+
+BEVEL_GEAR = BevelGearKind()
+
+
+def bevel_findings(gear: BevelGear) -> list[Finding]:
+    """What a bevel gear had better not have: undercut, thin tips, a face too wide for its cones."""
+    found = []
+    if gear.is_undercut:
+        begins = gear.involute.angle(gear.joint[1])
+        found.append(
+            Finding("bevel_undercut", gear.outer(float(begins)).real * 2, gear.outer(gear.root_angle).real * 2)
+        )
+    if gear.tip_land < _THIN * gear.module:
+        found.append(Finding("thin_tip", gear.tip_land, _THIN * gear.module))
+    if gear.face_width > (most := min(USUAL_SHARE * gear.cone_distance, USUAL_FACE * gear.module)) * (1 + 1e-9):
+        found.append(Finding("bevel_wide_face", gear.face_width, most))
+    return found
+
+
+def _still(offset: float) -> None:
+    """What is parallel to a cone over an involute meets its apex no more."""
+    if offset != 0:
+        raise OffsetError(offset, "bevel_not_moved")

@@ -1,0 +1,153 @@
+"""Two bevel gears in mesh: their apexes are one, and a tooth of one stands in a space of the other."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING, Annotated, Any
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.findings import Finding
+from geometry.base.record import replace
+from parts.base.mate import End, MateKind, Pose, Standing, Touching
+from parts.keys.base import mm
+from parts.keys.mate import GearPairKeys
+from parts.mates.sizes import same_size
+from parts.mates.thinning import shared_thinning
+
+if TYPE_CHECKING:
+    from geometry.base.placement import Vector
+    from geometry.gears.bevel.gear import BevelGear
+    from geometry.gears.bevel.pair import BevelPair
+    from geometry.gears.mesh.search import PairContact
+    from geometry.kinematics.mechanism import Joint
+
+# keys that both have alike, and those of which the second has the negative
+_ALIKE = ("module", "shaft_angle_deg", "pressure_angle_deg", "addendum_coefficient", "tip_clearance_coefficient")
+_OPPOSITE = ("profile_shift_coefficient", "thickness_coefficient")
+# of the module
+_ROUNDING = 1e-9
+
+
+class BevelPairSpec(GearPairKeys, tag="bevel_pair", kw_only=True):
+    """Keys of ``bevel_pair``."""
+
+    normal_backlash: (
+        Annotated[
+            float,
+            mm("normal backlash at the outer end: thins both gears by half", least=0, most=100, example=0.1),
+        ]
+        | None
+    ) = None
+
+
+class BevelMating(Touching):
+    """Two bevel gears; the second's axis is laid so that the apexes meet."""
+
+    pair: BevelPair
+
+    # flanks touch along rays of the apex: meshes cannot tell
+    decides_solids = True
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Teeth on teeth; seen from the apex both turn in opposite senses."""
+        from geometry.kinematics.mechanism import Rolling
+
+        first, second = (gear.number_of_teeth for gear in self.pair.gears)
+        return (Rolling("bevel", self.first, self.second, (first, second), sense=-1),)
+
+    def second_axis(self, direction: float) -> Vector:
+        """From the second's back face to the apex."""
+        angle = self.pair.first.shaft_angle
+        aside = cmath.rect(-math.sin(angle), direction)
+        return aside.real, aside.imag, math.cos(angle)
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """Where a space of the second stands on the tooth, or a tooth on the space, of the first."""
+        first, second = self.pair.gears
+        ahead = math.remainder(rotation - direction, math.tau / first.number_of_teeth)
+        turn = math.pi / second.number_of_teeth - ahead * first.number_of_teeth / second.number_of_teeth
+        return centre + cmath.rect(self.distance, direction), direction + math.pi + turn
+
+    def standing(self, first: Pose, second: Pose) -> Standing | None:
+        """It is placed by its mate alone."""
+        return None
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict over one pitch, on the sphere about the apex."""
+        return self.pair.contact(phase_off, tolerance)
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Whether a tip meets what is no flank, or a root, and whether one tooth follows on the other."""
+        found = []
+        names = ("first", "second")
+        for name, gear, reserve in zip(names, self.pair.gears, self.pair.form_reserves, strict=True):
+            if reserve < -_ROUNDING * gear.module:
+                begins = gear.joint[1] * gear.cone_distance
+                code = f"active_flank_cut_away_{name}" if gear.is_undercut else f"fillet_interference_{name}"
+                found.append(Finding(code, begins + reserve, begins))
+        if self.pair.contact_ratio < 1:
+            found.append(Finding("contact_ratio", self.pair.contact_ratio, 1.0))
+        return tuple(found)
+
+    def quantities(self) -> dict[str, Any]:
+        """Ratio, contact ratio, clearances."""
+        clearances = self.pair.bottom_clearances
+        return {
+            "ratio": self.pair.ratio,
+            "transverse_contact_ratio": self.pair.contact_ratio,
+            "normal_backlash": self.pair.normal_backlash,
+            "bottom_clearance_at_root": {"first": clearances[0], "second": clearances[1]},
+        }
+
+
+class BevelPairKind(MateKind[BevelPairSpec, "BevelGear", "BevelGear"]):
+    """Two bevel gears made for each other."""
+
+    name, keys = "bevel_pair", BevelPairSpec
+    joins = (("bevel_gear", "bevel_gear"),)
+
+    def thinning(self, keys: BevelPairSpec, first: End[BevelGear], second: End[BevelGear]) -> tuple[float, float]:
+        """Half of the backlash each."""
+        if keys.normal_backlash is None:
+            return 0.0, 0.0
+        gears = (first.thing, second.thing)
+
+        def build(index: int, thinning: float) -> BevelGear:
+            return replace(gears[index], circumferential_thinning=thinning).checked()
+
+        return shared_thinning(keys.normal_backlash, gears, build, math.cos(first.thing.pressure_angle))
+
+    def mating(self, keys: BevelPairSpec, first: End[BevelGear], second: End[BevelGear]) -> BevelMating:
+        """Each must be what the other one is made for."""
+        from geometry.gears.bevel.pair import BevelPair
+
+        _check(first, second)
+        pair, angle = BevelPair(first.thing, second.thing), first.thing.shaft_angle
+        distances = first.thing.mounting_distance, second.thing.mounting_distance
+        return BevelMating(
+            *self.joined(keys),
+            direction_deg=keys.direction_deg,
+            height=distances[0] - distances[1] * math.cos(angle),
+            distance=distances[1] * math.sin(angle),
+            module=first.thing.module,
+            normal_backlash=pair.normal_backlash,
+            first_teeth=first.thing.number_of_teeth,
+            pair=pair,
+        )
+
+
+def _check(first: End[BevelGear], second: End[BevelGear]) -> None:
+    """Refuse the second's key in which it is not what the first is made for."""
+    one, other = first.keys, second.keys
+    for key, wanted in (("number_of_teeth", "mate_teeth"), ("mate_teeth", "number_of_teeth")):
+        if getattr(other, key) != getattr(one, wanted):
+            raise ParameterError(key, getattr(other, key), "not_of_its_mate", Nearest(getattr(one, wanted)))
+    for key in _ALIKE:
+        same_size(key, getattr(other, key), getattr(one, key), "not_of_its_mate")
+    for key in _OPPOSITE:
+        same_size(key, getattr(other, key), -getattr(one, key) or 0.0, "not_of_its_mate")
+
+
+BEVEL_PAIR = BevelPairKind()

@@ -1,0 +1,197 @@
+"""The kind ``bevel_gear``, its mate and its page, through scenes and files."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import manifold3d
+import numpy as np
+import pytest
+
+from exporters.command.cli import main
+from exporters.documents.topics import calculate
+from parts.base.refusal import SceneError
+from parts.scene.load import load_scene, make_parts, scene_from_dict
+from parts.scene.placing import place
+from parts.solids.mesh import body_mesh, mesh_outlines
+from tests.exporters.making import read_report, write_scene
+from tests.exporters.spoil import Records, change_stl, corner_shifted, triangle_flipped
+
+PINION: dict[str, Any] = {
+    "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 12, "mate_teeth": 18, "profile_shift_coefficient": 0.2,
+    "hub_diameter": 16.0, "hub_length": 4.0, "bore_diameter": 6.0,
+}  # fmt: skip
+WHEEL: dict[str, Any] = {
+    "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 18, "mate_teeth": 12, "profile_shift_coefficient": -0.2,
+    "bore": {"shape": "hexagon", "across_flats": 8.0},
+}  # fmt: skip
+
+
+def scene(pinion: dict[str, Any] | None = None, wheel: dict[str, Any] | None = None, **mate: Any) -> dict[str, Any]:
+    """A pair, the wheel first."""
+    return {
+        "parts": {"pinion": PINION | (pinion or {}), "wheel": WHEEL | (wheel or {})},
+        "instances": {"wheel": {"part": "wheel", "rotation_deg": 13.0}},
+        "mates": [{"kind": "bevel_pair", "first": "wheel", "second": "pinion", "direction_deg": 40.0, **mate}],
+    }
+
+
+def tip_pressed_in(records: Records, at: int, step: float) -> Records:
+    """The outermost vertex moved towards the axis in all its triangles: the mesh stays closed."""
+    corners = records["corners"]
+    flat = corners.reshape(-1, 3)
+    chosen = flat[np.hypot(flat[:, 0], flat[:, 1]).argmax()].copy()
+    moved = chosen * np.array([1 - step / np.hypot(*chosen[:2]), 1 - step / np.hypot(*chosen[:2]), 1.0], np.float32)
+    corners[np.all(corners == chosen, axis=2)] = moved
+    return records
+
+
+def solids(raw: dict[str, Any], turned: float = 0.0) -> list[Any]:
+    """Both in their places as meshes; the second turned about its axis by so many degrees."""
+    file = scene_from_dict(raw, "s", "s")
+    parts, matings = make_parts(file, "s")
+    found = []
+    for instance in place(file.instances, [], parts, matings, "s").instances:
+        body = parts[instance.part].body(0.0)
+        mesh = body_mesh(body, mesh_outlines(body, 0.002, 0.0))
+        vertices = mesh.vertices
+        if instance.id == "pinion" and turned:
+            c, s = math.cos(math.radians(turned)), math.sin(math.radians(turned))
+            vertices = vertices @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]).T
+        vertices = instance.scene_from_part.apply(vertices)
+        own = manifold3d.Mesh(vertices.astype(np.float32), mesh.triangles.astype(np.uint32))
+        found.append(manifold3d.Manifold(own))
+    return found
+
+
+@pytest.mark.parametrize("angle", [90.0, 65.0])
+def test_teeth_stand_in_spaces_wherever_the_first_stands(angle: float) -> None:
+    """By meshes alone: a gap of half the backlash in place; turned by a third of a pitch they clash."""
+    turn = {"shaft_angle_deg": angle}
+    raw = scene(turn, turn, normal_backlash=0.2)
+    wheel, pinion = solids(raw)
+    assert (wheel ^ pinion).volume() < 1e-6
+    parts, _ = make_parts(scene_from_dict(raw, "s", "s"), "s")
+    gear = parts["wheel"].thing
+    # least at the inner end
+    least = 0.1 * gear.inner_distance / gear.cone_distance
+    assert wheel.min_gap(pinion, 1.0) == pytest.approx(least, abs=0.006)
+    wheel, pinion = solids(raw, turned=10.0)
+    assert (wheel ^ pinion).volume() > 1.0
+
+
+def test_check_tells_ratio_contact_and_turns(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "bevel_pair"]) == 0
+    said = capsys.readouterr().out
+    assert "ratio 0.5" in said
+    assert "CLEAR, least gap 0.05 mm" in said
+    assert "pinion = 2, wheel = -1" in said
+
+
+def test_files_hold_what_they_declare_and_spoiled_ones_are_found(tmp_path: Path) -> None:
+    exports = [{"format": "step"}, {"format": "stl", "tolerance": 0.02}]
+    file = write_scene(tmp_path / "s.toml", {"pinion": PINION}, exports)
+    out = tmp_path / "out"
+    assert main(["build", str(file), "--out", str(out)]) == 0
+    folder = out / "s"
+    report = read_report(folder)
+    assert report["parts"]["pinion"]["outer_cone_distance"] == pytest.approx(2 * math.hypot(12, 18) / 2, rel=1e-12)
+    whole = (folder / "pinion.step").read_text()
+    # a pole in the middle of a flank
+    numbers = list(re.finditer(r"CARTESIAN_POINT\('',\((-?[\d.E+-]+),", whole))
+    spot = numbers[len(numbers) // 3]
+    (folder / "pinion.step").write_text(whole[: spot.start(1)] + f"{float(spot[1]) + 2e-3:.9f}" + whole[spot.end(1) :])
+    assert main(["verify", str(folder / "pinion.step")]) == 1
+    (folder / "pinion.step").write_text(whole)
+    assert main(["verify", str(folder / "pinion.step")]) == 0
+    mesh = (folder / "pinion.stl").read_bytes()
+    for change in (corner_shifted, triangle_flipped, tip_pressed_in):
+        change_stl(folder / "pinion.stl", change, 0.4, 0.05)
+        assert main(["verify", str(folder / "pinion.stl")]) == 1, change.__name__
+        (folder / "pinion.stl").write_bytes(mesh)
+
+
+@pytest.mark.parametrize(
+    ("pinion", "wheel", "key", "told"),
+    [
+        ({}, {"number_of_teeth": 19}, "parts.pinion.mate_teeth", "19"),
+        ({}, {"module": 2.5}, "parts.pinion.module", "2.5"),
+        ({}, {"profile_shift_coefficient": 0.1}, "parts.pinion.profile_shift_coefficient", "-0.1"),
+        ({"shaft_angle_deg": 80.0}, {}, "parts.pinion.shaft_angle_deg", "90"),
+        ({"mounting_distance": 10.0, "hub_length": 0.0}, {}, "parts.pinion.mounting_distance", "at least 19.9014 mm"),
+        ({"mounting_distance": 40.0}, {}, "parts.pinion.mounting_distance", "hub_length"),
+        ({"hub_length": 0.0}, {}, "parts.pinion.hub_length", "needs its diameter and its length"),
+        ({"bore_diameter": 15.9}, {}, "parts.pinion.bore_diameter", "at most 1"),
+        ({"hub_diameter": 30.0}, {}, "parts.pinion.hub_diameter", "at most 20"),
+        ({"circumferential_thinning": 9.0}, {}, "parts.pinion.circumferential_thinning", "leaves no tip"),
+        ({"face_width": 30.0}, {}, "parts.pinion.face_width", "apex"),
+    ],
+)  # fmt: skip
+def test_wrong_keys_are_refused_in_one_line(pinion: dict[str, Any], wheel: dict[str, Any], key: str, told: str) -> None:
+    raw = scene(pinion, wheel)
+    with pytest.raises(SceneError) as caught:
+        make_parts(scene_from_dict(raw, "s", "s"), "s")
+    said = str(caught.value)
+    assert key in said
+    assert told in said
+
+
+def test_a_mounting_distance_sets_the_hub_or_the_rim() -> None:
+    for keys, mounted in ((PINION | {"hub_length": 0.0, "mounting_distance": 30.0}, 30.0),
+                          (WHEEL | {"mounting_distance": 17.0}, 17.0)):  # fmt: skip
+        part = make_parts(scene_from_dict({"parts": {"p": keys}}, "s", "s"), "s")[0]["p"]
+        low, high = part.body(0.0).levels()
+        tip = part.thing.inner(part.thing.tip_angle)
+        assert (low, high) == pytest.approx((0.0, mounted - tip.imag), abs=1e-12)
+
+
+def test_a_bevel_gear_that_is_offset_or_cut_flat_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = write_scene(tmp_path / "s.toml", {"pinion": PINION}, [{"format": "stl", "offset": 0.1}])
+    assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 2
+    assert "exports[1].offset = 0.1" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+    file = write_scene(tmp_path / "s.toml", {"pinion": PINION}, [{"format": "dxf"}])
+    assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 0
+    assert "pinion has no flat outline" in capsys.readouterr().out
+    assert not list((tmp_path / "out").rglob("*.dxf"))
+
+
+def test_the_page_tells_what_textbooks_tell() -> None:
+    """Dunaev, Lelikov, and GOST 19624 by hand: m 2.5, z 20/50, x 0.3 at a right angle, b 20."""
+    words = ["module=2.5", "number_of_teeth=20", "mate_teeth=50", "profile_shift_coefficient=0.3", "face_width=20",
+             "torque=30"]  # fmt: skip
+    told = json.loads(calculate("bevel", words, "json", "en"))["values"]
+    distance = 2.5 / 2 * math.hypot(20, 50)
+    small = math.atan(20 / 50)
+    expected = {
+        "outer_cone_distance": distance, "mean_cone_distance": distance - 10,
+        "outer_pitch_diameter": [50.0, 125.0], "outer_addendum": [3.25, 1.75], "outer_dedendum": [2.25, 3.75],
+        "pitch_cone_angle_deg": [math.degrees(small), 90 - math.degrees(small)],
+        "outer_tip_circle": [50 + 6.5 * math.cos(small), 125 + 3.5 * math.sin(small)],
+        "tip_circle_to_apex": [62.5 - 3.25 * math.sin(small), 25 - 1.75 * math.cos(small)],
+        "dedendum_angle_deg": [math.degrees(math.atan(h / distance)) for h in (2.25, 3.75)],
+        "virtual_teeth": [20 / math.cos(small), 50 / math.sin(small)],
+    }  # fmt: skip
+    for name, value in expected.items():
+        found = told[name]
+        assert (list(found.values()) if isinstance(found, dict) else found) == pytest.approx(value, rel=1e-9), name
+    along = 2000 * 30 / (50 * (1 - 10 / distance))
+    assert told["circumferential_force"] == pytest.approx(along, rel=1e-9)
+    radial, axial = (list(told[f"{name}_force"].values()) for name in ("radial", "axial"))
+    # what pushes one aside pushes the other along
+    assert radial == pytest.approx(axial[::-1], rel=1e-12)
+    assert math.hypot(along, radial[0], axial[0]) == pytest.approx(told["normal_force"], rel=1e-12)
+
+
+def test_the_page_of_a_scene_and_its_refusals() -> None:
+    assert "δ1" in calculate("bevel", ["bevel_pair", "part=wheel"], "text", "en")
+    # the mate's shift is the negative of the one that is given
+    with pytest.raises(SceneError, match="profile_shift_coefficient"):
+        calculate(
+            "bevel", ["module=2", "number_of_teeth=40", "mate_teeth=8", "profile_shift_coefficient=-0.9"], "text", "en"
+        )
+    assert load_scene("bevel_pair").parts["pinion"].__struct_config__.tag == "bevel_gear"
