@@ -34,7 +34,7 @@ PAIR = ("module=3", "first.number_of_teeth=12", "second.number_of_teeth=60")
 SHEETS = [
     ("bevel", "bevel_pair", "part=pinion", "torque=12"),
     ("bevel", "module=3", "number_of_teeth=9", "mate_teeth=30", "normal_backlash=0.1", "shaft_angle_deg=75"),
-    ("bevel", "module=3", "number_of_teeth=30", "mate_teeth=16", "thickness_coefficient=0.03", "shaft_angle_deg=120"),
+    ("bevel", "module=3", "number_of_teeth=30", "mate_teeth=24", "thickness_coefficient=0.03", "shaft_angle_deg=120"),
     ("spur", "practicum_pair", "part=pinion"),
     ("spur", "module=2", "number_of_teeth=24", "profile_shift_coefficient=0.3", "circumferential_thinning=0.1",
      "helix_angle_deg=20", "diameter=50"),
