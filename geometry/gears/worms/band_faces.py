@@ -248,7 +248,8 @@ class BandFaces(WormRings):
         # even steps by their numbers, counted about this band's middle
         first = sum(c.alike for c in self.kinds[: self._even()])
         count = self.kinds[self._even()].alike if self.kinds[self._even()].step else 0
-        levels = {k: first + k for k in range(count + 1)}
+        # a short band has no column on an even step
+        levels = {k: first + k for k in range(count + 1)} if count else {}
 
         def level(number: int) -> float:
             return (number - count / 2) * self.step

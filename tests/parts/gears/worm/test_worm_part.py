@@ -25,7 +25,7 @@ from tests.parts.nearest import cured, refused
 from tests.parts.positive_scenes import parts_of
 
 WORM: dict[str, Any] = {"kind": "worm", "module": 5.0, "thread_length": 40.0}
-SHORT = "a thread shorter than its spaces are wide"
+SHORT = "a thread shorter than its spaces are wide", "blunt threads within less than a step"
 EXTREMES: dict[str, dict[str, Any]] = {
     # before: the plane ring between them had no points to be looked at
     "a shaft just under the root": {"end_angle_deg": 0.0, "shaft_below": [{"diameter": 37.985, "length": 9.0}]},
@@ -37,10 +37,13 @@ EXTREMES: dict[str, dict[str, Any]] = {
         "number_of_starts": 8, "diameter_quotient": 7.39, "tip_rounding": 0.6166, "thread_length": 44.0
     },
     # before: a traceback, since no line crosses the spaces between its ends
-    SHORT: {
+    SHORT[0]: {
         "module": 0.243, "number_of_starts": 5, "form": "ZN1", "addendum_coefficient": 0.825, "lead_angle_deg": 11.423,
         "tip_clearance_coefficient": 0.315, "thread_length": 1.077, "end_angle_deg": 41.4,
     },
+    # before: an upright edge between two angles, and no mesh was near enough
+    SHORT[1]: {"number_of_starts": 4, "diameter_quotient": 11.82, "form": "ZN2", "thread_length": 30.0,
+               "thread_ends": "blunt"},
     "plain ends": {"module": 3.0, "number_of_starts": 2, "thread_length": 16.0, "form": "ZA", "end_angle_deg": 0.0,
                    "shaft_below": [{"diameter": 22.8, "length": 4.0}]},
     "run out": {"thread_length": 20.0, "thread_ends": "run_out", "run_out_deg": 60.0, "hand": "left",
@@ -122,7 +125,7 @@ def test_the_flat_section_is_that_of_the_screw_surfaces(form: str) -> None:
 
 
 @pytest.mark.parametrize("name", [
-    name if name in ("plain ends", SHORT) else pytest.param(name, marks=pytest.mark.heavy) for name in EXTREMES
+    name if name in ("plain ends", *SHORT) else pytest.param(name, marks=pytest.mark.heavy) for name in EXTREMES
 ])  # fmt: skip
 def test_files_of_extreme_worms_are_read_back_as_they_should_be(name: str, tmp_path: Path) -> None:
     rows = []
