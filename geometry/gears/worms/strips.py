@@ -48,7 +48,8 @@ def fitted_knots(lines: int, points: Points, tolerance: float, reach: float) -> 
         v_knots = clamped(DEGREE, np.linspace(0.0, 1.0, spans[-1] + 1))
         u_knots = [clamped(DEGREE, np.linspace(0.0, 1.0, n + 1)) for n in spans[:-1]]
         errors = [_errors(points, k, knots, v_knots) for k, knots in enumerate(u_knots)]
-        worst = max(max(e) for e in errors)
+        # a spline that is off both ways is off by both
+        worst = max(map(sum, errors))
         if worst <= target:
             return Knots(u_knots, v_knots, worst)
         for k, (along, _) in enumerate(errors):

@@ -25,7 +25,7 @@ from tests.parts.nearest import cured, refused
 from tests.parts.positive_scenes import parts_of
 
 WORM: dict[str, Any] = {"kind": "worm", "module": 5.0, "thread_length": 40.0}
-SHORT = "a thread shorter than its spaces are wide", "blunt threads within less than a step"
+SHORT = "a thread shorter than its spaces are wide", "blunt threads within less than a step", "no step"
 EXTREMES: dict[str, dict[str, Any]] = {
     # before: the plane ring between them had no points to be looked at
     "a shaft just under the root": {"end_angle_deg": 0.0, "shaft_below": [{"diameter": 37.985, "length": 9.0}]},
@@ -44,6 +44,9 @@ EXTREMES: dict[str, dict[str, Any]] = {
     # before: an upright edge between two angles, and no mesh was near enough
     SHORT[1]: {"number_of_starts": 4, "diameter_quotient": 11.82, "form": "ZN2", "thread_length": 30.0,
                "thread_ends": "blunt"},
+    # before: called off by its read-back, since cells that are off both ways were told to be off by one
+    SHORT[2]: {"module": 1.0, "number_of_starts": 6, "diameter_quotient": 21.97, "form": "ZN2",
+               "thread_length": 2.8011, "end_angle_deg": 5.0},
     "plain ends": {"module": 3.0, "number_of_starts": 2, "thread_length": 16.0, "form": "ZA", "end_angle_deg": 0.0,
                    "shaft_below": [{"diameter": 22.8, "length": 4.0}]},
     "run out": {"thread_length": 20.0, "thread_ends": "run_out", "run_out_deg": 60.0, "hand": "left",
