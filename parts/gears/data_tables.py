@@ -87,7 +87,7 @@ def _gear(part: Part, mates: Sequence[Mated]) -> DataTable:
     hand = [_hand("double" if helix.double else helix.hand)] if helix.angle else []
     basic, own = _basic_rack(keys)
     shift = rows_of(page, (*own, *_RELIEF, *_SHIFT))
-    first = (*rows_of(page, _TEETH), *hand, *basic, *shift, *_grade(keys.accuracy))
+    first = (*rows_of(page, _TEETH), *hand, *basic, *shift, *grade_rows(keys.accuracy))
     apart = [m for m in mates if m.part.kind != "rack" and part.kind != "rack"]
     beside = _at_distances(apart, DataRow(N_("centre distance"), "a_w", 0.0, "mm"))
     others = _mates([m for m in mates if m not in apart])
@@ -137,7 +137,7 @@ def _worm(part: Part, mates: Sequence[Mated]) -> DataTable:
     page = worm_page.sheet(table)
     keys = part.keys
     assert isinstance(keys, WormSpec | WormWheelSpec)
-    hand, grade = _hand(keys.hand), _grade(keys.accuracy)
+    hand, grade = _hand(keys.hand), grade_rows(keys.accuracy)
     if isinstance(keys, WormSpec):
         first = _form_bare(rows_of(page, ("axial_module", "number_of_starts", "worm_form", "lead_angle_deg")))
         own = rows_of(page, (*_WORM, "worm_fillet_coefficient"))
@@ -162,7 +162,7 @@ def _hand(hand: str) -> DataRow:
     return DataRow(N_("direction of the tooth line"), "", _HANDS[hand])
 
 
-def _grade(accuracy: AccuracyTable | None) -> tuple[DataRow, ...]:
+def grade_rows(accuracy: AccuracyTable | None) -> tuple[DataRow, ...]:
     """The accuracy grade, where one is given."""
     if accuracy is None:
         return ()

@@ -13,6 +13,7 @@ from geometry.base.record import replace
 from geometry.gears.bevel.gear import BevelGear, Blank
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
+from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import BoreDiameter, degrees, either, in_modules, mm
 from parts.keys.holes import BoreTable, bore_of, hub_holes, wide_bore
 
@@ -85,6 +86,7 @@ class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_
     ) = None  # fmt: skip
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
+    accuracy: AccuracyKey = None
 
 
 def bevel_gear(keys: BevelGearSpec, blank: Blank) -> BevelGear:
@@ -142,6 +144,7 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
 
     name, keys, has_outline = "bevel_gear", BevelGearSpec, False
     page = "parts.gears.bevel_gear.page"
+    drawing = data_table = "parts.gears.bevel_gear.drawing"
 
     def thing(self, keys: BevelGearSpec, others: Others) -> BevelGear:
         """The gear, checked to exist."""

@@ -47,6 +47,8 @@ PARTS: dict[str, dict[str, Any]] = {
              "shaft_above": [{"diameter": 25.0, "length": 20.0, "chamfer": 1.0}]},
     "wheel": {"kind": "worm_wheel", "module": 4.0, "number_of_teeth": 30, "face_width": 30.0, "outer_diameter": 136.0,
               "bore_diameter": 25.0},
+    "bevel": {"kind": "bevel_gear", "module": 3.0, "number_of_teeth": 20, "mate_teeth": 40, "hub_diameter": 34.0,
+              "profile_shift_coefficient": 0.3, "hub_length": 12.0, "bore": {"shape": "keyway", "diameter": 16.0}},
     "bearing": {"kind": "turned", "points": [
         {"r": 20.0, "z": 0.0}, {"r": 31.0, "z": 0.0, "chamfer": 1.0}, {"r": 31.0, "z": 16.0}, {"r": 20.0, "z": 16.0},
         {"r": 20.0, "z": 11.0, "arc": -3.5}, {"r": 20.0, "z": 5.0}]},
@@ -102,6 +104,22 @@ def oval_axis(teeth: int, module: float, ratio: float) -> float:
     return float(ratio * mpmath.pi * module * teeth / (4 * mpmath.quad(arc, [0, mpmath.pi / 2])))
 
 
+def bevel_sizes() -> list[float]:
+    """Of m 3, z 20 / 40, x 0.3, by GOST 19624: three tenths of R_e wide, all cones in one apex."""
+    d = math.atan(0.5)
+    radius, high, deep = 30.0, 3.9, 2.7
+    cone, share = radius / math.sin(d), 0.7
+    root = radius - deep * math.cos(d)
+    # the rim is half as thick as the hub leaves room, a hundredth of a module aside
+    rim = (root - 0.03 - 17.0) / math.cos(d) / 2
+    mounted = cone * math.cos(d) + deep * math.sin(d) + rim * math.sin(d) + 12.0
+    tip, above = radius + high * math.cos(d), cone * math.cos(d) - high * math.sin(d)
+    front = cone * math.cos(d) + deep * math.sin(d)
+    keyway = [16.0, 18.3, 5.0, 0.25]
+    return [2 * tip, 2 * share * tip, 2 * share * root, 2 * (root - rim * math.cos(d)), 34.0, 12.0, mounted,
+            mounted - above, mounted - share * above, mounted - share * front, *keyway]  # fmt: skip
+
+
 # what each drawing must measure, mm: typed sizes, those of the standards (d_a = m (z + 2 x + 2), DIN 6885, GOST 19650)
 SIZES: dict[str, list[float]] = {
     "gear": [84, 20, 25, 64, 49, 34, 8, 6, 1, 20, 22.8, 6, 0.25, 9],
@@ -111,6 +129,7 @@ SIZES: dict[str, list[float]] = {
     "cam": [80, 10, 18, 30, 12],
     "worm": [48, 25, 8, 50, 70, 1],
     "wheel": [136, 128, 25, 30, 15, 16],
+    "bevel": bevel_sizes(),
     "bearing": [62, 40, 16, 1, 3.5, 5, 6],
     # the cone of a centre hole opens to 2.12 d at 60 degrees, its tip is that of a drill of 120 degrees
     "shaft": [20, 30, 30, 70, 1, 20, 5, 6, 16.5, 2, 4.24, *(np.cumsum([1.12 * math.sqrt(3), 2, 1 / math.sqrt(3)]))],

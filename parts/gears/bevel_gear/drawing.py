@@ -1,0 +1,122 @@
+"""The working drawing of a bevel gear: in section, teeth not cut (GOST 2.402), and the table of its rim (2.405)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from geometry.base.record import replace
+from geometry.curves.line_arc import Line
+from geometry.gears.bevel.gear import BevelGear
+from geometry.solids.bores import RoundBore
+from parts.base.part import Part
+from parts.base.texts import N_, Message
+from parts.drawing.directions import directions
+from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
+from parts.drawing.turned_sizes import Fits, turned_sizes
+from parts.drawing.wheel_views import bore_note, bore_radii, bore_view, keyway_edges, seen_along
+from parts.drawing.working import AXIS, VISIBLE, Note, PartDrawing, Size, Stroke, Subject, View, requirements
+from parts.gears.bevel_gear import page as bevel_page
+from parts.gears.bevel_gear.part import BevelGearSpec
+from parts.gears.data_tables import grade_rows
+from parts.keys.holes import bore_of, hub_holes
+from parts.pages.data_table import DataRow, DataTable, Mated, row_of, standard_told
+from parts.pages.inputs import SceneKeys, given
+from parts.pages.page import Sheet
+from parts.pages.terms import TERMS
+
+# the basic rack of GOST 13754-81, which the table then tells by its name
+_RACK = {"pressure_angle_deg": 20.0, "addendum_coefficient": 1.0, "tip_clearance_coefficient": 0.2,
+         "tip_radius_coefficient": 0.2}  # fmt: skip
+# sides of sizes across the axis
+_ACROSS = ("left", "right")
+
+
+def part_drawing(subject: Subject) -> PartDrawing:
+    """The gear in section, and its bore where that is not round."""
+    keys, gear = subject.part.keys, subject.part.thing
+    assert isinstance(keys, BevelGearSpec)
+    holes = hub_holes(bore_of(keys), None, None)
+    up, down = bore_radii(holes.bore)
+    strokes: list[Stroke] = []
+    hatched = []
+    for way, bore in ((1, up), (-1, down)):
+        tips: Loop = _half(gear, bore, gear.tip_angle)
+        roots: Loop = _half(gear, bore, gear.root_angle)
+        if way < 0:
+            tips, roots = below(tips), below(roots)
+        strokes += outlined(tips)
+        lines = [Line(*_ends(gear, angle)) for angle in (gear.root_angle, gear.pitch_angle)]
+        root, pitch = (line if way > 0 else Line(line.start.conjugate(), line.end.conjugate()) for line in lines)
+        strokes += [(VISIBLE, root), (AXIS, pitch)]
+        edges = seen_edges(_half(gear, bore, gear.root_angle), cut=True)
+        strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in edges]
+        hatched.append(tuple(roots))
+    high = gear.mounting_distance - gear.front.imag
+    strokes += [(VISIBLE, edge) for edge in keyway_edges(holes.bore, 0.0, high)]
+    wishes = subject.wishes
+    is_round = holes.bore is None or isinstance(holes.bore, RoundBore)
+    fits = Fits("", wishes.bore, wishes.tip)
+    half = _half(gear, up if is_round else 0.0, gear.tip_angle)
+    told = turned_sizes(half, fits, subject.language).sizes
+    # the inner tip circle ends an outer and an inner cone
+    alone = {(size.before, size.side in _ACROSS, round(size.value, 7)): size for size in reversed(told)}
+    sizes = [*reversed(alone.values())]
+    sizes.append(Size("mounting_distance", 0j, complex(gear.mounting_distance), "below"))
+    axes = (Line(0j, complex(gear.mounting_distance)),)
+    outer, inner = _ends(gear, gear.pitch_angle)
+    notes = [Note((outer + inner) / 2, f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)]
+    if holes.bore is not None:
+        notes.append(bore_note((0.0, high), -down, f"Ra {subject.say(wishes.bore_roughness)}"))
+    view = View(tuple(strokes), tuple(hatched), axes, tuple(sizes), notes=tuple(notes))
+    more = directions(holes, subject, "zero_tooth", keys.number_of_teeth)
+    if holes.bore is None or is_round:
+        return PartDrawing((view,), requirements(subject, *more))
+    return PartDrawing((seen_along(view, high, subject), bore_view(holes.bore, subject)), requirements(subject, *more))
+
+
+def _place(gear: BevelGear, place: complex) -> complex:
+    """Radius and distance from the apex as they are drawn: height and radius."""
+    return complex(gear.mounting_distance - place.imag, place.real)
+
+
+def _ends(gear: BevelGear, angle: float) -> tuple[complex, complex]:
+    """The outer and the inner end of a cone of the teeth, as drawn."""
+    return _place(gear, gear.outer(angle)), _place(gear, gear.inner(angle))
+
+
+def _half(gear: BevelGear, bore: float, angle: float) -> tuple[Line, ...]:
+    """Half the section up to a cone of the teeth, from the bore on the back face on."""
+    blank, rim, front = gear.blank, _place(gear, gear.rim), _place(gear, gear.front)
+    hub = [complex(0, blank.hub_diameter / 2), complex(blank.hub_length, blank.hub_diameter / 2)]
+    points = [1j * bore, *(hub if blank.hub_length else []), rim, *_ends(gear, angle), front,
+              complex(front.real, bore)]  # fmt: skip
+    return closed(points)
+
+
+def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTable:
+    """The table of the rim; ``mates``: what meshes with it."""
+    keys, gear = part.keys, part.thing
+    assert isinstance(keys, BevelGearSpec)
+    page = bevel_page.sheet(given(keys) | {"circumferential_thinning": gear.circumferential_thinning})
+    standard = all(getattr(keys, key) == value for key, value in _RACK.items())
+    rack = (DataRow(N_("basic rack"), "", standard_told("GOST 13754-81")),) if standard else _rows(page, *_RACK)
+    first = (
+        *_rows(page, "outer_module", "number_of_teeth"), DataRow(N_("type of tooth"), "", N_("straight")), *rack,
+        *_rows(page, "profile_shift_coefficient", "thickness_coefficient", "pitch_cone_angle_deg",
+               "tip_cone_angle_deg", "root_cone_angle_deg"),
+        *grade_rows(keys.accuracy),
+    )  # fmt: skip
+    height, chord = _rows(page, "outer_chord_height", "outer_chord")
+    limits = None if keys.accuracy is None else keys.accuracy.deviations
+    control = height, replace(chord, deviations=limits and (max(limits), min(limits)))
+    last = _rows(page, "shaft_angle_deg", "outer_cone_distance", "mean_pitch_diameter")
+    teeth = DataRow(N_("teeth of the mate"), "z", keys.mate_teeth)
+    drawings = dict.fromkeys(getattr(m.part.keys, "designation", None) or m.part.title or m.part.id for m in mates)
+    beside = [DataRow(N_("drawing of the mate"), "", Message("{name}", {"name": name})) for name in drawings]
+    return DataTable((first, control, (*last, teeth, *beside)))
+
+
+def _rows(page: Sheet, *names: str) -> tuple[DataRow, ...]:
+    """The steps of these names that are of this gear or of both."""
+    steps = [step for name in names for step in page.steps() if step.name == name and step.gear < 2]
+    return tuple(replace(row_of(step), symbol=TERMS[step.name].symbol) for step in steps)
