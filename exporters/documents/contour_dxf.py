@@ -14,7 +14,8 @@ from parts.pages.contour_picture import clipped, grid_step, kinds_shown, line_ti
 # mm of the drawing for one module of shift
 SCALE = 100.0
 _TEXT, _ROW, _MILLIMETRES = 5.0, 9.0, 4
-# ACI colours, in turn
+# ACI colours, those of the lines in turn
+_FIXED = {"REGION": 3, "AXES": 8, "KEY": 7, "CHOICES": 6}
 _COLOURS = (1, 5, 30, 6, 4, 94, 170, 200, 34, 8)
 
 
@@ -30,15 +31,15 @@ def write_contour_dxf(
         drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
     drawing.header["$LUNITS"] = 2
     drawing.header["$MEASUREMENT"] = 1
-    page = _Page(drawing)
-    for ring in contour.region:
-        page.polyline(ring, "REGION", 3)
     colours = {name: _COLOURS[k % len(_COLOURS)] for k, name in enumerate(dict.fromkeys(i.name for i in contour.lines))}
+    page = _Page(drawing, _FIXED | {_layer(line.name, line.level): colours[line.name] for line in contour.lines})
+    for ring in contour.region:
+        page.polyline(ring, "REGION")
     for line in contour.lines:
         for piece in clipped(line.points, contour.box):
-            page.polyline(piece, _layer(line.name, line.level), colours[line.name])
+            page.polyline(piece, _layer(line.name, line.level))
     _axes(page, contour)
-    bottom = _key(page, contour, marks, colours, words)
+    bottom = _key(page, contour, marks, words)
     box = contour.box
     low = min(bottom, box.bottom * SCALE - 20)
     page.space.reset_extents((box.left * SCALE - 20, low, 0.0), (box.right * SCALE + 250, box.top * SCALE + 20, 0.0))
@@ -50,33 +51,33 @@ def write_contour_dxf(
 class _Page:
     """A drawing that counts what is put on it; points in modules, texts in mm."""
 
-    def __init__(self, drawing: Any) -> None:
-        self.drawing, self.space = drawing, drawing.modelspace()
+    def __init__(self, drawing: Any, colours: dict[str, int]) -> None:
+        self.drawing, self.space, self.colours = drawing, drawing.modelspace(), colours
         self.counts: dict[str, int] = {}
 
-    def _on(self, kind: str, layer: str, colour: int) -> dict[str, Any]:
+    def _on(self, kind: str, layer: str) -> dict[str, Any]:
         if layer not in self.drawing.layers:
-            self.drawing.layers.add(layer, color=colour)
+            self.drawing.layers.add(layer, color=self.colours[layer])
         self.counts[kind] = self.counts.get(kind, 0) + 1
         return {"layer": layer}
 
-    def polyline(self, points: Iterable[complex], layer: str, colour: int) -> None:
-        attributes = self._on("LWPOLYLINE", layer, colour)
+    def polyline(self, points: Iterable[complex], layer: str) -> None:
+        attributes = self._on("LWPOLYLINE", layer)
         self.space.add_lwpolyline([(p.real * SCALE, p.imag * SCALE) for p in points], dxfattribs=attributes)
 
-    def line(self, start: complex, end: complex, layer: str, colour: int) -> None:
+    def line(self, start: complex, end: complex, layer: str) -> None:
         """mm."""
-        attributes = self._on("LINE", layer, colour)
+        attributes = self._on("LINE", layer)
         self.space.add_line((start.real, start.imag), (end.real, end.imag), dxfattribs=attributes)
 
-    def circle(self, centre: complex, layer: str, colour: int) -> None:
+    def circle(self, centre: complex, layer: str) -> None:
         """mm."""
-        attributes = self._on("CIRCLE", layer, colour)
+        attributes = self._on("CIRCLE", layer)
         self.space.add_circle((centre.real, centre.imag), 2.0, dxfattribs=attributes)
 
-    def text(self, at: complex, text: str, layer: str, colour: int) -> None:
+    def text(self, at: complex, text: str, layer: str) -> None:
         """mm."""
-        attributes = {**self._on("TEXT", layer, colour), "insert": (at.real, at.imag)}
+        attributes = {**self._on("TEXT", layer), "insert": (at.real, at.imag)}
         self.space.add_text(text, height=_TEXT, dxfattribs=attributes)
 
 
@@ -88,27 +89,21 @@ def _axes(page: _Page, contour: BlockingContour) -> None:
     """The box, the axes x1 = 0 and x2 = 0 where they lie in it, and numbers along two of its sides."""
     box, step = contour.box, grid_step(contour.box)
     corners = complex(box.left, box.bottom), complex(box.right, box.bottom), complex(box.right, box.top)
-    page.polyline((*corners, complex(box.left, box.top), corners[0]), "AXES", 8)
+    page.polyline((*corners, complex(box.left, box.top), corners[0]), "AXES")
     low, high = corners[0] * SCALE, corners[2] * SCALE
     if box.left < 0 < box.right:
-        page.line(complex(0, low.imag), complex(0, high.imag), "AXES", 8)
+        page.line(complex(0, low.imag), complex(0, high.imag), "AXES")
     if box.bottom < 0 < box.top:
-        page.line(complex(low.real, 0), complex(high.real, 0), "AXES", 8)
+        page.line(complex(low.real, 0), complex(high.real, 0), "AXES")
     for k in range(math.ceil(box.left / step), math.floor(box.right / step) + 1):
-        page.text(complex(k * step * SCALE - 4, low.imag - 8), f"{k * step:.3g}", "AXES", 8)
+        page.text(complex(k * step * SCALE - 4, low.imag - 8), f"{k * step:.3g}", "AXES")
     for k in range(math.ceil(box.bottom / step), math.floor(box.top / step) + 1):
-        page.text(complex(low.real - 17, k * step * SCALE - 2), f"{k * step:.3g}", "AXES", 8)
-    page.text(complex(high.real - 8, low.imag - 16), "x1", "AXES", 8)
-    page.text(complex(low.real - 17, high.imag + 4), "x2", "AXES", 8)
+        page.text(complex(low.real - 17, k * step * SCALE - 2), f"{k * step:.3g}", "AXES")
+    page.text(complex(high.real - 8, low.imag - 16), "x1", "AXES")
+    page.text(complex(low.real - 17, high.imag + 4), "x2", "AXES")
 
 
-def _key(
-    page: _Page,
-    contour: BlockingContour,
-    marks: dict[str, tuple[float, float]],
-    colours: dict[str, int],
-    words: Words,
-) -> float:
+def _key(page: _Page, contour: BlockingContour, marks: dict[str, tuple[float, float]], words: Words) -> float:
     """What the lines and points mean; returns the height at which it ends, mm."""
     left, row = contour.box.right * SCALE + 15, contour.box.top * SCALE - _TEXT
     teeth = contour.pair.teeth
@@ -117,17 +112,17 @@ def _key(
         region_text(contour, words),
         *tool_texts(contour.pair, words),
     ):
-        page.text(complex(left, row), text, "KEY", 7)
+        page.text(complex(left, row), text, "KEY")
         row -= _ROW
     for name, level in ((i.name, i.level) for i in kinds_shown(contour)):
         layer, middle = _layer(name, level), row + _TEXT / 2
-        page.line(complex(left, middle), complex(left + 20, middle), layer, colours[name])
-        page.text(complex(left + 25, row), line_title(name, level, words), layer, colours[name])
+        page.line(complex(left, middle), complex(left + 20, middle), layer)
+        page.text(complex(left + 25, row), line_title(name, level, words), layer)
         row -= _ROW
     for told, (x1, x2) in marks.items():
         point = complex(x1, x2) * SCALE
-        page.circle(point, "CHOICES", 6)
-        page.text(point + (3 + 3j), told.split(":")[0], "CHOICES", 6)
-        page.text(complex(left, row), f"{told}: {x1:.4f} / {x2:.4f}", "CHOICES", 6)
+        page.circle(point, "CHOICES")
+        page.text(point + (3 + 3j), told.split(":")[0], "CHOICES")
+        page.text(complex(left, row), f"{told}: {x1:.4f} / {x2:.4f}", "CHOICES")
         row -= _ROW
     return row

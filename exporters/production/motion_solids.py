@@ -20,7 +20,7 @@ from geometry.curves.curve import Real
 from parts.base.readback import ReadError
 from parts.base.texts import fault, fault_of
 from parts.scene.formats import file_kind
-from parts.scene.placing import UPWARDS, Instance
+from parts.scene.placing import Instance
 from parts.solids.mesh import body_mesh
 
 # of a turn between two values: the shorter way round is the right one
@@ -143,13 +143,10 @@ def _heights(probes: Real, count: int) -> Real:
 
 def _quaternion(axis: tuple[float, float, float], angle: float) -> list[float]:
     """Turned about z, then z laid on an axis by the shortest way, as ``Placement3.towards`` has it."""
-    own = (0.0, 0.0, math.sin(angle / 2), math.cos(angle / 2))
-    if axis == UPWARDS:
-        return list(own)
     x, y, z = axis
     # half way between z and the axis; what points down is turned over about x
-    laid = np.array([-y, x, 0.0, 1 + z]) if z > -1 else np.array([1.0, 0.0, 0.0, 0.0])
-    a, b, c, d = (laid / np.linalg.norm(laid)).tolist()
-    p, q, r, s = own
-    return [d * p + a * s + b * r - c * q, d * q - a * r + b * s + c * p, d * r + a * q - b * p + c * s,
-            d * s - a * p - b * q - c * r]  # fmt: skip
+    laid = np.array([-y, x, 1 + z]) if z > -1 else np.array([1.0, 0.0, 0.0])
+    a, b, d = (laid / np.linalg.norm(laid)).tolist()
+    r, s = math.sin(angle / 2), math.cos(angle / 2)
+    # (a, b, 0, d) after (0, 0, r, s)
+    return [a * s + b * r, b * s - a * r, d * r, d * s]

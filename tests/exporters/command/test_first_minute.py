@@ -221,3 +221,11 @@ def test_the_version_has_a_short_name(capsys: pytest.CaptureFixture[str]) -> Non
         main(["-V"])
     assert ended.value.code == 0
     assert capsys.readouterr().out.startswith("higherpair ")
+
+
+@pytest.mark.parametrize(("language", "word"), [("en", "unrecognized"), ("uk", "невідомі"), ("xx", "unrecognized")])
+def test_a_wrong_flag_is_told_in_the_language_that_is_asked_for(
+    language: str, word: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("list", "--language", language, "--bogus") == 2
+    assert word in capsys.readouterr().err.lower()

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from exporters.command.tables import converge_tables, verify_table
+from exporters.command.tables import _show_rich, converge_tables, verify_table
 from exporters.production.converge import Order, Rung
 from parts.base.texts import words
 
@@ -102,3 +102,17 @@ def test_a_terminal_has_the_same_table_drawn(
         assert word in plain
     rows = [re.split(r"\s*[│┃|]\s*", line.strip("│┃| ")) for line in plain.splitlines() if "a.svg" in line]
     assert rows == [["a.svg", "0.01", "0.00912", "0.0081", "120", "12.3", "12.30", "0.40"]]
+
+
+def test_a_drawn_table_has_words_as_they_are(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Names of pictures and numbers are words like others, on a terminal with colours too."""
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("TERM", "xterm-256color")
+    _show_rich("of :gear: [red]", ["a", "b"], [[":key:", "[bold]12"]])
+    shown = capsys.readouterr().out
+    plain = re.sub(r"\x1b\[[\d;]*m", "", shown)
+    assert [word in plain for word in (":gear: [red]", ":key:", "[bold]12")] == [True] * 3
+    # a number of a row has no colour of its own
+    assert not re.search(r"\x1b\[[\d;]*m12", shown)

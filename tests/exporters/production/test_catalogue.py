@@ -15,6 +15,7 @@ from typing import Any
 
 import pytest
 
+from exporters.production import catalogue
 from exporters.production.catalogue import Task, entry_of
 from exporters.verification import judge
 from exporters.verification.verdict import Verdict
@@ -210,3 +211,17 @@ def test_a_cluster_makes_the_same_bytes(plain: Path, tmp_path: Path) -> None:
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
         catalogued(scene_in(tmp_path), tmp_path / "o", "--dask", cluster.scheduler_address)
     assert contents(tmp_path / "o" / "s") == contents(plain)
+
+
+def test_a_build_is_finished_when_each_of_its_files_is_verified(tmp_path: Path) -> None:
+    """One of two that is not is made again."""
+    (tmp_path / "a").write_bytes(b"a")
+    (tmp_path / "b").write_bytes(b"b")
+    for first, second in ((True, True), (True, False), (False, True), (False, False)):
+        report = {
+            "scene": {"s": 1}, "versions": {"higherpair": catalogue.__version__}, "failed": [],
+            "files": [{"path": "a", "sha256": catalogue._sha256(tmp_path / "a"), "verified": first},
+                      {"path": "b", "sha256": catalogue._sha256(tmp_path / "b"), "verified": second}],
+            "previews": [],
+        }  # fmt: skip
+        assert catalogue._is_finished(report, {"s": 1}, tmp_path) == (first and second)

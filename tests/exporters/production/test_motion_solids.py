@@ -14,7 +14,9 @@ import trimesh
 
 from exporters.formats.read_glb import read_glb
 from exporters.production.build import build
+from exporters.production.motion_solids import _quaternion
 from exporters.production.plan import Plan, plan_build
+from geometry.base.placement import Placement3
 from parts.base.readback import ReadError
 from parts.base.refusal import SceneError
 from parts.scene.load import scene_from_toml
@@ -221,3 +223,20 @@ def test_a_tolerance_that_is_offered_serves_every_part(export: str, tmp_path: Pa
 def test_a_scene_without_drives_has_no_film() -> None:
     with pytest.raises(SceneError, match="shows what a drive moves"):
         planned(FREE + GLB)
+
+
+@pytest.mark.parametrize(
+    "axis",
+    [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.6, 0.0, -0.8), (2 / 3, -1 / 3, 2 / 3)],
+)
+@pytest.mark.parametrize("angle", [0.0, 0.7, -2.5, 4.0])
+def test_a_quaternion_turns_as_places_do(axis: tuple[float, float, float], angle: float) -> None:
+    """v + 2 u x (u x v + w v) of unit vectors, against a turn about z laid on the axis."""
+    x, y, z, w = _quaternion(axis, angle)
+    own = np.array([x, y, z])
+    assert x * x + y * y + z * z + w * w == pytest.approx(1.0, abs=1e-14)
+    rows = np.eye(3)
+    turned = rows + 2 * np.cross(own, np.cross(own, rows) + w * rows)
+    c, s = math.cos(angle), math.sin(angle)
+    laid = np.array(Placement3.towards(axis, 0.0).rotation) @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    assert pytest.approx(laid, abs=1e-14) == turned.T

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 import shapely
 
+from exporters.production.preview import _cross
 from exporters.production.recheck import recheck
 from tests.exporters.making import run
 from tests.exporters.production.test_checks_told import PARTS
@@ -226,3 +227,9 @@ def test_ways_and_lengths_of_a_board_are_those_of_its_file(built: Path) -> None:
     assert measured["engraved_length"] == pytest.approx(engraved, rel=1e-9)
     assert measured["cut_length"] == pytest.approx(cut, rel=1e-9)
     assert measured["way_between"] == pytest.approx(way, rel=1e-9)
+
+
+def test_centre_lines_stand_out_of_the_part_by_a_twentieth() -> None:
+    """A part of 40 mm about 43.2: from 1.2 to 85.2, both ways."""
+    ends = [{key: float(v) for key, v in re.findall(r'([xy]\d)="([-\d.]+)"', line)} for line in _cross(43.2, 40.0)]
+    assert ends == [{"x1": 1.2, "y1": 43.2, "x2": 85.2, "y2": 43.2}, {"x1": 43.2, "y1": 1.2, "x2": 43.2, "y2": 85.2}]
