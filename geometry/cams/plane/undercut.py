@@ -27,6 +27,7 @@ from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.lost_lift import greatest_loss
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import sign_changes
+from geometry.plane.nearby import have_near
 
 # samples a piece of the motion: of the quick test, and of the sweep that finds what is lost
 _QUICK_SAMPLES = 129
@@ -243,9 +244,9 @@ def _looped(cam: DiskCam, grow: float, angles: Real, index: np.ndarray) -> np.nd
 def _reached(cam: DiskCam, grow: float, angles: Real, points: Complex) -> np.ndarray:
     """Which points of the envelope another position of the follower reaches into."""
     size = float(np.abs(points).max())
-    result = np.zeros(len(points), dtype=bool)
-    block = max(1, 4_000_000 // len(points))
     if cam.is_flat:
+        result = np.zeros(len(points), dtype=bool)
+        block = max(1, 4_000_000 // len(points))
         height, normal = FaceEnvelope(cam.motion, cam.mount, 0.0, TURN, grow).support(angles, 0)
         direction = np.exp(1j * normal[0])
         for i in range(0, len(points), block):
@@ -253,11 +254,7 @@ def _reached(cam: DiskCam, grow: float, angles: Real, points: Complex) -> np.nda
             result[i : i + block] = over.max(axis=1) > _REACH * size
         return result
     centres = CentreEnvelope(cam.motion, cam.mount, 0.0, TURN).point(angles)
-    distance = abs(grow - cam.radius)
-    for i in range(0, len(points), block):
-        near = np.abs(points[i : i + block, None] - centres).min(axis=1)
-        result[i : i + block] = near < distance - _REACH * size
-    return result
+    return have_near(points, centres, abs(grow - cam.radius) - _REACH * size)
 
 
 def _crossing(
