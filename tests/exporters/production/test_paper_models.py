@@ -1,0 +1,74 @@
+"""Outlines of paper models: lines and arcs by their bulges, by hand, and round things as arcs."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.production import paper_models
+from exporters.production.plan import plan_build
+from geometry.curves.line_arc import Arc, Line
+from geometry.plane.contour import Contour
+from parts.scene.load import scene_from_toml
+
+PLATE = """
+[scene]
+title = "Two plates"
+[parts.first]
+kind = "plate"
+width = 40.0
+height = 30.0
+holes = [{ at = [5.0, 2.0], diameter = 8.0 }]
+title = "Plate"
+[parts.second]
+kind = "plate"
+width = 20.0
+height = 10.0
+title = "Plate"
+[[exports]]
+format = "pdf"
+purpose = "model"
+tolerance = 0.02
+"""
+
+
+@pytest.mark.parametrize("bulge", [1.0, -1.0, 0.5, -0.3, math.tan(math.radians(260) / 4)])
+def test_an_arc_has_the_ends_and_the_height_of_its_bulge(bulge: float) -> None:
+    """The height of its segment is half of the chord times the bulge, to the right where it turns left."""
+    start, end = 3 + 1j, -2 + 5j
+    arc = paper_models._arc(start, end, bulge)
+    assert arc.sweep == pytest.approx(4 * math.atan(bulge))
+    for share, expected in ((0.0, start), (1.0, end), (0.5, (start + end) / 2 - 0.5j * bulge * (end - start))):
+        point = arc.centre + cmath.rect(arc.radius, arc.start_angle + share * arc.sweep)
+        assert point == pytest.approx(expected, abs=1e-12)
+    assert arc.radius == pytest.approx(abs(end - start) * (1 + bulge**2) / (4 * abs(bulge)))
+
+
+def test_what_is_flatter_than_rounding_is_a_line() -> None:
+    contour = Contour(np.array([0, 4, 4 + 3j, 3j]), np.array([0.0, 2e-8, -0.9e-8, -0.5]))
+    edges = paper_models._edges(contour)
+    assert [type(edge) for edge in edges] == [Line, Arc, Line, Arc]
+    assert (edges[0].start, edges[0].end) == (0, 4)  # type: ignore[union-attr]
+    assert (edges[2].start, edges[2].end) == (4 + 3j, 3j)  # type: ignore[union-attr]
+
+
+def test_round_holes_are_arcs_and_names_are_told_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A plate of 40 x 30 mm has four sides and its hole about (5, 2); a second one of its name has its id behind it."""
+    seen: list[Any] = []
+    whole = paper_models.model_pages
+    monkeypatch.setattr(paper_models, "model_pages", lambda *given: seen.append(given) or whole(*given))
+    (job,) = plan_build(scene_from_toml(PLATE.encode(), "s.toml", "s"), "s", [], []).sheets
+    title, outlines, errors, paper, _ = seen[0]
+    assert (title, list(outlines), list(errors), paper) == ("Two plates", ["Plate", "Plate second"], [*outlines], "A4")
+    lines = [edge for edge in outlines["Plate"] if isinstance(edge, Line)]
+    arcs = [edge for edge in outlines["Plate"] if isinstance(edge, Arc)]
+    assert sorted(abs(edge.end - edge.start) for edge in lines) == [30, 30, 40, 40]
+    assert all(abs(edge.centre - (5 + 2j)) < 1e-12 and abs(edge.radius - 4) < 1e-12 for edge in arcs)
+    assert sum(abs(edge.sweep) for edge in arcs) == pytest.approx(2 * math.pi)
+    assert len(outlines["Plate second"]) == 4
+    assert all(0 <= error <= 0.02 for error in errors.values())
+    assert job is not None
