@@ -267,3 +267,23 @@ def test_a_whole_ball_and_a_belt_have_no_pole_to_add_but_all_of_it(sense: float)
     flux, size = poles_of(sizes, along, np.zeros(2), np.array([True, False]), np.full(2, sense))
     assert flux == pytest.approx([sense * 4 / 3 * math.pi * 27, 0.0])
     assert size == pytest.approx([sense * 4 * math.pi * 9, 0.0])
+
+
+@pytest.mark.parametrize(("begin", "way", "turns"), [(3.0, 0.7, 1), (-3.0, -0.7, -1), (0.5, 0.7, 0), (-2.9, 0.7, 0)])
+def test_angles_round_a_tube_are_those_within_half_a_turn_of_what_is_near(begin: float, way: float, turns: int) -> None:
+    """An edge whose middle lies more than half a turn from there is taken a turn nearer; they count from the base."""
+    near, base, large, small, turn = 1.0, 0.4, 20.0, 5.0, 0.2
+    tube, about = near + begin + way * SHARES, 0.3 + turn * SHARES
+    spoke = np.stack([np.cos(about), np.sin(about), 0 * about], axis=-1)
+    beside = np.stack([-np.sin(about), np.cos(about), 0 * about], axis=-1)
+    up, size = np.array([0.0, 0.0, 1.0]), (large + small * np.cos(tube))[:, None]
+    at = size * spoke + small * np.sin(tube)[:, None] * up
+    step = size * turn * beside + small * way * (np.cos(tube)[:, None] * up - np.sin(tube)[:, None] * spoke)
+    found = forms(TORUS, at[None], step[None], np.zeros((1, 3)), np.array([[large, small]]), np.array([[near, base]]))
+    angle = tube - 2 * math.pi * turns - base
+    assert found.turn[0] == pytest.approx(np.full(5, turn))
+    assert found.area[0] == pytest.approx(-angle * turn)
+    # the tube's own area from the base: s (R v + s sin v) between
+    swept = small * (large * angle + small * (np.sin(angle + base) - math.sin(base)))
+    assert found.size[0] == pytest.approx(-swept * turn)
+    assert found.gap[0] == pytest.approx(np.zeros(5), abs=1e-13)

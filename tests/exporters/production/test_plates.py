@@ -17,7 +17,12 @@ import shapely
 import trimesh
 
 from exporters.command.cli import main
+from exporters.production import plates
+from exporters.production.plan import plan_build
 from exporters.production.recheck import recheck
+from parts.base.refusal import SceneError
+from parts.keys.boards import BedSpec
+from parts.scene.load import scene_from_toml
 from tests.exporters.production.test_boards import contours, pieces_of, polygon
 
 BED = """
@@ -193,3 +198,44 @@ def test_the_fit_coupon_has_its_fits(tmp_path: Path) -> None:
     off = np.array(thick) - (math.pi - backlash / 2 / math.cos(math.radians(20)))
     assert np.abs(off).max() <= 0.005
     assert np.ptp(off) <= 1e-4
+
+
+FEET = {
+    "long": (shapely.box(-10.0, 3.0, 20.2, 103.0), -2.0, 8.5),
+    "tall": (shapely.box(5.0, 5.0, 65.0, 25.0), 0.5, 40.75),
+    "small": (shapely.box(0.0, 0.0, 9.0, 8.0), 0.0, 3.0),
+}
+
+
+@pytest.mark.parametrize(("bed", "key", "parts"), [
+    # 50 - 10 mm for 100 and for 60; 30 mm for 40.25
+    ((50.0, 50.0, 30.0), "width", ["long (0.4)", "tall (0.6666)"]), ((200.0, 200.0, 30.0), "height", ["tall (0.7453)"]),
+    ((110.0, 60.0, 40.0), "height", ["tall (0.9937)"]), ((69.0, 109.0, 60.0), "width", ["long (0.99)"]),
+])  # fmt: skip
+def test_a_bed_that_is_too_small_is_refused_with_the_least_that_holds_all(
+    bed: tuple[float, float, float], key: str, parts: list[str]
+) -> None:
+    """30.2 x 100 and 60 x 20 mm lie in 100 x 30.2, 5 mm of margin all round: 110 x 41; 40.25 mm are 41."""
+    width, depth, height = bed
+    spec = BedSpec(width=width, depth=depth, height=height, margin=5.0, gap=2.0)
+    with pytest.raises(SceneError) as refused:
+        plates._laid_out(spec, FEET, dict.fromkeys(FEET, 1), "s", "beds.b")
+    error = refused.value
+    assert (error.key, error.value, error.code) == (f"beds.b.{key}", getattr(spec, key), "too_small_for_parts")
+    assert [error.numbers[name] for name in ("width", "depth", "height")] == [110, 41, 41]
+    assert re.findall(r"\w+ \([\d.]+\)", str(error)) == parts
+
+
+def test_what_is_named_instead_of_a_small_bed_holds_all() -> None:
+    enough = BedSpec(width=110.0, depth=41.0, height=41.0, margin=5.0, gap=2.0)
+    assert plates._laid_out(enough, FEET, dict.fromkeys(FEET, 1), "s", "beds.b")
+
+
+def test_every_piece_is_set_down_on_the_bed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What reaches 2.5 mm below its origin is lifted by so much."""
+    whole = plates._footprint
+    monkeypatch.setattr(plates, "_footprint", lambda job: (whole(job)[0], -2.5, whole(job)[2]))
+    text = BED.format(width=60.0, length=5.0, more="")
+    found = plan_build(scene_from_toml(text.encode(), "s.toml", "s"), "s", [], []).assemblies
+    laid = [job for job in found if isinstance(job, plates.PlateJob)]
+    assert {piece.at[2] for plate in laid for piece in plate.instances} == {2.5}
