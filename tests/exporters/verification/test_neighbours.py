@@ -253,7 +253,15 @@ def test_chains_are_held_against_profiles_one_by_one() -> None:
                 Loop(outer.vertices, outer.bulges * np.inf, "")):  # fmt: skip
         assert "holds no shape" in told(verdict([inner, bad]))
     flat = Loop(outer.vertices, np.array([bulge, bulge, bulge, 0.0]), "CUT_OUTER")
-    assert "encloses" not in told(verdict([inner, flat])) or "deviates" in told(verdict([inner, flat]))
+    # what a chord takes away lies within its deviation
+    assert told(verdict([inner, flat])).startswith("deviates by ")
+    assert "encloses" not in told(verdict([inner, flat]))
+    # two quarters there and back lie nowhere off it
+    half = Loop(np.append(outer.vertices[:3], outer.vertices[1]), bulge * np.array([1.0, 1, -1, -1]), "CUT_OUTER")
+    said = re.search(r"encloses (.*) mm\^2 instead of (.*) mm\^2", told(verdict([inner, half])))
+    assert said
+    assert [float(one) for one in said.groups()] == pytest.approx([0.0, 25 * math.pi], rel=1e-8, abs=1e-12)
+    assert verdict([inner, half]).measured["max_deviation"] < 1e-12
     there_and_back = np.concatenate([outer.vertices, outer.vertices[1:3]])
     assert "crosses itself" in told(verdict([inner, Loop(there_and_back, np.full(6, bulge), "CUT_OUTER")]))
 
