@@ -239,6 +239,24 @@ def test_the_drawing_has_its_axes_numbers_and_key_where_they_belong(contour: Any
     assert edges[2] + 100 < high[0] < edges[2] + 400
 
 
+@pytest.mark.parametrize("box", [
+    Box(-0.43, 1.27, -0.31, 1.13, 4), Box(0.13, 0.97, 0.26, 0.88, 4), Box(-2.0, 4.0, 0.0, 3.0, 4),
+])  # fmt: skip
+def test_numbers_are_all_those_that_lie_along_the_box(contour: Any, box: Box, tmp_path: Path) -> None:
+    """Multiples of the step between the sides of any box, each once; axes where the box has them within."""
+    write_contour_dxf(tmp_path / "b.dxf", replace(contour, box=box, region=()), {}, words("en"))
+    space = ezdxf.readfile(tmp_path / "b.dxf").modelspace()
+    numbers = [e for e in space.query('TEXT[layer=="AXES"]') if not e.dxf.text.startswith("x")]
+    below = sorted(float(e.dxf.text) for e in numbers if e.dxf.insert.y < box.bottom * SCALE - 5)
+    beside = sorted(float(e.dxf.text) for e in numbers if e.dxf.insert.y >= box.bottom * SCALE - 3)
+    places = [k * grid_step(box) for k in range(-100, 101)]
+    assert below == pytest.approx([x for x in places if box.left <= x <= box.right], abs=1e-9)
+    assert beside == pytest.approx([y for y in places if box.bottom <= y <= box.top], abs=1e-9)
+    upright = [e for e in space.query('LINE[layer=="AXES"]') if e.dxf.start.x == e.dxf.end.x]
+    level = [e for e in space.query('LINE[layer=="AXES"]') if e.dxf.start.y == e.dxf.end.y]
+    assert (len(upright), len(level)) == (box.left < 0 < box.right, box.bottom < 0 < box.top)
+
+
 def test_the_picture_has_a_line_and_a_key_for_each_condition(contour: Any) -> None:
     text = contour_svg(contour, {"1: here": (0.1, 0.2)}, words("uk"))
     assert text.count("<polyline") == sum(len(clipped(line.points, contour.box)) for line in contour.lines)
