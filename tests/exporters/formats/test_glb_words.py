@@ -177,3 +177,22 @@ def test_another_head_or_length_is_refused(at: int, film: bytes, tmp_path: Path)
     (tmp_path / "f.glb").write_bytes(spoilt)
     with pytest.raises(ReadError, match="does not begin"):
         read_glb(tmp_path / "f.glb")
+
+
+@pytest.mark.parametrize(("share", "good"), [(1 + 1e-7, True), (1.00001, False), (0.99999, False)])
+def test_one_turn_of_a_film_that_is_none_is_told(film: bytes, tmp_path: Path, share: float, good: bool) -> None:
+    """The second of three turns of a body, longer or shorter than a unit."""
+    scene, blob = opened(film)
+    held = np.frombuffer(blob, "<f4")
+    windows = np.lib.stride_tricks.sliding_window_view(held, 4)
+    at = 4 * int(np.argmin(np.abs(windows - TURNS[1]).max(axis=1)))
+    assert np.frombuffer(blob[at : at + 16], "<f4") == pytest.approx(TURNS[1], abs=1e-6)
+    del held, windows
+    blob[at : at + 16] = (share * TURNS[1]).astype("<f4").tobytes()
+    file = tmp_path / "f.glb"
+    file.write_bytes(packed(scene, blob))
+    if good:
+        assert len(read_glb(file).tracks["a"].turns[1]) == 3
+    else:
+        with pytest.raises(ReadError, match="a has a turn that is none"):
+            read_glb(file)
