@@ -702,16 +702,23 @@ def _page(text: str, options: argparse.Namespace) -> None:
         print(text, end="")
     else:
         from exporters.production.moving import write_whole
+
+        _check_free(options)
+        write_whole(options.out, text)
+
+
+def _check_free(options: argparse.Namespace) -> None:
+    """Refuse a file that exists already: before a page is made, which may take a while, and before it is written."""
+    if options.out is not None and (options.out.exists() or options.out.is_symlink()):
         from parts.base.refusal import SceneError
 
-        if options.out.exists() or options.out.is_symlink():
-            raise SceneError(str(options.out), "", None, "file_exists")
-        write_whole(options.out, text)
+        raise SceneError(str(options.out), "", None, "file_exists")
 
 
 def _schema(options: argparse.Namespace) -> int:
     from parts.scene.schema import scene_schema
 
+    _check_free(options)
     _page(scene_schema(), options)
     return DONE
 
@@ -719,5 +726,6 @@ def _schema(options: argparse.Namespace) -> int:
 def _calc(options: argparse.Namespace) -> int:
     from exporters.documents.topics import calculate
 
+    _check_free(options)
     _page(calculate(options.topic, options.words, options.format, options.language), options)
     return DONE

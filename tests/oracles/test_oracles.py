@@ -65,7 +65,7 @@ def middle(piece: Segment, share: float = 0.5) -> tuple[complex, complex]:
     return complex(where), complex(normal)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @every_case
 def test_exact_outline_has_no_penetration(name: str) -> None:
     p = CASES[name]
@@ -75,7 +75,7 @@ def test_exact_outline_has_no_penetration(name: str) -> None:
         assert error.max() < 2e-15 * radius, kind
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(1)
 @every_case
 def test_every_tooth_and_both_flanks_are_alike(name: str) -> None:
     p = CASES[name]
@@ -161,7 +161,7 @@ def test_gear_axis_and_far_points() -> None:
     assert penetration([], tool_of(p), 23).shape == (0,)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", UNDERCUT)
 def test_undercut_crossing(name: str) -> None:
     """Both curves pass through the junction; what each has beyond it is cut away."""
@@ -182,7 +182,7 @@ def test_undercut_list() -> None:
     assert "z23" not in UNDERCUT
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("z", [3, 6, 8, 17, 23, 1000])
 @pytest.mark.parametrize("degrees", ["14.5", "20", "25", "30"])
 def test_undercut_limit_formula(z: int, degrees: str) -> None:
@@ -191,6 +191,7 @@ def test_undercut_limit_formula(z: int, degrees: str) -> None:
     assert abs(exact.undercut_limit_shift(z, alpha, hf, rho) - formula) < MP.mpf(10) ** -32 * z
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("z", [8, 17])
 def test_undercut_limit_by_brute_force(z: int) -> None:
     """Below the limit the flank's first point is in the tool at some other position, above it is not."""
@@ -213,6 +214,7 @@ def test_flank_normals_touch_the_base_circle(name: str) -> None:
             assert abs(abs((MP.conj(normal) * where).imag) - p.r * MP.cos(angle)) < MP.mpf(10) ** -50
 
 
+@pytest.mark.sampled(6)
 @every_case
 def test_thickness(name: str) -> None:
     """On the reference circle: space = rack tooth there, so s = pi m/2 + 2 x m tan(alpha) - thinning."""

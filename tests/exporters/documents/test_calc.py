@@ -212,6 +212,7 @@ def test_headings_notes_and_misprints_speak_both_languages(asked: tuple[str, ...
         assert re.search(r"[а-яіїєґА-ЯІЇЄҐ]{2}|\bз ", uk) or uk[0].isdigit() or "cos" in uk or "inv" in uk, uk
 
 
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("topic", TOPICS)
 @pytest.mark.parametrize("language", ["en", "uk"])
 def test_every_format_of_every_topic(topic: str, language: str) -> None:

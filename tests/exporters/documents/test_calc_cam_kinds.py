@@ -196,6 +196,7 @@ def test_the_development_of_a_barrel_lies_on_walls_that_the_roller_sweeps(words:
                 assert gap.min() == pytest.approx(radius, abs=3e-4), (name, index, row["phi"])
 
 
+@pytest.mark.heavy
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("words", [("barrel_cam", "part=barrel"), SWINGING_BARREL], ids=["groove", "swinging"])
 def test_radii_of_the_development_are_those_of_circles_through_three_points(words: tuple[str, ...]) -> None:

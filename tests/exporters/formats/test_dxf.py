@@ -107,7 +107,7 @@ def test_the_closed_flag_stands_in_the_file_and_the_first_vertex_is_not_repeated
         assert np.abs(b - a).min() > 1e-3
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", GEARS)
 def test_at_most_twenty_vertices_a_tooth_at_five_micrometres(tmp_path: Path, name: str) -> None:
     gear = GEARS[name]

@@ -360,6 +360,7 @@ def test_refusals_name_the_key_and_what_works() -> None:
         cam_scene(ROCKER, kerf=0.1)
 
 
+@pytest.mark.heavy
 def test_a_build_reports_its_cam_sheets_and_verify_measures_them_again(tmp_path: Path) -> None:
     folder = tmp_path / "guidelines_cam"
     made = build(plan_of("guidelines_cam"), folder).written

@@ -148,7 +148,7 @@ def test_a_changed_bore_is_caught(originals: Path, tmp_path: Path, name: str) ->
     check_caught(file, entry)
 
 
-@pytest.mark.sampled(9)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("change", spoil.DXF_CHANGES, ids=lambda c: c.__name__)
 @pytest.mark.parametrize("name", ["dxf", "r12.dxf"])
 def test_a_spoiled_dxf_is_caught(originals: Path, tmp_path: Path, name: str, change: Callable[..., None]) -> None:

@@ -136,7 +136,7 @@ def scca_oracle(a: Any, b: Any, c: Any, u: Any) -> tuple[Any, Any, Any]:
     return until(u, lambda x: u - x) / lift, until(u, lambda x: 1) / lift, bend(u) / lift
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("shares", [*SCCA.values(), ("3/10", "1/5", "1/10"), (0, "1/5", "1/5"), ("1/5", "1/5", 0)])
 def test_sine_constant_cosine_is_its_integrated_acceleration(shares: tuple[Any, Any, Any]) -> None:
     a, b, c = (MP.mpf(Fraction(x).numerator) / Fraction(x).denominator for x in shares)

@@ -176,6 +176,7 @@ def facing(rng: random.Random) -> tuple[Involute, Involute, float]:
     return first.placed(Placement2(0.0, 3 - 2j)), second.placed(Placement2(0.0, 3 - 2j)), gap
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("seed", range(25))
 def test_involute_gap_against_forty_digits_and_the_search(seed: int) -> None:
     """The oracle solves for two points whose connection is normal to both curves; it knows no base circles."""

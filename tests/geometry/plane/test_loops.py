@@ -30,6 +30,7 @@ def test_a_prolate_trochoid_crosses_itself_on_its_axis() -> None:
     assert self_crossings(Line(0j, 1 + 1j)) == []
 
 
+@pytest.mark.heavy
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("kind", ["flat", "roller"])
 def test_the_engine_cuts_the_loops_that_the_cam_cuts(kind: str) -> None:

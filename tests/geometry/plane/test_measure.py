@@ -148,7 +148,7 @@ def test_distance_to_any_outline(gear: SpurGear, seed: int) -> None:
     assert np.max(np.abs(distance_to_profile(probes, profile) - exact)) <= 1e-12 * profile.reach()
 
 
-@pytest.mark.sampled(7)
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("arcs", [True, False])
 @pytest.mark.parametrize("place", ["start", "middle", "end"])
 @EVERY

@@ -59,6 +59,7 @@ def test_a_rack_travels() -> None:
     assert found["second_travel"] == pytest.approx(found["line_of_action"] / math.cos(math.radians(20)), rel=1e-12)
 
 
+@pytest.mark.heavy
 def test_a_wide_helical_face_evens_out() -> None:
     helix = {"helix_angle_deg": 30.0, "tip_diameter": 46.5}
     widths = {}

@@ -113,6 +113,7 @@ def test_pins_stay_in_the_slot_over_a_turn(
     assert stands["follower"]["at"][2] == pytest.approx(2 * thick if roller else 0.0)
 
 
+@pytest.mark.heavy
 def test_a_slot_of_another_lift_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """That of lift 30 where the lift is 40: a pin goes through its end; and our polygons see it too."""
     file = changed("lesson_5", tmp_path, lift=40.0)

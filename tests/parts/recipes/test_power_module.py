@@ -149,6 +149,7 @@ def test_cages_are_made_as_near_as_balls_may_stand(balls: int, ball: float) -> N
 CRANKS = {"platform_plate", "ring_guide", "free_ring", "body_plate", "crank", "crank_pin"}
 
 
+@pytest.mark.heavy
 def test_cranks_are_free_at_home_and_what_is_too_long_shows_where_it_passes() -> None:
     scene = module()
     assert overlaps(scene) == {}

@@ -109,7 +109,11 @@ def distance_to(polygon: shapely.Polygon, points: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.sampled(20)
-@pytest.mark.parametrize("name", [*MADE, *SCENES])
+@pytest.mark.parametrize(
+    # of a barrel the jackets are developed, which takes as long as all others together
+    "name",
+    [pytest.param(name, marks=[pytest.mark.heavy] * (name == "barrel")) for name in [*MADE, *SCENES]],
+)
 @pytest.mark.parametrize("offset", [0.05, -0.05])
 def test_every_boundary_of_a_section_moves_by_the_offset(name: str, offset: float) -> None:
     """Each point of the moved outline stands that far from the plain one, or farther at a corner, on the right side."""

@@ -92,6 +92,7 @@ def bends(*nets: Real) -> Bends:
 NETS = [(0.3, 0.1, 0.2), (0.05, 0.4, -0.3, 0.2, 0.5), (0.0, 0.0, 0.25), (0.2, 0.01, 0.0), (0.0, 0.0, 0.0)]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("net", NETS)
 def test_bends_are_those_of_the_second_form(net: tuple[float, ...]) -> None:
     """L, M and N of z(u, v); M asks for chords both ways, more where the mean bend is more."""

@@ -101,7 +101,7 @@ def swept_distance(cam: BarrelCam, points: np.ndarray, steps: int = 20_001) -> n
     return np.array(found)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @CAMS
 @pytest.mark.parametrize("side", [UPPER, LOWER])
 def test_a_wall_is_the_envelope_of_the_roller(cam: BarrelCam, side: int) -> None:
@@ -248,6 +248,7 @@ def test_the_pressure_angle_is_greatest_at_the_floor() -> None:
     assert math.tan(value) == pytest.approx(slope / math.sqrt(square), rel=1e-7)
 
 
+@pytest.mark.sampled(3)
 @CAMS
 def test_developed_edges_and_their_derivatives(cam: BarrelCam) -> None:
     for side in (UPPER, LOWER):

@@ -250,7 +250,7 @@ def test_profiles_are_counter_clockwise_and_dwell_on_arcs(name: str) -> None:
         assert np.all(bend > 0) or np.all(bend < 0)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("grow", [-0.6, 0.6])
 @pytest.mark.parametrize("name", whole_cams())
 def test_grown_outlines_are_parallel(name: str, grow: float) -> None:

@@ -36,7 +36,7 @@ WHEELS = PRACTICUM["lesson_3"]["wheels"]
 FIELD = {"tip_diameter": "given_tip_diameter"}
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("degrees", [14.5, 20.0, 25.0])
 @pytest.mark.parametrize("name", sorted(ISO_53))
 @pytest.mark.parametrize("teeth", [5, 19])

@@ -52,6 +52,7 @@ SMALL = {
 EVERY = pytest.mark.parametrize("gear", SMALL.values(), ids=SMALL.keys())
 
 
+@pytest.mark.sampled(4)
 @EVERY
 def test_small_rings_are_made_and_nothing_trims_their_tips(gear: RingGear) -> None:
     made = checked_ring(settled_ring(gear))
@@ -61,7 +62,7 @@ def test_small_rings_are_made_and_nothing_trims_their_tips(gear: RingGear) -> No
     assert trimmed(made) <= 1e-12
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(2)
 @EVERY
 def test_a_tip_that_yields_is_the_deepest_that_any_cutter_leaves(gear: RingGear) -> None:
     """A hundredth of a module deeper, and every cutter there is reaches into the flank, or there is no involute."""

@@ -83,7 +83,7 @@ def test_outline_against_the_swept_rack(gear: SpurGear) -> None:
     assert error.max() <= RIGHT * gear.tip_radius
 
 
-@pytest.mark.sampled(5)
+@pytest.mark.sampled(2)
 @EVERY
 def test_the_whole_oracle_outline_is_there(gear: SpurGear) -> None:
     """The other way round: no part of the envelope's outline is missing, in any period."""
@@ -94,7 +94,7 @@ def test_the_whole_oracle_outline_is_there(gear: SpurGear) -> None:
     assert brute.distance_to_outline(turned, profile).max() <= RIGHT * gear.tip_radius
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(3)
 @EVERY
 def test_joint_and_labels_against_the_oracle(gear: SpurGear) -> None:
     """Each piece ends where the oracle's ends; the joint is smooth unless undercut, where it is a convex corner."""
@@ -158,7 +158,7 @@ def test_both_oracles_see_a_hair(label: Label, place: float) -> None:
         assert swept == pytest.approx(step, rel=1e-3)
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(3)
 @EVERY
 def test_thickness_against_the_oracle(gear: SpurGear) -> None:
     """s on the reference circle, where the flank reaches it, and psi_b from the involute that the flank is."""

@@ -79,6 +79,7 @@ def least(hand: str, slid: float, off: float, upper: bool, out: float, planes: i
     return float(min(found))
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("hand", DRIVES)
 def test_a_worm_that_is_pulled_off_leaves_the_gaps_of_its_thread(hand: str) -> None:
     """And turned a little about its axis beside; both sides of the teeth in planes of their own."""

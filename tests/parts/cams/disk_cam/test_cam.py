@@ -362,7 +362,12 @@ def test_wrong_keys_are_refused_in_the_users_terms(name: str) -> None:
 
 # loops at the jump of S'' of 1e-3, 2e-9 and 2e-10 rad, the last ones smaller than a sweep sees
 @pytest.mark.parametrize(
-    ("base", "code"), [(90.0, "undercut_swing"), (109.7, "undercut_swing"), (109.7801, "profile_folds")]
+    ("base", "code"),
+    [
+        pytest.param(90.0, "undercut_swing", marks=pytest.mark.heavy),
+        (109.7, "undercut_swing"),
+        (109.7801, "profile_folds"),
+    ],
 )
 def test_a_face_that_swings_is_offered_the_base_circle_from_which_on_the_profile_never_turns_back(
     base: float, code: str
@@ -402,9 +407,10 @@ LEAST = {"lift": 4.5, "least_transmission_angle_deg": 45.0}
 
 
 @pytest.mark.parametrize(("laws", "angles", "sizes", "tail"), [
-    (("modified_trapezoid", "modified_trapezoid"), (63.0, 51.0), LEAST, '[[exports]]\nformat = "step"'),
+    pytest.param(("modified_trapezoid", "modified_trapezoid"), (63.0, 51.0), LEAST, '[[exports]]\nformat = "step"',
+                 marks=pytest.mark.heavy),
     # between a joint of the law and the least radius of curvature lie 4e-6 mm and 1.5e-9 mm of the profile
-    (("modified_sine_cv33", "modified_trapezoid"), (85.0, 53.0), LEAST, ""),
+    pytest.param(("modified_sine_cv33", "modified_trapezoid"), (85.0, 53.0), LEAST, "", marks=pytest.mark.heavy),
     (("modified_sine", "modified_sine_cv50"), (122.0, 35.0), {"lift": 1.0, "base_circle_radius": 20.48}, ""),
 ])  # fmt: skip
 def test_the_least_cam_of_a_flat_follower_has_files_though_its_profile_all_but_stands_still(

@@ -170,6 +170,7 @@ def test_a_face_that_no_hob_reaches_is_told_the_widest_that_stands() -> None:
     _built({**keys, "face_width": offered.value})
 
 
+@pytest.mark.heavy
 @pytest.mark.parametrize(
     ("keys", "least", "most"),
     [
@@ -234,7 +235,11 @@ def test_what_no_addendum_cures_is_told_in_the_key_that_does(
     _built(keys | {key: offered.value})
 
 
-@pytest.mark.sampled(1)
+def _dear(keys: dict[str, Any], key: str) -> Any:
+    """A case of three seconds and more."""
+    return pytest.param(keys, key, marks=pytest.mark.heavy)
+
+
 @pytest.mark.parametrize(
     ("keys", "key"),
     [
@@ -244,25 +249,25 @@ def test_what_no_addendum_cures_is_told_in_the_key_that_does(
         ({"module": 1.25, "number_of_starts": 6, "diameter_quotient": 5.721, "form": "ZK1", "number_of_teeth": 70,
           "hob_rounding_coefficient": 0.367}, "addendum_coefficient"),
         # before: 23.8281, where 23.8367 is made
-        ({"module": 2.0, "number_of_teeth": 30, "hob_diameter_quotient": 12.0, "face_width": 60.0}, "face_width"),
+        _dear({"module": 2.0, "number_of_teeth": 30, "hob_diameter_quotient": 12.0, "face_width": 60.0}, "face_width"),
         # before: no value, since none as large as the hob was tried
-        ({"module": 4.0, "number_of_starts": 3, "diameter_quotient": 2.4, "form": "ZN2", "number_of_teeth": 101,
+        _dear({"module": 4.0, "number_of_starts": 3, "diameter_quotient": 2.4, "form": "ZN2", "number_of_teeth": 101,
           "hob_diameter_quotient": 2.467}, "diameter_quotient"),
         # before: no value, since that key was asked for a quarter of the usual width, or not at all
-        ({"module": 0.5, "number_of_starts": 6, "diameter_quotient": 3.539, "form": "ZN2", "number_of_teeth": 10,
+        _dear({"module": 0.5, "number_of_starts": 6, "diameter_quotient": 3.539, "form": "ZN2", "number_of_teeth": 10,
           "hob_diameter_quotient": 3.952, "profile_shift_coefficient": 1.72, "addendum_coefficient": 0.892,
           "hob_rounding_coefficient": 0.294}, "profile_shift_coefficient"),
         ({"module": 2.0, "diameter_quotient": 2.3, "number_of_teeth": 20, "profile_shift_coefficient": 1.0,
           "axial_thinning": 0.354}, "addendum_coefficient"),
         # before: 5.2148, since a flank that dips below the tip between two radii was missed, here and there
-        ({"module": 1.039, "number_of_starts": 7, "diameter_quotient": 11.395, "form": "ZN2", "number_of_teeth": 74,
-          "pressure_angle_deg": 13.81, "axial_thinning": 0.294, "hob_rounding_coefficient": 0.295,
-          "face_width": 13.905}, "face_width"),
+        _dear({"module": 1.039, "number_of_starts": 7, "diameter_quotient": 11.395, "form": "ZN2",
+          "number_of_teeth": 74, "pressure_angle_deg": 13.81, "axial_thinning": 0.294,
+          "hob_rounding_coefficient": 0.295, "face_width": 13.905}, "face_width"),
         # before: no value, since only some between those that were tried leave teeth
         ({"module": 0.993, "diameter_quotient": 38.799, "number_of_teeth": 12, "profile_shift_coefficient": 1.6,
           "hob_diameter_quotient": 41.568, "addendum_coefficient": 1.468}, "addendum_coefficient"),
         # before: no value, since neither that shift nor none leaves teeth
-        ({"module": 12.915, "number_of_starts": 6, "diameter_quotient": 11.226, "form": "ZA", "number_of_teeth": 8,
+        _dear({"module": 12.915, "number_of_starts": 6, "diameter_quotient": 11.226, "form": "ZA", "number_of_teeth": 8,
           "profile_shift_coefficient": -1.467, "axial_thinning": 6.983, "hob_diameter_quotient": 13.149},
          "profile_shift_coefficient"),
         # before: an addendum that nobody gave, since the hob's threads are thinned too
@@ -270,13 +275,13 @@ def test_what_no_addendum_cures_is_told_in_the_key_that_does(
           "pressure_angle_deg": 23.69, "profile_shift_coefficient": 0.748, "axial_thinning": 0.1478,
           "hob_rounding_coefficient": 0.444}, "hob_rounding_coefficient"),
         # before: no value, since no face is narrow enough; and what ends of a face allow all of it does not
-        ({"module": 1.348, "diameter_quotient": 2.612, "number_of_teeth": 187, "pressure_angle_deg": 14.1,
+        _dear({"module": 1.348, "diameter_quotient": 2.612, "number_of_teeth": 187, "pressure_angle_deg": 14.1,
           "face_width": 6.223}, "diameter_quotient"),
         # before: no value, since no lesser hob leaves a face that splines follow
-        ({"module": 10.235, "number_of_starts": 5, "diameter_quotient": 3.115, "form": "ZN2", "number_of_teeth": 281,
-          "pressure_angle_deg": 13.64, "addendum_coefficient": 0.786, "tip_clearance_coefficient": 0.492,
-          "profile_shift_coefficient": 1.578, "hob_diameter_quotient": 3.354, "face_width": 17.034},
-         "diameter_quotient"),
+        _dear({"module": 10.235, "number_of_starts": 5, "diameter_quotient": 3.115, "form": "ZN2",
+          "number_of_teeth": 281, "pressure_angle_deg": 13.64, "addendum_coefficient": 0.786,
+          "tip_clearance_coefficient": 0.492, "profile_shift_coefficient": 1.578, "hob_diameter_quotient": 3.354,
+          "face_width": 17.034}, "diameter_quotient"),
     ],
 )  # fmt: skip
 def test_beyond_what_is_offered_nothing_is_made(keys: dict[str, Any], key: str) -> None:
@@ -332,12 +337,15 @@ def test_a_value_that_no_wheel_is_made_of_is_not_offered_by_anybody() -> None:
 @pytest.mark.parametrize(
     "keys",
     [
-        {"module": 0.206, "number_of_starts": 5, "diameter_quotient": 17.777, "form": "ZN1", "number_of_teeth": 29,
+        pytest.param({
+         "module": 0.206, "number_of_starts": 5, "diameter_quotient": 17.777, "form": "ZN1", "number_of_teeth": 29,
          "addendum_coefficient": 1.441, "axial_thinning": 0.0087, "profile_shift_coefficient": -0.385,
-         "hob_diameter_quotient": 22.568, "face_width": 3.6},
-        {"module": 0.611, "number_of_starts": 8, "diameter_quotient": 7.454, "form": "ZA", "number_of_teeth": 25,
+         "hob_diameter_quotient": 22.568, "face_width": 3.6}, marks=pytest.mark.heavy),
+        pytest.param({
+         "module": 0.611, "number_of_starts": 8, "diameter_quotient": 7.454, "form": "ZA", "number_of_teeth": 25,
          "hand": "left", "pressure_angle_deg": 23.26, "tip_clearance_coefficient": 0.065, "axial_thinning": 0.0467,
          "profile_shift_coefficient": -1.487, "hob_diameter_quotient": 7.941, "face_width": 2.216},
+         marks=pytest.mark.heavy),
         {"module": 0.442, "number_of_starts": 5, "diameter_quotient": 4.925, "form": "ZN2", "number_of_teeth": 53,
          "profile_shift_coefficient": -1.127, "hob_diameter_quotient": 5.281, "face_width": 1.8},
     ],
