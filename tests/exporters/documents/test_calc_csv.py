@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 
 from exporters.command.cli import main
+from exporters.documents.render import render
+from parts.pages.page import Section, Sheet, Step
 from tests.exporters.command.test_cli import complaint
 
 LIFT, BASE, ROLLER, OFFSET, RPM, CUTTER = 20.0, 40.0, 8.0, 5.0, 240.0, 12.0
@@ -129,3 +131,13 @@ def test_what_has_no_tables_and_a_cutter_that_does_not_fit_are_refused(capsys: p
     for scene in ("practicum_roller_cam",):
         told = complaint(capsys, "calc", "cam", scene, "cutter_diameter=900", "--format", "csv")
         assert re.search(r"cutter_diameter = 900.*hollow.*works", told)
+
+
+def test_a_step_without_a_source_has_no_brackets() -> None:
+    """Beside one that has it."""
+    steps = [
+        Step("working_centre_distance", 0, "a_w", 5.0, "mm", source="ISO 21771"),
+        Step("contact_ratio", 0, "e", 1.5, ""),
+    ]
+    shown = render(Sheet("t", "Title", [Section("Part", steps)]), "text", "en")
+    assert shown.count("[") == shown.count("[ISO 21771]") == 1

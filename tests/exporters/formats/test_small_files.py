@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
+import uuid
+import zipfile
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -272,3 +275,24 @@ def test_meshes_come_back_as_they_were_written(tmp_path: Path) -> None:
     # an item without a place stands where its part does
     (single,) = read_3mf_assembly(tmp_path / "m.3mf").occurrences
     assert np.array_equal(single.place, np.eye(3, 4))
+
+
+def test_objects_and_items_of_a_3mf_are_the_same_at_every_writing(tmp_path: Path) -> None:
+    """All identities are those of RFC 4122, 4.3, by the ids of parts and occurrences; none is random."""
+    part = MeshPart("m", MESH, "#0a14ff", "Box")
+    places = [("here", "m", Placement3()), ("there", "m", Placement3(translation=(30.0, 2.0, 3.25)))]
+    for file, roots in (
+        ("m.3mf", ["object/m", "item/m", "build/m"]),
+        ("a.3mf", ["object/All/m", "item/All/here", "item/All/there", "build/All"]),
+    ):
+        written = []
+        for _ in range(2):
+            if file == "m.3mf":
+                write_3mf(tmp_path / file, part)
+            else:
+                write_3mf_assembly(tmp_path / file, "All", [part], places)
+            written.append((tmp_path / file).read_bytes())
+        assert written[0] == written[1]
+        model = zipfile.ZipFile(tmp_path / file).read("3D/3dmodel.model").decode()
+        found = set(re.findall(r'UUID="([^"]+)"', model))
+        assert found == {str(uuid.uuid5(uuid.NAMESPACE_URL, f"higherpair/{root}")) for root in roots}
