@@ -75,3 +75,12 @@ def test_what_lies_in_what_goes_by_outlines_with_their_arcs(outer: Approximation
     found = order({"outer": ("CUT_OUTER", outer), "own": ("CUT_OUTER", square(40, 40, 5))})
     assert ("own", "CUT_INNER" if inside else "CUT_OUTER") in found
     assert ("outer", "CUT_OUTER") in found
+
+
+@pytest.mark.parametrize("turn", [1, 1j, -1, -1j])
+def test_what_lies_in_the_bulge_of_an_arc_lies_within(turn: complex) -> None:
+    """A square of 40 mm whose right side is half a circle, with a bore in it that no corner reaches round."""
+    plate = outline([turn * p for p in (0, 40, 40 + 40j, 40j)], [0.0, 1.0, 0.0, 0.0])
+    at = turn * (50 + 20j)
+    rows = {"plate": ("CUT_INNER", plate), "bore": ("CUT_INNER", circle(at.real, at.imag, 4))}
+    assert [name for name, _ in order(rows)] == ["bore", "plate"]
