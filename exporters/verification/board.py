@@ -221,9 +221,9 @@ def _inside(polygons: Sequence[BaseGeometry]) -> list[list[int]]:
     first = shapely.points([polygon.exterior.coords[0] for polygon in polygons])
     inner, outer = tree.query(first, predicate="within")
     found: list[list[int]] = [[] for _ in polygons]
+    # none is found in itself: its first point lies on its bound
     for a, b in zip(inner.tolist(), outer.tolist(), strict=True):
-        if a != b:
-            found[a].append(b)
+        found[a].append(b)
     return found
 
 
