@@ -172,6 +172,17 @@ def test_a_spoiled_step_is_caught(part: str, spoil: str, good: Path, tmp_path: P
         assert verdict(file), share
 
 
+def test_an_edge_that_leaves_its_plane_between_its_ends_alone_is_found(good: Path, tmp_path: Path) -> None:
+    whole = (good / "plate.step").read_text()
+    points = {m[1]: m for m in re.finditer(rf"(#\d+)=CARTESIAN_POINT\('',\(({NUMBER}),({NUMBER}),({NUMBER})\)", whole)}
+    names = re.findall(r"=B_SPLINE_CURVE_WITH_KNOTS\('',\d,\((#[^)]*)\)", whole)[0].split(",")
+    middle = points[names[len(names) // 2]]
+    file = tmp_path / "plate.step"
+    file.write_text(whole[: middle.start(4)] + f"{float(middle[4]) + 1e-3:.9f}" + whole[middle.end(4) :])
+    with pytest.raises(ReadError, match="mm away from its edges"):
+        read_step(file)
+
+
 def test_a_turned_circle_is_found_by_its_place(tmp_path: Path) -> None:
     """Each whole circle of a shaft, against its curve: a face between two has bounds that go the same way round it."""
     part = make_parts(load_scene("shaft_set"), "shaft_set")[0]["shaft"]
