@@ -47,6 +47,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     gc.set_threshold(_MADE)
     options = _parsed(list(sys.argv[1:] if arguments is None else arguments))
     previous: dict[signal.Signals, Any] = {}
+    told_lost, sys.unraisablehook = sys.unraisablehook, _lost
     try:
         for stop in _stops():
             previous[stop] = signal.signal(stop, _stop)
@@ -74,6 +75,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     finally:
         for stop, handler in previous.items():
             signal.signal(stop, handler)
+        sys.unraisablehook = told_lost
 
 
 def _outside(error: OSError | MemoryError | ImportError, options: argparse.Namespace) -> str | None:
@@ -221,6 +223,15 @@ def _outermost_import(frame: FrameType | None) -> FrameType | None:
             importer = frame.f_back
         frame = frame.f_back
     return importer
+
+
+def _lost(found: sys.UnraisableHookArgs) -> None:
+    """What Python cannot raise where it stands: a stop within a destructor is raised where that was called."""
+    if not issubclass(found.exc_type, KeyboardInterrupt):
+        sys.__unraisablehook__(found)
+    elif (caller := sys._getframe().f_back) is not None:
+        caller.f_trace = _stop_traced
+        sys.settrace(lambda *_: None)
 
 
 def _stop_traced(frame: FrameType, event: str, value: object) -> NoReturn:

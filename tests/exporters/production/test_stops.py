@@ -57,6 +57,15 @@ def test_a_signal_does_not_wait_for_the_file(tmp_path: Path, number: signal.Sign
     assert {p.name for p in tmp_path.iterdir()} == {"s.toml"}
 
 
+def test_a_signal_within_a_destructor_is_not_lost(tmp_path: Path) -> None:
+    """Python writes what is raised there to the terminal, and goes on."""
+    dying = "type('Held', (), {'__del__': lambda held: signal.raise_signal(signal.SIGTERM)})()"
+    with started(tmp_path, dying, "time.sleep(0.1)") as process:
+        _, complaint = process.communicate(timeout=60)
+    assert (process.returncode, complaint) == (130, "higherpair: interrupted; nothing half-written is left\n")
+    assert {p.name for p in tmp_path.iterdir()} == {"s.toml"}
+
+
 def test_a_hang_up_that_is_turned_off_stays_off(tmp_path: Path) -> None:
     """As under nohup."""
     with started(tmp_path, "os.kill(os.getpid(), signal.SIGHUP)", hang_up="SIG_IGN") as process:
