@@ -151,6 +151,7 @@ REASONS = {
     "worm_wheel_not_reached": N_("the hob does not reach the rim at the ends of the face: it leaves no space there"),
     "worm_wheel_pointed": N_("the teeth are pointed at the ends of the face"),
     "worm_wheel_undercut": N_("undercut leaves no flank at the ends of the face"),
+    "bevel_crown_pointed": N_("the tooth of the crown gear that cuts it is pointed before it reaches the root"),
     "bevel_face_to_apex": N_("reaches the apex of the cones: the outer cone distance is {distance} mm"),
     "bevel_hub_half_told": N_("a hub needs its diameter and its length, or mounting_distance"),
     "bevel_hub_over_rim": N_("the hub is wider than the rim where it begins, {rim} mm"),

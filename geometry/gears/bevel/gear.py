@@ -28,8 +28,10 @@ STEEPEST = math.radians(89.5)
 _NOTHING = 1e-6
 # least addendum and dedendum, in modules
 _LEAST_HEIGHT = 0.05
-# where a flank that is all undercut is sought, from the given shift on
-_SHIFTS = (0.2, 0.4, 0.6, 0.8, 1.0, 1.4, 2.0)
+# where a shift that works is sought, from the given one on; and teeth of the mate, in those of the gear
+_SHIFTS, _RATIOS = (0.2, 0.4, 0.6, 0.8, 1.0, 1.4, 2.0), (1, 3, 10, 30)
+# of the addendum, where a shorter one is sought
+_SHARES = (0.8, 0.6, 0.4, 0.3)
 # share of a cone distance that a face takes at most
 _MOST_FACE = 0.99
 
@@ -289,7 +291,8 @@ class BevelGear(Record, dict=True):
             raise ParameterError("profile_shift_coefficient", shift, "bevel_shift_leaves_no_tooth",
                                  limit(low if shift < low else high, shift))  # fmt: skip
         if self.tip_angle > STEEPEST:
-            raise self._cured("mate_teeth", self.number_of_teeth, BevelGear._check_cones, "bevel_too_flat",
+            more = [step * self.number_of_teeth for step in _RATIOS]
+            raise self._cured("mate_teeth", more, BevelGear._check_cones, "bevel_too_flat",
                               most=math.degrees(STEEPEST))  # fmt: skip
         if self.root_angle <= 0 or self.rim_room <= self._wall:
             raise self._cured("number_of_teeth", 10 * self.number_of_teeth, BevelGear._check_cones, "bevel_no_root")
@@ -301,17 +304,30 @@ class BevelGear(Record, dict=True):
     def _check_tooth(self) -> None:
         if self.thickness <= _NOTHING * self.module:
             raise self._cured("circumferential_thinning", 0.0, BevelGear._check_tooth, "thinning_leaves_no_tip")
+        if self._is_pointed():
+            name, ways = "profile_shift_coefficient", self._shifted(-1)
+            if not replace(self, circumferential_thinning=0.0)._is_pointed():
+                name, ways = "circumferential_thinning", [0.0]
+            elif replace(self, profile_shift_coefficient=0.0)._is_pointed():
+                name, ways = "addendum_coefficient", [share * self.addendum_coefficient for share in _SHARES]
+            raise self._cured(name, ways, BevelGear._check_tooth, "bevel_pointed", PointedTipError)
         if self.fillet.aside <= _NOTHING * self.module / self.cone_distance:
-            raise self._cured("tip_radius_coefficient", 0.0, BevelGear._check_tooth, "bevel_rounding_too_large")
-        land = float(self.half_angle(self.tip_angle))
-        if land <= _NOTHING / self.number_of_teeth:
-            raise self._cured(
-                "profile_shift_coefficient", 0.0, BevelGear._check_tooth, "bevel_pointed", PointedTipError
-            )
+            # a shift makes the crown's tooth as much thicker as it makes it longer
+            if replace(self, tip_radius_coefficient=0.0).fillet.aside > 0:
+                raise self._cured("tip_radius_coefficient", 0.0, BevelGear._check_tooth, "bevel_rounding_too_large")
+            raise self._cured("addendum_coefficient", [share * self.addendum_coefficient for share in _SHARES],
+                              BevelGear._check_tooth, "bevel_crown_pointed")  # fmt: skip
         if not kept(BevelGear._has_flank, self):
-            more = [self.profile_shift_coefficient + step for step in _SHIFTS]
-            raise self._cured("profile_shift_coefficient", more, BevelGear._check_tooth,
+            raise self._cured("profile_shift_coefficient", self._shifted(1), BevelGear._check_tooth,
                               "no_involute_below_tip", UndercutError)  # fmt: skip
+
+    def _is_pointed(self) -> bool:
+        """Whether both flanks meet below the tip cone."""
+        return float(self.half_angle(self.tip_angle)) <= _NOTHING / self.number_of_teeth
+
+    def _shifted(self, way: int) -> list[float]:
+        """Shifts among which one that works is sought, the nearest first, upwards (1) or downwards (-1)."""
+        return [self.profile_shift_coefficient + way * step for step in _SHIFTS]
 
     def _has_flank(self) -> bool:
         """Whether the fillet leaves some of it."""

@@ -115,7 +115,7 @@ def _made(keys: BevelGearSpec) -> BevelGear:
         rim = min(usual, max(room / 2, _LEAST_RIM * keys.module))
         gear = replace(gear, blank=replace(gear.blank, rim_thickness=rim))
     if keys.mounting_distance is not None:
-        gear = _mounted(keys, gear, keys.mounting_distance)
+        gear = _mounted(keys, gear, keys.mounting_distance, holes.bore_reach)
     if bool(gear.blank.hub_diameter) != bool(gear.blank.hub_length):
         key = "hub_length" if keys.hub_diameter else "hub_diameter"
         raise ParameterError(key, getattr(keys, key), "bevel_hub_half_told")
@@ -125,8 +125,8 @@ def _made(keys: BevelGearSpec) -> BevelGear:
     return gear
 
 
-def _mounted(keys: BevelGearSpec, gear: BevelGear, distance: float) -> BevelGear:
-    """The gear whose back face lies so far from the apex, mm."""
+def _mounted(keys: BevelGearSpec, gear: BevelGear, distance: float, reach: float) -> BevelGear:
+    """The gear whose back face lies so far from the apex, mm; ``reach``: of its bore."""
     key = "hub_length" if keys.hub_diameter else "rim_thickness"
     if getattr(keys, key):
         raise either("mounting_distance", distance, key)
@@ -136,7 +136,11 @@ def _mounted(keys: BevelGearSpec, gear: BevelGear, distance: float) -> BevelGear
                              limit(begins + 0.01 * keys.module, distance), least=begins)  # fmt: skip
     if keys.hub_diameter:
         return replace(gear, blank=replace(gear.blank, hub_length=distance - begins))
-    return replace(gear, blank=replace(gear.blank, rim_thickness=(distance - begins) / math.sin(gear.pitch_angle)))
+    sine = math.sin(gear.pitch_angle)
+    room = gear.rim_room - 1.01 * reach / math.cos(gear.pitch_angle)
+    if distance > (ends := begins + room * sine):
+        raise ParameterError("mounting_distance", distance, "bevel_rim_over_axis", limit(ends, distance))
+    return replace(gear, blank=replace(gear.blank, rim_thickness=(distance - begins) / sine))
 
 
 class BevelGearKind(Kind[BevelGearSpec, BevelGear]):

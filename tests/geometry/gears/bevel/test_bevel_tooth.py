@@ -243,6 +243,9 @@ def test_every_gear_is_made_or_refused_with_a_value_that_works(
     ("keys", "code", "kind"),
     [
         ({"tip_radius_coefficient": 0.6}, "bevel_rounding_too_large", ParameterError),
+        ({"pressure_angle": math.radians(35)}, "bevel_crown_pointed", ParameterError),
+        ({"circumferential_thinning": 3.3}, "bevel_pointed", PointedTipError),
+        ({"addendum_coefficient": 1.9}, "bevel_pointed", PointedTipError),
         ({"profile_shift_coefficient": 1.18}, "bevel_shift_leaves_no_tooth", ParameterError),
         ({"number_of_teeth": 8, "profile_shift_coefficient": 0.9}, "bevel_pointed", PointedTipError),
         ({"number_of_teeth": 5, "profile_shift_coefficient": -0.9}, "no_involute_below_tip", UndercutError),

@@ -123,6 +123,8 @@ def test_files_hold_what_they_declare_and_spoiled_ones_are_found(tmp_path: Path)
         ({}, {"profile_shift_coefficient": 0.1}, "parts.pinion.profile_shift_coefficient", "-0.1"),
         ({"shaft_angle_deg": 80.0}, {}, "parts.pinion.shaft_angle_deg", "90"),
         ({"mounting_distance": 10.0, "hub_length": 0.0}, {}, "parts.pinion.mounting_distance", "at least 19.9014 mm"),
+        ({"mounting_distance": 90.0, "hub_diameter": 0.0, "hub_length": 0.0}, {}, "parts.pinion.mounting_distance",
+         "run into the axis; at most 2"),
         ({"mounting_distance": 40.0}, {}, "parts.pinion.mounting_distance", "hub_length"),
         ({"hub_length": 0.0}, {}, "parts.pinion.hub_length", "needs its diameter and its length"),
         ({"bore_diameter": 15.9}, {}, "parts.pinion.bore_diameter", "at most 1"),
