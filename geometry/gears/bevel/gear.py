@@ -23,7 +23,7 @@ from geometry.gears.bevel.sphere import SphericalFillet, SphericalInvolute, spat
 from geometry.plane.profile import Profile
 
 # the tip cone is a cone that opens away from the apex
-STEEPEST = math.radians(89.5)
+_STEEPEST = math.radians(89.5)
 # what is no length, part of the module
 _NOTHING = 1e-6
 # least addendum and dedendum, in modules
@@ -133,11 +133,15 @@ class BevelGear(Record, dict=True):
         shift = 2 * self.profile_shift_coefficient * math.tan(self.pressure_angle)
         return self.module * (math.pi / 2 + shift + self.thickness_coefficient) - self.circumferential_thinning
 
+    @property
+    def half_pitch_angle(self) -> float:
+        """Azimuth of the flank off the middle of its tooth, on the pitch cone."""
+        return self.thickness / (self.module * self.number_of_teeth)
+
     def half_angle(self, angle: ArrayLike) -> Real:
-        """Azimuth of the flank off the middle of its tooth, at an angle from the axis."""
+        """The same at an angle from the axis."""
         inv = self.involute
-        own = self.thickness / (self.module * self.number_of_teeth)
-        return np.asarray(own + inv.involute_at(self.pitch_angle) - inv.involute_at(angle))
+        return np.asarray(self.half_pitch_angle + inv.involute_at(self.pitch_angle) - inv.involute_at(angle))
 
     @cached_property
     def fillet(self) -> SphericalFillet:
@@ -145,7 +149,7 @@ class BevelGear(Record, dict=True):
         radius = math.atan(self.tip_radius_coefficient * self.module / self.cone_distance)
         depth = self.dedendum_angle - radius
         crown = SphericalInvolute(math.pi / 2 - self.pressure_angle)
-        space = math.pi / self.number_of_teeth - self.thickness / (self.module * self.number_of_teeth)
+        space = math.pi / self.number_of_teeth - self.half_pitch_angle
         half = space * math.sin(self.pitch_angle) + crown.involute_at(math.pi / 2)
         # the rounding's centre runs on a parallel of the flank
         aside = half - radius / math.cos(self.pressure_angle) - crown.involute_at(math.pi / 2 + depth)
@@ -157,10 +161,15 @@ class BevelGear(Record, dict=True):
         return angle, math.pi / self.number_of_teeth - aside
 
     @property
-    def is_undercut(self) -> bool:
-        """Whether the straight flank of the crown gear reaches below the base cone."""
+    def _cut_away(self) -> float:
+        """How far the crown gear's flank reaches beyond where the line of action touches the base cone, rad."""
         touching = math.atan(math.tan(self.pitch_angle) * math.sin(self.pressure_angle))
-        return bool(self.fillet.reach(math.pi / 2 - self.pressure_angle) > touching)
+        return float(self.fillet.reach(math.pi / 2 - self.pressure_angle)) - touching
+
+    @property
+    def is_undercut(self) -> bool:
+        """Whether the crown gear's flank reaches below the base cone."""
+        return self._cut_away > 0
 
     @cached_property
     def joint(self) -> tuple[float, float]:
@@ -207,9 +216,8 @@ class BevelGear(Record, dict=True):
         if name == "fillet":
             return self.fillet_place(crossing * share)
         rolled = arc + (self.tip_arc - arc) * share
-        angle = self.involute.angle(rolled)
-        own = self.thickness / (self.module * self.number_of_teeth)
-        return angle, own + self.involute.involute_at(self.pitch_angle) - self.involute.involute(rolled)
+        start = self.half_pitch_angle + self.involute.involute_at(self.pitch_angle)
+        return self.involute.angle(rolled), start - self.involute.involute(rolled)
 
     # the blank --------------------------------------------------------------------------------------------------
 
@@ -290,10 +298,10 @@ class BevelGear(Record, dict=True):
             high = self.addendum_coefficient + self.tip_clearance_coefficient - _LEAST_HEIGHT
             raise ParameterError("profile_shift_coefficient", shift, "bevel_shift_leaves_no_tooth",
                                  limit(low if shift < low else high, shift))  # fmt: skip
-        if self.tip_angle > STEEPEST:
+        if self.tip_angle > _STEEPEST:
             more = [step * self.number_of_teeth for step in _RATIOS]
             raise self._cured("mate_teeth", more, BevelGear._check_cones, "bevel_too_flat",
-                              most=math.degrees(STEEPEST))  # fmt: skip
+                              most=math.degrees(_STEEPEST))  # fmt: skip
         if self.root_angle <= 0 or self.rim_room <= self._wall:
             raise self._cured("number_of_teeth", 10 * self.number_of_teeth, BevelGear._check_cones, "bevel_no_root")
         most = _MOST_FACE * self.cone_distance
@@ -349,15 +357,13 @@ class BevelGear(Record, dict=True):
     def least_shift(self) -> float:
         """x without undercut: the crown gear's flank ends at the base cone."""
 
-        def reserve(shift: float) -> float:
-            gear = replace(self, profile_shift_coefficient=shift)
-            touching = math.atan(math.tan(self.pitch_angle) * math.sin(self.pressure_angle))
-            return float(gear.fillet.reach(math.pi / 2 - self.pressure_angle)) - touching
+        def lost(shift: float) -> float:
+            return replace(self, profile_shift_coefficient=shift)._cut_away
 
         low, high = -self.addendum_coefficient, self.addendum_coefficient + self.tip_clearance_coefficient
-        while reserve(low) < 0:
+        while lost(low) < 0:
             low -= 2.0
-        return bracketed_root(reserve, low, high).value
+        return bracketed_root(lost, low, high).value
 
     @property
     def _wall(self) -> float:

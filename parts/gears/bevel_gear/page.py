@@ -15,7 +15,7 @@ from geometry.gears.bevel.gear import BevelGear
 from geometry.gears.bevel.pair import BevelPair
 from parts.base.texts import N_, message
 from parts.gears.bevel_gear.part import BEVEL_GEAR, BevelGearSpec, bevel_findings
-from parts.keys.base import mm
+from parts.keys.base import either, mm
 from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
@@ -71,10 +71,12 @@ def _pair(keys: BevelKeys) -> BevelPair:
     thinning = keys.circumferential_thinning
     if keys.normal_backlash is not None:
         if thinning:
-            raise ParameterError("normal_backlash", keys.normal_backlash, "either_key", None,
-                                 one="normal_backlash", other="circumferential_thinning")  # fmt: skip
+            raise either("normal_backlash", keys.normal_backlash, "circumferential_thinning")
         thinning = keys.normal_backlash / (2 * math.cos(math.radians(keys.pressure_angle_deg)))
-    first = BEVEL_GEAR.thing(changed(keys, circumferential_thinning=thinning), {})
+    try:
+        first = BEVEL_GEAR.thing(changed(keys, circumferential_thinning=thinning), {})
+    except ParameterError as error:
+        raise _by_backlash(error, keys) from error
     own = 0.0 if keys.normal_backlash is None else thinning
     second = replace(
         first, number_of_teeth=first.mate_teeth, mate_teeth=first.number_of_teeth,
@@ -93,7 +95,14 @@ def _pair(keys: BevelKeys) -> BevelPair:
             cure = None if nearest is None else replace(nearest, side="exactly").scaled(-1.0)
             raise ParameterError(error.name, getattr(keys, error.name), error.code, cure, **error.numbers) from error
         swapped = {"number_of_teeth": "mate_teeth", "mate_teeth": "number_of_teeth"}
-        raise error.renamed(swapped.get(error.name, error.name)) from error
+        raise _by_backlash(error.renamed(swapped.get(error.name, error.name)), keys) from error
+
+
+def _by_backlash(error: ParameterError, keys: BevelKeys) -> ParameterError:
+    """A refusal of the thinning under the key that asked for it."""
+    if error.name != "circumferential_thinning" or keys.normal_backlash is None:
+        return error
+    return error.renamed("normal_backlash", 2 * math.cos(math.radians(keys.pressure_angle_deg)))
 
 
 def _given(page: Sheet, pair: BevelPair) -> None:
@@ -208,4 +217,5 @@ def _forces(page: Sheet, pair: BevelPair, torque: float) -> None:
     page.both(
         "axial_force", _each(pair, lambda g: lean * math.sin(g.pitch_angle)), "{F_t} * tan({alpha}) * sin({delta#})"
     )
+    page.notes.append(N_("the axial forces push both gears away from the apex"))
     page.add("normal_force", along / math.cos(first.pressure_angle), "{F_t} / cos({alpha})")

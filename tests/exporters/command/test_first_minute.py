@@ -79,6 +79,13 @@ def test_new_prints_a_built_in_scene(capsys: pytest.CaptureFixture[str]) -> None
         assert (said(capsys, "new", name) == text) is (name not in KINDS)
 
 
+def test_a_file_that_stands_is_told_before_the_page_is_made(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (file := tmp_path / "mine.txt").write_text("mine", encoding="utf-8")
+    # what the page would say of it
+    assert run("calc", "gear-pair", "no_such_scene", "--out", file) == 2
+    assert "exists already" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("command", [("new", "spur_gear"), ("schema",), ("calc", "gear-pair", "practicum_pair")])
 def test_no_page_is_written_over_a_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], command: tuple[str, ...]

@@ -65,7 +65,9 @@ def test_a_ratio_stays_above_zero() -> None:
     found = refused(scene_of(RATIO | {"ratio_cosines": [0.9]}))
     assert found is not None
     assert (found.key, found.nearest is None) == ("parts.p.ratio_cosines", False)
-    (share,) = (x / 0.9 for x in found.nearest.value)  # type: ignore[union-attr]
+    assert found.nearest is not None
+    assert isinstance(found.nearest.value, list)
+    (share,) = (x / 0.9 for x in found.nearest.value)
     assert 0 < share < 1
     assert refused(scene_of(RATIO | {"ratio_cosines": [0.9 * share]})) is None
     assert refused(scene_of(RATIO | {"ratio_cosines": [0.9 * (share + 0.002)]})) is not None
@@ -94,7 +96,8 @@ def test_a_mate_closes_on_whole_lobes_of_the_driver() -> None:
     offered = found.nearest.value
     assert refused(scene_of(mate | {"number_of_teeth": offered})) is None
     # what is nearer cannot be cut
-    nearer = [z for z in (9, 18, 27, 36, 45, 54) if abs(z - 35) < abs(offered - 35)]  # type: ignore[operator]
+    assert isinstance(offered, int)
+    nearer = [z for z in (9, 18, 27, 36, 45, 54) if abs(z - 35) < abs(offered - 35)]
     assert all(refused(scene_of(mate | {"number_of_teeth": z})) is not None for z in nearer)
 
 

@@ -189,6 +189,14 @@ def test_the_page_tells_what_textbooks_tell() -> None:
     assert math.hypot(along, radial[0], axial[0]) == pytest.approx(told["normal_force"], rel=1e-12)
 
 
+def test_a_backlash_that_leaves_no_tooth_is_refused_by_its_own_key() -> None:
+    words = ["module=2", "number_of_teeth=20", "mate_teeth=40"]
+    with pytest.raises(SceneError, match=r"normal_backlash = 9.0: .*; at most ") as caught:
+        calculate("bevel", [*words, "normal_backlash=9"], "text", "en")
+    assert caught.value.nearest is not None
+    assert "j_n" in calculate("bevel", [*words, f"normal_backlash={caught.value.nearest.value}"], "text", "en")
+
+
 def test_the_page_of_a_scene_and_its_refusals() -> None:
     assert "δ1" in calculate("bevel", ["bevel_pair", "part=wheel"], "text", "en")
     # the mate's shift is the negative of the one that is given
