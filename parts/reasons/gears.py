@@ -151,6 +151,7 @@ REASONS = {
     "worm_wheel_not_reached": N_("the hob does not reach the rim at the ends of the face: it leaves no space there"),
     "worm_wheel_pointed": N_("the teeth are pointed at the ends of the face"),
     "worm_wheel_undercut": N_("undercut leaves no flank at the ends of the face"),
+    "bevel_below_crown": N_("the root lies deeper than the flanks of the crown gear that cuts it can reach"),
     "bevel_crown_pointed": N_("the tooth of the crown gear that cuts it is pointed before it reaches the root"),
     "bevel_face_to_apex": N_("reaches the apex of the cones: the outer cone distance is {distance} mm"),
     "bevel_hub_half_told": N_("a hub needs its diameter and its length, or mounting_distance"),
@@ -162,6 +163,7 @@ REASONS = {
     "bevel_rim_over_axis": N_("the back cone would run into the axis"),
     "bevel_rounding_too_large": N_("does not fit on the tip of the crown gear's teeth"),
     "bevel_shift_leaves_no_tooth": N_("leaves no addendum or no dedendum"),
+    "bevel_tips_run_out": N_("the tip cone, parallel to the root cone of the mate, leaves no flank at the inner end"),
     "bevel_too_flat": N_("the tip cone would be wider than {most} degrees from the axis: a face gear"),
     "worm_not_moved": N_(
         "is not for a worm, which would lose the form of its flanks: thin the thread by axial_thinning"

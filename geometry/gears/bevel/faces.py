@@ -1,7 +1,8 @@
 """The faces of a straight bevel gear: ruled splines over its flanks and fillets, everything else exact.
 
 Every edge of a tooth is drawn on the back cone once; at the inner end stands the same, smaller, and rays of the apex
-join both. So a surface is as near to the exact cone over its curve as that curve is to the spline.
+join both. So a surface is as near to the exact cone over its curve as that curve is to the spline. Where the tip cone
+does not meet the apex a flank ends before its rays do: it is drawn from root to tip cone at every cone distance.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.approximation.outline import spline_outline
-from geometry.approximation.tensor import axis_poles, clamped, greville
+from geometry.approximation.tensor import axis_poles, clamped, greville, tensor_poles
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
 from geometry.curves.bspline import BSpline, basis_matrix
@@ -42,6 +43,8 @@ from geometry.solids.rings import AHEAD, UP, Ring, RingBuilder
 _DEGREE, _MOST_SPANS, _SAMPLES, _MARGIN = 7, 64, 11, 1.5
 # kernels join edges and faces within 1e-7 mm
 _TARGET, _ROUNDING = 2e-8, 8e-15
+# the share of it that an edge may take of a flank's
+_EDGE = 0.8
 _RULED = np.array([0.0, 0.0, 1.0, 1.0])
 _SIDES = ("fillet", "flank")
 
@@ -110,7 +113,7 @@ def seen_profile(gear: BevelGear, tolerance: float) -> Profile:
 
 def _fitted(gear: BevelGear, name: str, tolerance: float) -> tuple[Real, Real, float]:
     """Knots, poles (k, 3) of the upper side of tooth 0 on the back cone, and their error, mm."""
-    least, spans = max(min(tolerance, _TARGET) / _MARGIN, _ROUNDING * gear.cone_distance), 1
+    least, spans = max(_EDGE * min(tolerance, _TARGET) / _MARGIN, _ROUNDING * gear.cone_distance), 1
     while spans <= _MOST_SPANS:
         knots = clamped(_DEGREE, np.linspace(0.0, 1.0, spans + 1))
         poles = axis_poles(_DEGREE, knots, gear.points(name, greville(_DEGREE, knots)), 0)
@@ -120,6 +123,29 @@ def _fitted(gear: BevelGear, name: str, tolerance: float) -> tuple[Real, Real, f
             return knots, poles, _MARGIN * float(error)
         spans *= 2
     raise ConvergenceError("spline of a bevel tooth", float(error), spans)
+
+
+def _fitted_flank(gear: BevelGear, u_knots: Real, tolerance: float) -> tuple[int, Real, Real, float]:
+    """Degree and knots along the teeth, poles (u, v, 3) of the upper flank of tooth 0, and their error, mm."""
+    shares = greville(_DEGREE, u_knots)
+    if gear.tip_to_apex:
+        outer = axis_poles(_DEGREE, u_knots, gear.points("flank", shares), 0)
+        apex = gear.placed(np.zeros(3))
+        return 1, _RULED, np.stack([outer, apex + gear.inner_distance / gear.cone_distance * (outer - apex)], 1), 0.0
+    least, spans = max(min(tolerance, _TARGET) / _MARGIN, 2 * _ROUNDING * gear.cone_distance), 1
+    fine = np.linspace(0.0, 1.0, _SAMPLES * (len(u_knots) - 2 * _DEGREE - 1) + 1)
+    while spans <= _MOST_SPANS:
+        knots = clamped(_DEGREE, np.linspace(0.0, 1.0, spans + 1))
+        poles = tensor_poles(_DEGREE, u_knots, knots, gear.flank_points(shares, greville(_DEGREE, knots)))
+        along = np.linspace(0.0, 1.0, _SAMPLES * spans + 1)
+        made = np.einsum(
+            "iu,uvc,jv->ijc", basis_matrix(_DEGREE, u_knots, fine), poles, basis_matrix(_DEGREE, knots, along)
+        )
+        error = float(np.linalg.norm(made - gear.flank_points(fine, along), axis=2).max())
+        if error <= least:
+            return _DEGREE, knots, poles, _MARGIN * error
+        spans *= 2
+    raise ConvergenceError("spline of a bevel flank", error, spans)
 
 
 # faces ----------------------------------------------------------------------------------------------------------
@@ -136,8 +162,18 @@ class _Bevel(RingBuilder):
         self.apex = np.array([0.0, 0.0, gear.mounting_distance])
         self.knots, self.poles = {}, {}
         for name in _SIDES:
-            self.knots[name], self.poles[name], error = _fitted(gear, name, tolerance)
+            self.knots[name], outer, error = _fitted(gear, name, tolerance)
             self.worst = max(self.worst, error)
+            self.poles[name] = np.stack([outer, self.apex + self.share * (outer - self.apex)], axis=1)
+        degree, along, self.poles["flank"], error = _fitted_flank(gear, self.knots["flank"], tolerance)
+        self.worst = max(self.worst, error)
+        # degrees and knots along the teeth; faces side by side have as many spans
+        self.is_ruled = len(along) == 2 * (degree + 1)
+        self.degrees, self.along = {"fillet": 1, "flank": degree}, {"fillet": _RULED, "flank": along}
+        if not self.is_ruled:
+            self.degrees["fillet"], self.along["fillet"] = degree, along
+            low, high = np.moveaxis(self.poles["fillet"], 1, 0)
+            self.poles["fillet"] = low[:, None] + greville(degree, along)[:, None] * (high - low)[:, None]
 
     def height(self, place: complex) -> float:
         """z of a place of the blank, mm."""
@@ -168,46 +204,46 @@ class _Bevel(RingBuilder):
         """Flanks, fillets, lands, and what both ends leave between them."""
         gear, poles = self.gear, self.poles
         mirror = np.array([1.0, -1.0, 1.0])
-        # from the lower root over the tip to the upper root
-        corners = np.array([poles["fillet"][0], poles["flank"][0], poles["flank"][-1]])
-        corners = np.concatenate([corners * mirror, corners[::-1]])
         ends, vertices = [], []
-        splines: list[dict[tuple[str, int], Index]] = []
-        for size in (1.0, self.share):
-            points = self.on_teeth(self.shrunk(corners, size))
+        for end in (0, -1):
+            # from the lower root over the tip to the upper root
+            corners = np.array([poles["fillet"][0, end], poles["flank"][0, end], poles["flank"][-1, end]])
+            points = self.on_teeth(np.concatenate([corners * mirror, corners[::-1]]))
             ends.append(points)
             vertices.append(np.stack([self.add_vertices(column) for column in points.T], axis=1))
-            splines.append({})
         self.vertices_at = vertices
-        rows: dict[tuple[str, int], list[Index]] = {}
-        for side, (name, place) in [(s, (n, p)) for s in (-1, 1) for p, n in enumerate(_SIDES)]:
-            first, last = (place, place + 1) if side < 0 else (5 - place, 4 - place)
-            for end, size in enumerate((1.0, self.share)):
-                inner = self.on_teeth(self.shrunk(poles[name][1:-1] * (mirror if side < 0 else 1.0), size))
-                row = np.concatenate([ends[end][:, [first]], inner, ends[end][:, [last]]], axis=1)
-                rows.setdefault((name, side), []).append(row)
-                curve = Spline(_DEGREE, self.knots[name], row)
-                splines[end][name, side] = self.add_edges(vertices[end][:, first], vertices[end][:, last], curve)
         places = [self.place(vertex) for vertex in np.concatenate(vertices, axis=1).T]
-        rays = []
-        for k in range(6):
+        rays: dict[int, Index] = {}
+        # flanks end at the tip cone on rays where that meets the apex
+        straight = (0, 1, 4, 5) if self.is_ruled else ()
+        for k in range(6) if gear.tip_to_apex else straight:
             way = places[6 + k] - places[k]
             way = way / np.linalg.norm(way, axis=1)[:, None]
-            rays.append(self.add_edges(vertices[0][:, k], vertices[1][:, k], Straight(way)))
-        for (name, side), grid in rows.items():
-            place = _SIDES.index(name)
+            rays[k] = self.add_edges(vertices[0][:, k], vertices[1][:, k], Straight(way))
+        splines: list[dict[tuple[str, int], Index]] = [{}, {}]
+        for side, (place, name) in [(s, p) for s in (-1, 1) for p in enumerate(_SIDES)]:
             first, last = (place, place + 1) if side < 0 else (5 - place, 4 - place)
-            surface = SplineSurface((_DEGREE, 1), self.knots[name], _RULED, np.stack(grid, axis=2))
+            grid = self._grid(poles[name] * (mirror if side < 0 else 1.0), ends, first, last)
+            for end in (0, 1):
+                curve = Spline(_DEGREE, self.knots[name], grid[:, :, -end])
+                splines[end][name, side] = self.add_edges(vertices[end][:, first], vertices[end][:, last], curve)
+            for corner, u in ((first, 0), (last, -1)):
+                if corner not in rays:
+                    line = Spline(self.degrees[name], self.along[name], grid[:, u])
+                    rays[corner] = self.add_edges(vertices[0][:, corner], vertices[1][:, corner], line)
+            degrees = _DEGREE, self.degrees[name]
+            surface = SplineSurface(degrees, self.knots[name], self.along[name], grid)
             low, high = splines[0][name, side], splines[1][name, side]
             around = [(low, True), (rays[last], True), (high, False), (rays[first], False)]
             if side > 0:
                 around = [(edge, not way) for edge, way in reversed(around)]
             self.face(surface, around, along=side < 0)
         after = [np.roll(v[:, 0], -1) for v in vertices]
-        circles = (gear.outer, gear.inner)
-        tips = [self.arc(c(gear.tip_angle), v[:, 2], v[:, 3]) for c, v in zip(circles, vertices, strict=True)]
-        roots = [self.arc(c(gear.root_angle), v[:, 5], a) for c, v, a in zip(circles, vertices, after, strict=True)]
-        self.face(self.cone(gear.outer(gear.tip_angle), gear.tip_angle, up=False),
+        tops = gear.outer(gear.tip_angle), gear.inner(gear.inner_tip_angle)
+        tips = [self.arc(top, v[:, 2], v[:, 3]) for top, v in zip(tops, vertices, strict=True)]
+        feet_at = gear.outer(gear.root_angle), gear.front
+        roots = [self.arc(foot, v[:, 5], a) for foot, v, a in zip(feet_at, vertices, after, strict=True)]
+        self.face(self.cone(tops[0], gear.tip_cone_angle, up=False),
                   [(tips[0], True), (rays[3], True), (tips[1], False), (rays[2], False)])  # fmt: skip
         self.face(self.cone(gear.outer(gear.root_angle), gear.root_angle, up=False),
                   [(roots[0], True), (np.roll(rays[0], -1), True), (roots[1], False), (rays[5], False)])  # fmt: skip
@@ -219,9 +255,16 @@ class _Bevel(RingBuilder):
         self.front_loop = np.stack([feet, roots[1]], axis=1).reshape(1, -1)
         self._back_cone(splines[0], tips[0], roots[0], slant)
 
-    def shrunk(self, points: Real, size: float) -> Real:
-        """Points nearer to the apex."""
-        return self.apex + size * (points - self.apex)
+    def _grid(self, poles: Real, ends: list[Index], first: int, last: int) -> Index:
+        """Numbers (n, u, v) of poles (u, v, 3) on all teeth, whose corners stand already."""
+        inner = np.ones(poles.shape[:2], bool)
+        inner[np.ix_((0, -1), (0, -1))] = False
+        grid = np.empty((len(self.starts), *poles.shape[:2]), int)
+        grid[:, inner] = self.on_teeth(poles[inner])
+        for u, corner in ((0, first), (-1, last)):
+            for v in (0, 1):
+                grid[:, u, -v] = ends[v][:, corner]
+        return grid
 
     def _back_cone(self, splines: dict[tuple[str, int], Index], tips: Index, roots: Index, slant: float) -> None:
         """From the teeth down to the rim, tooth by tooth."""

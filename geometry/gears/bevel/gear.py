@@ -1,7 +1,8 @@
 """A straight bevel gear: cones, the exact tooth of its spherical involutes, and the blank that carries it.
 
-All cones meet in the apex. Lengths of the tooth are those of the outer end (GOST 19624-74), on the back cone, which
-stands at right angles on the pitch cone; axial form I.
+Pitch, base and root cone meet in the apex (GOST 19325-73, axial form I). The tip cone runs parallel to the mate's root
+cone, so that the clearance is the same along the face, or it meets them too. Lengths of the tooth are those of the
+outer end (GOST 19624-74), on the back cone, which stands at right angles on the pitch cone.
 """
 
 from __future__ import annotations
@@ -34,6 +35,8 @@ _SHIFTS, _RATIOS = (0.2, 0.4, 0.6, 0.8, 1.0, 1.4, 2.0), (1, 3, 10, 30)
 _SHARES = (0.8, 0.6, 0.4, 0.3)
 # share of a cone distance that a face takes at most
 _MOST_FACE = 0.99
+# share of the outer flank that is left at the inner end
+_LEAST_FLANK = 0.01
 
 
 class Blank(Record):
@@ -49,7 +52,8 @@ class BevelGear(Record, dict=True):
     """A straight bevel gear for a mate of ``mate_teeth`` at the shaft angle; mm at the outer end, rad.
 
     ``thickness_coefficient``: x_tau, by which the tooth is thicker than its shift makes it, in modules; both
-    coefficients of the mate have the other sign. The crown gear that cuts it has the tip rounding.
+    coefficients of the mate have the other sign. The crown gear that cuts it has the tip rounding. ``tip_to_apex``: the
+    tip cone meets the apex, else it runs parallel to the mate's root cone.
     """
 
     module: float
@@ -65,6 +69,7 @@ class BevelGear(Record, dict=True):
     profile_shift_coefficient: float = 0.0
     thickness_coefficient: float = 0.0
     circumferential_thinning: float = 0.0
+    tip_to_apex: bool = False
 
     # cones ------------------------------------------------------------------------------------------------------
 
@@ -97,8 +102,9 @@ class BevelGear(Record, dict=True):
 
     @property
     def addendum_angle(self) -> float:
-        """theta_a."""
-        return math.atan(self.addendum / self.cone_distance)
+        """theta_a, by which the tip cone opens wider than the pitch cone: theta_f of the mate (GOST 19624-74)."""
+        clearance = 0.0 if self.tip_to_apex else self.tip_clearance_coefficient * self.module
+        return math.atan((self.addendum + clearance) / self.cone_distance)
 
     @property
     def dedendum_angle(self) -> float:
@@ -106,9 +112,30 @@ class BevelGear(Record, dict=True):
         return math.atan(self.dedendum / self.cone_distance)
 
     @property
-    def tip_angle(self) -> float:
+    def tip_cone_angle(self) -> float:
         """delta_a."""
         return self.pitch_angle + self.addendum_angle
+
+    @property
+    def tip_angle(self) -> float:
+        """Between the axis and the ray from the apex to the outer tip circle: delta_a where ``tip_to_apex``."""
+        return self.pitch_angle + math.atan(self.addendum / self.cone_distance)
+
+    def addendum_at(self, distance: ArrayLike) -> Real:
+        """h_a, mm, at cone distances from the apex along the pitch cone, mm."""
+        within = self.cone_distance - np.asarray(distance, dtype=float)
+        return np.asarray(self.addendum - within * math.tan(self.addendum_angle))
+
+    def tip_angle_at(self, distance: ArrayLike) -> Real:
+        """The same as ``tip_angle`` at cone distances, mm."""
+        if self.tip_to_apex:
+            return np.full(np.shape(distance), self.tip_angle)
+        return np.asarray(self.pitch_angle + np.arctan(self.addendum_at(distance) / np.asarray(distance, dtype=float)))
+
+    @property
+    def inner_tip_angle(self) -> float:
+        """The same at the inner end."""
+        return float(self.tip_angle_at(self.inner_distance))
 
     @property
     def root_angle(self) -> float:
@@ -202,7 +229,7 @@ class BevelGear(Record, dict=True):
 
     @property
     def tip_arc(self) -> float:
-        """Of the involute at the tip cone."""
+        """Of the involute at the outer tip circle."""
         return float(self.involute.arc(self.tip_angle))
 
     @property
@@ -215,7 +242,10 @@ class BevelGear(Record, dict=True):
         crossing, arc = self.joint
         if name == "fillet":
             return self.fillet_place(crossing * share)
-        rolled = arc + (self.tip_arc - arc) * share
+        return self._flank(arc + (self.tip_arc - arc) * share)
+
+    def _flank(self, rolled: Real) -> tuple[Real, Real]:
+        """Angles and azimuths of the upper side where so much of the great circle is rolled off."""
         start = self.half_pitch_angle + self.involute.involute_at(self.pitch_angle)
         return self.involute.angle(rolled), start - self.involute.involute(rolled)
 
@@ -252,12 +282,20 @@ class BevelGear(Record, dict=True):
     @property
     def height(self) -> float:
         """From the back face to the inner tip circle, mm."""
-        return self.mounting_distance - min(self.inner(self.tip_angle).imag, self.front.imag)
+        return self.mounting_distance - min(self.inner(self.inner_tip_angle).imag, self.front.imag)
 
     def points(self, name: str, share: Real) -> Real:
         """Points (k, 3) of the upper side of tooth 0 on the back cone, mm; the apex on the axis over the back face."""
         angle, azimuth = self.tooth_places(name, share)
         size = self.cone_distance / np.cos(angle - self.pitch_angle)
+        return self.placed(size[..., None] * spatial(angle, azimuth))
+
+    def flank_points(self, share: Real, along: Real) -> Real:
+        """Points (k, n, 3) of the upper flank of tooth 0, mm: shares (k,) from the fillet to the tip cone, and of b."""
+        distance, arc = self.cone_distance - along * self.face_width, self.joint[1]
+        tips = self.involute.arc(self.tip_angle_at(distance))
+        angle, azimuth = self._flank(arc + share[:, None] * (tips - arc))
+        size = distance / np.cos(angle - self.pitch_angle)
         return self.placed(size[..., None] * spatial(angle, azimuth))
 
     def placed(self, points: Real) -> Real:
@@ -275,7 +313,7 @@ class BevelGear(Record, dict=True):
             It does not: the parameter, why, and the nearest value that works where that one can cure it.
         """
         self._check_cones()
-        self._check_tooth()
+        self._check_whole_tooth()
         self._check_blank()
         return self
 
@@ -298,16 +336,12 @@ class BevelGear(Record, dict=True):
             high = self.addendum_coefficient + self.tip_clearance_coefficient - _LEAST_HEIGHT
             raise ParameterError("profile_shift_coefficient", shift, "bevel_shift_leaves_no_tooth",
                                  limit(low if shift < low else high, shift))  # fmt: skip
-        if self.tip_angle > _STEEPEST:
+        if self.tip_cone_angle > _STEEPEST:
             more = [step * self.number_of_teeth for step in _RATIOS]
             raise self._cured("mate_teeth", more, BevelGear._check_cones, "bevel_too_flat",
                               most=math.degrees(_STEEPEST))  # fmt: skip
         if self.root_angle <= 0 or self.rim_room <= self._wall:
             raise self._cured("number_of_teeth", 10 * self.number_of_teeth, BevelGear._check_cones, "bevel_no_root")
-        most = _MOST_FACE * self.cone_distance
-        if self.face_width > most:
-            raise ParameterError("face_width", self.face_width, "bevel_face_to_apex", limit(most, self.face_width),
-                                 distance=self.cone_distance)  # fmt: skip
 
     def _check_tooth(self) -> None:
         if self.thickness <= _NOTHING * self.module:
@@ -325,8 +359,12 @@ class BevelGear(Record, dict=True):
                 raise self._cured("tip_radius_coefficient", 0.0, BevelGear._check_tooth, "bevel_rounding_too_large")
             raise self._cured("addendum_coefficient", [share * self.addendum_coefficient for share in _SHARES],
                               BevelGear._check_tooth, "bevel_crown_pointed")  # fmt: skip
+        if self.fillet.depth >= self.pressure_angle:
+            # spherical involutes of a crown gear end so far from its pitch plane
+            raise self._cured("profile_shift_coefficient", self._shifted(1), BevelGear._check_whole_tooth,
+                              "bevel_below_crown", UndercutError)  # fmt: skip
         if not kept(BevelGear._has_flank, self):
-            raise self._cured("profile_shift_coefficient", self._shifted(1), BevelGear._check_tooth,
+            raise self._cured("profile_shift_coefficient", self._shifted(1), BevelGear._check_whole_tooth,
                               "no_involute_below_tip", UndercutError)  # fmt: skip
 
     def _is_pointed(self) -> bool:
@@ -340,6 +378,23 @@ class BevelGear(Record, dict=True):
     def _has_flank(self) -> bool:
         """Whether the fillet leaves some of it."""
         return self.joint[1] < self.tip_arc
+
+    def _check_whole_tooth(self) -> None:
+        self._check_tooth()
+        self._check_face()
+
+    def _check_face(self) -> None:
+        least = 1e-3 * self.cone_distance
+        if self.face_width > _MOST_FACE * self.cone_distance:
+            raise self._cured("face_width", least, BevelGear._check_face, "bevel_face_to_apex",
+                              distance=self.cone_distance)  # fmt: skip
+        if not self._has_inner_flank():
+            raise self._cured("face_width", least, BevelGear._check_face, "bevel_tips_run_out")
+
+    def _has_inner_flank(self) -> bool:
+        """Whether the tip cone leaves some of it at the inner end."""
+        left = float(self.involute.arc(self.inner_tip_angle)) - self.joint[1]
+        return float(self.addendum_at(self.inner_distance)) > 0 and left > _LEAST_FLANK * (self.tip_arc - self.joint[1])
 
     def _check_blank(self) -> None:
         rim, hub = self.blank.rim_thickness, self.blank.hub_diameter

@@ -40,15 +40,15 @@ def part_drawing(subject: Subject) -> PartDrawing:
     strokes: list[Stroke] = []
     hatched = []
     for way, bore in ((1, up), (-1, down)):
-        tips: Loop = _half(gear, bore, gear.tip_angle)
-        roots: Loop = _half(gear, bore, gear.root_angle)
+        tips: Loop = _half(gear, bore, _tips(gear))
+        roots: Loop = _half(gear, bore, _along(gear, gear.root_angle))
         if way < 0:
             tips, roots = below(tips), below(roots)
         strokes += outlined(tips)
-        lines = [Line(*_ends(gear, angle)) for angle in (gear.root_angle, gear.pitch_angle)]
+        lines = [Line(*_along(gear, angle)) for angle in (gear.root_angle, gear.pitch_angle)]
         root, pitch = (line if way > 0 else Line(line.start.conjugate(), line.end.conjugate()) for line in lines)
         strokes += [(VISIBLE, root), (AXIS, pitch)]
-        edges = seen_edges(_half(gear, bore, gear.root_angle), cut=True)
+        edges = seen_edges(_half(gear, bore, _along(gear, gear.root_angle)), cut=True)
         strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in edges]
         hatched.append(tuple(roots))
     high = gear.mounting_distance - gear.front.imag
@@ -56,14 +56,14 @@ def part_drawing(subject: Subject) -> PartDrawing:
     wishes = subject.wishes
     is_round = holes.bore is None or isinstance(holes.bore, RoundBore)
     fits = Fits("", wishes.bore, wishes.tip)
-    half = _half(gear, up if is_round else 0.0, gear.tip_angle)
+    half = _half(gear, up if is_round else 0.0, _tips(gear))
     told = turned_sizes(half, fits, subject.language).sizes
     # the inner tip circle ends an outer and an inner cone
     alone = {(size.before, size.side in _ACROSS, round(size.value, 7)): size for size in reversed(told)}
     sizes = [*reversed(alone.values())]
     sizes.append(Size("mounting_distance", 0j, complex(gear.mounting_distance), "below"))
     axes = (Line(0j, complex(gear.mounting_distance)),)
-    outer, inner = _ends(gear, gear.pitch_angle)
+    outer, inner = _along(gear, gear.pitch_angle)
     notes = [Note((outer + inner) / 2, f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)]
     if holes.bore is not None:
         notes.append(bore_note((0.0, high), -down, f"Ra {subject.say(wishes.bore_roughness)}"))
@@ -79,17 +79,21 @@ def _place(gear: BevelGear, place: complex) -> complex:
     return complex(gear.mounting_distance - place.imag, place.real)
 
 
-def _ends(gear: BevelGear, angle: float) -> tuple[complex, complex]:
-    """The outer and the inner end of a cone of the teeth, as drawn."""
+def _along(gear: BevelGear, angle: float) -> tuple[complex, complex]:
+    """The outer and the inner end of a cone over the apex, as drawn."""
     return _place(gear, gear.outer(angle)), _place(gear, gear.inner(angle))
 
 
-def _half(gear: BevelGear, bore: float, angle: float) -> tuple[Line, ...]:
-    """Half the section up to a cone of the teeth, from the bore on the back face on."""
+def _tips(gear: BevelGear) -> tuple[complex, complex]:
+    """The same of the tip cone."""
+    return _place(gear, gear.outer(gear.tip_angle)), _place(gear, gear.inner(gear.inner_tip_angle))
+
+
+def _half(gear: BevelGear, bore: float, ends: tuple[complex, complex]) -> tuple[Line, ...]:
+    """Half the section up to a cone of the teeth with these ends, from the bore on the back face on."""
     blank, rim, front = gear.blank, _place(gear, gear.rim), _place(gear, gear.front)
     hub = [complex(0, blank.hub_diameter / 2), complex(blank.hub_length, blank.hub_diameter / 2)]
-    points = [1j * bore, *(hub if blank.hub_length else []), rim, *_ends(gear, angle), front,
-              complex(front.real, bore)]  # fmt: skip
+    points = [1j * bore, *(hub if blank.hub_length else []), rim, *ends, front, complex(front.real, bore)]
     return closed(points)
 
 

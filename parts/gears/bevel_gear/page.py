@@ -141,9 +141,14 @@ def _cones(page: Sheet, pair: BevelPair) -> None:
     page.both("outer_addendum", _each(pair, lambda g: g.addendum), "({h_a} + {x#}) * {m}")
     page.both("outer_dedendum", _each(pair, lambda g: g.dedendum), "({h_a} + {c} - {x#}) * {m}")
     page.both("outer_depth", _each(pair, lambda g: g.addendum + g.dedendum), "{h_ae#} + {h_fe#}")
-    page.both("addendum_angle_deg", _each(pair, lambda g: math.degrees(g.addendum_angle)), "arctan({h_ae#} / {R_e})")
-    page.both("dedendum_angle_deg", _each(pair, lambda g: math.degrees(g.dedendum_angle)), "arctan({h_fe#} / {R_e})")
-    page.both("tip_cone_angle_deg", _each(pair, lambda g: math.degrees(g.tip_angle)), "{delta#} + {theta_a#}")
+    dedendum = _each(pair, lambda g: math.degrees(g.dedendum_angle))
+    page.both("dedendum_angle_deg", dedendum, "arctan({h_fe#} / {R_e})", (_GOST, _GOST))
+    addendum = _each(pair, lambda g: math.degrees(g.addendum_angle))
+    if first.tip_to_apex:
+        page.both("addendum_angle_deg", addendum, "arctan({h_ae#} / {R_e})")
+    else:
+        page.both("addendum_angle_deg", addendum, "{theta_f~}", (_GOST, _GOST))
+    page.both("tip_cone_angle_deg", _each(pair, lambda g: math.degrees(g.tip_cone_angle)), "{delta#} + {theta_a#}")
     page.both("root_cone_angle_deg", _each(pair, lambda g: math.degrees(g.root_angle)), "{delta#} - {theta_f#}")
     base = _each(pair, lambda g: math.degrees(g.involute.base))
     page.both("base_cone_angle_deg", base, "arcsin(sin({delta#}) * cos({alpha}))")

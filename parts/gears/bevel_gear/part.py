@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta
 
@@ -64,6 +64,13 @@ class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_
     addendum_coefficient: Addendum = 1.0
     tip_clearance_coefficient: TipClearance = 0.2
     tip_radius_coefficient: TipRadius = 0.2
+    tip_cone: Annotated[
+        Literal["parallel", "apex"],
+        Meta(
+            description="tip cone: parallel to the mate's root cone, for one clearance along the face (GOST 19624, ISO "
+            "23509, Gleason); or through the apex of the others"
+        ),
+    ] = "parallel"
     circumferential_thinning: Annotated[
         float, mm("thinning of the tooth along the outer pitch circle, for backlash", least=0, most=1000)
     ] = 0.0
@@ -95,7 +102,7 @@ def bevel_gear(keys: BevelGearSpec, blank: Blank) -> BevelGear:
         keys.module, keys.number_of_teeth, keys.mate_teeth, 0.0, blank,
         math.radians(keys.shaft_angle_deg), math.radians(keys.pressure_angle_deg), keys.addendum_coefficient,
         keys.tip_clearance_coefficient, keys.tip_radius_coefficient, keys.profile_shift_coefficient,
-        keys.thickness_coefficient, keys.circumferential_thinning,
+        keys.thickness_coefficient, keys.circumferential_thinning, keys.tip_cone == "apex",
     )  # fmt: skip
     width = keys.face_width or min(USUAL_SHARE * gear.cone_distance, USUAL_FACE * keys.module)
     return replace(gear, face_width=width)
@@ -190,7 +197,7 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
             "face_width": thing.face_width,
             "outer_cone_distance": thing.cone_distance,
             "pitch_cone_angle_deg": math.degrees(thing.pitch_angle),
-            "tip_cone_angle_deg": math.degrees(thing.tip_angle),
+            "tip_cone_angle_deg": math.degrees(thing.tip_cone_angle),
             "root_cone_angle_deg": math.degrees(thing.root_angle),
             "base_cone_angle_deg": math.degrees(thing.involute.base),
             "virtual_teeth": thing.virtual_teeth,

@@ -105,7 +105,7 @@ def oval_axis(teeth: int, module: float, ratio: float) -> float:
 
 
 def bevel_sizes() -> list[float]:
-    """Of m 3, z 20 / 40, x 0.3, by GOST 19624: three tenths of R_e wide, all cones in one apex."""
+    """Of m 3, z 20 / 40, x 0.3, by GOST 19624: three tenths of R_e wide, tips along the mate's root."""
     d = math.atan(0.5)
     radius, high, deep = 30.0, 3.9, 2.7
     cone, share = radius / math.sin(d), 0.7
@@ -115,9 +115,13 @@ def bevel_sizes() -> list[float]:
     mounted = cone * math.cos(d) + deep * math.sin(d) + rim * math.sin(d) + 12.0
     tip, above = radius + high * math.cos(d), cone * math.cos(d) - high * math.sin(d)
     front = cone * math.cos(d) + deep * math.sin(d)
+    # theta_a is theta_f of the mate, whose dedendum is 4.5
+    inner_high = high - (1 - share) * 4.5
+    inner_tip = share * radius + inner_high * math.cos(d)
+    inner_above = share * cone * math.cos(d) - inner_high * math.sin(d)
     keyway = [16.0, 18.3, 5.0, 0.25]
-    return [2 * tip, 2 * share * tip, 2 * share * root, 2 * (root - rim * math.cos(d)), 34.0, 12.0, mounted,
-            mounted - above, mounted - share * above, mounted - share * front, *keyway]  # fmt: skip
+    return [2 * tip, 2 * inner_tip, 2 * share * root, 2 * (root - rim * math.cos(d)), 34.0, 12.0, mounted,
+            mounted - above, mounted - inner_above, mounted - share * front, *keyway]  # fmt: skip
 
 
 # what each drawing must measure, mm: typed sizes, those of the standards (d_a = m (z + 2 x + 2), DIN 6885, GOST 19650)

@@ -188,6 +188,28 @@ def test_the_ratio_of_the_back_cones_comes_near_it_for_slender_cones() -> None:
 
 
 @pytest.mark.parametrize("number", range(len(PAIRS)))
+def test_tips_stay_as_far_above_the_root_of_the_mate_along_the_face(number: int) -> None:
+    """In the plane of both axes, the mate's root cone laid beside the tips: c at the outer end, and no less inwards."""
+    pair = both_sides(number)
+    for gear, mate in (pair.gears, pair.gears[::-1]):
+        clearance = mate.dedendum - gear.addendum
+        along = np.linspace(0.0, 1.0, 7)
+        tips = gear.flank_points(np.array([1.0]), along)[0]
+        depth, radius = gear.mounting_distance - tips[:, 2], np.hypot(tips[:, 0], tips[:, 1])
+        # the mate's axis stands Sigma off this gear's, its root cone delta_f2 off that, on the side of this gear
+        root = gear.shaft_angle - mate.root_angle
+        gaps = depth * math.sin(root) - radius * math.cos(root)
+        assert gaps == pytest.approx(clearance * math.cos(mate.dedendum_angle), rel=1e-12)
+        # and they are ends of flanks
+        assert wall_distance(gear, "flank", 1, tips) == pytest.approx(0.0, abs=1e-13)
+        apart = replace(gear, tip_to_apex=True)
+        inner = apart.inner(apart.inner_tip_angle)
+        gap = inner.imag * math.sin(root) - inner.real * math.cos(root)
+        least = gaps[0] * gear.inner_distance / gear.cone_distance
+        assert gap == pytest.approx(least, rel=1e-9)
+
+
+@pytest.mark.parametrize("number", range(len(PAIRS)))
 def test_distances_of_walls_are_those_of_points_moved_along_normals(number: int) -> None:
     """Surfaces are cones: their normals are those of the curves, at any distance from the apex."""
     gear = both_sides(number).first
@@ -252,6 +274,8 @@ def test_every_gear_is_made_or_refused_with_a_value_that_works(
         ({"circumferential_thinning": 10.0}, "thinning_leaves_no_tip", ParameterError),
         ({"number_of_teeth": 400, "mate_teeth": 3}, "bevel_too_flat", ParameterError),
         ({"face_width": 60.0}, "bevel_face_to_apex", ParameterError),
+        ({"face_width": 44.0}, "bevel_tips_run_out", ParameterError),
+        ({"number_of_teeth": 3, "mate_teeth": 3, "face_width": 1.0}, "bevel_below_crown", UndercutError),
         ({"blank": Blank(40.0)}, "bevel_rim_over_axis", ParameterError),
         ({"blank": Blank(2.0, 60.0, 3.0)}, "bevel_hub_over_rim", ParameterError),
     ],

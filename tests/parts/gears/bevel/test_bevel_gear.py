@@ -116,6 +116,17 @@ def test_files_hold_what_they_declare_and_spoiled_ones_are_found(tmp_path: Path)
 
 
 @pytest.mark.parametrize(
+    "keys", [{"face_width": 18.0}, {"face_width": 15.0}, {"face_width": 18.0, "tip_cone": "apex"}], ids=str
+)
+def test_faces_much_wider_than_usual_are_written_and_read_back(tmp_path: Path, keys: dict[str, Any]) -> None:
+    """R_e is 21.6: the more of it a face takes, the more spans its flanks and all beside them have."""
+    file = write_scene(tmp_path / "s.toml", {"pinion": PINION | {"bore_diameter": 1.0} | keys}, [{"format": "step"}])
+    assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 0
+    (entry,) = read_report(tmp_path / "out" / "s")["files"]
+    assert entry["max_error"] < 3e-8
+
+
+@pytest.mark.parametrize(
     ("pinion", "wheel", "key", "told"),
     [
         ({}, {"number_of_teeth": 19}, "parts.pinion.mate_teeth", "19"),
@@ -147,7 +158,7 @@ def test_a_mounting_distance_sets_the_hub_or_the_rim() -> None:
                           (WHEEL | {"mounting_distance": 17.0}, 17.0)):  # fmt: skip
         part = make_parts(scene_from_dict({"parts": {"p": keys}}, "s", "s"), "s")[0]["p"]
         low, high = part.body(0.0).levels()
-        tip = part.thing.inner(part.thing.tip_angle)
+        tip = part.thing.inner(part.thing.inner_tip_angle)
         assert (low, high) == pytest.approx((0.0, mounted - tip.imag), abs=1e-12)
 
 
@@ -187,6 +198,52 @@ def test_the_page_tells_what_textbooks_tell() -> None:
     # what pushes one aside pushes the other along
     assert radial == pytest.approx(axial[::-1], rel=1e-12)
     assert math.hypot(along, radial[0], axial[0]) == pytest.approx(told["normal_force"], rel=1e-12)
+
+
+# KHK, Gear Technical Reference, calculation of straight bevel gears: m 3, z 20/40, b 22 at a right angle; what the page
+# tells, then the radius of the inner tip circle of each
+KHK: dict[str, tuple[list[str], dict[str, list[float]], list[float]]] = {
+    "Gleason": (
+        ["profile_shift_coefficient=0.345", "tip_clearance_coefficient=0.188"],
+        {
+            "outer_addendum": [4.035, 1.965], "outer_dedendum": [2.529, 4.599],
+            "dedendum_angle_deg": [2.15903, 3.92194], "addendum_angle_deg": [3.92194, 2.15903],
+            "tip_cone_angle_deg": [30.48699, 65.59398], "root_cone_angle_deg": [24.40602, 59.51301],
+            "outer_tip_circle": [67.2180, 121.7575], "tip_circle_to_apex": [58.1955, 28.2425],
+        },
+        [44.8425, 81.6609],
+    ),
+    "standard": (
+        ["tip_clearance_coefficient=0.25", "tip_cone=apex"],
+        {
+            "dedendum_angle_deg": [3.19960, 3.19960], "addendum_angle_deg": [2.56064, 2.56064],
+            "tip_cone_angle_deg": [29.12569, 65.99559], "root_cone_angle_deg": [23.36545, 60.23535],
+            "outer_tip_circle": [65.3666, 122.6833], "tip_circle_to_apex": [58.6584, 27.3167],
+        },
+        [43.9292, 82.4485],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("system", KHK)
+def test_worked_examples_of_khk(system: str) -> None:
+    keys, expected, inner = KHK[system]
+    words = ["module=3", "number_of_teeth=20", "mate_teeth=40", "face_width=22", *keys]
+    told = json.loads(calculate("bevel", words, "json", "en"))["values"]
+    for name, value in expected.items():
+        assert list(told[name].values()) == pytest.approx(value, abs=6e-5), name
+    given: dict[str, Any] = {key: value if key == "tip_cone" else float(value) for key, value in
+                             (word.split("=") for word in words)}  # fmt: skip
+    for teeth, mate, way, diameter in ((20, 40, 1, inner[0]), (40, 20, -1, inner[1])):
+        shift = way * given.get("profile_shift_coefficient", 0.0)
+        own = {"number_of_teeth": teeth, "mate_teeth": mate, "profile_shift_coefficient": shift}
+        raw = {"parts": {"gear": given | own | {"kind": "bevel_gear"}}}
+        gear = make_parts(scene_from_dict(raw, "s", "s"), "s")[0]["gear"]
+        solid = gear.body(0.0).within(1e-6).geometry
+        points = solid.points[solid.vertices]
+        off = np.abs(np.hypot(points[:, 0], points[:, 1]) - diameter / 2)
+        # both corners of every tooth stand on the inner tip circle
+        assert int((off < 6e-5).sum()) == 2 * teeth
 
 
 def test_a_backlash_that_leaves_no_tooth_is_refused_by_its_own_key() -> None:
