@@ -22,11 +22,13 @@ from parts.base.texts import ENGLISH, N_, Words, words
 from parts.keys.sheet import SHEET_KEYS
 from parts.mates.registry import MATES
 from parts.recipes.registry import RECIPES
+from parts.scene.files import built_in_scenes
 from parts.scene.load import ExportSpec, SceneInfo, plain_tables
 
 # parts of the scene: of the kind that is shown, the one that it is made from, any other one
 _OWN, _SOURCE, _OTHER = "gear", "source", "wheel"
 _SCHEMA = "higherpair.schema.json"
+_NEW = "higherpair new "
 _SCHEMA_COMMAND = f"higherpair schema --out {_SCHEMA}"
 # tables of a plain scene, as they are printed
 _TABLES = ("scene", "parts", "instances", "mates", "drives", "steps", "boards", "beds", "exports", "checks")
@@ -147,10 +149,13 @@ def new_mate(kind: str, language: str = ENGLISH) -> str:
     if mate.joins is not None:
         pairs = (told.text("{first} and {second}", first=a, second=b) for a, b in mate.joins)
         who = told.text(" or ").join(pairs)
+    scene = built_in_scenes().get(kind)
+    whole = [] if scene is None else [f"# {told.text('A whole scene of it: {command}', command=_NEW + scene.name)}"]
     lines = [
         f"# {told.text(MATES.phrases[kind])}.",
         f"# {told.text('A table to be added to a scene that has both parts; it is no scene by itself.')}",
         f"# {told.text('Joins {who}; see higherpair new KIND for their keys.', who=who)}",
+        *whole,
         "[[mates]]",
         f'kind = "{kind}"',
         *_keys(fields(mate.keys), told, {"first": _OWN, "second": _OTHER}),

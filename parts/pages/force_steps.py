@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from typing import Annotated, Protocol
 
 from msgspec import Meta, Struct
 
@@ -22,16 +22,29 @@ _TORQUE = "torque on the first gear, which drives: adds the forces between the t
 _POWER = "power that the first gear takes in, by its speed: in place of its torque"
 
 
+Speed = Annotated[float, Meta(gt=0, le=1e6, description=_SPEED, extra={"unit": "rpm"})] | None
+Torque = Annotated[float, Meta(gt=0, le=1e9, description=_TORQUE, extra={"unit": "N*m"})] | None
+Power = Annotated[float, Meta(gt=0, le=1e9, description=_POWER, extra={"unit": "W"})] | None
+
+
 class DrivenKeys(Struct, kw_only=True):
     """Keys of a pair at work."""
 
-    speed_rpm: Annotated[float, Meta(gt=0, le=1e6, description=_SPEED, extra={"unit": "rpm"})] | None = None
-    torque: Annotated[float, Meta(gt=0, le=1e9, description=_TORQUE, extra={"unit": "N*m"})] | None = None
-    power: Annotated[float, Meta(gt=0, le=1e9, description=_POWER, extra={"unit": "W"})] | None = None
+    speed_rpm: Speed = None
+    torque: Torque = None
+    power: Power = None
 
 
-def force_steps(page: Sheet, pair: ExternalPair | InternalPair | RackPair, helical: Helical, keys: DrivenKeys) -> None:
-    """Torques and forces where the load is given: by a torque on the first gear, or by its power and speed.
+class Driven(Protocol):
+    """What has these keys."""
+
+    speed_rpm: float | None
+    torque: float | None
+    power: float | None
+
+
+def driving_torque(page: Sheet, keys: Driven) -> float | None:
+    """The torque on the first gear, N*m, under a heading of its own, where the load is given: by it or by a power.
 
     Raises
     ------
@@ -43,24 +56,31 @@ def force_steps(page: Sheet, pair: ExternalPair | InternalPair | RackPair, helic
     if keys.power is not None and keys.speed_rpm is None:
         raise ParameterError("power", keys.power, "needs_other", REMOVED, other="speed_rpm")
     if keys.torque is None and keys.power is None:
-        return
+        return None
     page.section(N_("Torques and forces, without friction"))
+    if keys.torque is not None:
+        page.add("gear_torque", keys.torque, gear=1, given=True)
+        if keys.speed_rpm is not None:
+            page.add("pair_power", keys.torque * math.pi * keys.speed_rpm / 30, "{T1} * pi * {n1} / 30")
+        return keys.torque
+    assert keys.power is not None
+    assert keys.speed_rpm is not None
+    torque = keys.power / (math.pi * keys.speed_rpm / 30)
+    page.add("pair_power", keys.power, given=True)
+    page.add("gear_torque", torque, "30 * {P} / (pi * {n1})", gear=1)
+    return torque
+
+
+def force_steps(page: Sheet, pair: ExternalPair | InternalPair | RackPair, helical: Helical, keys: DrivenKeys) -> None:
+    """Torques and forces where the load is given: by a torque on the first gear, or by its power and speed."""
+    torque = driving_torque(page, keys)
+    if torque is None:
+        return
     gear = pair.gears[0]
     if isinstance(pair, RackPair):
         radius, circle, angle = gear.reference_radius, "{r1}", gear.rack.pressure_angle
     else:
         radius, circle, angle = pair.working_radii[0], "{r_w1}", pair.working_pressure_angle
-    if keys.torque is not None:
-        torque = keys.torque
-        page.add("gear_torque", torque, gear=1, given=True)
-        if keys.speed_rpm is not None:
-            page.add("pair_power", torque * math.pi * keys.speed_rpm / 30, "{T1} * pi * {n1} / 30")
-    else:
-        assert keys.power is not None
-        assert keys.speed_rpm is not None
-        torque = keys.power / (math.pi * keys.speed_rpm / 30)
-        page.add("pair_power", keys.power, given=True)
-        page.add("gear_torque", torque, "30 * {P} / (pi * {n1})", gear=1)
     if not isinstance(pair, RackPair):
         page.add("gear_torque", torque * pair.gear_ratio, "{T1} * {u}", gear=2)
     helix = math.atan(math.tan(helical.angle) * radius / gear.reference_radius)

@@ -152,6 +152,16 @@ class BevelGear(Record, dict=True):
         """z_v of the back cone, z / cos delta (Tredgold)."""
         return self.number_of_teeth / math.cos(self.pitch_angle)
 
+    @property
+    def virtual_diameter(self) -> float:
+        """Of the outer pitch circle of the back cone, mm."""
+        return self.module * self.virtual_teeth
+
+    @property
+    def virtual_half_angle(self) -> float:
+        """psi_e of the tooth on the back cone."""
+        return self.thickness / self.virtual_diameter
+
     # tooth ------------------------------------------------------------------------------------------------------
 
     @property
@@ -173,7 +183,7 @@ class BevelGear(Record, dict=True):
     @cached_property
     def fillet(self) -> SphericalFillet:
         """What the tip rounding of the crown gear leaves."""
-        radius = math.atan(self.tip_radius_coefficient * self.module / self.cone_distance)
+        radius = self._rounding
         depth = self.dedendum_angle - radius
         crown = SphericalInvolute(math.pi / 2 - self.pressure_angle)
         space = math.pi / self.number_of_teeth - self.half_pitch_angle
@@ -188,10 +198,19 @@ class BevelGear(Record, dict=True):
         return angle, math.pi / self.number_of_teeth - aside
 
     @property
+    def _rounding(self) -> float:
+        """Radius of the rounding of the crown gear's tip, rad."""
+        return math.atan(self.tip_radius_coefficient * self.module / self.cone_distance)
+
+    @property
+    def _touching(self) -> float:
+        """Of the line of action from the pitch line to where it touches the base cone, rad."""
+        return math.atan(math.tan(self.pitch_angle) * math.sin(self.pressure_angle))
+
+    @property
     def _cut_away(self) -> float:
         """How far the crown gear's flank reaches beyond where the line of action touches the base cone, rad."""
-        touching = math.atan(math.tan(self.pitch_angle) * math.sin(self.pressure_angle))
-        return float(self.fillet.reach(math.pi / 2 - self.pressure_angle)) - touching
+        return float(self.fillet.reach(math.pi / 2 - self.pressure_angle)) - self._touching
 
     @property
     def is_undercut(self) -> bool:
@@ -410,15 +429,17 @@ class BevelGear(Record, dict=True):
 
     @property
     def least_shift(self) -> float:
-        """x without undercut: the crown gear's flank ends at the base cone."""
+        """x without undercut: the crown gear's flank ends at the base cone (DERIVATIONS.md, section 20)."""
+        deepest = self._rounding + math.asin(math.sin(self.pressure_angle) * math.sin(self._touching - self._rounding))
+        whole = self.addendum_coefficient + self.tip_clearance_coefficient
+        return whole - self.cone_distance / self.module * math.tan(deepest)
 
-        def lost(shift: float) -> float:
-            return replace(self, profile_shift_coefficient=shift)._cut_away
-
-        low, high = -self.addendum_coefficient, self.addendum_coefficient + self.tip_clearance_coefficient
-        while lost(low) < 0:
-            low -= 2.0
-        return bracketed_root(lost, low, high).value
+    @property
+    def virtual_least_shift(self) -> float:
+        """The same of the virtual gear (Tredgold), whose flanks are plane involutes."""
+        sine = math.sin(self.pressure_angle)
+        deep = self.addendum_coefficient + self.tip_clearance_coefficient - self.tip_radius_coefficient * (1 - sine)
+        return deep - self.virtual_teeth * sine**2 / 2
 
     @property
     def _wall(self) -> float:

@@ -80,6 +80,30 @@ class BevelPair(Record, dict=True):
         first, second = self.gears
         return first.dedendum - second.addendum, second.dedendum - first.addendum
 
+    @property
+    def sliding_factors(self) -> tuple[float, float]:
+        """At the tips of the second and of the first, where contact begins and ends, outer: part of the pitch speed.
+
+        Both gears turn about the pitch line against each other, sin Sigma / sin delta_2 as fast as the first does.
+        """
+        first, second = self.gears
+        turned = math.sin(first.shaft_angle) / (math.sin(first.pitch_angle) * math.sin(second.pitch_angle))
+        end, start = (
+            turned * math.sin(arc) / math.cos(gear.tip_angle - gear.pitch_angle)
+            for gear, arc in zip(self.gears, self.tip_arcs, strict=True)
+        )
+        return start, end
+
+    @property
+    def virtual_contact_ratio(self) -> float:
+        """Of the two spur gears of the back cones (Tredgold), whose flanks are whole."""
+        alpha, m = self.first.pressure_angle, self.first.module
+        found = 0.0
+        for gear in self.gears:
+            radius, sine = m * gear.virtual_teeth / 2, math.sin(alpha)
+            found += math.sqrt((radius + gear.addendum) ** 2 - (radius * math.cos(alpha)) ** 2) - radius * sine
+        return found / (math.pi * m * math.cos(alpha))
+
     def contact(self, phase_off: float = 0.0, tolerance: float | None = None) -> PairContact:
         """Verdict over one pitch; the second is ``phase_off`` rad further round than in the middle of its backlash."""
         first, second = self.gears

@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from typing import Annotated
 
-from msgspec import Meta
 from msgspec.structs import replace as changed
 
 from geometry.base.errors import ParameterError
@@ -16,6 +15,7 @@ from geometry.gears.bevel.pair import BevelPair
 from parts.base.texts import N_, message
 from parts.gears.bevel_gear.part import BEVEL_GEAR, BevelGearSpec, bevel_findings
 from parts.keys.base import either, mm
+from parts.pages.force_steps import Power, Speed, Torque, driving_torque
 from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
@@ -32,14 +32,9 @@ class BevelKeys(BevelGearSpec, kw_only=True, tag=False, forbid_unknown_fields=Tr
     normal_backlash: (
         Annotated[float, mm("normal backlash at the outer end, half of it by each gear", least=0, most=100)] | None
     ) = None
-    torque: (
-        Annotated[
-            float,
-            Meta(gt=0, le=1e9, description="torque on the first gear: adds the forces between the teeth",
-                 extra={"unit": "N*m"}),
-        ]
-        | None
-    ) = None  # fmt: skip
+    speed_rpm: Speed = None
+    torque: Torque = None
+    power: Power = None
 
 
 @calculation(TOPIC, BevelKeys)
@@ -50,9 +45,11 @@ def sheet(keys: BevelKeys) -> Sheet:
     _given(page, pair)
     _cones(page, pair)
     _teeth(page, pair)
+    _middle(page, pair)
     _contact(page, pair)
-    if keys.torque is not None:
-        _forces(page, pair, keys.torque)
+    if keys.speed_rpm is not None:
+        _speeds(page, pair, keys.speed_rpm)
+    _forces(page, pair, keys)
     for number, gear in enumerate(pair.gears, 1):
         page.notes += [
             message(N_("gear {number}: {what}"), number=number, what=finding_message(f)) for f in bevel_findings(gear)
@@ -149,6 +146,8 @@ def _cones(page: Sheet, pair: BevelPair) -> None:
     else:
         page.both("addendum_angle_deg", addendum, "{theta_f~}", (_GOST, _GOST))
     page.both("tip_cone_angle_deg", _each(pair, lambda g: math.degrees(g.tip_cone_angle)), "{delta#} + {theta_a#}")
+    rays = _each(pair, lambda g: math.degrees(g.tip_angle))
+    page.both("outer_tip_ray_deg", rays, "{delta#} + arctan({h_ae#} / {R_e})")
     page.both("root_cone_angle_deg", _each(pair, lambda g: math.degrees(g.root_angle)), "{delta#} - {theta_f#}")
     base = _each(pair, lambda g: math.degrees(g.involute.base))
     page.both("base_cone_angle_deg", base, "arcsin(sin({delta#}) * cos({alpha}))")
@@ -156,6 +155,8 @@ def _cones(page: Sheet, pair: BevelPair) -> None:
     page.both("mean_pitch_diameter", _each(pair, lambda g: mean * g.number_of_teeth), "{m_m} * {z#}")
     tips = _each(pair, lambda g: 2 * g.outer(g.tip_angle).real)
     page.both("outer_tip_circle", tips, "{d_e#} + 2 * {h_ae#} * cos({delta#})", (_GOST, _GOST))
+    inner = _each(pair, lambda g: 2 * g.inner(g.inner_tip_angle).real)
+    page.both("inner_tip_circle", inner, "{d_ae#} - 2 * {b} * sin({delta_a#}) / cos({theta_a#})")
     roots = _each(pair, lambda g: 2 * g.outer(g.root_angle).real)
     page.both("outer_root_circle", roots, "{d_e#} - 2 * {h_fe#} * cos({delta#})")
     heights = _each(pair, lambda g: g.outer(g.tip_angle).imag)
@@ -167,19 +168,28 @@ def _teeth(page: Sheet, pair: BevelPair) -> None:
     thickness = "(pi / 2 + 2 * {x#} * tan({alpha}) + {x_tau#}) * {m} - {A#}"
     page.both("outer_thickness", _each(pair, lambda g: g.thickness), thickness, (_GOST, _GOST))
     page.both("virtual_teeth", _each(pair, lambda g: g.virtual_teeth), "{z#} / cos({delta#})")
-    halves = _each(pair, lambda g: math.degrees(g.thickness / g.module / g.virtual_teeth))
+    halves = _each(pair, lambda g: math.degrees(g.virtual_half_angle))
     page.both("outer_chord_angle_deg", halves, "{s_e#} / ({m} * {z_v#})")
-    chords = _each(pair, lambda g: g.module * g.virtual_teeth * math.sin(g.thickness / g.module / g.virtual_teeth))
+    chords = _each(pair, lambda g: g.virtual_diameter * math.sin(g.virtual_half_angle))
     page.both("outer_chord", chords, "{m} * {z_v#} * sin({psi#})")
-    heights = _each(
-        pair,
-        lambda g: (
-            g.addendum + g.module * g.virtual_teeth / 2 * (1 - math.cos(g.thickness / g.module / g.virtual_teeth))
-        ),
-    )
+    heights = _each(pair, lambda g: g.addendum + g.virtual_diameter / 2 * (1 - math.cos(g.virtual_half_angle)))
     page.both("outer_chord_height", heights, "{h_ae#} + {m} * {z_v#} / 2 * (1 - cos({psi#}))")
-    page.both("outer_tip_thickness", _each(pair, lambda g: g.tip_land))
-    page.both("least_shift_without_undercut", _each(pair, lambda g: g.least_shift))
+    cosine, double = math.cos(pair.first.pressure_angle), math.sin(2 * pair.first.pressure_angle)
+    constant = _each(pair, lambda g: g.thickness * cosine**2)
+    page.both("outer_constant_chord", constant, "{s_e#} * cos({alpha})**2", (_GOST, _GOST))
+    heights = _each(pair, lambda g: g.addendum - g.thickness * double / 4)
+    page.both("outer_constant_chord_height", heights, "{h_ae#} - {s_e#} * sin(2 * {alpha}) / 4", (_GOST, _GOST))
+    arc = "arccos(cos({%s#}) / cos({delta_b#})) / sin({delta_b#}) - arccos(tan({delta_b#}) / tan({%s#}))"
+    page.both("pitch_involute_deg", _each(pair, lambda g: _involute(g, g.pitch_angle)), arc % ("delta", "delta"))
+    page.both("tip_involute_deg", _each(pair, lambda g: _involute(g, g.tip_angle)), arc % ("delta_t", "delta_t"))
+    land = "{d_ae#} * ({s_e#} / {d_e#} + {phi_e#} - {phi_a#})"
+    page.both("outer_tip_thickness", _each(pair, lambda g: g.tip_land), land)
+    rounding, touching = "arctan({rho_f} * {m} / {R_e})", "arctan(tan({delta#}) * sin({alpha}))"
+    deepest = f"{rounding} + arcsin(sin({{alpha}}) * sin({touching} - {rounding}))"
+    least = f"{{h_a}} + {{c}} - {{R_e}} / {{m}} * tan({deepest})"
+    page.both("least_shift_without_undercut", _each(pair, lambda g: g.least_shift), least)
+    virtual = "{h_a} + {c} - {rho_f} * (1 - sin({alpha})) - {z_v#} * sin({alpha})**2 / 2"
+    page.both("virtual_least_shift", _each(pair, lambda g: g.virtual_least_shift), virtual, (_GOST, _GOST))
     first, ratio = pair.first, max(pair.ratio, 1 / pair.ratio)
     if abs(first.shaft_angle - math.pi / 2) < _RIGHT and ratio > 1:
         small = min(pair.gears, key=lambda g: g.number_of_teeth)
@@ -189,38 +199,77 @@ def _teeth(page: Sheet, pair: BevelPair) -> None:
         page.add("usual_shift", usual, f"{share} * sqrt(cos({{delta{one}}})**3 / {{z{one}}})")
 
 
+def _involute(gear: BevelGear, angle: float) -> float:
+    return math.degrees(float(gear.involute.involute_at(angle)))
+
+
+def _middle(page: Sheet, pair: BevelPair) -> None:
+    """What is measured half way along the face, where the tooth is smaller by R_m / R_e."""
+    page.section(N_("Teeth in the middle of the face"))
+    share = 1 - pair.first.face_width / 2 / pair.first.cone_distance
+    high = _each(pair, lambda g: float(g.addendum_at(share * g.cone_distance)))
+    page.both("mean_addendum", high, "{h_ae#} - {b} / 2 * tan({theta_a#})")
+    page.both("mean_thickness", _each(pair, lambda g: share * g.thickness), "{s_e#} * {R_m} / {R_e}")
+    chords = _each(pair, lambda g: share * g.virtual_diameter * math.sin(g.virtual_half_angle))
+    page.both("mean_chord", chords, "{m_m} * {z_v#} * sin({psi#})")
+    heights = _each(
+        pair,
+        lambda g: (
+            float(g.addendum_at(share * g.cone_distance))
+            + share * g.virtual_diameter / 2 * (1 - math.cos(g.virtual_half_angle))
+        ),
+    )
+    page.both("mean_chord_height", heights, "{h_am#} + {m_m} * {z_v#} / 2 * (1 - cos({psi#}))")
+
+
 def _contact(page: Sheet, pair: BevelPair) -> None:
     page.section(N_("Contact"))
     page.both("bottom_clearance_at_root", pair.bottom_clearances, "{h_fe#} - {h_ae~}")
     page.add("normal_backlash", pair.normal_backlash, "({A1} + {A2}) * cos({alpha})")
-    page.add("contact_ratio", pair.contact_ratio)
-    page.add("virtual_contact_ratio", _virtual_ratio(pair))
+    one, two = pair.tip_arcs
+    reach = "arccos(cos({delta_t#}) / cos({delta_b#})) - arctan(tan({delta#}) * sin({alpha}))"
+    page.both("tip_arc_deg", (math.degrees(one), math.degrees(two)), reach)
+    whole = min(pair.form_reserves) > -_RIGHT
+    formula = "({g_a1} + {g_a2}) * {z1} / (2 * pi * sin({delta_b1}))" if whole else ""
+    page.add("contact_ratio", pair.contact_ratio, formula)
+    page.both("virtual_radius", _each(pair, lambda g: g.virtual_diameter / 2), "{m} * {z_v#} / 2")
+    roots = " + ".join(f"sqrt(({{r_v{k}}} + {{h_ae{k}}})**2 - ({{r_v{k}}} * cos({{alpha}}))**2)" for k in (1, 2))
+    formula = f"({roots} - ({{r_v1}} + {{r_v2}}) * sin({{alpha}})) / (pi * {{m}} * cos({{alpha}}))"
+    page.add("virtual_contact_ratio", pair.virtual_contact_ratio, formula)
 
 
-def _virtual_ratio(pair: BevelPair) -> float:
-    """Of the two spur gears of the back cones (Tredgold), whose flanks are whole."""
-    alpha, m = pair.first.pressure_angle, pair.first.module
-    found = 0.0
-    for gear in pair.gears:
-        radius = m * gear.virtual_teeth / 2
-        found += math.sqrt((radius + gear.addendum) ** 2 - (radius * math.cos(alpha)) ** 2) - radius * math.sin(alpha)
-    return found / (math.pi * m * math.cos(alpha))
+def _speeds(page: Sheet, pair: BevelPair, speed_rpm: float) -> None:
+    """Of both gears, of their outer pitch circles, of sliding at the outer tips; the first gear drives."""
+    page.section(N_("Speeds"))
+    page.add("gear_speed", speed_rpm, gear=1, given=True)
+    page.add("gear_speed", speed_rpm / pair.ratio, "{n1} / {u}", gear=2)
+    speed = math.pi * speed_rpm / 30 * pair.first.module * pair.first.number_of_teeth / 2
+    page.add("outer_pitch_speed", speed, "pi * {n1} / 30 * {d_e1} / 2")
+    start, end = pair.sliding_factors
+    for name, value, gear in (("sliding_speed_at_start", start, 2), ("sliding_speed_at_end", end, 1)):
+        formula = (
+            f"{{v_e}} * sin({{Sigma}}) / (sin({{delta1}}) * sin({{delta2}}))"
+            f" * sin({{g_a{gear}}}) / cos({{delta_t{gear}}} - {{delta{gear}}})"
+        )
+        page.add(name, value * speed, formula)
 
 
-def _forces(page: Sheet, pair: BevelPair, torque: float) -> None:
-    page.section(N_("Torques and forces, without friction"))
+def _forces(page: Sheet, pair: BevelPair, keys: BevelKeys) -> None:
+    """At the middle of the face, where a load is given."""
+    torque = driving_torque(page, keys)
+    if torque is None:
+        return
     first = pair.first
     mean = first.module * first.number_of_teeth * (1 - first.face_width / 2 / first.cone_distance)
-    page.add("gear_torque", torque, gear=1, given=True)
     page.add("gear_torque", torque * pair.ratio, "{T1} * {u}", gear=2)
     along = 2000 * torque / mean
     page.add("circumferential_force", along, "2000 * {T1} / {d_m1}")
     lean = along * math.tan(first.pressure_angle)
-    page.both(
-        "radial_force", _each(pair, lambda g: lean * math.cos(g.pitch_angle)), "{F_t} * tan({alpha}) * cos({delta#})"
-    )
-    page.both(
-        "axial_force", _each(pair, lambda g: lean * math.sin(g.pitch_angle)), "{F_t} * tan({alpha}) * sin({delta#})"
-    )
-    page.notes.append(N_("the axial forces push both gears away from the apex"))
+    for name, called, share, function in (
+        ("radial_force", N_("radial force, towards the gear's axis"), math.cos, "cos"),
+        ("axial_force", N_("axial force, away from the apex"), math.sin, "sin"),
+    ):
+        for number, gear in enumerate(pair.gears, 1):
+            formula = f"{{F_t}} * tan({{alpha}}) * {function}({{delta#}})"
+            page.add(name, lean * share(gear.pitch_angle), formula, gear=number, called=called)
     page.add("normal_force", along / math.cos(first.pressure_angle), "{F_t} / cos({alpha})")

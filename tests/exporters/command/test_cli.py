@@ -362,6 +362,13 @@ def test_new_prints_every_mate_with_its_keys(kind: str, capsys: pytest.CaptureFi
     assert {"first", "second"} <= set(table)
 
 
+def test_a_mate_of_which_there_is_a_scene_names_the_command_that_prints_it(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", "bevel_pair"]) == 0
+    command = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("# A whole scene"))
+    assert main(command.partition("higherpair ")[2].split()) == 0
+    assert "[parts.pinion]" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_mate_at_the_end_of_a_new_scene_joins_its_kind(kind: str, capsys: pytest.CaptureFixture[str]) -> None:
     text = new_scene(capsys, kind)

@@ -32,7 +32,8 @@ THESIS_WORM = ("module=5", "face_width=26", "worm_length=120", "torque=3.5")
 PAIR = ("module=3", "first.number_of_teeth=12", "second.number_of_teeth=60")
 # regressions that broke others: branch switches at 20 and 25 degrees, steep helix with shift, many teeth, undercut
 SHEETS = [
-    ("bevel", "bevel_pair", "part=pinion", "torque=12"),
+    ("bevel", "bevel_pair", "part=pinion", "torque=12", "speed_rpm=300"),
+    ("bevel", "module=3", "number_of_teeth=16", "mate_teeth=24", "tip_cone=apex", "power=200", "speed_rpm=90"),
     ("bevel", "module=3", "number_of_teeth=9", "mate_teeth=30", "normal_backlash=0.1", "shaft_angle_deg=75"),
     ("bevel", "module=3", "number_of_teeth=30", "mate_teeth=24", "thickness_coefficient=0.03", "shaft_angle_deg=120"),
     ("spur", "practicum_pair", "part=pinion"),

@@ -209,6 +209,7 @@ KHK: dict[str, tuple[list[str], dict[str, list[float]], list[float]]] = {
             "outer_addendum": [4.035, 1.965], "outer_dedendum": [2.529, 4.599],
             "dedendum_angle_deg": [2.15903, 3.92194], "addendum_angle_deg": [3.92194, 2.15903],
             "tip_cone_angle_deg": [30.48699, 65.59398], "root_cone_angle_deg": [24.40602, 59.51301],
+            "inner_tip_circle": [44.8425, 81.6609],
             "outer_tip_circle": [67.2180, 121.7575], "tip_circle_to_apex": [58.1955, 28.2425],
         },
         [44.8425, 81.6609],
@@ -218,6 +219,7 @@ KHK: dict[str, tuple[list[str], dict[str, list[float]], list[float]]] = {
         {
             "dedendum_angle_deg": [3.19960, 3.19960], "addendum_angle_deg": [2.56064, 2.56064],
             "tip_cone_angle_deg": [29.12569, 65.99559], "root_cone_angle_deg": [23.36545, 60.23535],
+            "inner_tip_circle": [43.9292, 82.4485],
             "outer_tip_circle": [65.3666, 122.6833], "tip_circle_to_apex": [58.6584, 27.3167],
         },
         [43.9292, 82.4485],
@@ -244,6 +246,60 @@ def test_worked_examples_of_khk(system: str) -> None:
         off = np.abs(np.hypot(points[:, 0], points[:, 1]) - diameter / 2)
         # both corners of every tooth stand on the inner tip circle
         assert int((off < 6e-5).sum()) == 2 * teeth
+
+
+def test_what_is_measured_on_a_tooth() -> None:
+    """The printed constants of GOST 19624-74 at 20 degrees, and the exact tooth cut half way along its face."""
+    words = ["module=2.5", "number_of_teeth=20", "mate_teeth=50", "profile_shift_coefficient=0.3", "face_width=20"]
+    told = json.loads(calculate("bevel", words, "json", "en"))["values"]
+    thickness, high = (list(told[name].values()) for name in ("outer_thickness", "outer_addendum"))
+    assert list(told["outer_constant_chord"].values()) == pytest.approx([0.8830 * s for s in thickness], rel=1e-4)
+    expected = [h - 0.1607 * s for h, s in zip(high, thickness, strict=True)]
+    assert list(told["outer_constant_chord_height"].values()) == pytest.approx(expected, rel=1e-4)
+    teeth = list(told["virtual_teeth"].values())
+    assert list(told["virtual_least_shift"].values()) == pytest.approx([1.068 - 0.0585 * z for z in teeth], abs=3e-3)
+    keys = {key: float(value) for key, value in (word.split("=") for word in words)}
+    keys |= {"number_of_teeth": 20, "mate_teeth": 50}
+    raw = {"parts": {"gear": {"kind": "bevel_gear"} | keys}}
+    gear = make_parts(scene_from_dict(raw, "s", "s"), "s")[0]["gear"].thing
+    # where the exact flank crosses the pitch cone: shares between fillet and tip, half way along
+    share = np.linspace(0.0, 1.0, 4001)
+    points = gear.flank_points(share, np.array([0.5]))[:, 0]
+    depth, radius = gear.mounting_distance - points[:, 2], np.hypot(points[:, 0], points[:, 1])
+    at = int(np.abs(np.arctan2(radius, depth) - gear.pitch_angle).argmin())
+    assert 2 * points[at, 1] == pytest.approx(told["mean_chord"]["first"], abs=2e-3)
+    tip = points[-1]
+    middle = np.array([radius[at], depth[at]]) * [math.cos(math.atan2(points[at, 1], points[at, 0])), 1.0]
+    # along the perpendicular of the pitch line
+    outwards = np.array([math.cos(gear.pitch_angle), -math.sin(gear.pitch_angle)])
+    height = (np.array([math.hypot(*tip[:2]), gear.mounting_distance - tip[2]]) - middle) @ outwards
+    assert height == pytest.approx(told["mean_chord_height"]["first"], abs=2e-3)
+
+
+def test_sliding_is_the_cross_product_of_both_turnings_with_the_place() -> None:
+    """At the outer tips on the line of action, alpha off the tangent plane of both pitch cones."""
+    words = ["module=2.5", "number_of_teeth=20", "mate_teeth=30", "shaft_angle_deg=75", "speed_rpm=300"]
+    told = json.loads(calculate("bevel", words, "json", "en"))["values"]
+    sigma, alpha = math.radians(75), math.radians(20)
+    one, two = (math.radians(angle) for angle in told["pitch_cone_angle_deg"].values())
+    # the pitch line is z, both axes lie in the plane of x and z; seen from the apex they turn in opposite senses
+    first = np.array([-math.sin(one), 0.0, math.cos(one)])
+    second = np.array([math.sin(two), 0.0, math.cos(two)])
+    assert math.acos(first @ second) == pytest.approx(sigma)
+    speed = math.pi * 300 / 30
+    turning = speed * first + speed * 20 / 30 * second
+    assert np.linalg.norm(np.cross(turning, [0, 0, 1])) < 1e-12 * speed
+    for name, gear, axis, delta, way in (
+        ("sliding_speed_at_end", "first", first, one, 1), ("sliding_speed_at_start", "second", second, two, -1),
+    ):  # fmt: skip
+        # along the line of action up to the tip cone: x away from the first axis
+        aim = delta + math.atan(told["outer_addendum"][gear] / told["outer_cone_distance"])
+        arcs = np.linspace(0.0, 0.4, 400_001)
+        along = np.array([way * math.sin(alpha), way * math.cos(alpha), 0.0])
+        places = np.cos(arcs)[:, None] * [0, 0, 1] + np.sin(arcs)[:, None] * along
+        at = places[int(np.abs(np.arccos(places @ axis) - aim).argmin())]
+        size = told["outer_cone_distance"] / math.cos(aim - delta)
+        assert np.linalg.norm(np.cross(turning, size * at)) == pytest.approx(told[name], rel=1e-4)
 
 
 def test_a_backlash_that_leaves_no_tooth_is_refused_by_its_own_key() -> None:
