@@ -363,9 +363,9 @@ def test_new_prints_every_mate_with_its_keys(kind: str, capsys: pytest.CaptureFi
 
 
 def test_a_mate_of_which_there_is_a_scene_names_the_command_that_prints_it(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["new", "bevel_pair"]) == 0
+    assert run("new", "bevel_pair") == 0
     command = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("# A whole scene"))
-    assert main(command.partition("higherpair ")[2].split()) == 0
+    assert run(*command.partition("higherpair ")[2].split()) == 0
     assert "[parts.pinion]" in capsys.readouterr().out
 
 
