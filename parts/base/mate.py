@@ -17,7 +17,7 @@ from parts.base.texts import Text
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
-    from geometry.base.placement import Vector
+    from geometry.base.placement import Placement3, Vector
     from geometry.gears.mesh.search import PairContact
     from geometry.gears.pairs.external import ExternalPair
     from geometry.gears.pairs.internal import InternalPair
@@ -57,6 +57,21 @@ class Standing(Record):
     def slack(self, allowed: float) -> float:
         """What ``allowed`` mm along the flanks is in the unit of the phase."""
         return allowed / self.arm
+
+
+class LaidStanding(Record):
+    """The same of two whose axes meet: how far their apexes are ``apart``, mm, and the ``angle`` between both, rad.
+
+    ``required``: that angle as the mate has it; ``reach``: from the apex to the teeth, mm.
+    """
+
+    apart: float
+    angle: float
+    required: float
+    phase_off: float
+    play: float
+    arm: float
+    reach: float
 
 
 class End(Record, Generic[A]):
@@ -99,6 +114,8 @@ class Mating(Joined, kw_only=True):
     uneven = False
     # whether a second that stands already must stand at ``height``
     asks_height = True
+    # whether the first may lie on any axis, and the second stand already: ``laid_standing`` holds them together
+    lies = False
     # how the second hangs on the first: "fixed" to it, "turning" about an axis of it; "": ``joints`` tells
     bond = ""
 
@@ -134,6 +151,10 @@ class Mating(Joined, kw_only=True):
 
     def standing(self, first: Pose, second: Pose) -> Standing | None:
         """How two placed instances stand to each other; None: the mate asks nothing of it."""
+        raise NotImplementedError
+
+    def laid_standing(self, first: Placement3, second: Placement3) -> LaidStanding:
+        """How two placed instances of what ``lies`` stand to each other."""
         raise NotImplementedError
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:

@@ -6,10 +6,13 @@ import cmath
 import math
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
+
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
+from geometry.base.placement import Placement3
 from geometry.base.record import replace
-from parts.base.mate import End, MateKind, Pose, Standing, Touching
+from parts.base.mate import End, LaidStanding, MateKind, Pose, Standing, Touching
 from parts.keys.base import mm
 from parts.keys.mate import GearPairKeys
 from parts.mates.sizes import same_size
@@ -48,6 +51,8 @@ class BevelMating(Touching):
 
     # flanks touch along rays of the apex: meshes cannot tell
     decides_solids = True
+    lies = True
+    asks_height = False
 
     @property
     def joints(self) -> tuple[Joint, ...]:
@@ -71,8 +76,25 @@ class BevelMating(Touching):
         return centre + cmath.rect(self.distance, direction), direction + math.pi + turn
 
     def standing(self, first: Pose, second: Pose) -> Standing | None:
-        """It is placed by its mate alone."""
+        """What a plane does not tell; see ``laid_standing``."""
         return None
+
+    def laid_standing(self, first: Placement3, second: Placement3) -> LaidStanding:
+        """In the frame of the first, where its tooth is on +x: apexes, axes, and how far the second is turned off."""
+        one, other = self.pair.gears
+        seen = first.inverse() @ second
+        apex = seen.apply(np.array([0.0, 0.0, other.mounting_distance])) - np.array([0.0, 0.0, one.mounting_distance])
+        x, y, z = (row[2] for row in seen.rotation)
+        direction = cmath.phase(complex(-x, -y))
+        _, right = self.second_pose(0j, 0.0, direction)
+        off = Placement3.towards(self.second_axis(direction), right).inverse() @ seen
+        turned = math.atan2(off.rotation[1][0], off.rotation[0][0])
+        arm = other.cone_distance * math.sin(other.involute.base)
+        return LaidStanding(
+            float(np.linalg.norm(apex)), math.atan2(math.hypot(x, y), z), one.shaft_angle,
+            math.remainder(turned, math.tau / other.number_of_teeth), self.normal_backlash / 2 / arm, arm,
+            other.cone_distance,
+        )  # fmt: skip
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch, on the sphere about the apex."""

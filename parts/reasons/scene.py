@@ -89,6 +89,7 @@ REASONS = {
     "sheet_shows_exact_profile": N_("is not for sheets, pictures in motion and lists, which show the exact profile"),
     "shows_the_part": N_("is not for drawings, sheets and solids, which show the part and not the cut"),
     "stands_as": N_("is a part, not an instance; its instances: {known}"),
+    "laid_mate": N_("stands on an axis that is not upright: {kind} joins upright ones"),
     "tilted_mate": N_("is not for a part that mates[{mate}] joins: its axis must be upright, along z"),
     "too_deep": N_("tables are nested too deeply: a scene needs three levels"),
     "file_exists": N_("exists already, and what it holds may be your work; give another file name"),

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 UPWARDS: Vector = (0.0, 0.0, 1.0)
 # mates whose second has no axle of its own on the frame, or moves with another instance
 _CARRYING = ("fixed", "carried", "pin_seat", "eccentric_bearing", "cam_follower", "linkage_member", "wedge_follower")
-# between things that no mate and no ``at`` places, mm
-_GAP = 5.0
+# between things that no mate and no ``at`` places, mm; parts of an axis that are none
+_GAP, _STRAIGHT = 5.0, 1e-12
 
 
 class Instance(Record):
@@ -64,8 +64,8 @@ class Instance(Record):
 class Condition(Record):
     """What two placed instances must satisfy: ``value`` within ``tolerance`` of ``required``.
 
-    ``code`` with unit: "centre_distance" mm, "phase" (rotation of the second) degrees, "common_face_width" mm
-    (at least), "train" (turns of the second for one of the first).
+    ``code`` with unit: "centre_distance" mm, "apex_distance" mm, "shaft_angle" degrees, "phase" (rotation of the
+    second) degrees, "common_face_width" mm (at least), "train" (turns of the second for one of the first).
     """
 
     code: str
@@ -196,30 +196,41 @@ class _Placed:
     def join(self, index: int, mating: Mating) -> PlacedMate:
         """Run one mate: place its second, or only note that both stand."""
         first, second = mating.first, mating.second
-        for key in (first, second):
-            if key in self.stand and self.stand[key].axis != UPWARDS:
-                place = f"instances.{key}.axis"
-                raise SceneError(self.source, place, self.specs[key].axis, "tilted_mate", REMOVED, mate=index + 1)
+        if not mating.lies:
+            self._check_upright(index, mating)
         if first not in self.stand:
             self._begin(index, mating)
         here = self.stand[first]
         if second in self.stand:
-            return PlacedMate(mating, here, self.stand[second], only_checks=True)
+            there = self.stand[second]
+            return _laid(mating, here, there) if mating.lies else PlacedMate(mating, here, there, only_checks=True)
         if self.specs[second].rotation_deg is not None:
             place, given = f"instances.{second}.rotation_deg", self.specs[second].rotation_deg
             raise SceneError(self.source, place, given, "turned_into_mesh", REMOVED, mate=f"mates[{index + 1}]")
         direction = math.radians(mating.direction_deg)
+        lying = here.axis != UPWARDS
         try:
-            centre, turned = mating.second_pose(here.centre, here.rotation, direction)
+            centre, turned = mating.second_pose(0j if lying else here.centre, here.rotation, direction)
         except ParameterError as refusal:
             raise placed(self.source, f"mates[{index + 1}]", refusal) from refusal
-        at = (centre.real, centre.imag, here.at[2] + mating.height)
+        at = (centre.real, centre.imag, mating.height + (0.0 if lying else here.at[2]))
         axis = mating.second_axis(direction)
-        self.stand[second] = Instance(second, str(self.specs[second].part), at, turned, "mate", axis)
+        there = Instance(second, str(self.specs[second].part), at, turned, "mate", axis)
+        self.stand[second] = _on_axis(here, there) if lying else there
         for group in self.free:
             if first in group:
                 group.append(second)
         return PlacedMate(mating, here, self.stand[second])
+
+    def _check_upright(self, index: int, mating: Mating) -> None:
+        """Refuse a mate of what lies on another axis than z: by the key that says so, or by the mate that laid it."""
+        for name, key in (("first", mating.first), ("second", mating.second)):
+            if key not in self.stand or self.stand[key].axis == UPWARDS:
+                continue
+            given, place = self.specs[key].axis, f"mates[{index + 1}]"
+            if given is None:
+                raise SceneError(self.source, f"{place}.{name}", key, "laid_mate", kind=mating.kind)
+            raise SceneError(self.source, f"instances.{key}.axis", given, "tilted_mate", REMOVED, mate=index + 1)
 
     def _begin(self, index: int, mating: Mating) -> None:
         """Place the first of a mate that nothing has placed: the very first at the origin, a new train in the row."""
@@ -282,6 +293,22 @@ class _Placed:
         return here.at[0] + side * (_reach(part) + (part.face_width if here.axis != UPWARDS else 0.0))
 
 
+def _on_axis(here: Instance, local: Instance) -> Instance:
+    """An instance that stands so beside one at the origin, upright, laid beside that one as it lies."""
+    own = Placement3.towards(local.axis, local.rotation, local.at)
+    found = Placement3.towards(here.axis, 0.0, here.at) @ own
+    # rounding of what is straight would turn it another way
+    way = [0.0 if abs(row[2]) < _STRAIGHT else row[2] for row in found.rotation]
+    x, y, z = (value / math.hypot(*way) for value in way)
+    turned = Placement3.towards((x, y, z), 0.0).inverse() @ found
+    return replace(local, at=found.translation, rotation=_about_z(turned), axis=(x, y, z))
+
+
+def _about_z(turned: Placement3) -> float:
+    """The angle of a turn about z, rad."""
+    return math.atan2(turned.rotation[1][0], turned.rotation[0][0])
+
+
 def _axis(spec: InstanceSpec) -> Vector:
     if spec.axis is None:
         return UPWARDS
@@ -326,13 +353,30 @@ def _closed(mate: PlacedMate) -> PlacedMate:
     return replace(mate, conditions=tuple(conditions), second_turn=off, centre_shift=shift)
 
 
+def _laid(mating: Mating, first: Instance, second: Instance) -> PlacedMate:
+    """The same of two whose axes meet in one apex."""
+    found = mating.laid_standing(first.scene_from_part, second.scene_from_part)
+    size = math.hypot(*first.at) + math.hypot(*second.at)
+    allowed = PLACED_MM + TOLERANCES.relative_join * size
+    leaning, off = found.angle - found.required, found.phase_off
+    slack, lean = found.play + allowed / found.arm, allowed / found.reach
+    turned, right = math.degrees(second.rotation), math.degrees(second.rotation - off)
+    conditions = (
+        Condition("apex_distance", found.apart, 0.0, allowed, found.apart <= allowed),
+        Condition("shaft_angle", math.degrees(found.angle), math.degrees(found.required), math.degrees(lean),
+                  abs(leaning) <= lean),
+        Condition("phase", turned, right, math.degrees(slack), abs(off) <= slack),
+    )  # fmt: skip
+    return PlacedMate(mating, first, second, True, conditions, second_turn=off)
+
+
 def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]) -> tuple[PlacedMate, ...]:
     """The same mates with the conditions that concern their height and the motion of the whole train."""
     done = []
     for index, mate in enumerate(mates):
         more: list[Condition] = []
         if (mate.conditions and mate.mating.asks_height) or (
-            mate.mating.has_contact and mate.mating.height and mate.second.axis == UPWARDS
+            mate.mating.has_contact and mate.mating.height and mate.second.axis == UPWARDS and not mate.mating.lies
         ):
             more.append(_height(mate, parts))
         if mate.only_checks:

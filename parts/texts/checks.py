@@ -56,6 +56,13 @@ CONDITIONS: dict[str, str] = {
         "the centres of {first} and {second} stand {value:.9g} mm apart, {required:.9g} mm is required "
         "(within {tolerance:.2g} mm)"
     ),
+    "apex_distance": N_(
+        "the apexes of {first} and {second} stand {value:.6g} mm apart, they must be one (within {tolerance:.2g} mm)"
+    ),
+    "shaft_angle": N_(
+        "the axes of {first} and {second} stand at {value:.9g} deg, {required:.9g} deg is required "
+        "(within {tolerance:.2g} deg)"
+    ),
     "rack_phase": N_(
         "{second} stands {value:.10g} mm along its way from where it meets {first} (within {tolerance:.2g} mm)"
     ),

@@ -50,6 +50,19 @@ def tip_pressed_in(records: Records, at: int, step: float) -> Records:
     return records
 
 
+def standing_solids(raw: dict[str, Any]) -> dict[str, Any]:
+    """All in their places as meshes."""
+    file = scene_from_dict(raw, "s", "s")
+    parts, matings = make_parts(file, "s")
+    found = {}
+    for instance in place(file.instances, [], parts, matings, "s").instances:
+        body = parts[instance.part].body(0.0)
+        mesh = body_mesh(body, mesh_outlines(body, 0.005, 0.0))
+        vertices = instance.scene_from_part.apply(mesh.vertices).astype(np.float32)
+        found[instance.id] = manifold3d.Manifold(manifold3d.Mesh(vertices, mesh.triangles.astype(np.uint32)))
+    return found
+
+
 def solids(raw: dict[str, Any], turned: float = 0.0) -> list[Any]:
     """Both in their places as meshes; the second turned about its axis by so many degrees."""
     file = scene_from_dict(raw, "s", "s")
@@ -82,6 +95,64 @@ def test_teeth_stand_in_spaces_wherever_the_first_stands(angle: float) -> None:
     assert wheel.min_gap(pinion, 1.0) == pytest.approx(least, abs=0.006)
     wheel, pinion = solids(raw, turned=10.0)
     assert (wheel ^ pinion).volume() > 1.0
+
+
+def differential(**side: Any) -> dict[str, Any]:
+    """Two wheels face to face, two pinions between them: every mesh a mate; ``side``: keys of the upper wheel."""
+    mates = [("sun", "one", 0.0), ("sun", "two", 180.0), ("one", "side", 0.0), ("two", "side", 0.0)]
+    return {
+        "parts": {"pinion": PINION, "wheel": WHEEL},
+        "instances": {"sun": {"part": "wheel", "rotation_deg": 7.0}, "one": {"part": "pinion"},
+                      "two": {"part": "pinion"}, "side": {"part": "wheel", **side}},
+        "mates": [{"kind": "bevel_pair", "first": a, "second": b, "direction_deg": way, "normal_backlash": 0.2}
+                  for a, b, way in mates],
+    }  # fmt: skip
+
+
+def test_a_differential_stands_in_mesh_all_round() -> None:
+    """By meshes alone: no pair has anything in common, a pitch further of the upper wheel neither, half of one has."""
+    found = standing_solids(differential())
+    pairs = [("sun", "one"), ("sun", "two"), ("one", "side"), ("two", "side")]
+    for a, b in pairs:
+        assert (found[a] ^ found[b]).volume() < 1e-6
+        assert found[a].min_gap(found[b], 1.0) < 0.12
+    # both wheels face each other about the pinions' axes
+    low, high = found["sun"].bounding_box(), found["side"].bounding_box()
+    axis = sum(found["one"].bounding_box()[k] for k in (2, 5)) / 2
+    assert (low[2] + high[5]) / 2 == pytest.approx(axis, abs=0.02)
+    for share, clash in ((1.0, False), (0.5, True)):
+        turned = found["side"].rotate((0.0, 0.0, share * 360 / 18))
+        for name in ("one", "two"):
+            assert ((turned ^ found[name]).volume() > 0.1) is clash
+
+
+def test_what_stands_by_hand_is_held_against_its_mates() -> None:
+    raw = differential()
+    file = scene_from_dict(raw, "s", "s")
+    parts, matings = make_parts(file, "s")
+    placing = place(file.instances, [], parts, matings, "s")
+    assert all(condition.met for mate in placing.mates for condition in mate.conditions)
+    (side,) = (instance for instance in placing.instances if instance.id == "side")
+
+    def broken(**keys: Any) -> list[str]:
+        own: dict[str, Any] = {
+            "at": list(side.at),
+            "axis": list(side.axis),
+            "rotation_deg": math.degrees(side.rotation),
+        }
+        file = scene_from_dict(differential(**{**own, **keys}), "s", "s")
+        parts, matings = make_parts(file, "s")
+        mates = place(file.instances, [], parts, matings, "s").mates
+        assert [mate.only_checks for mate in mates] == [False, False, True, True]
+        return [condition.code for condition in mates[3].conditions if not condition.met]
+
+    assert broken() == []
+    pitch = 360 / 18
+    assert broken(rotation_deg=math.degrees(side.rotation) + pitch) == []
+    assert broken(rotation_deg=math.degrees(side.rotation) + pitch / 3) == ["phase"]
+    x, y, z = side.at
+    assert broken(at=[x, y, z + 0.01]) == ["apex_distance"]
+    assert "shaft_angle" in broken(axis=[0.01, 0.0, -1.0])
 
 
 def test_check_tells_ratio_contact_and_turns(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
