@@ -120,7 +120,7 @@ def test_penetration_is_the_distance_in_the_metal(name: str) -> None:
     p = CASES[name]
     rng = np.random.default_rng(7)
     ra, root = float(p.tip_radius), float(abs(exact.fillet_point(p, 0)))
-    cloud = rng.uniform(0.9 * root, ra, 60) * np.exp(1j * rng.uniform(-np.pi / p.z, np.pi / p.z, 60))
+    cloud = rng.uniform(0.9 * root, ra, 36) * np.exp(1j * rng.uniform(-np.pi / p.z, np.pi / p.z, 36))
     depth = np.maximum(penetration(cloud, tool_of(p), p.z), np.abs(cloud) - ra)
     distance = np.array([float(exact.normal_distance(q, p)) for q in cloud])
     assert np.array_equal(depth > 0, distance > 0)
@@ -147,8 +147,8 @@ def test_grid_does_not_matter_in_deep_undercut(z: int, rho: float) -> None:
     """There the greatest depth is often found at the very end of the range the tool can reach."""
     tool = RackTool(1, np.radians(14.5), 1, 0.25, rho, -0.4)
     rng = np.random.default_rng(5)
-    cloud = z / 2 + rng.uniform(-1.2, 0.6, 400)
-    cloud = cloud * np.exp(1j * rng.uniform(-4, 4, 400))
+    cloud = z / 2 + rng.uniform(-1.2, 0.6, 150)
+    cloud = cloud * np.exp(1j * rng.uniform(-4, 4, 150))
     coarse, dense = (penetration(cloud, tool, z, grid=n) for n in (513, 6001))
     assert np.abs(coarse - dense).max() < 4e-15 * z
 

@@ -102,14 +102,22 @@ class DevelopedEdge(BoundedSpan, Record):
 
     def offset(self, distance: float) -> DevelopedEdge:
         edge, whole = replace(self, distance=0.0), self.distance + distance
-        t = np.linspace(*self.domain, _SPLIT_SAMPLES)
+        low, high, count = *self.domain, _SPLIT_SAMPLES
         for _ in range(_REFINEMENTS):
-            stretch = 1 - whole * edge.curvature(t)
+            t, curvature = _sampled_curvature(edge, low, high, count)
+            stretch = 1 - whole * curvature
             least = int(np.argmin(stretch))
             if stretch[least] <= 0:
                 raise CuspError(float(t[least]), distance)
-            t = np.linspace(t[max(least - 1, 0)], t[min(least + 1, len(t) - 1)], 9)
+            low, high, count = float(t[max(least - 1, 0)]), float(t[min(least + 1, len(t) - 1)]), 9
         return replace(self, distance=whole)
+
+
+@lru_cache(maxsize=1024)
+def _sampled_curvature(edge: DevelopedEdge, low: float, high: float, count: int) -> tuple[Real, Real]:
+    """Places along an edge and its curvature there: a search for the offset that works asks the same ones each time."""
+    t = np.linspace(low, high, count)
+    return t, edge.curvature(t)
 
 
 def development(cam: BarrelCam, length: float, offset: float = 0.0) -> OffsetRegion:

@@ -245,8 +245,8 @@ def test_a_long_piece_raises_the_chord_error(curve: Curve, place: int) -> None:
 def deviation(approximation: Approximation, profile: Profile) -> float:
     """Hausdorff distance of the first period from the exact outline, both ways, by brute force."""
     c = approximation.geometry
-    there = brute.distance_to_contour(brute.period_points(profile, 801), c.vertices, c.bulges, c.count)
-    per_edge = max(9, 4000 // len(c.vertices))
+    there = brute.distance_to_contour(brute.period_points(profile, 401), c.vertices, c.bulges, c.count)
+    per_edge = max(9, 2000 // len(c.vertices))
     back = brute.distance_to_outline(brute.contour_points(c.vertices, c.bulges, c.count, per_edge), profile, 200)
     return float(max(there.max(), back.max()))
 

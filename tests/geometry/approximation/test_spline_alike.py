@@ -23,7 +23,7 @@ TOLERANCE = 1e-5
 @cache
 def outline() -> Any:
     gear = {"kind": "noncircular_gear", "centrode": "focal_ellipse", "eccentricity": 0.7, "module": 2.0,
-            "number_of_teeth": 21}  # fmt: skip
+            "number_of_teeth": 15}  # fmt: skip
     part = make_parts(scene_from_dict({"parts": {"gear": gear}}, "s", "s"), "s")[0]["gear"]
     return part.section(0.0).region.outer
 

@@ -252,6 +252,7 @@ def practicum_pair(thinning: float = 0.0) -> ExternalPair:
 
 
 @cache
+@cache
 def outline(gear: SpurGear, side: int, pair: ExternalPair, count: int = 120) -> shapely.Polygon:
     """A dense polygon of a whole gear; chords are within 2e-5 module."""
     points = brute.polygon(pair.sides[side].profile(), count)

@@ -9,6 +9,7 @@ import pytest
 import shapely
 
 from geometry.base.errors import OffsetError, ParameterError
+from geometry.plane.profile import Profile
 from geometry.solids.bores import KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles, encloses
 from geometry.solids.windows import RoundHoles, Spokes
@@ -30,6 +31,13 @@ def test_what_lies_inside_a_hole() -> None:
                     assert encloses(profile, z) == polygon.contains(shapely.Point(z.real, z.imag)), name
 
 
+def least_wall(one: Profile, other: Profile) -> float:
+    """Dense points of one hole that are about the nearest to such points of the other, from that one's curves."""
+    points = outline(one, 200)
+    away = np.abs(points[:, None] - outline(other, 100)).min(axis=1)
+    return float(brute.distance_to_outline(points[away < away.min() + 1.0], other).min())
+
+
 def test_walls_between_holes_against_brute_force() -> None:
     """The least wall, as the growth that is refused tells it, against dense points of all holes."""
     hubs = {
@@ -42,11 +50,7 @@ def test_walls_between_holes_against_brute_force() -> None:
     for name, hub in hubs.items():
         hub.check(30.0)
         profiles = hub.profiles()
-        least = min(
-            float(brute.distance_to_outline(outline(p, 200), q).min())
-            for i, p in enumerate(profiles)
-            for q in profiles[:i]
-        )
+        least = min(least_wall(p, q) for i, p in enumerate(profiles) for q in profiles[:i])
         if name == "spokes and bore":
             # windows keep clear of the circle about the bore, not only of the bore itself
             assert least > 8.0 - 6.35 / math.sqrt(3)

@@ -42,11 +42,10 @@ def both_sides(number: int) -> BevelPair:
     return BevelPair(*gears(*PAIRS[number]))
 
 
-def turned(vectors: Real, axis: Real, angle: float) -> Real:
-    """Vectors turned about an axis (Rodrigues)."""
-    along = (vectors @ axis)[..., None] * axis
-    aside = vectors - along
-    return np.asarray(along + math.cos(angle) * aside + math.sin(angle) * np.cross(axis, vectors))
+def turned(vectors: Real, axis: Real, angle: float | Real) -> Real:
+    """Vectors turned about an axis (Rodrigues), by one angle or each by its own."""
+    along, by = (vectors @ axis)[..., None] * axis, np.asarray(angle)[..., None]
+    return np.asarray(along + np.cos(by) * (vectors - along) + np.sin(by) * np.cross(axis, vectors))
 
 
 @pytest.mark.parametrize("base", [0.05, 0.6, 1.2])
@@ -74,14 +73,12 @@ def test_the_fillet_is_what_a_rounding_leaves_that_rolls_with_the_crown_gear(num
     # places so far apart miss the nearest one by 6e-5 of the rounding at most
     rolled = np.linspace(-0.6, 1.2, 3601)
     start = math.cos(fillet.depth) * line - math.sin(fillet.depth) * crown
-    centres = []
-    for angle in rolled:
-        # the crown's tooth has come so far; its centre stands aside of the middle
-        place = turned(start, crown, -angle + fillet.aside)
-        centres.append(turned(place, np.array([0.0, 0.0, 1.0]), -angle / math.sin(delta)))
+    # the crown's tooth has come so far; its centre stands aside of the middle
+    places = turned(start, crown, fillet.aside - rolled)
+    centres = turned(places, np.array([0.0, 0.0, 1.0]), -rolled / math.sin(delta))
     points = spatial(*fillet.place(gear.joint[0] * SHARE))
     points[:, 1] *= -1
-    gaps = np.arccos(np.clip(points @ np.array(centres).T, -1.0, 1.0))
+    gaps = np.arccos(np.clip(points @ centres.T, -1.0, 1.0))
     assert gaps.min(axis=1) == pytest.approx(fillet.radius, rel=6e-5)
     assert float(gaps.min()) > fillet.radius * (1 - 1e-9)
 

@@ -100,7 +100,7 @@ def test_sections_along_the_face_against_dense_polygons(hand: str) -> None:
         return float(one.distance(other))
 
     width = (1 - pair.effective_contact_ratio) * math.pi * 2.0 / math.sin(math.radians(45))
-    drives = np.linspace(0, pair.first.pitch_angle, 40, endpoint=False)
+    drives = np.linspace(0, pair.first.pitch_angle, 20, endpoint=False)
     heights = np.linspace(0, 1.1 * width, 9)
     gaps = np.array([[apart(d, z) for z in heights] for d in drives])
     assert gaps.min(axis=1).max() < 1e-4

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,7 @@ from geometry.gears.worms.worm import Worm
 from geometry.solids.bores import KeywayBore
 from geometry.solids.extent import extent
 from geometry.solids.face_moments import face_moments
+from geometry.solids.faced import FacedSolid
 from geometry.solids.faces import Solid
 from parts.solids.kernel import solids_of
 from parts.solids.step_text import StepForm, StepPart, step_text
@@ -49,6 +51,16 @@ BODIES = {
     ),
     "slim": body_of(Worm(2.0, 1, 4.0, "ZA"), 16.0, 0.0, math.radians(45)),
 }
+
+
+@cache
+def finely_made(name: str) -> FacedSolid:
+    return worm_solid(BODIES[name], 1e-4)
+
+
+@cache
+def step_of(name: str) -> str:
+    return step_text(StepPart("worm", finely_made(name).geometry), StepForm(10))
 
 
 def assert_closed(solid: Solid) -> None:
@@ -82,9 +94,9 @@ def test_faces_hold_what_exact_integrals_say(name: str) -> None:
 @pytest.mark.parametrize("name", BODIES)
 def test_the_faces_of_a_worm_are_closed_and_their_files_within_their_bound(name: str, tmp_path: Path) -> None:
     body = BODIES[name]
-    made = worm_solid(body, 1e-4)
+    made = finely_made(name)
     assert_closed(made.geometry)
-    text = step_text(StepPart(name, made.geometry), StepForm(10))
+    text = step_of(name)
     file = tmp_path / "worm.step"
     file.write_text(text)
     verdict = verify_faced_solid(read_step(file), faced_worm(body), made.max_error + 1e-9, 1e-4)
@@ -110,7 +122,7 @@ def test_the_kernel_finds_the_worm_valid_and_of_its_volume(name: str) -> None:
     from OCP.GProp import GProp_GProps
 
     body = BODIES[name]
-    (solid,) = solids_of(step_text(StepPart("worm", worm_solid(body, 1e-4).geometry), StepForm(10)))
+    (solid,) = solids_of(step_of(name))
     assert BRepCheck_Analyzer(solid).IsValid()
     found = GProp_GProps()
     BRepGProp.VolumeProperties_s(solid, found, 1e-9)
@@ -157,7 +169,7 @@ def test_thread_ends_are_where_the_tool_leaves_them(name: str) -> None:
     assert band is not None
     # the solid by its definition, at random places about the thread: inside the section that stands at their angle
     rng = np.random.default_rng(4)
-    z = rng.uniform(-band.height(), band.height(), 60_000)
+    z = rng.uniform(-band.height(), band.height(), 30_000)
     r = rng.uniform(worm.root_radius, worm.tip_radius, len(z))
     phi = rng.uniform(-math.pi, math.pi, len(z))
     pitch, p = math.pi * worm.module, worm.parameter
@@ -192,9 +204,9 @@ def test_thread_ends_are_where_the_tool_leaves_them(name: str) -> None:
 
 
 def test_a_file_whose_tool_leaves_at_another_angle_is_caught(tmp_path: Path) -> None:
-    body = BODIES["run out into a thicker shaft"]
-    file = tmp_path / "worm.step"
-    file.write_text(step_text(StepPart("worm", worm_solid(body, 1e-4).geometry), StepForm(10)))
+    name = "run out into a thicker shaft"
+    body, file = BODIES[name], tmp_path / "worm.step"
+    file.write_text(step_of(name))
     held = verify_faced_solid(read_step(file), faced_worm(replace(body, run_out=body.run_out + 0.01)), 1e-4, 1e-4)
     assert any("deviates" in failure for failure in held.failures)
 
