@@ -34,23 +34,12 @@ from parts.mates.registry import MATES
 from parts.pages.terms import TERMS
 from parts.recipes.registry import RECIPES
 from parts.scene.files import SCENE_FOLDER
+from tests.sources import told
 
 HOUSE = Path(parts.__file__).parents[1]
 # built-in scenes whose comments `new --language` tells
 _SPEAKING = ("lesson_*", "*_coupon", "print_cam_set", "power_table_print")
 _PACKAGES = (HOUSE / "parts", HOUSE / "exporters")
-# the marks of parts/base/texts.py and what their first words are: a context, a text, its plural
-_MARKS = {
-    "N_": "t",
-    "NC_": "ct",
-    "message": "t",
-    "fault": "t",
-    "counted": "tp",
-    "in_context": "ct",
-    ".text": "t",
-    ".plural": "tp",
-    ".term": "ct",
-}
 Key = tuple[str | None, str]
 _HEAD = """\
 msgid ""
@@ -81,19 +70,7 @@ def extracted() -> dict[Key, str]:
 def _marked() -> Iterator[tuple[str | None, str, str]]:
     """What the marks in the code name, where it is written out there."""
     for file in (file for package in _PACKAGES for file in sorted(package.rglob("*.py"))):
-        for call in ast.walk(ast.parse(file.read_text("utf-8"))):
-            if isinstance(call, ast.Call) and (shape := _MARKS.get(_called(call), "")):
-                words = [a.value if isinstance(a, ast.Constant) else None for a in call.args[: len(shape)]]
-                told = dict(zip(shape, words, strict=False))
-                if isinstance(told.get("t"), str) and told["t"]:
-                    yield told.get("c"), told["t"], told.get("p") or ""
-
-
-def _called(call: ast.Call) -> str:
-    """The name of what is called, with a point before that of a method."""
-    if isinstance(call.func, ast.Attribute):
-        return f".{call.func.attr}"
-    return call.func.id if isinstance(call.func, ast.Name) else ""
+        yield from told(file.read_text("utf-8")).marked
 
 
 def _kept_in_data() -> Iterator[str]:
@@ -103,8 +80,8 @@ def _kept_in_data() -> Iterator[str]:
     for file in sorted(file for name in _SPEAKING for file in SCENE_FOLDER.glob(f"{name}.toml")):
         yield from comments_of(file.read_text("utf-8"))
     for kind in _structs():
-        if not (told := phrase_of(kind)).startswith("Keys of"):
-            yield told
+        if not (phrase := phrase_of(kind)).startswith("Keys of"):
+            yield phrase
         for field in fields(kind):
             yield from _descriptions(field.type)
 

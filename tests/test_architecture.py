@@ -6,7 +6,6 @@ import ast
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 import pytest
@@ -14,6 +13,7 @@ import pytest
 import exporters
 import geometry
 import parts
+from tests.sources import told
 
 ROOMS = {module.__name__: Path(module.__file__ or "").parent for module in (geometry, parts, exporters)}
 # what each room may import of the house, itself included
@@ -45,36 +45,9 @@ class Import:
     star: bool
 
 
-@dataclass(frozen=True)
-class Statement:
-    """An import statement; ``runs`` at all, that is not for type checkers alone, and when the file is loaded."""
-
-    node: ast.Import | ast.ImportFrom
-    runs: bool
-    at_top: bool
-
-
-@cache
-def statements(source: str) -> tuple[Statement, ...]:
-    """Every import statement of a file, anywhere in it; parsed once for all rules."""
-    return tuple(_statements(ast.parse(source), runs=True, at_top=True))
-
-
-def _statements(node: ast.AST, *, runs: bool, at_top: bool) -> Iterator[Statement]:
-    for name, value in ast.iter_fields(node):
-        for_types = name == "body" and isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test)
-        for child in value if isinstance(value, list) else ():
-            if isinstance(child, ast.Import | ast.ImportFrom):
-                yield Statement(child, runs and not for_types, at_top)
-            # expressions hold no statement
-            elif isinstance(child, ast.stmt | ast.ExceptHandler | ast.match_case):
-                inside = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef)
-                yield from _statements(child, runs=runs and not for_types, at_top=at_top and not inside)
-
-
 def imports_of(source: str) -> Iterator[Import]:
     """Every import of a file; those under TYPE_CHECKING are left out, since they never run."""
-    for found in (statement for statement in statements(source) if statement.runs):
+    for found in (statement for statement in told(source).statements if statement.runs):
         node = found.node
         if isinstance(node, ast.Import):
             for alias in node.names:

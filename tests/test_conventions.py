@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import ast
 import re
 import subprocess
 from pathlib import Path
 
 import pytest
 
-from geometry.curves.curve import Curve
+from tests.sources import told
 from tests.test_architecture import product_files
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -18,27 +17,12 @@ TOP_LEVEL = {
     "pyproject.toml", "geometry", "exporters", "parts", "tests", "out", "README.md", "README.uk.md", "LICENSE",
     "MANIFEST.in", "CHANGELOG.md", "CONTRIBUTING.md", "CONVENTIONS.md", "DERIVATIONS.md",
 }  # fmt: skip
-CURVE_METHODS = {name for name in vars(Curve) if not name.startswith("_")}
 TEXT = {".py", ".md", ".toml", ".svg", ".txt", ".cfg", ".yml", ".yaml"}
 
 
 def undocumented(place: str, source: str) -> list[str]:
-    """Modules, classes and functions that others may use and that say nothing of themselves.
-
-    What begins with an underscore or stands inside a function is private; methods of the Curve protocol are told there.
-    """
-    tree = ast.parse(source)
-    found = [] if ast.get_docstring(tree) else [f"{place}: module"]
-    queue: list[ast.stmt] = list(tree.body)
-    while queue:
-        node = queue.pop(0)
-        if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef) or node.name.startswith("_"):
-            continue
-        if isinstance(node, ast.ClassDef):
-            queue += node.body
-        if not ast.get_docstring(node) and node.name not in CURVE_METHODS:
-            found.append(f"{place}:{node.lineno}: {node.name}")
-    return found
+    """Modules, classes and functions that others may use and that say nothing of themselves."""
+    return [f"{place}: {name}" if line == 0 else f"{place}:{line}: {name}" for line, name in told(source).undocumented]
 
 
 def tracked() -> list[str]:

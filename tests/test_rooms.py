@@ -13,7 +13,7 @@ from pathlib import Path
 import exporters
 import geometry
 import parts
-from tests.test_architecture import statements
+from tests.sources import told
 
 # from the ground up: a room may import its own package's rooms below it, and what it holds itself
 STOREYS = (
@@ -41,7 +41,7 @@ def sources() -> Source:
 
 def imports(text: str, modules: Source) -> Iterator[tuple[str, str]]:
     """Every module of the house that a text imports, anywhere in it, with the name that is taken of it or ""."""
-    for node in (statement.node for statement in statements(text)):
+    for node in (statement.node for statement in told(text).statements):
         if isinstance(node, ast.ImportFrom) and node.module:
             for alias in node.names:
                 whole = f"{node.module}.{alias.name}"
