@@ -107,13 +107,14 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     first = (
         *_rows(page, "outer_module", "number_of_teeth"), DataRow(N_("type of tooth"), "", N_("straight")), *rack,
         *_rows(page, "profile_shift_coefficient", "thickness_coefficient", "pitch_cone_angle_deg",
-               "tip_cone_angle_deg", "root_cone_angle_deg"),
+               "tip_cone_angle_deg"),
         *grade_rows(keys.accuracy),
     )  # fmt: skip
     height, chord = _rows(page, "outer_chord_height", "outer_chord")
     limits = None if keys.accuracy is None else keys.accuracy.deviations
     control = height, replace(chord, deviations=limits and (max(limits), min(limits)))
-    last = _rows(page, "shaft_angle_deg", "outer_cone_distance", "mean_pitch_diameter")
+    last = _rows(page, "shaft_angle_deg", "mean_module", "outer_cone_distance", "mean_cone_distance",
+                 "mean_pitch_diameter", "face_width", "root_cone_angle_deg", "outer_depth")  # fmt: skip
     teeth = DataRow(N_("teeth of the mate"), "z", keys.mate_teeth)
     drawings = dict.fromkeys(getattr(m.part.keys, "designation", None) or m.part.title or m.part.id for m in mates)
     beside = [DataRow(N_("drawing of the mate"), "", Message("{name}", {"name": name})) for name in drawings]

@@ -29,6 +29,7 @@ from parts.scene.load import load_scene, make_parts, scene_from_toml
 from parts.scene.placing import place
 
 TOPICS = {"spur_gear": "spur", "ring_gear": "ring", "rack": "rack", "worm": "worm", "worm_wheel": "worm",
+          "bevel_gear": "bevel",
           "noncircular_gear": "noncircular", "cycloidal_disc": "cycloidal", "lantern_gear": "lantern"}  # fmt: skip
 CAMS = (
     "practicum_roller_cam",
@@ -39,7 +40,7 @@ CAMS = (
     "barrel_cam",
     "conjugate_cams",
 )
-TOOTHED = ("practicum_pair", "helical_pair", "rack_and_pinion", "thesis_internal_pair", "worm_set_print")
+TOOTHED = ("practicum_pair", "helical_pair", "rack_and_pinion", "thesis_internal_pair", "worm_set_print", "bevel_pair")
 ROUND = ("oval_gears", "cycloidal_reducer", "lantern_pair")
 # what drawings call by other names than calculations do, which have the seeds'
 CALLED = {
@@ -68,12 +69,18 @@ def calculated(topic: str, address: str, key: str, part: Any) -> dict[str, Any]:
     more = []
     if topic in ("spur", "ring"):
         more.append(f"tip_diameter={part.circles['tip_diameter']!r}")
-    if topic in ("spur", "ring", "rack", "noncircular"):
+    if topic in ("spur", "ring", "rack", "noncircular", "bevel"):
         more.append(f"circumferential_thinning={part.thing.circumferential_thinning!r}")
     elif part.kind == "worm":
         more.append(f"axial_thinning={part.thing.thread.worm.thinning!r}")
     found: dict[str, Any] = json.loads(calculate(topic, [address, f"part={key}", *more], "json", "en"))
     return found
+
+
+def named(step: dict[str, Any]) -> tuple[str, str]:
+    """Name and symbol of a step, on the page of a pair those of its first gear without the gear's number."""
+    own = step.get("gear") == "first"
+    return step["text"].removesuffix(", gear 1"), step["symbol"].removesuffix("1") if own else step["symbol"]
 
 
 @pytest.mark.sampled(3)
@@ -84,7 +91,7 @@ def test_every_cell_is_what_the_calculation_prints(address: str) -> None:
         # a plate of a groove cam has the table of its cam
         owner = part.keys.of if part.kind == "groove_piece" else key
         data = calculated(topic, address, owner, part)
-        steps = {(s["text"], s["symbol"]): s for s in data["steps"]}
+        steps = {named(s): s for s in data["steps"]}
         for row in (row for rows in table.parts for row in rows):
             name = words("en").say(row.name)
             name = name.partition(": ")[0] if isinstance(row.name, Message) else name
