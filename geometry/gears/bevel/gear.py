@@ -260,7 +260,8 @@ class BevelGear(Record, dict=True):
         """Angles and azimuths of the upper side at shares of its ``fillet`` or its ``flank``, from the root on."""
         crossing, arc = self.joint
         if name == "fillet":
-            return self.fillet_place(crossing * share)
+            # tan u = sinh: as much of the fillet near the flank as near the root, where its normal turns fast
+            return self.fillet_place(np.arctan(np.sinh(math.asinh(math.tan(crossing)) * share)))
         return self._flank(arc + (self.tip_arc - arc) * share)
 
     def _flank(self, rolled: Real) -> tuple[Real, Real]:

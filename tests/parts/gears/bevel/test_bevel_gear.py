@@ -197,6 +197,19 @@ def test_faces_much_wider_than_usual_are_written_and_read_back(tmp_path: Path, k
     assert entry["max_error"] < 3e-8
 
 
+def test_a_gear_of_thirty_metres_is_drawn_too() -> None:
+    """A rounding of 1 mm beside cones of 31 m, and heavy undercut: splines within 3e-8 mm have room for both."""
+    sizes: list[dict[str, Any]] = [
+        {"number_of_teeth": 60, "mate_teeth": 13, "pressure_angle_deg": 14.5, "profile_shift_coefficient": -0.2,
+         "tip_radius_coefficient": 0.001},
+        {"number_of_teeth": 17, "mate_teeth": 60, "pressure_angle_deg": 10.0, "tip_clearance_coefficient": 0.0},
+    ]  # fmt: skip
+    for keys in sizes:
+        raw = {"parts": {"g": {"kind": "bevel_gear", "module": 1000.0, **keys}}}
+        part = make_parts(scene_from_dict(raw, "s", "s"), "s")[0]["g"]
+        assert part.body(0.0).within(1e-7).max_error < 3e-8
+
+
 @pytest.mark.parametrize(
     ("pinion", "wheel", "key", "told"),
     [
