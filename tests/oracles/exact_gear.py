@@ -3,7 +3,7 @@
 Derivation (Willis/Savary common normal, in Shishkov's form n.v = 0). Fixed frame: gear axis 0, pitch point
 P = r = m z/2, datum line of the rack at Re = r + x m, rack moves by s along +i while the gear turns by s/r. A
 rack point Q then moves against the gear with v = i - i Q/r; it lies on the envelope where n.v = 0, n the
-rack's normal there. Q = Q0 + i s makes n.v affine in s, so that its root follows from two values: no involute
+rack's normal there. Q = Q0 + i s makes n.v affine in s, so that its root is one division: no involute
 or trochoid equation is used anywhere. The gear point is Q exp(-i s/r).
 
 Upper half of tooth 1 (polar angles 0 ... pi/z, the rest by symmetry), cut by the lower flank of the rack
@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 from typing import Any
 
 import mpmath
@@ -58,25 +58,38 @@ class GearParameters:
         if not self.tip_radius:
             object.__setattr__(self, "tip_radius", self.r + (self.ha + self.x) * self.m)
 
-    @property
+    @cached_property
     def r(self) -> Mpf:
         """Rolling (reference) radius."""
         return self.m * self.z / 2
 
-    @property
+    @cached_property
     def hf(self) -> Mpf:
         """Reach of the rack tooth below its datum line, mm."""
         return (self.ha + self.c) * self.m
 
-    @property
+    @cached_property
     def relief_from(self) -> Mpf:
         """Height over the datum line at which the tool's relieved flank begins, mm."""
         return (self.ha - self.relief_height) * self.m
 
-    @property
+    @cached_property
     def relief_angle(self) -> Mpf:
         """Angle of the relieved flank: Delta m off the main flank after h_g m/cos(alpha) along it."""
         return self.alpha + MP.atan(self.relief_depth / (self.relief_height / MP.cos(self.alpha)))
+
+    @cached_property
+    def space(self) -> Mpf:
+        """Height of the lower flank of the rack tooth on the datum line: the upper end of half a tooth of the gear, mm."""
+        half = (MP.pi * self.m / 2 + self.thinning) / 2
+        return MP.pi * self.m / 2 - half
+
+    @cached_property
+    def rounding_centre(self) -> Mpc:
+        """Centre of the rounding: rho inside the flank and rho inside the tip line."""
+        y = straight_start(self)
+        touch = MP.mpc(self.r + self.x * self.m + y, self.space - y * MP.tan(self.alpha))
+        return touch + self.rho * self.m * 1j * _unit(-self.alpha)
 
 
 @dataclass(frozen=True)
@@ -106,29 +119,31 @@ def radians(degrees: float | str) -> Mpf:
 
 def _unit(angle: Mpf) -> Mpc:
     """exp(i angle), without MP.expj, which refuses to work inside MP.findroot."""
-    return MP.mpc(MP.cos(angle), MP.sin(angle))
+    return MP.mpc(*MP.cos_sin(angle))
+
+
+@lru_cache(maxsize=256)
+def _straight(angle: Mpf) -> tuple[Mpf, Mpc]:
+    """Tangent of a straight flank's angle, and its normal into the rack."""
+    return MP.tan(angle), 1j * _unit(-angle)
 
 
 def _generate(parameters: GearParameters, rack: Mpc, inward: Mpc) -> tuple[Mpc, Mpc]:
     """Gear point and normal made by the rack point `rack` (fixed frame, s = 0), from n.v = 0."""
     r = parameters.r
 
-    def normal_speed(s: Mpf) -> Mpf:
-        v = 1j * (1 - (rack + 1j * s) / r)
-        return (MP.conj(inward) * v).real
-
-    at_0, at_r = normal_speed(MP.mpf(0)), normal_speed(r)
-    s = r * at_0 / (at_0 - at_r)  # exact: normal_speed is affine
+    # v = i (1 - rack / r) + s / r: n.v is affine in s
+    at_0 = (MP.conj(inward) * (1j * (1 - rack / r))).real
+    s = -r * at_0 / inward.real
     turn = _unit(-s / r)
     return (rack + 1j * s) * turn, inward * turn
 
 
 def _line(parameters: GearParameters, y: Mpf, y0: Mpf, angle: Mpf) -> tuple[Mpc, Mpc]:
     """Gear point made by the straight flank that leaves the main flank at y0 under `angle`."""
-    p, y = parameters, MP.mpf(y)
-    half = (MP.pi * p.m / 2 + p.thinning) / 2
-    t = MP.pi * p.m / 2 - half - y0 * MP.tan(p.alpha) - (y - y0) * MP.tan(angle)
-    return _generate(p, MP.mpc(p.r + p.x * p.m + y, t), 1j * _unit(-angle))
+    p, y, (slope, inward) = parameters, MP.mpf(y), _straight(angle)
+    t = p.space - y0 * _straight(p.alpha)[0] - (y - y0) * slope
+    return _generate(p, MP.mpc(p.r + p.x * p.m + y, t), inward)
 
 
 def _flank(parameters: GearParameters, y: Mpf) -> tuple[Mpc, Mpc]:
@@ -140,14 +155,9 @@ def _relief(parameters: GearParameters, y: Mpf) -> tuple[Mpc, Mpc]:
 
 
 def _fillet(parameters: GearParameters, angle: Mpf) -> tuple[Mpc, Mpc]:
-    """Gear point made by the rounding; its centre is rho inside the flank and rho inside the tip line."""
-    p, radius = parameters, parameters.rho * parameters.m
-    y = straight_start(p)
-    half = (MP.pi * p.m / 2 + p.thinning) / 2
-    touch = MP.mpc(p.r + p.x * p.m + y, MP.pi * p.m / 2 - half - y * MP.tan(p.alpha))
-    centre = touch + radius * 1j * _unit(-p.alpha)
-    inward = _unit(MP.mpf(angle))
-    return _generate(p, centre - radius * inward, inward)
+    """Gear point made by the rounding."""
+    p, inward = parameters, _unit(MP.mpf(angle))
+    return _generate(p, p.rounding_centre - p.rho * p.m * inward, inward)
 
 
 def straight_start(parameters: GearParameters) -> Mpf:
