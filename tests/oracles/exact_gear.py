@@ -80,7 +80,7 @@ class GearParameters:
 
     @cached_property
     def space(self) -> Mpf:
-        """Height of the lower flank of the rack tooth on the datum line: the upper end of half a tooth of the gear, mm."""
+        """Where the lower flank of the rack tooth crosses the datum line, mm over the middle of the gear's tooth."""
         half = (MP.pi * self.m / 2 + self.thinning) / 2
         return MP.pi * self.m / 2 - half
 
