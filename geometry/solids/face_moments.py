@@ -8,6 +8,7 @@ integrated over between their four edges, where the rule is exact.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -42,9 +43,13 @@ def face_moments(solid: Solid) -> Moments:
     ConvergenceError
         They do not settle.
     """
-    total, _ = _total(solid, 1)
+    patches = [
+        _patches(solid, faces.surface, along=faces.along)
+        for faces in solid.faces if isinstance(faces.surface, SplineSurface)
+    ]  # fmt: skip
+    total, _ = _total(solid, 1, patches)
     for halving in range(1, _MOST + 1):
-        finer, shares = _total(solid, 2**halving)
+        finer, shares = _total(solid, 2**halving, patches)
         scale = np.abs(finer).max() + abs(finer[0])
         change, total = float((np.abs(finer - total).max() - _ROUNDING * shares.max()) / scale), finer
         if change <= _SETTLED:
@@ -54,14 +59,14 @@ def face_moments(solid: Solid) -> Moments:
     return moments_of(total)
 
 
-def _total(solid: Solid, pieces: int) -> tuple[Real, Real]:
-    """The integrals, and the sums of the sizes of what they are added up from."""
+def _total(solid: Solid, pieces: int, patches: Sequence[Real]) -> tuple[Real, Real]:
+    """The integrals, and the sums of the sizes of what they are added up from; those of splines know no pieces."""
     samples = [_samples(solid, edges, pieces) for edges in solid.edges]
     bundle, row = edge_rows(solid)
-    shares: list[Real] = []
+    shares, whole = [], iter(patches)
     for faces in solid.faces:
         if isinstance(faces.surface, SplineSurface):
-            shares.append(_patches(solid, faces.surface, along=faces.along))
+            shares.append(next(whole))
             continue
         rows = len(faces.loops[0][0])
         found = None if isinstance(faces.surface, Extrusion) else charts(solid, faces.surface, rows)

@@ -71,18 +71,28 @@ class SphericalFillet(Record):
         t = np.asarray(u, dtype=float)
         return np.asarray((self._centre(t) - self.aside) / math.sin(self.pitch))
 
+    def turn_rate(self, u: ArrayLike) -> Real:
+        """d turn / du."""
+        tangent, deep = np.tan(np.asarray(u, dtype=float)), math.tan(self.depth)
+        return np.asarray(deep * (1 + tangent**2) / np.sqrt(1 - (deep * tangent) ** 2) / math.sin(self.pitch))
+
     def reach(self, u: ArrayLike) -> Real:
         """From the pitch line to the place, along the normal."""
         return np.asarray(np.arcsin(math.sin(self.depth) / np.cos(np.asarray(u, dtype=float))) + self.radius)
 
-    def place(self, u: ArrayLike) -> tuple[Real, Real]:
-        """Angle from the axis, and azimuth off the middle of the space."""
+    def seen(self, u: ArrayLike) -> Real:
+        """Unit vectors (..., 3) of the places; the pitch line, through which the normal goes, lies at azimuth 0."""
         t = np.asarray(u, dtype=float)
         reach, sine, cosine = self.reach(t), math.sin(self.pitch), math.cos(self.pitch)
         x = np.cos(reach) * sine - np.sin(reach) * cosine * np.cos(t)
         y = np.sin(reach) * np.sin(t)
         z = np.cos(reach) * cosine + np.sin(reach) * sine * np.cos(t)
-        return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x) - self.turn(t)
+        return np.stack([x, y, z], axis=-1)
+
+    def place(self, u: ArrayLike) -> tuple[Real, Real]:
+        """Angle from the axis, and azimuth off the middle of the space."""
+        x, y, z = np.moveaxis(self.seen(u), -1, 0)
+        return np.arctan2(np.hypot(x, y), z), np.arctan2(y, x) - self.turn(u)
 
 
 def spatial(angle: Real, azimuth: Real) -> Real:

@@ -10,8 +10,9 @@ from geometry.curves.curve import Real
 from geometry.gears.bevel.gear import BevelGear
 from geometry.gears.bevel.sphere import spatial
 
-# steps of the search for the foot on a fillet, how far it goes beyond its ends, and for slopes, rad
-_STEPS, _BEYOND, _DIFFERENCE, _TABLE = 8, 0.2, 1e-6, 65
+# steps of the search for the foot on a fillet, how far it goes beyond its ends, of which step on it is found, and the
+# slope that is none, rad
+_STEPS, _BEYOND, _FOUND, _FLAT, _TABLE = 8, 0.2, 1e-13, 1e-6, 65
 
 
 def flank_off(gear: BevelGear, angle: Real, aside: Real) -> Real:
@@ -22,26 +23,29 @@ def flank_off(gear: BevelGear, angle: Real, aside: Real) -> Real:
 
 def fillet_off(gear: BevelGear, angle: Real, aside: Real) -> Real:
     """The same of the fillet, whose normals go through the pitch line; beyond its ends it goes on."""
-    aim = spatial(angle, math.pi / gear.number_of_teeth - aside)
+    angle, aside = np.broadcast_arrays(angle, aside)
+    azimuth = math.pi / gear.number_of_teeth - aside
     fillet, end = gear.fillet, gear.joint[0]
-
-    def pole(u: Real) -> Real:
-        return spatial(np.asarray(fillet.pitch), -fillet.turn(u))
-
-    def off_normal(u: Real) -> Real:
-        """Of the aims from the plane of the normal at ``u``."""
-        normal = np.cross(pole(u), spatial(*fillet.place(u)))
-        return np.asarray((normal * aim).sum(axis=-1) / np.linalg.norm(normal, axis=-1))
-
+    sine, cosine = math.sin(fillet.pitch), math.cos(fillet.pitch)
     table = np.linspace(0.0, end, _TABLE)
-    u = table[(aim @ spatial(*fillet.place(table)).T).argmax(axis=-1)]
+    u = table[(spatial(angle, azimuth) @ spatial(*fillet.place(table)).T).argmax(axis=-1)]
+    out, along = np.sin(angle), np.cos(angle)
     furthest = 0.99 * math.acos(math.sin(abs(fillet.depth)))
     for _ in range(_STEPS):
-        slope = (off_normal(u + _DIFFERENCE) - off_normal(u - _DIFFERENCE)) / (2 * _DIFFERENCE)
-        step = off_normal(u) / np.where(np.abs(slope) > _DIFFERENCE, slope, np.inf)
-        u = np.clip(u - step, -_BEYOND, min(end + _BEYOND, furthest))
-    off = np.linalg.norm(np.cross(spatial(*fillet.place(u)), aim), axis=-1)
-    from_pole = np.linalg.norm(pole(u) - aim, axis=-1)
+        # seen from the pole the normal at u is (-cos pitch sin u, -cos u, sin pitch sin u), and here are the aims
+        turned = azimuth + fillet.turn(u)
+        x, y, rate = out * np.cos(turned), out * np.sin(turned), fillet.turn_rate(u)
+        inwards = cosine * x - sine * along
+        off_normal = inwards * np.sin(u) + y * np.cos(u)
+        slope = (inwards + x * rate) * np.cos(u) - (cosine * rate + 1) * y * np.sin(u)
+        step = off_normal / np.where(np.abs(slope) > _FLAT, slope, np.inf)
+        before, u = u, np.clip(u - step, -_BEYOND, min(end + _BEYOND, furthest))
+        if (np.abs(u - before) < _FOUND).all():
+            break
+    turned = azimuth + fillet.turn(u)
+    aim = spatial(angle, turned)
+    off = np.linalg.norm(np.cross(fillet.seen(u), aim), axis=-1)
+    from_pole = np.linalg.norm(spatial(np.asarray(fillet.pitch), np.asarray(0.0)) - aim, axis=-1)
     return np.asarray(np.where(from_pole < 2 * np.sin(fillet.reach(u) / 2), off, -off))
 
 

@@ -16,7 +16,7 @@ from geometry.curves.curve import Real
 from geometry.gears.bevel.gear import BevelGear, Blank
 from geometry.gears.bevel.pair import BevelPair
 from geometry.gears.bevel.sphere import SphericalInvolute, spatial
-from geometry.gears.bevel.walls import tooth_off, wall_distance
+from geometry.gears.bevel.walls import fillet_off, tooth_off, wall_distance
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.distance import Verdict
@@ -293,3 +293,19 @@ def test_what_cannot_be_is_refused_with_the_nearest_that_can(
         assert replace(changed, **{name: value}).checked()
     else:
         assert replace(changed, blank=replace(changed.blank, **{name: value})).checked()
+
+
+@pytest.mark.parametrize("pair", PAIRS[:3])
+def test_a_fillet_beside_another_of_the_same_normals_is_off_by_the_difference_of_their_roundings(
+    pair: tuple[int, int, float, float],
+) -> None:
+    """Parallel on the sphere: cutters with one centre of their rounding; how fast the gear turns by differences."""
+    for gear in gears(*pair):
+        fillet, u = gear.fillet, np.linspace(0.02, 0.98, 41) * gear.joint[0]
+        for more in (-0.3, 0.0, 0.1):
+            angle, azimuth = replace(fillet, radius=(1 + more) * fillet.radius).place(u)
+            found = fillet_off(gear, angle, math.pi / gear.number_of_teeth - azimuth)
+            assert np.abs(found) == pytest.approx(np.full(41, abs(math.sin(more * fillet.radius))), abs=1e-14)
+            assert (np.sign(found[np.abs(found) > 1e-14]) == -np.sign(more)).all()
+        slope = (fillet.turn(u + 1e-5) - fillet.turn(u - 1e-5)) / 2e-5
+        assert fillet.turn_rate(u) == pytest.approx(slope, rel=1e-7)
