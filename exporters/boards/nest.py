@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 Flags = NDArray[np.bool_]
 # flags (x, y), eight to a byte along y, the first one the highest bit; a map's rows are whole words
 Bits = NDArray[np.uint8]
+# cells along a square of them that is looked at as a whole
+_SQUARE = 16
 _WORD, _TAKEN = 64, np.uint64(2**64 - 1)
 # cells of the grid along the longer side of a board, and of all tables together
 _COARSEST, _FINEST, _TABLES = 800, 6000, 15_000_000
@@ -232,9 +234,20 @@ class _Nest:
 
         grown = geometry.buffer(more + self.cell / math.sqrt(2) * 1.001, quad_segs=16)
         counts = [math.ceil((size + more) / self.cell) + 1 for size in (half.real, half.imag)]
-        axes = [np.arange(-n, n + 1) * self.cell for n in counts]
+        x, y = (np.arange(-n, n + 1) * self.cell for n in counts)
         shapely.prepare(grown)
-        return np.asarray(shapely.contains_xy(grown, *np.meshgrid(*axes, indexing="ij")))
+        # squares of cells, a little wider than they are, lie within or without but along the border
+        step = _SQUARE * self.cell
+        left, low = x[::_SQUARE, None], y[::_SQUARE]
+        squares = shapely.box(*np.broadcast_arrays(left, low, left + step, low + step))
+        within = shapely.contains_properly(grown, squares)
+        found, border = (
+            np.repeat(np.repeat(flags, _SQUARE, axis=0), _SQUARE, axis=1)[: len(x), : len(y)]
+            for flags in (within, shapely.intersects(grown, squares) & ~within)
+        )
+        at = np.nonzero(border)
+        found[at] = shapely.contains_xy(grown, x[at[0]], y[at[1]])
+        return found
 
     def table(self, one: tuple[str, int], two: tuple[str, int]) -> _Table:
         """Steps (x, y) about the middle from shape ``one`` to shape ``two`` at which they are too near."""

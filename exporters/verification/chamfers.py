@@ -31,10 +31,11 @@ def chamfer_deviation(points: Points, body: Body, declared: float) -> float:
     heights = np.round(points[:, 2], _LEVEL_DIGITS)
     best = np.full(len(points), np.inf)
     places = points[:, 0] + 1j * points[:, 1]
+    walls = [wall for wall in body.walls if body.is_chamfer(wall)]
     for z in np.unique(heights).tolist():
         mine = np.flatnonzero(heights == z)
         sections = []
-        for wall, _, _ in body.chamfers():
+        for wall in walls:
             low, high = body.height(wall)
             if low - _BEYOND <= z <= high + _BEYOND:
                 sections.append(body.section(wall, float(np.clip(z, low, high))))
@@ -67,7 +68,8 @@ def slice_points(mesh: ReadMesh, triangles: Triangles) -> Points:
 def on_chamfers(body: Body, z: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Which heights lie between the ends of a chamfer."""
     found = np.zeros(len(z), dtype=bool)
-    for wall, _, _ in body.chamfers():
-        low, high = body.height(wall)
-        found |= (low < z) & (z < high)
+    for wall in body.walls:
+        if body.is_chamfer(wall):
+            low, high = body.height(wall)
+            found |= (low < z) & (z < high)
     return found

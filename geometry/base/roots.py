@@ -28,11 +28,18 @@ class Root(Record):
 
 
 def bracketed_root(
-    function: Callable[[float], float], low: float, high: float, *, limit: int = 120, enough: float = 0.0
+    function: Callable[[float], float],
+    low: float,
+    high: float,
+    *,
+    limit: int = 120,
+    enough: float = 0.0,
+    at_ends: tuple[float, float] | None = None,
 ) -> Root:
     """Root of a continuous function with opposite signs at ``low`` and ``high``; to the last digit.
 
-    ``enough``: a residual of this size ends the search before.
+    ``enough``: a residual of this size ends the search before. ``at_ends``: the values at ``low`` and ``high``, where
+    they are known.
 
     Chandrupatla's method (Advances in Engineering Software 28, 1997): inverse quadratic interpolation
     where it is safe, bisection otherwise.
@@ -43,7 +50,7 @@ def bracketed_root(
         No change of sign in the bracket, or more than ``limit`` steps.
     """
     b, a, c = low, high, high
-    fa, fb = function(a), function(b)
+    fb, fa = (function(low), function(high)) if at_ends is None else at_ends
     fc = fa
     for end, value in ((low, fb), (high, fa)):
         if value == 0:

@@ -47,12 +47,13 @@ def level_lines(field: Field, box: Box, tolerance: float) -> list[list[complex]]
     points: dict[Edge, complex] = {}
     for i in range(n + 1):
         for j in range(n + 1):
-            if i < n and _crosses(values[i][j], values[i + 1][j]):
-                y = box.y(j)
-                points[i, j, 0] = complex(_root(partial(on_row, y), box.x(i), box.x(i + 1)), y)
-            if j < n and _crosses(values[i][j], values[i][j + 1]):
-                x = box.x(i)
-                points[i, j, 1] = complex(x, _root(partial(field, x), box.y(j), box.y(j + 1)))
+            here = values[i][j]
+            if i < n and _crosses(here, values[i + 1][j]):
+                y, ends = box.y(j), (here, values[i + 1][j])
+                points[i, j, 0] = complex(_root(partial(on_row, y), box.x(i), box.x(i + 1), ends), y)
+            if j < n and _crosses(here, values[i][j + 1]):
+                x, ends = box.x(i), (here, values[i][j + 1])
+                points[i, j, 1] = complex(x, _root(partial(field, x), box.y(j), box.y(j + 1), ends))
     links: dict[Edge, list[Edge]] = {edge: [] for edge in points}
     for i in range(n):
         for j in range(n):
@@ -66,8 +67,8 @@ def _crosses(one: float, two: float) -> bool:
     return math.isfinite(one) and math.isfinite(two) and (one >= 0) != (two >= 0)
 
 
-def _root(function: Callable[[float], float], low: float, high: float) -> float:
-    return bracketed_root(function, low, high).value
+def _root(function: Callable[[float], float], low: float, high: float, at_ends: tuple[float, float]) -> float:
+    return bracketed_root(function, low, high, at_ends=at_ends).value
 
 
 def _cell_links(
@@ -125,9 +126,10 @@ def _between(field: Field, one: complex, two: complex, tolerance: float, depth: 
 
     # a little more than half, which a right-angled corner of the line takes
     reach = 0.55 * length
-    if not _crosses(along(-reach), along(reach)):
+    ends = along(-reach), along(reach)
+    if not _crosses(*ends):
         return []
-    height = _root(along, -reach, reach)
+    height = _root(along, -reach, reach, ends)
     if abs(height) <= tolerance:
         return []
     point = middle + height * normal

@@ -151,7 +151,7 @@ def equal_sliding_shift(pair: AnyShiftPair, shift_sum: float, low: float, high: 
         return high if math.isnan(ends[0]) else low
     if ends[0] <= 0:
         return low
-    return high if ends[1] >= 0 else bracketed_root(difference, low, high).value
+    return high if ends[1] >= 0 else bracketed_root(difference, low, high, at_ends=ends).value
 
 
 def least_wear(pair: AnyShiftPair, wish: Requirements) -> Proposal | None:
@@ -235,8 +235,8 @@ def _best(
         return None
     ends = []
     for k in (best - 1, best + 1):
-        end = sums[min(max(k, 0), len(sums) - 1)]
-        ends.append(end if function(end) > -math.inf else _last_inside(function, sums[best], end))
+        k = min(max(k, 0), len(sums) - 1)
+        ends.append(sums[k] if values[k] > -math.inf else _last_inside(function, sums[best], sums[k]))
     total = max((_golden(function, ends[0], ends[1], _OUTER_SECTIONS), sums[best]), key=function)
     x1 = shift(total)
     return None if x1 is None else proposal(pair, wish, x1, second_shift(pair, total, x1))
@@ -281,7 +281,7 @@ def _positive(function: Callable[[float], float], low: float, high: float, step:
     ends: list[float] = [marks[0]] if values[0] >= 0 else []
     for (a, b), (fa, fb) in zip(pairwise(marks), pairwise(values), strict=True):
         if (fa >= 0) != (fb >= 0):
-            bracket = bracketed_root(function, a, b).bracket
+            bracket = bracketed_root(function, a, b, at_ends=(fa, fb)).bracket
             ends.append(next((e for e in bracket if function(e) >= 0), bracket[0]))
     if len(ends) % 2:
         ends.append(marks[-1])

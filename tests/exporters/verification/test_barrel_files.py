@@ -43,7 +43,7 @@ FORMS = {"groove": GROOVE | {"clearance": 0.2, "bore": {"shape": "keyway", "diam
                              "hub": {"diameter": 24.0, "above": 4.0, "below": 2.0}},
          "end": END | {"bore_diameter": 10.0}, "tube": END | {"web_thickness": 0.0}, "swing": SWING,
          "cone": CONE, "cone end": END | {"roller_form": "conical"}}  # fmt: skip
-TOLERANCE = 0.05
+TOLERANCE = 0.2
 # angles at which the roller is put in
 COUNT = 240
 faced = cache(barrel_faces)
@@ -328,8 +328,8 @@ def test_files_of_a_swinging_follower_with_a_conical_roller(tmp_path: Path) -> N
     folder = tmp_path / "o" / "s"
     by_path = {f["path"]: f for f in read_report(folder)["files"]}
     measured = by_path["cam.stl"]["measured"]
-    assert measured["lift_error"] < 1.3 * TOLERANCE
-    assert measured["least_play"] > 0.1 - 2 * TOLERANCE
+    assert measured["lift_error"] < 1.3 * 0.05
+    assert measured["least_play"] > 0.1 - 2 * 0.05
     assert by_path["cam.laser.dxf"]["entities"]["LWPOLYLINE"] == 2
     assert "SPLINE" in by_path["cam.drawing.dxf"]["entities"]
     assert recheck(folder / "cam.stl").verdict.failures == ()
@@ -340,11 +340,11 @@ def test_files_of_a_swinging_follower_with_a_conical_roller(tmp_path: Path) -> N
     wall = next(f for f in body.faces() if isinstance(f, Track) and f.side == LOWER)
     vertices[wall.distance(body.cam, vertices) < 1e-4, 2] += 0.1
     write_stl(folder / "bad.stl", Mesh(vertices, lifted.triangles))
-    found = probed(read_stl(folder / "bad.stl"), part, 0.0, TOLERANCE, Verdict({}, ()))
+    found = probed(read_stl(folder / "bad.stl"), part, 0.0, 0.05, Verdict({}, ()))
     assert "the roller's place is wrong by 0.1" in found.failures[0]
     # the file of another cam in its place
     body = body_of(SWING | CONICAL | {"swing_deg": 23.5, "length": measured_length(folder)})
-    mesh, _ = mesh_of(body)
+    mesh, _ = mesh_of(body, 0.05)
     write_stl(folder / "cam.stl", Mesh(mesh.vertices, mesh.triangles))
     assert recheck(folder / "cam.stl").verdict.failures
 
@@ -355,7 +355,7 @@ def measured_length(folder: Path) -> float:
 
 def written_step(file: Path, body: BarrelBody) -> float:
     """Write a cam within 1e-6 mm; what its splines are off, mm."""
-    exact = barrel_faces(body)
+    exact = faced(body)
     curves = solid_curves(exact, 1e-6)
     write_step(file, StepPart("cam", solid_faces(exact, curves), None), StepForm())
     return max(c.max_error for c in curves)
@@ -372,7 +372,7 @@ def test_a_step_file_holds_the_exact_cam(name: str, tmp_path: Path) -> None:
     found = READERS["step"](file)
 
     def judged(exact: BarrelBody) -> Verdict:
-        return held(found, FILE_KINDS["step"], barrel_faces(exact), error, 1e-6, "cam")
+        return held(found, FILE_KINDS["step"], faced(exact), error, 1e-6, "cam")
 
     good = judged(body)
     assert good.failures == ()
