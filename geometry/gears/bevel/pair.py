@@ -54,25 +54,35 @@ class BevelPair(Record, dict=True):
 
     @property
     def tip_arcs(self) -> tuple[float, float]:
-        """Of the line of action from the pitch line to where it meets the tip of each, rad."""
-        return self.first.tip_arc - self._rolled[0], self.second.tip_arc - self._rolled[1]
+        """Of the line of action from the pitch line to where it meets the outer tip of each, rad."""
+        return self.tip_arcs_at(self.first.cone_distance)
+
+    def tip_arcs_at(self, distance: float) -> tuple[float, float]:
+        """The same at a cone distance, mm."""
+        one, two = (float(g.involute.arc(g.tip_angle_at(distance))) for g in self.gears)
+        return one - self._rolled[0], two - self._rolled[1]
 
     @property
     def form_reserves(self) -> tuple[float, float]:
         """By how much the flank of each begins before the mate's tip asks for it, along the line of action, mm."""
-        (first, second), (one, two) = self.gears, self.tip_arcs
-        return (
-            (self._rolled[0] - two - first.joint[1]) * first.cone_distance,
-            (self._rolled[1] - one - second.joint[1]) * first.cone_distance,
-        )
+        one, two = self._reserves(self.tip_arcs)
+        return one * self.first.cone_distance, two * self.first.cone_distance
+
+    def _reserves(self, tips: tuple[float, float]) -> tuple[float, float]:
+        """The same for tips that reach so far, rad."""
+        (first, second), (one, two) = self.gears, tips
+        return self._rolled[0] - two - first.joint[1], self._rolled[1] - one - second.joint[1]
 
     @property
     def contact_ratio(self) -> float:
-        """epsilon_alpha: the arc of the line of action on which flanks meet over the base pitch."""
-        lost = sum(max(-reserve, 0.0) for reserve in self.form_reserves) / self.first.cone_distance
-        return (sum(self.tip_arcs) - lost) / (
-            math.sin(self.first.involute.base) * math.tau / self.first.number_of_teeth
-        )
+        """epsilon_alpha: the arc of the line of action on which flanks meet, outer, over the base pitch."""
+        return self.contact_ratio_at(self.first.cone_distance)
+
+    def contact_ratio_at(self, distance: float) -> float:
+        """The same of the teeth at a cone distance, mm: less inwards where tips run along the mate's root."""
+        tips = self.tip_arcs_at(distance)
+        lost = sum(max(-reserve, 0.0) for reserve in self._reserves(tips))
+        return (sum(tips) - lost) / (math.sin(self.first.involute.base) * math.tau / self.first.number_of_teeth)
 
     @property
     def bottom_clearances(self) -> tuple[float, float]:

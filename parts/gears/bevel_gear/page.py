@@ -232,10 +232,26 @@ def _contact(page: Sheet, pair: BevelPair) -> None:
     whole = min(pair.form_reserves) > -_RIGHT
     formula = "({g_a1} + {g_a2}) * {z1} / (2 * pi * sin({delta_b1}))" if whole else ""
     page.add("contact_ratio", pair.contact_ratio, formula)
+    if not pair.first.tip_to_apex:
+        _inner_contact(page, pair, whole=whole)
     page.both("virtual_radius", _each(pair, lambda g: g.virtual_diameter / 2), "{m} * {z_v#} / 2")
     roots = " + ".join(f"sqrt(({{r_v{k}}} + {{h_ae{k}}})**2 - ({{r_v{k}}} * cos({{alpha}}))**2)" for k in (1, 2))
     formula = f"({roots} - ({{r_v1}} + {{r_v2}}) * sin({{alpha}})) / (pi * {{m}} * cos({{alpha}}))"
     page.add("virtual_contact_ratio", pair.virtual_contact_ratio, formula)
+
+
+def _inner_contact(page: Sheet, pair: BevelPair, *, whole: bool) -> None:
+    """Where the teeth are lower than rays of the apex would have them."""
+    inner = pair.first.inner_distance
+    page.add("inner_cone_distance", inner, "{R_e} - {b}")
+    page.both("inner_addendum", _each(pair, lambda g: float(g.addendum_at(inner))), "{h_ae#} - {b} * tan({theta_a#})")
+    arcs = " + ".join(
+        f"arccos(cos({{delta{k}}} + arctan({{h_ai{k}}} / {{R_i}})) / cos({{delta_b{k}}}))"
+        f" - arctan(tan({{delta{k}}}) * sin({{alpha}}))"
+        for k in (1, 2)
+    )
+    formula = f"({arcs}) * {{z1}} / (2 * pi * sin({{delta_b1}}))" if whole else ""
+    page.add("inner_contact_ratio", pair.contact_ratio_at(inner), formula)
 
 
 def _speeds(page: Sheet, pair: BevelPair, speed_rpm: float) -> None:

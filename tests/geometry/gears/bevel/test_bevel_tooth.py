@@ -170,6 +170,22 @@ def test_the_contact_ratio_is_counted_off_a_pitch_of_turning() -> None:
     assert touching / steps == pytest.approx(pair.contact_ratio, abs=2e-3)
 
 
+def test_the_contact_ratio_inwards_is_that_of_a_pair_with_the_teeth_of_that_end() -> None:
+    """At the inner end teeth are those of a smaller pair whose tips are lower: h_a = h_ai, c so much more."""
+    pair = both_sides(0)
+    share = pair.first.inner_distance / pair.first.cone_distance
+    smaller = []
+    for gear in pair.gears:
+        high = float(gear.addendum_at(gear.inner_distance)) / (gear.module * share)
+        shift, clearance = gear.profile_shift_coefficient, gear.addendum_coefficient + gear.tip_clearance_coefficient
+        own = high - shift
+        smaller.append(replace(gear, module=gear.module * share, face_width=1.0, addendum_coefficient=own,
+                               tip_clearance_coefficient=clearance - own))  # fmt: skip
+    inner = BevelPair(*smaller)
+    assert pair.contact_ratio_at(pair.first.inner_distance) == pytest.approx(inner.contact_ratio, rel=1e-12)
+    assert inner.contact_ratio < pair.contact_ratio - 0.01
+
+
 def test_the_ratio_of_the_back_cones_comes_near_it_for_slender_cones() -> None:
     """Tredgold's virtual gears: 1e-3 off for 20/40, less the more teeth there are."""
     off = []

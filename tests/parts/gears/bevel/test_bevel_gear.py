@@ -126,6 +126,25 @@ def test_a_differential_stands_in_mesh_all_round() -> None:
             assert ((turned ^ found[name]).volume() > 0.1) is clash
 
 
+@pytest.mark.parametrize("teeth", [18, 19, 20])
+def test_satellites_close_a_differential_where_their_number_divides_the_teeth_of_both_wheels(teeth: int) -> None:
+    """The condition of assembly of a planetary set, whose wheels turn against each other when the carrier is held."""
+    raw = differential()
+    wheel = {**WHEEL, "number_of_teeth": teeth}
+    raw["parts"] = {"pinion": {**PINION, "mate_teeth": teeth}, "wheel": wheel}
+    raw["instances"] = {
+        "sun": {"part": "wheel"},
+        "satellite": {"part": "pinion", "count": 3},
+        "side": {"part": "wheel"},
+    }
+    mates = [("sun", "satellite"), *((f"satellite_{k}", "side") for k in (1, 2, 3))]
+    raw["mates"] = [{"kind": "bevel_pair", "first": a, "second": b, "normal_backlash": 0.05} for a, b in mates]
+    file = scene_from_dict(raw, "s", "s")
+    parts, matings = make_parts(file, "s")
+    conditions = [c for mate in place(file.instances, [], parts, matings, "s").mates for c in mate.conditions]
+    assert {c.code for c in conditions if not c.met} == (set() if 2 * teeth % 3 == 0 else {"phase"})
+
+
 def test_what_stands_by_hand_is_held_against_its_mates() -> None:
     raw = differential()
     file = scene_from_dict(raw, "s", "s")
