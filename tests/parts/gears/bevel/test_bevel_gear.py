@@ -421,3 +421,21 @@ def test_the_page_of_a_scene_and_its_refusals() -> None:
             "bevel", ["module=2", "number_of_teeth=40", "mate_teeth=8", "profile_shift_coefficient=-0.9"], "text", "en"
         )
     assert load_scene("bevel_pair").parts["pinion"].__struct_config__.tag == "bevel_gear"
+
+
+AXES = ([0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, -3.0, 1e-9], [0.3, -0.4, -0.86], [1e-7, 0.0, 1.0])
+
+
+@pytest.mark.parametrize("axis", AXES, ids=str)
+def test_a_pair_stands_to_each_other_alike_on_any_axis(axis: list[float]) -> None:
+    """The placement of the second seen from the first is that beside an upright first: both as rigid motions."""
+
+    def seen(**first: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+        raw = scene({"shaft_angle_deg": 75.0}, {"shaft_angle_deg": 75.0})
+        raw["instances"]["wheel"] |= first
+        file = scene_from_dict(raw, "s", "s")
+        parts, matings = make_parts(file, "s")
+        stand = {i.id: i for i in place(file.instances, [], parts, matings, "s").instances}
+        return (stand["wheel"].scene_from_part.inverse() @ stand["pinion"].scene_from_part).matrix()
+
+    assert seen(at=[5.0, -7.0, 11.0], axis=axis) == pytest.approx(seen(), abs=1e-9)
