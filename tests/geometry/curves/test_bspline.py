@@ -73,14 +73,14 @@ EVERY = pytest.mark.parametrize("name", CURVES)
 
 def graded(low: float, high: float, count: int) -> np.ndarray:
     """Parameters that are dense throughout and crowd at both ends, where a cusp would hide."""
-    crowd = np.geomspace(1e-12, 0.1, 150)
+    crowd = np.geomspace(1e-12, 0.1, 90)
     return low + (high - low) * np.unique(np.concatenate([np.linspace(0, 1, count), crowd, 1 - crowd]))
 
 
-def deviation(spline: BSpline, curve: Curve, count: int = 1201) -> float:
+def deviation(spline: BSpline, curve: Curve, count: int = 601) -> float:
     """Greatest distance both ways, by dense points, nearest samples and ternary search."""
     there = brute.distance_to_curve(spline.point(graded(*spline.domain, count)), curve, 500)
-    back = brute.distance_to_curve(curve.point(graded(*curve.domain, 301)), spline, 500)
+    back = brute.distance_to_curve(curve.point(graded(*curve.domain, 151)), spline, 500)
     return float(max(there.max(), back.max()))
 
 
@@ -257,7 +257,7 @@ def test_ends_are_the_curves(name: str, kind: tuple[int, int]) -> None:
             assert abs(turn) <= 1e-9
 
 
-@pytest.mark.sampled(9)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", ["z 23, root_fillet", "z 8, undercut, flank", "m 50, z 1000, root_fillet"])
 @pytest.mark.parametrize("kind", [(3, 1), CUBIC, (5, 2), QUINTIC, (7, 2), SEPTIC])
 def test_continuity_at_every_interior_knot(name: str, kind: tuple[int, int]) -> None:
@@ -429,6 +429,6 @@ def test_a_curve_with_an_inflection_needs_few_spans() -> None:
     """The root of its curvature is no parameter: not smooth there, 512 spans were not enough."""
     made, curve = fit_spline(_Swan(), 1e-6, degree=3, continuity=2), _Swan()
     assert made.pieces < 50
-    x, t = made.spline.point(np.linspace(*made.spline.domain, 401)), np.linspace(*curve.domain, 20001)
+    x, t = made.spline.point(np.linspace(*made.spline.domain, 401)), np.linspace(*curve.domain, 4001)
     near = feet(curve, x, t[np.argmin(np.abs(x[:, None] - curve.point(t)), axis=1)])
     assert np.abs(curve.point(near) - x).max() <= made.max_error <= 1e-6

@@ -365,11 +365,13 @@ def test_the_cusp_of_a_fillet_is_the_nearest_to_its_root(start: float, end: floa
         TrochoidFillet(23.0, 1.74, -0.24, -0.1, start, end),
         CutterFillet(60.0, 25.0, -1.5, 30.0, 0.0, start, end),
     ):
-        u = np.linspace(start, end, 120_001)
+        u = np.linspace(start, end, 2001)
         stopped = u[curve.speed(u) <= 0]
         if not stopped.size:
             assert curve.cusp() is None
             continue
         found = curve.cusp()
         assert found is not None
-        assert abs(found) == pytest.approx(np.abs(stopped).min(), abs=1.1 * (end - start) / 120_000)
+        step = (end - start) / 2000
+        u = np.clip(stopped[np.abs(stopped).argmin()] + step * np.linspace(-1, 1, 201), start, end)
+        assert abs(found) == pytest.approx(np.abs(u[curve.speed(u) <= 0]).min(), abs=1.1 * step / 100)

@@ -97,7 +97,7 @@ def closed(z: tuple[int, ...], w: tuple[int, ...], kinds: tuple[str, ...]) -> Me
 def test_energy_is_kept_in_closed_trains_and_every_loss_has_its_sign() -> None:
     random.seed(1)
     numbers, eta = set(), Fraction("0.9")
-    for _ in range(25):
+    for _ in range(16):
         z, w = (tuple(random.randint(12, 60) for _ in range(4)) for _ in range(2))
         train = closed(z, w, tuple(random.choices(("external", "internal"), k=4)))
         moved = turns(train, ["5"])

@@ -93,6 +93,7 @@ def test_a_cam_under_a_raised_guide_is_the_same_cam_higher(cam: BarrelCam) -> No
         assert up == pytest.approx(np.tile([0.0, 0.0, 7.5], (len(ANGLES), 1)), abs=1e-12)
 
 
+@pytest.mark.sampled(6)
 @CAMS
 @pytest.mark.parametrize("side", [UPPER, LOWER])
 def test_points_off_a_wall_are_so_far_from_the_roller(cam: BarrelCam, side: int) -> None:
@@ -100,7 +101,7 @@ def test_points_off_a_wall_are_so_far_from_the_roller(cam: BarrelCam, side: int)
     rng = np.random.default_rng(5)
     angles = rng.uniform(0, 2 * math.pi, 30)
     points = cam.wall(angles, side, rng.uniform(INNER, OUTER, 30)) + rng.uniform(-0.6, 0.6, (30, 3))
-    turns = np.linspace(0, 2 * math.pi, 20_001)
+    turns = np.linspace(0, 2 * math.pi, 10_001)
     turned = (points[:, 0] + 1j * points[:, 1])[:, None] * np.exp(1j * turns)
     gaps = np.abs(turned.imag + 1j * points[:, 2, None] - cam.place(turns, 0)[0])
     # to the surface of a cone along its own normal
@@ -114,6 +115,7 @@ def test_points_off_a_wall_are_so_far_from_the_roller(cam: BarrelCam, side: int)
     assert np.sign(cam.nearest(points)[1]) == pytest.approx(np.full(30, float(side)))
 
 
+@pytest.mark.sampled(6)
 @CAMS
 @pytest.mark.parametrize("side", [UPPER, LOWER])
 def test_a_wall_ends_at_its_cylinders(cam: BarrelCam, side: int) -> None:

@@ -159,14 +159,14 @@ def test_the_contact_ratio_is_counted_off_a_pitch_of_turning() -> None:
     inv, pitch = first.involute, math.tau / first.number_of_teeth
     own, rolled = float(first.half_angle(first.pitch_angle)), float(inv.arc(first.pitch_angle))
     touching, steps = 0, 4000
+    # along the line of action the mate's arc is what is left of both base arcs
+    both = rolled + float(second.involute.arc(second.pitch_angle))
     for k in range(steps):
         for tooth in range(-4, 5):
             arc = rolled + math.sin(inv.base) * (pitch * (k / steps + tooth) + own)
             if not first.joint[1] <= arc <= first.tip_arc:
                 continue
-            # along the line of action the mate's arc is what is left of both base arcs
-            mate = rolled + float(second.involute.arc(second.pitch_angle)) - arc
-            touching += second.joint[1] <= mate <= second.tip_arc
+            touching += second.joint[1] <= both - arc <= second.tip_arc
     assert touching / steps == pytest.approx(pair.contact_ratio, abs=2e-3)
 
 

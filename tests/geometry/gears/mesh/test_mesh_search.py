@@ -130,7 +130,7 @@ def test_a_short_interruption_between_round_tips_is_seen(z1: int, z2: int, degre
         return external_pair(*(transverse_gear(g, math.radians(degrees)) for g in gears))
 
     low, high = 0.0, 0.3
-    for _ in range(40):
+    for _ in range(20):
         middle = (low + high) / 2
         low, high = (low, middle) if at(middle).contact_ratio < 1.0 else (middle, high)
     for rounding, verdict in ((low - 2e-3, Verdict.CONTACT), (high + 2e-3, Verdict.CLEAR)):

@@ -241,7 +241,7 @@ def test_a_face_is_ruled_by_its_section_that_is_farthest_ahead(overlap: float) -
     """Against the greatest of a fine row of sections of the same broken line, wherever the face begins."""
     rng, pitch = np.random.default_rng(round(100 * overlap)), 0.4
     along = overlap * pitch * np.linspace(0, 1, 801)
-    for _ in range(8):
+    for _ in range(4):
         angles, errors = np.sort(rng.uniform(0, pitch, 7)), rng.uniform(-0.03, 0.02, 7)
         wide = TransmissionError(1, tuple(angles), tuple(errors), 30.0, pitch).over_face(overlap)
 

@@ -256,7 +256,7 @@ def check_sound(pair: ExternalPair) -> None:
         assert driven.verdict is Verdict.CONTACT
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("index", range(60))
 def test_random_pairs(index: int) -> None:
     check_sound(random_pairs(11, 60)[index])
@@ -293,7 +293,7 @@ def beyond_the_band(pair: ExternalPair) -> bool:
     return False
 
 
-@pytest.mark.sampled(6)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("index", range(12))
 def test_fillet_interference_is_overlap_beyond_a_band(index: int) -> None:
     found = GearMesh(interfering_pairs(5, 12)[index]).contact()

@@ -223,6 +223,7 @@ def test_a_chamfer_flatter_than_the_flank_is_offered_none() -> None:
     assert refused.value.nearest.value == 0.0
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("x", [-1.862, -1.9, -2.2])
 def test_a_helical_gear_whose_fillet_takes_all_of_the_flank_is_refused(x: float) -> None:
     """Fillet and flank have no point in common: that the search for one found none was a traceback."""

@@ -165,7 +165,7 @@ def test_a_cutter_beyond_its_limit_trims_the_tips() -> None:
     limits = [None if m is None else m.trochoid_interference().margin for m in meshes]
     for gear, margin in zip(cutters, limits, strict=True):
         assert margin is not None
-        outline = brute.dense(next(s.curve for s in ring_side(gear).segments if s.label is Label.FLANK), 200)
+        outline = brute.dense(next(s.curve for s in ring_side(gear).segments if s.label is Label.FLANK), 80)
         least = least_distance(outline, tool_of(gear), 60, gear.generating_distance, reach=2.5).min()
         assert (least < -1e-9) == (margin < 0), (gear.cutter, margin, least)
     signs = [m >= 0 for m in limits if m is not None]
@@ -347,7 +347,7 @@ def test_a_moved_ring_lies_at_its_distance_whatever_is_used_up(name: str) -> Non
     gear, offset, told = USED_UP[name]
     plain, moved = ring_region(gear), ring_region(gear, offset)
     whole, found = plain.region.holes[0], moved.region.holes[0]
-    points = brute.period_points(found, 24)
+    points = brute.period_points(found, 12)
     assert np.abs(brute.distance_to_outline(points, whole, 120) - abs(offset)).max() <= 1e-9 * gear.root_radius
     assert {f.code for f in moved.findings} - {f.code for f in plain.findings} == told
     # a hole runs clockwise, period after period

@@ -62,7 +62,7 @@ def test_a_line_of_contact_has_its_slide_or_ends_at_the_border(name: str) -> Non
 def test_the_field_is_where_the_thread_reaches_beyond_the_tip(name: str) -> None:
     one = field(name)
     spans = one.spans()
-    fine = np.linspace(-15.0, 15.0, 1201)
+    fine = np.linspace(-15.0, 15.0, 601)
     low, high = borders(name, fine)
     there = low > high
     inside = np.zeros(len(fine), dtype=bool)
@@ -89,7 +89,7 @@ def test_the_field_is_where_the_thread_reaches_beyond_the_tip(name: str) -> None
 def test_lines_go_on_between_the_heights_at_which_they_reach_a_border(name: str) -> None:
     one = field(name)
     first, last = one.slides()
-    fine = np.linspace(-15.0, 15.0, 1201)
+    fine = np.linspace(-15.0, 15.0, 601)
     at_root, at_tip = (one.touching(fine, r).slid for r in one.edges(fine))
     assert first == pytest.approx(at_root.min(), abs=2e-3)
     assert last == pytest.approx(at_tip.max(), abs=2e-3)

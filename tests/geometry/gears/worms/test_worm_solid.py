@@ -137,7 +137,7 @@ def test_moments_are_those_of_the_thread_cut_into_cells(starts: int) -> None:
     r = np.linspace(worm.root_radius, worm.tip_radius, 41)
     r = (r[1:] + r[:-1]) / 2
     z = (np.arange(500) + 0.5) / 500 * 40.0 - 20.0
-    angle = (np.arange(240) + 0.5) / 240 * math.tau
+    angle = (np.arange(120) + 0.5) / 120 * math.tau
     ring, height = np.meshgrid(r, z, indexing="ij")
     inside = np.abs(height) < 20.0 - (ring - worm.root_radius) * math.tan(STEEP)
     share = math.pi * worm.module

@@ -102,7 +102,7 @@ def test_zk1_is_what_a_conical_wheel_leaves() -> None:
     worm = Worm(5.0, 4, 10.0, "ZK1", wheel_diameter=120.0)
     gamma, p, mean = worm.lead_angle, worm.parameter, 60.0
     lean, centre = math.tan(math.radians(20)), worm.reference_radius + 60.0
-    distance, phi = np.meshgrid(np.linspace(mean - 7, mean + 7, 1201), np.linspace(-0.4, 0.4, 2401))
+    distance, phi = np.meshgrid(np.linspace(mean - 7, mean + 7, 1201), np.linspace(-0.4, 0.4, 1201))
     width = worm.flank.half_width() + (mean - distance) * lean
     x = centre - distance * np.cos(phi)
     y = distance * np.sin(phi) * math.cos(gamma) - width * math.sin(gamma)
