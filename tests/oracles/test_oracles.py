@@ -203,6 +203,7 @@ def test_undercut_limit_by_brute_force(z: int) -> None:
         assert depth > 1e-6 if cut else abs(depth) < 1e-15 * z
 
 
+@pytest.mark.sampled(8)
 @every_case
 def test_flank_normals_touch_the_base_circle(name: str) -> None:
     """An involute's defining property, nowhere used in the generation; with relief a second base circle."""
@@ -236,6 +237,7 @@ def test_fillet_is_an_arc_when_the_rounding_centre_is_on_the_pitch_line() -> Non
     assert max(abs(c - centres[0]) for c in centres) < MP.mpf(10) ** -50
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", ["z23", "rounding centre on pitch line", "z1000 x-0.5", "z8 x0.5"])
 @pytest.mark.parametrize("distance", [0.1, 0.75, -0.1])
 def test_kerf_path(name: str, distance: float) -> None:

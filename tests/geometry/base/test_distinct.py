@@ -11,8 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geometry.base.distinct import distinct
+from tests.sampling import examples
 
 
+@examples(100)
 @given(st.lists(st.integers(-5, 5), max_size=30))
 def test_like_numpy_s(values: list[int]) -> None:
     assert distinct(np.array(values, dtype=np.int64)).tolist() == np.unique(values).tolist()

@@ -55,6 +55,7 @@ def test_whole_numbers_stay_whole(edge: int, more: int) -> None:
     assert nearest(upwards, max(1, edge - more), 20_000) == Nearest(edge, "at_least")
 
 
+@examples(100)
 @given(edge=st.floats(1.0, 99.0), wishes=st.tuples(*[st.floats(100.0, 1e4)] * 2), way=st.sampled_from([1.0, -1.0]))
 def test_a_rough_offer_is_the_same_whatever_is_asked(edge: float, wishes: tuple[float, float], way: float) -> None:
     def offer(wish: float, **rough: float) -> float:

@@ -22,6 +22,7 @@ def moving(cam: BarrelCam) -> list[tuple[np.ndarray, object]]:
     return [(np.linspace(*p.domain, 9)[1:-1], p) for p in cam.motion.moving_pieces()]
 
 
+@pytest.mark.sampled(6)
 @CAMS
 @pytest.mark.parametrize("side", [UPPER, LOWER])
 def test_how_fast_an_edge_goes_round_is_the_slope_of_its_polar_angle(cam: BarrelCam, side: int) -> None:
@@ -32,6 +33,7 @@ def test_how_fast_an_edge_goes_round_is_the_slope_of_its_polar_angle(cam: Barrel
             assert cam.edge_speed(angles, side, radius, piece) == pytest.approx(-polar / (2 * STEP), abs=2e-8)
 
 
+@pytest.mark.sampled(6)
 @CAMS
 @pytest.mark.parametrize("side", [UPPER, LOWER])
 def test_the_pressure_angle_is_that_of_the_wall_s_own_normal(cam: BarrelCam, side: int) -> None:

@@ -61,6 +61,7 @@ def test_both_working_flanks_touch_on_the_line_of_action(name: str) -> None:
             assert distance_to_curves(beside, body.active_at(s)).min() < 1e-6
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("name", CASES)
 def test_the_teeth_in_contact_do_not_overlap(name: str) -> None:
     picture = meshing_picture(pair_of(name))

@@ -107,6 +107,7 @@ def test_path_against_fifty_digits(distance: float) -> None:
             assert abs(found - distance) <= RIGHT * gear.tip_radius
 
 
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("name", GEARS)
 def test_print_offset_against_the_swept_rack(name: str) -> None:
     """Into the metal the penetration is minus the distance, exactly, below the tip."""

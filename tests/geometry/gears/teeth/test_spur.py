@@ -199,6 +199,7 @@ BROKEN = {
 }
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", BROKEN)
 @pytest.mark.parametrize("share", [0.001, 0.02, 0.1])
 def test_tip_chamfer(name: str, share: float) -> None:
@@ -222,6 +223,7 @@ def test_tip_chamfer(name: str, share: float) -> None:
     assert rack_sweep.penetration(brute.dense(line, 20)[1:], tool, gear.number_of_teeth).max() < 0
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", BROKEN)
 @pytest.mark.parametrize("share", [0.001, 0.02, 0.1])
 def test_tip_rounding(name: str, share: float) -> None:
