@@ -193,10 +193,11 @@ def _teeth(page: Sheet, pair: BevelPair) -> None:
     first, ratio = pair.first, max(pair.ratio, 1 / pair.ratio)
     if abs(first.shaft_angle - math.pi / 2) < _RIGHT and ratio > 1:
         small = min(pair.gears, key=lambda g: g.number_of_teeth)
-        usual = 2 * (1 - 1 / ratio**2) * math.sqrt(math.cos(small.pitch_angle) ** 3 / small.number_of_teeth)
+        # as for spiral teeth, whose cos^3 of the spiral angle is 1 here (Dunaev, Lelikov)
+        usual = 2 * (1 - 1 / ratio**2) / math.sqrt(small.number_of_teeth)
         one, two = (1, 2) if small is first else (2, 1)
         share = f"2 * (1 - ({{z{one}}} / {{z{two}}})**2)"
-        page.add("usual_shift", usual, f"{share} * sqrt(cos({{delta{one}}})**3 / {{z{one}}})")
+        page.add("usual_shift", usual, f"{share} / sqrt({{z{one}}})")
 
 
 def _involute(gear: BevelGear, angle: float) -> float:

@@ -379,6 +379,16 @@ def test_what_is_measured_on_a_tooth() -> None:
     assert height == pytest.approx(told["mean_chord_height"]["first"], abs=2e-3)
 
 
+@pytest.mark.parametrize(
+    ("teeth", "mate", "shift"), [(20, 40, 0.34), (20, 50, 0.37), (20, 80, 0.42), (20, 100, 0.43), (40, 200, 0.30)]
+)
+def test_the_usual_shift_is_that_of_the_textbook_table(teeth: int, mate: int, shift: float) -> None:
+    """Dunaev, Lelikov: shifts of straight bevel pinions at a right angle."""
+    words = ["module=2", f"number_of_teeth={teeth}", f"mate_teeth={mate}"]
+    told = json.loads(calculate("bevel", words, "json", "en"))["values"]["usual_shift"]
+    assert told == pytest.approx(shift, abs=0.0075)
+
+
 def test_sliding_is_the_cross_product_of_both_turnings_with_the_place() -> None:
     """At the outer tips on the line of action, alpha off the tangent plane of both pitch cones."""
     words = ["module=2.5", "number_of_teeth=20", "mate_teeth=30", "shaft_angle_deg=75", "speed_rpm=300"]
