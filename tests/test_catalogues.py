@@ -97,8 +97,9 @@ TERMS_OF = {
 }
 
 
+@cache
 def texts_of(file: Path) -> list[Message]:
-    """The messages of a .po without its head."""
+    """The messages of a .po without its head, read once."""
     return [m for m in read(file) if m.id]
 
 
