@@ -24,7 +24,7 @@ from parts.pages.inputs import SceneKeys, given
 from parts.pages.page import Sheet
 from parts.pages.terms import TERMS
 
-# the basic rack of GOST 13754-81, which the table then tells by its name
+# the basic rack of GOST 13754-81, which the table then tells by its name: of modules from 1 mm on
 _RACK = {"pressure_angle_deg": 20.0, "addendum_coefficient": 1.0, "tip_clearance_coefficient": 0.2,
          "tip_radius_coefficient": 0.2}  # fmt: skip
 # sides of sizes across the axis
@@ -102,7 +102,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     keys, gear = part.keys, part.thing
     assert isinstance(keys, BevelGearSpec)
     page = bevel_page.sheet(given(keys) | {"circumferential_thinning": gear.circumferential_thinning})
-    standard = all(getattr(keys, key) == value for key, value in _RACK.items())
+    standard = keys.module >= 1 and all(getattr(keys, key) == value for key, value in _RACK.items())
     rack = (DataRow(N_("basic rack"), "", standard_told("GOST 13754-81")),) if standard else _rows(page, *_RACK)
     first = (
         *_rows(page, "outer_module", "number_of_teeth"), DataRow(N_("type of tooth"), "", N_("straight")), *rack,

@@ -77,6 +77,19 @@ def calculated(topic: str, address: str, key: str, part: Any) -> dict[str, Any]:
     return found
 
 
+@pytest.mark.parametrize(
+    ("module", "more", "standard"),
+    [(1.0, "", True), (0.9, "", False), (2.0, "tip_clearance_coefficient = 0.25", False)],
+)
+def test_a_bevel_rack_is_that_of_the_standard_where_it_has_it(module: float, more: str, standard: bool) -> None:
+    """GOST 13754-81 is for modules from 1 mm on; else its numbers stand there."""
+    part = f'[parts.a]\nkind = "bevel_gear"\nmodule = {module}\nnumber_of_teeth = 20\nmate_teeth = 30\n{more}\n'
+    ((_, table, _),) = tables(f"m{module}{more}", f'{part}[[exports]]\nformat = "dxf"\npurpose = "part"\n').values()
+    names = {words("en").say(row.name) for rows in table.parts for row in rows}
+    assert ("basic rack" in names) is standard
+    assert ("fillet radius of the basic rack, in modules" in names) is not standard
+
+
 def named(step: dict[str, Any]) -> tuple[str, str]:
     """Name and symbol of a step, on the page of a pair those of its first gear without the gear's number."""
     own = step.get("gear") == "first"
