@@ -6,11 +6,8 @@ import cmath
 import math
 from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
-
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
-from geometry.base.placement import Placement3
 from geometry.base.record import replace
 from parts.base.mate import End, LaidStanding, MateKind, Pose, Standing, Touching
 from parts.keys.base import mm
@@ -19,7 +16,7 @@ from parts.mates.sizes import same_size
 from parts.mates.thinning import shared_thinning
 
 if TYPE_CHECKING:
-    from geometry.base.placement import Vector
+    from geometry.base.placement import Placement3, Vector
     from geometry.gears.bevel.gear import BevelGear
     from geometry.gears.bevel.pair import BevelPair
     from geometry.gears.mesh.search import PairContact
@@ -81,6 +78,10 @@ class BevelMating(Touching):
 
     def laid_standing(self, first: Placement3, second: Placement3) -> LaidStanding:
         """In the frame of the first, where its tooth is on +x: apexes, axes, and how far the second is turned off."""
+        import numpy as np
+
+        from geometry.base.placement import Placement3
+
         one, other = self.pair.gears
         seen = first.inverse() @ second
         apex = seen.apply(np.array([0.0, 0.0, other.mounting_distance])) - np.array([0.0, 0.0, one.mounting_distance])
