@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import nearest
-from geometry.base.placement import Vector
 from parts.base.mate import End, MateKind, Pose, Standing, Touching
 from parts.keys.mate import GearPairKeys
 from parts.keys.worm import AngleError, AxialError, DistanceError
@@ -17,6 +16,7 @@ from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
+    from geometry.base.placement import Vector
     from geometry.gears.mesh.search import PairContact
     from geometry.gears.worms.body import WormBody
     from geometry.gears.worms.contact import AxisErrors
