@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import lru_cache
 from inspect import get_annotations
 from typing import Any, Literal, TypeVar, get_args, get_origin
 
@@ -392,6 +393,7 @@ def as_typed(keys: Struct, refusal: ParameterError) -> ParameterError:
     return refusal.renamed(both) if both and isinstance(value_at(keys, both), float) else refusal
 
 
+@lru_cache(maxsize=1024)
 def unit_of(kind: type[Struct], path: str) -> str:
     """The unit of a key, at any depth; empty where it has none."""
     names = [s for s in _steps(path) if isinstance(s, str)]

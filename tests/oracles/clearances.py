@@ -279,7 +279,8 @@ def overlaps(
             if local[2] > other.high + far or local[2] < other.low - far:
                 continue
             p = (points - there) @ theirs
-            p = p[(p[:, 2] > other.low) & (p[:, 2] < other.high) & (np.hypot(p[:, 0], p[:, 1]) < other.reach)]
+            p = p[(p[:, 2] > other.low) & (p[:, 2] < other.high)]
+            p = p[np.hypot(p[:, 0], p[:, 1]) < other.reach]
             if len(p) and (count := int(other.holds(p).sum())):
                 found[one, two] = count
     return found

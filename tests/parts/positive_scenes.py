@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import cache
 from typing import Any
 
 from parts.base.part import Part
@@ -48,8 +49,13 @@ def scene(parts: dict[str, Keys], *formats: str) -> str:
 
 
 def parts_of(parts: dict[str, Keys]) -> dict[str, Part]:
-    """The parts of a scene."""
-    return make_parts(scene_from_toml(scene(parts).encode(), "s.toml", "s"), "s.toml")[0]
+    """The parts of a scene, made once."""
+    return dict(_made(scene(parts)))
+
+
+@cache
+def _made(text: str) -> dict[str, Part]:
+    return make_parts(scene_from_toml(text.encode(), "s.toml", "s"), "s.toml")[0]
 
 
 def without(keys: Keys, *names: str) -> Keys:

@@ -8,7 +8,7 @@ polynomials, good to rounding; higher derivatives are exact Taylor arithmetic at
 from __future__ import annotations
 
 import math
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -134,18 +134,7 @@ class PitchLine(Record, eq=False, dict=True):
 
     @cached_property
     def _table(self) -> _Table:
-        edges = np.linspace(0, self.shape.period, _FIRST_PANELS + 1)
-        # what the last coefficients were before a panel was halved
-        before = np.full(_FIRST_PANELS, math.inf)
-        while len(edges) <= _MOST_PANELS + 1:
-            table, tails = _tabulated(self.shape, edges)
-            wide = (tails > _TAIL) & ((tails >= _ROUNDING_TAIL) | (tails <= before / 4))
-            if not wide.any():
-                return table
-            halves = np.where(wide, 2, 1)
-            before = np.repeat(np.where(wide, tails, before), halves)
-            edges = np.sort(np.concatenate([edges, (edges[:-1] + edges[1:])[wide] / 2]))
-        raise ConvergenceError("arc length of the centrode", float(tails.max()), len(edges) - 1)
+        return _table_of(self.shape)
 
     def _looked_up(self, s: Real, first: int, last: int) -> tuple[Real, Real]:
         """Columns ``first`` up to ``last`` (the last axis) at arc lengths, and the whole turns before them."""
@@ -282,6 +271,24 @@ def _along(radius: Series, rate: Series, slow: Series, turn: Complex | Real, ord
     angle = composed([zero, *(unit * x / (k + 1) for k, x in enumerate(rate[:order]))], step)
     spread = exponential(angle)
     return product([turn * x for x in spread], composed(radius[: order + 1], step))
+
+
+@lru_cache(maxsize=16)
+def _table_of(shape: PolarShape) -> _Table:
+    """The table of a shape: both gears of a pair, and every trial of another key of one, share theirs."""
+    edges = np.linspace(0, shape.period, _FIRST_PANELS + 1)
+    # what the last coefficients were before a panel was halved
+    before = np.full(_FIRST_PANELS, math.inf)
+    while len(edges) <= _MOST_PANELS + 1:
+        table, tails = _tabulated(shape, edges)
+        wide = (tails > _TAIL) & ((tails >= _ROUNDING_TAIL) | (tails <= before / 4))
+        if not wide.any():
+            table.edges.flags.writeable = table.values.flags.writeable = False
+            return table
+        halves = np.where(wide, 2, 1)
+        before = np.repeat(np.where(wide, tails, before), halves)
+        edges = np.sort(np.concatenate([edges, (edges[:-1] + edges[1:])[wide] / 2]))
+    raise ConvergenceError("arc length of the centrode", float(tails.max()), len(edges) - 1)
 
 
 def _tabulated(shape: PolarShape, edges: Real) -> tuple[_Table, Real]:

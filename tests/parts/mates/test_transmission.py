@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import math
+from functools import cache
 from typing import Any
 
 import pytest
@@ -19,7 +21,13 @@ RACK = {"kind": "rack", "module": 2.0, "number_of_teeth": 12}
 
 
 def mate_of(kind: str, first: dict[str, Any], second: dict[str, Any], transmission: bool = True, **keys: Any) -> Any:
-    """The check of a mate of ``a`` and ``b``."""
+    """The check of a mate of ``a`` and ``b``, made once."""
+    return _checked(json.dumps([kind, first, second, keys]), transmission)
+
+
+@cache
+def _checked(asked: str, transmission: bool) -> Any:
+    kind, first, second, keys = json.loads(asked)
     mate = {"kind": kind, "first": "a", "second": "b", **keys.pop("mate", {})}
     made, _, stand = scene({"a": first, "b": second}, mate, **keys)
     return scene_checks(stand, made, (), "en", contact=False, transmission=transmission)["mates"][0]

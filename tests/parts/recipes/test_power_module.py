@@ -18,9 +18,10 @@ from geometry.kinematics.two_disk import TwoDisk
 from parts.base.refusal import SceneError
 from parts.base.texts import told_in
 from parts.bodies.layered import Layered
+from parts.gears.worm.part import WORM
 from parts.pages.module_rules import RULES
 from parts.recipes.power_module import PowerModuleKeys, checked_sizes
-from parts.scene.load import SceneFile, make_parts, scene_from_dict
+from parts.scene.load import SceneFile, scene_from_dict
 from tests.oracles.clearances import overlaps
 from tests.parts.recipes.test_power_table import placed
 from tests.sampling import some_of
@@ -80,8 +81,8 @@ def test_exactly_the_parts_list_of_the_thesis_but_for_what_keeps_the_platform_pa
 
 def test_worms_are_drawn_with_their_thread_whatever_their_shafts() -> None:
     """The shaft is longer on one side: the thread stands as far on both."""
-    worm = make_parts(module(), "t")[0]["worm"]
-    sketch = worm.made_by.sketch(worm.keys, worm.thing)
+    keys: Any = module().parts["worm"]
+    sketch = WORM.sketch(keys, WORM.thing(keys, {}))
     assert sketch is not None
     [thread] = [layer for layer in sketch.layers if any(ring.root for ring in (*layer.lower, *layer.upper))]
     assert thread.low == pytest.approx(-thread.high)

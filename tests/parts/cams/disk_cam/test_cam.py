@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cache
 from pathlib import Path
 from typing import Any, get_args
 
@@ -66,16 +67,23 @@ def scene_text(keys: dict[str, Any], tail: str = "") -> str:
     return "\n".join([*lines, '[[exports]]\nformat = "dxf"', tail, ""])
 
 
+@cache
+def _made(text: str) -> Part:
+    return make_parts(scene_from_toml(text.encode(), "s.toml", "s"), "s.toml")[0]["cam"]
+
+
 def part_of(keys: dict[str, Any]) -> Part:
-    return make_parts(scene_from_toml(scene_text(keys).encode(), "s.toml", "s"), "s.toml")[0]["cam"]
+    """The cam of keys, made once."""
+    return _made(scene_text(keys))
 
 
 def cam_of(name_or_keys: str | dict[str, Any]) -> DiskCam:
     """The cam of a built-in scene or of keys."""
-    if isinstance(name_or_keys, str):
-        spec = load_scene(name_or_keys).parts["cam"]
-    else:
-        spec = scene_from_toml(scene_text(name_or_keys).encode(), "s.toml", "s").parts["cam"]
+    if not isinstance(name_or_keys, str):
+        cam = part_of(name_or_keys).thing
+        assert isinstance(cam, DiskCam)
+        return cam
+    spec = load_scene(name_or_keys).parts["cam"]
     assert isinstance(spec, CamSpec)
     return CAM.thing(spec, {})
 
