@@ -233,7 +233,8 @@ def _refuse_crossings(profiles: Sequence[Profile]) -> None:
     owner = np.repeat(np.arange(len(polygons)), [len(p) for p in polygons])
     # where each edge ends: at the start of the next one of its polygon
     following = np.concatenate([np.roll(np.flatnonzero(owner == i), -1) for i in range(len(polygons))])
-    side = (np.conj(starts[following] - starts)[:, None] * (starts[None, :] - starts[:, None])).imag
+    way, x, y = starts[following] - starts, starts.real, starts.imag
+    side = way.real[:, None] * (y - y[:, None]) - way.imag[:, None] * (x - x[:, None])
     parted = side * side[:, following] < 0
     cross = parted & parted.T
     if cross.any():

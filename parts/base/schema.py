@@ -393,16 +393,19 @@ def as_typed(keys: Struct, refusal: ParameterError) -> ParameterError:
     return refusal.renamed(both) if both and isinstance(value_at(keys, both), float) else refusal
 
 
-@lru_cache(maxsize=1024)
 def unit_of(kind: type[Struct], path: str) -> str:
     """The unit of a key, at any depth; empty where it has none."""
     names = [s for s in _steps(path) if isinstance(s, str)]
     owners = [kind]
     for name in names[:-1]:
-        fields = (f for o in owners for f in msgspec.structs.fields(o) if f.encode_name == name)
-        owners = [s for f in fields for s in _structs_of(f.type)]
-    found = next((f.type for o in owners for f in msgspec.structs.fields(o) if f.encode_name == names[-1]), None)
-    return _unit(found)
+        owners = [s for o in owners if (found := _types_of(o).get(name)) for s in _structs_of(found)]
+    return _unit(next((found for o in owners if (found := _types_of(o).get(names[-1]))), None))
+
+
+@lru_cache(maxsize=256)
+def _types_of(kind: type[Struct]) -> dict[str, object]:
+    """What stands at each key: msgspec resolves the annotations anew whenever it is asked."""
+    return {f.encode_name: f.type for f in msgspec.structs.fields(kind)}
 
 
 def _unit(kind: object) -> str:

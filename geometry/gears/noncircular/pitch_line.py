@@ -8,6 +8,7 @@ polynomials, good to rounding; higher derivatives are exact Taylor arithmetic at
 from __future__ import annotations
 
 import math
+from collections.abc import Hashable
 from functools import cached_property, lru_cache
 from typing import Protocol
 
@@ -44,7 +45,7 @@ _ORDERS = np.arange(float(_NODES))
 _PIECES, _MOST_ORDER = 4, 6
 
 
-class PolarShape(Protocol):
+class PolarShape(Hashable, Protocol):
     """A closed curve R(t) exp(i Theta(t)), t from 0 to ``period`` for one turn, counter-clockwise."""
 
     @property
