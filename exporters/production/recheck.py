@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Sequence
+from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from exporters.formats.readback import MOST_READ_BYTES
 from exporters.production.jobs import assembly_name
@@ -24,6 +26,9 @@ from parts.keys.sheet import on_sheet
 from parts.scene.formats import OF_SCENES, FileKind, Form, file_kind
 from parts.scene.load import SceneFile, make_parts, scene_from_resolved
 from parts.scene.placing import place
+
+if TYPE_CHECKING:
+    from exporters.production.plan import Film, ListJob, SheetJob
 
 
 class Recheck(Record):
@@ -104,7 +109,7 @@ def _rechecked(file: Path) -> Recheck:
 def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
     scene = scene_from_resolved(report["scene"], source)
     if on_sheet(entry["format"], entry["purpose"]) or entry["format"] in OF_SCENES:
-        return _against_sheet(file, source, scene, entry, digest)
+        return _against_sheet(file, source, report["scene"], entry, digest)
     if "board" in entry:
         return _against_board(file, source, scene, entry, digest)
     if "bed" in entry:
@@ -144,14 +149,21 @@ def audited(file: Path) -> None:
     opened(file)
 
 
-def _against_sheet(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:
+def _against_sheet(file: Path, source: str, told: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
     """A sheet: drawn again from the scene, and the file measured against that."""
-    from exporters.production.plan import plan_build
-
-    plan = plan_build(scene, source, [], [entry["format"]])
-    job = {sheet.path: sheet for sheet in plan.sheets}[entry["path"]]
+    job = _sheets_of(json.dumps(told), source, entry["format"])[entry["path"]]
     declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
     return Recheck(file, job.verify(file, declared), declared, tolerance, digest == entry["sha256"])
+
+
+# files of one folder are verified one behind the other
+@lru_cache(maxsize=1)
+def _sheets_of(told: str, source: str, form: str) -> dict[str, SheetJob | Film | ListJob]:
+    """The sheets of a format by their names, from a report's scene as json; drawn once for all of them."""
+    from exporters.production.plan import plan_build
+
+    plan = plan_build(scene_from_resolved(json.loads(told), source), source, [], [form])
+    return {sheet.path: sheet for sheet in plan.sheets}
 
 
 def _against_board(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:

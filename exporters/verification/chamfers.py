@@ -17,8 +17,9 @@ from geometry.solids.body import Body
 
 Points = NDArray[np.float64]
 
-# heights of samples that differ by rounding only have one section; so far beyond a chamfer they are its own, mm
-_LEVEL_DIGITS, _BEYOND = 12, 1e-7
+# heights of samples that differ by rounding, a thousandth of what STEP files keep, have one section; so far beyond a
+# chamfer they are its own, mm
+_LEVEL_DIGITS, _BEYOND = 9, 1e-7
 # heights between two slices of a mesh, and places across each triangle there, that are measured
 _UP, _ACROSS = (0.25, 0.5, 0.75), (0.0, 0.5)
 
