@@ -53,8 +53,9 @@ _MOST_ROUNDS, _MOST_TRIANGLES = 10, 4_000_000
 _WIDEST, _INNER = math.pi / 4, np.linspace(0, 1, 5)
 # how near to the truth a proof shall be, part of the tolerance
 _SLACK = 0.04
-# what is added to the greatest distance of few samples, and of many, which triangles have that lie so near the worst
-_MARGIN, _CLOSE, _WORST = 1.15, 1.05, 0.85
+# what is added to the greatest distance of few samples, and of many, which triangles have that lie so near the worst,
+# and all where so few span a patch that the few samples tell little of each
+_MARGIN, _CLOSE, _WORST, _WIDE = 1.15, 1.05, 0.85, 100
 # a corner of a face turns by more than this in the unit square, rad
 _CORNER = 0.4
 # where the many samples of a triangle stand, in barycentric shares; points at a time
@@ -439,7 +440,7 @@ class _Mesher:
             error = _MARGIN * float(off.max())
             if error <= self.tolerance and self.proof is None:
                 # many places in the triangles that lie worst
-                worst = apart[off >= _WORST * off.max()]
+                worst = apart[off >= _WORST * off.max()] if len(apart) > _WIDE else apart
                 error = max(error, _CLOSE * _dense_error(template, at, table, worst))
             if error <= self.tolerance:
                 self.passed[key] = sag

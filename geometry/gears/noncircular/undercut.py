@@ -92,8 +92,7 @@ def flank_starts(flanks: Flanks) -> tuple[Real, Real, int]:
         start[rows], contact[rows] = _crossings(part, joint[rows], turning, limit[rows])
         if np.any(flanks.sign * (flanks.at_tip - start) <= 0):
             raise UndercutError("undercut", float(rows.size), "undercut_leaves_no_flank")
-        size = float(np.max(np.abs(part.flank(start[rows])[0])))
-        if np.any(_apart(part, start[rows], contact[rows]) > TOLERANCES.relative_join * size):
+        if not np.all(_joined(part, start[rows], contact[rows])):
             raise UndercutError("undercut", float(rows.size), "undercut_leaves_no_flank_to_fillet")
         _check_waist(flanks, contact)
     return start, contact, int(rows.size)
@@ -135,7 +134,7 @@ def _crossings(part: Flanks, joint: Real, turning: Real, limit: Real) -> tuple[R
             b = b + np.nan_to_num((np.conj(gap) * v).imag / whole)
     # below the turning point both touch at the joint, and beyond its ends no fillet is: that is no crossing
     there = (part.sign * (b - turning) >= 0) & (a * limit >= 0) & (np.abs(a) <= np.abs(limit))
-    found = there & (_apart(part, b, a) <= TOLERANCES.relative_join * np.abs(part.fillet(a)[0]))
+    found = there & _joined(part, b, a)
     return np.where(found, b, start), np.where(found, a, contact)
 
 
@@ -154,9 +153,11 @@ def _near_cusps(part: Flanks, joint: Real, turning: Real, limit: Real) -> tuple[
     return start, contact
 
 
-def _apart(flanks: Flanks, start: Real, contact: Real) -> Real:
-    """Distances from the ends of fillets to the starts of flanks, mm."""
-    return np.abs(flanks.fillet(contact)[0] - flanks.flank(start)[0])
+def _joined(flanks: Flanks, start: Real, contact: Real) -> NDArray[np.bool_]:
+    """Whether fillets end where flanks start, to the digits of the points and of the way along the pitch line."""
+    ends, starts = flanks.fillet(contact)[0], flanks.flank(start)[0]
+    size = max(float(np.max(np.abs(starts))), float(np.max(np.abs(flanks.crossing))))
+    return np.abs(ends - starts) <= TOLERANCES.relative_join * size
 
 
 def _first_crossing(one: Complex, two: Complex) -> tuple[int, int] | None:

@@ -187,6 +187,10 @@ def line_check(line: ContourLine) -> str:
     return line.name.replace("fillet_interference_first", "active_flank_first").replace("undercut_to_", "")
 
 
+# where contact reaches a base circle sliding has no bound
+ENDLESS = {"approach": "sliding_first", "recess": "sliding_second"}
+
+
 def sides_told_apart(pair: InternalShiftPair, most: int) -> dict[str, int]:
     """Points of each line where exactly its check flips within ``BAND`` in x, with how many were looked at."""
     seen: dict[str, int] = {}
@@ -209,7 +213,7 @@ def sides_told_apart(pair: InternalShiftPair, most: int) -> dict[str, int]:
             assert one is not None
             assert two is not None
             # where another line passes within the band two checks may change
-            if one ^ two == {name}:
+            if one ^ two == {name, ENDLESS.get(name, name)}:
                 seen[name] = seen.get(name, 0) + 1
             else:
                 assert name in one ^ two or crosses(pair, point), (name, point, one, two)

@@ -53,7 +53,9 @@ def _depth(teeth: WormTeeth, height: float, more: float = 0.0, out: float = 0.0)
     middle = worm.sign * worm.parameter * np.arctan2(y, x) + slid
     pitch = math.pi * worm.module
     beside = np.abs(z - middle - pitch * np.round((z - middle) / pitch))
-    return float(np.where((radius < hob.tip_radius) & (x > 0), half - beside, -1.0).max())
+    # at the tip the rounding is upright: the last digit of a radius is many of a width there
+    deep = np.minimum(half - beside, hob.tip_radius - radius)
+    return float(np.where((radius < hob.tip_radius) & (x > 0), deep, -1.0).max())
 
 
 def _built(keys: dict[str, Any]) -> Any:
