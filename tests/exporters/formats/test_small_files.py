@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import struct
 import uuid
 import zipfile
 from pathlib import Path
@@ -252,6 +253,29 @@ def test_a_plane_cuts_a_mesh_in_its_outline() -> None:
 
 
 MESH = Mesh(PRISM, BOX.triangles)
+
+
+def test_a_normal_of_an_stl_agrees_with_its_corners_or_is_not_given(tmp_path: Path) -> None:
+    """Leant by 5 degrees, whose cosine is above 0.99, it passes; by 10, turned round or taken from another side not."""
+    write_stl(tmp_path / "m.stl", MESH)
+    data = (tmp_path / "m.stl").read_bytes()
+    # the last triangle lies in the upper face
+    at = 84 + 50 * 11
+    assert struct.unpack_from("<3f", data, at) == (0, 0, 1)
+    leant = {degrees: (math.sin(math.radians(degrees)), 0.0, math.cos(math.radians(degrees))) for degrees in (5, 10)}
+    for normal, passes in (
+        (leant[5], True),
+        ((0, 0, 0), True),
+        (leant[10], False),
+        ((0, 0, -1), False),
+        ((0, 1, 0), False),
+    ):
+        (tmp_path / "n.stl").write_bytes(data[:at] + struct.pack("<3f", *normal) + data[at + 12 :])
+        if passes:
+            assert len(read_stl(tmp_path / "n.stl").triangles) == 12
+            continue
+        with pytest.raises(ReadError, match="normal"):
+            read_stl(tmp_path / "n.stl")
 
 
 def test_meshes_come_back_as_they_were_written(tmp_path: Path) -> None:

@@ -332,3 +332,10 @@ def test_where_neither_shift_nor_tip_cures_more_teeth_do() -> None:
     checked_gear(replace(gear, number_of_teeth=int(cure.value)))
     with pytest.raises(ParameterError):
         tooth_side(replace(gear, number_of_teeth=int(cure.value) - 1))
+
+
+def test_a_rim_thinner_than_a_module_is_told() -> None:
+    """m 2, z 20 of profile A: the root circle is 20 - 1.25 * 2 = 17.5 mm, so a bore of 31 mm leaves one module."""
+    for bore, told in ((30.998, False), (31.002, True), (0.0, False)):
+        found = [f for f in limits.findings(SpurGear(2.0, 20, iso_53("A"), bore_diameter=bore)) if f.code == "thin_rim"]
+        assert [(f.value, f.limit) for f in found] == ([(pytest.approx(17.5 - bore / 2), 2.0)] if told else [])
