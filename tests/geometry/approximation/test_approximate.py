@@ -93,7 +93,7 @@ def test_chord_count_is_near_the_least(curve: Curve) -> None:
         a, b = t[-1], high
         if chord_error(curve, np.array([a, b])) > tolerance:
             low, b = a, high
-            for _ in range(20):
+            for _ in range(14):
                 middle = (low + b) / 2
                 low, b = (middle, b) if chord_error(curve, np.array([a, middle])) <= tolerance else (low, middle)
         t.append(b)
@@ -157,7 +157,7 @@ def least_free_arcs(curve: Curve, tolerance: float) -> int:
         if free_arc_error(curve, start, end) <= tolerance:
             return count
         low, high = start, end
-        for _ in range(30):
+        for _ in range(16):
             middle = (low + high) / 2
             low, high = (middle, high) if free_arc_error(curve, start, middle) <= tolerance else (low, middle)
         start = low

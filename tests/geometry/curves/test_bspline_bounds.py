@@ -163,6 +163,6 @@ def test_any_gear(teeth: int, shift: float, scale: float, exponent: float, kind:
     for curve in curves.values():
         tolerance = 10 ** (scale + exponent)
         fit = fit_spline(curve, tolerance, degree=kind[0], continuity=kind[1])
-        found = deviation(fit.spline, curve, 601)
+        found = deviation(fit.spline, curve, 401)
         assert found <= fit.max_error <= min(tolerance, 2 * found + ROUNDING * size(curve))
         assert fit.bound == "certified"
