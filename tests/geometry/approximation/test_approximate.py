@@ -61,7 +61,7 @@ def joint_angles(points: np.ndarray, bulges: np.ndarray) -> tuple[np.ndarray, np
     return chords - 2 * np.arctan(bulges), chords + 2 * np.arctan(bulges)
 
 
-@pytest.mark.sampled(16)
+@pytest.mark.sampled(10)
 @EVERY
 @LADDER
 def test_chords_stay_within_a_tight_bound(curve: Curve, tolerance: float) -> None:
@@ -100,7 +100,7 @@ def test_chord_count_is_near_the_least(curve: Curve) -> None:
     assert len(chord_parameters(curve, tolerance)[0]) <= 1.05 * len(t) + 1
 
 
-@pytest.mark.sampled(16)
+@pytest.mark.sampled(10)
 @EVERY
 @LADDER
 def test_arcs_stay_within_a_tight_bound(curve: Curve, tolerance: float) -> None:
@@ -120,6 +120,7 @@ def test_arcs_stay_within_a_tight_bound(curve: Curve, tolerance: float) -> None:
     assert brute.distance_to_curve(on_arc, curve).max() <= spline.max_error
 
 
+@pytest.mark.sampled(24)
 @EVERY
 @LADDER
 def test_arcs_are_tangent_continuous(curve: Curve, tolerance: float) -> None:
@@ -204,6 +205,7 @@ def _exchanged(at: np.ndarray, residual: np.ndarray, worst: int) -> np.ndarray:
     return np.array(groups) if len(groups) == 4 else at
 
 
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("place", [0, 1, -1], ids=["first", "middle", "last"])
 @EVERY
 def test_a_spoiled_piece_raises_the_arc_bound(curve: Curve, place: int) -> None:
@@ -231,6 +233,7 @@ def test_an_arc_bound_is_the_same_wherever_the_curve_stands(curve: Curve) -> Non
         assert found == pytest.approx(base, rel=1e-6, abs=1e-11)
 
 
+@pytest.mark.sampled(12)
 @pytest.mark.parametrize("place", [0, 1, -1], ids=["first", "middle", "last"])
 @EVERY
 def test_a_long_piece_raises_the_chord_error(curve: Curve, place: int) -> None:

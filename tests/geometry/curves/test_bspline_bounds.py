@@ -105,7 +105,7 @@ def test_the_mirrored_fit_is_a_fit_of_the_mirrored_curve(kind: tuple[int, int]) 
         assert abs(fit.spline.mirrored().poles[0] - start_point(mirror)) <= rounding
 
 
-@pytest.mark.sampled(8)
+@pytest.mark.sampled(5)
 @EVERY
 @KINDS
 def test_the_spline_never_runs_backwards(name: str, kind: tuple[int, int]) -> None:

@@ -85,6 +85,7 @@ def test_derivatives_against_fifty_digits(curve: Curve) -> None:
     laws.check_derivatives(curve)
 
 
+@pytest.mark.sampled(30)
 @EVERY
 def test_tangent_and_curvature_against_fifty_digits(curve: Curve) -> None:
     laws.check_tangent_and_curvature(curve)

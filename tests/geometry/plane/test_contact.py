@@ -229,6 +229,7 @@ def test_a_pointed_curve_reaches_deepest_with_its_end() -> None:
     assert closest_approach(Line(2 + 3j, 2.1 + 2.01j), BOX).distance == pytest.approx(0.01, abs=1e-15)
 
 
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("seed", range(12))
 def test_any_curve_against_a_relieved_tooth_by_brute_force(seed: int) -> None:
     """Tip corners, relief and fillets of a tooth against an arc placed anywhere near."""

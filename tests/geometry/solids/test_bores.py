@@ -155,6 +155,7 @@ def test_parallel_curves(name: str, share: float) -> None:
             assert abs(end_point(before.curve) - start_point(after.curve)) <= 1e-13 * scale
 
 
+@pytest.mark.sampled(20)
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("name", MAKERS)
 def test_offsets_against_shapely(name: str, sign: int) -> None:

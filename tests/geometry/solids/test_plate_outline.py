@@ -53,7 +53,7 @@ def polygon(edges: tuple[Edge, ...], samples: int = 1500) -> shapely.Polygon:
     return shapely.Polygon(np.stack([points.real, points.imag], axis=1))
 
 
-@pytest.mark.sampled(12)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize("offset", [-2.3, -1.0, -0.1, 0.1, 1.0, 3.0])
 def test_moved_outlines_are_those_of_geos(name: str, offset: float) -> None:

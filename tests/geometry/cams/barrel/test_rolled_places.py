@@ -35,6 +35,7 @@ def test_the_roller_rests_where_no_point_of_a_triangle_is_in_it(cam: BarrelCam, 
             assert side * (place.imag - found) <= highest + 0.05 * size
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("cam", [AXIAL, SWINGING, CONES[0]], ids=["axial", "swinging", "cone"])
 @pytest.mark.parametrize("side", [UPPER, LOWER])
 @pytest.mark.parametrize("up", [0.05, -0.05])

@@ -52,6 +52,7 @@ def outlines(size: float) -> dict[str, Outline]:
     }
 
 
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", PLAIN)
 @pytest.mark.parametrize("offset", [0.0, 0.4])
 def test_a_disk_lifts_as_its_triangle_says_however_it_is_told(name: str, offset: float) -> None:

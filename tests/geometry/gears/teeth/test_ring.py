@@ -77,6 +77,7 @@ def test_outline_against_the_swept_cutter(gear: RingGear) -> None:
     assert np.abs(sweep_distance(gear)).max() <= RIGHT
 
 
+@pytest.mark.sampled(5)
 @EVERY
 def test_the_sweep_notices_a_wrong_outline(gear: RingGear) -> None:
     """A fillet of another rounding, a flank turned by 1e-9 of the radius: both far above what is right."""
@@ -239,6 +240,7 @@ def test_offsets_lie_at_their_distance(gear: RingGear, offset: float) -> None:
     assert ring_region(gear, offset).region.outer.reach() == pytest.approx(gear.outer_radius + offset, rel=1e-15)
 
 
+@pytest.mark.sampled(10)
 @pytest.mark.parametrize("offset", [3.0, -6.0, math.inf, -20.0])
 @pytest.mark.parametrize("gear", OFFSET_CASES.values(), ids=OFFSET_CASES.keys())
 def test_offsets_that_no_ring_survives_name_one_that_works(gear: RingGear, offset: float) -> None:
