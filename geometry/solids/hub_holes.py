@@ -223,7 +223,8 @@ def _seen_turn(curve: Curve, point: complex) -> float:
         ends = curve.point(np.array(curve.domain)) - point
         return cmath.phase(ends[1] / ends[0])
     pieces = 1 + int(abs(curve.sweep) / (math.pi / 2))
-    joints = curve.point(np.linspace(*curve.domain, pieces + 1)).tolist()
+    angles = (curve.start_angle + curve.sweep * k / pieces for k in range(pieces + 1))
+    joints = [curve.centre + cmath.rect(curve.radius, angle) for angle in angles]
     total = 0.0
     for start, end in itertools.pairwise(joints):
         total += cmath.phase((end - point) / (start - point))

@@ -85,9 +85,11 @@ class Surfaces:
             loops += [shapely.Polygon(p.points) for p in layer.polygons]
             for slot in layer.slots:
                 loops.append(shapely.LineString([slot.start, slot.end]).buffer(slot.width / 2))
-            region = shapely.Polygon()
-            for loop in loops:
-                region = region.symmetric_difference(loop)
+            # in pairs, in pairs of those and so on: hundreds of slots cost little
+            while len(loops) > 1:
+                last = [loops[-1]] if len(loops) % 2 else []
+                loops = [a.symmetric_difference(b) for a, b in zip(loops[::2], loops[1::2], strict=False)] + last
+            region = loops[0] if loops else shapely.Polygon()
             for c in layer.circles:
                 at, radius = complex(*c.at), c.diameter / 2
                 is_hole = not region.contains(shapely.Point(at.real + 0.99 * radius, at.imag + 1e-3))

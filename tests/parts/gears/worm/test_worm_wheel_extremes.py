@@ -238,7 +238,7 @@ def test_what_no_addendum_cures_is_told_in_the_key_that_does(
 
 
 def _dear(keys: dict[str, Any], key: str) -> Any:
-    """A case of three seconds and more."""
+    """A case that takes longer than most of the others together."""
     return pytest.param(keys, key, marks=pytest.mark.heavy)
 
 
@@ -266,7 +266,7 @@ def _dear(keys: dict[str, Any], key: str) -> Any:
           "number_of_teeth": 74, "pressure_angle_deg": 13.81, "axial_thinning": 0.294,
           "hob_rounding_coefficient": 0.295, "face_width": 13.905}, "face_width"),
         # before: no value, since only some between those that were tried leave teeth
-        ({"module": 0.993, "diameter_quotient": 38.799, "number_of_teeth": 12, "profile_shift_coefficient": 1.6,
+        _dear({"module": 0.993, "diameter_quotient": 38.799, "number_of_teeth": 12, "profile_shift_coefficient": 1.6,
           "hob_diameter_quotient": 41.568, "addendum_coefficient": 1.468}, "addendum_coefficient"),
         # before: no value, since neither that shift nor none leaves teeth
         _dear({"module": 12.915, "number_of_starts": 6, "diameter_quotient": 11.226, "form": "ZA", "number_of_teeth": 8,
