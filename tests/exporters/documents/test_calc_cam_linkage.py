@@ -166,12 +166,12 @@ def test_a_position_is_that_of_forty_digit_poses(name: str, at: str) -> None:
 def test_no_place_of_the_follower_cuts_into_the_profile(name: str) -> None:
     """The nearest of all places of the circle's centre is the radius away from every point of the table."""
     rows = calculated(name, "step=15")["positions"]
-    t = [math.radians(x) for x in np.arange(0, 360, 0.25)]
+    t = [math.radians(x) for x in np.arange(0, 360, 0.5)]
     path = np.array([complex(place(name, MP.mpf(x))) for x in t])
     for row in rows:
         point = complex(row["x"], row["y"])
         assert np.abs(path - point).min() == pytest.approx(RADIUS.get(name, 0.0), abs=1e-9)
-        assert abs(path[round(row["phi"] * 4) % 1440] - point) == pytest.approx(RADIUS.get(name, 0.0), abs=1e-9)
+        assert abs(path[round(row["phi"] * 2) % 720] - point) == pytest.approx(RADIUS.get(name, 0.0), abs=1e-9)
 
 
 @pytest.mark.heavy

@@ -106,8 +106,10 @@ OTHERS: dict[str, tuple[str, tuple[str, Any], str, str]] = {
 }
 
 
-def other(name: str, change: tuple[str, Any]) -> Body:
-    keys = KEYS[name] | {change[0]: list(change[1]) if isinstance(change[1], tuple) else change[1]}
+@cache
+def other(change: str) -> Body:
+    name, (key, value), *_ = OTHERS[change]
+    keys = KEYS[name] | {key: list(value) if isinstance(value, tuple) else value}
     body = make_parts(scene_from_dict({"parts": {"p": keys}}, "t", "t"), "t")[0]["p"].body(0.0)
     assert isinstance(body, Body)
     return body
@@ -133,9 +135,9 @@ def test_a_mesh_is_its_part_s_and_no_neighbour_s(name: str) -> None:
     assert "more than the declared" in told(less)
     small = own.measured["max_deviation"] * 0.99
     assert "the tolerance is" in told(verify_mesh(mesh, body, small, small))
-    for change, (of, keys, said, _) in OTHERS.items():
+    for change, (of, _, said, _) in OTHERS.items():
         if of == name:
-            found = said_of(verify_mesh, mesh, other(name, keys), NEAR)
+            found = said_of(verify_mesh, mesh, other(change), NEAR)
             assert found, change
             assert re.search(said, found), (change, found)
 
@@ -149,9 +151,9 @@ def test_a_solid_is_its_part_s_and_no_neighbour_s(name: str) -> None:
     assert own.measured["volume"] == pytest.approx(exact, rel=1e-8)
     assert own.measured["volume_error"] == pytest.approx(own.measured["volume"] / exact - 1, abs=1e-15)
     assert 0 < own.measured["volume_bound"] < 1e-6
-    for change, (of, keys, _, said) in OTHERS.items():
+    for change, (of, _, _, said) in OTHERS.items():
         if of == name:
-            found = said_of(verify_solid, solid, other(name, keys), 1e-6)
+            found = said_of(verify_solid, solid, other(change), 1e-6)
             assert found, change
             assert re.search(said, found), (change, found)
 
