@@ -42,9 +42,8 @@ class Labeller:
         """A word beside a point, in the direction ``prefer`` where that costs nothing; ``answer`` as of a text."""
         height = height or self._canvas.letters
         width = text_width(text, height)
-        reach = 2 * _REACHES[-1] + width
         away = np.abs(self._points - point)
-        texts = [t.box for t in self._canvas.texts if abs(nearest(t.box, point) - point) < reach]
+        texts = [(abs(nearest(t.box, point) - point), t.box) for t in self._canvas.texts]
         below = text_of(text, 0j, height).box
         # no box of this word goes farther beyond the reach of its middle
         corners = [complex(x, y) for x in (below.left, below.right) for y in (below.low, below.high)]
@@ -56,6 +55,8 @@ class Labeller:
             if _PER_MM * reach >= least:
                 break
             near = self._points[away < reach + beyond]
+            # those too that a line to the word may come near
+            words = [box for off, box in texts if off < reach + beyond + _CLEARANCE]
             for k in range(_DIRECTIONS):
                 way = cmath.exp(2j * math.pi * k / _DIRECTIONS)
                 middle = (
@@ -68,7 +69,7 @@ class Labeller:
                 )
                 at = middle - complex(width, height) / 2
                 box = Box(at.real + below.left, at.imag + below.low, at.real + below.right, at.imag + below.high)
-                cost = self._cost(box, point, reach, near, texts, math.inf if best is None else best[0])
+                cost = self._cost(box, point, reach, near, words, math.inf if best is None else best[0])
                 if cost is not None and prefer:
                     cost += 0.5 * abs(way - prefer / abs(prefer))
                 if cost is not None and (best is None or cost < best[0]):

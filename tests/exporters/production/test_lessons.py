@@ -127,10 +127,12 @@ format = "sheet"
 purpose = "{purpose}"
 name = "students"
 cells = "empty"
+tolerance = 1e-3
 [[exports]]
 format = "sheet"
 purpose = "{purpose}"
 name = "teacher"
+tolerance = 1e-3
 """
 CAM = """
 [parts.cam]

@@ -20,7 +20,7 @@ STEPS = (
 BOARD = "[boards.wood]\nwidth = 100.0\nheight = 60.0\nthickness = 4.0\nsets = 2\n{kerf}"
 ON_BOARDS = '[[exports]]\nformat = "dxf"\npurpose = "board"\n[[exports]]\nformat = "svg"\npurpose = "board"\n'
 SHEETS = "".join(
-    f'[[exports]]\nformat = "pdf"\npurpose = "{purpose}"\nname = "{name}"\n{more}'
+    f'[[exports]]\nformat = "pdf"\ntolerance = 1e-3\npurpose = "{purpose}"\nname = "{name}"\n{more}'
     for purpose, name, more in (
         ("generating", "students", 'cells = "empty"\n'), ("generating", "teacher", ""), ("model", "paper", ""),
     )

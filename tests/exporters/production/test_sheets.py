@@ -397,16 +397,17 @@ def test_the_device_takes_wheels_of_every_size(module: float, tmp_path: Path) ->
         assert job.verify(tmp_path / job.path, 0.0).failures == ()
 
 
-@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("part", "export", "key", "mended"),
     [
         ({"cutter": {"number_of_teeth": 25}}, {}, "parts.wheel.cutter.number_of_teeth = 25", ({}, {})),
         ({"helix_angle_deg": 15.0}, {}, "parts.wheel.helix_angle_deg = 15", ({"helix_angle_deg": 0.0}, {})),
         ({}, {"rack_step": 1000.0}, "exports[1].rack_step = 1000", ({}, {"rack_step": None})),
-        ({}, {"rack_step": 0.01}, "exports[1].rack_step = 0.01", ({}, {"rack_step": None})),
+        # a rack drawn as often as may be
+        pytest.param({}, {"rack_step": 0.01}, "exports[1].rack_step = 0.01", ({}, {"rack_step": None}),
+                     marks=pytest.mark.heavy),
     ],
-)
+)  # fmt: skip
 def test_what_the_device_cannot_do_is_named(part: Any, export: Any, key: str, mended: Any) -> None:
     with pytest.raises(SceneError) as caught:
         plan_build(generating(gear(20, module=10.0, **part), **export), "t", [], [])
@@ -419,6 +420,18 @@ def test_what_the_device_cannot_do_is_named(part: Any, export: Any, key: str, me
         assert offered
         more = {"rack_step": offered.value}
     assert plan_build(generating(gear(20, module=10.0, **keys), **more), "t", [], []).sheets
+
+
+def test_the_least_step_of_the_rack_is_a_part_of_its_pitch() -> None:
+    """As it is told, and a little less is refused: of 10 pi mm, 400 steps."""
+    for step in (0.01, 10 * math.pi / 400 - 1e-6):
+        with pytest.raises(SceneError) as caught:
+            plan_build(generating(gear(20, module=10.0), rack_step=step), "t", [], [])
+        offered = caught.value.nearest
+        assert offered is not None
+        assert offered.side == "at_least"
+        assert isinstance(offered.value, float)
+        assert 0 <= offered.value - 10 * math.pi / 400 < 1e-5
 
 
 HELICAL: dict[str, tuple[dict[str, Any], dict[str, Any], str]] = {
