@@ -103,7 +103,7 @@ def test_points_off_a_wall_are_so_far_from_the_roller(cam: BarrelCam, side: int)
     rng = np.random.default_rng(5)
     angles = rng.uniform(0, 2 * math.pi, 30)
     points = cam.wall(angles, side, rng.uniform(INNER, OUTER, 30)) + rng.uniform(-0.6, 0.6, (30, 3))
-    turns = np.linspace(0, 2 * math.pi, 10_001)
+    turns = np.linspace(0, 2 * math.pi, 20_001)
     turned = (points[:, 0] + 1j * points[:, 1])[:, None] * np.exp(1j * turns)
     gaps = np.abs(turned.imag + 1j * points[:, 2, None] - cam.place(turns, 0)[0])
     # to the surface of a cone along its own normal
