@@ -114,7 +114,10 @@ def test_librecad_finds_its_fonts_and_line_types_by_their_names(tmp_path: Path) 
 
     Of its fonts unicode.lff has Cyrillic and no Greek, lc_opengost-ar.lff both and the sign of a number.
     """
-    job = next(j for j in jobs_of("practicum_flat_cam", "uk") if j.path.endswith("dxf"))
+    scene = scene_of("practicum_flat_cam", "uk")
+    for export in scene.exports:
+        export.tolerance = 1e-2
+    job = next(j for j in plan_build(scene, "t", [], ["sheet"]).sheets if j.path.endswith("dxf"))
     job.write({}, tmp_path / job.path)
     drawing = ezdxf.readfile(tmp_path / job.path)
     texts = [(e.dxf.style, e.dxf.text) for e in drawing.modelspace().query("TEXT")]
