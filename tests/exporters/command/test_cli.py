@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -285,10 +286,12 @@ def test_a_file_that_cannot_be_read_does_not_keep_others_from_being_verified(
                    ("tolerance", "x"),
                    ("max_error", [1]), ("path", [1]), ("part", {}))),
 ])  # fmt: skip
-def test_a_damaged_report_is_one_line_too(tmp_path: Path, capsys: pytest.CaptureFixture[str], spoil: object) -> None:
+def test_a_damaged_report_is_one_line_too(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], spoil: Callable[[dict[str, Any]], object]
+) -> None:
     report = build_gear(tmp_path, GEAR, {"format": "svg"})
     folder = tmp_path / "out" / "s"
-    (folder / "report.json").write_text(json.dumps(spoil(report)), encoding="utf-8")  # type: ignore[operator]
+    (folder / "report.json").write_text(json.dumps(spoil(report)), encoding="utf-8")
     complaint(capsys, "verify", folder / "g.svg")
     # another build takes nothing over from it
     assert run("build", tmp_path / "s.toml", "--out", tmp_path / "out", "--format", "svg", "--no-verify") == 0

@@ -29,8 +29,8 @@ from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.ring import RoundedRoot
 from parts.base.refusal import SceneError
 from parts.base.texts import words
-from parts.gears.ring_gear.part import checked_ring_gear
-from parts.gears.spur_gear.part import gear_of
+from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear
+from parts.gears.spur_gear.part import SpurGearSpec, gear_of
 from parts.mates.pages import internal_shift_choice, shift_choice
 from parts.mates.pages.contour_marks import checked_picture
 from parts.mates.pages.internal_shift_choice import InternalShiftKeys, shift_pair
@@ -440,8 +440,10 @@ def test_the_given_shifts_have_the_numbers_of_a_check(
     monkeypatch.setattr(internal_shift_choice, "window", lambda pair: None)
     page = sheet_of("shift-choice", [str(file)])[0]
     ratio = next(step.value for step in page.steps() if step.name == "contact_ratio")
-    gears = [scene.parts[name] for name in "pr"]
-    built = internal_pair(gear_of(gears[0]), checked_ring_gear(gears[1]))  # type: ignore[arg-type]
+    keys_of_pinion, keys_of_ring = (scene.parts[name] for name in "pr")
+    assert isinstance(keys_of_pinion, SpurGearSpec)
+    assert isinstance(keys_of_ring, RingGearSpec)
+    built = internal_pair(gear_of(keys_of_pinion), checked_ring_gear(keys_of_ring))
     assert ratio == pytest.approx(built.contact_ratio, rel=1e-12)
     assert any(f.code == "ring_tip_limited" for f in made["r"].findings) is limited
     assert ("made shallower" in render(page, "text", "en")) is limited

@@ -203,7 +203,7 @@ def test_an_offset_shrinks_the_parts_and_not_the_places(tmp_path: Path) -> None:
 
 def test_sub_assemblies_and_what_a_list_says_stand_in_step(tmp_path: Path) -> None:
     """A sub-assembly is a product, equal parts are written once; the read-back holds the tree and the words."""
-    from exporters.formats.read_step import read_step_assembly
+    from exporters.formats.read_step import ReadSolid, read_step_assembly
     from exporters.production.recheck import recheck
 
     scene = tmp_path / "дерево 2.toml"
@@ -239,8 +239,9 @@ assembly = true
     file = tmp_path / "дерево 2" / "дерево 2.step"
     found = read_step_assembly(file)
     assert {o.name: o.within for o in found.occurrences} == {"base": "", "left": "pins", "right": "pins", "alone": ""}
-    said = {p.name: p.part.said["description"] for p in found.prototypes}  # type: ignore[attr-defined]
-    assert {p.part.said.get("title") for p in found.prototypes} == {None, "7 Pin"}  # type: ignore[attr-defined]
+    solids = {p.name: p.part for p in found.prototypes if isinstance(p.part, ReadSolid)}
+    said = {name: solid.said["description"] for name, solid in solids.items()}
+    assert {solid.said.get("title") for solid in solids.values()} == {None, "7 Pin"}
     assert said == {"base": "AB.01", "pin": "ISO 2338; \u0428\u0442\u0438\u0444\u0442"}
     text = file.read_text(encoding="ascii")
     # its name in the letters of Part 21

@@ -124,9 +124,9 @@ def test_copies_of_a_solid_are_no_instances(train_step: Path, tmp_path: Path) ->
     parts["copy"] = StepPart("copy", solids["planet"])
     rows = []
     for name, index, matrix, _ in found.occurrences:
-        rotation = tuple(tuple(row) for row in matrix[:, :3].tolist())
+        turned, (x, y, z) = [(a, b, c) for a, b, c in matrix[:, :3].tolist()], matrix[:, 3].tolist()
         part = "copy" if name == "free" else found.prototypes[index][0]
-        rows.append((name, parts[part], Placement3(rotation, tuple(matrix[:, 3].tolist()))))  # type: ignore[arg-type]
+        rows.append((name, parts[part], Placement3((turned[0], turned[1], turned[2]), (x, y, z))))
     write_step(tmp_path / "train.step", StepGroup("train", tuple(rows)), StepForm())
     text = (tmp_path / "train.step").read_text(encoding="ascii").replace("'copy','copy'", "'planet','planet'")
     (tmp_path / "train.step").write_text(text, encoding="ascii")
