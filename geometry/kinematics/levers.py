@@ -87,10 +87,11 @@ class Moved(Record):
 
 
 class Levers(Record):
-    """A crank OA of length ``crank`` that turns evenly at ``speed`` (rad/s, counter-clockwise) and its dyads.
+    """A crank OA of length ``crank`` that turns at ``speed`` (rad/s, counter-clockwise) and its dyads.
 
     ``first`` joins A: a stone in a lever, a rod with a rocker, or a rod with a slider. ``lever``: O3B on the lever;
-    ``arm``: O3C seen from the direction of the lever (O3A or O3B), complex, mm; ``second`` joins C.
+    ``arm``: O3C seen from the direction of the lever (O3A or O3B), complex, mm; ``second`` joins C; ``change``: the
+    crank's angular acceleration, rad/s^2, 0 where it turns evenly.
     """
 
     crank: float
@@ -99,6 +100,7 @@ class Levers(Record):
     lever: float = 0.0
     arm: complex = 0j
     second: Rods | Slider | None = None
+    change: float = 0.0
 
     @property
     def links(self) -> int:
@@ -122,7 +124,7 @@ class Levers(Record):
         phi = np.asarray(angles, dtype=float)
         w = 1j * self.speed
         crank = self.crank * np.exp(1j * phi)
-        end: Series = [crank, w * crank, w * w * crank / 2]
+        end: Series = [crank, w * crank, (w * w + 1j * self.change) * crank / 2]
         if isinstance(self.first, Slider):
             slider, rod = _slid(end, self.first)
             return Moved({"A": end, "B": slider}, {"2": rod})

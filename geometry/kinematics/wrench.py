@@ -39,7 +39,11 @@ class Wrench(Record):
 
 
 def force_at(
-    point: Complex | complex, height: float, force: Complex | complex, axial: Real | float = 0.0, turn: float = 0.0
+    point: Complex | complex,
+    height: float,
+    force: Complex | complex,
+    axial: Real | float = 0.0,
+    turn: Real | float = 0.0,
 ) -> Wrench:
     """A force (N) at a point (mm), and a couple ``turn`` (N mm) about z."""
     return Wrench(
