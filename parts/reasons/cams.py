@@ -168,7 +168,6 @@ REASONS = {
     "roller_too_big": N_("the roller is too big for it"),
     "rollers_on_one_side": N_("the rollers must stand on both sides of the axis"),
     "rollers_stand_by_distance": N_("is not for a translating follower, which has roller_distance instead"),
-    "rows_too_uneven": N_("is too much for rows that stand so unevenly: some are very near to each other"),
     "runs_with_plate": N_("the follower runs along with the plate at {travel} mm of travel: nothing holds it"),
     "second_half_missing": N_("is missing; it has segments like those of first_half"),
     "several_laws": N_("has {given}; only one of {names} may stand there"),

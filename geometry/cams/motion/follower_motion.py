@@ -248,8 +248,7 @@ def motion_of_table(angles: Sequence[float], lifts: Sequence[float], tolerance: 
     ------
     ParameterError
         Fewer than 3 points, angles that do not rise or span more than one turn, a last row that contradicts the
-        first, all at one height, a tolerance within which a follower at rest would stand, or one that is too wide for
-        rows so uneven.
+        first, all at one height, or a tolerance within which a follower at rest would stand.
     """
     at, values = np.asarray(angles, dtype=float), np.asarray(lifts, dtype=float)
     key = "motion_table"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given
@@ -86,21 +87,78 @@ def test_a_tolerance_within_which_a_follower_rests_is_refused_from_half_of_the_l
     assert 4.9999 < float(str(refusal.value.nearest.value)) < 5
 
 
-@pytest.mark.sampled(1)
-@pytest.mark.parametrize(("rows", "least"), [(200, 1e-3), (360, 1e-3), (360, 1e-2)])
-def test_rows_too_uneven_are_refused_by_the_tolerance_and_what_is_offered_works(rows: int, least: float) -> None:
-    """A follower nearly at rest: bending weighs so much that rows near to each other are lost in rounding."""
-    steps = np.where(np.arange(rows) % 3 == 0, 1.0, least)
+def uneven(rows: int, ratio: float, order: str) -> tuple[np.ndarray, np.ndarray]:
+    """Rows of which some are nearer to the next one by a ratio, and a lift of 40 with noise."""
+    choice = np.random.default_rng(rows)
+    steps = np.ones(rows)
+    if order == "thirds":
+        steps[np.arange(rows) % 3 > 0] = 1 / ratio
+    elif order == "one":
+        steps[rows // 3] = 1 / ratio
+    else:
+        steps = ratio ** -choice.uniform(0, 1, rows)
     places = np.cumsum(steps) - steps[0]
     places *= TURN / (places[-1] + steps[0])
-    values = 20 * np.cos(places)
-    with pytest.raises(ParameterError) as refusal:
-        smoothed(places, values, TURN, 0.49999999 * float(np.ptp(values)))
-    assert (refusal.value.name, refusal.value.code) == ("table_tolerance", "rows_too_uneven")
-    assert refusal.value.nearest is not None
-    works = float(str(refusal.value.nearest.value))
-    assert works > 1e-4
-    assert 0.99 * works < np.abs(smoothed(places, values, TURN, works) - values).max() < works * (1 + 2e-6)
+    return places, 20 * np.cos(places) + choice.uniform(-0.005, 0.005, rows)
+
+
+def left_in_60_digits(places: np.ndarray, values: np.ndarray, weight: mp.mpf) -> np.ndarray:
+    """By what Reinsch's spline of a weight leaves the values: (R + w Q Q) c = Q y, w Q c, by a dense elimination."""
+    n = len(places)
+    at = np.array([mp.mpf(float(x)) for x in places] + [mp.mpf(TURN)])
+    steps, y = np.diff(at), np.array([mp.mpf(float(v)) for v in values])
+    slopes = np.array([[mp.mpf(0)] * n for _ in range(n)])
+    plain = slopes.copy()
+    for i in range(n):
+        k = (i + 1) % n
+        slopes[i, i] -= 1 / steps[i]
+        slopes[i, k] += 1 / steps[i]
+        plain[i, i] += steps[i] / 3
+        plain[k, k] += steps[i] / 3
+        plain[i, k] += steps[i] / 6
+        plain[k, i] += steps[i] / 6
+    bent = slopes - np.roll(slopes, 1, axis=0)
+    matrix, right = plain + weight * bent.dot(bent), bent.dot(y)
+    for i in range(n):
+        for k in range(i + 1, n):
+            if share := matrix[k, i] / matrix[i, i]:
+                matrix[k, i:] -= share * matrix[i, i:]
+                right[k] -= share * right[i]
+    for i in range(n - 1, -1, -1):
+        right[i] = (right[i] - matrix[i, i + 1 :].dot(right[i + 1 :])) / matrix[i, i]
+    return np.array(weight * bent.dot(right))
+
+
+@pytest.mark.parametrize("power", [-8, 0, 2, 5])
+@pytest.mark.parametrize(("ratio", "order"), [(1e3, "thirds"), (1e6, "thirds"), (1e4, "one"), (1e7, "any")])
+def test_uneven_rows_are_smoothed_to_the_last_digits(ratio: float, order: str, power: int) -> None:
+    """Steps a million times unlike, near the rows and nearly at rest: beside the equations themselves in 60 digits."""
+    places, values = uneven(31, ratio, order)
+    with mp.workdps(60):
+        exact = left_in_60_digits(places, values, (TURN / len(places)) ** 3 * mp.mpf(10) ** power).astype(float)
+    found = smoothed(places, values, TURN, float(np.abs(exact).max()))
+    assert np.abs(values - found - exact).max() < 1e-8 * np.abs(exact).max() + 1e-14
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize("share", [0.0025, 0.025, 0.22, 0.45, 0.4999])
+@pytest.mark.parametrize("order", ["thirds", "one", "any"])
+@pytest.mark.parametrize("ratio", [1.0, 1e2, 1e5])
+def test_thousands_of_uneven_rows_are_left_by_the_tolerance(ratio: float, order: str, share: float) -> None:
+    """2 000 rows, of even steps too, were refused at some tolerances as too uneven."""
+    places, values = uneven(2000, ratio, order)
+    tolerance = share * float(np.ptp(values))
+    left = values - smoothed(places, values, TURN, tolerance)
+    assert np.abs(left).max() == pytest.approx(tolerance, rel=2e-9)
+    # what is left pulls the curve neither up nor down
+    assert abs(left.sum()) < 1e-12 * np.abs(left).sum()
+
+
+def test_a_tolerance_within_rounding_of_rest_is_rest() -> None:
+    places, values = uneven(50, 1.0, "one")
+    most = float(np.abs(values - values.mean()).max())
+    assert np.ptp(smoothed(places, values, TURN, most * (1 - 1e-15))) == 0
+    assert np.ptp(smoothed(places, values, TURN, most * (1 - 1e-7))) > 0
 
 
 def test_rows_that_are_all_within_the_tolerance_are_level() -> None:
