@@ -30,6 +30,8 @@ REASONS = {
     "ring_as_its_wheel": N_("a ring has more teeth than the wheel in it"),
     "lever_needed": N_("is driven by a lever, which a slider on the crank's rod has not"),
     "no_work_over_cycle": N_("does no work over a turn: there is nothing to be evened out"),
+    "does_not_turn": N_("is of a slider, which does not turn: a moment of inertia changes nothing there"),
+    "needs_rocker": N_("turns a lever or rocker, but this mechanism's output slides; give resistance"),
     "needs_slider": N_("acts on a slider, which this mechanism has not"),
     "no_such_point": N_("no such point of this mechanism; points: {known}"),
     "not_among_ten": N_("the guidelines have ten"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -19,6 +19,8 @@ _LINK, _PATH, _AXIS = "#1f4e8c", "#9fb0c0", "#c8ccd0"
 _COLOURS = ("#c03020", "#2060c0", "#209050", "#a06000", "#8030a0", "#008090", "#606060", "#d06090")
 # which points are joined by links, and which of these are blocks on a guide
 _RODS = (("O1", "A"), ("A", "B"), ("O3", "B"), ("O3", "C"), ("C", "D"), ("O5", "D"))
+# scales of plans: a plan's longest vector stays within this on paper, mm
+_PAPER, _STEPS = 120.0, (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)
 # of a path and a diagram every such point is drawn
 _EVERY = 10
 
@@ -38,6 +40,15 @@ class Plan(Record):
     scale: float
 
 
+def plan_scale(sizes: Iterable[float]) -> float:
+    """The finest of the usual scales at which the longest vector has room."""
+    most = max(sizes) / _PAPER
+    if not most > 0:
+        return 1.0
+    decade = 10.0 ** math.floor(math.log10(most))
+    return next(step * decade for step in _STEPS if step * decade >= most * (1 - 1e-12))
+
+
 class Run(Record, eq=False):
     """Over a turn: angle (deg), moment of the resistance, the even driving one (N m); energies gained (J) by the whole,
     by the links, by the flywheel.
@@ -53,7 +64,8 @@ class Run(Record, eq=False):
 
 class LeverPicture(Record, eq=False):
     """``points`` in the first position, their ``paths`` over a turn, mm, ``fixed`` pivots; whether a ``stone`` slides;
-    ``diagram``: angle (deg), travel (mm), velocity (m/s) and acceleration (m/s^2) of the output.
+    ``diagram``: angle (deg), travel (mm), velocity (m/s) and acceleration (m/s^2) of the output; ``forces``:
+    plans of forces under their titles, each a closed polygon.
     """
 
     points: Mapping[str, complex]
@@ -64,6 +76,7 @@ class LeverPicture(Record, eq=False):
     accelerations: Plan
     diagram: tuple[Real, Real, Real, Real]
     run: Run | None = None
+    forces: tuple[tuple[Text, Plan], ...] = ()
 
     def svg(self, words: Words) -> str:
         """The picture in a language."""
@@ -81,6 +94,7 @@ class LeverPicture(Record, eq=False):
                 (N_("Reduced moments, N·m"), list(_together(run.angle, moments, words))),
                 (N_("Gained energy, J; KK_1 is the height of ΔT_m"), list(_together(run.angle, energies, words))),
             ]
+        panels += [(title, list(_plan(plan))) for title, plan in self.forces]
         lines = []
         step = _SIDE + 2 * _EDGE
         for number, (title, drawn) in enumerate(panels):

@@ -5,88 +5,31 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Any
 
 import numpy as np
-from msgspec import Meta, Struct
 
 from geometry.base.errors import ParameterError
 from geometry.kinematics.flywheel import Cycle, mertsalov, travelled
-from geometry.kinematics.levers import Levers, Moved, Rods, Slider, Stone, swing
+from geometry.kinematics.kinetostatics import frames, reduced_inertia
+from geometry.kinematics.levers import Moved, Rods, Slider, Stone, swing
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
-from parts.keys.base import degrees, mm
 from parts.mates.pages.contour_marks import checked_picture
-from parts.mates.pages.lever_picture import LeverPicture, Plan, Run, Vector
+from parts.mates.pages.lever_forces import ForcePage, Forces, asked
+from parts.mates.pages.lever_keys import NAMES, LeverKeys, levers_of
+from parts.mates.pages.lever_picture import LeverPicture, Plan, Run, Vector, plan_scale
 from parts.mates.pages.lever_tasks import ASSIGNMENTS, EXAMPLE, assigned, rows_of_code
 from parts.pages.inputs import checked, refusal
 from parts.pages.page import Printed, Sheet, Table
 
 TOPIC = "lever"
 _GUIDELINES, _MERTSALOV = "guidelines, 3.4", "guidelines, 2.2.5"
-_MOST = 1e5
-_Length = mm("length", above=0, most=_MOST)
 _KINDS = {Stone: 3, Rods: 1, Slider: 2}
-# scales of plans: a plan's longest vector stays within this on paper, mm
-_PAPER, _STEPS = 120.0, (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)
 # positions over which the greatest values of a turn are sought
 _FINE = 3600
 # keys that choose the others
 _CHOICE = ("code", "assignment", "variant")
-
-
-_CODE = "last four digits of a record-book number: chooses assignment and rows"
-_BESIDE = "how far the guide passes to the left of O3, of O1 where there is no lever"
-_SIDE = "1: slider ahead of C, or O5 to the left of CD; -1: behind it, or to the right"
-_MASS = "AS2 / AB: centre of mass of the rod AB, whose path the picture then has"
-
-_MASSES = "substitute masses of the links at A, B, C, D: point_masses.D=12"
-_FORCE = "useful resistance on the slider, against its motion"
-_WAYS = "along which way of its guide the slider is resisted"
-_Mass = Annotated[float, Meta(ge=0, le=1e6, extra={"unit": "kg"})]
-
-
-class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
-    """Keys of the topic; those of an assignment stand for what is not given."""
-
-    code: Annotated[int | str, Meta(description=_CODE)] | None = None
-    assignment: Annotated[int, Meta(description="number of an assignment of the guidelines, 1 to 10")] | None = None
-    variant: Annotated[int, Meta(description="its row, 1 to 10")] | None = None
-    first: Annotated[
-        Literal["stone", "rods", "slider"], Meta(description="what A joins: stone in a lever, rod and rocker, slider")
-    ] = "stone"
-    second: Annotated[Literal["slider", "rocker", "none"], Meta(description="what the lever drives")] = "none"
-    crank_length: Annotated[float, _Length] | None = None
-    start_angle_deg: Annotated[float, degrees("angle of the crank from +x", least=-36_000, most=36_000)] = 0.0
-    speed: Annotated[
-        float, Meta(gt=0, le=1e6, description="angular velocity of the crank", extra={"unit": "rad/s"})
-    ] = 1.0
-    frame_length: Annotated[float, _Length] | None = None
-    frame_angle_deg: Annotated[float, degrees("direction from O1 to O3", least=-360, most=360)] = 0.0
-    coupler_length: Annotated[float, _Length] | None = None
-    lever_length: Annotated[float, _Length] | None = None
-    first_side: Annotated[
-        Literal[1, -1], Meta(description="on which side of AB the pivot O3 lies: 1 left, -1 right")
-    ] = 1
-    arm_length: Annotated[float, _Length] | None = None
-    arm_angle_deg: Annotated[float, degrees("direction of O3C against the lever", least=-360, most=360)] = 0.0
-    rod_length: Annotated[float, _Length] | None = None
-    rocker_length: Annotated[float, _Length] | None = None
-    pivot_distance: Annotated[float, _Length] | None = None
-    pivot_angle_deg: Annotated[float, degrees("direction from O3 to O5", least=-360, most=360)] = 0.0
-    guide_height: Annotated[float, mm(_BESIDE, least=-_MOST, most=_MOST)] = 0.0
-    guide_angle_deg: Annotated[float, degrees("direction of the guide", least=-360, most=360)] = 0.0
-    second_side: Annotated[Literal[1, -1], Meta(description=_SIDE)] = 1
-    mass_point: Annotated[float, Meta(ge=0, le=1, description=_MASS)] | None = None
-    point_masses: Annotated[dict[str, _Mass], Meta(description=_MASSES)] | None = None
-    resistance: Annotated[float, Meta(gt=0, le=1e9, description=_FORCE, extra={"unit": "N"})] | None = None
-    resisted: Annotated[Literal["forward", "backward", "both"], Meta(description=_WAYS)] = "both"
-    unevenness: Annotated[float, Meta(gt=0, le=0.5, description="delta: gives the flywheel")] | None = None
-    positions: Annotated[int, Meta(ge=2, le=720, description="positions of the crank in the table")] = 12
-    drawn_crank: Annotated[float, mm("length of the crank on the drawing", above=0, most=1000)] = 30.0
-    velocity_scale: Annotated[float, Meta(gt=0, le=1e6, description="m/s for 1 mm of the plan")] | None = None
-    acceleration_scale: Annotated[float, Meta(gt=0, le=1e9, description="m/s2 for 1 mm of the plan")] | None = None
-    picture: Annotated[str, Meta(description="SVG file of scheme, plans and diagrams to write")] | None = None
 
 
 def sheet(table: dict[str, Any]) -> Sheet:
@@ -138,52 +81,15 @@ def _refuse_idle(keys: LeverKeys, table: Mapping[str, Any]) -> None:
         "rod_length": keys.second != "none", "second_side": keys.second != "none" or keys.first == "slider",
         "rocker_length": keys.second == "rocker", "pivot_distance": keys.second == "rocker",
         "pivot_angle_deg": keys.second == "rocker", "guide_height": slides, "guide_angle_deg": slides,
-        "point_masses": keys.resistance is not None, "resisted": keys.resistance is not None,
+        "resisted": keys.resistance is not None or keys.resisting_moment is not None,
+        "gravity": asked(keys), "gravity_angle_deg": asked(keys), "force_scale": asked(keys),
+        "drive_radius": asked(keys), "drive_pressure_angle_deg": keys.drive_radius is not None,
+        "drive_angle_deg": keys.drive_radius is not None, "centres": asked(keys),
+        "centre_offsets": asked(keys),
     }  # fmt: skip
     for name, used in taken.items():
         if name in table and not used:
             raise ParameterError(name, table[name], "of_no_link", REMOVED)
-
-
-def levers_of(keys: LeverKeys) -> Levers:
-    """The mechanism of the keys.
-
-    Raises
-    ------
-    ParameterError
-        A length that the mechanism needs is missing.
-    """
-
-    def needed(name: str) -> float:
-        value = getattr(keys, name)
-        if value is None:
-            raise ParameterError(name, None, "missing_key", None, what=message("a length, mm"))
-        return float(value)
-
-    crank = needed("crank_length")
-    guide = math.radians(keys.guide_angle_deg)
-    across = keys.guide_height * 1j * cmath.exp(1j * guide)
-    if keys.first == "slider":
-        if keys.second != "none":
-            raise ParameterError("second", keys.second, "lever_needed", REMOVED)
-        return Levers(crank, keys.speed, Slider(needed("coupler_length"), across, guide, keys.second_side))
-    pivot = cmath.rect(needed("frame_length"), math.radians(keys.frame_angle_deg))
-    lever = needed("lever_length")
-    first: Stone | Rods = Stone(pivot)
-    if keys.first == "rods":
-        first = Rods(pivot, needed("coupler_length"), lever, keys.first_side)
-    if keys.second == "none":
-        return Levers(crank, keys.speed, first, lever)
-    arm = cmath.rect(keys.arm_length or lever, math.radians(keys.arm_angle_deg))
-    second: Slider | Rods = Slider(needed("rod_length"), pivot + across, guide, keys.second_side)
-    if keys.second == "rocker":
-        other = pivot + cmath.rect(needed("pivot_distance"), math.radians(keys.pivot_angle_deg))
-        second = Rods(other, needed("rod_length"), needed("rocker_length"), keys.second_side)
-    return Levers(crank, keys.speed, first, lever, arm, second)
-
-
-# geometry names the parts of a mechanism, users its lengths
-_NAMES = {"first.rod": "coupler_length", "first.pivot": "frame_length", "second.rod": "rod_length"}
 
 
 class _Page:
@@ -194,6 +100,7 @@ class _Page:
         self.levers = levers_of(keys)
         self.printed = _PRINTED if is_example else {}
         self.page = Sheet(TOPIC, N_("Lever mechanism"), picture_file=keys.picture)
+        self.forces = Forces(keys, self.levers) if asked(keys) else None
         self.start = math.radians(keys.start_angle_deg)
         try:
             self.at = self.levers.moved(self.start)
@@ -201,7 +108,7 @@ class _Page:
             self.fine = keys.positions * math.ceil(_FINE / keys.positions)
             self.turn = self.levers.moved(self.start + 2 * math.pi * np.arange(self.fine) / self.fine)
         except ParameterError as error:
-            raise error.renamed(_NAMES.get(error.name, error.name)) from error
+            raise error.renamed(NAMES.get(error.name, error.name)) from error
 
     def made(self) -> Sheet:
         """The whole page."""
@@ -211,8 +118,9 @@ class _Page:
         self._velocities()
         self._accelerations()
         self._over_a_turn()
+        plans = self._forces()
         run = self._flywheel()
-        self._plans(run)
+        self._plans(run, plans)
         self._notes()
         return self.page
 
@@ -228,6 +136,8 @@ class _Page:
         page.section(N_("Given"))
         page.add("crank_angle_deg", keys.start_angle_deg, given=True)
         page.add("crank_speed", keys.speed, given=True)
+        if keys.acceleration:
+            page.add("crank_acceleration", keys.acceleration, given=True)
         page.add("crank_length", self.levers.crank, given=True)
         rod = None if keys.first == "stone" else keys.coupler_length
         lengths: list[tuple[str, float | None]] = [("first_rod_length", rod)]
@@ -391,7 +301,8 @@ class _Page:
     def _accelerations(self) -> None:
         at = self.at
         self.page.section(N_("Accelerations"))
-        self._accelerated("A", "{omega_1}**2 * {l_1} / 1000")
+        turned = "{l_1} * sqrt(({omega_1}**2)**2 + {eps_1}**2) / 1000"
+        self._accelerated("A", turned if self.levers.change else "{omega_1}**2 * {l_1} / 1000")
         if at.reach is not None:
             self._add(
                 "coriolis_acceleration",
@@ -491,20 +402,23 @@ class _Page:
     def _slides(self) -> bool:
         return "slider" in (self.keys.first, self.keys.second)
 
+    def _forces(self) -> list[tuple[Text, Plan]]:
+        """The force analysis, where loads are given: its plans."""
+        if self.forces is None:
+            return []
+        part = ForcePage(self.page, self.forces, self.start, self.keys.positions, self.fine)
+        part.add()
+        return part.plans
+
     def _flywheel(self) -> Run | None:
         """The flywheel for an unevenness, from the resistance and the masses of the links; None: not asked for."""
         keys, page, name = self.keys, self.page, self._output
-        if keys.resistance is None or keys.unevenness is None:
-            for one, other in (("resistance", "unevenness"), ("unevenness", "resistance")):
-                if getattr(keys, one) is not None:
-                    raise ParameterError(one, getattr(keys, one), "needs_other", REMOVED, other=other)
+        if keys.unevenness is None:
             return None
-        if not self._slides:
-            raise ParameterError("resistance", keys.resistance, "needs_slider", REMOVED)
-        masses = keys.point_masses or {}
-        for point in masses:
-            if point not in self.turn.points:
-                raise ParameterError("point_masses", point, "no_such_point", None, known=list(self.turn.points))
+        if keys.resistance is None or self.forces is None:
+            raise ParameterError("unevenness", keys.unevenness, "needs_other", REMOVED, other="resistance")
+        if keys.acceleration:
+            raise ParameterError("acceleration", keys.acceleration, "other_is_given", REMOVED, other="unevenness")
         way = cmath.exp(-1j * math.radians(keys.guide_angle_deg))
         place, ahead, change = (
             np.append(x, x[0])
@@ -518,27 +432,18 @@ class _Page:
         resisting = (
             keys.resistance * sum(np.maximum(ahead if forward else -ahead, 0.0) for forward in ways) / keys.speed
         )
-        inertia = np.zeros(len(place))
-        for point, mass in masses.items():
-            speeds = np.abs(self.turn.velocity(point)) / 1000 / keys.speed
-            inertia = inertia + mass * np.append(speeds, speeds[0]) ** 2
+        bodies = self.forces.bodies
+        inertia = reduced_inertia(bodies, frames(self.levers, self.turn), keys.speed)
+        inertia = np.append(inertia, inertia[0])
         angle = self.start + 2 * math.pi * np.arange(self.fine + 1) / self.fine
         wheel = mertsalov(Cycle(angle, keys.resistance * gone, inertia), keys.speed, keys.unevenness)
         page.section(N_("Flywheel, by Mertsalov"))
-        for point, mass in masses.items():
-            page.add(
-                "point_mass",
-                mass,
-                symbol=f"m_{point}",
-                key=f"m_{point}",
-                of=message(N_("point {name}"), name=point),
-                given=True,
-            )
-        page.add("resisting_force", keys.resistance, given=True)
+        if bodies and keys.gravity:
+            page.notes.append(N_("weights, which do no work over a turn, are left out of the flywheel"))
         page.add("unevenness", keys.unevenness, given=True)
         page.add("resisting_work", float(keys.resistance * gone[-1]))
         page.add("driving_moment", wheel.driving, "{A_c} / (2 * pi)")
-        if masses:
+        if bodies:
             page.add("least_reduced_inertia", float(inertia.min()))
             page.add("greatest_reduced_inertia", float(inertia.max()))
         page.add("flywheel_energy", wheel.swing)
@@ -560,11 +465,11 @@ class _Page:
         page.tables.append(Table("cycle", N_("Moments, works and energies over the turn"), heads, rows))
         return Run(np.degrees(angle), resisting, wheel.driving, wheel.gained, wheel.of_links, wheel.of_flywheel)
 
-    def _plans(self, run: Run | None) -> None:
+    def _plans(self, run: Run | None, forces: list[tuple[Text, Plan]]) -> None:
         """Both plans as vectors with the lengths that they have on paper, and the picture."""
         velocities, accelerations = self._velocity_vectors(), self._acceleration_vectors()
-        speed_scale = self.keys.velocity_scale or _scale([abs(v.end) for v in velocities])
-        change_scale = self.keys.acceleration_scale or _scale([abs(v.end) for v in accelerations])
+        speed_scale = self.keys.velocity_scale or plan_scale([abs(v.end) for v in velocities])
+        change_scale = self.keys.acceleration_scale or plan_scale([abs(v.end) for v in accelerations])
         for key, title, unit, vectors, scale in (
             ("velocity_plan", N_("Plan of velocities, {scale:g} m/s for 1 mm"), "m/s", velocities, speed_scale),
             (
@@ -603,6 +508,7 @@ class _Page:
             Plan(tuple(accelerations), change_scale),
             self._diagram(),
             run,
+            tuple(forces),
         )
 
     def _diagram(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -635,6 +541,9 @@ class _Page:
         at = self.at
         ends = {name: complex(at.acceleration(name)) / 1000 for name in at.points}
         found = [Vector("πa", 0j, ends["A"])]
+        if self.levers.change:
+            normal = -(self.levers.speed**2) * complex(at.place("A")) / 1000
+            found += [Vector("πn1", 0j, normal), Vector("n1a", normal, ends["A"])]
         if at.reach is not None:
             rate, change = (self._number(x) for x in at.turning("3"))
             lever, far = complex(at.links["3"][0]), self._number(at.reach[0]) / 1000
@@ -682,15 +591,6 @@ class _Page:
                 page.notes.append(message(N_("the lever swings by {angle:.4g}°"), angle=math.degrees(high - low)))
             else:
                 page.notes.append(N_("the lever goes all the way round"))
-
-
-def _scale(sizes: list[float]) -> float:
-    """The finest of the usual scales at which the longest vector has room."""
-    most = max(sizes) / _PAPER
-    if not most > 0:
-        return 1.0
-    decade = 10.0 ** math.floor(math.log10(most))
-    return next(step * decade for step in _STEPS if step * decade >= most * (1 - 1e-12))
 
 
 _OFF_PLAN = N_("measured off the plan")

@@ -161,6 +161,26 @@ def test_colours_of_a_plan_begin_anew_after_the_last() -> None:
     assert [style(line)["stroke"] for line in lines] == [*COLOURS, *COLOURS[:2]]
 
 
+def test_plans_of_forces_stand_behind_the_other_panels() -> None:
+    """A triangle of forces, 4 wide and 3 high about (2, 1.5): as drawn it closes."""
+
+    def at(z: complex) -> complex:
+        return (z - (2 + 1.5j)) * side() / 4 + side() * (0.5 - 0.5j)
+
+    chain_of = (Vector("R_12", 0j, 4 + 0j), Vector("G_2", 4 + 0j, 4 + 3j), Vector("R_32", 4 + 3j, 0j))
+    picture = LeverPicture(POINTS, PATHS, FIXED, False, SPEEDS, SPEEDS, TRAVEL, None, (("Links", Plan(chain_of, 1.0)),))
+    root = ET.fromstring(picture.svg(words("en")))
+    groups = list(root.iter(f"{SVG}g"))
+    assert [str(next(iter(g)).text) for g in groups][4:] == ["Links"]
+    lines = [chain(line) for line in groups[4].iter(f"{SVG}polyline")]
+    for line, vector in zip(lines, chain_of, strict=True):
+        assert line == pytest.approx(at(np.array([vector.start, vector.end])), abs=0.0071)
+    assert abs(lines[-1][-1] - lines[0][0]) < 0.0071
+    # five panels take three rows
+    first, free = corner(groups[0]), corner(groups[0]).real
+    assert float(root.attrib["height"]) == 3 * (side() + free + first.imag)
+
+
 def on_graph(line: ET.Element, values: np.ndarray, zero: float, unit: float) -> None:
     """A curve over the whole turn: each tenth place at its height above the axis, ``unit`` px for 1."""
     wanted = ANGLE[::10] / 360 * side() + 1j * (values[::10] * unit - zero)

@@ -1,0 +1,411 @@
+"""The force analysis of ``higherpair calc lever``: forces given, of inertia, group by group, driving link, the check.
+
+Guidelines on coursework, 4.17 to 4.20: the forces are named, each group is in balance with its forces of inertia, the
+balancing force follows from the drive, and Zhukovsky's lever tells the same without asking any joint.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from geometry.base.errors import ParameterError
+from geometry.base.record import Record
+from geometry.curves.curve import Real
+from geometry.kinematics.kinetostatics import (
+    Acting,
+    Body,
+    Frame,
+    Reactions,
+    Toothed,
+    by_zhukovsky,
+    frames,
+    inertial,
+    power,
+    reactions,
+    weight,
+)
+from geometry.kinematics.levers import Levers, Moved, Slider, Stone
+from parts.base.refusal import REMOVED
+from parts.base.texts import N_, Text, message
+from parts.mates.pages.lever_keys import LeverKeys
+from parts.mates.pages.lever_picture import Plan, Vector, plan_scale
+from parts.pages.page import Sheet, Table
+
+Mask = NDArray[np.bool_]
+_SOURCE = "guidelines, 4.19"
+# keys that are tables of links
+_OF_LINKS = ("masses", "inertias", "centres", "centre_offsets")
+# a group whose rods meet at a smaller sine holds nothing that a number could tell
+_DEAD = 1e-3
+# parts of its greatest speed at which an output stands, its resistance being about to turn round
+_STANDS = 1e-9
+
+
+class Loaded(Record, eq=False):
+    """A mechanism in some positions with all that acts on it, by name, and what that asks of its joints."""
+
+    moving: dict[str, Frame]
+    acting: dict[str, Acting]
+    found: Reactions
+
+    @property
+    def held(self) -> Mask:
+        """Whether each position is one in which the groups hold their loads."""
+        return np.asarray(self.found.bite >= _DEAD)
+
+
+class Forces:
+    """The loads that keys name, on the mechanism of the same keys.
+
+    Raises
+    ------
+    ParameterError
+        A key of a link, a point or an output that the mechanism has not.
+    """
+
+    def __init__(self, keys: LeverKeys, levers: Levers) -> None:
+        self.keys, self.levers = keys, levers
+        self.links = [str(k + 1) for k in range(levers.links)]
+        self.output = self.links[-1]
+        self.slides = isinstance(levers.second or levers.first, Slider)
+        self.named = _bodies(keys, levers, self.links)
+        self.teeth = None
+        if keys.drive_radius is not None:
+            angles = (math.radians(keys.drive_pressure_angle_deg), math.radians(keys.drive_angle_deg))
+            self.teeth = Toothed(keys.drive_radius, *angles)
+        for name, wrong in (("resistance", not self.slides), ("resisting_moment", self.slides)):
+            if getattr(keys, name) is not None and wrong:
+                code = "needs_slider" if name == "resistance" else "needs_rocker"
+                raise ParameterError(name, getattr(keys, name), code, REMOVED)
+
+    @property
+    def bodies(self) -> list[Body]:
+        """All masses: of links, and at points."""
+        return [body for _, body in self.named]
+
+    def at(self, at: Moved, fastest: float) -> Loaded:
+        """The loads in the positions of ``at``; ``fastest``: the output's greatest speed over the turn, as ``way``."""
+        moving = frames(self.levers, at)
+        gravity = cmath.rect(self.keys.gravity, math.radians(self.keys.gravity_angle_deg))
+        acting: dict[str, Acting] = {}
+        for name, body in self.named:
+            if gravity:
+                acting[f"G_{name}"] = weight(body, gravity, moving[body.link])
+            acting[f"F_i{name}"] = inertial(body, moving[body.link])
+        opposed = self._opposed(moving, fastest)
+        if self.keys.resistance is not None:
+            force = self.keys.resistance * opposed * moving[self.output].way[0]
+            acting["F_c"] = Acting(self.output, 0j, force, np.zeros(np.shape(force)))
+        if self.keys.resisting_moment is not None:
+            couple = 1000 * self.keys.resisting_moment * opposed
+            acting["M_c"] = Acting(self.output, 0j, np.zeros(np.shape(couple), complex), couple)
+        return Loaded(moving, acting, reactions(self.levers, at, acting.values(), self.teeth))
+
+    def way(self, moving: dict[str, Frame]) -> Real:
+        """How fast the output goes forward: mm/s along its guide, or rad/s."""
+        frame = moving[self.output]
+        return np.asarray(np.real(np.conj(frame.way[0]) * frame.origin[1]) if self.slides else frame.turning()[0])
+
+    def stands(self, moving: dict[str, Frame], fastest: float) -> Mask:
+        """Whether the output stands, so that no resistance against its motion has a sense."""
+        return np.asarray(np.abs(self.way(moving)) <= _STANDS * fastest)
+
+    def _opposed(self, moving: dict[str, Frame], fastest: float) -> Real:
+        """The sense of the resistance: -1, 1, or 0 where it does not act."""
+        sense = np.where(self.stands(moving, fastest), 0.0, np.sign(self.way(moving)))
+        idle = {"forward": sense < 0, "backward": sense > 0, "both": np.zeros(np.shape(sense), bool)}
+        return np.where(idle[self.keys.resisted], 0.0, -sense)
+
+
+def _bodies(keys: LeverKeys, levers: Levers, links: list[str]) -> list[tuple[str, Body]]:
+    """Masses by the link or the point that they are named after."""
+    first, second = levers.first, levers.second
+    lengths = {"1": levers.crank, "3": levers.lever}
+    if not isinstance(first, Stone):
+        lengths["2"] = first.rod
+    if second is not None:
+        lengths["4"] = second.rod
+        if not isinstance(second, Slider):
+            lengths["5"] = second.rocker
+    masses, inertias, centres, offsets = (getattr(keys, name) or {} for name in _OF_LINKS)
+    for name, given in zip(_OF_LINKS, (masses, inertias, centres, offsets), strict=True):
+        for link, value in given.items():
+            if link not in links:
+                raise ParameterError(f"{name}.{link}", value, "no_such_link", None, known=links)
+            if name == "inertias" and link == links[-1] and isinstance(second or first, Slider):
+                raise ParameterError(f"{name}.{link}", value, "does_not_turn", REMOVED)
+            if name.startswith("centre") and link not in masses:
+                raise ParameterError(f"{name}.{link}", value, "needs_other", REMOVED, other=f"masses.{link}")
+    if keys.mass_point is not None and "2" in centres:
+        raise ParameterError("centres.2", centres["2"], "other_is_given", REMOVED, other="mass_point")
+    found = []
+    for link in links:
+        if link not in masses and link not in inertias:
+            continue
+        share = 0.0 if link == "1" else 0.5
+        if link == "2" and keys.mass_point is not None:
+            share = keys.mass_point
+        place = complex(centres.get(link, share * lengths.get(link, 0.0)), offsets.get(link, 0.0))
+        found.append((link, Body(link, masses.get(link, 0.0), inertias.get(link, 0.0), place)))
+    places = {"A": ("1", complex(levers.crank)), "B": ("3", complex(levers.lever))}
+    if second is not None:
+        places |= {"C": ("3", levers.arm), "D": ("5", complex(lengths.get("5", 0.0)))}
+    for point, mass in (keys.point_masses or {}).items():
+        if point not in places:
+            raise ParameterError("point_masses", point, "no_such_point", None, known=list(places))
+        link, place = places[point]
+        found.append((point, Body(link, mass, 0.0, place)))
+    return found
+
+
+def asked(keys: LeverKeys) -> bool:
+    """Whether any load is given."""
+    loads = (keys.masses, keys.inertias, keys.point_masses, keys.resistance, keys.resisting_moment)
+    return any(load is not None for load in loads)
+
+
+class ForcePage:
+    """The sections and tables of the force analysis; ``plans``: those of forces, for the picture."""
+
+    def __init__(self, page: Sheet, forces: Forces, start: float, positions: int, fine: int) -> None:
+        self.page, self.forces, self.keys, self.levers = page, forces, forces.keys, forces.levers
+        turn = self.levers.moved(start + 2 * math.pi * np.arange(fine) / fine)
+        self.fastest = float(np.abs(forces.way(frames(self.levers, turn))).max())
+        self.turn = forces.at(turn, self.fastest)
+        angles = start + 2 * math.pi * np.arange(positions) / positions
+        self.rows = forces.at(self.levers.moved(angles), self.fastest)
+        self.one = forces.at(self.levers.moved(start), self.fastest)
+        self.degrees = np.degrees(angles)
+        self.fine_degrees = (np.degrees(start) + 360 * np.arange(fine) / fine) % 360
+        self.plans: list[tuple[Text, Plan]] = []
+
+    def add(self) -> None:
+        """All of it."""
+        self._given()
+        self._inertia()
+        if self.one.held:
+            if self.levers.second is not None:
+                self._group("3", "4", "5")
+            self._group("1", "2", "3")
+            self._driving()
+            self._check()
+        self._over_a_turn()
+        self._notes()
+
+    def _given(self) -> None:
+        page, keys = self.page, self.keys
+        page.section(N_("Forces given"))
+        page.add("force_equations", 3 * self.levers.links, "3 * {n}")
+        page.add("force_unknowns", 2 * self.levers.lower_pairs + 1, "2 * {p_5} + 1", "guidelines, 4.18")
+        if keys.gravity and self.forces.bodies:
+            page.add("gravity", keys.gravity, given=True)
+            page.add("gravity_angle_deg", keys.gravity_angle_deg, given=True)
+        for name, body in self.forces.named:
+            if name.isalpha():
+                of = message(N_("point {name}"), name=name)
+                page.add("point_mass", body.mass, symbol=f"m_{name}", key=f"m_{name}", of=of, given=True)
+            else:
+                of = message(N_("link {name}"), name=name)
+                page.add("link_mass", body.mass, symbol=f"m_{name}", key=f"m_{name}", of=of, given=True)
+                page.add("link_inertia", body.inertia, symbol=f"J_{name}", key=f"J_{name}", of=of, given=True)
+                page.add("centre_along", body.centre.real, symbol=f"x_S{name}", of=of, given=True)
+                page.add("centre_across", body.centre.imag, symbol=f"y_S{name}", of=of, given=True)
+            if keys.gravity:
+                page.add(
+                    "link_weight", body.mass * keys.gravity, f"{{m_{name}}} * {{g}}", symbol=f"G_{name}",
+                    key=f"G_{name}", of=of,
+                )  # fmt: skip
+        if keys.resistance is not None:
+            page.add("resisting_force", keys.resistance, given=True)
+        if keys.resisting_moment is not None:
+            page.add("resisting_moment", keys.resisting_moment, given=True)
+        if keys.drive_radius is not None:
+            page.add("drive_radius", keys.drive_radius, given=True)
+            page.add("drive_pressure_angle_deg", keys.drive_pressure_angle_deg, given=True)
+            page.add("drive_angle_deg", keys.drive_angle_deg, given=True)
+
+    def _inertia(self) -> None:
+        page = self.page
+        if not self.forces.bodies:
+            return
+        page.section(N_("Forces of inertia"))
+        for name, body in self.forces.named:
+            frame, acting = self.one.moving[body.link], self.one.acting[f"F_i{name}"]
+            change = 2 * abs(complex(frame.point(body.centre)[2])) / 1000
+            at = f"S{name}" if name.isdigit() else name
+            of = message(N_("point {name}"), name=at)
+            page.add("point_acceleration", change, symbol=f"a_{at}", key=f"a_{at}", of=of)
+            page.add(
+                "inertia_force", abs(complex(acting.force)), f"{{m_{name}}} * {{a_{at}}}", symbol=f"F_i{name}",
+                key=f"F_i{name}", of=of,
+            )  # fmt: skip
+            if body.inertia:
+                link = "3" if name == "2" and isinstance(self.levers.first, Stone) else name
+                formula = f"{{J_{name}}} * {{eps_{link}}}" if f"eps_{link}" in page.known else ""
+                of = message(N_("link {name}"), name=name)
+                size = abs(float(acting.couple)) / 1000
+                page.add("inertia_moment", size, formula, symbol=f"M_i{name}", key=f"M_i{name}", of=of)
+
+    def _force(self, pair: str) -> complex:
+        """The force of a joint in the position of the plans."""
+        return complex(self.one.found.forces[pair])
+
+    def _joint(self, pair: str, formula: str = "", source: str = "") -> None:
+        before = N_("the frame on link {two}") if pair[0] == "0" else N_("link {one} on link {two}")
+        of = message(before, one=pair[0], two=pair[1])
+        size = abs(self._force(pair))
+        self.page.add("joint_force", size, formula, source, symbol=f"R_{pair}", key=f"R_{pair}", of=of)
+
+    def _group(self, before: str, rod: str, last: str) -> None:
+        page, found = self.page, self.one.found
+        page.section(message(N_("Group of links {one} and {two}"), one=rod, two=last))
+        outer, inner, frame = before + rod, rod + last, "0" + last
+        way = complex(self.one.moving[rod].way[0])
+        seen = self._force(outer) / way
+        of = message(N_("link {one} on link {two}"), one=before, two=rod)
+        for term, value, mark in (("joint_force_across", seen.imag, "t"), ("joint_force_along", seen.real, "n")):
+            page.add(term, abs(value), symbol=f"R_{outer}{mark}", key=f"R_{outer}{mark}", of=of)
+        self._joint(outer, f"sqrt({{R_{outer}t}}**2 + {{R_{outer}n}}**2)", _SOURCE)
+        self._joint(inner)
+        self._joint(frame)
+        for pair in (inner, frame):
+            if pair in found.couples:
+                couple = float(found.couples[pair]) / 1000
+                sliding = message(N_("link {one} and link {two}"), one=pair[0], two=pair[1])
+                if pair[0] == "0":
+                    sliding = message(N_("link {two} in its guide"), two=pair[1])
+                page.add("guide_moment", couple, symbol=f"M_{pair}", key=f"M_{pair}", of=sliding)
+                across = (self._force(pair) / complex(self.one.moving[pair[1]].way[0])).imag
+                if across:
+                    formula = f"{'-' if across < 0 else ''}1000 * {{M_{pair}}} / {{R_{pair}}}"
+                    page.add("guide_place", 1000 * couple / across, formula, of=sliding)
+        chain = [(f"R_{outer}n", seen.real * way), (f"R_{outer}t", 1j * seen.imag * way)]
+        chain += self._of_links(rod, last)
+        if last == "3" and self.levers.second is not None:
+            chain.append(("R_43", -self._force("34")))
+        chain.append((f"R_{frame}", self._force(frame)))
+        self._plan(inner, message(N_("Plan of forces of links {one} and {two}"), one=rod, two=last), chain)
+
+    def _of_links(self, *links: str) -> list[tuple[str, complex]]:
+        """The forces on links that are no joint's, by name."""
+        found = ((name, one.link, complex(one.force)) for name, one in self.one.acting.items())
+        return [(name, force) for name, link, force in found if link in links and force]
+
+    def _plan(self, key: str, title: Text, chain: list[tuple[str, complex]]) -> None:
+        """A polygon of forces as a table, and for the picture; it closes."""
+        spots = np.cumsum([0j, *(force for _, force in chain)])
+        vectors = tuple(
+            Vector(name, complex(start), complex(start + force))
+            for (name, force), start in zip(chain, spots, strict=False)
+        )
+        scale = self.keys.force_scale or plan_scale([abs(force) for _, force in chain])
+        heads = ((N_("vector"), ""), (N_("value"), "N"), (N_("direction"), "deg"), (N_("on the plan"), "mm"))
+        rows = tuple((abs(f), math.degrees(cmath.phase(f)), abs(f) / scale) for _, f in chain)
+        told = message(N_("{plan}, {scale:g} N for 1 mm"), plan=title, scale=scale)
+        self.page.tables.append(
+            Table(f"force_plan_{key}", told, heads, rows, labels=tuple((name,) for name, _ in chain))
+        )
+        self.plans.append((title, Plan(vectors, scale)))
+
+    def _driving(self) -> None:
+        page, found = self.page, self.one.found
+        page.section(N_("Driving link"))
+        end, force = complex(self.one.moving["2"].origin[0]), -self._force("12")
+        turn = (end.conjugate() * force).imag
+        of = N_("link 2 on link 1")
+        page.add("joint_force", abs(force), "{R_12}", symbol="R_21", key="R_21", of=of)
+        moment = float(found.moment) / 1000
+        alone = not any(one.link == "1" for one in self.one.acting.values())
+        if force:
+            page.add("joint_arm", abs(turn) / abs(force), symbol="h_21", key="h_21", of=of)
+        # signed: against what the joint's force turns
+        sign = "-" if turn > 0 else ""
+        page.add("balancing_moment", moment, f"{sign}{{R_21}} * {{h_21}} / 1000" if alone and force else "", _SOURCE)
+        if self.forces.teeth is not None:
+            formula = "1000 * abs({M_b}) / ({r_w} * cos({alpha_w}))"
+            page.add("balancing_force", abs(complex(found.driving)), formula, "guidelines, 4.20")
+        self._joint("01")
+        chain = [("R_21", force), *self._of_links("1")]
+        if self.forces.teeth is not None:
+            chain.append(("F_b", complex(found.driving)))
+        chain.append(("R_01", self._force("01")))
+        self._plan("1", N_("Plan of forces of the driving link"), chain)
+
+    def _check(self) -> None:
+        page, loaded, speed = self.page, self.one, self.levers.speed
+        page.section(N_("Check by Zhukovsky's lever"))
+        powers = {name: float(power(one, loaded.moving[one.link])) for name, one in loaded.acting.items()}
+        moment = float(by_zhukovsky(loaded.acting.values(), loaded.moving, speed)) / 1000
+        page.add("lever_balancing_moment", moment)
+        sizes = sum(map(abs, powers.values())) / speed
+        if sizes:
+            page.add("lever_moments", sizes)
+            difference = 100 * abs(float(loaded.found.moment) / 1000 - moment) / sizes
+            page.add("balance_difference", difference, "100 * abs({M_b} - {M_bZ}) / {M_sum}")
+        heads = ((N_("force"), ""), (N_("value"), "N"), (N_("moment"), "N*m"), (N_("power"), "W"))
+        rows = [(abs(complex(one.force)), float(one.couple) / 1000, powers[n]) for n, one in loaded.acting.items()]
+        labels = [(name,) for name in loaded.acting]
+        balancing = float(loaded.found.moment) / 1000
+        rows.append((abs(complex(loaded.found.driving)), 0.0 if self.forces.teeth else balancing, balancing * speed))
+        labels.append(("F_b" if self.forces.teeth else "M_b",))
+        title = N_("Powers of all forces: together they are nothing")
+        page.tables.append(Table("powers", title, heads, tuple(rows), labels=tuple(labels)))
+
+    def _over_a_turn(self) -> None:
+        """Balancing moment and reactions in the joints in all positions, and the greatest of the turn."""
+        page, rows, turn = self.page, self.rows, self.turn
+        held = rows.held
+        columns: list[tuple[tuple[str, str], Real]] = [(("φ_1", "deg"), self.degrees)]
+        columns.append((("M_b", "N*m"), rows.found.moment / 1000))
+        if self.forces.teeth is not None:
+            columns.append((("F_b", "N"), np.abs(rows.found.driving)))
+        pairs = sorted(rows.found.forces)
+        columns += [((f"R_{pair}", "N"), np.abs(rows.found.forces[pair])) for pair in pairs]
+        told = tuple(tuple(map(float, row)) for row in np.array([values for _, values in columns])[:, held].T)
+        heads = tuple(head for head, _ in columns)
+        page.tables.append(Table("forces", N_("Balancing moment and reactions in the joints"), heads, told))
+        if not turn.held.any():
+            return
+        greatest: list[tuple[str, float, float]] = []
+        for name, values in [(f"R_{pair}", np.abs(turn.found.forces[pair])) for pair in pairs]:
+            most = int(np.argmax(np.where(turn.held, values, -1.0)))
+            greatest.append((name, float(values[most]), float(self.fine_degrees[most])))
+        heads = ((N_("force"), ""), (N_("value"), "N"), ("φ_1", "deg"))
+        labels = tuple((name,) for name, *_ in greatest)
+        page.tables.append(
+            Table(
+                "greatest_forces", N_("Greatest reactions in the joints over the turn"), heads,
+                tuple(row[1:] for row in greatest), labels=labels,
+            )
+        )  # fmt: skip
+        moments = turn.found.moment[turn.held] / 1000
+        page.section(N_("Forces over a turn"))
+        page.add("greatest_balancing_moment", float(moments.max()))
+        page.add("least_balancing_moment", float(moments.min()))
+        page.add("mean_balancing_moment", float(moments.mean()))
+
+    def _notes(self) -> None:
+        page = self.page
+        page.notes.append(N_("friction in the joints is left out of the forces"))
+        if self.keys.resistance is not None or self.keys.resisting_moment is not None:
+            stands = self.forces.stands(self.rows.moving, self.fastest)
+            if stands.any():
+                text = N_(
+                    "the output stands at φ_1 = {angles}: the resistance changes its sense there, and is taken as 0"
+                )
+                page.notes.append(message(text, angles=_told(self.degrees[stands])))
+        if not self.rows.held.all():
+            text = N_(
+                "dead positions, φ_1 = {angles}: the links of a group stand in one line, or a rod across its guide, "
+                "and hold no load; no forces are told there"
+            )
+            page.notes.append(message(text, angles=_told(self.degrees[~self.rows.held])))
+
+
+def _told(angles: Iterable[float]) -> str:
+    return ", ".join(f"{angle:.6g}°" for angle in angles)

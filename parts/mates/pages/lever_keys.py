@@ -1,0 +1,141 @@
+"""The keys of ``higherpair calc lever``, and the mechanism that they are."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import ParameterError
+from geometry.kinematics.levers import Levers, Rods, Slider, Stone
+from parts.base.refusal import REMOVED
+from parts.base.texts import message
+from parts.keys.base import degrees, mm
+
+_MOST = 1e5
+_Length = mm("length", above=0, most=_MOST)
+_CODE = "last four digits of a record-book number: chooses assignment and rows"
+_BESIDE = "how far the guide passes to the left of O3, of O1 where there is no lever"
+_SIDE = "1: slider ahead of C, or O5 to the left of CD; -1: behind it, or to the right"
+_MASS = "AS2 / AB: centre of mass of the rod AB, whose path the picture then has"
+
+_MASSES = "substitute masses of the links at A, B, C, D: point_masses.D=12; A is of the crank, B and C of link 3"
+_LINK_MASSES = "masses of links by their numbers, beside those at points: masses.2=12"
+_INERTIAS = "moments of inertia of links about their centres of mass: inertias.3=0.8"
+_CENTRES = (
+    "centres of mass along links from O1, A, O3, C or O5, of a slider from its pin: centres.3=250; where none is "
+    "given, the middle of a rod or lever, O1 of the crank, the pin of a slider"
+)
+_OFFSETS = "how far centres of mass lie to the left of their links: centre_offsets.3=40"
+_FORCE = "useful resistance on the slider, against its motion"
+_MOMENT = "moment of the useful resistance on the lever or rocker that is the output, against its motion"
+_WAYS = "along which way of its guide the slider is resisted; forward of a rocker is counter-clockwise"
+_TOOTHED = "pitch radius of the wheel on the crank's shaft by which it is driven; none: by a coupling, a moment alone"
+_Mass = Annotated[float, Meta(ge=0, le=1e9, extra={"unit": "kg"})]
+_Inertia = Annotated[float, Meta(ge=0, le=1e9, extra={"unit": "kg*m2"})]
+_Place = Annotated[float, Meta(ge=-_MOST, le=_MOST, extra={"unit": "mm"})]
+
+
+class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
+    """Keys of the topic; those of an assignment stand for what is not given."""
+
+    code: Annotated[int | str, Meta(description=_CODE)] | None = None
+    assignment: Annotated[int, Meta(description="number of an assignment of the guidelines, 1 to 10")] | None = None
+    variant: Annotated[int, Meta(description="its row, 1 to 10")] | None = None
+    first: Annotated[
+        Literal["stone", "rods", "slider"], Meta(description="what A joins: stone in a lever, rod and rocker, slider")
+    ] = "stone"
+    second: Annotated[Literal["slider", "rocker", "none"], Meta(description="what the lever drives")] = "none"
+    crank_length: Annotated[float, _Length] | None = None
+    start_angle_deg: Annotated[float, degrees("angle of the crank from +x", least=-36_000, most=36_000)] = 0.0
+    speed: Annotated[
+        float, Meta(gt=0, le=1e6, description="angular velocity of the crank", extra={"unit": "rad/s"})
+    ] = 1.0
+    acceleration: Annotated[
+        float, Meta(ge=-1e9, le=1e9, description="angular acceleration of the crank", extra={"unit": "rad/s2"})
+    ] = 0.0
+    frame_length: Annotated[float, _Length] | None = None
+    frame_angle_deg: Annotated[float, degrees("direction from O1 to O3", least=-360, most=360)] = 0.0
+    coupler_length: Annotated[float, _Length] | None = None
+    lever_length: Annotated[float, _Length] | None = None
+    first_side: Annotated[
+        Literal[1, -1], Meta(description="on which side of AB the pivot O3 lies: 1 left, -1 right")
+    ] = 1
+    arm_length: Annotated[float, _Length] | None = None
+    arm_angle_deg: Annotated[float, degrees("direction of O3C against the lever", least=-360, most=360)] = 0.0
+    rod_length: Annotated[float, _Length] | None = None
+    rocker_length: Annotated[float, _Length] | None = None
+    pivot_distance: Annotated[float, _Length] | None = None
+    pivot_angle_deg: Annotated[float, degrees("direction from O3 to O5", least=-360, most=360)] = 0.0
+    guide_height: Annotated[float, mm(_BESIDE, least=-_MOST, most=_MOST)] = 0.0
+    guide_angle_deg: Annotated[float, degrees("direction of the guide", least=-360, most=360)] = 0.0
+    second_side: Annotated[Literal[1, -1], Meta(description=_SIDE)] = 1
+    mass_point: Annotated[float, Meta(ge=0, le=1, description=_MASS)] | None = None
+    point_masses: Annotated[dict[str, _Mass], Meta(description=_MASSES)] | None = None
+    masses: Annotated[dict[str, _Mass], Meta(description=_LINK_MASSES)] | None = None
+    inertias: Annotated[dict[str, _Inertia], Meta(description=_INERTIAS)] | None = None
+    centres: Annotated[dict[str, _Place], Meta(description=_CENTRES)] | None = None
+    centre_offsets: Annotated[dict[str, _Place], Meta(description=_OFFSETS)] | None = None
+    gravity: Annotated[
+        float, Meta(ge=0, le=1e3, description="0 where the mechanism lies flat", extra={"unit": "m/s2"})
+    ] = 9.81
+    gravity_angle_deg: Annotated[float, degrees("direction of gravity", least=-360, most=360)] = -90.0
+    resistance: Annotated[float, Meta(gt=0, le=1e9, description=_FORCE, extra={"unit": "N"})] | None = None
+    resisting_moment: Annotated[float, Meta(gt=0, le=1e9, description=_MOMENT, extra={"unit": "N*m"})] | None = None
+    resisted: Annotated[Literal["forward", "backward", "both"], Meta(description=_WAYS)] = "both"
+    drive_radius: Annotated[float, mm(_TOOTHED, above=0, most=_MOST)] | None = None
+    drive_pressure_angle_deg: Annotated[float, degrees("working pressure angle of that wheel", least=0, most=60)] = 20.0
+    drive_angle_deg: Annotated[
+        float, degrees("direction from O1 to the axis of the wheel that drives it", least=-360, most=360)
+    ] = -90.0
+    unevenness: Annotated[float, Meta(gt=0, le=0.5, description="delta: gives the flywheel")] | None = None
+    positions: Annotated[int, Meta(ge=2, le=720, description="positions of the crank in the table")] = 12
+    drawn_crank: Annotated[float, mm("length of the crank on the drawing", above=0, most=1000)] = 30.0
+    velocity_scale: Annotated[float, Meta(gt=0, le=1e6, description="m/s for 1 mm of the plan")] | None = None
+    acceleration_scale: Annotated[float, Meta(gt=0, le=1e9, description="m/s2 for 1 mm of the plan")] | None = None
+    force_scale: Annotated[float, Meta(gt=0, le=1e12, description="N for 1 mm of the plans of forces")] | None = None
+    picture: Annotated[str, Meta(description="SVG file of scheme, plans and diagrams to write")] | None = None
+
+
+def levers_of(keys: LeverKeys) -> Levers:
+    """The mechanism of the keys.
+
+    Raises
+    ------
+    ParameterError
+        A length that the mechanism needs is missing.
+    """
+
+    def needed(name: str) -> float:
+        value = getattr(keys, name)
+        if value is None:
+            raise ParameterError(name, None, "missing_key", None, what=message("a length, mm"))
+        return float(value)
+
+    crank = needed("crank_length")
+    guide = math.radians(keys.guide_angle_deg)
+    across = keys.guide_height * 1j * cmath.exp(1j * guide)
+    if keys.first == "slider":
+        if keys.second != "none":
+            raise ParameterError("second", keys.second, "lever_needed", REMOVED)
+        rod = Slider(needed("coupler_length"), across, guide, keys.second_side)
+        return Levers(crank, keys.speed, rod, change=keys.acceleration)
+    pivot = cmath.rect(needed("frame_length"), math.radians(keys.frame_angle_deg))
+    lever = needed("lever_length")
+    first: Stone | Rods = Stone(pivot)
+    if keys.first == "rods":
+        first = Rods(pivot, needed("coupler_length"), lever, keys.first_side)
+    if keys.second == "none":
+        return Levers(crank, keys.speed, first, lever, change=keys.acceleration)
+    arm = cmath.rect(keys.arm_length or lever, math.radians(keys.arm_angle_deg))
+    second: Slider | Rods = Slider(needed("rod_length"), pivot + across, guide, keys.second_side)
+    if keys.second == "rocker":
+        other = pivot + cmath.rect(needed("pivot_distance"), math.radians(keys.pivot_angle_deg))
+        second = Rods(other, needed("rod_length"), needed("rocker_length"), keys.second_side)
+    return Levers(crank, keys.speed, first, lever, arm, second, keys.acceleration)
+
+
+# geometry names the parts of a mechanism, users its lengths
+NAMES = {"first.rod": "coupler_length", "first.pivot": "frame_length", "second.rod": "rod_length"}

@@ -1,0 +1,234 @@
+"""The forces of ``calc lever``: plans that close, the closed form of a piston, the flywheel's mean, wrong keys."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import xml.etree.ElementTree as ET
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.documents.topics import calculate
+from parts.base.refusal import SceneError
+from tests.exporters.documents.test_calc import evaluated, sheet_for
+from tests.exporters.documents.test_calc_lever import calculated, value
+
+ENGINE = ("first=slider", "crank_length=70", "coupler_length=210", "speed=150", "start_angle_deg=40")
+SIX = ("masses.1=5", "masses.2=3", "masses.3=20", "inertias.3=1.5", "centre_offsets.3=20", "masses.4=6",
+       "inertias.4=0.2", "masses.5=40", "point_masses.A=1")  # fmt: skip
+THREE = ("masses.1=5", "centres.1=10", "masses.2=3", "inertias.2=0.02", "masses.3=4", "resistance=1000")
+
+
+def keys_of(assignment: int) -> tuple[str, ...]:
+    """Loads for an assignment, of every kind that it takes."""
+    if assignment in (8, 9):
+        return THREE
+    return (*SIX, "resisting_moment=100") if assignment == 10 else (*SIX, "resistance=1000")
+
+
+def rows(data: dict[str, Any], table: str) -> list[list[Any]]:
+    return [list(row.values()) for row in data[table]]
+
+
+@pytest.mark.parametrize("assignment", range(1, 11))
+def test_every_assignment_holds_its_loads_all_round(assignment: int) -> None:
+    """12 positions of a row of it: finite, in balance by powers, plans closed, both methods of one moment."""
+    for variant in (1, 6, 10):
+        keys = (f"assignment={assignment}", f"variant={variant}", *keys_of(assignment))
+        data = calculated(*keys)
+        told = np.array(rows(data, "forces"), dtype=float)
+        assert told.shape == (12, 2 + (4 if assignment in (8, 9) else 7))
+        assert np.isfinite(told).all()
+        # what the table tells first is what the steps tell
+        assert told[0][1] == pytest.approx(value(data, "M_b"), rel=1e-12)
+        powers = np.array([row[-1] for row in rows(data, "powers")])
+        assert abs(powers.sum()) < 1e-12 * np.abs(powers).sum()
+        assert value(data, "ΔM") < 1e-10
+        for plan in [name for name in data if name.startswith("force_plan")]:
+            vectors = [cmath.rect(row[1], math.radians(row[2])) for row in rows(data, plan)]
+            assert abs(sum(vectors)) < 1e-12 * sum(map(abs, vectors)), plan
+        greatest = {row[0]: row[1] for row in rows(data, "greatest_forces")}
+        first = data["forces"]
+        assert all(greatest[name] >= row[name] * (1 - 1e-12) for row in first for name in greatest)
+
+
+@pytest.mark.parametrize("assignment", [1, 3, 4, 8])
+def test_the_mean_balancing_moment_is_the_flywheels_driving_moment(assignment: int) -> None:
+    """Over a turn weights and inertia do no work: what is left is the resistance, whose work Mertsalov adds up."""
+    data = calculated(f"assignment={assignment}", *keys_of(assignment), "unevenness=0.05")
+    span = value(data, "M_b,max") - value(data, "M_b,min")
+    assert value(data, "M_b,m") == pytest.approx(value(data, "M_d"), abs=2e-3 * span)
+
+
+@pytest.mark.parametrize("angle", [40, 130, 260, 345])
+def test_a_piston_by_the_textbook(angle: int) -> None:
+    """Rod F / cos(beta), thrust F tan(beta), moment F r sin(phi + beta) / cos(beta); against the motion."""
+    keys = (*ENGINE[:4], f"start_angle_deg={angle}", "resistance=5000")
+    data = calculated(*keys)
+    phi = math.radians(angle)
+    beta = math.asin(70 * math.sin(phi) / 210)
+    assert value(data, "R_12") == pytest.approx(5000 / math.cos(beta), rel=1e-12)
+    assert value(data, "R_03") == pytest.approx(5000 * abs(math.tan(beta)), rel=1e-12)
+    moment = 5000 * 0.07 * abs(math.sin(phi + beta)) / math.cos(beta)
+    assert value(data, "M_b") == pytest.approx(moment, rel=1e-12)
+    for row in data["forces"]:
+        phi = math.radians(row["φ_1"])
+        beta = math.asin(70 * math.sin(phi) / 210)
+        assert row["M_b"] == pytest.approx(350 * abs(math.sin(phi + beta)) / math.cos(beta), rel=1e-11)
+    # only on one of its ways: the crank drives then, and runs free on the other
+    one = calculated(*keys, "resisted=forward")
+    for row, both in zip(one["forces"], data["forces"], strict=True):
+        assert row["M_b"] == pytest.approx(both["M_b"] if math.sin(math.radians(row["φ_1"])) < 0 else 0, abs=1e-12)
+
+
+def test_a_guide_holds_what_turns_its_slider() -> None:
+    """A mass 30 mm ahead of the pin in a flat guide: its weight and the thrust together pass x from the pin."""
+    data = calculated(*ENGINE[:3], "start_angle_deg=90", "masses.3=2", "centres.3=30", "resistance=700", "speed=1e-3")
+    weight = 2 * 9.81
+    thrust = -700 * math.tan(math.asin(70 / 210))
+    # at 90 degrees the piston goes to the shaft: the rod draws it there, and up
+    vectors = {row[0]: cmath.rect(row[1], math.radians(row[2])) for row in rows(data, "force_plan_23")}
+    assert vectors["R_03"] == pytest.approx(1j * (weight + thrust), rel=1e-6)
+    assert value(data, "M_03") == pytest.approx(30e-3 * weight, rel=1e-6)
+    assert value(data, "x_R") == pytest.approx(30 * weight / (weight + thrust), rel=1e-6)
+
+
+def test_a_wheel_presses_the_shaft_of_the_crank() -> None:
+    """F = M / (r cos(alpha)); with the pinion below, its pull along the circle and its push away from it."""
+    plain = calculated(*ENGINE, "resistance=5000")
+    data = calculated(*ENGINE, "resistance=5000", "drive_radius=100", "drive_pressure_angle_deg=25")
+    moment = value(data, "M_b")
+    assert moment == value(plain, "M_b") > 0
+    assert value(data, "F_b") == pytest.approx(moment / (0.1 * math.cos(math.radians(25))), rel=1e-12)
+    vectors = {row[0]: cmath.rect(row[1], math.radians(row[2])) for row in rows(data, "force_plan_1")}
+    along = moment / 0.1
+    assert vectors["F_b"] == pytest.approx(along + 1j * along * math.tan(math.radians(25)), rel=1e-12)
+    assert vectors["R_01"] == pytest.approx(-vectors["R_21"] - vectors["F_b"], rel=1e-12)
+
+
+def test_substitute_masses_of_a_rod_balance_as_the_rod_does() -> None:
+    """m l^2 / 12 about its middle is a sixth at each end and two thirds between, for frame, moment and flywheel."""
+    mass, length = 6.0, 0.21
+    rod = (*ENGINE, "resistance=2000", "unevenness=0.05")
+    whole = calculated(*rod, f"masses.2={mass}", f"inertias.2={mass * length**2 / 12!r}")
+    parts = calculated(
+        *rod, f"masses.2={2 * mass / 3!r}", f"point_masses.A={mass / 6!r}", f"point_masses.B={mass / 6!r}"
+    )
+    for one, other in zip(whole["forces"], parts["forces"], strict=True):
+        for name in ("M_b", "R_01", "R_03"):
+            assert one[name] == pytest.approx(other[name], rel=1e-9, abs=1e-6), name
+    for one, other in zip(whole["cycle"], parts["cycle"], strict=True):
+        assert one["J"] == pytest.approx(other["J"], rel=1e-12)
+    assert value(whole, "J_m") == pytest.approx(value(parts, "J_m"), rel=1e-9)
+
+
+def test_the_flywheel_takes_masses_without_the_forces_of_weight() -> None:
+    heavy = calculated(*ENGINE, "resistance=2000", "unevenness=0.05", "masses.3=5")
+    flat = calculated(*ENGINE, "resistance=2000", "unevenness=0.05", "masses.3=5", "gravity=0")
+    assert value(heavy, "J_m") == value(flat, "J_m")
+    assert any("left out of the flywheel" in note for note in heavy["notes"])
+    assert not any("left out of the flywheel" in note for note in flat["notes"])
+
+
+@pytest.mark.parametrize("factor", [1e-9, 1.0, 1e6])
+def test_masses_of_any_size(factor: float) -> None:
+    data = calculated("assignment=6", "gravity=9.81", f"masses.2={3 * factor!r}", f"masses.5={factor!r}")
+    one = calculated("assignment=6", "masses.2=3", "masses.5=1")
+    for row, other in zip(data["forces"], one["forces"], strict=True):
+        for name in row:
+            scale = 1.0 if name == "φ_1" else factor
+            assert row[name] == pytest.approx(other[name] * scale, rel=1e-9)
+
+
+def test_no_masses_no_forces() -> None:
+    for keys in (("masses.2=0",), ("point_masses.D=0", "drive_radius=50"), ("masses.3=1e9", "masses.4=1e-9")):
+        data = calculated("assignment=1", *keys)
+        told = np.array(rows(data, "forces"), dtype=float)
+        assert np.isfinite(told).all()
+        assert told[:, 1:].any() == ("masses.3=1e9" in keys)
+
+
+def test_a_crank_that_speeds_up() -> None:
+    """a_A = r sqrt(omega^4 + epsilon^2), and an inertia on it asks J epsilon more of the shaft."""
+    data = calculated(*ENGINE, "acceleration=30000", "masses.1=2", "inertias.1=0.01", "gravity=0")
+    assert value(data, "a_A") == pytest.approx(0.07 * math.hypot(150**2, 30000), rel=1e-12)
+    assert value(data, "M_b") == pytest.approx(0.01 * 30000, rel=1e-12)
+    assert value(data, "R_01") == 0
+    vectors = {row[0]: cmath.rect(row[1], math.radians(row[2])) for row in rows(data, "acceleration_plan")}
+    assert vectors["πn1"] + vectors["n1a"] == pytest.approx(vectors["πa"], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [f"lever assignment=1 {' '.join(keys_of(1))}", f"lever assignment=10 variant=3 {' '.join(keys_of(10))}",
+     f"lever assignment=4 {' '.join(keys_of(4))} drive_radius=80 acceleration=20",
+     f"lever assignment=8 {' '.join(THREE)}",
+     f"lever {' '.join(ENGINE)} resistance=100 masses.3=2 centre_offsets.3=8 gravity_angle_deg=0"],
+)  # fmt: skip
+def test_every_printed_formula_gives_its_value(words: str) -> None:
+    checked = [step for step in sheet_for(words).steps() if step.formula]
+    assert len(checked) >= 15
+    for step in checked:
+        assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.symbol, step.formula)
+
+
+def test_where_the_output_stands_its_resistance_is_told_in_a_line() -> None:
+    data = calculated(*ENGINE[:4], "resistance=5000", "positions=4")
+    assert [row["R_12"] for row in data["forces"]] == pytest.approx([0, 5000 / math.sqrt(8 / 9)] * 2)
+    assert [note for note in data["notes"] if "φ_1 = 0°, 180°" in note]
+    assert not [note for note in calculated(*ENGINE, "resistance=5000")["notes"] if "stands at" in note]
+
+
+def test_dead_positions_are_told_in_a_line() -> None:
+    """A rod that is hardly longer than the crank stands across its guide at 90 and 270 degrees."""
+    keys = ("first=slider", "crank_length=70", "coupler_length=70.000002", "speed=1", "masses.3=1", "positions=4")
+    data = calculated(*keys)
+    assert [row["φ_1"] for row in data["forces"]] == [0, 180]
+    assert [note for note in data["notes"] if "dead positions, φ_1 = 90°, 270°" in note]
+    # there no plan of forces is drawn, nor is anything else about them
+    at_once = calculated(*keys, "start_angle_deg=90")
+    assert not [name for name in at_once if name.startswith("force_plan")]
+    assert not [step for step in at_once["steps"] if step["symbol"].startswith("R_")]
+
+
+def test_the_picture_has_the_plans_of_forces(tmp_path: Path) -> None:
+    file = tmp_path / "lever.svg"
+    text = calculate("lever", ["assignment=1", *keys_of(1), f"picture={file}"], "text", "uk")
+    assert "План сил ланок 4 і 5" in text
+    words = [e.text for e in ET.parse(file).iter() if e.tag.endswith("}text")]
+    assert {"План сил ланок 4 і 5", "План сил ланок 2 і 3", "План сил ведучої ланки"} <= set(words)
+    assert {"R_05", "F_c", "R_43", "R_21"} <= set(words)
+
+
+@cache
+def refused(*keys: str) -> tuple[str, str]:
+    with pytest.raises(SceneError) as found:
+        calculate("lever", keys, "text", "en")
+    return found.value.key.partition("lever.")[2] or found.value.key, found.value.code
+
+
+@pytest.mark.parametrize(
+    ("keys", "key", "code"),
+    [
+        (("assignment=8", "masses.4=1"), "masses.4", "no_such_link"),
+        (("assignment=8", "inertias.3=1"), "inertias.3", "does_not_turn"),
+        (("assignment=1", "masses.2=1", "centres.3=5"), "centres.3", "needs_other"),
+        (("assignment=1", "masses.2=1", "centre_offsets.6=5"), "centre_offsets.6", "no_such_link"),
+        (("assignment=8", "masses.2=1", "centres.2=5"), "centres.2", "other_is_given"),
+        (("assignment=1", "centres.3=5"), "centres", "of_no_link"),
+        (("assignment=1", "force_scale=5"), "force_scale", "of_no_link"),
+        (("assignment=1", "drive_radius=5"), "drive_radius", "of_no_link"),
+        (("assignment=1", "masses.2=1", "drive_angle_deg=5"), "drive_angle_deg", "of_no_link"),
+        (("assignment=1", "resisting_moment=5"), "resisting_moment", "needs_rocker"),
+        (("assignment=10", "resistance=5"), "resistance", "needs_slider"),
+        (("assignment=1", "masses.2=1", "resisted=both"), "resisted", "of_no_link"),
+        (("assignment=1", "resistance=1", "unevenness=0.1", "acceleration=1"), "acceleration", "other_is_given"),
+        (("assignment=10", "resisting_moment=5", "unevenness=0.1"), "unevenness", "needs_other"),
+    ],
+)  # fmt: skip
+def test_wrong_loads_are_refused_by_their_keys(keys: tuple[str, ...], key: str, code: str) -> None:
+    assert refused(*keys) == (key, code)
