@@ -20,7 +20,7 @@ from parts.base.kind import Others, Report
 from parts.bodies.plate import Extruded, FlatKeys, HolesAt, Slots, checked_outline
 from parts.cams.wheel import Turned
 from parts.keys.base import degrees, mm
-from parts.keys.holes import BoredKeys, wide_bore
+from parts.keys.holes import BoredKeys, check_shape, wide_bore
 from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, shape_of
 
 if TYPE_CHECKING:
@@ -247,6 +247,7 @@ class Roller(Turned[RollerSpec, "FollowerEnd"]):
         from geometry.cams.plane.disk import FollowerKind
 
         end = FollowerEnd(FollowerKind.ROLLER, keys.diameter / 2)
+        check_shape(keys, RollerSpec.hub_holes, end.radius)
         holes = self.holes(keys, end)
         if not holes.bore_reach < end.radius:
             raise wide_bore(keys, end.radius, "no_wall_in_roller")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from functools import partial
 from typing import TYPE_CHECKING, Literal, TypeVar
 
@@ -16,7 +15,7 @@ from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sec
 from parts.base.kind import Kind
 from parts.base.part_keys import MaterialKeys
 from parts.base.schema import replaced
-from parts.keys.holes import wide_bore
+from parts.keys.holes import check_holes, check_shape, wide_bore
 from parts.keys.timing_mark import TimingMarkTable, with_timing_mark
 from parts.keys.wheel import HubbedKeys, shape_of
 
@@ -57,6 +56,7 @@ def check_disk(keys: DiskKeys, cam: DiskCam, within: Within = "base_circle") -> 
     """The holes with the mark, which stay ``within`` the circle that is surely material; the body can be."""
     holes, inside = keys.hub_holes(), inner_radius(cam)
     wall, beyond = _WITHIN[within]
+    check_shape(keys, type(keys).hub_holes, inside)
     if not holes.bore_reach < inside:
 
         def beside(path: str, size: float) -> bool:
@@ -65,7 +65,7 @@ def check_disk(keys: DiskKeys, cam: DiskCam, within: Within = "base_circle") -> 
         raise wide_bore(keys, inside, wall, beside)
     if holes.reach > inside:
         raise ParameterError("holes", 2 * holes.reach, beyond, Nearest(None), inside=inside)
-    holes.check(math.inf)
+    check_holes(keys, type(keys).hub_holes, inside)
     marked = with_timing_mark(holes, keys.timing_mark, cam, inside)
     check_wheel(shape_of(keys), 2 * inside, marked)
     return marked

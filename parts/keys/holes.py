@@ -288,3 +288,51 @@ def with_remedy(refusal: ParameterError, keys: K, fits: Callable[[K], bool]) -> 
         if found is not None:
             return type(refusal)(path, given, refusal.code, found, **refusal.numbers)
     return refusal
+
+
+def check_shape(keys: K, holes_of: Callable[[K], HubHoles], inside: float = math.inf) -> None:
+    """Refuse a bore whose sizes make no shape, told with one that does and ends ``inside`` mm of the axis.
+
+    Raises
+    ------
+    ParameterError
+        The flat of a D lies outside of its circle, a keyway is wider than the bore, a rounding has no room.
+    """
+    bore = holes_of(keys).bore
+    if bore is None:
+        return
+
+    def fits(changed: K) -> bool:
+        found = holes_of(changed).bore
+        if found is None:
+            return False
+        found.check()
+        return found.reach < inside
+
+    try:
+        bore.check()
+    except ParameterError as refusal:
+        raise with_remedy(refusal, keys, fits) from refusal
+
+
+def check_holes(
+    keys: K, holes_of: Callable[[K], HubHoles], inside: float = math.inf, root_radius: float = math.inf
+) -> None:
+    """Refuse holes that meet each other or the root circle, mm, told with a size that does not.
+
+    What is told keeps all of them ``inside`` mm of the axis too.
+
+    Raises
+    ------
+    ParameterError
+        With the key of the size.
+    """
+
+    def fits(changed: K) -> bool:
+        found = holes_of(changed)
+        return found.fits(root_radius) and found.reach < inside
+
+    try:
+        holes_of(keys).check(root_radius)
+    except ParameterError as refusal:
+        raise with_remedy(refusal, keys, fits) from refusal

@@ -28,7 +28,7 @@ from parts.cams.barrel_cam.roller import (
 from parts.cams.disk_cam.part import impact_findings
 from parts.keys.barrel import BarrelCamSpec, SwingingTable
 from parts.keys.cam import USUAL_PRESSURE_ANGLE, check_stroke, motion_of, rough_law, table_quantities
-from parts.keys.holes import bore_of, hub_holes, wide_bore
+from parts.keys.holes import bore_of, check_shape, hub_holes, wide_bore
 
 if TYPE_CHECKING:
     from geometry.cams.barrel.body import BarrelBody
@@ -187,6 +187,7 @@ def _holes_of(keys: BarrelCamSpec) -> HubHoles:
 def _body_of(keys: BarrelCamSpec, cam: BarrelCam) -> BarrelBody:
     from geometry.cams.barrel.body import BarrelBody
 
+    check_shape(keys, _holes_of, cam.inner)
     low, high = cam.height_range()
     margin = low - cam.radius
     length = high + cam.radius + margin if cam.is_groove else end_height(cam)

@@ -21,7 +21,16 @@ from parts.base.part_keys import MaterialKeys
 from parts.cams.disk_cam.part import EVEN_CAM, CamSpec, cam_findings, cam_of, cam_quantities, larger_bases
 from parts.cams.wheel import Turned, inner_radius
 from parts.keys.base import degrees, mm
-from parts.keys.holes import BoreTable, HolesTable, RoundBoreTable, bore_of, hub_holes, wide_bore
+from parts.keys.holes import (
+    BoreTable,
+    HolesTable,
+    RoundBoreTable,
+    bore_of,
+    check_holes,
+    check_shape,
+    hub_holes,
+    wide_bore,
+)
 from parts.keys.timing_mark import TimingMarkTable, with_timing_mark
 from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, wheel_shape
 
@@ -216,6 +225,7 @@ def _holes_of(keys: ConjugateCamSpec, owner: CamSpec) -> HubHoles:
 
 def _checked_holes(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam, inside: float) -> HubHoles:
     """The holes, within the circle that is surely material; the mark stands where the first cam has its own."""
+    check_shape(keys, lambda changed: _holes_of(changed, owner), inside)
     holes = _holes_of(keys, owner)
     if not holes.bore_reach < inside:
         if keys.bore is None and keys.bore_diameter is None:
@@ -224,6 +234,7 @@ def _checked_holes(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam, insid
         raise wide_bore(replace(keys, bore_diameter=keys.bore_diameter or 0.0), inside, "no_wall_to_base_circle")
     if not holes.reach < inside:
         raise ParameterError("holes", 2 * holes.reach, "holes_beyond_base_circle", Nearest(None), inside=inside)
+    check_holes(keys, lambda changed: _holes_of(changed, owner), inside)
     return with_timing_mark(holes, keys.timing_mark, first, inside)
 
 

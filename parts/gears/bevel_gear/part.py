@@ -15,11 +15,12 @@ from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
 from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import BoreDiameter, degrees, either, in_modules, mm
-from parts.keys.holes import BoreTable, bore_of, hub_holes, wide_bore
+from parts.keys.holes import BoreTable, bore_of, check_shape, hub_holes, wide_bore
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.faced import FacedBody
+    from geometry.solids.hub_holes import HubHoles
 
 _MOST = 100_000.0
 # the usual face width: part of the cone distance, and modules; rim and wall in modules (GOST 19624-74, practice)
@@ -108,11 +109,14 @@ def bevel_gear(keys: BevelGearSpec, blank: Blank) -> BevelGear:
     return replace(gear, face_width=width)
 
 
+def _holes_of(keys: BevelGearSpec) -> HubHoles:
+    return hub_holes(bore_of(keys), None, None)
+
+
 def _made(keys: BevelGearSpec) -> BevelGear:
     """The gear with its blank, checked to exist."""
-    holes = hub_holes(bore_of(keys), None, None)
-    if holes.bore is not None:
-        holes.bore.check()
+    check_shape(keys, _holes_of)
+    holes = _holes_of(keys)
     usual = _USUAL_RIM * keys.module
     rim = usual if keys.rim_thickness is None else keys.rim_thickness
     gear = bevel_gear(keys, Blank(rim, keys.hub_diameter, keys.hub_length, *holes.profiles(0.0)))

@@ -13,7 +13,7 @@ from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
 from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import mm
-from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes, wide_bore
+from parts.keys.holes import HoledKeys, SpokesTable, bore_of, check_holes, check_shape, hub_holes, wide_bore
 from parts.keys.wheel import HubTable, WebTable, wheel_shape
 from parts.keys.worm import (
     NEAR,
@@ -231,9 +231,10 @@ def _about(keys: WormWheelSpec, drive: WormDrive, teeth: WormTeeth) -> WheelThin
     holes = keys.hub_holes()
     shape = wheel_shape(teeth.width, keys.web, keys.hub, 0.0)
     room = drive.root_radius - least_wall(drive.root_radius)
+    check_shape(keys, WormWheelSpec.hub_holes, room)
     if holes.bore_reach > room:
         raise wide_bore(keys, room, "leaves_no_wall")
-    holes.check(drive.root_radius)
+    check_holes(keys, WormWheelSpec.hub_holes, root_radius=drive.root_radius)
     check_wheel(shape, 2 * drive.root_radius, holes)
     reach = max(holes.bore_reach, holes.beside_bore()[1], *(t.diameter / 2 for t in (keys.hub,) if t), *(
         t.rim_diameter / 2 for t in (keys.web,) if t
