@@ -102,4 +102,7 @@ def _named(table: Table, prefix: str) -> Table:
     found = dict(table)
     for key in [key for key in _NAMING if table.get(key) is not None]:
         found[key] = [prefix + one for one in table[key]] if isinstance(table[key], list) else prefix + table[key]
+    if isinstance(holes := table.get("holes"), list):
+        # those of a flat part may stand on the axis of an instance
+        found["holes"] = [hole | {"axis_of": prefix + hole["axis_of"]} if "axis_of" in hole else hole for hole in holes]
     return found
