@@ -21,9 +21,9 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from geometry.base.record import Record
-from geometry.base.series import Series, conjugate, derived, product
+from geometry.base.series import Series
 from geometry.curves.curve import Complex, Real
-from geometry.kinematics.levers import Levers, Moved, Rods, Slider, Stone
+from geometry.kinematics.levers import Levers, Moved, Rods, Slider, Stone, turning
 from geometry.kinematics.wrench import Wrench, force_at
 
 
@@ -73,8 +73,7 @@ class Frame(Record, eq=False):
 
     def turning(self) -> tuple[Real, Real]:
         """Angular velocity (rad/s) and acceleration (rad/s^2)."""
-        rate = product(conjugate(self.way), derived(self.way))
-        return np.imag(rate[0]), np.imag(rate[1])
+        return turning(self.way)
 
 
 class Reactions(Record, eq=False):

@@ -82,8 +82,7 @@ class Moved(Record):
 
     def turning(self, link: str) -> tuple[Real, Real]:
         """Angular velocity (rad/s) and acceleration (rad/s^2) of a link, counter-clockwise."""
-        rate = product(conjugate(self.links[link]), derived(self.links[link]))
-        return np.imag(rate[0]), np.imag(rate[1])
+        return turning(self.links[link])
 
 
 class Levers(Record):
@@ -147,6 +146,12 @@ class Levers(Record):
                 links["4"] = _unit(_minus(points["D"], own))[1]
                 links["5"] = _unit(_from(points["D"], self.second.pivot))[1]
         return Moved(points, links, reach)
+
+
+def turning(way: Series) -> tuple[Real, Real]:
+    """Angular velocity (rad/s) and acceleration (rad/s^2) of a direction, counter-clockwise."""
+    rate = product(conjugate(way), derived(way))
+    return np.imag(rate[0]), np.imag(rate[1])
 
 
 def swing(levers: Levers) -> tuple[float, float]:

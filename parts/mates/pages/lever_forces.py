@@ -319,13 +319,19 @@ class ForcePage:
         turn = (end.conjugate() * force).imag
         of = N_("link 2 on link 1")
         page.add("joint_force", abs(force), "{R_12}", symbol="R_21", key="R_21", of=of)
-        moment = float(found.moment) / 1000
-        alone = not any(one.link == "1" for one in self.one.acting.values())
-        if force:
+        # the crank's own part, by weight and inertia off its axis
+        way, of_crank = complex(self.one.moving["1"].way[0]), [a for a in self.one.acting.values() if a.link == "1"]
+        own = sum(((a.at * way).conjugate() * complex(a.force)).imag + float(a.couple) for a in of_crank) / 1000
+        terms = []
+        if own:
+            page.add("crank_moment", own)
+            terms.append("-{M_1}")
+        if turn:
             page.add("joint_arm", abs(turn) / abs(force), symbol="h_21", key="h_21", of=of)
-        # signed: against what the joint's force turns
-        sign = "-" if turn > 0 else ""
-        page.add("balancing_moment", moment, f"{sign}{{R_21}} * {{h_21}} / 1000" if alone and force else "", _SOURCE)
+            # against what the reaction turns
+            terms.append(f"{'-' if turn > 0 else '+'} {{R_21}} * {{h_21}} / 1000")
+        formula = " ".join(terms).removeprefix("+ ")
+        page.add("balancing_moment", float(found.moment) / 1000, formula, _SOURCE)
         if self.forces.teeth is not None:
             formula = "1000 * abs({M_b}) / ({r_w} * cos({alpha_w}))"
             page.add("balancing_force", abs(complex(found.driving)), formula, "guidelines, 4.20")
@@ -391,6 +397,8 @@ class ForcePage:
 
     def _notes(self) -> None:
         page = self.page
+        if self.levers.change:
+            page.notes.append(N_("speed and acceleration of the crank are taken as the same in all of its positions"))
         page.notes.append(N_("friction in the joints is left out of the forces"))
         if self.keys.resistance is not None or self.keys.resisting_moment is not None:
             stands = self.forces.stands(self.rows.moving, self.fastest)
