@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
 from msgspec import Meta, Struct
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import Cure, Nearest, ParameterError
+from geometry.base.nearest import kept
+from geometry.base.record import Record, replace
 from parts.keys.base import degrees, mm, start
 from parts.keys.law import LawName, LawTable, PhaseLaw, law_of
 
@@ -24,6 +26,8 @@ _FAR_SHORTER = 4
 USUAL_PRESSURE_ANGLE = {False: 30.0, True: 45.0}
 # velocities of a law of stroke and length 1 below this are none
 _ROUGH = 1e-9
+# a law at rest at its ends, offered in place of one that moves there
+LAW_AT_REST = "sine"
 
 
 class PhaseTable(Struct, forbid_unknown_fields=True):
@@ -193,14 +197,33 @@ def check_dwell(phase: MovingPhase, index: int) -> None:
         raise ParameterError(f"{place}.share", phase.share, "dwell_with_law", Nearest(1.0))
 
 
-def rough_law(keys: Sequence[MovingPhase], phases: Sequence[Phase]) -> tuple[str, str | None] | None:
-    """The key of the first law whose velocity jumps at an end of its phase, and the law's name if it has one."""
+class RoughLaw(Record):
+    """A law whose velocity jumps at an end of its phase: its key, its name if it has one, and whether it alone does."""
+
+    key: str
+    law: str | None
+    alone: bool
+
+    def cure(self, whole: Callable[[str], bool]) -> Cure:
+        """A law at rest at its ends in its place, where ``whole`` holds of the part with it."""
+        if not self.alone:
+            return None
+        return lambda: Nearest(LAW_AT_REST) if kept(whole, LAW_AT_REST) else None
+
+
+def rough_law(keys: Sequence[MovingPhase], phases: Sequence[Phase], calm: Callable[[str], bool]) -> RoughLaw | None:
+    """The first law that moves at an end of its phase; before it the first that alone makes the velocity jump.
+
+    ``calm``: whether nothing jumps any more with ``LAW_AT_REST`` at a key.
+    """
+    rough = []
     for index, phase in enumerate(phases):
         ends = () if phase.law is None else ((phase.law.pieces[0], 0.0), (phase.law.pieces[-1], 1.0))
         if any(abs(float(piece.value(at, 1))) > _ROUGH for piece, at in ends):
-            law = keys[index].law
-            return f"phases[{index + 1}].law", law if isinstance(law, str) else None
-    return None
+            law, key = keys[index].law, f"phases[{index + 1}].law"
+            rough.append(RoughLaw(key, law if isinstance(law, str) else None, False))
+    alone = next((law for law in rough if kept(calm, law.key)), None)
+    return replace(alone, alone=True) if alone else next(iter(rough), None)
 
 
 def _check_whole_turn(phases: list[PhaseTable]) -> None:

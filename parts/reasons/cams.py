@@ -192,7 +192,14 @@ REASONS = {
     "undercut": N_("the cam is undercut and loses {lost} mm of lift"),
     "undercut_all": N_("the cam is undercut and loses all of the profile"),
     "undercut_at": N_("the cam is undercut at {at} degrees: {lost} of lift is lost there"),
-    "undercut_by_impact": N_("the cam is undercut where the velocity jumps, whatever its size"),
+    "undercut_by_impact": N_(
+        "the velocity jumps at cam angle {at} degrees: the path of the follower has a corner there, at which all but a "
+        "pointed one undercut the cam, whatever its base circle"
+    ),
+    "undercut_by_impacts": N_(
+        "the velocity jumps at cam angle {at} degrees: the path of the follower has a corner there, at which all but a "
+        "pointed one undercut the cam, whatever its base circle; another law in one phase alone does not mend it"
+    ),
     "undercut_hollow": N_("the cam is undercut: its least radius of curvature would be {radius} mm"),
     "undercut_inner_wall": N_("the groove's inner wall is undercut: the roller would lose lift"),
     "undercut_outer_wall": N_("the groove's outer wall is undercut: the roller would lose lift"),

@@ -14,6 +14,7 @@ from geometry.base.record import replace
 from geometry.plane.offset_region import OffsetRegion
 from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report
+from parts.base.schema import replaced
 from parts.cams.barrel_cam.roller import (
     INSIDE,
     check_cone,
@@ -27,7 +28,7 @@ from parts.cams.barrel_cam.roller import (
 )
 from parts.cams.disk_cam.part import impact_findings
 from parts.keys.barrel import BarrelCamSpec, SwingingTable
-from parts.keys.cam import USUAL_PRESSURE_ANGLE, check_stroke, motion_of, rough_law, table_quantities
+from parts.keys.cam import LAW_AT_REST, USUAL_PRESSURE_ANGLE, check_stroke, motion_of, rough_law, table_quantities
 from parts.keys.holes import bore_of, check_shape, hub_holes, wide_bore
 
 if TYPE_CHECKING:
@@ -61,12 +62,22 @@ def _check_keys(keys: BarrelCamSpec) -> None:
 
 def _motion(keys: BarrelCamSpec) -> FollowerMotion:
     motion = motion_of(keys, keys.oscillating is not None)
-    rigid = [j for j in motion.impacts() if j.impact == "rigid"]
-    if rigid:
-        name, value = rough_law(keys.phases or [], motion.phases) or ("phases", None)
-        at = math.degrees(rigid[0].angle)
-        raise ParameterError(name, value, "velocity_jumps_in_groove", Nearest("sine"), at=at)
-    return motion
+    if not (jumps := _jumps(motion)):
+        return motion
+
+    def calm(key: str) -> bool:
+        return not _jumps(motion_of(replaced(keys, key, LAW_AT_REST), keys.oscillating is not None))
+
+    code, rough = "velocity_jumps_in_groove", rough_law(keys.phases or [], motion.phases, calm)
+    if rough is None:
+        raise ParameterError("phases", None, code, at=jumps[0])
+    cure = rough.cure(lambda law: _is_guided(replaced(keys, rough.key, law)))
+    raise ParameterError(rough.key, rough.law, code, cure, at=jumps[0])
+
+
+def _jumps(motion: FollowerMotion) -> list[float]:
+    """Cam angles at which the velocity jumps, degrees."""
+    return [math.degrees(j.angle) for j in motion.impacts() if j.impact == "rigid"]
 
 
 def _cam_of(keys: BarrelCamSpec) -> BarrelCam:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeVar
 
 from msgspec import Meta, Struct
@@ -22,6 +22,7 @@ from parts.base.texts import N_
 from parts.cams.wheel import DiskKeys, Turned, check_disk, inner_radius, marked_holes
 from parts.keys.base import mm, start
 from parts.keys.cam import (
+    LAW_AT_REST,
     USUAL_PRESSURE_ANGLE,
     BaseCircle,
     Follower,
@@ -31,7 +32,7 @@ from parts.keys.cam import (
     LeastTransmission,
     Lift,
     MotionTable,
-    MovingPhase,
+    Moved,
     Phases,
     Swing,
     TableTolerance,
@@ -49,6 +50,8 @@ if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
     from geometry.cams.plane.synthesis import OscillatingAxis
     from parts.base.readback import Probe
+
+M = TypeVar("M", bound=Moved)
 
 _MOST = 100_000.0
 # of a base circle, by which it is larger than the one whose cam has a cusp: no file holds a radius of curvature of 0
@@ -314,13 +317,29 @@ def undercut(cam: DiskCam, key: str, value: float, lost: float, cure: Cure) -> U
     return UndercutError(key, value, "undercut", cure, lost=lost)
 
 
-def by_impact(keys: Sequence[MovingPhase] | None, motion: FollowerMotion, *, both: bool) -> UndercutError | None:
-    """The refusal of a cam that is undercut where the velocity drops (``both``: or rises), of whatever size."""
-    jumps = [j.jumps[1] for j in motion.impacts() if j.impact == "rigid"]
-    rough = rough_law(keys or [], motion.phases)
-    if rough is None or not (jumps if both else [jump for jump in jumps if jump < 0]):
+def by_impact(
+    keys: M, motion: FollowerMotion, whole: Callable[[M], bool], *, swings: bool, both: bool
+) -> UndercutError | None:
+    """The refusal of a cam that is undercut where the velocity drops (``both``: or rises), of whatever size.
+
+    ``whole``: whether other keys make a cam that is not undercut.
+    """
+
+    def at_jumps(tried: FollowerMotion) -> list[float]:
+        rigid = (j for j in tried.impacts() if j.impact == "rigid")
+        return [math.degrees(j.angle) for j in rigid if both or j.jumps[1] < 0]
+
+    if not (found := at_jumps(motion)):
         return None
-    return UndercutError(*rough, "undercut_by_impact", Nearest("sine"))
+
+    def calm(key: str) -> bool:
+        return not at_jumps(motion_of(replaced(keys, key, LAW_AT_REST), swings))
+
+    if (rough := rough_law(keys.phases or [], motion.phases, calm)) is None:
+        return None
+    code = "undercut_by_impact" if rough.alone else "undercut_by_impacts"
+    cure = rough.cure(lambda law: whole(replaced(keys, rough.key, law)))
+    return UndercutError(rough.key, rough.law, code, cure, at=found[0])
 
 
 def larger_bases(base: float, cam: DiskCam | None = None) -> list[float]:
@@ -514,7 +533,7 @@ class Cam(DiskKind[CamSpec, "DiskCam"]):
             least = flat_base_radius(cam.motion).value
         lost, hollow = lost_to_undercut(cam), base is not None and base < least * (1 + _SPARE)
         if lost is not None or hollow:
-            if (refusal := by_impact(keys.phases, cam.motion, both=False)) is not None:
+            if (refusal := by_impact(keys, cam.motion, _fits, swings=cam.swings, both=False)) is not None:
                 raise refusal
             base = cam.base_radius
             if hollow and lost is None:

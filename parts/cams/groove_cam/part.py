@@ -170,13 +170,17 @@ def _check_walls(keys: GrooveCamSpec, cam: DiskCam) -> None:
     lost = lost_on(cam, keys.roller_clearance)
     if not lost:
         return
-    if (refusal := by_impact(keys.phases, cam.motion, both=True)) is not None:
+
+    def whole(other: GrooveCamSpec) -> bool:
+        made = _roller_cam(other)
+        return all(is_whole(made, grow) for grow in (0.0, 2 * made.radius + other.roller_clearance))
+
+    if (refusal := by_impact(keys, cam.motion, whole, swings=cam.swings, both=True)) is not None:
         raise refusal
     base = cam.base_radius
 
     def works(value: float) -> bool:
-        other = _roller_cam(replace(keys, base_circle_radius=value))
-        return all(is_whole(other, grow) for grow in (0.0, 2 * other.radius + keys.roller_clearance))
+        return whole(replace(keys, base_circle_radius=value))
 
     code = "undercut_inner_wall" if max(lost, key=lambda wall: lost[wall]) == "inner" else "undercut_outer_wall"
     raise UndercutError("base_circle_radius", base, code, lambda: nearest(works, base, larger_bases(base)))

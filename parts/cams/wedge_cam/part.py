@@ -16,8 +16,9 @@ from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
 from geometry.solids.body import plate
 from parts.base.kind import Kind, Others, Report
+from parts.base.schema import replaced
 from parts.keys.base import MadeKeys, mm, start
-from parts.keys.cam import USUAL_PRESSURE_ANGLE, Swing, check_dwell, check_stroke, rough_law, stroke_key
+from parts.keys.cam import LAW_AT_REST, USUAL_PRESSURE_ANGLE, Swing, check_dwell, check_stroke, rough_law, stroke_key
 from parts.keys.law import LawTable, PhaseLaw, law_of, with_own_laws
 
 if TYPE_CHECKING:
@@ -212,14 +213,21 @@ def _most(keys: WedgeCamSpec, key: str) -> Nearest | None:
 
 def _refusal(keys: WedgeCamSpec, cam: WedgeCam, fault: str, travel: float) -> UndercutError:
     """A profile that is not whole, in the scene's keys."""
-    from geometry.cams.plane.wedge import sharpest_crest
+    from geometry.cams.plane.wedge import sharpest_crest, wedge_fault
 
     key, unit = stroke_key(keys.oscillating is not None)
     if fault == "corner":
-        rough = rough_law(keys.phases, wedge_phases(keys, getattr(keys, key) * unit))
-        name, value = rough or ("follower", keys.follower)
-        works = Nearest("pointed" if rough is None else "sine")
-        return UndercutError(name, value, "velocity_jumps_at_crest", works, travel=travel)
+
+        def calm(place: str) -> bool:
+            found = wedge_fault(_wedge_of(replaced(keys, place, LAW_AT_REST)))
+            return found is None or found[0] != "corner"
+
+        phases, code = wedge_phases(keys, getattr(keys, key) * unit), "velocity_jumps_at_crest"
+        rough = rough_law(keys.phases, phases, calm)
+        if rough is None:
+            return UndercutError("follower", keys.follower, code, Nearest("pointed"), travel=travel)
+        cure = rough.cure(lambda law: _fits(replaced(keys, rough.key, law)))
+        return UndercutError(rough.key, rough.law, code, cure, travel=travel)
     if fault == "crest" and keys.oscillating is None:
         most = limit(sharpest_crest(cam) * (1 - 1e-6), cam.radius)
         return UndercutError("follower_radius", cam.radius, "crest_undercut", most, travel=travel)

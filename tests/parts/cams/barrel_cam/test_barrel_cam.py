@@ -8,11 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from msgspec import convert
 
-from geometry.base.errors import OffsetError
+from geometry.base.errors import OffsetError, ParameterError
 from geometry.cams.barrel.body import BarrelBody, barrel_moments
 from parts.base.part import Part
+from parts.cams.barrel_cam.part import BARREL_CAM
 from parts.cams.barrel_cam.probe import GrooveRoller
+from parts.keys.barrel import BarrelCamSpec
 from parts.scene.load import load_scene, make_parts, scene_from_dict
 from tests.parts.nearest import cured, refused
 
@@ -150,6 +153,17 @@ def test_keys_that_exclude_each_other_are_refused() -> None:
     found = refused(parts)
     assert (found.key, found.code) == ("parts.cam.phases[1].law", "velocity_jumps_in_groove")
     cured(parts, found)
+    # another law in one of two phases leaves the jump at the other one
+    both = [
+        PHASES[0] | {"law": "constant_velocity"},
+        *PHASES[1:2],
+        PHASES[2] | {"law": "constant_velocity"},
+        *PHASES[3:],
+    ]
+    assert refused({"cam": GROOVE | {"phases": both}}).nearest is None
+    with pytest.raises(ParameterError) as untried:
+        BARREL_CAM.thing(convert(GROOVE | {"phases": both}, BarrelCamSpec), {})
+    assert untried.value.nearest is None
 
 
 def test_an_offset_moves_all_walls_but_the_ends() -> None:

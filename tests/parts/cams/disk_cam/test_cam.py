@@ -10,10 +10,11 @@ from typing import Any, get_args
 import ezdxf
 import numpy as np
 import pytest
+from msgspec import convert
 
 from exporters.command.cli import main
 from exporters.formats.read_svg import read_svg
-from geometry.base.errors import OffsetError
+from geometry.base.errors import Nearest, OffsetError, UndercutError
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.motion.guides import Translating
 from geometry.cams.plane.disk import DiskCam
@@ -366,6 +367,53 @@ def test_wrong_keys_are_refused_in_the_users_terms(name: str) -> None:
     assert (refusal.nearest is None) == (name in NOT_CURED)
     if name not in NOT_CURED:
         cured({"cam": keys}, refusal)
+
+
+def test_a_heart_cam_is_told_why_nothing_of_one_key_gives_it_a_roller() -> None:
+    """Its path has a corner at the top: by the law of either half alone, any base circle and any roller."""
+    halves = [{"move": move, "angle_deg": 180.0, "law": "constant_velocity"} for move in ("rise", "return_")]
+    heart = ROLLER | {"phases": halves}
+    refusal = refused({"cam": heart})
+    assert (refusal.key, refusal.code, refusal.nearest) == ("parts.cam.phases[1].law", "undercut_by_impacts", None)
+    sizes = [{"base_circle_radius": base} for base in (60.0, 1000.0)] + [{"follower_radius": 1e-3}]
+    laws = [[halves[0] | {"law": "sine"}, halves[1]], [halves[0], halves[1] | {"law": "sine"}]]
+    for other in [*sizes, *({"phases": phases} for phases in laws)]:
+        assert refused({"cam": heart | other}).code.startswith("undercut_by_impact")
+    made = part_of(heart | {"follower": "pointed", "follower_radius": 0.0})
+    # the spiral of Archimedes on both sides
+    angles = np.linspace(0.0, math.pi, 50)
+    points = np.concatenate([made.thing.profile_point(angles), made.thing.profile_point(2 * math.pi - angles)])
+    assert np.abs(points) == pytest.approx(np.tile(35.0 + 20.0 * angles / math.pi, 2), abs=1e-12)
+
+
+def test_of_several_laws_that_move_at_their_ends_the_one_that_cures_is_named() -> None:
+    """The rise goes on into the next phase, and the motion rises at 0: only the return drops away."""
+    phases = [
+        {"move": "rise", "angle_deg": 60.0, "law": "constant_velocity", "share": 0.4},
+        {"move": "rise", "angle_deg": 100.0, "law": "join", "share": 0.6},
+        {"move": "dwell", "angle_deg": 20.0},
+        {"move": "return_", "angle_deg": 180.0, "law": "constant_velocity"},
+    ]
+    keys = ROLLER | {"phases": phases}
+    refusal = refused({"cam": keys})
+    assert (refusal.key, refusal.code) == ("parts.cam.phases[4].law", "undercut_by_impact")
+    cured({"cam": keys}, refusal)
+
+
+def test_a_law_at_rest_is_offered_only_where_the_cam_is_whole_with_it() -> None:
+    phases = [STEEP[0] | {"law": "constant_velocity"}, *STEEP[1:]]
+    for base, works in ((60.0, True), (9.0, False)):
+        keys = ROLLER | {"phases": phases, "base_circle_radius": base, "bore_diameter": 0.0, "follower_radius": 25.0}
+        with pytest.raises(UndercutError) as refusal:
+            CAM.thing(convert(keys, CamSpec), {})
+        assert refusal.value.code == "undercut_by_impact"
+        assert refusal.value.nearest == (Nearest("sine") if works else None)
+        try:
+            CAM.thing(convert(keys | {"phases": STEEP}, CamSpec), {})
+        except UndercutError:
+            assert not works
+        else:
+            assert works
 
 
 # loops at the jump of S'' of 1e-3, 2e-9 and 2e-10 rad, the last ones smaller than a sweep sees
