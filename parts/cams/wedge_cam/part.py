@@ -24,6 +24,8 @@ from parts.keys.law import LawTable, PhaseLaw, law_of, with_own_laws
 if TYPE_CHECKING:
     from geometry.cams.motion.follower_motion import Phase
     from geometry.cams.plane.wedge import Swinging, Upright, WedgeCam, WedgeMotion
+    from geometry.curves.curve import Complex
+    from geometry.plane.distance import Flags
     from geometry.solids.body import Body
     from parts.base.readback import Probe
 
@@ -277,12 +279,26 @@ def _nearest_place(
 
     ends = float(cam.centre(0.0).real) - keys.run_in, float(cam.centre(cam.motion.travel).real) + keys.run_out
     places = (np.round(np.linspace(*ends, _PLACES), 4) + 1j * hole.y).astype(np.complex128)
-    room = distance_to_profile(places, outline)
-    for other in others:
-        room = np.minimum(room, np.abs(places - complex(other.x, other.y)) - other.diameter / 2)
-    fitting = places[room > hole.diameter / 2 + 1.01 * _LEAST_WALL]
-    near = sorted(fitting.real, key=lambda x: abs(float(x) - hole.x))
-    return next((float(x) for x in near if _inside(cam, keys, complex(float(x), hole.y))), None)
+
+    def fit(at: Complex) -> Flags:
+        """Where there is room about such places (n,)."""
+        room = distance_to_profile(at, outline)
+        for other in others:
+            room = np.minimum(room, np.abs(at - complex(other.x, other.y)) - other.diameter / 2)
+        return room >= hole.diameter / 2 + _LEAST_WALL
+
+    def fits(x: float) -> bool:
+        at = complex(x, hole.y)
+        return bool(fit(np.array([at]))[0]) and _inside(cam, keys, at)
+
+    near = sorted(places[fit(places)].real, key=lambda x: abs(float(x) - hole.x))
+    place = next((float(x) for x in near if _inside(cam, keys, complex(float(x), hole.y))), None)
+    if place is None:
+        return None
+    # between it and the next one, which has none
+    step = (ends[1] - ends[0]) / (_PLACES - 1)
+    found = nearest(fits, place + math.copysign(min(step, abs(hole.x - place)), hole.x - place), place)
+    return place if found is None or not isinstance(found.value, float) else found.value
 
 
 def _inside(cam: WedgeCam, keys: WedgeCamSpec, at: complex) -> bool:

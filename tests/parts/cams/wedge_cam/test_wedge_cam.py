@@ -229,6 +229,15 @@ def test_wrong_keys_are_refused_with_what_works(name: str) -> None:
         cured({"cam": keys}, refusal)
 
 
+@pytest.mark.parametrize("x", [-30.0, 200.0])
+def test_a_hole_outside_is_told_the_place_at_which_the_wall_to_the_end_is_least(x: float) -> None:
+    """Half of the hole and 0.05 mm within the upright end, which stands `run_in` or `run_out` beyond the travel."""
+    refusal = refused({"cam": ROLLER | {"run_in": 12.0, "run_out": 9.0, "holes": {"diameter": 5.0, "x": x, "y": 8.0}}})
+    travel = sum(phase["travel"] for phase in PHASES)
+    assert refusal.nearest is not None
+    assert refusal.nearest.value == pytest.approx(-12.0 + 2.55 if x < 0 else travel + 9.0 - 2.55, abs=2e-4)
+
+
 def test_impacts_are_told() -> None:
     pointed = CAMS["pointed"] | {"phases": JUMP}
     found = {f.code: f for f in parts_of({"cam": pointed})["cam"].findings}
