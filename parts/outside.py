@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from parts.base.kind import Kind
 from parts.base.mate import MateKind
-from parts.base.reasons import add_reasons
+from parts.base.reasons import add_reasons, reason
 from parts.base.registry import KINDS
 from parts.base.schema import phrase_of
-from parts.base.texts import add_catalogue
+from parts.base.texts import Text, add_catalogue
 from parts.mates.registry import MATES
+from parts.texts.checks import MATES as TOLD_MATES
 from parts.texts.checks import add_mates
-from parts.texts.findings import add_findings
-from parts.texts.quantities import add_quantities
+from parts.texts.findings import FINDINGS, add_findings
+from parts.texts.quantities import QUANTITIES, add_quantities
 
 __all__ = ["add_catalogue", "add_kind", "add_mate"]
 
@@ -22,7 +24,16 @@ def add_kind(kind: Kind[Any, Any]) -> None:
     """A kind of part, with the sentences of its refusals and remarks and the names of its quantities.
 
     ``list`` tells it by the first line of what its keys say of themselves.
+
+    Raises
+    ------
+    ValueError
+        Its name, a code or a quantity is another one's; nothing is added.
     """
+    _refuse_taken({kind.name: kind}, {kind.name: KINDS[kind.name]} if kind.name in KINDS else {})
+    _refuse_taken(kind.reasons, _told(kind.reasons))
+    _refuse_taken(kind.findings, FINDINGS)
+    _refuse_taken(kind.quantities, QUANTITIES)
     KINDS.add(kind.name, kind, phrase_of(kind.keys))
     add_reasons(kind.reasons)
     add_findings(kind.findings)
@@ -30,8 +41,28 @@ def add_kind(kind: Kind[Any, Any]) -> None:
 
 
 def add_mate(kind: MateKind[Any, Any, Any]) -> None:
-    """A kind of mate, with the sentences of its refusals and how it is told; listed as ``add_kind`` says."""
+    """A kind of mate, with the sentences of its refusals and how it is told; listed as ``add_kind`` says.
+
+    Raises
+    ------
+    ValueError
+        Its name or a code is another one's; nothing is added.
+    """
+    told = {kind.name: kind.told} if kind.told else {}
+    _refuse_taken({kind.name: kind}, {kind.name: MATES[kind.name]} if kind.name in MATES else {})
+    _refuse_taken(kind.reasons, _told(kind.reasons))
+    _refuse_taken(told, TOLD_MATES)
     MATES.add(kind.name, kind, phrase_of(kind.keys))
     add_reasons(kind.reasons)
-    if kind.told:
-        add_mates({kind.name: kind.told})
+    add_mates(told)
+
+
+def _told(codes: Mapping[str, Text]) -> dict[str, Text]:
+    """What is said of those codes already; one without a sentence is told as it is."""
+    return {code: said for code in codes if (said := reason(code)) != code}
+
+
+def _refuse_taken(own: Mapping[str, object], known: Mapping[str, object]) -> None:
+    """Refuse names that stand for something else already: whoever has them would be told by these."""
+    if taken := sorted(name for name, meant in own.items() if name in known and known[name] != meant):
+        raise ValueError(f"names that are there already: {', '.join(taken)}")

@@ -93,7 +93,7 @@ class PolygonPlateKind(Kind[PolygonPlateKeys, PolygonPlate]):
 
     name, keys, page = "polygon_plate", PolygonPlateKeys, __name__
     reasons: ClassVar = {"pin_leaves_no_wall": N_("the hole leaves {wall} mm of wall")}
-    quantities: ClassVar = {"wall": N_("wall"), "pin_diameter": N_("pin")}
+    quantities: ClassVar = {"wall": N_("wall")}
     findings: ClassVar = {
         "polygon_thin_wall": N_("thin wall: {value:.2f} mm between hole and side, less than {limit:.2f} mm")
     }

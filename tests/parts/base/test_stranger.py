@@ -224,6 +224,35 @@ def test_it_is_calculated(tmp_path: Path, capsys: pytest.CaptureFixture[str]) ->
     assert "стінка" in text
 
 
+@pytest.mark.parametrize(("field", "own", "taken"), [
+    ("name", "spur_gear", "spur_gear"),
+    ("reasons", {"out_of_range": "b"}, "out_of_range"),
+    ("findings", {"thin_rim": "a"}, "thin_rim"),
+    ("quantities", {"pin_diameter": "pin"}, "pin_diameter"),
+])  # fmt: skip
+def test_a_name_that_is_another_ones_is_refused(
+    monkeypatch: pytest.MonkeyPatch, field: str, own: object, taken: str
+) -> None:
+    """It would be told of built-in kinds too, or never."""
+    kind = stranger.PolygonPlateKind()
+    monkeypatch.setattr(kind, field, own)
+    before = [dict(KINDS._homes), dict(findings.FINDINGS), dict(quantities.QUANTITIES), dict(reasons._MORE)]
+    monkeypatch.setattr(kind, "name", own if field == "name" else "another_plate")
+    with pytest.raises(ValueError, match=f"already: {taken}"):
+        add_kind(kind)
+    assert [dict(KINDS._homes), findings.FINDINGS, quantities.QUANTITIES, reasons._MORE] == before
+
+
+def test_a_mate_of_a_name_that_is_another_ones_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    add_mate(stranger.POLYGON_STACK)
+    other = stranger.PolygonStack()
+    with pytest.raises(ValueError, match="already: polygon_stack"):
+        add_mate(other)
+    monkeypatch.setattr(other, "name", "fixed")
+    with pytest.raises(ValueError, match="already: fixed"):
+        add_mate(other)
+
+
 def test_a_thin_wall_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = told(capsys, "build", scene(tmp_path, pin=37.0), "--format", "dxf")[1]
     assert "thin wall: 1.50 mm" in text
