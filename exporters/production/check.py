@@ -16,7 +16,7 @@ from parts.base.mate import Mating, Toothed, Touching
 from parts.base.part import Part
 from parts.base.texts import N_, words
 from parts.scene.instances import DriveSpec
-from parts.scene.placing import UPWARDS, Closeness, Condition, Instance, PlacedMate, Placing
+from parts.scene.placing import Closeness, Condition, Instance, PlacedMate, Placing
 from parts.texts.checks import OFF_CENTRE, called, condition_message
 from parts.texts.findings import finding_text
 
@@ -245,8 +245,6 @@ def _solids(
             "poses": found.poses,
             "uncovered": [asdict(x) for x in found.uncovered],
         }
-        if lying := [i.id for i in placing.instances if i.axis != UPWARDS]:
-            checks["motion"]["lying"] = lying
     elif has_solid_pairs(placing, parts):
         checks["motion"] = {"one_pose": True}
     return {"solids": solids, **checks} if solids else checks

@@ -141,13 +141,6 @@ def _motion(motion: dict[str, Any], told: Words, names: Mapping[str, str]) -> li
                 "note: {first} and {second} were checked over {share:.3g} of their period", **called(found, names)
             )
         )
-    if "lying" in motion:
-        lying = ", ".join(in_rows(names.get(name, name) for name in motion["lying"]))
-        lines.append(
-            told.text(
-                "note: checked as they stand and not in motion, since their axes are not upright: {names}", names=lying
-            )
-        )
     return [*lines, *_uncovered(motion, told, names)]
 
 

@@ -22,7 +22,7 @@ from parts.scene.shapes import Shape
 # seconds for a turn of the first drive, and for a loop at least and at most; turns of the fastest in a loop at most
 _SECONDS, _LEAST, _MOST, _MOST_TURNS = 4.0, 4.0, 60.0, 20
 # values of a way at first, and at most; of the tolerance what outlines and ways may take
-_VALUES, _MOST_VALUES, SHARE = 60, 16_000, 0.5
+VALUES, MOST_VALUES, SHARE = 60, 16_000, 0.5
 _FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
 # times at which a file is held against exact poses
 TIMES = np.concatenate([[0.0, 1.0], np.arange(1, 48) * (math.sqrt(5) - 1) / 2 % 1.0])
@@ -62,13 +62,13 @@ class Film(Record, FileJob):
 
     def ways(self, instance: Instance, reach: float) -> tuple[Any, Any, float]:
         """Places and angles at even shares of the loop, and how far what is straight between them is off, mm."""
-        count = _VALUES
+        count = VALUES
         while True:
             places, angles = self.poses(instance, np.linspace(0, 1, 2 * count + 1))
             # an even way is off the most in the middle between its ends
             ways = [x[1::2] - (x[:-1:2] + x[2::2]) / 2 for x in (places, angles)]
             off = float((np.abs(ways[0]) + reach * np.abs(ways[1])).max())
-            if off <= SHARE * self.tolerance / 2 or count >= _MOST_VALUES:
+            if off <= SHARE * self.tolerance / 2 or count >= MOST_VALUES:
                 return places[::2], angles[::2], 2 * off
             count *= 2
 
@@ -83,6 +83,10 @@ class Film(Record, FileJob):
         unwrapped = np.empty_like(angles)
         unwrapped[order] = np.unwrap(angles[order])
         return places, unwrapped
+
+    def frames(self, instance: Instance, shares: Real) -> tuple[Real, Real]:
+        """Exact turns (n, 3, 3) and places (n, 3), mm, of an instance's frame at shares of the loop."""
+        return self.course.placed(instance.id, shares * float(self.loop), own=True)
 
 
 def fill(index: int) -> str:
@@ -121,8 +125,9 @@ def _loop(course: Course, instances: Sequence[Instance], parts: dict[str, Part])
         chain = course.rates.get(instance.id, ())
         shape = Shape(parts[instance.part])
         fastest = max([fastest, *map(abs, chain)])
-        # what is round, or looks alike in parts of a turn, comes again the sooner
-        rates |= {*chain[1:], *(rate * shape.count(0.0, shape.reach) for rate in chain[:1])}
+        # what is round, or looks alike in parts of a turn, about the axis on which it turns, comes again the sooner
+        alike = shape.count(0.0, shape.reach) if instance.id in course.spins else 1
+        rates |= {*chain[1:], *(rate * alike for rate in chain[:1])}
     period = common_period(rates)
     most = _MOST_TURNS / fastest if fastest else period
     return (period, True) if period <= most else (most, False)

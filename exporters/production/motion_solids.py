@@ -10,7 +10,7 @@ import numpy as np
 from exporters.formats.glb import SolidTrack, write_glb
 from exporters.formats.motion_svg import even_values
 from exporters.formats.read_glb import read_glb
-from exporters.production.film import SHARE, TIMES, Film, fill
+from exporters.production.film import MOST_VALUES, SHARE, TIMES, VALUES, Film, fill
 from exporters.production.jobs import Job, Made
 from exporters.verification.judge import held
 from exporters.verification.verdict import Verdict
@@ -50,6 +50,11 @@ class SolidFilm(Film):
         made, worst = [], 0.0
         for instance in self.instances:
             reach = self.reach(instance)
+            if instance.id in self.course.in_space:
+                track, off = self._in_space(instance, reach)
+                made.append(track)
+                worst = max(worst, off)
+                continue
             places, angles, off = self.ways(instance, reach)
             even = even_values(angles + 0j).real
             steps = len(angles) - 1
@@ -67,6 +72,26 @@ class SolidFilm(Film):
             run = float(np.abs(np.diff(places)).sum() + reach * np.abs(np.diff(angles)).sum())
             worst = max(worst, off + 2 * _FLOAT32 * (far + run) + _TURNED * reach)
         return made, worst
+
+    def _in_space(self, instance: Instance, reach: float) -> tuple[SolidTrack, float]:
+        """The track of what lies and goes round, and how far it is off its way between its values, mm."""
+        count = VALUES
+        while True:
+            turned, places = self.frames(instance, np.linspace(0, 1, 2 * count + 1))
+            turns = _quaternions(turned)
+            # between two values a viewer takes the shorter way round, evenly: half way it is their sum
+            middle = turns[:-1:2] + turns[2::2]
+            middle /= np.linalg.norm(middle, axis=1)[:, None]
+            angles = 2 * np.arccos(np.clip(np.abs(np.einsum("nj,nj->n", middle, turns[1::2])), 0.0, 1.0))
+            aside = np.linalg.norm(places[1::2] - (places[:-1:2] + places[2::2]) / 2, axis=1)
+            off = float((aside + reach * angles).max())
+            if off <= SHARE * self.tolerance / 2 or count >= MOST_VALUES:
+                break
+            count *= 2
+        run = float(np.abs(np.diff(places, axis=0)).sum() + reach * _angles(turns).sum())
+        far = float(np.abs(places).max())
+        track = SolidTrack(instance.id, instance.part, places[::2], turns[::2])
+        return track, 2 * off + 2 * _FLOAT32 * (far + run) + _TURNED * reach
 
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write it; counts of what is in it."""
@@ -129,6 +154,9 @@ class SolidFilm(Film):
 
     def _stands(self, instance: Instance, shares: Real, probes: Real) -> Real:
         """Points of an instance (n, 3) where it is at shares (t,) of the loop, (t, n, 3)."""
+        if instance.id in self.course.in_space:
+            frames, there = self.frames(instance, shares)
+            return np.asarray(np.einsum("tij,nj->tni", frames, probes) + there[:, None])
         places, angles = self.poses(instance, shares)
         laid = np.array(Placement3.towards(instance.axis, 0.0).rotation)
         turned = np.stack([np.cos(angles), -np.sin(angles), np.sin(angles), np.cos(angles)], axis=-1).reshape(-1, 2, 2)
@@ -139,6 +167,29 @@ class SolidFilm(Film):
 
 def _heights(probes: Real, count: int) -> Real:
     return np.broadcast_to(probes[None, :, 2:], (count, len(probes), 1))
+
+
+def _quaternions(turned: Real) -> Real:
+    """(n, 4), x y z w, of turns (n, 3, 3), each as near to the one before it as it can be."""
+    # four times the products of its parts with each other
+    a, b, c = (turned[:, k] for k in range(3))
+    xx, yy, zz = a[:, 0], b[:, 1], c[:, 2]
+    xy, xz, yz = b[:, 0] + a[:, 1], a[:, 2] + c[:, 0], c[:, 1] + b[:, 2]
+    xw, yw, zw = c[:, 1] - b[:, 2], a[:, 2] - c[:, 0], b[:, 0] - a[:, 1]
+    rows = np.stack([
+        np.stack([1 + xx - yy - zz, xy, xz, xw], axis=-1), np.stack([xy, 1 - xx + yy - zz, yz, yw], axis=-1),
+        np.stack([xz, yz, 1 - xx - yy + zz, zw], axis=-1), np.stack([xw, yw, zw, 1 + xx + yy + zz], axis=-1),
+    ], axis=1)  # fmt: skip
+    # the row of the greatest part is told best
+    found = rows[np.arange(len(rows)), np.einsum("nkk->nk", rows).argmax(axis=1)]
+    found /= np.linalg.norm(found, axis=1)[:, None]
+    flips = np.where(np.einsum("nj,nj->n", found[1:], found[:-1]) < 0, -1.0, 1.0)
+    return np.asarray(found * np.cumprod([1.0, *flips])[:, None])
+
+
+def _angles(turns: Real) -> Real:
+    """By how much each quaternion is turned from the one before it, rad."""
+    return np.asarray(2 * np.arccos(np.clip(np.abs(np.einsum("nj,nj->n", turns[1:], turns[:-1])), 0.0, 1.0)))
 
 
 def _quaternion(axis: tuple[float, float, float], angle: float) -> list[float]:

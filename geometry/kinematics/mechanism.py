@@ -18,12 +18,13 @@ A James reducer, its ring held (001, example 7 with the satellite that fits), an
     equations(james)                             # rows for statics: torques are what works against them
 
 One quantity a link: its turns (counter-clockwise about its own axis; absolute where the axis is parallel to its
-carrier's, else against the carrier), or the travel of a slide in units of pi mm, which a rack of rational module
-keeps rational. ``geometry/kinematics/moving.py`` moves such a mechanism.
+carrier's, pointing either way, else against the carrier), or the travel of a slide in units of pi mm, which a rack of
+rational module keeps rational. ``geometry/kinematics/moving.py`` moves such a mechanism.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Literal
@@ -41,6 +42,8 @@ if TYPE_CHECKING:
 # no name of an instance
 FRAME = "@"
 Z = (0.0, 0.0, 1.0)
+# sine of the angle between what is parallel
+_PARALLEL = 1e-9
 # parallel: two links that turn alike, as cranks of a parallelogram do, or what is hung on them and what it hangs on
 Kind = Literal["external", "internal", "bevel", "worm", "rack", "parallel"]
 # turns of the second for those of the first; the guidelines count bevels and worms as positive
@@ -48,10 +51,11 @@ _SENSES: Mapping[str, int] = {"external": -1, "internal": 1, "bevel": 1, "worm":
 
 
 class Fixed(Record):
-    """A link that is one body with another."""
+    """A link that is one body with another; ``sense`` -1: its own axis points against that one's, and so it turns."""
 
     link: str
     on: str = FRAME
+    sense: int = 1
 
 
 class Revolute(Record):
@@ -221,12 +225,19 @@ class Tree(Record):
             link = joint.on
         return link
 
+    def sense(self, link: str) -> int:
+        """-1 where a link's own axis points against that of its body."""
+        found = 1
+        while isinstance(joint := self.supports.get(link), Fixed):
+            found, link = found * joint.sense, joint.on
+        return found
+
     def base(self, link: str) -> str:
         """What a link's turns are counted against: the first below it on an axis of another direction, or the frame."""
         here = self.turning(link)
         while isinstance(joint := self.supports.get(here), Revolute):
             below = self.turning(joint.on)
-            if below == FRAME or self.axis(below) != joint.axis:
+            if below == FRAME or not parallel(self.axis(below), joint.axis):
                 return below
             here = below
         return FRAME
@@ -261,7 +272,7 @@ class Tree(Record):
         if own is None or not self.together(own.on, FRAME if joint is None else joint.on):
             return False
         if isinstance(own, Revolute) and isinstance(joint, Revolute):
-            return own.axis == joint.axis and abs(own.at - joint.at) <= PLACED_MM
+            return one_line(own, joint)
         # what is fixed to the frame has no axis of its own
         return joint is None or (
             isinstance(own, Prismatic) and isinstance(joint, Prismatic) and own.direction == joint.direction
@@ -280,9 +291,10 @@ class Tree(Record):
         one, two = self.turning(link), self.turning(carrier)
         if one == two:
             return {}
-        terms: Row[str] = {} if one == FRAME else {one: Fraction(1)}
+        sense = self.sense(link)
+        terms: Row[str] = {} if one == FRAME else {one: Fraction(sense)}
         if two not in (FRAME, self.base(one)):
-            terms[two] = Fraction(-1)
+            terms[two] = Fraction(-sense * parallel(self.axis(one), self.axis(two)))
         return terms
 
     def travel(self, link: str, carrier: str) -> Row[str]:
@@ -304,6 +316,20 @@ class Tree(Record):
     def given(self) -> list[str]:
         """The links of groups."""
         return [name for name in self.order if isinstance(self.supports[name], Group)]
+
+
+def parallel(one: Vector, two: Vector) -> int:
+    """1 where two unit vectors point the same way, -1 where they point against each other, else 0."""
+    (a, b, c), (x, y, z) = one, two
+    across = math.hypot(b * z - c * y, c * x - a * z, a * y - b * x)
+    return 0 if across > _PARALLEL else 1 if a * x + b * y + c * z > 0 else -1
+
+
+def one_line(one: Revolute, two: Revolute) -> bool:
+    """Whether two links turn about one line."""
+    way = two.at.real - one.at.real, two.at.imag - one.at.imag, two.z - one.z
+    along = math.fsum(a * b for a, b in zip(way, one.axis, strict=True))
+    return bool(parallel(one.axis, two.axis)) and math.dist(way, [along * a for a in one.axis]) <= PLACED_MM
 
 
 def tree(mechanism: Mechanism) -> Tree:
@@ -424,7 +450,7 @@ def turns(mechanism: Mechanism, drives: Iterable[str] = ()) -> Turns:
             raise ParameterError("drives", drive, "no_such_link", None, known=list(stands.order))
         if body in given:
             raise ParameterError("drives", drive, "moves_by_law")
-        own = {} if body == FRAME else {body: Fraction(1)}
+        own = {} if body == FRAME else {body: Fraction(stands.sense(drive))}
         rows.append(Equation(drive, {**own, _known(drive): Fraction(-1)}))
     leads = {lead(joint) for joint in mechanism.joints if isinstance(joint, Rolling) and joint.uneven}
     known = {_known(drive) for drive in drives}.union(given, leads)
@@ -440,7 +466,8 @@ def turns(mechanism: Mechanism, drives: Iterable[str] = ()) -> Turns:
     for name in stands.order:
         own = values.get(stands.body(name), {} if stands.body(name) == FRAME else {name: Fraction(1)})
         if known.issuperset(own):
-            shares[name] = {key.removeprefix(FRAME): value for key, value in own.items()}
+            sense = stands.sense(name)
+            shares[name] = {key.removeprefix(FRAME): sense * value for key, value in own.items()}
         else:
             free.append(name)
     return Turns(shares, tuple(free))

@@ -15,14 +15,14 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import Record, replace
 from geometry.base.series import Series, exponential, product
-from geometry.curves.curve import Real
+from geometry.curves.curve import Complex, Real
 from geometry.kinematics.mechanism import (
     FRAME,
     Fixed,
@@ -40,6 +40,9 @@ from geometry.kinematics.mechanism import (
     turns,
 )
 from geometry.kinematics.motion import GivenMotion, PlaneMotion, Pose
+
+if TYPE_CHECKING:
+    from geometry.base.placement import Vector
 
 # rad or mm of one turn, or of one unit of travel
 _TURN, _TRAVEL = 2 * math.pi, math.pi
@@ -102,8 +105,46 @@ class Moving(Record):
 
     def poses(self, t: Real, order: int, links: Iterable[str] | None = None) -> dict[str, Pose]:
         """The poses of these links, or of all that move in the plane."""
-        t = np.asarray(t, dtype=float)
         wanted = [name for name in self.starts if name != FRAME] if links is None else list(links)
+        starts = {name: self.starts[name] for name in wanted}
+        bodies = self._bodies(np.asarray(t, dtype=float), order, wanted)
+        return {name: _pose(start, bodies[name]) for name, start in starts.items()}
+
+    def turned(self, link: str, t: Real) -> Real:
+        """How far a link has turned about its own axis since the start, as its quantity counts, rad, shaped as t."""
+        t = np.asarray(t, dtype=float)
+        found = self._bodies(t, 0, [link])[link].turn[0] * self.stands.sense(link)
+        return np.asarray(np.broadcast_to(found, t.shape))
+
+    def displacement(self, link: str, t: Real) -> tuple[Real, Real]:
+        """How a link has moved in space since the start: turns (..., 3, 3), then moves (..., 3) in mm, shaped as t."""
+        t = np.asarray(t, dtype=float)
+        return self._displaced(link, self._bodies(t, 0, [] if link == FRAME else [link]), t.shape)
+
+    def _displaced(self, link: str, bodies: Mapping[str, _Body], shape: tuple[int, ...]) -> tuple[Real, Real]:
+        """The same, by the poses and turns of all on which it stands."""
+        if link in self.starts:
+            body = bodies[link]
+            origin, below = np.broadcast_to(body.origin[0], shape), self.starts[link][0]
+            unit = np.exp(1j * np.broadcast_to(body.turn[0], shape))
+            off = origin - unit * below
+            return _about(Z, unit), np.stack([off.real, off.imag, np.zeros(shape)], axis=-1)
+        joint = self.stands.supports[link]
+        assert not isinstance(joint, Group)
+        turned, moved = self._displaced(joint.on, bodies, shape)
+        if isinstance(joint, Revolute):
+            row = self.stands.turn(link, joint.on)
+            angle = sum((float(share) * bodies[name].turn[0] for name, share in row.items()), np.zeros(shape))
+            own = _about(joint.axis, np.exp(1j * np.broadcast_to(angle, shape)))
+            at = np.array([joint.at.real, joint.at.imag, joint.z])
+            return np.asarray(turned @ own), moved + _turned(turned, at - own @ at)
+        if isinstance(joint, Prismatic):
+            way = np.array([joint.direction.real, joint.direction.imag, 0.0])
+            return turned, moved + _turned(turned, np.broadcast_to(bodies[link].turn[0], shape)[..., None] * way)
+        return turned, moved
+
+    def _bodies(self, t: Real, order: int, wanted: list[str]) -> dict[str, _Body]:
+        """These links and all that they need; of those on tilted axes their turns (of slides the travel) alone."""
         still = [0.0 * t] * (order + 1)
         bodies = {FRAME: _Body([x + 0j for x in still], still, [1 + 0j + still[0], *(x + 0j for x in still[1:])])}
         inputs = {name: drive.law(t, order) for name, drive in self.drives.items() if drive.law}
@@ -112,17 +153,18 @@ class Moving(Record):
             for other, _ in self.courses[name].shares:
                 if other in self.leads and other not in inputs:
                     inputs[other] = self.leads[other].ahead(bodies[self.leads[other].driver].turn)
-            if isinstance(joint, Group):
-                on = [self._pose(other, bodies[other]) for other in joint.on]
+            if name not in self.starts and not isinstance(joint, Group):
+                turn = bodies[joint.on].turn if isinstance(joint, Fixed) else self._series(name, t, order, inputs)
+                nowhere = [np.full(t.shape, np.nan)] * (order + 1)
+                bodies[name] = _Body(nowhere, turn, nowhere)
+            elif isinstance(joint, Group):
+                on = [_pose(self.starts[other], bodies[other]) for other in joint.on]
                 origin, angle = joint.poses(on)[joint.links.index(name)]
                 inputs[name] = [angle[0] - self.starts[name][1], *angle[1:]]
                 bodies[name] = _Body(origin, inputs[name], exponential([1j * x for x in inputs[name]]))
             else:
                 bodies[name] = self._moved(name, joint, bodies[joint.on], (t, order), inputs)
-        return {name: self._pose(name, bodies[name]) for name in wanted}
-
-    def _pose(self, link: str, body: _Body) -> Pose:
-        return body.origin, [self.starts[link][1] + body.turn[0], *body.turn[1:]]
+        return bodies
 
     def _moved(
         self, name: str, joint: Fixed | Revolute | Prismatic, on: _Body, at: tuple[Real, int], inputs: dict[str, Series]
@@ -176,13 +218,15 @@ def moving(mechanism: Mechanism, drives: Iterable[Drive]) -> Moving:
     stands = tree(mechanism)
     courses = _courses(found, stands, by_link)
     leads = {lead(joint): joint.uneven for joint in mechanism.joints if isinstance(joint, Rolling) and joint.uneven}
-    planar = [name for name in stands.order if _in_plane(name, stands)]
-    needs = {name: _needs(name, stands, courses, leads) for name in planar}
+    planar = {name for name in stands.order if _in_plane(name, stands)}
+    # where a group stands is told in the plane alone
+    known = [name for name in stands.order if name in planar or not _on_group(name, stands)]
+    needs = {name: _needs(name, stands, courses, leads) for name in known}
     try:
         order = [name for name in TopologicalSorter(needs).static_order() if name != FRAME]
     except CycleError as error:
         raise ParameterError("joints", error.args[1][0], "moves_itself") from None
-    starts = _starts([name for name in stands.order if name in needs], stands)
+    starts = _starts([name for name in stands.order if name in planar], stands)
     return Moving(stands, found, by_link, courses, starts, {name: needs[name] for name in order}, leads)
 
 
@@ -211,6 +255,31 @@ def _needs(name: str, stands: Tree, courses: Mapping[str, _Course], leads: Mappi
     inputs = [leads[other].driver for other in shares if other in leads]
     inputs += [other for other in shares if isinstance(stands.supports.get(other), Group)]
     return tuple(other for other in (*on, *inputs) if other != FRAME)
+
+
+def _pose(start: tuple[complex, float], body: _Body) -> Pose:
+    return body.origin, [start[1] + body.turn[0], *body.turn[1:]]
+
+
+def _about(axis: Vector, unit: Complex) -> Real:
+    """Turns (..., 3, 3) about a unit vector by the angles of numbers of modulus 1 (Rodrigues)."""
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    sine, cosine = unit.imag[..., None, None], unit.real[..., None, None]
+    return np.asarray(cosine * np.eye(3) + sine * cross + (1 - cosine) * np.outer(axis, axis))
+
+
+def _turned(turns: Real, ways: Real) -> Real:
+    return np.asarray(np.einsum("...ij,...j->...i", turns, ways))
+
+
+def _on_group(link: str, stands: Tree) -> bool:
+    while link != FRAME:
+        joint = stands.supports[link]
+        if isinstance(joint, Group):
+            return True
+        link = joint.on
+    return False
 
 
 def _in_plane(link: str, stands: Tree) -> bool:

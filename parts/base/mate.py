@@ -116,6 +116,8 @@ class Mating(Joined, kw_only=True):
     asks_height = True
     # whether the first may lie on any axis, and the second stand already: ``laid_standing`` holds them together
     lies = False
+    # whether ``second_axis`` is told in the frame of the first as it is turned
+    turns_axis = False
     # how the second hangs on the first: "fixed" to it, "turning" about an axis of it; "": ``joints`` tells
     bond = ""
 
@@ -127,6 +129,13 @@ class Mating(Joined, kw_only=True):
         from geometry.kinematics.mechanism import Fixed, Revolute
 
         return ((Fixed if self.bond == "fixed" else Revolute)(self.second, on=self.first),)
+
+    @property
+    def in_plane(self) -> bool:
+        """Whether it moves things along and about upright axes alone: slides, and what a cam moves."""
+        from geometry.kinematics.mechanism import Prismatic
+
+        return self.follows or any(isinstance(joint, Prismatic) for joint in self.joints)
 
     @property
     def holds(self) -> tuple[str, ...]:

@@ -9,17 +9,28 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import replace
 from parts.base.mate import End, MateKeys, MateKind, Mating, Pose, Standing
 from parts.keys.base import degrees, mm
 from parts.keys.mate import AboveKeys, Height
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
+    from geometry.base.placement import Vector
     from geometry.solids.pin_plates import PinPlate, RoundDisc
     from geometry.solids.pin_ring import PinRing
 
 _MOST = 1e6
+_Part = Annotated[float, Meta(ge=-_MOST, le=_MOST)]
 _Shift = Annotated[float, mm("a coordinate of the second in the first one's frame", least=-_MOST, most=_MOST)]
+_Axis = (
+    Annotated[
+        tuple[_Part, _Part, _Part],
+        Meta(description="direction [x, y, z] of the second's axis in the first one's frame; default: along its axis",
+             examples=[[1.0, 0.0, 0.0]]),
+    ]
+    | None
+)  # fmt: skip
 _Turn = Annotated[float, degrees("turn about z", least=-36_000, most=36_000)]
 
 
@@ -33,6 +44,7 @@ class FixedSpec(MateKeys, tag="fixed", kw_only=True):
         0.0,
     )
     rotation_deg: _Turn = 0.0
+    axis: _Axis = None
 
 
 class CoaxialSpec(AboveKeys, tag="coaxial", kw_only=True):
@@ -70,12 +82,20 @@ class FixedMating(Mating):
 
     offset: complex
     rotation: float = 0.0
+    axis: Vector = (0.0, 0.0, 1.0)
 
     bond = "fixed"
+    turns_axis = True
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """Carried along by the first; it has no direction of its own."""
-        return centre + self.offset * cmath.rect(1.0, rotation), rotation + self.rotation
+        # what is turned over turns the other way about its own axis
+        sense = -1 if self.axis == (0.0, 0.0, -1.0) else 1
+        return centre + self.offset * cmath.rect(1.0, rotation), sense * rotation + self.rotation
+
+    def second_axis(self, direction: float) -> Vector:
+        """As the first's frame has it."""
+        return self.axis
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """How far the second is from its place, mm (added to the distance), and its turn off it, rad."""
@@ -88,6 +108,7 @@ class FixedMating(Mating):
         return {
             "offset": [self.offset.real, self.offset.imag, self.height],
             "rotation_deg": math.degrees(self.rotation),
+            **({} if self.axis == (0.0, 0.0, 1.0) else {"axis": list(self.axis)}),
         }
 
 
@@ -136,7 +157,13 @@ class Fixed(MateKind[FixedSpec, Any, Any]):
     def mating(self, keys: FixedSpec, first: End[Any], second: End[Any]) -> FixedMating:
         """Whatever the parts are."""
         x, y, z = keys.offset
-        return _fixed(self.name, keys, complex(x, y), z, math.radians(keys.rotation_deg))
+        mating = _fixed(self.name, keys, complex(x, y), z, math.radians(keys.rotation_deg))
+        if keys.axis is None:
+            return mating
+        if not any(keys.axis):
+            raise ParameterError("mate.axis", list(keys.axis), "no_direction", None)
+        a, b, c = (value / math.hypot(*keys.axis) + 0.0 for value in keys.axis)
+        return replace(mating, axis=(a, b, c))
 
 
 def _fixed(name: str, keys: MateKeys, offset: complex, height: float, rotation: float = 0.0) -> FixedMating:

@@ -74,6 +74,10 @@ REASONS = {
         "is only for drives that turn everything evenly, which {free} does not do; without this key the "
         "motion is checked along the drives"
     ),
+    "workspace_of_upright": N_(
+        "is not for axes that lie and go round, as that of {lying} does; without this key the motion is checked along "
+        "the drives"
+    ),
     "workspace_needs_drives": N_("needs drives that move something; add [[drives]] or remove the key"),
     "shows_what_moves": N_("shows what a drive moves; add [[drives]] or remove the export"),
     "shows_gear_pairs_of_mates": N_("shows pairs of involute gears or worms only; add [[mates]] or remove the export"),

@@ -178,6 +178,8 @@ def check_workspace(poses: int | None, placing: Placing, source: str) -> None:
         raise SceneError(source, place, poses, "workspace_needs_drives", REMOVED)
     from parts.scene.workspace import uneven
 
+    if lying := sorted(placing.train.in_space):
+        raise SceneError(source, place, poses, "workspace_of_upright", REMOVED, lying=lying[0])
     free = next((i.id for i in placing.instances if uneven(placing.train, i.id)), None)
     if free is not None:
         raise SceneError(source, place, poses, "workspace_of_turns", REMOVED, free=free)

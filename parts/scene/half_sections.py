@@ -18,6 +18,7 @@ import numpy as np
 from geometry.approximation.chords import approximate_profile
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Real
+from geometry.gears.bevel.gear import BevelGear
 from geometry.gears.worms.body import WormBody
 from geometry.solids.body import Body
 from geometry.solids.turned import HalfSection, Hole, Piece
@@ -74,6 +75,8 @@ class Sectioned:
             self.half, self.holes = _outline(self.thing), self.thing.holes
         elif isinstance(self.thing, WormBody):
             self.half = _worm_outline(self.thing)
+        elif isinstance(self.thing, BevelGear):
+            self.half = _bevel_outline(self.thing)
         elif isinstance(self.thing, WheelThing):
             # its core, and all about that counts as teeth
             self.body, self.teeth, upright = self.thing.wheel.core, self.body.section_reach(), True
@@ -326,6 +329,22 @@ class Sections:
         return float((within.sum(axis=1) * r).sum() * cell)
 
 
+def _bevel_outline(gear: BevelGear) -> Complex:
+    """Half a section about a bevel gear, its teeth whole up to the tips, its bore as wide as it is all round."""
+    hub, bore, inside = gear.blank, gear.blank.bore, 0.0
+    if bore is not None:
+        contour = approximate_profile(bore, _CHORD, arcs=False).geometry
+        # nearest in the middle of a side
+        xy = contour.expanded()[0]
+        way = np.roll(xy, -1) - xy
+        share = np.clip(-(xy * way.conj()).real / np.maximum(np.abs(way) ** 2, _SAME**2), 0.0, 1.0)
+        inside = float(np.abs(xy + share * way).min()) - _CHORD
+    rows = [gear.rim, gear.outer(gear.tip_angle), gear.inner(gear.inner_tip_angle), gear.front]
+    cones = [complex(at.real, gear.mounting_distance - at.imag) for at in rows]
+    back = [complex(hub.hub_diameter / 2, z) for z in (0.0, hub.hub_length)] if hub.hub_length else []
+    return np.array([complex(inside, 0.0), *back, *cones, complex(inside, cones[-1].imag)])
+
+
 def _steps(bands: Real) -> list[tuple[float, float, float, float]]:
     """Bands as rings about them: those beside each other whose radii differ by little are one."""
     found: list[tuple[float, float, float, float]] = []
@@ -432,7 +451,7 @@ def _worm_outline(worm: WormBody) -> Complex:
 
 def _bands(outline: Complex) -> Real:
     """A half section cut at the levels of its corners: rows z0, z1, inner radius at both, outer at both."""
-    after, rows = np.roll(outline, -1), []
+    after, rows = np.roll(outline, -1), list[tuple[float, ...]]()
     levels = np.unique(np.round(outline.imag, _DIGITS + 2))
     for z0, z1 in pairwise(levels):
         middle = (z0 + z1) / 2
@@ -442,5 +461,8 @@ def _bands(outline: Complex) -> Real:
         ends = [a.real + slope * (z - a.imag) for z in (z0, z1)]
         order = np.argsort(ends[0] + ends[1])
         low, high = ends[0][order], ends[1][order]
-        rows += [(z0, z1, low[k], high[k], low[k + 1], high[k + 1]) for k in range(0, len(order), 2)]
+        sides = np.stack([low, high])
+        # a level is rounded: beyond a corner both sides would cross
+        radii = [pick(sides[:, ::2], sides[:, 1::2]) for pick in (np.minimum, np.maximum)]
+        rows += [(z0, z1, *at) for at in np.vstack(radii).T.tolist()]
     return np.array(rows)

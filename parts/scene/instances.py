@@ -231,8 +231,14 @@ def _further(mate: MateKeys, index: int, group: Group, *, placed: bool) -> dict[
         found["number"] = said("number") + index
     if "direction_deg" in keys and angle:
         found["direction_deg"] = further(said("direction_deg"), angle)
+    axis = said("axis") if "axis" in keys else None
     if "rotation_deg" in keys and angle and placed:
-        found["rotation_deg"] = said("rotation_deg") + angle
+        # what is turned over turns the other way about its own axis
+        over = axis is not None and not any(axis[:2]) and axis[2] < 0
+        found["rotation_deg"] = said("rotation_deg") + (-angle if over else angle)
+    if axis is not None and angle and placed:
+        aside = complex(*axis[:2]) * cmath.rect(1.0, math.radians(angle))
+        found["axis"] = (aside.real, aside.imag, axis[2])
     if "offset" in keys and said("offset") is not None and angle and placed:
         x, y, z = said("offset")
         moved = complex(x, y) * cmath.rect(1.0, math.radians(angle))

@@ -8,20 +8,23 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Set
+from collections.abc import Mapping, Sequence, Set
+from functools import cache
 from heapq import heapify, heappop, heappush
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geometry.base.errors import GeometryError
 from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.curve import Real
-from parts.scene.interference import INSET, SLIVER, common_volume
+from parts.scene.half_sections import Sections
+from parts.scene.interference import INSET, SLIVER, by_contact, common_volume, placed_solid
 from parts.scene.placing import UPWARDS, Instance, Placing
 from parts.scene.relative_path import Course, Path, path_of, stays_free
-from parts.scene.shapes import Shape, free_between
+from parts.scene.shapes import Shape, SweptShape, free_between
+from parts.scene.space_path import SpacePath, coaxial, space_path
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -87,12 +90,13 @@ def motion_found(
     mated = {frozenset((m.first.id, m.second.id)) for m in placing.mates if m.mating.has_contact}
     # loose pins are the teeth of what they are seated in
     seats = {m.second.id: m.first.id for m in placing.mates if m.mating.kind == "pin_seat"}
+    parts = {name: shape.part for name, shape in shapes.items()}
+    exact, space = by_contact(placing, parts), _Space(course, shapes, Sections(parts))
     found, clear = MotionFound(), Clear()
     for index, one in enumerate(placing.instances):
         for two in placing.instances[index + 1 :]:
             ends = frozenset((one.id, two.id))
-            # paths are those of the plane
-            if not ends & course.rates.keys() or ends in known or {one.axis, two.axis} != {UPWARDS}:
+            if not ends & course.rates.keys() or ends in known:
                 continue
             # teeth of plates are left to their contact
             if ends <= plates and frozenset(seats.get(end, end) for end in ends) in mated:
@@ -101,11 +105,94 @@ def motion_found(
             if ends in apart:
                 continue
             try:
+                if {one.axis, two.axis} != {UPWARDS} or ends & course.in_space:
+                    # what its mate decides for solids is decided all round
+                    if ends not in exact:
+                        space.hold(found, (one, two), is_mated=ends in mated)
+                    continue
                 hold(found, clear, (one, two), (shapes[one.part], shapes[two.part]), course, is_mated=ends in mated)
             except GeometryError:
                 found.tested += 1
                 found.struck.append(Struck(one.id, two.id, None, 0.0))
     return found
+
+
+class _Space:
+    """What holds pairs whose axes lie, or go round with what lies; ``sections`` tell of what is about one axis."""
+
+    def __init__(self, course: Course, shapes: Mapping[str, Shape], sections: Sections) -> None:
+        self.course, self.shapes, self.sections = course, shapes, sections
+        self.swept = cache(lambda name: SweptShape(shapes[name]))
+
+    def hold(self, found: MotionFound, pair: tuple[Instance, Instance], *, is_mated: bool) -> None:
+        """One pair: at first what both sweep about their own axes, which needs few poses, then the solids."""
+        spins = [i.id in self.course.spins and self.shapes[i.part].count(0.0, math.inf) > 0 for i in pair]
+        if any(spins) and not is_mated and self._sweeps_past(found, pair, (spins[0], spins[1])):
+            return
+        own = (self.shapes[pair[0].part], self.shapes[pair[1].part])
+        self._search(found, pair, own, _MATED_POSES if is_mated else MOST_POSES, reports=not is_mated)
+
+    def _sweeps_past(self, found: MotionFound, pair: tuple[Instance, Instance], spins: tuple[bool, bool]) -> bool:
+        """Whether what both sweep stays apart."""
+        one, two = pair
+        near = [self.shapes[i.part] for i in pair]
+        round_ = self._round(pair, near, spins)
+        if space_path(pair, (near[0], near[1]), self.course, round_) is None:
+            # about one line, or cylinders across each other: as it stands it stays
+            decided = one.axis != two.axis or coaxial(pair)
+            if decided and self.sections.between(one, two) is not None:
+                return True
+        swept = [self.swept(i.part) if turns else self.shapes[i.part] for i, turns in zip(pair, spins, strict=True)]
+        trial = MotionFound()
+        self._search(trial, pair, (swept[0], swept[1]), MOST_POSES, reports=True)
+        if trial.struck:
+            return False
+        found.tested += trial.tested
+        found.poses += trial.poses
+        found.uncovered += trial.uncovered
+        return True
+
+    def _round(
+        self, pair: tuple[Instance, Instance], shapes: Sequence[Shape], spins: tuple[bool, bool]
+    ) -> tuple[bool, bool]:
+        """Whose own turns do not matter: what is round, or swept, about the axis on which it turns."""
+        one, two = (
+            turns or (i.id in self.course.spins and not shape.count(0.0, math.inf))
+            for i, shape, turns in zip(pair, shapes, spins, strict=True)
+        )
+        return one, two
+
+    def _search(
+        self,
+        found: MotionFound,
+        pair: tuple[Instance, Instance],
+        shapes: tuple[Shape, Shape],
+        most: int,
+        *,
+        reports: bool,
+    ) -> None:
+        path = space_path(pair, shapes, self.course, self._round(pair, shapes, (False, False)))
+        one, two = (i.id for i in pair)
+        if path is None:
+            # it stands still, as it was held; what is swept was not
+            if any(isinstance(shape, SweptShape) for shape in shapes):
+                found.tested, found.poses = found.tested + 1, found.poses + 1
+                volume = common_volume([placed_solid(i, s.solid) for i, s in zip(pair, shapes, strict=True)])
+                if volume:
+                    found.struck.append(Struck(one, two, volume, 0.0))
+            return
+        if stays_free(path.free):
+            if path.share < 1:
+                found.uncovered.append(Uncovered(one, two, 0.0, path.share, 0))
+            return
+        search = _Search(shapes, path, path.free, 0.0, most)
+        struck, uncovered = search.run(one, two)
+        found.tested += 1
+        found.poses += search.poses
+        if struck is not None:
+            found.struck.append(struck)
+        elif uncovered is not None and reports:
+            found.uncovered.append(uncovered)
 
 
 def hold(
@@ -200,16 +287,25 @@ class Meeting:
 
     def _meshes(self, place: complex, turn: float) -> tuple[float, float]:
         """The same of any solids; their distance as far as it is sought."""
-        one, two = self.shapes
-        moved = two.solid.rotate([0.0, 0.0, math.degrees(turn)]).translate([place.real, place.imag, self.lift])
-        gap = float(one.solid.min_gap(moved, self.sought))
-        return gap, common_volume((one.solid, moved)) if gap <= 0 else 0.0
+        two = self.shapes[1]
+        return self._apart(
+            two.solid.rotate([0.0, 0.0, math.degrees(turn)]).translate([place.real, place.imag, self.lift])
+        )
+
+    def meet_in_space(self, turned: Real, place: Real) -> tuple[float, float]:
+        """The same with the second's frame turned (3, 3) and moved (3,) so."""
+        return self._apart(self.shapes[1].solid.transform(np.column_stack([turned, place])))
+
+    def _apart(self, moved: Any) -> tuple[float, float]:
+        one = self.shapes[0].solid
+        gap = float(one.min_gap(moved, self.sought))
+        return gap, common_volume((one, moved)) if gap <= 0 else 0.0
 
 
 class _Search:
     """Poses of one pair, chosen as it is searched; places on its path go by the path's length, mm."""
 
-    def __init__(self, shapes: tuple[Shape, Shape], path: Path, free: Real, lift: float, most: int) -> None:
+    def __init__(self, shapes: tuple[Shape, Shape], path: Path | SpacePath, free: Real, lift: float, most: int) -> None:
         self.path, self.free, self.most = path, free, most
         self.whole = float(path.length[-1])
         self.step = _FIRST * self.whole / most
@@ -248,12 +344,17 @@ class _Search:
         for _ in range(_SEARCH // 2):
             for at in (self.worst[1] - reach, self.worst[1] + reach):
                 self.poses += 1
-                self.worst = max(self.worst, (self.meeting.meet(*self._pose(at % self.whole))[1], at % self.whole))
+                self.worst = max(self.worst, (self._meet(at % self.whole)[1], at % self.whole))
             reach /= 2
 
-    def _pose(self, at: float) -> tuple[complex, float]:
-        place, turn = self.path.seen(np.array([np.interp(at, self.path.length, self.path.times)]))
-        return complex(place[0]), math.remainder(float(turn[0]), 2 * math.pi)
+    def _meet(self, at: float) -> tuple[float, float]:
+        """Gap and common volume at a place on the path."""
+        time = np.array([np.interp(at, self.path.length, self.path.times)])
+        if isinstance(self.path, SpacePath):
+            turned, there = self.path.seen(time)
+            return self.meeting.meet_in_space(turned[0], there[0])
+        place, turn = self.path.seen(time)
+        return self.meeting.meet(complex(place[0]), math.remainder(float(turn[0]), 2 * math.pi))
 
     def _gap(self, at: float) -> float:
         """Distance of the solids, mm, as far as it is worth knowing; what they have in common is noted."""
@@ -261,7 +362,7 @@ class _Search:
         if far > self.step:
             return far
         self.poses += 1
-        gap, volume = self.meeting.meet(*self._pose(at))
+        gap, volume = self._meet(at)
         self.worst = max(self.worst, (volume, at))
         return gap
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from geometry.base.errors import ParameterError
@@ -21,7 +21,7 @@ from parts.scene.instances import DriveSpec, InstanceSpec
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from parts.base.mate import Mating, Pose
+    from parts.base.mate import Mating
     from parts.scene.train import Train
 
 UPWARDS: Vector = (0.0, 0.0, 1.0)
@@ -29,6 +29,8 @@ UPWARDS: Vector = (0.0, 0.0, 1.0)
 _CARRYING = ("fixed", "carried", "pin_seat", "eccentric_bearing", "cam_follower", "linkage_member", "wedge_follower")
 # between things that no mate and no ``at`` places, mm; parts of an axis that are none
 _GAP, _STRAIGHT = 5.0, 1e-12
+# between axes that are to be one direction, rad
+_SAME_AXIS = 1e-7
 
 
 class Instance(Record):
@@ -91,8 +93,9 @@ class PlacedMate(Record):
 
     @property
     def direction(self) -> float:
-        """Direction of the line of centres as placed, rad."""
-        return cmath.phase(self.second.centre - self.first.centre)
+        """Direction of the line of centres as placed, about the first's axis from its x as it is laid, rad."""
+        first, second = seen_from(self.first, self.second)
+        return cmath.phase(second.centre - first.centre)
 
 
 class Closeness(Record):
@@ -131,8 +134,8 @@ class Placing(Record):
         """The instances when each drive has run that far: turns, or mm of a slide."""
         if self.train is None or not any(values):
             return self.instances
-        poses = self.train.poses(values)
-        return tuple(_moved(instance, *poses[instance.id]) for instance in self.instances)
+        train = self.train.set(values)
+        return tuple(_moved(instance, train) for instance in self.instances)
 
     @property
     def needs_check(self) -> bool:
@@ -166,17 +169,23 @@ def place(
         from parts.scene.train import driven_train
 
         held = [key for key, spec in specs.items() if spec.held is True]
-        train = driven_train(_poses(instances), matings, drives, held, source)
+        train = driven_train({i.id: i for i in instances}, matings, drives, held, source)
     close = _close_ones(instances, mates, parts)
     return Placing(instances, mates, close, train, tuple(_off_centre(instances, matings, parts)))
 
 
-def _poses(instances: Iterable[Instance]) -> dict[str, Pose]:
-    return {instance.id: (instance.centre, instance.rotation) for instance in instances}
+def _moved(instance: Instance, train: Train) -> Instance:
+    """An instance where its train has put it."""
+    import numpy as np
 
-
-def _moved(instance: Instance, centre: complex, rotation: float) -> Instance:
-    return replace(instance, at=(centre.real, centre.imag, instance.at[2]), rotation=rotation)
+    if instance.id in train.in_space:
+        turned, place = train.placed(instance.id, np.zeros(()))
+        rows = tuple((a, b, c) for a, b, c in turned.tolist())
+        x, y, z = place.tolist()
+        return _placed_so(instance, Placement3((rows[0], rows[1], rows[2]), (x, y, z)))
+    at, rotation = train.along(instance.id, np.zeros(()))
+    centre = complex(at)
+    return replace(instance, at=(centre.real, centre.imag, instance.at[2]), rotation=float(rotation))
 
 
 class _Placed:
@@ -196,7 +205,7 @@ class _Placed:
     def join(self, index: int, mating: Mating) -> PlacedMate:
         """Run one mate: place its second, or only note that both stand."""
         first, second = mating.first, mating.second
-        if not mating.lies:
+        if mating.in_plane:
             self._check_upright(index, mating)
         if first not in self.stand:
             self._begin(index, mating)
@@ -214,9 +223,9 @@ class _Placed:
         except ParameterError as refusal:
             raise placed(self.source, f"mates[{index + 1}]", refusal) from refusal
         at = (centre.real, centre.imag, mating.height + (0.0 if lying else here.at[2]))
-        axis = mating.second_axis(direction)
+        axis = _axis_of_second(mating, here)
         there = Instance(second, str(self.specs[second].part), at, turned, "mate", axis)
-        self.stand[second] = _on_axis(here, there) if lying else there
+        self.stand[second] = _placed_so(there, _frame(here) @ there.scene_from_part) if lying else there
         for group in self.free:
             if first in group:
                 group.append(second)
@@ -293,15 +302,26 @@ class _Placed:
         return here.at[0] + side * (_reach(part) + (part.face_width if here.axis != UPWARDS else 0.0))
 
 
-def _on_axis(here: Instance, local: Instance) -> Instance:
-    """An instance that stands so beside one at the origin, upright, laid beside that one as it lies."""
-    own = Placement3.towards(local.axis, local.rotation, local.at)
-    found = Placement3.towards(here.axis, 0.0, here.at) @ own
+def _frame(here: Instance) -> Placement3:
+    """Where an instance is laid, not turned about its axis."""
+    return Placement3.towards(here.axis, 0.0, here.at)
+
+
+def _placed_so(instance: Instance, found: Placement3) -> Instance:
+    """An instance whose frame stands so."""
     # rounding of what is straight would turn it another way
     way = [0.0 if abs(row[2]) < _STRAIGHT else row[2] for row in found.rotation]
     x, y, z = (value / math.hypot(*way) for value in way)
     turned = Placement3.towards((x, y, z), 0.0).inverse() @ found
-    return replace(local, at=found.translation, rotation=_about_z(turned), axis=(x, y, z))
+    return replace(instance, at=found.translation, rotation=_about_z(turned), axis=(x, y, z))
+
+
+def seen_from(first: Instance, second: Instance) -> tuple[Instance, Instance]:
+    """Both in the frame in which the first is laid; of an upright one that is the scene's own."""
+    if first.axis == UPWARDS:
+        return first, second
+    local = _placed_so(second, _frame(first).inverse() @ second.scene_from_part)
+    return replace(first, at=(0.0, 0.0, 0.0), axis=UPWARDS), local
 
 
 def _about_z(turned: Placement3) -> float:
@@ -333,7 +353,8 @@ def _closed(mate: PlacedMate) -> PlacedMate:
         return mate
     from parts.base.mate import Toothed
 
-    first, second, turned = mate.first, mate.second, mate.first.rotation
+    first, second = seen_from(mate.first, mate.second)
+    turned = first.rotation
     if isinstance(mate.mating, Toothed):
         # helical teeth are compared at one height: that of the second's lower face
         turned += mate.mating.face.turn(mate.mating.first_teeth, second.at[2] - first.at[2])
@@ -344,13 +365,35 @@ def _closed(mate: PlacedMate) -> PlacedMate:
     # numbers that large cannot be known better
     allowed = PLACED_MM + TOLERANCES.relative_join * (abs(mate.first.centre) + abs(mate.second.centre))
     conditions = [Condition("centre_distance", found.distance, required, allowed, abs(shift) <= allowed)]
+    if (lean := _lean(mate.mating, first, second)) is not None:
+        conditions.append(lean)
     off, met = found.phase_off, abs(found.phase_off) <= found.play + found.slack(allowed)
     if found.slides:
         conditions.append(Condition("rack_phase", off, 0.0, found.play + allowed, met))
     else:
-        turned, right = math.degrees(second.rotation), math.degrees(second.rotation - off)
+        turned, right = math.degrees(mate.second.rotation), math.degrees(mate.second.rotation - off)
         conditions.append(Condition("phase", turned, right, math.degrees(found.play + found.slack(allowed)), met))
     return replace(mate, conditions=tuple(conditions), second_turn=off, centre_shift=shift)
+
+
+def _lean(mating: Mating, first: Instance, second: Instance) -> Condition | None:
+    """Whether the second's axis points as the first's frame wants it; None of two that are both upright in it."""
+    wanted = _axis_of_second(mating, first)
+    if second.axis == wanted == UPWARDS:
+        return None
+    seen = Placement3.towards(wanted, 0.0).inverse() @ second.scene_from_part
+    x, y, z = (row[2] for row in seen.rotation)
+    angle, allowed = math.degrees(math.atan2(math.hypot(x, y), z)), math.degrees(_SAME_AXIS)
+    return Condition("shaft_angle", angle, 0.0, allowed, angle <= allowed)
+
+
+def _axis_of_second(mating: Mating, first: Instance) -> Vector:
+    """The axis that a mate gives its second where the first stands so, upright."""
+    x, y, z = mating.second_axis(math.radians(mating.direction_deg))
+    if not mating.turns_axis or x == y == 0:
+        return x, y, z
+    aside = complex(x, y) * cmath.rect(1.0, first.rotation)
+    return aside.real, aside.imag, z
 
 
 def _laid(mating: Mating, first: Instance, second: Instance) -> PlacedMate:
@@ -375,18 +418,20 @@ def _with_faces_and_speeds(mates: tuple[PlacedMate, ...], parts: dict[str, Part]
     done = []
     for index, mate in enumerate(mates):
         more: list[Condition] = []
+        upright = seen_from(mate.first, mate.second)[1].axis == UPWARDS
         if (mate.conditions and mate.mating.asks_height) or (
-            mate.mating.has_contact and mate.mating.height and mate.second.axis == UPWARDS and not mate.mating.lies
+            mate.mating.has_contact and mate.mating.height and upright and not mate.mating.lies
         ):
             more.append(_height(mate, parts))
         if mate.only_checks:
             from parts.base.mate import Toothed
 
             if isinstance(mate.mating, Toothed) and (face := mate.mating.face).helix.angle:
-                width = max(_common_width(mate.first, mate.second, parts), 0.0)
+                first, second = seen_from(mate.first, mate.second)
+                width = max(_common_width(first, second, parts), 0.0)
                 mate = replace(mate, mating=replace(mate.mating, face=replace(face, width=width)))
                 if face.helix.double:
-                    height = mate.second.at[2] - mate.first.at[2]
+                    height = second.at[2] - first.at[2]
                     more.append(Condition("herringbone_height", height, 0.0, PLACED_MM, abs(height) <= PLACED_MM))
             if ratios := _ratios(index, mates):
                 other, ratio = ratios
@@ -400,16 +445,17 @@ def _ratios(index: int, mates: tuple[PlacedMate, ...]) -> tuple[float, float] | 
     """Turns of a mate's second for one of its first by the mates before it, and by itself."""
     from parts.scene.train import ratio_before
 
-    stand = _poses(instance for mate in mates[: index + 1] for instance in (mate.first, mate.second))
+    stand = {one.id: one for mate in mates[: index + 1] for one in (mate.first, mate.second)}
     return ratio_before(stand, [mate.mating for mate in mates[:index]], mates[index].mating)
 
 
 def _height(mate: PlacedMate, parts: dict[str, Part]) -> Condition:
     """Bodies that touch need a common height; bodies that are fixed stand at a height to each other."""
+    first, second = seen_from(mate.first, mate.second)
     if mate.mating.has_contact:
-        width = _common_width(mate.first, mate.second, parts)
+        width = _common_width(first, second, parts)
         return Condition("common_face_width", width, 0.0, 0.0, width > 0)
-    height, required = mate.second.at[2] - mate.first.at[2], mate.mating.height
+    height, required = second.at[2] - first.at[2], mate.mating.height
     return Condition("height", height, required, PLACED_MM, abs(height - required) <= PLACED_MM)
 
 

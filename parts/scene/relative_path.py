@@ -5,22 +5,33 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
+from typing import Protocol
 
 import numpy as np
 
-from geometry.base.record import Record
+from geometry.base.record import Record, field
 from geometry.curves.curve import Complex, Real
 from parts.scene.placing import Instance
 from parts.scene.shapes import Shape, free_between
-from parts.scene.train import Train
+from parts.scene.train import Train, Turning
 
 # samples of a path for each cycle of its fastest rate; cycles at most, of axes alone too, of which the rest is told
-_PER_CYCLE, _MOST_CYCLES, _MOST_OF_AXES = 720, 400, 2000
+PER_CYCLE, MOST_CYCLES, _MOST_OF_AXES = 720, 400, 2000
 # what is one place, mm; one angle, rad; one pose, mm or share of a turn
 _SAME, _SAME_ANGLE, _ALIKE = 1e-7, 1e-9, 1e-6
 # times that are tried where two pairs may stand alike, and how often each is made better
 _TRIED, _HALVINGS = 8, 40
 _SPREAD = np.arange(1, 34) * (math.sqrt(5) - 1) / 2 % 1.0
+
+
+class Placed(Protocol):
+    """Turns (n, 3, 3) and places (n, 3), mm, of an instance at many t."""
+
+    def __call__(self, key: str, t: Real, *, own: bool) -> tuple[Real, Real]: ...
+
+
+def _nowhere(key: str, t: Real, *, own: bool) -> tuple[Real, Real]:
+    raise KeyError(key)
 
 
 class Course(Record):
@@ -29,20 +40,36 @@ class Course(Record):
     ``pose``: axes (mm) and angles (rad) of an instance at many t. ``rates``: of each instance that moves its turns for
     one t, then those of whatever carries it, from the nearest one. ``once``: what slides or turns unevenly, which is
     followed on the way that is asked for alone.
+
+    In space: ``placed`` gives turns (n, 3, 3) and places (n, 3) of any instance, with its ``own`` turn or as what
+    carries it goes; ``chains``: what turns it; ``in_space``: what ``pose`` does not tell; ``spins``: what turns about
+    its own axis.
     """
 
     pose: Callable[[str, Real], tuple[Complex, Real]]
     rates: Mapping[str, tuple[Fraction, ...]]
     once: frozenset[str] = frozenset()
+    placed: Placed = _nowhere
+    chains: Mapping[str, tuple[Turning, ...]] = field(default_factory=dict)
+    in_space: frozenset[str] = frozenset()
+    spins: frozenset[str] = frozenset()
 
 
 def course_of(train: Train, instances: Iterable[str]) -> Course:
     """The course of a scene's train."""
-    told = {key: train.rates(key) for key in instances}
+    keys = list(instances)
+    told = {key: train.rates(key) for key in keys}
     most = Fraction(math.ceil(max([1.0, *(abs(x) for turned in train.turned for x in turned.values())])))
     rates = {key: (most,) if chain is None else chain for key, chain in told.items()}
     once = frozenset(key for key, chain in told.items() if chain is None)
-    return Course(train.along, {key: chain for key, chain in rates.items() if any(chain)}, once)
+    moves = {key: chain for key, chain in rates.items() if any(chain)}
+
+    def placed(key: str, t: Real, *, own: bool) -> tuple[Real, Real]:
+        return train.placed(key, t) if own else train.carried(key, t)
+
+    chains = {key: train.chain(key) for key in keys}
+    spins = frozenset(key for key in keys if train.spins(key))
+    return Course(train.along, moves, once, placed, chains, train.in_space, spins)
 
 
 class Path(Record):
@@ -88,7 +115,7 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
         return None
     fastest = float(max(map(abs, rates)))
     # spread over the whole, so that no dwell is taken for rest
-    probe = min(float(common_period(rates)), _MOST_CYCLES / fastest) * np.concatenate([[0.0], _SPREAD])
+    probe = min(float(common_period(rates)), MOST_CYCLES / fastest) * np.concatenate([[0.0], _SPREAD])
     places, turns = _seen(course, pair, probe)
     still = float(np.abs(places - places[0]).max()) <= _SAME
     coaxial = float(np.abs(places).max()) <= _SAME
@@ -100,7 +127,7 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
     once = bool({i.id for i in pair} & course.once)
     period = Fraction(1) if once else _period(places, probe, (one, two), counts, rates)
     cycles = max(float(period) * fastest, 1e-9)
-    share = min(1.0, _MOST_CYCLES / cycles)
+    share = min(1.0, MOST_CYCLES / cycles)
     start = 0.0
     if share < 1:
         # the axes may go round far slower than both turn: the looked at part lies about their worst place
@@ -108,7 +135,7 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
         if is_whole and stays_free(free):
             return None
         start = float(slow[free.argmin()]) - float(period) * share / 2
-    times = start + np.linspace(0.0, float(period) * share, int(_PER_CYCLE * max(1.0, cycles * share)) + 1)
+    times = start + np.linspace(0.0, float(period) * share, int(PER_CYCLE * max(1.0, cycles * share)) + 1)
     places, turns = _seen(course, pair, times)
     turned = np.unwrap(turns)
     # seen from the second it is the same motion: the smaller bound counts
@@ -118,7 +145,7 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
         np.abs(np.diff(back)) + shapes[0].reach * np.abs(np.diff(turned)),
     )
     # an arc is longer than its chord
-    length = np.concatenate([[0.0], np.cumsum(steps)]) * (1 + 2.0 / _PER_CYCLE)
+    length = np.concatenate([[0.0], np.cumsum(steps)]) * (1 + 2.0 / PER_CYCLE)
     stands = _stands(places, turned, counts)
     return Path(lambda t: _seen(course, pair, t), counts, period, share, times, length, np.abs(places), stands)
 
@@ -137,13 +164,13 @@ def _axes_free(
     fastest = float(max(rates, default=Fraction(1)))
     whole = float(common_period(rates)) * fastest
     cycles = min(whole, float(_MOST_OF_AXES))
-    times = np.linspace(0.0, cycles / fastest, int(_PER_CYCLE * max(1.0, cycles)) + 1)
+    times = np.linspace(0.0, cycles / fastest, int(PER_CYCLE * max(1.0, cycles)) + 1)
     return times, free_between(np.abs(_seen(course, pair, times)[0]), shapes), cycles == whole
 
 
 def stays_free(free: Real) -> bool:
     """Whether what circles leave, mm, stays above 0 between its samples too: there it falls by half a step at most."""
-    return bool(free.min() > (0.5 + 1.0 / _PER_CYCLE) * np.abs(np.diff(free)).max(initial=0.0))
+    return bool(free.min() > (0.5 + 1.0 / PER_CYCLE) * np.abs(np.diff(free)).max(initial=0.0))
 
 
 def _chains(course: Course, pair: tuple[Instance, Instance]) -> tuple[tuple[Fraction, ...], tuple[Fraction, ...]]:

@@ -138,6 +138,15 @@ class Shape:
         return 0.0 if common_volume((self.solid, core.translate([0.0, 0.0, self.low - 1.0]))) else radius
 
 
+class SweptShape(Shape):
+    """What a part sweeps as it turns about its own axis: round, and no smaller."""
+
+    def __init__(self, shape: Shape) -> None:
+        self.part, self.low, self.high, self.reach, self.walls = shape.part, shape.low, shape.high, shape.reach, ()
+        self.solid = Sectioned(shape.part).hull or shape.swept()
+        self.slabs = None
+
+
 class LyingShape(Shape):
     """A part on an axis that is not upright, turned as it lies, its own axis at the origin; one that ``turns`` about
     its own axis is what it sweeps there.

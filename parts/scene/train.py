@@ -6,13 +6,13 @@ import cmath
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import Record, replace
 from geometry.base.series import Series
-from geometry.base.tolerance import PLACED_MM
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.mechanism import (
     FRAME,
@@ -25,6 +25,9 @@ from geometry.kinematics.mechanism import (
     Rolling,
     Tree,
     Uneven,
+    Z,
+    one_line,
+    parallel,
     tree,
     turns,
 )
@@ -33,43 +36,121 @@ from parts.base.mate import Mating, Pose, Toothed
 from parts.base.refusal import SceneError
 from parts.scene.instances import DriveSpec
 
-# where instances stand: centre (mm) and rotation (rad)
-Stand = Mapping[str, Pose]
+if TYPE_CHECKING:
+    from geometry.base.placement import Placement3, Vector
+
+
+class Stood(Protocol):
+    """How an instance stands: its axis ``at`` a place (mm), turned by ``rotation`` (rad) about it."""
+
+    @property
+    def at(self) -> Vector:
+        """A place on its axis, the origin of its frame, mm."""
+
+    @property
+    def centre(self) -> complex:
+        """The same in the plane, mm."""
+
+    @property
+    def rotation(self) -> float:
+        """About its axis, rad."""
+
+    @property
+    def axis(self) -> Vector:
+        """A unit vector along its z."""
+
+    @property
+    def scene_from_part(self) -> Placement3:
+        """Where its frame stands."""
+
+
+Stand = Mapping[str, Stood]
+
+
+class Turning(Record):
+    """A body that turns about its joint's axis: turns for one t against what carries it."""
+
+    body: Revolute
+    rate: Fraction
 
 
 class Train(Record):
     """What drives move; at t = 1 they have run as far as the scene asks.
 
     ``turned``: of each drive the turns it gives to each instance, ``slid``: the travel, mm. ``uneven``: what turns so
-    often, but not evenly.
+    often, but not evenly; ``in_space``: what does not go upright in the plane, nor turns about its own axis alone.
     """
 
+    stand: Stand
     moving: Moving
     drives: tuple[str, ...]
     turned: tuple[dict[str, float], ...]
     slid: tuple[dict[str, float], ...]
     uneven: frozenset[str]
+    in_space: frozenset[str]
 
-    def poses(self, values: Sequence[float | Fraction]) -> dict[str, Pose]:
-        """Where all instances stand when each drive has run that far: turns, or mm of a slide."""
+    def set(self, values: Sequence[float | Fraction]) -> Train:
+        """The same train, at t = 0 where each drive has run that far, turns, or mm of a slide, and at rest there."""
         lines = [
             Drive(key, Fraction(0), exact(value, slides(self.moving.stands, key)))
             for key, value in zip(self.drives, values, strict=True)
         ]
-        found = self.moving.driven(lines).poses(np.zeros(()), 0)
-        return {key: (complex(at[0]), float(angle[0])) for key, (at, angle) in found.items()}
+        return replace(self, moving=self.moving.driven(lines))
+
+    def poses(self, values: Sequence[float | Fraction]) -> dict[str, Pose]:
+        """Where all that does not move ``in_space`` stands when each drive has run that far."""
+        train, now = self.set(values), np.zeros(())
+        found = {key: train.along(key, now) for key in self.stand if key not in self.in_space}
+        return {key: (complex(at), float(angle)) for key, (at, angle) in found.items()}
 
     def along(self, key: str, t: Real) -> tuple[Complex, Real]:
-        """Centres (mm) and rotations (rad) of an instance at many t."""
+        """Centres (mm) and rotations (rad) about its axis of an instance that does not move ``in_space``, at many t."""
+        here = self.stand[key]
+        if here.axis != Z or key not in self.moving.starts:
+            return np.full(np.shape(t), here.centre), here.rotation + self.moving.turned(key, t)
         at, angle = self.moving.pose(key, t, 0)
         return np.asarray(at[0]), np.asarray(angle[0])
 
+    def placed(self, key: str, t: Real) -> tuple[Real, Real]:
+        """Of any instance the turns (..., 3, 3) and places (..., 3), mm, of its frame in the scene, at many t."""
+        own = self.stand[key].scene_from_part
+        turned, moved = self.moving.displacement(key, t)
+        return np.asarray(turned @ np.array(own.rotation)), turned @ np.array(own.translation) + moved
+
+    def carried(self, key: str, t: Real) -> tuple[Real, Real]:
+        """The same as ``placed`` with its body at rest on what carries that: no turn of its own."""
+        body = self.moving.stands.body(key)
+        joint = self.moving.stands.supports.get(body)
+        if not isinstance(joint, Revolute):
+            return self.placed(key, t)
+        own = self.stand[key].scene_from_part
+        turned, moved = self.moving.displacement(joint.on, t)
+        return np.asarray(turned @ np.array(own.rotation)), turned @ np.array(own.translation) + moved
+
+    def chain(self, key: str) -> tuple[Turning, ...]:
+        """What turns an instance, from its own body down."""
+        stands, found, here = self.moving.stands, list[Turning](), key
+        while (joint := stands.supports.get(here)) is not None and not isinstance(joint, Group):
+            if isinstance(joint, Revolute):
+                row = stands.turn(here, joint.on)
+                rates = (share * self.moving.courses[name].rate for name, share in row.items())
+                found.append(Turning(joint, sum(rates, Fraction())))
+            here = joint.on
+        return tuple(found)
+
+    def spins(self, key: str) -> bool:
+        """Whether what turns an instance turns it about its own axis."""
+        joint = self.moving.stands.supports.get(self.moving.stands.body(key))
+        return isinstance(joint, Revolute) and one_line(joint, _about(key, self.stand[key]))
+
     def rolled(self, mating: Mating) -> list[float]:
-        """By each drive the turns of a mate's first, against the carrier where both are toothed."""
-        ends = {(mating.first, mating.second)} if isinstance(mating, Toothed) else set()
-        meshes = (j for j in self.moving.stands.mechanism.joints if isinstance(j, Rolling))
+        """By each drive the turns of a mate's first, against the carrier where both are gears."""
+        ends = {(mating.first, mating.second)} if isinstance(mating, Toothed) or mating.lies else set()
+        stands = self.moving.stands
+        meshes = (j for j in stands.mechanism.joints if isinstance(j, Rolling))
         carrier = next((j.on for j in meshes if (j.first, j.second) in ends), FRAME)
-        return [train.get(mating.first, 0.0) - train.get(carrier, 0.0) for train in self.turned]
+        row = stands.turn(mating.first, carrier)
+        return [sum(float(share) * train.get(key, 0.0) for key, share in row.items()) for train in self.turned]
 
     def rates(self, key: str) -> tuple[Fraction, ...] | None:
         """Turns of an instance, then of what carries it, from the nearest on, for one t.
@@ -147,7 +228,7 @@ def scene_mechanism(
         An instance stands on two others, or the axes of a mesh part: named ``mates[k].KEY``.
     """
     bodies = Bodies(stand, matings)
-    axes: dict[str, complex] = {}
+    axes: dict[str, Stood] = {}
     carriers: dict[str, list[tuple[str, int]]] = {}
     joints: dict[str, Joint] = {}
     for index, mating in enumerate(matings):
@@ -155,39 +236,40 @@ def scene_mechanism(
         for joint in mating.joints:
             if isinstance(joint, Rolling):
                 for key in (joint.first, joint.second):
-                    axes.setdefault(bodies.of(key), stand[key][0])
+                    axes.setdefault(bodies.of(key), stand[key])
             elif isinstance(joint, Prismatic):
                 slide = bodies.of(joint.link)
-                joints.setdefault(slide, Prismatic(slide, direction=cmath.rect(1.0, stand[joint.link][1])))
+                joints.setdefault(slide, Prismatic(slide, direction=cmath.rect(1.0, stand[joint.link].rotation)))
             elif isinstance(joint, Revolute) and bodies.of(joint.on) != body:
                 carriers.setdefault(body, []).append((bodies.of(joint.on), index))
         if mating.follows and bodies.of(mating.first) != body:
             joints.setdefault(body, _following(mating, stand, body))
     # an axis that a mate puts somewhere is there
-    axes |= {key: stand[matings[found[0][1]].second][0] for key, found in carriers.items()}
-    axes = {key: at for key, (at, _) in stand.items()} | axes
+    axes |= {key: stand[matings[found[0][1]].second] for key, found in carriers.items()}
+    lines = {key: _about(key, one) for key, one in {**stand, **axes}.items()}
 
     led = set(joints)
 
-    def carrier(on: str, at: complex) -> str:
-        """What carries an axis at a place: what stands on one's own axis does not go round with one."""
-        while on not in led and on != FRAME and abs(axes[on] - at) <= PLACED_MM:
+    def carrier(on: str, line: Revolute) -> str:
+        """What carries an axis: what stands on one's own axis does not go round with one."""
+        while on not in led and on != FRAME and one_line(lines[on], line):
             on = carriers[on][0][0] if on in carriers else FRAME
         return on
 
     for key in stand:
         body = bodies.of(key)
         if body != key:
-            joints[key] = Fixed(key, on=body)
+            joints[key] = Fixed(key, on=body, sense=parallel(stand[key].axis, lines[body].axis) or 1)
         elif key not in joints:
-            found = [(carrier(on, axes[key]), index) for on, index in carriers.get(key, ())]
-            joints[key] = Revolute(key, on=found[0][0] if found else FRAME, at=axes[key])
+            found = [(carrier(on, lines[key]), index) for on, index in carriers.get(key, ())]
+            joints[key] = replace(lines[key], on=found[0][0] if found else FRAME)
             for on, index in found[1:]:
                 if on != found[0][0]:
                     told = f"mates[{index + 1}].first"
                     raise ParameterError(told, matings[index].first, "stands_on_two", None, on=[found[0][0]])
     holds = {key: None for mating in matings for key in mating.holds}
-    base = Mechanism(tuple(joints.values()), tuple(holds | dict.fromkeys(held)), dict(stand))
+    base = Mechanism(tuple(joints.values()), tuple(holds | dict.fromkeys(held)),
+                     {key: (one.centre, one.rotation) for key, one in stand.items()})  # fmt: skip
     stands = tree(base)
     meshes: list[Rolling] = []
     for index, mating in enumerate(matings):
@@ -212,23 +294,27 @@ def _ahead(mating: Mating, joint: Rolling, stand: Stand, matings: Sequence[Matin
     driver, mean = mating.first, float(joint.ratio)
     if drives.intersection(beyond):
         driver, mean = mating.second, 1 / mean
-    direction = cmath.phase(stand[mating.second][0] - stand[mating.first][0])
-    start = mating.partner(driver, stand[driver][1], direction)
+    direction, begins = cmath.phase(stand[mating.second].centre - stand[mating.first].centre), stand[driver].rotation
+    start = mating.partner(driver, begins, direction)
 
     def ahead(turn: Series) -> Series:
-        turned = np.vectorize(lambda t: mating.partner(driver, stand[driver][1] + float(t), direction), [float])(
-            turn[0]
-        )
+        turned = np.vectorize(lambda t: mating.partner(driver, begins + float(t), direction), [float])(turn[0])
         # how fast it goes is the centrodes' matter
         return [turned - start - mean * turn[0], *(np.full(np.shape(turned), np.nan) for _ in turn[1:])]
 
     return Uneven(driver, ahead)
 
 
+def _about(key: str, one: Stood) -> Revolute:
+    """The joint of what turns about the axis of an instance."""
+    return Revolute(key, at=one.centre, z=one.at[2], axis=one.axis)
+
+
 def _following(mating: Mating, stand: Stand, body: str) -> Group:
     """The body of a mate's second, which stands wherever the first puts it."""
-    start, (own, leads) = stand[mating.first], (stand[mating.second], stand[body])
-    arm, lean = (leads[0] - own[0]) * cmath.rect(1.0, -own[1]), leads[1] - own[1]
+    first, own, leads = stand[mating.first], stand[mating.second], stand[body]
+    start = first.centre, first.rotation
+    arm, lean = (leads.centre - own.centre) * cmath.rect(1.0, -own.rotation), leads.rotation - own.rotation
 
     def poses(given: list[tuple[Series, Series]]) -> list[tuple[Series, Series]]:
         ((origin, angle),) = given
@@ -279,7 +365,18 @@ def driven_train(
         run = {key: share * runs[number - 1] for key, share in shares.items() if share}
         turned.append({key: float(value) for key, value in run.items() if not slides(stands, key)})
         slid.append({key: float(value) * math.pi for key, value in run.items() if slides(stands, key)})
-    return Train(moved, keys, tuple(turned), tuple(slid), _uneven(keys, joined, matings))
+    in_space = frozenset(key for key, one in stand.items() if _in_space(key, one, moved))
+    return Train(stand, moved, keys, tuple(turned), tuple(slid), _uneven(keys, joined, matings), in_space)
+
+
+def _in_space(key: str, one: Stood, moved: Moving) -> bool:
+    """Whether an instance moves otherwise than upright in the plane, or about its own axis, which stands still."""
+    stands = moved.stands
+    joint = stands.supports[stands.body(key)]
+    if one.axis == Z and key in moved.starts:
+        return False
+    alone = isinstance(joint, Revolute) and stands.still(joint.on) and one_line(joint, _about(key, one))
+    return not (alone or stands.still(key))
 
 
 def _uneven(drives: Sequence[str], joined: Sequence[tuple[str, str]], matings: Sequence[Mating]) -> frozenset[str]:

@@ -27,7 +27,7 @@ def table_from(scene: SceneFile, source: str, table: dict[str, Any]) -> dict[str
     with in_keys_of_file(scene.origins):
         parts, matings = make_parts(scene, source)
         placing = place(scene.instances, scene.drives, parts, matings, source)
-        stand = {one.id: (one.centre, one.rotation) for one in placing.instances}
+        stand = {one.id: one for one in placing.instances}
         held = [key for key, spec in scene.instances.items() if spec.held is True]
         known = _Scene(scene_mechanism(stand, matings, held))
     if not known.meshes:

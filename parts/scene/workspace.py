@@ -87,7 +87,7 @@ def workspace_found(
     """
     train = placing.train
     assert train is not None
-    lying = {i.id: any(_waves_of(train, i.id).own) for i in placing.instances if i.axis != UPWARDS}
+    lying = {i.id: any(turn.rate for turn in train.chain(i.id)) for i in placing.instances if i.axis != UPWARDS}
     stand = [replace(i, axis=UPWARDS, rotation=0.0) if i.id in lying else i for i in placing.instances]
     made = {i.id: LyingShape(shapes[i.part], i, turns=lying[i.id]) if i.id in lying else shapes[i.part]
             for i in placing.instances}  # fmt: skip
@@ -124,7 +124,8 @@ def never_meeting(placing: Placing, shapes: Mapping[str, Shape], contact: set[fr
     """
     train = placing.train
     assert train is not None
-    even = [i for i in placing.instances if i.axis == UPWARDS and not uneven(train, i.id)]
+    flat = [i for i in placing.instances if i.axis == UPWARDS and i.id not in train.in_space]
+    even = [i for i in flat if not uneven(train, i.id)]
     waves, bodies = {i.id: _waves_of(train, i.id) for i in even}, train.moving.stands.body
     sections, done = Sections({name: shape.part for name, shape in shapes.items()}), dict[object, bool]()
     slabs, found = {name: shape.is_slabs for name, shape in shapes.items()}, set[frozenset[str]]()

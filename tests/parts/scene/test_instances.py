@@ -353,8 +353,15 @@ def test_a_tilted_part_stands_in_its_place_in_files_and_in_the_way(
     assert report["instances"]["b"]["axis"] == [0.0, 1.0, 0.0]
     assert "axis" not in report["instances"]["a"]
     fixed = '[[mates]]\nkind = "fixed"\nfirst = "a"\nsecond = "b"\n'
+    # it stands by hand as its mate has it, or it is told how it does not
+    for more, broken in (
+        ("offset = [100, 0, 5]\naxis = [0, 2, 0]\n", []),
+        ("offset = [100, 0, 5]\n", ["shaft_angle"]),
+        ("axis = [0, 1, 0]\n", ["centre_distance", "height"]),
+    ):
+        conditions = [c for mate in placed(lying + fixed + more)[1].mates for c in mate.conditions]
+        assert [c.code for c in conditions if not c.met] == broken
     for wrong, told in (
-        (lying + fixed, "mates[1] joins: its axis must be upright"),
         (lying.replace("at = [100, 0, 5]\n", ""), "only for an instance that"),
         (lying.replace("[0, 1, 0]", "[0, 0, 0]"), "has no direction"),
     ):

@@ -1,0 +1,169 @@
+"""Carried bevel satellites: ratios by Willis, rolling without slip by difference quotients, teeth by meshes, films."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import Any
+
+import manifold3d
+import numpy as np
+import pytest
+
+from exporters.production.check import scene_checks
+from parts.base.refusal import SceneError
+from parts.scene.instances import DriveSpec
+from parts.scene.load import make_parts, scene_from_dict
+from parts.scene.placing import Instance, Placing, place
+from parts.solids.mesh import body_mesh, mesh_outlines
+
+SIDE: dict[str, Any] = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 18, "mate_teeth": 12,
+                        "bore_diameter": 8.0}  # fmt: skip
+SATELLITE: dict[str, Any] = {**SIDE, "number_of_teeth": 12, "mate_teeth": 18, "bore_diameter": 5.0}
+RING: dict[str, Any] = {"kind": "plate", "width": 80.0, "height": 80.0, "corner_radius": 40.0, "face_width": 4.0,
+                        "holes": [{"at": [0.0, 0.0], "diameter": 60.0}]}  # fmt: skip
+
+
+def differential(*drives: tuple[str, float], **more: Any) -> dict[str, Any]:
+    """Two side gears on one axis, two satellites whose axes a ring carries round."""
+    pairs = [("left", "one", 0.0), ("left", "two", 180.0), ("one", "right", 0.0), ("two", "right", 0.0)]
+    mates: list[dict[str, Any]] = [{"kind": "bevel_pair", "first": a, "second": b, "direction_deg": way,
+                                    "normal_backlash": 0.2} for a, b, way in pairs]  # fmt: skip
+    mates += [{"kind": "coaxial", "first": "left", "second": "ring", "height": 15.0}]
+    mates += [{"kind": "carried", "first": "ring", "second": name} for name in ("one", "two")]
+    return {
+        "parts": {"side": SIDE, "satellite": SATELLITE, "ring": RING},
+        "instances": {"left": {"part": "side", "rotation_deg": 11.0}, "right": {"part": "side"},
+                      "one": {"part": "satellite"}, "two": {"part": "satellite"}, "ring": {"part": "ring"}},
+        "mates": mates,
+        "drives": [{"instance": key, "turns": turns} for key, turns in drives],
+        **more,
+    }  # fmt: skip
+
+
+def stood(raw: dict[str, Any]) -> tuple[Placing, dict[str, Any]]:
+    """Where all stands, and its parts."""
+    file = scene_from_dict(raw, "s", "s")
+    parts, matings = make_parts(file, "s")
+    return place(file.instances, file.drives, parts, matings, "s"), parts
+
+
+def frame(instance: Instance) -> np.ndarray:
+    """(3, 4): turned about z, then z laid on the axis by the shortest way (Rodrigues), then moved."""
+    unit = np.array(instance.axis)
+    k = np.cross([0.0, 0.0, 1.0], unit)
+    sine, cosine = np.linalg.norm(k), unit[2]
+    k = k / sine if sine > 1e-12 else np.array([1.0, 0.0, 0.0])
+    cross = np.array([[0, -k[2], k[1]], [k[2], 0, -k[0]], [-k[1], k[0], 0]])
+    laid = np.eye(3) + sine * cross + (1 - cosine) * cross @ cross
+    c, s = math.cos(instance.rotation), math.sin(instance.rotation)
+    return np.column_stack([laid @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]), instance.at])
+
+
+def frames(placing: Placing, *values: float) -> dict[str, np.ndarray]:
+    return {one.id: frame(one) for one in placing.at(values)}
+
+
+def meshes(parts: dict[str, Any]) -> dict[str, Any]:
+    """All parts as manifold3d has them."""
+    found = {}
+    for key, part in parts.items():
+        mesh = body_mesh(part.body(0.0), mesh_outlines(part.body(0.0), 0.01, 0.0))
+        corners, triangles = mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32)
+        found[key] = manifold3d.Manifold(manifold3d.Mesh(corners, triangles))
+    return found
+
+
+def test_turns_are_exact_fractions_by_willis() -> None:
+    """(n_right - n_ring) / (n_left - n_ring) = -1; a satellite turns on the ring by z_side / z_satellite."""
+    placing, _ = stood(differential(("ring", 1.0), ("left", 1.0)))
+    train = placing.train
+    assert train is not None
+    shares = train.moving.turns.shares
+    # the axis of the right one points down
+    assert placing.instances[1].axis == (0.0, 0.0, -1.0)
+    assert shares["right"] == {"ring": Fraction(-2), "left": Fraction(1)}
+    assert shares["one"] == shares["two"] == {"ring": Fraction(3, 2), "left": Fraction(-3, 2)}
+    for n_left, n_ring in ((Fraction(5, 7), Fraction(0)), (Fraction(3), Fraction(2)), (Fraction(0), Fraction(1))):
+        n_right = -(shares["right"]["ring"] * n_ring + shares["right"]["left"] * n_left)
+        assert n_right - n_ring == -(n_left - n_ring)
+
+
+def test_a_ring_driven_alone_leaves_the_side_gears_free_and_holds_with_one_of_them_held() -> None:
+    with pytest.raises(SceneError) as caught:
+        stood(differential(("ring", 1.0)))
+    assert "leaves" in str(caught.value)
+    raw = differential(("ring", 1.0))
+    raw["instances"]["left"]["held"] = True
+    placing, _ = stood(raw)
+    assert placing.turns[0]["right"] == -2.0
+
+
+def test_gears_roll_without_slip_along_their_pitch_lines() -> None:
+    """By difference quotients of places alone: points of both bodies on the common ray go alike; apex and axes stay."""
+    placing, parts = stood(differential(("ring", 1.0), ("left", 1.0)))
+    at, step, ways = (0.21, -0.37), 1e-6, (0.3, 1.1)
+    now = frames(placing, *at)
+    before, after = (frames(placing, *(v + s * w for v, w in zip(at, ways, strict=True))) for s in (-step, step))
+
+    def speed(name: str, point: np.ndarray) -> np.ndarray:
+        own = now[name][:, :3].T @ (point - now[name][:, 3])
+        return np.asarray(after[name] @ [*own, 1.0] - before[name] @ [*own, 1.0]) / (2 * step)
+
+    def apex(name: str, part: str) -> np.ndarray:
+        return np.asarray(now[name] @ [0.0, 0.0, parts[part].thing.mounting_distance, 1.0])
+
+    centre = apex("left", "side")
+    for name, part in (("right", "side"), ("one", "satellite"), ("two", "satellite")):
+        assert np.allclose(apex(name, part), centre, atol=1e-9)
+    for side in ("left", "right"):
+        for satellite in ("one", "two"):
+            # the ray at the pitch angle of the side gear towards the satellite, both axes pointing at the apex
+            down, aside = -now[side][:, 2], -now[satellite][:, 2]
+            delta = math.atan2(18, 12)
+            ray = math.cos(delta) * down + math.sin(delta) * aside
+            for far in (5.0, 15.0, 21.0):
+                point = centre + far * ray
+                assert np.allclose(speed(side, point), speed(satellite, point), atol=1e-6)
+                assert np.linalg.norm(speed(side, point)) > 1.0
+    # the ring carries the axes round by its own turns
+    assert np.allclose(speed("one", now["one"][:, 3]), speed("ring", now["one"][:, 3]), atol=1e-6)
+
+
+def test_teeth_stay_in_spaces_wherever_the_drives_stand() -> None:
+    """Meshes by manifold3d in places by Rodrigues: half the backlash at the inner end is kept; a wrong turn clashes."""
+    placing, parts = stood(differential(("ring", 1.0), ("left", 1.0)))
+    solids = meshes(parts)
+    names = {"left": "side", "right": "side", "one": "satellite", "two": "satellite"}
+    gear = parts["side"].thing
+    least = 0.1 * gear.inner_distance / gear.cone_distance
+    for values in ((0.0, 0.0), (0.13, -0.29), (-1.7, 0.6)):
+        found = {name: solids[part].transform(frames(placing, *values)[name]) for name, part in names.items()}
+        for side in ("left", "right"):
+            for satellite in ("one", "two"):
+                assert (found[side] ^ found[satellite]).volume() < 1e-6
+                assert found[side].min_gap(found[satellite], 1.0) == pytest.approx(least, abs=0.02)
+    wrong = found["one"].translate((0.0, 0.0, -1.0))
+    assert (found["left"] ^ wrong).volume() > 0.1
+
+
+@pytest.mark.parametrize("beside", [19.0, 21.5, 23.0])
+def test_what_a_satellite_strikes_as_it_comes_round_is_found(beside: float) -> None:
+    """A post beside the ring's axis: struck or not as meshes in 240 places by Rodrigues have it."""
+    raw = differential(("ring", 1.0), ("left", 1.0))
+    raw["parts"]["post"] = {"kind": "plate", "width": 4.0, "height": 4.0, "face_width": 40.0}
+    raw["instances"]["post"] = {"part": "post", "at": [0.0, beside + 2.0, 10.0]}
+    raw["instances"]["left"]["at"] = [0.0, 0.0, 0.0]
+    placing, parts = stood(raw)
+    drives = [DriveSpec("ring", 1.0), DriveSpec("left", 1.0)]
+    told = scene_checks(placing, parts, drives, "en", contact=True)
+    solids = meshes(parts)
+    post = solids["post"].transform(frame(next(i for i in placing.instances if i.id == "post")))
+    common = max(
+        (solids["satellite"].transform(frames(placing, t, t)["one"]) ^ post).volume() for t in np.linspace(0, 1, 240)
+    )
+    struck = {frozenset((x["first"], x["second"])) for x in told.get("solids", [])}
+    assert (frozenset(("one", "post")) in struck) is (common > 1e-3)
+    assert (common > 1e-3) is (beside < 22.0)
+    for found in told["motion"]["uncovered"]:
+        assert found["depth"] < 0.2
