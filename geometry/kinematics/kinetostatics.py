@@ -131,6 +131,12 @@ def power(acting: Acting, frame: Frame) -> Real:
     return np.real(np.conj(velocity) * acting.force) / 1000 + acting.couple * frame.turning()[0] / 1000
 
 
+def most_power(acting: Acting, frame: Frame) -> Real:
+    """What a force of its size could put in, W: |F| |v| + |M omega|, the measure of what rounding leaves."""
+    velocity = np.abs(frame.point(acting.at)[1])
+    return velocity * np.abs(acting.force) / 1000 + np.abs(acting.couple * frame.turning()[0]) / 1000
+
+
 def reduced_inertia(bodies: Iterable[Body], moving: Mapping[str, Frame], speed: float) -> Real:
     """What a mass on the crank would have for the links' kinetic energy: sum of (m v_S^2 + J omega^2) / omega_1^2."""
     total = np.zeros(np.shape(moving["1"].way[0]))

@@ -25,6 +25,7 @@ from geometry.kinematics.kinetostatics import (
     by_zhukovsky,
     frames,
     inertial,
+    most_power,
     power,
     reactions,
     weight,
@@ -348,7 +349,7 @@ class ForcePage:
         powers = {name: float(power(one, loaded.moving[one.link])) for name, one in loaded.acting.items()}
         moment = float(by_zhukovsky(loaded.acting.values(), loaded.moving, speed)) / 1000
         page.add("lever_balancing_moment", moment)
-        sizes = sum(map(abs, powers.values())) / speed
+        sizes = sum(float(most_power(one, loaded.moving[one.link])) for one in loaded.acting.values()) / speed
         if sizes:
             page.add("lever_moments", sizes)
             difference = 100 * abs(float(loaded.found.moment) / 1000 - moment) / sizes

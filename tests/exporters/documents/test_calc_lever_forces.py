@@ -152,6 +152,14 @@ def test_no_masses_no_forces() -> None:
         assert told[:, 1:].any() == ("masses.3=1e9" in keys)
 
 
+def test_forces_across_their_velocities_balance_by_themselves() -> None:
+    """A mass on an even crank asks no moment, whatever rounding leaves: the check is measured by what forces could."""
+    for assignment in range(1, 11):
+        data = calculated(f"assignment={assignment}", "variant=3", "point_masses.A=1e6", "gravity=0")
+        assert value(data, "ΔM") < 1e-10
+        assert abs(value(data, "M_b")) < 1e-12 * value(data, "ΣM")
+
+
 def test_a_crank_that_speeds_up() -> None:
     """a_A = r sqrt(omega^4 + epsilon^2), and an inertia on it asks J epsilon more of the shaft."""
     data = calculated(*ENGINE, "acceleration=30000", "masses.1=2", "inertias.1=0.01", "gravity=0")
