@@ -28,6 +28,8 @@ QUANTITIES: dict[str, str] = {
     "start_angle_deg": N_("lowest angle from the line of centres, deg"),
     "follower_radius": N_("follower radius, mm"),
     "yoke_breadth": N_("breadth between faces or roller centres, mm"),
+    "stem_width": N_("width of the stem, mm"),
+    "shaft_diameter": N_("diameter of the shaft, mm"),
     "yoke_breadth_error": N_("greatest departure of S(phi) + S(phi + 180) from H, mm"),
     "travel": N_("travel of the plate, mm"),
     "pressure_angle_deg": N_("greatest pressure angle, deg"),

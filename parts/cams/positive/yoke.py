@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 
 from geometry.base.errors import OffsetError, ParameterError, limit
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
 from geometry.solids.body import plate
@@ -27,6 +27,8 @@ _MOST = 100_000.0
 _LEDGE = 0.5
 # thinnest wall of a frame, mm
 _LEAST_WALL = 0.05
+# usual sizes where there is room, mm
+_STEM, _PIN, _SHAFT = 12.0, 4.0, 10.0
 
 
 class YokeFrameSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="yoke_frame"):
@@ -37,11 +39,39 @@ class YokeFrameSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", 
     wall: Annotated[float, mm("width of the frame's bars, or about pins and slot", least=_LEAST_WALL, most=_MOST)] = 8.0
     side_clearance: Annotated[float, mm("flat: beside the cam in the window", least=0.01, most=_MOST)] = 2.0
     corner_radius: Annotated[float, mm("of the frame's outer corners", least=0, most=_MOST)] = 0.0
-    stem_width: Annotated[float, mm("of the guided stem", above=0, most=_MOST)] = 12.0
+    stem_width: (
+        Annotated[
+            float,
+            mm(f"of the guided stem; default: {_STEM:g}, or what a frame has", above=0, most=_MOST, example=_STEM),
+        ]
+        | None
+    ) = None
     stem_above: Annotated[float, mm("length of the stem above the frame; 0 is none", least=0, most=_MOST)] = 60.0
     stem_below: Annotated[float, mm("length of the stem below the frame; 0 is none", least=0, most=_MOST)] = 0.0
-    pin_diameter: Annotated[float, mm("rollers: holes of their pins", above=0, most=_MOST)] = 4.0
-    shaft_diameter: Annotated[float, mm("rollers: width of the slot for the cam's shaft", above=0, most=_MOST)] = 10.0
+    pin_diameter: (
+        Annotated[
+            float,
+            mm(
+                f"rollers: holes of their pins; default: {_PIN:g}, or half of a roller",
+                above=0,
+                most=_MOST,
+                example=_PIN,
+            ),
+        ]
+        | None
+    ) = None
+    shaft_diameter: (
+        Annotated[
+            float,
+            mm(
+                f"rollers: width of the slot for the cam's shaft; default: {_SHAFT:g}, or half of a base circle",
+                above=0,
+                most=_MOST,
+                example=_SHAFT,
+            ),
+        ]
+        | None
+    ) = None
     thickness: (
         Annotated[float, mm("of the plate; default: face_width of the cam", least=0.01, most=10_000, example=3.0)]
         | None
@@ -51,7 +81,8 @@ class YokeFrameSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", 
 class YokeFrame(Record):
     """A frame that exists: breadth between faces or roller centres with the play, and its place at cam angle 0, mm.
 
-    ``middle``: height of the frame's middle over the cam's axis at cam angle 0; ``half_width`` of the window.
+    ``middle``: height of the frame's middle over the cam's axis at cam angle 0; ``half_width`` of the window. Stem,
+    pins and shaft: as the keys say, or as wide as there is room; 0 where there are none.
     """
 
     cam: DiskCam
@@ -60,6 +91,9 @@ class YokeFrame(Record):
     half_width: float
     thickness: float
     play: float = 0.0
+    stem: float = 0.0
+    pin: float = 0.0
+    shaft: float = 0.0
 
 
 def _flat_reach(cam: DiskCam) -> float:
@@ -76,36 +110,49 @@ def _flat_reach(cam: DiskCam) -> float:
     return float(max(found))
 
 
-def _check_sizes(keys: YokeFrameSpec, frame: YokeFrame, lift: float) -> None:
-    width = 2 * (frame.half_width + keys.wall) if frame.cam.is_flat else _plate_width(keys)
-    # the stem stands at x = e of a flat follower
-    width -= 2 * _LEDGE + 2 * abs(frame.cam.slide.offset)
-    stem, corner = keys.stem_width, keys.corner_radius
-    if stem > width - 2 * corner:
-        if corner > 0 and stem <= width:
-            raise ParameterError("corner_radius", corner, "cuts_into_stem", limit((width - stem) / 2, corner))
-        most = width - 2 * corner
-        raise ParameterError("stem_width", stem, "wider_than_frame", limit(most, stem) if most > 0 else None)
-    if frame.cam.is_flat:
-        # of a square corner of the bars the middle is left
-        if corner > keys.wall:
-            raise ParameterError("corner_radius", corner, "no_bar_at_corner", limit(keys.wall, corner))
-        return
+def _with_pins(keys: YokeFrameSpec, frame: YokeFrame, lift: float) -> YokeFrame:
+    """The frame of rollers with their pins and the shaft's slot."""
+    radius, between = frame.cam.radius, frame.breadth - lift - 2 * _LEAST_WALL
     # the pin goes through the roller
-    pin, shaft = keys.pin_diameter, keys.shaft_diameter
-    if pin > (most := 2 * max(frame.cam.radius - _LEAST_WALL, frame.cam.radius / 2)):
-        raise ParameterError("pin_diameter", pin, "pin_fills_roller", limit(most, pin))
+    widest = 2 * max(radius - _LEAST_WALL, radius / 2)
+    pin = keys.pin_diameter or (_PIN if widest >= _PIN else radius)
+    if pin > widest:
+        raise ParameterError("pin_diameter", pin, "pin_fills_roller", limit(widest, pin))
     # the slot's end and a pin's hole, one above the other
-    room = frame.breadth / 2 - (lift + shaft + pin) / 2 - _LEAST_WALL
-    if room < -1e-9:
-        if shaft + 2 * room > 0:
-            raise ParameterError("shaft_diameter", shaft, "slot_meets_pin", limit(shaft + 2 * room, shaft))
+    room = between - pin
+    shaft = keys.shaft_diameter or (_SHAFT if room >= _SHAFT else frame.cam.base_radius)
+    if room - shaft < -2e-9:
+        if room > 0:
+            raise ParameterError("shaft_diameter", shaft, "slot_meets_pin", limit(room, shaft))
         raise ParameterError("pin_diameter", pin, "pin_meets_slot")
+    return replace(frame, pin=pin, shaft=shaft)
 
 
-def _plate_width(spec: YokeFrameSpec) -> float:
-    """Of the plate with the pins, mm."""
-    return max(spec.shaft_diameter, spec.pin_diameter) + 2 * spec.wall
+def _with_stem(keys: YokeFrameSpec, frame: YokeFrame) -> YokeFrame:
+    """The frame with its stem, where it has one, and corners that leave it its root."""
+    corner, flat = keys.corner_radius, frame.cam.is_flat
+    whole = _width(keys, frame) - 2 * _LEDGE
+    if keys.stem_above > 0 or keys.stem_below > 0:
+        # it stands at x = e of a flat follower
+        width = whole - 2 * abs(frame.cam.slide.offset)
+        most = width - 2 * corner
+        stem = keys.stem_width or (min(_STEM, max(most, _LEAST_WALL)) if width > 0 else _STEM)
+        if stem > most:
+            if corner > 0 and stem <= width:
+                raise ParameterError("corner_radius", corner, "cuts_into_stem", limit((width - stem) / 2, corner))
+            raise ParameterError("stem_width", stem, "wider_than_frame", limit(most, stem) if most > 0 else None)
+        frame = replace(frame, stem=stem)
+    elif not flat and corner > whole / 2:
+        raise ParameterError("corner_radius", corner, "no_bar_at_corner", limit(whole / 2, corner))
+    # of a square corner of the bars the middle is left
+    if flat and corner > keys.wall:
+        raise ParameterError("corner_radius", corner, "no_bar_at_corner", limit(keys.wall, corner))
+    return frame
+
+
+def _width(keys: YokeFrameSpec, frame: YokeFrame) -> float:
+    """Of the frame, or of the plate with the pins, mm."""
+    return 2 * ((frame.half_width if frame.cam.is_flat else max(frame.shaft, frame.pin) / 2) + keys.wall)
 
 
 def _region(spec: YokeFrameSpec, frame: YokeFrame, offset: float) -> Region:
@@ -119,17 +166,17 @@ def _region(spec: YokeFrameSpec, frame: YokeFrame, offset: float) -> Region:
         window = [middle + complex(x * half, y * height) for x, y in ((1, 1), (1, -1), (-1, -1), (-1, 1))]
         holes: tuple[Profile, ...] = (moved_profile(rounded([(corner, 0.0) for corner in window]), offset),)
         stem = frame.cam.slide.offset
-        outer = _outline(spec, half + spec.wall, height + spec.wall, middle, offset, stem)
+        outer = _outline(spec, frame, half + spec.wall, height + spec.wall, offset, stem)
         return Region(outer, holes)
-    lift, pin = frame.cam.motion.lift, spec.pin_diameter / 2 - offset
+    lift, pin = frame.cam.motion.lift, frame.pin / 2 - offset
     if not pin > 0:
-        raise OffsetError(offset, "pin_holes_closed", spec.pin_diameter / 2 * (1 - 1e-6))
+        raise OffsetError(offset, "pin_holes_closed", frame.pin / 2 * (1 - 1e-6))
     pins = [middle + side * 0.5j * frame.breadth for side in (1, -1)]
     ends = [_slot_middle(frame) + side * 0.5j * lift for side in (-1, 1)]
-    slot = PlateSlot(ends[0], ends[1], spec.shaft_diameter).profile(offset)
+    slot = PlateSlot(ends[0], ends[1], frame.shaft).profile(offset)
     round_holes = tuple(circle(pin, Label.HOLE, hole=True, centre=at) for at in pins)
-    half = _plate_width(spec) / 2
-    outer = _outline(spec, half, frame.breadth / 2 + spec.pin_diameter / 2 + spec.wall, middle, offset, 0.0)
+    half_height = (frame.breadth + frame.pin) / 2 + spec.wall
+    outer = _outline(spec, frame, _width(spec, frame) / 2, half_height, offset, 0.0)
     return Region(outer, (slot, *round_holes))
 
 
@@ -140,10 +187,10 @@ def _slot_middle(frame: YokeFrame) -> complex:
 
 
 def _outline(
-    spec: YokeFrameSpec, half_width: float, half_height: float, middle: complex, offset: float, stem: float
+    spec: YokeFrameSpec, frame: YokeFrame, half_width: float, half_height: float, offset: float, stem: float
 ) -> Profile:
     """The outer boundary: a rectangle with a stem above, below, or both."""
-    x, r, s = half_width, spec.corner_radius, spec.stem_width / 2
+    x, r, s, middle = half_width, spec.corner_radius, frame.stem / 2, 1j * frame.middle
     top, bottom = (middle + side * 1j * half_height for side in (1, -1))
     corners: list[tuple[complex, float]] = [(bottom + x, r), (top + x, r)]
     for length, edge, side in ((spec.stem_above, top, 1), (spec.stem_below, bottom, -1)):
@@ -179,8 +226,7 @@ class Yoke(Kind[YokeFrameSpec, YokeFrame]):
         reach = path_reach(cam) - cam.radius if not cam.is_flat else _flat_reach(cam)
         thickness = keys.thickness or owner.face_width
         frame = YokeFrame(cam, breadth + keys.clearance, middle, reach + keys.side_clearance, thickness, keys.clearance)
-        _check_sizes(keys, frame, high - low)
-        return frame
+        return _with_stem(keys, frame if cam.is_flat else _with_pins(keys, frame, high - low))
 
     def section(self, keys: YokeFrameSpec, thing: YokeFrame, offset: float) -> OffsetRegion:
         """Frame with its window, or plate with pin holes and slot."""
@@ -199,13 +245,13 @@ class Yoke(Kind[YokeFrameSpec, YokeFrame]):
         from geometry.cams.plane.positive import breadth_error
 
         motion = thing.cam.motion
-        return Report(
-            quantities={
-                "yoke_breadth": thing.breadth,
-                "yoke_breadth_error": breadth_error(motion),
-                "lift": motion.lift,
-            }
-        )
+        found = {
+            "yoke_breadth": thing.breadth,
+            "yoke_breadth_error": breadth_error(motion),
+            "lift": motion.lift,
+        }
+        sizes = {"stem_width": thing.stem, "pin_diameter": thing.pin, "shaft_diameter": thing.shaft}
+        return Report(quantities=found | {key: size for key, size in sizes.items() if size > 0})
 
 
 YOKE_FRAME = Yoke()

@@ -80,7 +80,9 @@ WRONG: dict[str, tuple[Keys, Keys, str, str]] = {
     "pointed": (ROLLERS | {"follower": "pointed", "follower_radius": 0.0}, {}, "of", "yoke_of_faces_or_rollers"),
     "swinging": (ROLLERS | {"lift": 0.0, "swing_deg": 18.0, "oscillating": SWING}, {}, "of", "yoke_slides"),
     "wide stem": (ROLLERS, {"stem_width": 40.0}, "stem_width", "wider_than_frame"),
-    "round corners": (ROLLERS, {"corner_radius": 12.0}, "corner_radius", "cuts_into_stem"),
+    "round corners": (ROLLERS, {"corner_radius": 12.0, "stem_width": 12.0}, "corner_radius", "cuts_into_stem"),
+    "rounder corners": (ROLLERS, {"corner_radius": 14.0}, "corner_radius", "cuts_into_stem"),
+    "round ends": (ROLLERS, {"corner_radius": 14.0, "stem_above": 0.0}, "corner_radius", "no_bar_at_corner"),
     "thin corner": (FLAT, {"corner_radius": 12.0}, "corner_radius", "no_bar_at_corner"),
     "wide shaft": (ROLLERS, {"shaft_diameter": 90.0}, "shaft_diameter", "slot_meets_pin"),
     "wide pins": (ROLLERS, {"pin_diameter": 90.0}, "pin_diameter", "pin_fills_roller"),
@@ -96,6 +98,45 @@ def test_wrong_keys_are_refused_with_what_works(name: str) -> None:
     # another cam is what cures the first four
     if blamed != "of":
         assert parts_of(cured(parts, refusal))["yoke"].to_trimesh(0.05).is_watertight
+
+
+SMALL: Keys = ROLLERS | {"base_circle_radius": 4.0, "lift": 2.0, "follower_radius": 1.5, "bore_diameter": 2.0}
+
+
+@pytest.mark.parametrize(
+    ("cam", "keys"),
+    [
+        (SMALL, {"wall": 1.0}),
+        (SMALL, {"wall": 0.05}),
+        (SMALL, {"wall": 1.0, "corner_radius": 1.5}),
+        (SMALL | {"follower_radius": 0.3, "base_circle_radius": 1.5, "lift": 0.4, "bore_diameter": 1.0}, {}),
+        (SMALL | {"base_circle_radius": 1.5, "lift": 0.4, "bore_diameter": 1.0}, {"pin_diameter": 2.8, "wall": 0.5}),
+        (SMALL | {"follower": "flat", "follower_radius": 0.0, "lift": 0.5}, {"wall": 0.5, "side_clearance": 0.5}),
+        (FLAT | {"base_circle_radius": 4.0, "lift": 0.5, "follower_offset": 1.5, "bore_diameter": 2.0}, {"wall": 1.0}),
+        (ROLLERS, {"corner_radius": 12.0}),
+        # what is not there needs no room
+        (ROLLERS, {"wall": 0.1, "stem_width": 40.0, "stem_above": 0.0}),
+    ],
+)  # fmt: skip
+def test_sizes_that_are_left_out_suit_any_frame(cam: Keys, keys: Keys) -> None:
+    """A stem of 12, pins of 4 and a shaft of 10 mm were refused by keys that nobody had typed."""
+    part = parts_of({"cam": cam, "yoke": YOKE | keys})["yoke"]
+    assert part.to_trimesh(0.01).is_watertight
+    told, region = part.quantities, part.section(0.0).region
+    points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 200)) for s in region.outer.period])
+    if told.get("stem_width"):
+        tip = points[np.abs(points.imag - points.imag.max()) < 1e-9].real
+        assert np.ptp(tip) == pytest.approx(told["stem_width"])
+        # its edges and the frame's own stand half a millimetre apart, or what its corners take more
+        assert np.ptp(points.real) - np.ptp(tip) > 1 - 1e-9
+    if cam["follower"] == "roller":
+        holes = [np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 201)) for s in h.segments()])
+                 for h in region.holes]  # fmt: skip
+        widths = [told["shaft_diameter"], told["pin_diameter"], told["pin_diameter"]]
+        assert [np.ptp(hole.real) for hole in holes] == pytest.approx(widths, rel=1e-3)
+        assert told["pin_diameter"] < 2 * cam["follower_radius"]
+        low, slot, high = sorted((hole.imag.min(), hole.imag.max()) for hole in holes)
+        assert low[1] < slot[0] < slot[1] < high[0]
 
 
 def test_a_stem_is_as_wide_as_the_drawn_frame_but_for_its_ledges() -> None:
