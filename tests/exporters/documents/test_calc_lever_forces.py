@@ -126,6 +126,45 @@ def test_substitute_masses_of_a_rod_balance_as_the_rod_does() -> None:
     assert value(whole, "J_m") == pytest.approx(value(parts, "J_m"), rel=1e-9)
 
 
+@pytest.mark.parametrize("assignment", [1, 6, 8, 10])
+def test_masses_at_points_move_as_the_points_do(assignment: int) -> None:
+    """Their forces of inertia are mass by acceleration of the plan."""
+    points = "AB" if assignment == 8 else "ABCD"
+    data = calculated(f"assignment={assignment}", "variant=2", *(f"point_masses.{p}=3" for p in points))
+    plan = {row[0]: row[1] for row in rows(data, "acceleration_plan")}
+    for point in points:
+        assert value(data, f"F_i{point}") == pytest.approx(3 * plan[f"π{point.lower()}"], rel=1e-12), point
+
+
+def test_centres_of_mass_stand_where_keys_say() -> None:
+    """Beside the crank at 90 degrees: on -x, where a weight turns it counter-clockwise; on the rod at AS2 / AB."""
+    data = calculated(*ENGINE[:4], "start_angle_deg=90", "masses.1=2", "centre_offsets.1=50")
+    assert value(data, "M_b") == pytest.approx(-0.05 * 2 * 9.81, rel=1e-12)
+    data = calculated("assignment=8", "variant=4", "masses.2=2")
+    assert value(data, "x_S2") == pytest.approx(0.34 * 2.8 * 120, rel=1e-12)
+
+
+def test_a_moment_on_a_rocker_works_through_its_swing() -> None:
+    """Against it both ways, so over a turn M times twice the swing; one way half of that."""
+    keys = ("assignment=10", "resisting_moment=100", "positions=720")
+    data = calculated(*keys)
+    swing = np.radians(np.ptp(np.unwrap([row["φ_5"] for row in data["positions"]], period=360)))
+    assert value(data, "M_b,m") * 2 * math.pi == pytest.approx(200 * swing, rel=2e-3)
+    one = calculated(*keys, "resisted=forward")
+    assert value(one, "M_b,m") * 2 * math.pi == pytest.approx(100 * swing, rel=2e-3)
+    for row, at in zip(one["forces"], data["positions"], strict=True):
+        assert (abs(row["M_b"]) > 1e-9) == (at["ω_5"] > 1e-9)
+
+
+def test_the_greatest_reactions_are_those_of_their_positions() -> None:
+    keys = ("assignment=6", *keys_of(6))
+    for row in calculated(*keys)["greatest_forces"]:
+        name, most, angle = row.values()
+        assert 0 <= angle < 360
+        at = calculated(*keys, f"start_angle_deg={angle!r}")["forces"][0]
+        assert at[name] == pytest.approx(most, rel=1e-9), name
+
+
 def test_the_flywheel_takes_masses_without_the_forces_of_weight() -> None:
     heavy = calculated(*ENGINE, "resistance=2000", "unevenness=0.05", "masses.3=5")
     flat = calculated(*ENGINE, "resistance=2000", "unevenness=0.05", "masses.3=5", "gravity=0")
