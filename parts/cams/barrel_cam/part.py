@@ -286,7 +286,7 @@ def _quantities(keys: BarrelCamSpec, body: BarrelBody) -> dict[str, float]:
         found["arm_length"] = cam.guide.arm_length
         found["pivot_offset"] = cam.guide.pivot_offset
         found["pivot_height"] = cam.guide.pivot_height
-        found["start_angle_deg"] = math.degrees(cam.guide.start_angle)
+        found["start_inclination_deg"] = math.degrees(cam.guide.start_angle)
     else:
         found["lift"] = cam.motion.lift
     found |= table_quantities(cam.motion, swings=isinstance(cam.guide, SwingGuide))

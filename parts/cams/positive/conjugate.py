@@ -119,7 +119,7 @@ def _between_rollers(second: SecondCam) -> dict[str, float]:
     if second.keys.oscillating is None:
         return {"roller_distance": between}
     lowest = second.cam.swing.start_angle + second.cam.motion.extremes()[0]
-    return {"roller_angle_deg": math.degrees(between), "start_angle_deg": math.degrees(lowest)}
+    return {"roller_angle_deg": math.degrees(between), "lowest_angle_deg": math.degrees(lowest)}
 
 
 def _pair(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam) -> Conjugate:

@@ -11,6 +11,7 @@ import pytest
 
 from parts.base.part import Part
 from parts.scene.load import make_parts, scene_from_dict
+from parts.texts.quantities import QUANTITIES
 from tests.offered import GONE, Raw, cam, scenes
 from tests.parts.limits import check_limit, check_offer, check_refused, offset_limits, refused, scene_of, with_key
 
@@ -113,6 +114,12 @@ def test_a_swinging_roller_reports_what_dense_samples_say(sense: str) -> None:
     assert told["swing_deg"] == pytest.approx(20.0)
     assert told["start_angle_deg"] == pytest.approx(math.degrees(start))
     assert "lift" not in told
+    # a motion that begins with a return ends its way there below
+    back = [{"move": "return_", "angle_deg": 180.0, "law": "sine"}, {"move": "rise", "angle_deg": 180.0, "law": "sine"}]
+    first = part_of(cam(lift=None, swing_deg=20.0, oscillating=swing, phases=back)).quantities
+    assert first["start_angle_deg"] == pytest.approx(math.degrees(start))
+    assert "S = 0" in QUANTITIES["start_angle_deg"]
+    assert "lowest" not in QUANTITIES["start_angle_deg"]
     # the path in the cam's frame, by differences of fine samples
     phi = np.concatenate([U * BETA, math.radians(180.0) + U * BETA])
     psi = start + unit * S
@@ -433,7 +440,9 @@ def test_a_barrel_reports_its_sizes() -> None:
     assert usual["length"] == pytest.approx(18 + 10 + 2 * 5)
     swinging = made("swinging barrel").quantities
     # the arm of 50 swings 10 degrees to either side, and strays as far to the left as to the right
-    assert swinging["start_angle_deg"] == pytest.approx(-10.0)
+    assert swinging["start_inclination_deg"] == pytest.approx(-10.0)
+    assert "plane across the axis" in QUANTITIES["start_inclination_deg"]
+    assert "start_angle_deg" not in swinging
     assert swinging["pivot_offset"] == pytest.approx(50 * (1 + math.cos(math.radians(10))) / 2)
     assert swinging["pivot_height"] - swinging["start_height"] == pytest.approx(50 * math.sin(math.radians(10)))
     assert swinging["length"] == pytest.approx(100 * math.sin(math.radians(10)) + 10 + 2 * 5)

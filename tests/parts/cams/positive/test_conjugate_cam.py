@@ -13,6 +13,7 @@ import pytest
 from exporters.production.recheck import recheck
 from geometry.plane.measure import distance_to_profile
 from parts.base.part import Part
+from parts.texts.quantities import QUANTITIES
 from tests.exporters.making import read_report, run
 from tests.parts.nearest import cured, refused
 from tests.parts.positive_scenes import PHASES, ROLLER, SWING, Keys, parts_of, scene, without
@@ -53,6 +54,12 @@ def test_both_rollers_touch_at_every_angle(name: str) -> None:
     assert first.thing is not None
     other = first.thing.reference_point(angle) * np.exp(-1j * angle)
     assert np.abs(distance_to_profile(other, first.section(0.0).region.outer) - 8.0).max() < 1e-9
+    if name != "translating":
+        # the nearest that the second arm comes to the line of centres
+        pivot, arm = SWING["centre_distance"], SWING["arm_length"]
+        nearest = np.abs(np.angle((second_centres(first, two, angle) - pivot) / -arm)).min()
+        assert two.quantities["lowest_angle_deg"] == pytest.approx(math.degrees(nearest), rel=1e-9)
+        assert "lowest" in QUANTITIES["lowest_angle_deg"]
     # a second cam turned on the shaft by a hundredth of a degree does not
     turned = second_centres(first, two, angle) * np.exp(-1j * (angle + math.radians(0.01)))
     assert np.abs(distance_to_profile(turned, two.section(0.0).region.outer) - 9.0).max() > 1e-3
