@@ -11,6 +11,7 @@ import numpy as np
 
 from exporters.production.jobs import FileJob
 from exporters.production.request import Request
+from geometry.base.errors import Nearest
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from parts.base.part import Part
@@ -43,6 +44,11 @@ class Film(Record, FileJob):
     place: str
     # of the file: what stands for a name that is not given, and the rest
     ending: ClassVar[tuple[str, str]]
+
+    @classmethod
+    def shows(cls, instance: Instance, course: Course, times: Real) -> bool:
+        """Whether such a film can show how an instance goes."""
+        return True
 
     @property
     def seconds(self) -> float:
@@ -109,6 +115,9 @@ def film(made: type[Film], asked: Request) -> Film:
     used = {name: asked.parts[name] for name in dict.fromkeys(i.part for i in instances)}
     course = course_of(train, [i.id for i in instances])
     loop, closes = _loop(course, instances, used)
+    for instance in instances:
+        if not made.shows(instance, course, TIMES * float(loop)):
+            raise asked.refused("format", export.format, "shows_from_above", Nearest("glb"), lying=instance.id)
     drive = asked.scene.drives[0]
     turns = float(loop) * (drive.turns if drive.travel is None else drive.travel)
     unnamed, ending = made.ending

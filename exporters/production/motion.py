@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -10,49 +12,106 @@ import numpy as np
 
 from exporters.formats.motion_svg import Track, even_values, write_motion_svg
 from exporters.formats.read_motion import ReadTrack, read_motion
+from exporters.formats.readback import Loop
 from exporters.production.film import SHARE, TIMES, Film, fill
 from exporters.production.jobs import Made
+from exporters.production.seen_above import seen_lying
 from exporters.verification.outlines import verify_loops
 from exporters.verification.verdict import Verdict
 from geometry.approximation.chords import approximate_profile
+from geometry.base.placement import Placement3
+from geometry.base.record import replace
 from geometry.curves.curve import Real
+from geometry.plane.contour import Contour
+from geometry.plane.profile import Profile
 from parts.base.readback import ReadError
 from parts.base.texts import fault, fault_of
 from parts.scene.placing import Instance
+from parts.scene.relative_path import Course
 
 # of numbers in the file, mm
 _ROUNDING = 2e-6
+# of a direction or a height that stays
+_LEVEL = 1e-9
 
 
-class MotionJob(Film):
+class MotionJob(Film, dict=True):
     """The animated SVG of a scene."""
 
     ending = ".motion", ".svg"
+
+    @classmethod
+    def shows(cls, instance: Instance, course: Course, times: Real) -> bool:
+        """Whether what lies keeps its axis at its height and lean."""
+        if _upright(instance) and instance.id not in course.in_space:
+            return True
+        turned, places = course.placed(instance.id, times, own=instance.id not in course.spins)
+        level = np.abs(turned[:, 2] - turned[:1, 2]).max() <= _LEVEL
+        return bool(level and np.abs(places[:, 2] - places[0, 2]).max() <= _LEVEL * max(1.0, np.abs(places).max()))
+
+    def poses(self, instance: Instance, shares: Real) -> tuple[Any, Any]:
+        """As seen from above; of what is turned over the turn of its mirror image."""
+        if _upright(instance) and instance.id not in self.course.in_space:
+            places, angles = super().poses(instance, shares)
+            return places, -angles if instance.axis[2] < 0 else angles
+        own = instance.id not in self.course.spins
+        turned, places = self.course.placed(instance.id, shares * float(self.loop), own=own)
+        if not _upright(instance):
+            turned = turned @ np.array(self._start(instance).rotation).T
+        order = np.argsort(shares)
+        angles = np.empty(len(shares))
+        angles[order] = np.unwrap(np.arctan2(turned[order, 1, 0], turned[order, 0, 0]))
+        return places[:, 0] + 1j * places[:, 1], angles
+
+    def _start(self, instance: Instance) -> Placement3:
+        """How an instance is laid at the start, at the origin."""
+        return Placement3.towards(instance.axis, math.remainder(instance.rotation, 2 * math.pi))
+
+    @cached_property
+    def _profiles(self) -> dict[object, tuple[Profile, ...]]:
+        """Exact outlines: of parts as they stand, and of instances that lie as these do."""
+        found: dict[object, tuple[Profile, ...]] = {}
+        for instance in self.instances:
+            part, key = self.parts[instance.part], _look(instance)
+            if key not in found:
+                own = part.section(0.0).region.profiles()
+                found[key] = own if _upright(instance) else (seen_lying(part, instance),)
+        return found
 
     def tracks(self) -> tuple[list[Track], float]:
         """What moves how, the lowest first, and the greatest deviation, mm."""
         made, worst = [], 0.0
         outlines = {
-            name: tuple(
-                approximate_profile(p, SHARE * self.tolerance, arcs=True) for p in part.section(0.0).region.profiles()
-            )
-            for name, part in self.parts.items()
+            look: tuple(approximate_profile(p, SHARE * self.tolerance, arcs=True) for p in profiles)
+            for look, profiles in self._profiles.items()
         }
         for index, instance in enumerate(sorted(self.instances, key=lambda i: i.at[2])):
             part = self.parts[instance.part]
-            places, angles, off = self.ways(instance, part.section(0.0).region.outer.reach())
+            places, angles, off = self.ways(instance, self._reach(instance))
             worst = max(worst, off)
             turned = even_values(angles + 0j).real
             colour = part.colour or fill(index)
-            made.append(Track(instance.id, outlines[instance.part], colour, even_values(places), turned))
+            own = outlines[_look(instance)]
+            if instance.axis[2] < 0 and _upright(instance):
+                own = tuple(replace(o, geometry=_over(o.geometry)) for o in own)
+            made.append(Track(instance.id, own, colour, even_values(places), turned))
         return made, worst + max(x.max_error for row in outlines.values() for x in row)
+
+    def _reach(self, instance: Instance) -> float:
+        return max(profile.reach() for profile in self._profiles[_look(instance)])
 
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write it; counts of what is in it."""
         tracks, _ = self.tracks()
         spans = []
         for track, instance in zip(tracks, sorted(self.instances, key=lambda i: i.at[2]), strict=True):
-            places, _ = self.poses(instance, np.linspace(0, 1, 721))
+            places, angles = self.poses(instance, np.linspace(0, 1, 721))
+            if not _upright(instance):
+                # its origin may be far from its middle
+                corners = track.outlines[0].geometry.vertices
+                places = (places[:, None] + 1.03 * corners * np.exp(1j * angles)[:, None]).ravel()
+                spans.append([places.real.min(), places.imag.min(), -places.real.max(), -places.imag.max()])
+                continue
             reach = max(float(np.abs(o.geometry.vertices).max()) for o in track.outlines) * 1.03
             spans.append([places.real.min() - reach, places.imag.min() - reach, -places.real.max() - reach,
                           -places.imag.max() - reach])  # fmt: skip
@@ -83,16 +142,16 @@ class MotionJob(Film):
                 )
             )
         worst, outline = 0.0, 0.0
-        for part in dict.fromkeys(i.part for i in self.instances):
-            same = [found.tracks[i.id] for i in self.instances if i.part == part]
-            profiles = self.parts[part].section(0.0).region.profiles()
-            verdict = verify_loops(same[0].loops, profiles, [""] * len(profiles), declared, self.tolerance)
-            failures += [fault_of(part, text) for text in verdict.failures]
+        for look, profiles in self._profiles.items():
+            alike = [i for i in self.instances if _look(i) == look]
+            same = [_loops(found.tracks[i.id], i) for i in alike]
+            verdict = verify_loops(same[0], profiles, [""] * len(profiles), declared, self.tolerance)
+            failures += [fault_of(alike[0].part, text) for text in verdict.failures]
             outline = max(outline, verdict.measured.get("max_deviation", 0.0))
-            if not all(_is_same(track, same[0]) for track in same):
-                failures.append(fault("{part}: its instances differ", part=part))
+            if not all(_is_same(loops, same[0]) for loops in same):
+                failures.append(fault("{part}: its instances differ", part=alike[0].part))
         for instance in self.instances:
-            reach = self.parts[instance.part].section(0.0).region.outer.reach()
+            reach = self._reach(instance)
             track = found.tracks[instance.id]
             # every value that the file has, too
             values = [np.linspace(0, 1, len(way)) for way in (track.places, track.angles)]
@@ -121,8 +180,30 @@ def _read(track: ReadTrack, reach: float, times: Real) -> list[Any]:
     return [places, places + reach * np.exp(1j * angles)]
 
 
-def _is_same(one: ReadTrack, two: ReadTrack) -> bool:
-    return len(one.loops) == len(two.loops) and all(
+def _upright(instance: Instance) -> bool:
+    """Whether its axis points up, or straight down."""
+    return instance.axis[0] == instance.axis[1] == 0
+
+
+def _look(instance: Instance) -> object:
+    """By what its outline is told: its part, and how it lies."""
+    return instance.part if _upright(instance) else (instance.part, instance.axis, instance.rotation)
+
+
+def _over(contour: Contour) -> Contour:
+    """An outline turned over about x."""
+    return replace(contour, vertices=contour.vertices.conj(), bulges=-contour.bulges, clockwise=not contour.clockwise)
+
+
+def _loops(track: ReadTrack, instance: Instance) -> tuple[Loop, ...]:
+    """The outlines of a track, turned back where its instance is turned over."""
+    if not (_upright(instance) and instance.axis[2] < 0):
+        return track.loops
+    return tuple(replace(loop, vertices=loop.vertices.conj(), bulges=-loop.bulges) for loop in track.loops)
+
+
+def _is_same(one: Sequence[Loop], two: Sequence[Loop]) -> bool:
+    return len(one) == len(two) and all(
         np.array_equal(a.vertices, b.vertices) and np.array_equal(a.bulges, b.bulges)
-        for a, b in zip(one.loops, two.loops, strict=True)
+        for a, b in zip(one, two, strict=True)
     )

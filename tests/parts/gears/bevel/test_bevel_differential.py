@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from exporters.production.check import scene_checks
+from geometry.base.record import replace
 from parts.base.refusal import SceneError
 from parts.scene.instances import DriveSpec
 from parts.scene.load import make_parts, scene_from_dict
@@ -41,6 +42,16 @@ def differential(*drives: tuple[str, float], **more: Any) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def laid_differential(axis: list[float], *drives: tuple[str, float], **more: Any) -> dict[str, Any]:
+    """The same with the left gear on another axis: the direction of the right one counts from x as its mate is laid."""
+    raw = differential(**more)
+    raw["instances"]["left"] = {"part": "side", "at": [3.0, -4.0, 5.0], "axis": axis}
+    one = next(i for i in stood(raw)[0].instances if i.id == "one")
+    laid, way = frame(replace(one, rotation=0.0)), np.array(axis) / np.linalg.norm(axis)
+    raw["mates"][2]["direction_deg"] = math.degrees(math.atan2(laid[:, 1] @ way, laid[:, 0] @ way))
+    return {**raw, "drives": [{"instance": key, "turns": turns} for key, turns in drives]}
+
+
 def stood(raw: dict[str, Any]) -> tuple[Placing, dict[str, Any]]:
     """Where all stands, and its parts."""
     file = scene_from_dict(raw, "s", "s")
@@ -58,6 +69,11 @@ def frame(instance: Instance) -> np.ndarray:
     laid = np.eye(3) + sine * cross + (1 - cosine) * cross @ cross
     c, s = math.cos(instance.rotation), math.sin(instance.rotation)
     return np.column_stack([laid @ np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]), instance.at])
+
+
+def rigid(placed: np.ndarray) -> np.ndarray:
+    """(4, 4) of (3, 4)."""
+    return np.vstack([placed, [0.0, 0.0, 0.0, 1.0]])
 
 
 def frames(placing: Placing, *values: float) -> dict[str, np.ndarray]:
@@ -167,3 +183,47 @@ def test_what_a_satellite_strikes_as_it_comes_round_is_found(beside: float) -> N
     assert (common > 1e-3) is (beside < 22.0)
     for found in told["motion"]["uncovered"]:
         assert found["depth"] < 0.2
+
+
+@pytest.mark.parametrize("axis", [[0.0, 1.0, 0.0], [1.0, -2.0, 2.0], [0.0, 0.0, -1.0]])
+def test_a_differential_laid_as_a_whole_moves_as_the_upright_one(axis: list[float]) -> None:
+    """Invariance: all goes as in the upright scene, under one rigid motion, the drives alike."""
+    drives = (("ring", 1.0), ("left", 1.0))
+    upright, laid = differential(*drives), laid_differential(axis, *drives)
+    upright["instances"]["left"] = {"part": "side", "at": [0.0, 0.0, 0.0]}
+    one, two = stood(upright)[0], stood(laid)[0]
+    assert one.train is not None
+    assert two.train is not None
+    assert one.train.turned == two.train.turned
+    whole = rigid(frames(two, 0.0, 0.0)["left"])
+    begin, stands, first, second = (frames(p, *at) for at in ((0.0, 0.0), (0.21, -0.4)) for p in (one, two))
+    for name in begin:
+        # which tooth stands where at first is of no matter
+        gone, moved = (rigid(now[name]) @ np.linalg.inv(rigid(before[name]))
+                       for now, before in ((first, begin), (second, stands)))  # fmt: skip
+        assert np.allclose(moved, whole @ gone @ np.linalg.inv(whole), atol=1e-9), name
+        assert np.allclose(rigid(stands[name])[:3, 3], (whole @ rigid(begin[name]))[:3, 3], atol=1e-9), name
+
+
+def test_back_to_back_gears_on_one_shaft_turn_against_their_own_axes() -> None:
+    """A wheel turned over on the shaft of another one: as told about its own axis it turns the other way."""
+    raw: dict[str, Any] = {
+        "parts": {"side": SIDE, "satellite": SATELLITE,
+                  "gear": {"kind": "spur_gear", "module": 1.0, "number_of_teeth": 20, "face_width": 5.0}},
+        "mates": [
+            {"kind": "bevel_pair", "first": "side", "second": "satellite"},
+            {"kind": "fixed", "first": "satellite", "second": "gear", "offset": [0.0, 0.0, -9.0],
+             "axis": [0.0, 0.0, -3.0]},
+        ],
+        "drives": [{"instance": "gear", "turns": 1.0}],
+    }  # fmt: skip
+    placing, _ = stood(raw)
+    assert placing.turns[0] == {"gear": 1.0, "satellite": -1.0, "side": pytest.approx(2 / 3)}
+    before, after = frames(placing, 0.0), frames(placing, 0.01)
+    # both are one body
+    seen = [np.linalg.inv(rigid(f["satellite"])) @ rigid(f["gear"]) for f in (before, after)]
+    assert np.allclose(*seen, atol=1e-12)
+    turned = after["gear"][:, :3] @ before["gear"][:, :3].T
+    axis = before["gear"][:, 2]
+    vector = np.array([turned[2, 1] - turned[1, 2], turned[0, 2] - turned[2, 0], turned[1, 0] - turned[0, 1]]) / 2
+    assert np.allclose(vector, math.sin(0.02 * math.pi) * axis, atol=1e-12)
