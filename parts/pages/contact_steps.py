@@ -115,6 +115,13 @@ def contact_steps(page: Sheet, pair: Pair, helical: Helical) -> None:
         page.both(name, (2 * values[0], 2 * values[1]), "", ISO)
 
 
+def face_steps(page: Sheet, face: CommonFace) -> None:
+    """Common face width and overlap ratio of helical teeth."""
+    page.add("face_width", face.width)
+    half = " / 2" if face.helix.double else ""
+    page.add("overlap_ratio", face.overlap_ratio, f"{{b}}{half} * sin(abs({{beta}})) / (pi * {{m_n}})", "ISO 21771")
+
+
 def overlap_steps(page: Sheet, pair: Pair | RackPair, helical: Helical) -> None:
     """The effective contact ratio where it is less; overlap and total contact ratio of helical teeth."""
     if abs(pair.effective_contact_ratio - pair.contact_ratio) > 1e-9:
@@ -122,9 +129,7 @@ def overlap_steps(page: Sheet, pair: Pair | RackPair, helical: Helical) -> None:
     face = helical.face
     if face.helix.angle == 0:
         return
-    page.add("face_width", face.width)
-    half = " / 2" if face.helix.double else ""
-    page.add("overlap_ratio", face.overlap_ratio, f"{{b}}{half} * sin(abs({{beta}})) / (pi * {{m_n}})", "ISO 21771")
+    face_steps(page, face)
     page.add("total_contact_ratio", face.overlap_ratio + pair.contact_ratio, "{eps} + {eps_beta}", "ISO 21771")
 
 

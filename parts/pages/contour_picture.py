@@ -15,6 +15,7 @@ from geometry.gears.shifts.internal import InternalRequirements
 from geometry.gears.shifts.internal_shifts import InternalShiftPair
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.ring import RoundedRoot
+from geometry.gears.teeth.transverse import normal_angle
 from parts.base.texts import N_, Message, Text, Words, message
 
 _SIZE, _LEFT, _TOP, _BOTTOM, _KEY = 560.0, 60.0, 40.0, 50.0, 430.0
@@ -66,6 +67,7 @@ _STYLES = {
     "tip_thickness_first": _Style("#a06000", "", "S_a1"),
     "tip_thickness_second": _Style("#008090", "", "S_a2"),
     "contact_ratio": _Style("#209050", "", "ε_α"),
+    "total_contact_ratio": _Style("#209050", "", "ε_γ"),
     "approach": _Style("#8030a0", "7 2 2 2", N_("pole at the start of action")),
     "recess": _Style("#8030a0", "2 2", N_("pole at the end of action")),
     "involute_interference": _Style("#b01070", "", N_("involute interference")),
@@ -222,9 +224,14 @@ def region_text(contour: BlockingContour, words: Words) -> str:
 def tool_texts(pair: AnyShiftPair, words: Words) -> list[str]:
     """Rack, tip rule and cutter for which the contour holds."""
     rack = pair.rack
-    shape = f"α = {math.degrees(rack.pressure_angle):g}°, h_a* = {rack.addendum:g}, c* = {rack.tip_clearance:g}"
-    lines = [f"{shape}, ρ_f* = {rack.tip_radius:.4g}"]
+    # of the normal section, as scenes have it
+    share = math.cos(pair.helix_angle)
+    alpha, height = math.degrees(normal_angle(rack.pressure_angle, pair.helix_angle)), rack.addendum / share
+    shape = f"α = {alpha:g}°, h_a* = {height:g}, c* = {rack.tip_clearance / share:g}"
+    lines = [f"{shape}, ρ_f* = {rack.tip_radius / share:.4g}"]
     if not isinstance(pair, InternalShiftPair):
+        if pair.helix_angle:
+            lines.append(f"β = {math.degrees(pair.helix_angle):g}°, ε_β = {pair.overlap_ratio:.4g}")
         return lines
     rule = "k_2 = 0" if pair.plain_tip else "k_2 = 0.25 - 0.125 x_2"
     lines.append(f"r_a2 = r_2 - ({pair.ring_addendum:g} - x_2 - k_2) m, {rule}")

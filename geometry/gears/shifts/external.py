@@ -1,8 +1,10 @@
-"""The blocking contour of an external spur pair: which profile shifts x1, x2 give a pair that works.
+"""The blocking contour of an external pair: which profile shifts x1, x2 give a pair that works.
 
-All in modules, z1 drives. Each condition is a function of x1, x2 that is >= 0 where it is kept; its line is where it
-is 0. The tips follow ``shortened_tips``: r_a = r + h_a + x - k with k = x1 + x2 - y (GOST 16532-70), or k = 0; the
-distance is that of zero backlash, practicum (3.3), (3.4). Sources: ISO 21771; practicum 1, below (1.3).
+All in modules, z1 drives; of helical teeth in normal modules, lengths those of the transverse section, which meshes as
+a spur pair does, and the contact ratio is the total one. Each condition is a function of x1, x2 that is >= 0 where it
+is kept; its line is where it is 0. The tips follow ``shortened_tips``: r_a = r + h_a + x - k with k = x1 + x2 - y
+(GOST 16532-70), or k = 0; the distance is that of zero backlash, practicum (3.3), (3.4). Sources: ISO 21771; practicum
+1, below (1.3).
 """
 
 from __future__ import annotations
@@ -31,12 +33,17 @@ _NAN = math.nan
 
 
 class ShiftPair(Record):
-    """Two numbers of teeth and one rack, for any shifts."""
+    """Two numbers of teeth and one rack, for any shifts.
+
+    Of helical teeth the rack is that of the transverse section, in transverse modules; ``helix_angle`` in rad.
+    """
 
     first_teeth: int
     second_teeth: int
     rack: BasicRack
     shortened_tips: bool = True
+    helix_angle: float = 0.0
+    overlap_ratio: float = 0.0
 
     @property
     def gear_ratio(self) -> float:
@@ -53,7 +60,7 @@ class PairState(Record):
     """A pair at shifts x1, x2; lengths in modules, along the line of action from the first base circle.
 
     ``involute`` is inv(alpha_w); where it is negative all others are nan. ``starts`` is where the mate's tip touches,
-    from each gear's own base circle, ``tips`` where its flank ends.
+    from each gear's own base circle, ``tips`` where its flank ends. ``contact_ratio`` is the total one.
     """
 
     involute: float
@@ -76,8 +83,10 @@ class PairState(Record):
 @lru_cache(maxsize=1 << 17)
 def state_of(pair: ShiftPair, x1: float, x2: float) -> PairState:
     """The pair at two shifts, by closed forms; only an undercut gear's form circle is a root."""
-    rack, alpha = pair.rack, pair.rack.pressure_angle
+    rack, alpha, share = pair.rack, pair.rack.pressure_angle, math.cos(pair.helix_angle)
     teeth, cosine = pair.first_teeth + pair.second_teeth, math.cos(alpha)
+    # in transverse modules
+    x1, x2 = x1 * share, x2 * share
     involute = involute_function(alpha) + 2 * (x1 + x2) * math.tan(alpha) / teeth
     if not involute >= 0:
         nans = (_NAN, _NAN)
@@ -97,14 +106,14 @@ def state_of(pair: ShiftPair, x1: float, x2: float) -> PairState:
     return PairState(
         involute,
         angle,
-        distance,
-        line,
-        pair.first_teeth / 2 * cosine * math.tan(angle),
-        (line - tips[1], line - tips[0]),
-        (tips[0], tips[1]),
-        (thick[0], thick[1]),
-        (tips[0] + tips[1] - line) / (math.pi * cosine),
-        shortening,
+        distance / share,
+        line / share,
+        pair.first_teeth / 2 * cosine * math.tan(angle) / share,
+        ((line - tips[1]) / share, (line - tips[0]) / share),
+        (tips[0] / share, tips[1] / share),
+        (thick[0] / share, thick[1] / share),
+        (tips[0] + tips[1] - line) / (math.pi * cosine) + pair.overlap_ratio,
+        shortening / share,
     )
 
 
@@ -130,7 +139,8 @@ def form_tangent(number_of_teeth: int, rack: BasicRack, shift: float) -> float:
 def active_flank(pair: ShiftPair, x1: float, x2: float, index: int) -> Margin:
     """Where the mate's tip asks the flank of the first (0) or second (1) gear to begin, against where it does."""
     start = state_of(pair, x1, x2).starts[index]
-    form = form_tangent(pair.teeth[index], pair.rack, (x1, x2)[index])
+    share = math.cos(pair.helix_angle)
+    form = form_tangent(pair.teeth[index], pair.rack, (x1, x2)[index] * share) / share
     return Margin(f"active_flank_{('first', 'second')[index]}", start, form, start - form)
 
 
@@ -172,13 +182,19 @@ def conditions(pair: ShiftPair) -> dict[str, Condition]:
 
     found = [Condition("working_angle", None, lambda x1, x2: state(x1, x2).involute)]
     found += [*of_gear(0, "first"), *of_gear(1, "second")]
-    found += above("contact_ratio", CONTACT_RATIOS, lambda x1, x2: state(x1, x2).contact_ratio)
+    ratios = [ratio for ratio in CONTACT_RATIOS if ratio > pair.overlap_ratio] or [pair.overlap_ratio]
+    found += above(_ratio_name(pair), ratios, lambda x1, x2: state(x1, x2).contact_ratio)
     found += [
         Condition("approach", None, lambda x1, x2: state(x1, x2).pole - state(x1, x2).starts[0]),
         Condition("recess", None, lambda x1, x2: state(x1, x2).tips[0] - state(x1, x2).pole),
         Condition("equal_sliding", None, lambda x1, x2: equal_sliding(pair, x1, x2)),
     ]
     return {c.name if c.level is None else f"{c.name} {c.level:g}": c for c in found}
+
+
+def _ratio_name(pair: ShiftPair) -> str:
+    """Which contact ratio is kept."""
+    return "total_contact_ratio" if pair.helix_angle else "contact_ratio"
 
 
 def equal_sliding(pair: ShiftPair, x1: float, x2: float) -> float:
@@ -196,7 +212,7 @@ def equal_sliding(pair: ShiftPair, x1: float, x2: float) -> float:
 @lru_cache(maxsize=256)
 def least_shift(pair: ShiftPair, index: int) -> float:
     """x_min of the first (0) or second (1) gear."""
-    return least_shift_without_undercut(SpurGear(1.0, pair.teeth[index], pair.rack))
+    return least_shift_without_undercut(SpurGear(1.0, pair.teeth[index], pair.rack)) / math.cos(pair.helix_angle)
 
 
 class Requirements(Record):
@@ -224,7 +240,8 @@ def _sides(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> Iterato
         if not wish.allow_undercut:
             yield f"undercut_{who}", (x1, x2)[i], least_shift(pair, i)
         yield f"tip_thickness_{who}", state.tip_thicknesses[i], wish.tip_thickness
-    yield "contact_ratio", state.contact_ratio, wish.contact_ratio
+    # overlap alone is no contact
+    yield _ratio_name(pair), state.contact_ratio, max(wish.contact_ratio, pair.overlap_ratio)
     if wish.pole_inside:
         yield "approach", state.pole, state.starts[0]
         yield "recess", state.tips[0], state.pole

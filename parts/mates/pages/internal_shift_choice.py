@@ -90,7 +90,7 @@ def table_from(pair: dict[str, Any], table: dict[str, Any], source: str) -> dict
     """The keys of a scene's pair (pinion first) that matter here, changed by those of the command line."""
     for name in ("first", "second"):
         if angle := pair[name].get("helix_angle_deg"):
-            raise SceneError(source, "helix_angle_deg", angle, "shifts_of_spur_gears")
+            raise SceneError(source, "helix_angle_deg", angle, "shifts_of_spur_rings")
     known: dict[str, Any] = {k: pair["first"][k] for k in ("module", "pressure_angle_deg", "basic_rack")}
     for name, kind in (("first", PinionKeys), ("second", RingKeys)):
         own = {k: v for k, v in pair[name].items() if k in kind.__struct_fields__}

@@ -1,4 +1,7 @@
-"""``higherpair calc shift-choice``: shifts by the tables, by GOST 16532, and inside the blocking contour."""
+"""``higherpair calc shift-choice``: shifts by the tables, by GOST 16532, and inside the blocking contour.
+
+Of helical pairs the shifts are normal ones and the contour is that of the transverse section.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,8 @@ from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
-from geometry.base.errors import ParameterError, rounded
+from geometry.base.errors import Nearest, ParameterError, rounded
+from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.shifts import tables as shift_tables
 from geometry.gears.shifts.choice import shift_sum_for_distance
 from geometry.gears.shifts.external import (
@@ -20,18 +24,22 @@ from geometry.gears.shifts.external import (
     usual_box,
 )
 from geometry.gears.shifts.finder import for_sum, greatest_contact_ratio, least_wear, proposal
+from geometry.gears.teeth.basic_rack import BasicRack
+from geometry.gears.teeth.helix import Helix
 from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import transverse_gear, transverse_rack
 from parts.base.refusal import SceneError, meant
 from parts.base.texts import N_, message
+from parts.gears.spur_gear.page import section_data
 from parts.gears.spur_gear.part import RackTable, SpurGearSpec, gear_of
 from parts.keys.base import in_modules, mm
 from parts.keys.cutter import PressureAngle, RackName
-from parts.keys.helix import in_keys
+from parts.keys.helix import Double, HelixAngle, in_keys
 from parts.mates.pages import external as gear_pair
 from parts.mates.pages import internal_shift_choice
 from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices
 from parts.mates.pages.pair_keys import GEARS
-from parts.pages.contact_steps import working_steps
+from parts.pages.contact_steps import face_steps, working_steps
 from parts.pages.inputs import PLACE, SceneKeys, checked, refusal, told
 from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Printed, Sheet
@@ -54,9 +62,17 @@ class ShiftChoiceKeys(Struct, forbid_unknown_fields=True):
     module: Annotated[float, mm("module, for a centre distance", least=0.01, most=1000)] = 1.0
     pressure_angle_deg: PressureAngle = 20.0
     basic_rack: RackName | RackTable = "ISO 53 A"
+    helix_angle_deg: HelixAngle = 0.0
+    double_helical: Double = False
+    face_width: Annotated[
+        float,
+        mm("helical: common face width, for the overlap ratio; 0 is none of it", least=0, most=10_000),
+    ] = 0.0
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
-    least_contact_ratio: Annotated[float, Meta(ge=0.5, le=3, description="contact ratio to keep")] = 1.1
-    least_tip_thickness: Annotated[float, in_modules("tip thickness to keep", least=0, most=1)] = 0.3
+    least_contact_ratio: Annotated[
+        float, Meta(ge=0.5, le=3, description="contact ratio to keep, of helical teeth the total one")
+    ] = 1.1
+    least_tip_thickness: Annotated[float, in_modules("transverse tip thickness to keep", least=0, most=1)] = 0.3
     allow_undercut: Annotated[bool, Meta(description="undercut that stays below the active flank is legal")] = False
     pole_inside: Annotated[bool, Meta(description="the pole must lie inside the active line of action")] = False
     shortened_tips: Annotated[bool, Meta(description="tips shortened by x1 + x2 - y")] = True
@@ -71,10 +87,10 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
         return internal_shift_choice.table_from(pair, table, source)
     if kind not in _KINDS:
         raise SceneError(source, "mate", kind, "shifts_of_gear_pairs")
-    if any(pair[name].get("helix_angle_deg") for name in GEARS):
-        angle = first.get("helix_angle_deg", 0.0)
-        raise SceneError(source, "helix_angle_deg", angle, "shifts_of_spur_gears")
-    known = {k: first[k] for k in ("module", "pressure_angle_deg", "basic_rack") if k in first}
+    known = {k: first[k] for k in ("module", "pressure_angle_deg", "basic_rack", "helix_angle_deg") if k in first}
+    if table.get("helix_angle_deg", known.get("helix_angle_deg")):
+        known["face_width"] = min(pair[name]["face_width"] for name in GEARS)
+        known["double_helical"] = first.get("double_helical", False)
     teeth = {name: {"number_of_teeth": pair[name]["number_of_teeth"]} for name in GEARS}
     return {**known, **teeth, **table}
 
@@ -97,31 +113,65 @@ def sheet(table: dict[str, Any]) -> Sheet:
                 basic_rack=keys.basic_rack,
             )
         )
-        pair = ShiftPair(gear.number_of_teeth, keys.second.number_of_teeth, gear.rack, keys.shortened_tips)
+        pair = _pair(keys, gear.rack)
         wish = Requirements(keys.least_tip_thickness, keys.least_contact_ratio, keys.allow_undercut, keys.pole_inside)
-        return _page(keys, pair, wish)
+        return _page(keys, gear.rack, pair, wish)
     except ParameterError as error:
         raise refusal(TOPIC, in_keys(error), keys=keys) from error
 
 
-def _page(keys: ShiftChoiceKeys, pair: ShiftPair, wish: Requirements) -> Sheet:
+def _face(keys: ShiftChoiceKeys) -> CommonFace:
+    """The face that both gears have in common.
+
+    Raises
+    ------
+    ParameterError
+        Keys of helical gears, without a helix angle.
+    """
+    angle = math.radians(abs(keys.helix_angle_deg))
+    if not angle:
+        for name, none in (("double_helical", False), ("face_width", 0.0)):
+            if (value := getattr(keys, name)) != none:
+                raise ParameterError(name, value, "of_helical_gears_alone", Nearest(none))
+    return CommonFace(Helix(angle, double=keys.double_helical), keys.module, keys.face_width)
+
+
+def _pair(keys: ShiftChoiceKeys, rack: BasicRack) -> ShiftPair:
+    """The pair of the transverse section; ``rack`` of the normal one."""
+    face, teeth = _face(keys), (keys.first.number_of_teeth, keys.second.number_of_teeth)
+    angle = face.helix.angle
+    section = transverse_rack(rack, angle) if angle else rack
+    return ShiftPair(*teeth, section, keys.shortened_tips, angle, face.overlap_ratio if angle else 0.0)
+
+
+def _page(keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair, wish: Requirements) -> Sheet:
     page = Sheet(TOPIC, N_("Choice of profile shifts"))
     page.section(N_("Given"))
     page.both("number_of_teeth", pair.teeth)
     page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
-    page.add("module", keys.module)
-    page.add("pressure_angle_deg", math.degrees(pair.rack.pressure_angle))
-    page.add("addendum_coefficient", pair.rack.addendum)
-    page.add("tip_clearance_coefficient", pair.rack.tip_clearance)
-    page.add("tip_radius_coefficient", pair.rack.tip_radius)
+    helix, square = pair.helix_angle, "sin({alpha})**2"
+    section_data(page, keys.module, rack.pressure_angle, helix)
+    page.add("addendum_coefficient", rack.addendum)
+    page.add("tip_clearance_coefficient", rack.tip_clearance)
+    page.add("tip_radius_coefficient", rack.tip_radius)
+    if helix:
+        square += " / cos({beta})"
+        face_steps(page, _face(keys))
     page.add("required_contact_ratio", wish.contact_ratio, "", "practicum 1")
     page.add("required_tip_thickness", wish.tip_thickness, "", "practicum (1.3)")
     least = (least_shift(pair, 0), least_shift(pair, 1))
-    formula = "({h_a} + {c} - {rho_f} * (1 - sin({alpha}))) - {z#} * sin({alpha})**2 / 2"
-    page.both("least_shift_without_undercut", least, formula, ("ISO 21771", "ISO 21771"))
-    choices = [*_table_choices(page, pair, wish), *_found_choices(page, keys, pair, wish)]
+    formula = f"({{h_a}} + {{c}} - {{rho_f}} * (1 - sin({{alpha_n}}))) - {{z#}} * {square} / 2"
+    for index, value in enumerate(least, 1):
+        symbol = "x_n,min" if helix else ""
+        page.add("least_shift_without_undercut", value, formula, "ISO 21771", index, symbol=symbol)
+    tables = []
+    if helix:
+        page.notes.append(N_("the tables and the recommendations of GOST 16532 are left out: they are of spur gears"))
+    else:
+        tables = _table_choices(page, pair, wish)
+    choices = [*tables, *_found_choices(page, keys, rack, pair, wish)]
     for number, choice in enumerate(choices, 1):
-        _choice(page, pair, wish, choice, number)
+        _choice(page, keys.module, pair, wish, choice, number)
     box = usual_box(pair)
     if box is None:
         page.notes.append(N_("no shifts give a pair that turns"))
@@ -165,15 +215,17 @@ def _mending(shifts: shift_tables.TableShift) -> Printed | None:
     return Printed(text, N_("the table's own Δy and its neighbours show the misprint"))
 
 
-def _found_choices(page: Sheet, keys: ShiftChoiceKeys, pair: ShiftPair, wish: Requirements) -> list[Choice]:
+def _found_choices(
+    page: Sheet, keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair, wish: Requirements
+) -> list[Choice]:
     """What the finder proposes inside the contour."""
     proposals = [
         (message("least wear: equal sliding"), least_wear(pair, wish)),
         (message("greatest contact ratio"), greatest_contact_ratio(pair, wish)),
     ]
     if keys.working_centre_distance is not None:
-        one, two = (SpurGear(keys.module, z, pair.rack) for z in pair.teeth)
-        total = shift_sum_for_distance(one, two, keys.working_centre_distance)
+        one, two = (transverse_gear(SpurGear(keys.module, z, rack), pair.helix_angle) for z in pair.teeth)
+        total = shift_sum_for_distance(one, two, keys.working_centre_distance) / math.cos(pair.helix_angle)
         found = for_sum(pair, wish, total)
         proposals.append((message("a_w = {distance:g} mm", distance=keys.working_centre_distance), found))
         if found is None:
@@ -199,26 +251,31 @@ def _explain_sum(page: Sheet, pair: ShiftPair, wish: Requirements, total: float)
     page.notes.append(message("x1 + x2 = {total:.4f}, half each: {margins}", total=total, margins=names))
 
 
-def _choice(page: Sheet, pair: ShiftPair, wish: Requirements, choice: Choice, number: int) -> None:
-    """One proposal and what it gives."""
-    found = choice.found
+def _choice(page: Sheet, module: float, pair: ShiftPair, wish: Requirements, choice: Choice, number: int) -> None:
+    """One proposal and what it gives; ``module``: the normal one, mm."""
+    found, helical = choice.found, pair.helix_angle != 0
     page.section(message("{number}. {rule}", number=number, rule=choice.name))
-    page.add("profile_shift_coefficient", found.first, "", choice.source, 1)
-    page.add("profile_shift_coefficient", found.second, "", choice.source, 2)
+    for index, shift in enumerate((found.first, found.second), 1):
+        symbol = "x_n" if helical else ""
+        page.add("profile_shift_coefficient", shift, "", choice.source, index, symbol=symbol, key=symbol)
     if choice.printed is not None:
         page.mark_misprint(choice.printed)
     state = state_of(pair, found.first, found.second)
     if not state.involute >= 0:
         page.notes.append(message("{number}: no working angle", number=number))
         return
-    module, angle = float(page.known["m"].value), math.degrees(state.working_pressure_angle)
+    angle = math.degrees(state.working_pressure_angle)
     values = state.involute, angle, state.working_centre_distance * module
-    working_steps(page, values, internal=False, normal=False)
-    page.add("contact_ratio", found.contact_ratio, "", "practicum (3.20)")
+    working_steps(page, values, internal=False, normal=helical)
+    page.add("contact_ratio", found.contact_ratio - pair.overlap_ratio, "", "practicum (3.20)")
+    if helical:
+        page.add("total_contact_ratio", found.contact_ratio, "{eps} + {eps_beta}", "ISO 21771")
     thick = state.tip_thicknesses
     page.both("tip_thickness", (thick[0] * module, thick[1] * module), "", ("practicum (1.3)", "practicum (1.3)"))
     page.both("root_sliding", found.root_sliding, "", ("ISO 21771", "ISO 21771"))
-    page.mark_misprints(printed_for_pair(pair.teeth, (found.first, found.second), module, pair.rack.pressure_angle))
+    if not helical:
+        shifts = found.first, found.second
+        page.mark_misprints(printed_for_pair(pair.teeth, shifts, module, pair.rack.pressure_angle))
     broken = [m for m in margins(pair, wish, found.first, found.second) if m.margin < -1e-9]
     if broken:
         names = ", ".join(f"{m.name} {m.margin:.4g}" for m in broken)

@@ -415,6 +415,18 @@ def refused(topic: str, *arguments: str) -> SceneError:
         (("gear-pair", "practicum_pair", "mate=2"), "mate", "no_such_pair", 1),
         (("shift-choice", "first.number_of_teeth=13"), "shift-choice.second", "missing_key", None),
         (
+            ("shift-choice", "first.number_of_teeth=13", "second.number_of_teeth=21", "face_width=9"),
+            "shift-choice.face_width",
+            "of_helical_gears_alone",
+            0.0,
+        ),
+        (
+            ("shift-choice", "first.number_of_teeth=13", "second.number_of_teeth=21", "double_helical=true"),
+            "shift-choice.double_helical",
+            "of_helical_gears_alone",
+            False,
+        ),
+        (
             ("shift-choice", "first.number_of_teeth=13", "second.number_of_teeth=21", "basic_rack=ISO"),
             "shift-choice.basic_rack",
             "not_allowed",
@@ -438,6 +450,46 @@ def test_a_shift_table_cell_that_was_mended_is_flagged() -> None:
     assert [s["value"] for s in flagged] == [0.487]
     assert "0.951 / 0.459" in flagged[0]["misprint"]
     assert {line["name"] for line in data["blocking_contour"]} >= {"undercut_first", "contact_ratio", "equal_sliding"}
+
+
+HELICAL = "number_of_teeth=17 second.number_of_teeth=31 module=2 helix_angle_deg=25"
+
+
+def test_shifts_of_a_helical_pair_are_those_that_its_own_calculation_has() -> None:
+    """Each choice laid before ``calc gear-pair``: distance, both contact ratios, tips and sliding."""
+    asked = "least_contact_ratio=2.2 least_tip_thickness=0.45 working_centre_distance=54.5"
+    data = values_of(f"shift-choice first.{HELICAL} face_width=16 {asked}")
+    assert len(data["choices"]) == 3
+    steps = {}
+    for step in data["steps"]:
+        steps[step["section"].partition(".")[0], step["name"], step.get("gear")] = step["value"]
+    for number, choice in enumerate(data["choices"], 1):
+        x1, x2 = choice["profile_shift_coefficient"].values()
+        shifts = f"first.profile_shift_coefficient={x1!r} second.profile_shift_coefficient={x2!r}"
+        own = values_of(f"gear-pair first.{HELICAL} face_width=16 {shifts}")["values"]
+        for name in ("working_centre_distance", "contact_ratio", "total_contact_ratio", "working_pressure_angle_deg"):
+            assert steps[str(number), name, None] == pytest.approx(own[name], rel=1e-9)
+        assert own["total_contact_ratio"] >= 2.2 - 1e-9
+        for who in ("first", "second"):
+            assert steps[str(number), "tip_thickness", who] == pytest.approx(own["tip_thickness"][who], rel=1e-9)
+            assert own["tip_thickness"][who] >= 2 * 0.45 - 1e-9
+            if number != 2:
+                assert steps[str(number), "root_sliding", who] == pytest.approx(own["root_sliding"][who], rel=1e-6)
+    assert own["working_centre_distance"] == pytest.approx(54.5, abs=1e-6)
+    # ISO 21771: h_Ff is where the rounding of the normal rack begins, and z sin^2(alpha_t) / (2 cos(beta)) the base's
+    beta, least = math.radians(25), 1.25 - 0.38 * (1 - math.sin(math.radians(20)))
+    sine = math.sin(math.atan(math.tan(math.radians(20)) / math.cos(beta)))
+    for who, z in (("first", 17), ("second", 31)):
+        value = steps["Given", "least_shift_without_undercut", who]
+        assert value == pytest.approx(least - z * sine**2 / (2 * math.cos(beta)), abs=1e-12)
+
+
+def test_a_scene_tells_its_helix_and_the_face_that_both_gears_have() -> None:
+    given = [s for s in tables_of("shift-choice helical_pair")["steps"] if s["section"] == "Given"]
+    told = {s["name"]: s["value"] for s in given}
+    assert (told["helix_angle_deg"], told["face_width"]) == (25.0, 16.0)
+    assert told["overlap_ratio"] == pytest.approx(16 * math.sin(math.radians(25)) / (2 * math.pi), rel=1e-12)
+    assert "helix_angle_deg" not in tables_of("shift-choice helical_pair helix_angle_deg=0")["values"]
 
 
 def test_the_picture_is_written_in_the_language(tmp_path: Path) -> None:

@@ -30,6 +30,7 @@ from geometry.gears.shifts.finder import for_sum, greatest_contact_ratio, least_
 from geometry.gears.teeth import limits
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import transverse_gear, transverse_rack
 from tests.sampling import some_of
 
 RACK = iso_53()
@@ -119,6 +120,38 @@ def test_each_condition_is_what_its_name_says() -> None:
         assert least_margin(pair, wish, x1, x2) <= min(m.margin for n, m in asked.items() if "active" not in n)
         loose = {m.name for m in margins(pair, replace(wish, allow_undercut=True, pole_inside=False), x1, x2)}
         assert asked.keys() - loose == {"undercut_first", "undercut_second", "approach", "recess"}
+
+
+@pytest.mark.parametrize(("helix", "overlap"), [(15.0, 0.3), (40.0, 1.4)])
+def test_helical_teeth_are_judged_by_their_section_in_normal_modules(helix: float, overlap: float) -> None:
+    """Gears given by normal data, cut by the normal rack; the total contact ratio, of which overlap alone is none."""
+    beta, rng = math.radians(helix), random.Random(5)
+    wish, kinds = Requirements(0.25, 1.15), set()
+    for _ in range(12):
+        pair = ShiftPair(rng.randint(8, 40), rng.randint(8, 60), transverse_rack(RACK, beta), True, beta, overlap)
+        x1, x2 = rng.uniform(-0.6, 1.2), rng.uniform(-0.6, 1.2)
+        one, two = (transverse_gear(SpurGear(2.0, z, RACK, x), beta) for z, x in zip(pair.teeth, (x1, x2), strict=True))
+        try:
+            made = external_pair(one, two)
+        except GeometryError:
+            continue
+        state = state_of(pair, x1, x2)
+        assert 2 * state.working_centre_distance == pytest.approx(made.working_centre_distance, rel=1e-12)
+        assert state.contact_ratio == pytest.approx(made.contact_ratio + overlap, rel=1e-9)
+        assert 2 * state.tip_shortening == pytest.approx(made.tip_shortening_coefficient * made.module, abs=1e-9)
+        found = {m.name: m for m in margins(pair, wish, x1, x2)}
+        assert found["total_contact_ratio"].limit == max(1.15, overlap)
+        for i, (who, gear) in enumerate(zip(("first", "second"), made.gears, strict=True)):
+            assert 2 * found[f"tip_thickness_{who}"].value == pytest.approx(limits.tip_thickness(gear), abs=1e-9)
+            least = limits.undercut(gear)
+            assert 2 * found[f"undercut_{who}"].margin == pytest.approx(least.margin * made.module, abs=1e-9)
+            flank, twin = found[f"active_flank_{who}"], made.margins()[i]
+            assert (2 * flank.value, 2 * flank.limit) == pytest.approx((twin.value, twin.limit), abs=1e-7)
+            kinds.add(twin.name.rsplit("_", 1)[0])
+        named = {c.name: c.level for c in conditions(pair).values()}
+        # the last of its levels; those below the overlap are no contact
+        assert named["total_contact_ratio"] == max(1.2, overlap)
+    assert kinds == {"fillet_interference", "active_flank_cut_away"}
 
 
 def test_form_tangent_is_the_built_one_undercut_or_not() -> None:

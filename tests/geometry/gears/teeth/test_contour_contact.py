@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from geometry.gears.mesh.gears import GearMesh
@@ -17,6 +19,7 @@ from geometry.gears.shifts.external import (
 )
 from geometry.gears.teeth.basic_rack import iso_53
 from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import transverse_rack
 from geometry.plane.distance import Verdict
 
 # how far beside a line the two sides are compared, in x: violations grow with the square of the distance
@@ -28,7 +31,8 @@ MANY = [(z1, z2, rack) for rack in "ABCD" for z1, z2 in ((10, 10), (13, 21), (17
 
 
 def built(pair: ShiftPair, point: complex) -> ExternalPair:
-    """The pair at two shifts, module 1."""
+    """The pair at two shifts, module 1; of helical teeth the transverse section."""
+    point *= math.cos(pair.helix_angle)
     one, two = (SpurGear(1.0, z, pair.rack, x)
                 for z, x in zip(pair.teeth, (point.real, point.imag), strict=True))  # fmt: skip
     return external_pair(one, two)
@@ -53,7 +57,7 @@ def clear_of_the_rest(pair: ShiftPair, line: ContourLine, point: complex) -> boo
     state = state_of(pair, point.real, point.imag)
     other = "second" if line.name.endswith("first") else "first"
     flank = conditions(pair)[f"active_flank_{other}"].margin(point.real, point.imag)
-    return min(state.tip_thicknesses) > 0.05 and state.contact_ratio > 1.05 and flank > 0.01
+    return min(state.tip_thicknesses) > 0.05 and state.contact_ratio - pair.overlap_ratio > 1.05 and flank > 0.01
 
 
 def compare(pair: ShiftPair, most: int) -> dict[str, int]:
@@ -86,6 +90,14 @@ def test_an_overlap_a_little_farther_out_has_the_verdict() -> None:
     pair = ShiftPair(13, 21, iso_53())
     assert GearMesh(built(pair, 0.4 + 1.38j)).contact().verdict is Verdict.CONTACT
     assert GearMesh(built(pair, 0.0 + 1.45j)).contact().verdict is Verdict.OVERLAP
+
+
+@pytest.mark.parametrize(("teeth", "helix"), [pytest.param((13, 21), 12.0, marks=pytest.mark.heavy), ((9, 21), 35.0)])
+def test_both_sides_of_the_interference_lines_of_helical_teeth(teeth: tuple[int, int], helix: float) -> None:
+    """In the transverse section, whose fillet an ellipse leaves."""
+    angle = math.radians(helix)
+    seen = compare(ShiftPair(*teeth, transverse_rack(iso_53(), angle), helix_angle=angle, overlap_ratio=0.4), 1)
+    assert {"fillet_interference", "undercut_to_active_flank"} <= set(seen)
 
 
 @pytest.mark.heavy
