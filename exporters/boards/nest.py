@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,6 +87,22 @@ def largest_scale(geometry: BaseGeometry, room: Room) -> float:
     wide, high = room.width - 2 * room.margin, room.height - 2 * room.margin
     sizes = (high_x - low_x, high_y - low_y), (high_y - low_y, high_x - low_x)
     return max(min(wide / sizes[turn % 2][0], high / sizes[turn % 2][1]) for turn in room.turns)
+
+
+def lacking(room: Room, wide: float, high: float) -> Literal["width", "height"]:
+    """Which side of a room has to grow for a box that it does not hold, mm: by less where either would do.
+
+    The width where neither does alone.
+    """
+    inner = room.width - 2 * room.margin, room.height - 2 * room.margin
+    grown: list[tuple[float, Literal["width", "height"]]] = []
+    for turn in room.turns:
+        x, y = (wide, high)[turn % 2], (high, wide)[turn % 2]
+        if y <= inner[1]:
+            grown.append((x - inner[0], "width"))
+        if x <= inner[0]:
+            grown.append((y - inner[1], "height"))
+    return min(grown, key=lambda one: one[0], default=(0.0, "width"))[1]
 
 
 def nest(shapes: Mapping[str, tuple[BaseGeometry, int]], room: Room) -> list[Laid]:
@@ -200,7 +216,8 @@ class _Nest:
         turns = self.room.turns
         reach = np.hypot(*np.array(about.convex_hull.exterior.coords).T).max()
         if reach <= _ROUND * min(half.real, half.imag):
-            turns = (0,)
+            # one turn is as good as another, but chords may leave room in one alone
+            turns = next(((turn,) for turn in turns if self._has_room(halves[turn % 2])), (0,))
         found: dict[int, _Shape] = {}
         for turn in turns:
             size = halves[turn % 2]

@@ -11,7 +11,7 @@ import numpy as np
 from msgspec.structs import replace as with_keys
 
 from exporters.boards.cuts import in_order
-from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, nest
+from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, lacking, nest
 from exporters.formats.registry import strokes_of
 from exporters.production.jobs import Job, Made, PartsJob, several
 from exporters.production.request import Request
@@ -167,8 +167,9 @@ def _laid_out(
         laid = nest(shapes, room)
     except DoesNotFitError as refusal:
         size = [round(x, 3) for x in refusal.size]
+        side = lacking(room, *refusal.size)
         raise SceneError(
-            source, f"{place}.width", board.width, "too_small_for_part", None, "mm",
+            source, f"{place}.{side}", getattr(board, side), "too_small_for_part", None, "mm",
             part=refusal.shape, width=size[0], height=size[1], margin=board.margin,
         ) from refusal  # fmt: skip
     return [replace(one, at=complex(round(one.at.real, _DECIMALS), round(one.at.imag, _DECIMALS))) for one in laid]

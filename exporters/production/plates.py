@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from exporters.boards.nest import QUARTERS, Laid, Room, largest_scale, nest
+from exporters.boards.nest import QUARTERS, Laid, Room, lacking, largest_scale, nest
 from exporters.production.boards import different_boards
 from exporters.production.jobs import AssemblyJob, Job, Made, assembly_name, several
 from exporters.production.request import Request
@@ -134,9 +134,11 @@ def _laid_out(
         ]
         # the height is to blame where it alone is
         wide = any(largest_scale(feet[part][0], room) < 1 for part in scales)
-        key, size = ("width", bed.width) if wide else ("height", bed.height)
         boxes = [sorted((e - a, f - b)) for a, b, e, f in (foot.bounds for foot, _, _ in feet.values())]
-        sides = [math.ceil(max(side) + 2 * bed.margin) for side in zip(*boxes, strict=True)]
+        short, long = (max(side) for side in zip(*boxes, strict=True))
+        side = "width" if lacking(room, long, short) == "width" else "depth"
+        key, size = (side, getattr(bed, side)) if wide else ("height", bed.height)
+        sides = [math.ceil(one + 2 * bed.margin) for one in (short, long)]
         high = math.ceil(max(top - low for _, low, top in feet.values()))
         raise SceneError(
             source, f"{place}.{key}", size, "too_small_for_parts", None, "mm",

@@ -6,9 +6,9 @@ from collections import Counter
 
 import pytest
 import shapely
-from shapely.affinity import rotate, translate
+from shapely.affinity import rotate, scale, translate
 
-from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, largest_scale, nest
+from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, lacking, largest_scale, nest
 
 Shapes = dict[str, tuple[shapely.Geometry, int]]
 TILE = shapely.box(0, 0, 20, 10)
@@ -102,3 +102,24 @@ def test_the_largest_scale_fills_the_room_one_way(
 ) -> None:
     shape = shapely.box(-4, 9, sides[0] - 4, sides[1] + 9)
     assert largest_scale(shape, Room(100, 50, 5, 2, turns)) == pytest.approx(scale, rel=1e-12)
+
+
+@pytest.mark.parametrize(("room", "turn"), [(Room(220, 60, 5, 2), 1), (Room(60, 220, 5, 2), 0)])
+def test_what_is_all_but_round_is_turned_where_its_chords_leave_no_room_otherwise(room: Room, turn: int) -> None:
+    """A box of 49.9 x 50.1 mm in a room of 210 x 50 mm: across the long side in one turn alone."""
+    egg = scale(shapely.Point(3, 4).buffer(1, quad_segs=64), 24.95, 25.05)
+    assert largest_scale(egg, room) >= 1
+    (laid,) = nest({"egg": (egg, 1)}, room)
+    assert laid.turn % 2 == turn
+
+
+@pytest.mark.parametrize(("box", "room", "side"), [
+    # a room of 90 x 40 mm: 95 x 30 lacks width; 30 x 45 stands in it if it lies; 45 x 42 lacks 2 mm of height
+    ((95.0, 30.0), Room(100, 50, 5, 2), "width"), ((30.0, 95.0), Room(100, 50, 5, 2), "width"),
+    ((45.0, 42.0), Room(100, 50, 5, 2), "height"), ((30.0, 45.0), Room(100, 50, 5, 2, HALVES), "height"),
+    ((95.0, 30.0), Room(50, 100, 5, 2), "height"),
+    # turned, 55 mm of height do; no side alone
+    ((95.0, 42.0), Room(100, 50, 5, 2), "height"), ((95.0, 92.0), Room(100, 50, 5, 2), "width"),
+])  # fmt: skip
+def test_the_side_that_lacks_least_is_named(box: tuple[float, float], room: Room, side: str) -> None:
+    assert lacking(room, *box) == side

@@ -292,6 +292,8 @@ def test_pieces_nearer_than_asked_are_caught(key: str, value: float, words: str,
 
 @pytest.mark.parametrize(("keys", "key", "words"), [
     ({"width": 85.0}, "boards.plywood.width", "the part ring needs 90.2 x 80.2 mm"),
+    # 120 - 40 mm in height for 80.2
+    ({"more": "margin = 20.0"}, "boards.plywood.height", "the part ring needs 90.2 x 80.2 mm"),
     ({"width": 2e-6}, "boards.plywood.width", "at least 1, at most"),
     ({"gap": 500.0}, "boards.plywood.gap", "less than the shorter side of the board, 120"),
     ({"kerf": 3.2, "exports": EXPORTS.split("\n\n")[1]}, "boards.plywood.kerf", "bar"),

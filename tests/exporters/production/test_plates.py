@@ -210,7 +210,9 @@ FEET = {
 @pytest.mark.parametrize(("bed", "key", "parts"), [
     # 50 - 10 mm for 100 and for 60; 30 mm for 40.25
     ((50.0, 50.0, 30.0), "width", ["long (0.4)", "tall (0.6666)"]), ((200.0, 200.0, 30.0), "height", ["tall (0.7453)"]),
-    ((110.0, 60.0, 40.0), "height", ["tall (0.9937)"]), ((69.0, 109.0, 60.0), "width", ["long (0.99)"]),
+    ((110.0, 60.0, 40.0), "height", ["tall (0.9937)"]),
+    # 100 mm across 59 or along 99: the depth lacks 1 mm, the width 41; the other way round on a bed that is turned
+    ((69.0, 109.0, 60.0), "depth", ["long (0.99)"]), ((109.0, 69.0, 60.0), "width", ["long (0.99)"]),
 ])  # fmt: skip
 def test_a_bed_that_is_too_small_is_refused_with_the_least_that_holds_all(
     bed: tuple[float, float, float], key: str, parts: list[str]
