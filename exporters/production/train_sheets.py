@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from exporters.production.request import Request
+from geometry.base.placement import Placement3
 from geometry.base.tolerance import PLACED_MM
-from geometry.kinematics.mechanism import FRAME, Revolute, Rolling, Tree
+from geometry.kinematics.mechanism import FRAME, Group, Revolute, Rolling, Support, Tree, parallel
 from parts.base.mate import Toothed
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.mates.sheets.train_picture import Link, Rim, TrainPicture
 from parts.mates.sheets.train_sheet import train_sheet
-from parts.scene.placing import Instance, Placing
+from parts.scene.placing import UPWARDS, Instance, Placing, seen_from
 from parts.scene.train import Train
 
 
@@ -42,8 +45,13 @@ def _meshes(placing: Placing) -> list[Rolling]:
     rolling = [
         j for j in moved.stands.mechanism.joints if isinstance(j, Rolling) and j.kind in ("external", "internal")
     ]
-    shares = moved.turns.shares
-    return [j for j in rolling if (j.first, j.second) in gears and (shares.get(j.first) or shares.get(j.second))]
+    shares, stand = moved.turns.shares, placing.train.stand
+    found = [j for j in rolling if (j.first, j.second) in gears and (shares.get(j.first) or shares.get(j.second))]
+    # a scheme shows gears on parallel axes: those of the driver, or of the first that it moves
+    wheels = [key for j in found for key in (j.first, j.second)]
+    driver = placing.train.drives[0]
+    own = [key for key in wheels if moved.stands.body(key) == moved.stands.body(driver)] or wheels
+    return [j for j in found if parallel(stand[j.first].axis, stand[own[0]].axis)]
 
 
 def train_picture(
@@ -51,8 +59,17 @@ def train_picture(
 ) -> tuple[TrainPicture, list[str]]:
     """A train as its sheet has it, numbered from the driver on, and the part of each rim."""
     stands, stand = train.moving.stands, {i.id: i for i in instances}
+    toothed = [stands.body(key) for mesh in meshes for key in (mesh.first, mesh.second)]
     driver = stands.body(train.drives[0])
-    meshes, rims = _along(stands, _once(stands, meshes, stand), driver)
+    on = [joint.on for body in toothed if isinstance(joint := stands.supports.get(body), Revolute)]
+    if driver not in {*toothed, *map(stands.body, on)}:
+        # gears that other ones move
+        driver = next(body for body in toothed if train.moving.courses[body].rate)
+    # all is told in the frame of the first as it lies
+    frame = stand[meshes[0].first]
+    stand = {key: seen_from(frame, one)[1] for key, one in stand.items()}
+    axes = {body: _axis(joint, frame) for body, joint in stands.supports.items()}
+    meshes, rims = _along(stands, _once(stands, meshes, stand, axes), driver)
     toothed = list(dict.fromkeys(map(stands.body, rims)))
     joints = {body: stands.supports.get(body) for body in toothed}
     carriers = {b: stands.body(j.on) for b, j in joints.items() if isinstance(j, Revolute) and j.on != FRAME}
@@ -60,8 +77,8 @@ def train_picture(
     bodies = list(dict.fromkeys([*toothed, *bare, driver]))
     names = {body: str(number) for number, body in enumerate((b for b in bodies if b not in bare), 1)}
     names |= {body: f"H{number}" if len(bare) > 1 else "H" for number, body in enumerate(bare, 1)}
-    heights = _unfolded(stands, meshes, bodies)
-    rates = {body: train.moving.courses[body].rate for body in bodies}
+    heights = _unfolded(stands, meshes, bodies, axes)
+    rates = {body: train.moving.courses[body].rate * _sense(stands, body, frame) for body in bodies}
     links = tuple(
         Link(
             names[body],
@@ -87,14 +104,16 @@ def _ring(mesh: Rolling) -> str | None:
     return max(zip(mesh.teeth, (mesh.first, mesh.second), strict=True))[1] if mesh.kind == "internal" else None
 
 
-def _once(stands: Tree, meshes: Sequence[Rolling], stand: Mapping[str, Instance]) -> list[Rolling]:
+def _once(
+    stands: Tree, meshes: Sequence[Rolling], stand: Mapping[str, Instance], axes: Mapping[str, complex]
+) -> list[Rolling]:
     """The meshes without satellites that go round beside an equal one: on one carrier, of one part, as far out."""
     twins: dict[tuple[object, ...], str] = {}
     doubled = set()
     for key in dict.fromkeys(key for mesh in meshes for key in (mesh.first, mesh.second)):
         joint = stands.supports.get(stands.body(key))
         if isinstance(joint, Revolute) and joint.on != FRAME:
-            arm = abs(joint.at - _at(stands, stands.body(joint.on)))
+            arm = abs(axes[stands.body(key)] - axes[stands.body(joint.on)])
             doubled.add(key)
             doubled.discard(
                 twins.setdefault((joint.on, stand[key].part, *(round(x, 6) for x in (arm, stand[key].at[2]))), key)
@@ -119,21 +138,23 @@ def _along(stands: Tree, meshes: Sequence[Rolling], driver: str) -> tuple[list[R
     return found, list(dict.fromkeys(rims))
 
 
-def _unfolded(stands: Tree, meshes: Sequence[Rolling], bodies: Sequence[str]) -> dict[str, float]:
+def _unfolded(
+    stands: Tree, meshes: Sequence[Rolling], bodies: Sequence[str], axes: Mapping[str, complex]
+) -> dict[str, float]:
     """Heights of the axes, mm: each as far above the one before as they are apart, a ring's below its pinion's."""
     found: dict[str, float] = {}
 
     def put(body: str, height: float) -> None:
         """All that turns about one axis stands at one height."""
         for other in bodies:
-            if other not in found and abs(_at(stands, other) - _at(stands, body)) <= PLACED_MM:
+            if other not in found and abs(axes[other] - axes[body]) <= PLACED_MM:
                 found[other] = height
 
     put(bodies[0], 0.0)
     for _ in bodies:
         for mesh in meshes:
             one, two = stands.body(mesh.first), stands.body(mesh.second)
-            apart = abs(_at(stands, two) - _at(stands, one))
+            apart = abs(axes[two] - axes[one])
             ring = _ring(mesh)
             if one in found and two not in found:
                 put(two, found[one] + (-apart if ring == mesh.second else apart))
@@ -142,9 +163,20 @@ def _unfolded(stands: Tree, meshes: Sequence[Rolling], bodies: Sequence[str]) ->
     return {body: found.get(body, 0.0) for body in bodies}
 
 
-def _at(stands: Tree, body: str) -> complex:
-    joint = stands.supports.get(body)
-    return joint.at if isinstance(joint, Revolute) else 0j
+def _axis(joint: Support | Group, frame: Instance) -> complex:
+    """Where the axis of a link stands across that of an instance, mm."""
+    if not isinstance(joint, Revolute):
+        return 0j
+    if frame.axis == UPWARDS:
+        return joint.at
+    laid = Placement3.towards(frame.axis, 0.0, frame.at)
+    x, y, _ = laid.inverse().apply(np.array([joint.at.real, joint.at.imag, joint.z])).tolist()
+    return complex(x, y)
+
+
+def _sense(stands: Tree, body: str, frame: Instance) -> int:
+    """-1 where a body turns about an axis that points against that of an instance."""
+    return parallel(stands.axis(body), frame.axis) or 1
 
 
 def _levels(rims: Sequence[str], meshes: Sequence[Rolling], stand: Mapping[str, Instance]) -> dict[str, int]:

@@ -6,6 +6,7 @@ import json
 import math
 import re
 import struct
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,8 @@ import pytest
 
 from exporters.command.cli import main
 from exporters.production.plan import plan_build
+from exporters.production.train_sheets import train_picture
+from geometry.kinematics.mechanism import Rolling
 from parts.base.refusal import SceneError
 from parts.scene.load import load_scene, make_parts, scene_from_dict
 from parts.scene.placing import place
@@ -159,3 +162,18 @@ def test_a_spur_stage_goes_on_from_a_laid_shaft(capsys: pytest.CaptureFixture[st
         assert one.min_gap(two, 1.0) == pytest.approx(0.05, abs=0.02)
     moved = stands["wheel"][:, :3] @ frames(placing, 0.0)["wheel"][:, :3].T
     assert np.trace(moved) == pytest.approx(1 + 2 * math.cos(2 * math.pi * 0.37 / 6), abs=1e-9)
+
+
+def test_the_scheme_of_a_train_is_that_of_its_gears_on_parallel_axes_wherever_these_lie() -> None:
+    """What a bevel pinion drives: u = -48 / 16, the axes a_w apart, though the scene sees both from the side."""
+    file = load_scene("bevel_reducer")
+    parts, matings = make_parts(file, "s")
+    placing = place(file.instances, file.drives, parts, matings, "s")
+    assert placing.train is not None
+    joints = placing.train.moving.stands.mechanism.joints
+    spurs = [joint for joint in joints if isinstance(joint, Rolling) and joint.kind == "external"]
+    picture, rims = train_picture(placing.train, spurs, placing.instances)
+    assert rims == ["pinion", "wheel"]
+    assert [link.rate for link in picture.links] == [1, Fraction(-16, 48)]
+    (pair,) = (m.mating for m in placing.mates if m.mating.kind == "external_gear_pair")
+    assert picture.links[1].axis - picture.links[0].axis == pytest.approx(pair.distance, abs=1e-9)
