@@ -85,6 +85,8 @@ SHEETS = [
     ("gear-pair", *PAIR, "first.cutter.number_of_teeth=20", "first.profile_shift_coefficient=0.4"),
     ("shift-choice", "first.number_of_teeth=17", "second.number_of_teeth=33", "module=2",
      "working_centre_distance=51.5"),
+    ("shift-choice", "first.number_of_teeth=17", "second.number_of_teeth=31", "module=2", "helix_angle_deg=25",
+     "face_width=16", "least_contact_ratio=2.2", "least_tip_thickness=0.45", "working_centre_distance=54.5"),
     ("worm", *THESIS_WORM, "number_of_teeth=128", "form_factor=1.26"),
     ("worm", *THESIS_WORM, "number_of_teeth=106", "form_factor=1.27"),
     ("worm", "module=2", "number_of_starts=4", "number_of_teeth=40", "diameter_quotient=8", "form=ZK1", "face_width=12",
@@ -457,8 +459,7 @@ HELICAL = "number_of_teeth=17 second.number_of_teeth=31 module=2 helix_angle_deg
 
 def test_shifts_of_a_helical_pair_are_those_that_its_own_calculation_has() -> None:
     """Each choice laid before ``calc gear-pair``: distance, both contact ratios, tips and sliding."""
-    asked = "least_contact_ratio=2.2 least_tip_thickness=0.45 working_centre_distance=54.5"
-    data = values_of(f"shift-choice first.{HELICAL} face_width=16 {asked}")
+    data = values_of(" ".join(next(words for words in SHEETS if "least_contact_ratio=2.2" in words)))
     assert len(data["choices"]) == 3
     steps = {}
     for step in data["steps"]:
