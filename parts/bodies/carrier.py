@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record
 from parts.base.kind import Others, Report
+from parts.base.schema import replaced, value_at
 from parts.bodies.plate import Extruded, FlatKeys, checked_outline
 from parts.keys.base import BoreDiameter, mm
 from parts.keys.holes import Direction, check_bore
@@ -22,6 +25,9 @@ if TYPE_CHECKING:
 
 # of a hole's diameter: the round end about it; beyond the least hub on which the arms stand beside each other
 _BOSS, _HUB = 2.4, 1.05
+# keys of holes, and shares of one that are tried where it does not fit
+_SIZES = ("pin_diameter", "spacers.diameter", "bore_diameter")
+_SHARES = (0.95, 0.9, 0.75, 0.5, 0.25, 0.1, 0.03, 0.01)
 
 
 class PinHolesTable(Struct, forbid_unknown_fields=True):
@@ -89,21 +95,12 @@ class CarrierPlateKind(Extruded[CarrierPlateSpec, CarrierPlate]):
 
     def thing(self, keys: CarrierPlateSpec, others: Others) -> CarrierPlate:
         """The plate, checked: arms beside each other, holes that keep their walls."""
-        from geometry.solids.windows import HoleCircle
-
-        seat, turns = keys.pin_diameter + 2 * keys.seat_clearance, [math.radians(a % 360) for a in _directions(keys)]
-        circles = [HoleCircle(seat, keys.pin_circle_diameter, tuple(turns))]
-        arms = [_end(a, keys.pin_circle_diameter, keys.pin_diameter, keys.boss_diameter) for a in turns]
-        if (table := keys.spacers) is not None:
-            turns = [math.radians((table.start_deg + 360 * k / table.count) % 360) for k in range(table.count)]
-            circles.append(HoleCircle(table.diameter, table.pitch_circle_diameter, tuple(turns)))
-            arms += [_end(a, table.pitch_circle_diameter, table.diameter, table.boss_diameter) for a in turns]
-        names = "pin_diameter", "spacers.diameter"
-        holes = [(key, at, c.diameter) for key, c in zip(names, circles, strict=False) for at in c.centres()]
-        check_bore(keys.bore_diameter)
-        if keys.bore_diameter > 0:
-            holes.insert(0, ("bore_diameter", 0j, keys.bore_diameter))
-        return CarrierPlate(checked_outline(_edges(keys, arms), keys, holes), tuple(circles), keys.pin_diameter / 2)
+        try:
+            return _made(keys)
+        except ParameterError as refusal:
+            if refusal.name not in _SIZES:
+                raise
+            raise _in_keys(keys, refusal) from refusal
 
     def flat(self, thing: CarrierPlate) -> PlateOutline:
         """Its outline."""
@@ -118,6 +115,42 @@ class CarrierPlateKind(Extruded[CarrierPlateSpec, CarrierPlate]):
 
 
 CARRIER_PLATE = CarrierPlateKind()
+
+
+def _made(keys: CarrierPlateSpec) -> CarrierPlate:
+    from geometry.solids.windows import HoleCircle
+
+    seat, turns = keys.pin_diameter + 2 * keys.seat_clearance, [math.radians(a % 360) for a in _directions(keys)]
+    circles = [HoleCircle(seat, keys.pin_circle_diameter, tuple(turns))]
+    arms = [_end(a, keys.pin_circle_diameter, keys.pin_diameter, keys.boss_diameter) for a in turns]
+    if (table := keys.spacers) is not None:
+        turns = [math.radians((table.start_deg + 360 * k / table.count) % 360) for k in range(table.count)]
+        circles.append(HoleCircle(table.diameter, table.pitch_circle_diameter, tuple(turns)))
+        arms += [_end(a, table.pitch_circle_diameter, table.diameter, table.boss_diameter) for a in turns]
+    names = "pin_diameter", "spacers.diameter"
+    holes = [(key, at, c.diameter) for key, c in zip(names, circles, strict=False) for at in c.centres()]
+    check_bore(keys.bore_diameter)
+    if keys.bore_diameter > 0:
+        holes.insert(0, ("bore_diameter", 0j, keys.bore_diameter))
+    return CarrierPlate(checked_outline(_edges(keys, arms), keys, holes), tuple(circles), keys.pin_diameter / 2)
+
+
+def _in_keys(keys: CarrierPlateSpec, refusal: ParameterError) -> ParameterError:
+    """The refusal of a hole by the key that was typed, with the nearest value of which the plate is made.
+
+    A seat is as wide as its pin and its clearance; arms follow from their pins.
+    """
+    name = refusal.name
+    if name == "pin_diameter" and keys.seat_clearance and kept(partial(_works, keys, "seat_clearance"), 0.0):
+        name = "seat_clearance"
+    given = float(str(value_at(keys, name)))
+    ends = (0.0,) if name == "seat_clearance" else [given * share for share in _SHARES]
+    cure = partial(nearest, partial(_works, keys, name), given, ends)
+    return ParameterError(name, given, refusal.code, cure, **refusal.numbers)
+
+
+def _works(keys: CarrierPlateSpec, name: str, value: float) -> bool:
+    return bool(_made(replaced(keys, name, value)).circles)
 
 
 def _directions(keys: CarrierPlateSpec) -> list[float]:

@@ -6,13 +6,15 @@ import math
 from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 from msgspec import Meta
+from msgspec.structs import replace
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.findings import Finding
+from geometry.base.nearest import nearest
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.windows import RoundHoles
 from parts.base.kind import Kind, Others, Report
-from parts.keys.base import mm
+from parts.keys.base import LEAST_LENGTH, mm
 from parts.keys.holes import Direction, HoledKeys
 from parts.keys.pins import (
     MARGIN,
@@ -155,8 +157,7 @@ def _checked(keys: PinPlateKeys, start: float, thickness: float, length: float) 
 
     pins = RoundHoles(keys.number_of_pins, keys.pin_diameter, keys.pin_circle_diameter, start)
     holes = holes_of(keys)
-    outer = pins.pitch_circle_diameter / 2 + keys.pin_diameter + max(keys.seat_clearance, 0.0)
-    outer = outer if keys.outer_diameter is None else keys.outer_diameter / 2
+    outer = _outer_radius(keys)
     made = PinPlate(pins, outer, holes, keys.pins == "solid", keys.seat_clearance, thickness, length)
     low, high = pin_reach(made)
     edge = high + least_wall(1.01 * high) * (1 + MARGIN)
@@ -164,7 +165,7 @@ def _checked(keys: PinPlateKeys, start: float, thickness: float, length: float) 
         least = least_of(2 * edge, 2 * outer)
         raise ParameterError("outer_diameter", keys.outer_diameter, "pins_reach_edge", least, diameter=2 * high)
     least_room = least_wall(outer) * (1 + MARGIN)
-    _check_pins(keys, made, least_room)
+    _check_pins(keys, made)
     if holes.bore is not None and keys.bore_diameter > 0 and holes.bore_reach > low - least_room:
         most = most_of(2 * (low - least_room), keys.bore_diameter)
         raise ParameterError("bore_diameter", keys.bore_diameter, "bore_reaches_pins", most)
@@ -174,18 +175,40 @@ def _checked(keys: PinPlateKeys, start: float, thickness: float, length: float) 
     return made
 
 
-def _check_pins(keys: PinPlateKeys, made: PinPlate, least: float) -> None:
+def _outer_radius(keys: PinPlateKeys) -> float:
+    """Of the plate, by default half a pin beyond the pins, mm."""
+    usual = keys.pin_circle_diameter / 2 + keys.pin_diameter + max(keys.seat_clearance, 0.0)
+    return usual if keys.outer_diameter is None else keys.outer_diameter / 2
+
+
+def _check_pins(keys: PinPlateKeys, made: PinPlate) -> None:
     """Pins and their holes beside each other."""
     seat, clearance = made.pin_radius + made.seat_clearance, keys.seat_clearance
     if seat < made.pin_radius / 2:
         raise ParameterError("seat_clearance", clearance, "leaves_no_hole", limit(-made.pin_radius / 2, clearance))
     if made.pins.count == 1:
         return
-    room = keys.pin_circle_diameter * math.sin(math.pi / made.pins.count) / 2 - least / 2
-    if made.pin_radius > room:
-        most = most_of(2 * room, keys.pin_diameter)
+    half = keys.pin_circle_diameter * math.sin(math.pi / made.pins.count) / 2
+
+    def room(changed: PinPlateKeys) -> float:
+        """For the radius of a pin or its hole; the least wall of a small plate goes by its size."""
+        return half - least_wall(_outer_radius(changed)) * (1 + MARGIN) / 2
+
+    def thinner(diameter: float) -> bool:
+        return diameter / 2 <= room(replace(keys, pin_diameter=diameter)) * (1 - MARGIN)
+
+    def tighter(value: float) -> bool:
+        return value <= (room(replace(keys, seat_clearance=value)) - made.pin_radius) * (1 - MARGIN)
+
+    left = room(keys)
+    if made.pin_radius > left:
         raise ParameterError(
-            "pin_diameter", keys.pin_diameter, "pins_touch", most, pins=made.pins.count, circle=keys.pin_circle_diameter
+            "pin_diameter", keys.pin_diameter, "pins_touch",
+            lambda: nearest(thinner, keys.pin_diameter, max(2 * left * (1 - MARGIN), LEAST_LENGTH), digits=6),
+            pins=made.pins.count, circle=keys.pin_circle_diameter,
+        )  # fmt: skip
+    if seat > left:
+        most = (left - made.pin_radius) * (1 - MARGIN)
+        raise ParameterError(
+            "seat_clearance", clearance, "pin_holes_touch", lambda: nearest(tighter, clearance, most, digits=6)
         )
-    if seat > room:
-        raise ParameterError("seat_clearance", clearance, "pin_holes_touch", most_of(room - made.pin_radius, clearance))

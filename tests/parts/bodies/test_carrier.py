@@ -137,3 +137,23 @@ def test_digits_that_find_no_room_are_refused_with_what_works() -> None:
     assert nearest is not None
     ring["tooth_mark"] = {"height": nearest.value}
     make_parts(scene_from_dict({"parts": {"p": ring}}, "t", "t"), "t")
+
+
+@pytest.mark.parametrize(("keys", "key", "given", "works"), [
+    # a pin of 60 mm leaves no clearance room, one of 11.5 mm half of what is left in 12; a seat of no width is none
+    ({"pin_diameter": 60.0, "seat_clearance": 0.5}, "pin_diameter", 60.0, 11.0),
+    ({"pin_diameter": 11.5, "seat_clearance": 0.5}, "seat_clearance", 0.5, 0.25),
+    ({"pin_diameter": 6.0, "seat_clearance": -5.0}, "seat_clearance", -5.0, -3.0),
+    ({"pin_diameter": 12.01}, "pin_diameter", 12.01, 12.0),
+    # ends of 2.4 pins follow theirs: three pins meet on their chords
+    ({"pin_diameter": 6.0, "pin_circle_diameter": 4.0, "boss_diameter": None}, "pin_diameter", 6.0, 2 * math.sqrt(3)),
+])  # fmt: skip
+def test_a_seat_is_refused_by_the_key_that_was_typed(
+    keys: dict[str, float | None], key: str, given: float, works: float
+) -> None:
+    with pytest.raises(SceneError) as caught:
+        part(**{"boss_diameter": 12.0} | keys)
+    refusal = caught.value
+    assert (refusal.key, refusal.value) == (f"parts.p.{key}", given)
+    assert refusal.nearest is not None
+    assert refusal.nearest.value == pytest.approx(works, abs=2e-4)

@@ -66,6 +66,9 @@ LIMITS: list[tuple[dict[str, Any], str, str, float, str, dict[str, float]]] = [
      {"pins": 6, "circle": 56.0}),
     (LOOSE, "seat_clearance", "leaves_no_hole", -1.5, "at_least", {}),
     (LOOSE, "seat_clearance", "pin_holes_touch", 28 * math.sin(math.pi / 6) - WALL / 2 - 3, "at_most", {}),
+    # the wall of a small plate is 0.005 of its radius, 4 mm with a pin and the clearance beyond: d = 4 - 0.005 (4 + d)
+    (SMALL, "pin_diameter", "pins_touch", 3.98 / 1.005, "at_most", {"pins": 6, "circle": 8.0}),
+    (SMALL | {"pins": "holes"}, "seat_clearance", "pin_holes_touch", 1.4875 / 1.0025, "at_most", {}),
     (PLATE, "bore_diameter", "bore_reaches_pins", 2 * (28 - 3 - WALL), "at_most", {}),
     (LOOSE | {"seat_clearance": 0.5}, "bore_diameter", "bore_reaches_pins", 2 * (24.5 - WALL), "at_most", {}),
     # 4 + 1 mm in radius: a wall of 0.025
