@@ -6,7 +6,9 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from heapq import merge
-from itertools import islice, product
+from itertools import islice, pairwise, product
+
+import numpy as np
 
 from geometry.approximation.outline import CadCurve
 from geometry.base.record import Record, replace
@@ -31,7 +33,7 @@ from parts.drawing.canvas import (
 from parts.drawing.font import MINUS
 from parts.drawing.hatching import hatching
 from parts.drawing.ink import FREE, Ink, Role
-from parts.drawing.working import AXIS, TURNED, VISIBLE, Cut, Note, Round, Side, Size, View, number_text
+from parts.drawing.working import AXIS, TURNED, VISIBLE, Angle, Cut, Note, Round, Side, Size, Slant, View, number_text
 
 # mm on paper: from the view to the first dimension line, from line to line; arrow, half its width; how far extension
 # lines reach beyond; from a line to its words; how far axes reach beyond their ends
@@ -68,6 +70,8 @@ _GRAZING = 0.2
 # how many rows farther away another point of the same surface seems
 _OTHER = 1.0
 _DIMENSION = "DIMENSION"
+# for which the arc of an angle stands where it is asked for room
+_CHORDS = 8
 
 
 class Laid(Record):
@@ -89,10 +93,14 @@ class Laid(Record):
         return ink
 
 
+# what stands on a leader or a shelf
+_Led = Round | Slant | Angle | Note
+
+
 class _NoRoomError(Exception):
     """A size, leader or note found no place that is free."""
 
-    def __init__(self, owner: Size | Round | Note) -> None:
+    def __init__(self, owner: Size | _Led) -> None:
         super().__init__()
         self.owner = owner
 
@@ -121,8 +129,8 @@ def _filled(
 ) -> _Layout | None:
     """A view with all of its dimensions, ``first`` those notes; None where they find no room."""
     sizes = sorted(view.sizes, key=lambda one: one.value)
-    leaders: list[Round | Note] = [*view.rounds, *(() if first else view.notes)]
-    tried: list[list[Size | Round | Note]] = []
+    leaders: list[_Led] = [*view.slants, *view.angles, *view.rounds, *(() if first else view.notes)]
+    tried: list[list[Size | _Led]] = []
     while (order := [*sizes, *leaders]) not in tried and len(tried) < _TRIES:
         tried.append(order)
         made = _Layout(view, scale, language, free, own=own)
@@ -159,7 +167,7 @@ class _Layout:
         for cut in view.cuts:
             self._cut(cut, view.sizes)
 
-    def fill(self, first: Sequence[Note], sizes: Sequence[Size], leaders: Sequence[Round | Note], title: str) -> None:
+    def fill(self, first: Sequence[Note], sizes: Sequence[Size], leaders: Sequence[_Led], title: str) -> None:
         """Add all words with their lines, in this order."""
         for note in first:
             self._note(note)
@@ -171,8 +179,10 @@ class _Layout:
         for one in leaders:
             if isinstance(one, Round):
                 self._round(one)
-            else:
+            elif isinstance(one, Note):
                 self._note(one)
+            elif not self._put(self._slants(one) if isinstance(one, Slant) else self._angles(one)):
+                raise _NoRoomError(one)
         if title:
             box = self.extent()
             words, sign, more = (part.strip() for part in title.partition(TURNED))
@@ -313,7 +323,7 @@ class _Layout:
         """Of the view, mm."""
         return (self.body.low + self.body.high if upright else self.body.left + self.body.right) / 2
 
-    def _words(self, one: Size | Round) -> str:
+    def _words(self, one: Size | Slant | Round) -> str:
         """All that is written of a dimension."""
         return one.before + number_text(one.value, self.language) + one.after + one.places
 
@@ -340,14 +350,14 @@ class _Layout:
 
         return _Place(lines, _ends_of(low, high, along, level), text, cost, put)
 
-    def _template(self, one: Size | Round) -> str:
+    def _template(self, one: Size | Slant | Round) -> str:
         """The words of a dimension as programs keep them; the font that they draw it in has no minus."""
         number = number_text(one.value, self.language) if self.own else "<>"
         return one.before.replace("Ø", "%%c") + number + one.after.replace(MINUS, "-") + one.places
 
     def _dimension(
         self,
-        one: Size | Round,
+        one: Size | Slant | Round,
         points: tuple[complex, complex],
         line: complex,
         angle: float,
@@ -382,6 +392,73 @@ class _Layout:
                 texts,
             )
         )
+
+    def _slants(self, one: Slant) -> Iterator[_Place]:
+        """Where a size along a slope may stand: its words on a shelf beyond either end of its line."""
+        start, end = self.paper.point(one.start), self.paper.point(one.end)
+        way = one.way if ((end - start) * one.way.conjugate()).real > 0 else -one.way
+        long = ((end - start) * way.conjugate()).real
+        levels = [((p - start) * one.out.conjugate()).real for p in (start, end)]
+        for index, more in product(range(_ROWS), _FARTHER):
+            level = max(levels) + _FIRST + _STEP / 2 * index
+            feet = [start + level * one.out, start + level * one.out + long * way]
+            edges = [Line(p, foot + _BEYOND * one.out) for p, foot in zip((start, end), feet, strict=True)]
+            inner = way if _is_inside(0.0, long) else -way
+            arrows = [*_arrow(feet[0], inner), *_arrow(feet[1], -inner)]
+            out = 0.0 if inner == way else ARROW + 2.0
+            for sense, foot, other in ((1.0, feet[1], feet[0]), (-1.0, feet[0], feet[1])):
+                elbow = foot + sense * (ARROW + 2.0 + more) * way
+                shelf, text = _shelved(elbow, self._words(one), sense * way)
+
+                def put(place: _Place, line: complex = feet[0]) -> None:
+                    # programs that take every size as aligned read the same number of points beside each other
+                    turn = math.degrees(cmath.phase(way if way.real > 0 else -way))
+                    ends = start + max(levels) * one.out, start + max(levels) * one.out + long * way
+                    self._dimension(one, ends, line, turn, place.all_lines, place.text)
+
+                lines: dict[Role, Sequence[Line]] = {
+                    "extension": edges, "dimension": [Line(other - sense * out * way, elbow)], "leader": shelf
+                }  # fmt: skip
+                yield _Place(lines, arrows, text, index / 2 + more / _STEP, put)
+
+    def _angles(self, one: Angle) -> Iterator[_Place]:
+        """Where an angle may stand: its arc nearer or farther, its words on a shelf from its middle or its end."""
+        at, start = self.paper.point(one.at), cmath.phase(one.first)
+        sweep = cmath.phase(one.second / one.first)
+        sense, middle = math.copysign(1.0, sweep), cmath.rect(1.0, start + sweep / 2)
+        reaches = [self.paper.scale * reach for reach in one.reaches]
+        for radius, far, within in product(_REACHES, (_BEYOND, *_REACHES), (True, False)):
+            if within and radius * abs(sweep) < 2 * ARROW + 1.0:
+                continue
+            ends = [at + radius * one.first, at + radius * one.second]
+            edges = [
+                Line(at + reach * way, at + (radius + _BEYOND) * way)
+                for way, reach in zip((one.first, one.second), reaches, strict=True) if radius + _BEYOND > reach
+            ]  # fmt: skip
+            # from the tips of the arrows along the arc, within the angle or without
+            along = (1.0 if within else -1.0) * sense * 1j
+            arrows = [*_arrow(ends[0], along * one.first), *_arrow(ends[1], -along * one.second)]
+            more = 0.0 if within else (ARROW + 2.0) / radius
+            arc = Arc(at, radius, start - sense * more, sweep + 2 * sense * more)
+            turns = arc.start_angle + arc.sweep * np.linspace(0.0, 1.0, _CHORDS + 1)
+            places = [at + cmath.rect(radius, float(turn)) for turn in turns]
+            way = middle if within else -sense * 1j * cmath.rect(1.0, arc.start_angle)
+            foot = at + radius * middle if within else places[0]
+            shelf, text = _shelved(foot + far * way, one.words, middle if within else one.first)
+
+            def put(place: _Place, arc: Arc = arc) -> None:
+                for stroke in (line for role, lines in place.lines.items() if role != "dimension" for line in lines):
+                    self._stroke(_DIMENSION, stroke)
+                self._stroke(_DIMENSION, arc)
+                for line in place.arrows:
+                    self._stroke(_DIMENSION, line)
+                self._write(place.text)
+
+            lines: dict[Role, Sequence[Line]] = {
+                "extension": edges, "dimension": [Line(a, b) for a, b in pairwise(places)],
+                "leader": [Line(foot, foot + far * way), *shelf],
+            }  # fmt: skip
+            yield _Place(lines, arrows, text, (radius + far) / _STEP + _OTHER * (not within), put)
 
     def _round(self, one: Round) -> None:
         """A radius on a leader whose shelf carries the words; a diameter between lines beside its circle.

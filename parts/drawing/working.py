@@ -53,6 +53,37 @@ class Size(Record):
         return abs(way.imag if self.side in ("left", "right") else way.real)
 
 
+class Slant(Record):
+    """A size along a unit vector ``way``, between two points, its line beside them on the side of ``out``."""
+
+    name: str
+    start: complex
+    end: complex
+    way: complex
+    out: complex
+    before: str = ""
+    after: str = ""
+    places: str = ""
+
+    @property
+    def value(self) -> float:
+        """The number, mm."""
+        return abs(((self.end - self.start) * self.way.conjugate()).real)
+
+
+class Angle(Record):
+    """An angle at a place, between unit vectors ``first`` and ``second``; along them edges reach so far, mm.
+
+    Lines and ``words``, no dimension to programs, of which some read a length in it.
+    """
+
+    at: complex
+    first: complex
+    second: complex
+    words: str
+    reaches: tuple[float, float] = (0.0, 0.0)
+
+
 class Round(Record):
     """The diameter, or the radius where ``is_radius``, of a circle or arc, on a leader; ``angles``: where it may stand.
 
@@ -133,6 +164,8 @@ class View(Record, dict=True):
     least: float = 0.0
     cuts: tuple[Cut, ...] = ()
     from_right: bool = False
+    slants: tuple[Slant, ...] = ()
+    angles: tuple[Angle, ...] = ()
 
     @cached_property
     def chords(self) -> tuple[Complex, ...]:

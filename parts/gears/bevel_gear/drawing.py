@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from geometry.base.record import replace
@@ -14,12 +15,24 @@ from parts.drawing.directions import directions
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
 from parts.drawing.turned_sizes import Fits, turned_sizes
 from parts.drawing.wheel_views import bore_note, bore_radii, bore_view, keyway_edges, seen_along
-from parts.drawing.working import AXIS, VISIBLE, Note, PartDrawing, Size, Stroke, Subject, View, requirements
+from parts.drawing.working import (
+    AXIS,
+    VISIBLE,
+    Angle,
+    Note,
+    PartDrawing,
+    Size,
+    Slant,
+    Stroke,
+    Subject,
+    View,
+    requirements,
+)
 from parts.gears.bevel_gear import page as bevel_page
 from parts.gears.bevel_gear.part import BevelGearSpec
 from parts.gears.data_tables import grade_rows
 from parts.keys.holes import bore_of, hub_holes
-from parts.pages.data_table import DataRow, DataTable, Mated, row_of, standard_told
+from parts.pages.data_table import DataRow, DataTable, Mated, row_of, sexagesimal, standard_told
 from parts.pages.inputs import SceneKeys, given
 from parts.pages.page import Sheet
 from parts.pages.terms import TERMS
@@ -29,6 +42,7 @@ _RACK = {"pressure_angle_deg": 20.0, "addendum_coefficient": 1.0, "tip_clearance
          "tip_radius_coefficient": 0.2}  # fmt: skip
 # sides of sizes across the axis
 _ACROSS = ("left", "right")
+_NONE = 1e-9
 
 
 def part_drawing(subject: Subject) -> PartDrawing:
@@ -56,18 +70,23 @@ def part_drawing(subject: Subject) -> PartDrawing:
     wishes = subject.wishes
     is_round = holes.bore is None or isinstance(holes.bore, RoundBore)
     fits = Fits("", wishes.bore, wishes.tip)
-    half = _half(gear, up if is_round else 0.0, _tips(gear))
+    outer = _tips(gear)[0]
+    # cones and the face width tell the inner tip, the inner root and where the back cone ends (GOST 2.405)
+    half = _half(gear, up if is_round else 0.0, (outer,))
+    by_cones = {round(2 * at.imag, 7) for at in (_place(gear, gear.rim), _place(gear, gear.front))}
     told = turned_sizes(half, fits, subject.language).sizes
-    # the inner tip circle ends an outer and an inner cone
-    alone = {(size.before, size.side in _ACROSS, round(size.value, 7)): size for size in reversed(told)}
-    sizes = [*reversed(alone.values())]
+    sizes = [one for one in told if one.side not in _ACROSS or round(one.value, 7) not in by_cones]
+    # on the right stands the angle of the tips
+    sizes = [replace(one, side="left") if abs(one.value - 2 * outer.imag) < _NONE else one for one in sizes]
     sizes.append(Size("mounting_distance", 0j, complex(gear.mounting_distance), "below"))
     axes = (Line(0j, complex(gear.mounting_distance)),)
-    outer, inner = _along(gear, gear.pitch_angle)
-    notes = [Note((outer + inner) / 2, f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)]
+    middle = sum(_along(gear, gear.pitch_angle)) / 2
+    notes = [Note(middle, f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)]
     if holes.bore is not None:
         notes.append(bore_note((0.0, high), -down, f"Ra {subject.say(wishes.bore_roughness)}"))
-    view = View(tuple(strokes), tuple(hatched), axes, tuple(sizes), notes=tuple(notes))
+    cones = _back_angle(gear), _tip_angle(gear)
+    view = View(tuple(strokes), tuple(hatched), axes, tuple(sizes), slants=(_face_width(gear),), angles=cones,
+                notes=tuple(notes))  # fmt: skip
     more = directions(holes, subject, "zero_tooth", keys.number_of_teeth)
     if holes.bore is None or is_round:
         return PartDrawing((view,), requirements(subject, *more))
@@ -89,7 +108,30 @@ def _tips(gear: BevelGear) -> tuple[complex, complex]:
     return _place(gear, gear.outer(gear.tip_angle)), _place(gear, gear.inner(gear.inner_tip_angle))
 
 
-def _half(gear: BevelGear, bore: float, ends: tuple[complex, complex]) -> tuple[Line, ...]:
+def _tip_angle(gear: BevelGear) -> Angle:
+    """Between the tip cone and a parallel of the axis, at the outer tip."""
+    outer, inner = _tips(gear)
+    way = (inner - outer) / abs(inner - outer)
+    return Angle(outer, 1.0 + 0j, way, sexagesimal(math.degrees(gear.tip_cone_angle)), (0.0, abs(inner - outer)))
+
+
+def _back_angle(gear: BevelGear) -> Angle:
+    """The same of the back cone."""
+    outer, rim = _tips(gear)[0], _place(gear, gear.rim)
+    way = (rim - outer) / abs(rim - outer)
+    return Angle(outer, -1.0 + 0j, way, sexagesimal(90.0 - math.degrees(gear.pitch_angle)), (0.0, abs(rim - outer)))
+
+
+def _face_width(gear: BevelGear) -> Slant:
+    """Along the pitch cone, below the axis."""
+    (outer, inner), pitch = (
+        tuple(p.conjugate() for p in ends) for ends in (_tips(gear), _along(gear, gear.pitch_angle))
+    )
+    way = (pitch[1] - pitch[0]) / abs(pitch[1] - pitch[0])
+    return Slant("face_width", outer, inner, way, -1j * way)
+
+
+def _half(gear: BevelGear, bore: float, ends: tuple[complex, ...]) -> tuple[Line, ...]:
     """Half the section up to a cone of the teeth with these ends, from the bore on the back face on."""
     blank, rim, front = gear.blank, _place(gear, gear.rim), _place(gear, gear.front)
     hub = [complex(0, blank.hub_diameter / 2), complex(blank.hub_length, blank.hub_diameter / 2)]

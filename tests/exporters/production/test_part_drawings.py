@@ -105,7 +105,7 @@ def oval_axis(teeth: int, module: float, ratio: float) -> float:
 
 
 def bevel_sizes() -> list[float]:
-    """Of m 3, z 20 / 40, x 0.3, by GOST 19624: three tenths of R_e wide, tips along the mate's root."""
+    """Of m 3, z 20 / 40, x 0.3, by GOST 19624: three tenths of R_e wide."""
     d = math.atan(0.5)
     radius, high, deep = 30.0, 3.9, 2.7
     cone, share = radius / math.sin(d), 0.7
@@ -115,13 +115,9 @@ def bevel_sizes() -> list[float]:
     mounted = cone * math.cos(d) + deep * math.sin(d) + rim * math.sin(d) + 12.0
     tip, above = radius + high * math.cos(d), cone * math.cos(d) - high * math.sin(d)
     front = cone * math.cos(d) + deep * math.sin(d)
-    # theta_a is theta_f of the mate, whose dedendum is 4.5
-    inner_high = high - (1 - share) * 4.5
-    inner_tip = share * radius + inner_high * math.cos(d)
-    inner_above = share * cone * math.cos(d) - inner_high * math.sin(d)
     keyway = [16.0, 18.3, 5.0, 0.25]
-    return [2 * tip, 2 * inner_tip, 2 * share * root, 2 * (root - rim * math.cos(d)), 34.0, 12.0, mounted,
-            mounted - above, mounted - inner_above, mounted - share * front, *keyway]  # fmt: skip
+    # GOST 2.405: the face width and the angles of tips and back cone tell all else
+    return [2 * tip, (1 - share) * cone, 34.0, 12.0, mounted, mounted - above, mounted - share * front, *keyway]
 
 
 # what each drawing must measure, mm: typed sizes, those of the standards (d_a = m (z + 2 x + 2), DIN 6885, GOST 19650)
@@ -603,3 +599,35 @@ def test_holes_at_many_places_are_numbered_and_stand_in_a_table(tmp_path: Path) 
     (job,) = jobs(few, formats=("dxf",))
     job.write({}, tmp_path / job.path)
     assert len(sizes(tmp_path / job.path)) == 2 + 8 + 2
+
+
+@pytest.mark.parametrize(("teeth", "mate", "shaft"), [(20, 40, 90.0), (40, 20, 90.0), (14, 30, 60.0), (30, 20, 120.0)])
+def test_cones_of_a_bevel_gear_stand_on_its_picture(teeth: int, mate: int, shaft: float, tmp_path: Path) -> None:
+    """GOST 2.405: the angles of tips and back cone, off the arcs of the file and the edges that they end at."""
+    gear = {"kind": "bevel_gear", "module": 3.0, "number_of_teeth": teeth, "mate_teeth": mate, "bore_diameter": 8.0,
+            "shaft_angle_deg": shaft}  # fmt: skip
+    document = ezdxf.readfile(drawn(tmp_path, gear))
+    space = document.modelspace()
+    sigma = math.radians(shaft)
+    delta = math.atan2(math.sin(sigma), mate / teeth + math.cos(sigma))
+    theta = math.atan(3.6 / (3.0 * teeth / 2 / math.sin(delta)))
+    wanted = {90.0 - math.degrees(delta), math.degrees(delta + theta)}
+    edges = [(complex(*e.dxf.start.vec2), complex(*e.dxf.end.vec2)) for e in space.query("LINE[layer=='OUTLINE']")]
+    said = {text.dxf.text for text in space.query("TEXT")}
+    found = set()
+    for arc in space.query("ARC[layer=='DIMENSION']"):
+        at, first, last = complex(*arc.dxf.center.vec2), arc.dxf.start_angle, arc.dxf.end_angle
+        ways = [math.degrees(math.atan2((b - a).imag, (b - a).real)) % 360
+                for edge in edges for a, b in (edge, edge[::-1]) if abs(a - at) < 1e-5]  # fmt: skip
+        # arrows stand within, or without on an arc that is 5 mm longer at each end
+        for more in (0.0, math.degrees(5.0 / arc.dxf.radius)):
+            ends = [(first + more) % 360, (last - more) % 360]
+            level = [turn for turn in ends if min(abs(turn - x) for x in (0.0, 180.0, 360.0)) < 1e-3]
+            slope = [turn for turn in ends if any(abs(turn - way) < 1e-3 for way in ways)]
+            if len(level) == len(slope) == 1:
+                found.add(round((last - first - 2 * more) % 360, 3))
+    assert sorted(found) == pytest.approx(sorted(wanted), abs=2e-3)
+    for angle in wanted:
+        parts = [*divmod(round(angle * 3600), 3600)]
+        told = f"{parts[0]}°{parts[1] // 60:02d}′{parts[1] % 60:02d}″"
+        assert told.removesuffix("00″").removesuffix("00′") in said
