@@ -20,7 +20,7 @@ REASONS = {
     "a_folder": N_("is a folder; give a scene file (.toml) or one of: {known}"),
     "assemblies_share": N_("another assembly has a part {part} already; give each a name of its own"),
     "axis_needs_at": N_("is only for an instance that `at` places; give at too"),
-    "cannot_turn": N_("cannot turn: {by} hold it"),
+    "cannot_turn": N_("cannot turn: held by {by}"),
     "device_name": N_("is a name that Windows reserves for a device; choose another name"),
     "driven_already": N_("the drive of {other} turns it already; remove one of them"),
     "drive_slides": N_("it slides and does not turn; give travel, in mm"),

@@ -176,7 +176,7 @@ AXIS = '[[mates]]\nkind = "carried"\nfirst = "{}"\nsecond = "planet_1"\n{}\n'
 WRONG = [
     (FREE + DRIVE.format("sun", ""), "drives[1].instance", "leaves planet_1, planet_2, planet_3, planet_4, ring"),
     (JAMES + DRIVE.format("sun", "") + DRIVE.format("carrier", ""), "drives[2].instance", "the drive of sun"),
-    (JAMES + DRIVE.format("ring", ""), "drives[1].instance", "ring hold it"),
+    (JAMES + DRIVE.format("ring", ""), "drives[1].instance", "held by ring"),
     (JAMES + DRIVE.format("sun", "") + DRIVE.format("sun", ""), "drives[2].instance", "the drive of sun"),
     (JAMES.replace("held = true", 'held = "yes"'), "instances.ring.held", "true or false"),
     (JAMES + DRIVE.format("sun", "travel = 3.0"), "drives[1].travel", "give turns"),
@@ -205,7 +205,7 @@ def test_a_train_that_its_mates_lock_cannot_be_driven() -> None:
     gears = "".join(GEAR.format(name, 20) for name in "abc")
     mate = '[[mates]]\nkind = "external_gear_pair"\nfirst = "{}"\nsecond = "{}"\ndirection_deg = {}\n'
     locked = gears + mate.format("a", "b", 0) + mate.format("a", "c", 60) + mate.format("b", "c", 120)
-    with pytest.raises(SceneError, match=r"drives\[1\].instance = .a.: cannot turn: a-b, a-c, b-c hold it"):
+    with pytest.raises(SceneError, match=r"drives\[1\].instance = .a.: cannot turn: held by a-b, a-c, b-c"):
         placed(locked + DRIVE.format("a", ""))
 
 
