@@ -63,7 +63,7 @@ _EASIER = (89.9, 89.0, 85.0, 80.0, 60.0, 45.0, 30.0, 10.0, 1.0)
 # shares of a limit, and of the way to it, at which a size is tried that gives a whole cam
 _SMALLER = (0.9, 0.75, 0.5, 0.25, 0.1, 0.03)
 _FARTHER = (0.01, 0.1, 0.3, 1.0)
-# shares of the way to its pivot at which a base circle is tried
+# shares of the way to a face that stands upright at which a base circle is tried
 _TOWARDS_PIVOT = (1 / 2, 1 / 4, 3 / 4, 1 / 8, 7 / 8, 3 / 8, 5 / 8, 1 / 16, 15 / 16, 1 / 64, 1 / 256, 1 / 1024, 1 / 4096)
 
 
@@ -345,10 +345,10 @@ def by_impact(
 def larger_bases(base: float, cam: DiskCam | None = None) -> list[float]:
     """Base circles that are tried for a whole cam, mm: ever larger ones, then some between.
 
-    Of a flat face that swings, whose base circle has a greatest size too, those up to its pivot.
+    Of a flat face that swings, whose base circle has a greatest size too, those up to where the face stands upright.
     """
     if cam is not None and cam.is_flat and cam.swings:
-        room = cam.swing.centre_distance - base
+        room = cam.swing.centre_distance - cam.swing.face_offset - base
         return [base + room * share for share in _TOWARDS_PIVOT] if room > 0 else []
     return [*(base * 2 * 1.5**k for k in range(12)), *(base * (1 + k / 16) for k in range(1, 16))]
 

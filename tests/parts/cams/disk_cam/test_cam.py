@@ -369,6 +369,26 @@ def test_wrong_keys_are_refused_in_the_users_terms(name: str) -> None:
         cured({"cam": keys}, refusal)
 
 
+def test_a_face_on_the_far_side_of_its_pivot_is_offered_a_base_circle_beyond_the_pivot() -> None:
+    """Whole from where rho = h + h'' of the support h = d sin(psi) - f over the normal's angle is 0 on the return."""
+    phases = [
+        {"move": "rise", "angle_deg": 88.88, "law": "polynomial_345"}, {"move": "dwell", "angle_deg": 98.0},
+        {"move": "return_", "angle_deg": 56.39, "law": "polynomial_4567"}, {"move": "dwell", "angle_deg": 116.73},
+    ]  # fmt: skip
+    swing = {"centre_distance": 82.516, "sense": "against", "face_offset": -7.777}
+    keys = {"kind": "cam", "phases": phases, "follower": "flat", "swing_deg": 9.97, "oscillating": swing}
+    refusal = refused({"cam": keys | {"base_circle_radius": 35.799}})
+    cured({"cam": keys | {"base_circle_radius": 35.799}}, refusal)
+    assert refusal.nearest is not None
+    law, swung, turn = np.polynomial.Polynomial([0, 0, 0, 0, 35, -84, 70, -20]), math.radians(9.97), math.radians(56.39)
+    u = np.linspace(0, 1, 20_001)
+    fall, speed, pull = (swung / turn**k * (1.0 - law(u) if k == 0 else -law.deriv(k)(u)) for k in range(3))
+    psi = math.asin((float(str(refusal.nearest.value)) - 7.777) / 82.516) + fall
+    factor = (1 + 2 * speed) / (1 + speed) ** 2
+    rho = 82.516 * (factor * np.sin(psi) + pull / (1 + speed) ** 3 * np.cos(psi)) + 7.777
+    assert rho.min() == pytest.approx(0.0, abs=5e-3)
+
+
 def test_a_heart_cam_is_told_why_nothing_of_one_key_gives_it_a_roller() -> None:
     """Its path has a corner at the top: by the law of either half alone, any base circle and any roller."""
     halves = [{"move": move, "angle_deg": 180.0, "law": "constant_velocity"} for move in ("rise", "return_")]
