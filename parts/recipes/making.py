@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 
-from parts.recipes.recipe import Expansion, Table
+from geometry.base.errors import ParameterError
+from geometry.base.nearest import nearest
+from parts.recipes.recipe import Expansion, RecipeKeys, Table
 
 # directions in which things come to their place; from any other side, each goes straight to the axis
 WAYS: Mapping[str, tuple[float, float, float]] = {
@@ -18,6 +21,27 @@ _CORNER = 10.0
 def made_of(material: str | None, density: float | None) -> Table:
     """The keys of every part of an assembly that say what it is made of."""
     return {key: value for key, value in {"material": material, "density": density}.items() if value is not None}
+
+
+def refused_by(
+    keys: RecipeKeys,
+    names: Sequence[str],
+    works: Callable[[str, object], bool],
+    code: str,
+    ends: Mapping[str, tuple[object, object]] | None = None,
+    **told: float,
+) -> ParameterError:
+    """A refusal by the first of some keys that is changed and alone to blame, with its nearest value that works.
+
+    ``works`` judges another value of a key; ``ends``: what keys are and what is usual, where a default follows.
+    """
+    usual = type(keys)()
+    changed = [name for name in names if getattr(keys, name) != getattr(usual, name)]
+    name = next((name for name in changed if works(name, getattr(usual, name))), (changed or names)[0])
+    given, end = (ends or {}).get(name, (getattr(keys, name), getattr(usual, name)))
+    if not isinstance(given, float) or not isinstance(end, float):
+        return ParameterError(name, list(given) if isinstance(given, tuple) else given, code, None, **told)
+    return ParameterError(name, given, code, partial(nearest, partial(works, name), given, end), **told)
 
 
 class Making:

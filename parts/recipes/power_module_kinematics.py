@@ -18,13 +18,15 @@ import math
 from typing import Annotated, Literal
 
 from msgspec import Meta
+from msgspec.structs import replace
 
 from geometry.base.errors import ParameterError, limit
+from geometry.base.nearest import kept
 from geometry.base.record import Record
 from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
 from parts.keys.base import mm
-from parts.recipes.making import Making, hole, made_of, place
+from parts.recipes.making import Making, hole, made_of, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 
 # mm: walls between holes, boss of a crank about its pin, rim beyond the ring's teeth, the idler's link about its axles,
@@ -147,7 +149,8 @@ class _Sizes(Record):
             raise ParameterError("teeth", list(keys.teeth), "ring_as_its_wheel")
         most = keys.module * (keys.teeth[0] / 2 - 1.25) - keys.platform_axle_diameter / 2 - _WALL / 2
         if self.arm > most:
-            raise ParameterError("teeth", list(keys.teeth), "axle_beyond_pinion", None, most=most)
+            names = ("platform_axle_diameter", "module", "teeth")
+            raise refused_by(keys, names, self._works, "axle_beyond_pinion", most=max(most, 0.0))
         if keys.orientation != "cranks":
             teeth, idler = self.wheels
             wall = self.arm - (keys.platform_axle_diameter + keys.satellite_axle_diameter) / 2 - keys.clearance
@@ -164,6 +167,9 @@ class _Sizes(Record):
                 raise ParameterError("pin_diameter", keys.pin_diameter, "axle_in_the_teeth",
                                      limit(root, keys.pin_diameter))  # fmt: skip
         return self
+
+    def _works(self, name: str, value: object) -> bool:
+        return kept(lambda value: _Sizes(replace(self.keys, **{name: value})).checked().arm > 0, value)
 
 
 class PowerModuleKinematicsRecipe(Recipe[PowerModuleKinematicsKeys]):

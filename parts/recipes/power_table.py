@@ -13,19 +13,18 @@ from __future__ import annotations
 
 import cmath
 import math
-from functools import partial
 from typing import Annotated, Literal
 
 from msgspec import Meta
 from msgspec.structs import replace
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.base.nearest import kept, nearest
+from geometry.base.nearest import kept
 from geometry.base.record import Record
 from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
 from parts.keys.base import mm
-from parts.recipes.making import Making, hole, made_of, place
+from parts.recipes.making import Making, hole, made_of, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 # modules: what a ring's root is beyond its reference circle at most, with its clearance; a rim beyond that, mm
@@ -216,7 +215,7 @@ class _Sizes(Record):
         most = root - keys.platform_axle_diameter / 2 - _WALL
         if self.second_arm > most:
             names = ("second_arm", "platform_axle_diameter", "teeth", "module")
-            raise self._refused(names, "axle_beyond_pinion", most=most)
+            raise self._refused(names, "axle_beyond_pinion", most=max(most, 0.0))
         between = self.second_arm - (keys.axle_diameter + keys.platform_axle_diameter) / 2 - keys.clearance
         if between < _WALL / 2:
             raise self._axles_meet(between, "second_arm", "axle_diameter", "platform_axle_diameter", "teeth", "module")
@@ -240,20 +239,12 @@ class _Sizes(Record):
 
     def _refused(self, names: tuple[str, ...], code: str, **told: float) -> ParameterError:
         """A refusal by the first of some keys that is changed and alone to blame, with its nearest value that works."""
-        keys, usual = self.keys, PowerTableKeys()
 
         def works(name: str, value: object) -> bool:
-            return kept(lambda value: _Sizes(replace(keys, **{name: value})).checked().arm > 0, value)
+            return kept(lambda value: _Sizes(replace(self.keys, **{name: value})).checked().arm > 0, value)
 
-        changed = [name for name in names if getattr(keys, name) != getattr(usual, name)]
-        name = next((name for name in changed if works(name, getattr(usual, name))), (changed or names)[0])
-        given, end = getattr(keys, name), getattr(usual, name)
-        if name in ("teeth", "worm_wheel_teeth"):
-            return ParameterError(name, list(given), code, None, **told)
         # what is not given follows
-        if name == "second_arm":
-            given, end = self.second_arm, self.arm
-        return ParameterError(name, given, code, lambda: nearest(partial(works, name), given, end), **told)
+        return refused_by(self.keys, names, works, code, {"second_arm": (self.second_arm, self.arm)}, **told)
 
 
 def _side_by_side(crank: float, boss: float) -> float:

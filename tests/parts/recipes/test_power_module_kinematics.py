@@ -180,6 +180,9 @@ def test_random_drivers_stand_free_or_are_refused(seed: int) -> None:
     [
         ({"teeth": [144, 96]}, "ring_as_its_wheel", "teeth"),
         ({"teeth": [40, 144]}, "axle_beyond_pinion", "teeth"),
+        # 72 mm of arm in a root circle of 46.75 modules, with half of the axle and of a wall
+        ({"platform_axle_diameter": 140.0}, "axle_beyond_pinion", "platform_axle_diameter"),
+        ({"module": 0.3}, "axle_beyond_pinion", "module"),
         ({"orientation": "thesis", "wheel_module": 2.5}, "wheels_do_not_span_arm", "wheel_module"),
         ({"orientation": "idlers", "wheel_module": 4.0}, "wheels_do_not_span_arm", "wheel_module"),
         ({"orientation": "idlers", "platform_axle_diameter": 45.0}, "axle_in_the_teeth", "platform_axle_diameter"),
@@ -191,3 +194,7 @@ def test_what_cannot_be_is_refused_by_its_driver(keys: dict[str, Any], code: str
         placed(module(**keys))
     assert refused.value.code == code
     assert name in refused.value.key
+    near = refused.value.nearest
+    assert all(value >= 0 for value in refused.value.numbers.values() if isinstance(value, float))
+    if near is not None:
+        placed(module(**keys | {name: near.value}))
