@@ -102,7 +102,11 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         turn = cmath.exp(1j * instance.rotation)
         placed = [_placed(b.geometry, turn, instance.centre + shift) for b in reversed(outlines[instance.part])]
         solid = _solid_pins(plan.parts[instance.part], outlines[instance.part])
-        if instance.axis != UPWARDS:
+        if _over(instance):
+            loops_below = [_turned_over(b.geometry) for b in reversed(outlines[instance.part])]
+            placed = [_placed(loop, turn.conjugate(), instance.centre + shift) for loop in loops_below]
+            solid = []
+        elif instance.axis != UPWARDS:
             placed, solid = [Contour(outers[index] + shift, np.zeros(len(outers[index])))], []
         data = " ".join(path_data(contour, corner) for contour in placed)
         loops.append([middle + samples(contour).real + 1j * (middle - samples(contour).imag) for contour in placed])
@@ -155,10 +159,23 @@ def _together(names: Mapping[str, str], stand: Sequence[Instance]) -> dict[str, 
     return {key: f"{row[0]} × {many[row]}" if many[row] > _MANY else names[key] for key, row in stems.items()}
 
 
+def _over(instance: Instance) -> bool:
+    """Whether it is turned over: its axis points straight down."""
+    return instance.axis[:2] == (0.0, 0.0) and instance.axis[2] < 0
+
+
+def _turned_over(contour: Contour) -> Contour:
+    """An outline as it is seen from below."""
+    vertices, bulges = contour.expanded()
+    return Contour(vertices.conj(), -bulges)
+
+
 def _outer(instance: Instance, points: Complex, part: Part) -> Complex:
     """The outer boundary of an instance as it stands, seen from above; of one that lies the hull of both its ends."""
     if instance.axis == UPWARDS:
         return points * cmath.exp(1j * instance.rotation) + instance.centre
+    if _over(instance):
+        return np.asarray(points.conj() * cmath.exp(-1j * instance.rotation) + instance.centre)
     levels = part.body(0.0).levels()
     ends = [np.column_stack([points.real, points.imag, 0 * points.real + z]) for z in (levels[0], levels[-1])]
     seen = instance.scene_from_part.apply(np.concatenate(ends))

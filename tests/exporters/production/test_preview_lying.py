@@ -84,6 +84,16 @@ def test_a_hub_that_lies_is_seen_to_its_end(tmp_path: Path) -> None:
     assert len(upright["block"]) == 2
 
 
+def test_a_gear_turned_over_is_seen_from_its_back(tmp_path: Path) -> None:
+    """With its bore, its teeth where a turn about x has brought them: those of the upright one, mirrored and turned."""
+    where = "[instances.block]\nat = [5, 0, 15]\nrotation_deg = 4.0\n"
+    upright, over = (seen(HUB + BASE + where + axis, tmp_path)[0]["block"] for axis in ("", "axis = [0, 0, -1]\n"))
+    assert len(over) == len(upright) == 2
+    for loop, other in zip(over, upright, strict=True):
+        own = (other - 5) * np.exp(-1j * math.radians(4))
+        assert np.allclose(loop, own.conj() * np.exp(-1j * math.radians(4)) + 5, atol=2e-3)
+
+
 def test_pins_of_one_piece_are_filled_where_they_stand(tmp_path: Path) -> None:
     """Six pins of 3 mm on 16 mm, in a plate turned by 20 degrees about (30, 5); a bore is no pin."""
     plate = (
