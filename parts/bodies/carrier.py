@@ -13,7 +13,7 @@ from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record
 from parts.base.kind import Others, Report
 from parts.base.schema import replaced, value_at
-from parts.bodies.plate import Extruded, FlatKeys, checked_outline
+from parts.bodies.plate import Extruded, FlatKeys, checked_outline, outline_with_marks
 from parts.keys.base import BoreDiameter, mm
 from parts.keys.holes import Direction, check_bore
 from parts.keys.pins import MOST, PinCircle, PinDiameter, least_of
@@ -118,6 +118,14 @@ CARRIER_PLATE = CarrierPlateKind()
 
 
 def _made(keys: CarrierPlateSpec) -> CarrierPlate:
+    edges, holes, circles = _drawn(keys)
+    return CarrierPlate(checked_outline(edges, keys, holes), circles, keys.pin_diameter / 2)
+
+
+def _drawn(
+    keys: CarrierPlateSpec,
+) -> tuple[tuple[Edge, ...], list[tuple[str, complex, float]], tuple[HoleCircle, ...]]:
+    """Edges, holes (key, centre, diameter) and the circles of seats, not yet held against each other."""
     from geometry.solids.windows import HoleCircle
 
     seat, turns = keys.pin_diameter + 2 * keys.seat_clearance, [math.radians(a % 360) for a in _directions(keys)]
@@ -132,7 +140,7 @@ def _made(keys: CarrierPlateSpec) -> CarrierPlate:
     check_bore(keys.bore_diameter)
     if keys.bore_diameter > 0:
         holes.insert(0, ("bore_diameter", 0j, keys.bore_diameter))
-    return CarrierPlate(checked_outline(_edges(keys, arms), keys, holes), tuple(circles), keys.pin_diameter / 2)
+    return _edges(keys, arms), holes, tuple(circles)
 
 
 def _in_keys(keys: CarrierPlateSpec, refusal: ParameterError) -> ParameterError:
@@ -150,7 +158,9 @@ def _in_keys(keys: CarrierPlateSpec, refusal: ParameterError) -> ParameterError:
 
 
 def _works(keys: CarrierPlateSpec, name: str, value: float) -> bool:
-    return bool(_made(replaced(keys, name, value)).circles)
+    changed = replaced(keys, name, value)
+    edges, holes, _ = _drawn(changed)
+    return outline_with_marks(edges, changed, holes)[0].exists()
 
 
 def _directions(keys: CarrierPlateSpec) -> list[float]:

@@ -94,6 +94,22 @@ def checked_outline(
     edges: tuple[Edge, ...], keys: FlatKeys, own: Sequence[tuple[str, complex, float]] = ()
 ) -> PlateOutline:
     """Edges with the holes and slots of a part's keys, checked one after the other; ``own``: key, centre, diameter."""
+    from geometry.solids.plate import PlateOutline
+
+    whole, names = outline_with_marks(edges, keys, own)
+    try:
+        whole.check_holes(names)
+    except ParameterError as refusal:
+        raise _of_axle(keys, refusal) from refusal
+    for number, mark in enumerate(keys.engraved, 1):
+        check_depth(f"engraved[{number}]", mark.depth, keys.face_width)
+    return PlateOutline(edges, whole.holes[: len(names) - len(keys.engraved)])
+
+
+def outline_with_marks(
+    edges: tuple[Edge, ...], keys: FlatKeys, own: Sequence[tuple[str, complex, float]] = ()
+) -> tuple[PlateOutline, list[str]]:
+    """Edges with all that the keys cut and, behind that, engrave, not yet checked; and the key of each one's size."""
     from geometry.solids.plate import PlateHole, PlateOutline
 
     # a hole for an axle comes when that stands
@@ -101,13 +117,7 @@ def checked_outline(
     holes = (*(PlateHole(at, d) for _, at, d in own), *placed.values())
     names = [*(key for key, _, _ in own), *(f"holes[{i}].diameter" for i in placed)]
     slots, marks = (_slots(key, getattr(keys, key), names) for key in ("slots", "engraved"))
-    try:
-        PlateOutline(edges, (*holes, *slots, *marks)).check_holes(names)
-    except ParameterError as refusal:
-        raise _of_axle(keys, refusal) from refusal
-    for number, mark in enumerate(keys.engraved, 1):
-        check_depth(f"engraved[{number}]", mark.depth, keys.face_width)
-    return PlateOutline(edges, (*holes, *slots))
+    return PlateOutline(edges, (*holes, *slots, *marks)), names
 
 
 def _of_axle(keys: FlatKeys, refusal: ParameterError) -> ParameterError:
