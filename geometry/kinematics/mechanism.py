@@ -69,11 +69,12 @@ class Revolute(Record):
 
 
 class Prismatic(Record):
-    """A link that slides on another one along a unit ``direction``."""
+    """A link that slides on another one along a unit ``direction``, with a ``rise`` along z where it is not level."""
 
     link: str
     on: str = FRAME
     direction: complex = 1 + 0j
+    rise: float = 0.0
 
 
 class Uneven(Record):
@@ -275,7 +276,9 @@ class Tree(Record):
             return one_line(own, joint)
         # what is fixed to the frame has no axis of its own
         return joint is None or (
-            isinstance(own, Prismatic) and isinstance(joint, Prismatic) and own.direction == joint.direction
+            isinstance(own, Prismatic)
+            and isinstance(joint, Prismatic)
+            and (own.direction, own.rise) == (joint.direction, joint.rise)
         )
 
     def common_carrier(self, first: str, second: str) -> str | None:

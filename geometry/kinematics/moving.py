@@ -139,7 +139,7 @@ class Moving(Record):
             at = np.array([joint.at.real, joint.at.imag, joint.z])
             return np.asarray(turned @ own), moved + _turned(turned, at - own @ at)
         if isinstance(joint, Prismatic):
-            way = np.array([joint.direction.real, joint.direction.imag, 0.0])
+            way = np.array([joint.direction.real, joint.direction.imag, joint.rise])
             return turned, moved + _turned(turned, np.broadcast_to(bodies[link].turn[0], shape)[..., None] * way)
         return turned, moved
 
@@ -287,7 +287,7 @@ def _in_plane(link: str, stands: Tree) -> bool:
         joint = stands.supports[link]
         if isinstance(joint, Group):
             return all(_in_plane(name, stands) for name in joint.on)
-        if isinstance(joint, Revolute) and joint.axis != Z:
+        if (isinstance(joint, Revolute) and joint.axis != Z) or (isinstance(joint, Prismatic) and joint.rise):
             return False
         link = joint.on
     return True

@@ -131,13 +131,6 @@ class Mating(Joined, kw_only=True):
         return ((Fixed if self.bond == "fixed" else Revolute)(self.second, on=self.first),)
 
     @property
-    def in_plane(self) -> bool:
-        """Whether it moves things along and about upright axes alone: slides, and what a cam moves."""
-        from geometry.kinematics.mechanism import Prismatic
-
-        return self.follows or any(isinstance(joint, Prismatic) for joint in self.joints)
-
-    @property
     def holds(self) -> tuple[str, ...]:
         """Instances that stand still by this mate."""
         return ()

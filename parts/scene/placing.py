@@ -205,7 +205,7 @@ class _Placed:
     def join(self, index: int, mating: Mating) -> PlacedMate:
         """Run one mate: place its second, or only note that both stand."""
         first, second = mating.first, mating.second
-        if mating.in_plane:
+        if mating.follows:
             self._check_upright(index, mating)
         if first not in self.stand:
             self._begin(index, mating)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from geometry.base.errors import ParameterError
+from geometry.base.placement import Placement3
 from geometry.base.record import Record, replace
 from geometry.base.series import Series
 from geometry.curves.curve import Complex, Real
@@ -37,7 +38,7 @@ from parts.base.refusal import SceneError
 from parts.scene.instances import DriveSpec
 
 if TYPE_CHECKING:
-    from geometry.base.placement import Placement3, Vector
+    from geometry.base.placement import Vector
 
 
 class Stood(Protocol):
@@ -239,7 +240,7 @@ def scene_mechanism(
                     axes.setdefault(bodies.of(key), stand[key])
             elif isinstance(joint, Prismatic):
                 slide = bodies.of(joint.link)
-                joints.setdefault(slide, Prismatic(slide, direction=cmath.rect(1.0, stand[joint.link].rotation)))
+                joints.setdefault(slide, _slide(slide, stand[joint.link]))
             elif isinstance(joint, Revolute) and bodies.of(joint.on) != body:
                 carriers.setdefault(body, []).append((bodies.of(joint.on), index))
         if mating.follows and bodies.of(mating.first) != body:
@@ -294,7 +295,14 @@ def _ahead(mating: Mating, joint: Rolling, stand: Stand, matings: Sequence[Matin
     driver, mean = mating.first, float(joint.ratio)
     if drives.intersection(beyond):
         driver, mean = mating.second, 1 / mean
-    direction, begins = cmath.phase(stand[mating.second].centre - stand[mating.first].centre), stand[driver].rotation
+    first, second = stand[mating.first], stand[mating.second]
+    towards, begins = second.centre - first.centre, stand[driver].rotation
+    if first.axis != Z:
+        # about that axis, from its x as it is laid
+        laid = Placement3.towards(first.axis, 0.0, first.at).inverse()
+        x, y, _ = laid.apply(np.array(second.at)).tolist()
+        towards = complex(x, y)
+    direction = cmath.phase(towards)
     start = mating.partner(driver, begins, direction)
 
     def ahead(turn: Series) -> Series:
@@ -308,6 +316,14 @@ def _ahead(mating: Mating, joint: Rolling, stand: Stand, matings: Sequence[Matin
 def _about(key: str, one: Stood) -> Revolute:
     """The joint of what turns about the axis of an instance."""
     return Revolute(key, at=one.centre, z=one.at[2], axis=one.axis)
+
+
+def _slide(key: str, one: Stood) -> Prismatic:
+    """The joint of what slides along the x axis of an instance."""
+    if one.axis == Z:
+        return Prismatic(key, direction=cmath.rect(1.0, one.rotation))
+    x, y, z = (row[0] for row in one.scene_from_part.rotation)
+    return Prismatic(key, direction=complex(x, y), rise=z)
 
 
 def _following(mating: Mating, stand: Stand, body: str) -> Group:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from exporters.production.check import scene_checks
 from parts.base.refusal import SceneError
 from parts.scene.checks import check_workspace
+from parts.scene.files import built_in_scenes
 from parts.scene.instances import DriveSpec
 from parts.scene.relative_path import course_of
 from parts.scene.shapes import Shape
@@ -109,17 +111,35 @@ def test_paths_bound_how_far_points_go_and_gaps_are_no_less_than_told() -> None:
         assert np.allclose(ends[1][0], ends[1][1], atol=1e-7)
 
 
-def test_what_moves_in_a_plane_alone_is_refused_on_axes_that_lie() -> None:
-    """A rack, a cam's follower; and a workspace of axes that go round."""
+@pytest.mark.parametrize("axis", AXES)
+def test_a_rack_beside_a_laid_gear_slides_along_its_own_x(axis: list[float]) -> None:
+    """Invariance, and rolling without slip: 20 teeth of module 1 in a turn are 20 pi mm."""
     raw: dict[str, Any] = {
-        "parts": {"gear": GEAR | {"number_of_teeth": 20},
-                  "rack": {"kind": "rack", "module": 1.0, "number_of_teeth": 20, "face_width": 5.0}},
-        "instances": {"gear": {"part": "gear", "at": [0.0, 0.0, 0.0], "axis": [1.0, 0.0, 0.0]}},
-        "mates": [{"kind": "rack_pair", "first": "gear", "second": "rack"}],
-    }  # fmt: skip
+        "parts": {"gear": GEAR | {"number_of_teeth": 20}, "rack": GEAR | {"kind": "rack", "number_of_teeth": 20}},
+        "instances": {"gear": {"part": "gear", "at": [0.0, 0.0, 0.0], "rotation_deg": 5.0}},
+        "mates": [{"kind": "rack_pair", "first": "gear", "second": "rack", "direction_deg": 30.0}],
+        "drives": [{"instance": "gear", "turns": 0.2}],
+    }
+    laid = {**raw, "instances": {"gear": {**raw["instances"]["gear"], "at": [3.0, -4.0, 5.0], "axis": axis}}}
+    (one, parts), (two, _) = stood(raw), stood(laid)
+    begin, now = frames(two, 0.0), frames(two, 0.2)
+    whole = rigid(begin["gear"]) @ np.linalg.inv(rigid(frames(one, 0.0)["gear"]))
+    for name, stands in frames(one, 0.2).items():
+        assert np.allclose(rigid(now[name]), whole @ rigid(stands), atol=1e-9), name
+    way = now["rack"][:, 3] - begin["rack"][:, 3]
+    assert np.linalg.norm(way) == pytest.approx(4 * np.pi, abs=1e-9)
+    assert abs(way @ begin["rack"][:, 0]) == pytest.approx(4 * np.pi, abs=1e-9)
+    found = scene_checks(two, parts, [DriveSpec("gear", 0.2)], "en", contact=True)
+    assert "solids" not in found
+
+
+def test_what_lies_is_refused_where_it_can_not_be_moved() -> None:
+    """A cam's follower on an axis that lies, and a workspace of axes that go round."""
+    raw = tomllib.loads(built_in_scenes()["laser_cam_model"].read_text("utf-8"))
+    raw["instances"]["cam"] = {**raw["instances"]["cam"], "at": [0.0, 0.0, 0.0], "axis": [1.0, 0.0, 0.0]}
     with pytest.raises(SceneError) as caught:
         stood(raw)
-    assert "instances.gear.axis" in str(caught.value)
+    assert "instances.cam.axis" in str(caught.value)
     placing, _ = stood(differential(("ring", 1.0), ("left", 1.0)))
     with pytest.raises(SceneError) as caught:
         check_workspace(50, placing, "s")
@@ -143,3 +163,28 @@ def test_a_group_of_pins_is_laid_about_what_carries_them() -> None:
         out = np.array([np.cos(way), np.sin(way), 0.0])
         assert np.allclose(pin.at, np.array([1.0, 2.0, 5.0]) + 30 * out, atol=1e-9)
         assert np.allclose(pin.axis, -out, atol=1e-12)
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("name", ["oval_gears", "cycloidal_reducer", "idler_train", "lantern_pair", "worm_set_print"])
+def test_built_in_trains_laid_as_a_whole_move_as_they_do_upright(name: str) -> None:
+    """Invariance: what hangs together with the first of all, at a third of the drives' way."""
+    raw = tomllib.loads(built_in_scenes()[name].read_text("utf-8"))
+    raw = {key: raw[key] for key in ("parts", "instances", "mates", "drives") if key in raw}
+    first = raw["mates"][0]["first"]
+    stands = []
+    for extra in ({}, {"axis": [1.0, -2.0, 2.0]}):
+        own = raw.get("instances", {})
+        stands.append(
+            stood({**raw, "instances": {**own, first: {**own.get(first, {}), "at": [3.0, -4.0, 5.0], **extra}}})[0]
+        )
+    one, two = stands
+    ways = [drive["turns"] / 3 if "turns" in drive else drive.get("travel", 1.0) / 3 for drive in raw["drives"]]
+    nothing = [0.0] * len(ways)
+    whole = rigid(frames(two, *nothing)[first]) @ np.linalg.inv(rigid(frames(one, *nothing)[first]))
+    assert one.train is not None
+    upright, laid = frames(one, *ways), frames(two, *ways)
+    moved = set(one.turns[0]) | {first}
+    assert len(moved) > 1
+    for key in moved:
+        assert np.allclose(rigid(laid[key]), whole @ rigid(upright[key]), atol=1e-9), key
