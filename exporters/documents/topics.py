@@ -32,6 +32,7 @@ TOPICS = {
     "planetary": "parts.mates.pages.planetary",
     "cam": "parts.cams.disk_cam.page",
     "cycloidal": "parts.pins.cycloidal_page",
+    "cycloidal-gear": "parts.gears.cycloidal_gear.page",
     "lantern": "parts.pins.lantern_page",
     "noncircular": "parts.gears.noncircular_gear.page",
     "lever": "parts.mates.pages.levers",

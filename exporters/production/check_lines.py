@@ -259,9 +259,9 @@ def _transmission(mate: dict[str, Any], told: Words) -> list[str]:
 
 def _mate_head(mate: dict[str, Any]) -> Message:
     """Who is joined and how: gear pairs with their numbers, other kinds in the words of their own."""
-    if "contact_ratio" not in mate:
+    if own := MATES.get(mate["kind"]):
         unit = {"unit": Message(_UNITS[mate["unit"]])} if "unit" in mate else {}
-        return filled(MATES[mate["kind"]], **{**mate, **unit})
+        return filled(own, **{**mate, **unit})
     return filled(
         GEAR_PAIR,
         first=mate["first"],

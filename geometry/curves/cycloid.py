@@ -2,7 +2,8 @@
 
 A pin's centre draws A e^{is} - B e^{ims} in the frame of the body that it cuts (A > 0, m > 1). With the shortening
 coefficient lambda = m B / A below 1 the path has no cusps (cycloidal disc); with lambda = 1 it is the ordinary
-epicycloid, whose parallel is a sum of three turning vectors (lantern gear). Derivation: F. L. Litvin, A. Fuentes, Gear
+epicycloid, whose parallel is a sum of three turning vectors (lantern gear), as that of the hypocycloid is (clock
+gears). Derivation: F. L. Litvin, A. Fuentes, Gear
 Geometry and Applied Theory, 2nd ed., chapter 13 (cycloidal gearing), written with complex numbers.
 """
 
@@ -211,12 +212,13 @@ def greatest_shortening(radius: float, order: float, pin_radius: float) -> float
     return math.sqrt(max(0.0, 1 - share**2 * (order + 1) ** 3 / (27 * (order - 1))))
 
 
-class EpicycloidParallel(Span, Record):
-    """The parallel, ``distance`` mm to the left, of the epicycloid a e^{iu} - b e^{imu}, a = m b, turned by ``angle``.
+class CycloidParallel(Span, Record):
+    """The parallel, ``distance`` mm to the left, of the cycloid a e^{iu} - b e^{imu}, a = m b, turned by ``angle``.
 
-    b = ``arm``, mm: the rolling circle; u = 0 is a cusp, from which the branch runs outwards along ``angle``. Being
-    c = a e^{iu} - b e^{imu} + i d e^{i(m+1)u/2}, it has the signed speed 2 a sin((m-1)u/2) - d (m+1)/2 along
-    e^{i(m+1)u/2}. Its parameter is u, rad, 0 <= (m-1) u <= 2 pi.
+    b = ``arm``, mm: the radius of the circle that rolls outside of another one, of radius (m - 1) b; of a hypocycloid,
+    where it rolls inside, b and m are below 0. u = 0 is a cusp on that circle, from which an epicycloid runs outwards
+    along ``angle``, and at which a hypocycloid ends. Being c = a e^{iu} - b e^{imu} + i d e^{i(m+1)u/2}, it has the
+    signed speed 2 a sin((m-1)u/2) - d (m+1)/2 along e^{i(m+1)u/2}. Its parameter is u, rad, 0 <= (m-1) u <= 2 pi.
     """
 
     arm: float
@@ -256,14 +258,19 @@ class EpicycloidParallel(Span, Record):
         with np.errstate(divide="ignore"):
             return self._turning / np.abs(self.speed(t))
 
+    def slopes(self, points: Complex, t: Real) -> tuple[Real, Real]:
+        """For feet of perpendiculars: Re(conj(tangent) (p - c)) and its derivative; a cusp is no foot of all points."""
+        gap = np.conj(self.tangent(t)) * (points - self.point(t))
+        return gap.real, self._turning * gap.imag - np.abs(self.speed(t))
+
     def derivative_bound(self, order: int, a: float, b: float) -> float:
         if order == 1:
             # |v| is concave or convex between the zeros of its parts: the sine is greatest at an end or at its crest
             crest = math.pi / (self.order - 1)
             ends = [abs(float(self.speed(x))) for x in (a, b)]
             return max(*ends, abs(float(self.speed(min(max(crest, a), b))))) * (1 + 1e-15)
-        path = self.arm * self.order * (1 + self.order ** (order - 1))
-        return path + abs(self.distance) * self._turning**order
+        path = self.arm * self.order * (1 + abs(self.order) ** (order - 1))
+        return path + abs(self.distance) * abs(self._turning) ** order
 
     def cusp(self) -> float:
         """u at which the parallel to the left turns back; 0 where it does not.
@@ -278,7 +285,7 @@ class EpicycloidParallel(Span, Record):
             raise CuspError(self.start, self.distance)
         return 2 * math.asin(max(sine, 0.0)) / (self.order - 1)
 
-    def offset(self, distance: float) -> EpicycloidParallel:
+    def offset(self, distance: float) -> CycloidParallel:
         moved = replace(self, distance=self.distance + distance)
         before, after = ([float(c.speed(x)) for x in self.domain] for c in (self, moved))
         for at, old, new in zip(self.domain, before, after, strict=True):

@@ -95,6 +95,10 @@ KINDS: Index[Kind[Any, Any]] = Index(
             "parts.pins.lantern_gear:LANTERN_GEAR",
             "External gear for a lantern: flanks parallel to the epicycloid of its pins",
         ),
+        "cycloidal_gear": (
+            "parts.gears.cycloidal_gear.part:CYCLOIDAL_GEAR",
+            "Cycloidal gear, as clocks have it: tips by a circle that rolls outside, roots by one that rolls inside",
+        ),
         "follower": (
             "parts.cams.follower:FOLLOWER",
             "Translating follower: its reference point is the origin, the stem runs along +y",

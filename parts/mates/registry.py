@@ -69,6 +69,10 @@ MATES: Index[MateKind[Any, Any, Any]] = Index(
             "parts.mates.fixed:PIN_SEAT",
             "A loose pin (second) in a seat or hole of a ring or plate (first)",
         ),
+        "cycloidal_gear_pair": (
+            "parts.mates.cycloidal_gears:CYCLOIDAL_GEAR_PAIR",
+            "Two cycloidal gears in mesh, each one's tips on the other's roots",
+        ),
         "lantern_pair": (
             "parts.mates.lantern:LANTERN_PAIR",
             "A lantern (first) and its gear (second): exact centre distance and phase",

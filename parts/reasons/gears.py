@@ -10,6 +10,7 @@ REASONS = {
     "below_nominal": N_("is less than the nominal one"),
     "chamfer_misses_flank": N_("does not reach the flank"),
     "chamfers_overlap": N_("both chamfers of a tooth would overlap"),
+    "circle_all_but_straight": N_("is more than 500 pitch diameters: a line would roll as it does"),
     "classes_end_at_distance": N_(
         "the classes end at a centre distance of {distance} mm; give normal_backlash instead"
     ),
@@ -56,6 +57,8 @@ REASONS = {
     "not_between_root_and_tip": N_("must be between root and tip circle"),
     "not_hand_of_pinion": N_("must be the hand of its pinion"),
     "not_in_table": N_("{pair} is not in table {table}; the nearest pair there is {known}"),
+    "not_the_mates_root_circle": N_("must be the mate's root_rolling_diameter"),
+    "not_the_mates_tip_circle": N_("must be the mate's tip_rolling_diameter"),
     "not_that_of_first": N_("must be that of the first gear of the pair"),
     "not_that_of_gear": N_("must be that of the gear"),
     "not_that_of_mate": N_("must be that of its mate"),
@@ -73,7 +76,9 @@ REASONS = {
     "relieved_flanks_meet": N_("the relieved flanks of the rack meet below its tip line ({customary} is customary)"),
     "ring_flanks_meet_at_root": N_("the flanks of a ring tooth meet at its root"),
     "ring_tooth_pointed": N_("the ring's tooth is pointed"),
+    "root_flanks_undercut": N_("is more than half the pitch diameter: the root flanks would be undercut"),
     "root_reaches_axis": N_("the roots reach the axis"),
+    "roots_have_no_room": N_("the roots have no room: they reach the axis, the end of their flanks, or each other"),
     "rounding_does_not_fit": N_("does not fit between flank and tip land"),
     "space_rounding_does_not_fit": N_("does not fit the space"),
     "space_tip_below_base": N_("the root circle lies below the base circle"),

@@ -1,4 +1,4 @@
-"""Contact of two involute gears, external or a pinion in its ring, over one whole pitch, on the exact outlines."""
+"""Contact of two gears on parallel axes, a pinion in its ring too, over one whole pitch, on the exact outlines."""
 
 from __future__ import annotations
 
@@ -11,12 +11,89 @@ from geometry.gears.mesh.search import MeshSearch, gear_outline
 from geometry.gears.pairs.external import ExternalPair
 from geometry.gears.pairs.internal import InternalPair
 from geometry.gears.teeth.internal_mesh import InternalMesh
+from geometry.gears.teeth.ring_tooth import RingSide
+from geometry.gears.teeth.tooth import ToothSide
 
 # where the tip corners keep this distance, in modules, only the teeth on the path of contact are looked at
 _CLEAR_CORNERS = 0.1
 
 
-class GearMesh(MeshSearch):
+class TurningMesh(MeshSearch):
+    """Two bodies that turn about parallel axes: the first about the origin, the second about ``centre`` on the x axis.
+
+    ``sides``: a side of a tooth of each; ``tip_radii``: how far each reaches, that of a ring inwards; ``sign``: -1 in a
+    ring; ``start``: rotation of the second where the first stands at 0, and ``facing`` where it sees the mesh, rad;
+    ``arm``: that of the flanks of the second, mm.
+    """
+
+    def __init__(
+        self,
+        sides: tuple[ToothSide, ToothSide | RingSide],
+        teeth: tuple[int, int],
+        module: float,
+        first_radii: tuple[float, float],
+        tip_radii: tuple[float, float],
+        reach: float,
+        distance: float,
+        sign: int,
+        start: float,
+        facing: float,
+        arm: float,
+    ) -> None:
+        self.distance, self.sign, self.tip_radii = distance, sign, tip_radii
+        # of the second's axis
+        self.centre = sign * distance
+        first, second = sides
+        rate = -sign * teeth[0] / teeth[1]
+        super().__init__(
+            (gear_outline(first), gear_outline(second)),
+            (first.segments, second.segments),
+            module,
+            first_radii,
+            (first.pitch_angle, second.pitch_angle),
+            rate,
+            start,
+            facing,
+            arm=arm,
+            closing=sign,
+            reach=reach,
+            relative_turning=abs(1 - rate),
+        )
+
+    def lens(self, which: int) -> float:
+        """Half of the angle, about each axis, of its tip circle that lies within the mate's material, rad."""
+        tip, mate = (self.tip_radii[k] for k in (which, 1 - which))
+        cosine = (self.distance**2 + tip**2 - mate**2) / (2 * self.distance * tip)
+        # the pinion in a ring is seen from its far side
+        cosine = cosine if which else self.sign * cosine
+        return math.acos(min(1.0, max(-1.0, cosine)))
+
+    def placing(self, position: Real, copy: Real) -> tuple[Complex, Complex]:
+        """The copy about the second's axis."""
+        turn = np.exp(1j * (position + copy * self.pitches[1]))
+        return turn, np.full(turn.shape, self.centre + 0j)
+
+    def to_fixed(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
+        """Turned about the second's axis."""
+        turned = np.exp(1j * self.second_position(drive)) * points
+        return self.centre + turned, 1j * self.rate * turned
+
+    def to_second(self, points: Complex, drive: Real, turn: Real | float = 0.0) -> tuple[Complex, Complex]:
+        """Turned back about the second's axis."""
+        second = self.second_position(drive) + turn
+        turned = np.exp(1j * (drive - second)) * points
+        centre = -self.centre * np.exp(-1j * second)
+        return centre + turned, -1j * self.rate * centre + 1j * (1 - self.rate) * turned
+
+    def corner_window(self, which: int, corners: Complex) -> tuple[Real, float]:
+        """Where a corner lies within the mate's tip circle, by the polar angle that it has on its own body."""
+        lens = min(self.lens(which), ((self.first_teeth, self.second_teeth)[which] + 0.5) * self.pitches[which])
+        if not which:
+            return -np.angle(corners), lens
+        return (self.facing - np.angle(corners) - self.start) / self.rate, lens / abs(self.rate)
+
+
+class GearMesh(TurningMesh):
     """Drive angle and "first" are the first gear's or the pinion's, "second" the other's or the ring's.
 
     The first axis is the origin and the mesh lies towards +x. An external mate's axis lies at +distance and sees the
@@ -40,24 +117,18 @@ class GearMesh(MeshSearch):
         self, pair: ExternalPair | InternalPair, second_turn: float = 0.0, distance_shift: float = 0.0
     ) -> None:
         self.pair = pair
-        self.distance = pair.working_centre_distance + distance_shift
-        # of the second's axis
-        self.centre = pair.sign * self.distance
-        first, second = pair.sides
-        rate = -pair.sign * pair.first.number_of_teeth / pair.second.number_of_teeth
         super().__init__(
-            (gear_outline(first), gear_outline(second)),
-            (first.segments, second.segments),
+            pair.sides,
+            (pair.first.number_of_teeth, pair.second.number_of_teeth),
             pair.module,
             (pair.first.root_radius, pair.first.tip_radius),
-            (pair.first.pitch_angle, pair.second.pitch_angle),
-            rate,
+            (pair.gears[0].tip_radius, pair.gears[1].tip_radius),
+            max(pair.second.tip_radius, pair.second.root_radius),
+            pair.working_centre_distance + distance_shift,
+            pair.sign,
             pair.second_rotation(0.0) + second_turn,
             pair.facing,
-            arm=pair.second.base_radius,
-            closing=pair.sign,
-            reach=max(pair.second.tip_radius, pair.second.root_radius),
-            relative_turning=abs(1 - rate),
+            pair.second.base_radius,
         )
 
     def teeth_in_reach(self) -> tuple[int, int]:
@@ -65,7 +136,7 @@ class GearMesh(MeshSearch):
 
         In a ring all within the tip circles, unless corners are clear.
         """
-        lenses = [math.ceil(self._lens(k) / self.pitches[k] + 0.5) for k in (0, 1)]
+        lenses = [math.ceil(self.lens(k) / self.pitches[k] + 0.5) for k in (0, 1)]
         if not isinstance(self.pair, InternalPair):
             teeth = min(self._teeth_on_path(), lenses[1])
             return teeth, teeth
@@ -91,38 +162,6 @@ class GearMesh(MeshSearch):
         high = math.sqrt(pinion.tip_radius**2 - pinion.base_radius**2) + self.distance * math.sin(angle)
         along = max(pitch_point - low, high - pitch_point, 0.0)
         return math.ceil(along / pair.base_pitch + 0.5) + 1
-
-    def _lens(self, which: int) -> float:
-        """Half of the angle, about each axis, of its tip circle that lies within the mate's material, rad."""
-        tip, mate = (self.pair.gears[k].tip_radius for k in (which, 1 - which))
-        cosine = (self.distance**2 + tip**2 - mate**2) / (2 * self.distance * tip)
-        # the pinion in a ring is seen from its far side
-        cosine = cosine if which else self.pair.sign * cosine
-        return math.acos(min(1.0, max(-1.0, cosine)))
-
-    def placing(self, position: Real, copy: Real) -> tuple[Complex, Complex]:
-        """The copy about the second's axis."""
-        turn = np.exp(1j * (position + copy * self.pitches[1]))
-        return turn, np.full(turn.shape, self.centre + 0j)
-
-    def to_fixed(self, points: Complex, drive: Real) -> tuple[Complex, Complex]:
-        """Turned about the second's axis."""
-        turned = np.exp(1j * self.second_position(drive)) * points
-        return self.centre + turned, 1j * self.rate * turned
-
-    def to_second(self, points: Complex, drive: Real, turn: Real | float = 0.0) -> tuple[Complex, Complex]:
-        """Turned back about the second's axis."""
-        second = self.second_position(drive) + turn
-        turned = np.exp(1j * (drive - second)) * points
-        centre = -self.centre * np.exp(-1j * second)
-        return centre + turned, -1j * self.rate * centre + 1j * (1 - self.rate) * turned
-
-    def corner_window(self, which: int, corners: Complex) -> tuple[Real, float]:
-        """Where a corner lies within the mate's tip circle, by the polar angle that it has on its own body."""
-        lens = min(self._lens(which), ((self.first_teeth, self.second_teeth)[which] + 0.5) * self.pitches[which])
-        if not which:
-            return -np.angle(corners), lens
-        return (self.facing - np.angle(corners) - self.start) / self.rate, lens / abs(self.rate)
 
     def closed_form(self, drive: Real, shift: float = 0.0) -> Real:
         """That of two involutes."""

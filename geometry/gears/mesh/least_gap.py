@@ -13,8 +13,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from geometry.curves.curve import Complex, Real
+from geometry.base.record import Record
+from geometry.curves.curve import Complex, Curve, Real
 from geometry.plane.distance import Boundary, Flags, Indices, Samples, fold_images, folded, sampled
 from geometry.plane.profile import Segment
 
@@ -29,6 +31,10 @@ _SHORT, _BEATEN = 0.02, 1e-9
 # an arc is at most that much longer than its chord: steps are short against radii
 _BULGE = 1.2
 _STEPS = 80
+# of a chord: a speed that is none
+_AT_REST = 1e-9
+# samples beside a cusp: how much nearer each one is than the one before, and how many
+_CLOSER, _SCALES = 4.0, 12
 # parts of a piece that a peak divides
 _PARTS = 4
 # what rounding leaves of a distance, as a part of the second body's coordinates
@@ -136,13 +142,67 @@ class _Pieces(NamedTuple):
             return np.asarray(rise / (low.slope - high.slope))
 
 
+class _FromCusp(Curve, Record):
+    """A curve that begins or ``ends`` in a cusp over the square of the way from there, over which it has a speed.
+
+    Over its own parameter every distance is level at the cusp, and no bound by tangents holds beside it.
+    """
+
+    curve: Curve
+    ends: bool
+
+    @property
+    def domain(self) -> tuple[float, float]:
+        low, high = self.curve.domain
+        whole = (high - low) ** 2
+        return (-whole, 0.0) if self.ends else (0.0, whole)
+
+    def _away(self, t: ArrayLike) -> Real:
+        return np.sqrt(np.abs(np.asarray(t, dtype=float)))
+
+    def _own(self, away: Real) -> Real:
+        low, high = self.curve.domain
+        return high - away if self.ends else low + away
+
+    def point(self, t: ArrayLike) -> Complex:
+        return self.curve.point(self._own(self._away(t)))
+
+    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
+        away = self._away(t)
+        at = self._own(away)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            speed = np.where(away > 0, np.abs(self.curve.derivative(at)) / away, np.abs(self.curve.derivative(at, 2)))
+        return self.curve.tangent(at) * speed / 2
+
+
+def _paced(curve: Curve) -> Curve:
+    """The curve, where one of its ends is a cusp over a parameter that has a speed there."""
+    low, high = curve.domain
+    chord = abs(complex(curve.point(high)) - complex(curve.point(low)))
+    starts, ends = np.abs(curve.derivative(np.array([low, high]))) * (high - low) < _AT_REST * chord
+    return _FromCusp(curve, bool(ends)) if starts != ends else curve
+
+
+def _samples(curve: Curve, step: float) -> Samples:
+    """Samples ``step`` mm apart, and ever closer ones beside a cusp, where distances look alike at every scale."""
+    found = sampled(curve, step)
+    if not isinstance(curve, _FromCusp):
+        return found
+    t = found.parameters
+    closer = (t[-2] if curve.ends else t[1]) * _CLOSER ** -np.arange(1.0, _SCALES + 1)
+    t = np.sort(np.concatenate([t, closer]))
+    points = np.asarray(curve.point(t))
+    return Samples(t, points, _BULGE * np.abs(np.diff(points)))
+
+
 class LeastGap:
     """The first gear's outline, and half a pitch of the second body's with its samples."""
 
     def __init__(self, first: Boundary, pitch: float, segments: tuple[Segment, ...], module: float) -> None:
         self.first, self.pitch, self.segments, self.module = first, pitch, segments, module
-        self.samples: list[Samples] = [sampled(s.curve, _SAMPLE_STEP * module) for s in segments]
-        self.rates = [np.asarray(s.curve.derivative(q.parameters)) for s, q in zip(segments, self.samples, strict=True)]
+        self.curves = [_paced(s.curve) for s in segments]
+        self.samples: list[Samples] = [_samples(curve, _SAMPLE_STEP * module) for curve in self.curves]
+        self.rates = [np.asarray(c.derivative(q.parameters)) for c, q in zip(self.curves, self.samples, strict=True)]
 
     @property
     def rounding(self) -> float:
@@ -206,8 +266,10 @@ class LeastGap:
         flatter = np.minimum(np.abs(pieces.low.slope), np.abs(pieces.high.slope))
         with np.errstate(invalid="ignore"):
             tangents = pieces.low.value + pieces.low.slope * pieces.crossing
+            # where they cross within the piece, as those of a convex function do
+            crossed = (pieces.crossing >= 0) & (pieces.crossing <= pieces.high.t - pieces.low.t)
         room = np.where(pieces.low.foot == pieces.high.foot, _BEATEN * self.module, 0.0)
-        above = (length < _SHORT * self.module) & (tangents >= best + room)
+        above = (length < _SHORT * self.module) & (tangents >= best + room) & crossed
         # of a convex function the least is within slope * width
         trough = pieces.falls_and_rises & (flatter * (pieces.high.t - pieces.low.t) > accuracy) & ~above
         jump = (pieces.has_peak | pieces.hides_minimum) & (length > _PEAK * self.module)
@@ -232,10 +294,10 @@ class LeastGap:
     def _ends(self, curve: Indices, row: Indices, t: Real, copies: Copies, found: Gaps) -> _Ends:
         """Distances at parameters of curves."""
         points, rates = np.empty(len(t), complex), np.empty(len(t), complex)
-        for number, segment in enumerate(self.segments):
+        for number, one in enumerate(self.curves):
             mine = np.flatnonzero(curve == number)
             if mine.size:
-                points[mine], rates[mine] = segment.curve.point(t[mine]), segment.curve.derivative(t[mine])
+                points[mine], rates[mine] = one.point(t[mine]), one.derivative(t[mine])
         return self._measured(curve, row, t, *copies.place(row, points, rates), copies, found)
 
 

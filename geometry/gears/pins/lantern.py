@@ -27,7 +27,7 @@ from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real, end_point, start_point
-from geometry.curves.cycloid import EpicycloidParallel
+from geometry.curves.cycloid import CycloidParallel
 from geometry.curves.line_arc import Arc
 from geometry.gears.teeth.offset import grown_side
 from geometry.gears.teeth.tooth import ToothSide
@@ -113,11 +113,11 @@ class LanternGear(Record):
         """Where a pin's centre stands on the line of centres: in the middle of the lower space, on the pitch circle."""
         return cmath.rect(self.pitch_radius, -self.pitch_angle / 2)
 
-    def flank(self, start: float = 0.0, end: float | None = None) -> EpicycloidParallel:
+    def flank(self, start: float = 0.0, end: float | None = None) -> CycloidParallel:
         """The lower flank of tooth 1 over u; all of it without arguments, the part that runs back too."""
         order = 1 + self.number_of_teeth / self.number_of_pins
         last = math.pi / (order - 1) if end is None else end
-        return EpicycloidParallel(
+        return CycloidParallel(
             self.lantern_radius, order, self.generating_pin_radius, -self.pitch_angle / 2, start, last
         )
 
@@ -179,7 +179,7 @@ def limits_of(gear: LanternGear) -> FlankLimits:
     return FlankLimits(begin, tip, pointed, low, radius, high)
 
 
-def _half_width(flank: EpicycloidParallel, u: ArrayLike) -> Real:
+def _half_width(flank: CycloidParallel, u: ArrayLike) -> Real:
     """Angle from the flank to the middle of the tooth, rad."""
     return -np.angle(flank.point(u))
 

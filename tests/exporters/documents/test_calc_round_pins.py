@@ -26,7 +26,10 @@ ELLIPSE = ("centrode=focal_ellipse", "eccentricity=0.4", "number_of_teeth=35", "
 RATIO = ("centrode=ratio", "number_of_teeth=24", "mate_number_of_teeth=48", "centre_distance=120",
          "ratio_cosines=[0.2,0.03]", "ratio_sines=[0.05]", "step=15")  # fmt: skip
 SHEETS = [("cycloidal", *DISC), ("cycloidal", "cycloidal_reducer"), ("cycloidal", *DISC[:3], "eccentricity=0.5"),
-          ("lantern", *LANTERN), ("noncircular", *OVAL), ("noncircular", *ELLIPSE), ("noncircular", *RATIO),
+          ("lantern", *LANTERN), ("cycloidal-gear", "clock_gears", "part=wheel"),
+          ("cycloidal-gear", "module=2", "number_of_teeth=30", "tip_rolling_diameter=10", "root_rolling_diameter=10",
+           "mate_teeth=20", "mate_addendum_coefficient=0.8", "circumferential_thinning=0.05", "root_rounding=0.3"),
+          ("noncircular", *OVAL), ("noncircular", *ELLIPSE), ("noncircular", *RATIO),
           ("noncircular", *RATIO[:1], "role=mate", "number_of_teeth=48", "mate_number_of_teeth=24", *RATIO[3:]),
           ("cam", "groove_cam"), ("cam", "wedge_cam"), ("cam", "barrel_cam", "part=barrel"),
           ("cam", "yoke_cam")]  # fmt: skip
@@ -51,7 +54,7 @@ def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
     assert [s.name for s in spoilt] == []
 
 
-@pytest.mark.parametrize("topic", ["cycloidal", "lantern", "noncircular"])
+@pytest.mark.parametrize("topic", ["cycloidal", "lantern", "cycloidal-gear", "noncircular"])
 def test_both_languages_in_every_format(topic: str) -> None:
     page, _ = sheet_of(topic, next(w for w in SHEETS if w[0] == topic)[1:])
     for form in SPOKEN:

@@ -69,6 +69,8 @@ PARTS["disc"] = {
     "eccentricity": 3.0, "bore_diameter": 20.0, "face_width": 8.0,
     "output_holes": {"count": 6, "pin_diameter": 6.0, "pitch_circle_diameter": 56.0},
 }  # fmt: skip
+PARTS["clock"] = {"kind": "cycloidal_gear", "module": 2.0, "number_of_teeth": 30, "mate_teeth": 8, "bore_diameter": 8.0,
+                  "face_width": 5.0}  # fmt: skip
 PARTS |= {
     "pin": {"kind": "pin", "diameter": 8.0, "length": 60.0},
     "eccentric": {"kind": "eccentric", "diameter": 32.0, "eccentricity": 4.0, "bore_diameter": 10.0},
@@ -138,6 +140,8 @@ SIZES: dict[str, list[float]] = {
     "oval": [10, 10, 2 * (oval_axis(18, 2.0, 1.2) + 2.0), 2 * (oval_axis(18, 2.0, 1.2) / 1.2 - 2.5)],
     # R - r + e and R - r - e; holes of pin + 2 e
     "disc": [8, 20, 56, 12, 96, 84],
+    # m z, and a module and a quarter more
+    "clock": [5, 8, 60, 64, 55],
     "plate": [120, 80, 8, 15, 105, 60, 15, 50, 6, 20],
     "pin": [8, 60],
     "eccentric": [10, 10, 4, 32],

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from geometry.base.errors import CuspError
 from geometry.curves.curve import Curve
 from geometry.curves.cycloid import (
-    EpicycloidParallel,
+    CycloidParallel,
     ShortTrochoid,
     greatest_shortening,
     least_convex_radius,
@@ -32,8 +32,11 @@ EXAMPLES: dict[str, Curve] = {
     "outer parallel": ShortTrochoid(40.0, 1.0, 12.0, -3.0, 0.2, -0.2, 0.2),
     "two lobes": ShortTrochoid(40.0, 5.0, 3.0, 15.0, -1.5, 0.0, 1.57),
     "nearly a cusp": ShortTrochoid(40.0, 3.3, 12.0, 1.0, 0.0, 0.02, 0.28),
-    "lantern flank": EpicycloidParallel(30.0, 4.0, 4.0, -0.1, 0.05, 0.4),
-    "epicycloid": EpicycloidParallel(30.0, 1.7, 0.0, 0.4, 0.3, 2.0),
+    "lantern flank": CycloidParallel(30.0, 4.0, 4.0, -0.1, 0.05, 0.4),
+    "epicycloid": CycloidParallel(30.0, 1.7, 0.0, 0.4, 0.3, 2.0),
+    "hypocycloid": CycloidParallel(-6.0, -3.0, 0.0, 0.2, -0.7, -0.05),
+    "parallel of a hypocycloid": CycloidParallel(-6.0, -1.5, 0.8, 0.2, -1.1, -0.02),
+    "radius": CycloidParallel(-6.0, -1.0, -0.5, 0.3, -1.4, -0.1),
 }
 EVERY = pytest.mark.parametrize("curve", EXAMPLES.values(), ids=EXAMPLES.keys())
 
@@ -180,7 +183,7 @@ def test_the_greatest_shortening_leaves_just_the_pin(order: float) -> None:
 @pytest.mark.parametrize("distance", [-4.0, 0.0, 4.0, 60.0])
 def test_bounds_of_an_epicycloid_s_speed_are_its_extremes(start: float, end: float, distance: float) -> None:
     """m = 4: the sine is greatest at pi / 3, within the span, before or behind it."""
-    curve = EpicycloidParallel(30.0, 4.0, distance, -0.1, 0.05, 2.0)
+    curve = CycloidParallel(30.0, 4.0, distance, -0.1, 0.05, 2.0)
     most = float(np.abs(curve.derivative(np.linspace(start, end, 20_001))).max())
     assert most <= curve.derivative_bound(1, start, end) * (1 + 1e-12)
     assert curve.derivative_bound(1, start, end) <= most * (1 + 1e-6)

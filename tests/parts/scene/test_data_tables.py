@@ -30,7 +30,8 @@ from parts.scene.placing import place
 
 TOPICS = {"spur_gear": "spur", "ring_gear": "ring", "rack": "rack", "worm": "worm", "worm_wheel": "worm",
           "bevel_gear": "bevel",
-          "noncircular_gear": "noncircular", "cycloidal_disc": "cycloidal", "lantern_gear": "lantern"}  # fmt: skip
+          "noncircular_gear": "noncircular", "cycloidal_disc": "cycloidal", "lantern_gear": "lantern",
+          "cycloidal_gear": "cycloidal-gear"}  # fmt: skip
 CAMS = (
     "practicum_roller_cam",
     "practicum_flat_cam",
@@ -41,7 +42,7 @@ CAMS = (
     "conjugate_cams",
 )
 TOOTHED = ("practicum_pair", "helical_pair", "rack_and_pinion", "thesis_internal_pair", "worm_set_print", "bevel_pair")
-ROUND = ("oval_gears", "cycloidal_reducer", "lantern_pair")
+ROUND = ("oval_gears", "cycloidal_reducer", "lantern_pair", "clock_gears")
 # what drawings call by other names than calculations do, which have the seeds'
 CALLED = {
     "profile shift coefficient": "profile shift coefficient (xi)",

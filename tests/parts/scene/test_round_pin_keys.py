@@ -1,4 +1,4 @@
-"""Any keys of the parts around pins: built, or refused with values that lead to a part that is built."""
+"""Any keys of parts around pins and of cycloidal gears: built, or refused with values that lead to a part that is."""
 
 from __future__ import annotations
 
@@ -85,6 +85,19 @@ ANY = st.one_of(
         pin_clearance=optional(small),
         root_clearance=optional(small),
         tip_diameter=optional(numbers(1, 500)),
+        bore_diameter=optional(sizes),
+    ),
+    keys_of(
+        "cycloidal_gear",
+        module=numbers(0.2, 5),
+        number_of_teeth=st.integers(4, 80),
+        mate_teeth=optional(st.integers(4, 80)),
+        tip_rolling_diameter=optional(sizes),
+        root_rolling_diameter=optional(sizes),
+        addendum_coefficient=optional(numbers(0.1, 3)),
+        dedendum_coefficient=optional(numbers(0.1, 5)),
+        root_rounding=optional(small),
+        circumferential_thinning=optional(numbers(0, 2)),
         bore_diameter=optional(sizes),
     ),
     keys_of("eccentric", diameter=sizes, eccentricity=numbers(0, 60), bore_diameter=optional(sizes)),

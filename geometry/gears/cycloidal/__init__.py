@@ -1,0 +1,1 @@
+"""Cycloidal gears of clocks, exact."""

@@ -1,0 +1,1 @@
+"""The part kind ``cycloidal_gear`` and its calculation."""

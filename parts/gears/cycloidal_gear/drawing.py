@@ -1,0 +1,54 @@
+"""The working drawing of a cycloidal gear and its table: the rolling circles, the tooth, both flanks by points."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from geometry.base.record import replace
+from parts.base.part import Part
+from parts.base.texts import N_
+from parts.drawing.disk_views import disk_drawing
+from parts.drawing.working import PartDrawing, Subject
+from parts.gears.cycloidal_gear import page as cycloidal_gear_page
+from parts.gears.cycloidal_gear.part import CycloidalGearSpec
+from parts.keys.wheel import shape_of
+from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, row_of
+from parts.pages.inputs import SceneKeys, given
+from parts.pages.page import Sheet
+from parts.pages.terms import TERMS
+
+_TEETH = ("module", "number_of_teeth", "tip_rolling_radius", "root_rolling_radius", "reference_thickness",
+          "root_fillet_radius")  # fmt: skip
+_CIRCLES = ("reference_radius", "tip_radius", "root_radius")
+_ROWS = 6
+
+
+def part_drawing(subject: Subject) -> PartDrawing:
+    """The section, the exact face, the bore."""
+    keys = subject.part.keys
+    assert isinstance(keys, CycloidalGearSpec)
+    circles = "tip_diameter", "pitch_diameter", "root_diameter"
+    return disk_drawing(
+        subject, shape_of(keys), subject.part.thing.holes, "zero_tooth", circles, keys.number_of_teeth
+    )  # fmt: skip
+
+
+def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTable:
+    """The table, as the scene's mates have left the teeth; ``mates``: what meshes with it."""
+    thinning = part.thing.circumferential_thinning
+    page = cycloidal_gear_page.sheet(given(part.keys) | {"circumferential_thinning": thinning, "rows": _ROWS})
+    begins = DataRow(N_("x of the points"), "x", N_("through the middle of a tooth"))
+    beside = [DataRow(N_("centre distance"), "a_w", mate.distance, "mm") for mate in mates]
+    tips = next(table for table in page.tables if table.name == "tip_flank")
+    roots = next(table for table in page.tables if table.name == "root_flank")
+    # one flank from the fillet to the tip; where both meet on the pitch circle they have one point
+    flank = replace(tips, rows=(*roots.rows, *tips.rows[1:]))
+    return DataTable(
+        (_rows(page, _TEETH), _rows(page, _CIRCLES), (*beside, begins)), chosen_columns(flank, ("u", "r", "x", "y"))
+    )
+
+
+def _rows(page: Sheet, names: Sequence[str]) -> tuple[DataRow, ...]:
+    """The steps of these names that are the gear's own."""
+    steps = [step for name in names for step in page.steps() if step.name == name and step.gear < 2]
+    return tuple(replace(row_of(step), symbol=TERMS[step.name].symbol) for step in steps)

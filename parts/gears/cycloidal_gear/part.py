@@ -1,0 +1,140 @@
+"""The part kind ``cycloidal_gear``: a wheel or a pinion of clockwork, its flanks drawn by rolling circles."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+from msgspec import Meta
+
+from geometry.base.errors import ParameterError
+from geometry.base.record import replace
+from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
+from parts.base.kind import Kind, Others, Report
+from parts.keys.base import in_modules, mm, start
+from parts.keys.pins import MOST, check_holes, holes_of
+from parts.keys.wheel import WheelKeys, shape_of
+
+if TYPE_CHECKING:
+    from geometry.gears.cycloidal.gear import CycloidalGear
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.plane.profile import Profile
+    from geometry.solids.body import Body
+
+
+class CycloidalGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="cycloidal_gear"):
+    """Keys of ``cycloidal_gear``."""
+
+    module: Annotated[float, mm("module m", least=0.01, most=1000, example=2.0)]
+    number_of_teeth: Annotated[int, Meta(ge=4, le=2000, description="number of teeth z", examples=[60])]
+    mate_teeth: (
+        Annotated[
+            int,
+            Meta(ge=4, le=2000, description="of the mate, whose straight root flanks its tips touch"),
+            start(8),
+        ]
+        | None
+    ) = None
+    tip_rolling_diameter: (
+        Annotated[
+            float,
+            mm(
+                "circle that rolls outside and draws the tips' flanks; default: half the mate's pitch diameter",
+                above=0, most=MOST, example=8.0,
+            ),
+        ]
+        | None
+    ) = None  # fmt: skip
+    root_rolling_diameter: (
+        Annotated[
+            float,
+            mm(
+                "circle that rolls inside and draws the root flanks; default: half the pitch diameter, straight flanks",
+                above=0, most=MOST, example=60.0,
+            ),
+        ]
+        | None
+    ) = None  # fmt: skip
+    addendum_coefficient: Annotated[float, in_modules("height of the tips", above=0, most=10)] = 1.0
+    dedendum_coefficient: Annotated[float, in_modules("depth of the roots", above=0, most=10)] = 1.25
+    root_rounding: (
+        Annotated[
+            float, mm("fillet; default: a fifth of the module, or the full round", least=0, most=1000, example=0.4)
+        ]
+        | None
+    ) = None
+    circumferential_thinning: Annotated[
+        float, mm("thinning of each tooth for backlash, arc of the pitch circle", least=0, most=1000)
+    ] = 0.0
+
+
+class CycloidalGearKind(Kind[CycloidalGearSpec, "CycloidalGear"]):
+    """A cycloidal gear, whose teeth a mate may have thinned."""
+
+    name, keys = "cycloidal_gear", CycloidalGearSpec
+    drawing = data_table = "parts.gears.cycloidal_gear.drawing"
+
+    def thing(self, keys: CycloidalGearSpec, others: Others) -> CycloidalGear:
+        """The gear, checked to have teeth, and holes inside its roots."""
+        from geometry.gears.cycloidal.gear import CycloidalGear, checked_cycloidal_gear
+
+        tip, root = keys.tip_rolling_diameter, keys.root_rolling_diameter
+        if tip is None and keys.mate_teeth is None:
+            raise ParameterError("mate_teeth", None, "one_of_two_is_missing", other="tip_rolling_diameter")
+        gear = checked_cycloidal_gear(
+            CycloidalGear(
+                keys.number_of_teeth,
+                keys.module,
+                keys.module * (keys.mate_teeth or 0) / 4 if tip is None else tip / 2,
+                keys.module * keys.number_of_teeth / 4 if root is None else root / 2,
+                keys.addendum_coefficient,
+                keys.dedendum_coefficient,
+                keys.circumferential_thinning,
+                keys.root_rounding,
+            )
+        )
+        holes = holes_of(keys)
+        check_holes(keys, holes, gear.root_radius)
+        check_wheel(shape_of(keys), 2 * gear.root_radius, holes)
+        return replace(gear, holes=holes)
+
+    def section(self, keys: CycloidalGearSpec, thing: CycloidalGear, offset: float) -> OffsetRegion:
+        """The exact section, moved."""
+        from geometry.gears.cycloidal.gear import cycloidal_region
+
+        return cycloidal_region(thing, offset)
+
+    def solid(self, keys: CycloidalGearSpec, thing: CycloidalGear, offset: float) -> Body:
+        """The wheel with its web, hub and chamfers."""
+        from geometry.gears.cycloidal.gear import cycloidal_side
+
+        def outline(offset: float, depth: float) -> Profile:
+            return cycloidal_side(thing, offset - depth).profile()
+
+        return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
+
+    def is_plate(self, keys: CycloidalGearSpec, thing: CycloidalGear) -> bool:
+        """Whether there is nothing but the section."""
+        return shape_of(keys).is_plate
+
+    def report(self, keys: CycloidalGearSpec, thing: CycloidalGear) -> Report:
+        """Diameters, thicknesses and what is poor."""
+        from geometry.gears.cycloidal.gear import cycloidal_findings
+
+        circles = {
+            "tip_diameter": 2 * thing.tip_radius,
+            "pitch_diameter": 2 * thing.pitch_radius,
+            "root_diameter": 2 * thing.root_radius,
+        }
+        quantities = {
+            "pitch": thing.pitch,
+            "tooth_thickness": thing.tooth_thickness,
+            "tip_tooth_thickness": thing.tip_thickness,
+            "pointed_tip_diameter": 2 * thing.pointed_radius,
+            "tip_rolling_diameter": 2 * thing.tip_rolling_radius,
+            "root_rolling_diameter": 2 * thing.root_rolling_radius,
+            "root_rounding": thing.root_rounding,
+        }
+        return Report(cycloidal_findings(thing), circles, quantities)
+
+
+CYCLOIDAL_GEAR = CycloidalGearKind()

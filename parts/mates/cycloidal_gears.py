@@ -1,0 +1,131 @@
+"""The mate ``cycloidal_gear_pair``: a wheel and a pinion of clockwork, each drawn by the other's rolling circle."""
+
+from __future__ import annotations
+
+import cmath
+from typing import TYPE_CHECKING, Annotated, Any
+
+from geometry.base.record import replace
+from parts.base.mate import End, MateKind, Pose, Standing, Toothed
+from parts.keys.base import mm
+from parts.keys.mate import GearPairKeys
+from parts.mates.sizes import same_size, turn_off
+from parts.mates.thinning import shared_thinning
+
+if TYPE_CHECKING:
+    from geometry.base.findings import Finding
+    from geometry.gears.cycloidal.gear import CycloidalGear
+    from geometry.gears.cycloidal.pair import CycloidalPair
+    from geometry.gears.mesh.search import PairContact
+    from geometry.kinematics.mechanism import Joint
+
+
+class CycloidalGearPairSpec(GearPairKeys, tag="cycloidal_gear_pair", kw_only=True):
+    """Keys of ``cycloidal_gear_pair``."""
+
+    normal_backlash: (
+        Annotated[
+            float,
+            mm("backlash along the pitch circles: thins both gears by half of it", least=0, most=100, example=0.1),
+        ]
+        | None
+    ) = None
+
+
+class CycloidalGearMating(Toothed):
+    """Two gears whose pitch circles roll on each other."""
+
+    gears: CycloidalPair
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Both wheels."""
+        from geometry.kinematics.mechanism import Rolling
+
+        teeth = self.gears.first.number_of_teeth, self.gears.second.number_of_teeth
+        return (Rolling("external", self.first, self.second, teeth),)
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """The second beyond the line of centres, a space where the first has a tooth."""
+        return centre + cmath.rect(self.distance, direction), self.gears.second_rotation(rotation, direction)
+
+    def standing(self, first: Pose, second: Pose) -> Standing:
+        """Centre distance, and the second's turn off the middle of the backlash."""
+        spoke = second[0] - first[0]
+        direction = cmath.phase(spoke)
+        off = turn_off(second[1], self.gears.second_rotation(first[1], direction), self.gears.second.pitch_angle)
+        # normals of the flanks pass through the pitch point
+        arm = self.gears.second.pitch_radius
+        return Standing(direction, abs(spoke), off, max(self.normal_backlash, 0.0) / (2 * arm), arm)
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict over one pitch."""
+        from geometry.gears.cycloidal.pair import CycloidalMesh
+
+        return CycloidalMesh(self.gears, phase_off, distance_off).contact(tolerance)
+
+    def findings(self) -> tuple[Finding, ...]:
+        """A drive that is interrupted, tips that strike the roots."""
+        return self.gears.findings()
+
+    def quantities(self) -> dict[str, Any]:
+        """Centre distance, ratio, and how contact lies about the line of centres."""
+        gears = self.gears
+        return {
+            "gear_ratio": gears.second.number_of_teeth / gears.first.number_of_teeth,
+            "working_centre_distance": self.distance,
+            "contact_ratio": gears.contact_ratio,
+            "approach_ratio": gears.approach_ratio,
+            "recess_ratio": gears.recess_ratio,
+            "normal_backlash": self.normal_backlash,
+        }
+
+
+class CycloidalGearPair(MateKind[CycloidalGearPairSpec, "CycloidalGear", "CycloidalGear"]):
+    """Two cycloidal gears of one module and the same two rolling circles."""
+
+    name, keys = "cycloidal_gear_pair", CycloidalGearPairSpec
+    joins = (("cycloidal_gear", "cycloidal_gear"),)
+
+    def thinning(
+        self, keys: CycloidalGearPairSpec, first: End[CycloidalGear], second: End[CycloidalGear]
+    ) -> tuple[float, float]:
+        """All of the backlash: there is one centre distance."""
+        if keys.normal_backlash is None:
+            return 0.0, 0.0
+        from geometry.gears.cycloidal.gear import checked_cycloidal_gear
+
+        gears = first.thing, second.thing
+
+        def build(index: int, thinning: float) -> object:
+            return checked_cycloidal_gear(replace(gears[index], circumferential_thinning=thinning))
+
+        return shared_thinning(keys.normal_backlash, gears, build, 1.0)
+
+    def mating(
+        self, keys: CycloidalGearPairSpec, first: End[CycloidalGear], second: End[CycloidalGear]
+    ) -> CycloidalGearMating:
+        """Tips of each touch roots of the other that the same circle has drawn."""
+        from geometry.gears.cycloidal.pair import CycloidalPair
+
+        one, two = first.thing, second.thing
+        same_size("module", two.module, one.module, "not_that_of_mate")
+        same_size(
+            "tip_rolling_diameter", 2 * two.tip_rolling_radius, 2 * one.root_rolling_radius, "not_the_mates_root_circle"
+        )
+        same_size(
+            "root_rolling_diameter", 2 * two.root_rolling_radius, 2 * one.tip_rolling_radius, "not_the_mates_tip_circle"
+        )
+        gears = CycloidalPair(one, two)
+        return CycloidalGearMating(
+            *self.joined(keys),
+            direction_deg=keys.direction_deg,
+            distance=gears.centre_distance,
+            module=one.module,
+            first_teeth=one.number_of_teeth,
+            normal_backlash=gears.normal_backlash,
+            gears=gears,
+        )
+
+
+CYCLOIDAL_GEAR_PAIR = CycloidalGearPair()

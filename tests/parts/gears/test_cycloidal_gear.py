@@ -1,0 +1,111 @@
+"""Cycloidal gears in scenes: pairs that fit, what is refused and with which value, files against a rolled circle."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import numpy as np
+import pytest
+
+from exporters.production.build import build
+from exporters.production.check import scene_checks
+from exporters.production.plan import plan_build
+from parts.base.refusal import SceneError
+from parts.scene.load import load_scene, make_parts, scene_from_dict
+
+WHEEL: dict[str, Any] = {"kind": "cycloidal_gear", "module": 2.0, "number_of_teeth": 60, "mate_teeth": 8}
+PINION: dict[str, Any] = WHEEL | {"number_of_teeth": 8, "mate_teeth": 60}
+PAIR: dict[str, Any] = {"kind": "cycloidal_gear_pair", "first": "wheel", "second": "pinion"}
+
+
+def scene_of(wheel: dict[str, Any] = {}, pinion: dict[str, Any] = {}, **mate: Any) -> Any:  # noqa: B006
+    parts = {"wheel": {k: v for k, v in (WHEEL | wheel).items() if v is not None},
+             "pinion": {k: v for k, v in (PINION | pinion).items() if v is not None}}  # fmt: skip
+    return scene_from_dict({"parts": parts, "mates": [PAIR | mate]}, "t", "t")
+
+
+def refused(scene: Any) -> SceneError:
+    with pytest.raises(SceneError) as caught:
+        make_parts(scene, "t")
+    return caught.value
+
+
+def test_backlash_thins_both_and_a_drive_goes_through() -> None:
+    scene = load_scene("clock_gears")
+    plan = plan_build(scene, "t", [], [])
+    thin = {name: part.thing.circumferential_thinning for name, part in plan.parts.items()}
+    assert thin == {"wheel": pytest.approx(0.1), "pinion": pytest.approx(0.1)}
+    checks = scene_checks(plan.placing, plan.parts, scene.drives, "en", contact=True)
+    (mate,) = checks["mates"]
+    assert mate["verdict"] == "clear"
+    # half of it on either side, less where the normal leans: 33.9 degrees at the end of contact, a little more beyond
+    assert 0.1 * math.cos(math.radians(34.5)) < mate["gap"] < 0.1 * math.cos(math.radians(33.5))
+    assert mate["working_centre_distance"] == pytest.approx(3.0 * 68 / 2)
+    assert mate["approach_ratio"] + mate["recess_ratio"] == pytest.approx(mate["contact_ratio"])
+    assert checks["drives"][0]["train"]["pinion"] == pytest.approx(-7.5)
+
+
+@pytest.mark.parametrize(
+    ("wheel", "pinion", "key", "code", "value"),
+    [
+        ({}, {"module": 2.5}, "mates[1]: parts.pinion.module", "not_that_of_mate", 2.0),
+        ({}, {"mate_teeth": 50}, "mates[1]: parts.pinion.tip_rolling_diameter", "not_the_mates_root_circle", 60.0),
+        ({"mate_teeth": 9}, {}, "mates[1]: parts.pinion.root_rolling_diameter", "not_the_mates_tip_circle", None),
+        (
+            {"tip_rolling_diameter": 7.0},
+            {},
+            "mates[1]: parts.pinion.root_rolling_diameter",
+            "not_the_mates_tip_circle",
+            7.0,
+        ),
+    ],
+)
+def test_gears_that_are_no_pair_are_told_the_mate_s_circle(
+    wheel: dict[str, Any], pinion: dict[str, Any], key: str, code: str, value: float | None
+) -> None:
+    """A circle of nine teeth is larger than half of the pinion: no value of the key makes these two a pair."""
+    found = refused(scene_of(wheel, pinion))
+    assert (found.key, found.code) == (key, code)
+    cure = found.nearest
+    assert (None if cure is None else cure.value) == value
+    if value is not None:
+        make_parts(scene_of(wheel, pinion | {key.removeprefix("mates[1]: parts.pinion."): value}), "t")
+
+
+def test_what_is_missing_is_named() -> None:
+    found = refused(scene_of({"mate_teeth": None}))
+    assert (found.key, found.code) == ("parts.wheel.mate_teeth", "one_of_two_is_missing")
+
+
+@pytest.mark.parametrize("backlash", [3.0, 6.5])
+def test_backlash_that_leaves_no_teeth_is_told_what_does(backlash: float) -> None:
+    found = refused(scene_of({"addendum_coefficient": 1.3}, normal_backlash=backlash))
+    assert found.key == "mates[1].normal_backlash"
+    assert found.nearest is not None
+    assert isinstance(found.nearest.value, float)
+    make_parts(scene_of({"addendum_coefficient": 1.3}, normal_backlash=found.nearest.value), "t")
+    refused(scene_of({"addendum_coefficient": 1.3}, normal_backlash=found.nearest.value * 1.001))
+
+
+def test_a_drawing_file_has_the_path_of_a_rolled_circle(tmp_path: Path) -> None:
+    """Points of the DXF by another library; the circle of 4 mm rolls on 60 mm from where the flank crosses it."""
+    raw = {"parts": {"wheel": WHEEL}, "exports": [{"format": "dxf", "purpose": "drawing"}]}
+    build(plan_build(scene_from_dict(raw, "t", "t"), "t", [], []), tmp_path)
+    (file,) = tmp_path.glob("*.dxf")
+    splines = ezdxf.readfile(file).modelspace().query("SPLINE")
+    found = np.concatenate([[complex(p.x, p.y) for p in s.flattening(1e-7)] for s in splines])
+    radius, roll = 60.0, 4.0
+    tips = found[(np.abs(found) > radius + 1e-3) & (np.abs(found) < 62.0 - 1e-6)]
+    assert len(tips) > 1000
+    # by the law of cosines: how far the circle has rolled when its point is that far out, and how far the point lags
+    turned = np.arccos(((radius + roll) ** 2 + roll**2 - np.abs(tips) ** 2) / (2 * roll * (radius + roll)))
+    lag = np.arcsin(roll * np.sin(turned) / np.abs(tips))
+    beyond = turned * roll / radius - lag
+    # from the flank's crossing of the pitch circle towards the middle of its tooth, 3 degrees from tooth to tooth apart
+    from_middle = np.abs(np.angle(tips * np.exp(-1j * np.round(np.angle(tips) / math.radians(6)) * math.radians(6))))
+    off = (math.radians(1.5) - beyond - from_middle) * np.abs(tips)
+    # across the flank it is less than along the circle
+    assert np.abs(off).max() < 3e-6
