@@ -825,9 +825,11 @@ class _Making(Making):
         """Guide 13 on the pinion, ring 14 in it, the first cranks behind it and the second before it."""
         s, keys, z = self.s, self.keys, -self.s["h_24"]
         low, front, floor = s["z_14"], z + keys.face_width + 10, z - s["h_13"]
+        back, step = z - s["gap_13"] - low, s["r_13_step"]
+        rim = [(s["r_13_out"], back), (step, back)] if step < s["r_13_out"] else []
         self._turned("ring_guide", [
-            (0, floor - low), (s["r_13"], floor - low), (s["r_13"], 0), (s["r_13_out"], 0), (s["r_13_out"], z - low),
-            (10.0, z - low), (10.0, front - low), (0, front - low),
+            (0, floor - low), (s["r_13"], floor - low), (s["r_13"], 0), (s["r_13_out"], 0), *rim,
+            (step, z - low), (10.0, z - low), (10.0, front - low), (0, front - low),
         ], _holes(1, 2 * s["r_window"], s["arm"]))  # fmt: skip
         self._set("pinion", "ring_guide", "ring_guide", low)
         self._nut_46()

@@ -80,8 +80,8 @@ RESTS: dict[str, Rests] = {
         "body": [(1, "nut_44", "guide_6 bolt_42 spacer_18 screw_54")], "spacer_18": [(1, "body", "body_plate")],
         # the ends of the screws stand on the floor under the boss
         "body_plate": [(1, "spacer_18", "screw_54 crank_pin")], "screw_54": [(6, "body body_plate", "")],
-        "ring": [(1, "spacer_22 ring_guide", "screw_53")], "pinion": [(1, "cover_12 ring_guide", "nut_46 sleeve_17")],
-        "ring_guide": [(1, "", "pinion ring")],
+        "ring": [(1, "spacer_22", "screw_53")], "pinion": [(1, "cover_12 ring_guide", "nut_46 sleeve_17")],
+        "ring_guide": [(1, "", "pinion")],
         # pins with their collars on both faces of ring 14, before plate 16 and behind plate 11
         "free_ring": [(1, "crank_pin", "crank_pin")],
         "crank_pin": [(3, "body_plate", ""), (3, "", "free_ring"), (3, "free_ring", ""), (3, "", "platform_plate")],
@@ -191,7 +191,7 @@ APART = {
 APART_BY: dict[str, dict[tuple[str, str], float]] = {
     "cranks": {
         ("body_plate", "crank"): GAP, ("crank", "free_ring"): GAP, ("free_ring", "crank"): GAP,
-        ("crank", "platform_plate"): GAP,
+        ("crank", "platform_plate"): GAP, ("ring_guide", "ring"): GAP,
         # collars leave a play of half a millimetre
         ("crank", "crank_pin"): 0.5, ("crank_pin", "crank"): 0.5, ("spacer_10", "pinion"): 1.0,
         ("platform_plate", "screw_51_down"): 2.0,
