@@ -447,3 +447,10 @@ def test_the_given_shifts_have_the_numbers_of_a_check(
     assert ratio == pytest.approx(built.contact_ratio, rel=1e-12)
     assert any(f.code == "ring_tip_limited" for f in made["r"].findings) is limited
     assert ("made shallower" in render(page, "text", "en")) is limited
+
+
+def test_helical_rings_are_refused_by_their_angle() -> None:
+    with pytest.raises(SceneError) as told:
+        internal_shift_choice.table_from({"first": {}, "second": {"helix_angle_deg": 12.0}}, {}, "scene")
+    assert (told.value.key, told.value.code) == ("helix_angle_deg", "shifts_of_spur_rings")
+    assert "spur gears only" in str(told.value)
