@@ -10,6 +10,7 @@ import cmath
 import math
 from collections.abc import Sequence
 from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,10 +18,13 @@ from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterE
 from geometry.base.nearest import last_that_holds, moved
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Complex, end_point, start_point
+from geometry.curves.curve import Complex, Real, end_point, start_point
 from geometry.curves.line_arc import Arc, Line, arc_between
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, Segment, circle, joint_turn
+
+if TYPE_CHECKING:
+    from geometry.plane.distance import Flags
 
 Edge = Line | Arc
 _ARC_SAMPLES = 24
@@ -84,6 +88,8 @@ class PlateOutline(Record):
 
     def check_holes(self, keys: Sequence[str]) -> None:
         """Refuse holes that touch each other or the edge; ``keys`` name the size of each."""
+        if self.holes and self.exists():
+            return
         for count, hole in enumerate(self.holes, 1):
             if not PlateOutline(self.edges, self.holes[:count]).exists():
                 size = hole.diameter if isinstance(hole, PlateHole) else hole.width
@@ -229,22 +235,39 @@ def _both(middle: complex, way: complex, square: float) -> list[complex]:
 def _refuse_crossings(profiles: Sequence[Profile]) -> None:
     """Boundaries that cross themselves or each other, by the edges of fine polygons; holes inside the outline."""
     polygons = [np.concatenate([_samples(s.curve) for s in p.period]) for p in profiles]
-    starts = np.concatenate(polygons)
-    owner = np.repeat(np.arange(len(polygons)), [len(p) for p in polygons])
-    # where each edge ends: at the start of the next one of its polygon
-    following = np.concatenate([np.roll(np.flatnonzero(owner == i), -1) for i in range(len(polygons))])
-    way, x, y = starts[following] - starts, starts.real, starts.imag
-    side = way.real[:, None] * (y - y[:, None]) - way.imag[:, None] * (x - x[:, None])
-    parted = side * side[:, following] < 0
-    cross = parted & parted.T
-    if cross.any():
-        one, two = np.argwhere(cross)[0]
-        raise GeometryError("boundary_crosses_itself" if owner[one] == owner[two] else "boundaries_cross")
-    outline, *holes = polygons
-    for hole in holes:
-        about = (other for other in holes if other is not hole and _boxed(hole[0], other))
-        if _winding(hole[0], outline) != 1 or any(_winding(hole[0], other) for other in about):
+    ends = [np.roll(polygon, -1) for polygon in polygons]
+    low = np.array([complex(p.real.min(), p.imag.min()) for p in polygons])
+    high = np.array([complex(p.real.max(), p.imag.max()) for p in polygons])
+    for index, polygon in enumerate(polygons):
+        # only where boxes overlap; pairs with those before have been looked at
+        near = (low.real <= high[index].real) & (low.imag <= high[index].imag)
+        near &= (high.real >= low[index].real) & (high.imag >= low[index].imag)
+        others = [int(k) for k in np.flatnonzero(near) if k >= index]
+        start, end = (np.concatenate([one[k] for k in others]) for one in (polygons, ends))
+        cross = _parted(polygon, ends[index], start, end) & _parted(start, end, polygon, ends[index]).T
+        if cross.any():
+            _, other = np.argwhere(cross)[0]
+            itself = other < len(polygon)
+            raise GeometryError("boundary_crosses_itself" if itself else "boundaries_cross")
+    for index, hole in enumerate(polygons[1:], 1):
+        point = hole[0]
+        boxed = (low.real <= point.real) & (low.imag <= point.imag) & (high.real >= point.real)
+        boxed &= high.imag >= point.imag
+        about = (polygons[k] for k in np.flatnonzero(boxed) if k not in (0, index))
+        if _winding(point, polygons[0]) != 1 or any(_winding(point, other) for other in about):
             raise GeometryError("hole_lies_outside")
+
+
+def _parted(start: Complex, end: Complex, first: Complex, second: Complex) -> Flags:
+    """Whether the line of each edge (n,) has the ends of each other edge (m,) on different sides, (n, m)."""
+    way, x, y = end - start, start.real, start.imag
+
+    def side(points: Complex) -> Real:
+        across = way.real[:, None] * (points.imag - y[:, None])
+        return across - way.imag[:, None] * (points.real - x[:, None])
+
+    parted: Flags = side(first) * side(second) < 0
+    return parted
 
 
 def _samples(curve: object) -> Complex:
@@ -253,12 +276,6 @@ def _samples(curve: object) -> Complex:
     if isinstance(curve, Line):
         return np.array([curve.start])
     return curve.point(np.linspace(*curve.domain, _ARC_SAMPLES + 1)[:-1])
-
-
-def _boxed(point: complex, polygon: Complex) -> bool:
-    """Whether a point lies in the upright rectangle about a polygon, or on its border."""
-    x, y = polygon.real, polygon.imag
-    return bool(x.min() <= point.real <= x.max() and y.min() <= point.imag <= y.max())
 
 
 def _winding(point: complex, polygon: Complex) -> int:

@@ -239,3 +239,24 @@ def test_a_hole_is_offered_as_large_as_its_place_takes() -> None:
             hole.profile(3.0)
         assert (closed.value.code, closed.value.nearest_offset) == (code, pytest.approx(3.0, rel=2e-6))
         assert profile_area(hole.profile(1.0)) == pytest.approx(-(4 * math.pi + (24 if code == "slot_closed" else 0)))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_many_holes_lie_clear_or_meet_as_geos_has_them(seed: int) -> None:
+    """Holes in random places of a plate with a notch, laid one after the other where the last is clear of all."""
+    corners = [0j, 100 + 0j, 100 + 60j, 60 + 60j, 50 + 20j, 40 + 60j, 60j]
+    outline = shapely.Polygon([(c.real, c.imag) for c in corners])
+    edges, found = rounded([(c, 0.0) for c in corners]), list[PlateHole]()
+    seen = {True: 0, False: 0}
+    for x, y, diameter in np.random.default_rng(seed).uniform((-5.0, -5.0, 1.0), (105.0, 65.0, 9.0), (60, 3)):
+        hole, at = PlateHole(complex(x, y), diameter), shapely.Point(x, y)
+        gaps = [outline.exterior.distance(at) - diameter / 2]
+        gaps += [abs(hole.centre - h.centre) - (diameter + h.diameter) / 2 for h in found]
+        # holes are told apart by polygons of 24 corners, 0.04 mm off a circle of 9
+        if min(map(abs, gaps)) < 0.1:
+            continue
+        clear = bool(outline.contains(at)) and min(gaps) > 0
+        assert PlateOutline(edges, (*found, hole)).exists() == clear
+        seen[clear] += 1
+        found += [hole] if clear else []
+    assert min(seen.values()) > 5
