@@ -355,7 +355,7 @@ def _parser(told: Words) -> Parser:
         help=told.text(
             "{topics} or {last}",
             topics="spur, ring, rack, tmm42, gear-pair, shift-choice, bevel, worm, train, planetary, cam, cycloidal, "
-            "lantern, noncircular, lever, power-table",
+            "cycloidal-gear, lantern, noncircular, lever, power-table",
             last="power-module",
         ),
     )
