@@ -21,8 +21,11 @@ if TYPE_CHECKING:
 
     from geometry.curves.curve import Real
 
-# points of a circle; mm: what chords leave of an outline, and what is one place
-_ROUND, _CHORD, _SAME = 1440, 1e-3, 1e-6
+# points of a circle; mm: what chords leave of an outline; decimals, and mm, of the places that outlines go by
+_ROUND, _CHORD, _PLACES = 1440, 1e-3, 5
+_SAME = 10.0**-_PLACES
+# mm: what stands less beside the way past it is no corner
+_FLAT = 1e-8
 
 
 def seen_lying(part: Part, instance: Instance) -> Profile:
@@ -31,13 +34,13 @@ def seen_lying(part: Part, instance: Instance) -> Profile:
 
     made = Sectioned(part)
     seen = shapely.union_all(_cones(made, instance) if made.half is not None else [_ends(part, instance)])
-    # what touches at a point alone is one outline yet
-    outline = seen if seen.geom_type == "Polygon" else seen.buffer(_SAME, join_style="mitre")
-    ring = shapely.get_coordinates(shapely.remove_repeated_points(shapely.orient_polygons(outline).exterior, _SAME))
+    # on places that a file's digits hold exactly: slivers of a union cross themselves once they are rounded
+    outline = shapely.set_precision(seen, _SAME)
+    if outline.geom_type != "Polygon":
+        # what touches at a point alone is one outline yet
+        outline = shapely.set_precision(outline.buffer(10 * _SAME, join_style="mitre"), _SAME)
+    ring = np.round(shapely.get_coordinates(shapely.orient_polygons(outline).exterior), _PLACES)
     corners = [complex(x, y) for x, y in ring.tolist()]
-    if abs(corners[0] - corners[-1]) > _SAME:
-        corners.append(corners[0])
-    corners[-1] = corners[0]
     return Profile(tuple(Segment(Line(a, b), Label.BODY) for a, b in pairwise(corners)))
 
 
@@ -64,6 +67,21 @@ def _ends(part: Part, instance: Instance) -> BaseGeometry:
 
 
 def _hull(points: Real) -> BaseGeometry:
+    """Of points seen from above: Andrew's chain. That of GEOS 3.14 loses corners of circles seen edge on."""
     import shapely
 
-    return shapely.convex_hull(shapely.multipoints(points[:, :2]))
+    rows = points[np.lexsort((points[:, 1], points[:, 0])), :2].tolist()
+    return shapely.Polygon([*_side(rows), *_side(rows[::-1])])
+
+
+def _side(rows: list[list[float]]) -> list[list[float]]:
+    """The right side of a hull on the way from the first point to the last, which is left out."""
+    kept: list[list[float]] = []
+    for x, y in rows:
+        while len(kept) > 1:
+            (x0, y0), (x1, y1) = kept[-2:]
+            if (x1 - x0) * (y - y0) - (y1 - y0) * (x - x0) > _FLAT * math.hypot(x - x0, y - y0):
+                break
+            kept.pop()
+        kept.append([x, y])
+    return kept[:-1]
