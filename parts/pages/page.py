@@ -17,7 +17,7 @@ from parts.pages.symbols import symbol_text
 from parts.pages.terms import TERMS
 
 Value = float | int | str
-_SUPERSCRIPTS = {"2": "²", "3": "³"}
+_SUPERSCRIPTS = {"2": "²", "3": "³", "4": "⁴"}
 # decimals shown for each unit; json has all of them
 _DECIMALS = {
     "mm": 5,
@@ -237,7 +237,7 @@ def pretty(text: str, words: Words) -> str:
     simple = r"([^()\s/·]+|\([^()\s/·]+\))"
     text = re.sub(rf"\b(cos|sin|tan|inv)\({simple}\)\*\*([23])", lambda m: f"{m[1]}{_SUPERSCRIPTS[m[3]]} {m[2]}", text)
     text = re.sub(rf"\b(cos|sin|tan|inv)\({simple}\)", r"\1 \2", text)
-    text = re.sub(r"\*\*([23])", lambda m: _SUPERSCRIPTS[m[1]], text)
+    text = re.sub(r"\*\*([234])", lambda m: _SUPERSCRIPTS[m[1]], text)
     text = re.sub(r"\bpi\b", "π", text)
     text = re.sub(r"\babs\(((?:[^()]|\([^()]*\))*)\)", r"|\1|", text)
     return re.sub(r"\b(arctan|tan)\b", lambda m: words.term("function", m[1]), text)

@@ -30,11 +30,11 @@ from geometry.kinematics.kinetostatics import (
     reactions,
     weight,
 )
-from geometry.kinematics.levers import Levers, Moved, Slider, Stone
+from geometry.kinematics.levers import Levers, Moved, Rods, Slider, Stone
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
 from parts.mates.pages.lever_keys import LeverKeys
-from parts.mates.pages.lever_picture import Plan, Vector, plan_scale
+from parts.mates.pages.lever_picture import Plan, Vector, plan_of
 from parts.pages.page import Sheet, Table
 
 Mask = NDArray[np.bool_]
@@ -158,7 +158,7 @@ def _bodies(keys: LeverKeys, levers: Levers, links: list[str]) -> list[tuple[str
         places |= {"C": ("3", levers.arm), "D": ("5", complex(lengths.get("5", 0.0)))}
     for point, mass in (keys.point_masses or {}).items():
         if point not in places:
-            raise ParameterError("point_masses", point, "no_such_point", None, known=list(places))
+            raise ParameterError(f"point_masses.{point}", mass, "no_such_point", None, known=list(places))
         link, place = places[point]
         found.append((point, Body(link, mass, 0.0, place)))
     return found
@@ -166,8 +166,12 @@ def _bodies(keys: LeverKeys, levers: Levers, links: list[str]) -> list[tuple[str
 
 def asked(keys: LeverKeys) -> bool:
     """Whether any load is given."""
-    loads = (keys.masses, keys.inertias, keys.point_masses, keys.resistance, keys.resisting_moment)
-    return any(load is not None for load in loads)
+    return weighs(keys) or any((keys.inertias, keys.resistance, keys.resisting_moment))
+
+
+def weighs(keys: LeverKeys) -> bool:
+    """Whether any mass is given."""
+    return bool(keys.masses or keys.point_masses)
 
 
 class ForcePage:
@@ -213,9 +217,11 @@ class ForcePage:
             else:
                 of = message(N_("link {name}"), name=name)
                 page.add("link_mass", body.mass, symbol=f"m_{name}", key=f"m_{name}", of=of, given=True)
-                page.add("link_inertia", body.inertia, symbol=f"J_{name}", key=f"J_{name}", of=of, given=True)
+                if not (self.forces.slides and name == self.forces.output):
+                    page.add("link_inertia", body.inertia, symbol=f"J_{name}", key=f"J_{name}", of=of, given=True)
                 page.add("centre_along", body.centre.real, symbol=f"x_S{name}", of=of, given=True)
-                page.add("centre_across", body.centre.imag, symbol=f"y_S{name}", of=of, given=True)
+                if body.centre.imag:
+                    page.add("centre_across", body.centre.imag, symbol=f"y_S{name}", of=of, given=True)
             if keys.gravity:
                 page.add(
                     "link_weight", body.mass * keys.gravity, f"{{m_{name}}} * {{g}}", symbol=f"G_{name}",
@@ -264,13 +270,14 @@ class ForcePage:
 
     def _group(self, before: str, rod: str, last: str) -> None:
         page, found = self.page, self.one.found
-        page.section(message(N_("Group of links {one} and {two}"), one=rod, two=last))
+        page.section(message(N_("Structural group of links {one} and {two}"), one=rod, two=last))
         outer, inner, frame = before + rod, rod + last, "0" + last
         way = complex(self.one.moving[rod].way[0])
         seen = self._force(outer) / way
         of = message(N_("link {one} on link {two}"), one=before, two=rod)
-        for term, value, mark in (("joint_force_across", seen.imag, "t"), ("joint_force_along", seen.real, "n")):
-            page.add(term, abs(value), symbol=f"R_{outer}{mark}", key=f"R_{outer}{mark}", of=of)
+        formula = self._moment_across(rod, last)
+        page.add("joint_force_across", abs(seen.imag), formula, symbol=f"R_{outer}t", key=f"R_{outer}t", of=of)
+        page.add("joint_force_along", abs(seen.real), symbol=f"R_{outer}n", key=f"R_{outer}n", of=of)
         self._joint(outer, f"sqrt({{R_{outer}t}}**2 + {{R_{outer}n}}**2)", _SOURCE)
         self._joint(inner)
         self._joint(frame)
@@ -284,34 +291,60 @@ class ForcePage:
                 across = (self._force(pair) / complex(self.one.moving[pair[1]].way[0])).imag
                 if across:
                     formula = f"{'-' if across < 0 else ''}1000 * {{M_{pair}}} / {{R_{pair}}}"
-                    page.add("guide_place", 1000 * couple / across, formula, of=sliding)
+                    page.add("guide_place", 1000 * couple / across, formula, symbol=f"x_{pair}", of=sliding)
         chain = [(f"R_{outer}n", seen.real * way), (f"R_{outer}t", 1j * seen.imag * way)]
-        chain += self._of_links(rod, last)
+        chain += self._of_links(rod)
+        upto = len(chain)
+        chain += self._of_links(last)
         if last == "3" and self.levers.second is not None:
             chain.append(("R_43", -self._force("34")))
         chain.append((f"R_{frame}", self._force(frame)))
-        self._plan(inner, message(N_("Plan of forces of links {one} and {two}"), one=rod, two=last), chain)
+        title = message(N_("Plan of forces of links {one} and {two}"), one=rod, two=last)
+        # the rod passes on all that has come together up to its end
+        passed = Vector(f"R_{inner}", 0j, sum((force for _, force in chain[:upto]), 0j))
+        self._plan(inner, title, chain, passed)
+
+    def _moment_across(self, rod: str, last: str) -> str:
+        """The moment that the reaction across a link balances, as a step; the formula of that reaction."""
+        stone = rod == "2" and isinstance(self.levers.first, Stone)
+        if stone:
+            links, joint, length = [rod, last], "O3", "r_A"
+            of = message(N_("links {one} and {two} about {joint}"), one=rod, two=last, joint=joint)
+            pivot = complex(self.one.moving[last].origin[0])
+        else:
+            group = self.levers.first if rod == "2" else self.levers.second
+            assert isinstance(group, Rods | Slider)
+            links, joint, length = [rod], "B" if rod == "2" else "D", f"l_{rod}"
+            of = message(N_("link {link} about {joint}"), link=rod, joint=joint)
+            pivot = complex(self.one.moving[rod].point(group.rod)[0])
+        total = 0.0
+        for one in self.one.acting.values():
+            if one.link in links:
+                arm = complex(self.one.moving[one.link].point(one.at)[0]) - pivot
+                total += (arm.conjugate() * complex(one.force)).imag + float(one.couple)
+        if stone and self.levers.second is not None:
+            arm = complex(self.one.moving["4"].origin[0]) - pivot
+            total -= (arm.conjugate() * self._force("34")).imag
+        key = f"M_{joint}"
+        self.page.add("moment_of_loads", total / 1000, symbol=key, key=key, of=of)
+        return f"1000 * abs({{{key}}}) / {{{length}}}"
 
     def _of_links(self, *links: str) -> list[tuple[str, complex]]:
         """The forces on links that are no joint's, by name."""
         found = ((name, one.link, complex(one.force)) for name, one in self.one.acting.items())
         return [(name, force) for name, link, force in found if link in links and force]
 
-    def _plan(self, key: str, title: Text, chain: list[tuple[str, complex]]) -> None:
-        """A polygon of forces as a table, and for the picture; it closes."""
+    def _plan(self, key: str, title: Text, chain: list[tuple[str, complex]], *across: Vector) -> None:
+        """A polygon of forces as a table, and for the picture; it closes. ``across``: vectors between its corners."""
         spots = np.cumsum([0j, *(force for _, force in chain)])
-        vectors = tuple(
+        vectors = (
             Vector(name, complex(start), complex(start + force))
             for (name, force), start in zip(chain, spots, strict=False)
         )
-        scale = self.keys.force_scale or plan_scale([abs(force) for _, force in chain])
-        heads = ((N_("vector"), ""), (N_("value"), "N"), (N_("direction"), "deg"), (N_("on the plan"), "mm"))
-        rows = tuple((abs(f), math.degrees(cmath.phase(f)), abs(f) / scale) for _, f in chain)
-        told = message(N_("{plan}, {scale:g} N for 1 mm"), plan=title, scale=scale)
-        self.page.tables.append(
-            Table(f"force_plan_{key}", told, heads, rows, labels=tuple((name,) for name, _ in chain))
-        )
-        self.plans.append((title, Plan(vectors, scale)))
+        plan = plan_of((*vectors, *across), self.keys.force_scale)
+        told = message(N_("{plan}, {scale:g} N for 1 mm"), plan=title, scale=plan.scale)
+        self.page.tables.append(plan.table(f"force_plan_{key}", told, "N"))
+        self.plans.append((title, plan))
 
     def _driving(self) -> None:
         page, found = self.page, self.one.found
@@ -341,14 +374,15 @@ class ForcePage:
         if self.forces.teeth is not None:
             chain.append(("F_b", complex(found.driving)))
         chain.append(("R_01", self._force("01")))
-        self._plan("1", N_("Plan of forces of the driving link"), chain)
+        self._plan("1", message(N_("Plan of forces of the driving link")), chain)
 
     def _check(self) -> None:
         page, loaded, speed = self.page, self.one, self.levers.speed
         page.section(N_("Check by Zhukovsky's lever"))
         powers = {name: float(power(one, loaded.moving[one.link])) for name, one in loaded.acting.items()}
         moment = float(by_zhukovsky(loaded.acting.values(), loaded.moving, speed)) / 1000
-        page.add("lever_balancing_moment", moment)
+        page.add("powers", sum(powers.values()))
+        page.add("lever_balancing_moment", moment, "-{P_sum} / {omega_1}")
         sizes = sum(float(most_power(one, loaded.moving[one.link])) for one in loaded.acting.values()) / speed
         if sizes:
             page.add("lever_moments", sizes)
@@ -360,7 +394,7 @@ class ForcePage:
         balancing = float(loaded.found.moment) / 1000
         rows.append((abs(complex(loaded.found.driving)), 0.0 if self.forces.teeth else balancing, balancing * speed))
         labels.append(("F_b" if self.forces.teeth else "M_b",))
-        title = N_("Powers of all forces: together they are nothing")
+        title = N_("Powers of all forces: their sum is zero")
         page.tables.append(Table("powers", title, heads, tuple(rows), labels=tuple(labels)))
 
     def _over_a_turn(self) -> None:

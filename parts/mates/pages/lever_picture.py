@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import html
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -11,7 +12,7 @@ import numpy as np
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from parts.base.texts import N_, Text, Words
-from parts.pages.page import unit_text
+from parts.pages.page import Table, unit_text
 
 # a panel and what stays free about it, px
 _SIDE, _EDGE, _HEAD = 420.0, 34.0, 26.0
@@ -39,14 +40,23 @@ class Plan(Record):
     vectors: tuple[Vector, ...]
     scale: float
 
+    def table(self, name: str, title: Text, unit: str) -> Table:
+        """Size, direction and length on paper of every vector."""
+        heads = ((N_("vector"), ""), (N_("value"), unit), (N_("direction"), "deg"), (N_("on the plan"), "mm"))
+        # 0j takes the sign from zeros, which have no direction
+        sides = [v.end - v.start + 0j for v in self.vectors]
+        rows = tuple((abs(s), math.degrees(cmath.phase(s)), abs(s) / self.scale) for s in sides)
+        return Table(name, title, heads, rows, labels=tuple((v.name,) for v in self.vectors))
 
-def plan_scale(sizes: Iterable[float]) -> float:
-    """The finest of the usual scales at which the longest vector has room."""
-    most = max(sizes) / _PAPER
-    if not most > 0:
-        return 1.0
-    decade = 10.0 ** math.floor(math.log10(most))
-    return next(step * decade for step in _STEPS if step * decade >= most * (1 - 1e-12))
+
+def plan_of(vectors: Iterable[Vector], scale: float | None) -> Plan:
+    """A plan; without a scale at the finest of the usual ones at which its longest vector has room."""
+    found = tuple(vectors)
+    if scale is None:
+        most = max(abs(v.end - v.start) for v in found) / _PAPER
+        decade = 10.0 ** math.floor(math.log10(most)) if most > 0 else 1.0
+        scale = next(step * decade for step in _STEPS if step * decade >= most * (1 - 1e-12))
+    return Plan(found, scale)
 
 
 class Run(Record, eq=False):

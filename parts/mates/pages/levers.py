@@ -16,9 +16,9 @@ from geometry.kinematics.levers import Moved, Rods, Slider, Stone, swing
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
 from parts.mates.pages.contour_marks import checked_picture
-from parts.mates.pages.lever_forces import ForcePage, Forces, asked
+from parts.mates.pages.lever_forces import ForcePage, Forces, asked, weighs
 from parts.mates.pages.lever_keys import NAMES, LeverKeys, levers_of
-from parts.mates.pages.lever_picture import LeverPicture, Plan, Run, Vector, plan_scale
+from parts.mates.pages.lever_picture import LeverPicture, Plan, Run, Vector, plan_of
 from parts.mates.pages.lever_tasks import ASSIGNMENTS, EXAMPLE, assigned, rows_of_code
 from parts.pages.inputs import checked, refusal
 from parts.pages.page import Printed, Sheet, Table
@@ -82,7 +82,7 @@ def _refuse_idle(keys: LeverKeys, table: Mapping[str, Any]) -> None:
         "rocker_length": keys.second == "rocker", "pivot_distance": keys.second == "rocker",
         "pivot_angle_deg": keys.second == "rocker", "guide_height": slides, "guide_angle_deg": slides,
         "resisted": keys.resistance is not None or keys.resisting_moment is not None,
-        "gravity": asked(keys), "gravity_angle_deg": asked(keys), "force_scale": asked(keys),
+        "gravity": weighs(keys), "gravity_angle_deg": weighs(keys) and keys.gravity > 0, "force_scale": asked(keys),
         "drive_radius": asked(keys), "drive_pressure_angle_deg": keys.drive_radius is not None,
         "drive_angle_deg": keys.drive_radius is not None, "centres": asked(keys),
         "centre_offsets": asked(keys),
@@ -118,9 +118,10 @@ class _Page:
         self._velocities()
         self._accelerations()
         self._over_a_turn()
-        plans = self._forces()
+        plans = self._plans()
+        forces = self._forces()
         run = self._flywheel()
-        self._plans(run, plans)
+        self._picture(plans, run, forces)
         self._notes()
         return self.page
 
@@ -174,8 +175,8 @@ class _Page:
         page, levers = self.page, self.levers
         page.section(N_("Structure"))
         page.add("moving_links", levers.links)
-        page.add("lower_pairs", levers.lower_pairs)
-        page.add("higher_pairs", 0)
+        page.add("lower_pairs", levers.lower_pairs, called=N_("lower kinematic pairs (turning and sliding)"))
+        page.add("higher_pairs", 0, called=N_("higher kinematic pairs"))
         page.add("degree_of_freedom", 1, "3 * {n} - 2 * {p_5} - {p_4}", _GUIDELINES)
         first, second = _KINDS[type(levers.first)], levers.second
         if second is None:
@@ -301,7 +302,7 @@ class _Page:
     def _accelerations(self) -> None:
         at = self.at
         self.page.section(N_("Accelerations"))
-        turned = "{l_1} * sqrt(({omega_1}**2)**2 + {eps_1}**2) / 1000"
+        turned = "{l_1} * sqrt({omega_1}**4 + {eps_1}**2) / 1000"
         self._accelerated("A", turned if self.levers.change else "{omega_1}**2 * {l_1} / 1000")
         if at.reach is not None:
             self._add(
@@ -317,7 +318,7 @@ class _Page:
             self._about("2", N_("B about A"), abs(complex(at.place("B") - at.place("A"))), "l_2")
         if at.reach is None and "3" in at.links:
             self._about("3", N_("B about O3"), self.levers.lever, "l_3")
-        turned = "sqrt(({omega_3}**2)**2 + {eps_3}**2)"
+        turned = "sqrt({omega_3}**4 + {eps_3}**2)"
         self._accelerated("B", f"{{l_3}} * {turned} / 1000" if "3" in at.links else "")
         if "C" in at.points:
             self._accelerated("C", f"{{l_C}} * {turned} / 1000")
@@ -465,28 +466,18 @@ class _Page:
         page.tables.append(Table("cycle", N_("Moments, works and energies over the turn"), heads, rows))
         return Run(np.degrees(angle), resisting, wheel.driving, wheel.gained, wheel.of_links, wheel.of_flywheel)
 
-    def _plans(self, run: Run | None, forces: list[tuple[Text, Plan]]) -> None:
-        """Both plans as vectors with the lengths that they have on paper, and the picture."""
-        velocities, accelerations = self._velocity_vectors(), self._acceleration_vectors()
-        speed_scale = self.keys.velocity_scale or plan_scale([abs(v.end) for v in velocities])
-        change_scale = self.keys.acceleration_scale or plan_scale([abs(v.end) for v in accelerations])
-        for key, title, unit, vectors, scale in (
-            ("velocity_plan", N_("Plan of velocities, {scale:g} m/s for 1 mm"), "m/s", velocities, speed_scale),
-            (
-                "acceleration_plan",
-                N_("Plan of accelerations, {scale:g} m/s² for 1 mm"),
-                "m/s2",
-                accelerations,
-                change_scale,
-            ),
+    def _plans(self) -> tuple[Plan, Plan]:
+        """Plans of velocities and of accelerations, as tables too."""
+        speeds = plan_of(self._velocity_vectors(), self.keys.velocity_scale)
+        changes = plan_of(self._acceleration_vectors(), self.keys.acceleration_scale)
+        for key, title, unit, plan in (
+            ("velocity_plan", N_("Plan of velocities, {scale:g} m/s for 1 mm"), "m/s", speeds),
+            ("acceleration_plan", N_("Plan of accelerations, {scale:g} m/s² for 1 mm"), "m/s2", changes),
         ):
-            heads = ((N_("vector"), ""), (N_("value"), unit), (N_("direction"), "deg"), (N_("on the plan"), "mm"))
-            rows = []
-            for v in vectors:
-                vector = v.end - v.start
-                rows.append((abs(vector), math.degrees(cmath.phase(vector)), abs(vector) / scale))
-            labels = tuple((v.name,) for v in vectors)
-            self.page.tables.append(Table(key, message(title, scale=scale), heads, tuple(rows), labels=labels))
+            self.page.tables.append(plan.table(key, message(title, scale=plan.scale), unit))
+        return speeds, changes
+
+    def _picture(self, plans: tuple[Plan, Plan], run: Run | None, forces: list[tuple[Text, Plan]]) -> None:
         fixed = {"O1": 0j}
         if not isinstance(self.levers.first, Slider):
             fixed["O3"] = self.levers.first.pivot
@@ -504,8 +495,7 @@ class _Page:
             shown[1],
             fixed,
             self.at.reach is not None,
-            Plan(tuple(velocities), speed_scale),
-            Plan(tuple(accelerations), change_scale),
+            *plans,
             self._diagram(),
             run,
             tuple(forces),

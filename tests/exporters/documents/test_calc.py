@@ -101,8 +101,8 @@ SHEETS = [
     ("power-table", "x=50", "y=-80", "orientation=thesis"),
     ("power-table", "arms=[72,50]", "x=-30", "y=40"),
     ("lever", "code=1071"),
-    ("lever", "assignment=4", "masses.1=3", "centres.1=20", "masses.2=8", "inertias.2=0.05", "masses.5=40",
-     "resistance=2000", "drive_radius=120", "acceleration=5"),
+    ("lever", "assignment=4", "masses.1=3", "centres.1=20", "centre_offsets.2=9", "masses.2=8", "inertias.2=0.05",
+     "masses.5=40", "resistance=2000", "drive_radius=120", "acceleration=5"),
     ("power-module", "orientation=thesis"),
     ("power-module", "load=2000", "loaded_turns=1", "arms=[72,60]"),
 ]  # fmt: skip

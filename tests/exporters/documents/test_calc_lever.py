@@ -261,7 +261,7 @@ def test_a_flywheel_of_the_screen() -> None:
     ("keys", "key", "code"),
     [
         ((*PUMP[:4], "unevenness=0.02"), "unevenness", "needs_other"),
-        ((*PUMP, "point_masses.D=1"), "point_masses", "no_such_point"),
+        ((*PUMP, "point_masses.D=1"), "D", "no_such_point"),
         (("assignment=10", "resistance=100", "unevenness=0.02"), "resistance", "needs_slider"),
     ],
 )

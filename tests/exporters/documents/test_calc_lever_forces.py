@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 import xml.etree.ElementTree as ET
 from functools import cache
 from pathlib import Path
@@ -49,8 +50,20 @@ def test_every_assignment_holds_its_loads_all_round(assignment: int) -> None:
         assert abs(powers.sum()) < 1e-12 * np.abs(powers).sum()
         assert value(data, "ΔM") < 1e-10
         for plan in [name for name in data if name.startswith("force_plan")]:
-            vectors = [cmath.rect(row[1], math.radians(row[2])) for row in rows(data, plan)]
-            assert abs(sum(vectors)) < 1e-12 * sum(map(abs, vectors)), plan
+            vectors = {row[0]: cmath.rect(row[1], math.radians(row[2])) for row in rows(data, plan)}
+            room = 1e-12 * sum(map(abs, vectors.values()))
+            # across the polygon: what the first link of a group passes on to the second
+            inner, link = f"R_{plan[-2:]}", plan[-2]
+            if passed := vectors.pop(inner, None):
+                own = [
+                    v
+                    for name, v in vectors.items()
+                    if name in {f"G_{link}", f"F_i{link}"} or name[:4] == f"R_{chr(ord(link) - 1)}{link}"
+                ]
+                assert abs(sum(own) - passed) < room, plan
+                assert abs(passed) == pytest.approx(value(data, inner), rel=1e-12)
+            assert (passed is None) == (plan == "force_plan_1")
+            assert abs(sum(vectors.values())) < room, plan
         greatest = {row[0]: row[1] for row in rows(data, "greatest_forces")}
         first = data["forces"]
         assert all(greatest[name] >= row[name] * (1 - 1e-12) for row in first for name in greatest)
@@ -94,7 +107,15 @@ def test_a_guide_holds_what_turns_its_slider() -> None:
     vectors = {row[0]: cmath.rect(row[1], math.radians(row[2])) for row in rows(data, "force_plan_23")}
     assert vectors["R_03"] == pytest.approx(1j * (weight + thrust), rel=1e-6)
     assert value(data, "M_03") == pytest.approx(30e-3 * weight, rel=1e-6)
-    assert value(data, "x_R") == pytest.approx(30 * weight / (weight + thrust), rel=1e-6)
+    assert value(data, "x_03") == pytest.approx(30 * weight / (weight + thrust), rel=1e-6)
+
+
+def test_the_weight_of_a_rod_turns_it_about_its_far_joint() -> None:
+    """Of a slow rod whose far joint is on the right: m g (l/2) cos(beta), counter-clockwise, is what A carries."""
+    data = calculated(*ENGINE[:3], "start_angle_deg=90", "masses.2=2", "speed=1e-6")
+    moment = 2 * 9.81 * 0.105 * math.sqrt(8 / 9)
+    assert value(data, "M_B") == pytest.approx(moment, rel=1e-9)
+    assert value(data, "R_12t") == pytest.approx(moment / 0.21, rel=1e-9)
 
 
 def test_a_wheel_presses_the_shaft_of_the_crank() -> None:
@@ -223,6 +244,25 @@ def test_every_printed_formula_gives_its_value(words: str) -> None:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.symbol, step.formula)
 
 
+@pytest.mark.parametrize(
+    "keys", [("assignment=4", "velocity_scale=0.1"), ("assignment=8",), ("assignment=10",)], ids=str
+)
+def test_every_vector_of_a_plan_has_room_on_paper(keys: tuple[str, ...]) -> None:
+    """At scales of the page's own none is longer than 120 mm, and some are longer than 40."""
+    for variant in range(1, 11):
+        data = calculated(*keys, f"variant={variant}", "masses.2=1", "masses.3=4")
+        for plan in ("velocity_plan", "acceleration_plan", "force_plan_23", "force_plan_1"):
+            if plan.split("_")[0] not in str(keys):
+                assert 40 < max(row[-1] for row in rows(data, plan)) <= 120 * (1 + 1e-12), (variant, plan)
+
+
+def test_plans_stand_in_the_order_of_the_work() -> None:
+    """Positions, velocities, accelerations, and then forces, from the last group to the crank."""
+    order = ["lengths", "positions", "velocity_plan", "acceleration_plan", "force_plan_45", "force_plan_23",
+             "force_plan_1", "powers", "forces", "greatest_forces"]  # fmt: skip
+    assert [name for name in calculated("assignment=1", *keys_of(1)) if name in order] == order
+
+
 def test_where_the_output_stands_its_resistance_is_told_in_a_line() -> None:
     data = calculated(*ENGINE[:4], "resistance=5000", "positions=4")
     assert [row["R_12"] for row in data["forces"]] == pytest.approx([0, 5000 / math.sqrt(8 / 9)] * 2)
@@ -246,6 +286,9 @@ def test_the_picture_has_the_plans_of_forces(tmp_path: Path) -> None:
     file = tmp_path / "lever.svg"
     text = calculate("lever", ["assignment=1", *keys_of(1), f"picture={file}"], "text", "uk")
     assert "План сил ланок 4 і 5" in text
+    # titles within titles too are in the language: no word of another one is left
+    assert "План сил ведучої ланки, " in text
+    assert not re.findall("[A-Za-z]{4,}", text)
     words = [e.text for e in ET.parse(file).iter() if e.tag.endswith("}text")]
     assert {"План сил ланок 4 і 5", "План сил ланок 2 і 3", "План сил ведучої ланки"} <= set(words)
     assert {"R_05", "F_c", "R_43", "R_21"} <= set(words)
@@ -273,6 +316,11 @@ def refused(*keys: str) -> tuple[str, str]:
         (("assignment=1", "resisting_moment=5"), "resisting_moment", "needs_rocker"),
         (("assignment=10", "resistance=5"), "resistance", "needs_slider"),
         (("assignment=1", "masses.2=1", "resisted=both"), "resisted", "of_no_link"),
+        (("assignment=1", "resistance=1", "gravity=9.8"), "gravity", "of_no_link"),
+        (("assignment=1", "inertias.3=1", "gravity_angle_deg=9"), "gravity_angle_deg", "of_no_link"),
+        (("assignment=1", "masses.2=1", "gravity=0", "gravity_angle_deg=9"), "gravity_angle_deg", "of_no_link"),
+        (("assignment=1", "masses={}", "force_scale=9"), "force_scale", "of_no_link"),
+        (("assignment=8", "point_masses.C=9"), "point_masses.C", "no_such_point"),
         (("assignment=1", "resistance=1", "unevenness=0.1", "acceleration=1"), "acceleration", "other_is_given"),
         (("assignment=10", "resisting_moment=5", "unevenness=0.1"), "unevenness", "needs_other"),
     ],
