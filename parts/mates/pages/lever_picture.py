@@ -6,22 +6,26 @@ import cmath
 import html
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from parts.base.texts import N_, Text, Words
+from parts.pages.beside import Name, beside_line, beside_point, settled
 from parts.pages.page import Table, unit_text
 
 # a panel and what stays free about it, px
 _SIDE, _EDGE, _HEAD = 420.0, 34.0, 26.0
 _LINK, _PATH, _AXIS = "#1f4e8c", "#9fb0c0", "#c8ccd0"
 _COLOURS = ("#c03020", "#2060c0", "#209050", "#a06000", "#8030a0", "#008090", "#606060", "#d06090")
-# which points are joined by links, and which of these are blocks on a guide
+# which points are joined by links
 _RODS = (("O1", "A"), ("A", "B"), ("O3", "B"), ("O3", "C"), ("C", "D"), ("O5", "D"))
 # scales of plans: a plan's longest vector stays within this on paper, mm
 _PAPER, _STEPS = 120.0, (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)
+# names of a panel may stand in the room about it, below its title
+_FIELD = (complex(-_EDGE, -8.0), complex(_SIDE + _EDGE, _SIDE + _EDGE / 2))
 # of a path and a diagram every such point is drawn
 _EVERY = 10
 
@@ -73,15 +77,15 @@ class Run(Record, eq=False):
 
 
 class LeverPicture(Record, eq=False):
-    """``points`` in the first position, their ``paths`` over a turn, mm, ``fixed`` pivots; whether a ``stone`` slides;
-    ``diagram``: angle (deg), travel (mm), velocity (m/s) and acceleration (m/s^2) of the output; ``forces``:
-    plans of forces under their titles, each a closed polygon.
+    """``points`` in the first position, their ``paths`` over a turn, mm, ``fixed`` pivots; ``blocks``: points of links
+    that slide, and the directions of their guides; ``diagram``: angle (deg), travel (mm), velocity (m/s) and
+    acceleration (m/s^2) of the output; ``forces``: plans of forces under their titles.
     """
 
     points: Mapping[str, complex]
     paths: Mapping[str, Complex]
     fixed: Mapping[str, complex]
-    stone: bool
+    blocks: Mapping[str, complex]
     velocities: Plan
     accelerations: Plan
     diagram: tuple[Real, Real, Real, Real]
@@ -119,20 +123,30 @@ class LeverPicture(Record, eq=False):
     def _scheme(self) -> Iterator[str]:
         known = {**self.fixed, **self.points}
         view = _View(np.concatenate([np.array([*known.values()]), *self.paths.values()]))
+        lines: list[tuple[complex, complex]] = []
         for path in self.paths.values():
-            yield view.line(np.append(path[::_EVERY], path[0]), _PATH, 1.0)
+            spots = np.append(path[::_EVERY], path[0])
+            lines += _seen(view, spots)
+            yield view.line(spots, _PATH, 1.0)
         for one, two in _RODS:
-            if one not in known or two not in known or (self.stone and (one, two) == ("A", "B")):
+            if one not in known or two not in known or ("A" in self.blocks and (one, two) == ("A", "B")):
                 continue
-            yield view.line(np.array([known[one], known[two]]), _LINK, 3.0)
+            ends = np.array([known[one], known[two]])
+            lines += _seen(view, ends)
+            yield view.line(ends, _LINK, 3.0)
+        names = []
         for name, at in known.items():
             x, y = view.at(at)
             fill = "#202830" if name in self.fixed else "#ffffff"
             yield f'<circle cx="{x:.2f}" cy="{y:.2f}" r="4" style="fill:{fill};stroke:{_LINK};stroke-width:2"/>'
-            yield _text(x + 7, y - 7, name, "#202830")
-        if self.stone:
-            x, y = view.at(known["A"])
-            turn = -math.degrees(np.angle(known["A"] - known["O3"]))
+            radius = 10.0 if name in self.blocks else 5.0
+            # no other name stands on a joint
+            lines += [(complex(x - 5, y), complex(x + 5, y)), (complex(x, y - 5), complex(x, y + 5))]
+            names.append(beside_point(name, complex(x, y), radius))
+        yield from _named(names, lines, ("#202830",))
+        for name, way in self.blocks.items():
+            x, y = view.at(known[name])
+            turn = -math.degrees(cmath.phase(way))
             style = f"fill:none;stroke:{_LINK};stroke-width:2"
             place = f"translate({x:.2f} {y:.2f}) rotate({turn:.3f})"
             yield f'<rect x="-9" y="-6" width="18" height="12" transform="{place}" style="{style}"/>'
@@ -155,7 +169,7 @@ class LeverPicture(Record, eq=False):
             yield f'<polyline points="{points}" style="fill:none;stroke:{_COLOURS[number]};stroke-width:1.6"/>'
             ends = " … ".join(words.decimal(f"{value:.4g}") for value in (low, high))
             shown = f"{name}, {unit_text(unit, words)}  {ends}"
-            yield _text(0, top - 3, shown, _COLOURS[number])
+            yield _text(0, top - 5, shown, _COLOURS[number])
 
 
 def _together(angle: Real, curves: Sequence[tuple[str, Real]], words: Words) -> Iterator[str]:
@@ -171,7 +185,11 @@ def _together(angle: Real, curves: Sequence[tuple[str, Real]], words: Words) -> 
         y = top + (high - values) / (high - low) * tall
         points = " ".join(f"{a:.2f},{b:.2f}" for a, b in zip(x[::_EVERY], y[::_EVERY], strict=True))
         yield f'<polyline points="{points}" style="fill:none;stroke:{_COLOURS[number]};stroke-width:1.6"/>'
-        ends = (words.decimal(f"{value:.4g}") for value in (float(values.min()), float(values.max())))
+        # what rounding leaves of 0 is 0
+        told = (
+            value if abs(value) > 1e-12 * (high - low) else 0.0 for value in map(float, (values.min(), values.max()))
+        )
+        ends = (words.decimal(f"{value:.4g}") for value in told)
         yield _text(0, 12 + 18 * number, f"{name}  {' … '.join(ends)}", _COLOURS[number])
 
 
@@ -197,6 +215,7 @@ class _View:
 def _plan(plan: Plan) -> Iterator[str]:
     ends = [v.end for v in plan.vectors] + [v.start for v in plan.vectors] + [0j]
     view = _View(np.array(ends))
+    names, colours = [], []
     for number, vector in enumerate(plan.vectors):
         colour = _COLOURS[number % len(_COLOURS)]
         yield view.line(np.array([vector.start, vector.end]), colour, 1.8)
@@ -208,11 +227,27 @@ def _plan(plan: Plan) -> Iterator[str]:
             tip = [(x1, y1), (x1 - 9 * dx + 3 * dy, y1 - 9 * dy - 3 * dx), (x1 - 9 * dx - 3 * dy, y1 - 9 * dy + 3 * dx)]
             told = " ".join(f"{x:.2f},{y:.2f}" for x, y in tip)
             yield f'<polygon points="{told}" style="fill:{colour}"/>'
-            yield _text((x0 + x1) / 2 + 8 * dy, (y0 + y1) / 2 - 8 * dx, vector.name, colour)
+            names.append(beside_line(vector.name, complex(x0, y0), complex(x1, y1)))
+            colours.append(colour)
+    lines = [line for v in plan.vectors for line in _seen(view, np.array([v.start, v.end]))]
+    yield from _named(names, lines, colours)
     x, y = view.at(0j)
     yield f'<circle cx="{x:.2f}" cy="{y:.2f}" r="3.5" style="fill:#202830"/>'
 
 
-def _text(x: float, y: float, text: str, colour: str) -> str:
-    style = f"font-family:sans-serif;font-size:13px;fill:{colour}"
+def _seen(view: _View, points: Complex) -> list[tuple[complex, complex]]:
+    """The lines of a chain as they are drawn, px."""
+    spots = [complex(*view.at(complex(p))) for p in points]
+    return list(pairwise(spots))
+
+
+def _named(names: Sequence[Name], lines: Sequence[tuple[complex, complex]], colours: Sequence[str]) -> Iterator[str]:
+    """Names where they have room; the colours begin anew after the last."""
+    for number, (name, at) in enumerate(zip(names, settled(names, lines, _FIELD), strict=True)):
+        # the foot of its letters lies 4 px below the middle
+        yield _text(at.real, at.imag + 4, name.text, colours[number % len(colours)], "middle")
+
+
+def _text(x: float, y: float, text: str, colour: str, anchor: str = "start") -> str:
+    style = f"font-family:sans-serif;font-size:13px;text-anchor:{anchor};fill:{colour}"
     return f'<text x="{x:.2f}" y="{y:.2f}" style="{style}">{html.escape(text)}</text>'

@@ -490,11 +490,14 @@ class _Page:
             if share is not None:
                 places["S2"] = (1 - share) * places["A"] + share * places["B"]
             shown.append(places)
+        blocks = {"A": complex(self.at.links["3"][0])} if self.at.reach is not None else {}
+        if self._slides:
+            blocks[self._output] = cmath.exp(1j * math.radians(self.keys.guide_angle_deg))
         self.page.picture = LeverPicture(
             {name: complex(place) for name, place in shown[0].items()},
             shown[1],
             fixed,
-            self.at.reach is not None,
+            blocks,
             *plans,
             self._diagram(),
             run,

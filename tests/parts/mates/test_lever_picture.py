@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from exporters.documents.topics import calculate
 from parts.base.texts import words
 from parts.mates.pages.lever_picture import LeverPicture, Plan, Run, Vector
 
@@ -28,7 +30,9 @@ COLOURS = ("#c03020", "#2060c0", "#209050", "#a06000", "#8030a0", "#008090", "#6
 
 @cache
 def drawn(stone: bool = False, run: bool = True) -> ET.Element:
-    picture = LeverPicture(POINTS, PATHS, FIXED, stone, SPEEDS, SPEEDS, TRAVEL, RUN if run else None)
+    # the stone lies along O3A, the block at B along a guide at 30 degrees
+    blocks = {"A": 2j, "B": np.exp(1j * np.pi / 6)} if stone else {}
+    picture = LeverPicture(POINTS, PATHS, FIXED, blocks, SPEEDS, SPEEDS, TRAVEL, RUN if run else None)
     return ET.fromstring(picture.svg(words("en")))
 
 
@@ -54,6 +58,13 @@ def centre(circle: ET.Element) -> complex:
 def side() -> float:
     """The width of a panel's field: that of its axis of angles."""
     return float(next(panel("Reduced").iter(f"{SVG}line")).attrib["x2"])
+
+
+def corners(text: ET.Element) -> list[complex]:
+    """Of the room that a name takes, letters of 13 px being hardly wider than 7.5 on the whole, y up."""
+    assert style(text)["text-anchor"] == "middle"
+    foot, half = complex(float(text.attrib["x"]), -float(text.attrib["y"])), 7.5 * len(str(text.text)) / 2
+    return [foot + x + 1j * y for x in (-half, half) for y in (-2.5, 9.5)]
 
 
 def corner(group: ET.Element) -> complex:
@@ -93,10 +104,8 @@ def test_the_scheme_fills_its_panel_by_one_scale() -> None:
         assert text.text == name
         assert centre(circle) == pytest.approx(at(known[name]), abs=0.0071)
         assert style(circle)["fill"] == ("#202830" if name in FIXED else "#ffffff")
-        # to the right of the joint and above it, clear of its ring
-        beside = complex(float(text.attrib["x"]), -float(text.attrib["y"])) - centre(circle)
-        assert beside.real == beside.imag
-        assert 4 + 2 / 2 < abs(beside) < 15
+        # near its joint, clear of its ring: no corner of 8 px letters is within, and all are within 40 px
+        assert 4 + 2 / 2 < min(abs(spot - centre(circle)) for spot in corners(text)) < 40
     lines = list(group.iter(f"{SVG}polyline"))
     for line, path in zip(lines, PATHS.values(), strict=False):
         # each tenth place, and back to the first
@@ -112,7 +121,8 @@ def test_the_scheme_fills_its_panel_by_one_scale() -> None:
 def test_a_stone_lies_along_its_guide_and_no_rod_joins_it_to_the_rocker() -> None:
     group = panel("Scheme", drawn(stone=True))
     assert len(list(group.iter(f"{SVG}polyline"))) == 2 + 3
-    (stone,) = group.iter(f"{SVG}rect")
+    stone, block = group.iter(f"{SVG}rect")
+    assert block.attrib["transform"].endswith("rotate(-30.000)")
     place = stone.attrib["transform"]
     x, y = map(float, place[len("translate(") : place.index(")")].split())
     joint = [centre(c) for c in group.iter(f"{SVG}circle")][2]
@@ -125,7 +135,7 @@ def test_a_stone_lies_along_its_guide_and_no_rod_joins_it_to_the_rocker() -> Non
     assert not list(panel("Scheme").iter(f"{SVG}rect"))
 
 
-def test_a_plan_shows_its_vectors_with_arrows_at_their_ends_and_names_on_their_left() -> None:
+def test_a_plan_shows_its_vectors_with_arrows_at_their_ends_and_names_beside_them() -> None:
     """6 wide and 4 high: the width decides, (0, 2) lies in the middle."""
 
     def at(z: complex) -> complex:
@@ -149,14 +159,48 @@ def test_a_plan_shows_its_vectors_with_arrows_at_their_ends_and_names_on_their_l
         # 9 long and 6 wide, the same on both sides
         assert sides == pytest.approx([-9 + 3j, -9 - 3j], abs=0.015)
         assert style(arrow)["fill"] == style(name)["fill"] == colour
-        beside = complex(float(name.attrib["x"]), -float(name.attrib["y"])) - at((vector.start + vector.end) / 2)
-        assert beside / along == pytest.approx(8j, abs=0.0142)
+        seen = np.array([(spot - at(vector.start)) / along for spot in corners(name)])
+        # on one side of it, near, between its ends
+        assert (np.sign(seen.imag) == np.sign(seen.imag[0])).all()
+        assert 1 < min(abs(seen.imag)) < 30
+        assert 0 < seen.real.mean() < abs(at(vector.end) - at(vector.start))
     assert len(arrows) == 3
+
+
+@pytest.mark.parametrize("assignment", range(1, 11))
+def test_names_stand_off_lines_and_off_each_other(assignment: int, tmp_path: Path) -> None:
+    """Scheme and plans of a mechanism with all its loads: lines by many points of them, names by their rooms."""
+    file, loads = tmp_path / "lever.svg", ["masses.1=5", "centres.1=20", "masses.2=3", "masses.3=20"]
+    loads += ["resistance=1000"] if assignment < 10 else ["resisting_moment=100"]
+    loads += [] if assignment in (8, 9) else ["masses.4=6", "masses.5=40"]
+    calculate("lever", [f"assignment={assignment}", "variant=9", *loads, f"picture={file}"], "text", "en")
+    seen = 0
+    for group in ET.parse(file).getroot().iter(f"{SVG}g"):
+        title, *texts = group.iter(f"{SVG}text")
+        if not str(title.text).startswith(("Scheme", "Plan")):
+            continue
+        runs = [chain(line) for line in group.iter(f"{SVG}polyline")]
+        steps = np.linspace(0, 1, 800)
+        spots = np.concatenate([np.outer(1 - steps, run[:-1]) + np.outer(steps, run[1:]) for run in runs], axis=None)
+        rooms = [(corners(text)[0], corners(text)[-1]) for text in texts]
+        for k, (low, high) in enumerate(rooms):
+            within = (
+                (spots.real > low.real) & (spots.real < high.real) & (spots.imag > low.imag) & (spots.imag < high.imag)
+            )
+            assert not within.any(), (title.text, texts[k].text)
+            for j, (other, end) in enumerate(rooms[:k]):
+                apart = high.real < other.real or end.real < low.real or high.imag < other.imag or end.imag < low.imag
+                assert apart, (title.text, texts[k].text, texts[j].text)
+            # within the panel and the room about it
+            assert -34 < low.real < high.real < side() + 34
+            assert -side() - 34 < low.imag < high.imag < 11
+        seen += len(rooms)
+    assert seen > 15
 
 
 def test_colours_of_a_plan_begin_anew_after_the_last() -> None:
     many = Plan(tuple(Vector(f"v{k}", 0j, np.exp(0.5j * k)) for k in range(10)), 1.0)
-    picture = LeverPicture(POINTS, PATHS, FIXED, False, many, SPEEDS, TRAVEL)
+    picture = LeverPicture(POINTS, PATHS, FIXED, {}, many, SPEEDS, TRAVEL)
     lines = panel("Plan of velocities", ET.fromstring(picture.svg(words("en")))).iter(f"{SVG}polyline")
     assert [style(line)["stroke"] for line in lines] == [*COLOURS, *COLOURS[:2]]
 
@@ -168,7 +212,7 @@ def test_plans_of_forces_stand_behind_the_other_panels() -> None:
         return (z - (2 + 1.5j)) * side() / 4 + side() * (0.5 - 0.5j)
 
     chain_of = (Vector("R_12", 0j, 4 + 0j), Vector("G_2", 4 + 0j, 4 + 3j), Vector("R_32", 4 + 3j, 0j))
-    picture = LeverPicture(POINTS, PATHS, FIXED, False, SPEEDS, SPEEDS, TRAVEL, None, (("Links", Plan(chain_of, 1.0)),))
+    picture = LeverPicture(POINTS, PATHS, FIXED, {}, SPEEDS, SPEEDS, TRAVEL, None, (("Links", Plan(chain_of, 1.0)),))
     root = ET.fromstring(picture.svg(words("en")))
     groups = list(root.iter(f"{SVG}g"))
     assert [str(next(iter(g)).text) for g in groups][4:] == ["Links"]
@@ -247,7 +291,7 @@ def test_curves_in_one_field_have_one_scale(
 def test_an_output_that_rests_is_drawn_on_its_axis() -> None:
     still = np.zeros(361)
     run = Run(ANGLE + 30, still, 0.0, still, still, still)
-    picture = LeverPicture({"A": 1j}, {"A": np.full(361, 1j)}, {"O1": 1j}, False, Plan((), 1.0), Plan((), 1.0),
+    picture = LeverPicture({"A": 1j}, {"A": np.full(361, 1j)}, {"O1": 1j}, {}, Plan((), 1.0), Plan((), 1.0),
                            (ANGLE + 30, still, still, still), run)  # fmt: skip
     root = ET.fromstring(picture.svg(words("en")))
     for name in ("Output", "Reduced", "Gained"):
