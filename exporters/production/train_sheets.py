@@ -40,7 +40,7 @@ def _meshes(placing: Placing) -> list[Rolling]:
     """The meshes of gears that move."""
     if placing.train is None:
         return []
-    gears = {(m.first.id, m.second.id) for m in placing.mates if isinstance(m.mating, Toothed) and m.mating.pair}
+    gears = {(m.first.id, m.second.id) for m in placing.mates if isinstance(m.mating, Toothed) and m.mating.in_scheme}
     moved = placing.train.moving
     rolling = [
         j for j in moved.stands.mechanism.joints if isinstance(j, Rolling) and j.kind in ("external", "internal")

@@ -194,6 +194,11 @@ class Toothed(Touching, kw_only=True):
     pair: ExternalPair | InternalPair | RackPair | None = None
     face: CommonFace = STRAIGHT
 
+    @property
+    def in_scheme(self) -> bool:
+        """Whether the scheme of a train shows it: gears of one ratio all round."""
+        return self.pair is not None
+
 
 class MateKind(Generic[K, A, B]):
     """A kind of mate. ``K``: its keys (a msgspec struct, tagged with its name), ``A``, ``B``: things of both parts.

@@ -5,8 +5,12 @@ from __future__ import annotations
 import cmath
 from typing import TYPE_CHECKING, Annotated, Any
 
+from msgspec import Struct
+
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
 from parts.base.mate import End, MateKind, Pose, Standing, Toothed
+from parts.gears.cycloidal_gear.part import CycloidalGearSpec
 from parts.keys.base import mm
 from parts.keys.mate import GearPairKeys
 from parts.mates.sizes import same_size, turn_off
@@ -36,6 +40,7 @@ class CycloidalGearMating(Toothed):
     """Two gears whose pitch circles roll on each other."""
 
     gears: CycloidalPair
+    in_scheme = True
 
     @property
     def joints(self) -> tuple[Joint, ...]:
@@ -86,6 +91,16 @@ class CycloidalGearPair(MateKind[CycloidalGearPairSpec, "CycloidalGear", "Cycloi
 
     name, keys = "cycloidal_gear_pair", CycloidalGearPairSpec
     joins = (("cycloidal_gear", "cycloidal_gear"),)
+
+    def check(self, keys: CycloidalGearPairSpec, first: Struct, second: Struct) -> None:
+        """The teeth that each is made for are those of the other, unless circles of their own say how both roll."""
+        assert isinstance(first, CycloidalGearSpec)
+        assert isinstance(second, CycloidalGearSpec)
+        for own, other, owner in ((first, second, "first."), (second, first, "")):
+            of_teeth = own.tip_rolling_diameter is None and other.root_rolling_diameter is None
+            if of_teeth and own.module == other.module and own.mate_teeth != other.number_of_teeth:
+                cure = Nearest(other.number_of_teeth)
+                raise ParameterError(f"{owner}mate_teeth", own.mate_teeth, "not_of_its_mate", cure)
 
     def thinning(
         self, keys: CycloidalGearPairSpec, first: End[CycloidalGear], second: End[CycloidalGear]

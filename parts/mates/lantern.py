@@ -30,6 +30,7 @@ class LanternMating(Toothed):
     """A lantern and its gear."""
 
     gear: LanternGear
+    in_scheme = True
 
     @property
     def ratio(self) -> float:

@@ -37,6 +37,9 @@ REASONS = {
     "leaves_no_flank": N_("leaves no flank"),
     "leaves_no_tooth": N_("leaves no tooth"),
     "made_by_cutter": N_("must be left out: the cutter makes the root, by its own addendum and tip rounding"),
+    "mates_root_flanks_undercut": N_(
+        "is more than half the mate's pitch diameter: the mate's root flanks would be undercut"
+    ),
     "no_chamfer_on_helix": N_("is not for helical teeth"),
     "no_holes_in_helical_rack": N_("helical racks have none; remove holes"),
     "no_involute_below_tip": N_("no part of the involute is left below the tip circle"),

@@ -43,7 +43,8 @@ MATES: dict[str, Text] = {
     ),
     "cycloidal_gear_pair": N_(
         "cycloidal pair {first} - {second}: a_w = {working_centre_distance:.5f} mm, ratio {gear_ratio:.6g}, "
-        "contact ratio {contact_ratio:.4f}, {recess_ratio:.4f} of it beyond the line of centres"
+        "contact ratio {contact_ratio:.4f}: where {first} drives, {approach_ratio:.4f} before the line of centres, "
+        "{recess_ratio:.4f} beyond"
     ),
     "linkage_member": N_("{second}: {member} of the linkage of {first}, turns by {swing_deg:.6g} deg"),
     "wedge_follower": N_("{first}, slid {plate_travel:.6g} mm, moves {second} by {travel:.6g} {unit} in all"),

@@ -336,6 +336,18 @@ def checked_cycloidal_gear(gear: CycloidalGear) -> CycloidalGear:
     ParameterError
         A circle that rolls inside and is too large, pointed tips, roots without room; names the key and what works.
     """
+    _check_root(checked_tips(gear))
+    return gear
+
+
+def checked_tips(gear: CycloidalGear) -> CycloidalGear:
+    """The same gear, if its circles roll and its tips stand: of a mate no more is asked.
+
+    Raises
+    ------
+    ParameterError
+        As ``checked_cycloidal_gear``, but for the roots.
+    """
     if gear.tip_rolling_radius > (most := _MOST_CIRCLE * gear.pitch_radius):
         given = 2 * gear.tip_rolling_radius
         raise ParameterError("tip_rolling_diameter", given, "circle_all_but_straight", limit(2 * most, given, digits=6))
@@ -348,7 +360,6 @@ def checked_cycloidal_gear(gear: CycloidalGear) -> CycloidalGear:
             limit(2 * most, 2 * gear.root_rolling_radius, digits=6),
         )
     _check_tip(gear)
-    _check_root(gear)
     return gear
 
 

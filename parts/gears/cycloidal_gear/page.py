@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from msgspec import Meta
 
-from geometry.base.record import replace
-from geometry.gears.cycloidal.gear import CycloidalGear, checked_cycloidal_gear, cycloidal_findings
+from geometry.base.errors import ParameterError
+from geometry.gears.cycloidal.gear import CycloidalGear, checked_tips, cycloidal_findings
 from geometry.gears.cycloidal.pair import CycloidalPair
 from parts.base.texts import N_, message
 from parts.gears.cycloidal_gear.part import CYCLOIDAL_GEAR, CycloidalGearSpec
 from parts.keys.base import in_modules
-from parts.pages.inputs import calculation, part_of_kind
+from parts.pages.inputs import SceneKeys, calculation, part_of_kind
 from parts.pages.page import Sheet, Table
 from parts.texts.findings import finding_message
 
 TOPIC = "cycloidal-gear"
-table_from = part_of_kind("cycloidal_gear")
+_own_keys = part_of_kind("cycloidal_gear")
+# the key that tells what the mate has
+_OF_MATE = {"addendum_coefficient": "mate_addendum_coefficient", "tip_rolling_diameter": "root_rolling_diameter"}
 _SOURCE = "Litvin, Fuentes, Gear Geometry, 13"
 
 
@@ -31,6 +33,23 @@ class CycloidalGearKeys(CycloidalGearSpec, kw_only=True, tag=False, forbid_unkno
         | None
     ) = None
     rows: Annotated[int, Meta(ge=2, le=2000, description="rows of each table of the flank")] = 9
+
+
+def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The keys of a part of a scene and the tips of what it meshes with there, changed by those of ``table``."""
+    part = table.get("part")
+    found = _own_keys(scene, source, table)
+    for mate in scene.mates:
+        if mate.__struct_config__.tag != "cycloidal_gear_pair":
+            continue
+        ends = [str(scene.instances[getattr(mate, key)].part) for key in ("first", "second")]
+        # where no part is named there is but one
+        if part is None or part in ends:
+            other = scene.parts[ends[ends[0] == part]]
+            assert isinstance(other, CycloidalGearSpec)
+            tips = {"mate_teeth": other.number_of_teeth, "mate_addendum_coefficient": other.addendum_coefficient}
+            return tips | found
+    return found
 
 
 @calculation(TOPIC, CycloidalGearKeys)
@@ -50,20 +69,18 @@ def sheet(keys: CycloidalGearKeys) -> Sheet:
 
 
 def _mate(keys: CycloidalGearKeys, gear: CycloidalGear) -> CycloidalGear:
-    """The mate, drawn by the same circles, as deep as the gear's tips ask for."""
+    """The mate, drawn by the same circles; of it the tips alone count."""
     assert keys.mate_teeth is not None
-    own = gear.addendum_coefficient
-    height = own if keys.mate_addendum_coefficient is None else keys.mate_addendum_coefficient
-    return checked_cycloidal_gear(
-        replace(
-            gear,
-            number_of_teeth=keys.mate_teeth,
-            tip_rolling_radius=gear.root_rolling_radius,
-            root_rolling_radius=gear.tip_rolling_radius,
-            addendum_coefficient=height,
-            given_root_rounding=None,
-        )
-    )
+    own = keys.mate_addendum_coefficient
+    height = gear.addendum_coefficient if own is None else own
+    circles = gear.root_rolling_radius, gear.tip_rolling_radius
+    try:
+        return checked_tips(CycloidalGear(keys.mate_teeth, gear.module, *circles, height))
+    except ParameterError as refusal:
+        if refusal.code == "root_flanks_undercut":
+            key, code = "tip_rolling_diameter", "mates_root_flanks_undercut"
+            raise ParameterError(key, refusal.value, code, refusal.nearest) from refusal
+        raise refusal.renamed(_OF_MATE[refusal.name]) from refusal
 
 
 def _given(page: Sheet, gears: list[CycloidalGear]) -> None:

@@ -12,7 +12,10 @@ import pytest
 
 from exporters.documents.render import SPOKEN, render
 from exporters.documents.topics import calculate, sheet_of
+from exporters.production.check import scene_checks
+from exporters.production.plan import plan_build
 from parts.base.texts import words
+from parts.scene.load import load_scene
 from tests.exporters.command.test_cli import complaint
 from tests.exporters.documents.test_calc import evaluated
 from tests.oracles.pin_sweep import disc_pins, lantern_pins, least_distance
@@ -21,6 +24,7 @@ DISC = ("number_of_lobes=9", "pin_circle_diameter=90", "pin_diameter=9", "eccent
         "pin_circle_shift=0.2")  # fmt: skip
 LANTERN = ("number_of_teeth=24", "number_of_pins=8", "pin_circle_diameter=60", "pin_diameter=8", "pin_clearance=0.05",
            "root_clearance=0.2")  # fmt: skip
+CLOCK = ("cycloidal-gear", "module=2", "number_of_teeth=60", "mate_teeth=8")
 OVAL = ("centrode=oval", "axis_ratio=1.4", "number_of_teeth=42", "module=2", "step=15")
 ELLIPSE = ("centrode=focal_ellipse", "eccentricity=0.4", "number_of_teeth=35", "module=2", "step=15")
 RATIO = ("centrode=ratio", "number_of_teeth=24", "mate_number_of_teeth=48", "centre_distance=120",
@@ -232,6 +236,29 @@ def test_a_given_ratio_is_met_and_closes() -> None:
     assert values["greatest_ratio"] == pytest.approx(max(fine), rel=1e-8)
 
 
+def test_a_gear_of_a_scene_runs_with_the_tips_that_its_mate_has_there() -> None:
+    """The tips of the scene's pinion are lower than its wheel's; before the line and beyond change."""
+    wheel, pinion = (calculated("cycloidal-gear", "clock_gears", f"part={part}") for part in ("wheel", "pinion"))
+    scene = load_scene("clock_gears")
+    (mate,) = scene_checks(plan_build(scene, "t", [], []).placing, {}, scene.drives, "en", contact=False)["mates"]
+    for key, mirrored in (("approach", "recess"), ("recess", "approach")):
+        assert wheel["values"][f"{key}_contact_ratio"] == pytest.approx(mate[f"{key}_ratio"], rel=1e-12)
+        assert pinion["values"][f"{key}_contact_ratio"] == pytest.approx(mate[f"{mirrored}_ratio"], rel=1e-12)
+    assert wheel["values"]["bottom_clearance_at_root"] == pytest.approx(3.0 * (1.25 - 0.7))
+    assert (wheel["notes"], pinion["notes"]) == ([], [])
+    other = calculated("cycloidal-gear", "clock_gears", "part=wheel", "mate_addendum_coefficient=1.3")
+    assert other["values"]["bottom_clearance_at_root"] == pytest.approx(3.0 * (1.25 - 1.3))
+
+
+def test_of_a_mate_the_tips_alone_are_asked() -> None:
+    """Roots as deep and teeth as thin as a wheel of 60 can have, and a pinion of 8 cannot."""
+    plain, deep = (calculated(*CLOCK, *more)["values"] for more in ((), ("dedendum_coefficient=5",)))
+    assert deep["approach_contact_ratio"] == plain["approach_contact_ratio"]
+    thin = calculated(*CLOCK[:2], "number_of_teeth=8", "mate_teeth=60", "addendum_coefficient=0.5",
+                      "circumferential_thinning=1.8", "mate_addendum_coefficient=1.3")  # fmt: skip
+    assert thin["values"]["approach_contact_ratio"] > 0
+
+
 def test_the_rule_for_equal_ovals_is_told() -> None:
     assert any("two equal parts mesh" in n for n in calculated("noncircular", *OVAL)["notes"])
     other = calculated("noncircular", *OVAL[:2], "number_of_teeth=44", *OVAL[3:])
@@ -247,6 +274,8 @@ def test_the_rule_for_equal_ovals_is_told() -> None:
         (("lantern", "lantern_pair", "pin_diameter=25"), "works"),
         (("lantern", "number_of_teeth=12"), "number_of_pins"),
         (("lantern", "practicum_pair", "part=wheel"), "the scene has no lantern_gear"),
+        ((*CLOCK, "mate_addendum_coefficient=4"), "mate_addendum_coefficient = 4.0: the tooth is pointed"),
+        ((*CLOCK[:3], "tip_rolling_diameter=30", "mate_teeth=10"), "gear.tip_rolling_diameter = 30.0: is more than"),
         (("noncircular", "oval_gears"), "oval, ellipse; add part=ID"),
         (("noncircular", *OVAL[:1], "axis_ratio=3", *OVAL[2:]), "works"),
         (("noncircular", *OVAL, "stp=3"), "did you mean step"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
@@ -18,6 +19,7 @@ from parts.base.refusal import SceneError
 from parts.drawing.choice import Asked
 from parts.mates.sheets.train_picture import Link, Rim, TrainPicture
 from parts.mates.sheets.train_sheet import train_sheet
+from parts.scene.files import built_in_scenes
 from parts.scene.load import scene_from_dict, scene_from_toml
 from tests.parts.scene.test_trains import DRIVE, FREE, GEAR, JAMES
 
@@ -135,3 +137,15 @@ def test_what_no_drive_turns_is_refused() -> None:
     for text in (FREE + SHEET, GEAR.format("a", 20) + '[[drives]]\ninstance = "a"\n' + SHEET):
         with pytest.raises(SceneError, match="shows gears that a drive turns"):
             plan_build(scene_from_toml(text.encode(), "s.toml", "s"), "s", [], [])
+
+
+@pytest.mark.parametrize(("scene", "teeth"), [("clock_gears", (60, 8)), ("lantern_pair", (10, 30))])
+def test_clock_gears_and_lanterns_are_gears_too(tmp_path: Path, scene: str, teeth: tuple[int, int]) -> None:
+    """u12 = -z2/z1."""
+    raw = tomllib.loads(built_in_scenes()[scene].read_text(encoding="utf-8"))
+    raw["exports"] = [{"format": "sheet", "purpose": "train"}]
+    assert build(plan_build(scene_from_dict(raw, "s", "s"), "s", [], []), tmp_path).well
+    (file,) = tmp_path.glob("*.train.dxf")
+    texts = [text.dxf.text for text in ezdxf.readfile(file).modelspace().query("TEXT")]
+    (ratio,) = (float(texts[k + 2]) for k, text in enumerate(texts) if text == "u")
+    assert ratio == pytest.approx(-teeth[1] / teeth[0], rel=1e-5)

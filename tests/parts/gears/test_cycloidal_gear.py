@@ -14,6 +14,7 @@ from exporters.production.build import build
 from exporters.production.check import scene_checks
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
+from parts.gears.cycloidal_gear.drawing import data_table
 from parts.scene.load import load_scene, make_parts, scene_from_dict
 
 WHEEL: dict[str, Any] = {"kind": "cycloidal_gear", "module": 2.0, "number_of_teeth": 60, "mate_teeth": 8}
@@ -52,8 +53,23 @@ def test_backlash_thins_both_and_a_drive_goes_through() -> None:
     ("wheel", "pinion", "key", "code", "value"),
     [
         ({}, {"module": 2.5}, "mates[1]: parts.pinion.module", "not_that_of_mate", 2.0),
-        ({}, {"mate_teeth": 50}, "mates[1]: parts.pinion.tip_rolling_diameter", "not_the_mates_root_circle", 60.0),
-        ({"mate_teeth": 9}, {}, "mates[1]: parts.pinion.root_rolling_diameter", "not_the_mates_tip_circle", None),
+        ({}, {"mate_teeth": 50}, "mates[1]: parts.pinion.mate_teeth", "not_of_its_mate", 60),
+        ({"mate_teeth": 9}, {}, "mates[1]: parts.wheel.mate_teeth", "not_of_its_mate", 8),
+        ({}, {"number_of_teeth": 9}, "mates[1]: parts.wheel.mate_teeth", "not_of_its_mate", 9),
+        (
+            {},
+            {"tip_rolling_diameter": 50.0},
+            "mates[1]: parts.pinion.tip_rolling_diameter",
+            "not_the_mates_root_circle",
+            60.0,
+        ),
+        (
+            {"tip_rolling_diameter": 9.0},
+            {},
+            "mates[1]: parts.pinion.root_rolling_diameter",
+            "not_the_mates_tip_circle",
+            None,
+        ),
         (
             {"tip_rolling_diameter": 7.0},
             {},
@@ -66,13 +82,15 @@ def test_backlash_thins_both_and_a_drive_goes_through() -> None:
 def test_gears_that_are_no_pair_are_told_the_mate_s_circle(
     wheel: dict[str, Any], pinion: dict[str, Any], key: str, code: str, value: float | None
 ) -> None:
-    """A circle of nine teeth is larger than half of the pinion: no value of the key makes these two a pair."""
+    """In the key that was typed; a circle of 9 mm is more than half of the pinion: no value of that key cures it."""
     found = refused(scene_of(wheel, pinion))
     assert (found.key, found.code) == (key, code)
     cure = found.nearest
     assert (None if cure is None else cure.value) == value
     if value is not None:
-        make_parts(scene_of(wheel, pinion | {key.removeprefix("mates[1]: parts.pinion."): value}), "t")
+        owner, _, name = key.removeprefix("mates[1]: parts.").partition(".")
+        cured = {"wheel": wheel, "pinion": pinion}
+        make_parts(scene_of(**(cured | {owner: cured[owner] | {name: value}})), "t")
 
 
 def test_what_is_missing_is_named() -> None:
@@ -109,3 +127,12 @@ def test_a_drawing_file_has_the_path_of_a_rolled_circle(tmp_path: Path) -> None:
     off = (math.radians(1.5) - beyond - from_middle) * np.abs(tips)
     # across the flank it is less than along the circle
     assert np.abs(off).max() < 3e-6
+
+
+def test_a_drawing_asks_nothing_of_a_mate_that_stands_nowhere() -> None:
+    """A pinion with tips as high as this wheel's would be pointed, and with roots as deep have no body."""
+    for high_or_deep in ({"addendum_coefficient": 1.545}, {"dedendum_coefficient": 5.0}):
+        scene = scene_from_dict({"parts": {"wheel": WHEEL | high_or_deep}}, "t", "t")
+        parts, _ = make_parts(scene, "t")
+        table = data_table(parts["wheel"], scene, ())
+        assert [row.value for row in table.parts[0][:4]] == [2.0, 60, 4.0, 30.0]
