@@ -244,10 +244,10 @@ def test_a_gear_of_a_scene_runs_with_the_tips_that_its_mate_has_there() -> None:
     for key, mirrored in (("approach", "recess"), ("recess", "approach")):
         assert wheel["values"][f"{key}_contact_ratio"] == pytest.approx(mate[f"{key}_ratio"], rel=1e-12)
         assert pinion["values"][f"{key}_contact_ratio"] == pytest.approx(mate[f"{mirrored}_ratio"], rel=1e-12)
-    assert wheel["values"]["bottom_clearance_at_root"] == pytest.approx(3.0 * (1.25 - 0.7))
+    assert wheel["values"]["bottom_clearance_at_root"]["first"] == pytest.approx(3.0 * (1.25 - 0.7))
     assert (wheel["notes"], pinion["notes"]) == ([], [])
     other = calculated("cycloidal-gear", "clock_gears", "part=wheel", "mate_addendum_coefficient=1.3")
-    assert other["values"]["bottom_clearance_at_root"] == pytest.approx(3.0 * (1.25 - 1.3))
+    assert other["values"]["bottom_clearance_at_root"]["first"] == pytest.approx(3.0 * (1.25 - 1.3))
 
 
 def test_of_a_mate_the_tips_alone_are_asked() -> None:
