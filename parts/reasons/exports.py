@@ -69,7 +69,9 @@ REASONS = {
     ),
     "worm_contact_turns": N_("the contact turns back on the flanks of this pair: its lines are not drawn"),
     "shows_gear_pairs": N_("shows pairs of involute gears or worms only; remove the export or change its purpose"),
-    "shows_driven_gears": N_("shows gears that a drive turns; add mates of gears and [[drives]] or remove the export"),
+    "shows_driven_gears": N_(
+        "shows gears on parallel axes that a drive turns; add mates of such gears and [[drives]] or remove the export"
+    ),
     "workspace_of_turns": N_(
         "is only for drives that turn everything evenly, which {free} does not do; without this key the "
         "motion is checked along the drives"

@@ -9,11 +9,12 @@ from parts.base.refusal import SceneError
 from parts.mates.pages.train import sheet
 
 if TYPE_CHECKING:
+    from geometry.base.placement import Vector
     from geometry.kinematics.mechanism import Mechanism, Rolling
     from parts.scene.load import SceneFile
 
 __all__ = ["sheet", "table_from"]
-_KINDS = ("external", "internal")
+_KINDS = ("external", "internal", "bevel")
 # what a satellite meshes, how, and both numbers of teeth
 Side = tuple[str, str, tuple[int, int]]
 
@@ -29,7 +30,8 @@ def table_from(scene: SceneFile, source: str, table: dict[str, Any]) -> dict[str
         placing = place(scene.instances, scene.drives, parts, matings, source)
         stand = {one.id: one for one in placing.instances}
         held = [key for key, spec in scene.instances.items() if spec.held is True]
-        known = _Scene(scene_mechanism(stand, matings, held))
+        axes = {key: one.axis for key, one in stand.items()}
+        known = _Scene(scene_mechanism(stand, matings, held), axes)
     if not known.meshes:
         raise SceneError(source, "mates", None, "no_gear_pair")
     modules = {key: getattr(scene.parts[spec.part or key], "module", None) for key, spec in scene.instances.items()}
@@ -43,11 +45,11 @@ def table_from(scene: SceneFile, source: str, table: dict[str, Any]) -> dict[str
 class _Scene:
     """Bodies and meshes of a mechanism, without the satellites that stand beside equal ones."""
 
-    def __init__(self, mechanism: Mechanism) -> None:
+    def __init__(self, mechanism: Mechanism, axes: Mapping[str, Vector]) -> None:
         from geometry.kinematics.mechanism import FRAME, Revolute, Rolling, tree
 
         stands = tree(mechanism)
-        self.body = stands.body
+        self.body, self.axes = stands.body, axes
         self.held = {key for key in stands.order if stands.still(key)}
         self.carriers = {
             key: stands.body(joint.on)
@@ -64,6 +66,9 @@ class _Scene:
                 twins.add(key)
             kept.append((self.carriers[key], sides[key]))
         self.meshes = [m for m in self.meshes if not {self.body(m.first), self.body(m.second)} & twins]
+        # axes about which turns are told: those of carriers, then of wheels
+        ends = [key for mesh in self.meshes for key in (mesh.first, mesh.second)]
+        self.ways = [axes[key] for key in (*self.carriers.values(), *ends, *axes)]
 
     def _sides(self, body: str) -> Iterator[Side]:
         """What a satellite meshes, and how."""
@@ -120,7 +125,11 @@ class _Scene:
             title: ", ".join(shafts[b][0] for b, c in self.carriers.items() if c == carrier and b in shafts)
             for carrier, title in titles.items()
         }
-        inputs = {shafts[self.body(key)][0]: turns for key, turns in drives.items() if self.body(key) in shafts}
+        inputs = {
+            shafts[self.body(key)][0]: self._counted(key) * turns
+            for key, turns in drives.items()
+            if self.body(key) in shafts
+        }
         toothed = {key: z for mesh in self.meshes for key, z in zip((mesh.first, mesh.second), mesh.teeth, strict=True)}
         return {
             "teeth": {name: toothed[key] for key, name in names.items()},
@@ -134,5 +143,33 @@ class _Scene:
         }
 
     def _words(self, mesh: Rolling, names: dict[str, str], modules: dict[str, float | None]) -> str:
+        words = f"{names[mesh.first]}-{names[mesh.second]} {mesh.kind}"
+        if mesh.kind == "bevel":
+            # the module of its outer end gives no force of the middle
+            return words + {1: " +", -1: " -", 0: ""}[self._sense(mesh)]
         module = modules.get(mesh.first)
-        return f"{names[mesh.first]}-{names[mesh.second]} {mesh.kind}" + (f" {module:g}" if module else "")
+        return words + (f" {module:g}" if module else "")
+
+    def _sense(self, mesh: Rolling) -> int:
+        """Which way the second of a bevel pair turns; 0 where nothing depends on it: the guidelines tell no sign."""
+        moves = any(self.body(key) in self.carriers for key in (mesh.first, mesh.second))
+        if not moves and not self.is_differential:
+            return 0
+        return (1 if mesh.ratio > 0 else -1) * self._counted(mesh.first) * self._counted(mesh.second)
+
+    def _counted(self, key: str) -> int:
+        """-1 where the axis of an instance points against the first that is parallel: all turns are told about that."""
+        from geometry.kinematics.mechanism import parallel
+
+        return next(sense for way in self.ways if (sense := parallel(self.axes[key], way)))
+
+    @property
+    def is_differential(self) -> bool:
+        """Whether a carrier has no central wheel that is held."""
+        central: dict[str, set[str]] = {}
+        for mesh in self.meshes:
+            one, two = self.body(mesh.first), self.body(mesh.second)
+            for satellite, other in ((one, two), (two, one)):
+                if satellite in self.carriers:
+                    central.setdefault(self.carriers[satellite], set()).add(other)
+        return any(carrier not in self.held and not wheels & self.held for carrier, wheels in central.items())

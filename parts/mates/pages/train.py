@@ -51,7 +51,10 @@ class TrainKeys(Struct, forbid_unknown_fields=True):
         | None
     ) = None
     meshes: Annotated[
-        str, Meta(description="wheels in mesh, as 1-2, 2'-3 internal 3.5: kind and module where they differ")
+        str,
+        Meta(
+            description="wheels in mesh, as 1-2, 2'-3 internal 3.5: kind and module where they differ, + or - of bevels"
+        ),
     ] = ""
     shafts: Annotated[str, Meta(description="wheels of one shaft, as 2-3, H-5; 2 and 2' need no such word")] = ""
     carriers: Annotated[dict[str, Name], Meta(description="satellites of each carrier, as carriers.H=2")] = {}
@@ -279,6 +282,12 @@ class _Page:
             if found.degrees > 1:
                 kind = message("satellites turn about moving axes and W = {w}: a differential", w=found.degrees)
         page.notes.append(kind)
+        if train.across:
+            names = ", ".join(dict.fromkeys(map(self._name, (body for body in train.carried if body in train.across))))
+            text = N_("bevel satellites: turns of {links} are told against their carrier, of the others about its axis")
+            page.notes.append(message(text, links=names))
+        if any(mesh.sense and train.carrier(mesh) == FRAME for mesh in train.meshes):
+            page.notes.append(N_("signs of bevel pairs tell of turns about axes as they are laid"))
 
     def _module(self, mesh: Mesh) -> Fraction | None:
         return mesh.module or (None if self.module is None else _exact(self.module))
@@ -437,6 +446,7 @@ class _Page:
         train, bodies = self.train, self.train.bodies
         links = dict.fromkeys([bodies[stage.legs[0].start], bodies[stage.carrier]])
         links |= dict.fromkeys(bodies[name] for leg in stage.legs for name in (leg.start, leg.end))
+        links = {body: None for body in links if body not in train.across}
         unit = turns(train.mechanism(), [bodies[stage.start]])
         before = {body: sum(unit.of(body).values(), Fraction()) for body in links}
         stop = before[bodies[stage.carrier]]
@@ -485,11 +495,14 @@ class _Page:
             "total_ratio", float(ratio), formula, "practicum (2.3)" if formula else "", symbol=symbol, key="u_whole"
         )
         self._add("exact_ratio", str(ratio), symbol=symbol, key="u_exact")
-        same = (
-            N_("driver and driven link turn the same way")
-            if ratio > 0
-            else N_("driver and driven link turn in opposite ways")
-        )
+        if any(
+            m.kind in ("bevel", "worm") and not m.sense and self.train.carrier(m) == FRAME for m in self.train.meshes
+        ):
+            same = N_("the ratio of a bevel or worm pair has no sign, so that of the whole tells no directions")
+        elif ratio > 0:
+            same = N_("driver and driven link turn the same way")
+        else:
+            same = N_("driver and driven link turn in opposite ways")
         page.notes.append(same)
         if self.open:
             self._lost_figure(ratio)

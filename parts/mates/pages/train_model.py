@@ -11,9 +11,12 @@ from fractions import Fraction
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record
-from geometry.kinematics.mechanism import FRAME, Fixed, Kind, Mechanism, Revolute, Rolling
+from geometry.kinematics.mechanism import FRAME, Fixed, Kind, Mechanism, Revolute, Rolling, Z
 
 KINDS: tuple[Kind, ...] = ("external", "internal", "bevel", "worm")
+# of a bevel pair on a carrier: the word of its sign
+_SENSES = {"+": 1, "-": -1}
+_ACROSS = (1.0, 0.0, 0.0)
 _MESH = re.compile(r"\s*([^\s-]+)\s*-\s*([^\s-]+)((?:\s+\S+)*)\s*")
 
 
@@ -24,6 +27,8 @@ class Mesh(Record):
     second: str
     kind: Kind
     module: Fraction | None = None
+    # of a bevel pair on a carrier, where it is told: which way the second turns, as the carrier sees it
+    sense: int = 0
 
     @property
     def name(self) -> str:
@@ -46,17 +51,41 @@ class Train(Record):
         return one if one != FRAME else two
 
     def ratio(self, mesh: Mesh) -> Fraction:
-        """u_12 of a mesh as its carrier sees it: w1 / w2, below 0 where it is external."""
-        return Fraction(self.teeth[mesh.second], self.teeth[mesh.first]) * (-1 if mesh.kind == "external" else 1)
+        """u_12 of a mesh as its carrier sees it: w1 / w2, below 0 where it is external; bevels by ``sense``."""
+        return Fraction(self.teeth[mesh.second], self.teeth[mesh.first]) * self.sense(mesh)
+
+    def sense(self, mesh: Mesh) -> int:
+        """-1 where the second turns the other way, as the carrier sees it.
+
+        Bevels and worms on the frame have no sign (guidelines). Of a bevel satellite's meshes the first has -1, so that
+        central wheels, which are counted about one axis, turn in opposite ways: they face each other.
+        """
+        if mesh.kind != "bevel":
+            return -1 if mesh.kind == "external" else 1
+        own = {self.bodies[mesh.first], self.bodies[mesh.second]} & self.carried.keys()
+        first = next((m for m in self.meshes if own & {self.bodies[m.first], self.bodies[m.second]}), None)
+        return mesh.sense or (-1 if first == mesh else 1)
+
+    @property
+    def across(self) -> set[str]:
+        """Bodies of bevel satellites, whose axes are across that of their carrier."""
+        ends = {
+            self.bodies[wheel] for mesh in self.meshes if mesh.kind == "bevel" for wheel in (mesh.first, mesh.second)
+        }
+        return ends & self.carried.keys()
 
     def mechanism(self) -> Mechanism:
-        """All axes in one, which changes nothing of how a train turns."""
+        """All axes in one, which changes nothing of how a train turns; those of bevel satellites lie across it."""
         joints: list[Revolute | Fixed | Rolling] = []
+        across = self.across
         for name, body in self.bodies.items():
-            joints.append(Revolute(body, self.carried.get(body, FRAME)) if name == body else Fixed(name, body))
+            if name != body:
+                joints.append(Fixed(name, body))
+                continue
+            joints.append(Revolute(body, self.carried.get(body, FRAME), axis=_ACROSS if body in across else Z))
         for mesh in self.meshes:
             pair = self.teeth[mesh.first], self.teeth[mesh.second]
-            joints.append(Rolling(mesh.kind, mesh.first, mesh.second, pair, self.carrier(mesh)))
+            joints.append(Rolling(mesh.kind, mesh.first, mesh.second, pair, self.carrier(mesh), self.sense(mesh)))
         return Mechanism(tuple(joints), tuple(dict.fromkeys(self.bodies[name] for name in self.held)))
 
     def still(self, body: str) -> bool:
@@ -141,9 +170,11 @@ def _mesh(word: str, teeth: Mapping[str, int]) -> Mesh:
     if first == second:
         raise ParameterError("meshes", word, "rolls_on_itself")
     kind: Kind = "external"
-    module = None
+    module, sense = None, 0
     for more in rest:
-        if named := next((name for name in KINDS if name == more), None):
+        if more in _SENSES and kind == "bevel":
+            sense = _SENSES[more]
+        elif named := next((name for name in KINDS if name == more), None):
             kind = named
         elif re.fullmatch(r"\d+(\.\d+)?", more) and float(more) > 0:
             module = Fraction(more)
@@ -151,7 +182,7 @@ def _mesh(word: str, teeth: Mapping[str, int]) -> Mesh:
             raise ParameterError("meshes", word, "no_such_mesh", _meant(more), known=list(KINDS))
     if kind == "internal" and teeth[first] == teeth[second]:
         raise ParameterError("meshes", word, "ring_as_its_wheel")
-    return Mesh(first, second, kind, module)
+    return Mesh(first, second, kind, module, sense)
 
 
 def _meant(word: str) -> Nearest | None:
@@ -277,6 +308,6 @@ def central_ways(train: Train, carrier: str) -> list[tuple[Leg, ...]]:
 
 
 def satellites(train: Train) -> list[Stage]:
-    """Each satellite against its carrier where a wheel of its set is held."""
-    bodies = set(train.carried)
+    """Each satellite against its carrier where a wheel of its set is held; about axes along the carrier's."""
+    bodies = set(train.carried) - train.across
     return [stage for stage in _planetary(train) if train.bodies[stage.start] in bodies]

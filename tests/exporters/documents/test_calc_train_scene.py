@@ -83,3 +83,74 @@ def test_what_nothing_moves_is_named_by_number(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match="left free") as caught:
         calculated(tmp_path, DAVID.replace("held = true", ""))
     assert "H, 2, 3" in str(caught.value)
+
+
+BEVEL = '[parts.{}]\nkind = "bevel_gear"\nmodule = 2.0\nnumber_of_teeth = {}\nmate_teeth = {}\nface_width = 6.0\n'
+# an axle: the pinion turns the crown, which carries the satellites
+AXLE = (
+    "".join(BEVEL.format(*one) for one in (("side", 16, 10), ("sat", 10, 16), ("crown", 41, 11), ("pinion", 11, 41)))
+    + '[instances]\nleft = { part = "side" }\none = { part = "sat" }\nother = { part = "sat" }\n'
+    + 'right = { part = "side" }\n'
+    + '[[mates]]\nkind = "bevel_pair"\nfirst = "left"\nsecond = "one"\n'
+    + '[[mates]]\nkind = "bevel_pair"\nfirst = "left"\nsecond = "other"\ndirection_deg = 180.0\n'
+    + '[[mates]]\nkind = "bevel_pair"\nfirst = "one"\nsecond = "right"\n'
+    + '[[mates]]\nkind = "bevel_pair"\nfirst = "other"\nsecond = "right"\n'
+    + '[[mates]]\nkind = "coaxial"\nfirst = "left"\nsecond = "crown"\nheight = -30.0\n'
+    + '[[mates]]\nkind = "carried"\nfirst = "crown"\nsecond = "one"\n'
+    + '[[mates]]\nkind = "carried"\nfirst = "crown"\nsecond = "other"\n'
+    + '[[mates]]\nkind = "bevel_pair"\nfirst = "crown"\nsecond = "pinion"\n'
+)
+
+
+def speeds(data: dict[str, Any]) -> dict[str, float]:
+    return {step["symbol"]: step["value"] for step in data["steps"] if step["symbol"].startswith("ω")}
+
+
+def test_a_bevel_differential_by_willis() -> None:
+    """Side wheels sum up to twice the cage; a satellite turns against it by 24/16 of what a side wheel does."""
+    data = json.loads(calculate("train", ("bevel_differential",), "json", "en"))
+    assert data["exact_turns"] == {
+        "1": {"H": "0", "1": "1"},
+        "2": {"H": "3/2", "1": "-3/2"},
+        "3": {"H": "2", "1": "-1"},
+        "H": {"H": "1", "1": "0"},
+    }
+    assert speeds(data) == pytest.approx({"ω_H": 1.0, "ω_1": 1.5, "ω_2": -1.5 * (1.5 - 1.0), "ω_3": 2 * 1.0 - 1.5})
+    assert data["values"]["degree_of_freedom"] == 2
+
+
+@pytest.mark.parametrize("driven", ["left", "right"])
+def test_an_axle_turns_as_its_drives_do(driven: str, tmp_path: Path) -> None:
+    """Beside a differential the bevels' signs count: both apexes up, crown and pinion turn in opposite ways.
+
+    The axis of the right wheel points down: its own turn is told about that of the cage, against its sign.
+    """
+    drives = DRIVE.format("pinion", "turns = 41") + DRIVE.format(driven, "turns = 3")
+    data = calculated(tmp_path, AXLE + drives)
+    cage, wheel = -11.0, 3.0 if driven == "left" else -3.0
+    found = speeds(data)
+    names = dict(
+        reversed(pair.split())
+        for pair in next(n for n in data["notes"] if "in the scene" in n).split(": ")[1].split(", ")
+    )
+    assert found["ω_H"] == pytest.approx(cage)
+    assert found[f"ω_{names[driven]}"] == pytest.approx(wheel)
+    other = {"left": "right", "right": "left"}[driven]
+    assert found[f"ω_{names[other]}"] == pytest.approx(2 * cage - wheel)
+
+
+def test_a_reducer_of_bevel_and_spur_has_no_sign_of_its_bevels() -> None:
+    """Guidelines: the ratio of a bevel pair has no sign; nothing is said of directions then."""
+    data = json.loads(calculate("train", ("bevel_reducer",), "json", "en"))
+    assert data["exact"]["ratio"] == "-6"
+    for one in (data, json.loads(calculate("train", ("case=trains_3",), "json", "en"))):
+        assert not any("turn the same way" in note or "opposite ways" in note for note in one["notes"])
+        assert any("no sign" in note for note in one["notes"])
+
+
+def test_bevels_that_are_typed_face_each_other_unless_their_signs_are_told() -> None:
+    """Willis: with the last wheel held 1 - (-1) = 2; of wheels on one side of a stepped satellite 1 - 3."""
+    typed = ("teeth=[20,14,20]", "meshes=1-2 bevel, 2-3 bevel", "carriers.H=2", "held=3")
+    assert json.loads(calculate("train", typed, "json", "en"))["exact"]["ratio"] == "2"
+    stepped = ("teeth={'1'=20,'2'=40,\"2'\"=20,'3'=30}", "meshes=1-2 bevel -, 2'-3 bevel -", "carriers.H=2", "held=3")
+    assert json.loads(calculate("train", stepped, "json", "en"))["exact"]["ratio"] == "-2"
