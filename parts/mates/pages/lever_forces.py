@@ -95,7 +95,7 @@ class Forces:
         gravity = cmath.rect(self.keys.gravity, math.radians(self.keys.gravity_angle_deg))
         acting: dict[str, Acting] = {}
         for name, body in self.named:
-            if gravity:
+            if gravity and body.mass:
                 acting[f"G_{name}"] = weight(body, gravity, moving[body.link])
             acting[f"F_i{name}"] = inertial(body, moving[body.link])
         opposed = self._opposed(moving, fastest)
@@ -104,7 +104,7 @@ class Forces:
             acting["F_c"] = Acting(self.output, 0j, force, np.zeros(np.shape(force)))
         if self.keys.resisting_moment is not None:
             couple = 1000 * self.keys.resisting_moment * opposed
-            acting["M_c"] = Acting(self.output, 0j, np.zeros(np.shape(couple), complex), couple)
+            acting[f"M_c{self.output}"] = Acting(self.output, 0j, np.zeros(np.shape(couple), complex), couple)
         return Loaded(moving, acting, reactions(self.levers, at, acting.values(), self.teeth))
 
     def way(self, moving: dict[str, Frame]) -> Real:
@@ -207,22 +207,21 @@ class ForcePage:
         page.section(N_("Forces given"))
         page.add("force_equations", 3 * self.levers.links, "3 * {n}")
         page.add("force_unknowns", 2 * self.levers.lower_pairs + 1, "2 * {p_5} + 1", "guidelines, 4.18")
-        if keys.gravity and self.forces.bodies:
+        if keys.gravity and weighs(keys):
             page.add("gravity", keys.gravity, given=True)
             page.add("gravity_angle_deg", keys.gravity_angle_deg, given=True)
         for name, body in self.forces.named:
-            if name.isalpha():
-                of = message(N_("point {name}"), name=name)
-                page.add("point_mass", body.mass, symbol=f"m_{name}", key=f"m_{name}", of=of, given=True)
-            else:
-                of = message(N_("link {name}"), name=name)
-                page.add("link_mass", body.mass, symbol=f"m_{name}", key=f"m_{name}", of=of, given=True)
-                if not (self.forces.slides and name == self.forces.output):
-                    page.add("link_inertia", body.inertia, symbol=f"J_{name}", key=f"J_{name}", of=of, given=True)
+            of: Text = message(N_("point {name}") if name.isalpha() else N_("link {name}"), name=name)
+            if self._heavy(name):
+                term = "point_mass" if name.isalpha() else "link_mass"
+                page.add(term, body.mass, symbol=f"m_{name}", key=f"m_{name}", of=of, given=True)
+            if name.isdigit() and not (self.forces.slides and name == self.forces.output):
+                page.add("link_inertia", body.inertia, symbol=f"J_{name}", key=f"J_{name}", of=of, given=True)
+            if name.isdigit() and self._heavy(name):
                 page.add("centre_along", body.centre.real, symbol=f"x_S{name}", of=of, given=True)
                 if body.centre.imag:
                     page.add("centre_across", body.centre.imag, symbol=f"y_S{name}", of=of, given=True)
-            if keys.gravity:
+            if keys.gravity and self._heavy(name):
                 page.add(
                     "link_weight", body.mass * keys.gravity, f"{{m_{name}}} * {{g}}", symbol=f"G_{name}",
                     key=f"G_{name}", of=of,
@@ -230,11 +229,15 @@ class ForcePage:
         if keys.resistance is not None:
             page.add("resisting_force", keys.resistance, given=True)
         if keys.resisting_moment is not None:
-            page.add("resisting_moment", keys.resisting_moment, given=True)
+            page.add("resisting_moment", keys.resisting_moment, symbol=f"M_c{self.forces.output}", given=True)
         if keys.drive_radius is not None:
             page.add("drive_radius", keys.drive_radius, given=True)
             page.add("drive_pressure_angle_deg", keys.drive_pressure_angle_deg, given=True)
             page.add("drive_angle_deg", keys.drive_angle_deg, given=True)
+
+    def _heavy(self, name: str) -> bool:
+        """Whether a mass is given, not a moment of inertia alone."""
+        return name.isalpha() or name in (self.keys.masses or {})
 
     def _inertia(self) -> None:
         page = self.page
@@ -243,14 +246,15 @@ class ForcePage:
         page.section(N_("Forces of inertia"))
         for name, body in self.forces.named:
             frame, acting = self.one.moving[body.link], self.one.acting[f"F_i{name}"]
-            change = 2 * abs(complex(frame.point(body.centre)[2])) / 1000
-            at = f"S{name}" if name.isdigit() else name
-            of = message(N_("point {name}"), name=at)
-            page.add("point_acceleration", change, symbol=f"a_{at}", key=f"a_{at}", of=of)
-            page.add(
-                "inertia_force", abs(complex(acting.force)), f"{{m_{name}}} * {{a_{at}}}", symbol=f"F_i{name}",
-                key=f"F_i{name}", of=of,
-            )  # fmt: skip
+            if self._heavy(name):
+                change = 2 * abs(complex(frame.point(body.centre)[2])) / 1000
+                at = f"S{name}" if name.isdigit() else name
+                of = message(N_("point {name}"), name=at)
+                page.add("point_acceleration", change, symbol=f"a_{at}", key=f"a_{at}", of=of)
+                page.add(
+                    "inertia_force", abs(complex(acting.force)), f"{{m_{name}}} * {{a_{at}}}", symbol=f"F_i{name}",
+                    key=f"F_i{name}", of=of,
+                )  # fmt: skip
             if body.inertia:
                 link = "3" if name == "2" and isinstance(self.levers.first, Stone) else name
                 formula = f"{{J_{name}}} * {{eps_{link}}}" if f"eps_{link}" in page.known else ""

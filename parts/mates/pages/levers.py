@@ -413,36 +413,33 @@ class _Page:
 
     def _flywheel(self) -> Run | None:
         """The flywheel for an unevenness, from the resistance and the masses of the links; None: not asked for."""
-        keys, page, name = self.keys, self.page, self._output
+        keys, page = self.keys, self.page
         if keys.unevenness is None:
             return None
-        if keys.resistance is None or self.forces is None:
-            raise ParameterError("unevenness", keys.unevenness, "needs_other", REMOVED, other="resistance")
+        resistance, resists = keys.resistance, "resistance"
+        if not self._slides:
+            resistance, resists = keys.resisting_moment, "resisting_moment"
+        if resistance is None or self.forces is None:
+            raise ParameterError("unevenness", keys.unevenness, "needs_other", REMOVED, other=resists)
         if keys.acceleration:
             raise ParameterError("acceleration", keys.acceleration, "other_is_given", REMOVED, other="unevenness")
-        way = cmath.exp(-1j * math.radians(keys.guide_angle_deg))
-        place, ahead, change = (
-            np.append(x, x[0])
-            for x in (
-                (found * way).real / 1000
-                for found in (self.turn.place(name), self.turn.velocity(name), self.turn.acceleration(name))
-            )
-        )
+        place, ahead, change = self._travelled()
         ways = {"forward": (True,), "backward": (False,), "both": (True, False)}[keys.resisted]
         gone = sum((travelled(place, ahead, change, forward=forward) for forward in ways), np.zeros(len(place)))
-        resisting = (
-            keys.resistance * sum(np.maximum(ahead if forward else -ahead, 0.0) for forward in ways) / keys.speed
-        )
+        resisting = resistance * sum(np.maximum(ahead if forward else -ahead, 0.0) for forward in ways) / keys.speed
         bodies = self.forces.bodies
         inertia = reduced_inertia(bodies, frames(self.levers, self.turn), keys.speed)
         inertia = np.append(inertia, inertia[0])
         angle = self.start + 2 * math.pi * np.arange(self.fine + 1) / self.fine
-        wheel = mertsalov(Cycle(angle, keys.resistance * gone, inertia), keys.speed, keys.unevenness)
+        try:
+            wheel = mertsalov(Cycle(angle, resistance * gone, inertia), keys.speed, keys.unevenness)
+        except ParameterError as error:
+            raise error.renamed(resists) from error
         page.section(N_("Flywheel, by Mertsalov"))
-        if bodies and keys.gravity:
+        if weighs(keys) and keys.gravity:
             page.notes.append(N_("weights, which do no work over a turn, are left out of the flywheel"))
         page.add("unevenness", keys.unevenness, given=True)
-        page.add("resisting_work", float(keys.resistance * gone[-1]))
+        page.add("resisting_work", float(resistance * gone[-1]))
         page.add("driving_moment", wheel.driving, "{A_c} / (2 * pi)")
         if bodies:
             page.add("least_reduced_inertia", float(inertia.min()))
@@ -454,7 +451,7 @@ class _Page:
             (("φ_1", "deg"), np.degrees(angle)),
             (("M_c", "N*m"), resisting),
             (("J", "kg*m2"), inertia),
-            (("A_c", "J"), keys.resistance * gone),
+            (("A_c", "J"), resistance * gone),
             (("A_d", "J"), turned),
             (("ΔT", "J"), wheel.gained),
             (("ΔT_l", "J"), wheel.of_links),
@@ -465,6 +462,17 @@ class _Page:
         heads = tuple(head for head, _ in columns)
         page.tables.append(Table("cycle", N_("Moments, works and energies over the turn"), heads, rows))
         return Run(np.degrees(angle), resisting, wheel.driving, wheel.gained, wheel.of_links, wheel.of_flywheel)
+
+    def _travelled(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Place, velocity, acceleration of the output over a whole turn: along its way, m, or about its pivot, rad."""
+        if self._slides:
+            way, name = cmath.exp(-1j * math.radians(self.keys.guide_angle_deg)), self._output
+            found = (self.turn.place(name), self.turn.velocity(name), self.turn.acceleration(name))
+            place, ahead, change = (np.append(x, x[0]) for x in ((series * way).real / 1000 for series in found))
+            return place, ahead, change
+        link = "3" if self.levers.second is None else "5"
+        place, ahead, change = (np.append(x, x[0]) for x in (self.turn.angle(link), *self.turn.turning(link)))
+        return np.unwrap(place), ahead, change
 
     def _plans(self) -> tuple[Plan, Plan]:
         """Plans of velocities and of accelerations, as tables too."""

@@ -69,7 +69,7 @@ def test_every_assignment_holds_its_loads_all_round(assignment: int) -> None:
         assert all(greatest[name] >= row[name] * (1 - 1e-12) for row in first for name in greatest)
 
 
-@pytest.mark.parametrize("assignment", [1, 3, 4, 8])
+@pytest.mark.parametrize("assignment", [1, 3, 4, 8, 10])
 def test_the_mean_balancing_moment_is_the_flywheels_driving_moment(assignment: int) -> None:
     """Over a turn weights and inertia do no work: what is left is the resistance, whose work Mertsalov adds up."""
     data = calculated(f"assignment={assignment}", *keys_of(assignment), "unevenness=0.05")
@@ -125,6 +125,10 @@ def test_a_wheel_presses_the_shaft_of_the_crank() -> None:
     moment = value(data, "M_b")
     assert moment == value(plain, "M_b") > 0
     assert value(data, "F_b") == pytest.approx(moment / (0.1 * math.cos(math.radians(25))), rel=1e-12)
+    # as a power it is a force alone, where a coupling is a moment alone
+    assert rows(data, "powers")[-1] == ["F_b", value(data, "F_b"), 0, pytest.approx(moment * 150)]
+    assert rows(plain, "powers")[-1] == ["M_b", 0, moment, pytest.approx(moment * 150)]
+    assert "g" not in {step["symbol"] for step in data["steps"]}
     vectors = {row[0]: cmath.rect(row[1], math.radians(row[2])) for row in rows(data, "force_plan_1")}
     along = moment / 0.1
     assert vectors["F_b"] == pytest.approx(along + 1j * along * math.tan(math.radians(25)), rel=1e-12)
@@ -163,6 +167,9 @@ def test_centres_of_mass_stand_where_keys_say() -> None:
     assert value(data, "M_b") == pytest.approx(-0.05 * 2 * 9.81, rel=1e-12)
     data = calculated("assignment=8", "variant=4", "masses.2=2")
     assert value(data, "x_S2") == pytest.approx(0.34 * 2.8 * 120, rel=1e-12)
+    # where none is given: O1, the stone's pin, halfway along levers and rods, a slider's pin
+    data = calculated("code=1071", *(f"masses.{link}=1" for link in range(1, 6)))
+    assert [value(data, f"x_S{link}") for link in range(1, 6)] == [0, 0, 540, 378, 0]
 
 
 def test_a_moment_on_a_rocker_works_through_its_swing() -> None:
@@ -171,19 +178,40 @@ def test_a_moment_on_a_rocker_works_through_its_swing() -> None:
     data = calculated(*keys)
     swing = np.radians(np.ptp(np.unwrap([row["φ_5"] for row in data["positions"]], period=360)))
     assert value(data, "M_b,m") * 2 * math.pi == pytest.approx(200 * swing, rel=2e-3)
+    # that is also the work for which a flywheel is sized
+    wheel = calculated(*keys, "unevenness=0.05")
+    assert value(wheel, "A_c") == pytest.approx(200 * swing, rel=1e-4)
+    assert wheel["cycle"][-1]["A_c"] == pytest.approx(value(wheel, "A_c"), rel=1e-12)
     one = calculated(*keys, "resisted=forward")
     assert value(one, "M_b,m") * 2 * math.pi == pytest.approx(100 * swing, rel=2e-3)
     for row, at in zip(one["forces"], data["positions"], strict=True):
         assert (abs(row["M_b"]) > 1e-9) == (at["ω_5"] > 1e-9)
 
 
+def test_a_flywheel_of_a_lever_that_goes_all_the_way_round() -> None:
+    """A drag link: its lever turns with the crank, so a moment against it works through 2 pi."""
+    drag = ("first=rods", "crank_length=100", "frame_length=40", "coupler_length=110", "lever_length=90", "speed=5",
+            "resisting_moment=10", "unevenness=0.05")  # fmt: skip
+    data = calculated(*drag)
+    assert value(data, "A_c") == pytest.approx(20 * math.pi, rel=1e-9)
+    assert value(data, "M_d") == pytest.approx(10, rel=1e-9)
+    # what the lever has taken of it: 10 times the angle that it has turned through
+    turned = np.degrees(np.unwrap(np.radians([row["φ_3"] for row in data["positions"]])))
+    gained = [10 * math.radians((row["φ_1"] - turn) - (data["cycle"][0]["φ_1"] - turned[0])) for row, turn in
+              zip(data["cycle"], turned, strict=False)]  # fmt: skip
+    assert [row["ΔT"] for row in data["cycle"][:-1]] == pytest.approx(gained, abs=1e-9)
+    assert refused(*drag, "resisted=backward") == ("resisting_moment", "no_work_over_cycle")
+
+
 def test_the_greatest_reactions_are_those_of_their_positions() -> None:
-    keys = ("assignment=6", *keys_of(6))
-    for row in calculated(*keys)["greatest_forces"]:
-        name, most, angle = row.values()
-        assert 0 <= angle < 360
-        at = calculated(*keys, f"start_angle_deg={angle!r}")["forces"][0]
-        assert at[name] == pytest.approx(most, rel=1e-9), name
+    # of an engine they are where its piston turns back, which comes after a whole turn's 360 degrees
+    for keys in (("assignment=6", *keys_of(6)), (*ENGINE, "masses.3=4")):
+        for row in calculated(*keys)["greatest_forces"]:
+            name, most, angle = row.values()
+            assert 0 <= angle < 360
+            alone = [key for key in keys if not key.startswith("start")]
+            at = calculated(*alone, f"start_angle_deg={angle!r}")["forces"][0]
+            assert at[name] == pytest.approx(most, rel=1e-9), name
 
 
 def test_the_flywheel_takes_masses_without_the_forces_of_weight() -> None:
@@ -191,6 +219,8 @@ def test_the_flywheel_takes_masses_without_the_forces_of_weight() -> None:
     flat = calculated(*ENGINE, "resistance=2000", "unevenness=0.05", "masses.3=5", "gravity=0")
     assert value(heavy, "J_m") == value(flat, "J_m")
     assert any("left out of the flywheel" in note for note in heavy["notes"])
+    light = calculated(*ENGINE, "resistance=2000", "unevenness=0.05")
+    assert not any("left out of the flywheel" in note for note in light["notes"])
     assert not any("left out of the flywheel" in note for note in flat["notes"])
 
 
@@ -218,6 +248,16 @@ def test_forces_across_their_velocities_balance_by_themselves() -> None:
         data = calculated(f"assignment={assignment}", "variant=3", "point_masses.A=1e6", "gravity=0")
         assert value(data, "ΔM") < 1e-10
         assert abs(value(data, "M_b")) < 1e-12 * value(data, "ΣM")
+
+
+def test_couples_too_are_what_the_check_is_measured_by() -> None:
+    """A rod with an inertia and no mass: J |epsilon_2 omega_2| / omega_1 is all that there is."""
+    data = calculated(*ENGINE, "inertias.2=0.4")
+    # nothing is told of a mass that it has not
+    assert not {"m_2", "G_2", "g", "F_i2", "x_S2"} & {step["symbol"] for step in data["steps"]}
+    wanted = 0.4 * value(data, "ε_2") * value(data, "ω_2") / value(data, "ω_1")
+    assert value(data, "ΣM") == pytest.approx(wanted, rel=1e-12)
+    assert abs(value(data, "M_b")) == pytest.approx(wanted, rel=1e-9)
 
 
 def test_a_crank_that_speeds_up() -> None:
@@ -276,6 +316,14 @@ def test_dead_positions_are_told_in_a_line() -> None:
     data = calculated(*keys)
     assert [row["φ_1"] for row in data["forces"]] == [0, 180]
     assert [note for note in data["notes"] if "dead positions, φ_1 = 90°, 270°" in note]
+    # nor do they count among the greatest of the turn
+    assert all(abs(row["φ_1"] % 180 - 90) > 0.05 for row in data["greatest_forces"])
+    beside = [value(calculated(*keys, f"start_angle_deg={a}"), "M_b") for a in (89.9, 90.1, 269.9, 270.1)]
+    assert value(data, "M_b,max") == pytest.approx(max(beside), rel=1e-6)
+    assert value(data, "M_b,min") == pytest.approx(min(beside), rel=1e-6)
+    # a sine of 0.05 is enough
+    near = calculated(*keys[:2], f"coupler_length={70 / math.sqrt(1 - 0.05**2)!r}", *keys[3:])
+    assert [row["φ_1"] for row in near["forces"]] == [0, 90, 180, 270]
     # there no plan of forces is drawn, nor is anything else about them
     at_once = calculated(*keys, "start_angle_deg=90")
     assert not [name for name in at_once if name.startswith("force_plan")]
@@ -322,7 +370,7 @@ def refused(*keys: str) -> tuple[str, str]:
         (("assignment=1", "masses={}", "force_scale=9"), "force_scale", "of_no_link"),
         (("assignment=8", "point_masses.C=9"), "point_masses.C", "no_such_point"),
         (("assignment=1", "resistance=1", "unevenness=0.1", "acceleration=1"), "acceleration", "other_is_given"),
-        (("assignment=10", "resisting_moment=5", "unevenness=0.1"), "unevenness", "needs_other"),
+        (("assignment=10", "masses.2=5", "unevenness=0.1"), "unevenness", "needs_other"),
     ],
 )  # fmt: skip
 def test_wrong_loads_are_refused_by_their_keys(keys: tuple[str, ...], key: str, code: str) -> None:

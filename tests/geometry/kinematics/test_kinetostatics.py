@@ -317,6 +317,14 @@ def test_groups_bite_by_the_sine_between_their_rods() -> None:
     assert isinstance(levers.first, Slider)
     lean = (at.place("A").imag - 12) / levers.first.rod
     assert np.allclose(reactions(levers, at, []).bite, np.sqrt(1 - lean**2), rtol=1e-12)
+    # of two groups the one that holds worse: here now the first, now the second
+    levers = RUNNING["mirrored"]
+    at = levers.moved(TURN)
+    assert isinstance(levers.second, Slider)
+    between = np.abs(np.sin(at.angle("2") - at.angle("3")))
+    against = np.abs(np.cos(at.angle("4") - levers.second.angle))
+    assert 0 < (between < against).sum() < len(TURN)
+    assert np.allclose(reactions(levers, at, []).bite, np.minimum(between, against), rtol=1e-12)
     # a stone that all but passes the pivot of its lever has no arm there
     levers = Levers(50.0, 1.0, Stone(50.05j), 200.0)
     assert reactions(levers, levers.moved(np.array([math.pi / 2, -math.pi / 2])), []).bite == pytest.approx([1e-3, 1])
