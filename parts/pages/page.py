@@ -195,6 +195,14 @@ def _numbered(symbol: str, index: str) -> str:
     return f"{symbol[:-1]}{index}*" if index and symbol.endswith("*") else symbol + index
 
 
+def shortest(value: float, decimals: int) -> str:
+    """A number without zeros at its end, and with no more digits than it has."""
+    if abs(value) >= 10.0 ** (15 - decimals):
+        return f"{value:.15g}"
+    text = f"{value:.{decimals}f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
 def number(value: Value, unit: str, *, enclosed: bool = False) -> str:
     """A value as a reader wants it; ``enclosed`` puts negative numbers in brackets."""
     if isinstance(value, str):
@@ -205,11 +213,10 @@ def number(value: Value, unit: str, *, enclosed: bool = False) -> str:
         text = "∞" if value > 0 else "-∞"
     else:
         decimals = _DECIMALS[unit]
-        text = f"{value:.{decimals}f}".rstrip("0").rstrip(".")
+        text = shortest(value, decimals)
         # a small number keeps its leading digits: involutes, clearances
         if 1e-12 < abs(value) < (0.1 if not unit else 10.0 ** (2 - decimals)):
             text = f"{value:.6g}" if not unit else f"{value:.3g}"
-        text = "0" if text == "-0" else text
     if unit == "deg" and enclosed:
         text += "°"
     return f"({text})" if enclosed and text.startswith("-") else text

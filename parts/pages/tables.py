@@ -7,7 +7,7 @@ import math
 from typing import Any
 
 from parts.base.texts import Words
-from parts.pages.page import Table, unit_text
+from parts.pages.page import Table, shortest, unit_text
 
 _DIGITS = 4
 
@@ -31,8 +31,7 @@ def _labels(table: Table) -> tuple[tuple[str, ...], ...]:
 def _cell(value: float) -> str:
     if not math.isfinite(value):
         return "∞" if value > 0 else "-∞"
-    text = f"{value:.{_DIGITS}f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    return shortest(value, _DIGITS)
 
 
 def plain_table(table: Table, words: Words) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from parts.pages.beside import FREE, beside_line, beside_point, box, hidden, settled
+from parts.pages.beside import FREE, Name, beside_line, beside_point, box, hidden, settled
 
 FIELD = (-500 - 500j, 500 + 500j)
 
@@ -44,6 +44,11 @@ def test_a_name_leaves_its_side_where_another_line_runs() -> None:
     # nor does it go beyond its field
     (kept,) = settled([beside_line("F_c", start, end)], [(start, end)], (0j, 500 + 500j))
     assert kept == free.conjugate()
+
+
+def test_a_name_makes_room_for_one_that_has_no_other_place() -> None:
+    one, other = settled([Name("B", (0j, 50 + 0j)), Name("C", (0j,))], [], FIELD)
+    assert (one, other) == (50, 0)
 
 
 def test_two_joints_in_one_place_have_both_names() -> None:

@@ -103,6 +103,9 @@ def test_formulas_are_printed_as_they_are_written_by_hand(formula: str, printed:
         (0.1 + 0.2, "mm", False, "0.3"), (-0.0, "mm", False, "0"), (1 / 3, "mm", False, "0.33333"), (3, "", False, "3"),
         (0.0149043838673, "", False, "0.0149044"), (-2.5, "deg", True, "(-2.5°)"), (20.0, "deg", True, "20°"),
         (math.inf, "mm", False, "∞"), (-math.inf, "mm", False, "-∞"), (12.3456, "%", False, "12.346"),
+        # no digit that a number of double precision has not
+        (1e9 / 3 * 1e11, "N", False, "3.33333333333333e+19"), (123456789012345.678, "mm", False, "123456789012346"),
+        (9999999999.123456, "mm", False, "9999999999.12346"), (-1e300, "N", True, "(-1e+300)"),
     ],
 )  # fmt: skip
 def test_numbers_are_printed_as_a_reader_wants_them(value: float, unit: str, enclosed: bool, printed: str) -> None:
