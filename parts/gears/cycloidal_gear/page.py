@@ -127,7 +127,7 @@ def _contact(page: Sheet, pair: CycloidalPair) -> None:
     for index, (gear, circle) in enumerate(zip(gears, ("rho_a", "rho_i"), strict=True), 1):
         # the triangle of both centres and the tip
         rho, far = f"{{{circle}}}", f"({{r#}} + {{{circle}}})"
-        formula = f"{rho} / {{r#}} * arccos(({far}^2 + {rho}^2 - {{r_a#}}^2) / (2 * {rho} * {far}))"
+        formula = f"{rho} / {{r#}} * arccos(({far}**2 + {rho}**2 - {{r_a#}}**2) / (2 * {rho} * {far}))"
         page.add("tip_roll_angle_deg", math.degrees(gear.tip_roll), formula, _SOURCE, gear=index)
     page.add("approach_contact_ratio", pair.approach_ratio, "{u_a2} * {z2} / (2 * pi)")
     page.add("recess_contact_ratio", pair.recess_ratio, "{u_a1} * {z1} / (2 * pi)")

@@ -96,6 +96,7 @@ SHEETS = [
     ("cam", "practicum_roller_cam"),
     ("cam", "linkage_cam"),
     ("cycloidal", "cycloidal_reducer"),
+    ("cycloidal-gear", "clock_gears", "part=wheel"),
     ("lantern", "lantern_pair"),
     ("noncircular", "oval_gears", "part=oval"),
     ("power-table", "x=50", "y=-80", "orientation=thesis"),
