@@ -22,6 +22,8 @@ from geometry.solids.turned import HalfSection
 
 # what is one height or one place, mm; samples of a curve; steps of a halving
 _SAME, _SAMPLES, _HALVINGS = 1e-7, 33, 40
+# radius of the root of what is teeth alone: nothing of it is hatched
+NOTHING = 0.0
 # radius of what is a point, mm
 _POINT = 1e-6
 # layers of an arc of a turned part
@@ -80,9 +82,11 @@ class Ring(Record, dict=True):
             reach = round_[1] ** 2 - foot.imag**2
             return [] if reach <= 0 else [foot.real - math.sqrt(reach), foot.real + math.sqrt(reach)]
         found = []
-        for curve in self.curves:
-            t = np.linspace(*curve.domain, _SAMPLES)
-            side = ((curve.point(t) - origin) / way).imag > 0
+        samples = [np.linspace(*curve.domain, _SAMPLES) for curve in self.curves]
+        sides = [((c.point(t) - origin) / way).imag > 0 for c, t in zip(self.curves, samples, strict=True)]
+        for number, (curve, t, side) in enumerate(zip(self.curves, samples, sides, strict=True)):
+            # where two curves join on the line itself both have it on one side
+            side[0] = sides[number - 1][-1]
             for k in np.flatnonzero(side[1:] != side[:-1]):
                 low, high = t[k], t[k + 1]
                 for _ in range(_HALVINGS):
@@ -113,6 +117,10 @@ class _Boundaries(Record):
             count += ring.holds(points)
         return np.asarray(count % 2 == 1)
 
+    def bound(self, points: Complex) -> np.ndarray:
+        """Whether points lie on one of its circles."""
+        return np.asarray((np.abs(np.abs(points[:, None] - self.centres) - self.radii) < _SAME).any(axis=1))
+
 
 def _boundaries(rings: Sequence[Ring]) -> _Boundaries:
     circles = [ring.circle for ring in rings if ring.circle is not None]
@@ -142,6 +150,7 @@ class Layer(Record, dict=True):
 class Sketch(Record):
     """Layers from below; ``creases``: heights at which walls bend; ``pitch``: radius of the pitch cylinder, mm.
 
+    ``pitch_cone``: both ends of the pitch line of a bevel gear, r + iz; ``pitch`` is then the outer radius.
     ``is_shaft``: not hatched where it is cut along its axis; ``is_ball``: nowhere (GOST 2.305).
     """
 
@@ -150,6 +159,7 @@ class Sketch(Record):
     pitch: float | None = None
     is_shaft: bool = False
     is_ball: bool = False
+    pitch_cone: tuple[complex, complex] | None = None
 
     def turned_over(self) -> Sketch:
         """The same, turned over about x."""
@@ -161,7 +171,8 @@ class Sketch(Record):
         for k in reversed(self.layers):
             lower = over(k.upper)
             layers.append(Layer(-k.high, -k.low, lower, lower if k.upper is k.lower else over(k.lower)))
-        return replace(self, layers=tuple(layers), creases=tuple(-z for z in self.creases))
+        cone = None if self.pitch_cone is None else (self.pitch_cone[0].conjugate(), self.pitch_cone[1].conjugate())
+        return replace(self, layers=tuple(layers), creases=tuple(-z for z in self.creases), pitch_cone=cone)
 
     def edges(self) -> Iterator[tuple[float, Ring]]:
         """What is seen from above of boundaries: upper ends of walls and their creases, by height."""
@@ -181,7 +192,8 @@ class Sketch(Record):
             left = np.flatnonzero(~found)
             if not len(left):
                 break
-            found[left] = end.hold(points[left])
+            # an edge on which more of the same wall stands is seen
+            found[left] = end.hold(points[left]) & ~end.bound(points[left])
         return found
 
 
@@ -326,7 +338,8 @@ def hatched(layers: Sequence[Layer], cuts: Cuts) -> Iterator[tuple[Line, ...]]:
     # of each loop that grows: places of its left and its right side
     growing: list[tuple[list[complex], list[complex]]] = []
     for layer in layers:
-        first, last = (cuts(tuple(ring.filled() for ring in side)) for side in (layer.lower, layer.upper))
+        solid = [tuple(ring.filled() for ring in side if ring.root != NOTHING) for side in (layer.lower, layer.upper)]
+        first, last = map(cuts, solid)
         if len(first) != len(last) or len(first) % 2:
             continue
         spans = list(zip(first[::2], first[1::2], last[::2], last[1::2], strict=True))

@@ -199,11 +199,9 @@ def _hatch(canvas: Canvas, drawn: Drawn, scale: float) -> None:
     """Every part's own hatching: to one side or to the other, then wider (GOST 2.306)."""
     paper = Paper(scale, 0j)
     for number, loops in enumerate(drawn.hatched):
-        over = number % 2 == 1
         placed = [[paper.scaled(c) for c in loop] for loop in loops]
-        turned = [[c.mirrored() if over else c for c in loop] for loop in placed]
-        for line in hatching(turned, _HATCH + _WIDER * (number // 2)):
-            canvas.strokes.append(Stroke("HATCH", line.mirrored() if over else line))
+        for line in hatching(placed, _HATCH + _WIDER * (number // 2), falls=number % 2 == 1):
+            canvas.strokes.append(Stroke("HATCH", line))
 
 
 def _ends(drawn: Drawn, scale: float) -> tuple[float, float]:

@@ -287,8 +287,9 @@ def _pitches(one: Shown) -> Iterator[Stroke]:
         yield AXIS, Arc(one.centre, pitch, 0.0, 2 * math.pi)
         return
     low, high = _toothed(one.sketch)
-    for side in (pitch, -pitch):
-        yield AXIS, Line(one.laid(complex(side, low)), one.laid(complex(side, high)))
+    start, end = one.sketch.pitch_cone or (complex(pitch, low), complex(pitch, high))
+    for side in (1, -1):
+        yield AXIS, Line(*(one.laid(complex(side * p.real, p.imag)) for p in (start, end)))
 
 
 def _height(one: Shown) -> float:

@@ -15,8 +15,12 @@ _SAMPLES, _OFF = 65, 0.381966
 _TURN = np.exp(-0.25j * np.pi)
 
 
-def hatching(loops: Sequence[Sequence[CadCurve]], spacing: float) -> list[Line]:
-    """Lines at 45 degrees, ``spacing`` apart, where an odd number of loops is crossed."""
+def hatching(loops: Sequence[Sequence[CadCurve]], spacing: float, *, falls: bool = False) -> list[Line]:
+    """Lines at 45 degrees, ``spacing`` apart, where an odd number of loops is crossed; rising, or falling."""
+    if falls:
+        # what is mirrored runs the other way round
+        over = [[curve.mirrored() for curve in reversed(loop)] for loop in loops]
+        return [line.mirrored() for line in hatching(over, spacing)]
     edges = []
     for loop in loops:
         points = np.concatenate([c.point(np.linspace(*c.domain, 2 if isinstance(c, Line) else _SAMPLES)) for c in loop])

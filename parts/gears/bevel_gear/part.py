@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.faced import FacedBody
     from geometry.solids.hub_holes import HubHoles
+    from geometry.solids.sketch import Sketch
 
 _MOST = 100_000.0
 # the usual face width: part of the cone distance, and modules; rim and wall in modules (GOST 19624-74, practice)
@@ -181,6 +182,12 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
 
         _still(offset)
         return faced_bevel(thing)
+
+    def sketch(self, keys: BevelGearSpec, thing: BevelGear) -> Sketch:
+        """The cones of its tips and roots, its blank."""
+        from geometry.gears.bevel.sketch import sketch_of_bevel
+
+        return sketch_of_bevel(thing)
 
     def height(self, keys: BevelGearSpec, thing: BevelGear) -> float:
         """From the back face to the inner tip circle."""

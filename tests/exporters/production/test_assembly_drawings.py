@@ -63,6 +63,8 @@ def numbers(dxf: Path) -> list[tuple[str, complex]]:
         pytest.param("practicum_pair", "uk", {"179,183": 179.182637406, "40": 40.0}, 2, marks=pytest.mark.heavy),
         # m (z + z) / 2; the ring's outside
         pytest.param("james", "en", {"80": 80.0, "270": 270.0}, 5, marks=pytest.mark.heavy),
+        # d_ae of the wheel, m (z + 2 (1 - x) cos(delta))
+        ("bevel_pair", "en", {"81.252": 2 * (40 + 2 * 0.7 * math.cos(math.atan(2)))}, 2),
         ("worm_set_print", "uk", {"40": 40.0, "24": 24.0}, 2),
     ],
 )

@@ -52,6 +52,24 @@ def test_a_line_meets_a_boundary_where_plane_geometry_has_it(lean: float) -> Non
     assert Ring((Arc(4 + 2j, 3.0, 0.0, 2 * math.pi),)).crossings(4 + 2j, way) == pytest.approx([-3.0, 3.0])
 
 
+@pytest.mark.parametrize("begins", [k * math.pi / 12 for k in range(24)])
+@pytest.mark.parametrize("count", [2, 4])
+def test_a_line_through_joints_of_a_round_boundary_meets_it_twice(count: int, begins: float) -> None:
+    """A circle of arcs, cut through the places where they join: rounding puts these on either side of the line."""
+    sweep = 2 * math.pi / count
+    ring = Ring(tuple(Arc(0j, 46.0, begins + k * sweep, sweep) for k in range(count)))
+    assert sorted(ring.crossings(0j, cmath.exp(1j * begins))) == pytest.approx([-46.0, 46.0], abs=1e-9)
+
+
+@pytest.mark.parametrize("radius", [10.0, 36.421356, 7.3])
+def test_an_edge_from_which_a_cone_rises_is_seen_all_round(radius: float) -> None:
+    """Two cones on each other: nothing stands over the circle that they share, whatever rounding makes of it."""
+    cones = Sketch(tuple(lathe([(0j, radius + 3j), (radius + 3j, 2 + 8j), (2 + 8j, 0 + 8j)])), (3.0,))
+    circle = radius * np.exp(1j * np.linspace(0, 2 * math.pi, 720))
+    assert not cones.covers(circle, 3.0).any()
+    assert cones.covers(0.99 * circle, 3.0).all()
+
+
 # --- a stack of layers: a disk of radius 5 with a bore of 1, 4 high, and a collar of radius 3 on it, 2 high
 # both have a hole of 0.3 at 2i; the disk has one of 0.5 at 4 as well, on which the collar does not stand
 
