@@ -27,7 +27,7 @@ def drawn(name: str) -> PartDrawing:
 
 @pytest.mark.parametrize("name", PARTS)
 def test_every_size_of_the_keys_is_told_and_no_other(name: str) -> None:
-    told = [one.value for view in drawn(name).views for one in (*view.sizes, *view.rounds)]
+    told = [one.value for view in drawn(name).views for one in (*view.sizes, *view.rounds, *view.slants)]
     assert sorted(told) == pytest.approx(sorted(SIZES[name]), abs=NEAR)
 
 
