@@ -9,7 +9,8 @@ from typing import Any
 from parts.base.texts import Words
 from parts.pages.page import Table, shortest, unit_text
 
-_DIGITS = 4
+# decimals of a column, and of one whose numbers are small
+_DIGITS, _MOST = 4, 8
 
 
 def _heads(table: Table, words: Words) -> list[str]:
@@ -18,20 +19,27 @@ def _heads(table: Table, words: Words) -> list[str]:
 
 
 def _rows(table: Table, words: Words) -> list[list[str]]:
+    decimals = [_decimals(column) for column in zip(*table.rows, strict=True)]
     return [
-        [*map(words.text, labels), *map(_cell, row)][: table.shown]
+        [*map(words.text, labels), *map(_cell, row, decimals)][: table.shown]
         for labels, row in zip(_labels(table), table.rows, strict=True)
     ]
+
+
+def _decimals(column: tuple[float, ...]) -> int:
+    """As many as a column of small numbers needs for four digits of its greatest."""
+    most = max((abs(value) for value in column if math.isfinite(value)), default=0.0)
+    return min(max(_DIGITS, 3 - math.floor(math.log10(most))), _MOST) if most else _DIGITS
 
 
 def _labels(table: Table) -> tuple[tuple[str, ...], ...]:
     return table.labels or ((),) * len(table.rows)
 
 
-def _cell(value: float) -> str:
+def _cell(value: float, decimals: int) -> str:
     if not math.isfinite(value):
         return "∞" if value > 0 else "-∞"
-    return shortest(value, _DIGITS)
+    return shortest(value, decimals)
 
 
 def plain_table(table: Table, words: Words) -> list[str]:

@@ -234,6 +234,20 @@ def test_masses_of_any_size(factor: float) -> None:
             assert row[name] == pytest.approx(other[name] * scale, rel=1e-9)
 
 
+def test_small_forces_keep_their_digits_in_tables() -> None:
+    """A rod of 10 mg: its weight is 98.1 uN, all is a millionth of that of 10 kg, to 7 decimals."""
+    small, large = (
+        calculate("lever", [*ENGINE[:3], "speed=20", f"masses.2={m}"], "text", "en") for m in ("1e-5", "10")
+    )
+    seen = []
+    for text in (small, large):
+        table = text.partition("Plan of forces of links 2 and 3")[2].partition("Plan")[0].splitlines()
+        seen.append({line.split()[0]: float(line.split()[1]) for line in table[3:] if line})
+    assert seen[0]["G_2"] == pytest.approx(9.81e-5, rel=1e-12)
+    for name, force in seen[1].items():
+        assert seen[0][name] == pytest.approx(force * 1e-6, abs=0.501e-7), name
+
+
 def test_no_masses_no_forces() -> None:
     for keys in (("masses.2=0",), ("point_masses.D=0", "drive_radius=50"), ("masses.3=1e9", "masses.4=1e-9")):
         data = calculated("assignment=1", *keys)
