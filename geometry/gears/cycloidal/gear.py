@@ -54,8 +54,8 @@ class CycloidalGear(Record):
     """A gear of ``number_of_teeth``; lengths in mm, heights in modules.
 
     ``tip_rolling_radius``: of the circle that rolls outside and draws the flanks of the tips, ``root_rolling_radius``:
-    of the one that rolls inside, at most half the pitch radius. ``given_root_rounding`` None: a fifth of the module, or
-    the full round of the space.
+    of the one that rolls inside, at most half the pitch radius. ``given_root_rounding`` None: the least of a fifth of
+    the module, half the depth of the roots and the full round of the space.
     """
 
     number_of_teeth: int
@@ -138,7 +138,8 @@ class CycloidalGear(Record):
         """Radius of the fillet at the root, mm."""
         if self.given_root_rounding is not None:
             return self.given_root_rounding
-        return min(_ROUNDING * self.module, self.greatest_rounding)
+        # the greatest one may leave nothing of a shallow root's flank
+        return min(_ROUNDING * self.module, self.dedendum_coefficient * self.module / 2, self.greatest_rounding)
 
     @property
     def fillet_roll(self) -> float:

@@ -29,7 +29,7 @@ class CycloidalGearKeys(CycloidalGearSpec, kw_only=True, tag=False, forbid_unkno
     """Keys of the gear, what its mate has of its own, and how long the table is."""
 
     mate_addendum_coefficient: (
-        Annotated[float, in_modules("height of the mate's tips; default: as here", above=0, most=10, example=1.0)]
+        Annotated[float, in_modules("height of the mate's tips; default: as here", least=0.001, most=10, example=1.0)]
         | None
     ) = None
     rows: Annotated[int, Meta(ge=2, le=2000, description="rows of each table of the flank")] = 9

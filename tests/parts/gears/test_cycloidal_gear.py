@@ -136,3 +136,13 @@ def test_a_drawing_asks_nothing_of_a_mate_that_stands_nowhere() -> None:
         parts, _ = make_parts(scene, "t")
         table = data_table(parts["wheel"], scene, ())
         assert [row.value for row in table.parts[0][:4]] == [2.0, 60, 4.0, 30.0]
+
+
+@pytest.mark.parametrize("depth", [0.19, 0.02])
+def test_a_shallow_root_keeps_a_flank_beside_its_fillet(depth: float, tmp_path: Path) -> None:
+    """A circle of half the depth, on the root circle and on a radius, touches this at sqrt((r_f + rho)^2 - rho^2)."""
+    raw = {"parts": {"wheel": WHEEL | {"dedendum_coefficient": depth}}, "exports": [{"format": "step"}]}
+    plan = plan_build(scene_from_dict(raw, "t", "t"), "t", [], [])
+    root, rounding = 60.0 - 2 * depth, depth
+    assert plan.parts["wheel"].thing.form_radius == pytest.approx(math.sqrt((root + rounding) ** 2 - rounding**2))
+    assert build(plan, tmp_path).well
