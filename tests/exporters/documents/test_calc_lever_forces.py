@@ -219,6 +219,8 @@ def test_the_flywheel_takes_masses_without_the_forces_of_weight() -> None:
     flat = calculated(*ENGINE, "resistance=2000", "unevenness=0.05", "masses.3=5", "gravity=0")
     assert value(heavy, "J_m") == value(flat, "J_m")
     assert any("left out of the flywheel" in note for note in heavy["notes"])
+    assert "g" in {step["symbol"] for step in heavy["steps"]}
+    assert "g" not in {step["symbol"] for step in flat["steps"]}
     light = calculated(*ENGINE, "resistance=2000", "unevenness=0.05")
     assert not any("left out of the flywheel" in note for note in light["notes"])
     assert not any("left out of the flywheel" in note for note in flat["notes"])
@@ -254,6 +256,9 @@ def test_no_masses_no_forces() -> None:
         told = np.array(rows(data, "forces"), dtype=float)
         assert np.isfinite(told).all()
         assert told[:, 1:].any() == ("masses.3=1e9" in keys)
+    # what is nothing has no direction
+    data = calculated(*ENGINE, "masses.2=0", "gravity=0")
+    assert [row[1:] for name in ("force_plan_23", "force_plan_1") for row in rows(data, name)] == [[0, 0, 0]] * 6
 
 
 def test_forces_across_their_velocities_balance_by_themselves() -> None:

@@ -191,6 +191,10 @@ def test_names_stand_off_lines_and_off_each_other(assignment: int, tmp_path: Pat
             for j, (other, end) in enumerate(rooms[:k]):
                 apart = high.real < other.real or end.real < low.real or high.imag < other.imag or end.imag < low.imag
                 assert apart, (title.text, texts[k].text, texts[j].text)
+            for block in group.iter(f"{SVG}rect"):
+                x, y = map(float, block.attrib["transform"][len("translate(") :].partition(")")[0].split())
+                off = complex(max(low.real - x, x - high.real, 0), max(low.imag + y, -y - high.imag, 0))
+                assert abs(off) > 7, texts[k].text
             # within the panel and the room about it
             assert -34 < low.real < high.real < side() + 34
             assert -side() - 34 < low.imag < high.imag < 11
@@ -286,6 +290,14 @@ def test_curves_in_one_field_have_one_scale(
         assert text.text == row
         assert style(line)["stroke"] == style(text)["fill"] == colour
     assert len(lines) == len(curves)
+
+
+def test_what_rounding_leaves_of_nothing_is_told_as_0() -> None:
+    resisting = np.maximum(RUN.resisting, 1e-14)
+    run = Run(ANGLE, resisting, RUN.driving, RUN.gained, RUN.of_links, RUN.of_flywheel)
+    picture = LeverPicture(POINTS, PATHS, FIXED, {}, SPEEDS, SPEEDS, TRAVEL, run)
+    texts = [t.text for t in panel("Reduced", ET.fromstring(picture.svg(words("en")))).iter(f"{SVG}text")]
+    assert texts[1] == "M_c  0 … 100"
 
 
 def test_an_output_that_rests_is_drawn_on_its_axis() -> None:

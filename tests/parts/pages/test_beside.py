@@ -51,6 +51,11 @@ def test_a_name_makes_room_for_one_that_has_no_other_place() -> None:
     assert (one, other) == (50, 0)
 
 
+def test_a_name_on_a_line_is_better_than_one_on_another_name() -> None:
+    names = [Name("B", (0j,)), Name("C", (0j, 100 + 0j))]
+    assert settled(names, [(100 - 50j, 100 + 50j)], FIELD) == [0, 100]
+
+
 def test_two_joints_in_one_place_have_both_names() -> None:
     names = [beside_point(text, 10 + 10j, 5.0) for text in ("B", "C")]
     one, other = settled(names, [], FIELD)
