@@ -13,6 +13,8 @@ import pytest
 from exporters.production.build import build
 from exporters.production.check import scene_checks
 from exporters.production.plan import plan_build
+from geometry.base.errors import OffsetError
+from geometry.gears.cycloidal.gear import cycloidal_findings, cycloidal_region
 from parts.base.refusal import SceneError
 from parts.gears.cycloidal_gear.drawing import data_table
 from parts.scene.load import load_scene, make_parts, scene_from_dict
@@ -146,3 +148,50 @@ def test_a_shallow_root_keeps_a_flank_beside_its_fillet(depth: float, tmp_path: 
     root, rounding = 60.0 - 2 * depth, depth
     assert plan.parts["wheel"].thing.form_radius == pytest.approx(math.sqrt((root + rounding) ** 2 - rounding**2))
     assert build(plan, tmp_path).well
+
+
+def test_a_thin_rim_is_told_and_one_that_an_offset_closes_refused() -> None:
+    """Roots at 57.5 mm: the rim is what the bore leaves of them, and an offset takes from both sides."""
+    for bore, rim in ((112.0, 1.5), (110.0, None)):
+        scene = scene_from_dict({"parts": {"wheel": WHEEL | {"bore_diameter": bore}}}, "t", "t")
+        part = make_parts(scene, "t")[0]["wheel"]
+        found = [(f.value, f.limit) for f in cycloidal_findings(part.thing) if f.code == "thin_rim"]
+        assert found == ([] if rim is None else [(pytest.approx(rim), 2.0)])
+    scene = scene_from_dict({"parts": {"wheel": WHEEL | {"bore_diameter": 114.0}}}, "t", "t")
+    bored = make_parts(scene, "t")[0]["wheel"].thing
+    for offset in (-0.24, 0.3):
+        cycloidal_region(bored, offset)
+    with pytest.raises(OffsetError) as caught:
+        cycloidal_region(bored, -0.26)
+    assert caught.value.reason == "leaves_no_rim"
+    assert caught.value.nearest is not None
+    assert caught.value.nearest.value == pytest.approx(-0.25, abs=1e-5)
+
+
+@pytest.mark.parametrize(("teeth", "most"), [(60, 60_000.0), (30, 30_000.0)])
+def test_a_circle_that_is_all_but_a_line_is_refused(teeth: int, most: float) -> None:
+    wheel = WHEEL | {"number_of_teeth": teeth, "tip_rolling_diameter": most * 1.01}
+    found = refused(scene_from_dict({"parts": {"wheel": wheel}}, "t", "t"))
+    assert (found.key, found.code) == ("parts.wheel.tip_rolling_diameter", "circle_all_but_straight")
+    assert found.nearest is not None
+    assert found.nearest.value == most
+
+
+@pytest.mark.parametrize("off", [-0.8, -0.6, 0.0, 0.6, 0.8])
+def test_a_pinion_that_stands_by_itself_is_held_against_the_play(off: float) -> None:
+    """Half of 0.2 mm on a radius of 8 mm is 0.716 degrees; what the turn takes of it is missing in the gap."""
+    stands = {"kind": "fixed", "first": "wheel", "second": "pinion", "offset": [68.0, 0.0, 0.0]}
+    raw = {
+        "parts": {"wheel": WHEEL, "pinion": PINION},
+        "mates": [stands | {"rotation_deg": 180 - 360 / 16 + off}, PAIR | {"normal_backlash": 0.2}],
+        "exports": [{"format": "dxf"}],
+    }
+    plan = plan_build(scene_from_dict(raw, "t", "t"), "t", [], [])
+    mate = scene_checks(plan.placing, plan.parts, [], "en", contact=True)["mates"][1]
+    phase = next(c for c in mate["conditions"] if c["code"] == "phase")
+    assert phase["tolerance"] == pytest.approx(math.degrees(0.1 / 8), abs=1e-4)
+    assert phase["met"] == (abs(off) < 0.71)
+    if phase["met"]:
+        left = 0.1 - math.radians(abs(off)) * 8
+        # the normal leans by 29.2 degrees at the end of contact on the tips: half of 58.4 degrees of their circle
+        assert left * math.cos(math.radians(31)) < mate["gap"] < left
