@@ -56,7 +56,9 @@ class _Scene:
             for key, joint in stands.supports.items()
             if isinstance(joint, Revolute) and stands.body(joint.on) != FRAME
         }
-        self.meshes = [j for j in mechanism.joints if isinstance(j, Rolling) and j.kind in _KINDS]
+        # a worm that a carrier moves is no matter of the guidelines
+        rolling = [j for j in mechanism.joints if isinstance(j, Rolling)]
+        self.meshes = [j for j in rolling if j.kind in _KINDS or (j.kind == "worm" and j.on == FRAME)]
         # the first of equal satellites does for all, and for those that mesh only some of its wheels
         kept: list[tuple[str, set[Side]]] = []
         twins: set[str] = set()
@@ -144,14 +146,14 @@ class _Scene:
 
     def _words(self, mesh: Rolling, names: dict[str, str], modules: dict[str, float | None]) -> str:
         words = f"{names[mesh.first]}-{names[mesh.second]} {mesh.kind}"
-        if mesh.kind == "bevel":
-            # the module of its outer end gives no force of the middle
+        if mesh.kind in ("bevel", "worm"):
+            # neither the module of an outer end nor that of an axial section gives the force
             return words + {1: " +", -1: " -", 0: ""}[self._sense(mesh)]
         module = modules.get(mesh.first)
         return words + (f" {module:g}" if module else "")
 
     def _sense(self, mesh: Rolling) -> int:
-        """Which way the second of a bevel pair turns; 0 where nothing depends on it: the guidelines tell no sign."""
+        """Which way the second of a bevel or worm pair turns; 0 where the guidelines tell no sign."""
         moves = any(self.body(key) in self.carriers for key in (mesh.first, mesh.second))
         if not moves and not self.is_differential:
             return 0

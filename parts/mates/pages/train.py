@@ -287,7 +287,7 @@ class _Page:
             text = N_("bevel satellites: turns of {links} are told against their carrier, of the others about its axis")
             page.notes.append(message(text, links=names))
         if any(mesh.sense and train.carrier(mesh) == FRAME for mesh in train.meshes):
-            page.notes.append(N_("signs of bevel pairs tell of turns about axes as they are laid"))
+            page.notes.append(N_("signs of bevel and worm pairs tell of turns about axes as they are laid"))
 
     def _module(self, mesh: Mesh) -> Fraction | None:
         return mesh.module or (None if self.module is None else _exact(self.module))

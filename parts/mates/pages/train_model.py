@@ -14,7 +14,7 @@ from geometry.base.record import Record
 from geometry.kinematics.mechanism import FRAME, Fixed, Kind, Mechanism, Revolute, Rolling, Z
 
 KINDS: tuple[Kind, ...] = ("external", "internal", "bevel", "worm")
-# of a bevel pair on a carrier: the word of its sign
+# of a bevel or worm pair: the word of its sign
 _SENSES = {"+": 1, "-": -1}
 _ACROSS = (1.0, 0.0, 0.0)
 _MESH = re.compile(r"\s*([^\s-]+)\s*-\s*([^\s-]+)((?:\s+\S+)*)\s*")
@@ -27,7 +27,7 @@ class Mesh(Record):
     second: str
     kind: Kind
     module: Fraction | None = None
-    # of a bevel pair on a carrier, where it is told: which way the second turns, as the carrier sees it
+    # of a bevel or worm pair, where it is told: which way the second turns, as the carrier sees it
     sense: int = 0
 
     @property
@@ -51,7 +51,7 @@ class Train(Record):
         return one if one != FRAME else two
 
     def ratio(self, mesh: Mesh) -> Fraction:
-        """u_12 of a mesh as its carrier sees it: w1 / w2, below 0 where it is external; bevels by ``sense``."""
+        """u_12 of a mesh as its carrier sees it: w1 / w2, below 0 where it is external; others by ``sense``."""
         return Fraction(self.teeth[mesh.second], self.teeth[mesh.first]) * self.sense(mesh)
 
     def sense(self, mesh: Mesh) -> int:
@@ -61,7 +61,7 @@ class Train(Record):
         central wheels, which are counted about one axis, turn in opposite ways: they face each other.
         """
         if mesh.kind != "bevel":
-            return -1 if mesh.kind == "external" else 1
+            return mesh.sense or (-1 if mesh.kind == "external" else 1)
         own = {self.bodies[mesh.first], self.bodies[mesh.second]} & self.carried.keys()
         first = next((m for m in self.meshes if own & {self.bodies[m.first], self.bodies[m.second]}), None)
         return mesh.sense or (-1 if first == mesh else 1)
@@ -172,7 +172,7 @@ def _mesh(word: str, teeth: Mapping[str, int]) -> Mesh:
     kind: Kind = "external"
     module, sense = None, 0
     for more in rest:
-        if more in _SENSES and kind == "bevel":
+        if more in _SENSES and kind in ("bevel", "worm"):
             sense = _SENSES[more]
         elif named := next((name for name in KINDS if name == more), None):
             kind = named

@@ -10,6 +10,8 @@ import pytest
 
 from exporters.documents.topics import calculate
 from parts.base.refusal import SceneError
+from parts.scene.load import load_scene, make_parts
+from parts.scene.placing import place
 from tests.parts.scene.test_trains import DRIVE, FREE, GEAR, JAMES
 
 # the axes of both gears stand on the plate
@@ -154,3 +156,23 @@ def test_bevels_that_are_typed_face_each_other_unless_their_signs_are_told() -> 
     assert json.loads(calculate("train", typed, "json", "en"))["exact"]["ratio"] == "2"
     stepped = ("teeth={'1'=20,'2'=40,\"2'\"=20,'3'=30}", "meshes=1-2 bevel -, 2'-3 bevel -", "carriers.H=2", "held=3")
     assert json.loads(calculate("train", stepped, "json", "en"))["exact"]["ratio"] == "-2"
+
+
+@pytest.mark.parametrize("name", ["worm_set_print", "power_table_print"])
+def test_worms_turn_in_the_calculation_as_the_drives_turn_them(name: str) -> None:
+    """A lone drive by its ratio; of a table's worms and disks every speed against what the drives of the scene give."""
+    data = json.loads(calculate("train", (name,), "json", "en"))
+    if name == "worm_set_print":
+        assert data["exact"] == {"ratio": "15", "driver": "1", "driven": "2"}
+        assert any("no sign" in note for note in data["notes"])
+        return
+    file = load_scene(name)
+    parts, matings = make_parts(file, name)
+    train = place(file.instances, file.drives, parts, matings, name).train
+    assert train is not None
+    turns = {key: sum(run.get(key, 0.0) for run in train.turned) for run in train.turned for key in run}
+    told = sorted(abs(value) for value in speeds(data).values())
+    worms = [key for key, spec in file.instances.items() if parts[spec.part or key].kind == "worm"]
+    assert len(worms) == 2
+    for key in worms:
+        assert min(abs(abs(turns[key]) - value) for value in told) < 1e-9
