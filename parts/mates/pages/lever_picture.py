@@ -47,8 +47,7 @@ class Plan(Record):
     def table(self, name: str, title: Text, unit: str) -> Table:
         """Size, direction and length on paper of every vector."""
         heads = ((N_("vector"), ""), (N_("value"), unit), (N_("direction"), "deg"), (N_("on the plan"), "mm"))
-        # 0j takes the sign from zeros, which have no direction
-        sides = [v.end - v.start + 0j for v in self.vectors]
+        sides = [v.end - v.start for v in self.vectors]
         rows = tuple((abs(s), math.degrees(cmath.phase(s)), abs(s) / self.scale) for s in sides)
         return Table(name, title, heads, rows, labels=tuple((v.name,) for v in self.vectors))
 

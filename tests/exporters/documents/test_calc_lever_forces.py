@@ -257,8 +257,9 @@ def test_no_masses_no_forces() -> None:
         assert np.isfinite(told).all()
         assert told[:, 1:].any() == ("masses.3=1e9" in keys)
     # what is nothing has no direction
-    data = calculated(*ENGINE, "masses.2=0", "gravity=0")
-    assert [row[1:] for name in ("force_plan_23", "force_plan_1") for row in rows(data, name)] == [[0, 0, 0]] * 6
+    for angle in (0, 40, 130, 220):
+        data = calculated(*ENGINE[:4], f"start_angle_deg={angle}", "masses.2=0")
+        assert [row[1:] for name in ("force_plan_23", "force_plan_1") for row in rows(data, name)] == [[0, 0, 0]] * 6
 
 
 def test_forces_across_their_velocities_balance_by_themselves() -> None:

@@ -194,7 +194,7 @@ def test_names_stand_off_lines_and_off_each_other(assignment: int, tmp_path: Pat
             for block in group.iter(f"{SVG}rect"):
                 x, y = map(float, block.attrib["transform"][len("translate(") :].partition(")")[0].split())
                 off = complex(max(low.real - x, x - high.real, 0), max(low.imag + y, -y - high.imag, 0))
-                assert abs(off) > 7, texts[k].text
+                assert abs(off) > 10.8, texts[k].text
             # within the panel and the room about it
             assert -34 < low.real < high.real < side() + 34
             assert -side() - 34 < low.imag < high.imag < 11
