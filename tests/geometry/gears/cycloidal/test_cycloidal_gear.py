@@ -258,6 +258,10 @@ def test_offsets_end_where_spaces_close_and_teeth_vanish() -> None:
         assert isinstance(limit.value, float)
         cycloidal_region(gear, limit.value)
         assert 0 < limit.value / offset < 1
+        if offset > 0:
+            # straight flanks, half of a space of 6 degrees apart: a circle between them about the root's middle
+            sine = math.sin(gear.pitch_angle / 4)
+            assert limit.value == pytest.approx(gear.root_radius * sine / (1 - sine), abs=1e-5)
     # pointed before it vanishes
     high = clockwork(60, 8, addendum_coefficient=1.3)
     assert [[f.code for f in cycloidal_region(high, by).findings] for by in (-0.5, -0.8)] == [[], ["tip_lost"]]
