@@ -135,8 +135,9 @@ def test_axes_stand_apart_as_the_gears_do_and_every_ratio_is_told(
 
 def test_what_no_drive_turns_is_refused() -> None:
     for text in (FREE + SHEET, GEAR.format("a", 20) + '[[drives]]\ninstance = "a"\n' + SHEET):
-        with pytest.raises(SceneError, match="shows gears that a drive turns"):
+        with pytest.raises(SceneError) as caught:
             plan_build(scene_from_toml(text.encode(), "s.toml", "s"), "s", [], [])
+        assert (caught.value.key, caught.value.code) == ("exports[1].purpose", "shows_driven_gears")
 
 
 @pytest.mark.parametrize(("scene", "teeth"), [("clock_gears", (60, 8)), ("lantern_pair", (10, 30))])
