@@ -34,9 +34,10 @@ from geometry.curves.cycloid import CycloidParallel
 from geometry.curves.intersect import crossing_circle
 from geometry.curves.line_arc import Arc, Line, arc_between
 from geometry.gears.teeth.moved_segments import corner_arc
+from geometry.gears.teeth.offset import toothed_region
 from geometry.gears.teeth.tooth import ToothSide
-from geometry.plane.offset_region import OffsetRegion, moved_teeth
-from geometry.plane.profile import Label, Region, Segment
+from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.profile import Label, Segment
 from geometry.solids.hub_holes import HubHoles
 
 _NO_HOLES = HubHoles()
@@ -319,14 +320,7 @@ def cycloidal_region(gear: CycloidalGear, offset: float = 0.0) -> OffsetRegion:
     OffsetError
         Names the nearest offset that works.
     """
-    return moved_teeth(partial(_region, gear), offset)
-
-
-def _region(gear: CycloidalGear, offset: float) -> OffsetRegion:
-    if gear.holes.number and gear.root_radius + offset <= gear.holes.reach - offset:
-        raise OffsetError(offset, "leaves_no_rim")
-    side = cycloidal_side(gear, offset)
-    return OffsetRegion(Region(side.profile(), gear.holes.profiles(offset)), offset, side.findings)
+    return toothed_region(partial(cycloidal_side, gear), gear.root_radius, gear.holes, offset)
 
 
 def checked_cycloidal_gear(gear: CycloidalGear) -> CycloidalGear:

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geometry.base.errors import CuspError, Nearest, OffsetError, ParameterError, PointedTipError, limit
+from geometry.base.errors import CuspError, Nearest, ParameterError, PointedTipError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.base.placement import Placement2
@@ -29,10 +29,10 @@ from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real, end_point, start_point
 from geometry.curves.cycloid import CycloidParallel
 from geometry.curves.line_arc import Arc
-from geometry.gears.teeth.offset import grown_side
+from geometry.gears.teeth.offset import grown_side, toothed_region
 from geometry.gears.teeth.tooth import ToothSide
-from geometry.plane.offset_region import OffsetRegion, moved_teeth
-from geometry.plane.profile import Label, Region, Segment
+from geometry.plane.offset_region import OffsetRegion
+from geometry.plane.profile import Label, Segment
 from geometry.solids.hub_holes import HubHoles
 
 _NO_HOLES = HubHoles()
@@ -303,14 +303,7 @@ def lantern_region(gear: LanternGear, offset: float = 0.0) -> OffsetRegion:
     OffsetError
         Names the nearest offset that works.
     """
-    return moved_teeth(partial(_region, gear), offset)
-
-
-def _region(gear: LanternGear, offset: float) -> OffsetRegion:
-    if gear.holes.number and gear.root_radius + offset <= gear.holes.reach - offset:
-        raise OffsetError(offset, "leaves_no_rim")
-    side = lantern_side(gear, offset)
-    return OffsetRegion(Region(side.profile(), gear.holes.profiles(offset)), offset, side.findings)
+    return toothed_region(partial(lantern_side, gear), gear.root_radius, gear.holes, offset)
 
 
 def lantern_findings(gear: LanternGear) -> tuple[Finding, ...]:

@@ -27,6 +27,7 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import SideCurves, ToothSide, assemble_side, tooth_side
 from geometry.plane.offset_region import OffsetRegion, moved_teeth
 from geometry.plane.profile import Label, Profile, Region, Segment
+from geometry.solids.hub_holes import HubHoles
 
 _SAMPLES = 65
 # share of a tip rounding's radius that is left at the edge of the deepest face chamfer
@@ -46,6 +47,26 @@ def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:
     def section(by: float) -> OffsetRegion:
         side = _moved_side(gear, by)
         return OffsetRegion(Region(side.profile(), gear.holes.profiles(by)), by, side.findings)
+
+    return moved_teeth(section, offset)
+
+
+def toothed_region(
+    side: Callable[[float], ToothSide], root_radius: float, holes: HubHoles, offset: float
+) -> OffsetRegion:
+    """The section of a wheel by its moved ``side``; ``offset`` > 0 moves every boundary out of the material, mm.
+
+    Raises
+    ------
+    OffsetError
+        Names the nearest offset that works.
+    """
+
+    def section(by: float) -> OffsetRegion:
+        if holes.number and root_radius + by <= holes.reach - by:
+            raise OffsetError(by, "leaves_no_rim")
+        made = side(by)
+        return OffsetRegion(Region(made.profile(), holes.profiles(by)), by, made.findings)
 
     return moved_teeth(section, offset)
 
