@@ -144,7 +144,7 @@ class _Space:
                 return True
         swept = [self.swept(i.part) if turns else self.shapes[i.part] for i, turns in zip(pair, spins, strict=True)]
         trial = MotionFound()
-        self._search(trial, pair, (swept[0], swept[1]), MOST_POSES, reports=True)
+        self._search(trial, pair, (swept[0], swept[1]), MOST_POSES, reports=True, is_trial=True)
         if trial.struck:
             return False
         found.tested += trial.tested
@@ -170,7 +170,9 @@ class _Space:
         most: int,
         *,
         reports: bool,
+        is_trial: bool = False,
     ) -> None:
+        """Hold one pair as these shapes; a trial asks only whether they strike at all."""
         path = space_path(pair, shapes, self.course, self._round(pair, shapes, (False, False)))
         one, two = (i.id for i in pair)
         if path is None:
@@ -185,7 +187,7 @@ class _Space:
             if path.share < 1:
                 found.uncovered.append(Uncovered(one, two, 0.0, path.share, 0))
             return
-        search = _Search(shapes, path, path.free, 0.0, most)
+        search = _Search(shapes, path, path.free, 0.0, most, is_trial=is_trial)
         struck, uncovered = search.run(one, two)
         found.tested += 1
         found.poses += search.poses
@@ -303,10 +305,22 @@ class Meeting:
 
 
 class _Search:
-    """Poses of one pair, chosen as it is searched; places on its path go by the path's length, mm."""
+    """Poses of one pair, chosen as it is searched; places on its path go by the path's length, mm.
 
-    def __init__(self, shapes: tuple[Shape, Shape], path: Path | SpacePath, free: Real, lift: float, most: int) -> None:
-        self.path, self.free, self.most = path, free, most
+    A trial ends where the pair first strikes: how deep it goes is of no matter.
+    """
+
+    def __init__(
+        self,
+        shapes: tuple[Shape, Shape],
+        path: Path | SpacePath,
+        free: Real,
+        lift: float,
+        most: int,
+        *,
+        is_trial: bool = False,
+    ) -> None:
+        self.path, self.free, self.most, self.is_trial = path, free, most, is_trial
         self.whole = float(path.length[-1])
         self.step = _FIRST * self.whole / most
         sought = min(2 * self.step, _SOUGHT * min(shape.reach for shape in shapes))
@@ -318,7 +332,7 @@ class _Search:
     def run(self, first: str, second: str) -> tuple[Struck | None, Uncovered | None]:
         """Along the path, then where most of it was passed over, at last about its worst place."""
         held = [(0.0, self._gap(0.0))]
-        while held[-1][0] < self.whole:
+        while held[-1][0] < self.whole and not (self.is_trial and self.worst[0]):
             at = min(held[-1][0] + max(held[-1][1], self.step), self.whole)
             held.append((at, self._gap(at)))
         open_ones = [(-_hidden(a, b), a, b) for a, b in pairwise(held)]
@@ -330,7 +344,8 @@ class _Search:
             heappush(open_ones, (-_hidden(one, middle), one, middle))
             heappush(open_ones, (-_hidden(middle, two), middle, two))
         if self.worst[0]:
-            self._about()
+            if not self.is_trial:
+                self._about()
             time = float(np.interp(self.worst[1], self.path.length, self.path.times))
             return Struck(first, second, self.worst[0], time), None
         depth = max(-open_ones[0][0], 0.0)
