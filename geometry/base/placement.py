@@ -68,6 +68,12 @@ class Placement3(Record):
             laid = np.diag([1.0, -1.0, -1.0])
         return _placement3(laid @ np.array(turned.rotation), np.array(translation))
 
+    @property
+    def z(self) -> Vector:
+        """The direction of frame b's z in frame a."""
+        x, y, z = (row[2] for row in self.rotation)
+        return x, y, z
+
     def matrix(self) -> NDArray[np.float64]:
         """(3, 4): rotation and translation side by side."""
         return np.column_stack([np.array(self.rotation), np.array(self.translation)])

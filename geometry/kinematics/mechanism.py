@@ -35,7 +35,7 @@ from geometry.base.tolerance import PLACED_MM
 from geometry.kinematics.elimination import Row, eliminated, follows_from
 
 if TYPE_CHECKING:
-    from geometry.base.placement import Vector
+    from geometry.base.placement import Placement3, Vector
     from geometry.base.series import Series
     from geometry.kinematics.motion import Pose
 
@@ -113,12 +113,21 @@ class Group(Record):
 
     ``poses`` gives the links' poses in the order of ``links`` from the others' in that of ``on``. ``pairs``: numbers of
     its lower and higher kinematic pairs, of a dyad 3 and 0, of a cam and its follower's guide 1 and 1.
+
+    ``plane``: the frame in whose x, y plane these poses are, where that is not the fixed frame's: all links' frames
+    then coincide with it at the start.
     """
 
     links: tuple[str, ...]
     on: tuple[str, ...]
     poses: Callable[[list[Pose]], list[Pose]]
     pairs: tuple[int, int]
+    plane: Placement3 | None = None
+
+    @property
+    def axis(self) -> Vector:
+        """The normal of its plane."""
+        return Z if self.plane is None else self.plane.z
 
 
 Support = Fixed | Revolute | Prismatic
@@ -246,7 +255,22 @@ class Tree(Record):
     def axis(self, link: str) -> Vector:
         """Direction of the axis about which a link turns."""
         joint = self.supports.get(self.turning(link))
-        return joint.axis if isinstance(joint, Revolute) else Z
+        return joint.axis if isinstance(joint, Revolute | Group) else Z
+
+    def keeps(self, link: str, axis: Vector) -> bool:
+        """Whether a link moves in planes across a direction alone."""
+        while not self.still(link):
+            joint = self.supports[link]
+            if isinstance(joint, Group):
+                return bool(parallel(joint.axis, axis)) and all(self.keeps(name, axis) for name in joint.on)
+            if isinstance(joint, Revolute) and not parallel(joint.axis, axis):
+                return False
+            if isinstance(joint, Prismatic):
+                way = (joint.direction.real, joint.direction.imag, joint.rise)
+                if abs(math.fsum(a * b for a, b in zip(way, axis, strict=True))) > _PARALLEL:
+                    return False
+            link = joint.on
+        return True
 
     def still(self, link: str) -> bool:
         """Whether a link is the frame, or fixed to a held one."""

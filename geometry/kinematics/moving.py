@@ -42,7 +42,7 @@ from geometry.kinematics.mechanism import (
 from geometry.kinematics.motion import GivenMotion, PlaneMotion, Pose
 
 if TYPE_CHECKING:
-    from geometry.base.placement import Vector
+    from geometry.base.placement import Placement3, Vector
 
 # rad or mm of one turn, or of one unit of travel
 _TURN, _TRAVEL = 2 * math.pi, math.pi
@@ -130,7 +130,12 @@ class Moving(Record):
             off = origin - unit * below
             return _about(Z, unit), np.stack([off.real, off.imag, np.zeros(shape)], axis=-1)
         joint = self.stands.supports[link]
-        assert not isinstance(joint, Group)
+        if isinstance(joint, Group):
+            assert joint.plane is not None
+            own = _about(joint.axis, np.broadcast_to(bodies[link].unit[0], shape))
+            off, home = np.broadcast_to(bodies[link].origin[0], shape), np.array(joint.plane.translation)
+            across = np.stack([off.real, off.imag, np.zeros(shape)], axis=-1) @ np.array(joint.plane.rotation).T
+            return own, home + across - own @ home
         turned, moved = self._displaced(joint.on, bodies, shape)
         if isinstance(joint, Revolute):
             row = self.stands.turn(link, joint.on)
@@ -158,13 +163,27 @@ class Moving(Record):
                 nowhere = [np.full(t.shape, np.nan)] * (order + 1)
                 bodies[name] = _Body(nowhere, turn, nowhere)
             elif isinstance(joint, Group):
-                on = [_pose(self.starts[other], bodies[other]) for other in joint.on]
+                if joint.plane is None:
+                    on = [_pose(self.starts[other], bodies[other]) for other in joint.on]
+                else:
+                    on = [self._seen_in(joint.plane, other, bodies, (t, order)) for other in joint.on]
                 origin, angle = joint.poses(on)[joint.links.index(name)]
-                inputs[name] = [angle[0] - self.starts[name][1], *angle[1:]]
+                start = self.starts[name][1] if joint.plane is None else 0.0
+                inputs[name] = [angle[0] - start, *angle[1:]]
                 bodies[name] = _Body(origin, inputs[name], exponential([1j * x for x in inputs[name]]))
             else:
                 bodies[name] = self._moved(name, joint, bodies[joint.on], (t, order), inputs)
         return bodies
+
+    def _seen_in(self, plane: Placement3, link: str, bodies: Mapping[str, _Body], at: tuple[Real, int]) -> Pose:
+        """How the frame of a plane has moved in it with a link; what it does next is not told."""
+        t, order = at
+        turned, moved = self._displaced(link, bodies, t.shape)
+        own, home = np.array(plane.rotation), np.array(plane.translation)
+        across, off = own.T @ turned @ own, (turned @ home + moved - home) @ own
+        unknown = [np.full(t.shape, np.nan)] * order
+        origin, angle = off[..., 0] + 1j * off[..., 1], np.arctan2(across[..., 1, 0], across[..., 0, 0])
+        return [origin, *unknown], [angle, *unknown]
 
     def _moved(
         self, name: str, joint: Fixed | Revolute | Prismatic, on: _Body, at: tuple[Real, int], inputs: dict[str, Series]
@@ -218,10 +237,13 @@ def moving(mechanism: Mechanism, drives: Iterable[Drive]) -> Moving:
     stands = tree(mechanism)
     courses = _courses(found, stands, by_link)
     leads = {lead(joint): joint.uneven for joint in mechanism.joints if isinstance(joint, Rolling) and joint.uneven}
-    planar = {name for name in stands.order if _in_plane(name, stands)}
-    # where a group stands is told in the plane alone
-    known = [name for name in stands.order if name in planar or not _on_group(name, stands)]
-    needs = {name: _needs(name, stands, courses, leads) for name in known}
+    for number, joint in enumerate(mechanism.joints, 1):
+        if isinstance(joint, Group):
+            for other in joint.on:
+                if not (in_plane(other, stands) if joint.plane is None else stands.keeps(other, joint.axis)):
+                    raise ParameterError(f"joints[{number}].on", other, "leaves_its_plane")
+    planar = {name for name in stands.order if in_plane(name, stands)}
+    needs = {name: _needs(name, stands, courses, leads) for name in stands.order}
     try:
         order = [name for name in TopologicalSorter(needs).static_order() if name != FRAME]
     except CycleError as error:
@@ -273,20 +295,12 @@ def _turned(turns: Real, ways: Real) -> Real:
     return np.asarray(np.einsum("...ij,...j->...i", turns, ways))
 
 
-def _on_group(link: str, stands: Tree) -> bool:
+def in_plane(link: str, stands: Tree) -> bool:
+    """Whether a link moves in the fixed frame's plane, all axes on which it stands pointing up."""
     while link != FRAME:
         joint = stands.supports[link]
         if isinstance(joint, Group):
-            return True
-        link = joint.on
-    return False
-
-
-def _in_plane(link: str, stands: Tree) -> bool:
-    while link != FRAME:
-        joint = stands.supports[link]
-        if isinstance(joint, Group):
-            return all(_in_plane(name, stands) for name in joint.on)
+            return joint.plane is None and all(in_plane(name, stands) for name in joint.on)
         if (isinstance(joint, Revolute) and joint.axis != Z) or (isinstance(joint, Prismatic) and joint.rise):
             return False
         link = joint.on

@@ -205,8 +205,6 @@ class _Placed:
     def join(self, index: int, mating: Mating) -> PlacedMate:
         """Run one mate: place its second, or only note that both stand."""
         first, second = mating.first, mating.second
-        if mating.follows:
-            self._check_upright(index, mating)
         if first not in self.stand:
             self._begin(index, mating)
         here = self.stand[first]
@@ -230,16 +228,6 @@ class _Placed:
             if first in group:
                 group.append(second)
         return PlacedMate(mating, here, self.stand[second])
-
-    def _check_upright(self, index: int, mating: Mating) -> None:
-        """Refuse a mate of what lies on another axis than z: by the key that says so, or by the mate that laid it."""
-        for name, key in (("first", mating.first), ("second", mating.second)):
-            if key not in self.stand or self.stand[key].axis == UPWARDS:
-                continue
-            given, place = self.specs[key].axis, f"mates[{index + 1}]"
-            if given is None:
-                raise SceneError(self.source, f"{place}.{name}", key, "laid_mate", kind=mating.kind)
-            raise SceneError(self.source, f"instances.{key}.axis", given, "tilted_mate", REMOVED, mate=index + 1)
 
     def _begin(self, index: int, mating: Mating) -> None:
         """Place the first of a mate that nothing has placed: the very first at the origin, a new train in the row."""

@@ -95,6 +95,8 @@ def _rates(
     while one and two and one[-1].body == two[-1].body:
         one.pop()
         two.pop()
+    laws = {step.rate for step in (*one, *two) if step.by_law}
+    one, two = ([step for step in chain if not step.by_law] for chain in (one, two))
     alike: list[dict[str, int]] = []
     for i, whole, shape, chain in zip(pair, round_, shapes, (one, two), strict=True):
         own = i.id in course.spins and chain
@@ -107,7 +109,7 @@ def _rates(
         turning.append((low.rate - sense * other.rate, math.lcm(*counts)))
     for chain, own_count in zip((one, two), alike, strict=True):
         turning += [(step.rate, own_count.get(step.body.link, 1)) for step in chain]
-    return {rate * count for rate, count in turning} - {Fraction(0)}
+    return ({rate * count for rate, count in turning} | laws) - {Fraction(0)}
 
 
 def _size(shape: Shape) -> _Size:

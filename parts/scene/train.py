@@ -32,7 +32,7 @@ from geometry.kinematics.mechanism import (
     tree,
     turns,
 )
-from geometry.kinematics.moving import Drive, Moving, moving
+from geometry.kinematics.moving import Drive, Moving, in_plane, moving
 from parts.base.mate import Mating, Pose, Toothed
 from parts.base.refusal import SceneError
 from parts.scene.instances import DriveSpec
@@ -69,10 +69,14 @@ Stand = Mapping[str, Stood]
 
 
 class Turning(Record):
-    """A body that turns about its joint's axis: turns for one t against what carries it."""
+    """A body that turns about its joint's axis: turns for one t against what carries it.
+
+    ``by_law``: one that a cam moves, and how often this or what carries it turns.
+    """
 
     body: Revolute
     rate: Fraction
+    by_law: bool = False
 
 
 class Train(Record):
@@ -131,7 +135,10 @@ class Train(Record):
     def chain(self, key: str) -> tuple[Turning, ...]:
         """What turns an instance, from its own body down."""
         stands, found, here = self.moving.stands, list[Turning](), key
-        while (joint := stands.supports.get(here)) is not None and not isinstance(joint, Group):
+        while (joint := stands.supports.get(here)) is not None:
+            if isinstance(joint, Group):
+                return (*found, *(replace(one, body=replace(one.body, link=here), by_law=True)
+                                  for one in self.chain(joint.on[0])))  # fmt: skip
             if isinstance(joint, Revolute):
                 row = stands.turn(here, joint.on)
                 rates = (share * self.moving.courses[name].rate for name, share in row.items())
@@ -272,6 +279,14 @@ def scene_mechanism(
     base = Mechanism(tuple(joints.values()), tuple(holds | dict.fromkeys(held)),
                      {key: (one.centre, one.rotation) for key, one in stand.items()})  # fmt: skip
     stands = tree(base)
+    laid = {
+        bodies.of(mating.second): _following(mating, stand, bodies.of(mating.second), laid=True)
+        for mating in matings
+        if mating.follows and not in_plane(mating.first, stands)
+    }
+    if laid:
+        base = replace(base, joints=tuple((joints | laid).values()))
+        stands = tree(base)
     meshes: list[Rolling] = []
     for index, mating in enumerate(matings):
         for joint in mating.joints:
@@ -326,22 +341,35 @@ def _slide(key: str, one: Stood) -> Prismatic:
     return Prismatic(key, direction=complex(x, y), rise=z)
 
 
-def _following(mating: Mating, stand: Stand, body: str) -> Group:
-    """The body of a mate's second, which stands wherever the first puts it."""
+def _following(mating: Mating, stand: Stand, body: str, *, laid: bool = False) -> Group:
+    """The body of a mate's second, which stands wherever the first puts it; ``laid``: in the plane of the first."""
     first, own, leads = stand[mating.first], stand[mating.second], stand[body]
-    start = first.centre, first.rotation
-    arm, lean = (leads.centre - own.centre) * cmath.rect(1.0, -own.rotation), leads.rotation - own.rotation
+    plane = Placement3.towards(first.axis, 0.0, first.at) if laid else None
+    start, before = (first.centre, first.rotation), 0.0
+    (place, turn), (end, last) = (own.centre, own.rotation), (leads.centre, leads.rotation)
+    if plane is not None:
+        # there all frames begin at its origin
+        start, before, end, last = (0j, first.rotation), first.rotation, 0j, 0.0
+        place, turn = _pose_in(plane, own.scene_from_part)
+    arm, lean = (end - place) * cmath.rect(1.0, -turn), last - turn
 
     def poses(given: list[tuple[Series, Series]]) -> list[tuple[Series, Series]]:
         ((origin, angle),) = given
-        at, turned = np.vectorize(lambda z, a: mating.followed(start, (complex(z), float(a))), [complex, float])(
-            origin[0], angle[0]
-        )
+        at, turned = np.vectorize(
+            lambda z, a: mating.followed(start, (complex(z), before + float(a))), [complex, float]
+        )(origin[0], angle[0])
         # how fast it goes is the cam's matter
         unknown = [np.full(np.shape(at), np.nan)] * (len(angle) - 1)
         return [([at + arm * np.exp(1j * turned), *unknown], [turned + lean, *unknown])]
 
-    return Group((body,), (mating.first,), poses, (1, 1))
+    return Group((body,), (mating.first,), poses, (1, 1), plane)
+
+
+def _pose_in(plane: Placement3, frame: Placement3) -> Pose:
+    """Origin and angle of a frame in the x, y plane of another one."""
+    seen = plane.inverse() @ frame
+    x, y, _ = seen.translation
+    return complex(x, y), math.atan2(seen.rotation[1][0], seen.rotation[0][0])
 
 
 def driven_train(
@@ -466,6 +494,9 @@ def _check_rings(matings: Sequence[Mating], joined: Sequence[tuple[str, str]], s
 
 def _refused(refusal: ParameterError, keys: Sequence[str], matings: Sequence[Mating], source: str) -> SceneError:
     """A refusal of the mechanism in the keys of the scene."""
+    if refusal.code == "leaves_its_plane":
+        place = next(f"mates[{n}].first" for n, m in enumerate(matings, 1) if m.follows and m.first == refusal.value)
+        return SceneError(source, place, refusal.value, refusal.code)
     if refusal.code != "contradicts":
         place = refusal.name if refusal.name.startswith("mates[") else "mates"
         return SceneError(source, place, refusal.value, refusal.code, None, "", **refusal.numbers)
