@@ -59,7 +59,7 @@ def _cover(title: str, rows: list[Row], paper: str, language: str) -> Expected:
     square = Box(frame.left + 2.0, low, frame.left + 2.0 + SQUARE, low + SQUARE)
     canvas.box("CUT", square)
     canvas.write(f"{SQUARE:g} x {SQUARE:g}", complex(square.left + 4.0, square.low + 4.0), TEXT_HEIGHT)
-    table = Table(tuple(rows), TEXT_HEIGHT, wide)
+    table = Table(tuple(rows), TEXT_HEIGHT, wide - 4.0)
     # as many as there is room for: what is missing has its sheets all the same
     room = int((square.low - frame.low - 6.0) / (table.size[1] / len(rows)))
     table = replace(table, rows=table.rows[:room])

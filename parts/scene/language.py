@@ -13,6 +13,8 @@ from parts.scene.files import MOST_BYTES, built_in_scenes, tables_of
 
 # keys that hold words, and may hold them in several languages
 WORDS: tuple[str, ...] = ("title", "label", "material", "notes")
+# line breaks, tabs and broad blanks, for which neither XML attributes nor lines of a sheet have a place
+_SPACE = re.compile(r"\s")
 # those that a part keeps in one: its title stays in all of them, as STEP files tell it
 WORDS_OF_PARTS: tuple[str, ...] = ("label", "material")
 
@@ -75,7 +77,9 @@ def in_one(raw: dict[str, Any], table: object, source: str, place: str, chosen: 
         return table
     made, language = dict(table), raw.get("scene", {}).get("language", ENGLISH)
     for key in WORDS:
-        if not isinstance(told := table.get(key), dict) or not told:
+        if key in made:
+            made[key] = _in_a_line(made[key])
+        if not isinstance(told := made.get(key), dict) or not told:
             continue
         for other in told:
             if other not in languages():
@@ -90,6 +94,13 @@ def in_one(raw: dict[str, Any], table: object, source: str, place: str, chosen: 
                     check_material(name, source, f"{place}.{key}.{other}")
             made[key] = told_in(str(language), told)
     return made
+
+
+def _in_a_line(words: Any) -> Any:
+    """Words, in whatever languages, whose white space is plain blanks."""
+    if isinstance(words, dict):
+        return {key: _in_a_line(told) for key, told in words.items()}
+    return _SPACE.sub(" ", words) if isinstance(words, str) else words
 
 
 def _check_all(told: dict[str, Any], key: str, source: str, place: str) -> None:

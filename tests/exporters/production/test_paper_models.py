@@ -72,3 +72,17 @@ def test_round_holes_are_arcs_and_names_are_told_apart(monkeypatch: pytest.Monke
     assert len(outlines["Plate second"]) == 4
     assert all(0 <= error <= 0.02 for error in errors.values())
     assert job is not None
+
+
+def test_a_long_title_with_breaks_stands_in_one_line_within_the_frame() -> None:
+    """As many letters as a title may have fill the list of the cover, which keeps within what a printer prints."""
+    title = r"Колесо\tдовга\r\nназва\u2028" * 4
+    (job,) = plan_build(
+        scene_from_toml(PLATE.replace('"Plate"', f'"{title}"').encode(), "s.toml", "s"), "s", [], []
+    ).sheets
+    told = [word.text for page in job.pages for word in page.canvas.texts]
+    assert sum("Колесо довга  назва Колесо" in text for text in told) == 4
+    assert not any(broad in text for text in told for broad in "\t\r\n\u2028")
+    lines = [stroke.curve for stroke in job.canvas.strokes]
+    ends = np.array([point for line in lines for point in (start_point(line), end_point(line))])
+    assert job.canvas.frame.grown(1e-9).holds(ends) == len(ends)
