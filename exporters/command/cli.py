@@ -371,6 +371,8 @@ def _parser(told: Words) -> Parser:
         metavar="F",
         help=told.text("text, md, html, json, or the tables alone as csv (default: text)"),
     )
+    listed = told.text("print every key of the topic with unit, range and default")
+    calc.add_argument("--keys", action="store_true", help=listed)
     calc.set_defaults(run=_calc, several=("words", str))
     new = command("new", told.text("print a scene with comments to start from; for a mate, its table"), page)
     new.add_argument(
@@ -735,8 +737,12 @@ def _schema(options: argparse.Namespace) -> int:
 
 
 def _calc(options: argparse.Namespace) -> int:
-    from exporters.documents.topics import calculate
+    from exporters.command.new import topic_keys
+    from exporters.documents.topics import calculate, keys_of_topic
 
     _check_free(options)
+    if options.keys:
+        _page(topic_keys(options.topic, keys_of_topic(options.topic), options.language or ENGLISH), options)
+        return DONE
     _page(calculate(options.topic, options.words, options.format, options.language), options)
     return DONE

@@ -187,6 +187,24 @@ def new_assembly(kind: str, language: str = ENGLISH) -> str:
     return "\n".join(lines) + "\n"
 
 
+def topic_keys(topic: str, keys: type[Struct], language: str = ENGLISH) -> str:
+    """What may be typed for a topic of ``calc``: its keys, and of which parts those stand that a name goes before."""
+    told = words(language)
+    tables = {f.encode_name: f.type for f in fields(keys) if isinstance(f.type, type) and issubclass(f.type, Struct)}
+    parts = {name: str(tag) for name, table in tables.items() if (tag := table.__struct_config__.tag) in KINDS}
+    inner = {name: _keys(fields(table), told) for name, table in tables.items() if name not in parts}
+    typed = N_("Each is typed as key=value, without blanks. Lines that begin with # show defaults or examples.")
+    lines = [
+        f"# {told.text('Keys of {command}.', command=f'higherpair calc {topic}')}",
+        f"# {told.text(typed)}",
+        f"# {told.text('Lengths in mm, angles in degrees.')}",
+        *(f"# {name}.KEY=…: {told.text('see {command}', command=f'{_NEW}{kind}')}" for name, kind in parts.items()),
+        *(f"{name}.{line}" for name, own in inner.items() for line in own),
+        *_keys([f for f in own_first(keys) if f.encode_name not in tables], told),
+    ]
+    return "\n".join(lines) + "\n"
+
+
 def plain_scene(text: str, source: str) -> str:
     """The text of a scene, its defaults filled in, its assemblies told out as parts, instances, mates and drives."""
     raw, _ = plain_tables(tomllib.loads(text), source)
@@ -227,7 +245,8 @@ def _value(field: FieldInfo, meta: Meta | None) -> str:
     """What stands at a key as TOML: what a scene starts from, its default, an example, or the first of its tables."""
     if meta is not None and meta.examples and (_is_open(field) or "start" in (meta.extra or {})):
         return _toml(meta.examples[-1])
-    return _table(_tables_of(field)[0]) if _is_open(field) else _toml(field.default)
+    tables = _tables_of(field)
+    return _toml(field.default) if not _is_open(field) else _table(tables[0]) if tables else "…"
 
 
 def _shown(kind: object) -> Meta | None:

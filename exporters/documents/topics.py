@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from msgspec import Struct
+
 from exporters.documents.render import FORMATS, render
 from geometry.base.errors import Nearest
 from parts.base.refusal import SceneError, meant
@@ -18,27 +20,40 @@ from parts.base.texts import words as told
 from parts.pages.inputs import PLACE, table_of
 from parts.pages.page import Picture, Sheet
 
-# each module has sheet(table), and table_from(scene, source, table) where a scene may give it
+# where each has sheet(table), table_from(scene, source, table) where a scene may give it, and the name of its keys
 TOPICS = {
-    "spur": "parts.gears.spur_gear.page",
-    "ring": "parts.gears.ring_gear.page",
-    "rack": "parts.gears.rack.page",
-    "tmm42": "parts.gears.spur_gear.device_page",
-    "gear-pair": "parts.mates.pages.external",
-    "shift-choice": "parts.mates.pages.shift_choice",
-    "bevel": "parts.gears.bevel_gear.page",
-    "worm": "parts.gears.worm.page",
-    "train": "parts.scene.train_page",
-    "planetary": "parts.mates.pages.planetary",
-    "cam": "parts.cams.disk_cam.page",
-    "cycloidal": "parts.pins.cycloidal_page",
-    "cycloidal-gear": "parts.gears.cycloidal_gear.page",
-    "lantern": "parts.pins.lantern_page",
-    "noncircular": "parts.gears.noncircular_gear.page",
-    "lever": "parts.mates.pages.levers",
-    "power-table": "parts.mates.pages.power_table",
-    "power-module": "parts.mates.pages.power_module",
+    "spur": ("parts.gears.spur_gear.page", "SpurKeys"),
+    "ring": ("parts.gears.ring_gear.page", "RingKeys"),
+    "rack": ("parts.gears.rack.page", "RackKeys"),
+    "tmm42": ("parts.gears.spur_gear.device_page", "Tmm42Keys"),
+    "gear-pair": ("parts.mates.pages.external", "PairKeys"),
+    "shift-choice": ("parts.mates.pages.shift_choice", "ShiftChoiceKeys"),
+    "bevel": ("parts.gears.bevel_gear.page", "BevelKeys"),
+    "worm": ("parts.gears.worm.page", "WormKeys"),
+    "train": ("parts.scene.train_page", "TrainKeys"),
+    "planetary": ("parts.mates.pages.planetary", "PlanetaryKeys"),
+    "cam": ("parts.cams.disk_cam.page", "CamKeys"),
+    "cycloidal": ("parts.pins.cycloidal_page", "DiscKeys"),
+    "cycloidal-gear": ("parts.gears.cycloidal_gear.page", "CycloidalGearKeys"),
+    "lantern": ("parts.pins.lantern_page", "LanternKeys"),
+    "noncircular": ("parts.gears.noncircular_gear.page", "NoncircularKeys"),
+    "lever": ("parts.mates.pages.levers", "LeverKeys"),
+    "power-table": ("parts.mates.pages.power_table", "PowerTableKeys"),
+    "power-module": ("parts.mates.pages.power_module", "PowerModuleKeys"),
 }
+
+
+def keys_of_topic(topic: str) -> type[Struct]:
+    """The keys of a topic, each with its meaning.
+
+    Raises
+    ------
+    SceneError
+        A wrong topic.
+    """
+    module = importlib.import_module(_home(topic))
+    keys: type[Struct] = getattr(module, TOPICS[topic][1]) if topic in TOPICS else KINDS[topic].keys
+    return keys
 
 
 def calculate(topic: str, words: Sequence[str], form: str, language: str | None) -> str:
@@ -49,8 +64,7 @@ def calculate(topic: str, words: Sequence[str], form: str, language: str | None)
     SceneError
         A wrong topic, key or value, with the nearest that works.
     """
-    if _home(topic) is None:
-        raise SceneError(PLACE, "TOPIC", topic, "unknown_topic", meant(topic, TOPICS), known=list(TOPICS))
+    _home(topic)
     for name, value, known in (("--format", form, FORMATS), ("--language", language, languages())):
         if value is not None and value not in known:
             raise SceneError(PLACE, name, value, "not_one_of", meant(value, known), known=known)
@@ -63,9 +77,12 @@ def calculate(topic: str, words: Sequence[str], form: str, language: str | None)
     return render(sheet, form, language)
 
 
-def _home(topic: str) -> str | None:
+def _home(topic: str) -> str:
     """The module of a topic: one of ours, or the page of a kind of part that goes by its own name."""
-    return TOPICS[topic] if topic in TOPICS else KINDS[topic].page if topic in KINDS else None
+    home = TOPICS[topic][0] if topic in TOPICS else KINDS[topic].page if topic in KINDS else None
+    if home is None:
+        raise SceneError(PLACE, "TOPIC", topic, "unknown_topic", meant(topic, TOPICS), known=list(TOPICS))
+    return home
 
 
 def _write_picture(picture: Picture, file: Path, words: Words) -> None:
@@ -95,7 +112,7 @@ def _sheet_of(topic: str, addresses: Sequence[str], table: dict[str, Any], langu
         from exporters.formats.read_path import read_path
 
         table["path"] = read_path(Path(file), f"{topic}.path")
-    module = importlib.import_module(str(_home(topic)))
+    module = importlib.import_module(_home(topic))
     if not addresses:
         return module.sheet(table), "en"
     from parts.scene.load import load_scene

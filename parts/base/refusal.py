@@ -50,47 +50,83 @@ REMOVED = Nearest(None)
 
 # words of other books for our keys and values, to which no letter leads; small letters, one "_" between words
 _SYNONYMS = {
-    "3_4_5": ("polynomial_345",),
     "345": ("polynomial_345",),
-    "4_5_6_7": ("polynomial_4567",),
+    "3_4_5": ("polynomial_345",),
     "4567": ("polynomial_4567",),
+    "4_5_6_7": ("polynomial_4567",),
+    "a_w": ("working_centre_distance",),
+    "alpha": ("pressure_angle_deg",),
+    "aw": ("working_centre_distance",),
+    "b": ("face_width",),
     "bestehorn": ("sine",),
-    "center_distance": ("centre_distance", "oscillating"),
-    "centre_distance": ("oscillating",),
+    "beta": ("helix_angle_deg",),
+    "center_distance": ("centre_distance", "working_centre_distance", "oscillating"),
+    "centre_distance": ("working_centre_distance", "oscillating"),
+    "crank_slider": ("lever", "slider"),
     "cubic": ("linearly_decreasing",),
     "curved": ("mushroom",),
     "cycloid": ("sine",),
     "cycloidal": ("sine",),
+    "delta": ("unevenness",),
+    "differential": ("train",),
     "down": ("return_",),
     "drop": ("return_",),
+    "e": ("eccentricity", "follower_offset"),
     "eccentricity": ("follower_offset",),
+    "epicyclic": ("planetary",),
+    "face_width": ("plate_thickness",),
     "fall": ("return_",),
+    "flywheel": ("lever",),
+    "four_bar": ("lever", "rods"),
+    "gamma_min": ("least_transmission_angle_deg",),
     "h": ("lift",),
     "harmonic": ("cosine",),
+    "helical": ("spur",),
+    "i": ("ratio",),
     "inclined_sine": ("sine",),
+    "internal": ("ring",),
+    "involute": ("spur",),
     "knife": ("pointed",),
     "knife_edge": ("pointed",),
     "law": ("phases",),
     "linear": ("constant_velocity", "lines"),
+    "linkage": ("lever",),
+    "m": ("module",),
     "max_pressure_angle": ("least_transmission_angle_deg",),
+    "mechanism": ("lever",),
     "motion": ("phases",),
+    "n": ("speed_rpm",),
+    "n1": ("speed_rpm",),
+    "omega": ("speed", "speeds"),
     "parabolic": ("constant_acceleration",),
     "pause": ("dwell",),
+    "q": ("diameter_quotient",),
+    "quick_return": ("lever", "stone"),
+    "r0": ("base_circle_radius",),
+    "r_0": ("base_circle_radius",),
     "rest": ("dwell",),
     "roller_diameter": ("follower_radius",),
     "segments": ("phases",),
+    "shift": ("profile_shift_coefficient",),
     "shm": ("cosine",),
     "simple_harmonic": ("cosine",),
     "sinusoidal": ("sine",),
+    "slider_crank": ("lever", "slider"),
     "spherical": ("mushroom",),
-    "uniform": ("constant_velocity",),
-    "up": ("rise",),
+    "stroke": ("lift",),
     "table": ("motion_table", "poles"),
     "teeth": ("number_of_teeth",),
-    "stroke": ("lift",),
     "thickness": ("face_width", "plate_thickness"),
+    "u": ("ratio",),
+    "uniform": ("constant_velocity",),
+    "up": ("rise",),
     "width": ("face_width",),
-    "face_width": ("plate_thickness",),
+    "worm_gear": ("worm",),
+    "x": ("profile_shift_coefficient",),
+    "xi": ("profile_shift_coefficient",),
+    "z": ("number_of_teeth",),
+    "z1": ("number_of_starts", "first", "number_of_teeth"),
+    "z2": ("mate_teeth", "second", "number_of_teeth"),
 }
 
 
@@ -100,12 +136,10 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
 
     word = None if word is None else in_latin(str(word))
     plain = "" if word is None else re.sub("[ _-]+", "_", word.lower())
-    if plain in _SYNONYMS and word not in known:
-        match = [name for name in _SYNONYMS[plain] if name in known]
-    else:
-        match = [] if word is None else difflib.get_close_matches(word, list(known), 1, 0.5)
-        if not match and word is not None:
-            match = [name for name in known if name.lower() == word.lower()]
+    match = [name for name in _SYNONYMS.get(plain, ()) if name in known and word not in known]
+    if not match and word is not None:
+        match = difflib.get_close_matches(word, list(known), 1, 0.5)
+        match = match or [name for name in known if name.lower() == word.lower()]
     return Nearest(match[0], "meant") if match else None
 
 

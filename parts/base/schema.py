@@ -277,8 +277,8 @@ def described(kind: object) -> Message | None:
     """Meaning, range, choices and unit of an annotated type."""
     if get_origin(kind) is Literal:
         return _one_of(get_args(kind))
-    meta = next((m for m in getattr(kind, "__metadata__", ()) if isinstance(m, Meta)), None)
-    if meta is None:
+    metas = [m for m in getattr(kind, "__metadata__", ()) if isinstance(m, Meta)]
+    if not metas:
         if isinstance(kind, type) and issubclass(kind, Struct):
             return message("table: {what}", what=Message(phrase_of(kind)))
         tagged = [s for s in _structs_of(kind) if s.__struct_config__.tag]
@@ -288,7 +288,9 @@ def described(kind: object) -> Message | None:
         found = [d for d in (described(a) for a in get_args(kind)) if d is not None]
         return _either([d for i, d in enumerate(found) if d not in found[:i]]) if found else None
     inner = described(get_args(kind)[0])
-    pieces = [Message(meta.description) if meta.description else None, _span(meta, kind), inner]
+    # a key tells its own meaning of a type that has one
+    meaning = [Message(m.description) for m in metas if m.description][-1:]
+    pieces = [*meaning, *(_span(m, kind) for m in metas), inner]
     made: Message | None = None
     for piece in filter(None, pieces):
         made = piece if made is None else message("{what}: {range}", what=made, range=piece)

@@ -43,32 +43,41 @@ class Driven(Protocol):
     power: float | None
 
 
-def driving_torque(page: Sheet, keys: Driven) -> float | None:
-    """The torque on the first gear, N*m, under a heading of its own, where the load is given: by it or by a power.
+def asked_torque(keys: Driven) -> float | None:
+    """The torque on what drives, N*m, where it is given: by itself or by a power.
 
     Raises
     ------
     ParameterError
         A torque and a power, or a power without a speed.
     """
-    if keys.power is not None and keys.torque is not None:
-        raise ParameterError("power", keys.power, "other_is_given", REMOVED, other="torque")
-    if keys.power is not None and keys.speed_rpm is None:
-        raise ParameterError("power", keys.power, "needs_other", REMOVED, other="speed_rpm")
-    if keys.torque is None and keys.power is None:
-        return None
-    page.section(N_("Torques and forces, without friction"))
-    if keys.torque is not None:
-        page.add("gear_torque", keys.torque, gear=1, given=True)
-        if keys.speed_rpm is not None:
-            page.add("pair_power", keys.torque * math.pi * keys.speed_rpm / 30, "{T1} * pi * {n1} / 30")
+    if keys.power is None:
         return keys.torque
-    assert keys.power is not None
-    assert keys.speed_rpm is not None
-    torque = keys.power / (math.pi * keys.speed_rpm / 30)
-    page.add("pair_power", keys.power, given=True)
-    page.add("gear_torque", torque, "30 * {P} / (pi * {n1})", gear=1)
+    if keys.torque is not None:
+        raise ParameterError("power", keys.power, "other_is_given", REMOVED, other="torque")
+    if keys.speed_rpm is None:
+        raise ParameterError("power", keys.power, "needs_other", REMOVED, other="speed_rpm")
+    return keys.power / (math.pi * keys.speed_rpm / 30)
+
+
+def driving_torque(page: Sheet, keys: Driven) -> float | None:
+    """The torque on the first gear, N*m, under a heading of its own, where the load is given."""
+    torque = asked_torque(keys)
+    if torque is not None:
+        page.section(N_("Torques and forces, without friction"))
+        torque_steps(page, keys, torque, "gear_torque", 1)
     return torque
+
+
+def torque_steps(page: Sheet, keys: Driven, torque: float, name: str, gear: int = 0) -> None:
+    """The torque that drives, N*m, as the term ``name`` has it, and the power of it."""
+    if keys.power is not None:
+        page.add("pair_power", keys.power, given=True)
+        page.add(name, torque, "30 * {P} / (pi * {n1})", gear=gear)
+        return
+    page.add(name, torque, gear=gear, given=True)
+    if keys.speed_rpm is not None:
+        page.add("pair_power", torque * math.pi * keys.speed_rpm / 30, "{T1} * pi * {n1} / 30")
 
 
 def force_steps(page: Sheet, pair: ExternalPair | InternalPair | RackPair, helical: Helical, keys: DrivenKeys) -> None:

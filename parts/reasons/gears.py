@@ -139,9 +139,6 @@ REASONS = {
     ),
     "worm_flank_above_root": N_("the flanks begin above the root, and not radially; take fewer starts or more q"),
     "worm_wheel_missing": N_("is missing: {key} is given, which belongs to a worm drive with its wheel"),
-    "worm_form_factor_missing": N_(
-        "is missing: with a torque the strength of the wheel's teeth is calculated, which needs it"
-    ),
     "worm_pointed": N_("the thread is pointed below its tip"),
     "worm_rounding_too_large": N_("the rounding has no room on the tip of the thread"),
     "hob_pointed": N_("the hob's thread is pointed before it reaches the root of the wheel"),

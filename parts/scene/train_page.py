@@ -6,14 +6,14 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from parts.base.refusal import SceneError
-from parts.mates.pages.train import sheet
+from parts.mates.pages.train import TrainKeys, sheet
 
 if TYPE_CHECKING:
     from geometry.base.placement import Vector
     from geometry.kinematics.mechanism import Mechanism, Rolling
     from parts.scene.load import SceneFile
 
-__all__ = ["sheet", "table_from"]
+__all__ = ["TrainKeys", "sheet", "table_from"]
 _KINDS = ("external", "internal", "bevel")
 # what a satellite meshes, how, and both numbers of teeth
 Side = tuple[str, str, tuple[int, int]]

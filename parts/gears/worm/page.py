@@ -1,4 +1,4 @@
-"""``higherpair calc worm``: a worm, or a worm drive by GOST 19650, its exact sections, its strength by the thesis."""
+"""``higherpair calc worm``: a worm or a drive by GOST 19650, exact sections, speeds, forces, strength by the thesis."""
 
 from __future__ import annotations
 
@@ -47,6 +47,7 @@ from parts.keys.worm import (
     quotient_of,
     worm_of,
 )  # fmt: skip
+from parts.pages.force_steps import asked_torque, torque_steps
 from parts.pages.inputs import SceneKeys, checked, given, keys_of, refusal
 from parts.pages.misprints import printed_for_worm
 from parts.pages.page import Sheet
@@ -55,12 +56,12 @@ TOPIC = "worm"
 _ERRORS = ("centre_distance_error", "axis_angle_error_deg", "wheel_axial_error")
 # what a worm alone has not
 _OF_DRIVE = (
-    "torque", "face_width", "outer_diameter", "profile_shift_coefficient", "hob_rounding_coefficient",
-    "hob_diameter_quotient", "wheel_thinning", *_ERRORS,
+    "speed_rpm", "torque", "power", "friction_coefficient", "form_factor", "face_width", "outer_diameter",
+    "profile_shift_coefficient", "hob_rounding_coefficient", "hob_diameter_quotient", "wheel_thinning", *_ERRORS,
 )  # fmt: skip
 _GOST, _THESIS = "GOST 19650", "thesis, 2.2"
-_Factor = Annotated[float, Meta(gt=0, le=100, description="factor of the load")]
-_Life = Annotated[float, Meta(gt=0, le=10, description="factor of life")]
+_Factor = Annotated[float, Meta(gt=0, le=100)]
+_Life = Annotated[float, Meta(gt=0, le=10)]
 
 
 class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
@@ -94,16 +95,22 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     centre_distance_error: DistanceError = 0.0
     axis_angle_error_deg: AngleError = 0.0
     wheel_axial_error: AxialError = 0.0
+    speed_rpm: Annotated[float, size("rpm", "speed of the worm", above=0, most=1e6)] | None = None
     torque: Annotated[float, size("N*m", "torque T1 on the worm", above=0, most=1e9)] | None = None
+    power: Annotated[float, size("W", "power that the worm takes in, by its speed, in place of its torque", above=0,
+                                 most=1e9)] | None = None  # fmt: skip
     friction_coefficient: Annotated[
         float, Meta(ge=0, le=1, description="friction of the flanks; without it no losses")
     ] = 0.0
-    form_factor: Annotated[float, Meta(gt=0, le=10, description="form factor Y_F2 of the wheel's teeth")] | None = None
-    width_factor: _Factor = 1.5
-    speed_factor: _Factor = 1.1
+    form_factor: (
+        Annotated[float, Meta(gt=0, le=10, description="form factor Y_F2 of the wheel's teeth: adds their strength")]
+        | None
+    ) = None
+    width_factor: Annotated[_Factor, Meta(description="K_beta: uneven load along the rim")] = 1.5
+    speed_factor: Annotated[_Factor, Meta(description="K_v: load of the motion itself")] = 1.1
     tensile_strength: Annotated[float, size("MPa", "tensile strength of the wheel's rim", above=0, most=10_000)] = 200.0
-    bending_life_factor: _Life = 1.0
-    contact_life_factor: _Life = 1.0
+    bending_life_factor: Annotated[_Life, Meta(description="K_FL: life in bending")] = 1.0
+    contact_life_factor: Annotated[_Life, Meta(description="K_HL: life in contact")] = 1.0
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -150,14 +157,13 @@ def sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of one worm, or of its drive."""
     asked: WormKeys = checked(table, WormKeys, TOPIC)
     keys = asked
-    if keys.torque is not None and keys.form_factor is None:
-        raise SceneError("calc", f"{TOPIC}.form_factor", None, "worm_form_factor_missing")
     errors = AxisErrors(keys.centre_distance_error, math.radians(keys.axis_angle_error_deg), keys.wheel_axial_error)
     if keys.number_of_teeth is None:
         for key in _OF_DRIVE:
             if table.get(key):
                 raise SceneError("calc", f"{TOPIC}.number_of_teeth", None, "worm_wheel_missing", key=key)
     try:
+        torque = asked_torque(keys)
         keys = changed(asked, diameter_quotient=quotient_of(asked), lead_angle_deg=None)
         worm = worm_of(keys, keys.fillet_coefficient, keys.axial_thinning)
         hob_quotient(keys.hob_diameter_quotient, worm.diameter_quotient)
@@ -182,8 +188,14 @@ def sheet(table: dict[str, Any]) -> Sheet:
             _lengths(page, drive, keys)
         if errors.any:
             _off_places(page, drive, keys, errors)
-        if keys.torque is not None:
-            _strength(page, drive, keys)
+        if keys.speed_rpm is not None:
+            _speeds(page, drive, keys.speed_rpm)
+        worth = _losses(page, drive, keys, torque)
+        if torque is not None:
+            _forces(page, drive, torque, worth, keys.speed_rpm)
+            if keys.form_factor is not None:
+                _strength(page, drive, keys, strength.Load(1e3 * torque * drive.ratio * worth, keys.form_factor,
+                                                           keys.width_factor, keys.speed_factor))  # fmt: skip
     return page
 
 
@@ -319,38 +331,58 @@ def _off_places(page: Sheet, drive: WormDrive, keys: WormKeys, errors: AxisError
     page.add("contact_verdict", found.verdict.value.upper())
 
 
-def _strength(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
-    """Torque, forces, losses, bending and contact; beside what the thesis prints."""
-    worm = drive.worm
-    assert keys.torque is not None
-    assert keys.form_factor is not None
-    page.section(N_("Torques and losses"))
-    page.add("worm_torque", keys.torque)
-    losses = ""
-    worth = 1.0
-    friction = math.atan(keys.friction_coefficient / math.cos(worm.pressure_angle))
-    if keys.friction_coefficient:
-        page.add("friction_coefficient", keys.friction_coefficient)
-        page.add("friction_angle_deg", math.degrees(friction), "arctan({f} / cos({alpha}))")
-        worth = strength.efficiency(drive, friction)
-        page.add("worm_efficiency", worth, "tan({gamma_w}) / tan({gamma_w} + {rho_v})")
-        page.add("back_driving_efficiency", strength.efficiency(drive, friction, back=True), "")
-        losses = " * {eta}"
-        if friction >= drive.pitch_lead_angle:
-            page.notes.append(N_("the drive is self-locking: the wheel cannot turn the worm"))
-    torque = keys.torque * drive.ratio * worth
+def _speeds(page: Sheet, drive: WormDrive, speed_rpm: float) -> None:
+    """Speeds of both shafts, and with which the flanks slide at the pitch point."""
+    page.section(N_("Speeds"))
+    page.add("worm_speed", speed_rpm, given=True)
+    page.add("worm_wheel_speed", speed_rpm / drive.ratio, "{n1} / {u}")
+    speed = math.pi * speed_rpm / 30 * drive.pitch_radius_of_worm
+    page.add("worm_pitch_speed", speed, "pi * {n1} / 30 * {d_w1} / 2")
+    page.add("worm_sliding_speed", speed / math.cos(drive.pitch_lead_angle), "{v_w} / cos({gamma_w})")
+
+
+def _losses(page: Sheet, drive: WormDrive, keys: WormKeys, torque: float | None) -> float:
+    """Torque and power on the worm, and the efficiency, 1 where no friction is told."""
+    if torque is not None or keys.friction_coefficient:
+        page.section(N_("Torques and losses"))
+    if torque is not None:
+        torque_steps(page, keys, torque, "worm_torque")
+    if not keys.friction_coefficient:
+        return 1.0
+    friction = math.atan(keys.friction_coefficient / math.cos(drive.worm.pressure_angle))
+    page.add("friction_coefficient", keys.friction_coefficient)
+    page.add("friction_angle_deg", math.degrees(friction), "arctan({f} / cos({alpha}))")
+    worth = strength.efficiency(drive, friction)
+    page.add("worm_efficiency", worth, "tan({gamma_w}) / tan({gamma_w} + {rho_v})")
+    page.add("back_driving_efficiency", strength.efficiency(drive, friction, back=True), "")
+    if friction >= drive.pitch_lead_angle:
+        page.notes.append(N_("the drive is self-locking: the wheel cannot turn the worm"))
+    return worth
+
+
+def _forces(page: Sheet, drive: WormDrive, driving: float, worth: float, speed_rpm: float | None) -> None:
+    """The torque (N*m) and the power that the wheel gives, and the forces between the flanks at the pitch point."""
+    worm, losses = drive.worm, " * {eta}" if worth < 1 else ""
+    torque = driving * drive.ratio * worth
     page.add("wheel_torque", torque, "{T1} * {u}" + losses, _THESIS)
+    if losses and speed_rpm is not None:
+        page.add("worm_power_out", driving * math.pi * speed_rpm / 30 * worth, "{P} * {eta}")
     along = 2e3 * torque / (2 * drive.reference_radius)
     page.add("worm_axial_force", along, "2000 * {T2} / {d2}")
-    page.add("worm_tangential_force", 2e3 * keys.torque / (2 * worm.reference_radius), "2000 * {T1} / {d1}", _THESIS)
+    around = 2e3 * driving / (2 * drive.pitch_radius_of_worm)
+    page.add("worm_tangential_force", around, "2000 * {T1} / {d_w1}", _THESIS)
     page.add("worm_radial_force", along * math.tan(worm.axial_pressure_angle), "{F_a1} * tan({alpha_x})")
-    load = strength.Load(1e3 * torque, keys.form_factor, keys.width_factor, keys.speed_factor)
+
+
+def _strength(page: Sheet, drive: WormDrive, keys: WormKeys, load: strength.Load) -> None:
+    """Bending and contact of the wheel's teeth; beside what the thesis prints."""
+    worm = drive.worm
     page.section(N_("Bending of the wheel's teeth"))
     width = drive.most_face_width if keys.face_width is None else keys.face_width
     share = min(width / drive.most_face_width, 1.0)
     page.add("width_share", share, "{b2} / {b2_max}" if keys.face_width and share < 1 else "")
     for name, value in (
-        ("form_factor", keys.form_factor),
+        ("form_factor", load.form_factor),
         ("width_factor", keys.width_factor),
         ("speed_factor", keys.speed_factor),
         ("tensile_strength", keys.tensile_strength),

@@ -18,7 +18,7 @@ from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.helix import Helix
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import normal_share, transverse_gear
-from parts.base.refusal import REMOVED, SceneError, meant
+from parts.base.refusal import REMOVED, SceneError
 from parts.base.texts import N_, in_context
 from parts.gears.ring_gear.part import RingGearSpec
 from parts.gears.spur_gear.page import addendum_formula, given_data, root_radius_step, thickness_formula
@@ -26,7 +26,7 @@ from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, sec
 from parts.keys.base import in_modules, mm
 from parts.keys.helix import helix_of, in_keys, same_helix
 from parts.mates.pages.internal import InternalKeys, RackKeys, internal_sheet, rack_sheet
-from parts.mates.pages.pair_keys import GEARS, merged, pair_table
+from parts.mates.pages.pair_keys import GEARS, kind_of_pair, merged, pair_table
 from parts.mates.pages.wishes import wish_refused
 from parts.mates.thinning import shared_thinning
 from parts.pages.contact_steps import (
@@ -39,7 +39,7 @@ from parts.pages.contact_steps import (
     sliding_steps,
 )
 from parts.pages.force_steps import DrivenKeys, force_steps
-from parts.pages.inputs import PLACE, SceneKeys, checked, given, keys_of, refusal
+from parts.pages.inputs import SceneKeys, checked, given, keys_of, refusal
 from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
@@ -107,9 +107,7 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
 
 def sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of a pair, by its kind."""
-    kind = table.pop("kind", "external_gear_pair")
-    if kind not in PAIRS:
-        raise SceneError(PLACE, f"{TOPIC}.kind", kind, "unknown_pair", meant(kind, PAIRS), known=list(PAIRS))
+    kind, table = kind_of_pair(table, TOPIC, list(PAIRS))
     return PAIRS[kind][1](table)
 
 

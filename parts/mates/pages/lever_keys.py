@@ -11,11 +11,10 @@ from msgspec import Meta, Struct
 from geometry.base.errors import ParameterError
 from geometry.kinematics.levers import Levers, Rods, Slider, Stone
 from parts.base.refusal import REMOVED
-from parts.base.texts import message
+from parts.base.schema import described_key
 from parts.keys.base import degrees, mm
 
 _MOST = 1e5
-_Length = mm("length", above=0, most=_MOST)
 _CODE = "last four digits of a record-book number: chooses assignment and rows"
 _BESIDE = "how far the guide passes to the left of O3, of O1 where there is no lever"
 _SIDE = "1: slider ahead of C, or O5 to the left of CD; -1: behind it, or to the right"
@@ -38,6 +37,11 @@ _Inertia = Annotated[float, Meta(ge=0, le=1e9, extra={"unit": "kg*m2"})]
 _Place = Annotated[float, Meta(ge=-_MOST, le=_MOST, extra={"unit": "mm"})]
 
 
+def _length(text: str) -> Meta:
+    """A key of a link's length."""
+    return mm(text, above=0, most=_MOST)
+
+
 class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     """Keys of the topic; those of an assignment stand for what is not given."""
 
@@ -48,7 +52,7 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
         Literal["stone", "rods", "slider"], Meta(description="what A joins: stone in a lever, rod and rocker, slider")
     ] = "stone"
     second: Annotated[Literal["slider", "rocker", "none"], Meta(description="what the lever drives")] = "none"
-    crank_length: Annotated[float, _Length] | None = None
+    crank_length: Annotated[float, _length("crank O1A")] | None = None
     start_angle_deg: Annotated[float, degrees("angle of the crank from +x", least=-36_000, most=36_000)] = 0.0
     speed: Annotated[
         float, Meta(gt=0, le=1e6, description="angular velocity of the crank", extra={"unit": "rad/s"})
@@ -56,18 +60,18 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     acceleration: Annotated[
         float, Meta(ge=-1e9, le=1e9, description="angular acceleration of the crank", extra={"unit": "rad/s2"})
     ] = 0.0
-    frame_length: Annotated[float, _Length] | None = None
+    frame_length: Annotated[float, _length("frame O1O3")] | None = None
     frame_angle_deg: Annotated[float, degrees("direction from O1 to O3", least=-360, most=360)] = 0.0
-    coupler_length: Annotated[float, _Length] | None = None
-    lever_length: Annotated[float, _Length] | None = None
+    coupler_length: Annotated[float, _length("rod AB")] | None = None
+    lever_length: Annotated[float, _length("lever O3B")] | None = None
     first_side: Annotated[
         Literal[1, -1], Meta(description="on which side of AB the pivot O3 lies: 1 left, -1 right")
     ] = 1
-    arm_length: Annotated[float, _Length] | None = None
+    arm_length: Annotated[float, _length("arm O3C of the lever, for CD; default: as long as O3B")] | None = None
     arm_angle_deg: Annotated[float, degrees("direction of O3C against the lever", least=-360, most=360)] = 0.0
-    rod_length: Annotated[float, _Length] | None = None
-    rocker_length: Annotated[float, _Length] | None = None
-    pivot_distance: Annotated[float, _Length] | None = None
+    rod_length: Annotated[float, _length("second rod CD")] | None = None
+    rocker_length: Annotated[float, _length("rocker O5D")] | None = None
+    pivot_distance: Annotated[float, _length("distance O3O5")] | None = None
     pivot_angle_deg: Annotated[float, degrees("direction from O3 to O5", least=-360, most=360)] = 0.0
     guide_height: Annotated[float, mm(_BESIDE, least=-_MOST, most=_MOST)] = 0.0
     guide_angle_deg: Annotated[float, degrees("direction of the guide", least=-360, most=360)] = 0.0
@@ -111,7 +115,7 @@ def levers_of(keys: LeverKeys) -> Levers:
     def needed(name: str) -> float:
         value = getattr(keys, name)
         if value is None:
-            raise ParameterError(name, None, "missing_key", None, what=message("a length, mm"))
+            raise ParameterError(name, None, "missing_key", None, what=described_key(LeverKeys, name))
         return float(value)
 
     crank = needed("crank_length")

@@ -66,7 +66,7 @@ class LoadKeys(TwoDiskKeys, kw_only=True):
     """Keys of the load, and of what holds it."""
 
     worm_torque: Annotated[float, size("N*m", "torque on either worm", above=0, most=1e6)] = 3.5
-    worm_module: _Length = 5.0
+    worm_module: Annotated[_Length, Meta(description="module of both worms")] = 5.0
     diameter_quotient: Annotated[float, Meta(gt=0, le=1000, description="q of both worms")] = 10.0
     friction_coefficient: Annotated[
         float, Meta(ge=0, le=1, description="friction of the worms' flanks; without it no losses, as in the thesis")
@@ -85,7 +85,7 @@ class LoadKeys(TwoDiskKeys, kw_only=True):
         Annotated[float, mm("radius of the grooves; default: r_groove of the assembly", above=0, most=1000,
                             example=4.16)] | None
     ) = None  # fmt: skip
-    ball_diameter: _Length = 8.0
+    ball_diameter: Annotated[_Length, Meta(description="diameter of a ball")] = 8.0
     ball_pressure_limit: Annotated[
         float, size("MPa", "greatest pressure on a ball at rest, ISO 76", above=0, most=100_000)
     ] = 4200.0

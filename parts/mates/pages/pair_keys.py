@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import msgspec
@@ -12,6 +12,29 @@ from parts.base.refusal import SceneError, meant
 from parts.pages.inputs import PLACE, keys_of
 
 GEARS = ("first", "second")
+# the second body of each kind of pair
+_SECOND = {"external_gear_pair": "spur_gear", "internal_gear_pair": "ring_gear", "rack_pair": "rack"}
+
+
+def kind_of_pair(table: Mapping[str, Any], topic: str, known: Sequence[str]) -> tuple[str, dict[str, Any]]:
+    """The kind of a pair, told by ``kind`` or by what its second body is, ``second.kind``; and the other keys.
+
+    Raises
+    ------
+    SceneError
+        A kind that is none of the ``known``.
+    """
+    rest = {key: value for key, value in table.items() if key != "kind"}
+    second = rest.get("second")
+    if "kind" in table or not isinstance(second, dict) or "kind" not in second:
+        key, kind = f"{topic}.kind", table.get("kind", known[0])
+        if kind not in known:
+            raise SceneError(PLACE, key, kind, "unknown_pair", meant(kind, known), known=known)
+        return kind, rest
+    bodies = {_SECOND[kind]: kind for kind in known}
+    if (body := second["kind"]) not in bodies:
+        raise SceneError(PLACE, f"{topic}.second.kind", body, "not_one_of", meant(body, bodies), known=list(bodies))
+    return bodies[body], rest | {"second": {key: value for key, value in second.items() if key != "kind"}}
 
 
 def merged(under: Mapping[str, Any], over: Mapping[str, Any], pair: type[Struct]) -> dict[str, Any]:

@@ -28,7 +28,7 @@ from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.helix import Helix
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear, transverse_rack
-from parts.base.refusal import SceneError, meant
+from parts.base.refusal import SceneError
 from parts.base.texts import N_, message
 from parts.gears.spur_gear.page import section_data
 from parts.gears.spur_gear.part import RackTable, SpurGearSpec, gear_of
@@ -38,9 +38,9 @@ from parts.keys.helix import Double, HelixAngle, in_keys
 from parts.mates.pages import external as gear_pair
 from parts.mates.pages import internal_shift_choice
 from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices
-from parts.mates.pages.pair_keys import GEARS
+from parts.mates.pages.pair_keys import GEARS, kind_of_pair
 from parts.pages.contact_steps import face_steps, working_steps
-from parts.pages.inputs import PLACE, SceneKeys, checked, refusal, told
+from parts.pages.inputs import SceneKeys, checked, refusal, told
 from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Printed, Sheet
 
@@ -97,9 +97,7 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
 
 def sheet(table: dict[str, Any]) -> Sheet:
     """The choices and the contour, by the kind of pair."""
-    kind = table.pop("kind", "external_gear_pair")
-    if kind not in _KINDS:
-        raise SceneError(PLACE, f"{TOPIC}.kind", kind, "unknown_pair", meant(kind, _KINDS), known=_KINDS)
+    kind, table = kind_of_pair(table, TOPIC, _KINDS)
     if kind == internal_shift_choice.KIND:
         return internal_shift_choice.internal_sheet(table)
     keys: ShiftChoiceKeys = checked(table, ShiftChoiceKeys, TOPIC)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -102,6 +103,44 @@ def test_no_page_is_written_over_a_file(
 def test_the_help_names_every_topic(capsys: pytest.CaptureFixture[str]) -> None:
     shown = said(capsys, "calc", "--help")
     assert all(topic in shown for topic in TOPICS)
+
+
+@pytest.mark.parametrize("topic", TOPICS)
+def test_a_topic_tells_every_key_that_its_refusals_know(capsys: pytest.CaptureFixture[str], topic: str) -> None:
+    """Of two gears those of each are told by their kind."""
+    shown = said(capsys, "calc", topic, "--keys")
+    told = set(re.findall(r"(?m)^(?:# )?(\w+) = ", shown))
+    for name, kind in re.findall(r"(?m)^# (\w+)\.KEY=…: see higherpair new (\w+)$", shown):
+        told |= {name, "kind", *re.findall(r"(?m)^(?:# )?(\w+) = ", said(capsys, "new", kind).partition("[parts")[2])}
+    told |= set(re.findall(r"(?m)^(\w+)\.\w+ = ", shown))
+    assert run("calc", topic, "nothing=1") == 2
+    known = re.search(r"known keys: ([\w, ]+)", capsys.readouterr().err)
+    assert known
+    assert set(known[1].split(", ")) <= told
+
+
+def test_a_key_tells_its_own_meaning(capsys: pytest.CaptureFixture[str]) -> None:
+    """Not that of its type: a stress; a length."""
+    shown = said(capsys, "calc", "power-module", "--keys")
+    assert re.search(r"bending_limit = 580.0 +# sigma_Flim of the pair's teeth: above 0", shown)
+    assert run("calc", "power-module", "bending_limit=-1") == 2
+    assert "sigma_Flim" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "meant"),
+    [
+        ("spur m=2", "module"), ("spur z=20", "number_of_teeth"), ("spur x=0.3", "profile_shift_coefficient"),
+        ("spur beta=10", "helix_angle_deg"), ("gear-pair z1=20", "first"),
+        ("gear-pair aw=90", "working_centre_distance"),
+        ("worm z1=2", "number_of_starts"), ("worm q=10", "diameter_quotient"), ("bevel z2=40", "mate_teeth"),
+        ("planetary u=5", "ratio"), ("lever omega=10", "speed"), ("cam e=5", "follower_offset"),
+        ("flywheel z=2", "lever"), ("epicyclic u=5", "planetary"), ("lever first=four_bar", "rods"),
+    ],
+)  # fmt: skip
+def test_letters_and_words_of_books_lead_to_keys(capsys: pytest.CaptureFixture[str], words: str, meant: str) -> None:
+    assert run("calc", *words.split()) == 2
+    assert f"did you mean {meant}?" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])

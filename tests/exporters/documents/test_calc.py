@@ -90,7 +90,8 @@ SHEETS = [
     ("worm", *THESIS_WORM, "number_of_teeth=128", "form_factor=1.26"),
     ("worm", *THESIS_WORM, "number_of_teeth=106", "form_factor=1.27"),
     ("worm", "module=2", "number_of_starts=4", "number_of_teeth=40", "diameter_quotient=8", "form=ZK1", "face_width=12",
-     "profile_shift_coefficient=0.5", "torque=2", "form_factor=1.5", "friction_coefficient=0.08", "worm_length=20"),
+     "profile_shift_coefficient=0.5", "power=300", "speed_rpm=1400", "form_factor=1.5", "friction_coefficient=0.08",
+     "worm_length=20"),
     ("cam", "practicum_flat_cam"),
     ("cam", "guidelines_cam", "step=2.5"),
     ("cam", "practicum_roller_cam"),
@@ -728,6 +729,36 @@ def test_a_worm_drive_that_locks_itself_says_so() -> None:
     slope, held = math.atan(4 / 8), math.atan(0.12 / math.cos(math.radians(20)))
     assert free["back_driving_efficiency"] == pytest.approx(math.tan(slope - held) / math.tan(slope), rel=1e-12)
     assert free["worm_efficiency"] == pytest.approx(math.tan(slope) / math.tan(slope + held), rel=1e-12)
+
+
+def test_a_worm_pushes_its_wheel_as_a_wedge_that_slides() -> None:
+    """Forces of a wedge of slope gamma held by friction, powers and speeds by the lead; strength is not asked for."""
+    got = values_of(
+        "worm module=4 number_of_teeth=40 number_of_starts=2 profile_shift_coefficient=0.5 friction_coefficient=0.04 "
+        "power=2200 speed_rpm=1440"
+    )["values"]
+    radius, lead, turns = 22.0, 8 * math.pi, 24.0
+    slope, held = math.atan(lead / (2 * math.pi * radius)), math.atan(0.04 / math.cos(math.radians(20)))
+    around, along = got["worm_tangential_force"], got["worm_axial_force"]
+    assert around == pytest.approx(along * math.tan(slope + held), rel=1e-12)
+    assert around * 2 * math.pi * radius * turns == pytest.approx(2200e3, rel=1e-12)
+    assert along * lead * turns == pytest.approx(1e3 * got["worm_power_out"], rel=1e-12)
+    assert got["worm_sliding_speed"] == pytest.approx(turns * math.hypot(2 * math.pi * radius, lead), rel=1e-12)
+    assert got["worm_wheel_speed"] == pytest.approx(1440 * 2 / 40, rel=1e-12)
+    assert "contact_stress" not in got
+
+
+@pytest.mark.parametrize(
+    ("topic", "second", "kind"),
+    [
+        ("gear-pair", "ring_gear", "internal_gear_pair"),
+        ("gear-pair", "rack", "rack_pair"),
+        ("shift-choice", "ring_gear", "internal_gear_pair"),
+    ],
+)
+def test_a_pair_is_what_its_second_gear_makes_it(topic: str, second: str, kind: str) -> None:
+    words = f"{topic} first.number_of_teeth=24 second.number_of_teeth=60 module=3"
+    assert values_of(f"{words} second.kind={second}") == values_of(f"{words} kind={kind}")
 
 
 def test_a_ring_tells_where_its_tooth_is_pointed() -> None:
