@@ -175,6 +175,11 @@ def sliding_steps(page: Sheet, pair: Pair, helical: Helical, speed_rpm: float | 
     factors, per = line.speed_factors(pair.working_radii[0]), f"(1 {'+' if external else '-'} 1 / {{u}}) / {{r_w1}}"
     page.add("sliding_factor_at_start", factors[0], f"{{g_f}} * {per}", "ISO 21771")
     page.add("sliding_factor_at_end", factors[1], f"{{g_a}} * {per}", "ISO 21771")
+    bends = line.pole, line.line_length - pair.sign * line.pole
+    page.both("pole_curvature_radius", bends, "{r_w#} * sin({alpha_w})", ISO)
+    if not helical.angle:
+        pressure = pair.module * line.line_length / (bends[0] * bends[1])
+        page.add("specific_pressure", pressure, "{m} * {L} / ({rho_P1} * {rho_P2})")
     if speed_rpm is not None:
         speed_steps(page, pair, helical, line.length, factors, speed_rpm)
     if line.approach < 0 or line.recess < 0:

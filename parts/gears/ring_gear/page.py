@@ -13,7 +13,7 @@ from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_made import generation
 from parts.base.texts import N_
 from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear, tip_finding
-from parts.gears.spur_gear.page import section_data, shift_data
+from parts.gears.spur_gear.page import height_steps, helix_steps, section_data, shift_data
 from parts.keys.base import mm
 from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.measured_steps import Asked, measured_steps
@@ -90,6 +90,7 @@ def _dimensions(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
     page.section(N_("Diameters"))
     page.add("pitch", math.pi * ring.module, "pi * {m}", _ISO)
     page.add("base_pitch", ring.pitch_angle * ring.base_radius, "{p} * cos({alpha})", _ISO)
+    helix_steps(page, ring.module, ring.number_of_teeth, math.radians(keys.helix_angle_deg))
     page.add("reference_diameter", 2 * ring.reference_radius, "{m} * {z}", _ISO)
     page.add("base_diameter", 2 * ring.base_radius, "{d} * cos({alpha})", _ISO)
     formula = ""
@@ -110,6 +111,8 @@ def _dimensions(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
         formula = "2 * {a_w0} + {m} * {z_0} + 2 * ({h_a0} + {x_0}) * {m_n}"
         page.add("root_diameter", 2 * ring.root_radius, formula, _GOST)
     page.add("root_form_diameter", ring_limits.root_form_diameter(ring), "", _ISO)
+    heights = ring.reference_radius - ring.tip_radius, ring.root_radius - ring.reference_radius
+    height_steps(page, heights, ("({d} - {d_a}) / 2", "({d_f} - {d}) / 2"))
 
 
 def _thicknesses(page: Sheet, ring: RingGear, diameter: float | None) -> None:

@@ -22,6 +22,7 @@ from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
 
 TOPIC = "spur"
+_LESSON = "practicum, fig. 3.3"
 table_from = part_of_kind("spur_gear")
 
 
@@ -159,6 +160,7 @@ def dimensions(page: Sheet, gear: SpurGear, helix: float) -> None:
     page.section(N_("Diameters"))
     page.add("pitch", math.pi * gear.module, "pi * {m}", "practicum, table 1.1")
     page.add("base_pitch", gear.pitch_angle * gear.base_radius, "{p} * cos({alpha})", "ISO 21771")
+    helix_steps(page, gear.module, gear.number_of_teeth, helix)
     page.add("reference_diameter", 2 * gear.reference_radius, "{m} * {z}", "practicum (3.7)")
     page.add("base_diameter", 2 * gear.base_radius, "{d} * cos({alpha})", "practicum, table 1.1")
     formula = "" if gear.given_tip_diameter is not None else f"{{d}} + 2 * {addendum_formula()}"
@@ -175,6 +177,26 @@ def dimensions(page: Sheet, gear: SpurGear, helix: float) -> None:
         formula = "2 * {a_w0} - {m} * {z_0} - 2 * ({h_a0} + {x_0}) * {m_n}"
         page.add("root_diameter", 2 * gear.root_radius, formula, "ISO 21771")
     page.add("root_form_diameter", limits.root_form_diameter(gear), "", "ISO 21771")
+    heights = gear.tip_radius - gear.reference_radius, gear.reference_radius - gear.root_radius
+    height_steps(page, heights, ("({d_a} - {d}) / 2", "({d} - {d_f}) / 2"))
+
+
+def helix_steps(page: Sheet, module: float, teeth: int, helix: float) -> None:
+    """Pitches across and along the axis, lead and virtual teeth of helical teeth; ``module`` is the transverse one."""
+    if not helix:
+        return
+    pitch = math.pi * module / math.tan(abs(helix))
+    page.add("normal_pitch", math.pi * module * math.cos(helix), "pi * {m_n}", "ISO 21771")
+    page.add("axial_pitch", pitch, "pi * {m_n} / sin(abs({beta}))", "ISO 21771")
+    page.add("tooth_lead", teeth * pitch, "{z} * {p_x}", "ISO 21771")
+    page.add("virtual_teeth", teeth / math.cos(helix) ** 3, "{z} / cos({beta})**3", "GOST 16532-70")
+
+
+def height_steps(page: Sheet, heights: tuple[float, float], formulas: tuple[str, str], index: int = 0) -> None:
+    """Addendum and dedendum from the reference circle, and the whole depth of the tooth."""
+    page.add("tooth_addendum", heights[0], formulas[0], _LESSON, index)
+    page.add("tooth_dedendum", heights[1], formulas[1], _LESSON, index)
+    page.add("tooth_depth", sum(heights), "{H_a#} + {H_f#}", _LESSON, index)
 
 
 def _thicknesses(page: Sheet, gear: SpurGear, diameter: float | None) -> None:

@@ -192,7 +192,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
             _speeds(page, drive, keys.speed_rpm)
         worth = _losses(page, drive, keys, torque)
         if torque is not None:
-            _forces(page, drive, torque, worth, keys.speed_rpm)
+            _forces(page, drive, keys, torque, worth)
             if keys.form_factor is not None:
                 _strength(page, drive, keys, strength.Load(1e3 * torque * drive.ratio * worth, keys.form_factor,
                                                            keys.width_factor, keys.speed_factor))  # fmt: skip
@@ -341,6 +341,11 @@ def _speeds(page: Sheet, drive: WormDrive, speed_rpm: float) -> None:
     page.add("worm_sliding_speed", speed / math.cos(drive.pitch_lead_angle), "{v_w} / cos({gamma_w})")
 
 
+def _friction_angle(keys: WormKeys, worm: Worm) -> float:
+    """Angle of friction in a thread of inclined flanks, rad."""
+    return math.atan(keys.friction_coefficient / math.cos(worm.pressure_angle))
+
+
 def _losses(page: Sheet, drive: WormDrive, keys: WormKeys, torque: float | None) -> float:
     """Torque and power on the worm, and the efficiency, 1 where no friction is told."""
     if torque is not None or keys.friction_coefficient:
@@ -349,7 +354,7 @@ def _losses(page: Sheet, drive: WormDrive, keys: WormKeys, torque: float | None)
         torque_steps(page, keys, torque, "worm_torque")
     if not keys.friction_coefficient:
         return 1.0
-    friction = math.atan(keys.friction_coefficient / math.cos(drive.worm.pressure_angle))
+    friction = _friction_angle(keys, drive.worm)
     page.add("friction_coefficient", keys.friction_coefficient)
     page.add("friction_angle_deg", math.degrees(friction), "arctan({f} / cos({alpha}))")
     worth = strength.efficiency(drive, friction)
@@ -360,18 +365,21 @@ def _losses(page: Sheet, drive: WormDrive, keys: WormKeys, torque: float | None)
     return worth
 
 
-def _forces(page: Sheet, drive: WormDrive, driving: float, worth: float, speed_rpm: float | None) -> None:
+def _forces(page: Sheet, drive: WormDrive, keys: WormKeys, driving: float, worth: float) -> None:
     """The torque (N*m) and the power that the wheel gives, and the forces between the flanks at the pitch point."""
     worm, losses = drive.worm, " * {eta}" if worth < 1 else ""
     torque = driving * drive.ratio * worth
     page.add("wheel_torque", torque, "{T1} * {u}" + losses, _THESIS)
-    if losses and speed_rpm is not None:
-        page.add("worm_power_out", driving * math.pi * speed_rpm / 30 * worth, "{P} * {eta}")
+    if losses and keys.speed_rpm is not None:
+        page.add("worm_power_out", driving * math.pi * keys.speed_rpm / 30 * worth, "{P} * {eta}")
     along = 2e3 * torque / (2 * drive.reference_radius)
     page.add("worm_axial_force", along, "2000 * {T2} / {d2}")
     around = 2e3 * driving / (2 * drive.pitch_radius_of_worm)
     page.add("worm_tangential_force", around, "2000 * {T1} / {d_w1}", _THESIS)
-    page.add("worm_radial_force", along * math.tan(worm.axial_pressure_angle), "{F_a1} * tan({alpha_x})")
+    # friction takes its share of the force along the worm, none of the radial one
+    less = math.tan(_friction_angle(keys, worm)) * math.tan(drive.pitch_lead_angle)
+    formula = "{F_a1} * tan({alpha_x})" + (" / (1 - tan({rho_v}) * tan({gamma_w}))" if losses else "")
+    page.add("worm_radial_force", along * math.tan(worm.axial_pressure_angle) / (1 - less), formula)
 
 
 def _strength(page: Sheet, drive: WormDrive, keys: WormKeys, load: strength.Load) -> None:

@@ -21,7 +21,7 @@ from geometry.gears.teeth.transverse import normal_share, transverse_gear
 from parts.base.refusal import REMOVED, SceneError
 from parts.base.texts import N_, in_context
 from parts.gears.ring_gear.part import RingGearSpec
-from parts.gears.spur_gear.page import addendum_formula, given_data, root_radius_step, thickness_formula
+from parts.gears.spur_gear.page import addendum_formula, given_data, height_steps, root_radius_step, thickness_formula
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, section_of
 from parts.keys.base import in_modules, mm
 from parts.keys.helix import helix_of, in_keys, same_helix
@@ -256,9 +256,9 @@ def _page(asked: Asked) -> Sheet:
     limit_steps(page, pair, pair.gears, asked.helical)
     for index, (spec, gear) in enumerate(zip((keys.first, keys.second), pair.gears, strict=True), 1):
         page.notes += [finding_of(index, f) for f in rack_findings(spec, gear)]
-    if printed:
-        note = N_("practicum (3.4) prints alpha_w on its left side for a_w")
-        page.notes.append(note)
+    if ("working_centre_distance", 0) in printed:
+        # of the practicum's own pair
+        page.notes.append(N_("practicum (3.4) prints alpha_w on its left side for a_w"))
     return page
 
 
@@ -292,6 +292,9 @@ def _radii(page: Sheet, asked: Asked) -> None:
         page.add("tip_radius", gear.tip_radius, _tip_formula(asked, index - 1), source, index)
     for index, gear in enumerate(gears, 1):
         root_radius_step(page, gear, index)
+    for index, gear in enumerate(gears, 1):
+        heights = gear.tip_radius - gear.reference_radius, gear.reference_radius - gear.root_radius
+        height_steps(page, heights, ("{r_a#} - {r#}", "{r#} - {r_f#}"), index)
 
 
 def _tip_formula(asked: Asked, index: int) -> str:

@@ -178,6 +178,12 @@ class _Page:
         page.add("lower_pairs", levers.lower_pairs, called=N_("lower kinematic pairs (turning and sliding)"))
         page.add("higher_pairs", 0, called=N_("higher kinematic pairs"))
         page.add("degree_of_freedom", 1, "3 * {n} - 2 * {p_5} - {p_4}", _GUIDELINES)
+        for left in range(levers.links - 2, 0, -2):
+            # the group farthest from the crank is taken off; what is left goes on as a mechanism
+            of = message(N_("links {first} and {second}"), first=left + 1, second=left + 2)
+            page.add("group_freedom", 0, "3 * 2 - 2 * 3", _GUIDELINES, of=of)
+            pairs = levers.lower_pairs - 3 * (levers.links - left) // 2
+            page.add("rest_freedom", 3 * left - 2 * pairs, f"3 * {left} - 2 * {pairs}", _GUIDELINES)
         first, second = _KINDS[type(levers.first)], levers.second
         if second is None:
             text = message(

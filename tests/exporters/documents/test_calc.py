@@ -748,6 +748,20 @@ def test_a_worm_pushes_its_wheel_as_a_wedge_that_slides() -> None:
     assert "contact_stress" not in got
 
 
+@pytest.mark.parametrize(("teeth", "shifts", "sign"), [((13, 21), (0.694, 0.384), 1), ((24, 60), (0.2, 0.35), -1)])
+def test_specific_pressure_is_that_of_the_textbooks(
+    teeth: tuple[int, int], shifts: tuple[float, float], sign: int
+) -> None:
+    """Levitskaya, Popov: 2 (z2 + z1) / (z1 z2 cos alpha tan alpha_w) at the pitch point, with z2 - z1 of a ring."""
+    first, second = (f"number_of_teeth={z} {end}.profile_shift_coefficient={x}" for z, x, end in
+                     zip(teeth, shifts, ("first", "second"), strict=True))  # fmt: skip
+    kind = "external_gear_pair" if sign > 0 else "internal_gear_pair"
+    got = values_of(f"gear-pair kind={kind} module=7 first.{first} second.{second}")["values"]
+    angle = math.radians(got["working_pressure_angle_deg"])
+    (one, two), slope = teeth, math.cos(math.radians(20)) * math.tan(angle)
+    assert got["specific_pressure"] == pytest.approx(2 * (two + sign * one) / (one * two * slope), rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("topic", "second", "kind"),
     [

@@ -50,6 +50,8 @@ def test_the_worked_example_is_recomputed() -> None:
     for name, symbol in (("O1O3_m", "l_O1O3"), ("BO3_m", "l_BO3"), ("CO3_m", "l_CO3"), ("CD_m", "l_CD")):
         assert value(data, symbol) == pytest.approx(1000 * given[name], rel=1e-12)
     assert [value(data, s) for s in ("n", "p_5", "p_4", "W")] == [5, 7, 0, 1]
+    # group 4-5, what is left, group 2-3, the crank: 3.4, 1
+    assert [s["value"] for s in data["steps"] if s["symbol"] in ("W_g", "W_m")] == [0, 1, 0, 1]
 
 
 @pytest.mark.parametrize(
