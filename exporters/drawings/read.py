@@ -14,6 +14,7 @@ import numpy as np
 
 from exporters.drawings.dashes import LONGEST
 from exporters.drawings.write import BEARING
+from geometry.base.record import replace
 from geometry.curves.curve import Complex
 from parts.base.readback import ReadError
 from parts.drawing.canvas import FRAME, STYLES
@@ -173,6 +174,8 @@ def _look(layer: str) -> str:
 
 
 def _read_path(sheet: ReadSheet, layer: str, data: str, height: float) -> None:
+    from exporters.formats.read_svg import circular
+
     at, pieces = 0j, 0
     for command, text in re.findall(r"([A-Za-z])([^A-Za-z]*)", data):
         values = [float(v) for v in _NUMBER.findall(text)]
@@ -183,7 +186,8 @@ def _read_path(sheet: ReadSheet, layer: str, data: str, height: float) -> None:
         if command == "L":
             sheet.add_line(layer, at, ends[-1])
         elif command == "A":
-            _read_arc(sheet, layer, at, ends[-1], values[0], bool(values[3]), bool(values[4]), merge=pieces > 0)
+            radius, large, right, _ = circular(values)
+            _read_arc(sheet, layer, at, ends[-1], radius, large, right, merge=pieces > 0)
         elif command == "C":
             t = np.linspace(0, 1, PER_CURVE)
             a, b, c = ends
@@ -208,10 +212,10 @@ def _read_arc(
     sweep = cmath.phase((end - centre) / (start - centre))
     if sweep * sense < 0:
         sweep += sense * 2 * math.pi
-    if merge:
-        before = sheet.arcs.pop()
-        sheet.samples.pop()
-        first = cmath.phase(start - centre) - sense * before.sweep
-        sheet.add_arc(layer, centre, radius, first, sense * (before.sweep + abs(sweep)))
-        return
     sheet.add_arc(layer, centre, radius, cmath.phase(start - centre), sweep)
+    if merge:
+        # one arc, of which each piece is held to what it should be
+        last, before = sheet.arcs.pop(), sheet.arcs.pop()
+        sheet.arcs.append(replace(last, sweep=before.sweep + last.sweep))
+        points = [sheet.samples.pop()[1] for _ in range(2)]
+        sheet.samples.append((layer, np.concatenate(points[::-1])))

@@ -215,7 +215,7 @@ def _marks(words: Run | ReadText) -> tuple[complex, complex, complex]:
 
 
 def _check_strokes(sheet: ReadSheet, canvas: Canvas, allowed: float, failures: list[str]) -> None:
-    """Every line of every layer is there, and none beside; splines are held all along, the others by three points."""
+    """Every line of every layer is there, and none beside; they are held all along, by what is known of them first."""
     for layer in {s.layer: None for s in canvas.strokes} | {name: None for name, _ in sheet.samples}:
         curves = [s.curve for s in canvas.strokes if s.layer == layer]
         samples = [points for name, points in sheet.samples if name == layer]
@@ -266,13 +266,12 @@ def _rows(rows: Iterable[tuple[complex, complex, complex]]) -> Complex:
 
 def _follows(points: Complex, curve: CadCurve, allowed: float) -> bool:
     """Whether a file's points lie on a curve all along it, where three of them do not tell."""
-    if isinstance(curve, Line | Arc):
-        return True
-    breaks = curve.breaks
-    own = curve.point((breaks[:-1, None] + np.linspace(0, 1, PER_CURVE) * np.diff(breaks)[:, None]).ravel())
-    if own.shape == points.shape and min(np.abs(own - points).max(), np.abs(own[::-1] - points).max()) <= allowed:
-        return True
-    # a file may cut it elsewhere
+    if not isinstance(curve, Line | Arc):
+        breaks = curve.breaks
+        own = curve.point((breaks[:-1, None] + np.linspace(0, 1, PER_CURVE) * np.diff(breaks)[:, None]).ravel())
+        if own.shape == points.shape and min(np.abs(own - points).max(), np.abs(own[::-1] - points).max()) <= allowed:
+            return True
+    # a file may cut it elsewhere, and a PDF has arcs in pieces
     return float(distance_to_curve(points, curve).max()) <= allowed
 
 

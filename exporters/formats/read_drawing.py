@@ -22,6 +22,7 @@ from parts.base.readback import ReadError
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
     from ezdxf.entities import Arc, Circle, Dimension, DXFGraphic, Line, Spline, Text
+    from ezdxf.layouts import BlockLayout
     from ezdxf.math import BSpline, Vec3
 
 _LAYER, _PITCH = "OUTLINE", "PITCH_CURVE"
@@ -205,9 +206,14 @@ def _of_dimensions(document: Drawing) -> Iterator[DXFGraphic]:
     """What the dimensions of a drawing consist of."""
     for entity in _dimensions_in(document):
         _check_plain(entity, dashes=False)
-        if entity.dxf.geometry not in document.blocks:
-            raise ReadError("a DIMENSION has no block of lines")
-        yield from document.blocks.get(entity.dxf.geometry)
+        yield from _block_of(document, entity)
+
+
+def _block_of(document: Drawing, entity: Dimension) -> BlockLayout:
+    """What a dimension consists of."""
+    if entity.dxf.geometry not in document.blocks:
+        raise ReadError("a DIMENSION has no block of lines")
+    return document.blocks.get(entity.dxf.geometry)
 
 
 def dimensions(document: Drawing) -> list[DrawnDimension]:
@@ -220,6 +226,9 @@ def dimensions(document: Drawing) -> list[DrawnDimension]:
         value = float(entity.get_measurement()) * factor
         if abs(value - entity.dxf.get("actual_measurement", math.nan)) > _SAME * max(1.0, abs(value)):
             raise ReadError(f"a DIMENSION of {value:g} mm says that it measures otherwise")
+        ends = (point for line in _block_of(document, entity).query("LINE") for point in (line.dxf.start, line.dxf.end))
+        if min((entity.dxf.defpoint.distance(end) for end in ends), default=math.inf) > _SAME:
+            raise ReadError(f"a DIMENSION of {value:g} mm is told elsewhere than it is drawn")
         found.append(DrawnDimension(value, entity.dxf.text))
     return found
 

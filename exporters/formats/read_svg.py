@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -116,11 +117,11 @@ def svg_path(data: str, layer: str) -> Loop:
         if command == "Z":
             closed = True
         elif command == "A":
-            if len(numbers) != 7 or not points or numbers[0] != numbers[1]:
-                raise ReadError("an SVG arc is not a circular arc of seven numbers")
-            end = complex(numbers[5], -numbers[6])
-            bulges.append(_svg_bulge(end - points[-1], numbers[0], bool(numbers[3]), bool(numbers[4])))
-            points.append(end)
+            radius, large, sweep, end = circular(numbers)
+            if not points:
+                raise ReadError("an SVG path begins with an arc")
+            bulges.append(_svg_bulge(end.conjugate() - points[-1], radius, large, sweep))
+            points.append(end.conjugate())
         else:
             if len(numbers) != 2 or closed:
                 raise ReadError("an SVG path has more than one part")
@@ -130,6 +131,19 @@ def svg_path(data: str, layer: str) -> Loop:
     if not closed or not points or abs(points[-1] - points[0]) > 1e-9:
         raise ReadError("an SVG path is not closed on its first point")
     return Loop(np.array(points[:-1]), np.array(bulges), layer)
+
+
+def circular(numbers: Sequence[float]) -> tuple[float, bool, bool, complex]:
+    """Radius, both flags and end of an arc of a path, y downwards.
+
+    Raises
+    ------
+    ReadError
+        It is an ellipse's, or what browsers do not draw (SVG 1.1, 8.3.9: a flag is 0 or 1).
+    """
+    if len(numbers) != 7 or numbers[0] != numbers[1] or not {numbers[3], numbers[4]} <= {0, 1}:
+        raise ReadError("an SVG arc is not a circular arc of seven numbers")
+    return numbers[0], bool(numbers[3]), bool(numbers[4]), complex(numbers[5], numbers[6])
 
 
 def _svg_bulge(chord: complex, radius: float, large: bool, sweep: bool) -> float:

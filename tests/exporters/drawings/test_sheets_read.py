@@ -85,8 +85,16 @@ def test_arcs_that_follow_each_other_are_one(sweep: int, page: str, tmp_path: Pa
     ((centre, radius, turned),), (points,) = drawn(page, path, tmp_path)
     assert centre == pytest.approx(complex(100, HEIGHT - 100), abs=1e-9)
     assert (radius, turned) == (20.0, pytest.approx(math.radians(300), abs=1e-9))
-    exact = 100 + 100j + 20 * np.exp(1j * way * np.radians(30 + 300 * np.linspace(0, 1, PER_CURVE)))
+    turns = np.concatenate([30 + 100 * k + 100 * np.linspace(0, 1, PER_CURVE) for k in range(3)])
+    exact = 100 + 100j + 20 * np.exp(1j * way * np.radians(turns))
     assert points == pytest.approx(exact.real + 1j * (HEIGHT - exact.imag), abs=1e-9)
+
+
+def test_a_piece_of_an_arc_that_turns_the_other_way_shows_in_its_points(page: str, tmp_path: Path) -> None:
+    """Two half turns of one circle, the first of which is on the other side: an S."""
+    ((_, radius, turned),), (points,) = drawn(page, "M20,50 A10,10 0 0 1 40,50 A10,10 0 0 0 60,50", tmp_path)
+    assert (radius, turned) == (10.0, pytest.approx(2 * math.pi))
+    assert (points.imag.min(), points.imag.max()) == pytest.approx((HEIGHT - 60, HEIGHT - 40), abs=1e-9)
 
 
 def test_bezier_curves_follow_each_other_in_one_line(page: str, tmp_path: Path) -> None:
@@ -109,6 +117,8 @@ def test_bezier_curves_follow_each_other_in_one_line(page: str, tmp_path: Path) 
 
 @pytest.mark.parametrize(("data", "said"), [
     ("M1,2 L3", "the path command L lacks a coordinate"), ("M1,2 L", "the path command L lacks a coordinate"),
+    ("M1,2 A5,6 0 0 1 3,4", "a circular arc"), ("M1,2 A5,5 0 0 1.5 3,4", "a circular arc"),
+    ("M1,2 A5,5 0 -1 1 3,4", "a circular arc"),
     ("M1,2 Q3,4 5,6", "the path command Q"), ("M1,2 L3,4 Z", "the path command Z lacks a coordinate"),
 ])  # fmt: skip
 def test_commands_that_no_sheet_has_are_named(data: str, said: str, page: str, tmp_path: Path) -> None:

@@ -184,7 +184,7 @@ def measured(**attributes: Any) -> Drawing:
     made = document()
     made.dimstyles.new("OF_PAPER", {"dimlfac": 2.0})
     block = made.blocks.new_anonymous_block(type_char="D")
-    block.add_line((0, 0), (20, 0), dxfattribs={"layer": "OTHER"})
+    block.add_line((0, 5), (20, 5), dxfattribs={"layer": "OTHER"})
     told = {
         "layer": "OWN", "dimstyle": "OF_PAPER", "geometry": block.name, "text": "<>", "dimtype": 32,
         "defpoint": (20, 5, 0), "defpoint2": (0, 0, 0), "defpoint3": (20, 0, 0), "angle": 0.0,
@@ -199,13 +199,14 @@ def test_dimensions_measure_their_own_points_by_the_scale_of_their_style() -> No
     assert (found.value, found.text) == (pytest.approx(40.0), "%%c<>")
     # what it consists of is drawn too
     curves, _ = drawn(measured(), "sheet")
-    assert DrawnLine("OTHER", 0j, 20 + 0j) in curves
+    assert DrawnLine("OTHER", 5j, 20 + 5j) in curves
     assert dimensions(document()) == []
 
 
 @pytest.mark.parametrize(("attributes", "said"), [
     ({"actual_measurement": 40.0001}, "a DIMENSION of 40 mm says that it measures otherwise"),
     ({"actual_measurement": 39.9999}, "a DIMENSION of 40 mm says"), ({"dimstyle": "NONE"}, "has the style NONE"),
+    ({"defpoint": (20, 5.001, 0)}, "a DIMENSION of 40 mm is told elsewhere than it is drawn"),
     ({"geometry": "*D9"}, "a DIMENSION has no block of lines"),
     ({"invisible": 1}, "a DIMENSION on layer OWN has invisible"),
 ])  # fmt: skip

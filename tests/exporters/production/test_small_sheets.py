@@ -15,6 +15,7 @@ from exporters.drawings.sheets import sheet_rounding, write_sheets
 from exporters.drawings.verify import verify_sheets
 from geometry.approximation.splines import fit_spline
 from geometry.base.record import replace
+from geometry.curves.bspline import BSpline
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
 from parts.drawing.canvas import Canvas, Paper, Stroke, draw
@@ -171,6 +172,25 @@ def test_a_sheet_is_no_other_one(file: Path) -> None:
     for name, (change, said) in CHANGES.items():
         failures = verify_sheets(file, [change(expected())], TOLERANCE).failures
         assert any(said in failure for failure in failures), (name, failures)
+
+
+def test_what_has_the_ends_and_the_middle_of_a_line_or_an_arc_is_neither_yet(file: Path, tmp_path: Path) -> None:
+    """An S about a line, and one about a quarter of a circle, each some 2 mm off."""
+    thirds, middle = np.arange(4) / 3, 90 + 90j
+    bent = 30 * np.exp(1j * math.pi / 4 * thirds) * [1, 1.1, 1.1, 1]
+    cases = {
+        Line(20 + 20j, 50 + 20j): 20 + 20j + 30 * thirds + np.array([0, 9j, -9j, 0]),
+        Arc(middle, 30.0, 0.0, math.pi / 2): middle + np.concatenate([bent, 1j**0.5 * bent[1:]]),
+    }
+    for exact, poles in cases.items():
+        spans = len(poles) // 3
+        knots = np.repeat(np.arange(spans + 1.0), [4, *[3] * (spans - 1), 4])
+        canvas = Canvas(210.0, 297.0, "A4")
+        draw(canvas, "OUTLINE", [BSpline(3, knots, poles)], Paper(1.0, 0j))
+        other = tmp_path / f"o{file.suffix}"
+        write_sheets(other, [canvas], "Sheet")
+        wanted = Expected(replace(canvas, strokes=[Stroke("OUTLINE", exact)]), PAPER, ())
+        assert any("OUTLINE: no line" in told for told in verify_sheets(other, [wanted], TOLERANCE).failures)
 
 
 def test_what_is_within_the_tolerance_is_good(file: Path) -> None:
