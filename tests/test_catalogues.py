@@ -33,6 +33,8 @@ CYRILLIC_PLACES = {
     "parts/base/densities.py": "materials as users write them in scenes of any language",
     "parts/pages/contact_steps.py": "the practicum's tables Д.1, Е.1",
     "parts/mates/pages/external.py": "the practicum's table А.1",
+    "parts/gears/spur_gear/involute_page.py": "the practicum's tables Д.1, Е.1",
+    "parts/pages/misprints.py": "the practicum's tables Д.1, Е.1",
     "geometry/plane/letters.py": "the letters that are engraved",
     "geometry/gears/shifts/tables.py": "the practicum's tables А.1, Б.1, В.1, Г.1",
 }

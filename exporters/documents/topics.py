@@ -28,6 +28,7 @@ TOPICS = {
     "tmm42": ("parts.gears.spur_gear.device_page", "Tmm42Keys"),
     "gear-pair": ("parts.mates.pages.external", "PairKeys"),
     "shift-choice": ("parts.mates.pages.shift_choice", "ShiftChoiceKeys"),
+    "involute": ("parts.gears.spur_gear.involute_page", "InvoluteKeys"),
     "bevel": ("parts.gears.bevel_gear.page", "BevelKeys"),
     "worm": ("parts.gears.worm.page", "WormKeys"),
     "train": ("parts.scene.train_page", "TrainKeys"),

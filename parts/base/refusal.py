@@ -85,7 +85,7 @@ _SYNONYMS = {
     "i": ("ratio",),
     "inclined_sine": ("sine",),
     "internal": ("ring",),
-    "involute": ("spur",),
+    "inv": ("involute",),
     "knife": ("pointed",),
     "knife_edge": ("pointed",),
     "law": ("phases",),

@@ -186,6 +186,30 @@ def printed_for_rise(law: str, lift: float, angle_deg: float) -> list[Message]:
     return [message(text, **row) for row in rows]
 
 
+# practicum, tables Д.1 and Е.1: degree and minute, what is printed, what is right
+_TABLES = (
+    ("Д.1", 29, 50, "0.0529", "0.0528"),
+    ("Д.1", 32, 50, "0.0732", "0.0722"),
+    ("Д.1", 35, 0, "0.0393", "0.0893"),
+    ("Е.1", 26, 20, "0.886", "0.896"),
+)
+# of the other cells, the rows that have one whose last digit is cut off
+_CUT = {21, 22, 23, 24, 26, 30, 31, 35, 37, 40}
+
+
+def printed_in_tables(first: int, last: int) -> list[Message]:
+    """What the practicum's tables of inv and cos print wrongly from one row to another, degrees; a remark each."""
+    text = N_("the practicum's table {table} prints {printed} at {place}: right is {right}")
+    remarks = [
+        message(text, table=table, printed=printed, place=f"{row}°{minute}'", right=right)
+        for table, row, minute, printed, right in _TABLES
+        if first <= row <= last
+    ]
+    if any(first <= row <= last for row in _CUT):
+        remarks.append(message("the practicum cuts the last digit of some cells off, which is rounded here"))
+    return remarks
+
+
 _EXAMPLE_1 = N_("coaxial only with two internal meshes, so both signs are plus; the product is the same")
 _EXAMPLE_3 = N_("the sun meshes the satellite outside, the satellite the ring inside; the product is the same")
 _LOST_SIGN = N_("the sign is lost: 120/(-0.8) = -150")

@@ -87,6 +87,9 @@ SHEETS = [
      "working_centre_distance=51.5"),
     ("shift-choice", "first.number_of_teeth=17", "second.number_of_teeth=31", "module=2", "helix_angle_deg=25",
      "face_width=16", "least_contact_ratio=2.2", "least_tip_thickness=0.45", "working_centre_distance=54.5"),
+    ("involute",),
+    ("involute", "angle_deg=26.9"),
+    ("involute", "involute=0.037985"),
     ("worm", *THESIS_WORM, "number_of_teeth=128", "form_factor=1.26"),
     ("worm", *THESIS_WORM, "number_of_teeth=106", "form_factor=1.27"),
     ("worm", "module=2", "number_of_starts=4", "number_of_teeth=40", "diameter_quotient=8", "form=ZK1", "face_width=12",
@@ -198,7 +201,7 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
 def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
     sheet = sheet_for(" ".join(words))
     checked = [step for step in sheet.steps() if step.formula]
-    assert len(checked) >= (4 if words[0] in ("cam", "planetary") else 8)
+    assert len(checked) >= {"cam": 4, "planetary": 4, "involute": 0}.get(words[0], 8)
     for step in checked:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
 
@@ -746,6 +749,33 @@ def test_a_worm_pushes_its_wheel_as_a_wedge_that_slides() -> None:
     assert got["worm_sliding_speed"] == pytest.approx(turns * math.hypot(2 * math.pi * radius, lead), rel=1e-12)
     assert got["worm_wheel_speed"] == pytest.approx(1440 * 2 / 40, rel=1e-12)
     assert "contact_stress" not in got
+
+
+def test_tables_of_the_practicum_are_right_where_it_misprints() -> None:
+    """Д.1 and Е.1 as printed: every cell but those that are told is that of the page, rounded or cut off."""
+    printed = json.loads((PUBLISHED / "involute_tables.json").read_text(encoding="utf-8"))
+    page = values_of("involute")
+    told = {(t, place) for t, place in re.findall(r"table (..1) prints \S+ at (\S+):", " ".join(page["notes"]))}
+    off = set()
+    for table, name in (("Д.1", "involutes"), ("Е.1", "cosines")):
+        made = {int(row["α"]): row for row in page[name]}
+        for degree, cells in printed[table].items():
+            for minute, cell in zip(range(0, 60, 10), cells, strict=True):
+                exact, size = made[int(degree)][f"{minute}'"], 10.0 ** -len(cell.partition(".")[2])
+                angle = math.radians(int(degree) + minute / 60)
+                assert exact == pytest.approx(math.tan(angle) - angle if table == "Д.1" else math.cos(angle), rel=1e-12)
+                # half a unit, and one where it was cut off
+                if not -size / 2 <= exact - float(cell) < size:
+                    off.add((table, f"{degree}°{minute}'"))
+    assert off == told == {("Д.1", "29°50'"), ("Д.1", "32°50'"), ("Д.1", "35°0'"), ("Е.1", "26°20'")}
+
+
+def test_an_angle_is_found_of_its_involute_in_degrees_and_minutes() -> None:
+    """Practicum 3.1: 0.037985 is 26°56', of which 26°55' is printed."""
+    got = values_of("involute involute=0.037985")["values"]
+    angle = math.radians(got["function_angle_deg"])
+    assert math.tan(angle) - angle == pytest.approx(0.037985, rel=1e-12)
+    assert got["angle_in_minutes"] == "26°56'"
 
 
 @pytest.mark.parametrize(("teeth", "shifts", "sign"), [((13, 21), (0.694, 0.384), 1), ((24, 60), (0.2, 0.35), -1)])
