@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from geometry.base.errors import ParameterError
+from geometry.base.roots import bracketed_roots
 from geometry.kinematics.flywheel import Cycle, mertsalov, travelled
 from geometry.kinematics.kinetostatics import frames, reduced_inertia
 from geometry.kinematics.levers import Moved, Rods, Slider, Stone, swing
@@ -386,6 +387,7 @@ class _Page:
             ("greatest_output_acceleration", self.turn.acceleration(name)),
         ):
             page.add(term, float(np.abs(values).max()) / 1000, of=message(N_("point {name}"), name=name))
+        self._ways()
         angles = self.start + 2 * math.pi * np.arange(self.keys.positions) / self.keys.positions
         at = self.levers.moved(angles)
         columns: list[tuple[tuple[str, str], np.ndarray]] = [(("φ_1", "deg"), np.degrees(angles))]
@@ -404,6 +406,39 @@ class _Page:
         rows = tuple(tuple(map(float, row)) for row in zip(*(values for _, values in columns), strict=True))
         heads = tuple(head for head, _ in columns)
         page.tables.append(Table("positions", N_("Positions of the crank over one turn"), heads, rows))
+
+    def _going(self, at: Moved) -> np.ndarray:
+        """The speed of the output with its sense: along the guide, or as its lever turns."""
+        if self._slides:
+            way = cmath.exp(1j * math.radians(self.keys.guide_angle_deg))
+            return np.real(at.velocity(self._output) * way.conjugate())
+        return np.real(at.turning(list(at.links)[-1])[0])
+
+    def _ways(self) -> None:
+        """The dead points of an output that goes to and fro, the crank's angles of both ways, and their ratio."""
+        page, speeds, step = self.page, self._going(self.turn), 2 * math.pi / self.fine
+        after = np.roll(speeds, -1)
+        (turns,) = np.nonzero((speeds > 0) != (after > 0))
+        if len(turns) != 2:
+            # an output that goes round, or stops more often
+            return
+        before = np.asarray(self.start + step * turns, float)
+        found = bracketed_roots(
+            lambda angles: self._going(self.levers.moved(angles)),
+            before,
+            np.add(before, step),
+            speeds[turns],
+            after[turns],
+        )
+        low, high = np.mod(found, 2 * math.pi)[:: 1 if after[turns[0]] > 0 else -1]
+        forward = float((high - low) % (2 * math.pi))
+        backward = 2 * math.pi - forward
+        page.add("rear_dead_point_deg", math.degrees(low))
+        page.add("front_dead_point_deg", math.degrees(high))
+        page.add("forward_angle_deg", math.degrees(forward), "{phi_h} - {phi_l}" + (" + 2 * pi" if high < low else ""))
+        page.add("backward_angle_deg", math.degrees(backward), "2 * pi - {phi_f}")
+        ratio = "{phi_f} / {phi_b}" if forward > backward else "{phi_b} / {phi_f}"
+        page.add("ratio_of_ways", max(forward, backward) / min(forward, backward), ratio)
 
     @property
     def _slides(self) -> bool:

@@ -577,6 +577,9 @@ class _Page:
             way = self._speed(driven)
             loads = {driven: Fraction(-1 if way > 0 else 1)}
             page.notes.append(message("no load is given: 1 N m against {link} is taken", link=self.driven))
+        for name, torque in self.keys.torques.items():
+            if train.bodies[name] not in self.drives and torque * self._speed(train.bodies[name]) > 0:
+                page.notes.append(message("the load on {link} acts along its turning: it puts power in", link=name))
         found = statics(mechanism, speeds, loads, efficiency)
         if not found:
             page.notes.append(N_("self-locking: under this load no mesh can drive the next, whatever the drive does"))

@@ -54,6 +54,44 @@ def test_the_worked_example_is_recomputed() -> None:
     assert [s["value"] for s in data["steps"] if s["symbol"] in ("W_g", "W_m")] == [0, 1, 0, 1]
 
 
+def _collinear(rod: float, rocker: float, frame: float, crank: float) -> float:
+    """Angle between the lines of crank and rod at both dead points of a crank-rocker, by the law of cosines, rad."""
+    far, near = ((rod + k * crank) for k in (1, -1))
+    one, two = (math.acos((r**2 + frame**2 - rocker**2) / (2 * r * frame)) for r in (far, near))
+    return abs(one - two)
+
+
+@pytest.mark.parametrize(
+    ("keys", "between"),
+    [
+        (("crank_length=90", "frame_length=300", "lever_length=500"), 2 * math.asin(90 / 300)),
+        (("crank_length=90", "frame_length=300", "lever_length=500", "second=slider", "rod_length=700",
+          "guide_height=20", "frame_angle_deg=35", "start_angle_deg=77"), None),
+        (("first=rods", "crank_length=40", "coupler_length=120", "lever_length=80", "frame_length=100"),
+         _collinear(120, 80, 100, 40)),
+        (("first=slider", "crank_length=50", "coupler_length=200", "guide_height=30"),
+         math.asin(30 / 150) - math.asin(30 / 250)),
+        (("first=slider", "crank_length=50", "coupler_length=200"), 0.0),
+    ],
+)  # fmt: skip
+def test_the_ways_to_and_fro_take_their_times(keys: tuple[str, ...], between: float | None) -> None:
+    """K = (pi + theta) / (pi - theta), theta between both lines of the crank at its dead points (Levitsky, Norton)."""
+    found = calculated(*keys)["values"]
+    assert found["forward_angle_deg"] + found["backward_angle_deg"] == pytest.approx(360, rel=1e-12)
+    if between is not None:
+        assert found["ratio_of_ways"] == pytest.approx((math.pi + between) / (math.pi - between), rel=1e-9)
+    # at rest there
+    for end in ("rear_dead_point_deg", "front_dead_point_deg"):
+        data = calculated(*(k for k in keys if "start" not in k), f"start_angle_deg={found[end]!r}", "positions=2")
+        row = data["positions"][0]
+        last = "V_D" if "second=slider" in keys else "V_B" if "first=slider" in keys else "ω_3"
+        assert row[last] == pytest.approx(0, abs=1e-9)
+
+
+def test_a_lever_that_goes_round_has_no_dead_points() -> None:
+    assert "ratio_of_ways" not in calculated("crank_length=100", "frame_length=60", "lever_length=150")["values"]
+
+
 @pytest.mark.parametrize(
     ("case", "symbol", "number"),
     [("omega3", "ω_3", "13.2"), ("V_B", "V_B", "14.22"), ("V_C", "V_C", "3.56"), ("V_D", "V_D", "3.58"),

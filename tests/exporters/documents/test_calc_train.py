@@ -297,3 +297,9 @@ def test_symbols_of_links_are_lowered_and_what_is_held_is_raised() -> None:
     assert "u<sub>2&#x27;3</sub><sup>H</sup>" in page
     assert "z<sub>2</sub>&#x27;" in page
     assert "^" not in page.split("<ul>")[0]
+
+
+@pytest.mark.parametrize(("load", "drives"), [(100, True), (-100, False)])
+def test_a_load_that_turns_with_its_link_is_told(load: int, drives: bool) -> None:
+    text = calculate("train", [*JAMES, "held=3", "speeds.1=100", f"torques.H={load}"], "text", "en")
+    assert ("the load on H acts along its turning" in text) == drives
