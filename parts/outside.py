@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from msgspec import Struct
+
 from parts.base.kind import Kind
 from parts.base.mate import MateKind
 from parts.base.reasons import add_reasons, reason
 from parts.base.registry import KINDS
-from parts.base.schema import phrase_of
+from parts.base.schema import phrase_of, untold
 from parts.base.texts import Text, add_catalogue
 from parts.mates.registry import MATES
 from parts.texts.checks import MATES as TOLD_MATES
@@ -28,8 +30,9 @@ def add_kind(kind: Kind[Any, Any]) -> None:
     Raises
     ------
     ValueError
-        Its name, a code or a quantity is another one's; nothing is added.
+        Its name, a code or a quantity is another one's, or ``new`` could not tell a key; nothing is added.
     """
+    _refuse_untold(kind.name, kind.keys, "of")
     _refuse_taken({kind.name: kind}, {kind.name: KINDS[kind.name]} if kind.name in KINDS else {})
     _refuse_taken(kind.reasons, _told(kind.reasons))
     _refuse_taken(kind.findings, FINDINGS)
@@ -46,8 +49,9 @@ def add_mate(kind: MateKind[Any, Any, Any]) -> None:
     Raises
     ------
     ValueError
-        Its name or a code is another one's; nothing is added.
+        Its name or a code is another one's, or ``new`` could not tell a key; nothing is added.
     """
+    _refuse_untold(kind.name, kind.keys, "first", "second")
     told = {kind.name: kind.told} if kind.told else {}
     _refuse_taken({kind.name: kind}, {kind.name: MATES[kind.name]} if kind.name in MATES else {})
     _refuse_taken(kind.reasons, _told(kind.reasons))
@@ -55,6 +59,12 @@ def add_mate(kind: MateKind[Any, Any, Any]) -> None:
     MATES.add(kind.name, kind, phrase_of(kind.keys))
     add_reasons(kind.reasons)
     add_mates(told)
+
+
+def _refuse_untold(name: str, keys: type[Struct], *named: str) -> None:
+    """Refuse keys of which ``new`` could tell nothing; ``named`` ones hold a name of the scene's."""
+    if found := next(untold(keys, named), None):
+        raise ValueError(f"kind {name}: {found}")
 
 
 def _told(codes: Mapping[str, Text]) -> dict[str, Text]:

@@ -10,14 +10,13 @@ import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import takewhile
 from textwrap import wrap
-from types import UnionType
-from typing import Annotated, Any, Union, get_args, get_origin
+from typing import Any
 
-from msgspec import NODEFAULT, Meta, Struct
+from msgspec import Meta, Struct
 from msgspec.structs import FieldInfo, fields
 
 from parts.base.registry import KINDS
-from parts.base.schema import described, own_first, phrase_of
+from parts.base.schema import described, example_of, is_open, own_first, phrase_of, tables_of
 from parts.base.texts import ENGLISH, N_, Words, words
 from parts.keys.sheet import SHEET_KEYS
 from parts.mates.registry import MATES
@@ -224,37 +223,24 @@ def plain_scene(text: str, source: str) -> str:
 def _keys(keys: Iterable[FieldInfo], told: Words, names: Mapping[str, str] | None = None) -> Iterator[str]:
     """One line a key; keys with a default stand commented out. ``names``: keys that hold a name of the scene's."""
     for field in keys:
-        name, meta = field.encode_name, _shown(field.type)
+        name, meta = field.encode_name, example_of(field.type)
         marks: Mapping[str, Any] = (meta.extra if meta is not None else None) or {}
         set_here = field.required or "start" in marks
         value = _toml(names[name]) if names and name in names else _value(field, meta)
         code, text = f"{'' if set_here else '# '}{name} = {value}", told.say(described(field.type) or "")
         yield f"{code:<44} # {text}" if text else code
         others = [(_toml(other), told.text(meant)) for other, meant in marks.get("others", ())]
-        tables = _tables_of(field)
-        others += [(_table(t), told.text(phrase_of(t))) for t in (tables[1:] if _is_open(field) else tables)]
+        tables = tables_of(field)
+        others += [(_table(t), told.text(phrase_of(t))) for t in (tables[1:] if is_open(field) else tables)]
         yield from (f"# {name} = {v}  # {told.text('... or this: {what}', what=meant)}" for v, meant in others)
-
-
-def _is_open(field: FieldInfo) -> bool:
-    """Whether a key has no default to show."""
-    return field.default is NODEFAULT or field.default is None
 
 
 def _value(field: FieldInfo, meta: Meta | None) -> str:
     """What stands at a key as TOML: what a scene starts from, its default, an example, or the first of its tables."""
-    if meta is not None and meta.examples and (_is_open(field) or "start" in (meta.extra or {})):
+    if meta is not None and meta.examples and (is_open(field) or "start" in (meta.extra or {})):
         return _toml(meta.examples[-1])
-    tables = _tables_of(field)
-    return _toml(field.default) if not _is_open(field) else _table(tables[0]) if tables else "…"
-
-
-def _shown(kind: object) -> Meta | None:
-    """The last annotation with examples, of the outermost that have any: a key may have another one than its type."""
-    if get_origin(kind) not in (Annotated, Union, UnionType):
-        return None
-    own = [m for m in getattr(kind, "__metadata__", ()) if isinstance(m, Meta) and m.examples]
-    return own[-1] if own else next(filter(None, map(_shown, get_args(kind))), None)
+    tables = tables_of(field)
+    return _toml(field.default) if not is_open(field) else _table(tables[0]) if tables else "…"
 
 
 def _toml(value: object) -> str:
@@ -268,16 +254,11 @@ def _toml(value: object) -> str:
     return f'"{value}"' if isinstance(value, str) else str(value)
 
 
-def _tables_of(field: FieldInfo) -> list[type[Struct]]:
-    """The kinds of table that a key takes."""
-    return [a for a in get_args(field.type) if isinstance(a, type) and issubclass(a, Struct)]
-
-
 def _table(table: type[Struct]) -> str:
     """A table of a kind, in one line."""
     config = table.__struct_config__
     tag = [f'{config.tag_field} = "{config.tag}"'] if config.tag_field else []
-    inner = (f"{f.encode_name} = {_value(f, _shown(f.type))}" for f in fields(table))
+    inner = (f"{f.encode_name} = {_value(f, example_of(f.type))}" for f in fields(table))
     return "{ " + ", ".join([*tag, *inner]) + " }"
 
 

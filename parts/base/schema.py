@@ -8,7 +8,8 @@ from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import lru_cache
 from inspect import get_annotations
-from typing import Any, Literal, TypeVar, get_args, get_origin
+from types import UnionType
+from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 
 import msgspec
 from msgspec import Meta, Struct
@@ -322,6 +323,41 @@ def own_first(kind: type[Struct]) -> list[msgspec.structs.FieldInfo]:
     """The keys of a table: those that it needs, its own, and what it shares with more and more others."""
     names = [name for one in kind.__mro__ for name in get_annotations(one)]
     return sorted(msgspec.structs.fields(kind), key=lambda field: (not field.required, names.index(field.name)))
+
+
+def is_open(field: msgspec.structs.FieldInfo) -> bool:
+    """Whether a key has no default to show."""
+    return field.default is msgspec.NODEFAULT or field.default is None
+
+
+def example_of(kind: object) -> Meta | None:
+    """The last annotation with examples, of the outermost that have any: a key may have another one than its type."""
+    if get_origin(kind) not in (Annotated, Union, UnionType):
+        return None
+    own = [m for m in getattr(kind, "__metadata__", ()) if isinstance(m, Meta) and m.examples]
+    return own[-1] if own else next(filter(None, map(example_of, get_args(kind))), None)
+
+
+def tables_of(field: msgspec.structs.FieldInfo) -> list[type[Struct]]:
+    """The kinds of table that a key takes."""
+    return [a for a in get_args(field.type) or (field.type,) if isinstance(a, type) and issubclass(a, Struct)]
+
+
+def untold(kind: type[Struct], named: Collection[str] = (), place: str = "") -> Iterator[str]:
+    """Keys with neither default nor example, and tables without a docstring: ``new`` has nothing to tell of them.
+
+    ``named``: keys that hold a name of the scene's.
+    """
+    if not kind.__doc__:
+        yield f"{place or 'the table of its keys'} has no docstring"
+    for field in msgspec.structs.fields(kind):
+        name, tables = f"{place}.{field.encode_name}".lstrip("."), tables_of(field)
+        if field.required and not tables and field.encode_name not in named and example_of(field.type) is None:
+            yield f"{name} has neither default nor example"
+        for table in tables:
+            yield from untold(table, (), name)
+        # those of a list are told by the example of the list
+        yield from (f"{name} has no docstring" for s in _structs_of(field.type) if s not in tables and not s.__doc__)
 
 
 def phrase_of(kind: type[Struct]) -> str:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Annotated, Any
 
 import ezdxf
 import numpy as np
 import pytest
+from msgspec import Meta, Struct
 
 from exporters.command.cli import main
 from parts.base import reasons, texts
@@ -251,6 +253,61 @@ def test_a_mate_of_a_name_that_is_another_ones_is_refused(monkeypatch: pytest.Mo
     monkeypatch.setattr(other, "name", "fixed")
     with pytest.raises(ValueError, match="already: fixed"):
         add_mate(other)
+
+
+class Wall(Struct):
+    """A wall."""
+
+    height: Annotated[float, Meta(examples=[3.0])]
+    width: float
+
+
+class Nameless(Struct):
+    width: float = 1.0
+
+
+class BareKey(stranger.PolygonPlateKeys, kw_only=True):
+    """Keys with one that nothing is told of."""
+
+    corners: Annotated[int, Meta(description="number of corners")]
+
+
+class KeyOfWall(stranger.PolygonPlateKeys, kw_only=True):
+    """Keys with a table that has such a key."""
+
+    side: Wall
+
+
+class KeyOfNameless(stranger.PolygonPlateKeys, kw_only=True):
+    """Keys with tables that do not say what they are."""
+
+    sides_of: list[Nameless] | None = None
+
+
+class BareMate(stranger.PolygonStackKeys, kw_only=True):
+    """Keys of a mate."""
+
+    turned: float
+
+
+@pytest.mark.parametrize(("add", "kind", "keys", "told"), [
+    (add_kind, stranger.PolygonPlateKind, BareKey, "corners has neither default nor example"),
+    (add_kind, stranger.PolygonPlateKind, KeyOfWall, "side.width has neither default nor example"),
+    (add_kind, stranger.PolygonPlateKind, KeyOfNameless, "sides_of has no docstring"),
+    (add_kind, stranger.PolygonPlateKind, Nameless, "the table of its keys has no docstring"),
+    (add_mate, stranger.PolygonStack, BareMate, "turned has neither default nor example"),
+])  # fmt: skip
+def test_keys_that_new_could_not_tell_are_refused_at_once(
+    monkeypatch: pytest.MonkeyPatch, add: Callable[[Any], None], kind: Any, keys: type[Struct], told: str
+) -> None:
+    """``new`` would end in an IndexError, or print a scene that is none: ``corners = …``."""
+    bare = kind()
+    monkeypatch.setattr(bare, "name", "bare")
+    monkeypatch.setattr(bare, "keys", keys)
+    with pytest.raises(ValueError, match=f"^kind bare: {told}$"):
+        add(bare)
+    assert "bare" not in KINDS
+    assert "bare" not in MATES
 
 
 def test_a_thin_wall_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
