@@ -742,7 +742,7 @@ def _calc(options: argparse.Namespace) -> int:
 
     _check_free(options)
     if options.keys:
-        _page(topic_keys(options.topic, keys_of_topic(options.topic), options.language or ENGLISH), options)
+        _page(topic_keys(options.topic, *keys_of_topic(options.topic), options.language or ENGLISH), options)
         return DONE
     _page(calculate(options.topic, options.words, options.format, options.language), options)
     return DONE

@@ -186,8 +186,11 @@ def new_assembly(kind: str, language: str = ENGLISH) -> str:
     return "\n".join(lines) + "\n"
 
 
-def topic_keys(topic: str, keys: type[Struct], language: str = ENGLISH) -> str:
-    """What may be typed for a topic of ``calc``: its keys, and of which parts those stand that a name goes before."""
+def topic_keys(topic: str, keys: type[Struct], others: Iterable[tuple[str, str]] = (), language: str = ENGLISH) -> str:
+    """What may be typed for a topic of ``calc``: its keys, and of which parts those stand that a name goes before.
+
+    ``others``: keys that choose another kind of part, and that kind.
+    """
     told = words(language)
     tables = {f.encode_name: f.type for f in fields(keys) if isinstance(f.type, type) and issubclass(f.type, Struct)}
     parts = {name: str(tag) for name, table in tables.items() if (tag := table.__struct_config__.tag) in KINDS}
@@ -198,6 +201,7 @@ def topic_keys(topic: str, keys: type[Struct], language: str = ENGLISH) -> str:
         f"# {told.text(typed)}",
         f"# {told.text('Lengths in mm, angles in degrees.')}",
         *(f"# {name}.KEY=…: {told.text('see {command}', command=f'{_NEW}{kind}')}" for name, kind in parts.items()),
+        *(f"# {key}={kind}: {told.text('see {command}', command=_NEW + kind)}" for key, kind in others),
         *(f"{name}.{line}" for name, own in inner.items() for line in own),
         *_keys([f for f in own_first(keys) if f.encode_name not in tables], told),
     ]

@@ -20,7 +20,8 @@ from parts.base.texts import words as told
 from parts.pages.inputs import PLACE, table_of
 from parts.pages.page import Picture, Sheet
 
-# where each has sheet(table), table_from(scene, source, table) where a scene may give it, and the name of its keys
+# where each has sheet(table), table_from(scene, source, table) where a scene may give it, OTHER_KINDS where it has
+# pages of several; and the name of its keys
 TOPICS = {
     "spur": ("parts.gears.spur_gear.page", "SpurKeys"),
     "ring": ("parts.gears.ring_gear.page", "RingKeys"),
@@ -44,8 +45,8 @@ TOPICS = {
 }
 
 
-def keys_of_topic(topic: str) -> type[Struct]:
-    """The keys of a topic, each with its meaning.
+def keys_of_topic(topic: str) -> tuple[type[Struct], Sequence[tuple[str, str]]]:
+    """The keys of a topic, each with its meaning; and what is typed for other kinds of part, with the kind.
 
     Raises
     ------
@@ -54,7 +55,7 @@ def keys_of_topic(topic: str) -> type[Struct]:
     """
     module = importlib.import_module(_home(topic))
     keys: type[Struct] = getattr(module, TOPICS[topic][1]) if topic in TOPICS else KINDS[topic].keys
-    return keys
+    return keys, getattr(module, "OTHER_KINDS", ())
 
 
 def calculate(topic: str, words: Sequence[str], form: str, language: str | None) -> str:

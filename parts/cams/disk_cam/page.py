@@ -67,6 +67,7 @@ PAGES = {
     "barrel_cam": ("parts.cams.barrel_cam.page", "sheet"),
     "linkage_cam": ("parts.cams.coupler_cam.page", "sheet"),
 }
+OTHER_KINDS = tuple(("kind", kind) for kind in PAGES if kind != "cam")
 
 
 class CamKeys(CamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):

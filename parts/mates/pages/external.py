@@ -45,6 +45,7 @@ from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
 TOPIC = "gear-pair"
+OTHER_KINDS = (("second.kind", "ring_gear"), ("second.kind", "rack"))
 
 
 class PairKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):

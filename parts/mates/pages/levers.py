@@ -633,8 +633,14 @@ class _Page:
                 page.notes.append(message(N_("the lever swings by {angle:.4g}°"), angle=math.degrees(high - low)))
             else:
                 page.notes.append(N_("the lever goes all the way round"))
+        if self.printed:
+            page.notes += _SLIPS
 
 
+_SLIPS = (
+    N_("the guidelines' conclusion on the structure names the knotter; this is the screen"),
+    N_("the guidelines write l_CD = l_CO3·3.5, and reckon with the 2.8 of row 7, which is right"),
+)
 _OFF_PLAN = N_("measured off the plan")
 # the worked example: what it prints where the mechanism itself gives another number, and why
 _PRINTED: dict[str, tuple[str, Text]] = {

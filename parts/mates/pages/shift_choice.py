@@ -45,6 +45,7 @@ from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Printed, Sheet
 
 TOPIC = "shift-choice"
+OTHER_KINDS = (("second.kind", "ring_gear"),)
 _KINDS = ("external_gear_pair", internal_shift_choice.KIND)
 
 

@@ -119,6 +119,18 @@ def test_a_topic_tells_every_key_that_its_refusals_know(capsys: pytest.CaptureFi
     assert set(known[1].split(", ")) <= told
 
 
+@pytest.mark.parametrize(
+    ("topic", "typed"),
+    [("cam", "kind=barrel_cam"), ("gear-pair", "second.kind=rack"), ("shift-choice", "second.kind=ring_gear")],
+)
+def test_a_topic_tells_the_other_kinds_it_has_pages_of(
+    capsys: pytest.CaptureFixture[str], topic: str, typed: str
+) -> None:
+    kind = typed.partition("=")[2]
+    assert f"# {typed}: see higherpair new {kind}\n" in said(capsys, "calc", topic, "--keys")
+    assert kind in said(capsys, "new", kind)
+
+
 def test_a_key_tells_its_own_meaning(capsys: pytest.CaptureFixture[str]) -> None:
     """Not that of its type: a stress; a length."""
     shown = said(capsys, "calc", "power-module", "--keys")
