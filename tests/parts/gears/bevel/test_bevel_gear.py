@@ -205,6 +205,7 @@ def test_files_hold_what_they_declare_and_spoiled_ones_are_found(tmp_path: Path)
         (folder / "pinion.stl").write_bytes(mesh)
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     "keys", [{"face_width": 18.0}, {"face_width": 15.0}, {"face_width": 18.0, "tip_cone": "apex"}], ids=str
 )
