@@ -134,7 +134,8 @@ def _parsed(arguments: list[str]) -> argparse.Namespace:
         except Misused:
             # to be told again, in the language of the scene
             pass
-    asked = given[-1] if given else _language_among(arguments)
+    # the first is the command
+    asked = given[-1] if given else _language_among(arguments[1:])
     told = words(asked if asked in languages() else ENGLISH)
     with speaking(told):
         try:
@@ -146,10 +147,12 @@ def _parsed(arguments: list[str]) -> argparse.Namespace:
 
 def _language_among(addresses: Sequence[str]) -> str:
     """The language of the first of some words that names a scene."""
+    named = [one for one in addresses if one and "=" not in one and not one.startswith("-")]
+    if not named:
+        return ENGLISH
     from parts.scene.language import language_of
 
-    asked = (language_of(one) for one in addresses if one and "=" not in one and not one.startswith("-"))
-    return next((one for one in asked if one != ENGLISH), ENGLISH)
+    return next((one for one in map(language_of, named) if one != ENGLISH), ENGLISH)
 
 
 def _language(options: argparse.Namespace) -> str:
