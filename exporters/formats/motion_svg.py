@@ -14,13 +14,15 @@ from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Approximation
 
-# decimals of places, mm, and of angles, degrees
-_PLACE, _ANGLE = 6, 9
+# decimals of places, mm, of angles, degrees, and of corners of what changes, mm
+_PLACE, _ANGLE, CORNERS = 6, 9, 4
 
 
 class Track(Record):
     """How an instance moves over one loop: places (mm) and angles (rad, counter-clockwise) at even times, the last one
     that of the first again; a single one where it does not move so.
+
+    ``forms``: in place of outlines the corners (t, n) of one that changes, at even times too.
     """
 
     name: str
@@ -28,6 +30,7 @@ class Track(Record):
     colour: str
     places: Complex
     angles: Real
+    forms: Complex | None = None
 
 
 def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Sequence[float], seconds: float) -> None:
@@ -43,12 +46,14 @@ def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Seque
     for track in tracks:
         places = [f"{number(z.real, _PLACE)},{number(-z.imag, _PLACE)}" for z in track.places.tolist()]
         angles = [number(-math.degrees(a), _ANGLE) for a in track.angles.tolist()]
-        data = " ".join(path_data(outline.geometry, 0j) for outline in track.outlines)
+        data = [" ".join(path_data(outline.geometry, 0j) for outline in track.outlines)]
+        if track.forms is not None:
+            data = [_corners(corners) for corners in track.forms]
         lines += [
             f'<g id="{track.name}"{_moved("translate", places, seconds)}',
             f"<g{_moved('rotate', angles, seconds)}",
-            f'<path d="{data}" style="fill:{track.colour};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;'
-            f'stroke-width:{stroke}"/>',
+            f'<path d="{data[0]}" style="fill:{track.colour};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;'
+            f'stroke-width:{stroke}"{_changed(data, seconds)}',
             "</g></g>",
         ]
     save(file, lines)
@@ -63,6 +68,22 @@ def _moved(kind: str, values: Sequence[str], seconds: float) -> str:
     return (
         f'{placed}<animateTransform attributeName="transform" type="{kind}" dur="{number(seconds)}s" '
         f'repeatCount="indefinite" values="{";".join(values)}"/>'
+    )
+
+
+def _corners(outline: Complex) -> str:
+    """A polygon, y downwards."""
+    xy = [f"{number(z.real, CORNERS)},{number(-z.imag, CORNERS)}" for z in outline.tolist()]
+    return f"M{' L'.join([*xy, xy[0]])} Z"
+
+
+def _changed(data: Sequence[str], seconds: float) -> str:
+    """The rest of a path: by what its outline is taken over and over."""
+    if len(data) == 1:
+        return "/>"
+    return (
+        f'><animate attributeName="d" dur="{number(seconds)}s" repeatCount="indefinite" '
+        f'values="{";".join(data)}"/></path>'
     )
 
 

@@ -23,21 +23,30 @@ _KNOWN = {
     "title": set[str](),
     "g": {"id", "transform"},
     "path": {"d", "style"},
+    "animate": {"attributeName", "dur", "repeatCount", "values"},
     "animateTransform": {"attributeName", "type", "dur", "repeatCount", "values"},
 }
 _STYLE = r"fill:#[0-9a-f]{6};fill-opacity:0\.85;fill-rule:evenodd;stroke:#202830;stroke-width:[\d.]+"
 
 
 class ReadTrack(Record):
-    """An instance: values (k,) of its place (mm, y up) and of its turn (rad) at even times, its outlines."""
+    """An instance: values (k,) of its place (mm, y up) and of its turn (rad) at even times, its outlines.
+
+    ``forms``: the corners (k, n) of an only one that changes, at even times; ``loops`` has it as it begins.
+    """
 
     places: Complex
     angles: Complex
     loops: tuple[Loop, ...]
+    forms: Complex | None = None
 
     def pose(self, share: Real) -> tuple[Complex, Real]:
         """Place and turn at shares of the loop: SMIL goes straight from value to value."""
         return _between(self.places, share), _between(self.angles, share).real
+
+    def formed(self, share: Real) -> Complex | None:
+        """Corners (t, n) of an outline that changes, at shares of the loop."""
+        return None if self.forms is None else np.stack([_between(one, share) for one in self.forms.T], axis=1)
 
 
 class ReadMotion(Record):
@@ -74,8 +83,9 @@ def read_motion(file: Path) -> ReadMotion:
         if inner is None or path is None or name in tracks or not re.fullmatch(_STYLE, path.get("style", "")):
             raise ReadError(f"instance {name} is not one outline within two groups")
         loops = tuple(svg_path(part, "") for part in re.findall(r"M[^M]*", path.get("d", "")))
+        forms = _forms(path, durations) if len(path) else None
         places, angles = _values(outer, "translate", durations), _values(inner, "rotate", durations)
-        tracks[name] = ReadTrack(places.conj(), np.asarray(-np.radians(angles.real) + 0j), loops)
+        tracks[name] = ReadTrack(places.conj(), np.asarray(-np.radians(angles.real) + 0j), loops, forms)
     if len(durations) > 1:
         raise ReadError("instances take unlike times for their loop")
     seconds = float(durations.pop().removesuffix("s")) if durations else 0.0
@@ -105,6 +115,21 @@ def _values(group: Element, kind: str, durations: set[str]) -> Complex:
     if {len(row) for row in numbers} != {2 if kind == "translate" else 1}:
         raise ReadError("a value of a motion lacks a number")
     return np.array([complex(row[0], row[1] if len(row) > 1 else 0.0) for row in numbers])
+
+
+def _forms(path: Element, durations: set[str]) -> Complex:
+    """The corners (k, n) of an outline that changes, y up."""
+    wanted = {"attributeName": "d", "repeatCount": "indefinite"}
+    if len(path) != 1 or path[0].tag != f"{_SVG}animate" or any(path[0].get(k) != v for k, v in wanted.items()):
+        raise ReadError("an outline does not change for ever")
+    durations.add(path[0].get("dur", ""))
+    texts = path[0].get("values", "").split(";")
+    if texts[0] != path.get("d"):
+        raise ReadError("an outline is not that with which its change begins")
+    loops = [svg_path(text, "") for text in texts]
+    if len({len(loop.vertices) for loop in loops}) > 1 or any(loop.bulges.any() for loop in loops):
+        raise ReadError("an outline that changes is not of as many lines throughout")
+    return np.array([loop.vertices for loop in loops])
 
 
 def _between(values: Complex, share: Real) -> Complex:

@@ -10,18 +10,19 @@ from typing import Any
 
 import numpy as np
 
-from exporters.formats.motion_svg import Track, even_values, write_motion_svg
+from exporters.formats.motion_svg import CORNERS, Track, even_values, write_motion_svg
 from exporters.formats.read_motion import ReadTrack, read_motion
 from exporters.formats.readback import Loop
-from exporters.production.film import SHARE, TIMES, Film, fill
+from exporters.production.film import SHARE, TIMES, VALUES, Film, fill
 from exporters.production.jobs import Made
-from exporters.production.seen_above import seen_lying
+from exporters.production.seen_above import is_round, seen_lying
+from exporters.production.turning_silhouette import Ends, ends_of, thinned
 from exporters.verification.outlines import verify_loops
 from exporters.verification.verdict import Verdict
 from geometry.approximation.chords import approximate_profile
 from geometry.base.placement import Placement3
 from geometry.base.record import replace
-from geometry.curves.curve import Real
+from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Contour
 from geometry.plane.profile import Profile
 from parts.base.readback import ReadError
@@ -31,8 +32,8 @@ from parts.scene.relative_path import Course
 
 # of numbers in the file, mm
 _ROUNDING = 2e-6
-# of a direction or a height that stays
-_LEVEL = 1e-9
+# of a direction that stays; mm: what chords of silhouettes leave at most; poses of what changes at most
+_LEVEL, _CHORD, _MOST_FORMS = 1e-9, 1e-3, 1920
 
 
 class MotionJob(Film, dict=True):
@@ -42,18 +43,45 @@ class MotionJob(Film, dict=True):
 
     @classmethod
     def shows(cls, instance: Instance, course: Course, times: Real) -> bool:
-        """Whether what lies keeps its axis at its height and lean."""
+        """Whether what lies keeps its lean."""
         if _upright(instance) and instance.id not in course.in_space:
             return True
-        turned, places = course.placed(instance.id, times, own=instance.id not in course.spins)
-        level = np.abs(turned[:, 2] - turned[:1, 2]).max() <= _LEVEL
-        return bool(level and np.abs(places[:, 2] - places[0, 2]).max() <= _LEVEL * max(1.0, np.abs(places).max()))
+        ways = course.placed(instance.id, times, own=instance.id not in course.spins)[0][:, 2, 2]
+        return bool(np.abs(ways - ways[0]).max() <= _LEVEL)
+
+    @cached_property
+    def _changing(self) -> dict[str, Ends]:
+        """What turns on an axis that lies without being round."""
+        lying = (i for i in self.instances if i.id in self.course.spins and not _upright(i))
+        return {i.id: ends_of(self.parts[i.part], self._chord) for i in lying if not is_round(self.parts[i.part])}
+
+    @property
+    def _chord(self) -> float:
+        """What chords of silhouettes may leave, mm."""
+        return min(_CHORD, SHARE * self.tolerance / 4)
+
+    def _forms(self, instance: Instance) -> tuple[Complex, float]:
+        """Outlines of what changes at even shares of the loop, and how far they are off, mm."""
+        ends, count = self._changing[instance.id], VALUES
+        while True:
+            turned, _ = self.frames(instance, np.linspace(0, 1, 2 * count + 1))
+            forms = ends.outlines(turned[::2])
+            off = ends.off_between(turned[1::2], forms)
+            if off <= SHARE * self.tolerance / 2 or count >= _MOST_FORMS:
+                break
+            count *= 2
+        made = thinned(forms, self._chord)
+        # an even way is off the most in the middle between its ends
+        return made, 2 * off + ends.off_outlines(turned[::2], made) + ends.off + 10.0**-CORNERS
 
     def poses(self, instance: Instance, shares: Real) -> tuple[Any, Any]:
         """As seen from above; of what is turned over the turn of its mirror image."""
         if _upright(instance) and instance.id not in self.course.in_space:
             places, angles = super().poses(instance, shares)
             return places, -angles if instance.axis[2] < 0 else angles
+        if instance.id in self._changing:
+            _, places = self.course.placed(instance.id, shares * float(self.loop), own=True)
+            return places[:, 0] + 1j * places[:, 1], np.zeros(len(shares))
         own = instance.id not in self.course.spins
         turned, places = self.course.placed(instance.id, shares * float(self.loop), own=own)
         if not _upright(instance):
@@ -72,12 +100,24 @@ class MotionJob(Film, dict=True):
         """Exact outlines: of parts as they stand, and of instances that lie as these do."""
         found: dict[object, tuple[Profile, ...]] = {}
         for instance in self.instances:
-            part, key = self.parts[instance.part], _look(instance)
-            if key not in found:
-                own = part.section(0.0).region.profiles()
-                found[key] = own if _upright(instance) else (seen_lying(part, instance),)
+            part, key = self.parts[instance.part], self._look(instance)
+            if key not in found and instance.id not in self._changing:
+                found[key] = (
+                    part.section(0.0).region.profiles() if _upright(instance) else (self._silhouette(instance)[0],)
+                )
         return found
 
+    def _look(self, instance: Instance) -> object:
+        """By what its outline is told: its part, and how it lies."""
+        if _upright(instance):
+            return instance.part
+        return instance.part, instance.axis, instance.rotation, instance.id in self.course.spins
+
+    def _silhouette(self, instance: Instance) -> tuple[Profile, float]:
+        spins = instance.id in self.course.spins
+        return seen_lying(self.parts[instance.part], instance, self._chord, spins=spins)
+
+    @cached_property
     def tracks(self) -> tuple[list[Track], float]:
         """What moves how, the lowest first, and the greatest deviation, mm."""
         made, worst = [], 0.0
@@ -88,31 +128,39 @@ class MotionJob(Film, dict=True):
         for index, instance in enumerate(sorted(self.instances, key=lambda i: i.at[2])):
             part = self.parts[instance.part]
             places, angles, off = self.ways(instance, self._reach(instance))
-            worst = max(worst, off)
             turned = even_values(angles + 0j).real
             colour = part.colour or fill(index)
-            own = outlines[_look(instance)]
+            if instance.id in self._changing:
+                forms, beside = self._forms(instance)
+                worst = max(worst, off + beside)
+                made.append(Track(instance.id, (), colour, even_values(places), turned, forms))
+                continue
+            worst = max(worst, off if _upright(instance) else off + self._silhouette(instance)[1])
+            own = outlines[self._look(instance)]
             if instance.axis[2] < 0 and _upright(instance):
                 own = tuple(replace(o, geometry=_over(o.geometry)) for o in own)
             made.append(Track(instance.id, own, colour, even_values(places), turned))
-        return made, worst + max(x.max_error for row in outlines.values() for x in row)
+        return made, worst + max((x.max_error for row in outlines.values() for x in row), default=0.0)
 
     def _reach(self, instance: Instance) -> float:
-        return max(profile.reach() for profile in self._profiles[_look(instance)])
+        if instance.id in self._changing:
+            return 0.0
+        return max(profile.reach() for profile in self._profiles[self._look(instance)])
 
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write it; counts of what is in it."""
-        tracks, _ = self.tracks()
+        tracks, _ = self.tracks
         spans = []
         for track, instance in zip(tracks, sorted(self.instances, key=lambda i: i.at[2]), strict=True):
             places, angles = self.poses(instance, np.linspace(0, 1, 721))
-            if not _upright(instance):
+            if not (_upright(instance) or track.forms is not None):
                 # its origin may be far from its middle
                 corners = track.outlines[0].geometry.vertices
                 places = (places[:, None] + 1.03 * corners * np.exp(1j * angles)[:, None]).ravel()
                 spans.append([places.real.min(), places.imag.min(), -places.real.max(), -places.imag.max()])
                 continue
-            reach = max(float(np.abs(o.geometry.vertices).max()) for o in track.outlines) * 1.03
+            seen = [o.geometry.vertices for o in track.outlines] if track.forms is None else [track.forms]
+            reach = max(float(np.abs(one).max()) for one in seen) * 1.03
             spans.append([places.real.min() - reach, places.imag.min() - reach, -places.real.max() - reach,
                           -places.imag.max() - reach])  # fmt: skip
         left, low, right, high = np.min(spans, axis=0).tolist()
@@ -122,7 +170,7 @@ class MotionJob(Film, dict=True):
 
     def declared(self, made: Made) -> tuple[float, str]:
         """The worst outline and the worst way together, mm; ways are sampled."""
-        return self.tracks()[1] + _ROUNDING, "sampled"
+        return self.tracks[1] + _ROUNDING, "sampled"
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back: outlines, and where they stand at many times, against exact poses."""
@@ -143,7 +191,7 @@ class MotionJob(Film, dict=True):
             )
         worst, outline = 0.0, 0.0
         for look, profiles in self._profiles.items():
-            alike = [i for i in self.instances if _look(i) == look]
+            alike = [i for i in self.instances if self._look(i) == look and i.id not in self._changing]
             same = [_loops(found.tracks[i.id], i) for i in alike]
             verdict = verify_loops(same[0], profiles, [""] * len(profiles), declared, self.tolerance)
             failures += [fault_of(alike[0].part, text) for text in verdict.failures]
@@ -158,6 +206,11 @@ class MotionJob(Film, dict=True):
             times = np.unique(np.concatenate([TIMES, *values]))
             for exact, read in zip(self._points(instance, reach, times), _read(track, reach, times), strict=True):
                 worst = max(worst, float(np.abs(exact - read).max()))
+            ends = self._changing.get(instance.id)
+            if (ends is None) != (track.forms is None):
+                failures.append(fault("{part}: its outline is that of another", part=instance.part))
+            elif ends is not None and (forms := track.formed(TIMES)) is not None:
+                outline = max(outline, ends.off_outlines(self.frames(instance, TIMES)[0], forms))
         if not worst + outline <= declared:
             failures.append(
                 fault(
@@ -183,11 +236,6 @@ def _read(track: ReadTrack, reach: float, times: Real) -> list[Any]:
 def _upright(instance: Instance) -> bool:
     """Whether its axis points up, or straight down."""
     return instance.axis[0] == instance.axis[1] == 0
-
-
-def _look(instance: Instance) -> object:
-    """By what its outline is told: its part, and how it lies."""
-    return instance.part if _upright(instance) else (instance.part, instance.axis, instance.rotation)
 
 
 def _over(contour: Contour) -> Contour:

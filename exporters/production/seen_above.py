@@ -15,62 +15,87 @@ from geometry.plane.profile import Label, Profile, Segment
 from parts.base.part import Part
 from parts.scene.half_sections import Sectioned
 from parts.scene.placing import Instance
+from parts.scene.shapes import Shape
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-    from geometry.curves.curve import Real
+    from geometry.curves.curve import Complex, Real
 
-# points of a circle; mm: what chords leave of an outline; decimals, and mm, of the places that outlines go by
-_ROUND, _CHORD, _PLACES = 1440, 1e-3, 5
-_SAME = 10.0**-_PLACES
-# mm: what stands less beside the way past it is no corner
-_FLAT = 1e-8
+# mm, and its decimals: the places that outlines go by, and how much what touches at a point is made wider
+_PLACES = 5
+_SAME, _WIDER = 10.0**-_PLACES, 10.0 ** (1 - _PLACES)
+# what looks alike in so many parts of a turn has teeth: as it turns it looks as what it sweeps
+_TEETH = 8
+# mm: what stands less beside the way past it is no corner; decimals of places that are told apart by more
+_FLAT, _LINE = 1e-8, 7
 
 
-def seen_lying(part: Part, instance: Instance) -> Profile:
-    """Its silhouette about its origin, as the instance is laid and turned; of one that goes about its axis, whole."""
+def seen_lying(part: Part, instance: Instance, chord: float, *, spins: bool) -> tuple[Profile, float]:
+    """Its silhouette about its origin, as the instance is laid and turned, and how far chords are off it, mm.
+
+    Of one that goes about its axis, or ``spins`` and has teeth, whole. ``chord``: what chords may leave, mm.
+    """
     import shapely
 
-    made = Sectioned(part)
-    seen = shapely.union_all(_cones(made, instance) if made.half is not None else [_ends(part, instance)])
+    made, off = Sectioned(part), 0.0
+    if made.half is not None:
+        rows = made.bands
+    else:
+        points, off = outer_points(part, chord)
+        levels = part.body(0.0).levels()
+        far = float(np.abs(points).max())
+        rows = np.array([[levels[0], levels[-1], 0.0, 0.0, far, far]])
+    if made.half is not None or (spins and is_round(part)):
+        # alike on both sides
+        count = 4 * math.ceil(math.pi / math.acos(1 - min(chord / rows[:, 4:].max(), 1.0)) / 4)
+        off += float(rows[:, 4:].max()) * (1 - math.cos(math.pi / count))
+        seen = shapely.union_all(_cones(rows, instance, count))
+    else:
+        ends = [np.column_stack([points.real, points.imag, np.full(len(points), z)]) for z in (levels[0], levels[-1])]
+        seen = _hull(Placement3.towards(instance.axis, instance.rotation).apply(np.concatenate(ends)))
     # on places that a file's digits hold exactly: slivers of a union cross themselves once they are rounded
     outline = shapely.set_precision(seen, _SAME)
     if outline.geom_type != "Polygon":
         # what touches at a point alone is one outline yet
-        outline = shapely.set_precision(outline.buffer(10 * _SAME, join_style="mitre"), _SAME)
+        outline = shapely.set_precision(outline.buffer(_WIDER, join_style="mitre"), _SAME)
+        off += _WIDER
     ring = np.round(shapely.get_coordinates(shapely.orient_polygons(outline).exterior), _PLACES)
     corners = [complex(x, y) for x, y in ring.tolist()]
-    return Profile(tuple(Segment(Line(a, b), Label.BODY) for a, b in pairwise(corners)))
+    return Profile(tuple(Segment(Line(a, b), Label.BODY) for a, b in pairwise(corners))), off + _SAME
 
 
-def _cones(made: Sectioned, instance: Instance) -> list[BaseGeometry]:
-    """Of a body that is round about its axis the hulls of both ends of each cone."""
+def is_round(part: Part) -> bool:
+    """Whether what turns about its axis is seen as what it sweeps: it is round, or has teeth."""
+    return Sectioned(part).half is not None or not 0 < Shape(part).count(0.0, math.inf) < _TEETH
+
+
+def outer_points(part: Part, chord: float) -> tuple[Complex, float]:
+    """Points of its outer boundary, counter-clockwise, and how far chords between them are off it, mm."""
+    outer = approximate_profile(part.section(0.0).region.outer, chord, arcs=False)
+    return outer.geometry.expanded()[0], outer.max_error
+
+
+def _cones(rows: Real, instance: Instance, count: int) -> list[BaseGeometry]:
+    """Of a body that is round about its axis the hulls of both ends of each cone, their circles of so many points."""
     way = np.array(instance.axis)
     flat = math.hypot(*way[:2])
     aside = np.array([-way[1], way[0], 0.0]) / flat
-    turns = np.arange(_ROUND) * (2 * math.pi / _ROUND)
+    turns = np.arange(count) * (2 * math.pi / count)
     circle = np.cos(turns)[:, None] * aside + np.sin(turns)[:, None] * np.cross(way, aside)
-    rows = made.bands
     return [
         _hull(np.concatenate([r * circle + z * way for z, r in ((z0, r0), (z1, r1))]))
         for z0, z1, _, _, r0, r1 in rows.tolist()
     ]
 
 
-def _ends(part: Part, instance: Instance) -> BaseGeometry:
-    """The hull of both ends of its outer boundary."""
-    outer = approximate_profile(part.section(0.0).region.outer, _CHORD, arcs=False).geometry.expanded()[0]
-    levels = part.body(0.0).levels()
-    ends = [np.column_stack([outer.real, outer.imag, np.full(len(outer), z)]) for z in (levels[0], levels[-1])]
-    return _hull(Placement3.towards(instance.axis, instance.rotation).apply(np.concatenate(ends)))
-
-
 def _hull(points: Real) -> BaseGeometry:
     """Of points seen from above: Andrew's chain. That of GEOS 3.14 loses corners of circles seen edge on."""
     import shapely
 
-    rows = points[np.lexsort((points[:, 1], points[:, 0])), :2].tolist()
+    # rounding would put points of one line in any order
+    points = np.round(points[:, :2], _LINE)
+    rows = points[np.lexsort((points[:, 1], points[:, 0]))].tolist()
     return shapely.Polygon([*_side(rows), *_side(rows[::-1])])
 
 

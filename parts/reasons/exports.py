@@ -81,7 +81,7 @@ REASONS = {
         "the drives"
     ),
     "workspace_needs_drives": N_("needs drives that move something; add [[drives]] or remove the key"),
-    "shows_from_above": N_("shows motion as it is seen from above; {lying} rises, falls or tilts"),
+    "shows_from_above": N_("shows motion as it is seen from above; {lying} tilts"),
     "shows_what_moves": N_("shows what a drive moves; add [[drives]] or remove the export"),
     "shows_gear_pairs_of_mates": N_("shows pairs of involute gears or worms only; add [[mates]] or remove the export"),
     "stopped_while_moving": N_(

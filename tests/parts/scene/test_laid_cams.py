@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 import math
+import re
 import tomllib
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from exporters.production.check import scene_checks
+from exporters.production.motion import MotionJob
+from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
 from parts.scene.files import built_in_scenes
 from parts.scene.instances import DriveSpec
+from parts.scene.load import scene_from_dict
 from tests.parts.gears.bevel.test_bevel_differential import differential, frames, meshes, rigid, stood
+from tests.parts.gears.bevel.test_bevel_films import svg_pose
 
 BEVEL: dict[str, Any] = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 20, "mate_teeth": 30}
 CAM: dict[str, Any] = {"kind": "cam", "follower": "flat", "lift": 12.0, "base_circle_radius": 20.0, "face_width": 5.0,
@@ -132,3 +138,55 @@ def test_a_cam_that_leaves_its_plane_is_refused() -> None:
     with pytest.raises(SceneError) as caught:
         stood(raw)
     assert (caught.value.code, caught.value.key) == ("leaves_its_plane", f"mates[{len(raw['mates'])}].first")
+
+
+def film(raw: dict[str, Any], file: Path) -> tuple[MotionJob, str]:
+    """The animated SVG of a scene, and its text."""
+    found = scene_from_dict({**raw, "exports": [{"format": "motion"}]}, "s", "s")
+    job = next(one for one in plan_build(found, "s", [], ["motion"]).files if isinstance(one, MotionJob))
+    job.write(None, file)
+    return job, file.read_text("utf-8")
+
+
+def test_a_lying_cam_is_seen_as_wide_as_it_is_in_each_pose(tmp_path: Path) -> None:
+    """Of a cam with a flat follower the reach across is R_b + S on either side, here by the file's own numbers."""
+    raw = on_a_bevel_shaft(at=[0.0, 90.0, 0.0])
+    job, text = film(raw, tmp_path / "film.svg")
+    begin = frames(stood(raw)[0], 0.0)["cam"]
+    declared, _ = job.declared(None)
+    assert declared <= 0.02
+    own = text[text.index('<g id="cam"') :]
+    changed = re.search(r'attributeName="d"[^>]*values="([^"]*)"', own)
+    assert changed is not None
+    forms = [np.array(re.findall(r"(-?[\d.]+),(-?[\d.]+)", one), dtype=float) for one in changed[1].split(";")]
+    for k, corners in enumerate(forms):
+        # the shaft points along -x: about it the cam turns from z to y, and goes backwards
+        angle = math.atan2(begin[1, 0], begin[2, 0]) - 2 * math.pi * job.turns / 1.5 * k / (len(forms) - 1)
+        across = [20.0 + lift(angle), -20.0 - lift(angle - math.pi)]
+        # y runs downwards
+        assert np.allclose([-corners[:, 1].min(), -corners[:, 1].max()], across, atol=declared)
+        assert np.ptp(corners[:, 0]) == pytest.approx(5.0, abs=1e-3)
+    assert job.verify(tmp_path / "film.svg", declared).failures == ()
+    spoilt = tmp_path / "spoilt.svg"
+    at = changed[1].split(";")[len(forms) // 3]
+    spoilt.write_text(text.replace(at, re.sub(r"(\d)\.(\d+)", r"\1.5\2", at)), "utf-8")
+    assert job.verify(spoilt, declared).failures
+
+
+@pytest.mark.parametrize("direction", [0.0, 40.0, 90.0])
+def test_a_rack_that_rises_stays_where_it_is_seen_from_above(direction: float, tmp_path: Path) -> None:
+    """Its place in the picture is that of its frame, whatever its height."""
+    gear = {"kind": "spur_gear", "module": 1.0, "face_width": 5.0, "number_of_teeth": 20}
+    raw: dict[str, Any] = {
+        "parts": {"gear": gear, "rack": {**gear, "kind": "rack"}},
+        "instances": {"gear": {"part": "gear", "at": [3.0, -4.0, 5.0], "axis": [0.0, 1.0, 0.0]}},
+        "mates": [{"kind": "rack_pair", "first": "gear", "second": "rack", "direction_deg": direction}],
+        "drives": [{"instance": "gear", "turns": 0.2}],
+    }
+    job, text = film(raw, tmp_path / "film.svg")
+    for share in (0.0, 0.5, 1.0):
+        now = frames(stood(raw)[0], 0.2 * share)["rack"]
+        place, turn = svg_pose(text, "rack", share)
+        assert np.allclose([place.real, place.imag], now[:2, 3], atol=job.declared(None)[0])
+        assert turn == pytest.approx(0.0, abs=1e-9)
+    assert job.verify(tmp_path / "film.svg", job.declared(None)[0]).failures == ()
