@@ -229,9 +229,9 @@ def tool_texts(pair: AnyShiftPair, words: Words) -> list[str]:
     alpha, height = math.degrees(normal_angle(rack.pressure_angle, pair.helix_angle)), rack.addendum / share
     shape = f"α = {alpha:g}°, h_a* = {height:g}, c* = {rack.tip_clearance / share:g}"
     lines = [f"{shape}, ρ_f* = {rack.tip_radius / share:.4g}"]
+    if pair.helix_angle:
+        lines.append(f"β = {math.degrees(pair.helix_angle):g}°, ε_β = {pair.overlap_ratio:.4g}")
     if not isinstance(pair, InternalShiftPair):
-        if pair.helix_angle:
-            lines.append(f"β = {math.degrees(pair.helix_angle):g}°, ε_β = {pair.overlap_ratio:.4g}")
         return lines
     rule = "k_2 = 0" if pair.plain_tip else "k_2 = 0.25 - 0.125 x_2"
     lines.append(f"r_a2 = r_2 - ({pair.ring_addendum:g} - x_2 - k_2) m, {rule}")
@@ -242,13 +242,13 @@ def tool_texts(pair: AnyShiftPair, words: Words) -> list[str]:
     for whose, tool in tools:
         if isinstance(tool, PinionCutter):
             sizes = (
-                f"z_0 = {tool.number_of_teeth}, x_0 = {tool.profile_shift_coefficient:g}, "
-                f"h_a0* = {tool.addendum:g}, ρ_0* = {tool.tip_rounding:.4g}"
+                f"z_0 = {tool.number_of_teeth}, x_0 = {tool.profile_shift_coefficient / share:g}, "
+                f"h_a0* = {tool.addendum / share:g}, ρ_0* = {tool.tip_rounding / share:.4g}"
             )
             lines.append(words.text(whose, sizes=sizes))
         elif isinstance(tool, RoundedRoot):
-            radius = words.term("radius", "full") if tool.radius is None else f"{tool.radius:g} m"
-            sizes = f"h_f2* = {tool.dedendum:g}, ρ = {radius}"
+            radius = words.term("radius", "full") if tool.radius is None else f"{tool.radius / share:g} m"
+            sizes = f"h_f2* = {tool.dedendum / share:g}, ρ = {radius}"
             lines.append(words.text("rounded root of the ring: {sizes}", sizes=sizes))
     return lines
 

@@ -166,11 +166,16 @@ class Sheet(Draft):
         self.known[key + index] = self.known[known + index]
 
     def both(
-        self, name: str, values: tuple[Value, Value], formula: str = "", sources: tuple[str, str] = ("", "")
+        self,
+        name: str,
+        values: tuple[Value, Value],
+        formula: str = "",
+        sources: tuple[str, str] = ("", ""),
+        symbol: str = "",
     ) -> None:
-        """A step for each gear."""
+        """A step for each gear; ``symbol``: one of its own, by which formulas call it too."""
         for gear in (1, 2):
-            self.add(name, values[gear - 1], formula, sources[gear - 1], gear)
+            self.add(name, values[gear - 1], formula, sources[gear - 1], gear, symbol=symbol, key=symbol)
 
     def mark_misprint(self, printed: Printed) -> None:
         """The last step as one that its source misprints."""

@@ -41,7 +41,6 @@ REASONS = {
     "piece_is_a_point": N_("begins where it ends; a circle is two pieces with bulge 1"),
     "reference_circle_leaves_teeth": N_("the reference circle lies outside the teeth"),
     "shifts_of_gear_pairs": N_("shifts are chosen for external and internal pairs only; give mate = the number of one"),
-    "shifts_of_spur_rings": N_("shifts of internal pairs are chosen for spur gears only; name a scene of such a pair"),
     "teeth_of_disk": N_("{other} gives {teeth}; one of the two keys is enough"),
     "too_many_rows": N_("makes too many rows"),
     "unknown_pair": N_("unknown kind of pair; known: {known}"),

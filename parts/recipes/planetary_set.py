@@ -241,7 +241,7 @@ def _fitted(
     if fit is None:
         one_distance, other = (float(d) for d in one.distances)
         raise ParameterError("teeth", keys.teeth, "no_shifts_fit", first=one_distance, second=other)
-    return fit.distance, fit.normal_shifts
+    return fit.distance, fit.shifts
 
 
 def _given_shifts(keys: PlanetarySetKeys, one: PlanetarySet) -> tuple[float, tuple[float, float, float, float]]:

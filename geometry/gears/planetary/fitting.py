@@ -1,8 +1,8 @@
 """The shifts that bring both meshes of a planetary set to one centre distance, and what keeps them from working.
 
 Conditions are those of the blocking contours of external and internal pairs; rings are judged with a rounded root, so
-that no cutter decides. Helical teeth are judged in their transverse section. Lengths in mm, shifts in modules of
-their own mesh, transverse ones but for ``Fit.normal_shifts``.
+that no cutter decides. Helical teeth are judged in their transverse section. Lengths in mm, shifts in (normal) modules
+of their own mesh.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.limits import Margin
 from geometry.gears.teeth.ring import RoundedRoot
 from geometry.gears.teeth.transverse import transverse_rack
+from geometry.gears.teeth.transverse_ring import transverse_root
 
 # modules: how far the distance is moved and the rims are shifted, in which steps
 _FARTHEST, _MOST_SHIFT, _STEP = 1.5, 1.0, 0.05
@@ -33,7 +34,7 @@ _ROUNDING = 1e-9
 class RimMesh(Record, dict=True):
     """One mesh of a set: a rim of the satellite with its central wheel, a ring where it is internal.
 
-    ``module``, mm, and ``rack`` are those of the transverse section; the helix angle in rad.
+    ``module`` in mm, of helical teeth the normal one; ``rack`` is that of their transverse section, the angle in rad.
     """
 
     central: int
@@ -49,23 +50,28 @@ class RimMesh(Record, dict=True):
         return self.central - self.rim if self.internal else self.central + self.rim
 
     @property
+    def _share(self) -> float:
+        return math.cos(self.helix_angle)
+
+    @property
     def _in_ring(self) -> InternalShiftPair:
-        return InternalShiftPair(self.rim, self.central, self.rack, RoundedRoot(), helix_angle=self.helix_angle)
+        root = transverse_root(RoundedRoot(), self.helix_angle)
+        return InternalShiftPair(self.rim, self.central, self.rack, root, helix_angle=self.helix_angle)
 
     @cached_property
     def _pair(self) -> ShiftPair | InternalShiftPair:
         if self.internal:
             return self._in_ring
-        return ShiftPair(self.rim, self.central, self.rack)
+        return ShiftPair(self.rim, self.central, self.rack, helix_angle=self.helix_angle)
 
     def shift_total(self, distance: float) -> float | None:
         """x_central + x_rim of an external mesh, x_central - x_rim of an internal one; None: below the base circles."""
         alpha = self.rack.pressure_angle
-        cosine = self.module * self.span * math.cos(alpha) / (2 * distance)
+        cosine = self.module * self.span * math.cos(alpha) / (2 * distance * self._share)
         if cosine > 1:
             return None
         turned = involute_function(math.acos(cosine)) - involute_function(alpha)
-        return turned * self.span / (2 * math.tan(alpha))
+        return turned * self.span / (2 * math.tan(alpha) * self._share)
 
     def central_shift(self, distance: float, rim_shift: float) -> float | None:
         """The central wheel's shift for a distance, mm, and the rim's shift."""
@@ -97,30 +103,26 @@ class RimMesh(Record, dict=True):
         state = self.state(rim_shift, central_shift)
         if isinstance(state, InternalState):
             return self.module * state.pinion.tip_radius, self.module * state.ring.root_radius
-        height = self.rack.addendum - max(state.tip_shortening, 0.0)
-        rim, central = self.rim / 2 + height + rim_shift, self.central / 2 + height + central_shift
-        return self.module * rim, self.module * central
+        height = self.rack.addendum / self._share - max(state.tip_shortening, 0.0)
+        rim, central = (z / (2 * self._share) + height for z in (self.rim, self.central))
+        return self.module * (rim + rim_shift), self.module * (central + central_shift)
 
     @cached_property
     def least_rim_shift(self) -> float:
         """x_min of the rim, cut by the rack, rounded up to four digits."""
         sine = math.sin(self.rack.pressure_angle)
-        return math.ceil((self.rack.form_dedendum - self.rim * sine**2 / 2) * 1e4) / 1e4
+        return math.ceil((self.rack.form_dedendum - self.rim * sine**2 / 2) / self._share * 1e4) / 1e4
 
     def clearing_shift(self) -> float | None:
-        """The least equal shift of rim and ring that clears the ring's tips of the rim's involutes.
-
-        In hundredths of the normal module, which it is told in.
-        """
-        pair, cosine = self._in_ring, math.cos(self.helix_angle)
-        tried = (k / 100 for k in range(200))
-        return next((x for x in tried if min(interferences(pair, x * cosine, x * cosine)[:2]) >= -_ROUNDING), None)
+        """The least equal shift of rim and ring, in hundredths, that clears the ring's tips of the rim's involutes."""
+        pair, tried = self._in_ring, (k / 100 for k in range(200))
+        return next((x for x in tried if min(interferences(pair, x, x)[:2]) >= -_ROUNDING), None)
 
     @property
     def allowed_ring_addendum(self) -> float:
         """The most that an unshifted ring's teeth may stand inwards without involute interference, modules."""
         alpha, ring = self.rack.pressure_angle, self.central / 2
-        return ring - math.hypot(ring * math.cos(alpha), self.span / 2 * math.sin(alpha))
+        return (ring - math.hypot(ring * math.cos(alpha), self.span / 2 * math.sin(alpha))) / self._share
 
 
 def _of_ring(wish: Requirements) -> InternalRequirements:
@@ -142,13 +144,6 @@ class Fit(Record):
         x1, x2, x2p, x3 = self.shifts
         one, two = self.meshes
         return one.state(x2, x1), two.state(x2p, x3)
-
-    @property
-    def normal_shifts(self) -> tuple[float, float, float, float]:
-        """The shifts of z1, z2, z2', z3 in normal modules."""
-        cosine = math.cos(self.meshes[0].helix_angle)
-        x1, x2, x2p, x3 = (x / cosine for x in self.shifts)
-        return x1, x2, x2p, x3
 
     def broken(self) -> tuple[tuple[Margin, ...], tuple[Margin, ...]]:
         """The conditions that each mesh does not keep, and with the first the neighbours' gap."""
@@ -199,8 +194,8 @@ class Fitting(Record):
     def _meshes(self, teeth: PlanetarySet) -> tuple[RimMesh, RimMesh]:
         z1, z2, z2p, z3 = teeth.teeth
         (one, two), beta = teeth.scheme.internal, self.helix_angle
-        rack = transverse_rack(self.rack, beta) if beta else self.rack
-        m1, m2 = (float(m) / math.cos(beta) for m in teeth.modules)
+        rack = transverse_rack(self.rack, beta)
+        m1, m2 = map(float, teeth.modules)
         return RimMesh(z1, z2, one, m1, rack, beta), RimMesh(z3, z2p, two, m2, rack, beta)
 
     def _distances(self, teeth: PlanetarySet) -> Iterator[float]:
@@ -227,9 +222,8 @@ class Fitting(Record):
     def _rim_shifts(self, mesh: RimMesh) -> list[float]:
         """The shifts of a rim that are tried, the least first; that at which it is no longer undercut among them."""
         least = -_MOST_SHIFT if self.wish.allow_undercut else mesh.least_rim_shift
-        steps, cosine = range(1, round(_MOST_SHIFT / _STEP) + 1), math.cos(mesh.helix_angle)
-        # round numbers of normal modules
-        tried = [0.0, *(sign * round(k * _STEP, 10) * cosine for k in steps for sign in (1, -1)), mesh.least_rim_shift]
+        steps = range(1, round(_MOST_SHIFT / _STEP) + 1)
+        tried = [0.0, *(sign * round(k * _STEP, 10) for k in steps for sign in (1, -1)), mesh.least_rim_shift]
         return sorted((x for x in tried if least <= x <= _MOST_SHIFT), key=lambda x: (abs(x), x))
 
     def _keeps(self, mesh: RimMesh, distance: float, rim_shift: float) -> bool:

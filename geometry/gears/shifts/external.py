@@ -182,8 +182,7 @@ def conditions(pair: ShiftPair) -> dict[str, Condition]:
 
     found = [Condition("working_angle", None, lambda x1, x2: state(x1, x2).involute)]
     found += [*of_gear(0, "first"), *of_gear(1, "second")]
-    ratios = [ratio for ratio in CONTACT_RATIOS if ratio > pair.overlap_ratio] or [pair.overlap_ratio]
-    found += above(_ratio_name(pair), ratios, lambda x1, x2: state(x1, x2).contact_ratio)
+    found += above(ratio_name(pair), ratio_levels(pair), lambda x1, x2: state(x1, x2).contact_ratio)
     found += [
         Condition("approach", None, lambda x1, x2: state(x1, x2).pole - state(x1, x2).starts[0]),
         Condition("recess", None, lambda x1, x2: state(x1, x2).tips[0] - state(x1, x2).pole),
@@ -192,9 +191,14 @@ def conditions(pair: ShiftPair) -> dict[str, Condition]:
     return {c.name if c.level is None else f"{c.name} {c.level:g}": c for c in found}
 
 
-def _ratio_name(pair: ShiftPair) -> str:
+def ratio_name(pair: ShiftPair | InternalShiftPair) -> str:
     """Which contact ratio is kept."""
     return "total_contact_ratio" if pair.helix_angle else "contact_ratio"
+
+
+def ratio_levels(pair: ShiftPair | InternalShiftPair) -> Sequence[float]:
+    """The contact ratios that are told: overlap alone is no contact."""
+    return [ratio for ratio in CONTACT_RATIOS if ratio > pair.overlap_ratio] or [pair.overlap_ratio]
 
 
 def equal_sliding(pair: ShiftPair, x1: float, x2: float) -> float:
@@ -241,7 +245,7 @@ def _sides(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> Iterato
             yield f"undercut_{who}", (x1, x2)[i], least_shift(pair, i)
         yield f"tip_thickness_{who}", state.tip_thicknesses[i], wish.tip_thickness
     # overlap alone is no contact
-    yield _ratio_name(pair), state.contact_ratio, max(wish.contact_ratio, pair.overlap_ratio)
+    yield ratio_name(pair), state.contact_ratio, max(wish.contact_ratio, pair.overlap_ratio)
     if wish.pole_inside:
         yield "approach", state.pole, state.starts[0]
         yield "recess", state.tips[0], state.pole

@@ -16,7 +16,6 @@ from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.implicit import Box, level_lines
 from geometry.gears.shifts.external import (
-    CONTACT_RATIOS,
     TIP_THICKNESSES,
     BlockingContour,
     Condition,
@@ -24,6 +23,8 @@ from geometry.gears.shifts.external import (
     Requirements,
     above,
     contour_lines,
+    ratio_levels,
+    ratio_name,
 )
 from geometry.gears.shifts.internal_shifts import (
     CUTTING,
@@ -45,7 +46,6 @@ TIP_CLEARANCES = (0.0, 0.2)
 _Sides = Callable[[float, float, InternalState], tuple[float, float]]
 # no margin rises faster than this many modules a module; the smallest square looked at for legal shifts
 _STEEPEST, _FINE = 8.0, 0.05
-_LEVELS = {"contact_ratio": CONTACT_RATIOS, "tip_thickness": TIP_THICKNESSES, "tip_clearance": TIP_CLEARANCES}
 # what is compared with a level of one's choice
 _LEVELLED: dict[str, Callable[[InternalState], float]] = {
     "tip_thickness_first": lambda state: state.tip_thicknesses[0],
@@ -120,7 +120,11 @@ def conditions(pair: InternalShiftPair) -> dict[str, Condition]:
 
     found = [compared(name, sides) for name, sides in _always(pair).items()]
     for name, value in _LEVELLED.items():
-        found += above(name, next(levels for kind, levels in _LEVELS.items() if name.startswith(kind)), at(value))
+        if name == "contact_ratio":
+            found += above(ratio_name(pair), ratio_levels(pair), at(value))
+        else:
+            levels = TIP_THICKNESSES if name.startswith("tip_thickness") else TIP_CLEARANCES
+            found += above(name, levels, at(value))
     found.append(Condition("equal_sliding", None, lambda x1, x2: equal_sliding(pair, x1, x2)))
     return {c.name if c.level is None else f"{c.name} {c.level:g}": c for c in found}
 
@@ -141,7 +145,9 @@ def _required(pair: InternalShiftPair, wish: InternalRequirements) -> tuple[tupl
     if not wish.radial_assembly:
         left_out.add("radial_assembly")
     found: list[tuple[str, _Sides]] = [("working_angle", always["working_angle"])]
-    found += [(name, _against(value, _limit(wish, name))) for name, value in _LEVELLED.items()]
+    for name, value in _LEVELLED.items():
+        told = ratio_name(pair) if name == "contact_ratio" else name
+        found.append((told, _against(value, _limit(pair, wish, name))))
     found += [(name, sides) for name, sides in always.items() if name not in left_out]
     return tuple(sorted(found, key=lambda check: check[0] in _COSTLY))
 
@@ -150,9 +156,10 @@ def _against(value: Callable[[InternalState], float], limit: float) -> _Sides:
     return lambda x1, x2, state: (value(state), limit)
 
 
-def _limit(wish: InternalRequirements, name: str) -> float:
+def _limit(pair: InternalShiftPair, wish: InternalRequirements, name: str) -> float:
     if name == "contact_ratio":
-        return wish.contact_ratio
+        # overlap alone is no contact
+        return max(wish.contact_ratio, pair.overlap_ratio)
     return wish.tip_thickness if name.startswith("tip_thickness") else wish.tip_clearance
 
 
@@ -265,7 +272,7 @@ def internal_contour(
 def least_difference(pair: InternalShiftPair) -> float:
     """x2 - x1 at which inv(alpha_w) = 0."""
     alpha = pair.rack.pressure_angle
-    return -involute_function(alpha) * (pair.second_teeth - pair.first_teeth) / (2 * math.tan(alpha))
+    return -involute_function(alpha) * (pair.second_teeth - pair.first_teeth) / (2 * math.tan(alpha)) / pair.share
 
 
 def _shifts_at(point: complex) -> complex:
@@ -278,7 +285,8 @@ def _least_ring_shift(pair: InternalShiftPair) -> float:
     if not isinstance(pair.root, PinionCutter):
         return -math.inf
     alpha, difference = pair.rack.pressure_angle, pair.second_teeth - pair.root.number_of_teeth
-    return pair.root.profile_shift_coefficient - involute_function(alpha) * difference / (2 * math.tan(alpha))
+    least = pair.root.profile_shift_coefficient - involute_function(alpha) * difference / (2 * math.tan(alpha))
+    return least / pair.share
 
 
 def _alone(name: str) -> int | None:

@@ -1,6 +1,7 @@
 """A pinion and a ring at any profile shifts: their sizes, line of action and interference, by closed forms.
 
-All in modules; the pinion (first) drives the ring (second). Shift of the ring is positive away from its axis, so that
+All in modules, of helical teeth in normal ones, lengths those of the transverse section, which meshes as spur gears do.
+The pinion (first) drives the ring (second). Shift of the ring is positive away from its axis, so that
 the working angle follows from x2 - x1. Tips: r_a1 = r_1 + h_a + x_1; r_a2 = r_2 - (h_a2 - x_2 - k_2) with the k_2 of
 GOST 19274 or 0. Source: GOST 19274, KHK, ISO 21771.
 """
@@ -33,8 +34,8 @@ CUTTING = ("involute_interference", "trochoid_interference", "radial_assembly")
 class InternalShiftPair(Record):
     """Numbers of teeth, the pinion's rack or cutter, the ring's cutter or rounded root (module 1), for any shifts.
 
-    ``least_tip_diameter``: the ring's tip is no deeper than that, modules, as ``RingGear`` has it. With a
-    ``helix_angle``, rad, all is of the transverse section, but for the ring's addendum and root: in normal modules.
+    ``least_tip_diameter``: the ring's tip is no deeper than that, modules, as ``RingGear`` has it. Of helical teeth
+    rack, root and cutter are those of the transverse section, in transverse modules; ``helix_angle`` in rad.
     """
 
     first_teeth: int
@@ -46,6 +47,7 @@ class InternalShiftPair(Record):
     pinion_cutter: PinionCutter | None = None
     least_tip_diameter: float = 0.0
     helix_angle: float = 0.0
+    overlap_ratio: float = 0.0
 
     def __hash__(self) -> int:
         # what all caches are asked by: cheap rather than fine
@@ -61,17 +63,22 @@ class InternalShiftPair(Record):
         """z1, z2."""
         return self.first_teeth, self.second_teeth
 
+    @property
+    def share(self) -> float:
+        """Normal over transverse module, cos(beta)."""
+        return math.cos(self.helix_angle)
+
     def pinion(self, shift: float) -> SpurGear:
-        """The pinion at a shift, module 1."""
-        return SpurGear(1.0, self.first_teeth, self.rack, shift, cutter=self.pinion_cutter)
+        """The section of the pinion at a shift, normal module 1."""
+        x = shift * self.share
+        return SpurGear(1.0 / self.share, self.first_teeth, self.rack, x, cutter=self.pinion_cutter)
 
     def ring(self, shift: float) -> RingGear:
-        """The ring at a shift, module 1, its rim beyond any root."""
+        """The section of the ring at a shift, normal module 1, its rim beyond any root."""
         angle, rim = normal_angle(self.rack.pressure_angle, self.helix_angle), 4.0 * self.second_teeth + 100
-        m, x = math.cos(self.helix_angle), shift / math.cos(self.helix_angle)
-        gear = RingGear(m, self.second_teeth, angle, rim, self.root, x, self.ring_addendum, self.plain_tip)
+        gear = RingGear(1.0, self.second_teeth, angle, rim, RoundedRoot(), shift, self.ring_addendum, self.plain_tip)
         gear = transverse_ring(gear, self.helix_angle)
-        return replace(gear, least_tip_diameter=self.least_tip_diameter) if self.least_tip_diameter else gear
+        return replace(gear, root=self.root, least_tip_diameter=self.least_tip_diameter)
 
 
 class GearNumbers(Record):
@@ -95,7 +102,7 @@ class InternalState(Record):
     """A pair at two shifts; lengths in modules, along the line of action from the pinion's base circle.
 
     ``involute`` is inv(alpha_w); where it is negative all that follows is nan. The active line runs from ``start`` (the
-    ring's tip) to ``end`` (the pinion's).
+    ring's tip) to ``end`` (the pinion's). ``contact_ratio`` is the total one.
     """
 
     involute: float
@@ -138,7 +145,7 @@ def pinion_numbers(pair: InternalShiftPair, shift: float) -> GearNumbers:
     thick = 2 * tip * (gear.base_half_angle - involute_function(math.atan2(tangent, base)))
     if pair.pinion_cutter is None:
         return GearNumbers(tip, gear.root_radius, tangent, thick, math.inf)
-    involute = _cut_involute(pair.first_teeth, pair.pinion_cutter, shift, alpha)
+    involute = _cut_involute(pair.first_teeth, pair.pinion_cutter, shift * pair.share, alpha)
     if not involute >= 0:
         return GearNumbers(tip, _NAN, tangent, thick, _NAN, involute)
     reach = gear.generating_distance * math.sin(gear.generating_angle)
@@ -155,7 +162,7 @@ def ring_numbers(pair: InternalShiftPair, shift: float) -> GearNumbers:
     thick = tip * (gear.pitch_angle - 2 * space)
     if isinstance(pair.root, RoundedRoot):
         return _rounded_ring(gear, tip, tangent, thick)
-    involute = _cut_involute(-pair.second_teeth, pair.root, shift, alpha)
+    involute = _cut_involute(-pair.second_teeth, pair.root, shift * pair.share, alpha)
     if not involute >= 0:
         return GearNumbers(tip, _NAN, tangent, thick, _NAN, involute)
     return GearNumbers(tip, gear.root_radius, tangent, thick, gear.cut_form_length, involute)
@@ -185,7 +192,10 @@ def _rounded_ring(gear: RingGear, tip: float, tangent: float, thick: float) -> G
 
 
 def _cut_involute(teeth: int, cutter: PinionCutter, shift: float, alpha: float) -> float:
-    """inv(alpha_w0); ``teeth`` is negative for a ring. -inf where the ring has no more teeth than its cutter."""
+    """inv(alpha_w0) at a transverse shift; ``teeth`` is negative for a ring.
+
+    -inf where the ring has no more teeth than its cutter.
+    """
     total, moved = teeth + cutter.number_of_teeth, shift + cutter.profile_shift_coefficient
     if teeth < 0:
         total, moved = -total, shift - cutter.profile_shift_coefficient
@@ -199,15 +209,17 @@ def internal_state(pair: InternalShiftPair, x1: float, x2: float) -> InternalSta
     """The pair at two shifts, by closed forms and the inverse involute function."""
     alpha, difference = pair.rack.pressure_angle, pair.second_teeth - pair.first_teeth
     one, two = pinion_numbers(pair, x1), ring_numbers(pair, x2)
-    involute = involute_function(alpha) + 2 * (x2 - x1) * math.tan(alpha) / difference
+    involute = involute_function(alpha) + 2 * (x2 - x1) * pair.share * math.tan(alpha) / difference
     if not involute >= 0:
         return InternalState(involute, one, two, _NAN, _NAN, _NAN, _NAN, _NAN, _NAN, _NAN)
     angle = inverse_involute(involute)
-    distance = difference / 2 * math.cos(alpha) / math.cos(angle)
+    # half of a tooth's share of the base circles
+    base = math.cos(alpha) / (2 * pair.share)
+    distance = difference * base / math.cos(angle)
     line = distance * math.sin(angle)
     start, end = two.tip_tangent - line, one.tip_tangent
-    pole = pair.first_teeth / 2 * math.cos(alpha) * math.tan(angle)
-    ratio = (end - start) / (math.pi * math.cos(alpha))
+    pole = pair.first_teeth * base * math.tan(angle)
+    ratio = (end - start) / (2 * math.pi * base) + pair.overlap_ratio
     return InternalState(involute, one, two, angle, distance, line, pole, start, end, ratio)
 
 
@@ -228,7 +240,7 @@ def pinion_form(pair: InternalShiftPair, shift: float) -> float:
 @lru_cache(maxsize=256)
 def least_pinion_shift(pair: InternalShiftPair) -> float:
     """x_min of the pinion."""
-    return least_shift_without_undercut(pair.pinion(0.0))
+    return least_shift_without_undercut(pair.pinion(0.0)) / pair.share
 
 
 @lru_cache(maxsize=1 << 16)
@@ -237,7 +249,7 @@ def interferences(pair: InternalShiftPair, x1: float, x2: float) -> tuple[float,
     state = internal_state(pair, x1, x2)
     if not state.involute >= 0:
         return _NAN, _NAN, _NAN
-    bases = tuple(z / 2 * math.cos(pair.rack.pressure_angle) for z in pair.teeth)
+    bases = tuple(z / 2 / pair.share * math.cos(pair.rack.pressure_angle) for z in pair.teeth)
     tips = state.pinion.tip_radius, state.ring.tip_radius
     angle, distance = state.working_pressure_angle, state.working_centre_distance
     mesh = InternalMesh(pair.teeth, (bases[0], bases[1]), tips, distance, angle)

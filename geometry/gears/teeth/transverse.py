@@ -71,6 +71,8 @@ def transverse_gear(normal: SpurGear, helix_angle: float) -> SpurGear:
 
 def transverse_rack(rack: BasicRack, helix_angle: float) -> BasicRack:
     """The rack of a transverse section, in transverse modules; the angle in rad."""
+    if helix_angle == 0:
+        return rack
     cosine, angle = math.cos(helix_angle), transverse_angle(rack.pressure_angle, helix_angle)
     relief = rack.relief
     if relief is not None:
@@ -83,6 +85,8 @@ def transverse_rack(rack: BasicRack, helix_angle: float) -> BasicRack:
 
 def transverse_cutter(cutter: PinionCutter, helix_angle: float) -> PinionCutter:
     """The transverse section of a helical pinion cutter given in normal modules; the angle in rad."""
+    if helix_angle == 0:
+        return cutter
     cosine = math.cos(helix_angle)
     return replace(
         cutter,

@@ -18,17 +18,23 @@ def transverse_ring(normal: RingGear, helix_angle: float) -> RingGear:
     """
     if helix_angle == 0:
         return normal
-    cosine, root = math.cos(helix_angle), normal.root
-    if isinstance(root, PinionCutter):
-        root = transverse_cutter(root, helix_angle)
-    else:
-        root = RoundedRoot(root.dedendum * cosine, None if root.radius is None else root.radius * cosine)
+    cosine = math.cos(helix_angle)
     return replace(
         normal,
         module=normal.module / cosine,
         pressure_angle=transverse_angle(normal.pressure_angle, helix_angle),
-        root=root,
+        root=transverse_root(normal.root, helix_angle),
         profile_shift_coefficient=normal.profile_shift_coefficient * cosine,
         addendum=(normal.addendum - normal.tip_shortening_coefficient) * cosine,
         plain_tip=True,
     )
+
+
+def transverse_root(root: PinionCutter | RoundedRoot, helix_angle: float) -> PinionCutter | RoundedRoot:
+    """What makes a ring's root, in its transverse section; the angle in rad."""
+    if helix_angle == 0:
+        return root
+    if isinstance(root, PinionCutter):
+        return transverse_cutter(root, helix_angle)
+    cosine = math.cos(helix_angle)
+    return RoundedRoot(root.dedendum * cosine, None if root.radius is None else root.radius * cosine)

@@ -23,15 +23,18 @@ from geometry.gears.shifts.internal_shifts import InternalShiftPair, internal_st
 from geometry.gears.teeth.cutter import PinionCutter, checked_cutter
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import transverse_cutter, transverse_rack
 from parts.base.refusal import SceneError
 from parts.base.texts import N_, Message, counted, listed, message
 from parts.gears.ring_gear.part import RingGearSpec, RoundedRootTable, settled_section, tip_finding
-from parts.gears.spur_gear.part import RackTable, basic_rack_of
-from parts.keys.base import degrees, in_modules, mm
-from parts.keys.cutter import CutterTable, RackName, cutter_of
+from parts.gears.spur_gear.page import section_data
+from parts.gears.spur_gear.part import basic_rack_of
+from parts.keys.base import in_modules
+from parts.keys.cutter import CutterTable, cutter_of
 from parts.keys.helix import in_keys
 from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices
-from parts.pages.contact_steps import working_steps
+from parts.mates.pages.pair_keys import ChoiceKeys, section_table
+from parts.pages.contact_steps import face_steps, working_steps
 from parts.pages.contour_picture import line_name
 from parts.pages.inputs import PLACE, checked, refusal
 from parts.pages.page import Sheet
@@ -62,22 +65,13 @@ class RingKeys(Struct, forbid_unknown_fields=True):
     rounded_root: RoundedRootTable | None = None
 
 
-class InternalShiftKeys(Struct, forbid_unknown_fields=True):
+class InternalShiftKeys(ChoiceKeys, forbid_unknown_fields=True, kw_only=True):
     """Keys of the topic for a pinion (first) in a ring (second)."""
 
     first: PinionKeys
     second: RingKeys
-    module: Annotated[float, mm("module, for a centre distance", least=0.01, most=1000)] = 1.0
-    pressure_angle_deg: Annotated[float, degrees("pressure angle", least=5, most=45)] = 20.0
-    basic_rack: RackName | RackTable = "ISO 53 A"
-    working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
-    least_contact_ratio: Annotated[float, Meta(ge=0.5, le=3, description="contact ratio to keep")] = 1.1
-    least_tip_thickness: Annotated[float, in_modules("tip thickness to keep", least=0, most=1)] = 0.3
     least_tip_clearance: Annotated[float, in_modules("bottom clearance to keep", least=0, most=1)] = 0.2
-    allow_undercut: Annotated[bool, Meta(description="undercut that stays below the active flank is legal")] = False
-    pole_inside: Annotated[bool, Meta(description="the pole must lie inside the active line of action")] = False
     radial_assembly: Annotated[bool, Meta(description="the pinion must go into the ring radially")] = False
-    picture: Annotated[str, Meta(description="SVG or DXF file of the contour to write")] | None = None
 
 
 class BuiltChoice(Choice, kw_only=True):
@@ -86,12 +80,9 @@ class BuiltChoice(Choice, kw_only=True):
     pair: InternalShiftPair
 
 
-def table_from(pair: dict[str, Any], table: dict[str, Any], source: str) -> dict[str, Any]:
+def table_from(pair: dict[str, Any], table: dict[str, Any]) -> dict[str, Any]:
     """The keys of a scene's pair (pinion first) that matter here, changed by those of the command line."""
-    for name in ("first", "second"):
-        if angle := pair[name].get("helix_angle_deg"):
-            raise SceneError(source, "helix_angle_deg", angle, "shifts_of_spur_rings")
-    known: dict[str, Any] = {k: pair["first"][k] for k in ("module", "pressure_angle_deg", "basic_rack")}
+    known = section_table(pair, table)
     for name, kind in (("first", PinionKeys), ("second", RingKeys)):
         own = {k: v for k, v in pair[name].items() if k in kind.__struct_fields__}
         typed = table.pop(name, {})
@@ -129,7 +120,7 @@ def internal_sheet(table: dict[str, Any]) -> Sheet:
 
 
 def shift_pair(keys: InternalShiftKeys) -> InternalShiftPair:
-    """The pair of the keys, module 1.
+    """The pair of the keys, in its transverse section, normal module 1.
 
     Raises
     ------
@@ -138,7 +129,8 @@ def shift_pair(keys: InternalShiftKeys) -> InternalShiftPair:
     """
     angle, owner = math.radians(keys.pressure_angle_deg), ""
     try:
-        rack = basic_rack_of(keys.basic_rack, angle)
+        beta = keys.face.helix.angle
+        rack = transverse_rack(basic_rack_of(keys.basic_rack, angle), beta)
         owner = "first"
         shaper = None if keys.first.cutter is None else checked_cutter(cutter_of(keys.first.cutter, 1.0, angle))
         owner = "second"
@@ -153,7 +145,9 @@ def shift_pair(keys: InternalShiftKeys) -> InternalShiftPair:
         root,
         ring.addendum_coefficient,
         ring.tip_rule == "KHK",
-        shaper,
+        None if shaper is None else transverse_cutter(shaper, beta),
+        helix_angle=beta,
+        overlap_ratio=keys.face.overlap_ratio if beta else 0.0,
     )
 
 
@@ -169,7 +163,7 @@ def _root_of(keys: InternalShiftKeys, angle: float) -> PinionCutter | RoundedRoo
 
 
 def _ring_of(keys: InternalShiftKeys, shift: float) -> RingGear:
-    """The ring at a shift with the cutter and the tip of a build, module 1."""
+    """The section of the ring at a shift with the cutter and the tip of a build, normal module 1."""
     ring = keys.second
     return settled_section(
         RingGearSpec(
@@ -177,6 +171,7 @@ def _ring_of(keys: InternalShiftKeys, shift: float) -> RingGear:
             number_of_teeth=ring.number_of_teeth,
             profile_shift_coefficient=shift,
             pressure_angle_deg=keys.pressure_angle_deg,
+            helix_angle_deg=keys.helix_angle_deg,
             addendum_coefficient=ring.addendum_coefficient,
             cutter=ring.cutter,
             rounded_root=ring.rounded_root,
@@ -197,7 +192,7 @@ def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequir
     _given(page, keys, pair, wish)
     choices = [*_own_choices(keys, pair, wish), *_found_choices(page, keys, pair, wish, wanted)]
     for number, choice in enumerate(choices, 1):
-        _choice(page, wish, choice, number)
+        _choice(page, keys.module, wish, choice, number)
     found = window(pair)
     if found is None:
         page.notes.append(N_("no shifts give a pair that turns"))
@@ -211,24 +206,30 @@ def _given(page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: 
     page.section(N_("Given"))
     page.both("number_of_teeth", pair.teeth)
     page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
-    page.add("module", keys.module)
-    page.add("pressure_angle_deg", math.degrees(pair.rack.pressure_angle))
-    page.both("addendum_coefficient", (pair.rack.addendum, pair.ring_addendum))
-    page.add("tip_clearance_coefficient", pair.rack.tip_clearance)
-    page.add("tip_radius_coefficient", pair.rack.tip_radius)
+    angle, helix, square = math.radians(keys.pressure_angle_deg), pair.helix_angle, "sin({alpha})**2"
+    rack = basic_rack_of(keys.basic_rack, angle)
+    section_data(page, keys.module, angle, helix)
+    page.both("addendum_coefficient", (rack.addendum, pair.ring_addendum))
+    page.add("tip_clearance_coefficient", rack.tip_clearance)
+    page.add("tip_radius_coefficient", rack.tip_radius)
+    if helix:
+        square += " / cos({beta})"
+        face_steps(page, keys.face)
     if isinstance(pair.root, PinionCutter):
+        # in normal modules
         page.add("cutter_teeth", pair.root.number_of_teeth)
-        page.add("cutter_shift", pair.root.profile_shift_coefficient)
-        page.add("cutter_addendum", pair.root.addendum)
-        page.add("cutter_tip_rounding", pair.root.tip_rounding)
+        page.add("cutter_shift", pair.root.profile_shift_coefficient / pair.share)
+        page.add("cutter_addendum", pair.root.addendum / pair.share)
+        page.add("cutter_tip_rounding", pair.root.tip_rounding / pair.share)
         if keys.second.cutter is None:
             page.notes.append(N_("no cutter of the ring is given: that of a ring with x2 = 0 is taken"))
     page.add("required_contact_ratio", wish.contact_ratio, "", "practicum 1")
     page.add("required_tip_thickness", wish.tip_thickness, "", "practicum (1.3)")
     page.add("required_tip_clearance", wish.tip_clearance)
-    formula = "({h_a1} + {c} - {rho_f} * (1 - sin({alpha}))) - {z1} * sin({alpha})**2 / 2"
+    formula = f"({{h_a1}} + {{c}} - {{rho_f}} * (1 - sin({{alpha_n}}))) - {{z1}} * {square} / 2"
     formula = formula if pair.pinion_cutter is None else ""
-    page.add("least_shift_without_undercut", least_pinion_shift(pair), formula, "ISO 21771", 1)
+    symbol = "x_n,min" if helix else ""
+    page.add("least_shift_without_undercut", least_pinion_shift(pair), formula, "ISO 21771", 1, symbol=symbol)
 
 
 def _own_choices(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> list[BuiltChoice]:
@@ -243,9 +244,10 @@ def _wanted_difference(keys: InternalShiftKeys, pair: InternalShiftPair) -> floa
     """x2 - x1 that a wanted centre distance asks for; refused before anything is sought."""
     if keys.working_centre_distance is None:
         return None
-    pinion = SpurGear(keys.module, pair.first_teeth, pair.rack)
-    ring = RingGear(keys.module, pair.second_teeth, pair.rack.pressure_angle, 1e9, RoundedRoot())
-    return shift_difference(pinion, ring, keys.working_centre_distance)
+    module = keys.module / pair.share
+    pinion = SpurGear(module, pair.first_teeth, pair.rack)
+    ring = RingGear(module, pair.second_teeth, pair.rack.pressure_angle, 1e9, RoundedRoot())
+    return shift_difference(pinion, ring, keys.working_centre_distance) / pair.share
 
 
 def _found_choices(
@@ -308,20 +310,23 @@ def _nearest_distance(
     page.notes.append(message(works, distance=text))
 
 
-def _choice(page: Sheet, wish: InternalRequirements, choice: BuiltChoice, number: int) -> None:
-    """One proposal and what it gives."""
-    found, pair, module = choice.found, choice.pair, float(page.known["m"].value)
+def _choice(page: Sheet, module: float, wish: InternalRequirements, choice: BuiltChoice, number: int) -> None:
+    """One proposal and what it gives; ``module``: the normal one, mm."""
+    found, pair = choice.found, choice.pair
+    helical = pair.helix_angle != 0
     page.section(message("{number}. {rule}", number=number, rule=choice.name))
-    page.both("profile_shift_coefficient", (found.first, found.second))
+    page.both("profile_shift_coefficient", (found.first, found.second), symbol="x_n" if helical else "")
     state = internal_state(pair, found.first, found.second)
     if not state.involute >= 0:
         page.notes.append(message("{number}: no working angle", number=number))
         return
     values = state.involute, math.degrees(state.working_pressure_angle), state.working_centre_distance * module
-    working_steps(page, values, internal=True, normal=False)
+    working_steps(page, values, internal=True, normal=helical)
     iso = ("ISO 21771", "ISO 21771")
     if math.isfinite(state.contact_ratio):
-        page.add("contact_ratio", state.contact_ratio, "", "GOST 19274")
+        page.add("contact_ratio", state.contact_ratio - pair.overlap_ratio, "", "GOST 19274")
+        if helical:
+            page.add("total_contact_ratio", state.contact_ratio, "{eps} + {eps_beta}", "ISO 21771")
         page.both("root_sliding", found.root_sliding, "", iso)
     for name, pairs in (("tip_thickness", state.tip_thicknesses), ("bottom_clearance_at_root", state.tip_clearances)):
         if all(math.isfinite(v) for v in pairs):
@@ -333,7 +338,7 @@ def _choice(page: Sheet, wish: InternalRequirements, choice: BuiltChoice, number
 def _limited_tip(page: Sheet, pair: InternalShiftPair, shift: float, number: int) -> None:
     """That the default tip was made shallower, in the words of a build."""
     ring = pair.ring(shift)
-    if (found := tip_finding(ring)) is not None:
+    if (found := tip_finding(ring, 1.0)) is not None:
         page.notes.append(message("{number}: {finding}", number=number, finding=finding_message(found)))
 
 

@@ -2,18 +2,74 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Annotated, Any
 
 import msgspec
-from msgspec import Struct
+from msgspec import Meta, Struct
 
+from geometry.base.errors import Nearest, ParameterError
+from geometry.gears.pairs.common_face import CommonFace
+from geometry.gears.teeth.helix import Helix
 from parts.base.refusal import SceneError, meant
+from parts.gears.spur_gear.part import RackTable
+from parts.keys.base import in_modules, mm
+from parts.keys.cutter import PressureAngle, RackName
+from parts.keys.helix import Double, HelixAngle
 from parts.pages.inputs import PLACE, keys_of
 
 GEARS = ("first", "second")
 # the second body of each kind of pair
 _SECOND = {"external_gear_pair": "spur_gear", "internal_gear_pair": "ring_gear", "rack_pair": "rack"}
+
+
+class ChoiceKeys(Struct, forbid_unknown_fields=True, kw_only=True):
+    """What a choice of shifts is asked of any pair of gears."""
+
+    module: Annotated[float, mm("module, for a centre distance", least=0.01, most=1000)] = 1.0
+    pressure_angle_deg: PressureAngle = 20.0
+    basic_rack: RackName | RackTable = "ISO 53 A"
+    helix_angle_deg: HelixAngle = 0.0
+    double_helical: Double = False
+    face_width: Annotated[
+        float,
+        mm("helical: common face width, for the overlap ratio; 0 is none of it", least=0, most=10_000),
+    ] = 0.0
+    working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
+    least_contact_ratio: Annotated[
+        float, Meta(ge=0.5, le=3, description="contact ratio to keep, of helical teeth the total one")
+    ] = 1.1
+    least_tip_thickness: Annotated[float, in_modules("transverse tip thickness to keep", least=0, most=1)] = 0.3
+    allow_undercut: Annotated[bool, Meta(description="undercut that stays below the active flank is legal")] = False
+    pole_inside: Annotated[bool, Meta(description="the pole must lie inside the active line of action")] = False
+    picture: Annotated[str, Meta(description="SVG or DXF file of the contour to write")] | None = None
+
+    @property
+    def face(self) -> CommonFace:
+        """The face that both gears have in common.
+
+        Raises
+        ------
+        ParameterError
+            Keys of helical gears, without a helix angle.
+        """
+        angle = math.radians(abs(self.helix_angle_deg))
+        if not angle:
+            for name, none in (("double_helical", False), ("face_width", 0.0)):
+                if (value := getattr(self, name)) != none:
+                    raise ParameterError(name, value, "of_helical_gears_alone", Nearest(none))
+        return CommonFace(Helix(angle, double=self.double_helical), self.module, self.face_width)
+
+
+def section_table(pair: Mapping[str, Any], table: Mapping[str, Any]) -> dict[str, Any]:
+    """What the keys of a scene's pair say of its section and face; ``table``: what is typed over them."""
+    first = pair["first"]
+    known = {k: first[k] for k in ("module", "pressure_angle_deg", "basic_rack", "helix_angle_deg") if k in first}
+    if table.get("helix_angle_deg", known.get("helix_angle_deg")):
+        known["face_width"] = min(pair[name]["face_width"] for name in GEARS)
+        known["double_helical"] = first.get("double_helical", False)
+    return known
 
 
 def kind_of_pair(table: Mapping[str, Any], topic: str, known: Sequence[str]) -> tuple[str, dict[str, Any]]:

@@ -263,7 +263,7 @@ class _Page:
             assert self.keys.ratio is not None
             off = float(100 * (ratio / _exact(self.keys.ratio) - 1))
             nan = math.nan
-            shifts = (nan,) * 4 if fit is None else fit.normal_shifts
+            shifts = (nan,) * 4 if fit is None else fit.shifts
             sizes = (float(one.diameter), nan, nan) if fit is None else (fit.diameter, fit.distance, fit.gap)
             most = float(one.most_satellites(_exact(self.keys.least_gap)))
             columns = [*map(float, one.teeth), float(ratio), off, *sizes, most, *shifts]
@@ -362,7 +362,7 @@ class _Page:
 
     def _fit(self, one: PlanetarySet, fit: Fit) -> None:
         """Distance, shifts and what they give."""
-        page, x = self.sheet, fit.normal_shifts
+        page, x = self.sheet, fit.shifts
         page.section(N_("Shifts for one centre distance"))
         page.add("working_centre_distance", fit.distance)
         for k, wheel in enumerate(_WHEELS):
@@ -393,7 +393,7 @@ class _Page:
 
     def _ring_addendum(self, mesh: RimMesh, state: InternalState) -> float:
         """How far a ring's teeth stand inside its reference circle, normal modules."""
-        return (mesh.central / 2 - state.ring.tip_radius) / math.cos(self.helix)
+        return mesh.central / (2 * math.cos(self.helix)) - state.ring.tip_radius
 
     def _interference(self, wheels: str, mesh: RimMesh, broken: list[str]) -> None:
         """What an unshifted ring and its satellite break, the verdict by exact contact, and the shift that cures it."""
@@ -401,7 +401,7 @@ class _Page:
         name = next((n for n in broken if n in ("involute_interference", "trochoid_interference")), None)
         if name is None or not isinstance(state, InternalState):
             return
-        addendum, allowed = self._ring_addendum(mesh, state), mesh.allowed_ring_addendum / math.cos(self.helix)
+        addendum, allowed = self._ring_addendum(mesh, state), mesh.allowed_ring_addendum
         told: list[Text] = [
             message(
                 "mesh {wheels} without shifts: {what}: the ring's addendum is {addendum:.4g}, at most {allowed:.4g} is "
@@ -452,7 +452,7 @@ class _Page:
             self._interference(wheels, mesh, broken)
         unseen = replace(self.fitting, wish=replace(self.fitting.wish, allow_undercut=True)).fit(one)
         if unseen is not None:
-            shown = ", ".join(f"{x:.4f}" for k, x in enumerate(unseen.normal_shifts) if self.scheme.double or k != 2)
+            shown = ", ".join(f"{x:.4f}" for k, x in enumerate(unseen.shifts) if self.scheme.double or k != 2)
             text = N_("with undercut below the active flank: a_w = {distance:.4f} mm, shifts {shifts}")
             page.notes.append(message(text, distance=unseen.distance, shifts=shown))
 

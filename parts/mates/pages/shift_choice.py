@@ -10,8 +10,7 @@ from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 
-from geometry.base.errors import Nearest, ParameterError, rounded
-from geometry.gears.pairs.common_face import CommonFace
+from geometry.base.errors import ParameterError, rounded
 from geometry.gears.shifts import tables as shift_tables
 from geometry.gears.shifts.choice import shift_sum_for_distance
 from geometry.gears.shifts.external import (
@@ -25,20 +24,17 @@ from geometry.gears.shifts.external import (
 )
 from geometry.gears.shifts.finder import for_sum, greatest_contact_ratio, least_wear, proposal
 from geometry.gears.teeth.basic_rack import BasicRack
-from geometry.gears.teeth.helix import Helix
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear, transverse_rack
 from parts.base.refusal import SceneError
 from parts.base.texts import N_, message
 from parts.gears.spur_gear.page import section_data
-from parts.gears.spur_gear.part import RackTable, SpurGearSpec, gear_of
-from parts.keys.base import in_modules, mm
-from parts.keys.cutter import PressureAngle, RackName
-from parts.keys.helix import Double, HelixAngle, in_keys
+from parts.gears.spur_gear.part import SpurGearSpec, gear_of
+from parts.keys.helix import in_keys
 from parts.mates.pages import external as gear_pair
 from parts.mates.pages import internal_shift_choice
 from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices
-from parts.mates.pages.pair_keys import GEARS, kind_of_pair
+from parts.mates.pages.pair_keys import GEARS, ChoiceKeys, kind_of_pair, section_table
 from parts.pages.contact_steps import face_steps, working_steps
 from parts.pages.inputs import SceneKeys, checked, refusal, told
 from parts.pages.misprints import printed_for_pair
@@ -55,43 +51,23 @@ class Teeth(Struct, forbid_unknown_fields=True):
     number_of_teeth: Annotated[int, Meta(ge=3, le=1000, description="number of teeth z")]
 
 
-class ShiftChoiceKeys(Struct, forbid_unknown_fields=True):
+class ShiftChoiceKeys(ChoiceKeys, forbid_unknown_fields=True, kw_only=True):
     """Keys of the topic."""
 
     first: Teeth
     second: Teeth
-    module: Annotated[float, mm("module, for a centre distance", least=0.01, most=1000)] = 1.0
-    pressure_angle_deg: PressureAngle = 20.0
-    basic_rack: RackName | RackTable = "ISO 53 A"
-    helix_angle_deg: HelixAngle = 0.0
-    double_helical: Double = False
-    face_width: Annotated[
-        float,
-        mm("helical: common face width, for the overlap ratio; 0 is none of it", least=0, most=10_000),
-    ] = 0.0
-    working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
-    least_contact_ratio: Annotated[
-        float, Meta(ge=0.5, le=3, description="contact ratio to keep, of helical teeth the total one")
-    ] = 1.1
-    least_tip_thickness: Annotated[float, in_modules("transverse tip thickness to keep", least=0, most=1)] = 0.3
-    allow_undercut: Annotated[bool, Meta(description="undercut that stays below the active flank is legal")] = False
-    pole_inside: Annotated[bool, Meta(description="the pole must lie inside the active line of action")] = False
     shortened_tips: Annotated[bool, Meta(description="tips shortened by x1 + x2 - y")] = True
-    picture: Annotated[str, Meta(description="SVG or DXF file of the contour to write")] | None = None
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
     """The keys of a mate of a scene that matter here, changed by those of the command line."""
     pair = gear_pair.table_from(scene, source, {k: table.pop(k) for k in ("mate",) if k in table})
-    first, kind = pair["first"], pair.get("kind", "external_gear_pair")
+    kind = pair.get("kind", "external_gear_pair")
     if kind == internal_shift_choice.KIND:
-        return internal_shift_choice.table_from(pair, table, source)
+        return internal_shift_choice.table_from(pair, table)
     if kind not in _KINDS:
         raise SceneError(source, "mate", kind, "shifts_of_gear_pairs")
-    known = {k: first[k] for k in ("module", "pressure_angle_deg", "basic_rack", "helix_angle_deg") if k in first}
-    if table.get("helix_angle_deg", known.get("helix_angle_deg")):
-        known["face_width"] = min(pair[name]["face_width"] for name in GEARS)
-        known["double_helical"] = first.get("double_helical", False)
+    known = section_table(pair, table)
     teeth = {name: {"number_of_teeth": pair[name]["number_of_teeth"]} for name in GEARS}
     return {**known, **teeth, **table}
 
@@ -119,27 +95,11 @@ def sheet(table: dict[str, Any]) -> Sheet:
         raise refusal(TOPIC, in_keys(error), keys=keys) from error
 
 
-def _face(keys: ShiftChoiceKeys) -> CommonFace:
-    """The face that both gears have in common.
-
-    Raises
-    ------
-    ParameterError
-        Keys of helical gears, without a helix angle.
-    """
-    angle = math.radians(abs(keys.helix_angle_deg))
-    if not angle:
-        for name, none in (("double_helical", False), ("face_width", 0.0)):
-            if (value := getattr(keys, name)) != none:
-                raise ParameterError(name, value, "of_helical_gears_alone", Nearest(none))
-    return CommonFace(Helix(angle, double=keys.double_helical), keys.module, keys.face_width)
-
-
 def _pair(keys: ShiftChoiceKeys, rack: BasicRack) -> ShiftPair:
     """The pair of the transverse section; ``rack`` of the normal one."""
-    face, teeth = _face(keys), (keys.first.number_of_teeth, keys.second.number_of_teeth)
+    face, teeth = keys.face, (keys.first.number_of_teeth, keys.second.number_of_teeth)
     angle = face.helix.angle
-    section = transverse_rack(rack, angle) if angle else rack
+    section = transverse_rack(rack, angle)
     return ShiftPair(*teeth, section, keys.shortened_tips, angle, face.overlap_ratio if angle else 0.0)
 
 
@@ -155,7 +115,7 @@ def _page(keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair, wish: Require
     page.add("tip_radius_coefficient", rack.tip_radius)
     if helix:
         square += " / cos({beta})"
-        face_steps(page, _face(keys))
+        face_steps(page, keys.face)
     page.add("required_contact_ratio", wish.contact_ratio, "", "practicum 1")
     page.add("required_tip_thickness", wish.tip_thickness, "", "practicum (1.3)")
     least = (least_shift(pair, 0), least_shift(pair, 1))
@@ -254,9 +214,8 @@ def _choice(page: Sheet, module: float, pair: ShiftPair, wish: Requirements, cho
     """One proposal and what it gives; ``module``: the normal one, mm."""
     found, helical = choice.found, pair.helix_angle != 0
     page.section(message("{number}. {rule}", number=number, rule=choice.name))
-    for index, shift in enumerate((found.first, found.second), 1):
-        symbol = "x_n" if helical else ""
-        page.add("profile_shift_coefficient", shift, "", choice.source, index, symbol=symbol, key=symbol)
+    sources, symbol = (choice.source, choice.source), "x_n" if helical else ""
+    page.both("profile_shift_coefficient", (found.first, found.second), "", sources, symbol)
     if choice.printed is not None:
         page.mark_misprint(choice.printed)
     state = state_of(pair, found.first, found.second)

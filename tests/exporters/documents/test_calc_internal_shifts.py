@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import math
 import re
 from itertools import pairwise
 from pathlib import Path
@@ -30,7 +31,7 @@ from geometry.gears.teeth.ring import RoundedRoot
 from parts.base.refusal import SceneError
 from parts.base.texts import words
 from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear
-from parts.gears.spur_gear.part import SpurGearSpec, gear_of
+from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of
 from parts.mates.pages import internal_shift_choice, shift_choice
 from parts.mates.pages.contour_marks import checked_picture
 from parts.mates.pages.internal_shift_choice import InternalShiftKeys, shift_pair
@@ -411,12 +412,6 @@ def test_wrong_input_gets_one_clear_line(
     assert complaint(capsys, "calc", "shift-choice", *arguments.split()) == f"higherpair: {told}\n"
 
 
-def test_a_helical_pair_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file = tmp_path / "pair.toml"
-    file.write_text(SCENE.replace("module = 2.0\n", "module = 2.0\nhelix_angle_deg = 10.0\n"), encoding="utf-8")
-    assert "spur gears only" in complaint(capsys, "calc", "shift-choice", file)
-
-
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize(
     ("pinion", "ring", "more", "limited"),
@@ -449,8 +444,37 @@ def test_the_given_shifts_have_the_numbers_of_a_check(
     assert ("made shallower" in render(page, "text", "en")) is limited
 
 
-def test_helical_rings_are_refused_by_their_angle() -> None:
-    with pytest.raises(SceneError) as told:
-        internal_shift_choice.table_from({"first": {}, "second": {"helix_angle_deg": 12.0}}, {}, "scene")
-    assert (told.value.key, told.value.code) == ("helix_angle_deg", "shifts_of_spur_rings")
-    assert "spur gears only" in str(told.value)
+def test_helical_choices_are_those_of_built_pairs() -> None:
+    """Pinion and ring of a build from the normal shifts that are told, and every formula by its own numbers."""
+    beta, width = 18.0, 24.0
+    typed = f"helix_angle_deg={beta} face_width={width} least_contact_ratio=2.4 working_centre_distance=42.8"
+    page = sheet_for(f"shift-choice {GIVEN} {typed}")
+    for step in page.steps():
+        if step.formula:
+            assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
+    overlap = width * math.sin(math.radians(beta)) / (math.pi * 2)
+    choices = page.data["choices"]
+    assert [c["name"] for c in choices] == [
+        "no shift", "least wear: equal sliding", "greatest contact ratio", "a_w = 42.8 mm",
+    ]  # fmt: skip
+    for choice in choices:
+        x1, x2 = (choice["profile_shift_coefficient"][name] for name in ("first", "second"))
+        common = {"module": 2.0, "helix_angle_deg": beta, "face_width": width}
+        pinion = SpurGearSpec(number_of_teeth=20, profile_shift_coefficient=x1, **common)
+        ring = RingGearSpec(number_of_teeth=60, profile_shift_coefficient=x2, **common)
+        made = internal_pair(checked_spur_gear(pinion), checked_ring_gear(ring))
+        assert choice["contact_ratio"] == pytest.approx(made.contact_ratio + overlap, rel=1e-9)
+        assert choice["contact_ratio"] >= 2.4 or choice["name"] == "no shift"
+        if choice["name"].startswith("a_w"):
+            assert made.working_centre_distance == pytest.approx(42.8, rel=1e-12)
+    assert {line["name"] for line in page.data["blocking_contour"]} >= {"total_contact_ratio", "cutter_radial_assembly"}
+
+
+def test_a_scene_tells_the_helix_and_the_face_of_its_ring(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    helical = SCENE.replace("[parts.pinion]", "helix_angle_deg = 12.0\nface_width = 30.0\n[parts.pinion]")
+    file = tmp_path / "helical.toml"
+    file.write_text(helical.replace("[[mates]]", "helix_angle_deg = -12.0\nface_width = 25.0\n[[mates]]"), "utf-8")
+    monkeypatch.setattr(internal_shift_choice, "window", lambda pair: None)
+    told = {step.name: step.value for step in sheet_of("shift-choice", [str(file)])[0].steps()}
+    assert told["helix_angle_deg"] == pytest.approx(12.0)
+    assert told["face_width"] == 25.0

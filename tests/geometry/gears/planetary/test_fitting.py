@@ -39,7 +39,7 @@ def test_fitted_sets_are_in_contact_without_overlap(
     one = random.Random(seed).choice(found)
     fit = Fitting(RACK, Requirements(0.25, 1.1), apart, helix_angle=beta).fit(one)
     assert fit is not None
-    x1, x2, x2p, x3 = fit.normal_shifts
+    x1, x2, x2p, x3 = fit.shifts
     for mesh, x_rim, x_central in ((fit.meshes[0], x2, x1), (fit.meshes[1], x2p, x3)):
         rim = transverse_gear(SpurGear(1.0, mesh.rim, RACK, x_rim), beta)
         if mesh.internal:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+from collections.abc import Callable
 
 import pytest
 from hypothesis import HealthCheck, assume, given
@@ -30,9 +31,12 @@ from geometry.gears.shifts.internal_shifts import InternalShiftPair, interferenc
 from geometry.gears.teeth import limits, ring_limits
 from geometry.gears.teeth.basic_rack import BasicRack, iso_53
 from geometry.gears.teeth.cutter import PinionCutter, checked_cutter
-from geometry.gears.teeth.ring import RoundedRoot
+from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_tooth import rounded_root_plug
 from geometry.gears.teeth.shaping import check_shaping
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.transverse import transverse_cutter, transverse_gear, transverse_rack
+from geometry.gears.teeth.transverse_ring import transverse_ring, transverse_root
 from geometry.plane.distance import Verdict
 from tests import brute
 from tests.sampling import examples
@@ -57,7 +61,11 @@ KHK = teeth_pair(20, 70, 40, plain_tip=True)
 
 def built(pair: InternalShiftPair, x1: float, x2: float) -> InternalPair:
     """The pair from exact tooth sides, module 1; raises where one cannot be built. The ring's cutting is not asked."""
-    made = internal_pair(pair.pinion(x1), pair.ring(x2))
+    return whole(pair, pair.pinion(x1), pair.ring(x2))
+
+
+def whole(pair: InternalShiftPair, pinion: SpurGear, ring: RingGear) -> InternalPair:
+    made = internal_pair(pinion, ring)
     if isinstance(pair.root, RoundedRoot):
         checked_cutter(rounded_root_plug(made.ring))
     assert made.sides
@@ -66,8 +74,12 @@ def built(pair: InternalShiftPair, x1: float, x2: float) -> InternalPair:
 
 def checks(pair: InternalShiftPair, x1: float, x2: float) -> dict[str, float]:
     """Margins of the built pair by the names of the contour; nan where there is no such pair."""
+    return measured(lambda: built(pair, x1, x2))
+
+
+def measured(make: Callable[[], InternalPair]) -> dict[str, float]:
     try:
-        made = built(pair, x1, x2)
+        made = make()
     except GeometryError:
         return {}
     found = {m.name: m.margin for m in (*made.margins(), *ring_limits.margins(made.ring))}
@@ -143,6 +155,44 @@ def test_closed_forms_agree_with_built_pairs() -> None:
             "trochoid_interference", "radial_assembly", "cutter_involute_interference", "cutter_radial_assembly",
             "tip_clearance_second", "approach"}  # fmt: skip
     assert {(name, sign) for name in both for sign in (True, False)} <= kinds
+
+
+@pytest.mark.parametrize(("helix", "overlap"), [(15.0, 0.3), (35.0, 1.4)])
+def test_helical_teeth_are_judged_by_their_section_in_normal_modules(helix: float, overlap: float) -> None:
+    """Pinion and ring by normal data, cut by normal tools; the total contact ratio, of which overlap alone is none."""
+    beta, rng, kinds = math.radians(helix), random.Random(8), set()
+    while len(kinds) < 18:
+        z1 = rng.randint(8, 60)
+        z2 = z1 + rng.choice((rng.randint(2, 12), rng.randint(12, 80)))
+        tool: PinionCutter | RoundedRoot = PinionCutter(1.0, rng.randint(8, max(9, z2 - 6)), ALPHA)
+        tool = tool if rng.random() < 0.7 else RoundedRoot(1.25, 0.2)
+        shaper = PinionCutter(1.0, 25, ALPHA) if rng.random() < 0.3 else None
+        addendum, plain = rng.choice((0.8, 1.0)), rng.random() < 0.3
+        x1 = rng.uniform(-0.6, 1.2)
+        x2 = x1 + rng.uniform(-0.3, 0.9)
+        cut = None if shaper is None else transverse_cutter(shaper, beta)
+        pair = InternalShiftPair(z1, z2, transverse_rack(iso_53(), beta), transverse_root(tool, beta), addendum, plain,
+                                 cut, helix_angle=beta, overlap_ratio=overlap)  # fmt: skip
+        pinion = transverse_gear(SpurGear(1.0, z1, iso_53(), x1, cutter=shaper), beta)
+        ring = transverse_ring(RingGear(1.0, z2, ALPHA, 900.0, tool, x2, addendum, plain), beta)
+        if not (made := measured(lambda: whole(pair, pinion, ring))):  # noqa: B023
+            continue
+        share = math.cos(beta)
+        made["undercut_first"] /= share
+        told = values(pair, x1, x2)
+        told["contact_ratio"] -= overlap
+        for name in made.keys() & told.keys() - {"equal_sliding", "cutter_reach_first"}:
+            tolerance = 1e-7 if name == "active_flank_first" else 1e-9
+            assert told[name] == pytest.approx(made[name], abs=tolerance, rel=1e-9), (name, pair, x1, x2)
+            kinds.add(name)
+        state = internal_state(pair, x1, x2)
+        distance = (z2 - z1) / share / 2 * math.cos(pair.rack.pressure_angle) / math.cos(state.working_pressure_angle)
+        assert state.working_centre_distance == pytest.approx(distance, rel=1e-12)
+        asked = {m.name: m for m in margins(pair, replace(WISH, contact_ratio=1.2), x1, x2)}
+        assert asked["total_contact_ratio"].limit == max(1.2, overlap)
+        levels = {c.level for c in conditions(pair).values() if c.name == "total_contact_ratio"}
+        assert max(levels) == max(1.2, overlap)
+        assert min(levels) >= overlap or overlap < 1
 
 
 def test_internal_pair_of_khk() -> None:
