@@ -13,7 +13,8 @@ LISTED = cache(listed)
 # of a second and more
 SLOW = ("calc power-module orientation", "calc power-module load=2000",
         "calc planetary scheme=one_external", "calc shift-choice first.number_of_teeth=17",
-        "calc shift-choice kind=internal_gear_pair module=2 first.number_of_teeth=20", "recipe power_module")  # fmt: skip
+        "calc shift-choice kind=internal_gear_pair module=2 first.number_of_teeth=20",
+         "recipe power_module")  # fmt: skip
 CASES = [
     pytest.param(kind, name, marks=pytest.mark.heavy) if f"{kind} {name}".startswith(SLOW) else (kind, name)
     for kind, names, _ in KINDS_OF_LIST for name in names()
