@@ -69,6 +69,7 @@ REASONS = {
     "blank_title": N_("must not be blank"),
     "small_letters": N_("line {line}: write {key} = {value}"),
     "quote_not_closed": N_("line {line}: the quotes of {key} are not closed"),
+    "backslash": N_(r"line {line}: a \ within double quotes begins a code: write \\, or single quotes: 'D:\x'"),
     "comma_in_number": N_("write {whole}.{part} with a point, or a list in brackets, [{whole}, {part}]"),
     "not_utf8": N_("is not UTF-8 text (byte {byte}); save it as UTF-8"),
     "of_another_kind": N_("is a {found}, not a {kind}"),

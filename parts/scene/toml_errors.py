@@ -83,6 +83,8 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return None
     number, column = int(at[1]), int(at[2]) - 1
     line = text.split("\n")[number - 1]
+    if why.startswith(("Invalid hex value", "Unescaped")):
+        return "backslash", {"line": number}
     if found := re.search(r"=\s*(-?\d+),(\d+)\s*(#.*)?$", line):
         return "decimal_comma", {"line": number, "number": f"{found[1]}.{found[2]}"}
     if why.startswith("Invalid value") and (found := _BARE.search(line)) and found.start(2) == column:
