@@ -119,13 +119,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     ] = 0.0
     curves: Annotated[Literal["arcs", "lines"], Meta(description="dxf, svg: arcs, or straight lines only")] = "arcs"
     dxf_version: Annotated[Literal["R2000", "R12"], Meta(description="dxf only")] = "R2000"
-    name: (
-        Annotated[
-            Identifier,
-            Meta(description=("distinguishes the files of one part; default: the purpose"), examples=["laser"]),
-        ]
-        | None
-    ) = None
+    name: Annotated[Identifier, Meta(examples=["laser"])] | None = None
     parts: (
         Annotated[list[str], Meta(min_length=1, description="parts to export; default: all", examples=[["gear"]])]
         | None
