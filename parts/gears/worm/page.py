@@ -18,7 +18,7 @@ from geometry.gears.worms.flank import InvoluteFlank
 from geometry.gears.worms.measures import BALL, over_balls, reference_chord
 from geometry.gears.worms.thread import Thread, thread_of
 from geometry.gears.worms.worm import Worm
-from parts.base.refusal import SceneError, meant
+from parts.base.refusal import REMOVED, SceneError, meant
 from parts.base.texts import N_, message
 from parts.gears.worm.part import WormSpec, told_worm
 from parts.gears.worm_wheel.part import WORM_WHEEL, WormWheelSpec
@@ -56,8 +56,9 @@ TOPIC = "worm"
 _ERRORS = ("centre_distance_error", "axis_angle_error_deg", "wheel_axial_error")
 # what a worm alone has not
 _OF_DRIVE = (
-    "speed_rpm", "torque", "power", "friction_coefficient", "form_factor", "face_width", "outer_diameter",
-    "profile_shift_coefficient", "hob_rounding_coefficient", "hob_diameter_quotient", "wheel_thinning", *_ERRORS,
+    "speed_rpm", "torque", "wheel_torque", "power", "friction_coefficient", "form_factor", "face_width",
+    "outer_diameter", "profile_shift_coefficient", "hob_rounding_coefficient", "hob_diameter_quotient",
+    "wheel_thinning", *_ERRORS,
 )  # fmt: skip
 _GOST, _THESIS = "GOST 19650", "thesis, 2.2"
 _Factor = Annotated[float, Meta(gt=0, le=100)]
@@ -97,6 +98,9 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     wheel_axial_error: AxialError = 0.0
     speed_rpm: Annotated[float, size("rpm", "speed of the worm", above=0, most=1e6)] | None = None
     torque: Annotated[float, size("N*m", "torque T1 on the worm", above=0, most=1e9)] | None = None
+    wheel_torque: Annotated[float, size("N*m", "torque T2 on the wheel, in place of T1", above=0, most=1e9)] | None = (
+        None
+    )
     power: Annotated[float, size("W", "power that the worm takes in, by its speed, in place of its torque", above=0,
                                  most=1e9)] | None = None  # fmt: skip
     friction_coefficient: Annotated[
@@ -163,7 +167,10 @@ def sheet(table: dict[str, Any]) -> Sheet:
             if table.get(key):
                 raise SceneError("calc", f"{TOPIC}.number_of_teeth", None, "worm_wheel_missing", key=key)
     try:
-        torque = asked_torque(keys)
+        driving = asked_torque(keys)
+        if driving is not None and keys.wheel_torque is not None:
+            other = "torque" if keys.power is None else "power"
+            raise ParameterError("wheel_torque", keys.wheel_torque, "other_is_given", REMOVED, other=other)
         keys = changed(asked, diameter_quotient=quotient_of(asked), lead_angle_deg=None)
         worm = worm_of(keys, keys.fillet_coefficient, keys.axial_thinning)
         hob_quotient(keys.hob_diameter_quotient, worm.diameter_quotient)
@@ -190,12 +197,13 @@ def sheet(table: dict[str, Any]) -> Sheet:
             _off_places(page, drive, keys, errors)
         if keys.speed_rpm is not None:
             _speeds(page, drive, keys.speed_rpm)
-        worth = _losses(page, drive, keys, torque)
-        if torque is not None:
-            _forces(page, drive, keys, torque, worth)
-            if keys.form_factor is not None:
-                _strength(page, drive, keys, strength.Load(1e3 * torque * drive.ratio * worth, keys.form_factor,
-                                                           keys.width_factor, keys.speed_factor))  # fmt: skip
+        if driving is not None or keys.wheel_torque is not None or keys.friction_coefficient:
+            page.section(N_("Torques and losses"))
+        worth = _losses(page, drive, keys)
+        torque = _torques(page, drive, keys, driving, worth)
+        if torque is not None and keys.form_factor is not None:
+            load = strength.Load(1e3 * torque, keys.form_factor, keys.width_factor, keys.speed_factor)
+            _strength(page, drive, keys, load)
     return page
 
 
@@ -346,12 +354,8 @@ def _friction_angle(keys: WormKeys, worm: Worm) -> float:
     return math.atan(keys.friction_coefficient / math.cos(worm.pressure_angle))
 
 
-def _losses(page: Sheet, drive: WormDrive, keys: WormKeys, torque: float | None) -> float:
-    """Torque and power on the worm, and the efficiency, 1 where no friction is told."""
-    if torque is not None or keys.friction_coefficient:
-        page.section(N_("Torques and losses"))
-    if torque is not None:
-        torque_steps(page, keys, torque, "worm_torque")
+def _losses(page: Sheet, drive: WormDrive, keys: WormKeys) -> float:
+    """The efficiency, 1 where no friction is told."""
     if not keys.friction_coefficient:
         return 1.0
     friction = _friction_angle(keys, drive.worm)
@@ -365,20 +369,36 @@ def _losses(page: Sheet, drive: WormDrive, keys: WormKeys, torque: float | None)
     return worth
 
 
-def _forces(page: Sheet, drive: WormDrive, keys: WormKeys, driving: float, worth: float) -> None:
-    """The torque (N*m) and the power that the wheel gives, and the forces between the flanks at the pitch point."""
-    worm, losses = drive.worm, " * {eta}" if worth < 1 else ""
-    torque = driving * drive.ratio * worth
-    page.add("wheel_torque", torque, "{T1} * {u}" + losses, _THESIS)
+def _torques(page: Sheet, drive: WormDrive, keys: WormKeys, driving: float | None, worth: float) -> float | None:
+    """Torques and powers of both shafts, that of one given, and their forces; the torque on the wheel, N*m."""
+    losses = " * {eta}" if worth < 1 else ""
+    if keys.wheel_torque is not None:
+        torque, driving = keys.wheel_torque, keys.wheel_torque / (drive.ratio * worth)
+        page.add("wheel_torque", torque, given=True)
+        page.add("worm_torque", driving, f"{{T2}} / ({{u}}{losses})")
+        if keys.speed_rpm is not None:
+            page.add("pair_power", driving * math.pi * keys.speed_rpm / 30, "{T1} * pi * {n1} / 30")
+    elif driving is not None:
+        torque = driving * drive.ratio * worth
+        torque_steps(page, keys, driving, "worm_torque")
+        page.add("wheel_torque", torque, "{T1} * {u}" + losses, _THESIS)
+    else:
+        return None
     if losses and keys.speed_rpm is not None:
         page.add("worm_power_out", driving * math.pi * keys.speed_rpm / 30 * worth, "{P} * {eta}")
-    along = 2e3 * torque / (2 * drive.reference_radius)
+    _forces(page, drive, keys, (driving, torque))
+    return torque
+
+
+def _forces(page: Sheet, drive: WormDrive, keys: WormKeys, torques: tuple[float, float]) -> None:
+    """The forces between the flanks at the pitch point, by the torques on worm and wheel, N*m."""
+    worm, along = drive.worm, 2e3 * torques[1] / (2 * drive.reference_radius)
     page.add("worm_axial_force", along, "2000 * {T2} / {d2}")
-    around = 2e3 * driving / (2 * drive.pitch_radius_of_worm)
+    around = 2e3 * torques[0] / (2 * drive.pitch_radius_of_worm)
     page.add("worm_tangential_force", around, "2000 * {T1} / {d_w1}", _THESIS)
     # friction takes its share of the force along the worm, none of the radial one
     less = math.tan(_friction_angle(keys, worm)) * math.tan(drive.pitch_lead_angle)
-    formula = "{F_a1} * tan({alpha_x})" + (" / (1 - tan({rho_v}) * tan({gamma_w}))" if losses else "")
+    formula = "{F_a1} * tan({alpha_x})" + (" / (1 - tan({rho_v}) * tan({gamma_w}))" if less else "")
     page.add("worm_radial_force", along * math.tan(worm.axial_pressure_angle) / (1 - less), formula)
 
 

@@ -95,6 +95,7 @@ SHEETS = [
     ("worm", "module=2", "number_of_starts=4", "number_of_teeth=40", "diameter_quotient=8", "form=ZK1", "face_width=12",
      "profile_shift_coefficient=0.5", "power=300", "speed_rpm=1400", "form_factor=1.5", "friction_coefficient=0.08",
      "worm_length=20"),
+    ("worm", "module=4", "number_of_teeth=40", "wheel_torque=200", "speed_rpm=960", "friction_coefficient=0.05"),
     ("cam", "practicum_flat_cam"),
     ("cam", "guidelines_cam", "step=2.5"),
     ("cam", "practicum_roller_cam"),
@@ -749,6 +750,13 @@ def test_a_worm_pushes_its_wheel_as_a_wedge_that_slides() -> None:
     assert got["worm_sliding_speed"] == pytest.approx(turns * math.hypot(2 * math.pi * radius, lead), rel=1e-12)
     assert got["worm_wheel_speed"] == pytest.approx(1440 * 2 / 40, rel=1e-12)
     assert "contact_stress" not in got
+    # the same drive by what its wheel has to give
+    words = (
+        "worm module=4 number_of_teeth=40 number_of_starts=2 profile_shift_coefficient=0.5 friction_coefficient=0.04"
+    )
+    again = values_of(f"{words} speed_rpm=1440 wheel_torque={got['wheel_torque']!r}")["values"]
+    for name in ("worm_torque", "pair_power", "worm_power_out", "worm_tangential_force", "worm_radial_force"):
+        assert again[name] == pytest.approx(got[name], rel=1e-12), name
 
 
 def test_tables_of_the_practicum_are_right_where_it_misprints() -> None:

@@ -127,6 +127,7 @@ WORDS: list[tuple[str, str, str]] = [
     ("spur module=2 number_of_teeth=20 part=p", "part", "part_without_scene"),
     ("worm module=2 number_of_teeth=40 power=100", "worm.power", "needs_other"),
     ("worm module=2 number_of_teeth=40 power=100 torque=3", "worm.power", "other_is_given"),
+    ("worm module=2 number_of_teeth=40 wheel_torque=100 torque=3", "worm.wheel_torque", "other_is_given"),
     ("worm module=2 friction_coefficient=0.1", "worm.number_of_teeth", "worm_wheel_missing"),
     ("gear-pair second.kind=ring", "gear-pair.second.kind", "not_one_of"),
     ("shift-choice kind=rack_pair", "shift-choice.kind", "unknown_pair"),
