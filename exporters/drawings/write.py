@@ -109,7 +109,16 @@ def _add_dimension(drawing: Drawing, one: Dimension) -> BlockLayout:
                 "dimclrt": STYLES["TEXT"].aci}  # fmt: skip
         looks = {"dimtad": 1, "dimtih": 0, "dimtoh": 0, "dimdec": 3, "dimzin": 8, "dimlunit": 2, "dimtofl": 1}
         drawing.dimstyles.new(
-            name, {**size, **looks, "dimdsep": ord(one.mark), "dimlfac": 1 / one.scale, "dimtxsty": _STYLE}
+            name,
+            {
+                **size,
+                **looks,
+                "dimdsep": ord(one.mark),
+                "dimlfac": 1 / one.scale,
+                "dimtxsty": _STYLE,
+                "dimaunit": 1,
+                "dimadec": 4,
+            },
         )
         # some programs know one style only: the first, that of the sheet
         heads = {**size, "dimlfac": 1 / one.scale, "dimdec": 3, "dimzin": 8, "dimtad": 1, "dimdsep": ord(one.mark)}
@@ -119,13 +128,20 @@ def _add_dimension(drawing: Drawing, one: Dimension) -> BlockLayout:
         drawing.header["$DIMTXSTY"] = _STYLE
     block = drawing.blocks.new_anonymous_block(type_char="D")
     first, second = (place_of(p) for p in one.points)
-    attributes = {
+    attributes: dict[str, object] = {
         "layer": "DIMENSION", "dimstyle": name, "geometry": block.name, "text": one.text,
-        "text_midpoint": (*place_of(one.middle), 0.0), "actual_measurement": one.value,
-        "defpoint": place_of(one.line), "defpoint2": first, "defpoint3": second, "angle": one.angle,
+        "text_midpoint": (*place_of(one.middle), 0.0),
     }  # fmt: skip
     # all programs read linear ones right; the block is this one's own, words within its arrows stay where they were put
     code = 32 if one.beside else 32 | 128
+    if one.vertex is None:
+        attributes |= {"actual_measurement": one.value, "defpoint": place_of(one.line), "defpoint2": first,
+                       "defpoint3": second, "angle": one.angle}  # fmt: skip
+    else:
+        # between two lines, which LibreCAD reads right, and not by three points
+        vertex, code = place_of(one.vertex), code | 2
+        attributes |= {"actual_measurement": math.radians(one.value), "defpoint2": vertex, "defpoint3": first,
+                       "defpoint4": vertex, "defpoint": second, "defpoint5": place_of(one.line)}  # fmt: skip
     drawing.modelspace().new_entity("DIMENSION", {**attributes, "dimtype": code})
     return block
 

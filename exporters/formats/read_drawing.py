@@ -5,6 +5,7 @@ Splines are evaluated by the library that reads them, never by ours.
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -30,6 +31,8 @@ _MILLIMETRES = 4
 _PER_CURVE = 25
 # what a dimension's own number may be off by, part of it
 _SAME = 1e-6
+# the type of a dimension between two lines
+_ANGULAR = 2
 # what an entity may say of its looks: no more than its absence
 _PLAIN = {
     "invisible": 0, "color": 256, "linetype": "BYLAYER", "lineweight": -1, "ltscale": 1.0, "thickness": 0.0,
@@ -128,7 +131,7 @@ class DrawnText(Record):
 
 
 class DrawnDimension(Record):
-    """A dimension: its number by its own points and the scale of its style, mm, and its words."""
+    """A dimension: its number by its own points and the scale of its style, mm, or degrees, and its words."""
 
     value: float
     text: str
@@ -223,6 +226,9 @@ def dimensions(document: Drawing) -> list[DrawnDimension]:
         if entity.dxf.dimstyle not in document.dimstyles:
             raise ReadError(f"a DIMENSION has the style {entity.dxf.dimstyle}, which is not in the file")
         factor = document.dimstyles.get(entity.dxf.dimstyle).dxf.dimlfac
+        if entity.dimtype == _ANGULAR:
+            found.append(_angle(document, entity))
+            continue
         value = float(entity.get_measurement()) * factor
         if abs(value - entity.dxf.get("actual_measurement", math.nan)) > _SAME * max(1.0, abs(value)):
             raise ReadError(f"a DIMENSION of {value:g} mm says that it measures otherwise")
@@ -231,6 +237,24 @@ def dimensions(document: Drawing) -> list[DrawnDimension]:
             raise ReadError(f"a DIMENSION of {value:g} mm is told elsewhere than it is drawn")
         found.append(DrawnDimension(value, entity.dxf.text))
     return found
+
+
+def _angle(document: Drawing, entity: Dimension) -> DrawnDimension:
+    """An angle between two lines from one place, in degrees by its own points, with its arc."""
+    dxf = entity.dxf
+    at, other, on_arc = (_plane(place) for place in (dxf.defpoint2, dxf.defpoint4, dxf.defpoint5))
+    if abs(at - other) > _SAME:
+        raise ReadError("an angular DIMENSION has lines that begin at two places")
+    first, second, middle = (place - at for place in (_plane(dxf.defpoint3), _plane(dxf.defpoint), on_arc))
+    turn, within = (math.degrees(cmath.phase(way / first)) % 360.0 for way in (second, middle))
+    if not 0.0 < within < turn:
+        raise ReadError(f"an angular DIMENSION of {turn:g} degrees has its arc on the other side")
+    if abs(turn - math.degrees(dxf.get("actual_measurement", math.nan))) > _SAME * max(1.0, turn):
+        raise ReadError(f"a DIMENSION of {turn:g} degrees says that it measures otherwise")
+    arcs = (one.dxf for one in _block_of(document, entity).query("ARC"))
+    if not any(abs(_plane(a.center) - at) <= _SAME and abs(a.radius - abs(middle)) <= _SAME for a in arcs):
+        raise ReadError(f"a DIMENSION of {turn:g} degrees is told elsewhere than it is drawn")
+    return DrawnDimension(turn, dxf.text)
 
 
 def _check_plain(entity: DXFGraphic, *, dashes: bool) -> None:

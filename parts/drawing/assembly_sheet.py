@@ -330,7 +330,7 @@ def _led(left: Sequence[_Numbered], right: Sequence[_Numbered], box: Box, ink: I
 
 def _size_lines(canvas: Canvas) -> Iterator[tuple[complex, complex]]:
     """Both ends of each dimension line."""
-    for size in canvas.dimensions:
+    for size in (one for one in canvas.dimensions if one.vertex is None):
         way = cmath.rect(1.0, math.radians(size.angle))
         for stroke in canvas.strokes[size.strokes.start : size.strokes.stop]:
             line = stroke.curve

@@ -246,12 +246,14 @@ def plain_width(text: str, height: float) -> float:
 
 
 class Dimension(Record):
-    """A dimension of a drawing, on paper; of its numbers ``value`` alone is the model's, mm.
+    """A dimension of a drawing, on paper; of its numbers ``value`` alone is the model's, mm, or degrees.
 
     Between the ``points`` along ``angle`` (degrees), its line through ``line``: of a radius from the centre to the arc.
     ``scale``: mm of paper for one of the model; ``text``: its words, <> for the
     number, whose decimal ``mark`` is a point or a comma. ``strokes`` and ``texts``: which of the canvas's it consists
     of; ``middle``: of its words, from which programs that draw them anew put those that are ``beside`` it aside.
+
+    Of an angle ``vertex``, from which its sides go through both points, counter-clockwise; ``line`` is on its arc.
     """
 
     name: str
@@ -266,6 +268,7 @@ class Dimension(Record):
     beside: bool
     strokes: range
     texts: range
+    vertex: complex | None = None
 
 
 class Canvas(Draft):

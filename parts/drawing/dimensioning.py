@@ -446,13 +446,32 @@ class _Layout:
             foot = at + radius * middle if within else places[0]
             shelf, text = _shelved(foot + far * way, one.words, middle if within else one.first)
 
-            def put(place: _Place, arc: Arc = arc) -> None:
+            def put(place: _Place, arc: Arc = arc, ends: Sequence[complex] = ends) -> None:
+                first, count = len(self.canvas.strokes), len(self.canvas.texts)
                 for stroke in (line for role, lines in place.lines.items() if role != "dimension" for line in lines):
                     self._stroke(_DIMENSION, stroke)
                 self._stroke(_DIMENSION, arc)
                 for line in place.arrows:
                     self._stroke(_DIMENSION, line)
                 self._write(place.text)
+                box = place.text.box
+                self.canvas.dimensions.append(
+                    Dimension(
+                        "angle",
+                        math.degrees(abs(sweep)),
+                        self.paper.scale,
+                        (ends[0], ends[1]) if sweep > 0 else (ends[1], ends[0]),
+                        at + arc.radius * middle,
+                        0.0,
+                        one.words.replace("°", "%%d"),
+                        decimal("0.0", self.language)[1],
+                        complex(box.left + box.right, box.low + box.high) / 2,
+                        False,
+                        range(first, len(self.canvas.strokes)),
+                        range(count, count + 1),
+                        at,
+                    )
+                )
 
             lines: dict[Role, Sequence[Line]] = {
                 "extension": edges, "dimension": [Line(a, b) for a, b in pairwise(places)],
@@ -710,6 +729,7 @@ def moved(view: Laid, canvas: Canvas, shift: complex, tolerance: float) -> None:
             middle=one.middle + shift,
             strokes=range(one.strokes.start + strokes, one.strokes.stop + strokes),
             texts=range(one.texts.start + texts, one.texts.stop + texts),
+            vertex=None if one.vertex is None else one.vertex + shift,
         )
         for one in own.dimensions
     ]

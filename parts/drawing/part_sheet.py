@@ -84,7 +84,7 @@ class PartMeasures(Record):
         off = max((abs(a.value - b.value) for a, b in zip(sheet.dimensions, wanted, strict=True)), default=0.0)
         measured["dimensions"], measured["dimension_deviation"] = float(len(wanted)), off
         if not off <= _SAME:
-            failures.append(fault("a dimension measures {off:.3g} mm beside the model", off=off))
+            failures.append(fault("a dimension measures {off:.3g} beside the model", off=off))
         for read, one in zip(sheet.dimensions, wanted, strict=True):
             if read.text != one.text:
                 failures.append(fault("a dimension says {text} instead of {other}", text=read.text, other=one.text))

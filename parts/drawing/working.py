@@ -74,7 +74,7 @@ class Slant(Record):
 class Angle(Record):
     """An angle at a place, between unit vectors ``first`` and ``second``; along them edges reach so far, mm.
 
-    Lines and ``words``, no dimension to programs, of which some read a length in it.
+    The older importer of FreeCAD takes its dimension in a DXF for a length, the radius of its arc.
     """
 
     at: complex

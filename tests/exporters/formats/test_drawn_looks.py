@@ -216,6 +216,35 @@ def test_a_dimension_that_lies_or_hides_is_told(attributes: dict[str, Any], said
         [*dimensions(made), *drawn(made, "sheet")]
 
 
+@pytest.mark.parametrize(("attributes", "said"), [
+    ({}, ""),
+    ({"actual_measurement": 0.9274}, "53.1301 degrees says that it measures otherwise"),
+    ({"defpoint": (4.0, 6.01, 0)}, "degrees says that it measures otherwise"),
+    ({"defpoint4": (1.0, 2.01, 0)}, "has lines that begin at two places"),
+    ({"defpoint5": (11.0, 1.0, 0)}, "has its arc on the other side"),
+    ({"defpoint5": (8.1, 7.1, 0)}, "is told elsewhere than it is drawn"),
+    ({"defpoint3": (4, 6, 0), "defpoint": (5, 2, 0)}, "306.87 degrees has its arc on the other side"),
+])  # fmt: skip
+def test_an_angular_dimension_measures_its_own_lines(attributes: dict[str, Any], said: str) -> None:
+    """Of the triangle 3, 4, 5, the angle whose tangent is 4/3."""
+    made = document()
+    made.dimstyles.new("OF_PAPER", {"dimlfac": 2.0})
+    block = made.blocks.new_anonymous_block(type_char="D")
+    block.add_arc((1, 2), math.hypot(7, 5), 0, 60, dxfattribs={"layer": "OTHER"})
+    told = {
+        "layer": "OWN", "dimstyle": "OF_PAPER", "geometry": block.name, "text": "53%%d", "dimtype": 34,
+        "defpoint2": (1, 2, 0), "defpoint3": (5, 2, 0), "defpoint4": (1, 2, 0), "defpoint": (4, 6, 0),
+        "defpoint5": (8, 7, 0), "actual_measurement": math.atan2(4, 3),
+    }  # fmt: skip
+    made.modelspace().new_entity("DIMENSION", told | attributes)
+    if said:
+        with pytest.raises(ReadError, match=said):
+            dimensions(made)
+    else:
+        (found,) = dimensions(made)
+        assert (found.value, found.text) == (pytest.approx(math.degrees(math.atan2(4, 3))), "53%%d")
+
+
 @pytest.mark.parametrize("off", [3.9e-5, 4.1e-5])
 def test_a_dimension_is_right_to_a_millionth_of_itself(off: float) -> None:
     made = measured(actual_measurement=40 + off)
