@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
@@ -14,12 +14,13 @@ from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.pairs.external import ExternalPair, external_pair
 from geometry.gears.pairs.side_clearance import guaranteed_normal_backlash, normal_from_circumferential
 from geometry.gears.shifts.choice import shifts_for_distance
+from geometry.gears.shifts.tables import TableShift, guidelines, kudryavtsev
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.helix import Helix
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import normal_share, transverse_gear
 from parts.base.refusal import REMOVED, SceneError
-from parts.base.texts import N_, in_context
+from parts.base.texts import N_, in_context, message
 from parts.gears.ring_gear.part import RingGearSpec
 from parts.gears.spur_gear.page import addendum_formula, given_data, height_steps, root_radius_step, thickness_formula
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, section_of
@@ -53,6 +54,15 @@ class PairKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
 
     first: SpurGearSpec
     second: SpurGearSpec
+    shifts: (
+        Annotated[
+            Literal["practicum", "guidelines"],
+            Meta(
+                description="profile shifts by a table: Kudryavtsev's of the practicum, or least wear of the guidelines"
+            ),
+        ]
+        | None
+    ) = None
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
     circumferential_backlash: (
@@ -116,18 +126,49 @@ def external_sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of an external pair."""
     table = pair_table(table, PairKeys, TOPIC)
     keys: PairKeys = checked(table, PairKeys, TOPIC)
+    try:
+        found = _tabled(keys, table)
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=keys) from error
+    if found is not None:
+        for name, shift in zip(GEARS, (found.first, found.second), strict=True):
+            table[name] = table[name] | {"profile_shift_coefficient": shift}
+        keys = checked(table, PairKeys, TOPIC)
     shifts_given = tuple("profile_shift_coefficient" in table[name] for name in GEARS)
 
     def made(changed: PairKeys) -> ExternalPair:
         return asked_pair(changed, shifts_given).pair
 
     try:
-        return _page(asked_pair(keys, shifts_given))
+        page = _page(asked_pair(keys, shifts_given))
+        if found is not None:
+            page.notes.append(message("shifts by table {table}", table=found.table))
+        if found is not None and found.mended is not None:
+            printed = " / ".join(f"{v:.3f}" for v in found.mended.printed)
+            page.notes.append(message("the table prints {shifts} for this pair: a misprint", shifts=printed))
+        return page
     except ParameterError as error:
         owner = "" if error.name.partition(".")[0] in keys_of(PairKeys) else "second"
         raise wish_refused(TOPIC, keys, refusal(TOPIC, in_keys(error), owner, keys), made) from error
     except SceneError as error:
         raise wish_refused(TOPIC, keys, error, made) from error
+
+
+def _tabled(keys: PairKeys, table: Mapping[str, Any]) -> TableShift | None:
+    """The shifts of the table that is asked for."""
+    if keys.shifts is None:
+        return None
+    given = [f"{name}.{key}" for key in ("profile_shift_coefficient", "helix_angle_deg") for name in GEARS
+             if table[name].get(key)]  # fmt: skip
+    if keys.working_centre_distance is not None:
+        given.append("working_centre_distance")
+    if given:
+        raise ParameterError("shifts", keys.shifts, "other_is_given", REMOVED, other=given[0])
+    find = kudryavtsev if keys.shifts == "practicum" else guidelines
+    try:
+        return find(keys.first.number_of_teeth, keys.second.number_of_teeth)
+    except ParameterError as error:
+        raise ParameterError("shifts", keys.shifts, error.code, None, **error.numbers) from error
 
 
 def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:

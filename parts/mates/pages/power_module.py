@@ -52,11 +52,11 @@ class PowerModuleKeys(LoadKeys, kw_only=True):
     balls: Annotated[int, Meta(ge=3, le=10_000, description="balls in one turn")] = 180
     loaded_turns: Annotated[int, Meta(ge=0, le=1, description="i2, turns of balls that work against i1 = 1")] = 0
     radial_factor: Annotated[float, Meta(gt=0, le=10, description="k4 of the radial stiffness")] = 0.1
-    worm_backlash: Annotated[_Play, Meta(description="on the reference circle of either worm wheel")] = 0.05
-    pair_backlash: Annotated[_Play, Meta(description="on the pitch circles of the pair 11-12")] = 0.05
+    worm_backlash: Annotated[_Play, Meta(description="play on the reference circle of either worm wheel")] = 0.05
+    pair_backlash: Annotated[_Play, Meta(description="play on the pitch circles of the pair 11-12")] = 0.05
     pitch_error: Annotated[_Play, Meta(description="total pitch error of each of the three wheels")] = 0.0
-    wheel_backlash: Annotated[_Play, Meta(description="of each mesh of the idlers")] = 0.05
-    pin_clearance: Annotated[_Play, Meta(description="of each pin of a crank, diametral")] = 0.02
+    wheel_backlash: Annotated[_Play, Meta(description="play of each mesh of the idlers")] = 0.05
+    pin_clearance: Annotated[_Play, Meta(description="play of each pin of a crank, diametral")] = 0.02
     pivot_circle: (
         Annotated[float, mm("radius of the circle of the cranks' pivots; default: r_pivots of the assembly", above=0,
                             most=1e4, example=51.0)] | None

@@ -759,6 +759,28 @@ def test_a_worm_pushes_its_wheel_as_a_wedge_that_slides() -> None:
         assert again[name] == pytest.approx(got[name], rel=1e-12), name
 
 
+@pytest.mark.parametrize(
+    ("teeth", "table", "shifts", "note"),
+    [
+        ((13, 21), "practicum", (0.694, 0.384), "В.1"),
+        # the example under table В.1, a printed misprint, a pair of Б and Г, the guidelines' last row
+        ((12, 18), "practicum", (0.609, 0.358), "В.1"),
+        ((12, 23), "practicum", (0.693, 0.334), "0.673 / 0.334"),
+        ((10, 40), "practicum", (0.59, 0.625), "Г.1"),
+        ((12, 12), "guidelines", (0.504, 0.504), "2.1"),
+    ],
+)
+def test_a_pair_takes_the_shifts_of_a_table(
+    teeth: tuple[int, int], table: str, shifts: tuple[float, float], note: str
+) -> None:
+    words = f"gear-pair module=10 first.number_of_teeth={teeth[0]} second.number_of_teeth={teeth[1]}"
+    got = values_of(f"{words} shifts={table}")
+    assert tuple(got["values"]["profile_shift_coefficient"].values()) == shifts
+    assert any(note in told for told in got["notes"])
+    given = "".join(f" {k}.profile_shift_coefficient={x}" for k, x in zip(("first", "second"), shifts, strict=True))
+    assert got["values"] == values_of(words + given)["values"]
+
+
 def test_tables_of_the_practicum_are_right_where_it_misprints() -> None:
     """Д.1 and Е.1 as printed: every cell but those that are told is that of the page, rounded or cut off."""
     printed = json.loads((PUBLISHED / "involute_tables.json").read_text(encoding="utf-8"))

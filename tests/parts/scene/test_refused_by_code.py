@@ -129,6 +129,10 @@ WORDS: list[tuple[str, str, str]] = [
     ("worm module=2 number_of_teeth=40 power=100 torque=3", "worm.power", "other_is_given"),
     ("worm module=2 number_of_teeth=40 wheel_torque=100 torque=3", "worm.wheel_torque", "other_is_given"),
     ("worm module=2 friction_coefficient=0.1", "worm.number_of_teeth", "worm_wheel_missing"),
+    ("gear-pair module=2 first.number_of_teeth=13 second.number_of_teeth=90 shifts=practicum", "gear-pair.shifts",
+     "not_in_table"),
+    ("gear-pair module=2 first.number_of_teeth=13 second.number_of_teeth=21 shifts=practicum "
+     "first.profile_shift_coefficient=0.2", "gear-pair.shifts", "other_is_given"),
     ("gear-pair second.kind=ring", "gear-pair.second.kind", "not_one_of"),
     ("shift-choice kind=rack_pair", "shift-choice.kind", "unknown_pair"),
     ("power-module groove_radius=2", "power-module.groove_radius", "groove_below_ball"),
