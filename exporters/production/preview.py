@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from textwrap import wrap
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -21,8 +21,12 @@ from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.texts import counted, filled, words
 from parts.scene.placing import UPWARDS, Instance
+from parts.solids.mesh import body_mesh, mesh_outlines
 from parts.texts.findings import finding_text
 from parts.texts.quantities import quantity_name
+
+if TYPE_CHECKING:
+    from exporters.production.preview_labels import Label
 
 # letters of a line of the caption that fit beside a part, and above a scene
 _CAPTION_LETTERS, _WIDE_LETTERS = 42, 95
@@ -32,6 +36,8 @@ _MOST_LETTERS = 500
 _PIN_STYLE = "fill:#7f8c99;stroke:#202830"
 # outlines of more curves than this are drawn by so many points of each: arcs take seconds to fit
 _MOST_ARCS, _POINTS = 300, 8
+# what chords may leave of what lies, part of its reach
+_NEAR = 5e-4
 # of more alike than this one is named for all, by its name without its number
 _MANY, _LAST_NUMBER = 6, re.compile(r"[ _]\d+$")
 FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
@@ -88,7 +94,11 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
     own = names_of(plan.scene.instances, plan.parts)
     names = _together(own, stand)
-    outers = [_outer(i, samples(outlines[i.part][-1].geometry), plan.parts[i.part]) for i in stand]
+    lying = {i.id: _seen_lying(i, plan.parts[i.part]) for i in stand if not _stands(i)}
+    outers = [
+        np.concatenate(lying[i.id]) if i.id in lying else _outer(i, samples(outlines[i.part][-1].geometry))
+        for i in stand
+    ]
     points = np.concatenate(outers)
     left, right = float(points.real.min()), float(points.real.max())
     low, high = float(points.imag.min()), float(points.imag.max())
@@ -106,8 +116,8 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
             loops_below = [_turned_over(b.geometry) for b in reversed(outlines[instance.part])]
             placed = [_placed(loop, turn.conjugate(), instance.centre + shift) for loop in loops_below]
             solid = []
-        elif instance.axis != UPWARDS:
-            placed, solid = [Contour(outers[index] + shift, np.zeros(len(outers[index])))], []
+        elif instance.id in lying:
+            placed, solid = [Contour(loop + shift, np.zeros(len(loop))) for loop in lying[instance.id]], []
         data = " ".join(path_data(contour, corner) for contour in placed)
         loops.append([middle + samples(contour).real + 1j * (middle - samples(contour).imag) for contour in placed])
         fill = plan.parts[instance.part].colour or FILLS[index % len(FILLS)]
@@ -119,7 +129,8 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         place = instance.centre + shift
         height = _label_height(outlines[instance.part], outers[index] - instance.centre)
         if instance.axis != UPWARDS:
-            place, height = complex(outers[index].mean()) + shift, 0.0
+            ends = outers[index].real, outers[index].imag
+            place, height = complex(*((x.min() + x.max()) / 2 for x in ends)) + shift, 0.0
         x, y = middle + place.real, middle - place.imag - height
         labels.append(Label(names[instance.id], x, y, size))
     # a wide scene is drawn wide: what is above and below it is cut off
@@ -127,6 +138,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     seen = (1j * spare / 2, complex(2 * middle, 2 * middle - spare / 2))
     named = spread_labels(labels, Tops(loops, picture=seen))
     style = "font-family:sans-serif;font-size:{:.4g}px;text-anchor:middle;fill:#202830"
+    body += [_leader(one) for one in named if one and one.leads is not None]
     body += [
         f'<text x="{one.x:.4g}" y="{one.y:.4g}" style="{style.format(one.size)}">{escaped(one.text)}</text>'
         for one in named if one
@@ -152,6 +164,16 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     return file
 
 
+def _leader(label: Label) -> str:
+    """The line from a word to what it names, from the side of its box that is nearer."""
+    assert label.leads is not None
+    left, top, right, low = label.box
+    x = min(max(label.leads.real, left), right)
+    y = min(max(label.leads.imag, top), low)
+    ends = f'x1="{x:.4g}" y1="{y:.4g}" x2="{label.leads.real:.4g}" y2="{label.leads.imag:.4g}"'
+    return f'<line {ends} style="stroke:#202830;stroke-width:{label.size / 20:.4g}"/>'
+
+
 def _together(names: Mapping[str, str], stand: Sequence[Instance]) -> dict[str, str]:
     """Names by id, those of many of one part that differ by their last number alone as one with how many they are."""
     stems = {i.id: (_LAST_NUMBER.sub("", names[i.id]), i.part) for i in stand}
@@ -170,26 +192,28 @@ def _turned_over(contour: Contour) -> Contour:
     return Contour(vertices.conj(), -bulges)
 
 
-def _outer(instance: Instance, points: Complex, part: Part) -> Complex:
-    """The outer boundary of an instance as it stands, seen from above; of one that lies the hull of both its ends."""
-    if instance.axis == UPWARDS:
-        return points * cmath.exp(1j * instance.rotation) + instance.centre
+def _stands(instance: Instance) -> bool:
+    """Whether its axis points up, or straight down."""
+    return instance.axis == UPWARDS or _over(instance)
+
+
+def _outer(instance: Instance, points: Complex) -> Complex:
+    """The outer boundary of an instance that stands, seen from above."""
     if _over(instance):
         return np.asarray(points.conj() * cmath.exp(-1j * instance.rotation) + instance.centre)
-    levels = part.body(0.0).levels()
-    ends = [np.column_stack([points.real, points.imag, 0 * points.real + z]) for z in (levels[0], levels[-1])]
-    seen = instance.scene_from_part.apply(np.concatenate(ends))
-    spots = sorted({(round(x, 9), round(y, 9)) for x, y in seen[:, :2].tolist()})
-    hull: list[complex] = []
-    for way in (spots, spots[::-1]):
-        side: list[complex] = []
-        for x, y in way:
-            here = complex(x, y)
-            while len(side) > 1 and ((side[-1] - side[-2]).conjugate() * (here - side[-2])).imag <= 0:
-                side.pop()
-            side.append(here)
-        hull += side[:-1]
-    return np.array(hull)
+    return points * cmath.exp(1j * instance.rotation) + instance.centre
+
+
+def _seen_lying(instance: Instance, part: Part) -> list[Complex]:
+    """The boundaries of the shadow of an instance that lies, from above, teeth and all, near enough for the eye."""
+    import manifold3d
+
+    body = part.body(0.0)
+    near = _NEAR * body.section_reach()
+    mesh = body_mesh(body, mesh_outlines(body, near, 0.0))
+    vertices, triangles = mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32)
+    solid = manifold3d.Manifold(manifold3d.Mesh(vertices, triangles)).transform(instance.scene_from_part.matrix())
+    return [np.asarray(loop @ (1, 1j)) for loop in solid.project().simplify(near / 2).to_polygons()]
 
 
 def scene_preview_name(plan: Plan) -> str:

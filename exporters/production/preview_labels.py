@@ -23,12 +23,16 @@ _BEST = 3
 
 
 class Label(Record):
-    """A word whose middle stands at (x, y), y downwards to its foot; ``size``: height of its letters."""
+    """A word whose middle stands at (x, y), y downwards to its foot; ``size``: height of its letters.
+
+    ``leads``: where a line from it ends, on what it names.
+    """
 
     text: str
     x: float
     y: float
     size: float
+    leads: complex | None = None
 
     @property
     def box(self) -> tuple[float, float, float, float]:
@@ -74,7 +78,7 @@ class Tops:
         return set(np.unique(self._top).tolist())
 
     def shows(self, label: Label, number: int) -> int:
-        """How well a word stands for the part of this number: 3 on it alone, 2 beside it and over no edge, 1 beside it.
+        """How well a word stands for the part of this number: 3 on it alone, 2 beside it alone, 1 beside it.
 
         0: not beside what is seen of it, on what is above it, or not whole in the picture.
         """
@@ -88,7 +92,21 @@ class Tops:
             under.add(-1)
         if not (beside == number).any() or max(under) > number:
             return 0
-        return 1 if len(under) > 1 else 3 if number in under else 2
+        alone = set(beside.ravel().tolist()) <= {number, -1}
+        return 3 if under == {number} else 2 if under == {-1} and alone else 1
+
+    def free(self, label: Label) -> bool:
+        """Whether a word stands whole in the picture, on no part."""
+        left, top, right, low = label.box
+        begin, end = self._picture
+        inside = left >= begin.real and top >= begin.imag and right <= end.real and low <= end.imag
+        return inside and bool((self._within(left, top, right, low) < 0).all())
+
+    def spot(self, number: int) -> complex:
+        """A place where the part of this number is seen, in the midst of what is seen of it."""
+        rows, columns = np.nonzero(self._top == number)
+        at = self._low + self._step * (columns + 0.5 + 1j * (rows + 0.5))
+        return complex(at[np.abs(at - at.mean()).argmin()])
 
     def _within(self, left: float, top: float, right: float, low: float) -> NDArray[np.int_]:
         """The uppermost parts in a box."""
@@ -117,9 +135,17 @@ def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Lab
                     break
             if best > 1:
                 break
+        if tops and not best:
+            found = _led(label, tops.spot(number), tops, taken)
         made.append(found)
         taken = np.vstack([taken, found.box]) if found else taken
     return made
+
+
+def _led(label: Label, spot: complex, tops: Tops, taken: Real) -> Label | None:
+    """A word beside all parts, with a line to a spot; None where the picture has no room."""
+    here = replace(label, x=spot.real, y=spot.imag, leads=spot)
+    return next((one for one in _apart(list(_places(here, 2 * _RINGS)), taken) if tops.free(one)), None)
 
 
 def _apart(places: Sequence[Label], taken: Real) -> list[Label]:
@@ -129,15 +155,15 @@ def _apart(places: Sequence[Label], taken: Real) -> list[Label]:
     return [place for place, covered in zip(places, shared.any(axis=1), strict=True) if not covered]
 
 
-def _places(label: Label) -> Iterator[Label]:
+def _places(label: Label, rings: int = _RINGS) -> Iterator[Label]:
     """The wanted place, then places ever farther from it."""
     step, wide = label.size * (1 + 2 * _ROOM), _LETTER * label.size * len(label.text)
     shifts = [(0.0, 0.0)]
-    for ring in range(1, _RINGS + 1):
+    for ring in range(1, rings + 1):
         shifts += [(0.0, ring * step), (0.0, -ring * step)]
         for side in (1, -1):
             shifts += [(side * wide * share, k * step) for share in (0.6, 1.1, 1.7) for k in (ring, -ring)]
             shifts += [(side * wide * 1.1 * (ring // 4 + 1), k * step) for k in (0, ring, -ring)]
     shifts.sort(key=lambda s: abs(s[0]) + 1.5 * abs(s[1]))
     for x, y in shifts:
-        yield Label(label.text, label.x + x, label.y + y, label.size)
+        yield replace(label, x=label.x + x, y=label.y + y)

@@ -12,6 +12,9 @@ import shapely
 
 from exporters.command.cli import main
 from exporters.production.preview_labels import Label, Tops, spread_labels
+from parts.scene.load import load_scene, make_parts
+from parts.scene.placing import place
+from tests.parts.gears.bevel.test_bevel_differential import frame
 
 PARTS = "".join(f'[parts.plate_number_{k}]\nkind = "plate"\nwidth = 60.0\nheight = 40.0\n'
                 f"[instances.plate_number_{k}]\nat = [{25.0 * k}, 0.0, {5.0 * k}]\n" for k in range(1, 9))  # fmt: skip
@@ -125,6 +128,49 @@ def test_names_of_what_is_covered_stand_in_the_caption(tmp_path: Path) -> None:
         "large",
         "without its name in the picture: small",
     ]
+
+
+def test_a_name_that_has_no_place_stands_aside_with_a_line_to_what_it_names() -> None:
+    """A pin in the middle of a disk that lies over all beside it."""
+    turn = np.exp(2j * np.pi * np.arange(60) / 60)
+    tops = Tops([[50 + 50j + 5 * turn], [50 + 50j + 45 * turn, 50 + 50j + 5 * turn]])
+    pin, disk = spread_labels([Label("input shaft", 50.0, 50.0, 4.0), Label("disk", 50.0, 70.0, 4.0)], tops)
+    assert disk is not None
+    assert disk.leads is None
+    assert pin is not None
+    assert pin.leads is not None
+    assert abs(pin.leads - (50 + 50j)) < 5
+    left, top, right, low = pin.box
+    assert min(abs(complex(x, y) - (50 + 50j)) for x in (left, right, pin.x) for y in (top, low)) > 44
+
+
+def test_a_bevel_gear_that_lies_has_its_teeth_in_the_picture(tmp_path: Path) -> None:
+    """Its area is that of all triangles of its own STL seen from the side, by shapely; its hub is no part of a hull."""
+    gear = (
+        'kind = "bevel_gear"\nmodule = 3.0\nnumber_of_teeth = {}\nmate_teeth = {}\nhub_diameter = 14.0\n'
+        "hub_length = 9.0\nbore_diameter = 5.0\n"
+    )
+    scene = tmp_path / "pair.toml"
+    scene.write_text(
+        f'[parts.one]\n{gear.format(12, 15)}[parts.two]\n{gear.format(15, 12)}[[mates]]\nkind = "bevel_pair"\n'
+        'first = "one"\nsecond = "two"\n[[exports]]\nformat = "stl"\ntolerance = 0.02\n',
+        encoding="utf-8",
+    )
+    assert main(["build", str(scene), "--out", str(tmp_path), "--no-verify"]) == 0
+    picture = (tmp_path / "pair" / "pair.preview.svg").read_text(encoding="utf-8")
+    path = re.findall(r'<path d="([^"]*)" style="fill:#', picture)[-1]
+    seen = shapely.Polygon(np.array(re.findall(r"(-?[\d.]+),(-?[\d.]+)", path), dtype=float)).area
+    rows = np.frombuffer((tmp_path / "pair" / "two.stl").read_bytes()[84:], dtype=[("v", "<f4", 12), ("n", "<u2")])
+    corners = rows["v"].reshape(-1, 4, 3)[:, 1:]
+    file = load_scene(str(scene))
+    parts, matings = make_parts(file, "s")
+    stands = place(file.instances, file.drives, parts, matings, "s").instances[1]
+    flat = (corners @ frame(stands)[:, :3].T)[:, :, :2]
+    (ax, ay), (bx, by) = (flat[:, 1] - flat[:, 0]).T, (flat[:, 2] - flat[:, 0]).T
+    areas = np.abs(ax * by - ay * bx)
+    whole = shapely.union_all(shapely.polygons(flat[areas > 1e-9])).area
+    assert seen == pytest.approx(whole, rel=3e-3)
+    assert seen < 0.97 * shapely.MultiPoint(flat.reshape(-1, 2)).convex_hull.area
 
 
 def test_many_alike_are_named_once(tmp_path: Path) -> None:
