@@ -15,13 +15,13 @@ import numpy as np
 from exporters.formats.svg import head, number, path_data, save, stroke_data
 from exporters.production.plan import Plan
 from geometry.approximation.chords import approximate_profile
+from geometry.base.errors import GeometryError
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation, Contour, edge_points
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.texts import counted, filled, words
 from parts.scene.placing import UPWARDS, Instance
-from parts.solids.mesh import body_mesh, mesh_outlines
 from parts.texts.findings import finding_text
 from parts.texts.quantities import quantity_name
 
@@ -206,14 +206,18 @@ def _outer(instance: Instance, points: Complex) -> Complex:
 
 def _seen_lying(instance: Instance, part: Part) -> list[Complex]:
     """The boundaries of the shadow of an instance that lies, from above, teeth and all, near enough for the eye."""
-    import manifold3d
+    from parts.scene.interference import inner_solid
 
-    body = part.body(0.0)
-    near = _NEAR * body.section_reach()
-    mesh = body_mesh(body, mesh_outlines(body, near, 0.0))
-    vertices, triangles = mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32)
-    solid = manifold3d.Manifold(manifold3d.Mesh(vertices, triangles)).transform(instance.scene_from_part.matrix())
-    return [np.asarray(loop @ (1, 1j)) for loop in solid.project().simplify(near / 2).to_polygons()]
+    near = _NEAR * part.body(0.0).section_reach()
+    try:
+        solid = inner_solid(part).transform(instance.scene_from_part.matrix())
+    except GeometryError:
+        # a wall is too thin for a mesh: what it sweeps
+        from exporters.production.seen_above import seen_lying
+
+        period = seen_lying(part, instance, near, spins=True)[0].period
+        return [np.array([complex(s.curve.point(0.0)) for s in period]) + instance.centre]
+    return [np.asarray(loop @ (1, 1j)) for loop in solid.project().simplify(near).to_polygons()]
 
 
 def scene_preview_name(plan: Plan) -> str:
