@@ -57,6 +57,9 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     speed: Annotated[
         float, Meta(gt=0, le=1e6, description="angular velocity of the crank", extra={"unit": "rad/s"})
     ] = 1.0
+    speed_rpm: (
+        Annotated[float, Meta(gt=0, le=1e7, description="the same in place of speed", extra={"unit": "rpm"})] | None
+    ) = None
     acceleration: Annotated[
         float, Meta(ge=-1e9, le=1e9, description="angular acceleration of the crank", extra={"unit": "rad/s2"})
     ] = 0.0

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace as changed
 
 from geometry.base.errors import ParameterError
 from geometry.base.roots import bracketed_roots
@@ -42,6 +43,10 @@ def sheet(table: dict[str, Any]) -> Sheet:
         if number is not None:
             keys = checked(chosen | {k: v for k, v in table.items() if k not in _CHOICE}, LeverKeys, TOPIC)
         _refuse_idle(keys, table)
+        if keys.speed_rpm is not None:
+            if "speed" in table:
+                raise ParameterError("speed_rpm", keys.speed_rpm, "other_is_given", REMOVED, other="speed")
+            keys = changed(keys, speed=math.pi * keys.speed_rpm / 30)
         return _Page(keys, number, is_example=_is_example(table)).made()
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
@@ -137,7 +142,10 @@ class _Page:
         page, keys = self.page, self.keys
         page.section(N_("Given"))
         page.add("crank_angle_deg", keys.start_angle_deg, given=True)
-        page.add("crank_speed", keys.speed, given=True)
+        if keys.speed_rpm is not None:
+            page.add("crank_speed_rpm", keys.speed_rpm, given=True)
+        formula = "" if keys.speed_rpm is None else "pi * {n_1} / 30"
+        page.add("crank_speed", keys.speed, formula, given=keys.speed_rpm is None)
         if keys.acceleration:
             page.add("crank_acceleration", keys.acceleration, given=True)
         page.add("crank_length", self.levers.crank, given=True)

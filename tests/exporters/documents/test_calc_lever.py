@@ -88,6 +88,19 @@ def test_the_ways_to_and_fro_take_their_times(keys: tuple[str, ...], between: fl
         assert row[last] == pytest.approx(0, abs=1e-9)
 
 
+def test_a_crank_turns_by_its_speed_in_rpm_too() -> None:
+    """Khurmi 8.4: crank 150, rod 600 mm, 300 rpm, 45 degrees from the inner dead point: 4 m/s, rod 5.67 rad/s."""
+    row = calculated("first=slider", "crank_length=150", "coupler_length=600", "speed_rpm=300", "start_angle_deg=45")
+    crank, ratio, turn = math.radians(45), 600 / 150, 10 * math.pi
+    lean = math.sqrt(ratio**2 - math.sin(crank) ** 2)
+    velocity = -0.15 * turn * (math.sin(crank) + math.sin(2 * crank) / (2 * lean))
+    assert row["positions"][0]["V_B"] == pytest.approx(velocity, rel=1e-12)
+    # the book measures a plan
+    assert abs(velocity) == pytest.approx(4, abs=0.1)
+    assert abs(row["positions"][0]["ω_2"]) == pytest.approx(5.67, abs=0.05)
+    assert value(row, "ω_1") == pytest.approx(turn, rel=1e-15)
+
+
 def test_a_lever_that_goes_round_has_no_dead_points() -> None:
     assert "ratio_of_ways" not in calculated("crank_length=100", "frame_length=60", "lever_length=150")["values"]
 

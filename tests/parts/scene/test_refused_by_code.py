@@ -133,6 +133,7 @@ WORDS: list[tuple[str, str, str]] = [
      "not_in_table"),
     ("gear-pair module=2 first.number_of_teeth=13 second.number_of_teeth=21 shifts=practicum "
      "first.profile_shift_coefficient=0.2", "gear-pair.shifts", "other_is_given"),
+    ("lever first=slider crank_length=50 coupler_length=200 speed=3 speed_rpm=30", "lever.speed_rpm", "other_is_given"),
     ("gear-pair second.kind=ring", "gear-pair.second.kind", "not_one_of"),
     ("shift-choice kind=rack_pair", "shift-choice.kind", "unknown_pair"),
     ("power-module groove_radius=2", "power-module.groove_radius", "groove_below_ball"),
