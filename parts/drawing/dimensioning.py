@@ -409,6 +409,7 @@ class _Layout:
             for sense, foot, other in ((1.0, feet[1], feet[0]), (-1.0, feet[0], feet[1])):
                 elbow = foot + sense * (ARROW + 2.0 + more) * way
                 shelf, text = _shelved(elbow, self._words(one), sense * way)
+                cost = index / 2 + more / _STEP + _OTHER * sum(map(self.ink.beside, (elbow, *feet)))
 
                 def put(place: _Place, line: complex = feet[0]) -> None:
                     # programs that take every size as aligned read the same number of points beside each other
@@ -419,7 +420,7 @@ class _Layout:
                 lines: dict[Role, Sequence[Line]] = {
                     "extension": edges, "dimension": [Line(other - sense * out * way, elbow)], "leader": shelf
                 }  # fmt: skip
-                yield _Place(lines, arrows, text, index / 2 + more / _STEP, put)
+                yield _Place(lines, arrows, text, cost, put)
 
     def _angles(self, one: Angle) -> Iterator[_Place]:
         """Where an angle may stand: its arc nearer or farther, its words on a shelf from its middle or its end."""

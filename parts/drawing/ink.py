@@ -78,6 +78,13 @@ class Ink(Draft):
         near = (np.abs(start.imag - line.start.imag) < _BESIDE) & (np.abs(end.imag - start.imag) < _TOUCH)
         return bool((near & (shared > _ALONG)).any())
 
+    def beside(self, at: complex) -> bool:
+        """Whether a straight line passes a point so near that it seems to touch it."""
+        start, end, _ = self.straight
+        way = end - start
+        share = np.clip(((at - start) * way.conj()).real / np.maximum(np.abs(way) ** 2, 1e-12), 0.0, 1.0)
+        return bool((np.abs(start + share * way - at) < _BESIDE).any())
+
     @property
     def lines(self) -> Complex:
         """Ends of all pieces, (2, n)."""

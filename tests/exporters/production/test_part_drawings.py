@@ -16,6 +16,7 @@ import ezdxf
 import mpmath
 import numpy as np
 import pytest
+import shapely
 from ezdxf.math import Vec3
 from ezdxf.path import make_path
 
@@ -648,3 +649,21 @@ def test_cones_of_a_bevel_gear_stand_on_its_picture(teeth: int, mate: int, shaft
         parts = [*divmod(round(angle * 3600), 3600)]
         words = f"{parts[0]}°{parts[1] // 60:02d}′{parts[1] % 60:02d}″"
         assert words.removesuffix("00″").removesuffix("00′") in said
+
+
+def test_the_line_of_a_face_width_ends_beside_no_other_line(tmp_path: Path) -> None:
+    """Its shelf began half a millimetre beside the line of the mounting distance: shapely, by the file alone."""
+    gear = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 30, "mate_teeth": 20, "bore_diameter": 10.0,
+            "hub_diameter": 24.0, "hub_length": 8.0}  # fmt: skip
+    document = ezdxf.readfile(drawn(tmp_path, gear))
+    lines: dict[bool, list[shapely.LineString]] = {True: [], False: []}
+    for one in document.modelspace().query("DIMENSION"):
+        slope = one.dxf.angle % 90 if one.dimtype != ANGULAR else 0.0
+        for line in document.blocks.get(one.dxf.geometry).query("LINE"):
+            way = (line.dxf.end - line.dxf.start).angle_deg
+            if not slope or abs(math.remainder(way - one.dxf.angle, 180.0)) < 1e-3:
+                ends = [tuple(at.vec2) for at in (line.dxf.start, line.dxf.end)]
+                lines[bool(slope)].append(shapely.LineString(ends))
+    own = max(lines[True], key=lambda line: line.length)
+    others = shapely.MultiLineString(lines[False])
+    assert min(shapely.Point(at).distance(others) for at in own.coords) > 1.0
