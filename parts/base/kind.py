@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Generic, TypeVar
 
 from geometry.base.errors import GeometryError, Nearest, ParameterError
@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 K = TypeVar("K", bound="MaterialKeys")
 T = TypeVar("T")
+# offers for one key that are tried, one after another: each limit may lie beyond the one before
+_MOST_OFFERS = 4
 # the keys of every part of a scene, for what is made from another part's
 Others = Mapping[str, "MaterialKeys"]
 
@@ -184,18 +186,48 @@ class Kind(Generic[K, T]):
         """What its files must also do: a follower rolled over them, a pin that fits."""
         return ()
 
-    def refused(self, keys: K, others: Others, refusal: ParameterError, source: str, place: str) -> SceneError:
-        """The refusal under the scene's key; what it offers has been tried once, and goes where it does not build."""
+    def refused(
+        self,
+        keys: K,
+        others: Others,
+        refusal: ParameterError,
+        source: str,
+        place: str,
+        fits: Callable[[K, T], object] = lambda keys, thing: None,
+    ) -> SceneError:
+        """The refusal under the scene's key; what it offers has been tried once, and goes where it does not build.
+
+        ``fits`` refuses keys and their thing where what hangs on the part does not take them: what it offers for the
+        same key is tried then.
+        """
+
+        def made(value: object) -> tuple[K, T]:
+            changed = tried(keys, told.name, value)
+            return changed, self.thing(changed, others)
 
         def works(value: object) -> bool:
-            changed = tried(keys, told.name, value)
-            thing = self.thing(changed, others)
+            changed, thing = made(value)
             # what a chamfer leaves of the edges only the solid tells
             if chamfered:
                 self.solid(changed, thing, 0.0)
             return True
 
         def cure() -> Nearest | None:
+            found = alone()
+            for _ in range(_MOST_OFFERS):
+                if found is None:
+                    return None
+                try:
+                    fits(*made(found.value))
+                except ParameterError as again:
+                    found = again.nearest if again.name == told.name else None
+                except (GeometryError, ArithmeticError, SceneError):
+                    return None
+                else:
+                    return found
+            return None
+
+        def alone() -> Nearest | None:
             found, given = told.nearest, told.value
             if told is not refusal and isinstance(given, float):
                 # one number stands for both sides

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import GeometryError, Nearest, ParameterError
 from geometry.base.nearest import kept, nearest
 from parts.base.mate import End, MateKeys, MateKind, Mating
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, placed
 from parts.base.registry import KINDS
-from parts.base.schema import as_typed, tried, unit_of
+from parts.base.schema import as_typed, tried, unit_of, value_at
 from parts.base.texts import message
 from parts.mates.pairing import mated
 from parts.mates.registry import MATES
@@ -48,17 +49,69 @@ def joined(
             kind.check(mate, one.keys, two.keys)
             mated(ends, [mate], part_of)
         except ParameterError as refusal:
-            raise pair_refused(refusal, ends, mate, part_of, source, place) from refusal
+            raise pair_refused(refusal, ends, mate, mates, part_of, source, place) from refusal
     final, matings = mated(ends, mates, part_of)
     return {key: end.thing for key, end in final.items()}, matings
 
 
+def check_fit(
+    part: str, known: Ends, specs: Mapping[str, MaterialKeys], mates: Sequence[MateKeys], part_of: PartOf
+) -> None:
+    """Refuse a part that what is made of it, or one of its mates, does not take; each mate is held alone.
+
+    ``known``: the part, and what has been made of the ``specs``.
+
+    Raises
+    ------
+    ParameterError
+        Under the part's key where that is to blame, else under that of a mate or with another part's name before it.
+    GeometryError, SceneError
+        Another part cannot be made, or is none that a mate joins.
+    """
+    ends = dict(known)
+
+    def end_of(name: str) -> End[Any]:
+        if name not in ends:
+            spec = specs[name]
+            try:
+                ends[name] = End(spec, KINDS[str(spec.__struct_config__.tag)].thing(spec, specs))
+            except ParameterError as refusal:
+                raise refusal.renamed(f"{name}.{refusal.name}") from refusal
+        return ends[name]
+
+    for name, spec in specs.items():
+        if value_at(spec, "of") == part:
+            ends.pop(name, None)
+            end_of(name)
+    for mate in mates:
+        pair = part_of[mate.first], part_of[mate.second]
+        if part not in pair:
+            continue
+        kind, (one, two) = MATES[str(mate.__struct_config__.tag)], map(end_of, pair)
+        _check_kinds(kind, mate, (one.kind, two.kind), "", "")
+        try:
+            kind.check(mate, one.keys, two.keys)
+            mated(ends, [mate], part_of)
+        except ParameterError as refusal:
+            owner, _, key = refusal.name.partition(".")
+            if owner == "mate":
+                raise
+            owner, key = (pair[0], key) if owner == "first" else (pair[1], refusal.name)
+            raise refusal.renamed(key if owner == part else f"{owner}.{key}") from refusal
+
+
 def pair_refused(
-    refusal: ParameterError, ends: Ends, mate: MateKeys, part_of: PartOf, source: str, place: str
+    refusal: ParameterError,
+    ends: Ends,
+    mate: MateKeys,
+    mates: Sequence[MateKeys],
+    part_of: PartOf,
+    source: str,
+    place: str,
 ) -> SceneError:
     """The refusal of a mate under the key of the scene, its own or that of a part; ``place``: where the mate stands.
 
-    What it offers is tried once, on both parts and this mate alone.
+    What it offers is tried once: a key of the mate on both parts, one of a part on all its ``mates``.
     """
     kind = MATES[str(mate.__struct_config__.tag)]
     owner, _, key = refusal.name.partition(".")
@@ -70,41 +123,45 @@ def pair_refused(
     part = part_of[mate.first if owner == "first" else mate.second]
     spec = ends[part].keys
 
-    def works(value: object) -> None:
+    def works(value: object, held: Sequence[MateKeys]) -> None:
         changed = tried(spec, key, value)
-        thing = KINDS[ends[part].kind].thing(changed, {name: end.keys for name, end in ends.items()})
-        trial = {**ends, part: End(changed, thing)}
-        kind.check(mate, trial[part_of[mate.first]].keys, trial[part_of[mate.second]].keys)
-        mated(trial, [mate], part_of)
+        specs = {**{name: end.keys for name, end in ends.items()}, part: changed}
+        changed_end = End(changed, KINDS[ends[part].kind].thing(changed, specs))
+        check_fit(part, {**ends, part: changed_end}, specs, held, part_of)
 
     given, theirs = refusal.value, getattr(ends[part_of[mate.first]].keys, key, None)
     alike = owner == "second" and theirs is not None and refusal.nearest == Nearest(theirs)
-    if alike and isinstance(given, int | float | str) and not _holds(works, theirs):
+    if alike and isinstance(given, int | float | str) and not _holds(partial(works, held=[mate]), theirs):
         # what both have alike may be the first one's to change
         other = ParameterError(f"first.{key}", theirs, refusal.code, Nearest(given))
-        turned = pair_refused(other, ends, mate, part_of, source, place)
+        turned = pair_refused(other, ends, mate, mates, part_of, source, place)
         if turned.nearest is not None:
             return turned
     told = placed(source, f"{place}: parts.{part}", refusal.renamed(key), unit_of(type(spec), key))
-    told.offer(lambda: _tried(refusal, works))
+    told.offer(lambda: _tried(refusal, partial(works, held=[mate]), partial(works, held=mates)))
     return told
 
 
-def _tried(refusal: ParameterError, works: Callable[[Any], object]) -> Nearest | None:
-    """What a refusal offers, tried; a limit that another one stops is sought on beyond it. None where none works."""
+def _tried(
+    refusal: ParameterError, works: Callable[[Any], object], whole: Callable[[Any], object] | None = None
+) -> Nearest | None:
+    """What a refusal offers, tried; a limit that another one stops is sought on beyond it. None where none works.
+
+    ``whole``: what that must do too, asked once.
+    """
     found, given = refusal.nearest, refusal.value
-    if found is None or found.value is None or _holds(works, found.value):
-        return found
-    if found.side == "exactly" or not isinstance(found.value, float) or not isinstance(given, float):
-        return None
-    ends = (given + (found.value - given) * 2.0**k for k in range(1, 12))
-    return nearest(lambda value: _holds(works, value), given, ends)
+    if found is not None and found.value is not None and not _holds(works, found.value):
+        if found.side == "exactly" or not isinstance(found.value, float) or not isinstance(given, float):
+            return None
+        ends = (given + (found.value - given) * 2.0**k for k in range(1, 12))
+        found = nearest(lambda value: _holds(works, value), given, ends)
+    return found if found is None or whole is None or _holds(whole, found.value) else None
 
 
 def _holds(works: Callable[[Any], object], value: object) -> bool:
     try:
         works(value)
-    except (ParameterError, ArithmeticError):
+    except (GeometryError, ArithmeticError, SceneError):
         return False
     return True
 

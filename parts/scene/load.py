@@ -553,7 +553,8 @@ def _made(scene: SceneFile, specs: dict[str, MaterialKeys], source: str) -> tupl
         try:
             gears[key] = kind.thing(spec, specs)
         except ParameterError as refusal:
-            raise kind.refused(spec, specs, refusal, source, f"parts.{key}") from refusal
+            fits = partial(_check_fit, scene, specs, key)
+            raise kind.refused(spec, specs, refusal, source, f"parts.{key}", fits) from refusal
         except GeometryError as error:
             raise SceneError(source, f"parts.{key}", None, "no_outline", None, why=str(error)) from error
     matings: list[Mating] = []
@@ -568,6 +569,15 @@ def _made(scene: SceneFile, specs: dict[str, MaterialKeys], source: str) -> tupl
         for key, spec in specs.items()
     }
     return parts, matings
+
+
+def _check_fit(scene: SceneFile, specs: dict[str, MaterialKeys], part: str, keys: MaterialKeys, thing: object) -> None:
+    """Refuse other keys of a part that what hangs on it does not take."""
+    from parts.base.mate import End
+    from parts.scene.checks import check_fit
+
+    part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
+    check_fit(part, {part: End(keys, thing)}, {**specs, part: keys}, scene.mates, part_of)
 
 
 # keys of parts, instances and drives that are told where they are given

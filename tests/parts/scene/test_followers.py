@@ -1,5 +1,6 @@
 """Followers, and their contact with the cam: every kind, guided and swinging, on the exact outlines."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -155,7 +156,8 @@ def test_a_guide_in_the_way_is_found() -> None:
         ("roller", None, ('kind = "roller"\ndiameter = 16.0', 'kind = "follower"\nend = "flat"\nplate_diameter = 40.0'),
          "end", None),
         ("flat", None, ('end = "flat"', 'end = "flat"\nfollower_radius = 3.0'), "follower_radius", 0.0),
-        ("flat", None, ("plate_diameter = 60.0", ""), "plate_diameter", 20.0),
+        # twice the greatest S' of the sine law, 2 h / phi: what its cam takes; the guides alone would take 20
+        ("flat", None, ("plate_diameter = 60.0", ""), "plate_diameter", math.ceil(4e4 * 12 / math.radians(120)) / 1e4),
         ("pointed", None, ("tip_angle_deg = 20.0", "tip_angle_deg = 5.0"), "stem_length", None),
         ("mushroom", None, ("plate_diameter = 48.0", "plate_diameter = 70.0"), "plate_diameter", None),
         ("pointed", "with", ("tip_height = 25.0", "tip_height = 500.0"), "tip_height", None),
