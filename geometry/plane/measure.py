@@ -290,7 +290,8 @@ def _distance_to_plain(points: Complex, arc: Arc | Line) -> Real:
     """From what has the feet of points in closed form."""
     if isinstance(arc, Line):
         chord = arc.end - arc.start
-        share = np.clip(((points - arc.start) * np.conj(chord)).real / abs(chord) ** 2, 0, 1)
+        # of no length it is its start
+        share = np.clip(((points - arc.start) * np.conj(chord)).real / (abs(chord) ** 2 or 1.0), 0, 1)
         return np.abs(points - arc.start - share * chord)
     sense = 1.0 if arc.sweep > 0 else -1.0
     spoke = points - arc.centre

@@ -11,7 +11,8 @@ from parts.drawing.labels import Labeller
 from parts.drawing.readback import ReadLine, ReadSheet
 from parts.mates.sheets.train_picture import TrainPicture
 
-# a link that turns less than this share of the fastest is a point on the pole line, which no divider measures
+# a link that turns less than this share of the fastest is a point on the pole line, which no divider measures, and so
+# is a velocity of fewer mm on paper
 _LEAST = 1e-9
 _ARROW = 2.5
 
@@ -111,7 +112,9 @@ def name_plans(labels: Labeller, plans: Plans, plan: Box, angles: Box, *, by_han
 
 
 def _vector(canvas: Canvas, start: complex, end: complex) -> None:
-    """A velocity with its arrow, where there is room for one."""
+    """A velocity with its arrow, where there is room for one; none of a point that stands still."""
+    if abs(end - start) < _LEAST:
+        return
     canvas.line("DIMENSION", start, end)
     if abs(end - start) > 2 * _ARROW:
         back = _ARROW * (end - start) / abs(end - start)

@@ -65,6 +65,8 @@ def test_the_ratio_of_james_is_read_off_the_written_file(tmp_path: Path, languag
     built = build(plan, tmp_path)
     assert built.well
     assert ratios(tmp_path / "james.train.dxf") == pytest.approx((4.0, 4.0), rel=1e-9)
+    # the pitch point of the held ring stands still: it has no vector
+    assert all(abs(b - a) > 0.1 for a, b in lines(tmp_path / "james.train.dxf", "DIMENSION"))
     measured = {w.file.name: w.measured for w in built.written}
     for file in ("james.train.dxf", "james.train.svg"):
         assert measured[file]["ratio_1_H_by_velocity"] == pytest.approx(4.0, rel=1e-7)

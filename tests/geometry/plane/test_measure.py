@@ -245,3 +245,8 @@ def test_points_on_both_sides_of_where_a_curve_is_shut(off: float) -> None:
     along = curve.derivatives(t, 1)[1]
     points = curve.point(t) - 1j * off * along / np.abs(along)
     assert distance_to_curve(points, curve) == pytest.approx(np.full(len(t), off), abs=1e-9)
+
+
+def test_a_line_of_no_length_is_a_point() -> None:
+    points = np.array([3.0 + 4.0j, 0j])
+    assert distance_to_curve(points, Line(0j, 0j)).tolist() == [5.0, 0.0]
