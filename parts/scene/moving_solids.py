@@ -24,7 +24,7 @@ from parts.scene.interference import INSET, SLIVER, by_contact, common_volume, p
 from parts.scene.placing import UPWARDS, Instance, Placing
 from parts.scene.relative_path import Course, Path, path_of, stays_free
 from parts.scene.shapes import Shape, SweptShape, free_between
-from parts.scene.space_path import SpacePath, coaxial, space_path
+from parts.scene.space_path import SpacePath, coaxial, lift_between, space_path
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 MOST_POSES, _MATED_POSES, _SEARCH = 720, 48, 12
 # the first way along a path in larger steps; how far solids are sought of each other, as a part of their size
 _FIRST, _SOUGHT = 3, 0.02
-# of a height in what two pairs have in common
-_DIGITS = 7
+# of a height in what two pairs have in common; mm: what is none
+_DIGITS, _NO_HEIGHT = 7, 1e-9
 
 
 class Struck(Record):
@@ -126,6 +126,9 @@ class _Space:
 
     def hold(self, found: MotionFound, pair: tuple[Instance, Instance], *, is_mated: bool) -> None:
         """One pair: at first what both sweep about their own axes, which needs few poses, then the solids."""
+        lift = lift_between(pair, self.course)
+        if lift is not None and _pass_by((self.shapes[pair[0].part], self.shapes[pair[1].part]), lift):
+            return
         spins = [i.id in self.course.spins and self.shapes[i.part].count(0.0, math.inf) > 0 for i in pair]
         if any(spins) and not is_mated and self._sweeps_past(found, pair, (spins[0], spins[1])):
             return
@@ -210,7 +213,7 @@ def hold(
     """Hold one pair, unless one alike was clear."""
     one, two = pair
     lift = two.at[2] - one.at[2]
-    if shapes[0].high <= shapes[1].low + lift or shapes[1].high + lift <= shapes[0].low:
+    if _pass_by(shapes, lift):
         return
     path = path_of(pair, shapes, course)
     if path is None:
@@ -237,6 +240,11 @@ def hold(
     # of a mate the plane contact covers what lies between poses
     if uncovered is not None and not is_mated:
         found.uncovered.append(replace(uncovered, first=one.id, second=two.id))
+
+
+def _pass_by(shapes: tuple[Shape, Shape], lift: float) -> bool:
+    """Whether the second, so far above the first, has no height in common with it, mm; rounding is none."""
+    return min(shapes[0].high, shapes[1].high + lift) - max(shapes[0].low, shapes[1].low + lift) <= _NO_HEIGHT
 
 
 class Meeting:

@@ -80,6 +80,17 @@ def coaxial(pair: tuple[Instance, Instance]) -> bool:
     return bool(parallel(one.axis, two.axis)) and float(np.linalg.norm(beside)) <= _SAME
 
 
+def lift_between(pair: tuple[Instance, Instance], course: Course) -> float | None:
+    """How far the second stays above the first along its axis, mm; None of axes that are not one direction, or vary."""
+    if parallel(pair[0].axis, pair[1].axis) != 1:
+        return None
+    slowest = max([1.0, *(float(1 / abs(step.rate)) for i in pair for step in course.chains[i.id] if step.rate)])
+    turned, places = _seen(course, pair, (False, False), slowest * np.concatenate([[0.0], _SPREAD]))
+    heights = places[:, 2]
+    stays = np.ptp(heights) <= _SAME and (1 - turned[:, 2, 2]).max() <= _SAME**2
+    return float(heights[0]) if stays else None
+
+
 def _seen(course: Course, pair: tuple[Instance, Instance], round_: tuple[bool, bool], times: Real) -> tuple[Real, Real]:
     (turned, place), (other, there) = (
         course.placed(i.id, times, own=not whole) for i, whole in zip(pair, round_, strict=True)

@@ -114,6 +114,17 @@ def test_built_in_cams_laid_as_a_whole_move_what_they_move_upright(name: str, wa
     assert all(condition.met for mate in two.mates for condition in mate.conditions)
 
 
+def test_what_slides_over_each_other_on_axes_that_lie_is_apart_as_it_is_upright() -> None:
+    """The stem on the roller of a wedge cam: its face is that of the plate, which no pose of solids can tell apart."""
+    raw = tomllib.loads(built_in_scenes()["wedge_cam"].read_text("utf-8"))
+    raw = {key: raw[key] for key in ("parts", "mates")} | {"drives": [{"instance": "wedge", "travel": -15.0}]}
+    raw["instances"] = {"wedge": {"part": "wedge", "at": [3.0, -4.0, 5.0], "axis": [1.0, -2.0, 2.0]}}
+    placing, parts = stood(raw)
+    found = scene_checks(placing, parts, [DriveSpec("wedge", travel=-15.0)], "en", contact=True)
+    assert (found["motion"]["pairs"], found["motion"]["uncovered"]) == (2, [])
+    assert "solids" not in found
+
+
 def test_a_cam_upright_on_what_is_turned_over_moves_its_tappet() -> None:
     """It turns clockwise where what carries it turns counter-clockwise about its axis, which points down."""
     raw: dict[str, Any] = {
