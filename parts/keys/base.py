@@ -13,8 +13,8 @@ from msgspec import Meta
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.part_keys import MaterialKeys
 
-# what is smaller vanishes among the digits of its place, mm
-LEAST_LENGTH = 1e-6
+# what is smaller vanishes among the digits of its place, and the largest part, mm
+LEAST_LENGTH, MOST_LENGTH = 1e-6, 100_000.0
 
 
 def size(
@@ -38,6 +38,8 @@ def size(
 
 
 mm, degrees, in_modules = partial(size, "mm"), partial(size, "degrees"), partial(size, "modules")
+# of a part or of a place on it
+length = partial(mm, most=MOST_LENGTH)
 
 
 def start(value: object, *others: tuple[object, str]) -> Meta:
@@ -59,7 +61,7 @@ Identifier = Annotated[
     ),
 ]
 FaceWidth = Annotated[float, mm("thickness of the part along its axis", least=0.01, most=10_000)]
-BoreDiameter = Annotated[float, mm("round bore; 0 is none", least=0, most=100_000)]
+BoreDiameter = Annotated[float, mm("round bore; 0 is none", least=0, most=MOST_LENGTH)]
 
 
 def either(key: str, value: object, other: str, without: float | None = None) -> ParameterError:

@@ -20,7 +20,7 @@ from parts.base.kind import Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
 from parts.cams.wheel import DiskKeys, Turned, check_disk, inner_radius, marked_holes
-from parts.keys.base import mm, start
+from parts.keys.base import MOST_LENGTH, length, start
 from parts.keys.cam import (
     LAW_AT_REST,
     USUAL_PRESSURE_ANGLE,
@@ -53,7 +53,6 @@ if TYPE_CHECKING:
 
 M = TypeVar("M", bound=Moved)
 
-_MOST = 100_000.0
 # of a base circle, by which it is larger than the one whose cam has a cusp: no file holds a radius of curvature of 0
 _SPARE = 1e-9
 # an angle that is less short of the one asked for is kept: bases are rounded up
@@ -73,22 +72,21 @@ class OscillatingTable(Struct, forbid_unknown_fields=True):
     centre_distance: (
         Annotated[
             float,
-            mm(
+            length(
                 "from the cam's axis to the pivot; default: of the smallest cam by least_transmission_angle_deg",
                 above=0,
-                most=_MOST,
                 example=90.0,
             ),
         ]
         | None
     ) = None
     arm_length: Annotated[
-        float, mm("from the pivot to the roller's centre; not for flat", least=0, most=_MOST), start(80.0)
+        float, length("from the pivot to the roller's centre; not for flat", least=0), start(80.0)
     ] = 0.0
     sense: Annotated[
         Literal["against", "with"], Meta(description="how the follower rises: against or with the cam's turning")
     ] = "against"
-    face_offset: Annotated[float, mm("flat face nearer to the axis than the pivot", least=-_MOST, most=_MOST)] = 0.0
+    face_offset: Annotated[float, length("flat face nearer to the axis than the pivot", least=-MOST_LENGTH)] = 0.0
 
     @property
     def turning(self) -> int:
@@ -108,10 +106,7 @@ class CamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="cam")
     follower_radius: FollowerRadius = 0.0
     follower_offset: FollowerOffset = 0.0
     plate_diameter: (
-        Annotated[
-            float, mm("round plate of a translating flat or mushroom follower", above=0, most=_MOST, example=60.0)
-        ]
-        | None
+        Annotated[float, length("round plate of a translating flat or mushroom follower", above=0, example=60.0)] | None
     ) = None
     oscillating: OscillatingTable | None = None
     base_circle_radius: BaseCircle | None = None
@@ -241,9 +236,12 @@ def _least_base(keys: CamSpec, motion: FollowerMotion) -> float:
 def _base_within(keys: CamSpec, prime: float, prime_of: Callable[[float], float], angle: float) -> float:
     """The base circle in a prime circle; refused where it is too large for a file, or no larger than the roller."""
     radius = keys.follower_radius
-    if prime > _MOST:
-        key, cure = "least_transmission_angle_deg", lambda: nearest(lambda x: prime_of(x) <= _MOST, angle, _EASIER)
-        raise ParameterError(key, angle, "prime_circle_too_large", cure, prime=prime, most=_MOST)
+    if prime > MOST_LENGTH:
+        key, cure = (
+            "least_transmission_angle_deg",
+            lambda: nearest(lambda x: prime_of(x) <= MOST_LENGTH, angle, _EASIER),
+        )
+        raise ParameterError(key, angle, "prime_circle_too_large", cure, prime=prime, most=MOST_LENGTH)
     if not prime - radius > 0:
         most = limit(prime * 0.9999, radius) if prime > 0 else None
         raise ParameterError("follower_radius", radius, "fills_prime_circle", most, prime=prime)
@@ -279,7 +277,7 @@ def _least_rocker(keys: CamSpec, swing: OscillatingTable, motion: FollowerMotion
         try:
             found = best(angle)
         except ConvergenceError as error:
-            raise no_axis(lambda tried: best(tried).prime_radius <= _MOST) from error
+            raise no_axis(lambda tried: best(tried).prime_radius <= MOST_LENGTH) from error
         distance, start = found.centre_distance, found.start_angle
         end = max(start, ends(distance)[1])
     else:
@@ -300,7 +298,7 @@ def _least_rocker(keys: CamSpec, swing: OscillatingTable, motion: FollowerMotion
     base = _base_within(keys, prime, lambda tried: best(tried).prime_radius, angle)
     if keys.follower != "pointed":
         rho = keys.least_curvature_radius
-        most = min(most, _MOST) - keys.follower_radius
+        most = min(most, MOST_LENGTH) - keys.follower_radius
         least = convex_rocker_base_radius(lambda x: _rocker(keys, swing, motion, distance, x), base, most, rho)
         base = least if rho or least == base else least * (1 + _SPARE)
     return _rocker(keys, swing, motion, distance, base)

@@ -28,7 +28,7 @@ from parts.cams.disk_cam.part import (
     larger_bases,
 )
 from parts.cams.wheel import DiskKeys, check_disk, inner_radius
-from parts.keys.base import degrees, mm, start
+from parts.keys.base import MOST_LENGTH, degrees, length, mm, start
 from parts.keys.cam import (
     USUAL_PRESSURE_ANGLE,
     FollowerOffset,
@@ -48,7 +48,6 @@ if TYPE_CHECKING:
     from geometry.solids.body import Body
     from parts.base.readback import Probe
 
-_MOST = 100_000.0
 # default rim beyond the groove, part of the groove's width
 _RIM_SHARE = 0.5
 # thinner rims and floors are mistakes of the keyboard, mm
@@ -60,7 +59,7 @@ _USUAL_CLEARANCE = (0.0, 0.02)
 class GrooveCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="groove_cam"):
     """Keys of ``groove_cam``."""
 
-    follower_radius: Annotated[float, mm("radius of the roller", above=0, most=_MOST, example=8.0)]
+    follower_radius: Annotated[float, length("radius of the roller", above=0, example=8.0)]
     groove_depth: Annotated[
         float, mm("from the upper face to the groove's floor, below face_width", above=0, most=10_000, example=5.0)
     ]
@@ -74,7 +73,7 @@ class GrooveCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag=
     base_circle_radius: (
         Annotated[
             float,
-            mm("circle inside the groove; default: by least_transmission_angle_deg", above=0, most=_MOST),
+            length("circle inside the groove; default: by least_transmission_angle_deg", above=0),
             start(30.0),
         ]
         | None
@@ -89,7 +88,8 @@ class GrooveCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag=
     roller_clearance: Annotated[float, mm("groove's width less the roller's diameter", least=0, most=100)] = 0.0
     outer_diameter: (
         Annotated[
-            float, mm("of the disk; default: a rim of half the groove's width", above=0, most=2 * _MOST, example=160.0)
+            float,
+            mm("of the disk; default: a rim of half the groove's width", above=0, most=2 * MOST_LENGTH, example=160.0),
         ]
         | None
     ) = None

@@ -20,7 +20,7 @@ from parts.base.links import owner_of
 from parts.base.part_keys import MaterialKeys
 from parts.cams.disk_cam.part import EVEN_CAM, CamSpec, cam_findings, cam_of, cam_quantities, larger_bases
 from parts.cams.wheel import Turned, inner_radius
-from parts.keys.base import degrees, mm
+from parts.keys.base import degrees, length, mm
 from parts.keys.holes import (
     BoreTable,
     HolesTable,
@@ -39,8 +39,6 @@ if TYPE_CHECKING:
     from geometry.cams.plane.positive import Conjugate
     from parts.base.readback import Probe
 
-_MOST = 100_000.0
-
 
 class ConjugateCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="conjugate_cam"):
     """Keys of ``conjugate_cam``."""
@@ -49,12 +47,7 @@ class ConjugateCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind
     roller_distance: (
         Annotated[
             float,
-            mm(
-                "between the rollers of a translating follower; default: by the base circle",
-                above=0,
-                most=_MOST,
-                example=96.0,
-            ),
+            length("between the rollers of a translating follower; default: by the base circle", above=0, example=96.0),
         ]
         | None
     ) = None
@@ -71,18 +64,16 @@ class ConjugateCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind
         | None
     ) = None
     base_circle_radius: (
-        Annotated[float, mm("of this cam; default: that of the first", above=0, most=_MOST, example=30.0)] | None
+        Annotated[float, length("of this cam; default: that of the first", above=0, example=30.0)] | None
     ) = None
-    follower_radius: (
-        Annotated[float, mm("second roller; default: the first", above=0, most=_MOST, example=7.0)] | None
-    ) = None
-    arm_length: Annotated[float, mm("second arm; default: the first", above=0, most=_MOST, example=80.0)] | None = None
+    follower_radius: Annotated[float, length("second roller; default: the first", above=0, example=7.0)] | None = None
+    arm_length: Annotated[float, length("second arm; default: the first", above=0, example=80.0)] | None = None
     face_width: (
         Annotated[float, mm("thickness; default: that of the first", least=0.01, most=10_000, example=8.0)] | None
     ) = None
-    bore_diameter: (
-        Annotated[float, mm("round bore; default: that of the first", least=0, most=_MOST, example=12.0)] | None
-    ) = None
+    bore_diameter: Annotated[float, length("round bore; default: that of the first", least=0, example=12.0)] | None = (
+        None
+    )
     bore: BoreTable | None = None
     holes: HolesTable | list[HolesTable] | None = None
     timing_mark: TimingMarkTable | None = None

@@ -16,13 +16,12 @@ from parts.base.kind import Kind, Others, Report
 from parts.base.links import owner_of
 from parts.base.part_keys import MaterialKeys
 from parts.cams.disk_cam.part import CAM, EVEN_CAM, CamSpec
-from parts.keys.base import mm
+from parts.keys.base import length, mm
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
     from geometry.solids.body import Body
 
-_MOST = 100_000.0
 # straight ledge beside the stem, mm: what a cutter's width takes off it must not use it up
 _LEDGE = 0.5
 # thinnest wall of a frame, mm
@@ -36,37 +35,31 @@ class YokeFrameSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", 
 
     of: Annotated[str, Meta(description="the cam: a part of kind cam, flat or roller, of constant breadth")]
     clearance: Annotated[float, mm("play of the cam between faces or rollers", least=0, most=10)] = 0.0
-    wall: Annotated[float, mm("width of the frame's bars, or about pins and slot", least=_LEAST_WALL, most=_MOST)] = 8.0
-    side_clearance: Annotated[float, mm("flat: beside the cam in the window", least=0.01, most=_MOST)] = 2.0
-    corner_radius: Annotated[float, mm("of the frame's outer corners", least=0, most=_MOST)] = 0.0
+    wall: Annotated[float, length("width of the frame's bars, or about pins and slot", least=_LEAST_WALL)] = 8.0
+    side_clearance: Annotated[float, length("flat: beside the cam in the window", least=0.01)] = 2.0
+    corner_radius: Annotated[float, length("of the frame's outer corners", least=0)] = 0.0
     stem_width: (
         Annotated[
             float,
-            mm(f"of the guided stem; default: {_STEM:g}, or what a frame has", above=0, most=_MOST, example=_STEM),
+            length(f"of the guided stem; default: {_STEM:g}, or what a frame has", above=0, example=_STEM),
         ]
         | None
     ) = None
-    stem_above: Annotated[float, mm("length of the stem above the frame; 0 is none", least=0, most=_MOST)] = 60.0
-    stem_below: Annotated[float, mm("length of the stem below the frame; 0 is none", least=0, most=_MOST)] = 0.0
+    stem_above: Annotated[float, length("length of the stem above the frame; 0 is none", least=0)] = 60.0
+    stem_below: Annotated[float, length("length of the stem below the frame; 0 is none", least=0)] = 0.0
     pin_diameter: (
         Annotated[
             float,
-            mm(
-                f"rollers: holes of their pins; default: {_PIN:g}, or half of a roller",
-                above=0,
-                most=_MOST,
-                example=_PIN,
-            ),
+            length(f"rollers: holes of their pins; default: {_PIN:g}, or half of a roller", above=0, example=_PIN),
         ]
         | None
     ) = None
     shaft_diameter: (
         Annotated[
             float,
-            mm(
+            length(
                 f"rollers: width of the slot for the cam's shaft; default: {_SHAFT:g}, or half of a base circle",
                 above=0,
-                most=_MOST,
                 example=_SHAFT,
             ),
         ]
@@ -193,11 +186,11 @@ def _outline(
     x, r, s, middle = half_width, spec.corner_radius, frame.stem / 2, 1j * frame.middle
     top, bottom = (middle + side * 1j * half_height for side in (1, -1))
     corners: list[tuple[complex, float]] = [(bottom + x, r), (top + x, r)]
-    for length, edge, side in ((spec.stem_above, top, 1), (spec.stem_below, bottom, -1)):
+    for far, edge, side in ((spec.stem_above, top, 1), (spec.stem_below, bottom, -1)):
         if side < 0:
             corners += [(top - x, r), (bottom - x, r)]
-        if length > 0:
-            tip = edge + 1j * side * length
+        if far > 0:
+            tip = edge + 1j * side * far
             corners += [(at + stem, 0.0) for at in (edge + side * s, tip + side * s, tip - side * s, edge - side * s)]
     return moved_profile(rounded(corners), offset)
 
