@@ -186,7 +186,11 @@ def _centre_of_fillet(gear: CycloidalGear, radius: float) -> tuple[float, comple
     if not abs(complex(beside.point(low))) < level < abs(complex(beside.point(high))):
         return None
     at = bracketed_root(lambda u: abs(complex(beside.point(u))) - level, low, high).value
-    return at, complex(beside.point(at))
+    centre = complex(beside.point(at))
+    # the flank bends ever more towards the pitch circle: what a circle cuts first is its end there
+    if abs(centre - end_point(gear.root_flank())) < radius:
+        return None
+    return at, centre
 
 
 @lru_cache(maxsize=64)

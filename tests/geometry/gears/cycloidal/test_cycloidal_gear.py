@@ -248,6 +248,38 @@ def test_a_full_round_touches_both_teeth(gear: CycloidalGear) -> None:
     assert caught.value.name == "root_rounding"
 
 
+@pytest.mark.parametrize(("circle", "depth"), [(2.0, 0.3), (1.0, 0.3), (6.0, 0.15)])
+def test_the_greatest_fillet_of_a_shallow_root_passes_through_the_pitch_point(circle: float, depth: float) -> None:
+    """A circle that touches root circle and flank and cuts nothing of it: before, it cut by 0.2 % of its radius."""
+    gear = CycloidalGear(30, MODULE, 5.0, circle, dedendum_coefficient=depth)
+    radius, flank = gear.greatest_rounding, gear.root_flank()
+    points = flank.point(np.linspace(flank.start, 0.0, 200_001))
+    # the circle of that radius on the root circle that is nearest to the flank and still free of it
+    far = gear.root_radius + radius
+    high = cmath.phase(complex(points[-1]))
+    low = high - gear.pitch_angle / 2
+    for _ in range(60):
+        middle = (low + high) / 2
+        free = np.abs(points - cmath.rect(far, middle)).min() >= radius
+        low, high = (middle, high) if free else (low, middle)
+    centre = cmath.rect(far, low)
+    assert abs(centre - points[-1]) == pytest.approx(radius, rel=1e-7)
+    # it touches the flank within too: a larger one does so beyond the pitch circle
+    assert np.abs(points[:-1000] - centre).min() == pytest.approx(radius, rel=1e-7)
+
+
+def test_a_flank_that_a_parallel_has_eaten_is_told() -> None:
+    """Tips of 2 um on curved roots: the parallels of both flanks cross beyond them."""
+    gear = drawn(20, 14.0, 2.0, addendum_coefficient=0.001, dedendum_coefficient=0.56)
+    with pytest.raises(OffsetError) as caught:
+        cycloidal_region(gear, 0.6)
+    assert caught.value.reason == "leaves_no_flank"
+    most = caught.value.nearest_offset
+    exact, thick = polygon(gear, most), polygon(gear, 0.0).buffer(most, quad_segs=48)
+    assert exact.is_valid
+    assert exact.symmetric_difference(thick).area < 2e-5 * exact.length
+
+
 def test_offsets_end_where_spaces_close_and_teeth_vanish() -> None:
     gear = clockwork(60, 8)
     for offset, code in ((1.6, "closes_tooth_spaces"), (-1.9, "leaves_no_tooth")):
@@ -262,7 +294,10 @@ def test_offsets_end_where_spaces_close_and_teeth_vanish() -> None:
         if offset > 0:
             # straight flanks, half of a space of 6 degrees apart: a circle between them about the root's middle
             sine = math.sin(gear.pitch_angle / 4)
-            assert limit.value == pytest.approx(gear.root_radius * sine / (1 - sine), abs=1e-5)
+            most = gear.root_radius * sine / (1 - sine)
+            assert limit.value == pytest.approx(most, abs=1e-5)
+            with pytest.raises(OffsetError, match=code):
+                cycloidal_side(gear, most * (1 + 1e-6))
     # pointed before it vanishes
     high = clockwork(60, 8, addendum_coefficient=1.3)
     assert [[f.code for f in cycloidal_region(high, by).findings] for by in (-0.5, -0.8)] == [[], ["tip_lost"]]
