@@ -210,6 +210,25 @@ def test_one_oval_twice_meshes_and_carries_the_drive() -> None:
     assert "передаточне відношення" in check_lines(checks, "uk")[0]
 
 
+def test_a_pair_driven_by_either_gear_stands_alike() -> None:
+    """18 teeth and 27: what the first turns the second by, turns the first back where the second is driven."""
+    pair = two(
+        OVAL + "\nmate_number_of_teeth = 27", OVAL.replace("18", "27") + '\nmate_number_of_teeth = 18\nrole = "mate"'
+    )
+    by_first, by_second = (
+        placed(f'{pair}\n[[drives]]\ninstance = "{key}"\nturns = 1.0\n')[0] for key in ("one", "two")
+    )
+
+    def turned(placing: Placing, which: int, turns: float) -> float:
+        off = placing.at([turns])[which].rotation - placing.instances[which].rotation
+        return math.remainder(off / (2 * math.pi), 1.0)
+
+    for turns in (0.05, 0.21, 0.4):
+        second = turned(by_first, 1, turns)
+        assert abs(second + turns * 18 / 27) > 1e-3
+        assert turned(by_second, 0, second) == pytest.approx(turns, abs=1e-9)
+
+
 def test_a_pair_placed_by_hand_is_checked() -> None:
     base = two(OVAL, OVAL)
     placing, _ = placed(base)
