@@ -10,10 +10,10 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
 from parts.base.mate import End, LaidStanding, MateKind, Pose, Standing, Touching
+from parts.gears.thinning import shared_thinning
 from parts.keys.base import mm
 from parts.keys.mate import GearPairKeys
 from parts.mates.sizes import same_size
-from parts.mates.thinning import shared_thinning
 
 if TYPE_CHECKING:
     from geometry.base.placement import Placement3, Vector

@@ -11,10 +11,10 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
 from parts.base.mate import End, MateKind, Pose, Standing, Toothed
 from parts.gears.cycloidal_gear.part import CycloidalGearSpec
+from parts.gears.thinning import shared_thinning
 from parts.keys.base import mm
 from parts.keys.mate import GearPairKeys
 from parts.mates.sizes import same_size, turn_off
-from parts.mates.thinning import shared_thinning
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding

@@ -13,9 +13,9 @@ from geometry.base.errors import ConvergenceError, GeometryError, Nearest, Param
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from parts.base.mate import End, MateKind, Pose, Standing, Toothed
+from parts.gears.thinning import shared_thinning
 from parts.keys.base import mm
 from parts.keys.mate import InvolutePairKeys
-from parts.mates.thinning import shared_thinning
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding

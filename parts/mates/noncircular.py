@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
 from parts.base.mate import End, MateKind, Pose, Standing, Toothed
+from parts.gears.thinning import shared_thinning
 from parts.keys.base import mm
 from parts.keys.mate import GearPairKeys
-from parts.mates.thinning import shared_thinning
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding

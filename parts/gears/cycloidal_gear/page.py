@@ -13,15 +13,20 @@ from geometry.gears.cycloidal.gear import CycloidalGear, checked_tips, cycloidal
 from geometry.gears.cycloidal.pair import CycloidalPair
 from parts.base.texts import N_, message
 from parts.gears.cycloidal_gear.part import CYCLOIDAL_GEAR, CycloidalGearSpec
-from parts.keys.base import in_modules
-from parts.pages.inputs import SceneKeys, calculation, part_of_kind
+from parts.gears.thinning import shared_thinning
+from parts.keys.base import in_modules, mm
+from parts.pages.inputs import SceneKeys, calculation, part_of_kind, refusal
 from parts.pages.page import Sheet, Table
 from parts.texts.findings import finding_message
 
 TOPIC = "cycloidal-gear"
 _own_keys = part_of_kind("cycloidal_gear")
 # the key that tells what the mate has
-_OF_MATE = {"addendum_coefficient": "mate_addendum_coefficient", "tip_rolling_diameter": "root_rolling_diameter"}
+_OF_MATE = {
+    "addendum_coefficient": "mate_addendum_coefficient",
+    "circumferential_thinning": "mate_circumferential_thinning",
+    "tip_rolling_diameter": "root_rolling_diameter",
+}
 _SOURCE = "Litvin, Fuentes, Gear Geometry, 13"
 
 
@@ -32,22 +37,40 @@ class CycloidalGearKeys(CycloidalGearSpec, kw_only=True, tag=False, forbid_unkno
         Annotated[float, in_modules("height of the mate's tips; default: as here", least=0.001, most=10, example=1.0)]
         | None
     ) = None
+    mate_circumferential_thinning: Annotated[
+        float, mm("thinning of the mate's teeth, arc of the pitch circle", least=0, most=1000)
+    ] = 0.0
     rows: Annotated[int, Meta(ge=2, le=2000, description="rows of each table of the flank")] = 9
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
-    """The keys of a part of a scene and the tips of what it meshes with there, changed by those of ``table``."""
+    """The keys of a part of a scene as its mate thins it, and the tips of that mate, changed by those of ``table``."""
     part = table.get("part")
     found = _own_keys(scene, source, table)
     for mate in scene.mates:
         if mate.__struct_config__.tag != "cycloidal_gear_pair":
             continue
-        ends = [str(scene.instances[getattr(mate, key)].part) for key in ("first", "second")]
+        first, second, backlash = (getattr(mate, key) for key in ("first", "second", "normal_backlash"))
+        ends = [str(scene.instances[key].part) for key in (first, second)]
         # where no part is named there is but one
         if part is None or part in ends:
-            other = scene.parts[ends[ends[0] == part]]
+            own, other = (scene.parts[ends[k]] for k in ((1, 0) if ends[0] != part else (0, 1)))
+            assert isinstance(own, CycloidalGearSpec)
             assert isinstance(other, CycloidalGearSpec)
-            tips = {"mate_teeth": other.number_of_teeth, "mate_addendum_coefficient": other.addendum_coefficient}
+            thinned = [own.circumferential_thinning, other.circumferential_thinning]
+            if backlash is not None:
+                try:
+                    more = shared_thinning(backlash, (own, other), lambda index, thinning: None, 1.0)
+                except ParameterError as error:
+                    raise refusal(TOPIC, error) from error
+                thinned = [mine + added for mine, added in zip(thinned, more, strict=True)]
+            if "circumferential_thinning" not in table:
+                found["circumferential_thinning"] = thinned[0]
+            tips = {
+                "mate_teeth": other.number_of_teeth,
+                "mate_addendum_coefficient": other.addendum_coefficient,
+                "mate_circumferential_thinning": thinned[1],
+            }
             return tips | found
     return found
 
@@ -75,12 +98,14 @@ def _mate(keys: CycloidalGearKeys, gear: CycloidalGear) -> CycloidalGear:
     height = gear.addendum_coefficient if own is None else own
     circles = gear.root_rolling_radius, gear.tip_rolling_radius
     try:
-        return checked_tips(CycloidalGear(keys.mate_teeth, gear.module, *circles, height))
-    except ParameterError as refusal:
-        if refusal.code == "root_flanks_undercut":
+        thinning = keys.mate_circumferential_thinning
+        mate = CycloidalGear(keys.mate_teeth, gear.module, *circles, height, circumferential_thinning=thinning)
+        return checked_tips(mate)
+    except ParameterError as error:
+        if error.code == "root_flanks_undercut":
             key, code = "tip_rolling_diameter", "mates_root_flanks_undercut"
-            raise ParameterError(key, refusal.value, code, refusal.nearest) from refusal
-        raise refusal.renamed(_OF_MATE[refusal.name]) from refusal
+            raise ParameterError(key, error.value, code, error.nearest) from error
+        raise error.renamed(_OF_MATE[error.name]) from error
 
 
 def _given(page: Sheet, gears: list[CycloidalGear]) -> None:
@@ -91,7 +116,8 @@ def _given(page: Sheet, gears: list[CycloidalGear]) -> None:
     for index, gear in enumerate(gears, 1):
         page.add("addendum_coefficient", gear.addendum_coefficient, gear=index)
     page.add("dedendum_coefficient", gears[0].dedendum_coefficient, gear=1)
-    page.add("circumferential_thinning", gears[0].circumferential_thinning, gear=1)
+    for index, gear in enumerate(gears, 1):
+        page.add("circumferential_thinning", gear.circumferential_thinning, gear=index)
 
 
 def _sizes(page: Sheet, gears: list[CycloidalGear]) -> None:
@@ -137,6 +163,8 @@ def _contact(page: Sheet, pair: CycloidalPair) -> None:
         formula = f"{{u_a#}} * {{r#}} / (2 * {{{circle}}})"
         page.add("end_pressure_angle_deg", math.degrees(angle), formula, gear=index)
     page.add("root_contact_radius", pair.contact_radii()[0], gear=1)
+    # along the pitch circles, where the flanks are radial
+    page.add("normal_backlash", pair.normal_backlash, "{A1} + {A2}")
     page.add("bottom_clearance_at_root", pair.tip_clearances[0], "{a_w} - {r_a2} - {r_f1}", gear=1)
     page.notes += [
         message(N_("the gear and its mate: {what}"), what=finding_message(f))

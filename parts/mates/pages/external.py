@@ -24,12 +24,12 @@ from parts.base.texts import N_, in_context, message
 from parts.gears.ring_gear.part import RingGearSpec
 from parts.gears.spur_gear.page import addendum_formula, given_data, height_steps, root_radius_step, thickness_formula
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, section_of
+from parts.gears.thinning import shared_thinning
 from parts.keys.base import in_modules, mm
 from parts.keys.helix import helix_of, in_keys, same_helix
 from parts.mates.pages.internal import InternalKeys, RackKeys, internal_sheet, rack_sheet
 from parts.mates.pages.pair_keys import GEARS, kind_of_pair, merged, pair_table
 from parts.mates.pages.wishes import wish_refused
-from parts.mates.thinning import shared_thinning
 from parts.pages.contact_steps import (
     Helical,
     backlash_steps,

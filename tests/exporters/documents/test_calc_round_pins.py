@@ -246,6 +246,12 @@ def test_a_gear_of_a_scene_runs_with_the_tips_that_its_mate_has_there() -> None:
         assert pinion["values"][f"{key}_contact_ratio"] == pytest.approx(mate[f"{mirrored}_ratio"], rel=1e-12)
     assert wheel["values"]["bottom_clearance_at_root"]["first"] == pytest.approx(3.0 * (1.25 - 0.7))
     assert (wheel["notes"], pinion["notes"]) == ([], [])
+    # as thick as the build makes them: p / 2, less half of the 0.2 mm that the mate asks for
+    for told, part in ((wheel, "wheel"), (pinion, "pinion")):
+        thing = plan_build(scene, "t", [], []).parts[part].thing
+        assert told["values"]["reference_thickness"]["first"] == pytest.approx(1.5 * math.pi - 0.1, rel=1e-12)
+        assert told["values"]["tip_thickness"]["first"] == pytest.approx(thing.tip_thickness, rel=1e-12)
+        assert told["values"]["normal_backlash"] == pytest.approx(mate["normal_backlash"], rel=1e-12)
     other = calculated("cycloidal-gear", "clock_gears", "part=wheel", "mate_addendum_coefficient=1.3")
     assert other["values"]["bottom_clearance_at_root"]["first"] == pytest.approx(3.0 * (1.25 - 1.3))
 
