@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Protocol
+from typing import Annotated, Protocol, TypeVar
 
 from msgspec import Struct
 
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import Hub, Web, WheelShape
+from parts.base.kind import Kind
 from parts.keys.base import length, mm
 from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes
 
@@ -81,3 +82,15 @@ def wheel_shape(
         both.below,
         both.above,
     )
+
+
+K = TypeVar("K", bound=HubbedKeys)
+T = TypeVar("T")
+
+
+class WheelKind(Kind[K, T]):
+    """A kind of wheel: its section with web, hub and chamfers."""
+
+    def is_plate(self, keys: K, thing: T) -> bool:
+        """Whether there is nothing but the section."""
+        return shape_of(keys).is_plate

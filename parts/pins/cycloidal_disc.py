@@ -15,11 +15,11 @@ from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from geometry.solids.windows import RoundHoles
-from parts.base.kind import Kind, Others, Report
+from parts.base.kind import Others, Report
 from parts.keys.base import mm
 from parts.keys.holes import Direction
 from parts.keys.pins import MARGIN, MOST, LobeCount, PinCircle, PinDiameter, check_holes, holes_of, most_of
-from parts.keys.wheel import HubbedKeys, shape_of
+from parts.keys.wheel import HubbedKeys, WheelKind, shape_of
 
 if TYPE_CHECKING:
     from geometry.gears.pins.cycloidal import CycloidalDisc
@@ -60,7 +60,7 @@ def _output_group(table: OutputHolesTable, eccentricity: float) -> RoundHoles:
     return RoundHoles(table.count, diameter, table.pitch_circle_diameter, math.radians(table.start_deg))
 
 
-class CycloidalDiscKind(Kind[CycloidalDiscSpec, "CycloidalDisc"]):
+class CycloidalDiscKind(WheelKind[CycloidalDiscSpec, "CycloidalDisc"]):
     """A disc with its holes."""
 
     name, keys = "cycloidal_disc", CycloidalDiscSpec
@@ -111,10 +111,6 @@ class CycloidalDiscKind(Kind[CycloidalDiscSpec, "CycloidalDisc"]):
             return thing.profile(moved)
 
         return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
-
-    def is_plate(self, keys: CycloidalDiscSpec, thing: CycloidalDisc) -> bool:
-        """Whether there is neither hub nor chamfer."""
-        return shape_of(keys).is_plate
 
     def report(self, keys: CycloidalDiscSpec, thing: CycloidalDisc) -> Report:
         """Diameters, reduction and radii of curvature."""

@@ -8,10 +8,10 @@ from msgspec import Meta
 
 from geometry.base.record import replace
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
-from parts.base.kind import Kind, Others, Report
+from parts.base.kind import Others, Report
 from parts.keys.base import mm
 from parts.keys.pins import MOST, PinDiameter, check_holes, holes_of
-from parts.keys.wheel import WheelKeys, shape_of
+from parts.keys.wheel import WheelKeys, WheelKind, shape_of
 
 if TYPE_CHECKING:
     from geometry.gears.pins.lantern import LanternGear
@@ -40,7 +40,7 @@ class LanternGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="lantern_ge
     ) = None
 
 
-class LanternGearKind(Kind[LanternGearSpec, "LanternGear"]):
+class LanternGearKind(WheelKind[LanternGearSpec, "LanternGear"]):
     """A lantern's gear."""
 
     name, keys = "lantern_gear", LanternGearSpec
@@ -81,10 +81,6 @@ class LanternGearKind(Kind[LanternGearSpec, "LanternGear"]):
             return lantern_side(thing, offset - depth).profile()
 
         return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
-
-    def is_plate(self, keys: LanternGearSpec, thing: LanternGear) -> bool:
-        """Whether there is nothing but the section."""
-        return shape_of(keys).is_plate
 
     def report(self, keys: LanternGearSpec, thing: LanternGear) -> Report:
         """Diameters, pitch and what is poor."""

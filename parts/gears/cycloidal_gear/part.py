@@ -9,10 +9,10 @@ from msgspec import Meta
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
-from parts.base.kind import Kind, Others, Report
+from parts.base.kind import Others, Report
 from parts.keys.base import in_modules, mm, start
 from parts.keys.pins import MOST, check_holes, holes_of
-from parts.keys.wheel import WheelKeys, shape_of
+from parts.keys.wheel import WheelKeys, WheelKind, shape_of
 
 if TYPE_CHECKING:
     from geometry.gears.cycloidal.gear import CycloidalGear
@@ -73,7 +73,7 @@ class CycloidalGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="cycloida
     ] = 0.0
 
 
-class CycloidalGearKind(Kind[CycloidalGearSpec, "CycloidalGear"]):
+class CycloidalGearKind(WheelKind[CycloidalGearSpec, "CycloidalGear"]):
     """A cycloidal gear, whose teeth a mate may have thinned."""
 
     name, keys = "cycloidal_gear", CycloidalGearSpec
@@ -117,10 +117,6 @@ class CycloidalGearKind(Kind[CycloidalGearSpec, "CycloidalGear"]):
             return cycloidal_side(thing, offset - depth).profile()
 
         return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
-
-    def is_plate(self, keys: CycloidalGearSpec, thing: CycloidalGear) -> bool:
-        """Whether there is nothing but the section."""
-        return shape_of(keys).is_plate
 
     def report(self, keys: CycloidalGearSpec, thing: CycloidalGear) -> Report:
         """Diameters, thicknesses and what is poor."""

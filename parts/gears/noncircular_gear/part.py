@@ -14,13 +14,13 @@ from msgspec.structs import replace
 from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
-from parts.base.kind import Kind, Others, Report
+from parts.base.kind import Others, Report
 from parts.base.schema import replaced
 from parts.gears.spur_gear.part import RackTable, basic_rack_of, rounding_finding
 from parts.keys.base import either, in_modules, mm, start
 from parts.keys.cutter import PressureAngle, RackName
 from parts.keys.holes import hub_holes, with_remedy
-from parts.keys.wheel import WheelKeys, shape_of
+from parts.keys.wheel import WheelKeys, WheelKind, shape_of
 
 if TYPE_CHECKING:
     from geometry.gears.noncircular.gear import NoncircularGear
@@ -119,7 +119,7 @@ class NoncircularGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="noncir
         return (other, own) if self.role == "mate" else (own, other)
 
 
-class NoncircularGearKind(Kind[NoncircularGearSpec, "NoncircularGear"]):
+class NoncircularGearKind(WheelKind[NoncircularGearSpec, "NoncircularGear"]):
     """A noncircular gear, whose teeth a mate may have thinned."""
 
     name, keys = "noncircular_gear", NoncircularGearSpec
@@ -169,10 +169,6 @@ class NoncircularGearKind(Kind[NoncircularGearSpec, "NoncircularGear"]):
             return section(offset).region.outer if depth == 0 else moved_outline(thing, offset - depth)
 
         return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
-
-    def is_plate(self, keys: NoncircularGearSpec, thing: NoncircularGear) -> bool:
-        """Whether there is nothing but the section."""
-        return shape_of(keys).is_plate
 
     def report(self, keys: NoncircularGearSpec, thing: NoncircularGear) -> Report:
         """Radii of the centrode, pitch, what is poor."""
