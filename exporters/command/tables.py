@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from exporters.production.check_lines import check_lines, names_of
 from exporters.production.jobs import Written
@@ -25,14 +25,6 @@ def build_table(plan: Plan, folder: Path, built: Built) -> None:
     written = built.written
     language = plan.scene.scene.language
     told = words(language)
-    header = [
-        told.text("file"),
-        told.text("max error, mm"),
-        told.text("tolerance, mm"),
-        told.text("kB"),
-        told.text("read back"),
-    ]
-    rows = [_row(item, folder, told) for item in written]
     pictures = {f"{part}.preview.svg" for part in plan.parts}
     of_parts = [preview for preview in built.previews if preview.name in pictures]
     named = built.previews if len(of_parts) <= _PREVIEWS else [p for p in built.previews if p not in of_parts]
@@ -65,7 +57,14 @@ def build_table(plan: Plan, folder: Path, built: Built) -> None:
         for path in built.left_behind
     ]
     title = told.text("{title}: files in {folder}", title=plan.scene.scene.title or plan.scene.name, folder=folder)
-    _show(title, header, rows, remarks)
+    columns: _Columns[Written] = (
+        (N_("file"), lambda item: item.job.path),
+        (N_("max error, mm"), lambda item: f"{item.max_error:.3g} ({told.text(_BOUNDS[item.bound])})"),
+        (N_("tolerance, mm"), lambda item: f"{item.job.export.tolerance:g}"),
+        (N_("kB"), lambda item: "-" if item.failures else f"{(folder / item.job.path).stat().st_size / 1000:.1f}"),
+        (N_("read back"), lambda item: told.text(_state(item.failures, item.measured))),
+    )
+    _show(title, columns, written, told, remarks)
 
 
 # letters in a line of a terminal that nobody has widened
@@ -74,15 +73,13 @@ _PAGE_WIDTH = 80
 _PREVIEWS = 12
 # how far the error of a file is known
 _BOUNDS = {"exact": N_("exact"), "certified": N_("certified"), "sampled": N_("sampled")}
-_STATES = {"good": N_("ok"), "bad": N_("FAILED"), "skipped": N_("not verified")}
+T = TypeVar("T")
+# of a table what stands above each column, and what in it
+_Columns: TypeAlias = tuple[tuple[str, Callable[[T], str]], ...]
 
 
-def _row(item: Written, folder: Path, told: Words) -> list[str]:
-    path = folder / item.job.path
-    size = f"{path.stat().st_size / 1000:.1f}" if not item.failures else "-"
-    state = "bad" if item.failures else "good" if item.measured else "skipped"
-    error = f"{item.max_error:.3g} ({told.text(_BOUNDS[item.bound])})"
-    return [item.job.path, error, f"{item.job.export.tolerance:g}", size, told.text(_STATES[state])]
+def _state(failures: Sequence[str], measured: Mapping[str, float]) -> str:
+    return N_("FAILED") if failures else N_("ok") if measured else N_("not verified")
 
 
 def _remarks(written: Sequence[Written], told: Words) -> list[str]:
@@ -102,110 +99,77 @@ def _remarks(written: Sequence[Written], told: Words) -> list[str]:
 
 def verify_table(results: list[Recheck], told: Words) -> None:
     """What was measured on files that lay on disk."""
-    header = [
-        told.text("file"),
-        told.text("measured error, mm"),
-        told.text("declared, mm"),
-        told.text("tolerance, mm"),
-        told.text("bytes"),
-        told.text("read back"),
-    ]
-    rows, remarks = [], []
-    for r in results:
-        deviation = r.verdict.measured.get("max_deviation")
-        measured = "-" if deviation is None else f"{deviation:.3g}"
-        state = told.text(_STATES["bad" if r.verdict.failures else "good"])
-        same = told.text("as reported") if r.same_bytes else told.text("changed")
+
+    def deviation(r: Recheck) -> str:
+        found = r.verdict.measured.get("max_deviation")
+        return "-" if found is None else f"{found:.3g}"
+
+    columns: _Columns[Recheck] = (
+        (N_("file"), lambda r: str(r.file)),
+        (N_("measured error, mm"), deviation),
         # a preview has neither: it is compared byte by byte
-        declared, tolerance = (f"{r.declared:.3g}", f"{r.tolerance:g}") if r.tolerance else ("-", "-")
-        rows.append([str(r.file), measured, declared, tolerance, same, state])
-        remarks += [told.text("FAILED: {why}", why=f"{r.file}: {told.say(failure)}") for failure in r.verdict.failures]
-    _show("", header, rows, remarks)
+        (N_("declared, mm"), lambda r: f"{r.declared:.3g}" if r.tolerance else "-"),
+        (N_("tolerance, mm"), lambda r: f"{r.tolerance:g}" if r.tolerance else "-"),
+        (N_("bytes"), lambda r: told.text("as reported") if r.same_bytes else told.text("changed")),
+        (N_("read back"), lambda r: told.text("FAILED") if r.verdict.failures else told.text("ok")),
+    )
+    failed = [(r.file, failure) for r in results for failure in r.verdict.failures]
+    remarks = [told.text("FAILED: {why}", why=f"{file}: {told.say(failure)}") for file, failure in failed]
+    _show("", columns, results, told, remarks)
 
 
 def converge_tables(rungs: list[Rung], found: list[Order], files: list[Path], told: Words) -> None:
     """Error against run time of every file, and the order of every method on every curve."""
-    header = [
-        told.text("file"),
-        told.text("tolerance, mm"),
-        told.text("declared, mm"),
-        told.text("measured, mm"),
-        told.text("edges"),
-        told.text("kB"),
-        told.text("ms (median)"),
-        told.text("spread, ms"),
-    ]
-    rows = [
-        [
-            r.file,
-            f"{r.tolerance:g}",
-            f"{r.max_error:.3g}",
-            f"{r.measured:.3g}",
-            str(r.entities),
-            f"{r.bytes / 1000:.1f}",
-            f"{1000 * r.seconds:.2f}",
-            f"{1000 * r.spread:.2f}",
-        ]
-        for r in rungs
-    ]
-    _show(told.text("error against run time"), header, rows, [])
     from exporters.production.converge import LEAST_PIECES
 
-    header = [
-        told.text("curve"),
-        told.text("method"),
-        told.text("order of the method"),
-        told.text("observed order"),
-        told.text("pieces"),
-        told.text("error there, mm"),
-    ]
-    rows = [
-        [
-            f"{o.part} {o.curve}",
-            o.method,
-            f"{o.theory:g}",
-            "-" if o.observed is None else f"{o.observed:.3f}",
-            told.text("{first} to {last}", first=o.counts[0], last=o.counts[-1])
-            if o.counts
-            else told.text("below rounding at {pieces}", pieces=LEAST_PIECES),
-            f"{o.errors[-1]:.3g}" if o.errors else "-",
-        ]
-        for o in found
-    ]
-    _show(told.text("orders of convergence"), header, rows, [str(file) for file in files])
+    columns: _Columns[Rung] = (
+        (N_("file"), lambda r: r.file),
+        (N_("tolerance, mm"), lambda r: f"{r.tolerance:g}"),
+        (N_("declared, mm"), lambda r: f"{r.max_error:.3g}"),
+        (N_("measured, mm"), lambda r: f"{r.measured:.3g}"),
+        (N_("edges"), lambda r: str(r.entities)),
+        (N_("kB"), lambda r: f"{r.bytes / 1000:.1f}"),
+        (N_("ms (median)"), lambda r: f"{1000 * r.seconds:.2f}"),
+        (N_("spread, ms"), lambda r: f"{1000 * r.spread:.2f}"),
+    )
+    _show(told.text("error against run time"), columns, rungs, told, [])
+
+    def pieces(o: Order) -> str:
+        if not o.counts:
+            return told.text("below rounding at {pieces}", pieces=LEAST_PIECES)
+        return told.text("{first} to {last}", first=o.counts[0], last=o.counts[-1])
+
+    of_orders: _Columns[Order] = (
+        (N_("curve"), lambda o: f"{o.part} {o.curve}"),
+        (N_("method"), lambda o: o.method),
+        (N_("order of the method"), lambda o: f"{o.theory:g}"),
+        (N_("observed order"), lambda o: "-" if o.observed is None else f"{o.observed:.3f}"),
+        (N_("pieces"), pieces),
+        (N_("error there, mm"), lambda o: f"{o.errors[-1]:.3g}" if o.errors else "-"),
+    )
+    _show(told.text("orders of convergence"), of_orders, found, told, [str(file) for file in files])
 
 
 def stress_table(rows: list[Row], files: list[Path], told: Words) -> None:
     """Every case from its easiest to its stiffest: condition numbers, errors, and what rounding allows."""
-    header = [
-        told.text("case"),
-        told.text("from"),
-        told.text("to"),
-        told.text("condition"),
-        told.text("relative error"),
-        told.text("of what is allowed"),
-        told.text("verdict"),
-    ]
-    shown = []
-    for case in dict.fromkeys(r.case for r in rows):
-        own = [r for r in rows if r.case == case]
-        stable = all(r.is_stable for r in own)
-        shown.append(
-            [
-                f"{told.text(case)}: {told.text(own[0].varied)}",
-                f"{own[0].value:g}",
-                f"{own[-1].value:g}",
-                f"{max(r.condition for r in own):.2g}",
-                f"{max(r.relative for r in own):.2g}",
-                f"{max(r.error / r.bound for r in own):.2g}",
-                told.text("stable") if stable else told.text("UNSTABLE"),
-            ]
-        )
-    _show(told.text("stiff and extreme cases against 50 digits"), header, shown, [str(file) for file in files])
+    columns: _Columns[list[Row]] = (
+        (N_("case"), lambda own: f"{told.text(own[0].case)}: {told.text(own[0].varied)}"),
+        (N_("from"), lambda own: f"{own[0].value:g}"),
+        (N_("to"), lambda own: f"{own[-1].value:g}"),
+        (N_("condition"), lambda own: f"{max(r.condition for r in own):.2g}"),
+        (N_("relative error"), lambda own: f"{max(r.relative for r in own):.2g}"),
+        (N_("of what is allowed"), lambda own: f"{max(r.error / r.bound for r in own):.2g}"),
+        (N_("verdict"), lambda own: told.text("stable") if all(r.is_stable for r in own) else told.text("UNSTABLE")),
+    )
+    cases = [[r for r in rows if r.case == case] for case in dict.fromkeys(r.case for r in rows)]
+    title = told.text("stiff and extreme cases against 50 digits")
+    _show(title, columns, cases, told, [str(file) for file in files])
 
 
-def _show(title: str, header: Sequence[str], rows: list[list[str]], remarks: list[str]) -> None:
+def _show(title: str, columns: _Columns[T], items: Sequence[T], told: Words, remarks: list[str]) -> None:
     """One table and the lines below it. rich is loaded for a terminal only: it costs as much as a build."""
+    header = [told.text(head) for head, _ in columns]
+    rows = [[cell(item) for _, cell in columns] for item in items]
     if sys.stdout.isatty():
         _show_rich(title, header, rows)
     else:

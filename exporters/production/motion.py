@@ -178,17 +178,9 @@ class MotionJob(Film, dict=True):
             found = read_motion(file)
         except ReadError as error:
             return Verdict({}, (str(error),))
-        failures: list[str] = []
         if list(found.tracks) != [i.id for i in sorted(self.instances, key=lambda i: i.at[2])]:
             return Verdict({}, (fault("holds {tracks}", tracks=", ".join(found.tracks)),))
-        if found.seconds and not math.isclose(found.seconds, self.seconds, rel_tol=1e-6):
-            failures.append(
-                fault(
-                    "a loop takes {seconds:g} s instead of {wanted:g} s",
-                    seconds=found.seconds,
-                    wanted=self.seconds,
-                )
-            )
+        failures = self.late(found.seconds)
         worst, outline = 0.0, 0.0
         for look, profiles in self._profiles.items():
             alike = [i for i in self.instances if self._look(i) == look and i.id not in self._changing]
@@ -211,14 +203,7 @@ class MotionJob(Film, dict=True):
                 failures.append(fault("{part}: its outline is that of another", part=instance.part))
             elif ends is not None and (forms := track.formed(TIMES)) is not None:
                 outline = max(outline, ends.off_outlines(self.frames(instance, TIMES)[0], forms))
-        if not worst + outline <= declared:
-            failures.append(
-                fault(
-                    "an instance is {worst:.3g} mm off its place; {declared:.3g} mm is declared",
-                    worst=worst,
-                    declared=declared,
-                )
-            )
+        failures += self.off_place(worst, outline, declared)
         return Verdict(
             {"max_deviation": outline, "pose_deviation": worst, "loop_seconds": found.seconds}, tuple(failures)
         )

@@ -116,15 +116,7 @@ class SolidFilm(Film):
                 {},
                 (fault("holds {tracks} of {solids}", tracks=", ".join(found.tracks), solids=", ".join(found.solids)),),
             )
-        failures: list[str] = []
-        if found.seconds and not math.isclose(found.seconds, self.seconds, rel_tol=1e-6):
-            failures.append(
-                fault(
-                    "a loop takes {seconds:g} s instead of {wanted:g} s",
-                    seconds=found.seconds,
-                    wanted=self.seconds,
-                )
-            )
+        failures = self.late(found.seconds)
         solid = 0.0
         for name, part in self.parts.items():
             verdict = held(found.solids[name], file_kind("stl", None), part.body(0.0), declared, self.tolerance)
@@ -141,14 +133,7 @@ class SolidFilm(Film):
             times = np.unique(np.concatenate([TIMES * self.seconds, np.minimum(values, self.seconds)]))
             exact = self._stands(instance, times / self.seconds, probes)
             worst = max(worst, float(np.abs(track.stand(times, probes) - exact).max()))
-        if not worst + solid <= declared:
-            failures.append(
-                fault(
-                    "an instance is {worst:.3g} mm off its place; {declared:.3g} mm is declared",
-                    worst=worst,
-                    declared=declared,
-                )
-            )
+        failures += self.off_place(worst, solid, declared)
         measured = {"max_deviation": solid, "pose_deviation": worst, "loop_seconds": found.seconds}
         return Verdict(measured, tuple(failures))
 

@@ -69,15 +69,10 @@ def refuse_no_size(name: str, value: float) -> None:
         raise ParameterError(name, value, "not_finite_above_zero")
 
 
-class RoundBore(Record):
-    """A circle; mm."""
+class _Drilled(Record):
+    """What round bores and those that begin as one have in common; mm."""
 
     diameter: float
-
-    @property
-    def angle(self) -> float:
-        """See Bore."""
-        return 0.0
 
     @property
     def reach(self) -> float:
@@ -93,6 +88,23 @@ class RoundBore(Record):
         """See Bore."""
         refuse_no_size("bore.diameter", self.diameter)
 
+    def _cut(self, way: list[Segment], offset: float, count: int, angle: float) -> Profile:
+        """The circle with ``count`` cuts, each by a way as about +x, the first towards ``angle``, clockwise."""
+        start, end = cmath.phase(end_point(way[-1].curve)), cmath.phase(start_point(way[0].curve))
+        # from the end of one cut to the beginning of the next
+        arc = Segment(Arc(0j, self.diameter / 2 - offset, start, end - start - 2 * math.pi / count), Label.BORE)
+        turns = [Placement2(angle - 2 * math.pi * k / count) for k in range(count)]
+        return Profile(tuple(Segment(s.curve.placed(turn), s.label) for turn in turns for s in (*way, arc)))
+
+
+class RoundBore(_Drilled):
+    """A circle; mm."""
+
+    @property
+    def angle(self) -> float:
+        """See Bore."""
+        return 0.0
+
     def profile(self, offset: float = 0.0) -> Profile:
         """See Bore."""
         within(offset, -math.inf, self.reach, ("", "closes_bore"))
@@ -103,14 +115,13 @@ class RoundBore(Record):
         return RoundBore(self.diameter + 2 * depth)
 
 
-class KeywayBore(Record):
+class KeywayBore(_Drilled):
     """A round bore with one keyway or two opposite ones; mm, rad.
 
     ``depth`` is t2: the bottom stands diameter + t2 from the opposite side of the bore. ``angle``: direction of the
     first keyway. ``corner_radius`` rounds the bottom's corners; 0 leaves them sharp.
     """
 
-    diameter: float
     width: float
     depth: float
     corner_radius: float = 0.0
@@ -137,14 +148,10 @@ class KeywayBore(Record):
         """See Bore."""
         return abs(self._corner_centre) + self.corner_radius
 
-    @property
-    def size(self) -> tuple[str, float]:
-        """See Bore."""
-        return "bore.diameter", self.diameter
-
     def check(self) -> None:
         """See Bore."""
-        for name in ("diameter", "width", "depth"):
+        super().check()
+        for name in ("width", "depth"):
             refuse_no_size(f"bore.{name}", getattr(self, name))
         if self.keys not in (1, 2):
             raise ParameterError("bore.keys", self.keys, "one_or_two_keyways", Nearest(1))
@@ -166,13 +173,7 @@ class KeywayBore(Record):
         slack = (self._corner_centre.real - self._mouth.real) * (self._corner_centre.real + self._mouth.real)
         swallowed = -slack / (self.diameter - self.width)
         within(offset, swallowed, closes, ("swallows_keyway", "closes_keyway"))
-        way = self._way(offset)
-        start, end = cmath.phase(end_point(way[-1].curve)), cmath.phase(start_point(way[0].curve))
-        # clockwise from the end of one keyway to the beginning of the next
-        sweep = end - start - 2 * math.pi / self.keys
-        arc = Segment(Arc(0j, self.diameter / 2 - offset, start, sweep), Label.BORE)
-        turns = [Placement2(self.angle - 2 * math.pi * k / self.keys) for k in range(self.keys)]
-        return Profile(tuple(Segment(s.curve.placed(turn), s.label) for turn in turns for s in (*way, arc)))
+        return self._cut(self._way(offset), offset, self.keys, self.angle)
 
     def _way(self, offset: float) -> list[Segment]:
         """Into the keyway along +x and out again: mouth, wall, corner, bottom, and the same mirrored."""
@@ -198,30 +199,19 @@ class KeywayBore(Record):
         return [*side, *across, *(Segment(s.curve.mirrored(), s.label) for s in reversed(side))]
 
 
-class FlatBore(Record):
+class FlatBore(_Drilled):
     """A round bore with one flat (D) or two opposite ones (double D); mm, rad.
 
     ``flat_distance``: from the axis to a flat. ``angle``: direction from the axis to the first flat.
     """
 
-    diameter: float
     flat_distance: float
     flats: int = 1
     angle: float = 0.0
 
-    @property
-    def reach(self) -> float:
-        """See Bore."""
-        return self.diameter / 2
-
-    @property
-    def size(self) -> tuple[str, float]:
-        """See Bore."""
-        return "bore.diameter", self.diameter
-
     def check(self) -> None:
         """See Bore."""
-        refuse_no_size("bore.diameter", self.diameter)
+        super().check()
         name = "bore.flat" if self.flats == 1 else "bore.across_flats"
         given = self.flat_distance + self.diameter / 2 if self.flats == 1 else 2 * self.flat_distance
         if not self.flat_distance > 0:
@@ -237,11 +227,7 @@ class FlatBore(Record):
         """See Bore."""
         opposite = self.diameter / 2 if self.flats == 1 else self.flat_distance
         within(offset, -math.inf, (self.flat_distance + opposite) / 2, ("", "closes_bore"))
-        way = self._way(offset)
-        start, end = cmath.phase(end_point(way[-1].curve)), cmath.phase(start_point(way[0].curve))
-        arc = Segment(Arc(0j, self.diameter / 2 - offset, start, end - start - 2 * math.pi / self.flats), Label.BORE)
-        turns = [Placement2(self.angle - 2 * math.pi * k / self.flats) for k in range(self.flats)]
-        return Profile(tuple(Segment(s.curve.placed(turn), s.label) for turn in turns for s in (*way, arc)))
+        return self._cut(self._way(offset), offset, self.flats, self.angle)
 
     def _way(self, offset: float) -> list[Segment]:
         """Along the flat at +x, with the arcs about its corners where the bore has grown."""

@@ -16,7 +16,7 @@ from parts.base.texts import Text, Words, in_context, message, words
 from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, plain_width
 from parts.drawing.cells import INDENT, wrapped, write_cell, write_lines
 from parts.drawing.font import MINUS
-from parts.pages.page import Sheet, Step, Table, unit_text
+from parts.pages.page import Sheet, Step, Table, shortest, unit_text
 from parts.pages.symbols import lowered, symbol_text
 from parts.pages.terms import TERMS
 
@@ -114,8 +114,7 @@ def _printed(number: str, told: Words) -> str:
 
 def rounded(value: float, unit: str) -> str:
     """A number to as many decimals as drawings have."""
-    text = f"{value:.{_DECIMALS[unit]}f}".rstrip("0").rstrip(".")
-    return "0" if text == "-0" else text
+    return shortest(value, _DECIMALS[unit])
 
 
 def sexagesimal(degrees: float) -> str:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from typing import TypeVar
+
+from msgspec.structs import replace
 
 from geometry.base.errors import ParameterError
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from parts.recipes.recipe import Expansion, RecipeKeys, Table
 
+K = TypeVar("K", bound=RecipeKeys)
 # directions in which things come to their place; from any other side, each goes straight to the axis
 WAYS: Mapping[str, tuple[float, float, float]] = {
     "front": (0.0, 0.0, -1.0), "behind": (0.0, 0.0, 1.0), "right": (-1.0, 0.0, 0.0), "left": (1.0, 0.0, 0.0),
@@ -24,17 +28,21 @@ def made_of(material: str | None, density: float | None) -> Table:
 
 
 def refused_by(
-    keys: RecipeKeys,
+    keys: K,
     names: Sequence[str],
-    works: Callable[[str, object], bool],
+    checked: Callable[[K], object],
     code: str,
     ends: Mapping[str, tuple[object, object]] | None = None,
     **told: float,
 ) -> ParameterError:
     """A refusal by the first of some keys that is changed and alone to blame, with its nearest value that works.
 
-    ``works`` judges another value of a key; ``ends``: what keys are and what is usual, where a default follows.
+    ``checked`` refuses keys that do not work; ``ends``: what keys are and what is usual, where a default follows.
     """
+
+    def works(name: str, value: object) -> bool:
+        return kept(lambda value: checked(replace(keys, **{name: value})) is not None, value)
+
     usual = type(keys)()
     changed = [name for name in names if getattr(keys, name) != getattr(usual, name)]
     name = next((name for name in changed if works(name, getattr(usual, name))), (changed or names)[0])

@@ -364,6 +364,11 @@ class _Making(Making):
             table |= {"position": position, "title": in_every_language(title)}
         self.found.name_instances(INSTANCES)
 
+    def put(self, kind: str, first: str, second: str, part: str = "", **keys: object) -> None:
+        """An instance by its first mate, in the sub-assembly that grows."""
+        super().put(kind, first, second, part, **keys)
+        self.found.instances[second]["subassembly"] = self.within
+
     def _set(self, first: str, instance: str, part: str, z: float, at: complex = 0j, **more: object) -> None:
         """An instance or a group of them (``count``), one body with another; ``z``: its lower face."""
         table: Table = {"part": part, "subassembly": self.within, **more}
@@ -544,9 +549,8 @@ class _Making(Making):
                 *(own if thread <= start else []),
             ], "outlines": [bore] if low <= start and end <= high else []}) for start, end in pairwise(levels)
         ])  # fmt: skip
-        self.found.instances["disk_2"] = {"part": "disk_2", "subassembly": self.within}
         self.low["disk_2"] = 0.0
-        self.mate("coaxial", "body", "disk_2", height=round(-self.low["body"], 6))
+        self.put("coaxial", "body", "disk_2", height=round(-self.low["body"], 6))
         # shields
         self._tube("shield_7", s["r_7_in"], s["r_7_out"], s["h_shield"], _holes(16, M4[0], s["r_53"], 11.25))
         self._set("disk_2", "shield_7", "shield_7", t)
@@ -625,9 +629,8 @@ class _Making(Making):
             outer_diameter=2 * s["r_21"], holes=_holes(12, M8[0], s["r_21_screws"]),
         )  # fmt: skip
         z = -s["h_24"]
-        self.found.instances["ring"] = {"part": "ring", "subassembly": self.within}
         self.low["ring"] = z
-        self.mate("coaxial", "body", "ring", height=round(z - self.low["body"], 6))
+        self.put("coaxial", "body", "ring", height=round(z - self.low["body"], 6))
         half, low, high = keys.ball / 2, s["z_23"] + keys.worm_wheel_width, s["h_22"]
         mid, groove = s["z_20"] - low, s["h_groove"]
         self._turned("spacer_22", [
@@ -657,9 +660,7 @@ class _Making(Making):
             )],
         )  # fmt: skip
         z = -s["h_24"]
-        self.found.instances["pinion"] = {"part": "pinion", "subassembly": self.within}
-        self.low["pinion"] = z
-        self.mate("carried", "disk_2", "pinion", offset=place(complex(arm), z))
+        self._moving("carried", "disk_2", "pinion", "", complex(arm), z)
         self.mate("internal_gear_pair", "ring", "pinion")
         screws = _holes(6, M12[0], s["r_56"], 30.0)
         self._tube("sleeve_17", 20.0, s["r_56"] + 9, s["gap_21"] + 0.5, third, screws)
@@ -689,8 +690,7 @@ class _Making(Making):
         s, keys = self.s, self.keys
         self._satellite_axle(s["z_16"], s["z_11"] + keys.wheel_width)
         self._wheel("satellite_wheel", s["h_14"], 2 * (_AXLE + keys.clearance))
-        self.found.instances["satellite_wheel"] = {"part": "satellite_wheel", "subassembly": self.within}
-        self.mate("external_gear_pair", "central_wheel", "satellite_wheel")
+        self.put("external_gear_pair", "central_wheel", "satellite_wheel")
         self.mate("carried", "disk_2", "satellite_wheel")
 
     def _satellite_axle(self, low: float, high: float) -> None:
@@ -768,8 +768,7 @@ class _Making(Making):
         self._set("link_1", "idler_pin_1", "idler_pin", s["z_38_rear"], complex(s["arm"] / 2))
         self._idler(1, "central_wheel", "disk_2")
         self._wheel("satellite_wheel", s["h_14"], 2 * (_AXLE + keys.clearance))
-        self.found.instances["satellite_wheel"] = {"part": "satellite_wheel", "subassembly": self.within}
-        self.mate("external_gear_pair", "idler_1", "satellite_wheel")
+        self.put("external_gear_pair", "idler_1", "satellite_wheel")
         self.mate("carried", "disk_2", "satellite_wheel")
         self._set("pinion", "link_2", "link", s["z_38"])
         low = s["z_11"] - s["play_36"] - head
@@ -777,8 +776,7 @@ class _Making(Making):
 
     def _idler(self, number: int, wheel: str, holder: str, **more: object) -> None:
         """In mesh with a wheel, carried by the disk whose arm it stands on."""
-        self.found.instances[f"idler_{number}"] = {"part": "idler", "subassembly": self.within}
-        self.mate("external_gear_pair", wheel, f"idler_{number}", **more)
+        self.put("external_gear_pair", wheel, f"idler_{number}", "idler", **more)
         self.mate("carried", holder, f"idler_{number}")
 
     # -- what keeps it parallel: cranks
@@ -790,9 +788,8 @@ class _Making(Making):
 
     def _moving(self, kind: str, first: str, instance: str, part: str, at: complex, z: float) -> None:
         """An instance that turns for itself or with another, its axis carried; ``z``: its lower face."""
-        self.found.instances[instance] = {"part": part, "subassembly": self.within}
         self.low[instance] = z
-        self.mate(kind, first, instance, offset=place(at, z - self.low[first]))
+        self.put(kind, first, instance, part, offset=place(at, z - self.low[first]))
 
     def _pins(self, first: str, z: float, start: float, *, behind: bool = False) -> None:
         """Three pins pressed into a plate, before or behind its face at a height, their collars on that."""
@@ -922,8 +919,7 @@ class _Making(Making):
         self._turned("screw_49_up", [(0, 0), (4, 0), (4, 11), (3, 12), (0, 12)])
         for worm, wheel, direction in ((1, "worm_wheel_25", 90.0), (2, "worm_wheel_23", -90.0)):
             self.within = f"worm_{worm}_unit"
-            self.found.instances[f"worm_{worm}"] = {"part": "worm", "subassembly": self.within}
-            self.mate("worm_pair", wheel, f"worm_{worm}", direction_deg=direction)
+            self.put("worm_pair", wheel, f"worm_{worm}", "worm", direction_deg=direction)
             way = 1 if worm == 1 else -1
             for part, x in (("end_cover", cover), ("spacer_28", start + 1), ("snap_ring", out + 0.3)):
                 self.found.instances[f"{part}_{worm}"] = {

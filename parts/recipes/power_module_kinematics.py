@@ -18,10 +18,8 @@ import math
 from typing import Annotated, Literal
 
 from msgspec import Meta
-from msgspec.structs import replace
 
 from geometry.base.errors import ParameterError, limit
-from geometry.base.nearest import kept
 from geometry.base.record import Record
 from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
@@ -150,7 +148,7 @@ class _Sizes(Record):
         most = keys.module * (keys.teeth[0] / 2 - 1.25) - keys.platform_axle_diameter / 2 - _WALL / 2
         if self.arm > most:
             names = ("platform_axle_diameter", "module", "teeth")
-            raise refused_by(keys, names, self._works, "axle_beyond_pinion", most=max(most, 0.0))
+            raise refused_by(keys, names, _checked, "axle_beyond_pinion", most=max(most, 0.0))
         if keys.orientation != "cranks":
             teeth, idler = self.wheels
             wall = self.arm - (keys.platform_axle_diameter + keys.satellite_axle_diameter) / 2 - keys.clearance
@@ -168,8 +166,9 @@ class _Sizes(Record):
                                      limit(root, keys.pin_diameter))  # fmt: skip
         return self
 
-    def _works(self, name: str, value: object) -> bool:
-        return kept(lambda value: _Sizes(replace(self.keys, **{name: value})).checked().arm > 0, value)
+
+def _checked(keys: PowerModuleKinematicsKeys) -> _Sizes:
+    return _Sizes(keys).checked()
 
 
 class PowerModuleKinematicsRecipe(Recipe[PowerModuleKinematicsKeys]):
@@ -179,7 +178,7 @@ class PowerModuleKinematicsRecipe(Recipe[PowerModuleKinematicsKeys]):
 
     def expanded(self, keys: PowerModuleKinematicsKeys) -> Expansion:
         """The tables of one module."""
-        return _Making(_Sizes(keys).checked()).all()
+        return _Making(_checked(keys)).all()
 
 
 POWER_MODULE_KINEMATICS = PowerModuleKinematicsRecipe()

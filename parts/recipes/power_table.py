@@ -16,10 +16,8 @@ import math
 from typing import Annotated, Literal
 
 from msgspec import Meta
-from msgspec.structs import replace
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.base.nearest import kept
 from geometry.base.record import Record
 from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
@@ -239,12 +237,12 @@ class _Sizes(Record):
 
     def _refused(self, names: tuple[str, ...], code: str, **told: float) -> ParameterError:
         """A refusal by the first of some keys that is changed and alone to blame, with its nearest value that works."""
-
-        def works(name: str, value: object) -> bool:
-            return kept(lambda value: _Sizes(replace(self.keys, **{name: value})).checked().arm > 0, value)
-
         # what is not given follows
-        return refused_by(self.keys, names, works, code, {"second_arm": (self.second_arm, self.arm)}, **told)
+        return refused_by(self.keys, names, _checked, code, {"second_arm": (self.second_arm, self.arm)}, **told)
+
+
+def _checked(keys: PowerTableKeys) -> _Sizes:
+    return _Sizes(keys).checked()
 
 
 def _side_by_side(crank: float, boss: float) -> float:
@@ -259,7 +257,7 @@ class PowerTableRecipe(Recipe[PowerTableKeys]):
 
     def expanded(self, keys: PowerTableKeys) -> Expansion:
         """The tables of one table."""
-        return _Making(_Sizes(keys).checked()).all()
+        return _Making(_checked(keys)).all()
 
 
 POWER_TABLE = PowerTableRecipe()
