@@ -37,7 +37,7 @@ KINDS: Index[Kind[Any, Any]] = Index(
         ),
         "bevel_gear": (
             "parts.gears.bevel_gear.part:BEVEL_GEAR",
-            "Straight bevel gear of spherical involutes, made for one mate; its back face lies at z = 0",
+            "Bevel gear of spherical involutes, straight, skew or spiral, for one mate; its back face lies at z = 0",
         ),
         "cam": (
             "parts.cams.disk_cam.part:CAM",

@@ -84,7 +84,7 @@ def _gear(part: Part, mates: Sequence[Mated]) -> DataTable:
         # the hand tells its sense
         made["helix_angle_deg"] = abs(keys.helix_angle_deg)
     page = _PAGES[part.kind](given(keys) | made)
-    hand = [_hand("double" if helix.double else helix.hand)] if helix.angle else []
+    hand = [hand_row("double" if helix.double else helix.hand)] if helix.angle else []
     basic, own = _basic_rack(keys)
     shift = rows_of(page, (*own, *_RELIEF, *_SHIFT))
     first = (*rows_of(page, _TEETH), *hand, *basic, *shift, *grade_rows(keys.accuracy))
@@ -137,7 +137,7 @@ def _worm(part: Part, mates: Sequence[Mated]) -> DataTable:
     page = worm_page.sheet(table)
     keys = part.keys
     assert isinstance(keys, WormSpec | WormWheelSpec)
-    hand, grade = _hand(keys.hand), grade_rows(keys.accuracy)
+    hand, grade = hand_row(keys.hand), grade_rows(keys.accuracy)
     if isinstance(keys, WormSpec):
         first = _form_bare(rows_of(page, ("axial_module", "number_of_starts", "worm_form", "lead_angle_deg")))
         own = rows_of(page, (*_WORM, "worm_fillet_coefficient"))
@@ -158,7 +158,8 @@ def _form_bare(rows: Sequence[DataRow]) -> tuple[DataRow, ...]:
     return tuple(replace(row, symbol="") if row.symbol == "Z" else row for row in rows)
 
 
-def _hand(hand: str) -> DataRow:
+def hand_row(hand: str) -> DataRow:
+    """Which way teeth, or a thread, run."""
     return DataRow(N_("direction of the tooth line"), "", _HANDS[hand])
 
 

@@ -121,6 +121,7 @@ def section_finding(keys: ToothedKeys) -> tuple[Finding, ...]:
 _KEYS: dict[str, tuple[str, float | None]] = {
     "pressure_angle": ("pressure_angle_deg", math.degrees(1)),
     "helix_angle": ("helix_angle_deg", math.degrees(1)),
+    "spiral_angle": ("spiral_angle_deg", math.degrees(1)),
     "rack.addendum": ("basic_rack.addendum_coefficient", None),
     "rack.tip_clearance": ("basic_rack.tip_clearance_coefficient", None),
     "rack.tip_radius": ("basic_rack.tip_radius_coefficient", None),

@@ -46,7 +46,7 @@ class BevelMating(Touching):
 
     pair: BevelPair
 
-    # flanks touch along rays of the apex: meshes cannot tell
+    # flanks touch along lines: meshes cannot tell
     decides_solids = True
     lies = True
     asks_height = False
@@ -110,9 +110,17 @@ class BevelMating(Touching):
                 begins = gear.joint[1] * gear.cone_distance
                 code = f"active_flank_cut_away_{name}" if gear.is_undercut else f"fillet_interference_{name}"
                 found.append(Finding(code, begins + reserve, begins))
-        if self.pair.contact_ratio < 1:
-            found.append(Finding("contact_ratio", self.pair.contact_ratio, 1.0))
+        if self.pair.total_contact_ratio < 1:
+            name = "contact_ratio" if self.pair.first.is_straight else "total_contact_ratio"
+            found.append(Finding(name, self.pair.total_contact_ratio, 1.0))
         return tuple(found)
+
+    def _overlap(self) -> dict[str, float]:
+        """Of teeth that are not straight."""
+        if self.pair.first.is_straight:
+            return {}
+        return {"overlap_ratio": self.pair.face_contact_ratio,
+                "total_contact_ratio": self.pair.total_contact_ratio}  # fmt: skip
 
     def quantities(self) -> dict[str, Any]:
         """Ratio, contact ratio, clearances."""
@@ -120,6 +128,7 @@ class BevelMating(Touching):
         return {
             "ratio": self.pair.ratio,
             "transverse_contact_ratio": self.pair.contact_ratio,
+            **self._overlap(),
             "normal_backlash": self.pair.normal_backlash,
             "bottom_clearance_at_root": {"first": clearances[0], "second": clearances[1]},
         }
@@ -140,7 +149,7 @@ class BevelPairKind(MateKind[BevelPairSpec, "BevelGear", "BevelGear"]):
         def build(index: int, thinning: float) -> BevelGear:
             return replace(gears[index], circumferential_thinning=thinning).checked()
 
-        return shared_thinning(keys.normal_backlash, gears, build, math.cos(first.thing.pressure_angle))
+        return shared_thinning(keys.normal_backlash, gears, build, first.thing.normal_share)
 
     def mating(self, keys: BevelPairSpec, first: End[BevelGear], second: End[BevelGear]) -> BevelMating:
         """Each must be what the other one is made for."""
@@ -171,6 +180,21 @@ def _check(first: End[BevelGear], second: End[BevelGear]) -> None:
         same_size(key, getattr(other, key), getattr(one, key), "not_of_its_mate")
     for key in _OPPOSITE:
         same_size(key, getattr(other, key), -getattr(one, key) or 0.0, "not_of_its_mate")
+    _check_lines(first, second)
+
+
+def _check_lines(first: End[BevelGear], second: End[BevelGear]) -> None:
+    """The same of tooth lines: those of both are one on the crown gear, seen from its two sides."""
+    if first.thing.is_straight and second.thing.is_straight:
+        return
+    for key in ("spiral_angle_deg", "tooth_line"):
+        if (own := getattr(second.keys, key)) != (wanted := getattr(first.keys, key)):
+            raise ParameterError(key, own, "not_of_its_mate", Nearest(wanted))
+    # the mean cone distance is that of the face
+    for key in ("face_width", "cutter_radius"):
+        same_size(key, getattr(second.thing, key), getattr(first.thing, key), "not_of_its_mate")
+    if second.thing.hand == first.thing.hand:
+        raise ParameterError("hand", second.thing.hand, "not_of_its_mate", Nearest(first.thing.opposite().hand))
 
 
 BEVEL_PAIR = BevelPairKind()

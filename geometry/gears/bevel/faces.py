@@ -1,14 +1,16 @@
-"""The faces of a straight bevel gear: ruled splines over its flanks and fillets, everything else exact.
+"""The faces of a bevel gear: splines over its flanks and fillets, everything else exact.
 
-Every edge of a tooth is drawn on the back cone once; at the inner end stands the same, smaller, and rays of the apex
-join both. So a surface is as near to the exact cone over its curve as that curve is to the spline. Where the tip cone
-does not meet the apex a flank ends before its rays do: it is drawn from root to tip cone at every cone distance.
+Every edge of a straight tooth is drawn on the back cone once; at the inner end stands the same, smaller, and rays of
+the apex join both. So a surface is as near to the exact cone over its curve as that curve is to the spline. Where the
+tip cone does not meet the apex a flank ends before its rays do, and other tooth lines are no rays: such surfaces are
+drawn from root to tip at every cone distance.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Callable
 from functools import lru_cache, partial
 
 import numpy as np
@@ -98,54 +100,99 @@ class SeenEdge(Span, Record):
 
 def seen_profile(gear: BevelGear, tolerance: float) -> Profile:
     """The outer end as it is seen along the axis, splines within ``tolerance`` mm."""
-    sides = []
-    for name, label in zip(_SIDES, (Label.ROOT_FILLET, Label.FLANK), strict=True):
-        knots, poles, _ = _fitted(gear, name, tolerance)
-        sides.append(Segment(SeenEdge(BSpline(_DEGREE, knots, poles[:, 0] + 1j * poles[:, 1])), label))
-    low, high = cmath.phase(start_point(sides[0].curve)), cmath.phase(end_point(sides[1].curve))
-    land = Arc(0j, gear.outer(gear.tip_angle).real, -high, 2 * high)
-    floor = Arc(0j, gear.outer(gear.root_angle).real, low, math.tau / gear.number_of_teeth - 2 * low)
-    back = [Segment(s.curve.reversed(), s.label) for s in reversed(sides)]
-    rise = [Segment(s.curve.mirrored(), s.label) for s in reversed(back)]
+    upper, lower = (_seen_side(one, tolerance) for one in (gear, gear.opposite()))
+    low, high = cmath.phase(start_point(upper[0].curve)), cmath.phase(end_point(upper[1].curve))
+    below, beside = cmath.phase(start_point(lower[0].curve)), cmath.phase(end_point(lower[1].curve))
+    land = Arc(0j, gear.outer(gear.tip_angle).real, -beside, beside + high)
+    floor = Arc(0j, gear.outer(gear.root_angle).real, low, math.tau / gear.number_of_teeth - (low + below))
+    back = [Segment(s.curve.reversed(), s.label) for s in reversed(upper)]
+    rise = [Segment(s.curve.reversed().mirrored(), s.label) for s in lower]
     period = (*rise, Segment(land, Label.TIP_LAND), *back, Segment(floor, Label.ROOT_LAND))
     return Profile(period, gear.number_of_teeth)
 
 
+def _seen_side(gear: BevelGear, tolerance: float) -> list[Segment]:
+    """Fillet and flank of the upper side, from the root on."""
+    sides = []
+    for name, label in zip(_SIDES, (Label.ROOT_FILLET, Label.FLANK), strict=True):
+        knots, poles, _ = _fitted(gear, name, tolerance)
+        sides.append(Segment(SeenEdge(BSpline(_DEGREE, knots, poles[:, 0] + 1j * poles[:, 1])), label))
+    return sides
+
+
 def _fitted(gear: BevelGear, name: str, tolerance: float) -> tuple[Real, Real, float]:
-    """Knots, poles (k, 3) of the upper side of tooth 0 on the back cone, and their error, mm."""
+    """Knots, poles (k, 3) of the upper side of tooth 0 on the back cone, and their error, mm.
+
+    Knots serve the inner end as well, where that is another curve.
+    """
     least, spans = max(_EDGE * min(tolerance, _TARGET) / _MARGIN, _ROUNDING * gear.cone_distance), 1
+    ends: list[Callable[[Real], Real]] = [partial(gear.points, name)]
+    if not gear.is_straight:
+        ends.append(lambda shares: gear.wall_points(name, shares, np.ones(1))[:, 0])
     while spans <= _MOST_SPANS:
         knots = clamped(_DEGREE, np.linspace(0.0, 1.0, spans + 1))
-        poles = axis_poles(_DEGREE, knots, gear.points(name, greville(_DEGREE, knots)), 0)
         fine = np.linspace(0.0, 1.0, _SAMPLES * spans + 1)
-        error = np.linalg.norm(basis_matrix(_DEGREE, knots, fine) @ poles - gear.points(name, fine), axis=1).max()
-        if float(error) <= least:
-            return knots, poles, _MARGIN * float(error)
-        spans *= 2
-    raise ConvergenceError("spline of a bevel tooth", float(error), spans)
-
-
-def _fitted_flank(gear: BevelGear, u_knots: Real, tolerance: float) -> tuple[int, Real, Real, float]:
-    """Degree and knots along the teeth, poles (u, v, 3) of the upper flank of tooth 0, and their error, mm."""
-    shares = greville(_DEGREE, u_knots)
-    if gear.tip_to_apex:
-        outer = axis_poles(_DEGREE, u_knots, gear.points("flank", shares), 0)
-        apex = gear.placed(np.zeros(3))
-        return 1, _RULED, np.stack([outer, apex + gear.inner_distance / gear.cone_distance * (outer - apex)], 1), 0.0
-    least, spans = max(min(tolerance, _TARGET) / _MARGIN, 2 * _ROUNDING * gear.cone_distance), 1
-    fine = np.linspace(0.0, 1.0, _SAMPLES * (len(u_knots) - 2 * _DEGREE - 1) + 1)
-    while spans <= _MOST_SPANS:
-        knots = clamped(_DEGREE, np.linspace(0.0, 1.0, spans + 1))
-        poles = tensor_poles(_DEGREE, u_knots, knots, gear.flank_points(shares, greville(_DEGREE, knots)))
-        along = np.linspace(0.0, 1.0, _SAMPLES * spans + 1)
-        made = np.einsum(
-            "iu,uvc,jv->ijc", basis_matrix(_DEGREE, u_knots, fine), poles, basis_matrix(_DEGREE, knots, along)
+        made = [axis_poles(_DEGREE, knots, end(greville(_DEGREE, knots)), 0) for end in ends]
+        error = max(
+            float(np.linalg.norm(basis_matrix(_DEGREE, knots, fine) @ poles - end(fine), axis=1).max())
+            for end, poles in zip(ends, made, strict=True)
         )
-        error = float(np.linalg.norm(made - gear.flank_points(fine, along), axis=2).max())
         if error <= least:
-            return _DEGREE, knots, poles, _MARGIN * error
+            return knots, made[0], _MARGIN * error
         spans *= 2
-    raise ConvergenceError("spline of a bevel flank", error, spans)
+    raise ConvergenceError("spline of a bevel tooth", error, spans)
+
+
+class _Walls(Record):
+    """Splines of the upper side of tooth 0 by name: knots from root to tip, degrees and knots along the teeth, poles.
+
+    ``error``: of them all, mm.
+    """
+
+    across: dict[str, Real]
+    degrees: dict[str, int]
+    along: dict[str, Real]
+    poles: dict[str, Real]
+    error: float
+
+
+def _fitted_walls(gear: BevelGear, tolerance: float) -> _Walls:
+    """Its flank and fillet, ruled by rays of the apex where they are cones."""
+    across, degrees, along, poles = {}, dict.fromkeys(_SIDES, 1), dict.fromkeys(_SIDES, _RULED), {}
+    error, apex = 0.0, gear.placed(np.zeros(3))
+    for name in _SIDES:
+        across[name], outer, worst = _fitted(gear, name, tolerance)
+        error = max(error, worst)
+        poles[name] = np.stack([outer, apex + gear.inner_distance / gear.cone_distance * (outer - apex)], axis=1)
+    free = [name for name in _SIDES if not gear.is_straight or (name == "flank" and not gear.tip_to_apex)]
+    least, spans, worst = max(min(tolerance, _TARGET) / _MARGIN, 2 * _ROUNDING * gear.cone_distance), 1, math.inf
+    while free and worst > least:
+        if spans > _MOST_SPANS:
+            raise ConvergenceError("spline of a bevel flank", worst, spans)
+        knots, worst = clamped(_DEGREE, np.linspace(0.0, 1.0, spans + 1)), 0.0
+        fine = np.linspace(0.0, 1.0, _SAMPLES * spans + 1)
+        for name in free:
+            degrees[name], along[name] = _DEGREE, knots
+            poles[name], off = _fitted_wall(gear, name, across[name], knots, fine)
+            worst = max(worst, off)
+        spans *= 2
+    if free == ["flank"] and len(along["flank"]) > 2 * (_DEGREE + 1):
+        # faces side by side have as many spans
+        degrees["fillet"], along["fillet"] = degrees["flank"], along["flank"]
+        low, high = np.moveaxis(poles["fillet"], 1, 0)
+        shares = greville(_DEGREE, along["flank"])
+        poles["fillet"] = low[:, None] + shares[:, None] * (high - low)[:, None]
+    return _Walls(across, degrees, along, poles, max(error, _MARGIN * worst if free else 0.0))
+
+
+def _fitted_wall(gear: BevelGear, name: str, across: Real, along: Real, fine: Real) -> tuple[Real, float]:
+    """Poles (u, v, 3) of a wall on both knots, and their error at shares ``fine`` of the face, mm."""
+    shares = np.linspace(0.0, 1.0, _SAMPLES * (len(across) - 2 * _DEGREE - 1) + 1)
+    exact = gear.wall_points(name, greville(_DEGREE, across), greville(_DEGREE, along))
+    poles = tensor_poles(_DEGREE, across, along, exact)
+    rows, columns = basis_matrix(_DEGREE, across, shares), basis_matrix(_DEGREE, along, fine)
+    made = np.einsum("iu,uvc,jv->ijc", rows, poles, columns)
+    return poles, float(np.linalg.norm(made - gear.wall_points(name, shares, fine), axis=2).max())
 
 
 # faces ----------------------------------------------------------------------------------------------------------
@@ -156,24 +203,11 @@ class _Bevel(RingBuilder):
 
     def __init__(self, gear: BevelGear, tolerance: float) -> None:
         super().__init__()
-        self.gear, self.worst = gear, 0.0
+        self.gear, upper = gear, _fitted_walls(gear, tolerance)
         self.starts = np.arange(gear.number_of_teeth)
-        self.share = gear.inner_distance / gear.cone_distance
-        self.apex = np.array([0.0, 0.0, gear.mounting_distance])
-        self.knots, self.poles = {}, {}
-        for name in _SIDES:
-            self.knots[name], outer, error = _fitted(gear, name, tolerance)
-            self.worst = max(self.worst, error)
-            self.poles[name] = np.stack([outer, self.apex + self.share * (outer - self.apex)], axis=1)
-        degree, along, self.poles["flank"], error = _fitted_flank(gear, self.knots["flank"], tolerance)
-        self.worst = max(self.worst, error)
-        # degrees and knots along the teeth; faces side by side have as many spans
-        self.is_ruled = len(along) == 2 * (degree + 1)
-        self.degrees, self.along = {"fillet": 1, "flank": degree}, {"fillet": _RULED, "flank": along}
-        if not self.is_ruled:
-            self.degrees["fillet"], self.along["fillet"] = degree, along
-            low, high = np.moveaxis(self.poles["fillet"], 1, 0)
-            self.poles["fillet"] = low[:, None] + greville(degree, along)[:, None] * (high - low)[:, None]
+        other = gear.opposite()
+        self.walls = {-1: upper if other == gear else _fitted_walls(other, tolerance), 1: upper}
+        self.worst = max(walls.error for walls in self.walls.values())
 
     def height(self, place: complex) -> float:
         """z of a place of the blank, mm."""
@@ -202,37 +236,39 @@ class _Bevel(RingBuilder):
 
     def teeth(self) -> None:
         """Flanks, fillets, lands, and what both ends leave between them."""
-        gear, poles = self.gear, self.poles
-        mirror = np.array([1.0, -1.0, 1.0])
+        gear, mirror = self.gear, np.array([1.0, -1.0, 1.0])
         ends, vertices = [], []
         for end in (0, -1):
             # from the lower root over the tip to the upper root
-            corners = np.array([poles["fillet"][0, end], poles["flank"][0, end], poles["flank"][-1, end]])
-            points = self.on_teeth(np.concatenate([corners * mirror, corners[::-1]]))
+            lower, upper = (
+                np.array([poles["fillet"][0, end], poles["flank"][0, end], poles["flank"][-1, end]])
+                for poles in (self.walls[-1].poles, self.walls[1].poles)
+            )
+            points = self.on_teeth(np.concatenate([lower * mirror, upper[::-1]]))
             ends.append(points)
             vertices.append(np.stack([self.add_vertices(column) for column in points.T], axis=1))
         self.vertices_at = vertices
         places = [self.place(vertex) for vertex in np.concatenate(vertices, axis=1).T]
         rays: dict[int, Index] = {}
         # flanks end at the tip cone on rays where that meets the apex
-        straight = (0, 1, 4, 5) if self.is_ruled else ()
-        for k in range(6) if gear.tip_to_apex else straight:
+        degrees = self.walls[1].degrees
+        for k in range(6) if degrees["flank"] == 1 else (0, 1, 4, 5) if degrees["fillet"] == 1 else ():
             way = places[6 + k] - places[k]
             way = way / np.linalg.norm(way, axis=1)[:, None]
             rays[k] = self.add_edges(vertices[0][:, k], vertices[1][:, k], Straight(way))
         splines: list[dict[tuple[str, int], Index]] = [{}, {}]
         for side, (place, name) in [(s, p) for s in (-1, 1) for p in enumerate(_SIDES)]:
             first, last = (place, place + 1) if side < 0 else (5 - place, 4 - place)
-            grid = self._grid(poles[name] * (mirror if side < 0 else 1.0), ends, first, last)
+            walls = self.walls[side]
+            grid = self._grid(walls.poles[name] * (mirror if side < 0 else 1.0), ends, first, last)
             for end in (0, 1):
-                curve = Spline(_DEGREE, self.knots[name], grid[:, :, -end])
+                curve = Spline(_DEGREE, walls.across[name], grid[:, :, -end])
                 splines[end][name, side] = self.add_edges(vertices[end][:, first], vertices[end][:, last], curve)
             for corner, u in ((first, 0), (last, -1)):
                 if corner not in rays:
-                    line = Spline(self.degrees[name], self.along[name], grid[:, u])
+                    line = Spline(walls.degrees[name], walls.along[name], grid[:, u])
                     rays[corner] = self.add_edges(vertices[0][:, corner], vertices[1][:, corner], line)
-            degrees = _DEGREE, self.degrees[name]
-            surface = SplineSurface(degrees, self.knots[name], self.along[name], grid)
+            surface = SplineSurface((_DEGREE, walls.degrees[name]), walls.across[name], walls.along[name], grid)
             low, high = splines[0][name, side], splines[1][name, side]
             around = [(low, True), (rays[last], True), (high, False), (rays[first], False)]
             if side > 0:

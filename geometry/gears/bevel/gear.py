@@ -1,8 +1,11 @@
-"""A straight bevel gear: cones, the exact tooth of its spherical involutes, and the blank that carries it.
+"""A bevel gear: cones, the exact tooth of its spherical involutes, and the blank that carries it.
 
 Pitch, base and root cone meet in the apex (GOST 19325-73, axial form I). The tip cone runs parallel to the mate's root
 cone, so that the clearance is the same along the face, or it meets them too. Lengths of the tooth are those of the
 outer end (GOST 19624-74), on the back cone, which stands at right angles on the pitch cone.
+
+On every sphere about the apex the tooth has the same section, up to its tip; a tooth line of the crown gear turns these
+about the axis. Where it is straight, so is the gear.
 """
 
 from __future__ import annotations
@@ -10,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,6 +24,7 @@ from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Real
 from geometry.gears.bevel.sphere import SphericalFillet, SphericalInvolute, spatial
+from geometry.gears.bevel.tooth_line import ToothLine
 from geometry.plane.profile import Profile
 
 # the tip cone is a cone that opens away from the apex
@@ -35,6 +39,8 @@ _SHIFTS, _RATIOS = (0.2, 0.4, 0.6, 0.8, 1.0, 1.4, 2.0), (1, 3, 10, 30)
 _SHARES = (0.8, 0.6, 0.4, 0.3)
 # share of a cone distance that a face takes at most
 _MOST_FACE = 0.99
+# spiral angle of a tooth line at most, anywhere along the face; cutters among which one that works is sought, in R_m
+_STEEPEST_LINE, _CUTTERS = math.radians(60.0), (1.0, 2.0, 5.0, 50.0)
 # share of the outer flank that is left at the inner end
 _LEAST_FLANK = 0.01
 
@@ -49,11 +55,14 @@ class Blank(Record):
 
 
 class BevelGear(Record, dict=True):
-    """A straight bevel gear for a mate of ``mate_teeth`` at the shaft angle; mm at the outer end, rad.
+    """A bevel gear for a mate of ``mate_teeth`` at the shaft angle; mm at the outer end, rad.
+
+    ``pressure_angle``, like all of the tooth, is that of the section on a sphere, so of the transverse one.
 
     ``thickness_coefficient``: x_tau, by which the tooth is thicker than its shift makes it, in modules; both
     coefficients of the mate have the other sign. The crown gear that cuts it has the tip rounding. ``tip_to_apex``: the
-    tip cone meets the apex, else it runs parallel to the mate's root cone.
+    tip cone meets the apex, else it runs parallel to the mate's root cone. ``spiral_angle`` at the mean cone distance,
+    ``cutter_radius`` and ``hand`` are those of the tooth line; of a right-hand tooth the azimuth falls outwards.
     """
 
     module: float
@@ -70,6 +79,69 @@ class BevelGear(Record, dict=True):
     thickness_coefficient: float = 0.0
     circumferential_thinning: float = 0.0
     tip_to_apex: bool = False
+    spiral_angle: float = 0.0
+    cutter_radius: float = math.inf
+    hand: Literal["right", "left"] = "right"
+
+    # tooth line -------------------------------------------------------------------------------------------------
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether its tooth lines meet the apex."""
+        return self.tooth_type == "straight"
+
+    @property
+    def tooth_type(self) -> Literal["straight", "skew", "spiral", "zerol"]:
+        """By ISO 23509."""
+        if math.isinf(self.cutter_radius):
+            return "skew" if self.spiral_angle else "straight"
+        return "spiral" if self.spiral_angle else "zerol"
+
+    @property
+    def normal_pressure_angle(self) -> float:
+        """alpha_n, across the tooth at the mean cone distance."""
+        return math.atan(math.tan(self.pressure_angle) * math.cos(self.spiral_angle))
+
+    @property
+    def mean_distance(self) -> float:
+        """R_m, mm."""
+        return self.cone_distance - self.face_width / 2
+
+    @property
+    def mean_normal_module(self) -> float:
+        """m_mn, mm."""
+        return self.module * self.mean_distance / self.cone_distance * math.cos(self.spiral_angle)
+
+    @property
+    def line(self) -> ToothLine:
+        """Of the crown gear."""
+        return ToothLine(self.mean_distance, self.spiral_angle, self.cutter_radius)
+
+    def spin(self, distance: ArrayLike) -> Real:
+        """Azimuth by which the section on a sphere stands ahead of that at the mean cone distance; radii in mm."""
+        way = -1.0 if self.hand == "right" else 1.0
+        return np.asarray(way * self.line.turn(distance) / math.sin(self.pitch_angle))
+
+    def opposite(self) -> BevelGear:
+        """Its mirror image, whose upper flanks are the lower ones of this gear."""
+        return self if self.is_straight else replace(self, hand="left" if self.hand == "right" else "right")
+
+    @property
+    def normal_share(self) -> float:
+        """Of an arc of the pitch circle that is left along the flank's normal, at the outer end."""
+        cosine = math.cos(self.pressure_angle)
+        return cosine / math.hypot(1.0, math.tan(float(self.line.spiral(self.cone_distance))) * cosine)
+
+    def at(self, distance: float) -> BevelGear:
+        """The straight gear whose outer teeth are as those at a cone distance, mm."""
+        share = distance / self.cone_distance
+        module, shift = share * self.module, self.profile_shift_coefficient
+        high = float(self.addendum_at(distance)) / module - shift
+        return replace(
+            self, module=module, face_width=share * self.face_width, addendum_coefficient=high,
+            tip_clearance_coefficient=self.addendum_coefficient + self.tip_clearance_coefficient - high,
+            circumferential_thinning=share * self.circumferential_thinning, spiral_angle=0.0, cutter_radius=math.inf,
+        )  # fmt: skip
 
     # cones ------------------------------------------------------------------------------------------------------
 
@@ -307,16 +379,22 @@ class BevelGear(Record, dict=True):
     def points(self, name: str, share: Real) -> Real:
         """Points (k, 3) of the upper side of tooth 0 on the back cone, mm; the apex on the axis over the back face."""
         angle, azimuth = self.tooth_places(name, share)
-        size = self.cone_distance / np.cos(angle - self.pitch_angle)
-        return self.placed(size[..., None] * spatial(angle, azimuth))
+        return self._spun(self.cone_distance, angle, azimuth)
 
-    def flank_points(self, share: Real, along: Real) -> Real:
-        """Points (k, n, 3) of the upper flank of tooth 0, mm: shares (k,) from the fillet to the tip cone, and of b."""
+    def wall_points(self, name: str, share: Real, along: Real) -> Real:
+        """Points (k, n, 3) of the upper ``fillet`` or ``flank`` of tooth 0, mm: shares (k,) of its height, and of b."""
         distance, arc = self.cone_distance - along * self.face_width, self.joint[1]
-        tips = self.involute.arc(self.tip_angle_at(distance))
-        angle, azimuth = self._flank(arc + share[:, None] * (tips - arc))
-        size = distance / np.cos(angle - self.pitch_angle)
-        return self.placed(size[..., None] * spatial(angle, azimuth))
+        if name == "fillet":
+            angle, azimuth = self.tooth_places(name, share[:, None])
+        else:
+            tips = self.involute.arc(self.tip_angle_at(distance))
+            angle, azimuth = self._flank(arc + share[:, None] * (tips - arc))
+        return self._spun(distance, angle, azimuth)
+
+    def _spun(self, distance: ArrayLike, angle: Real, azimuth: Real) -> Real:
+        """Points of places at cone distances, mm."""
+        size = np.asarray(distance / np.cos(angle - self.pitch_angle))
+        return self.placed(size[..., None] * spatial(angle, azimuth + self.spin(size)))
 
     def placed(self, points: Real) -> Real:
         """From the frame of the apex, z into the gear, to that of the part: the back face at z = 0, the apex above."""
@@ -410,6 +488,23 @@ class BevelGear(Record, dict=True):
                               distance=self.cone_distance)  # fmt: skip
         if not self._has_inner_flank():
             raise self._cured("face_width", least, BevelGear._check_face, "bevel_tips_run_out")
+        self._check_line()
+
+    def _check_line(self) -> None:
+        steepest = self._steepest_line()
+        if steepest <= _STEEPEST_LINE:
+            return
+        name, ways = "spiral_angle", [0.0]
+        if math.isfinite(self.cutter_radius) and self._steepest_line(self.mean_distance) <= _STEEPEST_LINE:
+            name, ways = "cutter_radius", [share * self.mean_distance for share in _CUTTERS]
+        raise self._cured(name, ways, BevelGear._check_line, "bevel_line_too_steep", angle=math.degrees(steepest),
+                          most=math.degrees(_STEEPEST_LINE))  # fmt: skip
+
+    def _steepest_line(self, cutter_radius: float | None = None) -> float:
+        """Of its spiral angles: an end of the face has it."""
+        line = self.line if cutter_radius is None else replace(self.line, cutter_radius=cutter_radius)
+        furthest = max(self.cone_distance / math.cos(t - self.pitch_angle) for t in (self.tip_angle, self.root_angle))
+        return float(np.abs(line.spiral([self.inner_distance, furthest])).max())
 
     def _has_inner_flank(self) -> bool:
         """Whether the tip cone leaves some of it at the inner end."""

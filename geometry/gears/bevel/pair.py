@@ -1,7 +1,8 @@
 """Two bevel gears whose apexes are one: what both are together, and the gap between them over a pitch of motion.
 
 Everything is one problem on the unit sphere; a gap there is as many times the cone distance in mm, most at the outer
-end. Azimuths are rotations of each gear about its own axis, from the pitch line on.
+end, and less where tooth lines lean. Those turn the same problem on, from sphere to sphere. Azimuths are rotations of
+each gear about its own axis, from the pitch line on.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ from geometry.plane.profile import Label
 
 # drive angles in a pitch; places along a fillet, a flank, half a tip land; teeth to each side of the pitch line
 _DRIVE_ANGLES, _PLACES, _NEAR_TEETH = 24, 17, 3
+# spheres on which flanks are looked at that are not straight, for gaps and for their ratio
+_SPHERES, _ALONG = 9, 129
 
 
 class BevelPair(Record, dict=True):
@@ -44,7 +47,7 @@ class BevelPair(Record, dict=True):
     @property
     def normal_backlash(self) -> float:
         """Between the flanks along the normal at the outer end, mm."""
-        return sum(gear.circumferential_thinning for gear in self.gears) * math.cos(self.first.pressure_angle)
+        return sum(gear.circumferential_thinning for gear in self.gears) * self.first.normal_share
 
     @cached_property
     def _rolled(self) -> tuple[float, float]:
@@ -85,6 +88,33 @@ class BevelPair(Record, dict=True):
         return (sum(tips) - lost) / (math.sin(self.first.involute.base) * math.tau / self.first.number_of_teeth)
 
     @property
+    def face_contact_ratio(self) -> float:
+        """epsilon_beta: what the tooth line turns along the face, over the pitch."""
+        outer, inner = self.first.spin([self.first.cone_distance, self.first.inner_distance])
+        return float(abs(outer - inner)) * self.first.number_of_teeth / math.tau
+
+    @cached_property
+    def total_contact_ratio(self) -> float:
+        """epsilon_gamma: the turn from where two flanks meet first to where they part, over the pitch.
+
+        On each sphere flanks meet as straight ones do, by as much later as the tooth line turns it on; which end of the
+        face meets first is the sides' difference, and the less of both counts.
+        """
+        first = self.first
+        if first.is_straight:
+            return self.contact_ratio
+        spheres = np.linspace(first.cone_distance, first.inner_distance, _ALONG)
+        reach = []
+        for distance in spheres:
+            one, two = tips = self.tip_arcs_at(distance)
+            cut_off = [max(-reserve, 0.0) for reserve in self._reserves(tips)]
+            reach.append((one - cut_off[1], two - cut_off[0]))
+        ends, begins = np.array(reach).T / math.sin(first.involute.base)
+        turned = first.spin(spheres)
+        least = min(float((ends - way * turned).max() + (begins + way * turned).max()) for way in (-1, 1))
+        return least * first.number_of_teeth / math.tau
+
+    @property
     def bottom_clearances(self) -> tuple[float, float]:
         """Between the root of each and the mate's tip at the outer end, mm."""
         first, second = self.gears
@@ -121,11 +151,14 @@ class BevelPair(Record, dict=True):
         drive = np.linspace(0.0, math.tau / first.number_of_teeth, _DRIVE_ANGLES, endpoint=False)
         # teeth of one stand against spaces of the other, and what turns one forwards turns the other back
         turned = phase_off + math.pi / second.number_of_teeth - drive * (first.number_of_teeth / second.number_of_teeth)
-        found = [
-            np.minimum(_least(first, second, way, drive, turned), _least(second, first, way, turned, drive))
-            for way in (-1, 1)
-        ]
-        gaps = np.stack(found) * first.cone_distance
+        found = []
+        for way in (-1, 1):
+            both = []
+            for one, two, ahead, behind in self._sections():
+                own, others = drive + ahead, turned + behind
+                both += [_least(one, two, way, own, others), _least(two, one, way, others, own)]
+            found.append(np.min(both, axis=0))
+        gaps = np.stack(found) * (first.cone_distance * first.normal_share / math.cos(first.pressure_angle))
         place = int(gaps.min(axis=0).argmin())
         at = complex(first.outer(first.pitch_angle).real)
         worst = ContactPlace(float(gaps.min()), float(drive[place]), at, (Label.FLANK, Label.FLANK))
@@ -138,6 +171,14 @@ class BevelPair(Record, dict=True):
             verdict, allowed, tuple(drive.tolist()), tuple(least.tolist()),
             (tuple(gaps[0].tolist()), tuple(gaps[1].tolist())), worst, float(least.max()),
         )  # fmt: skip
+
+    def _sections(self) -> list[tuple[BevelGear, BevelGear, float, float]]:
+        """The teeth of both on spheres, and how far the tooth line turns them there, rad."""
+        first, second = self.gears
+        if first.is_straight:
+            return [(first, second, 0.0, 0.0)]
+        spheres = np.linspace(first.cone_distance, first.inner_distance, _SPHERES)
+        return [(first.at(d), second.at(d), float(first.spin(d)), float(second.spin(d))) for d in spheres]
 
 
 def _least(gear: BevelGear, mate: BevelGear, way: int, turned: Real, mate_turned: Real) -> Real:

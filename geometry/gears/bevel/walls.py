@@ -23,6 +23,11 @@ def flank_off(gear: BevelGear, angle: Real, aside: Real) -> Real:
 
 def fillet_off(gear: BevelGear, angle: Real, aside: Real) -> Real:
     """The same of the fillet, whose normals go through the pitch line; beyond its ends it goes on."""
+    return _fillet_foot(gear, angle, aside)[0]
+
+
+def _fillet_foot(gear: BevelGear, angle: Real, aside: Real) -> tuple[Real, Real]:
+    """The same, and ``u`` of the nearest place of the fillet."""
     angle, aside = np.broadcast_arrays(angle, aside)
     azimuth = math.pi / gear.number_of_teeth - aside
     fillet, end = gear.fillet, gear.joint[0]
@@ -46,7 +51,7 @@ def fillet_off(gear: BevelGear, angle: Real, aside: Real) -> Real:
     aim = spatial(angle, turned)
     off = np.linalg.norm(np.cross(fillet.seen(u), aim), axis=-1)
     from_pole = np.linalg.norm(spatial(np.asarray(fillet.pitch), np.asarray(0.0)) - aim, axis=-1)
-    return np.asarray(np.where(from_pole < 2 * np.sin(fillet.reach(u) / 2), off, -off))
+    return np.asarray(np.where(from_pole < 2 * np.sin(fillet.reach(u) / 2), off, -off)), u
 
 
 def tooth_off(gear: BevelGear, angle: Real, azimuth: Real) -> Real:
@@ -64,12 +69,20 @@ def tooth_off(gear: BevelGear, angle: Real, azimuth: Real) -> Real:
 
 
 def wall_distance(gear: BevelGear, name: str, way: int, points: Real) -> Real:
-    """How far points (n, 3) of the part lie from the cones over a ``flank`` or ``fillet`` of a side (+-1), mm."""
+    """How far points (n, 3) of the part lie from a ``flank`` or ``fillet`` of a side (+-1), mm.
+
+    Straight ones are cones. Tooth lines lean others to the spheres, by tan beta times what of the normal on a sphere
+    goes round the axis: sin u, by Clairaut, of a great circle through the pitch line.
+    """
     depth, radius = gear.mounting_distance - points[:, 2], np.hypot(points[:, 0], points[:, 1])
-    azimuth, pitch = np.arctan2(points[:, 1], points[:, 0]), math.tau / gear.number_of_teeth
+    size, pitch = np.hypot(depth, radius), math.tau / gear.number_of_teeth
+    azimuth = np.arctan2(points[:, 1], points[:, 0]) - gear.spin(size)
     aside, angle = way * (azimuth - pitch * np.round(azimuth / pitch)), np.arctan2(radius, depth)
-    size = np.hypot(depth, radius)
     if name == "fillet":
-        return np.asarray(size * np.abs(fillet_off(gear, angle, aside)))
-    below = np.maximum(gear.involute.base - angle, 0.0)
-    return np.asarray(size * np.sin(np.minimum(np.hypot(flank_off(gear, angle, aside), below), math.pi / 2)))
+        off, u = _fillet_foot(gear, angle, aside)
+        share = np.sin(u)
+    else:
+        below = np.maximum(gear.involute.base - angle, 0.0)
+        off = np.sin(np.minimum(np.hypot(flank_off(gear, angle, aside), below), math.pi / 2))
+        share = np.asarray(math.cos(gear.pressure_angle))
+    return np.asarray(size * np.abs(off) / np.hypot(1.0, np.tan(gear.line.spiral(size)) * share))

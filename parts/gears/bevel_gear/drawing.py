@@ -30,7 +30,7 @@ from parts.drawing.working import (
 )
 from parts.gears.bevel_gear import page as bevel_page
 from parts.gears.bevel_gear.part import BevelGearSpec
-from parts.gears.data_tables import grade_rows
+from parts.gears.data_tables import grade_rows, hand_row
 from parts.keys.holes import bore_of, hub_holes
 from parts.pages.data_table import DataRow, DataTable, Mated, row_of, sexagesimal, standard_told
 from parts.pages.inputs import SceneKeys, given
@@ -40,6 +40,9 @@ from parts.pages.terms import TERMS
 # the basic rack of GOST 13754-81, which the table then tells by its name: of modules from 1 mm on
 _RACK = {"pressure_angle_deg": 20.0, "addendum_coefficient": 1.0, "tip_clearance_coefficient": 0.2,
          "tip_radius_coefficient": 0.2}  # fmt: skip
+_TYPES = {"straight": N_("straight"), "skew": N_("skew"), "spiral": N_("spiral"), "zerol": N_("zerol")}
+# what is measured
+_CHORD, _NORMAL_CHORD = ("outer_chord_height", "outer_chord"), ("mean_normal_chord_height", "mean_normal_chord")
 # sides of sizes across the axis
 _ACROSS = ("left", "right")
 _NONE = 1e-9
@@ -144,19 +147,24 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     keys, gear = part.keys, part.thing
     assert isinstance(keys, BevelGearSpec)
     page = bevel_page.sheet(given(keys) | {"circumferential_thinning": gear.circumferential_thinning})
-    standard = keys.module >= 1 and all(getattr(keys, key) == value for key, value in _RACK.items())
+    straight = gear.is_straight
+    standard = straight and keys.module >= 1 and all(getattr(keys, key) == value for key, value in _RACK.items())
     rack = (DataRow(N_("basic rack"), "", standard_told("GOST 13754-81")),) if standard else _rows(page, *_RACK)
     first = (
-        *_rows(page, "outer_module", "number_of_teeth"), DataRow(N_("type of tooth"), "", N_("straight")), *rack,
+        *_rows(page, "outer_module", "number_of_teeth"), DataRow(N_("type of tooth"), "", _TYPES[gear.tooth_type]),
+        *_rows(page, "spiral_angle_deg"), *([] if straight else [hand_row(gear.hand)]), *_rows(page, "cutter_radius"),
+        *rack,
         *_rows(page, "profile_shift_coefficient", "thickness_coefficient", "pitch_cone_angle_deg",
                "tip_cone_angle_deg"),
         *grade_rows(keys.accuracy),
     )  # fmt: skip
-    height, chord = _rows(page, "outer_chord_height", "outer_chord")
+    height, chord = _rows(page, *(_CHORD if straight else _NORMAL_CHORD))
     limits = None if keys.accuracy is None else keys.accuracy.deviations
     control = height, replace(chord, deviations=limits and (max(limits), min(limits)))
-    last = _rows(page, "shaft_angle_deg", "mean_module", "outer_cone_distance", "mean_cone_distance",
-                 "mean_pitch_diameter", "face_width", "root_cone_angle_deg", "outer_depth")  # fmt: skip
+    last = _rows(
+        page, "shaft_angle_deg", "mean_module", "mean_normal_module", "outer_cone_distance", "mean_cone_distance",
+        "mean_pitch_diameter", "face_width", "root_cone_angle_deg", "outer_depth",
+    )  # fmt: skip
     teeth = DataRow(N_("teeth of the mate"), "z", keys.mate_teeth)
     drawings = dict.fromkeys(getattr(m.part.keys, "designation", None) or m.part.title or m.part.id for m in mates)
     beside = [DataRow(N_("drawing of the mate"), "", Message("{name}", {"name": name})) for name in drawings]

@@ -1,4 +1,4 @@
-"""``higherpair calc bevel``: a straight bevel pair by GOST 19624, its exact spherical tooth, the forces of a torque."""
+"""``higherpair calc bevel``: a bevel pair by GOST 19624 and 19326, its exact spherical tooth, forces of a torque."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from msgspec.structs import replace as changed
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
-from geometry.gears.bevel.gear import BevelGear
+from geometry.gears.bevel.gear import BevelGear, Blank
 from geometry.gears.bevel.pair import BevelPair
 from parts.base.texts import N_, message
-from parts.gears.bevel_gear.part import BEVEL_GEAR, BevelGearSpec, bevel_findings
+from parts.gears.bevel_gear.part import BEVEL_GEAR, BevelGearSpec, bevel_findings, bevel_gear
 from parts.keys.base import either, mm
 from parts.pages.force_steps import Power, Speed, Torque, driving_torque
 from parts.pages.inputs import calculation, part_of_kind
@@ -22,7 +22,7 @@ from parts.texts.findings import finding_message
 
 TOPIC = "bevel"
 table_from = part_of_kind("bevel_gear")
-_GOST = "GOST 19624-74"
+_GOST, _GOST_SPIRAL, _ISO = "GOST 19624-74", "GOST 19326-73", "ISO 23509"
 _RIGHT = 1e-9
 
 
@@ -41,7 +41,9 @@ class BevelKeys(BevelGearSpec, kw_only=True, tag=False, forbid_unknown_fields=Tr
 def sheet(keys: BevelKeys) -> Sheet:
     """The calculation of a bevel pair."""
     pair = _pair(keys)
-    page = Sheet(TOPIC, N_("Straight bevel pair"))
+    titles = {"straight": N_("Straight bevel pair"), "skew": N_("Skew bevel pair"), "spiral": N_("Spiral bevel pair"),
+              "zerol": N_("Zerol bevel pair")}  # fmt: skip
+    page = Sheet(TOPIC, titles[pair.first.tooth_type])
     _given(page, pair)
     _cones(page, pair)
     _teeth(page, pair)
@@ -69,7 +71,7 @@ def _pair(keys: BevelKeys) -> BevelPair:
     if keys.normal_backlash is not None:
         if thinning:
             raise either("normal_backlash", keys.normal_backlash, "circumferential_thinning")
-        thinning = keys.normal_backlash / (2 * math.cos(math.radians(keys.pressure_angle_deg)))
+        thinning = keys.normal_backlash / (2 * _normal_share(keys))
     try:
         first = BEVEL_GEAR.thing(changed(keys, circumferential_thinning=thinning), {})
     except ParameterError as error:
@@ -78,7 +80,7 @@ def _pair(keys: BevelKeys) -> BevelPair:
     second = replace(
         first, number_of_teeth=first.mate_teeth, mate_teeth=first.number_of_teeth,
         profile_shift_coefficient=-first.profile_shift_coefficient,
-        thickness_coefficient=-first.thickness_coefficient, circumferential_thinning=own,
+        thickness_coefficient=-first.thickness_coefficient, circumferential_thinning=own, hand=first.opposite().hand,
         blank=replace(first.blank, hub_diameter=0.0, hub_length=0.0, bore=None),
     )  # fmt: skip
     second = replace(second, blank=replace(second.blank, rim_thickness=min(second.blank.rim_thickness,
@@ -99,7 +101,12 @@ def _by_backlash(error: ParameterError, keys: BevelKeys) -> ParameterError:
     """A refusal of the thinning under the key that asked for it."""
     if error.name != "circumferential_thinning" or keys.normal_backlash is None:
         return error
-    return error.renamed("normal_backlash", 2 * math.cos(math.radians(keys.pressure_angle_deg)))
+    return error.renamed("normal_backlash", 2 * _normal_share(keys))
+
+
+def _normal_share(keys: BevelKeys) -> float:
+    """Of an arc of the outer pitch circle that is left along the flanks' normal."""
+    return bevel_gear(keys, Blank(0.0)).normal_share
 
 
 def _given(page: Sheet, pair: BevelPair) -> None:
@@ -108,7 +115,13 @@ def _given(page: Sheet, pair: BevelPair) -> None:
     page.both("number_of_teeth", (first.number_of_teeth, first.mate_teeth))
     page.add("outer_module", first.module)
     page.add("shaft_angle_deg", math.degrees(first.shaft_angle))
-    page.add("pressure_angle_deg", math.degrees(first.pressure_angle))
+    if first.is_straight:
+        page.add("pressure_angle_deg", math.degrees(first.pressure_angle))
+    else:
+        page.add("pressure_angle_deg", math.degrees(first.normal_pressure_angle), symbol="α_n", key="alpha_n")
+        page.add("spiral_angle_deg", math.degrees(first.spiral_angle))
+        if math.isfinite(first.cutter_radius):
+            page.add("cutter_radius", first.cutter_radius)
     page.add("addendum_coefficient", first.addendum_coefficient)
     page.add("tip_clearance_coefficient", first.tip_clearance_coefficient)
     page.add("tip_radius_coefficient", first.tip_radius_coefficient)
@@ -135,6 +148,8 @@ def _cones(page: Sheet, pair: BevelPair) -> None:
     page.add("mean_cone_distance", first.cone_distance - first.face_width / 2, "{R_e} - {b} / 2")
     mean = first.module * (1 - first.face_width / 2 / first.cone_distance)
     page.add("mean_module", mean, "{m} * {R_m} / {R_e}")
+    if not first.is_straight:
+        _lines(page, first)
     page.both("outer_addendum", _each(pair, lambda g: g.addendum), "({h_a} + {x#}) * {m}")
     page.both("outer_dedendum", _each(pair, lambda g: g.dedendum), "({h_a} + {c} - {x#}) * {m}")
     page.both("outer_depth", _each(pair, lambda g: g.addendum + g.dedendum), "{h_ae#} + {h_fe#}")
@@ -163,22 +178,27 @@ def _cones(page: Sheet, pair: BevelPair) -> None:
     page.both("tip_circle_to_apex", heights, "{R_e} * cos({delta#}) - {h_ae#} * sin({delta#})", (_GOST, _GOST))
 
 
+def _lines(page: Sheet, gear: BevelGear) -> None:
+    """The tooth line, and the section across it."""
+    page.add("inner_cone_distance", gear.inner_distance, "{R_e} - {b}")
+    page.add("mean_normal_module", gear.mean_normal_module, "{m_m} * cos({beta_m})", _GOST_SPIRAL)
+    alpha = math.degrees(gear.pressure_angle)
+    page.add("transverse_pressure_angle_deg", alpha, "arctan(tan({alpha_n}) / cos({beta_m}))", _ISO)
+    for name, at, distance in (("outer", "{R_e}", gear.cone_distance), ("inner", "{R_i}", gear.inner_distance)):
+        formula = f"arcsin({{R_m}} * sin({{beta_m}}) / {at})"
+        if math.isfinite(gear.cutter_radius):
+            high = f"2 * {{R_m}} * {{r_c0}} * sin({{beta_m}}) + {at}**2 - {{R_m}}**2"
+            formula = f"arcsin(({high}) / (2 * {at} * {{r_c0}}))"
+        page.add(f"{name}_spiral_angle_deg", math.degrees(float(gear.line.spiral(distance))), formula, _ISO)
+
+
 def _teeth(page: Sheet, pair: BevelPair) -> None:
     page.section(N_("Teeth at the outer end"))
     thickness = "(pi / 2 + 2 * {x#} * tan({alpha}) + {x_tau#}) * {m} - {A#}"
     page.both("outer_thickness", _each(pair, lambda g: g.thickness), thickness, (_GOST, _GOST))
     page.both("virtual_teeth", _each(pair, lambda g: g.virtual_teeth), "{z#} / cos({delta#})")
-    halves = _each(pair, lambda g: math.degrees(g.virtual_half_angle))
-    page.both("outer_chord_angle_deg", halves, "{s_e#} / ({m} * {z_v#})")
-    chords = _each(pair, lambda g: g.virtual_diameter * math.sin(g.virtual_half_angle))
-    page.both("outer_chord", chords, "{m} * {z_v#} * sin({psi#})")
-    heights = _each(pair, lambda g: g.addendum + g.virtual_diameter / 2 * (1 - math.cos(g.virtual_half_angle)))
-    page.both("outer_chord_height", heights, "{h_ae#} + {m} * {z_v#} / 2 * (1 - cos({psi#}))")
-    cosine, double = math.cos(pair.first.pressure_angle), math.sin(2 * pair.first.pressure_angle)
-    constant = _each(pair, lambda g: g.thickness * cosine**2)
-    page.both("outer_constant_chord", constant, "{s_e#} * cos({alpha})**2", (_GOST, _GOST))
-    heights = _each(pair, lambda g: g.addendum - g.thickness * double / 4)
-    page.both("outer_constant_chord_height", heights, "{h_ae#} - {s_e#} * sin(2 * {alpha}) / 4", (_GOST, _GOST))
+    if pair.first.is_straight:
+        _outer_chords(page, pair)
     arc = "arccos(cos({%s#}) / cos({delta_b#})) / sin({delta_b#}) - arccos(tan({delta_b#}) / tan({%s#}))"
     page.both("pitch_involute_deg", _each(pair, lambda g: _involute(g, g.pitch_angle)), arc % ("delta", "delta"))
     page.both("tip_involute_deg", _each(pair, lambda g: _involute(g, g.tip_angle)), arc % ("delta_t", "delta_t"))
@@ -193,11 +213,27 @@ def _teeth(page: Sheet, pair: BevelPair) -> None:
     first, ratio = pair.first, max(pair.ratio, 1 / pair.ratio)
     if abs(first.shaft_angle - math.pi / 2) < _RIGHT and ratio > 1:
         small = min(pair.gears, key=lambda g: g.number_of_teeth)
-        # as for spiral teeth, whose cos^3 of the spiral angle is 1 here (Dunaev, Lelikov)
-        usual = 2 * (1 - 1 / ratio**2) / math.sqrt(small.number_of_teeth)
+        # Dunaev, Lelikov; of straight teeth the cosine is 1
+        usual = 2 * (1 - 1 / ratio**2) * math.sqrt(math.cos(first.spiral_angle) ** 3 / small.number_of_teeth)
         one, two = (1, 2) if small is first else (2, 1)
         share = f"2 * (1 - ({{z{one}}} / {{z{two}}})**2)"
-        page.add("usual_shift", usual, f"{share} / sqrt({{z{one}}})")
+        root = f"/ sqrt({{z{one}}})" if first.is_straight else f"* sqrt(cos({{beta_m}})**3 / {{z{one}}})"
+        page.add("usual_shift", usual, f"{share} {root}")
+
+
+def _outer_chords(page: Sheet, pair: BevelPair) -> None:
+    """What is measured on straight teeth."""
+    halves = _each(pair, lambda g: math.degrees(g.virtual_half_angle))
+    page.both("outer_chord_angle_deg", halves, "{s_e#} / ({m} * {z_v#})")
+    chords = _each(pair, lambda g: g.virtual_diameter * math.sin(g.virtual_half_angle))
+    page.both("outer_chord", chords, "{m} * {z_v#} * sin({psi#})")
+    heights = _each(pair, lambda g: g.addendum + g.virtual_diameter / 2 * (1 - math.cos(g.virtual_half_angle)))
+    page.both("outer_chord_height", heights, "{h_ae#} + {m} * {z_v#} / 2 * (1 - cos({psi#}))")
+    cosine, double = math.cos(pair.first.pressure_angle), math.sin(2 * pair.first.pressure_angle)
+    constant = _each(pair, lambda g: g.thickness * cosine**2)
+    page.both("outer_constant_chord", constant, "{s_e#} * cos({alpha})**2", (_GOST, _GOST))
+    heights = _each(pair, lambda g: g.addendum - g.thickness * double / 4)
+    page.both("outer_constant_chord_height", heights, "{h_ae#} - {s_e#} * sin(2 * {alpha}) / 4", (_GOST, _GOST))
 
 
 def _involute(gear: BevelGear, angle: float) -> float:
@@ -211,6 +247,9 @@ def _middle(page: Sheet, pair: BevelPair) -> None:
     high = _each(pair, lambda g: float(g.addendum_at(share * g.cone_distance)))
     page.both("mean_addendum", high, "{h_ae#} - {b} / 2 * tan({theta_a#})")
     page.both("mean_thickness", _each(pair, lambda g: share * g.thickness), "{s_e#} * {R_m} / {R_e}")
+    if not pair.first.is_straight:
+        _normal_chords(page, pair, high)
+        return
     chords = _each(pair, lambda g: share * g.virtual_diameter * math.sin(g.virtual_half_angle))
     page.both("mean_chord", chords, "{m_m} * {z_v#} * sin({psi#})")
     heights = _each(
@@ -223,10 +262,32 @@ def _middle(page: Sheet, pair: BevelPair) -> None:
     page.both("mean_chord_height", heights, "{h_am#} + {m_m} * {z_v#} / 2 * (1 - cos({psi#}))")
 
 
+def _normal_chords(page: Sheet, pair: BevelPair, high: tuple[float, float]) -> None:
+    """The same of teeth that are not straight: across them, on the virtual gear of the normal section."""
+    beta, module = pair.first.spiral_angle, pair.first.mean_normal_module
+    thickness = _each(pair, lambda g: g.mean_distance / g.cone_distance * g.thickness * math.cos(beta))
+    page.both("mean_normal_thickness", thickness, "{s_m#} * cos({beta_m})", (_GOST_SPIRAL, _GOST_SPIRAL))
+    teeth = _each(pair, lambda g: g.virtual_teeth / math.cos(beta) ** 3)
+    page.both("normal_virtual_teeth", teeth, "{z#} / (cos({delta#}) * cos({beta_m})**3)", (_GOST_SPIRAL, _GOST_SPIRAL))
+    halves = thickness[0] / (module * teeth[0]), thickness[1] / (module * teeth[1])
+    degrees = math.degrees(halves[0]), math.degrees(halves[1])
+    page.both("normal_chord_angle_deg", degrees, "{s_mn#} / ({m_mn} * {z_vn#})")
+    chords, rises = (
+        (each(0), each(1))
+        for each in (
+            lambda k: module * teeth[k] * math.sin(halves[k]),
+            lambda k: high[k] + module * teeth[k] / 2 * (1 - math.cos(halves[k])),
+        )
+    )
+    page.both("mean_normal_chord", chords, "{m_mn} * {z_vn#} * sin({psi_n#})")
+    page.both("mean_normal_chord_height", rises, "{h_am#} + {m_mn} * {z_vn#} / 2 * (1 - cos({psi_n#}))")
+
+
 def _contact(page: Sheet, pair: BevelPair) -> None:
     page.section(N_("Contact"))
     page.both("bottom_clearance_at_root", pair.bottom_clearances, "{h_fe#} - {h_ae~}")
-    page.add("normal_backlash", pair.normal_backlash, "({A1} + {A2}) * cos({alpha})")
+    lean = "" if pair.first.is_straight else " / sqrt(1 + (tan({beta_e}) * cos({alpha}))**2)"
+    page.add("normal_backlash", pair.normal_backlash, "({A1} + {A2}) * cos({alpha})" + lean)
     one, two = pair.tip_arcs
     reach = "arccos(cos({delta_t#}) / cos({delta_b#})) - arctan(tan({delta#}) * sin({alpha}))"
     page.both("tip_arc_deg", (math.degrees(one), math.degrees(two)), reach)
@@ -235,6 +296,8 @@ def _contact(page: Sheet, pair: BevelPair) -> None:
     page.add("contact_ratio", pair.contact_ratio, formula)
     if not pair.first.tip_to_apex:
         _inner_contact(page, pair, whole=whole)
+    if not pair.first.is_straight:
+        _overlap(page, pair)
     page.both("virtual_radius", _each(pair, lambda g: g.virtual_diameter / 2), "{m} * {z_v#} / 2")
     roots = " + ".join(f"sqrt(({{r_v{k}}} + {{h_ae{k}}})**2 - ({{r_v{k}}} * cos({{alpha}}))**2)" for k in (1, 2))
     formula = f"({roots} - ({{r_v1}} + {{r_v2}}) * sin({{alpha}})) / (pi * {{m}} * cos({{alpha}}))"
@@ -244,7 +307,8 @@ def _contact(page: Sheet, pair: BevelPair) -> None:
 def _inner_contact(page: Sheet, pair: BevelPair, *, whole: bool) -> None:
     """Where the teeth are lower than rays of the apex would have them."""
     inner = pair.first.inner_distance
-    page.add("inner_cone_distance", inner, "{R_e} - {b}")
+    if pair.first.is_straight:
+        page.add("inner_cone_distance", inner, "{R_e} - {b}")
     page.both("inner_addendum", _each(pair, lambda g: float(g.addendum_at(inner))), "{h_ae#} - {b} * tan({theta_a#})")
     arcs = " + ".join(
         f"arccos(cos({{delta{k}}} + arctan({{h_ai{k}}} / {{R_i}})) / cos({{delta_b{k}}}))"
@@ -253,6 +317,23 @@ def _inner_contact(page: Sheet, pair: BevelPair, *, whole: bool) -> None:
     )
     formula = f"({arcs}) * {{z1}} / (2 * pi * sin({{delta_b1}}))" if whole else ""
     page.add("inner_contact_ratio", pair.contact_ratio_at(inner), formula)
+
+
+def _overlap(page: Sheet, pair: BevelPair) -> None:
+    """What the tooth line adds, by its turn from end to end; the total is that of the whole face, sphere by sphere."""
+    first = pair.first
+    seen = "{beta_i} - {beta_e}"
+    if math.isfinite(first.cutter_radius):
+        # under which the cutter's axis is seen from the apex
+        seen = " - ".join(
+            f"arctan(cos({{beta_{end}}}) / ({{R_{end}}} / {{r_c0}} - sin({{beta_{end}}})))" for end in "ie"
+        )
+    # beyond a right angle the arc tangent is that of the supplement
+    plain = all(d / first.cutter_radius > math.sin(float(first.line.spiral(d)))
+                for d in (first.inner_distance, first.cone_distance)) or math.isinf(first.cutter_radius)  # fmt: skip
+    formula = f"abs({seen}) * {{z1}} / (2 * pi * sin({{delta1}}))" if plain else ""
+    page.add("overlap_ratio", pair.face_contact_ratio, formula)
+    page.add("total_contact_ratio", pair.total_contact_ratio)
 
 
 def _speeds(page: Sheet, pair: BevelPair, speed_rpm: float) -> None:
@@ -281,6 +362,9 @@ def _forces(page: Sheet, pair: BevelPair, keys: BevelKeys) -> None:
     page.add("gear_torque", torque * pair.ratio, "{T1} * {u}", gear=2)
     along = 2000 * torque / mean
     page.add("circumferential_force", along, "2000 * {T1} / {d_m1}")
+    if not first.is_straight:
+        _leaning_forces(page, pair, along)
+        return
     lean = along * math.tan(first.pressure_angle)
     for name, called, share, function in (
         ("radial_force", N_("radial force, towards the gear's axis"), math.cos, "cos"),
@@ -290,3 +374,33 @@ def _forces(page: Sheet, pair: BevelPair, keys: BevelKeys) -> None:
             formula = f"{{F_t}} * tan({{alpha}}) * {function}({{delta#}})"
             page.add(name, lean * share(gear.pitch_angle), formula, gear=number, called=called)
     page.add("normal_force", along / math.cos(first.pressure_angle), "{F_t} / cos({alpha})")
+
+
+def _leaning_forces(page: Sheet, pair: BevelPair, along: float) -> None:
+    """The same of teeth that are not straight, for both senses of turning, the first gear driving (ISO 23509 hands).
+
+    What the spiral angle adds is tan beta_m along the pitch line. On a right-hand driver that turns counter-clockwise,
+    as seen from the apex, it pulls towards the apex; the other hand, the other sense, and the mate turn it round.
+    """
+    first = pair.first
+    alpha, beta = first.normal_pressure_angle, first.spiral_angle
+    lean, pull = along * math.tan(alpha) / math.cos(beta), along * math.tan(beta)
+    # on the first gear, where it turns counter-clockwise
+    outwards = -1 if first.hand == "right" else 1
+    counter = (
+        N_("radial force, towards the gear's axis, the first gear driving counter-clockwise seen from the apex"),
+        N_("axial force, away from the apex, the first gear driving counter-clockwise seen from the apex"),
+    )
+    for before, way, names in (("", outwards, counter), ("clockwise_", -outwards, ("", ""))):
+        for name, share, other, turned, called in (
+            ("radial_force", "cos", "sin", -way, names[0]), ("axial_force", "sin", "cos", way, names[1]),
+        ):  # fmt: skip
+            for number, gear in enumerate(pair.gears, 1):
+                sign, delta = turned if number == 1 else -turned, gear.pitch_angle
+                value = lean * getattr(math, share)(delta) + sign * pull * getattr(math, other)(delta)
+                formula = (
+                    f"{{F_t}} * (tan({{alpha_n}}) / cos({{beta_m}}) * {share}({{delta#}}) "
+                    f"{'+' if sign > 0 else '-'} tan({{beta_m}}) * {other}({{delta#}}))"
+                )
+                page.add(before + name, value, formula, gear=number, called=called)
+    page.add("normal_force", along / math.cos(alpha) / math.cos(beta), "{F_t} / (cos({alpha_n}) * cos({beta_m}))")

@@ -1,4 +1,4 @@
-"""The part kind ``bevel_gear``: a straight bevel gear of spherical involutes, made for one mate."""
+"""The part kind ``bevel_gear``: a straight, skew or spiral bevel gear of spherical involutes, made for one mate."""
 
 from __future__ import annotations
 
@@ -13,8 +13,10 @@ from geometry.base.record import replace
 from geometry.gears.bevel.gear import BevelGear, Blank
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
+from parts.base.refusal import REMOVED
 from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import BoreDiameter, degrees, either, in_modules, mm
+from parts.keys.helix import told_in_keys
 from parts.keys.holes import BoreTable, bore_of, check_shape, hub_holes, wide_bore
 
 if TYPE_CHECKING:
@@ -33,7 +35,10 @@ OuterModule = Annotated[
     float, mm("outer transverse module m_te, at the back cone", least=0.01, most=1000, example=2.0)
 ]  # fmt: skip
 ShaftAngle = Annotated[float, degrees("angle between both axes", least=10, most=170)]
-BevelAngle = Annotated[float, degrees("pressure angle", least=10, most=35)]
+BevelAngle = Annotated[
+    float,
+    degrees("pressure angle; with spiral_angle_deg the normal one at the mean cone distance", least=10, most=35),
+]
 Teeth = Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z", examples=[20])]
 MateTeeth = Annotated[int, Meta(ge=3, le=10_000, description="number of teeth of its mate", examples=[40])]
 Shift = Annotated[float, in_modules("shift coefficient x_e; that of the mate is -x_e", least=-1, most=1)]
@@ -66,6 +71,29 @@ class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_
     addendum_coefficient: Addendum = 1.0
     tip_clearance_coefficient: TipClearance = 0.2
     tip_radius_coefficient: TipRadius = 0.2
+    spiral_angle_deg: (
+        Annotated[
+            float,
+            degrees("spiral angle beta_m at the mean cone distance; 0 is zerol, without it teeth are straight",
+                    least=0, most=50, example=35.0),
+        ]
+        | None
+    ) = None  # fmt: skip
+    hand: Annotated[
+        Literal["right", "left"],
+        Meta(description="hand of the spiral: right where teeth run off clockwise outwards, seen from the apex"),
+    ] = "right"
+    tooth_line: Annotated[
+        Literal["arc", "straight"],
+        Meta(
+            description="tooth line with spiral_angle_deg, on the crown gear: an arc of the cutter, or straight (skew)"
+        ),
+    ] = "arc"
+    cutter_radius: (
+        Annotated[float, mm("radius of the tooth line's arc, r_c0; default: the mean cone distance R_m",
+                            above=0, most=_MOST, example=60.0)]
+        | None
+    ) = None  # fmt: skip
     tip_cone: Annotated[
         Literal["parallel", "apex"],
         Meta(
@@ -107,13 +135,28 @@ def bevel_gear(keys: BevelGearSpec, blank: Blank) -> BevelGear:
         keys.thickness_coefficient, keys.circumferential_thinning, keys.tip_cone == "apex",
     )  # fmt: skip
     width = keys.face_width or min(USUAL_SHARE * gear.cone_distance, USUAL_FACE * keys.module)
-    return replace(gear, face_width=width)
+    return _lined(keys, replace(gear, face_width=width))
+
+
+def _lined(keys: BevelGearSpec, gear: BevelGear) -> BevelGear:
+    """The gear with the tooth line of its keys, its section transverse to it."""
+    arc = keys.spiral_angle_deg is not None and keys.tooth_line == "arc"
+    if keys.cutter_radius is not None and not arc:
+        raise ParameterError("cutter_radius", keys.cutter_radius, "bevel_cutter_without_arc", REMOVED)
+    if keys.spiral_angle_deg is None:
+        return gear
+    spiral = math.radians(keys.spiral_angle_deg)
+    return replace(
+        gear, spiral_angle=spiral, cutter_radius=keys.cutter_radius or gear.mean_distance if arc else math.inf,
+        hand=keys.hand, pressure_angle=math.atan(math.tan(gear.pressure_angle) / math.cos(spiral)),
+    )  # fmt: skip
 
 
 def _holes_of(keys: BevelGearSpec) -> HubHoles:
     return hub_holes(bore_of(keys), None, None)
 
 
+@told_in_keys
 def _made(keys: BevelGearSpec) -> BevelGear:
     """The gear with its blank, checked to exist."""
     check_shape(keys, _holes_of)
@@ -156,7 +199,7 @@ def _mounted(keys: BevelGearSpec, gear: BevelGear, distance: float, reach: float
 
 
 class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
-    """A straight bevel gear: its back face at z = 0, the apex of its cones above, a tooth on +x."""
+    """A bevel gear: its back face at z = 0, the apex of its cones above, a tooth on +x."""
 
     name, keys, has_outline = "bevel_gear", BevelGearSpec, False
     page = "parts.gears.bevel_gear.page"
@@ -213,6 +256,7 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
             "base_cone_angle_deg": math.degrees(thing.involute.base),
             "virtual_teeth": thing.virtual_teeth,
             "outer_tip_thickness": thing.tip_land,
+            **_spiral_quantities(thing),
             "mounting_distance": thing.mounting_distance,
             "tip_circle_to_apex": thing.outer(thing.tip_angle).imag,
         }
@@ -220,6 +264,15 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
 
 
 BEVEL_GEAR = BevelGearKind()
+
+
+def _spiral_quantities(gear: BevelGear) -> dict[str, float]:
+    """Normal module and spiral angles, deg, of teeth that are not straight."""
+    if gear.is_straight:
+        return {}
+    inner, outer = (math.degrees(float(a)) for a in gear.line.spiral([gear.inner_distance, gear.cone_distance]))
+    return {"mean_normal_module": gear.mean_normal_module, "inner_spiral_angle_deg": inner,
+            "outer_spiral_angle_deg": outer}  # fmt: skip
 
 
 def bevel_findings(gear: BevelGear) -> list[Finding]:

@@ -41,7 +41,8 @@ CAMS = (
     "barrel_cam",
     "conjugate_cams",
 )
-TOOTHED = ("practicum_pair", "helical_pair", "rack_and_pinion", "thesis_internal_pair", "worm_set_print", "bevel_pair")
+TOOTHED = ("practicum_pair", "helical_pair", "rack_and_pinion", "thesis_internal_pair", "worm_set_print", "bevel_pair",
+           "spiral_bevel_pair")  # fmt: skip
 ROUND = ("oval_gears", "cycloidal_reducer", "lantern_pair", "clock_gears")
 # what drawings call by other names than calculations do, which have the seeds'
 CALLED = {

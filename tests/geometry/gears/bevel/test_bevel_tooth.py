@@ -207,7 +207,7 @@ def test_tips_stay_as_far_above_the_root_of_the_mate_along_the_face(number: int)
     for gear, mate in (pair.gears, pair.gears[::-1]):
         clearance = mate.dedendum - gear.addendum
         along = np.linspace(0.0, 1.0, 7)
-        tips = gear.flank_points(np.array([1.0]), along)[0]
+        tips = gear.wall_points("flank", np.array([1.0]), along)[0]
         depth, radius = gear.mounting_distance - tips[:, 2], np.hypot(tips[:, 0], tips[:, 1])
         # the mate's axis stands Sigma off this gear's, its root cone delta_f2 off that, on the side of this gear
         root = gear.shaft_angle - mate.root_angle

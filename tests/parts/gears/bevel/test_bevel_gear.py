@@ -368,7 +368,7 @@ def test_what_is_measured_on_a_tooth() -> None:
     gear = make_parts(scene_from_dict(raw, "s", "s"), "s")[0]["gear"].thing
     # where the exact flank crosses the pitch cone: shares between fillet and tip, half way along
     share = np.linspace(0.0, 1.0, 4001)
-    points = gear.flank_points(share, np.array([0.5]))[:, 0]
+    points = gear.wall_points("flank", share, np.array([0.5]))[:, 0]
     depth, radius = gear.mounting_distance - points[:, 2], np.hypot(points[:, 0], points[:, 1])
     at = int(np.abs(np.arctan2(radius, depth) - gear.pitch_angle).argmin())
     assert 2 * points[at, 1] == pytest.approx(told["mean_chord"]["first"], abs=2e-3)
