@@ -136,10 +136,13 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
 
     word = None if word is None else in_latin(str(word))
     plain = "" if word is None else re.sub("[ _-]+", "_", word.lower())
-    match = [name for name in _SYNONYMS.get(plain, ()) if name in known and word not in known]
+    if plain in _SYNONYMS and word not in known:
+        # letters lead such a word astray
+        match = [name for name in _SYNONYMS[plain] if name in known]
+    else:
+        match = [] if word is None else difflib.get_close_matches(word, list(known), 1, 0.5)
     if not match and word is not None:
-        match = difflib.get_close_matches(word, list(known), 1, 0.5)
-        match = match or [name for name in known if name.lower() == word.lower()]
+        match = [name for name in known if name.lower() == word.lower()]
     return Nearest(match[0], "meant") if match else None
 
 
