@@ -544,23 +544,12 @@ def _check(options: argparse.Namespace) -> int:
                 raise SceneError(address, "mates", None, "nothing_to_check", mate=_mate_for(parts.values()))
             check_solids(parts, address)
             check_workspace(scene.checks.workspace, placing, address)
-        asked, language = scene.checks.transmission_error, scene.scene.language
-        names = names_of(scene.instances, parts)
-        return (
-            scene_checks(
-                placing,
-                parts,
-                scene.drives,
-                language,
-                contact=True,
-                transmission=asked,
-                workspace=scene.checks.workspace,
-                steps=scene.steps,
-                names=names,
-            ),
-            scene,
-            names,
-        )
+        asked, names = scene.checks, names_of(scene.instances, parts)
+        checks = scene_checks(
+            placing, parts, scene.drives, scene.scene.language, contact=True, transmission=asked.transmission_error,
+            workspace=asked.workspace, steps=scene.steps, names=names,
+        )  # fmt: skip
+        return checks, scene, names
 
     found, refused = _each(options, checked)
     if options.json:

@@ -13,6 +13,8 @@ from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Approximation, Contour, edge_points
 
 STROKES = {"ENGRAVE": "#0000ff", "CUT_INNER": "#00ff00", "CUT_OUTER": "#ff0000"}
+# of parts in pictures that name no colour
+_FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
 # of outlines that are pictures alone
 _PICTURE_DECIMALS = 6
 # of numbers that are rounded already
@@ -20,6 +22,11 @@ _MOST_DIGITS = 12
 _MARGIN = 2.0
 # arcs of more than 100 degrees
 _LONG_BULGE = float(np.tan(np.radians(25)))
+
+
+def fill(index: int) -> str:
+    """The colour of what names none."""
+    return _FILLS[index % len(_FILLS)]
 
 
 def write_laser_svg(

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exporters.formats.svg import save
+from exporters.formats.svg import fill, save
 from exporters.production.plan import Plan
-from exporters.production.preview import FILLS, escaped
+from exporters.production.preview import escaped
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.solids.sketch import Layer, Sketch, round_ring, sketch_of_body
@@ -175,7 +175,7 @@ def _drawn(
     scale: float,
 ) -> Iterator[str]:  # fmt: skip
     """Each drawing once, and every instance by it."""
-    colours = [parts[part].colour or FILLS[k % len(FILLS)] for k, (part, _) in enumerate(drawings)]
+    colours = [parts[part].colour or fill(k) for k, (part, _) in enumerate(drawings)]
     shades = dict.fromkeys(colours)
     yield "<defs>"
     for number, colour in enumerate(shades):

@@ -25,7 +25,6 @@ from parts.scene.shapes import Shape
 _SECONDS, _LEAST, _MOST, _MOST_TURNS = 4.0, 4.0, 60.0, 20
 # values of a way at first, and at most; of the tolerance what outlines and ways may take
 VALUES, MOST_VALUES, SHARE = 60, 16_000, 0.5
-_FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
 # times at which a file is held against exact poses
 TIMES = np.concatenate([[0.0, 1.0], np.arange(1, 48) * (math.sqrt(5) - 1) / 2 % 1.0])
 
@@ -107,11 +106,6 @@ class Film(Record, FileJob):
     def frames(self, instance: Instance, shares: Real) -> tuple[Real, Real]:
         """Exact turns (n, 3, 3) and places (n, 3), mm, of an instance's frame at shares of the loop."""
         return self.course.placed(instance.id, shares * float(self.loop), own=True)
-
-
-def fill(index: int) -> str:
-    """The colour of what names none."""
-    return _FILLS[index % len(_FILLS)]
 
 
 def film(made: type[Film], asked: Request) -> Film:

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exporters.formats.svg import page_head, path_data, save, stroke_data
+from exporters.formats.svg import fill, page_head, path_data, save, stroke_data
 from exporters.production.boards import BoardJob
 from exporters.production.laid import laid_jobs, lying_on
 from exporters.production.plan import Plan
-from exporters.production.preview import FILLS, escaped, outlines_of, samples
+from exporters.production.preview import escaped, outlines_of, samples
 from geometry.base.record import Record
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Contour
@@ -44,8 +44,7 @@ class _Drawn(Record):
 
 def laid_previews(plan: Plan, folder: Path) -> list[Path]:
     """A picture of each board and plate, once, whatever the formats of its files."""
-    fills = dict(zip(plan.parts, np.resize(FILLS, len(plan.parts)).tolist(), strict=True))
-    fills |= {name: part.colour for name, part in plan.parts.items() if part.colour}
+    fills = {name: part.colour or fill(k) for k, (name, part) in enumerate(plan.parts.items())}
     title = plan.scene.scene.title or plan.scene.name
     return [
         _preview(jobs[0], title, fills, folder / f"{name}.preview.svg", words(plan.scene.scene.language))
@@ -144,12 +143,12 @@ def _legend(
         return y + (len(rows) - 1) * step
 
     x, y = at.real, write(title, at.real, at.imag + size, width) + step
-    for text, fill in rows:
+    for text, shade in rows:
         wide = len(text) * letter + 3 * size
         if x > at.real and x + wide > at.real + width:
             x, y = at.real, y + step
         box = f'x="{x:.5g}" y="{y - 0.8 * size:.5g}" width="{size:.4g}" height="{size:.4g}"'
-        lines.append(f'<rect {box} style="fill:{fill};stroke:#202830;stroke-width:{size / 20:.4g}"/>')
+        lines.append(f'<rect {box} style="fill:{shade};stroke:#202830;stroke-width:{size / 20:.4g}"/>')
         y = write(text, x + 1.4 * size, y, width - 3 * size)
         x += wide
     return lines, y + size

@@ -13,7 +13,8 @@ import numpy as np
 from exporters.formats.motion_svg import CORNERS, Track, even_values, write_motion_svg
 from exporters.formats.read_motion import ReadTrack, read_motion
 from exporters.formats.readback import Loop
-from exporters.production.film import SHARE, TIMES, VALUES, Film, fill
+from exporters.formats.svg import fill
+from exporters.production.film import SHARE, TIMES, VALUES, Film
 from exporters.production.jobs import Made
 from exporters.production.seen_above import is_round, seen_lying
 from exporters.production.turning_silhouette import Ends, ends_of, thinned

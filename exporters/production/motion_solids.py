@@ -10,7 +10,8 @@ import numpy as np
 from exporters.formats.glb import SolidTrack, write_glb
 from exporters.formats.motion_svg import even_values
 from exporters.formats.read_glb import read_glb
-from exporters.production.film import MOST_VALUES, SHARE, TIMES, VALUES, Film, fill
+from exporters.formats.svg import fill
+from exporters.production.film import MOST_VALUES, SHARE, TIMES, VALUES, Film
 from exporters.production.jobs import Job, Made
 from exporters.verification.judge import held
 from exporters.verification.verdict import Verdict

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from exporters.formats.svg import head, number, path_data, save, stroke_data
+from exporters.formats.svg import fill, head, number, path_data, save, stroke_data
 from exporters.production.plan import Plan
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import GeometryError
@@ -40,7 +40,6 @@ _MOST_ARCS, _POINTS = 300, 8
 _NEAR = 5e-4
 # of more alike than this one is named for all, by its name without its number
 _MANY, _LAST_NUMBER = 6, re.compile(r"[ _]\d+$")
-FILLS = ("#b8c4d0", "#d9c39a", "#b5cfae", "#d3b3b3", "#bdb6d6")
 # the boundaries of a part, the outer one last
 Outlines: TypeAlias = tuple[Approximation, ...]
 
@@ -63,9 +62,9 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
     cut, plain = part.cut(0.0).region, part.section(0.0).region
     tags = [approximate_profile(p, reach / 1000, arcs=True) for p in cut.apart[len(plain.apart) :]]
     data = " ".join(path_data(b.geometry, corner) for b in reversed((*tags, *boundaries)))
-    fill = part.colour or "#b8c4d0"
+    shade = part.colour or fill(0)
     lines.append(
-        f'<path d="{data}" style="fill:{fill};fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 400:.4g}"/>'
+        f'<path d="{data}" style="fill:{shade};fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 400:.4g}"/>'
     )
     if cut.strokes:
         name = " ".join(stroke_data(np.round(np.array(stroke), 3), corner) for stroke in cut.strokes)
@@ -120,8 +119,8 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
             placed, solid = [Contour(loop + shift, np.zeros(len(loop))) for loop in lying[instance.id]], []
         data = " ".join(path_data(contour, corner) for contour in placed)
         loops.append([middle + samples(contour).real + 1j * (middle - samples(contour).imag) for contour in placed])
-        fill = plan.parts[instance.part].colour or FILLS[index % len(FILLS)]
-        style = f"fill:{fill};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
+        shade = plan.parts[instance.part].colour or fill(index)
+        style = f"fill:{shade};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
         body.append(f'<path d="{data}" style="{style}"/>')
         pins = " ".join(path_data(_placed(c, turn, instance.centre + shift), corner) for c in solid)
         if pins:

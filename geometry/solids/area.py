@@ -182,11 +182,7 @@ def _settled(solid: Solid, surface: SplineSurface) -> Real:
 
 
 def _patches(solid: Solid, surface: SplineSurface, pieces: int, nodes: int) -> Real:
-    rules = []
-    for knots in (surface.u_knots, surface.v_knots):
-        shares = span_shares(knots)
-        breaks = np.interp(np.arange((len(shares) - 1) * pieces + 1) / pieces, np.arange(len(shares)), shares)
-        rules.append(panels(breaks, nodes))
+    rules = [panels(span_shares(knots, pieces), nodes) for knots in (surface.u_knots, surface.v_knots)]
     (u, along), (v, across) = (
         spline_rows(degree, knots, shares, 1)
         for degree, knots, (shares, _) in zip(surface.degrees, (surface.u_knots, surface.v_knots), rules, strict=True)

@@ -115,10 +115,11 @@ def spline_windows(degree: int, knots: Real, shares: Real) -> tuple[Index, Real,
     return first, values, np.concatenate([none, raised], axis=1) - np.concatenate([raised, none], axis=1)
 
 
-def span_shares(knots: Real) -> Real:
-    """Where spans begin and end, as shares of the domain."""
+def span_shares(knots: Real, pieces: int = 1) -> Real:
+    """Where spans, each cut into so many pieces, begin and end, as shares of the domain."""
     places = distinct(knots)
-    return np.asarray((places - places[0]) / (places[-1] - places[0]))
+    shares, spans = (places - places[0]) / (places[-1] - places[0]), len(places) - 1
+    return np.interp(np.linspace(0, spans, spans * pieces + 1), np.arange(spans + 1), shares)
 
 
 class Chart(Record, eq=False):

@@ -68,12 +68,6 @@ def _measures(points: Real) -> Real:
     return np.concatenate([points, -points, np.hypot(points[..., :1], points[..., 1:2])], axis=-1)
 
 
-def _spans(knots: Real) -> Real:
-    breaks = span_shares(knots)
-    fine = np.linspace(0, len(breaks) - 1, (len(breaks) - 1) * _SPAN + 1)
-    return np.asarray(np.interp(fine, np.arange(len(breaks)), breaks))
-
-
 def _most(measured: Real) -> Real:
     """What may be reached at most by samples (..., u, v, 7) and their second differences: (..., 7)."""
     bend = sum(
@@ -87,7 +81,7 @@ def _edges(solid: Solid, edges: Edges, best: Real) -> list[_Piece]:
     curve = edges.curve
     if isinstance(curve, Straight):
         return []
-    shares = _spans(curve.knots) if isinstance(curve, Spline) else np.linspace(0, 1, _SAMPLES)
+    shares = span_shares(curve.knots, _SPAN) if isinstance(curve, Spline) else np.linspace(0, 1, _SAMPLES)
     measured = _measures(along_edges(solid, edges, shares)[0])[:, :, None]
     best[:] = np.maximum(best, measured.max(axis=(0, 1, 2)))
     if isinstance(curve, Circular):
@@ -137,7 +131,7 @@ def _on_chart(chart: Chart, u: Real, v: Real) -> Real:
 
 def _patches(solid: Solid, surface: SplineSurface, best: Real) -> list[_Piece]:
     """The spline surfaces of a bundle whose poles reach beyond the best."""
-    patch, u, v = patch_of(solid, surface), _spans(surface.u_knots), _spans(surface.v_knots)
+    patch, (u, v) = patch_of(solid, surface), (span_shares(k, _SPAN) for k in (surface.u_knots, surface.v_knots))
     found = []
     for row in np.flatnonzero(np.any(_measures(patch.poles).max(axis=(1, 2)) > best, axis=1)).tolist():
         place = partial(_on_patch, patch.rows(slice(row, row + 1)))

@@ -111,8 +111,7 @@ def _samples(solid: Solid, edges: Edges, pieces: int) -> _Samples:
         longest = float(arcs(solid, edges)[3].max())
         breaks = np.linspace(0, 1, pieces * max(1, math.ceil(longest / _PIECE)) + 1)
     elif isinstance(curve, Spline):
-        whole = span_shares(curve.knots)
-        breaks = np.interp(np.linspace(0, len(whole) - 1, pieces * (len(whole) - 1) + 1), np.arange(len(whole)), whole)
+        breaks = span_shares(curve.knots, pieces)
     else:
         breaks = np.linspace(0, 1, pieces + 1)
     nodes, weights = panels(breaks, _NODES)

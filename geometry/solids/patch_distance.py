@@ -23,7 +23,7 @@ _FAR, _OFF = 3.0, 4.0
 
 def patch_distance(patch: Patch) -> Callable[[Real], Real]:
     """The distance of points (n, 3) from one spline surface, mm."""
-    shares = _nodes(patch.surface.u_knots), _nodes(patch.surface.v_knots)
+    shares = span_shares(patch.surface.u_knots, _NODES), span_shares(patch.surface.v_knots, _NODES)
     grid = patch.at(*shares)[0]
     step = max(float(np.linalg.norm(np.diff(grid, axis=axis), axis=2).max()) for axis in (0, 1))
     nodes = grid.reshape(-1, 3)
@@ -75,9 +75,3 @@ def _foot(patch: Patch, points: Real, at: Real) -> Real:
         step[held[:, 1], 0] = (p / np.maximum(a, 1e-300))[held[:, 1]]
         at = np.clip(at + np.where(held, 0.0, step), 0.0, 1.0)
     return best
-
-
-def _nodes(knots: Real) -> Real:
-    shares = span_shares(knots)
-    fine = np.linspace(0, len(shares) - 1, (len(shares) - 1) * _NODES + 1)
-    return np.interp(fine, np.arange(len(shares)), shares)

@@ -219,7 +219,7 @@ def round_ring(radius: float, root: float | None = None, centre: complex = 0j) -
     return Ring((Arc(centre, radius, 0.0, 2 * math.pi),), root)
 
 
-def sketch_of_body(body: Body, teeth: Teeth | None = None, *, is_shaft: bool = False) -> Sketch:
+def sketch_of_body(body: Body, teeth: Teeth | None = None) -> Sketch:
     """A solid of walls between plane caps; its toothed profile is drawn as ``teeth``."""
 
     def ring(wall: Wall, z: float) -> Ring:
@@ -243,7 +243,7 @@ def sketch_of_body(body: Body, teeth: Teeth | None = None, *, is_shaft: bool = F
         layers.append(Layer(low, high, lower, lower if straight else tuple(ring(w, high) for w in walls)))
         if any(body.is_chamfer(w) for w in walls):
             creases += [low, high]
-    return Sketch(tuple(layers), tuple(creases), None if teeth is None else teeth.pitch, is_shaft)
+    return Sketch(tuple(layers), tuple(creases), None if teeth is None else teeth.pitch)
 
 
 def _is_toothed(profile: Profile) -> bool:

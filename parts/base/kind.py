@@ -113,8 +113,10 @@ class Kind(Generic[K, T]):
         raise NotImplementedError
 
     def solid(self, keys: K, thing: T, offset: float) -> Body | FacedBody:
-        """The solid, its lower face at z = 0, every boundary moved ``offset`` mm out of the material."""
-        raise NotImplementedError
+        """The solid, its lower face at z = 0, every boundary moved ``offset`` mm: its section, extruded."""
+        from geometry.solids.body import plate
+
+        return plate(self.section(keys, thing, offset).region, 0.0, self.height(keys, thing))
 
     def sketch(self, keys: K, thing: T) -> Sketch | None:
         """What assembly drawings show of it; None: they cannot."""

@@ -14,9 +14,9 @@ from geometry.base.record import Record
 from parts.base.kind import Others, Report
 from parts.base.schema import replaced, value_at
 from parts.bodies.plate import Extruded, FlatKeys, checked_outline, outline_with_marks
-from parts.keys.base import BoreDiameter, mm
+from parts.keys.base import MOST_LENGTH, BoreDiameter, mm, part_mm
 from parts.keys.holes import Direction, check_bore
-from parts.keys.pins import MOST, PinCircle, PinDiameter, least_of
+from parts.keys.pins import PinCircle, PinDiameter, least_of
 
 if TYPE_CHECKING:
     from geometry.solids.arms import ArmEnd
@@ -37,7 +37,7 @@ class PinHolesTable(Struct, forbid_unknown_fields=True):
     pitch_circle_diameter: Annotated[PinCircle, Meta(examples=[60.0])]
     diameter: Annotated[PinDiameter, Meta(examples=[3.0])]
     boss_diameter: (
-        Annotated[float, mm("of the arm's round end; default: 2.4 holes", above=0, most=MOST, example=8.0)] | None
+        Annotated[float, part_mm("of the arm's round end; default: 2.4 holes", above=0, example=8.0)] | None
     ) = None
     start_deg: Direction = 0.0
 
@@ -62,13 +62,13 @@ class CarrierPlateSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     ) = None
     seat_clearance: Annotated[float, mm("radius of a hole beyond the pin's", least=-10, most=100)] = 0.0
     boss_diameter: (
-        Annotated[float, mm("of each arm's round end; default: 2.4 pins", above=0, most=MOST, example=15.0)] | None
+        Annotated[float, part_mm("of each arm's round end; default: 2.4 pins", above=0, example=15.0)] | None
     ) = None
     hub_diameter: (
-        Annotated[float, mm("of the middle; default: as the arms need it", above=0, most=MOST, example=40.0)] | None
+        Annotated[float, part_mm("of the middle; default: as the arms need it", above=0, example=40.0)] | None
     ) = None
     outer_diameter: (
-        Annotated[float, mm("a round plate in place of arms", above=0, most=2 * MOST, example=100.0)] | None
+        Annotated[float, mm("a round plate in place of arms", above=0, most=2 * MOST_LENGTH, example=100.0)] | None
     ) = None
     bore_diameter: BoreDiameter = 0.0
     spacers: PinHolesTable | None = None

@@ -11,7 +11,7 @@ from geometry.base.errors import GeometryError, ParameterError, limit
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
 from parts.bodies.plate import Slots
-from parts.keys.base import MOST_LENGTH, length, mm
+from parts.keys.base import MOST_LENGTH, mm, part_mm
 
 if TYPE_CHECKING:
     from geometry.curves.line_arc import Arc
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from geometry.solids.body import Body
     from geometry.solids.layers import Contour, Layers
 
-_Place = Annotated[float, length("a coordinate", least=-MOST_LENGTH)]
+_Place = Annotated[float, part_mm("a coordinate", least=-MOST_LENGTH)]
 
 
 class CircleTable(Struct, forbid_unknown_fields=True):
     """A circle: an outline or a hole, by how many contours it lies in."""
 
-    diameter: Annotated[float, length("diameter of the circle", above=0)]
+    diameter: Annotated[float, part_mm("diameter of the circle", above=0)]
     at: Annotated[tuple[_Place, _Place], mm("x, y of its centre")] = (0.0, 0.0)
 
 
@@ -33,7 +33,7 @@ class PolygonTable(Struct, forbid_unknown_fields=True):
     """A polygon, its corners rounded alike."""
 
     points: Annotated[list[tuple[_Place, _Place]], Meta(min_length=3, max_length=1000, description="x, y of corners")]
-    corner_radius: Annotated[float, length("rounding of the corners", least=0)] = 0.0
+    corner_radius: Annotated[float, part_mm("rounding of the corners", least=0)] = 0.0
 
 
 class OutlinePoint(Struct, forbid_unknown_fields=True, kw_only=True):
@@ -43,7 +43,7 @@ class OutlinePoint(Struct, forbid_unknown_fields=True, kw_only=True):
     y: _Place
     arc: Annotated[
         float,
-        length("radius of the arc to the next point: above 0 bulges out of the outline, below 0 into it; 0: a line",
+        part_mm("radius of the arc to the next point: above 0 bulges out of the outline, below 0 into it; 0: a line",
            least=-MOST_LENGTH),
     ] = 0.0  # fmt: skip
 
@@ -57,7 +57,7 @@ class OutlineTable(Struct, forbid_unknown_fields=True):
 class LayerTable(Struct, forbid_unknown_fields=True, kw_only=True):
     """A layer: material is what lies within an odd number of its contours."""
 
-    thickness: Annotated[float, length("thickness of the layer", above=0)]
+    thickness: Annotated[float, part_mm("thickness of the layer", above=0)]
     circles: Annotated[list[CircleTable], Meta(max_length=2000)] = field(default_factory=list)
     polygons: Annotated[list[PolygonTable], Meta(max_length=1000)] = field(default_factory=list)
     slots: Slots = field(default_factory=list)

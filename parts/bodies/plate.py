@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import last_that_holds
 from parts.base.kind import HoleAt, Kind, Others
-from parts.keys.base import MOST_LENGTH, MadeKeys, length, mm
+from parts.keys.base import MOST_LENGTH, MadeKeys, mm, part_mm
 from parts.keys.engraving import Depth, Marks, check_depth, marked
 
 if TYPE_CHECKING:
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
     from geometry.solids.body import Body
     from geometry.solids.plate import Edge, PlateOutline, PlateSlot
 
-_Place = Annotated[float, length("a coordinate", least=-MOST_LENGTH)]
+_Place = Annotated[float, part_mm("a coordinate", least=-MOST_LENGTH)]
 
 
 class HoleAtTable(Struct, forbid_unknown_fields=True):
     """A round hole anywhere, or on the axis of an instance."""
 
-    diameter: Annotated[float, length("diameter of the hole", above=0)]
+    diameter: Annotated[float, part_mm("diameter of the hole", above=0)]
     at: Annotated[tuple[_Place, _Place], mm("x, y of its centre")] | None = None
     axis_of: Annotated[str, Meta(description="the instance whose axle it takes, in place of at")] | None = None
 
@@ -37,7 +37,7 @@ class SlotTable(Struct, forbid_unknown_fields=True):
 
     start: Annotated[tuple[_Place, _Place], mm("x, y of one end's centre")]
     end: Annotated[tuple[_Place, _Place], mm("x, y of the other end's centre")]
-    width: Annotated[float, length("width of the slot", above=0)]
+    width: Annotated[float, part_mm("width of the slot", above=0)]
 
 
 class EngravedTable(SlotTable, forbid_unknown_fields=True):
@@ -71,14 +71,14 @@ class FlatKeys(MadeKeys, kw_only=True):
 class PlateSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="plate"):
     """Keys of ``plate``."""
 
-    width: Annotated[float, length("along x", above=0, example=60.0)]
-    height: Annotated[float, length("along y", above=0, example=90.0)]
+    width: Annotated[float, part_mm("along x", above=0, example=60.0)]
+    height: Annotated[float, part_mm("along y", above=0, example=90.0)]
     centre: Annotated[tuple[_Place, _Place], mm("x, y of the middle")] = (0.0, 0.0)
-    corner_radius: Annotated[float, length("rounding of the corners", least=0)] = 0.0
+    corner_radius: Annotated[float, part_mm("rounding of the corners", least=0)] = 0.0
     beyond_axles: (
         Annotated[
             float,
-            length(
+            part_mm(
                 "least distance from each hole of an axle (`axis_of`) to the edge: the plate grows as they need it",
                 above=0,
                 example=10.0,

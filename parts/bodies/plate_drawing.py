@@ -51,14 +51,13 @@ def part_drawing(
     curves = [s.curve for s in region.outer.segments()]
     low, high = extent(region)
     strokes: list[Stroke] = [(VISIBLE, curve) for curve in curves]
-    round_holes = [found for hole in region.holes if (found := circle_from(hole)) is not None]
+    round_holes = _round_holes(region)
     strokes += [(VISIBLE, circle_of(radius, centre)) for centre, radius in round_holes]
     slots = [hole for hole in region.holes if circle_from(hole) is None]
     for profile in (*slots, *region.marks):
         strokes += [(VISIBLE, s.curve) for s in profile.segments()]
     strokes += [(AXIS, circle_of(one.circle / 2)) for one in circles]
-    circled = [centre for one in circles for centre in one.centres()]
-    loose = [(c, r) for c, r in round_holes if all(abs(c - other) > _NEAR for other in circled)]
+    loose = _loose(round_holes, circles)
     axes = [Line(centre - r * way, centre + r * way) for centre, r in loose for way in (1, 1j)]
     listed = listed_holes(subject.part, circles)
     loose, round_holes = ([one for one in some if one not in listed] for some in (loose, round_holes))
@@ -109,12 +108,21 @@ def datum_of(region: Region, circles: Sequence[HoleCircle] = ()) -> tuple[comple
     return (extent(region)[0], FROM_EDGES) if whole is None else (whole[0], _FROM_AXES)
 
 
+def _round_holes(region: Region) -> list[tuple[complex, float]]:
+    """Centre and radius of each."""
+    return [found for hole in region.holes if (found := circle_from(hole)) is not None]
+
+
+def _loose(holes: Sequence[tuple[complex, float]], circles: Sequence[HoleCircle]) -> list[tuple[complex, float]]:
+    """Those of some holes that stand on no circle."""
+    circled = [centre for one in circles for centre in one.centres()]
+    return [(c, r) for c, r in holes if all(abs(c - other) > _NEAR for other in circled)]
+
+
 def listed_holes(part: Part, circles: Sequence[HoleCircle] = ()) -> list[tuple[complex, float]]:
     """The round holes that a table tells, from the left: where they stand at more places than sizes show well."""
     keys = part.keys
-    circled = [centre for one in circles for centre in one.centres()]
-    holes = [found for hole in part.section(0.0).region.holes if (found := circle_from(hole)) is not None]
-    loose = [(c, r) for c, r in holes if all(abs(c - other) > _NEAR for other in circled)]
+    loose = _loose(_round_holes(part.section(0.0).region), circles)
     places = {round(c.real, _DIGITS) for c, _ in loose}, {round(c.imag, _DIGITS) for c, _ in loose}
     # engraved slots have a table of their own
     if sum(map(len, places)) <= _MOST or (isinstance(keys, FlatKeys) and keys.engraved):

@@ -13,7 +13,7 @@ from msgspec import Meta, Struct, field
 from geometry.base.errors import OffsetError, ParameterError, limit
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
-from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, either, length, mm
+from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, either, mm, part_mm
 from parts.keys.holes import HolesTable, check_bore
 
 if TYPE_CHECKING:
@@ -24,19 +24,19 @@ if TYPE_CHECKING:
 
 # of a centre hole: half the angle of its cone, and of its tip; its mouth and depth in diameters, where none is given
 _CONE, _TIP, _MOUTH, _DEPTH = math.radians(30), math.radians(60), 2.12, 1.0
-_Chamfer = Annotated[float, length("both legs of the chamfer of its outer edges", least=0)]
-_Fillet = Annotated[float, length("rounding where it meets what is thicker", least=0)]
+_Chamfer = Annotated[float, part_mm("both legs of the chamfer of its outer edges", least=0)]
+_Fillet = Annotated[float, part_mm("rounding where it meets what is thicker", least=0)]
 _Radii = "above 0 bulges out of the material, below 0 into it; 0: a line"
 
 
 class PointTable(Struct, forbid_unknown_fields=True, kw_only=True):
     """A corner of half the section."""
 
-    r: Annotated[float, length("distance from the axis", least=0)]
-    z: Annotated[float, length("height", least=-MOST_LENGTH)]
-    arc: Annotated[float, length(f"radius of the arc to the next point: {_Radii}", least=-MOST_LENGTH)] = 0.0
-    chamfer: Annotated[float, length("both legs of a chamfer between two lines", least=0)] = 0.0
-    fillet: Annotated[float, length("radius of a rounding between two lines", least=0)] = 0.0
+    r: Annotated[float, part_mm("distance from the axis", least=0)]
+    z: Annotated[float, part_mm("height", least=-MOST_LENGTH)]
+    arc: Annotated[float, part_mm(f"radius of the arc to the next point: {_Radii}", least=-MOST_LENGTH)] = 0.0
+    chamfer: Annotated[float, part_mm("both legs of a chamfer between two lines", least=0)] = 0.0
+    fillet: Annotated[float, part_mm("radius of a rounding between two lines", least=0)] = 0.0
 
 
 _RING = [
@@ -65,20 +65,20 @@ class TurnedSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="turned"):
 class GrooveTable(Struct, forbid_unknown_fields=True, kw_only=True):
     """A groove round a step, as for a ring that holds a bearing."""
 
-    at: Annotated[float, length("from the lower end of the step to the groove", least=0)]
-    width: Annotated[float, length("width of the groove", above=0)]
-    diameter: Annotated[float, length("at its bottom", above=0)]
-    fillet: Annotated[float, length("rounding of its bottom", least=0)] = 0.0
+    at: Annotated[float, part_mm("from the lower end of the step to the groove", least=0)]
+    width: Annotated[float, part_mm("width of the groove", above=0)]
+    diameter: Annotated[float, part_mm("at its bottom", above=0)]
+    fillet: Annotated[float, part_mm("rounding of its bottom", least=0)] = 0.0
 
 
 class ShaftKeywayTable(Struct, forbid_unknown_fields=True, kw_only=True):
     """A keyway by a standard, or of your own width and depth."""
 
-    at: Annotated[float, length("from the lower end of the step to the keyway", least=0)]
-    length: Annotated[float, length("length of the keyway, its round ends included", above=0)]
+    at: Annotated[float, part_mm("from the lower end of the step to the keyway", least=0)]
+    length: Annotated[float, part_mm("length of the keyway, its round ends included", above=0)]
     standard: Literal["DIN 6885", "GOST 23360"] = "DIN 6885"
-    width: Annotated[float, length("width b; default: the standard's", above=0, example=6.0)] | None = None
-    depth: Annotated[float, length("depth t1 in the shaft; default: the standard's", above=0, example=3.5)] | None = (
+    width: Annotated[float, part_mm("width b; default: the standard's", above=0, example=6.0)] | None = None
+    depth: Annotated[float, part_mm("depth t1 in the shaft; default: the standard's", above=0, example=3.5)] | None = (
         None
     )
     angle_deg: Annotated[float, degrees("direction of its middle", least=-360, most=360)] = 90.0
@@ -88,8 +88,8 @@ class ShaftKeywayTable(Struct, forbid_unknown_fields=True, kw_only=True):
 class StepTable(Struct, forbid_unknown_fields=True, kw_only=True):
     """A step of a shaft."""
 
-    diameter: Annotated[float, length("diameter", above=0)]
-    length: Annotated[float, length("length along the axis", above=0)]
+    diameter: Annotated[float, part_mm("diameter", above=0)]
+    length: Annotated[float, part_mm("length along the axis", above=0)]
     chamfer: _Chamfer = 0.0
     fillet: _Fillet = 0.0
     grooves: Annotated[

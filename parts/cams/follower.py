@@ -19,7 +19,7 @@ from geometry.solids.wheel import WheelShape, check_wheel
 from parts.base.kind import Others, Report
 from parts.bodies.plate import Extruded, FlatKeys, HolesAt, Slots, checked_outline
 from parts.cams.wheel import Turned
-from parts.keys.base import MOST_LENGTH, degrees, length
+from parts.keys.base import MOST_LENGTH, degrees, part_mm
 from parts.keys.holes import BoredKeys, check_shape, wide_bore
 from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, shape_of
 
@@ -36,20 +36,20 @@ _SMALLER = (0.75, 0.5, 0.25, 0.1, 0.03, 0.01, 0.001, 1e-4)
 EndName = Literal["pointed", "roller", "mushroom", "flat"]
 End = Annotated[EndName, Meta(description="what touches the cam; a roller is a part of its own", examples=["roller"])]
 Tip = Annotated[float, degrees("angle of a pointed tip", least=5, most=170)]
-Pin = Annotated[float, length("hole for the roller's pin; 0 is none", least=0)]
-Radius = Annotated[float, length("radius of a mushroom's face", least=0)]
+Pin = Annotated[float, part_mm("hole for the roller's pin; 0 is none", least=0)]
+Radius = Annotated[float, part_mm("radius of a mushroom's face", least=0)]
 
 
 class FollowerSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="follower"):
     """Keys of ``follower``."""
 
     end: End
-    stem_width: Annotated[float, length("width of the stem", above=0)] = 10.0
-    stem_length: Annotated[float, length("from the reference point to the far end", above=0)] = 80.0
+    stem_width: Annotated[float, part_mm("width of the stem", above=0)] = 10.0
+    stem_length: Annotated[float, part_mm("from the reference point to the far end", above=0)] = 80.0
     follower_radius: Radius = 0.0
-    plate_diameter: Annotated[float, length("width of a flat or mushroom plate", least=0)] = 0.0
-    plate_thickness: Annotated[float, length("thickness of that plate at its edge", above=0)] = 5.0
-    corner_radius: Annotated[float, length("rounding between plate and stem", least=0)] = 0.0
+    plate_diameter: Annotated[float, part_mm("width of a flat or mushroom plate", least=0)] = 0.0
+    plate_thickness: Annotated[float, part_mm("thickness of that plate at its edge", above=0)] = 5.0
+    corner_radius: Annotated[float, part_mm("rounding between plate and stem", least=0)] = 0.0
     tip_angle_deg: Tip = 60.0
     pin_diameter: Pin = 0.0
 
@@ -59,18 +59,18 @@ class FollowerArmSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
 
     end: End
     arm_length: Annotated[
-        float, length("to the roller's centre, tip, arc's centre or a flat bar's end", above=0, example=60.0)
+        float, part_mm("to the roller's centre, tip, arc's centre or a flat bar's end", above=0, example=60.0)
     ]
     sense: Annotated[
         Literal["against", "with"], Meta(description="as the cam's: which side of the arm looks at the cam")
     ] = "against"
-    width: Annotated[float, length("width of the arm; of a roller's arm its round end", above=0)] = 10.0
-    boss_diameter: Annotated[float, length("of the round end about the pivot", above=0)] = 16.0
-    pivot_diameter: Annotated[float, length("hole for the pivot", least=0)] = 6.0
+    width: Annotated[float, part_mm("width of the arm; of a roller's arm its round end", above=0)] = 10.0
+    boss_diameter: Annotated[float, part_mm("of the round end about the pivot", above=0)] = 16.0
+    pivot_diameter: Annotated[float, part_mm("hole for the pivot", least=0)] = 6.0
     follower_radius: Radius = 0.0
-    face_offset: Annotated[float, length("flat face nearer to the cam than the pivot", least=-MOST_LENGTH)] = 0.0
+    face_offset: Annotated[float, part_mm("flat face nearer to the cam than the pivot", least=-MOST_LENGTH)] = 0.0
     tip_angle_deg: Tip = 60.0
-    tip_height: Annotated[float, length("height of a tip, or of a mushroom's centre, over the arm", least=0)] = 10.0
+    tip_height: Annotated[float, part_mm("height of a tip, or of a mushroom's centre, over the arm", least=0)] = 10.0
     pin_diameter: Pin = 0.0
     holes: Annotated[HolesAt, Meta(examples=[[{"at": [20.0, 0.0], "diameter": 3.0}]])] = field(default_factory=list)
     slots: Annotated[Slots, Meta(examples=[[{"start": [28.0, 0.0], "end": [36.0, 0.0], "width": 3.0}]])] = field(
@@ -81,7 +81,7 @@ class FollowerArmSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
 class RollerSpec(BoredKeys, forbid_unknown_fields=True, tag_field="kind", tag="roller"):
     """Keys of ``roller``."""
 
-    diameter: Annotated[float, length("outer diameter", above=0, example=16.0)]
+    diameter: Annotated[float, part_mm("outer diameter", above=0, example=16.0)]
     hub: HubTable | None = None
     face_chamfer: FaceChamfer | FaceChamferTable = 0.0
 

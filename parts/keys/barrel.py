@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 from msgspec import Meta, Struct
 
 from parts.base.part_keys import MaterialKeys
-from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, length, mm, start
+from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, mm, part_mm, start
 from parts.keys.cam import MotionTable, Phases, Swing, TableTolerance, turn
 from parts.keys.holes import BoreTable
 from parts.keys.law import with_own_laws
@@ -17,11 +17,11 @@ from parts.keys.wheel import HubTable
 class SwingingTable(Struct, forbid_unknown_fields=True):
     """A follower that swings about a pivot parallel to its roller's axis, beside the cam."""
 
-    arm_length: Annotated[float, length("from the pivot to the roller's axis", above=0, example=40.0)]
+    arm_length: Annotated[float, part_mm("from the pivot to the roller's axis", above=0, example=40.0)]
     pivot_offset: (
         Annotated[
             float,
-            length(
+            part_mm(
                 "from the cam's axis to the pivot, square to the roller's axis; above 0 the cam's surface runs "
                 "towards it; default: the roller strays as far to either side",
                 least=-MOST_LENGTH,
@@ -51,16 +51,16 @@ class BarrelCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", 
         Literal["groove", "end"],
         Meta(description="groove: moves the roller both ways; end: a spring holds it", examples=["groove"]),
     ]
-    outer_diameter: Annotated[float, length("diameter of the barrel", above=0, example=60.0)]
+    outer_diameter: Annotated[float, part_mm("diameter of the barrel", above=0, example=60.0)]
     roller_diameter: Annotated[
         float,
-        length(
+        part_mm(
             "diameter of the roller, its axis across the cam's; of a cone at the barrel's outer radius",
             above=0,
             example=10.0,
         ),
     ]
-    groove_depth: Annotated[float, length("depth of the groove, or width of the track", above=0, example=8.0)]
+    groove_depth: Annotated[float, part_mm("depth of the groove, or width of the track", above=0, example=8.0)]
     roller_form: Annotated[
         Literal["cylindrical", "conical"],
         Meta(description="conical: thinner towards the cam's axis, so that it rolls and hardly slides"),
@@ -77,7 +77,7 @@ class BarrelCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", 
         ]
         | None
     ) = None
-    lift: Annotated[float, length("lift H along the axis", least=0), start(20.0)] = 0.0
+    lift: Annotated[float, part_mm("lift H along the axis", least=0), start(20.0)] = 0.0
     swing_deg: Swing = 0.0
     phases: Annotated[Phases, with_own_laws(turn("polynomial_345"))] | None = None
     motion_table: MotionTable | None = None
@@ -85,17 +85,17 @@ class BarrelCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", 
     oscillating: SwingingTable | None = None
     clearance: Annotated[float, mm("groove wider than the roller by this", least=0, most=100)] = 0.0
     length: (
-        Annotated[float, length("length of the barrel; default: the groove and end_margin", above=0, example=60.0)]
+        Annotated[float, part_mm("length of the barrel; default: the groove and end_margin", above=0, example=60.0)]
         | None
     ) = None
     end_margin: (
         Annotated[
             float,
-            length("material between the groove and each end; default: the roller's radius", above=0, example=8.0),
+            part_mm("material between the groove and each end; default: the roller's radius", above=0, example=8.0),
         ]
         | None
     ) = None
-    web_thickness: Annotated[float, length("end: bottom of the tube; 0 leaves it open", least=0)] = 0.0
+    web_thickness: Annotated[float, part_mm("end: bottom of the tube; 0 leaves it open", least=0)] = 0.0
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
     hub: HubTable | None = None

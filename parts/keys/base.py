@@ -39,7 +39,7 @@ def size(
 
 mm, degrees, in_modules = partial(size, "mm"), partial(size, "degrees"), partial(size, "modules")
 # of a part or of a place on it
-length = partial(mm, most=MOST_LENGTH)
+part_mm = partial(mm, most=MOST_LENGTH)
 
 
 def start(value: object, *others: tuple[object, str]) -> Meta:

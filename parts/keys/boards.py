@@ -8,7 +8,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from parts.base.refusal import SceneError, meant
-from parts.keys.base import length, mm
+from parts.keys.base import mm, part_mm
 
 # the tables, and the purpose of exports that lay parts out on them
 PURPOSES_LAID = {"boards": "board", "beds": "plate"}
@@ -21,9 +21,9 @@ _MOST_COPIES = 1000
 class LaidKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     """Keys of boards and beds."""
 
-    width: Annotated[float, length("along x", least=_LEAST, example=600.0)]
-    margin: Annotated[float, length("left free along its edges", least=0)] = 5.0
-    gap: Annotated[float, length("least distance between two cuts; the web is less by the kerf", least=0)] = 2.0
+    width: Annotated[float, part_mm("along x", least=_LEAST, example=600.0)]
+    margin: Annotated[float, part_mm("left free along its edges", least=0)] = 5.0
+    gap: Annotated[float, part_mm("least distance between two cuts; the web is less by the kerf", least=0)] = 2.0
     sets: Annotated[
         int, Meta(ge=1, le=_MOST_COPIES, description="number of sets laid out: one for each group of a class")
     ] = 1
@@ -48,7 +48,7 @@ class LaidKeys(Struct, forbid_unknown_fields=True, kw_only=True):
 class BoardSpec(LaidKeys, kw_only=True):
     """Keys of ``[boards.NAME]``."""
 
-    height: Annotated[float, length("along y", least=_LEAST, example=400.0)]
+    height: Annotated[float, part_mm("along y", least=_LEAST, example=400.0)]
     thickness: Annotated[
         float,
         mm(
@@ -88,8 +88,8 @@ class BoardSpec(LaidKeys, kw_only=True):
 class BedSpec(LaidKeys, kw_only=True):
     """Keys of ``[beds.NAME]``."""
 
-    depth: Annotated[float, length("along y", least=_LEAST, example=220.0)]
-    height: Annotated[float, length("greatest height of a print", above=0, example=250.0)]
+    depth: Annotated[float, part_mm("along y", least=_LEAST, example=220.0)]
+    height: Annotated[float, part_mm("greatest height of a print", above=0, example=250.0)]
 
     @property
     def across(self) -> float:

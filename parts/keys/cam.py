@@ -11,7 +11,7 @@ from msgspec import Meta, Struct
 from geometry.base.errors import Cure, Nearest, ParameterError
 from geometry.base.nearest import kept
 from geometry.base.record import Record, replace
-from parts.keys.base import MOST_LENGTH, degrees, length, start
+from parts.keys.base import MOST_LENGTH, degrees, part_mm, start
 from parts.keys.law import LawName, LawTable, PhaseLaw, law_of
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ Follower = Annotated[
     Literal["pointed", "roller", "mushroom", "flat"],
     Meta(description="shape of the follower's end", examples=["roller"]),
 ]
-Lift = Annotated[float, length("lift H of a translating follower", least=0), start(20.0)]
+Lift = Annotated[float, part_mm("lift H of a translating follower", least=0), start(20.0)]
 Swing = Annotated[float, degrees("swing of an oscillating follower", least=0, below=180)]
 Phases = Annotated[list[PhaseTable], Meta(min_length=1, max_length=100)]
 MotionTable = Annotated[
@@ -70,16 +70,16 @@ TableTolerance = Annotated[
         description="motion_table: how far its rows may be left, mm or deg, so that a measured motion runs smoothly",
     ),
 ]
-FollowerRadius = Annotated[float, length("radius of the roller or mushroom", least=0), start(8.0)]
+FollowerRadius = Annotated[float, part_mm("radius of the roller or mushroom", least=0), start(8.0)]
 BaseCircle = Annotated[
-    float, length("base circle; default: the least by least_transmission_angle_deg", above=0), start(30.0)
+    float, part_mm("base circle; default: the least by least_transmission_angle_deg", above=0), start(30.0)
 ]
 LeastTransmission = Annotated[
     float, degrees("gamma_min = 90 - pressure angle; flat: 45", above=0, below=90, example=60.0)
 ]
-LeastCurvature = Annotated[float, length("rho: least convex radius of the cam", least=0)]
+LeastCurvature = Annotated[float, part_mm("rho: least convex radius of the cam", least=0)]
 FollowerOffset = Annotated[
-    float, length("line of motion at x = e; e > 0 lowers the pressure angle of the rise", least=-MOST_LENGTH)
+    float, part_mm("line of motion at x = e; e > 0 lowers the pressure angle of the rise", least=-MOST_LENGTH)
 ]
 
 

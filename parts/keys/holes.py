@@ -15,16 +15,16 @@ from geometry.base.nearest import kept, nearest
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
 from parts.base.schema import replaced, value_at
-from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, BoreDiameter, MadeKeys, degrees, either, length
+from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, BoreDiameter, MadeKeys, degrees, either, part_mm
 
 K = TypeVar("K", bound=Struct)
 # part of the room for a bore that it takes at most
 _WITHIN = 0.9999
 Direction = Annotated[float, degrees("direction of the first one", least=-360, most=360)]
-Diameter = Annotated[float, length("diameter of the bore", above=0, example=8.0)]
-AcrossFlats = Annotated[float, length("from a flat to the opposite one", above=0, example=7.0)]
-CornerRadius = Annotated[float, length("rounding of the corners", least=0)]
-PitchCircle = Annotated[float, length("circle of their centres", above=0, example=28.0)]
+Diameter = Annotated[float, part_mm("diameter of the bore", above=0, example=8.0)]
+AcrossFlats = Annotated[float, part_mm("from a flat to the opposite one", above=0, example=7.0)]
+CornerRadius = Annotated[float, part_mm("rounding of the corners", least=0)]
+PitchCircle = Annotated[float, part_mm("circle of their centres", above=0, example=28.0)]
 
 
 class RoundBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="round"):
@@ -44,10 +44,10 @@ class KeywayTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="ke
     standard: Literal["DIN 6885", "GOST 23360"] = "DIN 6885"
     keys: Annotated[int, Meta(ge=1, le=2, description="one keyway, or two opposite ones")] = 1
     angle_deg: Direction = 90.0
-    width: Annotated[float, length("width b; default: the standard's", above=0, example=2.0)] | None = None
-    depth: Annotated[float, length("depth t2 in the hub; default: the standard's", above=0, example=1.0)] | None = None
+    width: Annotated[float, part_mm("width b; default: the standard's", above=0, example=2.0)] | None = None
+    depth: Annotated[float, part_mm("depth t2 in the hub; default: the standard's", above=0, example=1.0)] | None = None
     corner_radius: (
-        Annotated[float, length("at the keyway's bottom; default: the standard's largest", least=0, example=0.16)]
+        Annotated[float, part_mm("at the keyway's bottom; default: the standard's largest", least=0, example=0.16)]
         | None
     ) = None
 
@@ -69,7 +69,7 @@ class FlatBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="
     """Round bore with one flat."""
 
     diameter: Diameter
-    flat: Annotated[float, length("from the flat to the opposite side", above=0, example=7.0)]
+    flat: Annotated[float, part_mm("from the flat to the opposite side", above=0, example=7.0)]
     angle_deg: Direction = 90.0
 
     def bore(self) -> Bore:
@@ -120,7 +120,7 @@ class HolesTable(Struct, forbid_unknown_fields=True):
     """Round holes on a pitch circle (lightening holes, bolt circle), or a list of such tables."""
 
     count: Annotated[int, Meta(ge=1, le=1000, description="number of holes", examples=[5])]
-    diameter: Annotated[float, length("diameter of each hole", above=0, example=6.0)]
+    diameter: Annotated[float, part_mm("diameter of each hole", above=0, example=6.0)]
     pitch_circle_diameter: PitchCircle
     start_deg: Direction = 0.0
 
@@ -129,9 +129,9 @@ class SpokesTable(Struct, forbid_unknown_fields=True):
     """Spokes between a hub ring and a rim: windows with rounded corners."""
 
     count: Annotated[int, Meta(ge=2, le=200, description="number of spokes", examples=[5])]
-    inner_diameter: Annotated[float, length("outside of the hub ring", above=0, example=20.0)]
-    outer_diameter: Annotated[float, length("inside of the rim", above=0, example=36.0)]
-    width: Annotated[float, length("width of a spoke", above=0, example=4.0)]
+    inner_diameter: Annotated[float, part_mm("outside of the hub ring", above=0, example=20.0)]
+    outer_diameter: Annotated[float, part_mm("inside of the rim", above=0, example=36.0)]
+    width: Annotated[float, part_mm("width of a spoke", above=0, example=4.0)]
     corner_radius: CornerRadius = 0.0
     start_deg: Direction = 0.0
 

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct
 
-from parts.keys.base import MOST_LENGTH, degrees, length, mm
+from parts.keys.base import MOST_LENGTH, degrees, mm, part_mm
 
 if TYPE_CHECKING:
     from geometry.kinematics.linkage import Drive, Guide
 
-Coordinate = Annotated[float, length("a coordinate", least=-MOST_LENGTH)]
+Coordinate = Annotated[float, part_mm("a coordinate", least=-MOST_LENGTH)]
 Direction = Annotated[float, degrees("of the guide, from +x counter-clockwise", least=-360, most=360)]
 
 
@@ -23,7 +23,7 @@ class DrivenRocker(Struct, forbid_unknown_fields=True, tag_field="member", tag="
         tuple[Coordinate, Coordinate],
         mm("x, y of its pivot", example=[91.0, 26.0]),
     ]
-    length: Annotated[float, length("from the pivot to joint A", above=0, example=58.0)]
+    length: Annotated[float, part_mm("from the pivot to joint A", above=0, example=58.0)]
     start_angle_deg: Annotated[
         float,
         degrees("at S = 0, from +x counter-clockwise", least=-360, most=360, example=167.0),
@@ -50,7 +50,7 @@ class GuidingRocker(Struct, forbid_unknown_fields=True, tag_field="member", tag=
         tuple[Coordinate, Coordinate],
         mm("x, y of its pivot", example=[62.0, 124.0]),
     ]
-    length: Annotated[float, length("from the pivot to joint B", above=0, example=68.0)]
+    length: Annotated[float, part_mm("from the pivot to joint B", above=0, example=68.0)]
     assembly: Annotated[
         Literal["left", "right"], Meta(description="side of the line from joint A to the pivot on which B stands")
     ] = "left"

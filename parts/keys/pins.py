@@ -14,14 +14,13 @@ from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Region
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.windows import RoundHoles
-from parts.keys.base import length
+from parts.keys.base import part_mm
 from parts.keys.holes import BoredKeys, with_remedy
 
-MOST = 100_000.0
 LobeCount = Annotated[int, Meta(ge=2, le=1000, description="number of lobes z of the disc", examples=[11])]
 PinCount = Annotated[int, Meta(ge=3, le=1000, description="number of pins", examples=[12])]
-PinCircle = Annotated[float, length("circle of the pins' centres", least=0.1, example=80.0)]
-PinDiameter = Annotated[float, length("diameter of each pin", least=0.01, example=8.0)]
+PinCircle = Annotated[float, part_mm("circle of the pins' centres", least=0.1, example=80.0)]
+PinDiameter = Annotated[float, part_mm("diameter of each pin", least=0.01, example=8.0)]
 # what is kept from every limit, as a part of it
 MARGIN = 1e-6
 

@@ -13,7 +13,7 @@ from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, encloses, least_wall
 from geometry.solids.windows import RoundHoles
-from parts.keys.base import length, mm
+from parts.keys.base import mm, part_mm
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
@@ -29,7 +29,7 @@ class TimingMarkTable(Struct, forbid_unknown_fields=True):
     distance: (
         Annotated[
             float,
-            length("from the axis to its centre; default: between bore and base circle", above=0, example=22.0),
+            part_mm("from the axis to its centre; default: between bore and base circle", above=0, example=22.0),
         ]
         | None
     ) = None

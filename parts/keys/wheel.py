@@ -9,7 +9,7 @@ from msgspec import Struct
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import Hub, Web, WheelShape
 from parts.base.kind import Kind
-from parts.keys.base import length, mm
+from parts.keys.base import mm, part_mm
 from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes
 
 
@@ -17,14 +17,14 @@ class WebTable(Struct, forbid_unknown_fields=True):
     """The thin disk between rim and hub."""
 
     thickness: Annotated[float, mm("thickness of the web along the axis", above=0, most=10_000, example=3.0)]
-    rim_diameter: Annotated[float, length("inner diameter of the rim", above=0, example=36.0)]
+    rim_diameter: Annotated[float, part_mm("inner diameter of the rim", above=0, example=36.0)]
     shift: Annotated[float, mm("how far the web stands above the middle", least=-10_000, most=10_000)] = 0.0
 
 
 class HubTable(Struct, forbid_unknown_fields=True):
     """The hub about the bore."""
 
-    diameter: Annotated[float, length("outer diameter of the hub", above=0, example=14.0)]
+    diameter: Annotated[float, part_mm("outer diameter of the hub", above=0, example=14.0)]
     below: Annotated[float, mm("how far the hub stands out below", least=0, most=10_000)] = 0.0
     above: Annotated[float, mm("how far the hub stands out above", least=0, most=10_000)] = 0.0
 

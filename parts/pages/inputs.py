@@ -127,12 +127,22 @@ def part_of_kind(kind: str) -> Callable[[SceneKeys, str, dict[str, Any]], dict[s
 def _of_part(kind: str, scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
     """The keys of a part of a scene, changed by those of ``table``."""
     fitting = [key for key, spec in scene.parts.items() if spec.__struct_config__.tag == kind]
-    part = table.pop("part", None)
-    if part is None and len(fitting) != 1:
-        raise SceneError(
-            source, "parts", None, "choose_a_part" if fitting else "none_of_kind", None, known=fitting, kind=kind
-        )
+    return given(scene.parts[chosen_part(kind, fitting, fitting, source, table)]) | table
+
+
+def chosen_part(kind: str, fitting: Sequence[str], alone: Sequence[str], source: str, table: dict[str, Any]) -> str:
+    """The one of some parts that ``part`` of a table names, which is taken out; else the only one of ``alone``.
+
+    Raises
+    ------
+    SceneError
+        There is none, or no such one, or none is named of several.
+    """
+    part: str | None = table.pop("part", None)
+    if part is None and len(alone) != 1:
+        code = "choose_a_part" if alone else "none_of_kind"
+        raise SceneError(source, "parts", None, code, None, known=alone, kind=kind)
     if part is not None and part not in fitting:
         code = "no_such_part" if fitting else "none_of_kind"
         raise SceneError(source, "part", part, code, meant(part, fitting), known=fitting, kind=kind)
-    return given(scene.parts[part or fitting[0]]) | table
+    return part or alone[0]

@@ -16,9 +16,9 @@ from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from geometry.solids.windows import RoundHoles
 from parts.base.kind import Others, Report
-from parts.keys.base import mm
+from parts.keys.base import mm, part_mm
 from parts.keys.holes import Direction
-from parts.keys.pins import MARGIN, MOST, LobeCount, PinCircle, PinDiameter, check_holes, holes_of, most_of
+from parts.keys.pins import MARGIN, LobeCount, PinCircle, PinDiameter, check_holes, holes_of, most_of
 from parts.keys.wheel import HubbedKeys, WheelKind, shape_of
 
 if TYPE_CHECKING:
@@ -32,8 +32,8 @@ class OutputHolesTable(Struct, forbid_unknown_fields=True):
     """Holes of the output pins; each is wider than its pin by twice the eccentricity and the clearance."""
 
     count: Annotated[int, Meta(ge=1, le=200, description="number of output pins", examples=[6])]
-    pitch_circle_diameter: Annotated[float, mm("circle of the output pins' centres", above=0, most=MOST, example=44.0)]
-    pin_diameter: Annotated[float, mm("diameter of an output pin or its roller", above=0, most=MOST, example=6.0)]
+    pitch_circle_diameter: Annotated[float, part_mm("circle of the output pins' centres", above=0, example=44.0)]
+    pin_diameter: Annotated[float, part_mm("diameter of an output pin or its roller", above=0, example=6.0)]
     clearance: Annotated[float, mm("of the hole's diameter beyond pin + 2 e", least=0, most=100)] = 0.0
     start_deg: Direction = 0.0
 
@@ -44,7 +44,7 @@ class CycloidalDiscSpec(HubbedKeys, kw_only=True, tag_field="kind", tag="cycloid
     number_of_lobes: LobeCount
     pin_circle_diameter: PinCircle
     pin_diameter: PinDiameter
-    eccentricity: Annotated[float, mm("eccentricity e; below R / (z + 1)", above=0, most=MOST, example=2.5)]
+    eccentricity: Annotated[float, part_mm("eccentricity e; below R / (z + 1)", above=0, example=2.5)]
     pin_clearance: Annotated[
         float, mm("moves the profile into the disc along its normals (equidistant)", least=-10, most=100)
     ] = 0.0

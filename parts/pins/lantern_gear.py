@@ -9,8 +9,8 @@ from msgspec import Meta
 from geometry.base.record import replace
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
-from parts.keys.base import mm
-from parts.keys.pins import MOST, PinDiameter, check_holes, holes_of
+from parts.keys.base import MOST_LENGTH, mm, part_mm
+from parts.keys.pins import PinDiameter, check_holes, holes_of
 from parts.keys.wheel import WheelKeys, WheelKind, shape_of
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ class LanternGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="lantern_ge
     number_of_teeth: Annotated[int, Meta(ge=3, le=1000, description="number of teeth z", examples=[30])]
     number_of_pins: Annotated[int, Meta(ge=3, le=1000, description="number of pins N of the lantern", examples=[12])]
     pin_circle_diameter: Annotated[
-        float, mm("pin circle of the lantern: its pitch circle", least=0.1, most=MOST, example=80.0)
+        float, part_mm("pin circle of the lantern: its pitch circle", least=0.1, example=80.0)
     ]
     pin_diameter: PinDiameter
     pin_clearance: Annotated[float, mm("gap between flank and pin along the normal", least=0, most=100)] = 0.0
@@ -34,7 +34,12 @@ class LanternGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="lantern_ge
     tip_diameter: (
         Annotated[
             float,
-            mm("tip diameter; default: a tip land of a tenth of the pitch", above=0, most=2 * MOST, example=220.0),
+            mm(
+                "tip diameter; default: a tip land of a tenth of the pitch",
+                above=0,
+                most=2 * MOST_LENGTH,
+                example=220.0,
+            ),
         ]
         | None
     ) = None

@@ -5,16 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, TypeVar
 
 from geometry.base.errors import ParameterError, limit
+from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report, Stock
 from parts.base.part_keys import MaterialKeys
-from parts.keys.base import BoreDiameter, mm
+from parts.keys.base import BoreDiameter, mm, part_mm
 from parts.keys.holes import BoredKeys, check_bore
-from parts.keys.pins import MOST, check_holes, holes_of, most_of, moved_region
+from parts.keys.pins import check_holes, holes_of, most_of, moved_region
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
-    from geometry.solids.body import Body
     from geometry.solids.pin_plates import RoundDisc
     from geometry.solids.sketch import Sketch
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 class PinSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="pin"):
     """Keys of ``pin``."""
 
-    diameter: Annotated[float, mm("outer diameter", least=0.01, most=MOST, example=8.0)]
+    diameter: Annotated[float, part_mm("outer diameter", least=0.01, example=8.0)]
     length: Annotated[float, mm("length along the axis", least=0.01, most=10_000, example=60.0)]
     bore_diameter: BoreDiameter = 0.0
 
@@ -30,8 +30,8 @@ class PinSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="p
 class EccentricSpec(BoredKeys, kw_only=True, tag_field="kind", tag="eccentric"):
     """Keys of ``eccentric``."""
 
-    diameter: Annotated[float, mm("diameter of the disc", least=0.01, most=MOST, example=22.0)]
-    eccentricity: Annotated[float, mm("from the axis to the disc's centre", least=0, most=MOST, example=2.5)]
+    diameter: Annotated[float, part_mm("diameter of the disc", least=0.01, example=22.0)]
+    eccentricity: Annotated[float, part_mm("from the axis to the disc's centre", least=0, example=2.5)]
 
 
 K = TypeVar("K", PinSpec, EccentricSpec)
@@ -45,12 +45,6 @@ class _Round(Kind[K, "RoundDisc"]):
     def section(self, keys: K, thing: RoundDisc, offset: float) -> OffsetRegion:
         """The disc moved."""
         return moved_region(thing.region, offset)
-
-    def solid(self, keys: K, thing: RoundDisc, offset: float) -> Body:
-        """The disc, extruded."""
-        from geometry.solids.body import plate
-
-        return plate(self.section(keys, thing, offset).region, 0.0, self.height(keys, thing))
 
 
 class Pin(_Round[PinSpec]):
@@ -71,11 +65,10 @@ class Pin(_Round[PinSpec]):
         holes = HubHoles(RoundBore(keys.bore_diameter)) if keys.bore_diameter > 0 else HubHoles()
         return RoundDisc(keys.diameter / 2, 0.0, holes)
 
-    def sketch(self, keys: PinSpec, thing: RoundDisc) -> Sketch:
+    def sketch(self, keys: PinSpec, thing: RoundDisc) -> Sketch | None:
         """A pin is not hatched along its axis."""
-        from geometry.solids.sketch import sketch_of_body
-
-        return sketch_of_body(self.solid(keys, thing, 0.0), is_shaft=True)
+        sketch = super().sketch(keys, thing)
+        return sketch and replace(sketch, is_shaft=True)
 
     def stock(self, keys: PinSpec) -> Stock:
         """A length of a rod or a tube."""

@@ -14,11 +14,10 @@ from geometry.base.nearest import nearest
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.windows import RoundHoles
 from parts.base.kind import Kind, Others, Report
-from parts.keys.base import LEAST_LENGTH, mm
+from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, mm, part_mm
 from parts.keys.holes import Direction, HoledKeys
 from parts.keys.pins import (
     MARGIN,
-    MOST,
     PinCircle,
     PinDiameter,
     check_holes,
@@ -51,7 +50,8 @@ class PinPlateKeys(HoledKeys, kw_only=True):
         float, mm("radius of a hole for a pin beyond the pin's (solid pins: of flat files)", least=-10, most=100)
     ] = 0.0
     outer_diameter: (
-        Annotated[float, mm("outside; default: pin circle + 2 pins", above=0, most=2 * MOST, example=60.0)] | None
+        Annotated[float, mm("outside; default: pin circle + 2 pins", above=0, most=2 * MOST_LENGTH, example=60.0)]
+        | None
     ) = None
 
 
@@ -72,13 +72,14 @@ class LanternWheelSpec(PinPlateKeys, kw_only=True, tag_field="kind", tag="lanter
 
     number_of_pins: Annotated[int, Meta(ge=3, le=1000, description="number of pins N", examples=[12])]
     pin_circle_diameter: Annotated[
-        float, mm("circle of the pins' centres: the pitch circle", least=0.1, most=MOST, example=80.0)
+        float, part_mm("circle of the pins' centres: the pitch circle", least=0.1, example=80.0)
     ]
     face_width: Annotated[float, mm("free length of the pins between the plates", least=0.01, most=10_000)] = 10.0
     plate_thickness: Annotated[float, mm("thickness of each plate", least=0.01, most=10_000)] = 3.0
     outer_diameter: (
         Annotated[
-            float, mm("outside of the plates; default: pin circle + 2 pins", above=0, most=2 * MOST, example=100.0)
+            float,
+            mm("outside of the plates; default: pin circle + 2 pins", above=0, most=2 * MOST_LENGTH, example=100.0),
         ]
         | None
     ) = None

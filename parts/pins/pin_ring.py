@@ -11,13 +11,12 @@ from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
 from parts.gears.ring_gear.part import RimHolesTable
-from parts.keys.base import MadeKeys, mm
+from parts.keys.base import MOST_LENGTH, MadeKeys, mm, part_mm
 from parts.keys.holes import hub_holes, with_remedy
-from parts.keys.pins import MARGIN, MOST, PinCircle, PinCount, PinDiameter, least_of, most_of, moved_region
+from parts.keys.pins import MARGIN, PinCircle, PinCount, PinDiameter, least_of, most_of, moved_region
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
-    from geometry.solids.body import Body
     from geometry.solids.pin_ring import PinRing
 
 
@@ -35,14 +34,19 @@ class PinRingSpec(MadeKeys, kw_only=True, tag_field="kind", tag="pin_ring"):
     inner_diameter: (
         Annotated[
             float,
-            mm("inside of the ring; default: the pin circle (holes: free of them)", least=0, most=MOST, example=83.0),
+            part_mm("inside of the ring; default: the pin circle (holes: free of them)", least=0, example=83.0),
         ]
         | None
     ) = None
     outer_diameter: (
         Annotated[
             float,
-            mm("outside; default: pin circle + 3 pins, or beyond the holes", above=0, most=2 * MOST, example=110.0),
+            mm(
+                "outside; default: pin circle + 3 pins, or beyond the holes",
+                above=0,
+                most=2 * MOST_LENGTH,
+                example=110.0,
+            ),
         ]
         | None
     ) = None
@@ -62,12 +66,6 @@ class PinRingKind(Kind[PinRingSpec, "PinRing"]):
     def section(self, keys: PinRingSpec, thing: PinRing, offset: float) -> OffsetRegion:
         """The ring moved."""
         return moved_region(thing.region, offset)
-
-    def solid(self, keys: PinRingSpec, thing: PinRing, offset: float) -> Body:
-        """The ring, extruded."""
-        from geometry.solids.body import plate
-
-        return plate(self.section(keys, thing, offset).region, 0.0, keys.face_width)
 
     def report(self, keys: PinRingSpec, thing: PinRing) -> Report:
         """Its pins and its inside."""

@@ -27,7 +27,7 @@ from geometry.gears.teeth.helix import Hand
 from geometry.gears.teeth.transverse import transverse_angle
 from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
-from parts.keys.base import degrees, length, mm
+from parts.keys.base import degrees, mm, part_mm
 from parts.keys.helix import HelixAngle
 from parts.keys.mate import further
 from parts.recipes.making import made_of
@@ -77,7 +77,7 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     module: Annotated[float, mm("module of the mesh 1-2", least=0.01, most=1000)] = 2.0
     second_module: Annotated[float, mm("module of the mesh 2'-3", least=0.01, most=1000, example=2.0)] | None = None
     working_centre_distance: (
-        Annotated[float, length("centre distance of both meshes; default: as the teeth need it", above=0,
+        Annotated[float, part_mm("centre distance of both meshes; default: as the teeth need it", above=0,
                             example=48.0)]
         | None
     ) = None  # fmt: skip

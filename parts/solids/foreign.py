@@ -173,8 +173,7 @@ def _shares(edges: Edges) -> Real:
     """Shares of edges at which they are held against their faces: as many on each span of a spline."""
     if not isinstance(edges.curve, Spline):
         return _SHARES
-    spans = span_shares(edges.curve.knots)
-    return np.interp(np.linspace(0, len(spans) - 1, (len(spans) - 1) * _ON_SPAN + 1), np.arange(len(spans)), spans)
+    return span_shares(edges.curve.knots, _ON_SPAN)
 
 
 class _Taken(SolidBuilder):

@@ -15,9 +15,7 @@ _FLAT, _TIE = 1e-6, 1 + 1e-9
 
 def bend_places(knots: Real) -> Real:
     """Shares of a spline's domain at which its bend is looked at."""
-    spans = span_shares(knots)
-    each = max(_BENDS, -(-_LEAST // (len(spans) - 1)))
-    return np.interp(np.linspace(0, len(spans) - 1, each * (len(spans) - 1) + 1), np.arange(len(spans)), spans)
+    return span_shares(knots, max(_BENDS, -(-_LEAST // (len(span_shares(knots)) - 1))))
 
 
 def graded(places: Real, bends: Real, sag: float) -> Real:

@@ -9,7 +9,6 @@ import numpy as np
 from geometry.base.distinct import distinct
 from geometry.cams.contact.support import support
 from geometry.cams.motion.follower_motion import TURN
-from geometry.cams.motion.guides import Translating
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.positive import Conjugate
 from geometry.cams.plane.shape import cam_shape
@@ -62,9 +61,8 @@ def yoke_contact(cam: DiskCam, breadth: float, play: float, tolerance: float, *,
     by which the yoke stands farther out than its motion asks.
     """
     angles = _angles(cam)
-    profile, mount = cam_shape(cam).profile, cam.mount
-    assert isinstance(mount, Translating)
-    upper = mount.start_height + cam.motion.value(angles) + play / 2 + out
+    profile = cam_shape(cam).profile
+    upper = cam.slide.start_height + cam.motion.value(angles) + play / 2 + out
     lower = upper - breadth - play
     if cam.is_flat:
         one = upper - support(profile, 1j * np.exp(-1j * angles))[0]

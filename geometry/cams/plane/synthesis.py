@@ -7,7 +7,6 @@ rho = r_0 + S + S'' >= 0. Its r_0 of lesson 5 is the prime circle. R_min = r_0 +
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable
 from functools import lru_cache
@@ -106,18 +105,6 @@ class AxisRegion(Record):
     def least_prime_radius(self, offset: float) -> float:
         """Least R_p for an offset, mm: hypot(e, s_0)."""
         return math.hypot(offset, self.least_height(offset))
-
-    def best(self) -> tuple[float, float]:
-        """Offset e and height s_0 of the smallest prime circle of all: the point of the region nearest to (0, 0)."""
-        places = [0.0]
-        for a, c in self.lines:
-            # foot of the perpendicular from the origin
-            places.append(a * c / (1 + c * c))
-        for (a, c), (b, d) in itertools.combinations(self.lines, 2):
-            if c != d:
-                places.append((a - b) / (c - d))
-        offset = min(places, key=self.least_prime_radius)
-        return offset, self.least_height(offset)
 
 
 def axis_region(motion: FollowerMotion, rise_limit: float, return_limit: float | None = None) -> AxisRegion:

@@ -28,7 +28,7 @@ from parts.cams.disk_cam.part import (
     undercut,
 )
 from parts.cams.wheel import DiskKeys, check_disk
-from parts.keys.base import degrees, length, mm, start
+from parts.keys.base import degrees, mm, part_mm, start
 from parts.keys.cam import (
     Follower,
     Phases,
@@ -54,7 +54,7 @@ class LinkageCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag
 
     follower: Follower
     driven: DrivenRocker | DrivenSlider
-    coupler_length: Annotated[float, length("from joint A to joint B", above=0, example=43.0)]
+    coupler_length: Annotated[float, part_mm("from joint A to joint B", above=0, example=43.0)]
     guide: GuidingRocker | GuidingSlider
     coupler_point: Annotated[
         tuple[Coordinate, Coordinate],
@@ -67,11 +67,11 @@ class LinkageCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag
         float,
         degrees("stem, or normal of a flat face, away from the cam, from the coupler's +x", least=-360, most=360),
     ] = 0.0
-    follower_radius: Annotated[float, length("radius of the roller or mushroom", least=0), start(6.0)] = 0.0
+    follower_radius: Annotated[float, part_mm("radius of the roller or mushroom", least=0), start(6.0)] = 0.0
     plate_diameter: (
-        Annotated[float, length("width of a flat or mushroom face about coupler_point", above=0, example=60.0)] | None
+        Annotated[float, part_mm("width of a flat or mushroom face about coupler_point", above=0, example=60.0)] | None
     ) = None
-    lift: Annotated[float, length("travel of a driven slider", least=0)] = 0.0
+    lift: Annotated[float, part_mm("travel of a driven slider", least=0)] = 0.0
     swing_deg: Annotated[float, degrees("swing of a driven rocker", least=0, below=180), start(24.0)] = 0.0
     phases: Annotated[Phases, with_own_laws(turn("sine"))] | None = None
     motion_table: (
@@ -87,7 +87,7 @@ class LinkageCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag
         | None
     ) = None
     table_tolerance: TableTolerance = 0.0
-    least_curvature_radius: Annotated[float, length("rho: least convex radius of the cam", least=0)] = 0.0
+    least_curvature_radius: Annotated[float, part_mm("rho: least convex radius of the cam", least=0)] = 0.0
 
 
 # what is tried of each key, nearest first: shares of a length, a part of its range, degrees either way

@@ -53,7 +53,7 @@ from parts.pages.cam_steps import (
     positions,
     radius_step,
 )
-from parts.pages.inputs import PLACE, SceneKeys, calculation, given
+from parts.pages.inputs import PLACE, SceneKeys, calculation, chosen_part, given
 from parts.pages.misprints import printed_for_rise
 from parts.pages.page import Sheet
 
@@ -89,14 +89,7 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     cams = [key for key, kind in kinds.items() if kind in PAGES]
     # a page of the second disk or of the yoke tells of the cam too
     whole = [c for c in cams if c not in {getattr(scene.parts[other], "of", None) for other in cams}]
-    part = table.pop("part", None)
-    if part is None and len(whole) != 1:
-        code = "choose_a_part" if whole else "none_of_kind"
-        raise SceneError(source, "parts", None, code, None, known=whole, kind="cam")
-    if part is not None and part not in cams:
-        code = "no_such_part" if cams else "none_of_kind"
-        raise SceneError(source, "part", part, code, meant(part, cams), known=cams, kind="cam")
-    chosen = part or whole[0]
+    chosen = chosen_part("cam", cams, whole, source, table)
     found, kind = given(scene.parts[chosen]), kinds[chosen]
     if kind == "cam":
         return found | table

@@ -20,7 +20,7 @@ from parts.base.kind import Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
 from parts.cams.wheel import DiskKeys, Turned, check_disk, inner_radius, marked_holes
-from parts.keys.base import MOST_LENGTH, length, start
+from parts.keys.base import MOST_LENGTH, part_mm, start
 from parts.keys.cam import (
     LAW_AT_REST,
     USUAL_PRESSURE_ANGLE,
@@ -72,7 +72,7 @@ class OscillatingTable(Struct, forbid_unknown_fields=True):
     centre_distance: (
         Annotated[
             float,
-            length(
+            part_mm(
                 "from the cam's axis to the pivot; default: of the smallest cam by least_transmission_angle_deg",
                 above=0,
                 example=90.0,
@@ -81,12 +81,12 @@ class OscillatingTable(Struct, forbid_unknown_fields=True):
         | None
     ) = None
     arm_length: Annotated[
-        float, length("from the pivot to the roller's centre; not for flat", least=0), start(80.0)
+        float, part_mm("from the pivot to the roller's centre; not for flat", least=0), start(80.0)
     ] = 0.0
     sense: Annotated[
         Literal["against", "with"], Meta(description="how the follower rises: against or with the cam's turning")
     ] = "against"
-    face_offset: Annotated[float, length("flat face nearer to the axis than the pivot", least=-MOST_LENGTH)] = 0.0
+    face_offset: Annotated[float, part_mm("flat face nearer to the axis than the pivot", least=-MOST_LENGTH)] = 0.0
 
     @property
     def turning(self) -> int:
@@ -106,7 +106,8 @@ class CamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="cam")
     follower_radius: FollowerRadius = 0.0
     follower_offset: FollowerOffset = 0.0
     plate_diameter: (
-        Annotated[float, length("round plate of a translating flat or mushroom follower", above=0, example=60.0)] | None
+        Annotated[float, part_mm("round plate of a translating flat or mushroom follower", above=0, example=60.0)]
+        | None
     ) = None
     oscillating: OscillatingTable | None = None
     base_circle_radius: BaseCircle | None = None

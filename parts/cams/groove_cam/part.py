@@ -28,7 +28,7 @@ from parts.cams.disk_cam.part import (
     larger_bases,
 )
 from parts.cams.wheel import DiskKeys, check_disk, inner_radius
-from parts.keys.base import MOST_LENGTH, degrees, length, mm, start
+from parts.keys.base import MOST_LENGTH, degrees, mm, part_mm, start
 from parts.keys.cam import (
     USUAL_PRESSURE_ANGLE,
     FollowerOffset,
@@ -59,7 +59,7 @@ _USUAL_CLEARANCE = (0.0, 0.02)
 class GrooveCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="groove_cam"):
     """Keys of ``groove_cam``."""
 
-    follower_radius: Annotated[float, length("radius of the roller", above=0, example=8.0)]
+    follower_radius: Annotated[float, part_mm("radius of the roller", above=0, example=8.0)]
     groove_depth: Annotated[
         float, mm("from the upper face to the groove's floor, below face_width", above=0, most=10_000, example=5.0)
     ]
@@ -73,7 +73,7 @@ class GrooveCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag=
     base_circle_radius: (
         Annotated[
             float,
-            length("circle inside the groove; default: by least_transmission_angle_deg", above=0),
+            part_mm("circle inside the groove; default: by least_transmission_angle_deg", above=0),
             start(30.0),
         ]
         | None

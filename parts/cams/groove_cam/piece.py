@@ -10,7 +10,6 @@ from geometry.base.errors import OffsetError
 from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Region, circle
-from geometry.solids.body import plate
 from parts.base.kind import Kind, Others, Report
 from parts.base.links import owner_of
 from parts.base.part_keys import MaterialKeys
@@ -19,7 +18,6 @@ from parts.keys.base import mm
 from parts.keys.cam import turn
 
 if TYPE_CHECKING:
-    from geometry.solids.body import Body
     from parts.base.readback import Probe
 
 
@@ -75,10 +73,6 @@ class Piece(Kind[GroovePieceSpec, GroovePiece]):
         outer, inner = whole.region.marks
         region = Region(inner, whole.region.holes) if keys.piece == "core" else Region(whole.region.outer, (outer,))
         return OffsetRegion(region, offset, whole.findings)
-
-    def solid(self, keys: GroovePieceSpec, thing: GroovePiece, offset: float) -> Body:
-        """The section, extruded."""
-        return plate(self.section(keys, thing, offset).region, 0.0, thing.thickness)
 
     def height(self, keys: GroovePieceSpec, thing: GroovePiece) -> float:
         """The plate's thickness."""

@@ -20,7 +20,7 @@ from parts.base.links import owner_of
 from parts.base.part_keys import MaterialKeys
 from parts.cams.disk_cam.part import EVEN_CAM, CamSpec, cam_findings, cam_of, cam_quantities, larger_bases
 from parts.cams.wheel import Turned, inner_radius
-from parts.keys.base import degrees, length, mm
+from parts.keys.base import degrees, mm, part_mm
 from parts.keys.holes import (
     BoreTable,
     HolesTable,
@@ -47,7 +47,9 @@ class ConjugateCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind
     roller_distance: (
         Annotated[
             float,
-            length("between the rollers of a translating follower; default: by the base circle", above=0, example=96.0),
+            part_mm(
+                "between the rollers of a translating follower; default: by the base circle", above=0, example=96.0
+            ),
         ]
         | None
     ) = None
@@ -64,14 +66,14 @@ class ConjugateCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind
         | None
     ) = None
     base_circle_radius: (
-        Annotated[float, length("of this cam; default: that of the first", above=0, example=30.0)] | None
+        Annotated[float, part_mm("of this cam; default: that of the first", above=0, example=30.0)] | None
     ) = None
-    follower_radius: Annotated[float, length("second roller; default: the first", above=0, example=7.0)] | None = None
-    arm_length: Annotated[float, length("second arm; default: the first", above=0, example=80.0)] | None = None
+    follower_radius: Annotated[float, part_mm("second roller; default: the first", above=0, example=7.0)] | None = None
+    arm_length: Annotated[float, part_mm("second arm; default: the first", above=0, example=80.0)] | None = None
     face_width: (
         Annotated[float, mm("thickness; default: that of the first", least=0.01, most=10_000, example=8.0)] | None
     ) = None
-    bore_diameter: Annotated[float, length("round bore; default: that of the first", least=0, example=12.0)] | None = (
+    bore_diameter: Annotated[float, part_mm("round bore; default: that of the first", least=0, example=12.0)] | None = (
         None
     )
     bore: BoreTable | None = None

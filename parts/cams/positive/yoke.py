@@ -10,17 +10,15 @@ from geometry.base.errors import OffsetError, ParameterError, limit
 from geometry.base.record import Record, replace
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
-from geometry.solids.body import plate
 from geometry.solids.plate import PlateSlot, moved_profile, rounded
 from parts.base.kind import Kind, Others, Report
 from parts.base.links import owner_of
 from parts.base.part_keys import MaterialKeys
 from parts.cams.disk_cam.part import CAM, EVEN_CAM, CamSpec
-from parts.keys.base import length, mm
+from parts.keys.base import mm, part_mm
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
-    from geometry.solids.body import Body
 
 # straight ledge beside the stem, mm: what a cutter's width takes off it must not use it up
 _LEDGE = 0.5
@@ -35,29 +33,29 @@ class YokeFrameSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", 
 
     of: Annotated[str, Meta(description="the cam: a part of kind cam, flat or roller, of constant breadth")]
     clearance: Annotated[float, mm("play of the cam between faces or rollers", least=0, most=10)] = 0.0
-    wall: Annotated[float, length("width of the frame's bars, or about pins and slot", least=_LEAST_WALL)] = 8.0
-    side_clearance: Annotated[float, length("flat: beside the cam in the window", least=0.01)] = 2.0
-    corner_radius: Annotated[float, length("of the frame's outer corners", least=0)] = 0.0
+    wall: Annotated[float, part_mm("width of the frame's bars, or about pins and slot", least=_LEAST_WALL)] = 8.0
+    side_clearance: Annotated[float, part_mm("flat: beside the cam in the window", least=0.01)] = 2.0
+    corner_radius: Annotated[float, part_mm("of the frame's outer corners", least=0)] = 0.0
     stem_width: (
         Annotated[
             float,
-            length(f"of the guided stem; default: {_STEM:g}, or what a frame has", above=0, example=_STEM),
+            part_mm(f"of the guided stem; default: {_STEM:g}, or what a frame has", above=0, example=_STEM),
         ]
         | None
     ) = None
-    stem_above: Annotated[float, length("length of the stem above the frame; 0 is none", least=0)] = 60.0
-    stem_below: Annotated[float, length("length of the stem below the frame; 0 is none", least=0)] = 0.0
+    stem_above: Annotated[float, part_mm("length of the stem above the frame; 0 is none", least=0)] = 60.0
+    stem_below: Annotated[float, part_mm("length of the stem below the frame; 0 is none", least=0)] = 0.0
     pin_diameter: (
         Annotated[
             float,
-            length(f"rollers: holes of their pins; default: {_PIN:g}, or half of a roller", above=0, example=_PIN),
+            part_mm(f"rollers: holes of their pins; default: {_PIN:g}, or half of a roller", above=0, example=_PIN),
         ]
         | None
     ) = None
     shaft_diameter: (
         Annotated[
             float,
-            length(
+            part_mm(
                 f"rollers: width of the slot for the cam's shaft; default: {_SHAFT:g}, or half of a base circle",
                 above=0,
                 example=_SHAFT,
@@ -224,10 +222,6 @@ class Yoke(Kind[YokeFrameSpec, YokeFrame]):
     def section(self, keys: YokeFrameSpec, thing: YokeFrame, offset: float) -> OffsetRegion:
         """Frame with its window, or plate with pin holes and slot."""
         return OffsetRegion(_region(keys, thing, offset), offset, ())
-
-    def solid(self, keys: YokeFrameSpec, thing: YokeFrame, offset: float) -> Body:
-        """The section, extruded."""
-        return plate(_region(keys, thing, offset), 0.0, thing.thickness)
 
     def height(self, keys: YokeFrameSpec, thing: YokeFrame) -> float:
         """The plate's thickness."""

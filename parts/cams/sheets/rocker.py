@@ -9,7 +9,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from geometry.base.errors import GeometryError
-from geometry.cams.motion.guides import Oscillating
 from geometry.cams.plane.rocker import rocker_base, rocker_planes
 from geometry.curves.line_arc import Arc
 from parts.cams.sheets.diagrams import Drawn
@@ -28,8 +27,7 @@ def rocker_region(
 ) -> tuple[complex, complex, float, tuple[tuple[complex, complex], ...]] | None:
     """The axis of the smallest convex cam at this distance of the pivot, its foot on the lowest face, its base circle,
     and the half-planes (point, normal), model mm; None where none is convex."""
-    cam, mount = picture.cam, picture.cam.mount
-    assert isinstance(mount, Oscillating)
+    cam, mount = picture.cam, picture.cam.swing
     radius = picture.least_curvature_radius
     try:
         best = rocker_base(cam.motion, mount.centre_distance, mount.sense, mount.face_offset, radius)
@@ -55,8 +53,7 @@ def rocker_region(
 
 def faces(picture: CamPicture) -> list[tuple[complex, complex]]:
     """Of each position the face's point nearest to the pivot, and where it touches the cam, model mm."""
-    cam, mount = picture.cam, picture.cam.mount
-    assert isinstance(mount, Oscillating)
+    cam, mount = picture.cam, picture.cam.swing
     found = []
     for position in picture.positions:
         normal = complex(cam.normal(position.angle))

@@ -97,8 +97,7 @@ def swing_window(picture: CamPicture, swing: Swing) -> Box:
 
 def _curves(picture: CamPicture, paper: Paper) -> list[ArmCurve]:
     """The exact diagram of every moving piece, on paper."""
-    mount = picture.cam.mount
-    assert isinstance(mount, Oscillating)
+    mount = picture.cam.swing
     if picture.cam.is_flat:
         return []
     direction = math.pi - mount.sense * mount.start_angle
@@ -111,8 +110,7 @@ def _curves(picture: CamPicture, paper: Paper) -> list[ArmCurve]:
 
 def draw_swing(canvas: Canvas, picture: CamPicture, swing: Swing, paper: Paper, window: Box, asked: Asked) -> Drawn:
     """Arms, the diagram, the region's border with its hatching, both axes; by hand the axes alone."""
-    drawn, to, mount = Drawn(), paper.point, picture.cam.mount
-    assert isinstance(mount, Oscillating)
+    drawn, to, mount = Drawn(), paper.point, picture.cam.swing
     if asked.by_hand:
         drawn.line(canvas, "AXIS", to(0j), to(swing.pivot))
         for point in (0j, swing.pivot):
@@ -143,8 +141,7 @@ def draw_swing(canvas: Canvas, picture: CamPicture, swing: Swing, paper: Paper, 
 
 def _arms(picture: CamPicture) -> list[tuple[complex, complex]]:
     """Of each position the diagram's point and the roller's centre, model mm."""
-    cam, mount = picture.cam, picture.cam.mount
-    assert isinstance(mount, Oscillating)
+    cam, mount = picture.cam, picture.cam.swing
     found = []
     for position in picture.positions:
         end = complex(cam.reference_point(position.angle))

@@ -14,10 +14,9 @@ from geometry.base.findings import Finding
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
-from geometry.solids.body import plate
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
-from parts.keys.base import MOST_LENGTH, MadeKeys, length, start
+from parts.keys.base import MOST_LENGTH, MadeKeys, part_mm, start
 from parts.keys.cam import LAW_AT_REST, USUAL_PRESSURE_ANGLE, Swing, check_dwell, check_stroke, rough_law, stroke_key
 from parts.keys.law import LawTable, PhaseLaw, law_of, with_own_laws
 
@@ -26,7 +25,6 @@ if TYPE_CHECKING:
     from geometry.cams.plane.wedge import Swinging, Upright, WedgeCam, WedgeMotion
     from geometry.curves.curve import Complex
     from geometry.plane.distance import Flags
-    from geometry.solids.body import Body
     from parts.base.readback import Probe
 
 # places along the plate that are tried for a hole
@@ -47,7 +45,7 @@ class WedgePhaseTable(Struct, forbid_unknown_fields=True):
     """A phase of the motion over a part of the travel; the follower need not come back."""
 
     move: Annotated[Literal["rise", "dwell", "return_"], Meta(description="what the follower does")]
-    travel: Annotated[float, length("way of the plate in this phase", above=0)]
+    travel: Annotated[float, part_mm("way of the plate in this phase", above=0)]
     law: PhaseLaw | LawTable | None = None
     share: Annotated[float, Meta(gt=0, le=1, description="of the lift, in this phase")] = 1.0
 
@@ -55,8 +53,10 @@ class WedgePhaseTable(Struct, forbid_unknown_fields=True):
 class WedgeArmTable(Struct, forbid_unknown_fields=True):
     """A follower that swings about a pivot in the frame."""
 
-    arm_length: Annotated[float, length("from the pivot to the roller's centre", above=0, example=80.0)]
-    pivot_height: Annotated[float, length("of the pivot over the plate's lower edge", least=-MOST_LENGTH, example=50.0)]
+    arm_length: Annotated[float, part_mm("from the pivot to the roller's centre", above=0, example=80.0)]
+    pivot_height: Annotated[
+        float, part_mm("of the pivot over the plate's lower edge", least=-MOST_LENGTH, example=50.0)
+    ]
     side: Annotated[
         Literal["trailing", "leading"], Meta(description="the plate's friction pulls the arm, or pushes it")
     ] = "trailing"
@@ -65,9 +65,11 @@ class WedgeArmTable(Struct, forbid_unknown_fields=True):
 class WedgeHoleTable(Struct, forbid_unknown_fields=True):
     """A round hole of the plate."""
 
-    diameter: Annotated[float, length("of the hole", above=0, example=5.0)]
-    x: Annotated[float, length("along the travel from the follower's starting place", least=-MOST_LENGTH, example=20.0)]
-    y: Annotated[float, length("above the plate's lower edge", above=0, example=8.0)]
+    diameter: Annotated[float, part_mm("of the hole", above=0, example=5.0)]
+    x: Annotated[
+        float, part_mm("along the travel from the follower's starting place", least=-MOST_LENGTH, example=20.0)
+    ]
+    y: Annotated[float, part_mm("above the plate's lower edge", above=0, example=8.0)]
 
 
 class WedgeCamSpec(MadeKeys, forbid_unknown_fields=True, tag_field="kind", tag="wedge_cam"):
@@ -78,14 +80,14 @@ class WedgeCamSpec(MadeKeys, forbid_unknown_fields=True, tag_field="kind", tag="
         Meta(description="shape of the follower's end; flat cannot", examples=["roller"]),
     ]
     phases: Annotated[list[WedgePhaseTable], Meta(min_length=1, max_length=100), with_own_laws(_START)]
-    base_height: Annotated[float, length("of the plate under the follower at S = 0", above=0, example=15.0)]
-    lift: Annotated[float, length("lift H of a sliding follower", least=0), start(20.0)] = 0.0
+    base_height: Annotated[float, part_mm("of the plate under the follower at S = 0", above=0, example=15.0)]
+    lift: Annotated[float, part_mm("lift H of a sliding follower", least=0), start(20.0)] = 0.0
     swing_deg: Swing = 0.0
-    follower_radius: Annotated[float, length("radius of the roller or mushroom", least=0), start(6.0)] = 0.0
+    follower_radius: Annotated[float, part_mm("radius of the roller or mushroom", least=0), start(6.0)] = 0.0
     oscillating: WedgeArmTable | None = None
-    run_in: Annotated[float, length("straight edge before the travel", above=0)] = 10.0
-    run_out: Annotated[float, length("straight edge after the travel", above=0)] = 10.0
-    corner_radius: Annotated[float, length("of the plate's corners", least=0)] = 0.0
+    run_in: Annotated[float, part_mm("straight edge before the travel", above=0)] = 10.0
+    run_out: Annotated[float, part_mm("straight edge after the travel", above=0)] = 10.0
+    corner_radius: Annotated[float, part_mm("of the plate's corners", least=0)] = 0.0
     holes: WedgeHoleTable | list[WedgeHoleTable] | None = None
 
 
@@ -406,10 +408,6 @@ class Wedge(Kind[WedgeCamSpec, "WedgeCam"]):
     def section(self, keys: WedgeCamSpec, thing: WedgeCam, offset: float) -> OffsetRegion:
         """The plate with its holes."""
         return OffsetRegion(_region(keys, thing, offset), offset, ())
-
-    def solid(self, keys: WedgeCamSpec, thing: WedgeCam, offset: float) -> Body:
-        """The section, extruded."""
-        return plate(_region(keys, thing, offset), 0.0, keys.face_width)
 
     def report(self, keys: WedgeCamSpec, thing: WedgeCam) -> Report:
         """Sizes and angles, impacts and a steep pressure angle."""

@@ -10,8 +10,8 @@ from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
-from parts.keys.base import in_modules, mm, start
-from parts.keys.pins import MOST, check_holes, holes_of
+from parts.keys.base import in_modules, mm, part_mm, start
+from parts.keys.pins import check_holes, holes_of
 from parts.keys.wheel import WheelKeys, WheelKind, shape_of
 
 if TYPE_CHECKING:
@@ -37,9 +37,9 @@ class CycloidalGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="cycloida
     tip_rolling_diameter: (
         Annotated[
             float,
-            mm(
+            part_mm(
                 "circle that rolls outside and draws the tips' flanks; default: half the mate's pitch diameter",
-                above=0, most=MOST, example=8.0,
+                above=0, example=8.0
             ),
         ]
         | None
@@ -47,9 +47,9 @@ class CycloidalGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="cycloida
     root_rolling_diameter: (
         Annotated[
             float,
-            mm(
+            part_mm(
                 "circle that rolls inside and draws the root flanks; default: half the pitch diameter, straight flanks",
-                above=0, most=MOST, example=60.0,
+                above=0, example=60.0
             ),
         ]
         | None

@@ -248,7 +248,7 @@ def test_a_body_is_drawn_by_its_walls() -> None:
     square = Profile(tuple(Segment(Line(a, b), Label.HOLE) for a, b in
                            ((2 + 1j, 2 - 1j), (2 - 1j, 4 - 1j), (4 - 1j, 4 + 1j), (4 + 1j, 2 + 1j))))  # fmt: skip
     outer, hole = circle(8.0, Label.BODY), circle(1.0, Label.HOLE, hole=True, centre=-3j)
-    sketch = sketch_of_body(plate(Region(outer, (hole, square)), 1.0, 4.0), is_shaft=True)
+    sketch = replace(sketch_of_body(plate(Region(outer, (hole, square)), 1.0, 4.0)), is_shaft=True)
     (layer,) = sketch.layers
     assert (layer.low, layer.high, layer.upper is layer.lower) == (1.0, 4.0, True)
     assert [ring.circle for ring in layer.lower] == [(0j, 8.0), (-3j, 1.0), None]
