@@ -49,10 +49,12 @@ class WedgeMating(Touching):
         return (Prismatic(self.first),)
 
     def followed(self, start: Pose, now: Pose) -> Pose:
-        """Where the follower stands on a plate that has slid to -x: over the same place."""
-        way = ((start[0] - now[0]) * cmath.rect(1.0, -start[1])).real
-        centre, turned = replace(self, travel=self.travel + way).second_pose(*start, 0.0)
-        return centre, turned
+        """Where the follower stands on a plate that has slid to -x: over the same place of its guide."""
+        slid = self.travel + ((start[0] - now[0]) * cmath.rect(1.0, -start[1])).real
+        # before its law and after it the edge is straight
+        travel = min(max(slid, 0.0), self.cam.motion.travel)
+        centre, turned = replace(self, travel=travel).second_pose(*now, 0.0)
+        return centre + (slid - travel) * cmath.rect(1.0, now[1]), turned
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The follower where the plate at its travel has lifted it; it has no direction but the plate's."""

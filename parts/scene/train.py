@@ -282,7 +282,7 @@ def scene_mechanism(
     laid = {
         bodies.of(mating.second): _following(mating, stand, bodies.of(mating.second), laid=True)
         for mating in matings
-        if mating.follows and not in_plane(mating.first, stands)
+        if mating.follows and (stand[mating.first].axis != Z or not in_plane(mating.first, stands))
     }
     if laid:
         base = replace(base, joints=tuple((joints | laid).values()))

@@ -472,10 +472,13 @@ def test_a_follower_on_a_wedge_is_lifted_by_as_much_as_that_has_slid(travel: flo
     assert place.imag == pytest.approx(start.imag + lift)
     found = mate.standing((CENTRE, TURN), (at + way * (0.2 + 0.3j), turned))
     assert (found.distance, found.phase_off, found.slides) == (pytest.approx(0.2), pytest.approx(0.3), True)
-    # a plate that has slid on by 5 carries the same stem over another place
+    # a plate that has slid on by 5 lifts the same stem in its guide, which stays
     moved = mate.followed((CENTRE, TURN), (CENTRE - 5 * way, TURN))
     rise = float(mate.cam.motion.value(travel + 5.0)) - lift
-    assert moved[0] == pytest.approx(at + way * (5 + 1j * rise))
+    assert moved[0] == pytest.approx(at + way * 1j * rise)
+    # pulled back to its run-in it has let it down
+    moved = mate.followed((CENTRE, TURN), (CENTRE + (travel + 3) * way, TURN))
+    assert moved[0] == pytest.approx(at - way * 1j * lift)
     told = mate.quantities()
     assert (told["travel"], told["unit"], told["plate_travel"]) == (pytest.approx(20.0), "mm", travel)
     assert mate.joints == (Prismatic(mate.first),)

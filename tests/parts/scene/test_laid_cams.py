@@ -94,7 +94,8 @@ def test_what_stands_in_the_way_of_a_lying_cams_tappet_is_struck() -> None:
     [("laser_cam_model", "turns"), ("print_cam_set", "turns"), ("yoke_cam", "turns"), ("linkage_cam", "turns"),
      ("conjugate_cams", "turns"), ("wedge_cam", "travel")],
 )  # fmt: skip
-def test_built_in_cams_laid_as_a_whole_move_what_they_move_upright(name: str, way: str) -> None:
+@pytest.mark.parametrize("axis", [[1.0, -2.0, 2.0], [0.0, 0.0, -1.0]], ids=["askew", "turned over"])
+def test_built_in_cams_laid_as_a_whole_move_what_they_move_upright(name: str, way: str, axis: list[float]) -> None:
     """Invariance, at a share of a turn of the first, or of the way of a plate."""
     raw = tomllib.loads(built_in_scenes()[name].read_text("utf-8"))
     raw = {key: raw[key] for key in ("parts", "instances", "mates") if key in raw}
@@ -103,7 +104,7 @@ def test_built_in_cams_laid_as_a_whole_move_what_they_move_upright(name: str, wa
     here = {**own.get(first, {}), "at": [3.0, -4.0, 5.0]}
     one, two = (
         stood({**raw, "instances": {**own, first: {**here, **extra}}, "drives": [{"instance": first, way: run}]})[0]
-        for extra in ({}, {"axis": [1.0, -2.0, 2.0]})
+        for extra in ({}, {"axis": axis})
     )
     still, upright, laid = frames(one, 0.0), frames(one, run), frames(two, run)
     whole = rigid(frames(two, 0.0)[first]) @ np.linalg.inv(rigid(still[first]))

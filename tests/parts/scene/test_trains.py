@@ -148,7 +148,11 @@ def test_a_wedge_lifts_as_it_slides() -> None:
         parts, matings = make_parts(made, "t")
         placing = place(made.instances, made.drives, parts, matings, "t")
         plate, *_ = placing.at([-slid])
-        lifts.append({i.id: i.centre for i in placing.at([-slid])}[kept["mates"][0]["second"]])
+        stands, still = (
+            {i.id: i.centre for i in found}["roller"] for found in (placing.at([-slid]), placing.at([0.0]))
+        )
+        assert stands.real == pytest.approx(still.real, abs=1e-12)
+        lifts.append(stands)
         assert plate.centre.real == pytest.approx(placing.instances[0].centre.real - slid)
     assert lifts[0].imag == pytest.approx(lifts[1].imag, abs=1e-12)
 
