@@ -158,8 +158,10 @@ def _tabled(keys: PairKeys, table: Mapping[str, Any]) -> TableShift | None:
     """The shifts of the table that is asked for."""
     if keys.shifts is None:
         return None
-    given = [f"{name}.{key}" for key in ("profile_shift_coefficient", "helix_angle_deg") for name in GEARS
-             if table[name].get(key)]  # fmt: skip
+    given = [f"{name}.profile_shift_coefficient" for name in GEARS if "profile_shift_coefficient" in table[name]]
+    # the tables are those of spur gears of 20 degrees
+    given += [f"{name}.{key}" for key, usual in (("helix_angle_deg", 0.0), ("pressure_angle_deg", 20.0))
+              for name in GEARS if getattr(getattr(keys, name), key) != usual]  # fmt: skip
     if keys.working_centre_distance is not None:
         given.append("working_centre_distance")
     if given:

@@ -132,7 +132,9 @@ WORDS: list[tuple[str, str, str]] = [
     ("gear-pair module=2 first.number_of_teeth=13 second.number_of_teeth=90 shifts=practicum", "gear-pair.shifts",
      "not_in_table"),
     ("gear-pair module=2 first.number_of_teeth=13 second.number_of_teeth=21 shifts=practicum "
-     "first.profile_shift_coefficient=0.2", "gear-pair.shifts", "other_is_given"),
+     "first.profile_shift_coefficient=0", "gear-pair.shifts", "other_is_given"),
+    ("gear-pair module=2 first.number_of_teeth=13 second.number_of_teeth=21 shifts=practicum "
+     "pressure_angle_deg=25", "gear-pair.shifts", "other_is_given"),
     ("lever first=slider crank_length=50 coupler_length=200 speed=3 speed_rpm=30", "lever.speed_rpm", "other_is_given"),
     ("gear-pair second.kind=ring", "gear-pair.second.kind", "not_one_of"),
     ("shift-choice kind=rack_pair", "shift-choice.kind", "unknown_pair"),
