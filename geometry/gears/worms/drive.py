@@ -64,6 +64,16 @@ class WormDrive(Record):
         return math.atan2(self.worm.parameter, self.pitch_radius_of_worm)
 
     @property
+    def pitch_axial_pressure_angle(self) -> float:
+        """alpha_xw of the flank at the pitch point, rad."""
+        return self.worm.axial_pressure_angle_at(self.pitch_radius_of_worm)
+
+    @property
+    def pitch_normal_pressure_angle(self) -> float:
+        """alpha_nw of the flank at the pitch point, in the normal of its helix, rad."""
+        return math.atan(math.tan(self.pitch_axial_pressure_angle) * math.cos(self.pitch_lead_angle))
+
+    @property
     def tip_radius(self) -> float:
         """r_a2 in the mid plane (the throat), mm."""
         worm = self.worm

@@ -107,7 +107,11 @@ class Worm(Record, dict=True):
     @property
     def axial_pressure_angle(self) -> float:
         """alpha_x on the reference cylinder, rad."""
-        return math.atan(float(self.flank.slope(self.reference_radius)))
+        return self.axial_pressure_angle_at(self.reference_radius)
+
+    def axial_pressure_angle_at(self, radius: float) -> float:
+        """alpha_x at a radius from the axis, rad."""
+        return math.atan(float(self.flank.slope(radius)))
 
     @property
     def normal_pressure_angle(self) -> float:

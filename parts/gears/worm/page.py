@@ -199,6 +199,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
             _speeds(page, drive, keys.speed_rpm)
         if driving is not None or keys.wheel_torque is not None or keys.friction_coefficient:
             page.section(N_("Torques and losses"))
+            _pitch_angles(page, drive)
         worth = _losses(page, drive, keys)
         torque = _torques(page, drive, keys, driving, worth)
         if torque is not None and keys.form_factor is not None:
@@ -349,18 +350,25 @@ def _speeds(page: Sheet, drive: WormDrive, speed_rpm: float) -> None:
     page.add("worm_sliding_speed", speed / math.cos(drive.pitch_lead_angle), "{v_w} / cos({gamma_w})")
 
 
-def _friction_angle(keys: WormKeys, worm: Worm) -> float:
+def _pitch_angles(page: Sheet, drive: WormDrive) -> None:
+    """How the flank leans where it carries."""
+    page.add("worm_pitch_axial_angle_deg", math.degrees(drive.pitch_axial_pressure_angle), "")
+    formula = "arctan(tan({alpha_xw}) * cos({gamma_w}))"
+    page.add("worm_pitch_normal_angle_deg", math.degrees(drive.pitch_normal_pressure_angle), formula)
+
+
+def _friction_angle(keys: WormKeys, drive: WormDrive) -> float:
     """Angle of friction in a thread of inclined flanks, rad."""
-    return math.atan(keys.friction_coefficient / math.cos(worm.pressure_angle))
+    return math.atan(keys.friction_coefficient / math.cos(drive.pitch_normal_pressure_angle))
 
 
 def _losses(page: Sheet, drive: WormDrive, keys: WormKeys) -> float:
     """The efficiency, 1 where no friction is told."""
     if not keys.friction_coefficient:
         return 1.0
-    friction = _friction_angle(keys, drive.worm)
+    friction = _friction_angle(keys, drive)
     page.add("friction_coefficient", keys.friction_coefficient)
-    page.add("friction_angle_deg", math.degrees(friction), "arctan({f} / cos({alpha}))")
+    page.add("friction_angle_deg", math.degrees(friction), "arctan({f} / cos({alpha_nw}))")
     worth = strength.efficiency(drive, friction)
     page.add("worm_efficiency", worth, "tan({gamma_w}) / tan({gamma_w} + {rho_v})")
     page.add("back_driving_efficiency", strength.efficiency(drive, friction, back=True), "")
@@ -392,14 +400,14 @@ def _torques(page: Sheet, drive: WormDrive, keys: WormKeys, driving: float | Non
 
 def _forces(page: Sheet, drive: WormDrive, keys: WormKeys, torques: tuple[float, float]) -> None:
     """The forces between the flanks at the pitch point, by the torques on worm and wheel, N*m."""
-    worm, along = drive.worm, 2e3 * torques[1] / (2 * drive.reference_radius)
+    along = 2e3 * torques[1] / (2 * drive.reference_radius)
     page.add("worm_axial_force", along, "2000 * {T2} / {d2}")
     around = 2e3 * torques[0] / (2 * drive.pitch_radius_of_worm)
     page.add("worm_tangential_force", around, "2000 * {T1} / {d_w1}", _THESIS)
     # friction takes its share of the force along the worm, none of the radial one
-    less = math.tan(_friction_angle(keys, worm)) * math.tan(drive.pitch_lead_angle)
-    formula = "{F_a1} * tan({alpha_x})" + (" / (1 - tan({rho_v}) * tan({gamma_w}))" if less else "")
-    page.add("worm_radial_force", along * math.tan(worm.axial_pressure_angle) / (1 - less), formula)
+    less = math.tan(_friction_angle(keys, drive)) * math.tan(drive.pitch_lead_angle)
+    formula = "{F_a1} * tan({alpha_xw})" + (" / (1 - tan({rho_v}) * tan({gamma_w}))" if less else "")
+    page.add("worm_radial_force", along * math.tan(drive.pitch_axial_pressure_angle) / (1 - less), formula)
 
 
 def _strength(page: Sheet, drive: WormDrive, keys: WormKeys, load: strength.Load) -> None:

@@ -746,9 +746,16 @@ def test_a_worm_pushes_its_wheel_as_a_wedge_that_slides() -> None:
         "power=2200 speed_rpm=1440"
     )["values"]
     radius, lead, turns = 22.0, 8 * math.pi, 24.0
-    slope, held = math.atan(lead / (2 * math.pi * radius)), math.atan(0.04 / math.cos(math.radians(20)))
+    slope = math.atan(lead / (2 * math.pi * radius))
     around, along = got["worm_tangential_force"], got["worm_axial_force"]
-    assert around == pytest.approx(along * math.tan(slope + held), rel=1e-12)
+    # at the pitch point z grows with r by 4 (tan - arctan)(sqrt(r^2 / r_b^2 - 1)), r_b by the involute thread of 20 deg
+    base = math.acos(math.cos(math.radians(20)) * math.cos(math.atan(2 / 10)))
+    drop = [4 * (t - math.atan(t)) for r in (21.999, 22.001) for t in (math.sqrt((r * math.tan(base) / 4) ** 2 - 1),)]
+    normal = (drop[1] - drop[0]) / 0.002, math.tan(slope), 1.0
+    sliding = 0.0, 0.04 * math.cos(slope), -0.04 * math.sin(slope)
+    push = [n / math.hypot(*normal) + f for n, f in zip(normal, sliding, strict=True)]
+    told = got["worm_radial_force"] / along, around / along
+    assert told == pytest.approx((push[0] / push[2], push[1] / push[2]), rel=1e-7)
     assert around * 2 * math.pi * radius * turns == pytest.approx(2200e3, rel=1e-12)
     assert along * lead * turns == pytest.approx(1e3 * got["worm_power_out"], rel=1e-12)
     assert got["worm_sliding_speed"] == pytest.approx(turns * math.hypot(2 * math.pi * radius, lead), rel=1e-12)
