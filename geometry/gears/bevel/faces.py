@@ -42,7 +42,8 @@ from geometry.solids.faces import (
 from geometry.solids.measured import Measured
 from geometry.solids.rings import AHEAD, UP, Ring, RingBuilder
 
-_DEGREE, _MOST_SPANS, _SAMPLES, _MARGIN = 7, 64, 11, 1.5
+# spans across a tooth and along it at most: tooth lines bend most where they come near the apex
+_DEGREE, _MOST_SPANS, _MOST_ALONG, _SAMPLES, _MARGIN = 7, 64, 256, 11, 1.5
 # kernels join edges and faces within 1e-7 mm
 _TARGET, _ROUNDING = 2e-8, 8e-15
 # the share of it that an edge may take of a flank's
@@ -167,7 +168,7 @@ def _fitted_walls(gear: BevelGear, tolerance: float) -> _Walls:
     free = [name for name in _SIDES if not gear.is_straight or (name == "flank" and not gear.tip_to_apex)]
     least, spans, worst = max(min(tolerance, _TARGET) / _MARGIN, 2 * _ROUNDING * gear.cone_distance), 1, math.inf
     while free and worst > least:
-        if spans > _MOST_SPANS:
+        if spans > _MOST_ALONG:
             raise ConvergenceError("spline of a bevel flank", worst, spans)
         knots, worst = clamped(_DEGREE, np.linspace(0.0, 1.0, spans + 1)), 0.0
         fine = np.linspace(0.0, 1.0, _SAMPLES * spans + 1)
@@ -191,7 +192,7 @@ def _fitted_wall(gear: BevelGear, name: str, across: Real, along: Real, fine: Re
     exact = gear.wall_points(name, greville(_DEGREE, across), greville(_DEGREE, along))
     poles = tensor_poles(_DEGREE, across, along, exact)
     rows, columns = basis_matrix(_DEGREE, across, shares), basis_matrix(_DEGREE, along, fine)
-    made = np.einsum("iu,uvc,jv->ijc", rows, poles, columns)
+    made = np.einsum("iu,uvc,jv->ijc", rows, poles, columns, optimize=True)
     return poles, float(np.linalg.norm(made - gear.wall_points(name, shares, fine), axis=2).max())
 
 

@@ -174,4 +174,4 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
 def _rows(page: Sheet, *names: str) -> tuple[DataRow, ...]:
     """The steps of these names that are of this gear or of both."""
     steps = [step for name in names for step in page.steps() if step.name == name and step.gear < 2]
-    return tuple(replace(row_of(step), symbol=TERMS[step.name].symbol) for step in steps)
+    return tuple(replace(row_of(step), symbol=TERMS[step.name].symbol if step.gear else step.symbol) for step in steps)

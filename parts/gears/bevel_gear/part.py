@@ -146,8 +146,10 @@ def _lined(keys: BevelGearSpec, gear: BevelGear) -> BevelGear:
     if keys.spiral_angle_deg is None:
         return gear
     spiral = math.radians(keys.spiral_angle_deg)
+    # a face all the way over the apex has no mean cone distance; it is refused
+    radius = keys.cutter_radius or gear.mean_distance or math.inf
     return replace(
-        gear, spiral_angle=spiral, cutter_radius=keys.cutter_radius or gear.mean_distance if arc else math.inf,
+        gear, spiral_angle=spiral, cutter_radius=radius if arc else math.inf,
         hand=keys.hand, pressure_angle=math.atan(math.tan(gear.pressure_angle) / math.cos(spiral)),
     )  # fmt: skip
 

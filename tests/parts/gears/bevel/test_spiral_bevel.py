@@ -14,6 +14,8 @@ import pytest
 
 from exporters.command.cli import main
 from exporters.documents.topics import calculate
+from geometry.base.record import replace
+from geometry.gears.bevel.faces import faced_bevel
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import place
@@ -178,3 +180,29 @@ def test_the_worked_example_of_khk() -> None:
     for name, value in expected.items():
         found = told[name]
         assert (list(found.values()) if isinstance(found, dict) else found) == pytest.approx(value, abs=6e-5), name
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("kind", KINDS)
+def test_turning_spheres_changes_no_volume(kind: str) -> None:
+    """Of a straight gear with the same section: volume, centre and the moment about the axis stay (Cavalieri)."""
+    raw = {"parts": {"g": PINION | KINDS[kind]}}
+    part = make_parts(scene_from_dict(raw, "s", "s"), "s")[0]["g"]
+    straight = replace(part.thing, spiral_angle=0.0, cutter_radius=math.inf)
+    own, other = part.body(0.0).moments, faced_bevel(straight).moments
+    assert own.volume == pytest.approx(other.volume, rel=1e-9)
+    assert own.centre[2] == pytest.approx(other.centre[2], rel=1e-9)
+    assert own.inertia[2][2] == pytest.approx(other.inertia[2][2], rel=1e-9)
+
+
+def test_a_differential_of_spiral_gears_closes() -> None:
+    """Both wheels of one hand, the satellites between them of the other: each stands in the spaces of both."""
+    raw = scene(KINDS["spiral"], KINDS["spiral"])
+    mates = [("sun", "one", 0.0), ("sun", "two", 180.0), ("one", "side", 0.0), ("two", "side", 0.0)]
+    raw["instances"] = {"sun": {"part": "wheel"}, "one": {"part": "pinion"}, "two": {"part": "pinion"},
+                        "side": {"part": "wheel"}}  # fmt: skip
+    raw["mates"] = [{"kind": "bevel_pair", "first": a, "second": b, "direction_deg": way} for a, b, way in mates]
+    file = scene_from_dict(raw, "s", "s")
+    parts, matings = make_parts(file, "s")
+    placing = place(file.instances, [], parts, matings, "s")
+    assert all(condition.met for mate in placing.mates for condition in mate.conditions)
