@@ -47,6 +47,7 @@ TYPED = {
         "atan",
         "beta",
         "bevel",
+        "crossed",
         "build",
         "bulge",
         "calc",

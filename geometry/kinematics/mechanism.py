@@ -45,9 +45,9 @@ Z = (0.0, 0.0, 1.0)
 # sine of the angle between what is parallel
 _PARALLEL = 1e-9
 # parallel: two links that turn alike, as cranks of a parallelogram do, or what is hung on them and what it hangs on
-Kind = Literal["external", "internal", "bevel", "worm", "rack", "parallel"]
-# turns of the second for those of the first; the guidelines count bevels and worms as positive
-_SENSES: Mapping[str, int] = {"external": -1, "internal": 1, "bevel": 1, "worm": 1, "rack": 1, "parallel": 1}
+Kind = Literal["external", "internal", "bevel", "worm", "crossed", "rack", "parallel"]
+# turns of the second for those of the first where that is not 1: the guidelines count bevels and worms as positive
+_SENSES: Mapping[str, int] = {"external": -1}
 
 
 class Fixed(Record):
@@ -104,7 +104,7 @@ class Rolling(Record):
     @property
     def ratio(self) -> Fraction:
         """What the second turns (or travels, in pi mm) for one turn of the first, both against the carrier."""
-        sense = self.sense or _SENSES[self.kind]
+        sense = self.sense or _SENSES.get(self.kind, 1)
         return sense * (self.module * self.teeth[0] if self.kind == "rack" else Fraction(*self.teeth))
 
 

@@ -5,6 +5,7 @@ A kind is an instance of a subclass, registered by one entry of ``parts/mates/re
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
@@ -60,9 +61,10 @@ class Standing(Record):
 
 
 class LaidStanding(Record):
-    """The same of two whose axes meet: how far their apexes are ``apart``, mm, and the ``angle`` between both, rad.
+    """The same of two whose axes make an ``angle``, rad: how far their apexes, or axes, are ``apart``, mm.
 
-    ``required``: that angle as the mate has it; ``reach``: from the apex to the teeth, mm.
+    ``required``: that angle as the mate has it; ``reach``: from the apex to the teeth, mm. ``code``: of the condition
+    of how far they are apart, ``distance`` as the mate has it, mm.
     """
 
     apart: float
@@ -72,6 +74,8 @@ class LaidStanding(Record):
     play: float
     arm: float
     reach: float
+    code: str = "apex_distance"
+    distance: float = 0.0
 
 
 class End(Record, Generic[A]):
@@ -158,6 +162,14 @@ class Mating(Joined, kw_only=True):
     def laid_standing(self, first: Placement3, second: Placement3) -> LaidStanding:
         """How two placed instances of what ``lies`` stand to each other."""
         raise NotImplementedError
+
+    def laid(self, first: Placement3, second: Placement3) -> Mating:
+        """The mating with what it has of where both of what ``lies`` stand."""
+        return self
+
+    def centres_direction(self, offset: complex, axis: Vector) -> float:
+        """Of the line of centres, rad, where the second's frame stands so against the first."""
+        return cmath.phase(offset)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
         """Verdict over one pitch or turn, the second that far off its exact place; None: nothing moves here."""

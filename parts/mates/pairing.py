@@ -65,10 +65,11 @@ def _served(asked: Sequence[Asked]) -> dict[str, float]:
     for one in asked:
         bearing = _bearing(one)
         taking = [part for part in bearing if part not in given] or bearing
-        lacking = max(_lacking(given, one), 0.0)
+        lacking, shares = max(_lacking(given, one), 0.0), dict(zip(*one, strict=True))
+        whole = sum(shares[part] for part in taking)
         # once, though a part may mesh with another of its kind
         for part in dict.fromkeys(taking):
-            given[part] = given.get(part, 0.0) + lacking / len(taking)
+            given[part] = given.get(part, 0.0) + lacking * (shares[part] / whole)
     return given
 
 

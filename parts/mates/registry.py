@@ -81,6 +81,10 @@ MATES: Index[MateKind[Any, Any, Any]] = Index(
             "parts.mates.bevel:BEVEL_PAIR",
             "Two bevel gears made for each other, laid so that the apexes of their cones meet",
         ),
+        "crossed_helical_pair": (
+            "parts.mates.crossed:CROSSED_HELICAL_PAIR",
+            "Two helical gears on crossed axes (screw gears), the second laid as their helix angles want it",
+        ),
         "worm_pair": (
             "parts.mates.worm:WORM_PAIR",
             "A worm wheel (first) and its worm (second), laid across the line of centres in the middle of the rim",

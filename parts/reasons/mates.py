@@ -5,6 +5,10 @@ from __future__ import annotations
 from parts.base.texts import N_
 
 REASONS = {
+    "axes_would_be_parallel": N_(
+        "the axes would be parallel: the shaft angle is the sum of both helix angles of one hand, or the difference "
+        "of those of opposite hands; external_gear_pair joins gears on parallel axes"
+    ),
     "backlash_already_more": N_(
         "is less than the backlash that the gears already have by their own thinning and distance"
     ),
@@ -26,6 +30,8 @@ REASONS = {
     "mate_joins": N_("is a {found}; {mate} joins {joins}"),
     "mate_joins_other": N_('is a {found}; {mate} joins {joins}; kind = "{other}" joins these two'),
     "member_is_a_slider": N_("this member is a slider; a plate can be one, an arm cannot"),
+    "no_common_normal": N_("at this angle flanks of these helices have no common normal"),
+    "no_herringbone_on_crossed_axes": N_("double helical teeth mesh on parallel axes only"),
     "no_output_holes": N_("has no output_holes; add that table to the disc"),
     "mesh_parts": N_(
         "no instance carries its axis and that of {first}; join a satellite to its carrier by a mate of kind carried"

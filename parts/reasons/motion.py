@@ -48,6 +48,6 @@ REASONS = {
     "stands_on_two": N_("is already carried by {on}; a link is carried by one other link only"),
     "stands_still": N_("stands still: there is no ratio to it"),
     "train_is_locked": N_("nothing can move: the equations of the meshes leave W = {w}"),
-    "write_mesh": N_("write wheels in mesh as 1-2, with internal, bevel or worm behind it where it is that"),
+    "write_mesh": N_("write wheels in mesh as 1-2, with internal, bevel, worm or crossed behind it where it is that"),
     "write_shaft": N_("write what stands on one shaft as 2-3"),
 }

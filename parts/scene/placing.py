@@ -95,7 +95,7 @@ class PlacedMate(Record):
     def direction(self) -> float:
         """Direction of the line of centres as placed, about the first's axis from its x as it is laid, rad."""
         first, second = seen_from(self.first, self.second)
-        return cmath.phase(second.centre - first.centre)
+        return self.mating.centres_direction(second.centre - first.centre, second.axis)
 
 
 class Closeness(Record):
@@ -385,15 +385,16 @@ def _axis_of_second(mating: Mating, first: Instance) -> Vector:
 
 
 def _laid(mating: Mating, first: Instance, second: Instance) -> PlacedMate:
-    """The same of two whose axes meet in one apex."""
-    found = mating.laid_standing(first.scene_from_part, second.scene_from_part)
+    """The same of two whose axes make an angle."""
+    frames = first.scene_from_part, second.scene_from_part
+    found, mating = mating.laid_standing(*frames), mating.laid(*frames)
     size = math.hypot(*first.at) + math.hypot(*second.at)
     allowed = PLACED_MM + TOLERANCES.relative_join * size
     leaning, off = found.angle - found.required, found.phase_off
     slack, lean = found.play + allowed / found.arm, allowed / found.reach
     turned, right = math.degrees(second.rotation), math.degrees(second.rotation - off)
     conditions = (
-        Condition("apex_distance", found.apart, 0.0, allowed, found.apart <= allowed),
+        Condition(found.code, found.apart, found.distance, allowed, abs(found.apart - found.distance) <= allowed),
         Condition("shaft_angle", math.degrees(found.angle), math.degrees(found.required), math.degrees(lean),
                   abs(leaning) <= lean),
         Condition("phase", turned, right, math.degrees(slack), abs(off) <= slack),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from parts.base.refusal import SceneError
 from parts.mates.pages.train import TrainKeys, sheet
+from parts.mates.pages.train_model import ACROSS
 
 if TYPE_CHECKING:
     from geometry.base.placement import Vector
@@ -56,9 +57,9 @@ class _Scene:
             for key, joint in stands.supports.items()
             if isinstance(joint, Revolute) and stands.body(joint.on) != FRAME
         }
-        # a worm that a carrier moves is no matter of the guidelines
+        # a worm or a crossed pair that a carrier moves is no matter of the guidelines
         rolling = [j for j in mechanism.joints if isinstance(j, Rolling)]
-        self.meshes = [j for j in rolling if j.kind in _KINDS or (j.kind == "worm" and j.on == FRAME)]
+        self.meshes = [j for j in rolling if j.kind in _KINDS or (j.kind in ("worm", "crossed") and j.on == FRAME)]
         # the first of equal satellites does for all, and for those that mesh only some of its wheels
         kept: list[tuple[str, set[Side]]] = []
         twins: set[str] = set()
@@ -146,14 +147,14 @@ class _Scene:
 
     def _words(self, mesh: Rolling, names: dict[str, str], modules: dict[str, float | None]) -> str:
         words = f"{names[mesh.first]}-{names[mesh.second]} {mesh.kind}"
-        if mesh.kind in ("bevel", "worm"):
+        if mesh.kind in ACROSS:
             # neither the module of an outer end nor that of an axial section gives the force
             return words + {1: " +", -1: " -", 0: ""}[self._sense(mesh)]
         module = modules.get(mesh.first)
         return words + (f" {module:g}" if module else "")
 
     def _sense(self, mesh: Rolling) -> int:
-        """Which way the second of a bevel or worm pair turns; 0 where the guidelines tell no sign."""
+        """Which way the second of a bevel, worm or crossed pair turns; 0 where the guidelines tell no sign."""
         moves = any(self.body(key) in self.carriers for key in (mesh.first, mesh.second))
         if not moves and not self.is_differential:
             return 0

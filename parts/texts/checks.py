@@ -36,6 +36,10 @@ MATES: dict[str, Text] = {
     "parallel": N_("{second} turns as {first} does"),
     "pin_seat": N_("seated in {first}: {second}"),
     "bevel_pair": N_("{first} and {second}: ratio {ratio:.6g}, contact ratio {transverse_contact_ratio:.4f}"),
+    "crossed_helical_pair": N_(
+        "{first} and {second}: a_w = {working_centre_distance:.5f} mm, shaft angle {shaft_angle_deg:.6g} deg, "
+        "ratio {ratio:.6g}, contact ratio {contact_ratio:.4f}"
+    ),
     "worm_pair": N_("{second} in {first}: centre distance {centre_distance:.6g} mm, ratio {ratio:.6g}"),
     "lantern_pair": N_(
         "lantern pair {first} - {second}: a_w = {working_centre_distance:.5f} mm, ratio {gear_ratio:.6g}, "

@@ -53,6 +53,12 @@ FINDINGS: dict[str, Text] = {
         "the mate's tip runs into the fillet of the second gear: it reaches a radius of {value:.4f} mm, the flank "
         "begins at {limit:.4f} mm"
     ),
+    "crossed_face_first": N_(
+        "the face of the first gear, {value:.4g} mm, is narrower than the path of contact, which takes {limit:.4g} mm"
+    ),
+    "crossed_face_second": N_(
+        "the face of the second gear, {value:.4g} mm, is narrower than the path of contact, which takes {limit:.4g} mm"
+    ),
     "contact_ratio": N_("contact ratio {value:.4f} is below {limit:.1f}: the drive is interrupted"),
     "transverse_contact_ratio": N_(
         "transverse contact ratio {value:.4f} is below 1: only the overlap along the face keeps the drive "

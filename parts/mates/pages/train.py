@@ -19,7 +19,7 @@ from parts.base.refusal import SceneError, meant
 from parts.base.texts import N_, Message, Text, listed, message
 from parts.keys.base import mm
 from parts.mates.pages.train_cases import CASES
-from parts.mates.pages.train_model import Leg, Mesh, Stage, Train, central_ways, parsed, satellites, stages
+from parts.mates.pages.train_model import ACROSS, Leg, Mesh, Stage, Train, central_ways, parsed, satellites, stages
 from parts.pages.inputs import PLACE, checked, refusal
 from parts.pages.misprints import printed_for_train
 from parts.pages.page import Printed, Sheet, Table
@@ -29,7 +29,13 @@ Name = str | int
 # what the practicum prints before (2.5)
 _DERIVATION = N_("before (2.5) the practicum prints -ω_H/ω_H - ω_1/ω_H: the first term has a plus")
 _PRIME = Printed("(4): 1 - z_2·z_3/(z_1·z_2)", N_("the prime of z_2' is lost, with it z_2 would cancel"))
-_KINDS = {"external": N_("external"), "internal": N_("internal"), "bevel": N_("bevel"), "worm": N_("worm")}
+_KINDS = {
+    "external": N_("external"),
+    "internal": N_("internal"),
+    "bevel": N_("bevel"),
+    "worm": N_("worm"),
+    "crossed": N_("crossed helical"),
+}
 _PAIRS_TOLD = 4
 _BLANK = "________"
 
@@ -287,7 +293,7 @@ class _Page:
             text = N_("bevel satellites: turns of {links} are told against their carrier, of the others about its axis")
             page.notes.append(message(text, links=names))
         if any(mesh.sense and train.carrier(mesh) == FRAME for mesh in train.meshes):
-            page.notes.append(N_("signs of bevel and worm pairs tell of turns about axes as they are laid"))
+            page.notes.append(N_("signs of bevel, worm and crossed pairs tell of turns about axes as they are laid"))
 
     def _module(self, mesh: Mesh) -> Fraction | None:
         return mesh.module or (None if self.module is None else _exact(self.module))
@@ -495,10 +501,10 @@ class _Page:
             "total_ratio", float(ratio), formula, "practicum (2.3)" if formula else "", symbol=symbol, key="u_whole"
         )
         self._add("exact_ratio", str(ratio), symbol=symbol, key="u_exact")
-        if any(
-            m.kind in ("bevel", "worm") and not m.sense and self.train.carrier(m) == FRAME for m in self.train.meshes
-        ):
-            same = N_("the ratio of a bevel or worm pair has no sign, so that of the whole tells no directions")
+        if any(m.kind in ACROSS and not m.sense and self.train.carrier(m) == FRAME for m in self.train.meshes):
+            same = N_(
+                "the ratio of a bevel, worm or crossed pair has no sign, so that of the whole tells no directions"
+            )
         elif ratio > 0:
             same = N_("driver and driven link turn the same way")
         else:

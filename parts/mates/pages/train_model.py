@@ -13,8 +13,10 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record
 from geometry.kinematics.mechanism import FRAME, Fixed, Kind, Mechanism, Revolute, Rolling, Z
 
-KINDS: tuple[Kind, ...] = ("external", "internal", "bevel", "worm")
-# of a bevel or worm pair: the word of its sign
+KINDS: tuple[Kind, ...] = ("external", "internal", "bevel", "worm", "crossed")
+# those whose axes are not parallel: the ratio has no sign but where it is told
+ACROSS: tuple[Kind, ...] = ("bevel", "worm", "crossed")
+# the word of such a sign
 _SENSES = {"+": 1, "-": -1}
 _ACROSS = (1.0, 0.0, 0.0)
 _MESH = re.compile(r"\s*([^\s-]+)\s*-\s*([^\s-]+)((?:\s+\S+)*)\s*")
@@ -27,7 +29,7 @@ class Mesh(Record):
     second: str
     kind: Kind
     module: Fraction | None = None
-    # of a bevel or worm pair, where it is told: which way the second turns, as the carrier sees it
+    # of a pair on axes that are not parallel, where it is told: which way the second turns, as the carrier sees it
     sense: int = 0
 
     @property
@@ -57,7 +59,7 @@ class Train(Record):
     def sense(self, mesh: Mesh) -> int:
         """-1 where the second turns the other way, as the carrier sees it.
 
-        Bevels and worms on the frame have no sign (guidelines). Of a bevel satellite's meshes the first has -1, so that
+        Those ``ACROSS`` on the frame have no sign (guidelines). Of a bevel satellite's meshes the first has -1, so that
         central wheels, which are counted about one axis, turn in opposite ways: they face each other.
         """
         if mesh.kind != "bevel":
@@ -172,7 +174,7 @@ def _mesh(word: str, teeth: Mapping[str, int]) -> Mesh:
     kind: Kind = "external"
     module, sense = None, 0
     for more in rest:
-        if more in _SENSES and kind in ("bevel", "worm"):
+        if more in _SENSES and kind in ACROSS:
             sense = _SENSES[more]
         elif named := next((name for name in KINDS if name == more), None):
             kind = named

@@ -1,0 +1,253 @@
+"""Two helical gears on crossed axes: the second is laid at the angle that the helices make, a tooth in a space."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING, Annotated, Any
+
+from msgspec.structs import replace as changed
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.nearest import nearest
+from geometry.base.record import replace
+from parts.base.mate import End, LaidStanding, MateKind, Pose, Standing, Touching
+from parts.gears.spur_gear.part import SpurGearSpec
+from parts.gears.thinning import shared_thinning
+from parts.keys.base import degrees
+from parts.keys.helix import helix_of
+from parts.keys.mate import InvolutePairKeys
+from parts.mates.sizes import same_size
+
+if TYPE_CHECKING:
+    from geometry.base.findings import Finding
+    from geometry.base.placement import Placement3, Vector
+    from geometry.gears.mesh.search import PairContact
+    from geometry.gears.pairs.crossed import CrossedPair
+    from geometry.gears.teeth.spur import SpurGear
+    from geometry.kinematics.mechanism import Joint
+
+# between axes that are parallel, rad
+_PARALLEL = 1e-7
+
+ShaftAngle = Annotated[
+    float,
+    degrees(
+        "angle between both axes; default: the sum of both operating helix angles, of opposite hands their difference",
+        least=0,
+        most=180,
+    ),
+]
+
+
+class CrossedHelicalPairSpec(InvolutePairKeys, tag="crossed_helical_pair", kw_only=True):
+    """Keys of ``crossed_helical_pair``."""
+
+    shaft_angle_deg: ShaftAngle | None = None
+
+
+class CrossedMating(Touching):
+    """Two helical gears; their face widths have their middles on the line of centres."""
+
+    pair: CrossedPair
+
+    lies = True
+    asks_height = False
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Teeth on teeth: along the line of centres both turn against each other, whatever their hands."""
+        from geometry.kinematics.mechanism import Rolling
+
+        first, second = (gear.number_of_teeth for gear in self.pair.gears)
+        return (Rolling("crossed", self.first, self.second, (first, second), sense=-1),)
+
+    def second_axis(self, direction: float) -> Vector:
+        """Turned from the first's about the line of centres."""
+        aside = cmath.rect(math.sin(self.pair.shaft_angle), direction + math.pi / 2)
+        return aside.real, aside.imag, math.cos(self.pair.shaft_angle)
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """Where a space of the second stands about a tooth of the first, or a tooth in its space."""
+        aside = complex(self.distance, -self.pair.feet[1] * math.sin(self.pair.shaft_angle))
+        return centre + cmath.rect(1.0, direction) * aside, self.pair.second_rotation(rotation, direction)
+
+    def centres_direction(self, offset: complex, axis: Vector) -> float:
+        """At right angles to both axes."""
+        across = complex(axis[1], -axis[0])
+        return cmath.phase(across * math.copysign(1.0, (across.conjugate() * offset).real))
+
+    def standing(self, first: Pose, second: Pose) -> Standing | None:
+        """What a plane does not tell; see ``laid_standing``."""
+        return None
+
+    def laid(self, first: Placement3, second: Placement3) -> CrossedMating:
+        """The same pair with its faces where they stand: each may be moved along its axis."""
+        from geometry.gears.pairs.crossed import crossing
+
+        return replace(self, pair=replace(self.pair, feet=crossing(first.inverse() @ second)[1]))
+
+    def laid_standing(self, first: Placement3, second: Placement3) -> LaidStanding:
+        """In the frame of the first, where its tooth is on +x: distance and angle of the axes, turn of the second."""
+        from geometry.base.placement import Placement3
+        from geometry.gears.pairs.crossed import crossing
+
+        seen = first.inverse() @ second
+        offset, feet = crossing(seen)
+        pair, direction = replace(self.pair, feet=feet), cmath.phase(offset)
+        x, y, z = seen.z
+        # about the line of centres, the way that the hands have it
+        side = (complex(x, y) * cmath.rect(1.0, -direction)).imag * math.copysign(1.0, pair.shaft_angle)
+        off = Placement3.towards(seen.z, pair.second_rotation(0.0, direction)).inverse() @ seen
+        turned = math.atan2(off.rotation[1][0], off.rotation[0][0])
+        arm = pair.arms[1]
+        return LaidStanding(
+            abs(offset), math.atan2(side, z), abs(pair.shaft_angle),
+            math.remainder(turned, pair.second.pitch_angle), self.normal_backlash / 2 / arm, arm,
+            max(*pair.face_widths), "centre_distance", pair.working_centre_distance,
+        )  # fmt: skip
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict over one pitch of the first gear."""
+        from geometry.gears.mesh.crossed import crossed_contact
+
+        return crossed_contact(self.pair, phase_off, tolerance)
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Conditions of the pair that are not kept."""
+        return self.pair.findings()
+
+    def quantities(self) -> dict[str, Any]:
+        """Distance, angles, contact ratio, sliding."""
+        pair = self.pair
+        helices = [math.degrees(angle) for angle in pair.working_helices]
+        return {
+            "ratio": pair.ratio,
+            "working_centre_distance": self.distance,
+            "shaft_angle_deg": math.degrees(abs(pair.shaft_angle)),
+            "working_pressure_angle_deg": math.degrees(pair.working_pressure_angle),
+            "working_helix_angle_deg": dict(zip(("first", "second"), helices, strict=True)),
+            "contact_ratio": pair.contact_ratio,
+            "least_face_width": dict(zip(("first", "second"), pair.least_face_widths, strict=True)),
+            "sliding_per_rad": pair.sliding(pair.pole),
+            "normal_backlash": self.normal_backlash,
+        }
+
+
+class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"]):
+    """Two external gears, of which one may be straight."""
+
+    name, keys = "crossed_helical_pair", CrossedHelicalPairSpec
+    joins = (("spur_gear", "spur_gear"),)
+
+    def check(self, keys: CrossedHelicalPairSpec, first: Any, second: Any) -> None:
+        """One normal section, and helices that make an angle."""
+        one, two = helix_of(first), helix_of(second)
+        for owner, helix in (("first.", one), ("", two)):
+            if helix.double:
+                raise ParameterError(f"{owner}double_helical", True, "no_herringbone_on_crossed_axes", Nearest(False))
+        for key in ("module", "pressure_angle_deg"):
+            same_size(key, getattr(second, key), getattr(first, key), "not_that_of_mate")
+        if abs(one.signed_angle + two.signed_angle) < _PARALLEL:
+            if one.angle == 0:
+                raise ParameterError("helix_angle_deg", second.helix_angle_deg, "axes_would_be_parallel", Nearest(45.0))
+            other = {"right": "left", "left": "right"}[second.hand]
+            raise ParameterError("hand", second.hand, "axes_would_be_parallel", Nearest(other))
+
+    def thinning(
+        self, keys: CrossedHelicalPairSpec, first: End[SpurGear], second: End[SpurGear]
+    ) -> tuple[float, float]:
+        """What the backlash asks for beyond that of distance and angle: half each, in the normal section."""
+        if keys.normal_backlash is None:
+            return 0.0, 0.0
+        from geometry.gears.teeth.tooth import tooth_side
+        from geometry.gears.teeth.transverse import normal_angle
+
+        gears, cosines = (first.thing, second.thing), [math.cos(helix_of(end.keys).angle) for end in (first, second)]
+        given, bare = 0.0, [replace(gear, circumferential_thinning=0.0) for gear in gears]
+        if keys.working_centre_distance is not None:
+            given = self.made(keys, End(first.keys, bare[0]), End(second.keys, bare[1])).normal_backlash
+        normal = [
+            replace(gear, circumferential_thinning=gear.circumferential_thinning * cosine)
+            for gear, cosine in zip(gears, cosines, strict=True)
+        ]
+
+        def build(index: int, thinning: float) -> object:
+            return tooth_side(replace(gears[index], circumferential_thinning=thinning / cosines[index]))
+
+        angle = normal_angle(gears[0].pressure_angle, helix_of(first.keys).angle)
+        one, two = shared_thinning(keys.normal_backlash, normal, build, math.cos(angle), given)
+        return one / cosines[0], two / cosines[1]
+
+    def tips(
+        self, keys: CrossedHelicalPairSpec, first: End[SpurGear], second: End[SpurGear]
+    ) -> tuple[float | None, float | None]:
+        """Those of the pair, shortened where the distance is less than the shifts have it; the teeth must reach."""
+        pair = self.reaching(keys, first, second)
+        return pair.first.tip_radius, pair.second.tip_radius
+
+    def mating(self, keys: CrossedHelicalPairSpec, first: End[SpurGear], second: End[SpurGear]) -> CrossedMating:
+        """At the distance and the angle that the keys give."""
+        pair = self.made(keys, first, second)
+        angle = pair.shaft_angle
+        return CrossedMating(
+            *self.joined(keys),
+            direction_deg=keys.direction_deg,
+            height=pair.feet[0] - pair.feet[1] * math.cos(angle),
+            distance=pair.working_centre_distance,
+            module=pair.normal_module,
+            normal_backlash=pair.normal_backlash,
+            first_teeth=pair.first.number_of_teeth,
+            pair=pair,
+        )
+
+    def reaching(self, keys: CrossedHelicalPairSpec, first: End[SpurGear], second: End[SpurGear]) -> CrossedPair:
+        """The pair, whose teeth must reach each other where distance or angle are asked for."""
+        asked = [key for key in ("shaft_angle_deg", "working_centre_distance") if getattr(keys, key) is not None]
+        code = "teeth_do_not_reach"
+        try:
+            pair = self.made(keys, first, second)
+            if pair.contact_ratio > 0 or not asked:
+                return pair
+        except ParameterError as refusal:
+            if refusal.name != "shaft_angle":
+                raise
+            code = refusal.code
+        key = asked[0]
+        given = getattr(keys, key)
+
+        def tried(value: float | None) -> CrossedPair:
+            return self.made(changed(keys, **{key: value}), first, second)
+
+        def cure() -> Nearest | None:
+            """From what both make of themselves on, as far as contact goes on from tooth to tooth."""
+            own = tried(None)
+            wanted, toward = min(1.0, own.contact_ratio), own.working_centre_distance
+            if key == "shaft_angle_deg":
+                toward = math.degrees(abs(own.shaft_angle))
+            return nearest(lambda value: tried(value).contact_ratio >= wanted, given, toward)
+
+        raise ParameterError(f"mate.{key}", given, code, cure)
+
+    def made(self, keys: CrossedHelicalPairSpec, first: End[SpurGear], second: End[SpurGear]) -> CrossedPair:
+        """The pair; raises ParameterError in the keys of mate and parts, but for an angle that has no common normal."""
+        from geometry.gears.pairs.crossed import CrossedPair, crossed_pair
+
+        specs = [end.keys for end in (first, second)]
+        helices = [helix_of(spec).signed_angle for spec in specs]
+        widths = [spec.face_width for spec in specs if isinstance(spec, SpurGearSpec)]
+        bare = CrossedPair(first.thing, second.thing, (helices[0], helices[1]), (widths[0], widths[1]),
+                           (widths[0] / 2, widths[1] / 2))  # fmt: skip
+        angle = None if keys.shaft_angle_deg is None else math.radians(keys.shaft_angle_deg)
+        try:
+            return crossed_pair(bare, keys.working_centre_distance, angle)
+        except ParameterError as refusal:
+            if refusal.name == "profile_shift_coefficient":
+                # of the second's normal section
+                raise refusal.renamed(refusal.name, 1 / math.cos(helices[1])) from refusal
+            if refusal.name == "working_centre_distance":
+                raise refusal.renamed(f"mate.{refusal.name}") from refusal
+            raise
+
+
+CROSSED_HELICAL_PAIR = CrossedHelicalPair()
