@@ -13,7 +13,7 @@ from parts.pages.contour_picture import clipped, grid_step, kinds_shown, line_ti
 
 # mm of the drawing for one module of shift
 SCALE = 100.0
-_TEXT, _ROW, _MILLIMETRES = 5.0, 9.0, 4
+_TEXT, _ROW = 5.0, 9.0
 # ACI colours, those of the lines in turn
 _FIXED = {"REGION": 3, "AXES": 8, "KEY": 7, "CHOICES": 6}
 _COLOURS = (1, 5, 30, 6, 4, 94, 170, 200, 34, 8)
@@ -23,14 +23,9 @@ def write_contour_dxf(
     file: Path, contour: BlockingContour, marks: dict[str, tuple[float, float]], words: Words
 ) -> dict[str, int]:
     """Write the lines, the region, axes, ``marks`` (words: x1, x2) and a key; returns the entities of each kind."""
-    import ezdxf
+    from exporters.formats.dxf_file import new_drawing, save
 
-    from exporters.formats.dxf_file import fixed_metadata, save
-
-    with fixed_metadata():
-        drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
-    drawing.header["$LUNITS"] = 2
-    drawing.header["$MEASUREMENT"] = 1
+    drawing = new_drawing()
     colours = {name: _COLOURS[k % len(_COLOURS)] for k, name in enumerate(dict.fromkeys(i.name for i in contour.lines))}
     page = _Page(drawing, _FIXED | {_layer(line.name, line.level): colours[line.name] for line in contour.lines})
     for ring in contour.region:
@@ -43,8 +38,7 @@ def write_contour_dxf(
     box = contour.box
     low = min(bottom, box.bottom * SCALE - 20)
     page.space.reset_extents((box.left * SCALE - 20, low, 0.0), (box.right * SCALE + 250, box.top * SCALE + 20, 0.0))
-    with fixed_metadata():
-        save(drawing, file)
+    save(drawing, file)
     return page.counts
 
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ezdxf.document import Drawing
     from ezdxf.layouts import BaseLayout, BlockLayout
 
-_MILLIMETRES, _DIMSTYLE = 4, "ESKD"
+_DIMSTYLE = "ESKD"
 _FONT = "arial.ttf"
 # LibreCAD takes a style by its name for a font of its own, and knows line types by standard names only, of which the
 # short ones (2) fit sheets. Its unicode, which every version has, holds Cyrillic; its font after GOST 2.304 the rest
@@ -41,18 +41,14 @@ _FAMILY = "font-family:DejaVu Sans Condensed,Arial,Liberation Sans,sans-serif"
 
 def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
     """DXF R2010 in mm on paper: lines, arcs, circles and cubic splines on their layers, text fitted to its length."""
-    import ezdxf
     from ezdxf.enums import TextEntityAlignment
 
     from exporters.formats.drawing_dxf import add_curve, place_of
-    from exporters.formats.dxf_file import fixed_metadata
+    from exporters.formats.dxf_file import new_drawing
     from exporters.formats.dxf_file import save as save_dxf
 
     runs = [run for text in canvas.texts for run in text.runs]
-    with fixed_metadata():
-        drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
-    drawing.header["$LUNITS"] = 2
-    drawing.header["$MEASUREMENT"] = 1
+    drawing = new_drawing()
     drawing.header["$LTSCALE"] = 1.0
     for name in dict.fromkeys(map(_style, runs)):
         drawing.styles.add(name, font=_FONT)
@@ -93,8 +89,7 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
     # all stands within the frame; ezdxf takes a corner at 0, 0 for none
     frame = canvas.reach
     space.reset_extents((frame.left, frame.low, 0.0), (frame.right, frame.high, 0.0))
-    with fixed_metadata():
-        save_dxf(drawing, file)
+    save_dxf(drawing, file)
     return counts
 
 

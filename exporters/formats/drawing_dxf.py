@@ -6,17 +6,15 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-import ezdxf
 import numpy as np
 
-from exporters.formats.dxf_file import fixed_metadata, save
+from exporters.formats.dxf_file import new_drawing, save
 from geometry.approximation.outline import CadCurve, Outline
 from geometry.base.tolerance import DRAWN_DECIMALS
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.contour import edge_box
 
 _LAYER, _PITCH = "OUTLINE", "PITCH_CURVE"
-_MILLIMETRES = 4
 
 
 def write_drawing_dxf(file: Path, boundaries: Sequence[Outline], paths: Sequence[Outline] = ()) -> dict[str, int]:
@@ -24,10 +22,7 @@ def write_drawing_dxf(file: Path, boundaries: Sequence[Outline], paths: Sequence
 
     Returns the number of entities of each kind.
     """
-    with fixed_metadata():
-        drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
-    drawing.header["$LUNITS"] = 2
-    drawing.header["$MEASUREMENT"] = 1
+    drawing = new_drawing()
     drawing.layers.add(_LAYER, color=7, lineweight=50)
     space = drawing.modelspace()
     counts: dict[str, int] = {}
@@ -41,8 +36,7 @@ def write_drawing_dxf(file: Path, boundaries: Sequence[Outline], paths: Sequence
             corners += _box(curve)
     x, y = [c.real for c in corners], [c.imag for c in corners]
     space.reset_extents((min(x), min(y), 0.0), (max(x), max(y), 0.0))
-    with fixed_metadata():
-        save(drawing, file)
+    save(drawing, file)
     return counts
 
 

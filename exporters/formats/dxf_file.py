@@ -9,9 +9,11 @@ from pathlib import Path
 import ezdxf
 from ezdxf.document import Drawing
 
+_MILLIMETRES = 4
+
 
 @contextmanager
-def fixed_metadata() -> Iterator[None]:
+def _fixed_metadata() -> Iterator[None]:
     """The same bytes at every run: ezdxf's dates and ids fixed while a file is written."""
     before = ezdxf.options.write_fixed_meta_data_for_testing
     ezdxf.options.write_fixed_meta_data_for_testing = True
@@ -21,6 +23,16 @@ def fixed_metadata() -> Iterator[None]:
         ezdxf.options.write_fixed_meta_data_for_testing = before
 
 
+@_fixed_metadata()
+def new_drawing() -> Drawing:
+    """An empty drawing of release 2010 in mm, its numbers decimal."""
+    drawing = ezdxf.new("R2010", setup=False, units=_MILLIMETRES)
+    drawing.header["$LUNITS"] = 2
+    drawing.header["$MEASUREMENT"] = 1
+    return drawing
+
+
+@_fixed_metadata()
 def save(drawing: Drawing, file: Path) -> None:
     """Write a drawing with its own encoding."""
     # ezdxf takes the classes that a version needs out of a set, whose order differs from process to process

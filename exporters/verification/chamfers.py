@@ -64,13 +64,3 @@ def slice_points(mesh: ReadMesh, triangles: Triangles) -> Points:
             points[:, 2] = z
             found.append(points)
     return np.concatenate(found)
-
-
-def on_chamfers(body: Body, z: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which heights lie between the ends of a chamfer."""
-    found = np.zeros(len(z), dtype=bool)
-    for wall in body.walls:
-        if body.is_chamfer(wall):
-            low, high = body.height(wall)
-            found |= (low < z) & (z < high)
-    return found

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exporters.formats.readback import Loop, ReadMesh
-from exporters.verification.chamfers import chamfer_deviation, on_chamfers, slice_points
+from exporters.verification.chamfers import chamfer_deviation, slice_points
 from exporters.verification.outlines import verify_loops
 from exporters.verification.topology import Triangles, chains, doubled_normals, topology_failures
 from exporters.verification.verdict import Verdict, deviation_failures
@@ -34,7 +34,7 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     levels = np.array(body.levels())
     index = np.abs(mesh.vertices[:, 2, None] - levels).argmin(axis=1)
     off = np.abs(mesh.vertices[:, 2] - levels[index]) > _LEVEL * np.abs(levels).max()
-    if np.any(off & ~_within_screws(body, mesh.vertices[:, 2]) & ~on_chamfers(body, mesh.vertices[:, 2])):
+    if np.any(off & ~_within_aslant(body, mesh.vertices[:, 2])):
         return Verdict(measured, (fault("a vertex stands off every face"),))
     heights = np.where(off, mesh.vertices[:, 2], levels[index])
     mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], heights]), mesh.triangles)
@@ -86,11 +86,11 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     return Verdict(measured, tuple(dict.fromkeys(failures)))
 
 
-def _within_screws(body: Body, z: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Which heights lie between the ends of a screw surface."""
+def _within_aslant(body: Body, z: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which heights lie between the ends of a wall that does not stand upright."""
     found = np.zeros(len(z), dtype=bool)
     for wall in body.walls:
-        if body.is_screw(wall):
+        if not body.is_upright(wall):
             low, high = body.height(wall)
             found |= (low < z) & (z < high)
     return found

@@ -84,8 +84,6 @@ REASONS = {
     "roots_have_no_room": N_("the roots have no room: they reach the axis, the end of their flanks, or each other"),
     "rounding_does_not_fit": N_("does not fit between flank and tip land"),
     "space_rounding_does_not_fit": N_("does not fit the space"),
-    "space_tip_below_base": N_("the root circle lies below the base circle"),
-    "space_tooth_pointed": N_("the space is pointed below its root circle"),
     "span_beyond_teeth": N_("must be from 1 to {teeth}, the number of teeth"),
     "standard_rack_pointed": N_("the tooth of rack {profile} is pointed before it reaches its tip line"),
     "step_above_half_pitch": N_("shows no profile: it is more than half of the pitch"),
