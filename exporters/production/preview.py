@@ -205,11 +205,14 @@ def _outer(instance: Instance, points: Complex) -> Complex:
 
 def _seen_lying(instance: Instance, part: Part) -> list[Complex]:
     """The boundaries of the shadow of an instance that lies, from above, teeth and all, near enough for the eye."""
-    from parts.scene.interference import inner_solid
+    from parts.scene.interference import meshed_solid
+    from parts.solids.mesh import body_mesh, mesh_outlines
 
-    near = _NEAR * part.body(0.0).section_reach()
+    body = part.body(0.0)
+    near = _NEAR * body.section_reach()
     try:
-        solid = inner_solid(part).transform(instance.scene_from_part.matrix())
+        mesh = body_mesh(body, mesh_outlines(body, near, 0.0))
+        solid = meshed_solid(mesh).transform(instance.scene_from_part.matrix())
     except GeometryError:
         # a wall is too thin for a mesh: what it sweeps
         from exporters.production.seen_above import seen_lying

@@ -156,7 +156,7 @@ REASONS = {
     "worm_wheel_undercut": N_("undercut leaves no flank at the ends of the face"),
     "bevel_below_crown": N_("the root lies deeper than the flanks of the crown gear that cuts it can reach"),
     "bevel_cutter_without_arc": N_("is for teeth along an arc: spiral_angle_deg (0 is zerol), tooth_line = arc"),
-    "bevel_line_too_steep": N_("a tooth line of {angle} degrees at an end of the face; at most {most}"),
+    "bevel_line_too_steep": N_("the tooth line leans by {angle} degrees at an end of the face, more than {most}"),
     "bevel_crown_pointed": N_("the tooth of the crown gear that cuts it is pointed before it reaches the root"),
     "bevel_face_to_apex": N_("reaches the apex of the cones: the outer cone distance is {distance} mm"),
     "bevel_hub_half_told": N_("a hub needs its diameter and its length, or mounting_distance"),

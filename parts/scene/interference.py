@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from geometry.base.errors import GeometryError
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Real
 from geometry.solids.faced import FacedBody
 from parts.base.part import Part
@@ -126,8 +126,6 @@ def placed_solid(instance: Instance, solid: Any) -> Any:
 
 def inner_solid(part: Part) -> Any:
     """A mesh inside the part's solid, as manifold3d has it; finer where its walls are thin."""
-    import manifold3d
-
     inset = INSET * part.body(0.0).section_reach()
     for _ in range(8):
         try:
@@ -138,10 +136,16 @@ def inner_solid(part: Part) -> Any:
         except GeometryError:
             inset /= 4
             continue
-        corners = _moved_in(mesh, inset) if by_faces else mesh.vertices
-        vertices, triangles = corners.astype(np.float32), mesh.triangles.astype(np.uint32)
-        return manifold3d.Manifold(manifold3d.Mesh(vertices, triangles))
+        return meshed_solid(replace(mesh, vertices=_moved_in(mesh, inset)) if by_faces else mesh)
     raise GeometryError(f"no mesh lies within {part.id}")
+
+
+def meshed_solid(mesh: Mesh) -> Any:
+    """A closed mesh as manifold3d has it."""
+    import manifold3d
+
+    vertices, triangles = mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32)
+    return manifold3d.Manifold(manifold3d.Mesh(vertices, triangles))
 
 
 def _moved_in(mesh: Mesh, inset: float) -> Real:

@@ -72,7 +72,8 @@ QUICK = (("practicum_flat_cam", "stl"), ("practicum_pair", "dxf"))
 # sets like those: built whole among the heavy ones, checked with their recipe; coupons, lessons, ovals and worm wheels
 # have their own tests
 LIKE_JAMES = {
-    "bevel_differential", "bevel_reducer", "fit_coupon", "kerf_coupon", "oval_gears", "worm_set_print",
+    "bevel_differential", "bevel_reducer", "spiral_bevel_pair",
+    "fit_coupon", "kerf_coupon", "oval_gears", "worm_set_print",
     "david", "differential", "ferguson", "one_external_one_internal", "two_internal", "practicum_example_1",
     "practicum_example_2", "practicum_example_3", "practicum_example_3_laser", "practicum_example_3_print",
     "power_table_print", "power_module", "power_module_kinematics", "lesson_1", "lesson_2", "lesson_4", "lesson_5",
