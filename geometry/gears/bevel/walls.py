@@ -59,9 +59,12 @@ def tooth_off(gear: BevelGear, angle: Real, azimuth: Real) -> Real:
     pitch = math.tau / gear.number_of_teeth
     aside = np.abs(azimuth - pitch * np.round(azimuth / pitch))
     form = float(gear.involute.angle(gear.joint[1]))
-    beside = np.maximum(aside - gear.half_angle(gear.tip_angle), 0.0) * math.sin(gear.tip_angle)
+    beside = np.maximum(aside - gear.half_angle(gear.tip_angle), 0.0)
     above = angle - gear.tip_angle
-    found = np.where(above > 0, np.hypot(above, beside), flank_off(gear, angle, aside))
+    # the chord to the tip's edge, or straight down to its land
+    across = np.sqrt(np.abs(np.sin(angle)) * math.sin(gear.tip_angle)) * np.sin(beside / 2)
+    over = 2 * np.arcsin(np.hypot(np.sin(above / 2), across))
+    found = np.where(above > 0, over, flank_off(gear, angle, aside))
     low = angle < form
     found[low] = fillet_off(gear, angle[low], aside[low])
     above_root = angle - gear.root_angle
