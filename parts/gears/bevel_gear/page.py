@@ -265,22 +265,26 @@ def _middle(page: Sheet, pair: BevelPair) -> None:
 def _normal_chords(page: Sheet, pair: BevelPair, high: tuple[float, float]) -> None:
     """The same of teeth that are not straight: across them, on the virtual gear of the normal section."""
     beta, module = pair.first.spiral_angle, pair.first.mean_normal_module
-    thickness = _each(pair, lambda g: g.mean_distance / g.cone_distance * g.thickness * math.cos(beta))
-    page.both("mean_normal_thickness", thickness, "{s_m#} * cos({beta_m})", (_GOST_SPIRAL, _GOST_SPIRAL))
-    teeth = _each(pair, lambda g: g.virtual_teeth / math.cos(beta) ** 3)
-    page.both("normal_virtual_teeth", teeth, "{z#} / (cos({delta#}) * cos({beta_m})**3)", (_GOST_SPIRAL, _GOST_SPIRAL))
-    halves = thickness[0] / (module * teeth[0]), thickness[1] / (module * teeth[1])
-    degrees = math.degrees(halves[0]), math.degrees(halves[1])
-    page.both("normal_chord_angle_deg", degrees, "{s_mn#} / ({m_mn} * {z_vn#})")
-    chords, rises = (
-        (each(0), each(1))
-        for each in (
-            lambda k: module * teeth[k] * math.sin(halves[k]),
-            lambda k: high[k] + module * teeth[k] / 2 * (1 - math.cos(halves[k])),
-        )
-    )
+
+    def thickness(gear: BevelGear) -> float:
+        return gear.thickness * gear.mean_distance / gear.cone_distance * math.cos(beta)
+
+    def teeth(gear: BevelGear) -> float:
+        return gear.virtual_teeth / math.cos(beta) ** 3
+
+    def half(gear: BevelGear) -> float:
+        return thickness(gear) / (module * teeth(gear))
+
+    gost = _GOST_SPIRAL, _GOST_SPIRAL
+    page.both("mean_normal_thickness", _each(pair, thickness), "{s_m#} * cos({beta_m})", gost)
+    page.both("normal_virtual_teeth", _each(pair, teeth), "{z#} / (cos({delta#}) * cos({beta_m})**3)", gost)
+    halves = _each(pair, lambda g: math.degrees(half(g)))
+    page.both("normal_chord_angle_deg", halves, "{s_mn#} / ({m_mn} * {z_vn#})")
+    chords = _each(pair, lambda g: module * teeth(g) * math.sin(half(g)))
     page.both("mean_normal_chord", chords, "{m_mn} * {z_vn#} * sin({psi_n#})")
-    page.both("mean_normal_chord_height", rises, "{h_am#} + {m_mn} * {z_vn#} / 2 * (1 - cos({psi_n#}))")
+    rises = _each(pair, lambda g: module * teeth(g) / 2 * (1 - math.cos(half(g))))
+    heights = high[0] + rises[0], high[1] + rises[1]
+    page.both("mean_normal_chord_height", heights, "{h_am#} + {m_mn} * {z_vn#} / 2 * (1 - cos({psi_n#}))")
 
 
 def _contact(page: Sheet, pair: BevelPair) -> None:
@@ -353,7 +357,11 @@ def _speeds(page: Sheet, pair: BevelPair, speed_rpm: float) -> None:
 
 
 def _forces(page: Sheet, pair: BevelPair, keys: BevelKeys) -> None:
-    """At the middle of the face, where a load is given."""
+    """At the middle of the face, where a load is given, the first gear driving.
+
+    A right-hand driver that turns counter-clockwise, as seen from the apex, is pulled towards the apex; the other hand,
+    the other sense and the mate turn that round.
+    """
     torque = driving_torque(page, keys)
     if torque is None:
         return
@@ -362,45 +370,29 @@ def _forces(page: Sheet, pair: BevelPair, keys: BevelKeys) -> None:
     page.add("gear_torque", torque * pair.ratio, "{T1} * {u}", gear=2)
     along = 2000 * torque / mean
     page.add("circumferential_force", along, "2000 * {T1} / {d_m1}")
-    if not first.is_straight:
-        _leaning_forces(page, pair, along)
-        return
-    lean = along * math.tan(first.pressure_angle)
-    for name, called, share, function in (
-        ("radial_force", N_("radial force, towards the gear's axis"), math.cos, "cos"),
-        ("axial_force", N_("axial force, away from the apex"), math.sin, "sin"),
-    ):
-        for number, gear in enumerate(pair.gears, 1):
-            formula = f"{{F_t}} * tan({{alpha}}) * {function}({{delta#}})"
-            page.add(name, lean * share(gear.pitch_angle), formula, gear=number, called=called)
-    page.add("normal_force", along / math.cos(first.pressure_angle), "{F_t} / cos({alpha})")
-
-
-def _leaning_forces(page: Sheet, pair: BevelPair, along: float) -> None:
-    """The same of teeth that are not straight, for both senses of turning, the first gear driving (ISO 23509 hands).
-
-    What the spiral angle adds is tan beta_m along the pitch line. On a right-hand driver that turns counter-clockwise,
-    as seen from the apex, it pulls towards the apex; the other hand, the other sense, and the mate turn it round.
-    """
-    first = pair.first
     alpha, beta = first.normal_pressure_angle, first.spiral_angle
     lean, pull = along * math.tan(alpha) / math.cos(beta), along * math.tan(beta)
-    # on the first gear, where it turns counter-clockwise
-    outwards = -1 if first.hand == "right" else 1
-    counter = (
-        N_("radial force, towards the gear's axis, the first gear driving counter-clockwise seen from the apex"),
-        N_("axial force, away from the apex, the first gear driving counter-clockwise seen from the apex"),
-    )
-    for before, way, names in (("", outwards, counter), ("clockwise_", -outwards, ("", ""))):
-        for name, share, other, turned, called in (
-            ("radial_force", "cos", "sin", -way, names[0]), ("axial_force", "sin", "cos", way, names[1]),
+    steep, normal = "tan({alpha})", "cos({alpha})"
+    cases = [("", 0, N_("radial force, towards the gear's axis"), N_("axial force, away from the apex"))]
+    if not first.is_straight:
+        steep, normal = "tan({alpha_n}) / cos({beta_m})", "(cos({alpha_n}) * cos({beta_m}))"
+        # what pulls along the pitch line, outwards on left-hand teeth that drive counter-clockwise
+        way = -1 if first.hand == "right" else 1
+        cases = [
+            ("", way,
+             N_("radial force, towards the gear's axis, the first gear driving counter-clockwise seen from the apex"),
+             N_("axial force, away from the apex, the first gear driving counter-clockwise seen from the apex")),
+            ("clockwise_", -way, "", ""),
+        ]  # fmt: skip
+    for before, outwards, *called in cases:
+        for name, words, share, other, turned in (
+            ("radial_force", called[0], "cos", "sin", -1), ("axial_force", called[1], "sin", "cos", 1),
         ):  # fmt: skip
             for number, gear in enumerate(pair.gears, 1):
-                sign, delta = turned if number == 1 else -turned, gear.pitch_angle
+                delta, sign = gear.pitch_angle, turned * outwards * (1 if number == 1 else -1)
                 value = lean * getattr(math, share)(delta) + sign * pull * getattr(math, other)(delta)
-                formula = (
-                    f"{{F_t}} * (tan({{alpha_n}}) / cos({{beta_m}}) * {share}({{delta#}}) "
-                    f"{'+' if sign > 0 else '-'} tan({{beta_m}}) * {other}({{delta#}}))"
-                )
-                page.add(before + name, value, formula, gear=number, called=called)
-    page.add("normal_force", along / math.cos(alpha) / math.cos(beta), "{F_t} / (cos({alpha_n}) * cos({beta_m}))")
+                formula = f"{steep} * {share}({{delta#}})"
+                if outwards:
+                    formula = f"({formula} {'+' if sign > 0 else '-'} tan({{beta_m}}) * {other}({{delta#}}))"
+                page.add(before + name, value, "{F_t} * " + formula, gear=number, called=words)
+    page.add("normal_force", along / (math.cos(alpha) * math.cos(beta)), f"{{F_t}} / {normal}")
