@@ -20,6 +20,7 @@ from geometry.base.placement import Placement3, Vector
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.gears.pairs.involute import flank_radii, tangent_length
+from geometry.gears.pairs.tooth_forces import ToothForces
 from geometry.gears.teeth.limits import undercut
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import ToothSide, tooth_side
@@ -272,6 +273,24 @@ class CrossedPair(Record, dict=True):
         push = abs(sum(n * v for n, v in zip(self.action.normal, one, strict=True)))
         along = [friction * sum(s * v for s, v in zip(slides, way, strict=True)) / size for way in (one, two)]
         return (push - along[0]) / (push - along[1]) if back else (push + along[1]) / (push + along[0])
+
+    def forces(self, friction: float) -> tuple[ToothForces, ToothForces]:
+        """Parts of what each gear bears of a normal force of 1 at the pole, the first driving; without their signs."""
+        at, speeds, a = self.at(self.pole), self.speeds(self.pole), self.working_centre_distance
+        slides = [w - v for v, w in zip(*speeds, strict=True)]
+        size = math.hypot(*slides)
+        acts = [n + friction * s / size for n, s in zip(self.action.normal, slides, strict=True)]
+        found = []
+        for axis, begin in (((0.0, 0.0, 1.0), 0.0), ((0.0, math.sin(self.shaft_angle), math.cos(self.shaft_angle)), a)):
+            spoke = (at[0] - begin, at[1], at[2])
+            along = sum(s * z for s, z in zip(spoke, axis, strict=True))
+            out = [s - along * z for s, z in zip(spoke, axis, strict=True)]
+            radius = math.hypot(*out)
+            radial = sum(f * s for f, s in zip(acts, out, strict=True)) / radius
+            axial = sum(f * z for f, z in zip(acts, axis, strict=True))
+            around = math.sqrt(max(sum(f * f for f in acts) - radial**2 - axial**2, 0.0))
+            found.append(ToothForces(around, abs(radial), abs(axial), 1.0))
+        return found[0], found[1]
 
     def findings(self) -> tuple[Finding, ...]:
         """What is not kept: whole flanks under the mate's tips, one tooth after the other, clearance, backlash."""

@@ -27,6 +27,7 @@ from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, sec
 from parts.gears.thinning import shared_thinning
 from parts.keys.base import in_modules, mm
 from parts.keys.helix import helix_of, in_keys, same_helix
+from parts.mates.pages.crossed import CrossedKeys, crossed_sheet
 from parts.mates.pages.internal import InternalKeys, RackKeys, internal_sheet, rack_sheet
 from parts.mates.pages.pair_keys import GEARS, kind_of_pair, merged, pair_table
 from parts.mates.pages.wishes import wish_refused
@@ -112,7 +113,9 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
         # a pinion is the first of its sheet
         specs.reverse()
     known = {"kind": kind, **{name: given(spec) for name, spec in zip(GEARS, specs, strict=True)}}
-    wishes = {key: getattr(mate, key) for key in ("working_centre_distance", "normal_backlash")}
+    wishes = {
+        key: getattr(mate, key, None) for key in ("working_centre_distance", "normal_backlash", "shaft_angle_deg")
+    }
     return merged(known | {k: v for k, v in wishes.items() if v is not None}, table, PAIRS[kind][0])
 
 
@@ -381,4 +384,5 @@ PAIRS: dict[str, tuple[type[Struct], Callable[[dict[str, Any]], Sheet]]] = {
     "external_gear_pair": (PairKeys, external_sheet),
     "internal_gear_pair": (InternalKeys, internal_sheet),
     "rack_pair": (RackKeys, rack_sheet),
+    "crossed_helical_pair": (CrossedKeys, crossed_sheet),
 }

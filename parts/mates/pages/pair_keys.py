@@ -20,7 +20,7 @@ from parts.keys.helix import Double, HelixAngle
 from parts.pages.inputs import PLACE, keys_of
 
 GEARS = ("first", "second")
-# the second body of each kind of pair
+# the second body of each kind of pair that it tells
 _SECOND = {"external_gear_pair": "spur_gear", "internal_gear_pair": "ring_gear", "rack_pair": "rack"}
 
 
@@ -87,7 +87,7 @@ def kind_of_pair(table: Mapping[str, Any], topic: str, known: Sequence[str]) -> 
         if kind not in known:
             raise SceneError(PLACE, key, kind, "unknown_pair", meant(kind, known), known=known)
         return kind, rest
-    bodies = {_SECOND[kind]: kind for kind in known}
+    bodies = {_SECOND[kind]: kind for kind in known if kind in _SECOND}
     if (body := second["kind"]) not in bodies:
         raise SceneError(PLACE, f"{topic}.second.kind", body, "not_one_of", meant(body, bodies), known=list(bodies))
     return bodies[body], rest | {"second": {key: value for key, value in second.items() if key != "kind"}}
