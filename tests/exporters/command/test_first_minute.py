@@ -146,6 +146,7 @@ def test_a_key_tells_its_own_meaning(capsys: pytest.CaptureFixture[str]) -> None
         ("spur beta=10", "helix_angle_deg"), ("gear-pair z1=20", "first"),
         ("gear-pair aw=90", "working_centre_distance"),
         ("worm z1=2", "number_of_starts"), ("worm q=10", "diameter_quotient"), ("bevel z2=40", "mate_teeth"),
+        ("bevel beta=35", "spiral_angle_deg"), ("bevel helix_angle_deg=35", "spiral_angle_deg"),
         ("planetary u=5", "ratio"), ("lever omega=10", "speed"), ("cam e=5", "follower_offset"),
         ("flywheel z=2", "lever"), ("epicyclic u=5", "planetary"), ("lever first=four_bar", "rods"),
     ],
