@@ -36,6 +36,7 @@ ShaftAngle = Annotated[
         "angle between both axes; default: the sum of both operating helix angles, of opposite hands their difference",
         least=0,
         most=180,
+        example=90.0,
     ),
 ]
 
