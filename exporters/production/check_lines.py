@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import groupby
+from itertools import groupby, product
 from types import MappingProxyType
 from typing import Any
 
@@ -111,16 +111,21 @@ def caption_lines(checks: dict[str, Any], language: str, names: Mapping[str, str
 
 
 def _drives(checks: dict[str, Any], names: Mapping[str, str], told: Words) -> list[str]:
-    """How often each drive turns what it moves; what is fixed to another turns with it."""
+    """How often each drive turns what it moves, and how far it slides it; what is fixed to another goes with it."""
     lines, fixed = [], {mate["second"] for mate in checks.get("mates", []) if mate["kind"] == "fixed"}
-    for drive in checks.get("drives", []):
+    ways = (
+        ("train", N_("drive {instance}, turns: {train}")),
+        ("travel", N_("drive {instance}, travel in mm: {train}")),
+    )
+    for drive, (kind, text) in product(checks.get("drives", []), ways):
         rows = groupby(
-            ((names.get(name, name), turns) for name, turns in drive["train"].items() if name not in fixed),
+            ((names.get(name, name), way) for name, way in drive.get(kind, {}).items() if name not in fixed),
             key=lambda row: f"{row[1]:.6g}",
         )
-        train = ", ".join(f"{name} = {turns}" for turns, row in rows for name in in_rows(name for name, _ in row))
+        train = ", ".join(f"{name} = {way}" for way, row in rows for name in in_rows(name for name, _ in row))
         driven = names.get(drive["instance"], drive["instance"])
-        lines.append(told.text("drive {instance}, turns: {train}", instance=driven, train=train))
+        if train:
+            lines.append(told.text(text, instance=driven, train=train))
     return lines
 
 

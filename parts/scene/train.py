@@ -391,6 +391,10 @@ def driven_train(
         joined = _joined(mechanism, matings)
         _check_rings(matings, joined, source)
         stands = tree(mechanism)
+        for key in keys:
+            # before it is asked to turn or to slide, which it does neither
+            if isinstance(stands.supports.get(stands.body(key)), Group):
+                raise ParameterError("drives", key, "moves_by_law")
         runs = [
             _run(drive, slides(stands, drive.instance), f"drives[{n}]", source) for n, drive in enumerate(drives, 1)
         ]
@@ -497,11 +501,14 @@ def _refused(refusal: ParameterError, keys: Sequence[str], matings: Sequence[Mat
     if refusal.code == "leaves_its_plane":
         place = next(f"mates[{n}].first" for n, m in enumerate(matings, 1) if m.follows and m.first == refusal.value)
         return SceneError(source, place, refusal.value, refusal.code)
-    if refusal.code != "contradicts":
+    if refusal.code not in ("contradicts", "moves_by_law"):
         place = refusal.name if refusal.name.startswith("mates[") else "mates"
         return SceneError(source, place, refusal.value, refusal.code, None, "", **refusal.numbers)
     key = str(refusal.value)
-    place, by = f"drives[{keys.index(key) + 1}].instance", refusal.numbers["by"]
+    place = f"drives[{keys.index(key) + 1}].instance"
+    if refusal.code == "moves_by_law":
+        return SceneError(source, place, key, refusal.code)
+    by = refusal.numbers["by"]
     assert isinstance(by, list)
     for ring, disc in [(ring, mating.second) for mating in matings for ring in mating.holds]:
         if ring in by:

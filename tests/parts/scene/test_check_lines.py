@@ -24,6 +24,17 @@ def test_names_that_count_on_are_a_row() -> None:
     ]
 
 
+def test_a_drive_tells_what_turns_and_what_slides() -> None:
+    """A plate has travel alone: its line of turns had none."""
+    drives = [{"instance": "wedge", "train": {}, "travel": {"wedge": -10.0}},
+              {"instance": "gear", "train": {"gear": 0.5}, "travel": {"rack": 62.831853}}]  # fmt: skip
+    assert check_lines({"drives": drives}, "en") == [
+        "drive wedge, travel in mm: wedge = -10",
+        "drive gear, turns: gear = 0.5",
+        "drive gear, travel in mm: rack = 62.8319",
+    ]
+
+
 def test_what_was_held_all_over_says_over_what() -> None:
     """Nothing that can meet, and pairs that no drive moves against each other."""
     still = [("one", "two", ()), ("one", "three", ("disk",))]

@@ -204,6 +204,17 @@ def test_what_cannot_move_is_told_in_one_line(text: str, named: str, remedy: str
     assert "\n" not in told
 
 
+@pytest.mark.parametrize("way", ["turns", "travel"])
+def test_what_a_cam_moves_is_no_drive(way: str) -> None:
+    """By its own key, whichever way it is asked to go: travel was answered with turns, which do not work either."""
+    kept = resolved(load_scene("yoke_cam")) | {"drives": [{"instance": "yoke", way: 1.0}]}
+    made = scene_from_resolved(kept, "t")
+    parts, matings = make_parts(made, "t")
+    with pytest.raises(SceneError) as caught:
+        place(made.instances, made.drives, parts, matings, "t")
+    assert (caught.value.key, caught.value.value, caught.value.code) == ("drives[1].instance", "yoke", "moves_by_law")
+
+
 def test_a_train_that_its_mates_lock_cannot_be_driven() -> None:
     """Three external wheels in a triangle: placed by hand so that all mesh, they hold each other."""
     gears = "".join(GEAR.format(name, 20) for name in "abc")
