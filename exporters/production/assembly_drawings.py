@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import cmath
 from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
 
 from exporters.production.request import Request
-from geometry.base.placement import Placement3
+from geometry.base.placement import Placement3, Vector
 from parts.base.mate import Touching
 from parts.drawing.assembly_sheet import AssemblyView, assembly_sheet
 from parts.drawing.assembly_views import Drawn, Shown, along_axes, cut, seen
@@ -17,7 +18,7 @@ from parts.drawing.expected import Expected
 from parts.drawing.extent import farthest
 from parts.drawing.working import VISIBLE, Size
 from parts.scene.parts_list import list_rows
-from parts.scene.placing import Placing
+from parts.scene.placing import PlacedMate, Placing
 
 # what is one place, mm
 _SAME = 1e-6
@@ -56,21 +57,29 @@ def assembly_drawings(request: Request, asked: Asked) -> list[tuple[str, Expecte
 def _line_of_centres(placing: Placing, wanted: set[str]) -> tuple[complex, complex]:
     """A point of the section's plane, and its direction: through the axes of the first mate that has two."""
     for mate in placing.mates:
-        step = mate.second.centre - mate.first.centre
+        step = _foot(mate, mate.first.centre, mate.second.centre, mate.second.axis) - mate.first.centre
         if {mate.first.part, mate.second.part} <= wanted and abs(step) > _SAME:
             return mate.first.centre, step / abs(step)
     first = next(i for i in placing.instances if i.part in wanted)
     return first.centre, 1.0
 
 
+def _foot(mate: PlacedMate, first: complex, second: complex, axis: Vector) -> complex:
+    """Where a mate's line of centres meets its second's axis, by where the frames of both stand in a view, mm."""
+    way = cmath.rect(1.0, mate.mating.centres_direction(second - first, axis))
+    return first + way * (way.conjugate() * (second - first)).real
+
+
 def _meshes(front: Sequence[Shown], placing: Placing) -> list[tuple[str, complex, complex]]:
     """The axes of what meshes or touches, by the names of both, in the view."""
-    places = {one.id: one.centre for one in front}
-    return [
-        (f"axes.{mate.first.id}.{mate.second.id}", places[mate.first.id], places[mate.second.id])
-        for mate in placing.mates
-        if isinstance(mate.mating, Touching) and {mate.first.id, mate.second.id} <= places.keys()
-    ]
+    places = {one.id: one for one in front}
+    found = []
+    for mate in placing.mates:
+        if isinstance(mate.mating, Touching) and {mate.first.id, mate.second.id} <= places.keys():
+            one, two = places[mate.first.id], places[mate.second.id]
+            foot = _foot(mate, one.centre, two.centre, two.axis)
+            found.append((f"axes.{one.id}.{two.id}", one.centre, foot))
+    return found
 
 
 def _between(front: Sequence[Shown], across: Drawn, placing: Placing) -> list[Size]:

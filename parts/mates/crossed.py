@@ -75,7 +75,7 @@ class CrossedMating(Touching):
 
     def centres_direction(self, offset: complex, axis: Vector) -> float:
         """At right angles to both axes."""
-        across = complex(axis[1], -axis[0])
+        across = complex(axis[1], -axis[0]) or offset
         return cmath.phase(across * math.copysign(1.0, (across.conjugate() * offset).real))
 
     def standing(self, first: Pose, second: Pose) -> Standing | None:

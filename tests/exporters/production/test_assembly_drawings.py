@@ -66,6 +66,7 @@ def numbers(dxf: Path) -> list[tuple[str, complex]]:
         # d_ae of the wheel, m (z + 2 (1 - x) cos(delta))
         ("bevel_pair", "en", {"81.252": 2 * (40 + 2 * 0.7 * math.cos(math.atan(2)))}, 2),
         ("worm_set_print", "uk", {"40": 40.0, "24": 24.0}, 2),
+        ("crossed_helical_pair", "en", {"56.569": 40 * math.sqrt(2)}, 2),
     ],
 )
 def test_sizes_measure_the_scene_and_every_position_has_its_number(
