@@ -12,9 +12,8 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from parts.base.mate import End, LaidStanding, MateKind, Pose, Standing, Touching
-from parts.gears.spur_gear.part import SpurGearSpec
 from parts.gears.thinning import shared_thinning
-from parts.keys.base import degrees
+from parts.keys.base import MadeKeys, degrees
 from parts.keys.helix import helix_of
 from parts.keys.mate import InvolutePairKeys
 from parts.mates.sizes import same_size
@@ -236,7 +235,7 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
 
         specs = [end.keys for end in (first, second)]
         helices = [helix_of(spec).signed_angle for spec in specs]
-        widths = [spec.face_width for spec in specs if isinstance(spec, SpurGearSpec)]
+        widths = [spec.face_width for spec in specs if isinstance(spec, MadeKeys)]
         bare = CrossedPair(first.thing, second.thing, (helices[0], helices[1]), (widths[0], widths[1]),
                            (widths[0] / 2, widths[1] / 2))  # fmt: skip
         angle = None if keys.shaft_angle_deg is None else math.radians(keys.shaft_angle_deg)

@@ -47,7 +47,7 @@ from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
 TOPIC = "gear-pair"
-OTHER_KINDS = (("second.kind", "ring_gear"), ("second.kind", "rack"))
+OTHER_KINDS = (("second.kind", "ring_gear"), ("second.kind", "rack"), ("kind", "crossed_helical_pair"))
 
 
 class PairKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
