@@ -195,9 +195,7 @@ def _owner(kind: type[Struct], keys: list[str], table: object) -> type[Struct]:
     structs = [kind]
     for key in keys:
         table = _lookup(table, [key])
-        field = next((f for f in msgspec.structs.fields(kind) if f.encode_name == key), None)
-        if field is not None:
-            structs = _structs_of(field.type) or structs
+        structs = _structs_of(_types_of(kind).get(key)) or structs
         # items of a list are told apart by their own tags
         tag = table.get(structs[0].__struct_config__.tag_field) if isinstance(table, dict) else None
         kind = next((s for s in structs if s.__struct_config__.tag == tag), structs[0])
@@ -218,9 +216,7 @@ def _tagged_at(kind: type[Struct], keys: list[str], table: object) -> list[type[
         above -= 1
     if above < 0:
         return []
-    owner = _owner(kind, keys[:above], table)
-    field = next((f for f in msgspec.structs.fields(owner) if f.encode_name == keys[above]), None)
-    structs = _structs_of(field.type) if field is not None else []
+    structs = _structs_of(_types_of(_owner(kind, keys[:above], table)).get(keys[above]))
     return structs if structs and structs[0].__struct_config__.tag_field == keys[-1] else []
 
 
@@ -258,14 +254,12 @@ def _lookup(table: object, keys: list[str]) -> Any:
 
 def described_key(owner: type[Struct], name: str) -> Message | None:
     """Meaning, range and unit of a key, in one phrase."""
-    field = next((f for f in msgspec.structs.fields(owner) if f.encode_name == name), None)
-    return None if field is None else described(field.type)
+    return described(_types_of(owner).get(name))
 
 
 def _words_of(owner: type[Struct], name: str) -> list[str]:
     """The words that a key may hold."""
-    field = next((f for f in msgspec.structs.fields(owner) if f.encode_name == name), None)
-    return [] if field is None else _literals(field.type)
+    return _literals(_types_of(owner).get(name))
 
 
 def _literals(kind: object) -> list[str]:

@@ -289,7 +289,7 @@ def positions(
     """
     degrees, angle = cam_angles(cam.motion, step)
     motion = [cam.motion.value(angle, k) for k in range(3)]
-    columns, heads = motion_columns(motion, degrees, swings=cam_swings(cam), speed=angular_speed(speed_rpm))
+    columns, heads = motion_columns(motion, degrees, swings=cam.swings, speed=angular_speed(speed_rpm))
     slope = np.degrees(cam.pressure_angle(angle))
     if beyond is None:
         profile, bend = cam.profile_point(angle), cam.curvature_radius(angle)
@@ -340,11 +340,6 @@ def outer_points(cam: DiskCam, angle: Real, beyond: float) -> Complex:
 def straightened(radius: Real, size: float) -> Real:
     """Radii of curvature, those of what is straight but for rounding as infinity; ``size`` of the cam, mm."""
     return np.where(np.abs(radius) < _STRAIGHT * size, radius, np.inf)
-
-
-def cam_swings(cam: DiskCam) -> bool:
-    """Whether S of a disk cam is an angle."""
-    return cam.swings
 
 
 def impact_notes(page: Sheet, motion: FollowerMotion) -> None:

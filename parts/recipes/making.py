@@ -81,6 +81,15 @@ class Making:
             pivot_diameter=holes[0], pin_diameter=holes[1], face_width=self.thickness,
         )  # fmt: skip
 
+    def hang_flange(self, pin: float, posts: float, pivots: float, boss: float, bore: float) -> None:
+        """Hung by three cranks on ``posts``, what three hang on at ``pivots`` between them: radii, a pin's diameter."""
+        self.part(
+            "flange", kind="carrier_plate", number_of_pins=3, pin_circle_diameter=2 * posts, pin_diameter=pin,
+            boss_diameter=2 * boss, face_width=self.thickness, hub_diameter=2 * (pivots + boss), bore_diameter=2 * bore,
+            spacers={"count": 3, "pitch_circle_diameter": 2 * pivots, "diameter": pin, "boss_diameter": 2 * boss,
+                     "start_deg": 60.0},
+        )  # fmt: skip
+
     def put(self, kind: str, first: str, second: str, part: str = "", **keys: object) -> None:
         """An instance by its first mate."""
         self.found.instances[second] = {"part": part or second}

@@ -341,13 +341,7 @@ class _Making(Making):
         pivots = [cmath.rect(sizes.pivots, math.pi / 3 + 2 * math.pi * k / 3) for k in range(3)]
         self.plate("hub", 2 * sizes.hub, [hole(arm, axle + 2 * keys.clearance)], face_width=thick + keys.axial_gap)
         self.fix("pinion", "hub", 0j, flange - self.gears)
-        self.part(
-            "flange", kind="carrier_plate", number_of_pins=3, pin_circle_diameter=2 * sizes.posts, pin_diameter=pin,
-            boss_diameter=2 * sizes.boss, face_width=thick, hub_diameter=2 * (sizes.pivots + sizes.boss),
-            bore_diameter=2 * (sizes.hub + keys.clearance),
-            spacers={"count": 3, "pitch_circle_diameter": 2 * sizes.pivots, "diameter": pin,
-                     "boss_diameter": 2 * sizes.boss, "start_deg": 60.0},
-        )  # fmt: skip
+        self.hang_flange(pin, sizes.posts, sizes.pivots, sizes.boss, sizes.hub + keys.clearance)
         self.put("carried", "disk_2", "flange", offset=place(arm, flange))
         self.mate("parallel", "body", "flange")
         self.part(

@@ -394,13 +394,7 @@ class _Making(Making):
     def _first_stage(self) -> None:
         """The flange, which runs on the hub, hung on the posts by cranks as long as O1O2."""
         sizes, keys, thick = self.sizes, self.keys, self.keys.plate_thickness
-        self.part(
-            "flange", kind="carrier_plate", number_of_pins=3, pin_circle_diameter=2 * sizes.posts,
-            pin_diameter=keys.pin_diameter, boss_diameter=2 * sizes.boss, face_width=thick,
-            hub_diameter=2 * (sizes.pivots + sizes.boss), bore_diameter=2 * (sizes.hub + keys.clearance),
-            spacers={"count": 3, "pitch_circle_diameter": 2 * sizes.pivots, "diameter": keys.pin_diameter,
-                     "boss_diameter": 2 * sizes.boss, "start_deg": 60.0},
-        )  # fmt: skip
+        self.hang_flange(keys.pin_diameter, sizes.posts, sizes.pivots, sizes.boss, sizes.hub + keys.clearance)
         self.put("carried", "disk_2", "flange", offset=place(complex(sizes.arm), self.flange - self.disk))
         self.mate("parallel", "base", "flange")
         turning = (keys.pin_diameter + keys.clearance,) * 2

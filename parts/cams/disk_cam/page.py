@@ -46,7 +46,6 @@ from parts.pages.cam_steps import (
     Phases,
     Speed,
     Step,
-    cam_swings,
     coefficient_steps,
     impact_notes,
     phase_steps,
@@ -121,7 +120,7 @@ def disk_sheet(keys: CamKeys) -> Sheet:
 
 def phases_of(cam: DiskCam) -> Phases:
     """The phases of a disk cam."""
-    return Phases(cam.motion.phases, cam.motion.lift, cam_swings(cam), left_rows=cam.motion.left_rows)
+    return Phases(cam.motion.phases, cam.motion.lift, cam.swings, left_rows=cam.motion.left_rows)
 
 
 def disk_page(keys: CamKeys, cam: DiskCam) -> Sheet:
@@ -146,7 +145,7 @@ def finish(page: Sheet, keys: Any, cam: DiskCam, transmission_angle_deg: float |
     """The graphical method (its least radius by this angle), velocities, and the remarks on the motion."""
     graphical_section(page, cam, transmission_angle_deg, keys.intervals, keys.drawing)
     if keys.speed_rpm is not None:
-        speed_section(page, cam.motion, keys.speed_rpm, slides=not cam_swings(cam))
+        speed_section(page, cam.motion, keys.speed_rpm, slides=not cam.swings)
     impact_notes(page, cam.motion)
 
 

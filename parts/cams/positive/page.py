@@ -16,7 +16,7 @@ from parts.cams.disk_cam.part import CAM
 from parts.cams.positive.conjugate import CONJUGATE_CAM, ConjugateCamSpec, SecondCam
 from parts.cams.positive.yoke import YOKE_FRAME, YokeFrame, YokeFrameSpec
 from parts.cams.wheel import inner_radius
-from parts.pages.cam_steps import TOPIC, cam_angles, cam_swings, positions, table_of
+from parts.pages.cam_steps import TOPIC, cam_angles, positions, table_of
 from parts.pages.inputs import PLACE, checked, refusal
 from parts.pages.page import Sheet
 
@@ -78,7 +78,7 @@ def _second(page: Sheet, second: SecondCam, keys: CamKeys) -> None:
     cam = second.cam
     page.section(N_("Second disk"))
     between = between_rollers(second.first, second.pair)
-    if cam_swings(cam):
+    if cam.swings:
         page.add("inner_roller_angle_deg", 360.0 - math.degrees(between))
         page.add("roller_angle_deg", math.degrees(between))
         page.add("second_arm_length", cam.swing.arm_length)
