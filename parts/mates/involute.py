@@ -13,7 +13,6 @@ from geometry.base.errors import ConvergenceError, GeometryError, Nearest, Param
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from parts.base.mate import End, MateKind, Pose, Standing, Toothed
-from parts.gears.thinning import shared_thinning
 from parts.keys.base import mm
 from parts.keys.mate import InvolutePairKeys
 
@@ -341,6 +340,8 @@ class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
         """What the backlash asks for beyond that of the distance."""
         if keys.normal_backlash is None:
             return 0.0, 0.0
+        from parts.gears.thinning import shared_thinning
+
         ends: tuple[End[Any], End[Any]] = (first, second)
         given = 0.0
         if keys.working_centre_distance is not None:
