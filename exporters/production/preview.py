@@ -37,7 +37,7 @@ _PIN_STYLE = "fill:#7f8c99;stroke:#202830"
 # outlines of more curves than this are drawn by so many points of each: arcs take seconds to fit
 _MOST_ARCS, _POINTS = 300, 8
 # what chords may leave of what lies, part of its reach
-_NEAR = 5e-4
+_NEAR = 2e-3
 # of more alike than this one is named for all, by its name without its number
 _MANY, _LAST_NUMBER = 6, re.compile(r"[ _]\d+$")
 # the boundaries of a part, the outer one last
