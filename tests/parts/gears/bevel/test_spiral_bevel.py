@@ -120,8 +120,10 @@ def test_forces_are_those_along_the_normal_of_the_exact_flank(hand: str) -> None
     words = ["module=3", "number_of_teeth=20", "mate_teeth=30", "shaft_angle_deg=75", "spiral_angle_deg=35",
              f"hand={hand}", "face_width=15", "addendum_coefficient=0.85", "torque=30"]  # fmt: skip
     told = json.loads(calculate("bevel", words, "json", "en"))["values"]
-    keys = {word.partition("=")[0]: float(word.partition("=")[2]) for word in words if "hand" not in word}
-    keys |= {"kind": "bevel_gear", "hand": hand, "number_of_teeth": 20, "mate_teeth": 30}  # type: ignore[dict-item]
+    keys: dict[str, Any] = {
+        word.partition("=")[0]: float(word.partition("=")[2]) for word in words if "hand" not in word
+    }
+    keys |= {"kind": "bevel_gear", "hand": hand, "number_of_teeth": 20, "mate_teeth": 30}
     del keys["torque"]
     gear = make_parts(scene_from_dict({"parts": {"g": keys}}, "s", "s"), "s")[0]["g"].thing
     sigma = math.radians(75)
