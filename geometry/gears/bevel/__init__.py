@@ -1,1 +1,1 @@
-"""Straight bevel gears of exact spherical involutes."""
+"""Bevel gears of exact spherical involutes: straight, skew, zerol, spiral."""

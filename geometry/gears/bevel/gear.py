@@ -37,8 +37,8 @@ _LEAST_HEIGHT = 0.05
 _SHIFTS, _RATIOS = (0.2, 0.4, 0.6, 0.8, 1.0, 1.4, 2.0), (1, 3, 10, 30)
 # of the addendum, where a shorter one is sought
 _SHARES = (0.8, 0.6, 0.4, 0.3)
-# share of a cone distance that a face takes at most
-_MOST_FACE = 0.99
+# share of a cone distance that a face takes at most, and of one that is sought
+_MOST_FACE, _LEAST_FACE = 0.99, 1e-3
 # spiral angle of a tooth line at most, anywhere along the face; cutters among which one that works is sought, in R_m
 _STEEPEST_LINE, _CUTTERS = math.radians(60.0), (1.0, 2.0, 5.0, 50.0)
 # share of the outer flank that is left at the inner end
@@ -415,14 +415,20 @@ class BevelGear(Record, dict=True):
         self._check_blank()
         return self
 
+    def _changed(self, name: str, value: float) -> BevelGear:
+        """The gear with another value; a cutter of the mean cone distance, as by default, follows the face."""
+        changed: dict[str, Any] = {name: value}
+        if name == "face_width" and self.cutter_radius == self.mean_distance:
+            changed["cutter_radius"] = self.cone_distance - value / 2
+        return replace(self, **changed)
+
     def _cured(self, name: str, toward: float | Sequence[float], check: Callable[[BevelGear], None], code: str,
                error: type[ParameterError] = ParameterError, **numbers: float) -> ParameterError:  # fmt: skip
         """A refusal that offers the nearest value on the way ``toward`` one with which a check passes."""
         given = getattr(self, name)
 
         def holds(value: float) -> bool:
-            changed: dict[str, Any] = {name: value}
-            check(replace(self, **changed))
+            check(self._changed(name, value))
             return True
 
         return error(name, given, code, lambda: nearest(holds, given, toward), **numbers)
@@ -482,7 +488,7 @@ class BevelGear(Record, dict=True):
         self._check_face()
 
     def _check_face(self) -> None:
-        least = 1e-3 * self.cone_distance
+        least = _LEAST_FACE * self.cone_distance
         if self.face_width > _MOST_FACE * self.cone_distance:
             raise self._cured("face_width", least, BevelGear._check_face, "bevel_face_to_apex",
                               distance=self.cone_distance)  # fmt: skip
@@ -494,17 +500,22 @@ class BevelGear(Record, dict=True):
         steepest = self._steepest_line()
         if steepest <= _STEEPEST_LINE:
             return
-        name, ways = "spiral_angle", [0.0]
-        if math.isfinite(self.cutter_radius) and self._steepest_line(self.mean_distance) <= _STEEPEST_LINE:
-            name, ways = "cutter_radius", [share * self.mean_distance for share in _CUTTERS]
-        raise self._cured(name, ways, BevelGear._check_line, "bevel_line_too_steep", angle=math.degrees(steepest),
-                          most=math.degrees(_STEEPEST_LINE))  # fmt: skip
+        cures: dict[str, list[float]] = {"spiral_angle": [0.0], "face_width": [_LEAST_FACE * self.cone_distance]}
+        if math.isfinite(self.cutter_radius):
+            # an arc through the apex leans less inwards
+            through = [0.5 / math.sin(self.spiral_angle)] if self.spiral_angle else []
+            cures = {"cutter_radius": [share * self.mean_distance for share in (*_CUTTERS, *through)]} | cures
+        name = next(
+            name for name, ends in cures.items()
+            if name == "face_width" or any(self._changed(name, end)._steepest_line() <= _STEEPEST_LINE for end in ends)
+        )  # fmt: skip
+        raise self._cured(name, cures[name], BevelGear._check_line, "bevel_line_too_steep",
+                          angle=math.degrees(steepest), most=math.degrees(_STEEPEST_LINE))  # fmt: skip
 
-    def _steepest_line(self, cutter_radius: float | None = None) -> float:
+    def _steepest_line(self) -> float:
         """Of its spiral angles: an end of the face has it."""
-        line = self.line if cutter_radius is None else replace(self.line, cutter_radius=cutter_radius)
         furthest = max(self.cone_distance / math.cos(t - self.pitch_angle) for t in (self.tip_angle, self.root_angle))
-        return float(np.abs(line.spiral([self.inner_distance, furthest])).max())
+        return float(np.abs(self.line.spiral([self.inner_distance, furthest])).max())
 
     def _has_inner_flank(self) -> bool:
         """Whether the tip cone leaves some of it at the inner end."""

@@ -213,11 +213,13 @@ def _teeth(page: Sheet, pair: BevelPair) -> None:
     first, ratio = pair.first, max(pair.ratio, 1 / pair.ratio)
     if abs(first.shaft_angle - math.pi / 2) < _RIGHT and ratio > 1:
         small = min(pair.gears, key=lambda g: g.number_of_teeth)
-        # Dunaev, Lelikov; of straight teeth the cosine is 1
-        usual = 2 * (1 - 1 / ratio**2) * math.sqrt(math.cos(first.spiral_angle) ** 3 / small.number_of_teeth)
+        # Dunaev, Lelikov; of straight teeth the cosine is 1, of others theirs is told in m_mn and ours in m_m
+        cosine = math.cos(first.spiral_angle)
+        usual = 2 * (1 - 1 / ratio**2) * cosine * math.sqrt(cosine**3 / small.number_of_teeth)
         one, two = (1, 2) if small is first else (2, 1)
         share = f"2 * (1 - ({{z{one}}} / {{z{two}}})**2)"
-        root = f"/ sqrt({{z{one}}})" if first.is_straight else f"* sqrt(cos({{beta_m}})**3 / {{z{one}}})"
+        lean = "cos({beta_m})"
+        root = f"/ sqrt({{z{one}}})" if first.is_straight else f"* {lean} * sqrt({lean}**3 / {{z{one}}})"
         page.add("usual_shift", usual, f"{share} {root}")
 
 

@@ -9,14 +9,17 @@ from pathlib import Path
 from typing import Any
 
 import manifold3d
+import msgspec
 import numpy as np
 import pytest
 
 from exporters.command.cli import main
 from exporters.documents.topics import calculate
+from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.bevel.faces import faced_bevel
 from parts.base.refusal import SceneError
+from parts.gears.bevel_gear.part import BEVEL_GEAR, BevelGearSpec
 from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import place
 from parts.solids.mesh import body_mesh, mesh_outlines
@@ -182,6 +185,43 @@ def test_the_worked_example_of_khk() -> None:
     for name, value in expected.items():
         found = told[name]
         assert (list(found.values()) if isinstance(found, dict) else found) == pytest.approx(value, abs=6e-5), name
+
+
+def test_the_usual_shift_of_leaning_teeth_is_told_in_the_outer_module() -> None:
+    """Dunaev, Lelikov: d_ae1 = d_e1 + 1.64 (1 + x_n1) m_te cos d1, x_n1 = 2 (1 - 1 / u^2) sqrt(cos^3 beta / z1)."""
+    words = ["module=3", "number_of_teeth=20", "mate_teeth=50", "spiral_angle_deg=35", "addendum_coefficient=0.82"]
+    shift = json.loads(calculate("bevel", words, "json", "en"))["values"]["usual_shift"]
+    told = json.loads(calculate("bevel", [*words, f"profile_shift_coefficient={shift}"], "json", "en"))["values"]
+    own = 2 * (1 - 0.4**2) * math.sqrt(math.cos(math.radians(35.0)) ** 3 / 20)
+    tip = 60.0 + 1.64 * (1 + own) * 3 * math.cos(math.atan(0.4))
+    assert told["outer_tip_circle"]["first"] == pytest.approx(tip, abs=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("keys", "name"),
+    [
+        ({"face_width": 90.0}, "face_width"),
+        ({"face_width": 35.0, "spiral_angle_deg": 0.0}, "cutter_radius"),
+        ({"face_width": 40.0, "tip_cone": "apex", "spiral_angle_deg": 20.0, "cutter_radius": 20.0}, "cutter_radius"),
+        ({"face_width": 40.0, "tip_cone": "apex"}, "face_width"),
+    ],
+)
+def test_faces_too_wide_lead_to_the_nearest_value_that_works(keys: dict[str, Any], name: str) -> None:
+    """A cutter that is not told has the mean cone distance of the face that is offered."""
+    raw = {"module": 3.0, "number_of_teeth": 16, "mate_teeth": 24, "spiral_angle_deg": 35.0} | keys
+
+    def made(**more: Any) -> None:
+        BEVEL_GEAR.thing(msgspec.convert(raw | more | {"kind": "bevel_gear"}, BevelGearSpec), {})
+
+    with pytest.raises(ParameterError) as caught:
+        made()
+    assert caught.value.name == name
+    assert caught.value.nearest is not None
+    value = caught.value.nearest.value
+    assert isinstance(value, float)
+    made(**{name: value})
+    with pytest.raises(ParameterError):
+        made(**{name: value * (1.001 if caught.value.nearest.side == "at_most" else 0.999)})
 
 
 @pytest.mark.sampled(1)
