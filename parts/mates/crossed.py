@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec.structs import replace as changed
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
 from parts.base.mate import End, LaidStanding, MateKind, Pose, Standing, Touching
 from parts.gears.thinning import shared_thinning
@@ -164,9 +164,10 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
         from geometry.gears.teeth.transverse import normal_angle
 
         gears, cosines = (first.thing, second.thing), [math.cos(helix_of(end.keys).angle) for end in (first, second)]
-        given, bare = 0.0, [replace(gear, circumferential_thinning=0.0) for gear in gears]
+        given = 0.0
         if keys.working_centre_distance is not None:
-            given = self.made(keys, End(first.keys, bare[0]), End(second.keys, bare[1])).normal_backlash
+            pair = self.reaching(keys, first, second)
+            given = pair.normal_backlash - pair.thinning_backlash
         normal = [
             replace(gear, circumferential_thinning=gear.circumferential_thinning * cosine)
             for gear, cosine in zip(gears, cosines, strict=True)
@@ -210,22 +211,27 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
             if pair.contact_ratio > 0 or not asked:
                 return pair
         except ParameterError as refusal:
-            if refusal.name != "shaft_angle":
+            if refusal.name != "shaft_angle" and refusal.code != code:
                 raise
             code = refusal.code
-        key = asked[0]
-        given = getattr(keys, key)
 
-        def tried(value: float | None) -> CrossedPair:
+        def tried(key: str, value: float | None) -> CrossedPair:
             return self.made(changed(keys, **{key: value}), first, second)
+
+        # the one without which they reach each other; none of them where both are wrong
+        alone = [key for key in asked if kept(lambda name: tried(name, None).contact_ratio > 0, key)]
+        key = (alone or asked)[0]
+        given = getattr(keys, key)
 
         def cure() -> Nearest | None:
             """From what both make of themselves on, as far as contact goes on from tooth to tooth."""
-            own = tried(None)
+            if not alone:
+                return None
+            own = tried(key, None)
             wanted, toward = min(1.0, own.contact_ratio), own.working_centre_distance
             if key == "shaft_angle_deg":
                 toward = math.degrees(abs(own.shaft_angle))
-            return nearest(lambda value: tried(value).contact_ratio >= wanted, given, toward)
+            return nearest(lambda value: tried(key, value).contact_ratio >= wanted, given, toward)
 
         raise ParameterError(f"mate.{key}", given, code, cure)
 

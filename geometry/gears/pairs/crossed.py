@@ -132,6 +132,8 @@ class CrossedPair(Record, dict=True):
         sine, cosine = math.sin(self.shaft_angle), math.cos(self.shaft_angle)
         s1, s2 = (math.sin(b) for b in self.base_helices)
         c1 = math.cos(self.base_helices[0])
+        if sine == 0:
+            raise ParameterError("shaft_angle", self.shaft_angle, "no_common_normal")
         # both base helices tell the parts along the axes; y and the second's y are against each other
         y, across = -(s2 + s1 * cosine) / sine, -(s1 + s2 * cosine) / sine
         if not (y < 0 and across < 0 and abs(y) < c1):
@@ -263,7 +265,7 @@ class CrossedPair(Record, dict=True):
         return math.dist(*self.speeds(along))
 
     def efficiency(self, friction: float, *, back: bool = False) -> float:
-        """Of a contact at the pole, the first driving, or the second; 0 or less: it cannot.
+        """Of a contact at the pole, the first driving, or the second; 0: it cannot.
 
         At the pole on the line of centres (cos(alpha_wn) - f tan(beta_w2)) / (cos(alpha_wn) + f tan(beta_w1)).
         """
@@ -272,7 +274,9 @@ class CrossedPair(Record, dict=True):
         size = math.hypot(*slides)
         push = abs(sum(n * v for n, v in zip(self.action.normal, one, strict=True)))
         along = [friction * sum(s * v for s, v in zip(slides, way, strict=True)) / size for way in (one, two)]
-        return (push - along[0]) / (push - along[1]) if back else (push + along[1]) / (push + along[0])
+        into, out = (push - along[1], push - along[0]) if back else (push + along[0], push + along[1])
+        # steep friction turns the driver's sign too, and their quotient would be above 1
+        return out / into if out > 0 else 0.0
 
     def forces(self, friction: float) -> tuple[ToothForces, ToothForces]:
         """Parts of what each gear bears of a normal force of 1 at the pole, the first driving; without their signs."""
@@ -377,6 +381,8 @@ def _working_sine(bare: CrossedPair, distance: float | None, backlash: float) ->
         x = gear.profile_shift_coefficient
         cure = limit(x - wanted / slope, x, digits=_DIGITS)
         raise ParameterError("profile_shift_coefficient", x, "no_working_angle_with_first", cure, involute=wanted)
+    if distance is not None and opened(top) < 0:
+        raise ParameterError("working_centre_distance", distance, "teeth_do_not_reach")
     own = math.sin(bare.pressure_angle)
     # zero shifts: the operating cylinders are the reference cylinders, to the last digit
     if abs(opened(own)) < 1e-14 * sum(bare.arms):

@@ -177,8 +177,8 @@ def _losses(page: Sheet, pair: CrossedPair, friction: float, *, meets: bool) -> 
     formula = "(cos({alpha_wn}) %s {f} * tan({beta_w%d})) / (cos({alpha_wn}) %s {f} * tan({beta_w%d}))"
     for name, back, one, two in (("crossed_efficiency", False, 1, 2), ("crossed_back_efficiency", True, 2, 1)):
         worth = pair.efficiency(friction, back=back)
-        page.add(name, worth, formula % (driven, two, drives, one) if meets else "")
-        if worth <= 0:
+        page.add(name, worth, formula % (driven, two, drives, one) if meets and worth else "")
+        if not worth:
             page.notes.append(message(N_("self-locking: gear {number} cannot drive"), number=one))
     for gear, mate in ((1, 2), (2, 1)):
         slope = math.copysign(1.0, pair.shaft_angle) * math.tan(pair.working_helices[mate - 1])
@@ -191,7 +191,7 @@ def _losses(page: Sheet, pair: CrossedPair, friction: float, *, meets: bool) -> 
 def _forces(page: Sheet, pair: CrossedPair, keys: CrossedKeys, torque: float, *, meets: bool) -> None:
     """At the pole; the first gear drives."""
     friction = keys.friction_coefficient
-    if pair.efficiency(friction) <= 0:
+    if not pair.efficiency(friction):
         return
     page.section(N_("Torques and forces"))
     torque_steps(page, keys, torque, "gear_torque", 1)

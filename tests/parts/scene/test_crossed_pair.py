@@ -20,6 +20,8 @@ WHEEL = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 18, "helix_angle
          "profile_shift_coefficient": 0.3}  # fmt: skip
 PINION = WHEEL | {"number_of_teeth": 13, "helix_angle_deg": 40.0, "face_width": 15.0, "profile_shift_coefficient": 0.2}
 
+SMALL = {"module": 0.01, "face_width": 0.1}
+
 
 def _scene(one: dict[str, Any], two: dict[str, Any], instances: dict[str, Any] | None = None, **mate: Any) -> Any:
     table = {
@@ -122,6 +124,9 @@ def test_two_that_stand_are_held_to_distance_angle_and_phase() -> None:
         ({}, {}, {"working_centre_distance": 30.0}, "working_centre_distance"),
         ({}, {}, {"shaft_angle_deg": 20.0}, "shaft_angle_deg"),
         ({}, {}, {"shaft_angle_deg": 72.0, "working_centre_distance": 37.0}, "working_centre_distance"),
+        ({}, {}, {"shaft_angle_deg": 0.0}, "shaft_angle_deg"),
+        ({}, {}, {"shaft_angle_deg": 71.0, "working_centre_distance": 60.0}, "working_centre_distance"),
+        (SMALL, SMALL, {"working_centre_distance": 1e6}, "working_centre_distance"),
     ],
 )
 def test_what_does_not_fit_is_refused_by_its_key_with_what_works(
@@ -137,3 +142,16 @@ def test_what_does_not_fit_is_refused_by_its_key_with_what_works(
         make_parts(_scene(one, two, **mate | {told: works.value}), "t")
     else:
         make_parts(_scene(one, two | {told: works.value}), "t")
+
+
+def test_both_distance_and_angle_wrong_are_told_without_a_value_that_works() -> None:
+    with pytest.raises(SceneError) as refused:
+        make_parts(_scene({}, {}, shaft_angle_deg=10.0, working_centre_distance=30.0), "t")
+    assert refused.value.key.endswith("shaft_angle_deg")
+    assert refused.value.nearest is None
+
+
+def test_thinned_teeth_may_stand_nearer_and_have_their_backlash() -> None:
+    own = _placed(_scene({}, {}))[2].pair.working_centre_distance
+    near = _scene({"circumferential_thinning": 0.2}, {}, working_centre_distance=own - 0.05, normal_backlash=0.15)
+    assert _placed(near)[2].normal_backlash == pytest.approx(0.15, abs=1e-12)

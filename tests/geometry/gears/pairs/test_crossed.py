@@ -143,6 +143,15 @@ def test_sliding_and_efficiency_at_the_pole_are_those_of_textbooks(name: str) ->
     assert pair.efficiency(f, back=True) == pytest.approx(worth, rel=1e-12)
 
 
+def test_a_gear_that_cannot_drive_gives_nothing_however_rough_the_flanks_are() -> None:
+    """Power left of what goes in, by the forces along both tooth lines: none from cos(alpha_n) / tan(beta_2) on."""
+    pair = crossed_pair(_bare((2.0, (20, 20), (-55.0, 60.0), (0.0, 0.0), (20.0, 20.0))))
+    locked = math.cos(math.radians(20.0)) / math.tan(math.radians(60.0))
+    assert pair.efficiency(0.99 * locked) > 0
+    assert [pair.efficiency(f) for f in (1.01 * locked, 0.66, 0.8, 1.0)] == [0.0] * 4
+    assert 0 < pair.efficiency(1.0, back=True) < 1
+
+
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", CASES)
 def test_sections_of_whole_teeth_find_the_gap_of_the_closed_form_and_no_less(name: str) -> None:
