@@ -27,13 +27,13 @@ def shared_thinning(
     gears: Sequence[Thinned],
     build: Callable[[int, float], object],
     cosine: float,
-    given: float = 0.0,
+    there: float | None = None,
     share: float = 1.0,
 ) -> tuple[float, float]:
     """What a normal backlash (mm) takes of each tooth of two gears, mm; 0 of a gear that sets its own thinning.
 
-    ``build(0 or 1, thinning)`` makes a tooth of that gear, ``cosine``: of the pressure angle, ``given``: backlash that
-    the distance alone gives, mm, ``share``: j_bn over the backlash of the section in which the gears are.
+    ``build(0 or 1, thinning)`` makes a tooth of that gear, ``cosine``: of the pressure angle, ``there``: backlash of the
+    gears as they are, mm (None: by their own thinning alone), ``share``: j_bn over the backlash of their section.
 
     Raises
     ------
@@ -43,11 +43,13 @@ def shared_thinning(
     """
     own = [gear.circumferential_thinning for gear in gears]
     free = [index for index, thinning in enumerate(own) if thinning == 0]
-    least = ((sum(own) * cosine) + given) * share
+    if there is None:
+        there = sum(own) * cosine
+    least = there * share
 
     def each(value: float) -> float:
         """The thinning of each free gear."""
-        return ((value / share - given) / cosine - sum(own)) / len(free)
+        return (value / share - there) / cosine / len(free)
 
     def whole(value: float) -> bool:
         """Whether whole teeth are left."""
@@ -56,16 +58,15 @@ def shared_thinning(
             build(index, thinning)
         return True
 
-    missing = (backlash / share - given) / cosine - sum(own)
     if not free:
         # calculations print five decimals of it
         if abs(backlash - least) > 1e-5:
             raise ParameterError("mate.normal_backlash", backlash, "backlash_is_of_own_thinning", REMOVED, own=least)
         return 0.0, 0.0
-    if missing < -1e-12 * gears[0].module:
+    found = each(backlash)
+    if found < -1e-12 * gears[0].module:
         cure = Nearest(rounded(least, up=True, digits=6), "at_least")
         raise ParameterError("mate.normal_backlash", backlash, "backlash_already_more", cure)
-    found = each(backlash)
     try:
         if found > 0:
             whole(backlash)

@@ -164,10 +164,7 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
         from geometry.gears.teeth.transverse import normal_angle
 
         gears, cosines = (first.thing, second.thing), [math.cos(helix_of(end.keys).angle) for end in (first, second)]
-        given = 0.0
-        if keys.working_centre_distance is not None:
-            pair = self.reaching(keys, first, second)
-            given = pair.normal_backlash - pair.thinning_backlash
+        there = None if keys.working_centre_distance is None else self.reaching(keys, first, second).normal_backlash
         normal = [
             replace(gear, circumferential_thinning=gear.circumferential_thinning * cosine)
             for gear, cosine in zip(gears, cosines, strict=True)
@@ -177,7 +174,7 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
             return tooth_side(replace(gears[index], circumferential_thinning=thinning / cosines[index]))
 
         angle = normal_angle(gears[0].pressure_angle, helix_of(first.keys).angle)
-        one, two = shared_thinning(keys.normal_backlash, normal, build, math.cos(angle), given)
+        one, two = shared_thinning(keys.normal_backlash, normal, build, math.cos(angle), there)
         return one / cosines[0], two / cosines[1]
 
     def tips(

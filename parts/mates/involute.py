@@ -343,16 +343,14 @@ class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
         from parts.gears.thinning import shared_thinning
 
         ends: tuple[End[Any], End[Any]] = (first, second)
-        given = 0.0
-        if keys.working_centre_distance is not None:
-            given = self._reaching(keys, *(_thinned(end, 0.0) for end in ends)).pair.normal_backlash
+        there = None if keys.working_centre_distance is None else self._reaching(keys, *ends).pair.normal_backlash
         cosine = math.cos(self.pressure_angle(first, second))
         share = self.normal_share(first, second)
 
         def build(index: int, thinning: float) -> object:
             return self.build(_thinned(ends[index], thinning))
 
-        return shared_thinning(keys.normal_backlash, [e.thing for e in ends], build, cosine, given, share)
+        return shared_thinning(keys.normal_backlash, [e.thing for e in ends], build, cosine, there, share)
 
     def normal_share(self, first: End[A], second: End[B]) -> float:
         """j_bn over the backlash of transverse sections: cos(beta_b)."""

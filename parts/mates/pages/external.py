@@ -236,7 +236,7 @@ def _thinned(keys: PairKeys, normal: tuple[SpurGear, SpurGear], helix: float) ->
     for name, gear in zip(GEARS, normal, strict=True):
         # what no backlash is to blame for
         _section_of(keys, name, gear)
-    gears = [replace(transverse_gear(g, helix), circumferential_thinning=0.0) for g in normal]
+    gears = [transverse_gear(g, helix) for g in normal]
     bare = external_pair(gears[0], gears[1], keys.working_centre_distance if _has_distance(keys, gears) else None)
     alpha = gears[0].rack.pressure_angle
     share = normal_share(alpha, helix)

@@ -11,6 +11,7 @@ import pytest
 from geometry.gears.teeth.transverse import normal_share
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
+from tests.geometry.gears.mesh.test_transmission_error import Brute
 
 BETA = 25.0
 SUN = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 19, "helix_angle_deg": BETA}
@@ -22,9 +23,9 @@ PARTS: dict[str, tuple[dict[str, Any], dict[str, Any]]] = {
 KINDS = pytest.mark.parametrize("kind", PARTS)
 
 
-def mated(kind: str, **keys: Any) -> Any:
-    """The pair of two parts, the mate with more keys."""
-    first, second = PARTS[kind]
+def mated(kind: str, more: tuple[dict[str, Any], ...] = ({}, {}), **keys: Any) -> Any:
+    """The pair of two parts, they and the mate with more keys."""
+    first, second = (part | own for part, own in zip(PARTS[kind], more, strict=True))
     mate = {"kind": kind, "first": "a", "second": "b", **keys}
     return make_parts(scene_from_dict({"parts": {"a": first, "b": second}, "mates": [mate]}, "t", "t"), "t")[1][0]
 
@@ -48,6 +49,28 @@ def test_what_is_asked_is_normal_to_the_flanks(kind: str) -> None:
     assert thinning * cosine * share == pytest.approx(0.1, rel=1e-9)
     # the transverse section still touches itself in the middle of its own, larger play
     assert mating.contact(0.0, 0.0, None).worst.gap == pytest.approx(0.05 / share, abs=6e-4)
+
+
+@pytest.mark.parametrize(("beta", "own"), [(BETA, (0.2, 0.0)), (0.0, (0.15, 0.05))])
+@KINDS
+def test_thinned_teeth_may_stand_nearer_and_have_the_backlash_that_is_asked(
+    kind: str, beta: float, own: tuple[float, float]
+) -> None:
+    """Polylines of both exact sections, turned until their flanks meet: half of the backlash either way."""
+    keys = {"helix_angle_deg": beta}
+    bare = mated(kind, (keys, keys)).distance
+    nearer = bare + (0.1 if kind == "internal_gear_pair" else -0.1)
+    thinned = tuple(keys | {"circumferential_thinning": thinning} for thinning in own)
+    there = mated(kind, thinned, working_centre_distance=nearer).normal_backlash
+    asked = there + (0.03 if 0.0 in own else 0.0)
+    mating = mated(kind, thinned, working_centre_distance=nearer, normal_backlash=asked)
+    assert mating.normal_backlash == pytest.approx(asked, abs=1e-9)
+    brute = Brute(mating.pair, 1), Brute(mating.pair, -1)
+    share = shares()[1] if beta else 1.0
+    assert [b.touch(0.1) for b in brute] == pytest.approx([asked / share / 2] * 2, abs=2e-4)
+    with pytest.raises(SceneError) as refused:
+        mated(kind, thinned, working_centre_distance=nearer, normal_backlash=there - 0.01)
+    assert refused.value.key.endswith("normal_backlash")
 
 
 @KINDS

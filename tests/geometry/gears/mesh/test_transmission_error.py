@@ -125,7 +125,7 @@ class Brute:
             profiles = [s.profile() for s in pair.sides]
         else:
             self.at, self.centre, self.closing = pair.gear.reference_radius, pair.distance + shift + 0j, -1
-            self.arm = math.cos(ALPHA)
+            self.arm = math.cos(pair.rack.rack.pressure_angle)
             self.middle = lambda d: pair.rack_position(d) + pair.rack.pitch / 2
             profiles = [pair.sides[0].profile()]
         self.outlines = [brute.polygon(p, 150) for p in profiles]
