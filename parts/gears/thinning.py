@@ -32,8 +32,8 @@ def shared_thinning(
 ) -> tuple[float, float]:
     """What a normal backlash (mm) takes of each tooth of two gears, mm; 0 of a gear that sets its own thinning.
 
-    ``build(0 or 1, thinning)`` makes a tooth of that gear, ``cosine``: of the pressure angle, ``there``: backlash of the
-    gears as they are, mm (None: by their own thinning alone), ``share``: j_bn over the backlash of their section.
+    ``build(0 or 1, thinning)`` makes a tooth of that gear, ``cosine``: of the pressure angle, ``there``: backlash of
+    the gears as they are, mm (None: by their own thinning alone), ``share``: j_bn over the backlash of their section.
 
     Raises
     ------

@@ -66,3 +66,7 @@ class InvolutePairKeys(GearPairKeys, kw_only=True):
         ]
         | None
     ) = None
+
+    def leaves(self, backlash: float) -> bool:
+        """Whether gears with so much normal backlash, mm, may be thinned to what is asked for."""
+        return self.normal_backlash is None or backlash <= self.normal_backlash

@@ -215,20 +215,23 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
         def tried(key: str, value: float | None) -> CrossedPair:
             return self.made(changed(keys, **{key: value}), first, second)
 
+        def ratio(pair: CrossedPair) -> float:
+            return pair.contact_ratio if keys.leaves(pair.normal_backlash) else 0.0
+
         # the one without which they reach each other; none of them where both are wrong
-        alone = [key for key in asked if kept(lambda name: tried(name, None).contact_ratio > 0, key)]
+        alone = [key for key in asked if kept(lambda name: ratio(tried(name, None)) > 0, key)]
         key = (alone or asked)[0]
         given = getattr(keys, key)
 
         def cure() -> Nearest | None:
-            """From what both make of themselves on, as far as contact goes on from tooth to tooth."""
+            """From what both make of themselves on: as far as tooth follows tooth, no more backlash than is asked."""
             if not alone:
                 return None
             own = tried(key, None)
             wanted, toward = min(1.0, own.contact_ratio), own.working_centre_distance
             if key == "shaft_angle_deg":
                 toward = math.degrees(abs(own.shaft_angle))
-            return nearest(lambda value: tried(key, value).contact_ratio >= wanted, given, toward)
+            return nearest(lambda value: ratio(tried(key, value)) >= wanted, given, toward)
 
         raise ParameterError(f"mate.{key}", given, code, cure)
 

@@ -10,7 +10,7 @@ import math
 from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
 
 from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
 from parts.base.mate import End, MateKind, Pose, Standing, Toothed
 from parts.keys.base import mm
@@ -386,23 +386,20 @@ class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
             code, numbers = refusal.code, refusal.numbers
 
         def cure() -> Nearest | None:
-            """From the distance of the shifts on, as far as contact goes on from tooth to tooth."""
+            """From the distance of the shifts on: as far as tooth follows tooth, no more backlash than is asked."""
             nominal = self.made(keys, first, second, None)
             wanted = min(1.0, nominal.pair.contact_ratio)
 
-            def reaches(at: float) -> bool:
-                return self.made(keys, first, second, at).pair.contact_ratio >= wanted
+            def ratio(at: float) -> float:
+                made = self.made(keys, first, second, at)
+                return made.pair.contact_ratio if keys.leaves(made.normal_backlash) else 0.0
 
-            found = nearest(reaches, distance, nominal.distance)
+            found = nearest(lambda at: ratio(at) >= wanted, distance, nominal.distance)
             if found is None or not isinstance(found.value, float):
                 return found
             beyond = found.value + math.copysign(_STEP * found.value, distance - found.value)
-            try:
-                runs = self.made(keys, first, second, beyond).pair.contact_ratio > 0
-            except ParameterError:
-                runs = False
             # where nearer ones run too, with interruptions, this is no limit, but what to take
-            return Nearest(found.value) if runs else found
+            return Nearest(found.value) if kept(lambda at: ratio(at) > 0, beyond) else found
 
         raise ParameterError("mate.working_centre_distance", distance, code, cure, **numbers)
 

@@ -127,6 +127,7 @@ def test_two_that_stand_are_held_to_distance_angle_and_phase() -> None:
         ({}, {}, {"shaft_angle_deg": 0.0}, "shaft_angle_deg"),
         ({}, {}, {"shaft_angle_deg": 71.0, "working_centre_distance": 60.0}, "working_centre_distance"),
         (SMALL, SMALL, {"working_centre_distance": 1e6}, "working_centre_distance"),
+        ({}, {}, {"working_centre_distance": 60.0, "normal_backlash": 0.1}, "working_centre_distance"),
     ],
 )
 def test_what_does_not_fit_is_refused_by_its_key_with_what_works(

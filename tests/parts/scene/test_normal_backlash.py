@@ -93,6 +93,22 @@ def test_a_distance_that_gives_more_names_the_normal_one() -> None:
     mated("external_gear_pair", working_centre_distance=58.0, normal_backlash=least)
 
 
+@pytest.mark.parametrize(
+    ("kind", "share"), [("external_gear_pair", 1.1), ("internal_gear_pair", 0.9), ("rack_pair", 1.3)]
+)
+def test_a_distance_too_far_names_one_that_gives_no_more_than_is_asked(kind: str, share: float) -> None:
+    far = share * mated(kind).distance
+    with pytest.raises(SceneError) as refused:
+        mated(kind, working_centre_distance=far, normal_backlash=0.1)
+    assert refused.value.key.endswith("working_centre_distance")
+    assert refused.value.nearest is not None
+    offered = refused.value.nearest.value
+    assert isinstance(offered, float)
+    assert mated(kind, working_centre_distance=offered, normal_backlash=0.1).normal_backlash == pytest.approx(0.1)
+    with pytest.raises(SceneError, match="normal_backlash"):
+        mated(kind, working_centre_distance=offered + math.copysign(1e-3, share - 1), normal_backlash=0.1)
+
+
 def test_spur_pairs_keep_theirs() -> None:
     first, second = ({**p, "helix_angle_deg": 0.0, "hand": "right"} for p in PARTS["external_gear_pair"])
     mate = {"kind": "external_gear_pair", "first": "a", "second": "b", "normal_backlash": 0.1}
