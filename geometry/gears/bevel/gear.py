@@ -451,18 +451,17 @@ class BevelGear(Record, dict=True):
         if self.thickness <= _NOTHING * self.module:
             raise self._cured("circumferential_thinning", 0.0, BevelGear._check_tooth, "thinning_leaves_no_tip")
         if self._is_pointed():
-            name, ways = "profile_shift_coefficient", self._shifted(-1)
-            if not replace(self, circumferential_thinning=0.0)._is_pointed():
-                name, ways = "circumferential_thinning", [0.0]
-            elif replace(self, profile_shift_coefficient=0.0)._is_pointed():
-                name, ways = "addendum_coefficient", [share * self.addendum_coefficient for share in _SHARES]
-            raise self._cured(name, ways, BevelGear._check_tooth, "bevel_pointed", PointedTipError)
-        if self.fillet.aside <= _NOTHING * self.module / self.cone_distance:
+            name = self._without(lambda gear: not gear._is_pointed(), "circumferential_thinning",
+                                 "thickness_coefficient", "profile_shift_coefficient")  # fmt: skip
+            ways = {"profile_shift_coefficient": self._shifted(-1), "addendum_coefficient": self._lower_addenda()}
+            raise self._cured(name, ways.get(name, [0.0]), BevelGear._check_tooth, "bevel_pointed", PointedTipError)
+        if self._is_crown_pointed():
             # a shift makes the crown's tooth as much thicker as it makes it longer
-            if replace(self, tip_radius_coefficient=0.0).fillet.aside > 0:
-                raise self._cured("tip_radius_coefficient", 0.0, BevelGear._check_tooth, "bevel_rounding_too_large")
-            raise self._cured("addendum_coefficient", [share * self.addendum_coefficient for share in _SHARES],
-                              BevelGear._check_tooth, "bevel_crown_pointed")  # fmt: skip
+            name = self._without(lambda gear: not gear._is_crown_pointed(), "thickness_coefficient",
+                                 "tip_radius_coefficient")  # fmt: skip
+            ways = {"addendum_coefficient": self._lower_addenda()}
+            code = "bevel_rounding_too_large" if name == "tip_radius_coefficient" else "bevel_crown_pointed"
+            raise self._cured(name, ways.get(name, [0.0]), BevelGear._check_tooth, code)
         if self.fillet.depth >= self.pressure_angle:
             # spherical involutes of a crown gear end so far from its pitch plane
             raise self._cured("profile_shift_coefficient", self._shifted(1), BevelGear._check_whole_tooth,
@@ -474,6 +473,18 @@ class BevelGear(Record, dict=True):
     def _is_pointed(self) -> bool:
         """Whether both flanks meet below the tip cone."""
         return float(self.half_angle(self.tip_angle)) <= _NOTHING / self.number_of_teeth
+
+    def _is_crown_pointed(self) -> bool:
+        """Whether the crown gear's tooth has no room for its rounding."""
+        return self.fillet.aside <= _NOTHING * self.module / self.cone_distance
+
+    def _without(self, holds: Callable[[BevelGear], bool], *names: str) -> str:
+        """The first of the parameters to blame: with 0 in its place a check holds; of none, the addendum."""
+        return next((name for name in names if holds(self._changed(name, 0.0))), "addendum_coefficient")
+
+    def _lower_addenda(self) -> list[float]:
+        """Addenda among which one that works is sought."""
+        return [share * self.addendum_coefficient for share in _SHARES]
 
     def _shifted(self, way: int) -> list[float]:
         """Shifts among which one that works is sought, the nearest first, upwards (1) or downwards (-1)."""

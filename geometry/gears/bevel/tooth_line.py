@@ -10,9 +10,6 @@ from numpy.typing import ArrayLike
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 
-# spiral angle beyond which a line is told no further: teeth end long before
-_STEEPEST = math.sin(math.radians(80.0))
-
 
 class ToothLine(Record):
     """An arc of ``cutter_radius`` mm (infinite: a straight line) in the crown gear's pitch plane, told off its radii.
@@ -27,7 +24,8 @@ class ToothLine(Record):
     def _sine(self, distance: ArrayLike) -> Real:
         at, mean = np.asarray(distance, dtype=float), self.mean_distance
         curved = (at**2 - mean**2) / self.cutter_radius
-        return np.clip((2 * mean * math.sin(self.spiral_angle) + curved) / (2 * at), -_STEEPEST, _STEEPEST)
+        # beyond 1 the arc has turned back before it gets there
+        return np.clip((2 * mean * math.sin(self.spiral_angle) + curved) / (2 * at), -1.0, 1.0)
 
     def spiral(self, distance: ArrayLike) -> Real:
         """beta, rad, at distances from the apex, mm."""

@@ -279,6 +279,7 @@ def test_every_gear_is_made_or_refused_with_a_value_that_works(
     [
         ({"tip_radius_coefficient": 0.6}, "bevel_rounding_too_large", ParameterError),
         ({"pressure_angle": math.radians(35)}, "bevel_crown_pointed", ParameterError),
+        ({"thickness_coefficient": 1.0}, "bevel_crown_pointed", ParameterError),
         ({"circumferential_thinning": 3.3}, "bevel_pointed", PointedTipError),
         ({"addendum_coefficient": 1.9}, "bevel_pointed", PointedTipError),
         ({"profile_shift_coefficient": 1.18}, "bevel_shift_leaves_no_tooth", ParameterError),

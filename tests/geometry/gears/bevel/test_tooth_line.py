@@ -15,6 +15,7 @@ from geometry.curves.curve import Real
 from geometry.gears.bevel.gear import BevelGear, Blank
 from geometry.gears.bevel.pair import BevelPair
 from geometry.gears.bevel.sphere import SphericalInvolute
+from geometry.gears.bevel.tooth_line import ToothLine
 from geometry.gears.bevel.walls import wall_distance
 from geometry.plane.distance import Verdict
 
@@ -38,7 +39,7 @@ def pair(name: str, thinning: float = 0.0) -> BevelPair:
     return BevelPair(first.checked(), second.checked())
 
 
-def on_cutter(gear: BevelGear, distance: float) -> float:
+def on_cutter(gear: BevelGear | ToothLine, distance: float) -> float:
     """Polar angle at which the cutter's circle through (R_m, 0) crosses a circle about the apex, at 40 digits."""
     with mpmath.workdps(40):
         mean, beta = mpmath.mpf(gear.mean_distance), mpmath.mpf(gear.spiral_angle)
@@ -69,6 +70,18 @@ def test_the_section_turns_along_the_circle_of_the_cutter(name: str) -> None:
             step = 1e-4
             slope = (on_cutter(gear, distance + step) - on_cutter(gear, distance - step)) / (2 * step)
             assert math.tan(float(gear.line.spiral(distance))) == pytest.approx(distance * slope, abs=1e-7)
+
+
+def test_a_line_is_told_as_steep_as_it_is_until_it_turns_back() -> None:
+    line, step = ToothLine(30.0, math.radians(60.0), 20.0), 1e-4
+    slope = (on_cutter(line, 36.0 + step) - on_cutter(line, 36.0 - step)) / (2 * step)
+    found = math.degrees(float(line.spiral(36.0)))
+    assert found == pytest.approx(math.degrees(math.atan(36.0 * slope)), abs=1e-6)
+    assert found > 85.0
+    # its circle's farthest place from the apex
+    turns = abs(30.0 + 20j * np.exp(1j * line.spiral_angle)) + 20.0
+    assert float(line.spiral(turns)) == pytest.approx(math.pi / 2, abs=1e-7)
+    assert float(line.spiral(turns + 1.0)) == math.pi / 2
 
 
 @pytest.mark.parametrize("name", LINES)
