@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -60,24 +63,21 @@ class CutterFillet(Fillet, Record):
         """1 - l^2, without cancellation."""
         return self.depth * (2 * abs(self.cutter_radius) + self.depth) / self.corner_radius**2
 
-    def _parts(self, u: Real) -> tuple[Real, Real, Real]:
+    def _parts(self, u: Any, lib: ModuleType = np) -> tuple[Any, Any, Any]:
         """T, g = T - l cos u (signed w / (s c)) and th."""
-        sine, cosine, share = np.sin(u), np.cos(u), self._share
-        root = np.sqrt(1 - (share * sine) ** 2)
+        sine, cosine, share = lib.sin(u), lib.cos(u), self._share
+        root = lib.sqrt(1 - (share * sine) ** 2)
         gap = self._excess / (root + share * cosine)
-        return root, gap, np.arctan2(sine * gap, cosine * root + share * sine**2)
+        return root, gap, (np.arctan2 if lib is np else math.atan2)(sine * gap, cosine * root + share * sine**2)
 
-    def point(self, t: ArrayLike) -> Complex:
-        u = np.asarray(t, dtype=float)
-        _, gap, turn = self._parts(u)
+    def _point(self, u: Any, lib: ModuleType, exp: Callable[[Any], Any]) -> Any:
+        _, gap, turn = self._parts(u, lib)
         reach = self._sense * (self.corner_radius * gap + self.tip_radius)
-        return self.centre + np.exp(1j * (self.angle + self._ratio * turn)) * (
-            self.pitch_radius + reach * np.exp(-1j * u)
-        )
+        return self.centre + exp(1j * (self.angle + self._ratio * turn)) * (self.pitch_radius + reach * exp(-1j * u))
 
     def normal_length(self, u: float) -> float:
         """|w| sign(D) + rho: distance of the contact point from the pitch point along the normal, mm."""
-        return self.corner_radius * float(self._parts(np.asarray(u))[1]) + self.tip_radius
+        return self.corner_radius * float(self._parts(u, math)[1]) + self.tip_radius
 
     def turning(self, t: ArrayLike) -> Real:
         """1 - k th': how fast the tangent turns to the right, rad/rad."""

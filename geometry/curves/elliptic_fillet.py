@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -60,29 +63,42 @@ class EllipticFillet(Fillet, Record):
         sine = [-waves[(k + 1) % 4] / FACTORIALS[k] for k in range(order + 1)]
         return _joined(support, power(cosine, -1.0), sine, self.depth, -1.0)
 
-    def normal_length(self, t: ArrayLike) -> Real:
-        """n: distance of the contact point from the pitch point, mm."""
-        return np.asarray(self._parts(np.asarray(t, dtype=float), 1)[1][0])
+    def _rolled(self, u: Any, lib: ModuleType = np) -> tuple[Any, Any, Any, Any]:
+        """s, n, s' and p + p'' in closed form."""
+        cosine, sine = lib.cos(u), lib.sin(u)
+        flat, wide = self.semi_axis**2, (self.semi_axis * self.stretch) ** 2
+        root = lib.sqrt(flat * cosine * cosine + wide * sine * sine)
+        slope = (wide - flat) * sine * cosine / root
+        bow = ((wide - flat) * (cosine - sine) * (cosine + sine) - slope * slope) / root
+        support, secant, tan = self.tip_radius - self.semi_axis + root, 1 / cosine, sine / cosine
+        normal = self.depth * secant + support - slope * tan
+        rate = (self.depth * secant - bow - slope * tan) * secant
+        return (self.depth * sine - slope) * secant, normal, rate, support + bow
 
-    def point(self, t: ArrayLike) -> Complex:
-        u = np.asarray(t, dtype=float)
-        shift, normal, _ = self._parts(u, 1)
-        arm = self.pitch_radius - normal[0] * np.exp(-1j * u)
-        return self.centre + np.exp(1j * (self.angle - shift[0] / self.pitch_radius)) * arm
+    def normal_length(self, u: float) -> float:
+        """n: distance of the contact point from the pitch point, mm."""
+        return float(self._rolled(u, math)[1])
+
+    def _point(self, u: Any, lib: ModuleType, exp: Callable[[Any], Any]) -> Any:
+        shift, normal, _, _ = self._rolled(u, lib)
+        return self.centre + exp(1j * (self.angle - shift / self.pitch_radius)) * (
+            self.pitch_radius - normal * exp(-1j * u)
+        )
 
     def speed(self, t: ArrayLike) -> Real:
         """de/du along the tangent, mm/rad; negative where the curve runs back."""
-        shift, normal, bend = self._parts(np.asarray(t, dtype=float), 1)
-        return np.asarray(shift[1] / self.pitch_radius * normal[0] + bend[0])
+        _, normal, rate, bend = self._rolled(np.asarray(t, dtype=float))
+        return np.asarray(rate / self.pitch_radius * normal + bend)
 
     def tangent(self, t: ArrayLike) -> Complex:
         u = np.asarray(t, dtype=float)
-        turn = self.angle - self._parts(u, 1)[0][0] / self.pitch_radius
-        return np.where(self.speed(u) < 0, -1.0, 1.0) * 1j * np.exp(1j * (turn - u))
+        shift, normal, rate, bend = self._rolled(u)
+        sense = np.where(rate / self.pitch_radius * normal + bend < 0, -1j, 1j)
+        return sense * np.exp(1j * (self.angle - shift / self.pitch_radius - u))
 
     def turning(self, t: ArrayLike) -> Real:
         """1 + s'/r: how fast the tangent turns to the right, rad/rad."""
-        return np.asarray(1 + self._parts(np.asarray(t, dtype=float), 1)[0][1] / self.pitch_radius)
+        return np.asarray(1 + self._rolled(np.asarray(t, dtype=float))[2] / self.pitch_radius)
 
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         """Taylor arithmetic on e' = i exp(i (angle - s/r - u)) speed(u)."""

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Self
+import cmath
+import math
+from collections.abc import Callable
+from types import ModuleType
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,7 +14,7 @@ from numpy.typing import ArrayLike
 from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
 from geometry.base.record import replace
-from geometry.curves.curve import Real, Span
+from geometry.curves.curve import Complex, Real, Span
 
 
 class TurnedSpan(Span):
@@ -37,6 +41,16 @@ class Fillet(TurnedSpan):
 
     __slots__ = ()
     tip_radius: float
+
+    def point(self, t: ArrayLike) -> Complex:
+        if isinstance(t, float):
+            # roots are sought by one number after the other, of which numpy makes ten times as much work
+            return np.complex128(self._point(t, math, cmath.exp))
+        return np.asarray(self._point(np.asarray(t, dtype=float), np, np.exp))
+
+    def _point(self, u: Any, lib: ModuleType, exp: Callable[[Any], Any]) -> Any:
+        """Points at a number by the functions of ``math`` and ``cmath``, at an array by those of numpy."""
+        raise NotImplementedError
 
     def speed(self, t: ArrayLike) -> Real:
         """de/du along the tangent, mm/rad; negative where the curve runs back."""

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -33,11 +36,10 @@ class TrochoidFillet(Fillet, Record):
     end: float
     centre: complex = 0j
 
-    def point(self, t: ArrayLike) -> Complex:
-        u = np.asarray(t, dtype=float)
-        shift = self.depth * np.tan(u)
-        arm = self.pitch_radius - self.depth + 1j * shift - self.tip_radius * np.exp(-1j * u)
-        return self.centre + np.exp(1j * (self.angle - shift / self.pitch_radius)) * arm
+    def _point(self, u: Any, lib: ModuleType, exp: Callable[[Any], Any]) -> Any:
+        shift = self.depth * lib.tan(u)
+        arm = self.pitch_radius - self.depth + 1j * shift - self.tip_radius * exp(-1j * u)
+        return self.centre + exp(1j * (self.angle - shift / self.pitch_radius)) * arm
 
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         """Leibniz' rule on e' = i exp(i (angle - q tan u - u)) speed(u)."""
