@@ -10,7 +10,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from geometry.base.errors import GeometryError, Nearest, ParameterError
+from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, field
 from parts.base.refusal import SceneError, placed
@@ -81,6 +81,8 @@ class Kind(Generic[K, T]):
     keys: type[K]
     # whether flat files can hold it: its section is what its solid is made of
     has_outline = True
+    # code of the refusal to move its faces, of a solid that is made as it is alone
+    unmoved = ""
     # where it comes from outside: sentences of its own refusals and remarks by code, names of its quantities
     reasons: Mapping[str, Text] = {}
     findings: Mapping[str, Text] = {}
@@ -118,6 +120,11 @@ class Kind(Generic[K, T]):
 
         return plate(self.section(keys, thing, offset).region, 0.0, self.height(keys, thing))
 
+    def stays(self, offset: float) -> None:
+        """Refuse an offset of what is made as it is alone."""
+        if offset:
+            raise OffsetError(offset, self.unmoved)
+
     def sketch(self, keys: K, thing: T) -> Sketch | None:
         """What assembly drawings show of it; None: they cannot."""
         solid = self.solid(keys, thing, 0.0)
@@ -149,7 +156,7 @@ class Kind(Generic[K, T]):
 
     def is_plate(self, keys: K, thing: T) -> bool:
         """Whether the solid is its section, extruded."""
-        return True
+        return self.has_outline and not self.unmoved
 
     def numbers(self, keys: K) -> str:
         """The numbers by which people know one from another; no-break spaces hold each to its symbol."""

@@ -10,7 +10,6 @@ from parts.bodies import plate_drawing
 from parts.bodies.carrier import CarrierPlate
 from parts.drawing.directions import directions
 from parts.drawing.working import PartDrawing, Subject
-from parts.texts.sheets import sheet_words
 
 # rad that are none
 _SAME = 1e-9
@@ -28,9 +27,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
             equal.append(RoundHoles(len(one.angles), one.diameter, one.circle, one.angles[0]))
             continue
         angles = ", ".join(f"{subject.say(math.degrees(angle))}°" for angle in one.angles)
-        zero = sheet_words(subject.language, "zero_x")
-        more.append(
-            sheet_words(subject.language, "holes_each", size=subject.say(one.diameter), angles=angles, zero=zero)
-        )
+        zero = subject.words("zero_x")
+        more.append(subject.words("holes_each", size=subject.say(one.diameter), angles=angles, zero=zero))
     told = directions(HubHoles(None, tuple(equal)), subject, "zero_x", all_circled=True)
     return plate_drawing.part_drawing(subject, (), thing.circles, *told, *more)

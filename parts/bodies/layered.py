@@ -115,10 +115,6 @@ class Layered(Kind[LayeredSpec, "Layers"]):
         """Of all layers."""
         return thing.heights[-1]
 
-    def is_plate(self, keys: LayeredSpec, thing: Layers) -> bool:
-        """Never: a layer may differ from the next."""
-        return False
-
     def report(self, keys: LayeredSpec, thing: Layers) -> Report:
         """Its size."""
         low_x, high_x, low_y, high_y = (f(c.box[k] for layer in thing.layers for c in layer.contours)

@@ -22,7 +22,7 @@ from parts.drawing.places import place_sizes, spans
 from parts.drawing.revolved import closed
 from parts.drawing.wheel_views import circle_of
 from parts.drawing.working import AXIS, VISIBLE, Cut, Note, PartDrawing, Round, Size, Subject, View, requirements
-from parts.texts.sheets import sheet_words, view_letter
+from parts.texts.sheets import sheet_words
 
 # mm that are none; parts of the size: beside a place that is looked at, what jumps there; digits of places
 _NONE, _BESIDE, _JUMP, _DIGITS = 1e-9, 1e-7, 1e-5, 9
@@ -86,12 +86,12 @@ def part_drawing(subject: Subject) -> PartDrawing:
     solid = all(len(layer.contours) == 1 for layer in layers.layers)
     plane, letters, plans = None if solid else _plane(layers), dict[frozenset[Contour], str](), list[View]()
     told: list[object] = []
-    along = () if plane is None else (Cut(plane, view_letter(subject.language)),)
+    along = () if plane is None else (Cut(plane, subject.letter()),)
     cuts: list[Cut] = []
     for layer, table, (low, high) in zip(layers.layers, keys.layers, pairwise(layers.heights), strict=True):
         same = frozenset(layer.contours)
         if same not in letters:
-            letters[same] = letter = view_letter(subject.language, len(along) + len(letters))
+            letters[same] = letter = subject.letter(len(along) + len(letters))
             marks = () if plans else along
             plans.append(_across(layer.contours, table, subject, told, f"{letter}-{letter}", marks))
         cuts.append(Cut((low + high) / 2, letters[same], from_right=True))

@@ -28,7 +28,7 @@ from parts.drawing.working import (
     arc_angles,
     requirements,
 )
-from parts.texts.sheets import sheet_words
+from parts.texts.sheets import counted_words
 
 # digits of places, mm that are none, mm that are one place
 _DIGITS, _SAME, _SAMPLES, _NEAR = 9, 1e-9, 9, 1e-6
@@ -94,7 +94,7 @@ def part_drawing(
         places = [first + share * (last - first) for share in (0.5, 0.25, 0.75)]
         # the material lies on the left
         (at, free), *also = [(complex(curve.point(t)), -1j * complex(curve.tangent(t))) for t in places]
-        text = f"Ra {subject.say(subject.wishes.flank_roughness)}"
+        text = subject.rough(subject.wishes.flank_roughness)
         notes.append(Note(at, text, is_rough=True, free=free, also=tuple(also)))
     view = View(tuple(strokes), (), tuple(axes), tuple(sizes), tuple(rounds), (*notes, *numbers))
     return PartDrawing((view,), requirements(subject, *words))
@@ -185,7 +185,7 @@ def diameters(circles: Sequence[tuple[complex, float]], language: str, *, solid:
         groups.setdefault(round(radius, _DIGITS), []).append((centre, radius))
     for k, (_, group) in enumerate(sorted(groups.items()), 1):
         best, radius = max(group, key=lambda one: (round(one[0].real + one[0].imag, 6), one[0].real))
-        words = sheet_words(language, "places_of" if solid else "holes_of", count=len(group)) if len(group) > 1 else ""
+        words = counted_words(language, "places_of" if solid else "holes_of", len(group))
         before, places = ("Ø", words) if solid else (f"{words}Ø", "")
         yield Round(f"{'circles' if solid else 'holes'}.{k}.diameter", best, radius, before, places=places)
 
@@ -199,10 +199,9 @@ def radii(chains: Sequence[Sequence[Curve]], language: str) -> Iterator[Round]:
         arc, *others = sorted(arcs, key=_up_right, reverse=True)
         # what rounds the outline is told within it, which needs no more paper; arcs about one centre are one place
         count = len({complex(round(a.centre.real, 6), round(a.centre.imag, 6)) for a in arcs})
-        told = sheet_words(language, "places_of", count=count) if count > 1 else ""
         also = tuple((o.centre, arc_angles(o)) for o in others)
         yield Round(f"radius.{k}", arc.centre, arc.radius, "R", is_radius=True, inward=arc.sweep > 0,
-                    angles=arc_angles(arc), also=also, places=told)  # fmt: skip
+                    angles=arc_angles(arc), also=also, places=counted_words(language, "places_of", count))  # fmt: skip
 
 
 def _up_right(arc: Arc) -> float:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta, field
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import OffsetError, ParameterError
+from geometry.base.errors import ParameterError
 from parts.base.content import NotAFileError, content
 from parts.base.kind import Kind, Others
 from parts.base.part_keys import MaterialKeys
@@ -67,7 +67,7 @@ class StepPartSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="step_part"
 class StepPart(Kind[StepPartSpec, "FacedBody"]):
     """A solid that is taken over as it is; its flat section is the circle about it."""
 
-    name, keys, has_outline = "step_part", StepPartSpec, False
+    name, keys, has_outline, unmoved = "step_part", StepPartSpec, False, "step_not_moved"
 
     def gathered(self, keys: StepPartSpec, folder: Path) -> StepPartSpec:
         """The keys with the file's text, and no other one."""
@@ -100,18 +100,13 @@ class StepPart(Kind[StepPartSpec, "FacedBody"]):
 
     def solid(self, keys: StepPartSpec, thing: FacedBody, offset: float) -> FacedBody:
         """As it is."""
-        if offset:
-            raise OffsetError(offset, "step_not_moved")
+        self.stays(offset)
         return thing
 
     def height(self, keys: StepPartSpec, thing: FacedBody) -> float:
         """From its lowest to its highest place."""
         low, high = thing.levels()
         return high - low
-
-    def is_plate(self, keys: StepPartSpec, thing: FacedBody) -> bool:
-        """Never: nothing is known of its walls."""
-        return False
 
 
 STEP_PART = StepPart()

@@ -136,6 +136,8 @@ K = TypeVar("K", TurnedSpec, ShaftSpec)
 class _Turned(Kind[K, "HalfSection"]):
     """A solid turned about its axis; its flat section is what is seen along it."""
 
+    unmoved = "turned_as_it_is"
+
     def section(self, keys: K, thing: HalfSection, offset: float) -> OffsetRegion:
         """Its greatest circle with all that goes through."""
         from geometry.plane.profile import Label, Region, circle
@@ -162,8 +164,7 @@ class _Turned(Kind[K, "HalfSection"]):
         from geometry.solids.faced import exact_body
         from geometry.solids.turned import turned_solid
 
-        if offset:
-            raise OffsetError(offset, "turned_as_it_is")
+        self.stays(offset)
         return exact_body(turned_solid(thing, _seam(thing.pockets)))
 
     def sketch(self, keys: K, thing: HalfSection) -> Sketch:
@@ -176,10 +177,6 @@ class _Turned(Kind[K, "HalfSection"]):
         """From its lowest to its highest place."""
         low, high = thing.heights()
         return high - low
-
-    def is_plate(self, keys: K, thing: HalfSection) -> bool:
-        """Never: its walls are round."""
-        return False
 
     def report(self, keys: K, thing: HalfSection) -> Report:
         """Its sizes."""

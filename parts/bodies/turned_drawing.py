@@ -30,6 +30,7 @@ from parts.drawing.wheel_views import (
     circle_of,
     circle_size,
     hole_axes,
+    hole_round,
     section_sides,
 )
 from parts.drawing.working import (
@@ -41,7 +42,6 @@ from parts.drawing.working import (
     Cut,
     Note,
     PartDrawing,
-    Round,
     Side,
     Size,
     Stroke,
@@ -50,7 +50,6 @@ from parts.drawing.working import (
     requirements,
 )
 from parts.keys.holes import hub_holes
-from parts.texts.sheets import sheet_words, view_letter
 
 _SAME = 1e-9
 # a section of a keyway is so high on paper at least, mm
@@ -81,7 +80,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     if half.pockets:
         found += _keyways(half, found[0].cuts, subject)
     square = [c.letter for c in found[0].cuts if not all(p.round_ends for p in _crossed(half, c.at))]
-    more = [sheet_words(subject.language, "square_keyways", letter=letter) for letter in square]
+    more = [subject.words("square_keyways", letter=letter) for letter in square]
     return PartDrawing(tuple(found), requirements(subject, *more, *directions(holes, subject, "")))
 
 
@@ -165,7 +164,7 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
             axes.append(Line(complex(low, way * radius), complex(high, way * radius)))
         sizes.append(circle_size("holes", centres, low))
     hatched = (tuple(upper), below(lower), *map(tuple, drilled)) if cut else ()
-    cuts = tuple(Cut(at, view_letter(subject.language, k)) for k, at in enumerate(_planes(half)))
+    cuts = tuple(Cut(at, subject.letter(k)) for k, at in enumerate(_planes(half)))
     # the first two tell from where on and which way round corners are counted
     numbers = (Note(corner.at, str(k)) for k, corner in enumerate(listed[:2], 1))
     rough = (*_rough(bores(loop, lambda curve: curve not in inner), loop, subject), *_rough_seats(loop, subject))
@@ -182,7 +181,7 @@ def _enlarged(half: HalfSection, view: View, subject: Subject) -> Iterator[View]
     if not told or size > _SHARE * wide or min(told) > _LEAST_DRAWN * wide:
         yield view
         return
-    letter, middle = view_letter(subject.language), complex(low + high, inner + outer) / 2
+    letter, middle = subject.letter(), complex(low + high, inner + outer) / 2
     about = circle_of(_AROUND * abs(complex(high, outer) - middle), middle)
     marked = Note(complex(about.point(math.pi / 4)), letter, is_letter=True)
     yield replace(
@@ -236,7 +235,7 @@ def _centre_hole(loop: Loop, subject: Subject) -> View | None:
     for edge in seen_edges(section, cut=True):
         strokes += [(VISIBLE, edge), (VISIBLE, edge.mirrored())]
     told = turned_sizes(section, Fits(), subject.language, lambda curve: curve in (*hole, around[0]))
-    title = sheet_words(subject.language, "centre_holes")
+    title = subject.words("centre_holes")
     return View(
         tuple(strokes), (section, below(section)), (Line(complex(low), complex(far)),), told.sizes, title=title,
         least=_LEAST_SECTION,
@@ -246,7 +245,7 @@ def _centre_hole(loop: Loop, subject: Subject) -> View | None:
 def _rough(drilled: Sequence[Line], loop: Loop, subject: Subject) -> Iterator[Note]:
     """The sign of each bore, at its end that is nearer to an end of the part."""
     ends = [start_point(c).real for c in loop]
-    words = f"Ra {subject.say(subject.wishes.bore_roughness)}"
+    words = subject.rough(subject.wishes.bore_roughness)
     for bore in drilled:
         low, high = sorted((bore.start.real, bore.end.real))
         first = (low, high) if max(ends) - high <= low - min(ends) + _SAME else (high, low)
@@ -258,7 +257,7 @@ def _rough_seats(loop: Loop, subject: Subject) -> Iterator[Note]:
     if (wished := subject.wishes.shaft_roughness) is None or subject.part.kind != "shaft":
         return
     for seat in seats(loop):
-        (start, way), words = (seat.start, seat.end - seat.start), f"Ra {subject.say(wished)}"
+        (start, way), words = (seat.start, seat.end - seat.start), subject.rough(wished)
         at, *others = ((start + share * way, 1j) for share in (0.5, 0.25, 0.75))
         also = (*others, *((point.conjugate(), -1j) for point, _ in (at, *others)))
         yield Note(at[0], words, is_rough=True, free=at[1], also=also)
@@ -294,9 +293,7 @@ def _face(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject) -> V
     for hole in sorted(half.holes, key=lambda hole: hole.radius):
         equal.setdefault((hole.radius, round(abs(hole.centre), 9) if hole in ringed else 0.0), []).append(hole)
     for number, ((radius, _), group) in enumerate(equal.items(), 1):
-        best = max(group, key=lambda hole: hole.centre.real + hole.centre.imag)
-        words = sheet_words(subject.language, "holes_of", count=len(group)) if len(group) > 1 else ""
-        rounds.append(Round(f"holes.{number}.diameter", best.centre, radius, f"{words}Ø"))
+        rounds.append(hole_round(f"holes.{number}.diameter", [hole.centre for hole in group], radius, subject))
     return View(tuple(strokes), (), tuple(axes), apart_sizes(holes, 0.0, outer), tuple(rounds), from_right=True)
 
 

@@ -90,7 +90,7 @@ def _groove(subject: Subject, disk: GrooveDisk) -> PartDrawing:
         ]
         if way > 0:
             depth = Size("groove_depth", complex(floor, high), complex(top, high), "above")
-            words = f"Ra {subject.say(subject.wishes.flank_roughness)}"
+            words = subject.rough(subject.wishes.flank_roughness)
             rough = tuple(Note(complex((floor + top) / 2, wall), words, is_rough=True) for wall in (low, high))
     return PartDrawing(
         (

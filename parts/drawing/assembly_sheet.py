@@ -78,10 +78,7 @@ def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked
     def fields(canvas: Canvas) -> Iterator[Box]:
         """Beside the title block and the list, or above them; clear of the designation."""
         frame, corner = canvas.frame, turned_box(canvas)
-        if corner.right - corner.left > corner.high - corner.low:
-            frame = replace(frame, high=corner.low)
-        else:
-            frame = replace(frame, left=corner.right)
+        frame = replace(frame, high=corner.low) if corner.wide > corner.tall else replace(frame, left=corner.right)
         if frame.low + tall > frame.high:
             return
         yield Box(frame.left, frame.low, frame.right - TITLE_BLOCK[0], frame.high).grown(-_MARGIN)
@@ -141,22 +138,19 @@ def _places(views: Sequence[Laid], field: Box) -> list[complex] | None:
 def _origins(boxes: Sequence[Box], field: Box) -> list[complex] | None:
     """The same of their boxes."""
     gaps = _BETWEEN * (len(boxes) - 1)
-    wide, tall = field.right - field.left, field.high - field.low
-    low, high = min(b.low for b in boxes), max(b.high for b in boxes)
-    left, right = min(b.left for b in boxes), max(b.right for b in boxes)
-    column, row = sum(b.high - b.low for b in boxes) + gaps, sum(b.right - b.left for b in boxes) + gaps
+    about, column, row = Box.about(boxes), sum(b.tall for b in boxes) + gaps, sum(b.wide for b in boxes) + gaps
     found = []
-    if column <= tall and right - left <= wide:
-        x, y = field.left + (wide - right + left) / 2 - left, field.high - (tall - column) / 2
+    if column <= field.tall and about.wide <= field.wide:
+        x, y = field.left + (field.wide - about.wide) / 2 - about.left, field.high - (field.tall - column) / 2
         for box in boxes:
             found.append(complex(x, y - box.high))
-            y -= box.high - box.low + _BETWEEN
+            y -= box.tall + _BETWEEN
         return found
-    if row <= wide and high - low <= tall:
-        x, y = field.left + (wide - row) / 2, field.low + (tall - high + low) / 2 - low
+    if row <= field.wide and about.tall <= field.tall:
+        x, y = field.left + (field.wide - row) / 2, field.low + (field.tall - about.tall) / 2 - about.low
         for box in boxes:
             found.append(complex(x - box.left, y))
-            x += box.right - box.left + _BETWEEN
+            x += box.wide + _BETWEEN
         return found
     return None
 
@@ -192,7 +186,7 @@ def _sized(view: AssemblyView, scale: float, language: str, free: Mapping[Side, 
             return None
         one.canvas.texts.append(letter)
         ink.boxes.append(letter.box)
-    return replace(one, box=_around(one.box, [text.box for text in one.canvas.texts]))
+    return replace(one, box=Box.about([one.box, *(text.box for text in one.canvas.texts)]))
 
 
 def _hatch(canvas: Canvas, drawn: Drawn, scale: float) -> None:
@@ -273,7 +267,7 @@ def _numbered(view: AssemblyView, share: Mapping[int, tuple[complex, ...]], scal
     if (usual := _sized(view, scale, language, {})) is None:
         return None
     numbers, box = sorted(share.items(), key=lambda pair: (pair[1][0].real, pair[0])), usual.box
-    tall, wide, sides = box.high - box.low, box.right - box.left, _sides(numbers, box)
+    tall, wide, sides = box.tall, box.wide, _sides(numbers, box)
     room = _AWAY + 2 * _SHELF + max((text_width(str(number), _HEIGHT) for number in share), default=0.0)
     best, least = None, (math.inf, math.inf)
     for free, (left, right) in product((0.0, room), (sides, (numbers, []), ([], numbers))):
@@ -300,10 +294,9 @@ def _numbered(view: AssemblyView, share: Mapping[int, tuple[complex, ...]], scal
             canvas.strokes.append(Stroke("THIN", line))
         canvas.strokes += [Stroke("THIN", Arc(leader.spot, r, 0.0, 2 * math.pi)) for r in (_DOT, _DOT / 2)]
         canvas.texts.append(leader.words)
-    words = [text.box for text in canvas.texts]
     ends = [line.end for leader in leaders for line in leader.lines()]
     shelves = [Box(p.real, p.imag, p.real, p.imag) for p in ends]
-    return replace(one, box=_around(one.box, [*words, *shelves]))
+    return replace(one, box=Box.about([one.box, *(text.box for text in canvas.texts), *shelves]))
 
 
 def _body(view: AssemblyView, scale: float) -> Box:
@@ -343,24 +336,17 @@ def _runs_over(leader: _Leader, lines: Sequence[tuple[complex, complex]]) -> int
     return sum(_crossed(one.start, one.end, *other) for one in leader.lines() for other in lines)
 
 
-def _around(box: Box, others: Sequence[Box]) -> Box:
-    """The box about all."""
-    every = [box, *others]
-    return Box(min(b.left for b in every), min(b.low for b in every),
-               max(b.right for b in every), max(b.high for b in every))  # fmt: skip
-
-
 def _sides(numbers: Sequence[_Numbered], box: Box) -> tuple[list[_Numbered], list[_Numbered]]:
     """Numbers, from the left, of the left and of the right column: what one has no room for stands in the other one."""
-    most = max(int((box.high - box.low) / _STEP) + 1, math.ceil(len(numbers) / 2))
-    left = sum(spots[0].real < (box.left + box.right) / 2 for _, spots in numbers)
+    most = max(int(box.tall / _STEP) + 1, math.ceil(len(numbers) / 2))
+    left = sum(spots[0].real < box.middle.real for _, spots in numbers)
     left = max(min(left, most), len(numbers) - most)
     return [*numbers[:left]], [*numbers[left:]]
 
 
 def _row(numbers: Sequence[_Numbered], box: Box, ink: Ink) -> list[_Leader] | None:
     """Numbers, from the left, in a row above a view, their leaders without crossings and over no words."""
-    middle, half = (box.left + box.right) / 2, max(box.right - box.left, _ROW_STEP * (len(numbers) - 1)) / 2
+    middle, half = box.middle.real, max(box.wide, _ROW_STEP * (len(numbers) - 1)) / 2
     places = spread([spots[0].real for _, spots in numbers], _ROW_STEP, middle - half, middle + half)
     chosen: list[_Leader] = []
     for (number, spots), x in zip(numbers, places, strict=True):

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
+from itertools import pairwise
 from typing import get_args
 
 import numpy as np
@@ -146,6 +147,37 @@ class Box(Record):
     low: float
     right: float
     high: float
+
+    @staticmethod
+    def about(boxes: Iterable[Box]) -> Box:
+        """The least that holds some."""
+        left, low, right, high = zip(*((b.left, b.low, b.right, b.high) for b in boxes), strict=True)
+        return Box(min(left), min(low), max(right), max(high))
+
+    @property
+    def wide(self) -> float:
+        """From left to right."""
+        return self.right - self.left
+
+    @property
+    def tall(self) -> float:
+        """From low to high."""
+        return self.high - self.low
+
+    @property
+    def middle(self) -> complex:
+        """Where its diagonals cross."""
+        return complex(self.left + self.right, self.low + self.high) / 2
+
+    @property
+    def corners(self) -> tuple[complex, complex, complex, complex]:
+        """Counter-clockwise from the lower left one."""
+        return (complex(self.left, self.low), complex(self.right, self.low), complex(self.right, self.high),
+                complex(self.left, self.high))  # fmt: skip
+
+    def moved(self, by: complex) -> Box:
+        """The same elsewhere."""
+        return Box(self.left + by.real, self.low + by.imag, self.right + by.real, self.high + by.imag)
 
     def grown(self, by: float) -> Box:
         """Larger on every side."""
@@ -330,17 +362,15 @@ class Canvas(Draft):
 
     def box(self, layer: str, box: Box) -> None:
         """Four lines."""
-        corners = (complex(box.left, box.low), complex(box.right, box.low), complex(box.right, box.high),
-                   complex(box.left, box.high))  # fmt: skip
-        for start, end in zip(corners, (*corners[1:], corners[0]), strict=True):
+        for start, end in pairwise([*box.corners, box.corners[0]]):
             self.line(layer, start, end)
 
     def squares(self, area: Box) -> None:
         """Squared paper, from the lower left corner."""
-        for k in range(int((area.right - area.left) / SQUARE + 1e-9) + 1):
+        for k in range(int(area.wide / SQUARE + 1e-9) + 1):
             x = area.left + k * SQUARE
             self.line("ORDINATE", complex(x, area.low), complex(x, area.high))
-        for k in range(round((area.high - area.low) / SQUARE) + 1):
+        for k in range(round(area.tall / SQUARE) + 1):
             y = area.low + k * SQUARE
             self.line("ORDINATE", complex(area.left, y), complex(area.right, y))
 

@@ -14,15 +14,15 @@ _STEP = 1.6
 
 def write_cell(canvas: Canvas, text: str, cell: Box, size: float, *, middle: bool = True) -> None:
     """One line within a cell, in its middle or from its left."""
-    room = cell.right - cell.left - 2 * INDENT
+    room = cell.wide - 2 * INDENT
     long = text_of(text, 0j, size, room).box.right
-    x = (cell.left + cell.right - long) / 2 if middle else cell.left + INDENT
-    canvas.write(text, complex(x, (cell.low + cell.high - size) / 2), size, room)
+    x = cell.middle.real - long / 2 if middle else cell.left + INDENT
+    canvas.write(text, complex(x, cell.middle.imag - size / 2), size, room)
 
 
 def write_lines(canvas: Canvas, text: str, cell: Box, size: float, *, middle: bool = True) -> None:
     """A text in its cell, in as many lines as it needs at most of what has room."""
-    room = cell.right - cell.left - 2 * INDENT
+    room = cell.wide - 2 * INDENT
     rows, most = wrapped(text, room, size), _most(cell, size)
     while len(rows) > most and size > SMALL_TEXT:
         size = max(SMALL_TEXT, size - 0.5)
@@ -31,13 +31,13 @@ def write_lines(canvas: Canvas, text: str, cell: Box, size: float, *, middle: bo
     rows = [*rows[: most - 1], " ".join(rows[most - 1 :])] if len(rows) > most else rows
     step = _STEP * size
     for index, row in enumerate(rows):
-        centre = (cell.low + cell.high) / 2 + step * ((len(rows) - 1) / 2 - index)
+        centre = cell.middle.imag + step * ((len(rows) - 1) / 2 - index)
         write_cell(canvas, row, Box(cell.left, centre - step / 2, cell.right, centre + step / 2), size, middle=middle)
 
 
 def _most(cell: Box, size: float) -> int:
     """How many lines have room in a cell."""
-    return max(1, int((cell.high - cell.low - 1) / (_STEP * size)))
+    return max(1, int((cell.tall - 1) / (_STEP * size)))
 
 
 def wrapped(text: str, width: float, size: float) -> list[str]:
@@ -63,7 +63,7 @@ def fits_line(text: str, width: float, factor: float = NARROWED) -> bool:
 
 def fits_cell(text: str, cell: Box) -> bool:
     """Whether ``write_lines`` finds room for all of a text without narrowing it further."""
-    room, most = cell.right - cell.left - 2 * INDENT, _most(cell, SMALL_TEXT)
+    room, most = cell.wide - 2 * INDENT, _most(cell, SMALL_TEXT)
     rows = wrapped(text, room, SMALL_TEXT)
     return fits_line(" ".join(rows[most - 1 :]), room)
 

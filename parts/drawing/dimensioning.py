@@ -187,7 +187,7 @@ class _Layout:
             box = self.extent()
             words, sign, more = (part.strip() for part in title.partition(TURNED))
             long = text_width(words, TITLE_TEXT) + (2 * _SIGN + text_width(more, TITLE_TEXT) if sign else 0.0)
-            at = complex((box.left + box.right - long) / 2, box.high + 3.0)
+            at = complex(box.middle.real - long / 2, box.high + 3.0)
             self._write(text_of(words, at, TITLE_TEXT))
             if sign:
                 self._turned(at + complex(text_width(words, TITLE_TEXT) + _SIGN, TITLE_TEXT / 2))
@@ -203,19 +203,10 @@ class _Layout:
 
     def extent(self) -> Box:
         """All that is drawn and written."""
-        lines = self.ink.lines
-        if not lines.size:
+        if not (lines := self.ink.lines).size:
             return Box(0.0, 0.0, 0.0, 0.0)
-        boxes = [
-            Box(lines.real.min(), lines.imag.min(), lines.real.max(), lines.imag.max()),
-            *self.ink.boxes,
-        ]
-        return Box(
-            min(float(b.left) for b in boxes),
-            min(float(b.low) for b in boxes),
-            max(float(b.right) for b in boxes),
-            max(float(b.high) for b in boxes),
-        )
+        ends = (float(end) for end in (lines.real.min(), lines.imag.min(), lines.real.max(), lines.imag.max()))
+        return Box.about([Box(*ends), *self.ink.boxes])
 
     def _stroke(self, layer: str, curve: CadCurve, role: Role | None = None) -> None:
         self.canvas.strokes.append(Stroke(layer, curve))
@@ -321,7 +312,7 @@ class _Layout:
 
     def _middle(self, *, upright: bool) -> float:
         """Of the view, mm."""
-        return (self.body.low + self.body.high if upright else self.body.left + self.body.right) / 2
+        return self.body.middle.imag if upright else self.body.middle.real
 
     def _words(self, one: Size | Slant | Round) -> str:
         """All that is written of a dimension."""
@@ -356,42 +347,31 @@ class _Layout:
         return one.before.replace("Ø", "%%c") + number + one.after.replace(MINUS, "-") + one.places
 
     def _dimension(
-        self,
-        one: Size | Slant | Round,
-        points: tuple[complex, complex],
-        line: complex,
-        angle: float,
-        lines: Sequence[Line],
-        text: Text,
-    ) -> None:
-        first = len(self.canvas.strokes)
-        for stroke in lines:
-            self._stroke(_DIMENSION, stroke)
-        count = len(self.canvas.texts)
-        self._write(text)
-        strokes, texts = range(first, len(self.canvas.strokes)), range(count, count + 1)
-        mark, scale = decimal("0.0", self.language)[1], self.paper.scale
+        self, one: Size | Slant | Round, points: tuple[complex, complex], line: complex, angle: float,
+        lines: Sequence[Line], text: Text,
+    ) -> None:  # fmt: skip
+        """Draw a dimension, and note what programs need to know of it."""
+        drawn, scale = self._drawn(lines, text), self.paper.scale
         # LibreCAD moves words that are longer than their dimension along it, by half of both: they begin so much before
         apart, length = one.value * scale, sum(run.width for run in text.runs) * _WIDER
-        middle = complex(text.box.left + text.box.right, text.box.low + text.box.high) / 2
+        middle = text.box.middle
         if is_beside := length > apart:
             middle -= ((length + apart) / 2 + _LIBRE_GAP) * cmath.rect(1.0, math.radians(angle))
-        self.canvas.dimensions.append(
-            Dimension(
-                one.name,
-                one.value,
-                scale,
-                points,
-                line,
-                angle,
-                self._template(one),
-                mark,
-                middle,
-                is_beside,
-                strokes,
-                texts,
-            )
-        )
+        template, mark = self._template(one), self._mark()
+        made = Dimension(one.name, one.value, scale, points, line, angle, template, mark, middle, is_beside, *drawn)
+        self.canvas.dimensions.append(made)
+
+    def _drawn(self, lines: Iterable[CadCurve], text: Text) -> tuple[range, range]:
+        """Draw lines and words of one size or note; which strokes and texts of the canvas they are."""
+        first, count = len(self.canvas.strokes), len(self.canvas.texts)
+        for line in lines:
+            self._stroke(_DIMENSION, line)
+        self._write(text)
+        return range(first, len(self.canvas.strokes)), range(count, count + 1)
+
+    def _mark(self) -> str:
+        """The decimal mark."""
+        return decimal("0.0", self.language)[1]
 
     def _slants(self, one: Slant) -> Iterator[_Place]:
         """Where a size along a slope may stand: its words on a shelf beyond either end of its line."""
@@ -448,31 +428,13 @@ class _Layout:
             shelf, text = _shelved(foot + far * way, one.words, middle if within else one.first)
 
             def put(place: _Place, arc: Arc = arc, ends: Sequence[complex] = ends) -> None:
-                first, count = len(self.canvas.strokes), len(self.canvas.texts)
-                for stroke in (line for role, lines in place.lines.items() if role != "dimension" for line in lines):
-                    self._stroke(_DIMENSION, stroke)
-                self._stroke(_DIMENSION, arc)
-                for line in place.arrows:
-                    self._stroke(_DIMENSION, line)
-                self._write(place.text)
-                box = place.text.box
-                self.canvas.dimensions.append(
-                    Dimension(
-                        "angle",
-                        math.degrees(abs(sweep)),
-                        self.paper.scale,
-                        (ends[0], ends[1]) if sweep > 0 else (ends[1], ends[0]),
-                        at + arc.radius * middle,
-                        0.0,
-                        one.words.replace("°", "%%d"),
-                        decimal("0.0", self.language)[1],
-                        complex(box.left + box.right, box.low + box.high) / 2,
-                        False,
-                        range(first, len(self.canvas.strokes)),
-                        range(count, count + 1),
-                        at,
-                    )
-                )
+                straight = [line for role, lines in place.lines.items() if role != "dimension" for line in lines]
+                drawn = self._drawn([*straight, arc, *place.arrows], place.text)
+                points = (ends[0], ends[1]) if sweep > 0 else (ends[1], ends[0])
+                self.canvas.dimensions.append(Dimension(
+                    "angle", math.degrees(abs(sweep)), self.paper.scale, points, at + arc.radius * middle, 0.0,
+                    one.words.replace("°", "%%d"), self._mark(), place.text.box.middle, False, *drawn, at,
+                ))  # fmt: skip
 
             lines: dict[Role, Sequence[Line]] = {
                 "extension": edges, "dimension": [Line(a, b) for a, b in pairwise(places)],
@@ -540,9 +502,7 @@ class _Layout:
         """Words on a leader, or the sign of a surface."""
 
         def put(place: _Place) -> None:
-            for line in place.all_lines:
-                self._stroke(_DIMENSION, line)
-            self._write(place.text)
+            self._drawn(place.all_lines, place.text)
 
         if not self._put(merge(self._on_axis(note, put), self._notes(note, put), key=_cost_of)):
             raise _NoRoomError(note)
@@ -569,8 +529,7 @@ class _Layout:
         if note.about is not None:
             yield from self._beside(note, self.paper.scale * note.about, put)
             return
-        body = self.body
-        middle = complex((body.left + body.right) / 2, (body.low + body.high) / 2)
+        middle = self.body.middle
         spots = [(note.at, note.free, 0.0), *((at, free, _OTHER) for at, free in note.also)]
         ways = sorted(product(_REACHES, spots), key=lambda way: way[0] / _STEP + way[1][2])
         for reach, (at, free, more) in ways:
@@ -738,9 +697,4 @@ def moved(view: Laid, canvas: Canvas, shift: complex, tolerance: float) -> None:
 
 def _shifted(text: Text, shift: complex) -> Text:
     runs = tuple(replace(run, at=run.at + shift) for run in text.runs)
-    return replace(text, runs=runs, box=shifted(text.box, shift))
-
-
-def shifted(box: Box, by: complex) -> Box:
-    """A rectangle moved."""
-    return Box(box.left + by.real, box.low + by.imag, box.right + by.real, box.high + by.imag)
+    return replace(text, runs=runs, box=text.box.moved(shift))

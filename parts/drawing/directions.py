@@ -8,7 +8,6 @@ from geometry.solids.bores import KeywayBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
 from parts.drawing.places import apart, circled
 from parts.drawing.working import Subject
-from parts.texts.sheets import sheet_words
 
 # rad: what is one direction
 _SAME = 1e-9
@@ -31,9 +30,9 @@ def directions(
     def tell(key: str, angle: float, count: int, start: str, **sizes: object) -> None:
         step = math.tau / max(count, 1)
         turn = math.degrees(angle % step if step - angle % step > _SAME else 0.0)
-        begins, told = sheet_words(subject.language, start, size=first), subject.say(turn)
+        begins, told = subject.words(start, size=first), subject.say(turn)
         words = _ALONG.get(key, key) if told == "0" else key
-        found.append(sheet_words(subject.language, words, angle=told, zero=begins, **sizes))
+        found.append(subject.words(words, angle=told, zero=begins, **sizes))
 
     groups, alone = (holes.round_holes, ()) if all_circled else (circled(holes), apart(holes))
     first = subject.say(groups[0].pitch_circle_diameter) if groups else ""
@@ -56,7 +55,7 @@ def directions(
             size = subject.say(group.diameter)
             if sum(other.diameter == group.diameter for other in groups) > 1:
                 circle = subject.say(group.pitch_circle_diameter)
-                size = sheet_words(subject.language, "on_circle", size=size, circle=circle)
+                size = subject.words("on_circle", size=size, circle=circle)
             tell(key, group.start - begin, group.count, start, size=size)
     if start and holes.spokes is not None and _turned(holes.spokes.start - begin, holes.spokes.count):
         tell("spokes_at", holes.spokes.start - begin, holes.spokes.count, start)

@@ -17,7 +17,7 @@ from parts.base.texts import fault
 from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text, text_width
 from parts.drawing.cells import wrapped
 from parts.drawing.choice import Asked, blank, sheet_for
-from parts.drawing.dimensioning import Laid, laid, moved, rough_sign, shifted
+from parts.drawing.dimensioning import Laid, laid, moved, rough_sign
 from parts.drawing.expected import Expected
 from parts.drawing.readback import ReadSheet
 from parts.drawing.title_block import TITLE_BLOCK, turned_box
@@ -194,17 +194,16 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
 
     def held(canvas: Canvas, scale: float, *, apart: bool) -> tuple[_Corner, list[complex]] | None:
         """The first form of what stands in the corners that leaves room for the views, and where those stand."""
-        wide, tall = canvas.frame.right - canvas.frame.left, canvas.frame.high - canvas.frame.low
+        frame = canvas.frame
         for corner in corners:
-            has_room = corner.low + corner.high[1] <= tall and corner.high[0] <= wide
+            has_room = corner.low + corner.high[1] <= frame.tall and corner.high[0] <= frame.wide
             if has_room and (shifts := _places(views_at(scale), corner, canvas, apart=apart)) is not None:
                 return corner, shifts
         return None
 
     def greatest(canvas: Canvas) -> float:
         """The greatest scale at which all views stand on a sheet."""
-        frame = canvas.frame
-        most = min(frame.right - frame.left, frame.high - frame.low) / min(size)
+        most = min(canvas.frame.wide, canvas.frame.tall) / min(size)
         # unless a paper is asked for, what is large enough stays in its size
         most, low = (most, 0.0) if asked.paper or asked.scale else (min(most, max(least, 1.0)), least / _SMALLER)
         fits = (s for s in SCALES if low <= s <= most and any(held(canvas, s, apart=one) for one in (False, True)))
@@ -259,8 +258,8 @@ def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas, *, apart: bo
     for k in range(len(views)):
         if k not in loose:
             row[k] = complex(x - boxes[k].left)
-            x += boxes[k].right - boxes[k].left + _BETWEEN
-    stand = [shifted(boxes[k], at) for k, at in row.items()]
+            x += boxes[k].wide + _BETWEEN
+    stand = [boxes[k].moved(at) for k, at in row.items()]
     # of many rows with others about them not each is tried
     free = _free_places(stand, frame, taken, _TRIED_APART if loose else _TRIED)
     # few stand as near to the axis as there is room, many as a page is read
@@ -268,7 +267,7 @@ def _places(views: Sequence[Laid], corner: _Corner, canvas: Canvas, *, apart: bo
     for by in sorted(free, key=_reading) if many else free:
         found = {k: at + by for k, at in row.items()}
         for k in loose:
-            others = [shifted(boxes[n], at).grown(_BETWEEN) for n, at in found.items()]
+            others = [boxes[n].moved(at).grown(_BETWEEN) for n, at in found.items()]
             order = _reading if many else lambda at, by=by: (abs(at.imag - by.imag), abs(at.real - by.real))
             near = min(_free_places([boxes[k]], frame, [*taken, *others], _TRIED), key=order, default=None)
             if near is None:
@@ -286,9 +285,8 @@ def _reading(at: complex) -> tuple[float, float]:
 
 def _free_places(boxes: Sequence[Box], frame: Box, taken: Sequence[Box], tried: int) -> list[complex]:
     """Shifts of rectangles, so many tried each way, that keep them in the frame and off others; the middle first."""
-    whole = Box(min(b.left for b in boxes), min(b.low for b in boxes),
-                max(b.right for b in boxes), max(b.high for b in boxes))  # fmt: skip
-    right, high = frame.right - frame.left - whole.right + whole.left, frame.high - frame.low - whole.high + whole.low
+    whole = Box.about(boxes)
+    right, high = frame.wide - whole.wide, frame.tall - whole.tall
     if min(right, high) < 0:
         return []
     share = np.linspace(0.0, 1.0, tried + 1)

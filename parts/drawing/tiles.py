@@ -22,8 +22,6 @@ MARGIN, _CAPTION, OVERLAP = 8.0, 9.0, 10.0
 # half of a register mark, the side of the square to measure, mm
 _MARK, SQUARE = 4.0, 100.0
 _NEAR = 1e-9
-# of a box, as it is drawn: by its corners, left ones first, lower ones first
-_SIDES = ((0, 2), (2, 3), (3, 1), (1, 0))
 Edge = Line | Arc
 
 
@@ -50,7 +48,7 @@ def _cover(title: str, rows: list[Row], paper: str, language: str) -> Expected:
     """How to print, the square that must measure 100 mm, and how many sheets each part has."""
     canvas = _blank(paper, upright=True)
     frame = canvas.frame
-    wide, at = frame.right - frame.left, complex(frame.left, frame.high - 2 * TITLE_TEXT)
+    wide, at = frame.wide, complex(frame.left, frame.high - 2 * TITLE_TEXT)
     canvas.write(title, at, TITLE_TEXT, wide)
     for key in ("model_print", "model_glue"):
         at -= 2.2j * TEXT_HEIGHT
@@ -65,8 +63,8 @@ def _cover(title: str, rows: list[Row], paper: str, language: str) -> Expected:
     table = replace(table, rows=table.rows[:room])
     if table.rows:
         table.draw(canvas, complex(frame.left + 2.0, square.low - 6.0 - table.size[1]))
-    corners = [complex(x, y) for x in (square.left, square.right) for y in (square.low, square.high)]
-    return Expected(canvas, Paper(1.0, 0j), (), {"CUT": [Line(corners[a], corners[b]) for a, b in _SIDES]})
+    sides = [Line(a, b) for a, b in pairwise([*square.corners, square.corners[0]])]
+    return Expected(canvas, Paper(1.0, 0j), (), {"CUT": list(sides)})
 
 
 def _tiles(name: str, edges: Sequence[Edge], paper: str, language: str) -> list[Expected]:
@@ -76,7 +74,7 @@ def _tiles(name: str, edges: Sequence[Edge], paper: str, language: str) -> list[
     layouts = []
     for upright in (True, False):
         frame = _blank(paper, upright=upright).frame
-        wide, tall = frame.right - frame.left - OVERLAP, frame.high - frame.low - _CAPTION - OVERLAP
+        wide, tall = frame.wide - OVERLAP, frame.tall - _CAPTION - OVERLAP
         layouts.append((math.ceil((right - left) / wide), math.ceil((high - low) / tall), upright, wide, tall))
     columns, rows, upright, wide, tall = min(layouts, key=lambda one: one[0] * one[1])
     corner = complex(left + right - columns * wide, low + high - rows * tall) / 2
@@ -100,7 +98,7 @@ def _tiles(name: str, edges: Sequence[Edge], paper: str, language: str) -> list[
             place = {"row": rows - row, "column": column + 1, "rows": rows, "columns": columns}
             key = "model_tile" if rows * columns > 1 else "model_whole"
             text = sheet_words(language, key, part=name, **place)
-            canvas.write(text, complex(frame.left + 2.0, frame.high - 6.0), TEXT_HEIGHT, frame.right - frame.left - 4.0)
+            canvas.write(text, complex(frame.left + 2.0, frame.high - 6.0), TEXT_HEIGHT, frame.wide - 4.0)
             found.append(Expected(canvas, Paper(1.0, origin), (), {"CUT": list(pieces)}))
     return found
 

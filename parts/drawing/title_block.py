@@ -158,19 +158,8 @@ class TitleBlock(Record):
 def title_block_of(table: TitleBlockTable, scale: str, sheet: int = 1, sheets: int = 1) -> TitleBlock:
     """The block that a scene asks for."""
     people = tuple((role, getattr(table, role)) for role in _ROLES if role)
-    return TitleBlock(
-        table.name,
-        table.designation,
-        scale,
-        table.organisation,
-        table.material,
-        table.mass,
-        table.letter,
-        table.date,
-        sheet,
-        sheets,
-        people,
-    )
+    own = {key: getattr(table, key) for key in table.__struct_fields__ if key not in _ROLES}
+    return TitleBlock(scale=scale, sheet=sheet, sheets=sheets, people=people, **own)
 
 
 def check_held(block: TitleBlock, form: Form, *, turned: bool) -> None:
@@ -234,8 +223,8 @@ def draw_turned(canvas: Canvas, designation: str) -> None:
     canvas.box("FRAME", box)
     if not designation:
         return
-    made, middle = text_of(designation, 0j, _LARGE, room), complex(box.left + box.right, box.low + box.high) / 2
-    way = 1j if box.high - box.low > _TURNED[1] else -1
+    made, middle = text_of(designation, 0j, _LARGE, room), box.middle
+    way = 1j if box.tall > _TURNED[1] else -1
     begin = middle - way * complex(made.box.right, made.runs[0].height) / 2
     canvas.write_rising(designation, begin, _LARGE, room, way)
 

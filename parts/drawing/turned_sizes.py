@@ -17,7 +17,7 @@ from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from parts.drawing.revolved import Loop, outer_of
 from parts.drawing.working import Round, Side, Size, arc_angles
-from parts.texts.sheets import sheet_words
+from parts.texts.sheets import counted_words, sheet_words
 
 # mm in which places are one; parts of one in which directions are; digits of places
 _NONE, _SMOOTH, _DIGITS = 1e-9, 1e-6, 7
@@ -329,7 +329,7 @@ def _diameters(edges: Sequence[_Edge], fits: Fits, turn: float, language: str) -
         name = f"{'outer' if edge.outer else 'inner'}_diameter.{number}"
         count = 1 + sum(not _goes_on(edges, one, two) for (one, _), (two, _) in pairwise(places))
         ends = complex(at, -corner.imag), complex(at, corner.imag)
-        yield Size(name, *ends, side, "Ø", zone, _counted(count, "places_of", language))
+        yield Size(name, *ends, side, "Ø", zone, counted_words(language, "places_of", count))
 
 
 def _goes_on(edges: Sequence[_Edge], first: int, last: int) -> bool:
@@ -444,10 +444,6 @@ def _widths(edges: Sequence[_Edge]) -> Iterator[tuple[float, float]]:
             yield (first, last) if heights[0] > heights[1] else (last, first)
 
 
-def _counted(count: int, key: str, language: str) -> str:
-    return sheet_words(language, key, count=count) if count > 1 else ""
-
-
 def _chamfers(lines: Sequence[Line | Arc], language: str) -> Iterator[Size]:
     """Chamfers of 45 degrees, those of one length at once."""
     groups: dict[float, list[Line | Arc]] = {}
@@ -458,7 +454,7 @@ def _chamfers(lines: Sequence[Line | Arc], language: str) -> Iterator[Size]:
         line = max(group, key=lambda c: max(start_point(c).imag, end_point(c).imag))
         top = max(start_point(line).imag, end_point(line).imag)
         start, end = (complex(p.real, top) for p in (start_point(line), end_point(line)))
-        words = _counted(len(group), "chamfers_of", language)
+        words = counted_words(language, "chamfers_of", len(group))
         yield Size(f"chamfer.{number}", start, end, "above", words, "×45°")
 
 
@@ -470,16 +466,7 @@ def _radii(arcs: Sequence[Arc], turn: float, language: str) -> Iterator[Round]:
     for number, ((_, is_ball), group) in enumerate(groups.items(), 1):
         arc = group[0]
         before = f"{sheet_words(language, 'ball')} R" if is_ball else "R"
-        places = _counted(len(group), "places_of", language)
+        places = counted_words(language, "places_of", len(group))
         # leaders come from outside of the material
-        inward = arc.sweep * turn < 0
-        yield Round(
-            f"radius.{number}",
-            arc.centre,
-            arc.radius,
-            before,
-            is_radius=True,
-            inward=inward,
-            angles=arc_angles(arc),
-            places=places,
-        )
+        yield Round(f"radius.{number}", arc.centre, arc.radius, before, is_radius=True, inward=arc.sweep * turn < 0,
+                    angles=arc_angles(arc), places=places)  # fmt: skip

@@ -70,8 +70,7 @@ def layout(picture: MeshingPicture, module: float, rows: Sequence[Row], asked: A
     canvas, scale = sheet_for(asked, greatest, _LEAST_MODULE / module)
     window = next(w for w in windows if _most(picture, w, canvas, rows) >= scale or w is windows[-1])
     field = _field(picture, window, canvas, rows)
-    middle = complex(field.left + field.right, field.low + field.high) / 2
-    origin = middle - scale * complex(window.left + window.right, window.low + window.high) / 2
+    origin = field.middle - scale * window.middle
     names, (below, above) = _names(canvas), _beyond(picture, window)
     room = Box(field.left - names, field.low - BREAK * len(below), field.right + names, field.high + BREAK * len(above))
     return canvas, View(window, Paper(scale, origin), room)
@@ -98,8 +97,7 @@ def _field(picture: MeshingPicture, window: Box, canvas: Canvas, rows: Sequence[
 def _most(picture: MeshingPicture, window: Box, canvas: Canvas, rows: Sequence[Row]) -> float:
     """The greatest standard scale at which a window fits; 0 for none."""
     field = _field(picture, window, canvas, rows)
-    wide, tall = window.right - window.left, window.high - window.low
-    most = min((field.right - field.left) / wide, (field.high - field.low) / tall)
+    most = min(field.wide / window.wide, field.tall / window.tall)
     return next((s for s in SCALES if s <= most), 0.0)
 
 

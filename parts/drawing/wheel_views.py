@@ -37,7 +37,7 @@ from parts.drawing.working import (
     View,
     arc_angles,
 )
-from parts.texts.sheets import sheet_words, view_letter
+from parts.texts.sheets import counted_words
 
 # a view of a bore is so high on paper at least, mm
 _LEAST_BORE = 25.0
@@ -319,7 +319,7 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
             ends = complex(z + way * cut, up), complex(z, up)
             lines = [line.end - line.start for line in closed(_half(wheel, bore_radii(bore)[0], up, toothed=False))]
             count = sum(abs(abs(d.real) - cut) + abs(abs(d.imag) - cut) < _NONE for d in lines)
-            words = sheet_words(subject.language, "chamfers_of", count=count) if count > 1 else ""
+            words = counted_words(subject.language, "chamfers_of", count)
             found.append(Size(f"face_chamfer.{name}", *ends, "above", words, "×45°"))
     return found
 
@@ -327,13 +327,13 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
 def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, wall: float) -> tuple[Note, ...]:
     """Signs of roughness of the teeth, or of the outside, and of the bore, whose wall stands at a height."""
     found = []
-    text = f"Ra {subject.say(subject.wishes.flank_roughness)}"
+    text = subject.rough(subject.wishes.flank_roughness)
     if wheel.pitch is not None:
         found.append(Note(complex(wheel.shape.face_width, wheel.pitch), text, is_rough=True, goes_on=True))
     elif wheel.runs or (not wheel.stands and wheel.outline is not None):
         found.append(Note(complex(0.7 * wheel.shape.face_width, wheel.tip[0]), text, is_rough=True))
     if wheel.holes.bore is not None:
-        found.append(bore_note(at.hub, wall, f"Ra {subject.say(subject.wishes.bore_roughness)}"))
+        found.append(bore_note(at.hub, wall, subject.rough(subject.wishes.bore_roughness)))
     return tuple(found)
 
 
@@ -390,10 +390,10 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
     strokes += [(THIN, circle_of(one.radius)) for one in wheel.rounds]
     notes = []
     if (spokes := wheel.holes.spokes) is not None:
-        text = sheet_words(subject.language, "spokes_of", count=spokes.count, width=subject.say(spokes.width))
+        text = subject.words("spokes_of", count=spokes.count, width=subject.say(spokes.width))
         if spokes.corner_radius:
             radius = subject.say(spokes.corner_radius)
-            text += f", {sheet_words(subject.language, 'spoke_corners', radius=radius)}"
+            text += f", {subject.words('spoke_corners', radius=radius)}"
         at_spoke = cmath.rect((spokes.inner_diameter + spokes.outer_diameter) / 4, spokes.start + turn)
         notes.append(Note(at_spoke + 0.5j * spokes.width * cmath.exp(1j * (spokes.start + turn)), text))
     sizes = apart_sizes(wheel.holes, turn, tip)
@@ -433,10 +433,16 @@ def group_rounds(holes: HubHoles, turn: float, subject: Subject) -> tuple[Round,
         alone.setdefault(group.diameter, []).extend(_turned(group, turn))
     found = []
     for index, (diameter, centres) in enumerate((*equal, *alone.items()), 1):
-        best = max(centres, key=lambda c: c.real + c.imag)
-        words = sheet_words(subject.language, "holes_of", count=len(centres)) if len(centres) > 1 else ""
-        found.append(Round(f"holes.{index}.diameter", best, diameter / 2, f"{words}Ø"))
+        found.append(hole_round(f"holes.{index}.diameter", centres, diameter / 2, subject))
     return tuple(found)
+
+
+def hole_round(
+    name: str, centres: Sequence[complex], radius: float, subject: Subject, words: str = "holes_of"
+) -> Round:
+    """The diameter of equal holes, with how many there are, on the one that is farthest up and right."""
+    best = max(centres, key=lambda c: c.real + c.imag)
+    return Round(name, best, radius, f"{counted_words(subject.language, words, len(centres))}Ø")
 
 
 def _depth_limit(bore: KeywayBore | FlatBore, subject: Subject) -> str:
@@ -480,7 +486,7 @@ def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View
             rounds.append(
                 Round("bore.corner_radius", rounded.centre, rounded.radius, "R", is_radius=True, angles=angles)
             )
-    name, off = view_letter(subject.language), 0.0 if others is None else math.remainder(angle - others, math.tau)
+    name, off = subject.letter(), 0.0 if others is None else math.remainder(angle - others, math.tau)
     if abs(off) > _NONE:
         name += f" {TURNED} {subject.say(abs(math.degrees(off)))}°"
     # axes end at its walls: words of sizes stand close to them
@@ -546,5 +552,5 @@ def wheel_views(wheel: Wheel, subject: Subject) -> tuple[View, ...]:
 
 def seen_along(view: View, end: float, subject: Subject) -> View:
     """A view along the axis with the arrow of the view of its bore, from beyond the ``end`` of the axis."""
-    arrow = Note(complex(end), view_letter(subject.language), looks=-1)
+    arrow = Note(complex(end), subject.letter(), looks=-1)
     return replace(view, notes=(*view.notes, arrow))

@@ -18,7 +18,7 @@ from parts.drawing.canvas import decimal
 from parts.drawing.font import MINUS
 from parts.drawing.ink import chords
 from parts.keys.working import WorkingTable
-from parts.texts.sheets import sheet_words
+from parts.texts.sheets import sheet_words, view_letter
 
 Side = Literal["left", "right", "above", "below"]
 # lines of GOST 2.303 by what they show
@@ -191,6 +191,18 @@ class Subject(Record):
         """A number in the language, without zeros that say nothing."""
         return number_text(value, self.language, digits)
 
+    def rough(self, value: float) -> str:
+        """A roughness as signs have it."""
+        return f"Ra {self.say(value)}"
+
+    def words(self, key: str, **numbers: object) -> str:
+        """A term of sheets."""
+        return sheet_words(self.language, key, **numbers)
+
+    def letter(self, number: int = 0) -> str:
+        """The name of a view or section, 0 the first."""
+        return view_letter(self.language, number)
+
 
 def number_text(value: float, language: str, digits: int = _DECIMALS) -> str:
     """A number as drawings have it: so many decimals at most, none that are zero."""
@@ -200,4 +212,4 @@ def number_text(value: float, language: str, digits: int = _DECIMALS) -> str:
 
 def requirements(subject: Subject, *more: str) -> tuple[str, ...]:
     """What holds for all sizes, ``more`` that no size tells, and what the export adds."""
-    return (sheet_words(subject.language, "unspecified_limits"), *more, *subject.wishes.requirements)
+    return (subject.words("unspecified_limits"), *more, *subject.wishes.requirements)

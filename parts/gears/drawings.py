@@ -27,6 +27,7 @@ from parts.drawing.wheel_views import (
     bore_view,
     circle_of,
     exact_teeth,
+    hole_round,
     keyway_edges,
     ring_face,
     ring_section,
@@ -41,7 +42,6 @@ from parts.drawing.working import (
     Cut,
     Note,
     PartDrawing,
-    Round,
     Size,
     Stroke,
     Subject,
@@ -58,7 +58,6 @@ from parts.keys.engraving import digits_height
 from parts.keys.helix import ToothedKeys, helix_of
 from parts.keys.holes import bore_of, hub_holes
 from parts.keys.wheel import shape_of, wheel_shape
-from parts.texts.sheets import sheet_words, view_letter
 
 # mm, what is no length; how long marks of the teeth's direction are, and how far apart: parts of what has room
 _NONE, _MARK, _APART = 1e-9, 0.7, 0.3
@@ -104,9 +103,9 @@ def _edges(subject: Subject) -> tuple[str, ...]:
         normal = isinstance(keys, RackSpec) and keys.tip_rounding
         section = "_normal" if normal else "_transverse"
         chamfer, where = keys.tip_chamfer, f"tip_edges{section if keys.helix_angle_deg else ''}"
-    edges = sheet_words(subject.language, where)
+    edges = subject.words(where)
     made = ("edges_chamfered", chamfer), ("edges_rounded", keys.tip_rounding)
-    return tuple(sheet_words(subject.language, key, edges=edges, size=subject.say(size)) for key, size in made if size)
+    return tuple(subject.words(key, edges=edges, size=subject.say(size)) for key, size in made if size)
 
 
 def _ends(keys: RackSpec, subject: Subject) -> tuple[str, ...]:
@@ -114,7 +113,7 @@ def _ends(keys: RackSpec, subject: Subject) -> tuple[str, ...]:
     if not keys.helix_angle_deg:
         return ()
     angle = subject.say(abs(keys.helix_angle_deg))
-    return (sheet_words(subject.language, "rack_ends", angle=angle),)
+    return (subject.words("rack_ends", angle=angle),)
 
 
 def _engraved(keys: SpurGearSpec | RingGearSpec, subject: Subject) -> tuple[str, ...]:
@@ -124,14 +123,14 @@ def _engraved(keys: SpurGearSpec | RingGearSpec, subject: Subject) -> tuple[str,
     height = subject.say(digits_height(subject.part.section(0.0)))
     words = "tooth_marked" if isinstance(keys, SpurGearSpec) else "space_marked"
     depth = subject.say(keys.tooth_mark.depth)
-    return (sheet_words(subject.language, words, teeth=keys.number_of_teeth, depth=depth, height=height),)
+    return (subject.words(words, teeth=keys.number_of_teeth, depth=depth, height=height),)
 
 
 def _thread_words(keys: WormSpec, subject: Subject) -> tuple[str, ...]:
     """How the thread ends, and where a keyway stands beside it."""
     words = {"cut": "thread_ends", "blunt": "thread_ends_blunt", "run_out": "thread_run_out"}[keys.thread_ends]
     angle = (keys.run_out_deg if keys.thread_ends == "run_out" else keys.end_angle_deg) or 0.0
-    ends = sheet_words(subject.language, words, angle=subject.say(angle), length=subject.say(keys.thread_length))
+    ends = subject.words(words, angle=subject.say(angle), length=subject.say(keys.thread_length))
     found = directions(hub_holes(bore_of(keys), None, None), subject, "zero_thread", keys.number_of_starts)
     return (() if keys.thread_ends == "cut" and not keys.end_angle_deg else (ends,)) + found
 
@@ -158,7 +157,7 @@ def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, .
     section = ring_section(width, (tip, root, outer), ring.holes, subject)
     axes = [Line(complex(0, way * pitch), complex(width, way * pitch)) for way in (1, -1)]
     told = Size("tip_diameter", complex(width, -tip), complex(width, tip), "right", "Ø", wishes.inner)
-    rough = Note(complex(width, -pitch), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True, goes_on=True)
+    rough = Note(complex(width, -pitch), subject.rough(wishes.flank_roughness), is_rough=True, goes_on=True)
     section = replace(
         section, axes=(*section.axes, *axes), sizes=(section.sizes[0], told, *section.sizes[1:]), notes=(rough,)
     )
@@ -204,14 +203,14 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
             chain = f"{holes.count - 1}×{subject.say(holes.spacing)}="
             sizes.append(Size("holes.all", centres[0], centres[-1], "below", chain))
         sizes.append(Size("holes.first", complex(-half, foot), centres[0], "below"))
-        rounds.append(Round("holes.diameter", centres[-1], holes.diameter / 2, _count(holes.count, subject)))
-    rough = Note(complex(half), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True, goes_on=True)
-    cut = Cut(half - pitch / 2, view_letter(subject.language))
+        rounds.append(hole_round("holes.diameter", centres, holes.diameter / 2, subject))
+    rough = Note(complex(half), subject.rough(wishes.flank_roughness), is_rough=True, goes_on=True)
+    cut = Cut(half - pitch / 2, subject.letter())
     notes = [rough]
     # what is behind the near face lies aslant of it
     line = _tooth_line(keys)
     if aslant := max((point.real for point in line), key=abs):
-        notes.append(Note(1j * tip, view_letter(subject.language, 1), looks=-1j))
+        notes.append(Note(1j * tip, subject.letter(1), looks=-1j))
         for end in (-half, half):
             corners = [complex(end, foot), complex(end + aslant, foot), complex(end + aslant, root), complex(end, root)]
             seen = VISIBLE if end * aslant > 0 else HIDDEN
@@ -234,7 +233,7 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
     if not aslant:
         return front, section
     tips = sorted({round(p.real, 9) for c in kept for p in (start_point(c), end_point(c)) if abs(p.imag - tip) < 1e-6})
-    return front, section, _rack_top(half, tips, line, view_letter(subject.language, 1))
+    return front, section, _rack_top(half, tips, line, subject.letter(1))
 
 
 def _tooth_line(keys: RackSpec) -> list[complex]:
@@ -256,10 +255,6 @@ def _rack_top(half: float, tips: Sequence[float], line: Sequence[complex], title
     marks = [middle + _MARK * (point - middle) + _APART * k * free for k in (-1, 0, 1) for point in line]
     strokes += [(THIN, Line(a, b)) for k in range(3) for a, b in pairwise(marks[k * len(line) : (k + 1) * len(line)])]
     return View(tuple(strokes), title=title)
-
-
-def _count(number: int, subject: Subject) -> str:
-    return f"{sheet_words(subject.language, 'holes_of', count=number)}Ø" if number > 1 else "Ø"
 
 
 def _beside(curve: Curve, half: float, shown: float) -> bool:
@@ -317,9 +312,9 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
         strokes += [(HIDDEN, edge) for edge in keyway_edges(made, low, high)]
         if isinstance(made, RoundBore):
             sizes.append(Size("bore_diameter", complex(high, -down), complex(high, up), "right", "Ø", wishes.bore))
-    rough = [Note(complex(top / 2, worm.tip_radius), f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)]
+    rough = [Note(complex(top / 2, worm.tip_radius), subject.rough(wishes.flank_roughness), is_rough=True)]
     if made is not None:
-        rough.append(bore_note((low, high), -down, f"Ra {subject.say(wishes.bore_roughness)}"))
+        rough.append(bore_note((low, high), -down, subject.rough(wishes.bore_roughness)))
     view = View(tuple(strokes), (), (Line(complex(low), complex(high)),), tuple(sizes), notes=tuple(rough))
     if made is None or isinstance(made, RoundBore):
         return (view,)

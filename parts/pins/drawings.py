@@ -19,6 +19,7 @@ from parts.drawing.wheel_views import (
     Wheel,
     axis_cross,
     circle_of,
+    hole_round,
     ring_face,
     ring_section,
     wheel_views,
@@ -40,7 +41,6 @@ from parts.pins.lantern_gear import LanternGearSpec
 from parts.pins.pin import EccentricSpec, PinSpec
 from parts.pins.pin_plate import LanternWheelSpec, OutputPlateSpec
 from parts.pins.pin_ring import PinRingSpec
-from parts.texts.sheets import sheet_words
 
 
 def part_drawing(subject: Subject) -> PartDrawing:
@@ -118,9 +118,7 @@ def _with_pins(face: View, made: PinPlate, subject: Subject) -> View:
     centres = [centre * complex(math.cos(turn), math.sin(turn)) for centre in made.pins.centres()]
     strokes = [*face.strokes, *((VISIBLE, circle_of(made.pin_radius, centre)) for centre in centres)]
     strokes.append((AXIS, circle_of(made.pins.pitch_circle_diameter / 2)))
-    best = max(centres, key=lambda c: c.real + c.imag)
-    words = sheet_words(subject.language, "pins_of", count=len(centres)) if len(centres) > 1 else ""
-    told = Round("pin_diameter", best, made.pin_radius, f"{words}Ø")
+    told = hole_round("pin_diameter", centres, made.pin_radius, subject, "pins_of")
     axes = [
         *face.axes,
         *(Line(c * (1 - made.pin_radius / abs(c)), c * (1 + made.pin_radius / abs(c))) for c in centres),
@@ -149,7 +147,7 @@ def _ring(ring: PinRing, subject: Subject) -> tuple[View, ...]:
     section = replace(section, axes=(*section.axes, *axes), sizes=(*section.sizes, *sizes), notes=notes)
     seats = ring.region(0.0).holes[0]
     centres = ring.pin_centres()
-    words = sheet_words(subject.language, "seats_of" if is_seat else "pins_of", count=len(centres))
+    words = subject.words("seats_of" if is_seat else "pins_of", count=len(centres))
     best = max(centres, key=lambda c: c.real + c.imag)
     way = math.degrees(math.atan2(best.imag, best.real))
     angles = tuple(way + turn for turn in (0.0, 30.0, -30.0, 60.0, -60.0))
@@ -194,5 +192,5 @@ def _pin(keys: PinSpec, disc: RoundDisc, subject: Subject) -> tuple[View, ...]:
 
 def _runs(z: float, radius: float, subject: Subject) -> Note:
     """The sign of a working surface at a place of the section."""
-    words = f"Ra {subject.say(subject.wishes.flank_roughness)}"
+    words = subject.rough(subject.wishes.flank_roughness)
     return Note(complex(z, radius), words, is_rough=True, free=1j)

@@ -30,7 +30,7 @@ from parts.base.texts import N_
 from parts.keys.base import degrees, mm, part_mm
 from parts.keys.helix import HelixAngle
 from parts.keys.mate import further
-from parts.recipes.making import made_of
+from parts.recipes.making import Making, hole, made_of
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 # what meshes keep where their shifts are chosen: tip thickness, modules, and contact ratio
@@ -179,23 +179,21 @@ class PlanetarySetRecipe(Recipe[PlanetarySetKeys]):
     def expanded(self, keys: PlanetarySetKeys) -> Expansion:
         """The tables of one set."""
         made = _settled(keys)
-        found = Expansion()
+        making = Making(keys.plate_thickness, made_of(keys.material, keys.density), _COLOURS)
         for wheel in dict.fromkeys(made.wheels):
-            found.parts[wheel.id] = _wheel_part(made, wheel)
-            path = f"parts.{wheel.id}"
-            found.origins[f"{path}.number_of_teeth"] = f"teeth[{wheel.item}]"
-            found.origins[f"{path}.module"] = "module"
-            found.origins[f"{path}.face_width"] = "face_width"
-            found.origins[f"{path}.helix_angle_deg"] = "helix_angle_deg"
+            making.part(wheel.id, **_wheel_keys(made, wheel))
+            own = {"number_of_teeth": f"teeth[{wheel.item}]", "module": "module", "face_width": "face_width",
+                   "helix_angle_deg": "helix_angle_deg"}  # fmt: skip
             if keys.shifts is not None:
-                found.origins[f"{path}.profile_shift_coefficient"] = f"shifts[{wheel.item}]"
-        _add_meshes(made, found)
-        _add_carrier(made, found)
+                own["profile_shift_coefficient"] = f"shifts[{wheel.item}]"
+            making.found.origins |= {f"parts.{wheel.id}.{key}": origin for key, origin in own.items()}
+        _add_meshes(made, making.found)
+        _add_carrier(made, making)
         if keys.frame:
-            _add_frame(made, found)
-        _add_drive(made, found)
-        found.name_all(_TITLES)
-        return found
+            _add_frame(made, making)
+        _add_drive(made, making.found)
+        making.found.name_all(_TITLES)
+        return making.found
 
 
 PLANETARY_SET = PlanetarySetRecipe()
@@ -272,15 +270,12 @@ def _totals(one: PlanetarySet, shifts: tuple[float, float, float, float]) -> tup
     return x1 - x2 if inside1 else x1 + x2, x3 - x2p if inside2 else x3 + x2p
 
 
-def _wheel_part(made: _Set, wheel: _Wheel) -> Table:
+def _wheel_keys(made: _Set, wheel: _Wheel) -> Table:
     keys = made.keys
     table: Table = {
-        "kind": "ring_gear" if wheel.is_ring else "spur_gear",
-        "module": wheel.module,
-        "number_of_teeth": wheel.teeth,
-        "profile_shift_coefficient": wheel.shift,
-        "face_width": keys.face_width,
-    }
+        "kind": "ring_gear" if wheel.is_ring else "spur_gear", "module": wheel.module, "number_of_teeth": wheel.teeth,
+        "profile_shift_coefficient": wheel.shift, "face_width": keys.face_width,
+    }  # fmt: skip
     if keys.helix_angle_deg:
         table |= {"helix_angle_deg": abs(keys.helix_angle_deg), "hand": wheel.hand}
     if wheel.is_ring and keys.frame:
@@ -292,11 +287,7 @@ def _wheel_part(made: _Set, wheel: _Wheel) -> Table:
         table["bore_diameter"] = keys.pin_diameter + keys.clearance if turns else keys.shaft_diameter
     if keys.frame:
         table["tooth_mark"] = {}
-    return table | _looks(made, wheel.id)
-
-
-def _looks(made: _Set, part: str) -> Table:
-    return {**made_of(made.keys.material, made.keys.density), "colour": _COLOURS[part]}
+    return table
 
 
 def _rim(made: _Set, ring: _Wheel) -> tuple[float, float]:
@@ -385,34 +376,24 @@ def _clocking(made: _Set) -> list[float]:
     return [360 * float(turn - pitch if turn > pitch / 2 else turn) for turn in turns]
 
 
-def _add_carrier(made: _Set, found: Expansion) -> None:
+def _add_carrier(made: _Set, making: Making) -> None:
     """Two plates below and above all wheels, and the pins between them on which the satellites turn."""
-    keys, first = made.keys, made.chain[0]
+    keys, first, found = made.keys, made.chain[0], making.found
     thick, gap = keys.plate_thickness, keys.axial_gap
     bottom, inside = made.low - gap - thick, made.high - made.low + 2 * gap
-    found.parts["carrier"] = {
-        "kind": "carrier_plate",
-        "number_of_pins": len(made.places),
-        "pin_circle_diameter": 2 * made.distance,
-        "pin_diameter": keys.pin_diameter,
-        "bore_diameter": keys.shaft_diameter + keys.clearance,
-        "face_width": thick,
-    } | _looks(made, "carrier")
+    making.part(
+        "carrier", kind="carrier_plate", number_of_pins=len(made.places), pin_circle_diameter=2 * made.distance,
+        pin_diameter=keys.pin_diameter, bore_diameter=keys.shaft_diameter + keys.clearance, face_width=thick,
+    )  # fmt: skip
     if not made.equal:
         found.parts["carrier"]["directions_deg"] = [360 * float(p) for p in made.places]
     if keys.frame:
         mark = {"start": [0.5 * made.distance, 0.0], "end": [0.75 * made.distance, 0.0], "width": 1.0}
         found.parts["carrier"]["engraved"] = [mark]
-    found.parts["pin"] = {"kind": "pin", "diameter": keys.pin_diameter, "length": inside + 2 * thick,
-                          "colour": _COLOURS["pin"]}  # fmt: skip
-    found.instances["carrier"] = {"part": "carrier"}
-    found.instances["upper_carrier"] = {"part": "carrier"}
+    making.pin("pin", keys.pin_diameter, inside + 2 * thick)
+    making.put("coaxial", first.id, "carrier", height=bottom - first.height, rotation_deg=keys.direction_deg)
+    making.put("fixed", "carrier", "upper_carrier", "carrier", offset=[0.0, 0.0, thick + inside])
     _stand(made, found, "pin", "pin")
-    found.mates += [
-        {"kind": "coaxial", "first": first.id, "second": "carrier", "height": bottom - first.height,
-         "rotation_deg": keys.direction_deg},
-        {"kind": "fixed", "first": "carrier", "second": "upper_carrier", "offset": [0.0, 0.0, thick + inside]},
-    ]  # fmt: skip
     _join(made, found, {"kind": "pin_seat", "first": "carrier", "second": "pin", "number": 1}, ("pin",))
     rim = made.chain[1]
     turning = {"kind": "coaxial", "first": "pin", "second": rim.id, "height": rim.height - bottom}
@@ -429,7 +410,7 @@ def _add_carrier(made: _Set, found: Expansion) -> None:
             found.origins[f"parts.{wheel.id}.bore_diameter"] = key
 
 
-def _add_frame(made: _Set, found: Expansion) -> None:
+def _add_frame(made: _Set, making: Making) -> None:
     """A base on which the ring stands on feet, and the sun's shaft with a crank; a pointer on the base."""
     keys = made.keys
     ring, *_, sun = made.chain
@@ -442,34 +423,21 @@ def _add_frame(made: _Set, found: Expansion) -> None:
     floor, top = made.low - 2 * gap - thick, made.high + 2 * gap + thick
     half, arm = outside + _MARGIN, round(max(0.8 * made.distance, 3 * keys.shaft_diameter), 1)
     feet = [cmath.rect(screws, math.radians(45 + 90 * k)) for k in range(4)]
-    holes = [{"at": [0.0, 0.0], "diameter": keys.shaft_diameter + keys.clearance}]
-    holes += [{"at": [round(p.real, 6), round(p.imag, 6)], "diameter": _SCREW} for p in feet]
-    found.parts |= {
-        "base": {
-            "kind": "plate", "width": 2 * half, "height": 2 * half, "corner_radius": _MARGIN, "face_width": thick,
-            "holes": holes,
-            "engraved": [{"start": [outside + 2, 0.0], "end": [half - 2, 0.0], "width": 1.5}],
-        } | _looks(made, "base"),
-        "foot": {"kind": "pin", "diameter": 2.5 * _SCREW, "bore_diameter": _SCREW, "length": ring.height - floor,
-                 "colour": _COLOURS["pin"]},
-        "shaft": {"kind": "pin", "diameter": keys.shaft_diameter, "length": top - floor + 2 * thick,
-                  "colour": _COLOURS["pin"]},
-        "crank": {
-            "kind": "follower_arm", "end": "roller", "arm_length": arm, "width": 2 * keys.pin_diameter,
-            "boss_diameter": 2 * keys.shaft_diameter, "pivot_diameter": keys.shaft_diameter,
-            "pin_diameter": keys.pin_diameter, "face_width": thick,
-        } | _looks(made, "crank"),
-        "handle": {"kind": "pin", "diameter": keys.pin_diameter, "length": thick + _HANDLE, "colour": _COLOURS["pin"]},
-    }  # fmt: skip
-    found.instances["foot"] = {"part": "foot", "count": 4}
-    foot = [feet[0].real, feet[0].imag, floor - ring.height]
-    found.mates += [
-        {"kind": "fixed", "first": ring.id, "second": "foot", "offset": foot},
-        {"kind": "fixed", "first": ring.id, "second": "base", "offset": [0.0, 0.0, floor - thick - ring.height]},
-        {"kind": "fixed", "first": sun.id, "second": "shaft", "offset": [0.0, 0.0, floor - thick - sun.height]},
-        {"kind": "fixed", "first": "shaft", "second": "crank", "offset": [0.0, 0.0, top - floor + thick]},
-        {"kind": "fixed", "first": "crank", "second": "handle", "offset": [arm, 0.0, 0.0]},
-    ]
+    making.plate(
+        "base", 2 * half, [hole(0j, keys.shaft_diameter + keys.clearance), *(hole(at, _SCREW) for at in feet)],
+        corner_radius=_MARGIN, engraved=[{"start": [outside + 2, 0.0], "end": [half - 2, 0.0], "width": 1.5}],
+    )  # fmt: skip
+    making.pin("foot", 2.5 * _SCREW, ring.height - floor, _SCREW)
+    making.pin("shaft", keys.shaft_diameter, top - floor + 2 * thick)
+    ends = keys.shaft_diameter, keys.pin_diameter
+    making.crank("crank", arm, ends, (2 * ends[0], 2 * ends[1]))
+    making.pin("handle", keys.pin_diameter, thick + _HANDLE)
+    making.found.instances["foot"] = {"part": "foot", "count": 4}
+    making.mate("fixed", ring.id, "foot", offset=[feet[0].real, feet[0].imag, floor - ring.height])
+    making.mate("fixed", ring.id, "base", offset=[0.0, 0.0, floor - thick - ring.height])
+    making.mate("fixed", sun.id, "shaft", offset=[0.0, 0.0, floor - thick - sun.height])
+    making.mate("fixed", "shaft", "crank", offset=[0.0, 0.0, top - floor + thick])
+    making.mate("fixed", "crank", "handle", offset=[arm, 0.0, 0.0])
 
 
 def _add_drive(made: _Set, found: Expansion) -> None:

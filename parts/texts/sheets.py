@@ -159,6 +159,11 @@ def sheet_words(language: str, key: str, **numbers: object) -> str:
     return words(language).say(filled(SHEETS[key], **numbers))
 
 
+def counted_words(language: str, key: str, count: int) -> str:
+    """How many there are; no word of one alone."""
+    return sheet_words(language, key, count=count) if count > 1 else ""
+
+
 def view_letter(language: str, number: int = 0) -> str:
     """The name of a view or section, 0 the first; after the last letter they begin again with a number."""
     letters = sheet_words(language, "view_letters")

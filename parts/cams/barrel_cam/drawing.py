@@ -25,7 +25,6 @@ from parts.drawing.shown import shown_pieces
 from parts.drawing.wheel_views import bore_cut, bore_view, seen_along
 from parts.drawing.working import VISIBLE, Note, PartDrawing, Side, Size, Stroke, Subject, View, requirements
 from parts.keys.holes import bore_of, hub_holes
-from parts.texts.sheets import sheet_words
 
 # pieces of a wall in the plane of the section; steps to the cam angle at which it passes there, rad that are none
 _PIECES, _STEPS, _SETTLED = 24, 60, 1e-13
@@ -99,7 +98,7 @@ def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
         sizes.append(Size("start_height", -1j * outer, edge, "below"))
     middle = (outer + inner) / 2
     at = complex(_wall(cam, LOWER, middle, 0.0), middle)
-    rough = Note(at, f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)
+    rough = Note(at, subject.rough(wishes.flank_roughness), is_rough=True)
     axes = (Line(complex(min(low, 0.0)), complex(max(high, length))),)
     return View(
         tuple(strokes),
@@ -204,4 +203,4 @@ def _development(subject: Subject, told: float) -> View:
     height = Size("development.height", corner, complex(left.real, high.imag), "left")
     sizes = (around,) if abs(height.value - told) < _SAME else (around, height)
     strokes = [(VISIBLE, curve) for curve in curves]
-    return View(tuple(strokes), (), (), sizes, title=sheet_words(subject.language, "development"))
+    return View(tuple(strokes), (), (), sizes, title=subject.words("development"))

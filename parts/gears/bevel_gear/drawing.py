@@ -84,9 +84,9 @@ def part_drawing(subject: Subject) -> PartDrawing:
     sizes.append(Size("mounting_distance", 0j, complex(gear.mounting_distance), "below"))
     axes = (Line(0j, complex(gear.mounting_distance)),)
     middle = sum(_along(gear, gear.pitch_angle)) / 2
-    notes = [Note(middle, f"Ra {subject.say(wishes.flank_roughness)}", is_rough=True)]
+    notes = [Note(middle, subject.rough(wishes.flank_roughness), is_rough=True)]
     if holes.bore is not None:
-        notes.append(bore_note((0.0, high), -down, f"Ra {subject.say(wishes.bore_roughness)}"))
+        notes.append(bore_note((0.0, high), -down, subject.rough(wishes.bore_roughness)))
     cones = _back_angle(gear), _tip_angle(gear)
     view = View(tuple(strokes), tuple(hatched), axes, tuple(sizes), slants=(_face_width(gear),), angles=cones,
                 notes=tuple(notes))  # fmt: skip

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta
 
-from geometry.base.errors import OffsetError, ParameterError, limit
+from geometry.base.errors import ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.base.record import replace
 from geometry.gears.bevel.gear import BevelGear, Blank
@@ -203,7 +203,8 @@ def _mounted(keys: BevelGearSpec, gear: BevelGear, distance: float, reach: float
 class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
     """A bevel gear: its back face at z = 0, the apex of its cones above, a tooth on +x."""
 
-    name, keys, has_outline = "bevel_gear", BevelGearSpec, False
+    # what is parallel to a cone over an involute meets its apex no more
+    name, keys, has_outline, unmoved = "bevel_gear", BevelGearSpec, False, "bevel_not_moved"
     page = "parts.gears.bevel_gear.page"
     drawing = data_table = "parts.gears.bevel_gear.drawing"
 
@@ -217,7 +218,7 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
         from geometry.plane.offset_region import OffsetRegion
         from geometry.plane.profile import Region
 
-        _still(offset)
+        self.stays(offset)
         holes = () if thing.blank.bore is None else (thing.blank.bore,)
         return OffsetRegion(Region(seen_profile(thing, 1e-6), holes), 0.0, ())
 
@@ -225,7 +226,7 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
         """The gear."""
         from geometry.gears.bevel.faces import faced_bevel
 
-        _still(offset)
+        self.stays(offset)
         return faced_bevel(thing)
 
     def sketch(self, keys: BevelGearSpec, thing: BevelGear) -> Sketch:
@@ -237,10 +238,6 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
     def height(self, keys: BevelGearSpec, thing: BevelGear) -> float:
         """From the back face to the inner tip circle."""
         return thing.height
-
-    def is_plate(self, keys: BevelGearSpec, thing: BevelGear) -> bool:
-        """Never."""
-        return False
 
     def report(self, keys: BevelGearSpec, thing: BevelGear) -> Report:
         """Diameters of the outer end, cones, and where it is mounted."""
@@ -290,9 +287,3 @@ def bevel_findings(gear: BevelGear) -> list[Finding]:
     if gear.face_width > (most := min(USUAL_SHARE * gear.cone_distance, USUAL_FACE * gear.module)) * (1 + 1e-9):
         found.append(Finding("bevel_wide_face", gear.face_width, most))
     return found
-
-
-def _still(offset: float) -> None:
-    """What is parallel to a cone over an involute meets its apex no more."""
-    if offset != 0:
-        raise OffsetError(offset, "bevel_not_moved")

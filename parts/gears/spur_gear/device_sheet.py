@@ -55,7 +55,7 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
 
     def greatest(beside: list[Row], sheet: Canvas) -> float:
         field, _ = _areas(sheet, beside)
-        return min(field.right - field.left - 2 * _NAMES, field.high - field.low) / (2.1 * disk)
+        return min(field.wide - 2 * _NAMES, field.tall) / (2.1 * disk)
 
     least, alone = _LEAST_MODULE / gears[0].module, False
     try:
@@ -70,7 +70,7 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
     room, _ = _areas(canvas, [] if alone else rows)
     rows[-1] = replace(rows[-1], value=scale_text(scale, language))
     pages = [canvas, blank(canvas.paper, upright=canvas.height > canvas.width, band=asked.band)] if alone else [canvas]
-    paper = Paper(scale, complex(room.left + room.right, room.low + room.high) / 2)
+    paper = Paper(scale, room.middle)
     for number, page in enumerate(pages, 1):
         page.box("FRAME", page.frame)
         title = sheet_words(language, "generating") + (f" ({number}/{len(pages)})" if alone else "")
@@ -152,7 +152,7 @@ def _areas(sheet: Canvas, rows: list[Row]) -> tuple[Box, Table]:
     """Where disk and names may lie, mm, and the table: below it on upright paper, else on its right."""
     content = sheet.content
     upright = sheet.height > sheet.width
-    most = content.right - content.left if upright else (content.right - content.left) / 2
+    most = content.wide if upright else content.wide / 2
     table = Table(tuple(rows), SMALL_TEXT, most)
     wide, tall = table.size
     low, right = (content.low + tall, content.right) if upright else (content.low, content.right - wide)

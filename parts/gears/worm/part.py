@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta, Struct, field
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
+from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report
@@ -196,7 +196,8 @@ def _check_bore(keys: WormSpec, holes: HubHoles, root: float) -> None:
 class WormKind(Kind[WormSpec, "WormBody"]):
     """A worm; the middle of its thread lies at z = 0, and its flat outline is the section there."""
 
-    name, keys = "worm", WormSpec
+    # parallel surfaces of a thread are of no form of flank
+    name, keys, unmoved = "worm", WormSpec, "worm_not_moved"
     drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
 
@@ -224,7 +225,7 @@ class WormKind(Kind[WormSpec, "WormBody"]):
         from geometry.plane.offset_region import OffsetRegion
         from geometry.plane.profile import Region
 
-        _still(offset)
+        self.stays(offset)
         holes = () if thing.bore is None else (thing.bore,)
         return OffsetRegion(Region(transverse_profile(thing.thread), holes), 0.0, ())
 
@@ -232,7 +233,7 @@ class WormKind(Kind[WormSpec, "WormBody"]):
         """The worm."""
         from geometry.gears.worms.faces import faced_worm
 
-        _still(offset)
+        self.stays(offset)
         return faced_worm(thing)
 
     def sketch(self, keys: WormSpec, thing: WormBody) -> Sketch:
@@ -245,10 +246,6 @@ class WormKind(Kind[WormSpec, "WormBody"]):
         """Its whole length."""
         low, high = thing.ends()
         return high - low
-
-    def is_plate(self, keys: WormSpec, thing: WormBody) -> bool:
-        """Never."""
-        return False
 
     def report(self, keys: WormSpec, thing: WormBody) -> Report:
         """Diameters, angles, and what is measured."""
@@ -282,9 +279,3 @@ class WormKind(Kind[WormSpec, "WormBody"]):
 
 
 WORM = WormKind()
-
-
-def _still(offset: float) -> None:
-    """A thread is not moved out of its material: its parallel surfaces are of no form of flank."""
-    if offset != 0:
-        raise OffsetError(offset, "worm_not_moved")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
 
-from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
+from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.record import Record, replace
 from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
@@ -248,7 +248,7 @@ def _about(keys: WormWheelSpec, drive: WormDrive, teeth: WormTeeth) -> WheelThin
 class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
     """A worm wheel, which has another section at every height."""
 
-    name, keys, has_outline = "worm_wheel", WormWheelSpec, False
+    name, keys, has_outline, unmoved = "worm_wheel", WormWheelSpec, False, "worm_wheel_not_moved"
     drawing = "parts.gears.drawings"
     data_table = "parts.gears.data_tables"
 
@@ -273,8 +273,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         """The teeth about their core."""
         from geometry.gears.worms.wheel_faces import wheel_body
 
-        if offset != 0:
-            raise OffsetError(offset, "worm_wheel_not_moved")
+        self.stays(offset)
         return wheel_body(thing.wheel)
 
     def sketch(self, keys: WormWheelSpec, thing: WheelThing) -> Sketch:
@@ -286,10 +285,6 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
     def height(self, keys: WormWheelSpec, thing: WheelThing) -> float:
         """Width of the rim."""
         return thing.teeth.width
-
-    def is_plate(self, keys: WormWheelSpec, thing: WheelThing) -> bool:
-        """Never."""
-        return False
 
     def report(self, keys: WormWheelSpec, thing: WheelThing) -> Report:
         """Its sizes, and how long the worm is where it touches them."""
