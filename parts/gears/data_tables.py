@@ -90,7 +90,7 @@ def _gear(part: Part, mates: Sequence[Mated]) -> DataTable:
     first = (*rows_of(page, _TEETH), *hand, *basic, *shift, *grade_rows(keys.accuracy))
     apart = [m for m in mates if m.part.kind != "rack" and part.kind != "rack"]
     beside = _at_distances(apart, DataRow(N_("centre distance"), "a_w", 0.0, "mm"))
-    others = _mates([m for m in mates if m not in apart])
+    others = mate_rows([m for m in mates if m not in apart])
     return DataTable((first, _control(page, keys.accuracy), (*rows_of(page, _REFERENCE), *beside, *others)))
 
 
@@ -150,7 +150,7 @@ def _worm(part: Part, mates: Sequence[Mated]) -> DataTable:
     own = rows_of(page, ("profile_shift_coefficient", *_WORM, *_HOB))
     last = rows_of(page, ("worm_centre_distance", "wheel_reference_diameter", "worm_form", "number_of_starts",
                           "diameter_quotient", "lead_angle_deg"))  # fmt: skip
-    return DataTable(((*first, hand, *own, *grade), (), (*_form_bare(last), *_mates(mates)[1:])))
+    return DataTable(((*first, hand, *own, *grade), (), (*_form_bare(last), *mate_rows(mates)[1:])))
 
 
 def _form_bare(rows: Sequence[DataRow]) -> tuple[DataRow, ...]:
@@ -178,9 +178,14 @@ def _control(page: Sheet, accuracy: AccuracyTable | None) -> tuple[DataRow, ...]
     for names in _CONTROLS:
         rows = rows_of(page, names)
         if len(rows) == len(names) and (wide or names[-1] not in _SPANS):
-            limits = None if accuracy is None else accuracy.deviations
-            return (*rows[:-1], replace(rows[-1], deviations=limits and (max(limits), min(limits))))
+            return with_limits(rows, accuracy)
     return ()
+
+
+def with_limits(rows: Sequence[DataRow], accuracy: AccuracyTable | None) -> tuple[DataRow, ...]:
+    """What is measured, the last of it with its deviations where they are given."""
+    limits = None if accuracy is None else accuracy.deviations
+    return (*rows[:-1], replace(rows[-1], deviations=limits and (max(limits), min(limits))))
 
 
 def _at_distances(mates: Sequence[Mated], distance: DataRow) -> list[DataRow]:
@@ -189,10 +194,10 @@ def _at_distances(mates: Sequence[Mated], distance: DataRow) -> list[DataRow]:
     for mate in mates:
         groups.setdefault(round(mate.distance, 9), []).append(mate)
     return [row for group in groups.values()
-            for row in (replace(distance, value=group[0].distance), *_mates(group))]  # fmt: skip
+            for row in (replace(distance, value=group[0].distance), *mate_rows(group))]  # fmt: skip
 
 
-def _mates(mates: Sequence[Mated]) -> list[DataRow]:
+def mate_rows(mates: Sequence[Mated]) -> list[DataRow]:
     """Teeth and drawing of each mate; alike ones once."""
     rows: dict[tuple[object, ...], DataRow] = {}
     for mate in mates:

@@ -88,6 +88,12 @@ def rows_of(page: Sheet, names: Iterable[str]) -> tuple[DataRow, ...]:
     return tuple(row_of(step) for name in names for step in steps if step.name == name)
 
 
+def own_rows(page: Sheet, names: Iterable[str]) -> tuple[DataRow, ...]:
+    """The same of a calculation of two gears: those of the first and of both, without the number in their symbols."""
+    rows = ((step, row_of(step)) for name in names for step in page.steps() if step.name == name and step.gear < 2)
+    return tuple(replace(row, symbol=TERMS[step.name].symbol) if step.gear else row for step, row in rows)
+
+
 def chosen_columns(table: Table, names: Sequence[str]) -> Table:
     """Some of a table's columns, by their symbols."""
     kept = [k for name in names for k, (symbol, _) in enumerate(table.heads) if symbol == name]

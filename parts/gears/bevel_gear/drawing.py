@@ -10,7 +10,7 @@ from geometry.curves.line_arc import Line
 from geometry.gears.bevel.gear import BevelGear
 from geometry.solids.bores import RoundBore
 from parts.base.part import Part
-from parts.base.texts import N_, Message
+from parts.base.texts import N_
 from parts.drawing.directions import directions
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
 from parts.drawing.turned_sizes import Fits, turned_sizes
@@ -30,12 +30,10 @@ from parts.drawing.working import (
 )
 from parts.gears.bevel_gear import page as bevel_page
 from parts.gears.bevel_gear.part import BevelGearSpec
-from parts.gears.data_tables import grade_rows, hand_row
+from parts.gears.data_tables import grade_rows, hand_row, mate_rows, with_limits
 from parts.keys.holes import bore_of, hub_holes
-from parts.pages.data_table import DataRow, DataTable, Mated, row_of, sexagesimal, standard_told
+from parts.pages.data_table import DataRow, DataTable, Mated, own_rows, sexagesimal, standard_told
 from parts.pages.inputs import SceneKeys, given
-from parts.pages.page import Sheet
-from parts.pages.terms import TERMS
 
 # the basic rack of GOST 13754-81, which the table then tells by its name: of modules from 1 mm on
 _RACK = {"pressure_angle_deg": 20.0, "addendum_coefficient": 1.0, "tip_clearance_coefficient": 0.2,
@@ -147,31 +145,24 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     keys, gear = part.keys, part.thing
     assert isinstance(keys, BevelGearSpec)
     page = bevel_page.sheet(given(keys) | {"circumferential_thinning": gear.circumferential_thinning})
+
+    def rows(*names: str) -> tuple[DataRow, ...]:
+        return own_rows(page, names)
+
     straight = gear.is_straight
     standard = straight and keys.module >= 1 and all(getattr(keys, key) == value for key, value in _RACK.items())
-    rack = (DataRow(N_("basic rack"), "", standard_told("GOST 13754-81")),) if standard else _rows(page, *_RACK)
+    rack = (DataRow(N_("basic rack"), "", standard_told("GOST 13754-81")),) if standard else rows(*_RACK)
     first = (
-        *_rows(page, "outer_module", "number_of_teeth"), DataRow(N_("type of tooth"), "", _TYPES[gear.tooth_type]),
-        *_rows(page, "spiral_angle_deg"), *([] if straight else [hand_row(gear.hand)]), *_rows(page, "cutter_radius"),
+        *rows("outer_module", "number_of_teeth"), DataRow(N_("type of tooth"), "", _TYPES[gear.tooth_type]),
+        *rows("spiral_angle_deg"), *([] if straight else [hand_row(gear.hand)]), *rows("cutter_radius"),
         *rack,
-        *_rows(page, "profile_shift_coefficient", "thickness_coefficient", "pitch_cone_angle_deg",
-               "tip_cone_angle_deg"),
+        *rows("profile_shift_coefficient", "thickness_coefficient", "pitch_cone_angle_deg", "tip_cone_angle_deg"),
         *grade_rows(keys.accuracy),
     )  # fmt: skip
-    height, chord = _rows(page, *(_CHORD if straight else _NORMAL_CHORD))
-    limits = None if keys.accuracy is None else keys.accuracy.deviations
-    control = height, replace(chord, deviations=limits and (max(limits), min(limits)))
-    last = _rows(
-        page, "shaft_angle_deg", "mean_module", "mean_normal_module", "outer_cone_distance", "mean_cone_distance",
+    control = with_limits(rows(*(_CHORD if straight else _NORMAL_CHORD)), keys.accuracy)
+    last = rows(
+        "shaft_angle_deg", "mean_module", "mean_normal_module", "outer_cone_distance", "mean_cone_distance",
         "mean_pitch_diameter", "face_width", "root_cone_angle_deg", "outer_depth",
     )  # fmt: skip
-    teeth = DataRow(N_("teeth of the mate"), "z", keys.mate_teeth)
-    drawings = dict.fromkeys(getattr(m.part.keys, "designation", None) or m.part.title or m.part.id for m in mates)
-    beside = [DataRow(N_("drawing of the mate"), "", Message("{name}", {"name": name})) for name in drawings]
-    return DataTable((first, control, (*last, teeth, *beside)))
-
-
-def _rows(page: Sheet, *names: str) -> tuple[DataRow, ...]:
-    """The steps of these names that are of this gear or of both."""
-    steps = [step for name in names for step in page.steps() if step.name == name and step.gear < 2]
-    return tuple(replace(row_of(step), symbol=TERMS[step.name].symbol if step.gear else step.symbol) for step in steps)
+    beside = mate_rows(mates) or [DataRow(N_("teeth of the mate"), "z", keys.mate_teeth)]
+    return DataTable((first, control, (*last, *beside)))

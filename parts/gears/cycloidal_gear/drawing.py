@@ -12,10 +12,8 @@ from parts.drawing.working import PartDrawing, Subject
 from parts.gears.cycloidal_gear import page as cycloidal_gear_page
 from parts.gears.cycloidal_gear.part import CycloidalGearSpec
 from parts.keys.wheel import shape_of
-from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, row_of
+from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, own_rows
 from parts.pages.inputs import SceneKeys, given
-from parts.pages.page import Sheet
-from parts.pages.terms import TERMS
 
 _TEETH = ("module", "number_of_teeth", "tip_rolling_radius", "root_rolling_radius", "reference_thickness",
           "root_fillet_radius")  # fmt: skip
@@ -45,12 +43,5 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     roots = next(table for table in page.tables if table.name == "root_flank")
     # one flank from the fillet to the tip; where both meet on the pitch circle they have one point
     flank = replace(tips, rows=(*roots.rows, *tips.rows[1:]))
-    return DataTable(
-        (_rows(page, _TEETH), _rows(page, _CIRCLES), (*beside, begins)), chosen_columns(flank, ("u", "r", "x", "y"))
-    )
-
-
-def _rows(page: Sheet, names: Sequence[str]) -> tuple[DataRow, ...]:
-    """The steps of these names that are the gear's own."""
-    steps = [step for name in names for step in page.steps() if step.name == name and step.gear < 2]
-    return tuple(replace(row_of(step), symbol=TERMS[step.name].symbol) for step in steps)
+    positions = chosen_columns(flank, ("u", "r", "x", "y"))
+    return DataTable((own_rows(page, _TEETH), own_rows(page, _CIRCLES), (*beside, begins)), positions)

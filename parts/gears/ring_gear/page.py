@@ -13,7 +13,17 @@ from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_made import generation
 from parts.base.texts import N_
 from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear, tip_finding
-from parts.gears.spur_gear.page import height_steps, helix_steps, section_data, shift_data
+from parts.gears.spur_gear.page import (
+    cutter_data,
+    generated_root,
+    generating_shift,
+    height_steps,
+    helix_steps,
+    section_data,
+    shift_data,
+    thickness_steps,
+    thinning_data,
+)
 from parts.keys.base import mm
 from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.measured_steps import Asked, measured_steps
@@ -61,28 +71,14 @@ def _given(page: Sheet, ring: RingGear, keys: RingKeys, helix: float) -> None:
     page.add("number_of_teeth", ring.number_of_teeth)
     shift_data(page, keys.profile_shift_coefficient, helix)
     page.add("addendum_coefficient", keys.addendum_coefficient)
-    if ring.circumferential_thinning:
-        page.add("circumferential_thinning", ring.circumferential_thinning)
-        if ring.thinning_by_deeper_cut:
-            formula = "{x_n} + {A} / (2 * {m_n} * tan({alpha}))"
-            value = ring.generating_shift_coefficient / math.cos(helix)
-            page.add("generating_shift_coefficient", value, formula, _ISO)
+    thinning_data(page, ring, helix, "+")
     normal = ring.module / keys.module
     if isinstance(ring.root, RoundedRoot):
         page.add("dedendum_coefficient", ring.root.dedendum * normal)
         if ring.root.radius is not None:
             page.add("root_rounding_coefficient", ring.root.radius)
-        return
-    cutter = ring.root
-    page.add("cutter_teeth", cutter.number_of_teeth)
-    page.add("cutter_shift", cutter.profile_shift_coefficient * normal)
-    page.add("cutter_addendum", cutter.addendum * normal)
-    page.add("cutter_tip_rounding", cutter.tip_rounding * normal)
-
-
-def _generating_shift(ring: RingGear) -> str:
-    """The shift that the space follows, as a placeholder."""
-    return "{x_E}" if ring.circumferential_thinning and ring.thinning_by_deeper_cut else "{x_n}"
+    else:
+        cutter_data(page, ring.root, normal=normal)
 
 
 def _dimensions(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
@@ -95,21 +91,14 @@ def _dimensions(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
     page.add("base_diameter", 2 * ring.base_radius, "{d} * cos({alpha})", _ISO)
     formula = ""
     if ring.given_tip_diameter is None and ring.tip_radius == ring.default_tip_radius:
-        shift = keys.profile_shift_coefficient
-        plain = keys.tip_rule == "KHK" or shift >= 2
+        plain = keys.tip_rule == "KHK" or keys.profile_shift_coefficient >= 2
         short = "" if plain else " - (0.25 - 0.125 * {x_n})"
         formula = f"{{d}} - 2 * ({{h_a}} - {{x_n}}{short}) * {{m_n}}"
     page.add("tip_diameter", 2 * ring.tip_radius, formula, _GOST if formula else "")
-    shift_key = _generating_shift(ring)
     if isinstance(ring.root, RoundedRoot):
-        page.add("root_diameter", 2 * ring.root_radius, f"{{d}} + 2 * ({{h_f}} + {shift_key}) * {{m_n}}")
+        page.add("root_diameter", 2 * ring.root_radius, f"{{d}} + 2 * ({{h_f}} + {generating_shift(ring)}) * {{m_n}}")
     else:
-        angle = f"arcinv(inv({{alpha}}) + 2 * ({shift_key} - {{x_0}}) * tan({{alpha_n}}) / ({{z}} - {{z_0}}))"
-        page.add("generating_angle_deg", math.degrees(ring.generating_angle), angle, _GOST)
-        distance = "({z} - {z_0}) * {m} * cos({alpha}) / (2 * cos({alpha_w0}))"
-        page.add("generating_distance", ring.generating_distance, distance, _GOST)
-        formula = "2 * {a_w0} + {m} * {z_0} + 2 * ({h_a0} + {x_0}) * {m_n}"
-        page.add("root_diameter", 2 * ring.root_radius, formula, _GOST)
+        generated_root(page, ring, _GOST, "-", "+")
     page.add("root_form_diameter", ring_limits.root_form_diameter(ring), "", _ISO)
     heights = ring.reference_radius - ring.tip_radius, ring.root_radius - ring.reference_radius
     height_steps(page, heights, ("({d} - {d_a}) / 2", "({d_f} - {d}) / 2"))
@@ -129,13 +118,7 @@ def _thicknesses(page: Sheet, ring: RingGear, diameter: float | None) -> None:
     page.add("tip_pressure_angle_deg", angle, "arccos({d_b} / {d_a})", _ISO)
     formula = "{d_a} * ({S} / {d} - inv({alpha}) + inv({alpha_a}))"
     page.add("tip_thickness", ring_limits.tip_thickness(ring), formula, _ISO)
-    if diameter is not None:
-        thickness = measurement.thickness_at(ring, diameter / 2)
-        page.add("diameter", diameter)
-        angle = math.degrees(measurement.angle_at(ring, diameter / 2))
-        page.add("pressure_angle_at_diameter_deg", angle, "arccos({d_b} / {d_y})", _ISO)
-        formula = "{d_y} * ({S} / {d} - inv({alpha}) + inv({alpha_y}))"
-        page.add("thickness_at_diameter", thickness, formula, _ISO)
+    thickness_steps(page, ring, diameter, "{d_y} * ({S} / {d} - inv({alpha}) + inv({alpha_y}))")
 
 
 def _limits(page: Sheet, ring: RingGear, keys: RingKeys) -> None:

@@ -11,6 +11,7 @@ from geometry.base.record import replace
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
+from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import base_helix_angle, transverse_angle
 from parts.base.texts import N_
@@ -109,20 +110,25 @@ def given_data(page: Sheet, normal: SpurGear, gear: SpurGear, helix: float, inde
     if rack.relief is not None:
         page.add("relief_depth_coefficient", rack.relief.depth, gear=index)
         page.add("relief_height_coefficient", rack.relief.height, gear=index)
+    thinning_data(page, gear, helix, "-", index)
+
+
+def thinning_data(page: Sheet, gear: SpurGear | RingGear, helix: float, sign: str, index: int = 0) -> None:
+    """What the teeth are thinned by, and the shift that a deeper cut, on the side of ``sign``, makes of it."""
     if gear.circumferential_thinning:
         page.add("circumferential_thinning", gear.circumferential_thinning, gear=index)
         if gear.thinning_by_deeper_cut:
-            formula = "{x_n#} - {A#} / (2 * {m_n} * tan({alpha}))"
+            formula = f"{{x_n#}} {sign} {{A#}} / (2 * {{m_n}} * tan({{alpha}}))"
             value = gear.generating_shift_coefficient / math.cos(helix)
             page.add("generating_shift_coefficient", value, formula, "ISO 21771", index)
 
 
-def cutter_data(page: Sheet, cutter: PinionCutter, index: int = 0) -> None:
-    """The pinion cutter that makes the root, in its own modules."""
+def cutter_data(page: Sheet, cutter: PinionCutter, index: int = 0, normal: float = 1.0) -> None:
+    """The pinion cutter that makes the root; ``normal``: its coefficients in normal modules."""
     page.add("cutter_teeth", cutter.number_of_teeth, gear=index)
-    page.add("cutter_shift", cutter.profile_shift_coefficient, gear=index)
-    page.add("cutter_addendum", cutter.addendum, gear=index)
-    page.add("cutter_tip_rounding", cutter.tip_rounding, gear=index)
+    page.add("cutter_shift", cutter.profile_shift_coefficient * normal, gear=index)
+    page.add("cutter_addendum", cutter.addendum * normal, gear=index)
+    page.add("cutter_tip_rounding", cutter.tip_rounding * normal, gear=index)
 
 
 def addendum_formula(shortening: str = "") -> str:
@@ -130,7 +136,7 @@ def addendum_formula(shortening: str = "") -> str:
     return f"({{h_a#}} + {{x_n#}}{shortening}) * {{m_n}}"
 
 
-def generating_shift(gear: SpurGear) -> str:
+def generating_shift(gear: SpurGear | RingGear) -> str:
     """The shift that the root follows, as a placeholder."""
     return "{x_E#}" if gear.circumferential_thinning and gear.thinning_by_deeper_cut else "{x_n#}"
 
@@ -169,16 +175,31 @@ def dimensions(page: Sheet, gear: SpurGear, helix: float) -> None:
         formula = f"{{d}} - 2 * {dedendum_formula(gear)}"
         page.add("root_diameter", 2 * gear.root_radius, formula, "practicum (3.13)")
     else:
-        total = f"{generating_shift(gear)} + {{x_0}}"
-        formula = f"arcinv(inv({{alpha}}) + 2 * ({total}) * tan({{alpha_n}}) / ({{z}} + {{z_0}}))"
-        page.add("generating_angle_deg", math.degrees(gear.generating_angle), formula, "ISO 21771")
-        formula = "({z} + {z_0}) * {m} * cos({alpha}) / (2 * cos({alpha_w0}))"
-        page.add("generating_distance", gear.generating_distance, formula, "ISO 21771")
-        formula = "2 * {a_w0} - {m} * {z_0} - 2 * ({h_a0} + {x_0}) * {m_n}"
-        page.add("root_diameter", 2 * gear.root_radius, formula, "ISO 21771")
+        generated_root(page, gear, "ISO 21771", "+", "-")
     page.add("root_form_diameter", limits.root_form_diameter(gear), "", "ISO 21771")
     heights = gear.tip_radius - gear.reference_radius, gear.reference_radius - gear.root_radius
     height_steps(page, heights, ("({d_a} - {d}) / 2", "({d} - {d_f}) / 2"))
+
+
+def generated_root(page: Sheet, gear: SpurGear | RingGear, source: str, out: str, back: str) -> None:
+    """The root circle that the tips of a pinion cutter come to; the signs of what it adds, and takes off again."""
+    formula = f"({generating_shift(gear)} {out} {{x_0}}) * tan({{alpha_n}}) / ({{z}} {out} {{z_0}})"
+    page.add(
+        "generating_angle_deg", math.degrees(gear.generating_angle), f"arcinv(inv({{alpha}}) + 2 * {formula})", source
+    )
+    formula = f"({{z}} {out} {{z_0}}) * {{m}} * cos({{alpha}}) / (2 * cos({{alpha_w0}}))"
+    page.add("generating_distance", gear.generating_distance, formula, source)
+    formula = f"2 * {{a_w0}} {back} {{m}} * {{z_0}} {back} 2 * ({{h_a0}} + {{x_0}}) * {{m_n}}"
+    page.add("root_diameter", 2 * gear.root_radius, formula, source)
+
+
+def thickness_steps(page: Sheet, gear: SpurGear | RingGear, diameter: float | None, formula: str) -> None:
+    """Pressure angle and thickness on a circle that is asked for."""
+    if diameter is not None:
+        page.add("diameter", diameter)
+        angle = math.degrees(measurement.angle_at(gear, diameter / 2))
+        page.add("pressure_angle_at_diameter_deg", angle, "arccos({d_b} / {d_y})", "ISO 21771")
+        page.add("thickness_at_diameter", measurement.thickness_at(gear, diameter / 2), formula, "ISO 21771")
 
 
 def helix_steps(page: Sheet, module: float, teeth: int, helix: float) -> None:
@@ -207,20 +228,9 @@ def _thicknesses(page: Sheet, gear: SpurGear, diameter: float | None) -> None:
     page.add("base_thickness", measurement.base_thickness(gear), "{d_b} * ({S} / {d} + inv({alpha}))", "ISO 21771")
     angle = math.degrees(measurement.angle_at(gear, gear.tip_radius))
     page.add("tip_pressure_angle_deg", angle, "arccos({d_b} / {d_a})", "practicum (3.18)")
-    formula = "{d_a} * ({S} / {d} + inv({alpha}) - inv({alpha_a}))"
-    if gear.rack.relief is not None:
-        formula = ""
+    formula = "{d_a} * ({S} / {d} + inv({alpha}) - inv({alpha_a}))" if gear.rack.relief is None else ""
     page.add("tip_thickness", limits.tip_thickness(gear), formula, "ISO 21771")
-    if diameter is not None:
-        thickness = measurement.thickness_at(gear, diameter / 2)
-        page.add("diameter", diameter)
-        page.add(
-            "pressure_angle_at_diameter_deg",
-            math.degrees(measurement.angle_at(gear, diameter / 2)),
-            "arccos({d_b} / {d_y})",
-            "ISO 21771",
-        )
-        page.add("thickness_at_diameter", thickness, "{d_y} * ({S} / {d} + inv({alpha}) - inv({alpha_y}))", "ISO 21771")
+    thickness_steps(page, gear, diameter, "{d_y} * ({S} / {d} + inv({alpha}) - inv({alpha_y}))")
 
 
 def _limits(page: Sheet, gear: SpurGear, helix: float) -> None:
