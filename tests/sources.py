@@ -22,6 +22,8 @@ _MARKS = {
     ".text": "t",
     ".plural": "tp",
     ".term": "ct",
+    ".note": "t",
+    ".section": "t",
 }
 _MARK = re.compile("|".join(rf"{re.escape(name)}\s*\(" for name in _MARKS))
 

@@ -18,7 +18,7 @@ from geometry.cams.plane.synthesis import least_hollow_radius
 from geometry.curves.curve import Complex, Real
 from geometry.laws.law import AT_REST, REVERSED, Rates
 from geometry.laws.piece import LawPiece
-from parts.base.texts import N_, Message, Text, filled, message
+from parts.base.texts import N_, Message, Text, message
 from parts.keys.base import degrees
 from parts.pages.page import Sheet, Table
 from parts.pages.terms import TERMS
@@ -180,7 +180,7 @@ def coefficient_steps(page: Sheet, phases: Phases) -> None:
         if phase.law is None:
             continue
         law, h = phase.law.name, abs(phase.lift)
-        page.section(filled(titles[name], law=law_text(law)))
+        page.section(titles[name], law=law_text(law))
         page.add(phases.term(name), phases.size(phase), key="phi")
         if phases.swings:
             page.add("swing_of_phase_deg", as_typed(math.degrees(h)))
@@ -346,11 +346,11 @@ def impact_notes(page: Sheet, motion: FollowerMotion) -> None:
     """Where joints are felt, and what the table holds there."""
     impacts = motion.impacts()
     if impacts:
-        page.notes.append(N_("at an impact the table has two rows: what was before, and what begins"))
+        page.note("at an impact the table has two rows: what was before, and what begins")
     felt = {
         "rigid": N_("rigid impact at cam angle {angle} degrees"),
         "soft": N_("soft impact at cam angle {angle} degrees"),
     }
     for joint in impacts:
         if joint.impact is not None:
-            page.notes.append(filled(felt[joint.impact], angle=f"{math.degrees(joint.angle):.6g}"))
+            page.note(felt[joint.impact], angle=f"{math.degrees(joint.angle):.6g}")

@@ -16,7 +16,7 @@ from geometry.gears.teeth import limits
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import normal_share, transverse_angle
-from parts.base.texts import N_, message
+from parts.base.texts import message
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
@@ -135,7 +135,7 @@ def overlap_steps(page: Sheet, pair: Pair | RackPair, helical: Helical) -> None:
 
 def measured_steps(page: Sheet, pair: ExternalPair, arc: float, pitch: float) -> None:
     """(3.21), (3.22) with an arc and a pitch measured off a drawing of any scale."""
-    page.section(N_("Measured off the drawing"))
+    page.section("Measured off the drawing")
     page.add("measured_arc_of_action", arc, "", "practicum, fig. 3.13")
     page.add("measured_working_pitch", pitch, "", "practicum, fig. 3.13")
     ratio = arc / pitch
@@ -152,7 +152,7 @@ def sliding_steps(page: Sheet, pair: Pair, helical: Helical, speed_rpm: float | 
     def when_whole(formula: str) -> str:
         return formula if whole else ""
 
-    page.section(N_("Line of action and sliding"))
+    page.section("Line of action and sliding")
     page.add("line_of_action_length", line.line_length, "{a_w} * sin({alpha_w})", "practicum, fig. 3.5")
     formula = when_whole(f"{_tangents(pair)} {'-' if external else '+'} {{L}}")
     page.add("active_line_length", line.length, formula, "practicum, fig. 3.11")
@@ -183,14 +183,14 @@ def sliding_steps(page: Sheet, pair: Pair, helical: Helical, speed_rpm: float | 
     if speed_rpm is not None:
         speed_steps(page, pair, helical, line.length, factors, speed_rpm)
     if line.approach < 0 or line.recess < 0:
-        page.notes.append(N_("the pole lies outside the active line of action"))
+        page.note("the pole lies outside the active line of action")
 
 
 def speed_steps(
     page: Sheet, pair: Pair | RackPair, helical: Helical, active: float, factors: tuple[float, float], speed_rpm: float
 ) -> None:
     """What depends on time: speeds of gears and of their working circles, of sliding at both ends of contact."""
-    page.section(N_("Speeds"))
+    page.section("Speeds")
     page.add("gear_speed", speed_rpm, gear=1, given=True)
     if isinstance(pair, RackPair):
         radius, circle = pair.gear.reference_radius, "{r1}"
@@ -212,7 +212,7 @@ def backlash_steps(
     page: Sheet, pair: Pair | RackPair, circumferential: float, helical: Helical, formulas: tuple[str, str] = ("", "")
 ) -> None:
     """j_t, j_n and the bottom clearances; ``formulas`` of j_t and of these."""
-    page.section(N_("Backlash and clearance"))
+    page.section("Backlash and clearance")
     page.add("circumferential_backlash", circumferential, formulas[0], "ISO 21771")
     cosine = " * cos({beta_b})" if helical.angle else ""
     formula = f"{{j_wt}} * cos({{alpha_w}}){cosine}"

@@ -13,7 +13,6 @@ from geometry.gears.pairs.internal import InternalPair
 from geometry.gears.pairs.rack import RackPair
 from geometry.gears.pairs.tooth_forces import tooth_forces
 from parts.base.refusal import REMOVED
-from parts.base.texts import N_
 from parts.pages.contact_steps import Helical
 from parts.pages.page import Sheet
 
@@ -64,7 +63,7 @@ def driving_torque(page: Sheet, keys: Driven) -> float | None:
     """The torque on the first gear, N*m, under a heading of its own, where the load is given."""
     torque = asked_torque(keys)
     if torque is not None:
-        page.section(N_("Torques and forces, without friction"))
+        page.section("Torques and forces, without friction")
         torque_steps(page, keys, torque, "gear_torque", 1)
     return torque
 

@@ -11,7 +11,7 @@ from geometry.base.record import Record
 from geometry.gears.teeth import measurement
 from geometry.gears.teeth.measurement import SPAN_CONTACT, Measured, Span
 from geometry.gears.teeth.ring import RingGear
-from parts.base.texts import N_, Text, message
+from parts.base.texts import N_, Text
 from parts.pages.page import Sheet
 
 ISO = "ISO 21771"
@@ -84,7 +84,7 @@ def measured_steps(page: Sheet, gear: Measured, asked: Asked) -> None:
 
 def _chords(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     """Thickness on chords, where they are on the tooth."""
-    page.section(N_("Chords"))
+    page.section("Chords")
     chord, constant = measurement.reference_chord(gear, asked.helix), measurement.constant_chord(gear, asked.helix)
     formulas = ("", "", "", "")
     if not asked.helix:
@@ -93,14 +93,14 @@ def _chords(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
         page.add("chordal_thickness", chord.thickness, formulas[0], side.source)
         page.add("chordal_height", chord.height, formulas[1], side.source)
     else:
-        page.notes.append(N_("the chord at the reference circle would lie beyond the tip"))
+        page.note("the chord at the reference circle would lie beyond the tip")
     if constant.height > 0:
         # that of a ring is a derivation of ours
         source = side.source if side is _OUTER else ""
         page.add("constant_chord", constant.thickness, formulas[2], source)
         page.add("constant_chord_height", constant.height, formulas[3], source)
     else:
-        page.notes.append(N_("the constant chord would lie beyond the tip"))
+        page.note("the constant chord would lie beyond the tip")
 
 
 def _spans(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
@@ -109,15 +109,15 @@ def _spans(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
         for key, value in ((side.spanned, asked.spanned), ("measured_span", asked.measured_span)):
             if value is not None:
                 raise ParameterError(key, value, "no_span_of_helical_ring")
-        page.notes.append(N_("no faces find the flanks of a helical ring: it has no span, only a size between balls"))
+        page.note("no faces find the flanks of a helical ring: it has no span, only a size between balls")
         return
-    page.section(N_("Span"))
+    page.section("Span")
     page.add(side.to_span, measurement.teeth_to_span(gear, asked.helix), "", side.source)
     best = measurement.best_span(gear, asked.helix)
     if asked.spanned is not None:
         best = measurement.span(gear, asked.spanned, asked.helix)
     if best is None:
-        page.notes.append(N_("no span touches the flanks of this gear"))
+        page.note("no span touches the flanks of this gear")
         return
     share = asked.share("*")
     page.add(side.spanned, best.teeth)
@@ -132,7 +132,7 @@ def _spans(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     if asked.helix:
         _span_width(page, best, asked.face_width)
     if not best.touches_flanks:
-        page.notes.append(N_("the span does not touch the involutes"))
+        page.note("the span does not touch the involutes")
 
 
 def _span_width(page: Sheet, best: Span, face_width: float) -> None:
@@ -142,21 +142,17 @@ def _span_width(page: Sheet, best: Span, face_width: float) -> None:
     formula = f"{{b_min}} + ({SPAN_CONTACT[0]} + {SPAN_CONTACT[1]} * {{W}}) * cos({{beta_b}})"
     page.add("secure_face_width", best.secure_face_width, formula, "DIN 3960")
     if face_width < best.least_face_width:
-        page.notes.append(
-            message(
-                "the face width of {width:g} mm is too small for the span: above {least:.4f} mm is needed; measure "
-                "over balls",
-                width=face_width,
-                least=best.least_face_width,
-            )
+        page.note(
+            "the face width of {width:g} mm is too small for the span: above {least:.4f} mm is needed; measure "
+            "over balls",
+            width=face_width,
+            least=best.least_face_width,
         )
     elif face_width < best.secure_face_width:
-        page.notes.append(
-            message(
-                "the span finds little hold on a face width of {width:g} mm: {secure:.4f} mm is secure",
-                width=face_width,
-                secure=best.secure_face_width,
-            )
+        page.note(
+            "the span finds little hold on a face width of {width:g} mm: {secure:.4f} mm is secure",
+            width=face_width,
+            secure=best.secure_face_width,
         )
 
 
@@ -206,7 +202,7 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     except ParameterError:
         low = high = math.nan
     if not low <= high:
-        page.notes.append(
+        page.note(
             N_("no ball touches both flanks of a space") if helix else N_("no pin touches both flanks of a space")
         )
         return
@@ -243,9 +239,9 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
             if helix
             else N_("a pin of {diameter:.4g} mm touches no involute or is sunk; {least:.4g} to {greatest:.4g} mm touch")
         )
-        page.notes.append(message(told, diameter=pin, least=low, greatest=high))
+        page.note(told, diameter=pin, least=low, greatest=high)
     if helix:
-        page.notes.append(_same_with_pins(gear, even=even))
+        page.note(_same_with_pins(gear, even=even))
 
 
 def _same_with_pins(gear: Measured, *, even: bool) -> Text:

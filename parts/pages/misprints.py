@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from parts.base.texts import N_, Message, message
-from parts.pages.page import Printed
+from parts.pages.page import Misprints, Printed
 
 if TYPE_CHECKING:
     from geometry.gears.worms.worm import Worm
@@ -21,7 +21,7 @@ _FOLLOWS = N_("follows from the wrong centre distance")
 _ROUNDED = N_("cut off with pi = 3.14 and tan 20° = 0.364")
 
 # lesson 3, section 3.1: z 13/21, m 10, x 0.694/0.384
-_PRACTICUM: dict[tuple[str, int], Printed] = {
+_PRACTICUM: Misprints = {
     ("involute_of_working_pressure_angle", 0): Printed("0.037985", N_("the last digit is cut off")),
     ("working_pressure_angle_deg", 0): Printed("26°55' (26.92°)", N_("26°56.0': inv 26°55' = 0.037910")),
     ("working_centre_distance", 0): Printed("180.79", _COSINE),
@@ -38,53 +38,44 @@ _PRACTICUM: dict[tuple[str, int], Printed] = {
 }
 # the pressure angle of all of them, and how near to it another one is, rad
 _USUAL, _SAME = math.radians(20), 1e-12
-# guidelines, table 2.1: printed alpha_w that its own shifts do not give, and why
-_GUIDELINES = {
-    (9, 11): ("30.28°", N_("x2 = 0.543 would give it")),
-    (9, 12): ("30.23°", N_("x2 = 0.580 would give it")),
-    (10, 11): ("29.79°", N_("shifts rounded to 0.001")),
-    (10, 12): ("29.51°", N_("x2 = 0.532 gives it: one wrong digit")),
-    (11, 11): ("29.23°", N_("shifts rounded to 0.001")),
-    (11, 12): ("28.99°", N_("x2 = 0.518 would give it")),
-}
-_GUIDELINE_SHIFTS = {
-    (9, 11): (0.570, 0.546),
-    (9, 12): (0.580, 0.561),
-    (10, 11): (0.549, 0.535),
-    (10, 12): (0.558, 0.522),
-    (11, 11): (0.522, 0.522),
-    (11, 12): (0.531, 0.516),
+# guidelines, table 2.1, by its teeth and shifts: printed alpha_w that the shifts do not give, and why
+_GUIDELINES: Mapping[tuple[tuple[int, int], tuple[float, float]], tuple[str, str]] = {
+    ((9, 11), (0.570, 0.546)): ("30.28°", N_("x2 = 0.543 would give it")),
+    ((9, 12), (0.580, 0.561)): ("30.23°", N_("x2 = 0.580 would give it")),
+    ((10, 11), (0.549, 0.535)): ("29.79°", N_("shifts rounded to 0.001")),
+    ((10, 12), (0.558, 0.522)): ("29.51°", N_("x2 = 0.532 gives it: one wrong digit")),
+    ((11, 11), (0.522, 0.522)): ("29.23°", N_("shifts rounded to 0.001")),
+    ((11, 12), (0.531, 0.516)): ("28.99°", N_("x2 = 0.518 would give it")),
 }
 
 
 def printed_for_pair(
     teeth: tuple[int, int], shifts: tuple[float, float], module: float, pressure_angle: float
-) -> Mapping[tuple[str, int], Printed]:
+) -> Misprints:
     """What a source prints wrongly for exactly this pair, angle in rad; empty for any other."""
     if abs(pressure_angle - _USUAL) > _SAME:
         return {}
     if (teeth, shifts, module) == ((13, 21), (0.694, 0.384), 10.0):
-        return _PRACTICUM
-    if _GUIDELINE_SHIFTS.get(teeth) == shifts:
-        return {("working_pressure_angle_deg", 0): Printed(*_GUIDELINES[teeth])}
-    return {}
+        return dict(_PRACTICUM)
+    told = _GUIDELINES.get((teeth, shifts))
+    return {("working_pressure_angle_deg", 0): Printed(*told)} if told else {}
 
 
 # thesis, section 2.3: z 96/144, m 3
-_THESIS: dict[tuple[str, int], Printed] = {
+_THESIS: Misprints = {
     ("contact_ratio", 0): Printed("1.87", N_("an approximate formula's; the tip circles give less")),
     ("pitch", 0): Printed("9.42", N_("cut off with pi = 3.14")),
 }
 
 
-def printed_for_internal(teeth: tuple[int, int], module: float) -> Mapping[tuple[str, int], Printed]:
+def printed_for_internal(teeth: tuple[int, int], module: float) -> Misprints:
     """What the thesis prints wrongly for its internal pair; empty for any other."""
-    return _THESIS if (teeth, module) == ((96, 144), 3.0) else {}
+    return dict(_THESIS) if (teeth, module) == ((96, 144), 3.0) else {}
 
 
 # thesis, section 2.2: both worm drives m 5, q 10, one start, by the teeth of the wheel
 _COSINE_LEFT_OUT = N_("the factor cos gamma of the formula was not used")
-_WORMS: dict[int, Mapping[tuple[str, int], Printed]] = {
+_WORMS: dict[int, Misprints] = {
     128: {
         ("thesis_least_module", 0): Printed("4.09", _COSINE_LEFT_OUT),
         ("thesis_contact_stress", 0): Printed("142.7", N_("its own numbers give 182.70 MPa, more than allowed")),
@@ -94,7 +85,7 @@ _WORMS: dict[int, Mapping[tuple[str, int], Printed]] = {
         ("thesis_contact_stress", 0): Printed("148.3", N_("its own numbers give 200.77 MPa, more than allowed")),
     },
 }
-_WORM_FORMULAS: Mapping[tuple[str, int], Printed] = {
+_WORM_FORMULAS: Misprints = {
     ("contact_stress", 0): Printed(
         "2 · 170 …", N_("half the width raises the stress by the root of 2, not by 2; 26 of 45 mm are not one half")
     ),
@@ -104,30 +95,29 @@ _WORM_FORMULAS: Mapping[tuple[str, int], Printed] = {
 }
 
 
-def printed_for_worm(worm: Worm, teeth: int, shift: float) -> Mapping[tuple[str, int], Printed]:
+def printed_for_worm(worm: Worm, teeth: int, shift: float) -> Misprints:
     """What the thesis prints wrongly for its two worm drives; empty for any other."""
     same = (worm.module, worm.diameter_quotient, worm.number_of_starts, shift) == (5.0, 10.0, 1, 0.0)
     return {**_WORMS[teeth], **_WORM_FORMULAS} if same and teeth in _WORMS else {}
 
 
 # thesis, sections 2.3 and 2.4
-POWER_MODULE: Mapping[str, Printed] = {
-    "pair_least_module": Printed("2.43", N_("its own numbers give 2.40")),
-    "pair_allowed_contact": Printed("665", N_("850/1.2·0.9405 = 666.19")),
-    "overlap_ratio": Printed("π·m/sin β", N_("upside down and without the width: it divides by zero")),
-    "preload": Printed("94", N_("140/1.5 = 93.33, rounded up")),
-    "thesis_worm_radial_force": Printed(
+_POWER_MODULE: Misprints = {
+    ("pair_least_module", 0): Printed("2.43", N_("its own numbers give 2.40")),
+    ("pair_allowed_contact", 0): Printed("665", N_("850/1.2·0.9405 = 666.19")),
+    ("overlap_ratio", 0): Printed("π·m/sin β", N_("upside down and without the width: it divides by zero")),
+    ("preload", 0): Printed("94", N_("140/1.5 = 93.33, rounded up")),
+    ("thesis_worm_radial_force", 0): Printed(
         "51", N_("the radial force belongs to the large force along the worm: 1400·tan 20° = 510 N")
     ),
-    "turn_capacity": Printed("1.06e6 N", N_("the unit is N/mm^(3/2)")),
-    "radial_stiffness": Printed("5.5e4", N_("with i_2 = 1, where preload and axial stiffness have i_2 = 0")),
+    ("turn_capacity", 0): Printed("1.06e6 N", N_("the unit is N/mm^(3/2)")),
+    ("radial_stiffness", 0): Printed("5.5e4", N_("with i_2 = 1, where preload and axial stiffness have i_2 = 0")),
 }
 
 
-def printed_for_power_module() -> Mapping[tuple[str, int], Printed]:
-    """What the thesis misprints of its module in single steps."""
-    several = "preload", "turn_capacity", "radial_stiffness"
-    return {(name, 0): printed for name, printed in POWER_MODULE.items() if name not in several}
+def printed_for_power_module() -> Misprints:
+    """What the thesis misprints of its module."""
+    return dict(_POWER_MODULE)
 
 
 _QUADRANT = N_("arctg(x/y) and arcsin lose quadrants; atan2 (x, y) and the law of cosines do not")
@@ -214,7 +204,7 @@ _EXAMPLE_1 = N_("coaxial only with two internal meshes, so both signs are plus; 
 _EXAMPLE_3 = N_("the sun meshes the satellite outside, the satellite the ring inside; the product is the same")
 _LOST_SIGN = N_("the sign is lost: 120/(-0.8) = -150")
 # lesson 2 of the practicum and the guide on trains, by the numbers of teeth: what is misprinted, by its symbol
-_TRAINS: dict[tuple[int, ...], Mapping[str, Printed]] = {
+_TRAINS: dict[tuple[int, ...], Misprints] = {
     (88, 48, 4, 44, 25, 17, 100): {"u_14^H": Printed("(-48/88)·(-44/4)", _EXAMPLE_1)},
     (13, 52, 15, 33, 11, 45): {
         "u_36^H": Printed("6", N_("(33/15)·(45/11) = 9; the 6 is that of example 1")),
@@ -232,6 +222,6 @@ _TRAINS: dict[tuple[int, ...], Mapping[str, Printed]] = {
 }
 
 
-def printed_for_train(teeth: tuple[int, ...]) -> Mapping[str, Printed]:
-    """What the sources print wrongly for a train of these teeth, in their order, by the symbol; empty for any other."""
-    return _TRAINS.get(teeth, {})
+def printed_for_train(teeth: tuple[int, ...]) -> Misprints:
+    """What the sources print wrongly for a train of these teeth, in their order; empty for any other."""
+    return dict(_TRAINS.get(teeth, {}))

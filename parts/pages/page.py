@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
-from typing import Any, Protocol
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Protocol, SupportsFloat
 
 from geometry.base.record import Draft, Record, field, replace
-from parts.base.texts import NC_, Text, Words
+from parts.base.texts import NC_, Text, Words, filled
 from parts.pages.symbols import symbol_text
 from parts.pages.terms import TERMS
 
@@ -56,6 +56,10 @@ class Printed(Record):
 
     text: str
     why: Text
+
+
+# by a step's name and gear, or by its symbol
+Misprints = dict[tuple[str, int] | str, Printed]
 
 
 class Known(Record):
@@ -108,6 +112,20 @@ class Table(Record):
     labels: tuple[tuple[str, ...], ...] = ()
 
 
+Head = tuple[str, str]
+# numpy's numbers are no floats to a checker
+Cell = str | SupportsFloat
+
+
+def table_of(name: str, title: Text, heads: Iterable[Head], rows: Iterable[Sequence[Cell]]) -> Table:
+    """Rows under heads (symbol, unit), words first, then numbers, as a table."""
+    labels, numbers = list[tuple[str, ...]](), list[tuple[float, ...]]()
+    for row in rows:
+        labels.append(tuple(cell for cell in row if isinstance(cell, str)))
+        numbers.append(tuple(x if isinstance(x, int) else float(x) for x in row if not isinstance(x, str)))
+    return Table(name, title, tuple(heads), tuple(numbers), labels=tuple(labels))
+
+
 class Sheet(Draft):
     """A calculation that grows step by step; ``notes`` are remarks, ``signed`` is the last line of a form."""
 
@@ -123,11 +141,16 @@ class Sheet(Draft):
     tables: list[Table] = field(default_factory=list)
     picture_file: str | None = None
     data: dict[str, Any] = field(default_factory=dict)
-    printed: Mapping[tuple[str, int], Printed] = field(default_factory=dict)
+    # each is told once, at the first such step
+    printed: Misprints = field(default_factory=dict)
 
-    def section(self, title: Text) -> None:
-        """A new heading."""
-        self.sections.append(Section(title))
+    def section(self, title: Text, /, **numbers: object) -> None:
+        """A new heading, with what its placeholders stand for."""
+        self.sections.append(Section(filled(title, **numbers) if numbers else title))
+
+    def note(self, text: Text, /, **numbers: object) -> None:
+        """A remark, with what its placeholders stand for."""
+        self.notes.append(filled(text, **numbers) if numbers else text)
 
     def add(
         self,
@@ -143,7 +166,7 @@ class Sheet(Draft):
         called: Text = "",
         given: bool = False,
     ) -> None:
-        """A step; later formulas know its value by the term's key.
+        """A step; later formulas know its value by the term's key, and by a symbol of its own.
 
         ``symbol``, ``key`` and ``called`` stand in for the term's symbol, key and name.
         """
@@ -155,10 +178,16 @@ class Sheet(Draft):
         if unknown := [placeholder for placeholder in needed if placeholder not in self.known]:
             raise KeyError(f"{name}: {', '.join(unknown)} not known yet")
         inputs = {placeholder: self.known[placeholder] for placeholder in needed}
-        printed = self.printed.get((name, gear))
+        printed = self.printed.pop((name, gear), None) or self.printed.pop(shown, None)
         step = Step(name, gear, shown, value, term.unit, formula, source, printed, inputs, of, called, given)
         self.sections[-1].steps.append(step)
-        self.known[(key or term.key) + index] = Known(shown, value, term.unit)
+        self.known[(key or term.key) + index] = known = Known(shown, value, term.unit)
+        if symbol:
+            self.known[shown] = known
+
+    def table(self, name: str, title: Text, heads: Iterable[Head], rows: Iterable[Sequence[Cell]]) -> None:
+        """A table of rows under heads (symbol, unit): words first, then numbers."""
+        self.tables.append(table_of(name, title, heads, rows))
 
     def name(self, key: str, known: str, gear: int = 0) -> None:
         """A second key for a value that is known, for formulas that are the same of other parts."""
@@ -182,17 +211,13 @@ class Sheet(Draft):
         steps = self.sections[-1].steps
         steps[-1] = replace(steps[-1], printed=printed)
 
-    def mark_misprints(self, printed: Mapping[tuple[str, int], Printed]) -> None:
-        """Steps of the last section that a source misprints, by their names and gears."""
-        steps = self.sections[-1].steps
-        steps[:] = [replace(step, printed=printed.get((step.name, step.gear), step.printed)) for step in steps]
-
     def steps(self) -> list[Step]:
         """All steps in order."""
         return [step for section in self.sections for step in section.steps]
 
 
-KEYS = re.compile(r"\{(\w+)\}")
+# what formulas put in: a key or a symbol
+KEYS = re.compile(r"\{([^{}]+)\}")
 
 
 def _numbered(symbol: str, index: str) -> str:

@@ -10,7 +10,7 @@ from msgspec import Meta
 from geometry.base.errors import ParameterError
 from geometry.gears.pairs.crossed import CrossedPair
 from parts.base.mate import End
-from parts.base.texts import N_, message
+from parts.base.texts import N_
 from parts.gears.spur_gear.part import SPUR_GEAR, SpurGearSpec
 from parts.keys.base import mm
 from parts.mates.crossed import CROSSED_HELICAL_PAIR, CrossedHelicalPairSpec, CrossedMating, ShaftAngle
@@ -87,7 +87,7 @@ def _pair(keys: CrossedKeys) -> CrossedPair:
 
 
 def _given(page: Sheet, pair: CrossedPair, keys: CrossedKeys) -> None:
-    page.section(N_("Given"))
+    page.section("Given")
     page.add("module", pair.normal_module, symbol="m_n")
     page.add("pressure_angle_deg", math.degrees(pair.pressure_angle))
     specs = keys.first, keys.second
@@ -111,7 +111,7 @@ def _degrees(values: tuple[float, float]) -> tuple[float, float]:
 def _operating(page: Sheet, pair: CrossedPair, keys: CrossedKeys) -> None:
     """Cylinders, angles and distance."""
     iso, meets = (_SOURCE, _SOURCE), keys.shaft_angle_deg is None
-    page.section(N_("Gears"))
+    page.section("Gears")
     page.add("gear_ratio", pair.ratio, "{z2} / {z1}")
     page.both("transverse_pressure_angle_deg", _degrees(_each(pair, "pressure_angle")),
               "arctan(tan({alpha}) / cos({beta#}))", iso)  # fmt: skip
@@ -119,7 +119,7 @@ def _operating(page: Sheet, pair: CrossedPair, keys: CrossedKeys) -> None:
     page.both("base_diameter", _each(pair, "base_radius", 2), "{d#} * cos({alpha#})", iso)
     page.both("base_helix_angle_deg", _degrees(pair.base_helices), "arctan(tan({beta#}) * cos({alpha#}))", iso)
     page.add("normal_base_pitch", pair.base_pitch, "pi * {m} * cos({alpha})", _SOURCE)
-    page.section(N_("Operating pitch cylinders"))
+    page.section("Operating pitch cylinders")
     if not meets:
         page.add("shaft_angle_deg", math.degrees(abs(pair.shaft_angle)), given=True)
     page.add("normal_working_pressure_angle_deg", math.degrees(pair.working_pressure_angle))
@@ -136,7 +136,7 @@ def _operating(page: Sheet, pair: CrossedPair, keys: CrossedKeys) -> None:
 
 
 def _contact(page: Sheet, pair: CrossedPair, *, meets: bool) -> None:
-    page.section(N_("Contact"))
+    page.section("Contact")
     page.both("tip_diameter", _each(pair, "tip_radius", 2))
     tangents = " + ".join(f"{{r_w{k}}} * sin({{alpha_wt{k}}}) / cos({{beta_b{k}}})" for k in (1, 2))
     page.add("line_of_action_length", pair.action.length, tangents if meets else "")
@@ -153,7 +153,7 @@ def _contact(page: Sheet, pair: CrossedPair, *, meets: bool) -> None:
 
 def _speeds(page: Sheet, pair: CrossedPair, speed_rpm: float, *, meets: bool) -> None:
     """Of both gears and of sliding; the first drives."""
-    page.section(N_("Speeds"))
+    page.section("Speeds")
     page.add("gear_speed", speed_rpm, gear=1, given=True)
     page.add("gear_speed", speed_rpm / pair.ratio, "{n1} / {u}", gear=2)
     speed = math.pi * speed_rpm / 30
@@ -171,7 +171,7 @@ def _signs(pair: CrossedPair) -> tuple[str, str]:
 
 
 def _losses(page: Sheet, pair: CrossedPair, friction: float, *, meets: bool) -> None:
-    page.section(N_("Losses"))
+    page.section("Losses")
     page.add("friction_coefficient", friction)
     drives, driven = _signs(pair)
     formula = "(cos({alpha_wn}) %s {f} * tan({beta_w%d})) / (cos({alpha_wn}) %s {f} * tan({beta_w%d}))"
@@ -179,7 +179,7 @@ def _losses(page: Sheet, pair: CrossedPair, friction: float, *, meets: bool) -> 
         worth = pair.efficiency(friction, back=back)
         page.add(name, worth, formula % (driven, two, drives, one) if meets and worth else "")
         if not worth:
-            page.notes.append(message(N_("self-locking: gear {number} cannot drive"), number=one))
+            page.note("self-locking: gear {number} cannot drive", number=one)
     for gear, mate in ((1, 2), (2, 1)):
         slope = math.copysign(1.0, pair.shaft_angle) * math.tan(pair.working_helices[mate - 1])
         if meets and slope > 0:
@@ -193,7 +193,7 @@ def _forces(page: Sheet, pair: CrossedPair, keys: CrossedKeys, torque: float, *,
     friction = keys.friction_coefficient
     if not pair.efficiency(friction):
         return
-    page.section(N_("Torques and forces"))
+    page.section("Torques and forces")
     torque_steps(page, keys, torque, "gear_torque", 1)
     one, two = pair.forces(friction)
     normal = 1000 * torque / pair.working_radii[0] / one.circumferential

@@ -20,7 +20,7 @@ from geometry.gears.teeth.helix import Helix
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import normal_share, transverse_gear
 from parts.base.refusal import REMOVED, SceneError
-from parts.base.texts import N_, in_context, message
+from parts.base.texts import N_, in_context
 from parts.gears.ring_gear.part import RingGearSpec
 from parts.gears.spur_gear.page import addendum_formula, given_data, height_steps, root_radius_step, thickness_formula
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, section_of
@@ -145,10 +145,10 @@ def external_sheet(table: dict[str, Any]) -> Sheet:
     try:
         page = _page(asked_pair(keys, shifts_given))
         if found is not None:
-            page.notes.append(message("shifts by table {table}", table=found.table))
+            page.note("shifts by table {table}", table=found.table)
         if found is not None and found.mended is not None:
             printed = " / ".join(f"{v:.3f}" for v in found.mended.printed)
-            page.notes.append(message("the table prints {shifts} for this pair: a misprint", shifts=printed))
+            page.note("the table prints {shifts} for this pair: a misprint", shifts=printed)
         return page
     except ParameterError as error:
         owner = "" if error.name.partition(".")[0] in keys_of(PairKeys) else "second"
@@ -277,14 +277,15 @@ def _page(asked: Asked) -> Sheet:
     plain = not (asked.helix or asked.wanted_distance or pair.normal_backlash)
     teeth, angle = (one.number_of_teeth, two.number_of_teeth), one.rack.pressure_angle
     printed = printed_for_pair(teeth, shifts, one.module, angle) if plain else {}
+    is_practicums = ("working_centre_distance", 0) in printed
     page = Sheet(TOPIC, N_("External gear pair"), printed=printed)
-    page.section(N_("Given"))
+    page.section("Given")
     for index, (normal, gear) in enumerate(zip(asked.normal, pair.gears, strict=True), 1):
         given_data(page, normal, gear, asked.helix, index)
     _mesh(page, asked)
     _radii(page, asked)
     _thicknesses(page, asked)
-    page.section(N_("Contact ratio"))
+    page.section("Contact ratio")
     contact_steps(page, pair, asked.helical)
     measured = {name: getattr(keys, name) for name in ("measured_arc_of_action", "measured_working_pitch")}
     for name, other in (tuple(measured), tuple(measured)[::-1]):
@@ -303,16 +304,15 @@ def _page(asked: Asked) -> Sheet:
     limit_steps(page, pair, pair.gears, asked.helical)
     for index, (spec, gear) in enumerate(zip((keys.first, keys.second), pair.gears, strict=True), 1):
         page.notes += [finding_of(index, f) for f in rack_findings(spec, gear)]
-    if ("working_centre_distance", 0) in printed:
-        # of the practicum's own pair
-        page.notes.append(N_("practicum (3.4) prints alpha_w on its left side for a_w"))
+    if is_practicums:
+        page.note("practicum (3.4) prints alpha_w on its left side for a_w")
     return page
 
 
 def _mesh(page: Sheet, asked: Asked) -> None:
     """(3.2) to (3.6), from the shifts to the distance or the other way round."""
     pair = asked.pair
-    page.section(N_("Meshing"))
+    page.section("Meshing")
     # with shifts of one's own the distance leaves backlash
     total = "profile_shift_sum" if asked.shifts_follow else "tight_profile_shift_sum"
     meshing_steps(page, pair, asked.helical, total if asked.wanted_distance else "")
@@ -329,7 +329,7 @@ def _mesh(page: Sheet, asked: Asked) -> None:
 def _radii(page: Sheet, asked: Asked) -> None:
     """(3.7) to (3.14)."""
     gears = asked.pair.gears
-    page.section(N_("Radii"))
+    page.section("Radii")
     radii = (gears[0].reference_radius, gears[1].reference_radius)
     page.both("reference_radius", radii, "{m} * {z#} / 2", ("practicum (3.7)", "practicum (3.8)"))
     radii = (gears[0].base_radius, gears[1].base_radius)
@@ -355,7 +355,7 @@ def _tip_formula(asked: Asked, index: int) -> str:
 def _thicknesses(page: Sheet, asked: Asked) -> None:
     """(3.15) to (3.19) and the thicknesses on the base, working and tip circles."""
     pair, gears = asked.pair, asked.pair.gears
-    page.section(N_("Pitch and tooth thickness"))
+    page.section("Pitch and tooth thickness")
     page.add("pitch", math.pi * pair.module, "pi * {m}", "practicum (3.15)")
     for index, gear in enumerate(gears, 1):
         page.add(

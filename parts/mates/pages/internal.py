@@ -165,7 +165,7 @@ def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> 
     pinion, ring = pair.pinion, pair.ring
     printed = {} if helical.angle else printed_for_internal(pair.teeth, pair.module)
     page = Sheet(TOPIC, N_("Internal gear pair"), printed=printed)
-    page.section(N_("Given"))
+    page.section("Given")
     given_data(page, helical.normal, pinion, helical.angle, 1)
     page.add("number_of_teeth", ring.number_of_teeth, gear=2)
     shift_data(page, ring.profile_shift_coefficient / math.cos(helical.angle), helical.angle, 2)
@@ -228,7 +228,7 @@ def _internal_sizes(page: Sheet, pair: InternalPair) -> None:
 
 def _internal_limits(page: Sheet, pair: InternalPair, helical: Helical) -> None:
     """The conditions of an internal pair, each with its margin, mm; negative: broken."""
-    page.section(N_("Conditions: margins"))
+    page.section("Conditions: margins")
     found = {m.name: m for m in pair.margins()}
     for name in ("involute_interference", "trochoid_interference", "radial_assembly"):
         page.add(f"{name}_margin", found[name].margin, "", "KHK")

@@ -195,7 +195,7 @@ def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequir
         _choice(page, keys.module, wish, choice, number)
     found = window(pair)
     if found is None:
-        page.notes.append(N_("no shifts give a pair that turns"))
+        page.note("no shifts give a pair that turns")
         return page
     contour = internal_contour(pair, wish, found.box, _TOLERANCE)
     show_choices(page, contour, choices, keys.picture)
@@ -203,7 +203,7 @@ def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequir
 
 
 def _given(page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> None:
-    page.section(N_("Given"))
+    page.section("Given")
     page.both("number_of_teeth", pair.teeth)
     page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
     angle, helix, square = math.radians(keys.pressure_angle_deg), pair.helix_angle, "sin({alpha})**2"
@@ -222,7 +222,7 @@ def _given(page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: 
         page.add("cutter_addendum", pair.root.addendum / pair.share)
         page.add("cutter_tip_rounding", pair.root.tip_rounding / pair.share)
         if keys.second.cutter is None:
-            page.notes.append(N_("no cutter of the ring is given: that of a ring with x2 = 0 is taken"))
+            page.note("no cutter of the ring is given: that of a ring with x2 = 0 is taken")
     page.add("required_contact_ratio", wish.contact_ratio, "", "practicum 1")
     page.add("required_tip_thickness", wish.tip_thickness, "", "practicum (1.3)")
     page.add("required_tip_clearance", wish.tip_clearance)
@@ -263,19 +263,17 @@ def _found_choices(
         if found is None:
             _nearest_distance(page, keys.module, pair, wish, wanted)
         proposals.append((message("a_w = {distance:g} mm", distance=keys.working_centre_distance), found))
-        page.notes.append(message("a_w needs x2 - x1 = {difference:.4f}", difference=wanted))
+        page.note("a_w needs x2 - x1 = {difference:.4f}", difference=wanted)
     result = []
     for rule, found in proposals:
         if found is not None:
             result.append(BuiltChoice(rule, found, pair=pair))
             _tell_other_cutter(page, keys, pair, found.second, rule)
             continue
-        page.notes.append(
-            message(
-                "{rule}: no shifts keep all requirements; less least_contact_ratio, least_tip_thickness or "
-                "least_tip_clearance, or a smaller addendum_coefficient may work",
-                rule=rule,
-            )
+        page.note(
+            "{rule}: no shifts keep all requirements; less least_contact_ratio, least_tip_thickness or "
+            "least_tip_clearance, or a smaller addendum_coefficient may work",
+            rule=rule,
         )
     return result
 
@@ -286,7 +284,7 @@ def _tell_other_cutter(
     """That a build gives the ring of a proposal another cutter than the contour has, where nobody names one."""
     root = _as_built(keys, pair, shift).root
     if isinstance(root, PinionCutter) and root != pair.root:
-        page.notes.append(
+        page.note(
             counted(
                 "{rule}: a build with this x2 and no cutter named takes one of {teeth} tooth",
                 "{rule}: a build with this x2 and no cutter named takes one of {teeth} teeth",
@@ -307,18 +305,18 @@ def _nearest_distance(
     distance = module * internal_state(pair, 0.0, nearest).working_centre_distance
     text = f"{rounded(distance, up=nearest >= wanted):.12g}"
     works = N_("a_w: at most {distance} mm works") if nearest < wanted else N_("a_w: at least {distance} mm works")
-    page.notes.append(message(works, distance=text))
+    page.note(works, distance=text)
 
 
 def _choice(page: Sheet, module: float, wish: InternalRequirements, choice: BuiltChoice, number: int) -> None:
     """One proposal and what it gives; ``module``: the normal one, mm."""
     found, pair = choice.found, choice.pair
     helical = pair.helix_angle != 0
-    page.section(message("{number}. {rule}", number=number, rule=choice.name))
+    page.section("{number}. {rule}", number=number, rule=choice.name)
     page.both("profile_shift_coefficient", (found.first, found.second), symbol="x_n" if helical else "")
     state = internal_state(pair, found.first, found.second)
     if not state.involute >= 0:
-        page.notes.append(message("{number}: no working angle", number=number))
+        page.note("{number}: no working angle", number=number)
         return
     values = state.involute, math.degrees(state.working_pressure_angle), state.working_centre_distance * module
     working_steps(page, values, internal=True, normal=helical)
@@ -339,7 +337,7 @@ def _limited_tip(page: Sheet, pair: InternalShiftPair, shift: float, number: int
     """That the default tip was made shallower, in the words of a build."""
     ring = pair.ring(shift)
     if (found := tip_finding(ring, 1.0)) is not None:
-        page.notes.append(message("{number}: {finding}", number=number, finding=finding_message(found)))
+        page.note("{number}: {finding}", number=number, finding=finding_message(found))
 
 
 def _broken(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, choice: BuiltChoice, number: int) -> None:
@@ -347,7 +345,7 @@ def _broken(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, ch
     x1, x2 = choice.found.first, choice.found.second
     found = {m.name: m for m in margins(pair, replace(wish, radial_assembly=True), x1, x2)}
     if not wish.radial_assembly and not found.pop("radial_assembly").margin >= -1e-9:
-        page.notes.append(message("{number}: the pinion goes into the ring along its axis only", number=number))
+        page.note("{number}: the pinion goes into the ring along its axis only", number=number)
     broken = [m for m in found.values() if not m.margin >= -1e-9]
     if not broken:
         return
@@ -357,4 +355,4 @@ def _broken(page: Sheet, pair: InternalShiftPair, wish: InternalRequirements, ch
         else message("{line} ({margin:.4g})", line=line_name(m.name), margin=m.margin)
         for m in broken
     ]
-    page.notes.append(message("{number}: outside the contour: {margins}", number=number, margins=listed(margins_told)))
+    page.note("{number}: outside the contour: {margins}", number=number, margins=listed(margins_told))

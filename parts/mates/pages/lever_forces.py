@@ -204,7 +204,7 @@ class ForcePage:
 
     def _given(self) -> None:
         page, keys = self.page, self.keys
-        page.section(N_("Forces given"))
+        page.section("Forces given")
         page.add("force_equations", 3 * self.levers.links, "3 * {n}")
         page.add("force_unknowns", 2 * self.levers.lower_pairs + 1, "2 * {p_5} + 1", "guidelines, 4.18")
         if keys.gravity and weighs(keys):
@@ -243,13 +243,13 @@ class ForcePage:
         page = self.page
         if not self.forces.bodies:
             return
-        page.section(N_("Forces of inertia"))
+        page.section("Forces of inertia")
         for name, body in self.forces.named:
             frame, acting = self.one.moving[body.link], self.one.acting[f"F_i{name}"]
             if self._heavy(name):
                 change = 2 * abs(complex(frame.point(body.centre)[2])) / 1000
                 at = f"S{name}" if name.isdigit() else name
-                of = message(N_("point {name}"), name=at)
+                of = message("point {name}", name=at)
                 page.add("point_acceleration", change, symbol=f"a_{at}", key=f"a_{at}", of=of)
                 page.add(
                     "inertia_force", abs(complex(acting.force)), f"{{m_{name}}} * {{a_{at}}}", symbol=f"F_i{name}",
@@ -257,8 +257,8 @@ class ForcePage:
                 )  # fmt: skip
             if body.inertia:
                 link = "3" if name == "2" and isinstance(self.levers.first, Stone) else name
-                formula = f"{{J_{name}}} * {{eps_{link}}}" if f"eps_{link}" in page.known else ""
-                of = message(N_("link {name}"), name=name)
+                formula = f"{{J_{name}}} * {{ε_{link}}}" if f"ε_{link}" in page.known else ""
+                of = message("link {name}", name=name)
                 size = abs(float(acting.couple)) / 1000
                 page.add("inertia_moment", size, formula, symbol=f"M_i{name}", key=f"M_i{name}", of=of)
 
@@ -274,11 +274,11 @@ class ForcePage:
 
     def _group(self, before: str, rod: str, last: str) -> None:
         page, found = self.page, self.one.found
-        page.section(message(N_("Structural group of links {one} and {two}"), one=rod, two=last))
+        page.section("Structural group of links {one} and {two}", one=rod, two=last)
         outer, inner, frame = before + rod, rod + last, "0" + last
         way = complex(self.one.moving[rod].way[0])
         seen = self._force(outer) / way
-        of = message(N_("link {one} on link {two}"), one=before, two=rod)
+        of = message("link {one} on link {two}", one=before, two=rod)
         formula = self._moment_across(rod, last)
         page.add("joint_force_across", abs(seen.imag), formula, symbol=f"R_{outer}t", key=f"R_{outer}t", of=of)
         page.add("joint_force_along", abs(seen.real), symbol=f"R_{outer}n", key=f"R_{outer}n", of=of)
@@ -288,9 +288,9 @@ class ForcePage:
         for pair in (inner, frame):
             if pair in found.couples:
                 couple = float(found.couples[pair]) / 1000
-                sliding = message(N_("link {one} and link {two}"), one=pair[0], two=pair[1])
+                sliding = message("link {one} and link {two}", one=pair[0], two=pair[1])
                 if pair[0] == "0":
-                    sliding = message(N_("link {two} in its guide"), two=pair[1])
+                    sliding = message("link {two} in its guide", two=pair[1])
                 page.add("guide_moment", couple, symbol=f"M_{pair}", key=f"M_{pair}", of=sliding)
                 across = (self._force(pair) / complex(self.one.moving[pair[1]].way[0])).imag
                 if across:
@@ -303,7 +303,7 @@ class ForcePage:
         if last == "3" and self.levers.second is not None:
             chain.append(("R_43", -self._force("34")))
         chain.append((f"R_{frame}", self._force(frame)))
-        title = message(N_("Plan of forces of links {one} and {two}"), one=rod, two=last)
+        title = message("Plan of forces of links {one} and {two}", one=rod, two=last)
         # the rod passes on all that has come together up to its end
         passed = Vector(f"R_{inner}", 0j, sum((force for _, force in chain[:upto]), 0j))
         self._plan(inner, title, chain, passed)
@@ -313,13 +313,13 @@ class ForcePage:
         stone = rod == "2" and isinstance(self.levers.first, Stone)
         if stone:
             links, joint, length = [rod, last], "O3", "r_A"
-            of = message(N_("links {one} and {two} about {joint}"), one=rod, two=last, joint=joint)
+            of = message("links {one} and {two} about {joint}", one=rod, two=last, joint=joint)
             pivot = complex(self.one.moving[last].origin[0])
         else:
             group = self.levers.first if rod == "2" else self.levers.second
             assert isinstance(group, Rods | Slider)
             links, joint, length = [rod], "B" if rod == "2" else "D", f"l_{rod}"
-            of = message(N_("link {link} about {joint}"), link=rod, joint=joint)
+            of = message("link {link} about {joint}", link=rod, joint=joint)
             pivot = complex(self.one.moving[rod].point(group.rod)[0])
         total = 0.0
         for one in self.one.acting.values():
@@ -346,13 +346,13 @@ class ForcePage:
             for (name, force), start in zip(chain, spots, strict=False)
         )
         plan = plan_of((*vectors, *across), self.keys.force_scale)
-        told = message(N_("{plan}, {scale:g} N for 1 mm"), plan=title, scale=plan.scale)
+        told = message("{plan}, {scale:g} N for 1 mm", plan=title, scale=plan.scale)
         self.page.tables.append(plan.table(f"force_plan_{key}", told, "N"))
         self.plans.append((title, plan))
 
     def _driving(self) -> None:
         page, found = self.page, self.one.found
-        page.section(N_("Driving link"))
+        page.section("Driving link")
         end, force = complex(self.one.moving["2"].origin[0]), -self._force("12")
         turn = (end.conjugate() * force).imag
         of = N_("link 2 on link 1")
@@ -378,11 +378,11 @@ class ForcePage:
         if self.forces.teeth is not None:
             chain.append(("F_b", complex(found.driving)))
         chain.append(("R_01", self._force("01")))
-        self._plan("1", message(N_("Plan of forces of the driving link")), chain)
+        self._plan("1", message("Plan of forces of the driving link"), chain)
 
     def _check(self) -> None:
         page, loaded, speed = self.page, self.one, self.levers.speed
-        page.section(N_("Check by Zhukovsky's lever"))
+        page.section("Check by Zhukovsky's lever")
         powers = {name: float(power(one, loaded.moving[one.link])) for name, one in loaded.acting.items()}
         moment = float(by_zhukovsky(loaded.acting.values(), loaded.moving, speed)) / 1000
         page.add("powers", sum(powers.values()))
@@ -429,7 +429,7 @@ class ForcePage:
             )
         )  # fmt: skip
         moments = turn.found.moment[turn.held] / 1000
-        page.section(N_("Forces over a turn"))
+        page.section("Forces over a turn")
         page.add("greatest_balancing_moment", float(moments.max()))
         page.add("least_balancing_moment", float(moments.min()))
         page.add("mean_balancing_moment", float(moments.mean()))
@@ -437,21 +437,21 @@ class ForcePage:
     def _notes(self) -> None:
         page = self.page
         if self.levers.change:
-            page.notes.append(N_("speed and acceleration of the crank are taken as the same in all of its positions"))
-        page.notes.append(N_("friction in the joints is left out of the forces"))
+            page.note("speed and acceleration of the crank are taken as the same in all of its positions")
+        page.note("friction in the joints is left out of the forces")
         if self.keys.resistance is not None or self.keys.resisting_moment is not None:
             stands = self.forces.stands(self.rows.moving, self.fastest)
             if stands.any():
                 text = N_(
                     "the output stands at φ_1 = {angles}: the resistance changes its sense there, and is taken as 0"
                 )
-                page.notes.append(message(text, angles=_told(self.degrees[stands])))
+                page.note(text, angles=_told(self.degrees[stands]))
         if not self.rows.held.all():
             text = N_(
                 "dead positions, φ_1 = {angles}: the links of a group stand in one line, or a rod across its guide, "
                 "and hold no load; no forces are told there"
             )
-            page.notes.append(message(text, angles=_told(self.degrees[~self.rows.held])))
+            page.note(text, angles=_told(self.degrees[~self.rows.held]))
 
 
 def _told(angles: Iterable[float]) -> str:

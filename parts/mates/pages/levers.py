@@ -12,6 +12,7 @@ from msgspec.structs import replace as changed
 
 from geometry.base.errors import ParameterError
 from geometry.base.roots import bracketed_roots
+from geometry.curves.curve import Complex, Real
 from geometry.kinematics.flywheel import Cycle, mertsalov, travelled
 from geometry.kinematics.kinetostatics import frames, reduced_inertia
 from geometry.kinematics.levers import Moved, Rods, Slider, Stone, swing
@@ -23,13 +24,17 @@ from parts.mates.pages.lever_keys import NAMES, LeverKeys, levers_of
 from parts.mates.pages.lever_picture import LeverPicture, Plan, Run, Vector, plan_of
 from parts.mates.pages.lever_tasks import ASSIGNMENTS, EXAMPLE, assigned, rows_of_code
 from parts.pages.inputs import checked, refusal
-from parts.pages.page import Printed, Sheet, Table
+from parts.pages.page import Misprints, Printed, Sheet
+from parts.pages.terms import TERMS
 
 TOPIC = "lever"
 _GUIDELINES, _MERTSALOV = "guidelines, 3.4", "guidelines, 2.2.5"
 _KINDS = {Stone: 3, Rods: 1, Slider: 2}
 # positions over which the greatest values of a turn are sought
 _FINE = 3600
+# lengths that are told as they are drawn too
+_DRAWN = ("first_rod_length", "frame_length", "lever_length", "lever_arm_length", "second_rod_length",
+          "second_rocker_length")  # fmt: skip
 # keys that choose the others
 _CHOICE = ("code", "assignment", "variant")
 
@@ -98,16 +103,22 @@ def _refuse_idle(keys: LeverKeys, table: Mapping[str, Any]) -> None:
             raise ParameterError(name, table[name], "of_no_link", REMOVED)
 
 
+def _metres(vector: complex | np.ndarray) -> float:
+    """The size in metres of a vector in millimetres."""
+    return abs(complex(vector)) / 1000
+
+
 class _Page:
     """The page while it grows: ``at`` is the mechanism in the first position, in mm and s."""
 
     def __init__(self, keys: LeverKeys, number: int | None, *, is_example: bool) -> None:
         self.keys, self.number = keys, number
         self.levers = levers_of(keys)
-        self.printed = _PRINTED if is_example else {}
-        self.page = Sheet(TOPIC, N_("Lever mechanism"), picture_file=keys.picture)
+        self.is_example = is_example
+        printed = dict(_PRINTED) if is_example else {}
+        self.page = Sheet(TOPIC, N_("Lever mechanism"), picture_file=keys.picture, printed=printed)
         self.forces = Forces(keys, self.levers) if asked(keys) else None
-        self.start = math.radians(keys.start_angle_deg)
+        self.start, self.way = math.radians(keys.start_angle_deg), cmath.exp(1j * math.radians(keys.guide_angle_deg))
         try:
             self.at = self.levers.moved(self.start)
             # as many places to each position of the table
@@ -131,16 +142,9 @@ class _Page:
         self._notes()
         return self.page
 
-    def _number(self, value: complex | np.ndarray) -> float:
-        return float(np.real(value))
-
-    def _size(self, value: complex | np.ndarray) -> float:
-        """A vector's size in metres, of one in millimetres."""
-        return float(abs(complex(value))) / 1000
-
     def _given(self) -> None:
         page, keys = self.page, self.keys
-        page.section(N_("Given"))
+        page.section("Given")
         page.add("crank_angle_deg", keys.start_angle_deg, given=True)
         if keys.speed_rpm is not None:
             page.add("crank_speed_rpm", keys.speed_rpm, given=True)
@@ -167,214 +171,120 @@ class _Page:
         scale = self.levers.crank / keys.drawn_crank
         heads = ((N_("length"), ""), (N_("real"), "mm"), (N_("on the drawing"), "mm"))
         named = [("l_AO1", self.levers.crank)]
-        symbols = {
-            "first_rod_length": "l_AB",
-            "frame_length": "l_O1O3",
-            "lever_length": "l_BO3",
-            "lever_arm_length": "l_CO3",
-            "second_rod_length": "l_CD",
-            "second_rocker_length": "l_DO5",
-        }
-        named += [(symbols[name], value) for name, value in lengths if value is not None and name in symbols]
-        rows = tuple((value, value / scale) for _, value in named)
-        title = message(N_("Lengths on the drawing, {scale:g} m for 1 mm"), scale=scale / 1000)
-        page.tables.append(Table("lengths", title, heads, rows, labels=tuple((symbol,) for symbol, _ in named)))
+        named += [(TERMS[name].symbol, value) for name, value in lengths if value is not None and name in _DRAWN]
+        title = message("Lengths on the drawing, {scale:g} m for 1 mm", scale=scale / 1000)
+        page.table("lengths", title, heads, ((symbol, value, value / scale) for symbol, value in named))
 
     def _structure(self) -> None:
         page, levers = self.page, self.levers
-        page.section(N_("Structure"))
+        page.section("Structure")
         page.add("moving_links", levers.links)
         page.add("lower_pairs", levers.lower_pairs, called=N_("lower kinematic pairs (turning and sliding)"))
         page.add("higher_pairs", 0, called=N_("higher kinematic pairs"))
         page.add("degree_of_freedom", 1, "3 * {n} - 2 * {p_5} - {p_4}", _GUIDELINES)
         for left in range(levers.links - 2, 0, -2):
             # the group farthest from the crank is taken off; what is left goes on as a mechanism
-            of = message(N_("links {first} and {second}"), first=left + 1, second=left + 2)
+            of = message("links {first} and {second}", first=left + 1, second=left + 2)
             page.add("group_freedom", 0, "3 * 2 - 2 * 3", _GUIDELINES, of=of)
             pairs = levers.lower_pairs - 3 * (levers.links - left) // 2
             page.add("rest_freedom", 3 * left - 2 * pairs, f"3 * {left} - 2 * {pairs}", _GUIDELINES)
         first, second = _KINDS[type(levers.first)], levers.second
         if second is None:
-            text = message(
-                N_("class II: the crank (class I) and one group of class 2, order 2, kind {kind}"), kind=first
-            )
-        else:
-            text = message(
-                N_(
-                    "class II: the crank (class I), links 2 and 3 as a group of class 2, order 2, kind {first}, and "
-                    "links 4 and 5 as a group of class 2, order 2, kind {second}"
-                ),
-                first=first,
-                second=_KINDS[type(second)],
-            )
-        page.notes.append(text)
-
-    def _add(
-        self,
-        name: str,
-        value: float,
-        formula: str = "",
-        source: str = "",
-        *,
-        symbol: str = "",
-        key: str = "",
-        of: Text = "",
-    ) -> None:
-        """A step; of the worked example with what it prints, where that is not right."""
-        self.page.add(name, value, formula, source, symbol=symbol, key=key, of=of)
-        if found := self.printed.get(symbol or name):
-            text, why = found
-            self.page.mark_misprint(Printed(text, why))
+            page.note("class II: the crank (class I) and one group of class 2, order 2, kind {kind}", kind=first)
+            return
+        text = N_(
+            "class II: the crank (class I), links 2 and 3 as a group of class 2, order 2, kind {first}, and "
+            "links 4 and 5 as a group of class 2, order 2, kind {second}"
+        )
+        page.note(text, first=first, second=_KINDS[type(second)])
 
     def _place(self) -> None:
         at = self.at
-        self.page.section(N_("Position"))
+        self.page.section("Position")
         if at.reach is not None:
             formula = "sqrt({l_0}**2 + {l_1}**2 - 2 * {l_0} * {l_1} * cos({phi_1} - {gamma_0}))"
-            self._add("stone_distance", self._number(at.reach[0]), formula)
+            self.page.add("stone_distance", float(at.reach[0]), formula)
         for link, name in (("2", "first_rod_angle_deg"), ("3", "lever_angle_deg"), ("4", "second_rod_angle_deg")):
             if link in at.links:
-                self._add(name, math.degrees(self._number(at.angle(link))))
+                self.page.add(name, math.degrees(at.angle(link)))
 
     def _velocities(self) -> None:
-        at = self.at
-        self.page.section(N_("Velocities"))
+        page, at = self.page, self.at
+        page.section("Velocities")
         self._point("A", "{omega_1} * {l_1} / 1000")
         if at.reach is not None:
-            self._add(
-                "point_velocity",
-                self._across(at),
-                "{V_A} * abs(cos({phi_1} - {phi_3}))",
-                _GUIDELINES,
-                symbol="V_A3",
-                key="V_A3",
-                of=N_("A on the lever"),
-            )
-            self._add(
-                "relative_velocity",
-                abs(self._number(at.reach[1])) / 1000,
-                "{V_A} * abs(sin({phi_1} - {phi_3}))",
-                _GUIDELINES,
-                symbol="V_A3A2",
-                of=N_("the stone along the lever"),
-            )
+            across, along = self._turning("3")[0] * float(at.reach[0]) / 1000, abs(float(at.reach[1])) / 1000
+            formula = "{V_A} * abs(%s({phi_1} - {phi_3}))"
+            of = N_("A on the lever")
+            page.add("point_velocity", across, formula % "cos", _GUIDELINES, symbol="V_A3", of=of)
+            of = N_("the stone along the lever")
+            page.add("relative_velocity", along, formula % "sin", _GUIDELINES, symbol="V_A3A2", of=of)
             self._link("3", "1000 * {V_A3} / {r_A}")
-        elif "2" in at.links:
-            self._relative("2", "B", "A", "l_2")
-        if "3" in at.links and at.reach is None:
-            self._point("B", "")
-            self._link("3", "1000 * {V_B} / {l_3}")
-        elif "3" in at.links:
-            self._point("B", "{omega_3} * {l_3} / 1000")
+            self._point("B", "{ω_3} * {l_3} / 1000")
         else:
-            self._point("B", "")
+            self._relative("2", "B", "A", "l_2")
+            self._point("B")
+            if "3" in at.links:
+                self._link("3", "1000 * {V_B} / {l_3}")
         if "C" in at.points:
-            self._point("C", "{omega_3} * {l_C} / 1000")
-            self._point("D", "")
+            self._point("C", "{ω_3} * {l_C} / 1000")
+            self._point("D")
             self._relative("4", "D", "C", "l_4")
             if "5" in at.links:
                 self._link("5", "1000 * {V_D} / {l_5}")
 
-    def _across(self, at: Moved) -> float:
-        rate = abs(self._number(at.turning("3")[0]))
-        assert at.reach is not None
-        return rate * self._number(at.reach[0]) / 1000
+    def _turning(self, link: str) -> tuple[float, float]:
+        """Sizes of a link's angular velocity, rad/s, and acceleration, rad/s^2."""
+        speed, change = self.at.turning(link)
+        return abs(float(speed)), abs(float(change))
 
-    def _point(self, name: str, formula: str) -> None:
-        size = self._size(self.at.velocity(name))
-        self._add(
-            "point_velocity",
-            size,
-            formula,
-            symbol=f"V_{name}",
-            key=f"V_{name}",
-            of=message(N_("point {name}"), name=name),
-        )
+    def _point(self, name: str, formula: str = "") -> None:
+        speed, of = _metres(self.at.velocity(name)), message("point {name}", name=name)
+        self.page.add("point_velocity", speed, formula, symbol=f"V_{name}", of=of)
 
     def _link(self, link: str, formula: str) -> None:
-        rate = abs(self._number(self.at.turning(link)[0]))
-        self._add(
-            "link_speed",
-            rate,
-            formula,
-            symbol=f"ω_{link}",
-            key=f"omega_{link}",
-            of=message(N_("link {name}"), name=link),
-        )
+        of = message("link {name}", name=link)
+        self.page.add("link_speed", self._turning(link)[0], formula, symbol=f"ω_{link}", of=of)
 
     def _relative(self, link: str, of: str, against: str, length: str) -> None:
-        both = f"{of}{against}"
-        size = self._size(self.at.velocity(of) - self.at.velocity(against))
-        self._add(
-            "relative_velocity",
-            size,
-            symbol=f"V_{both}",
-            key=f"V_{both}",
-            of=message(N_("{of} about {against}"), of=of, against=against),
-        )
-        self._link(link, f"1000 * {{V_{both}}} / {{{length}}}")
+        symbol, told = f"V_{of}{against}", message("{of} about {against}", of=of, against=against)
+        speed = _metres(self.at.velocity(of) - self.at.velocity(against))
+        self.page.add("relative_velocity", speed, symbol=symbol, of=told)
+        self._link(link, f"1000 * {{{symbol}}} / {{{length}}}")
 
     def _accelerations(self) -> None:
-        at = self.at
-        self.page.section(N_("Accelerations"))
+        page, at = self.page, self.at
+        page.section("Accelerations")
         turned = "{l_1} * sqrt({omega_1}**4 + {eps_1}**2) / 1000"
         self._accelerated("A", turned if self.levers.change else "{omega_1}**2 * {l_1} / 1000")
         if at.reach is not None:
-            self._add(
-                "coriolis_acceleration",
-                2 * abs(self._number(at.turning("3")[0]) * self._number(at.reach[1])) / 1000,
-                "2 * {omega_3} * {V_r}",
-                _GUIDELINES,
-                symbol="a_A3A2_k",
-                of=N_("the stone in the lever"),
-            )
-            self._about("3", N_("A about O3"), self._number(at.reach[0]), "r_A")
-        elif "2" in at.links:
+            size, of = 2 * abs(float(at.turning("3")[0] * at.reach[1])) / 1000, N_("the stone in the lever")
+            formula = "2 * {ω_3} * {V_A3A2}"
+            page.add("coriolis_acceleration", size, formula, _GUIDELINES, symbol="a_A3A2_k", of=of)
+            self._about("3", N_("A about O3"), float(at.reach[0]), "r_A")
+        else:
             self._about("2", N_("B about A"), abs(complex(at.place("B") - at.place("A"))), "l_2")
-        if at.reach is None and "3" in at.links:
-            self._about("3", N_("B about O3"), self.levers.lever, "l_3")
-        turned = "sqrt({omega_3}**4 + {eps_3}**2)"
+            if "3" in at.links:
+                self._about("3", N_("B about O3"), self.levers.lever, "l_3")
+        turned = "sqrt({ω_3}**4 + {ε_3}**2)"
         self._accelerated("B", f"{{l_3}} * {turned} / 1000" if "3" in at.links else "")
         if "C" in at.points:
             self._accelerated("C", f"{{l_C}} * {turned} / 1000")
-            rod = abs(complex(at.place("D") - at.place("C")))
-            self._about("4", N_("D about C"), rod, "l_4")
-            self._accelerated("D", "")
+            self._about("4", N_("D about C"), abs(complex(at.place("D") - at.place("C"))), "l_4")
+            self._accelerated("D")
 
-    def _accelerated(self, name: str, formula: str) -> None:
-        size = self._size(self.at.acceleration(name))
-        self._add(
-            "point_acceleration",
-            size,
-            formula,
-            symbol=f"a_{name}",
-            key=f"a_{name}",
-            of=message(N_("point {name}"), name=name),
-        )
+    def _accelerated(self, name: str, formula: str = "") -> None:
+        size, of = _metres(self.at.acceleration(name)), message("point {name}", name=name)
+        self.page.add("point_acceleration", size, formula, symbol=f"a_{name}", of=of)
 
     def _about(self, link: str, of: str, length: float, key: str) -> None:
         """Normal and tangential part of a turn with a link, and its angular acceleration."""
-        speed, change = (abs(self._number(x)) for x in self.at.turning(link))
-        normal, tangential = speed**2 * length / 1000, change * length / 1000
-        self._add(
-            "normal_acceleration",
-            normal,
-            f"{{omega_{link}}}**2 * {{{key}}} / 1000",
-            _GUIDELINES,
-            symbol=f"a_{link}n",
-            key=f"a_{link}n",
-            of=of,
-        )
-        self._add("tangential_acceleration", tangential, symbol=f"a_{link}t", key=f"a_{link}t", of=of)
-        self._add(
-            "link_acceleration",
-            change,
-            f"1000 * {{a_{link}t}} / {{{key}}}",
-            _GUIDELINES,
-            symbol=f"ε_{link}",
-            key=f"eps_{link}",
-            of=message(N_("link {name}"), name=link),
-        )
+        page, (speed, change) = self.page, self._turning(link)
+        normal, formula = speed**2 * length / 1000, f"{{ω_{link}}}**2 * {{{key}}} / 1000"
+        page.add("normal_acceleration", normal, formula, _GUIDELINES, symbol=f"a_{link}n", of=of)
+        page.add("tangential_acceleration", change * length / 1000, symbol=f"a_{link}t", of=of)
+        formula, told = f"1000 * {{a_{link}t}} / {{{key}}}", message("link {name}", name=link)
+        page.add("link_acceleration", change, formula, _GUIDELINES, symbol=f"ε_{link}", of=told)
 
     @property
     def _output(self) -> str:
@@ -383,44 +293,36 @@ class _Page:
     def _over_a_turn(self) -> None:
         """The table of equidistant positions, and what is greatest over the turn."""
         page, name = self.page, self._output
-        page.section(N_("Over a turn"))
-        out = self.turn.place(name)
-        slides = self._slides
-        way = cmath.exp(1j * math.radians(self.keys.guide_angle_deg))
-        travel = (out * way.conjugate()).real
-        if slides:
-            page.add("output_stroke", float(np.ptp(travel)), of=message(N_("point {name}"), name=name))
-        for term, values in (
-            ("greatest_output_velocity", self.turn.velocity(name)),
-            ("greatest_output_acceleration", self.turn.acceleration(name)),
-        ):
-            page.add(term, float(np.abs(values).max()) / 1000, of=message(N_("point {name}"), name=name))
+        page.section("Over a turn")
+        travel, of = self._along(self.turn.place(name)), message("point {name}", name=name)
+        if self._slides:
+            page.add("output_stroke", float(np.ptp(travel)), of=of)
+        page.add("greatest_output_velocity", float(np.abs(self.turn.velocity(name)).max()) / 1000, of=of)
+        page.add("greatest_output_acceleration", float(np.abs(self.turn.acceleration(name)).max()) / 1000, of=of)
         self._ways()
         angles = self.start + 2 * math.pi * np.arange(self.keys.positions) / self.keys.positions
         at = self.levers.moved(angles)
-        columns: list[tuple[tuple[str, str], np.ndarray]] = [(("φ_1", "deg"), np.degrees(angles))]
+        heads, columns = [("φ_1", "deg")], [np.degrees(angles)]
         for link in at.links:
-            speed, change = at.turning(link)
-            columns += [((f"φ_{link}", "deg"), np.degrees(at.angle(link))), ((f"ω_{link}", "rad/s"), speed)]
-            columns += [((f"ε_{link}", "rad/s2"), change)]
+            heads += [(f"φ_{link}", "deg"), (f"ω_{link}", "rad/s"), (f"ε_{link}", "rad/s2")]
+            columns += [np.degrees(at.angle(link)), *at.turning(link)]
         place, speeds, changes = at.place(name), at.velocity(name), at.acceleration(name)
-        if slides:
-            along = [(x * way.conjugate()).real for x in (place, speeds / 1000, changes / 1000)]
-            columns += [((f"S_{name}", "mm"), along[0] - travel.min()), ((f"V_{name}", "m/s"), along[1])]
-            columns += [((f"a_{name}", "m/s2"), along[2])]
-        else:
-            columns += [((f"x_{name}", "mm"), place.real), ((f"y_{name}", "mm"), place.imag)]
-            columns += [((f"V_{name}", "m/s"), np.abs(speeds) / 1000), ((f"a_{name}", "m/s2"), np.abs(changes) / 1000)]
-        rows = tuple(tuple(map(float, row)) for row in zip(*(values for _, values in columns), strict=True))
-        heads = tuple(head for head, _ in columns)
-        page.tables.append(Table("positions", N_("Positions of the crank over one turn"), heads, rows))
-
-    def _going(self, at: Moved) -> np.ndarray:
-        """The speed of the output with its sense: along the guide, or as its lever turns."""
         if self._slides:
-            way = cmath.exp(1j * math.radians(self.keys.guide_angle_deg))
-            return np.real(at.velocity(self._output) * way.conjugate())
-        return np.real(at.turning(list(at.links)[-1])[0])
+            heads.append((f"S_{name}", "mm"))
+            columns += [self._along(place) - travel.min(), self._along(speeds / 1000), self._along(changes / 1000)]
+        else:
+            heads += [(f"x_{name}", "mm"), (f"y_{name}", "mm")]
+            columns += [place.real, place.imag, np.abs(speeds) / 1000, np.abs(changes) / 1000]
+        heads += [(f"V_{name}", "m/s"), (f"a_{name}", "m/s2")]
+        page.table("positions", N_("Positions of the crank over one turn"), heads, zip(*columns, strict=True))
+
+    def _along(self, vectors: Complex) -> Real:
+        """What of vectors lies along the guide."""
+        return np.real(vectors * self.way.conjugate())
+
+    def _going(self, at: Moved) -> Real:
+        """The speed of the output with its sense: along the guide, or as its lever turns."""
+        return self._along(at.velocity(self._output)) if self._slides else at.turning(list(at.links)[-1])[0]
 
     def _ways(self) -> None:
         """The dead points of an output that goes to and fro, the crank's angles of both ways, and their ratio."""
@@ -475,7 +377,8 @@ class _Page:
         place, ahead, change = self._travelled()
         ways = {"forward": (True,), "backward": (False,), "both": (True, False)}[keys.resisted]
         gone = sum((travelled(place, ahead, change, forward=forward) for forward in ways), np.zeros(len(place)))
-        resisting = resistance * sum(np.maximum(ahead if forward else -ahead, 0.0) for forward in ways) / keys.speed
+        against = sum((np.maximum(ahead if forward else -ahead, 0.0) for forward in ways), np.zeros(len(place)))
+        resisting = resistance * against / keys.speed
         bodies = self.forces.bodies
         inertia = reduced_inertia(bodies, frames(self.levers, self.turn), keys.speed)
         inertia = np.append(inertia, inertia[0])
@@ -484,9 +387,9 @@ class _Page:
             wheel = mertsalov(Cycle(angle, resistance * gone, inertia), keys.speed, keys.unevenness)
         except ParameterError as error:
             raise error.renamed(resists) from error
-        page.section(N_("Flywheel, by Mertsalov"))
+        page.section("Flywheel, by Mertsalov")
         if weighs(keys) and keys.gravity:
-            page.notes.append(N_("weights, which do no work over a turn, are left out of the flywheel"))
+            page.note("weights, which do no work over a turn, are left out of the flywheel")
         page.add("unevenness", keys.unevenness, given=True)
         page.add("resisting_work", float(resistance * gone[-1]))
         page.add("driving_moment", wheel.driving, "{A_c} / (2 * pi)")
@@ -496,32 +399,24 @@ class _Page:
         page.add("flywheel_energy", wheel.swing)
         page.add("flywheel_inertia", wheel.moment, "{dT} / ({omega_1}**2 * {delta})", _MERTSALOV)
         turned = wheel.driving * (angle - angle[0])
-        columns = (
-            (("φ_1", "deg"), np.degrees(angle)),
-            (("M_c", "N*m"), resisting),
-            (("J", "kg*m2"), inertia),
-            (("A_c", "J"), resistance * gone),
-            (("A_d", "J"), turned),
-            (("ΔT", "J"), wheel.gained),
-            (("ΔT_l", "J"), wheel.of_links),
-            (("ΔT_m", "J"), wheel.of_flywheel),
-        )
-        stride = self.fine // keys.positions
-        rows = tuple(tuple(map(float, row)) for row in zip(*(values[::stride] for _, values in columns), strict=True))
-        heads = tuple(head for head, _ in columns)
-        page.tables.append(Table("cycle", N_("Moments, works and energies over the turn"), heads, rows))
+        columns = (np.degrees(angle), resisting, inertia, resistance * gone, turned,
+                   wheel.gained, wheel.of_links, wheel.of_flywheel)  # fmt: skip
+        heads = (("φ_1", "deg"), ("M_c", "N*m"), ("J", "kg*m2"), ("A_c", "J"), ("A_d", "J"), ("ΔT", "J"), ("ΔT_l", "J"),
+                 ("ΔT_m", "J"))  # fmt: skip
+        rows = zip(*(values[:: self.fine // keys.positions] for values in columns), strict=True)
+        page.table("cycle", N_("Moments, works and energies over the turn"), heads, rows)
         return Run(np.degrees(angle), resisting, wheel.driving, wheel.gained, wheel.of_links, wheel.of_flywheel)
 
-    def _travelled(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def _travelled(self) -> tuple[Real, Real, Real]:
         """Place, velocity, acceleration of the output over a whole turn: along its way, m, or about its pivot, rad."""
+        turn, name, link = self.turn, self._output, "3" if self.levers.second is None else "5"
         if self._slides:
-            way, name = cmath.exp(-1j * math.radians(self.keys.guide_angle_deg)), self._output
-            found = (self.turn.place(name), self.turn.velocity(name), self.turn.acceleration(name))
-            place, ahead, change = (np.append(x, x[0]) for x in ((series * way).real / 1000 for series in found))
-            return place, ahead, change
-        link = "3" if self.levers.second is None else "5"
-        place, ahead, change = (np.append(x, x[0]) for x in (self.turn.angle(link), *self.turn.turning(link)))
-        return np.unwrap(place), ahead, change
+            series = (turn.place(name), turn.velocity(name), turn.acceleration(name))
+            found = tuple(self._along(x) / 1000 for x in series)
+        else:
+            found = (turn.angle(link), *turn.turning(link))
+        place, ahead, change = (np.append(x, x[0]) for x in found)
+        return place if self._slides else np.unwrap(place), ahead, change
 
     def _plans(self) -> tuple[Plan, Plan]:
         """Plans of velocities and of accelerations, as tables too."""
@@ -549,36 +444,25 @@ class _Page:
             shown.append(places)
         blocks = {"A": complex(self.at.links["3"][0])} if self.at.reach is not None else {}
         if self._slides:
-            blocks[self._output] = cmath.exp(1j * math.radians(self.keys.guide_angle_deg))
-        self.page.picture = LeverPicture(
-            {name: complex(place) for name, place in shown[0].items()},
-            shown[1],
-            fixed,
-            blocks,
-            *plans,
-            self._diagram(),
-            run,
-            tuple(forces),
-        )
+            blocks[self._output] = self.way
+        points = {name: complex(place) for name, place in shown[0].items()}
+        self.page.picture = LeverPicture(points, shown[1], fixed, blocks, *plans, self._diagram(), run, tuple(forces))
 
-    def _diagram(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    def _diagram(self) -> tuple[Real, Real, Real, Real]:
         """Angle (deg), travel (mm), velocity and acceleration of the output along its way."""
-        name = self._output
-        way = cmath.exp(1j * math.radians(self.keys.guide_angle_deg))
+        turn, name = self.turn, self._output
         angles = self.keys.start_angle_deg + 360 * np.arange(self.fine) / self.fine
-        place, speed, change = (
-            (x * way.conjugate()).real
-            for x in (self.turn.place(name), self.turn.velocity(name) / 1000, self.turn.acceleration(name) / 1000)
-        )
-        return angles, place - place.min(), speed, change
+        travel = self._along(turn.place(name))
+        speed, change = (self._along(x / 1000) for x in (turn.velocity(name), turn.acceleration(name)))
+        return angles, travel - travel.min(), speed, change
 
     def _velocity_vectors(self) -> list[Vector]:
         at = self.at
         ends = {name: complex(at.velocity(name)) / 1000 for name in at.points}
         found = [Vector("pa", 0j, ends["A"])]
         if at.reach is not None:
-            rate, lever = self._number(at.turning("3")[0]), complex(at.links["3"][0])
-            own = 1j * rate * lever * self._number(at.reach[0]) / 1000
+            rate, lever = float(at.turning("3")[0]), complex(at.links["3"][0])
+            own = 1j * rate * lever * float(at.reach[0]) / 1000
             found += [Vector("pa3", 0j, own), Vector("a3a2", ends["A"], own)]
         found += [Vector(f"p{name.lower()}", 0j, ends[name]) for name in ends if name != "A"]
         if "2" in at.links:
@@ -595,17 +479,17 @@ class _Page:
             normal = -(self.levers.speed**2) * complex(at.place("A")) / 1000
             found += [Vector("πn1", 0j, normal), Vector("n1a", normal, ends["A"])]
         if at.reach is not None:
-            rate, change = (self._number(x) for x in at.turning("3"))
-            lever, far = complex(at.links["3"][0]), self._number(at.reach[0]) / 1000
+            rate, change = map(float, at.turning("3"))
+            lever, far = complex(at.links["3"][0]), float(at.reach[0]) / 1000
             normal = -(rate**2) * far * lever
-            coriolis = ends["A"] - 2j * rate * self._number(at.reach[1]) / 1000 * lever
+            coriolis = ends["A"] - 2j * rate * float(at.reach[1]) / 1000 * lever
             own = normal + 1j * change * far * lever
             found += [Vector("a2k", ends["A"], coriolis), Vector("ka3", coriolis, own)]
             found += [Vector("πn3", 0j, normal), Vector("n3a3", normal, own)]
         found += [Vector(f"π{name.lower()}", 0j, ends[name]) for name in ends if name != "A"]
         for link, one, two in (("2", "A", "B"), ("4", "C", "D")):
             if link in at.links:
-                rate = self._number(at.turning(link)[0])
+                rate = float(at.turning(link)[0])
                 rod = complex(at.place(two) - at.place(one)) / 1000
                 normal = ends[one] - rate**2 * rod
                 found += [Vector(f"{one.lower()}n{link}", ends[one], normal)]
@@ -615,33 +499,26 @@ class _Page:
     def _notes(self) -> None:
         page, levers = self.page, self.levers
         if self.number is not None:
-            page.notes.append(
-                message(
-                    N_("assignment {number}: {machine}"),
-                    number=self.number,
-                    machine=message(ASSIGNMENTS[self.number][0]),
-                )
-            )
+            machine = message(ASSIGNMENTS[self.number][0])
+            page.note("assignment {number}: {machine}", number=self.number, machine=machine)
             if self.number != 1:
-                page.notes.append(
-                    N_(
-                        "the figure of this assignment is lost: how its links stand is the usual scheme of such a "
-                        "machine, assumed; frame_angle_deg, arm_angle_deg, guide_height, first_side and second_side "
-                        "change it"
-                    )
+                page.note(
+                    "the figure of this assignment is lost: how its links stand is the usual scheme of such a "
+                    "machine, assumed; frame_angle_deg, arm_angle_deg, guide_height, first_side and second_side "
+                    "change it"
                 )
         if isinstance(levers.first, Stone):
             most = abs(levers.first.pivot) + levers.crank
             if levers.lever < most:
                 text = N_("the stone leaves the lever: it goes to {most:g} mm from O3, the lever ends at {length:g} mm")
-                page.notes.append(message(text, most=most, length=levers.lever))
+                page.note(text, most=most, length=levers.lever)
         if not isinstance(levers.first, Slider):
             low, high = swing(levers)
             if high - low < 2 * math.pi:
-                page.notes.append(message(N_("the lever swings by {angle:.4g}°"), angle=math.degrees(high - low)))
+                page.note("the lever swings by {angle:.4g}°", angle=math.degrees(high - low))
             else:
-                page.notes.append(N_("the lever goes all the way round"))
-        if self.printed:
+                page.note("the lever goes all the way round")
+        if self.is_example:
             page.notes += _SLIPS
 
 
@@ -651,19 +528,19 @@ _SLIPS = (
 )
 _OFF_PLAN = N_("measured off the plan")
 # the worked example: what it prints where the mechanism itself gives another number, and why
-_PRINTED: dict[str, tuple[str, Text]] = {
-    "stone_distance": ("887", _OFF_PLAN),
-    "ω_3": ("13.2", _OFF_PLAN),
-    "V_B": ("14.22", _OFF_PLAN),
-    "V_C": ("3.56", N_("from ω_3 = 13.2")),
-    "V_D": ("3.58", N_("pd_5 = 36.8 mm, not 35.8: both plans fit together with the guide through O3 alone")),
-    "ω_4": ("0.542", N_("c_4d_4 = 4.4 mm, not 4.1: that is V_C sin φ_3, the rod parallel to its guide")),
-    "a_A3A2_k": ("73.1", N_("from ω_3 = 13.2")),
-    "a_3n": ("154.6", N_("from ω_3 = 13.2")),
-    "ε_3": ("42.6", _OFF_PLAN),
-    "a_B": ("194.1", _OFF_PLAN),
-    "a_C": ("48.6", _OFF_PLAN),
-    "a_4n": ("0.22", N_("from ω_4 = 0.542")),
-    "ε_4": ("64.3", _OFF_PLAN),
-    "a_D": ("0.3", N_("0.1 mm of the plan, which is how finely it can be read")),
+_PRINTED: Misprints = {
+    "l_AO3": Printed("887", _OFF_PLAN),
+    "ω_3": Printed("13.2", _OFF_PLAN),
+    "V_B": Printed("14.22", _OFF_PLAN),
+    "V_C": Printed("3.56", N_("from ω_3 = 13.2")),
+    "V_D": Printed("3.58", N_("pd_5 = 36.8 mm, not 35.8: both plans fit together with the guide through O3 alone")),
+    "ω_4": Printed("0.542", N_("c_4d_4 = 4.4 mm, not 4.1: that is V_C sin φ_3, the rod parallel to its guide")),
+    "a_A3A2_k": Printed("73.1", N_("from ω_3 = 13.2")),
+    "a_3n": Printed("154.6", N_("from ω_3 = 13.2")),
+    "ε_3": Printed("42.6", _OFF_PLAN),
+    "a_B": Printed("194.1", _OFF_PLAN),
+    "a_C": Printed("48.6", _OFF_PLAN),
+    "a_4n": Printed("0.22", N_("from ω_4 = 0.542")),
+    "ε_4": Printed("64.3", _OFF_PLAN),
+    "a_D": Printed("0.3", N_("0.1 mm of the plan, which is how finely it can be read")),
 }

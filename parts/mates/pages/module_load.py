@@ -165,19 +165,15 @@ def load_sections(page: Sheet, keys: LoadKeys, found: Mapping[str, float]) -> Ca
         title = N_("The load at the place x, y, and over all directions of a force that has none given")
         page.tables.append(_table("load_here", title, keys.table, rows, here))
     share = max((found.bound / found.value - 1 for found in most if found.value), default=0.0)
-    text = N_(
+    page.note(
         "load: no other place or direction asks for more than {share:.2g} % beyond these; of several that "
-        "ask for as much one is named; directions count from +x, counter-clockwise"
+        "ask for as much one is named; directions count from +x, counter-clockwise",
+        share=100 * share,
     )
-    page.notes.append(message(text, share=100 * share))
     pressure = max(row.share * found.value**row.power for row, found in zip(rows, most, strict=True) if row.power != 1)
     if pressure > keys.ball_pressure_limit:
-        page.notes.append(
-            message(
-                N_("the balls are pressed by {most:.4g} MPa, more than {limit:g}"),
-                most=pressure, limit=keys.ball_pressure_limit,
-            )
-        )  # fmt: skip
+        limit = keys.ball_pressure_limit
+        page.note("the balls are pressed by {most:.4g} MPa, more than {limit:g}", most=pressure, limit=limit)
     by_name = {(row.who, row.what): found.value for row, found in zip(rows, most, strict=True)}
     return Carried(torques, by_name[_NAMES["ring"], _ACROSS], by_name[_NAMES["ring"], _LIFT])
 
@@ -189,7 +185,7 @@ def _load(page: Sheet, keys: LoadKeys) -> tuple[float, tuple[float, float]]:
     held = keys.worm_torque * keys.worm_ratios[0] * worth, keys.worm_torque * keys.worm_ratios[1] * worth
     # the Jacobian of drive I is longest at beta = 0, that of drive II is as long everywhere
     first, second = table.arms[0] + (table.ratio - 1) * table.arms[1], table.ratio * table.arms[1]
-    page.section(N_("Load on the platform"))
+    page.section("Load on the platform")
     page.add("worm_torque", keys.worm_torque)
     page.add("diameter_quotient", keys.diameter_quotient)
     page.add("self_locking_friction", math.cos(keys.drives[0].worm.pressure_angle) / keys.diameter_quotient,
@@ -224,15 +220,13 @@ def _load(page: Sheet, keys: LoadKeys) -> tuple[float, tuple[float, float]]:
         "the worst place for drive I is where beta is 0, for drive II all are alike; the worst direction is that in "
         "which the drive moves the platform: for II across O2O3"
     )
-    page.notes.append(text)
+    page.note(text)
     if load:
         _statics(page, table, load)
     told = N_("friction of the worms' flanks from f_s on locks them; the thesis has neither friction nor losses")
-    page.notes.append(told)
+    page.note(told)
     if max(a - h for a, h in zip(asked, held, strict=True)) > 1e-12 * max(held):
-        page.notes.append(
-            message(N_("the worms do not hold this load everywhere: at most {limit:.6g} N"), limit=min(most))
-        )
+        page.note("the worms do not hold this load everywhere: at most {limit:.6g} N", limit=min(most))
     return load, held if keys.held else asked
 
 

@@ -163,7 +163,7 @@ class _Page:
             self._set(one, self._fitted(one), places, N_("The set"))
             return self.sheet
         page = self.sheet
-        page.section(N_("Wanted"))
+        page.section("Wanted")
         page.add("wanted_ratio", keys.ratio or 0.0, symbol=self._symbol)
         page.add("ratio_tolerance_percent", keys.ratio_tolerance_percent)
         page.add("number_of_satellites", keys.satellites)
@@ -177,11 +177,9 @@ class _Page:
         places = tuple(Fraction(k, keys.satellites) for k in range(keys.satellites))
         self._set(best, fit, places, N_("The smallest set that works"))
         if any(fit is None for _, fit in fits):
-            page.notes.append(
-                N_(
-                    "a set without shifts in the table: no shifts keep least_tip_thickness and "
-                    "least_contact_ratio without undercut"
-                )
+            page.note(
+                "a set without shifts in the table: no shifts keep least_tip_thickness and "
+                "least_contact_ratio without undercut"
             )
         return page
 
@@ -278,7 +276,7 @@ class _Page:
     def _set(self, one: PlanetarySet, fit: Fit | None, places: tuple[Fraction, ...], title: str) -> None:
         """All about one set."""
         page = self.sheet
-        page.section(message("{title}: {teeth}", title=Message(title), teeth=one.name))
+        page.section("{title}: {teeth}", title=Message(title), teeth=one.name)
         for key, wheel, z in zip(_KEYS, _WHEELS, one.teeth, strict=True):
             if self.scheme.double or wheel != "2'":
                 page.add("number_of_teeth", z, symbol=f"z_{wheel}", key=key, of=message("wheel {wheel}", wheel=wheel))
@@ -318,7 +316,7 @@ class _Page:
     def _conditions(self, one: PlanetarySet, places: tuple[Fraction, ...]) -> None:
         """Coaxiality, assembly and neighbours, by the teeth."""
         page, keys = self.sheet, self.keys
-        page.section(N_("Conditions, by the teeth"))
+        page.section("Conditions, by the teeth")
         self._modules()
         module = "{m_2}" if self.scheme.double else "{m}"
         one_sign, two_sign = ("-" if internal else "+" for internal in self.scheme.internal)
@@ -363,7 +361,7 @@ class _Page:
     def _fit(self, one: PlanetarySet, fit: Fit) -> None:
         """Distance, shifts and what they give."""
         page, x = self.sheet, fit.shifts
-        page.section(N_("Shifts for one centre distance"))
+        page.section("Shifts for one centre distance")
         page.add("working_centre_distance", fit.distance)
         for k, wheel in enumerate(_WHEELS):
             if self.scheme.double or wheel != "2'":
@@ -431,30 +429,26 @@ class _Page:
             s1, s2 = one.spans
             if self.scheme.double:
                 text = N_("not coaxial in these modules: {first} teeth against {second}; m'/m = {share} would be")
-                page.notes.append(message(text, first=s1, second=s2, share=str(Fraction(s1, s2))))
+                page.note(text, first=s1, second=s2, share=str(Fraction(s1, s2)))
                 if pairs := coaxial_modules(s1, s2):
                     shown = ", ".join(f"{float(a):g} / {float(b):g}" for a, b in pairs[:_PAIRS_TOLD])
-                    page.notes.append(message("coaxial in modules m / m' of {pairs}", pairs=shown))
+                    page.note("coaxial in modules m / m' of {pairs}", pairs=shown)
             else:
                 text = N_("not coaxial: z_1 + 2 z_2 = {first}, z_3 = {second}; z_2 = {fits:g} fits")
                 fits = (one.teeth[3] - one.teeth[0]) / 2
-                page.notes.append(message(text, first=one.teeth[0] + 2 * one.teeth[1], second=one.teeth[3], fits=fits))
+                page.note(text, first=one.teeth[0] + 2 * one.teeth[1], second=one.teeth[3], fits=fits)
             return
-        page.notes.append(
-            N_("no shifts keep everything: less least_contact_ratio or least_tip_thickness, or other teeth may work")
-        )
+        page.note("no shifts keep everything: less least_contact_ratio or least_tip_thickness, or other teeth may work")
         for wheels, mesh, broken in self._plain(one):
             if broken:
                 told = listed([_fault(name) for name in broken])
-                page.notes.append(
-                    message("mesh {wheels} without shifts of the rims: {names}", wheels=wheels, names=told)
-                )
+                page.note("mesh {wheels} without shifts of the rims: {names}", wheels=wheels, names=told)
             self._interference(wheels, mesh, broken)
         unseen = replace(self.fitting, wish=replace(self.fitting.wish, allow_undercut=True)).fit(one)
         if unseen is not None:
             shown = ", ".join(f"{x:.4f}" for k, x in enumerate(unseen.shifts) if self.scheme.double or k != 2)
             text = N_("with undercut below the active flank: a_w = {distance:.4f} mm, shifts {shifts}")
-            page.notes.append(message(text, distance=unseen.distance, shifts=shown))
+            page.note(text, distance=unseen.distance, shifts=shown)
 
     def _satellites(self, one: PlanetarySet, places: tuple[Fraction, ...]) -> None:
         """Where satellites stand that are not alike or not equally spaced."""
@@ -463,7 +457,7 @@ class _Page:
         equal = places == tuple(Fraction(k, n) for k in range(n))
         if equal and not any(clocking):
             if self.scheme.double and n > 1:
-                self.sheet.notes.append(N_("all satellites are alike: both rims clocked in one and the same way"))
+                self.sheet.note("all satellites are alike: both rims clocked in one and the same way")
             return
         heads = (("k", ""), ("θ", "deg"), ("γ", "deg"))
         rows = tuple(
@@ -473,7 +467,7 @@ class _Page:
         self.sheet.tables.append(Table("satellites", title, heads, rows))
         if any(clocking):
             self.sheet.data["clocking"] = [str(c) for c in clocking]
-            self.sheet.notes.append(N_("the satellites are not alike: each has its own clocking of both rims"))
+            self.sheet.note("the satellites are not alike: each has its own clocking of both rims")
 
 
 def _exact_verdict(mesh: RimMesh, keys: PlanetaryKeys) -> str | None:

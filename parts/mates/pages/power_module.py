@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 import numpy as np
@@ -22,7 +22,7 @@ from parts.mates.pages.module_load import MODULUS, Carried, LoadKeys, load_secti
 from parts.mates.pages.power_table import DRIVES, given
 from parts.pages.error_map import ErrorMap
 from parts.pages.inputs import checked, refusal
-from parts.pages.misprints import POWER_MODULE, printed_for_power_module
+from parts.pages.misprints import printed_for_power_module
 from parts.pages.module_rules import CONDITIONS, DRIVERS, RULES, of_orientation, sizes, valued
 from parts.pages.page import Section, Sheet, Table
 
@@ -135,10 +135,8 @@ def _limits(page: Sheet, keys: PowerModuleKeys, found: dict[str, float]) -> None
     page.tables.append(Table("limits", N_("Limits of the assembly power_module"), heads, rows, labels=labels))
     for condition, length in zip(limits, left, strict=True):
         if length < 0:
-            told = message(N_("lacks {lacks} mm: {what}"), lacks=f"{-length:.6g}", what=filled(condition.reason))
-            page.notes.append(
-                message(N_("assembly power_module, {driver}: {what}"), driver=condition.driver, what=told)
-            )
+            told = message("lacks {lacks} mm: {what}", lacks=f"{-length:.6g}", what=filled(condition.reason))
+            page.note("assembly power_module, {driver}: {what}", driver=condition.driver, what=told)
 
 
 def _worms(page: Sheet, keys: PowerModuleKeys, torques: tuple[float, float]) -> None:
@@ -149,7 +147,7 @@ def _worms(page: Sheet, keys: PowerModuleKeys, torques: tuple[float, float]) -> 
                  "tensile_strength": keys.rim_strength, "friction_coefficient": keys.friction_coefficient}  # fmt: skip
         own = worm_page.sheet(table)
         for section in own.sections[1:]:
-            title = message(N_("{drive}: {what}"), drive=filled(DRIVES[name]), what=filled(section.title))
+            title = message("{drive}: {what}", drive=filled(DRIVES[name]), what=filled(section.title))
             page.sections.append(Section(title, [replace(step, of=DRIVES[name]) for step in section.steps]))
         page.known |= {f"{key}_{name}": known for key, known in own.known.items()}
         page.notes += [note for note in own.notes if note not in page.notes]
@@ -158,7 +156,7 @@ def _worms(page: Sheet, keys: PowerModuleKeys, torques: tuple[float, float]) -> 
 def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
     """Section 2.3: bending gives the module, contact the width."""
     pinion, ratio = keys.pair_teeth[0], keys.table.ratio
-    page.section(N_("Pair 11-12: bending"))
+    page.section("Pair 11-12: bending")
     page.name("T2_ring", "T2_II" if keys.held else "T_FII")
     own = torque / ratio
     page.add("pair_torque", own, "{T2_ring} / {u}", _GEAR)
@@ -178,7 +176,7 @@ def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
     formula = "{K_m} * cbrt({T_11} * {K_Fb} * {Y_FS} * {u} / ({z12}**2 * {psi_bd} * {sigma_FP1}))"
     page.add("pair_least_module", least, formula, _GEAR)
     page.add("module", keys.module)
-    page.section(N_("Pair 11-12: contact"))
+    page.section("Pair 11-12: contact")
     diameter = keys.module * pinion
     page.add("reference_diameter", diameter, "{m} * {z11}", _GEAR, symbol="d_11", key="d11")
     page.add("face_width", keys.face_width)
@@ -206,16 +204,16 @@ def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
     width = keys.face_width * (stress / bearable) ** 2
     page.add("pair_least_width", width, "{b} * ({sigma_Hp} / {sigma_HPp})**2")
     if least > keys.module:
-        page.notes.append(N_("the module of the pair 11-12 is less than bending needs"))
+        page.note("the module of the pair 11-12 is less than bending needs")
     if stress > bearable:
-        page.notes.append(N_("the contact stress of the pair 11-12 is more than allowed"))
+        page.note("the contact stress of the pair 11-12 is more than allowed")
 
 
 def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapping[str, float]) -> None:
     """Section 2.4 as the thesis has it, with the right radial force of the worm, and with all forces as vectors where
     they are most; then Hertz for the groove.
     """
-    page.section(N_("Ring of balls: forces"))
+    page.section("Ring of balls: forces")
     page.name("F_a", "F_t1_II")
     page.name("F_RC_right", "F_r_II")
     axial, right, along_pitch = (page.known[name].value for name in ("F_a", "F_RC_right", "F_t"))
@@ -229,7 +227,6 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapp
     share = 1 + turns ** (2 / 3) if turns else 1.0
     page.add("loaded_turns", turns)
     page.add("preload", axial / (1.5 * share), f"{{F_a}} / {1.5 * share:g}", _BALLS)
-    _marked(page)("preload")
     page.add("balls", keys.balls)
     page.add("guide_ball_diameter", keys.ball_diameter)
     page.add("radial_factor", keys.radial_factor)
@@ -239,7 +236,7 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapp
         cases.append(("most", N_("under all forces where they are most"), carried.ring_radial, ""))
     hold, balls, row = axial / (1.5 * share), keys.balls, "z_b"
     for key, title, force, formula in cases:
-        page.section(message(N_("Ring of balls: stiffness, {what}"), what=filled(title)))
+        page.section("Ring of balls: stiffness, {what}", what=filled(title))
         if key == "most":
             page.add("lifting_force", carried.ring_lift)
             hold = carried.ring_lift / (1.5 * share)
@@ -248,21 +245,18 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapp
             balls, row = int(found["large_balls"]), "z_r"
             page.add("balls", balls, symbol="z_r", key=row)
         angle = math.atan(axial / force)
-        source, mark = (_BALLS, _marked(page)) if key == "thesis" else ("", lambda name: None)
+        source = _BALLS if key == "thesis" else ""
         page.add("bearing_radial_force", force, formula, source)
         page.add("contact_angle_deg", math.degrees(angle), "arctan({F_a} / {F_R})", source)
         load = 1e5 * balls * math.sin(angle) ** 2.5 * math.sqrt(1.25 * keys.ball_diameter)
         formula = f"100000 * {{{row}}} * sin({{alpha_b}})**2 * sqrt(sin({{alpha_b}}) * 1.25 * {{d_b}})"
         page.add("turn_capacity", load, formula, source)
-        mark("turn_capacity")
         along = 1.5 * load ** (2 / 3) * hold ** (1 / 3) * share
         page.add("axial_stiffness", along, f"{1.5 * share:g} * cbrt({{C}}**2 * {{F_H}})", source)
-        mark("axial_stiffness")
         page.add("preload_ratio", hold / (force * math.tan(angle)), "{F_H} / ({F_R} * tan({alpha_b}))", source)
         across = keys.radial_factor * along / (1.5 * math.tan(angle) ** 2 * share)
         page.add("radial_stiffness", across, f"{{k4}} * {{j_a}} / ({1.5 * share:g} * tan({{alpha_b}})**2)", source)
-        mark("radial_stiffness")
-    page.section(N_("Ring of balls: Hertz, and its place"))
+    page.section("Ring of balls: Hertz, and its place")
     least = keys.ball_diameter / math.sin(math.pi / keys.balls)
     page.add("least_ball_circle", least, "{d_b} / sin(pi / {z_b})")
     root = keys.module * (keys.pair_teeth[1] + 2.5)
@@ -278,22 +272,12 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapp
     page.add("ball_stiffness", 1e5 * math.sqrt(1.25 * keys.ball_diameter), "100000 * sqrt(1.25 * {d_b})", _BALLS)
     page.add("hertz_stiffness", hertzian)
     if (least - root) / 2 < keys.ball_diameter / 2:
-        page.notes.append(N_("there is no room for so many balls outside the ring's teeth"))
-
-
-def _marked(page: Sheet) -> Callable[[str], None]:
-    """Marks a step of the thesis's own chain where its number is misprinted."""
-
-    def mark(name: str) -> None:
-        if page.printed and name in POWER_MODULE:
-            page.mark_misprint(POWER_MODULE[name])
-
-    return mark
+        page.note("there is no room for so many balls outside the ring's teeth")
 
 
 def _orientation(page: Sheet, keys: PowerModuleKeys) -> None:
     """By how much the platform can turn in its play, with idlers and with cranks: why cranks are the default."""
-    page.section(N_("Play of the platform's turn"))
+    page.section("Play of the platform's turn")
     page.add("wheel_backlash", keys.wheel_backlash)
     # each mesh at half an arm, the idler half as large as the wheels beside it
     play = 6 * keys.wheel_backlash * sum(1 / arm for arm in keys.lengths)

@@ -99,7 +99,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
 
 def given(page: Sheet, keys: TwoDiskKeys) -> None:
     """The mechanism's own sizes."""
-    page.section(N_("Given"))
+    page.section("Given")
     page.add("first_arm", keys.lengths[0])
     page.add("second_arm", keys.lengths[1])
     page.add("number_of_teeth", keys.pair_teeth[0], symbol="z_11", key="z11")
@@ -146,7 +146,7 @@ def _points(page: Sheet, keys: PowerTableKeys) -> None:
     heads = ((N_("elbow"), ""), *_heads(), ("γ", "deg"), ("Δβ'", "deg"))
     page.tables.append(Table("points", N_("Points, both elbows"), heads, tuple(rows)))
     if table.reach[0] == 0 and not points.all():
-        page.notes.append(N_("at the centre every angle delta is right; it is kept at start_deg"))
+        page.note("at the centre every angle delta is right; it is kept at start_deg")
     _notes(page, keys)
 
 
@@ -166,7 +166,7 @@ def _heads() -> tuple[tuple[str, str], ...]:
 
 def _steps(page: Sheet, keys: PowerTableKeys, point: complex) -> None:
     table = keys.table
-    page.section(N_("Point"))
+    page.section("Point")
     page.add("point_x", point.real)
     page.add("point_y", point.imag)
     far = abs(point)
@@ -204,7 +204,7 @@ def _path(page: Sheet, keys: PowerTableKeys) -> None:
     start = None if keys.start_deg is None else math.radians(keys.start_deg)
     rows = followed(table, pieces, keys.tolerance, keys.elbow or 1, start)
     given(page, keys)
-    page.section(N_("Path"))
+    page.section("Path")
     page.add("path_length", float(rows.way[-1]))
     page.add("path_error", rows.error)
     columns = _columns(keys, table, rows.place, rows.delta, rows.beta)

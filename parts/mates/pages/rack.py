@@ -26,7 +26,7 @@ def rack_page(pair: RackPair, topic: str, helical: Helical, keys: DrivenKeys) ->
     gear, rack = pair.gear, pair.rack
     alpha = rack.rack.pressure_angle
     page = Sheet(topic, N_("Gear and rack"))
-    page.section(N_("Given"))
+    page.section("Given")
     given_data(page, helical.normal, gear, helical.angle, 1)
     page.add("rack_addendum", rack.addendum)
     if rack.circumferential_thinning:
@@ -57,7 +57,7 @@ def rack_page(pair: RackPair, topic: str, helical: Helical, keys: DrivenKeys) ->
 
 def _rack_contact(page: Sheet, pair: RackPair, helical: Helical, keys: DrivenKeys) -> None:
     """Contact ratio, sliding, backlash and the conditions."""
-    page.section(N_("Contact ratio"))
+    page.section("Contact ratio")
     formula = (
         "({r_b1} * tan({alpha_a1}) - {r1} * sin({alpha}) + ({r1} - {a_w} + {h_aR}) / sin({alpha})) "
         "/ (pi * {m} * cos({alpha}))"
@@ -78,7 +78,7 @@ def _rack_contact(page: Sheet, pair: RackPair, helical: Helical, keys: DrivenKey
         speed_steps(page, pair, helical, high - low, factors, keys.speed_rpm)
     force_steps(page, pair, helical, keys)
     backlash_steps(page, pair, pair.normal_backlash / math.cos(rack.rack.pressure_angle), helical)
-    page.section(N_("Conditions: margins"))
+    page.section("Conditions: margins")
     found = {m.name: m for m in pair.margins()}
     fillets = found["fillet_interference_gear"].margin, found["fillet_interference_rack"].margin
     page.both("fillet_interference_margin", fillets, "", ISO)

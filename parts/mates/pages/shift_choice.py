@@ -105,7 +105,7 @@ def _pair(keys: ShiftChoiceKeys, rack: BasicRack) -> ShiftPair:
 
 def _page(keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair, wish: Requirements) -> Sheet:
     page = Sheet(TOPIC, N_("Choice of profile shifts"))
-    page.section(N_("Given"))
+    page.section("Given")
     page.both("number_of_teeth", pair.teeth)
     page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
     helix, square = pair.helix_angle, "sin({alpha})**2"
@@ -125,7 +125,7 @@ def _page(keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair, wish: Require
         page.add("least_shift_without_undercut", value, formula, "ISO 21771", index, symbol=symbol)
     tables = []
     if helix:
-        page.notes.append(N_("the tables and the recommendations of GOST 16532 are left out: they are of spur gears"))
+        page.note("the tables and the recommendations of GOST 16532 are left out: they are of spur gears")
     else:
         tables = _table_choices(page, pair, wish)
     choices = [*tables, *_found_choices(page, keys, rack, pair, wish)]
@@ -133,7 +133,7 @@ def _page(keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair, wish: Require
         _choice(page, keys.module, pair, wish, choice, number)
     box = usual_box(pair)
     if box is None:
-        page.notes.append(N_("no shifts give a pair that turns"))
+        page.note("no shifts give a pair that turns")
         return page
     contour = blocking_contour(pair, wish, box)
     show_choices(page, contour, choices, keys.picture)
@@ -151,7 +151,7 @@ def _table_choices(page: Sheet, pair: ShiftPair, wish: Requirements) -> list[Cho
         try:
             shifts = function(z1, z2)
         except ParameterError as error:
-            page.notes.append(message("{rule}: {why}", rule=rule, why=told(error)))
+            page.note("{rule}: {why}", rule=rule, why=told(error))
             continue
         source = f"{name}, table {shifts.table}"
         found.append(Choice(rule, proposal(pair, wish, shifts.first, shifts.second), source, _mending(shifts)))
@@ -163,7 +163,7 @@ def _table_choices(page: Sheet, pair: ShiftPair, wish: Requirements) -> list[Cho
             for shifts in shift_tables.gost_16532(z1, z2, kinematic=kinematic):
                 found.append(Choice(rule, proposal(pair, wish, shifts.first, shifts.second), "GOST 16532-70"))
         except ParameterError as error:
-            page.notes.append(message("{rule}: {why}", rule=rule, why=told(error)))
+            page.note("{rule}: {why}", rule=rule, why=told(error))
     return found
 
 
@@ -194,11 +194,9 @@ def _found_choices(
         if found is not None:
             result.append(Choice(rule, found))
             continue
-        page.notes.append(
-            message(
-                "{rule}: no shifts keep all requirements; less least_contact_ratio or least_tip_thickness may work",
-                rule=rule,
-            )
+        page.note(
+            "{rule}: no shifts keep all requirements; less least_contact_ratio or least_tip_thickness may work",
+            rule=rule,
         )
     return result
 
@@ -207,20 +205,22 @@ def _explain_sum(page: Sheet, pair: ShiftPair, wish: Requirements, total: float)
     """Which limit a centre distance breaks when its shifts are split for equal tips."""
     broken = [m for m in margins(pair, wish, total / 2, total / 2) if not m.margin >= 0]
     names = ", ".join(f"{m.name} {rounded(m.margin, up=False):.12g}" for m in broken if not math.isnan(m.margin))
-    page.notes.append(message("x1 + x2 = {total:.4f}, half each: {margins}", total=total, margins=names))
+    page.note("x1 + x2 = {total:.4f}, half each: {margins}", total=total, margins=names)
 
 
 def _choice(page: Sheet, module: float, pair: ShiftPair, wish: Requirements, choice: Choice, number: int) -> None:
     """One proposal and what it gives; ``module``: the normal one, mm."""
     found, helical = choice.found, pair.helix_angle != 0
-    page.section(message("{number}. {rule}", number=number, rule=choice.name))
+    page.section("{number}. {rule}", number=number, rule=choice.name)
+    shifts = found.first, found.second
+    page.printed = {} if helical else printed_for_pair(pair.teeth, shifts, module, pair.rack.pressure_angle)
     sources, symbol = (choice.source, choice.source), "x_n" if helical else ""
-    page.both("profile_shift_coefficient", (found.first, found.second), "", sources, symbol)
+    page.both("profile_shift_coefficient", shifts, "", sources, symbol)
     if choice.printed is not None:
         page.mark_misprint(choice.printed)
     state = state_of(pair, found.first, found.second)
     if not state.involute >= 0:
-        page.notes.append(message("{number}: no working angle", number=number))
+        page.note("{number}: no working angle", number=number)
         return
     angle = math.degrees(state.working_pressure_angle)
     values = state.involute, angle, state.working_centre_distance * module
@@ -231,10 +231,7 @@ def _choice(page: Sheet, module: float, pair: ShiftPair, wish: Requirements, cho
     thick = state.tip_thicknesses
     page.both("tip_thickness", (thick[0] * module, thick[1] * module), "", ("practicum (1.3)", "practicum (1.3)"))
     page.both("root_sliding", found.root_sliding, "", ("ISO 21771", "ISO 21771"))
-    if not helical:
-        shifts = found.first, found.second
-        page.mark_misprints(printed_for_pair(pair.teeth, shifts, module, pair.rack.pressure_angle))
     broken = [m for m in margins(pair, wish, found.first, found.second) if m.margin < -1e-9]
     if broken:
         names = ", ".join(f"{m.name} {m.margin:.4g}" for m in broken)
-        page.notes.append(message("{number}: outside the contour: {margins}", number=number, margins=names))
+        page.note("{number}: outside the contour: {margins}", number=number, margins=names)
