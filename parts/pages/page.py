@@ -133,6 +133,7 @@ class Sheet(Draft):
     title: Text
     sections: list[Section] = field(default_factory=list)
     known: dict[str, Known] = field(default_factory=dict)
+    by_symbol: dict[str, Known] = field(default_factory=dict)
     notes: list[Text] = field(default_factory=list)
     signed: Text | None = None
     # what is drawn, the same in letters, and what only json carries
@@ -166,7 +167,7 @@ class Sheet(Draft):
         called: Text = "",
         given: bool = False,
     ) -> None:
-        """A step; later formulas know its value by the term's key, and by a symbol of its own.
+        """A step; later formulas know its value by the term's key, or by the symbol.
 
         ``symbol``, ``key`` and ``called`` stand in for the term's symbol, key and name.
         """
@@ -174,16 +175,24 @@ class Sheet(Draft):
         index = str(gear) if gear else ""
         shown = _numbered(symbol or term.symbol, index)
         formula = formula.replace("#", index).replace("~", {"1": "2", "2": "1"}.get(index, ""))
-        needed = KEYS.findall(formula)
-        if unknown := [placeholder for placeholder in needed if placeholder not in self.known]:
-            raise KeyError(f"{name}: {', '.join(unknown)} not known yet")
-        inputs = {placeholder: self.known[placeholder] for placeholder in needed}
+        inputs = {placeholder: self.value_of(placeholder) for placeholder in KEYS.findall(formula)}
         printed = self.printed.pop((name, gear), None) or self.printed.pop(shown, None)
         step = Step(name, gear, shown, value, term.unit, formula, source, printed, inputs, of, called, given)
         self.sections[-1].steps.append(step)
-        self.known[(key or term.key) + index] = known = Known(shown, value, term.unit)
-        if symbol:
-            self.known[shown] = known
+        self.known[(key or term.key) + index] = self.by_symbol[shown] = Known(shown, value, term.unit)
+
+    def value_of(self, placeholder: str) -> Known:
+        """What a formula puts in for a key, or for a symbol that is no key.
+
+        Raises
+        ------
+        KeyError
+            Nothing is known by that yet.
+        """
+        found = self.known.get(placeholder) or self.by_symbol.get(placeholder)
+        if found is None:
+            raise KeyError(f"{placeholder} is not known yet")
+        return found
 
     def table(self, name: str, title: Text, heads: Iterable[Head], rows: Iterable[Sequence[Cell]]) -> None:
         """A table of rows under heads (symbol, unit): words first, then numbers."""
@@ -192,7 +201,7 @@ class Sheet(Draft):
     def name(self, key: str, known: str, gear: int = 0) -> None:
         """A second key for a value that is known, for formulas that are the same of other parts."""
         index = str(gear) if gear else ""
-        self.known[key + index] = self.known[known + index]
+        self.known[key + index] = self.value_of(known + index)
 
     def both(
         self,

@@ -35,7 +35,7 @@ from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
 from parts.mates.pages.lever_keys import LeverKeys
 from parts.mates.pages.lever_picture import Plan, Vector, plan_of
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Sheet
 
 Mask = NDArray[np.bool_]
 _SOURCE = "guidelines, 4.19"
@@ -214,18 +214,15 @@ class ForcePage:
             of: Text = message(N_("point {name}") if name.isalpha() else N_("link {name}"), name=name)
             if self._heavy(name):
                 term = "point_mass" if name.isalpha() else "link_mass"
-                page.add(term, body.mass, symbol=f"m_{name}", key=f"m_{name}", of=of, given=True)
+                page.add(term, body.mass, symbol=f"m_{name}", of=of, given=True)
             if name.isdigit() and not (self.forces.slides and name == self.forces.output):
-                page.add("link_inertia", body.inertia, symbol=f"J_{name}", key=f"J_{name}", of=of, given=True)
+                page.add("link_inertia", body.inertia, symbol=f"J_{name}", of=of, given=True)
             if name.isdigit() and self._heavy(name):
                 page.add("centre_along", body.centre.real, symbol=f"x_S{name}", of=of, given=True)
                 if body.centre.imag:
                     page.add("centre_across", body.centre.imag, symbol=f"y_S{name}", of=of, given=True)
             if keys.gravity and self._heavy(name):
-                page.add(
-                    "link_weight", body.mass * keys.gravity, f"{{m_{name}}} * {{g}}", symbol=f"G_{name}",
-                    key=f"G_{name}", of=of,
-                )  # fmt: skip
+                page.add("link_weight", body.mass * keys.gravity, f"{{m_{name}}} * {{g}}", symbol=f"G_{name}", of=of)
         if keys.resistance is not None:
             page.add("resisting_force", keys.resistance, given=True)
         if keys.resisting_moment is not None:
@@ -250,17 +247,15 @@ class ForcePage:
                 change = 2 * abs(complex(frame.point(body.centre)[2])) / 1000
                 at = f"S{name}" if name.isdigit() else name
                 of = message("point {name}", name=at)
-                page.add("point_acceleration", change, symbol=f"a_{at}", key=f"a_{at}", of=of)
-                page.add(
-                    "inertia_force", abs(complex(acting.force)), f"{{m_{name}}} * {{a_{at}}}", symbol=f"F_i{name}",
-                    key=f"F_i{name}", of=of,
-                )  # fmt: skip
+                page.add("point_acceleration", change, symbol=f"a_{at}", of=of)
+                size, formula = abs(complex(acting.force)), f"{{m_{name}}} * {{a_{at}}}"
+                page.add("inertia_force", size, formula, symbol=f"F_i{name}", of=of)
             if body.inertia:
                 link = "3" if name == "2" and isinstance(self.levers.first, Stone) else name
-                formula = f"{{J_{name}}} * {{ε_{link}}}" if f"ε_{link}" in page.known else ""
+                formula = f"{{J_{name}}} * {{ε_{link}}}" if f"ε_{link}" in page.by_symbol else ""
                 of = message("link {name}", name=name)
                 size = abs(float(acting.couple)) / 1000
-                page.add("inertia_moment", size, formula, symbol=f"M_i{name}", key=f"M_i{name}", of=of)
+                page.add("inertia_moment", size, formula, symbol=f"M_i{name}", of=of)
 
     def _force(self, pair: str) -> complex:
         """The force of a joint in the position of the plans."""
@@ -270,7 +265,7 @@ class ForcePage:
         before = N_("the frame on link {two}") if pair[0] == "0" else N_("link {one} on link {two}")
         of = message(before, one=pair[0], two=pair[1])
         size = abs(self._force(pair))
-        self.page.add("joint_force", size, formula, source, symbol=f"R_{pair}", key=f"R_{pair}", of=of)
+        self.page.add("joint_force", size, formula, source, symbol=f"R_{pair}", of=of)
 
     def _group(self, before: str, rod: str, last: str) -> None:
         page, found = self.page, self.one.found
@@ -280,8 +275,8 @@ class ForcePage:
         seen = self._force(outer) / way
         of = message("link {one} on link {two}", one=before, two=rod)
         formula = self._moment_across(rod, last)
-        page.add("joint_force_across", abs(seen.imag), formula, symbol=f"R_{outer}t", key=f"R_{outer}t", of=of)
-        page.add("joint_force_along", abs(seen.real), symbol=f"R_{outer}n", key=f"R_{outer}n", of=of)
+        page.add("joint_force_across", abs(seen.imag), formula, symbol=f"R_{outer}t", of=of)
+        page.add("joint_force_along", abs(seen.real), symbol=f"R_{outer}n", of=of)
         self._joint(outer, f"sqrt({{R_{outer}t}}**2 + {{R_{outer}n}}**2)", _SOURCE)
         self._joint(inner)
         self._joint(frame)
@@ -291,7 +286,7 @@ class ForcePage:
                 sliding = message("link {one} and link {two}", one=pair[0], two=pair[1])
                 if pair[0] == "0":
                     sliding = message("link {two} in its guide", two=pair[1])
-                page.add("guide_moment", couple, symbol=f"M_{pair}", key=f"M_{pair}", of=sliding)
+                page.add("guide_moment", couple, symbol=f"M_{pair}", of=sliding)
                 across = (self._force(pair) / complex(self.one.moving[pair[1]].way[0])).imag
                 if across:
                     formula = f"{'-' if across < 0 else ''}1000 * {{M_{pair}}} / {{R_{pair}}}"
@@ -330,7 +325,7 @@ class ForcePage:
             arm = complex(self.one.moving["4"].origin[0]) - pivot
             total -= (arm.conjugate() * self._force("34")).imag
         key = f"M_{joint}"
-        self.page.add("moment_of_loads", total / 1000, symbol=key, key=key, of=of)
+        self.page.add("moment_of_loads", total / 1000, symbol=key, of=of)
         return f"1000 * abs({{{key}}}) / {{{length}}}"
 
     def _of_links(self, *links: str) -> list[tuple[str, complex]]:
@@ -356,7 +351,7 @@ class ForcePage:
         end, force = complex(self.one.moving["2"].origin[0]), -self._force("12")
         turn = (end.conjugate() * force).imag
         of = N_("link 2 on link 1")
-        page.add("joint_force", abs(force), "{R_12}", symbol="R_21", key="R_21", of=of)
+        page.add("joint_force", abs(force), "{R_12}", symbol="R_21", of=of)
         # the crank's own part, by weight and inertia off its axis
         way, of_crank = complex(self.one.moving["1"].way[0]), [a for a in self.one.acting.values() if a.link == "1"]
         own = sum(((a.at * way).conjugate() * complex(a.force)).imag + float(a.couple) for a in of_crank) / 1000
@@ -365,7 +360,7 @@ class ForcePage:
             page.add("crank_moment", own)
             terms.append("-{M_1}")
         if turn:
-            page.add("joint_arm", abs(turn) / abs(force), symbol="h_21", key="h_21", of=of)
+            page.add("joint_arm", abs(turn) / abs(force), symbol="h_21", of=of)
             # against what the reaction turns
             terms.append(f"{'-' if turn > 0 else '+'} {{R_21}} * {{h_21}} / 1000")
         formula = " ".join(terms).removeprefix("+ ")
@@ -393,41 +388,33 @@ class ForcePage:
             difference = 100 * abs(float(loaded.found.moment) / 1000 - moment) / sizes
             page.add("balance_difference", difference, "100 * abs({M_b} - {M_bZ}) / {M_sum}")
         heads = ((N_("force"), ""), (N_("value"), "N"), (N_("moment"), "N*m"), (N_("power"), "W"))
-        rows = [(abs(complex(one.force)), float(one.couple) / 1000, powers[n]) for n, one in loaded.acting.items()]
-        labels = [(name,) for name in loaded.acting]
-        balancing = float(loaded.found.moment) / 1000
-        rows.append((abs(complex(loaded.found.driving)), 0.0 if self.forces.teeth else balancing, balancing * speed))
-        labels.append(("F_b" if self.forces.teeth else "M_b",))
-        title = N_("Powers of all forces: their sum is zero")
-        page.tables.append(Table("powers", title, heads, tuple(rows), labels=tuple(labels)))
+        rows = [(n, abs(complex(one.force)), float(one.couple) / 1000, powers[n]) for n, one in loaded.acting.items()]
+        driving, balancing = abs(complex(loaded.found.driving)), float(loaded.found.moment) / 1000
+        name, couple = ("F_b", 0.0) if self.forces.teeth else ("M_b", balancing)
+        rows.append((name, driving, couple, balancing * speed))
+        page.table("powers", N_("Powers of all forces: their sum is zero"), heads, rows)
 
     def _over_a_turn(self) -> None:
         """Balancing moment and reactions in the joints in all positions, and the greatest of the turn."""
         page, rows, turn = self.page, self.rows, self.turn
         held = rows.held
-        columns: list[tuple[tuple[str, str], Real]] = [(("φ_1", "deg"), self.degrees)]
-        columns.append((("M_b", "N*m"), rows.found.moment / 1000))
+        heads, columns = [("φ_1", "deg"), ("M_b", "N*m")], [self.degrees, rows.found.moment / 1000]
         if self.forces.teeth is not None:
-            columns.append((("F_b", "N"), np.abs(rows.found.driving)))
+            heads.append(("F_b", "N"))
+            columns.append(np.abs(rows.found.driving))
         pairs = sorted(rows.found.forces)
-        columns += [((f"R_{pair}", "N"), np.abs(rows.found.forces[pair])) for pair in pairs]
-        told = tuple(tuple(map(float, row)) for row in np.array([values for _, values in columns])[:, held].T)
-        heads = tuple(head for head, _ in columns)
-        page.tables.append(Table("forces", N_("Balancing moment and reactions in the joints"), heads, told))
+        heads += [(f"R_{pair}", "N") for pair in pairs]
+        columns += [np.abs(rows.found.forces[pair]) for pair in pairs]
+        page.table("forces", N_("Balancing moment and reactions in the joints"), heads, np.array(columns)[:, held].T)
         if not turn.held.any():
             return
-        greatest: list[tuple[str, float, float]] = []
-        for name, values in [(f"R_{pair}", np.abs(turn.found.forces[pair])) for pair in pairs]:
+        greatest = []
+        for pair in pairs:
+            values = np.abs(turn.found.forces[pair])
             most = int(np.argmax(np.where(turn.held, values, -1.0)))
-            greatest.append((name, float(values[most]), float(self.fine_degrees[most])))
-        heads = ((N_("force"), ""), (N_("value"), "N"), ("φ_1", "deg"))
-        labels = tuple((name,) for name, *_ in greatest)
-        page.tables.append(
-            Table(
-                "greatest_forces", N_("Greatest reactions in the joints over the turn"), heads,
-                tuple(row[1:] for row in greatest), labels=labels,
-            )
-        )  # fmt: skip
+            greatest.append((f"R_{pair}", values[most], self.fine_degrees[most]))
+        heads = [(N_("force"), ""), (N_("value"), "N"), ("φ_1", "deg")]
+        page.table("greatest_forces", N_("Greatest reactions in the joints over the turn"), heads, greatest)
         moments = turn.found.moment[turn.held] / 1000
         page.section("Forces over a turn")
         page.add("greatest_balancing_moment", float(moments.max()))

@@ -14,7 +14,7 @@ from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from parts.base.texts import N_, Text, Words
 from parts.pages.beside import Name, beside_line, beside_point, settled
-from parts.pages.page import Table, unit_text
+from parts.pages.page import Table, table_of, unit_text
 
 # a panel and what stays free about it, px
 _SIDE, _EDGE, _HEAD = 420.0, 34.0, 26.0
@@ -47,9 +47,9 @@ class Plan(Record):
     def table(self, name: str, title: Text, unit: str) -> Table:
         """Size, direction and length on paper of every vector."""
         heads = ((N_("vector"), ""), (N_("value"), unit), (N_("direction"), "deg"), (N_("on the plan"), "mm"))
-        sides = [v.end - v.start for v in self.vectors]
-        rows = tuple((abs(s), math.degrees(cmath.phase(s)), abs(s) / self.scale) for s in sides)
-        return Table(name, title, heads, rows, labels=tuple((v.name,) for v in self.vectors))
+        sides = ((v.name, v.end - v.start) for v in self.vectors)
+        rows = ((name, abs(s), math.degrees(cmath.phase(s)), abs(s) / self.scale) for name, s in sides)
+        return table_of(name, title, heads, rows)
 
 
 def plan_of(vectors: Iterable[Vector], scale: float | None) -> Plan:

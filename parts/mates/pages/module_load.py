@@ -14,7 +14,7 @@ from msgspec import Meta
 
 from geometry.base import hertz
 from geometry.base.errors import ParameterError
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.gears.worms import strength
 from geometry.gears.worms.drive import WormDrive
 from geometry.gears.worms.worm import Worm
@@ -42,7 +42,7 @@ from geometry.kinematics.two_disk_load import (
 from parts.base.texts import N_, message
 from parts.keys.base import mm, size
 from parts.mates.pages.power_table import DRIVES, TwoDiskKeys
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Sheet, Table, table_of
 
 _WORM = "thesis, 2.2"
 # steel: Young's modulus, MPa, and Poisson's ratio
@@ -196,13 +196,13 @@ def _load(page: Sheet, keys: LoadKeys) -> tuple[float, tuple[float, float]]:
         page.add("worm_efficiency", worth)
         losses = " * {eta}"
     for name, torque in zip(DRIVES, held, strict=True):
-        page.add("wheel_torque", torque, f"{{T1}} * {{u{1 + (name == 'II')}}}{losses}", _WORM,
-                 symbol=f"T_2{name}", key=f"T2_{name}", of=DRIVES[name])  # fmt: skip
-    page.add("load_arm", first, "{L1} + ({u} - 1) * {L2}", symbol="l_I", key="l_I", of=DRIVES["I"])
-    page.add("load_arm", second, "{u} * {L2}", symbol="l_II", key="l_II", of=DRIVES["II"])
+        formula = f"{{T1}} * {{u_{name}}}{losses}"
+        page.add("wheel_torque", torque, formula, _WORM, symbol=f"T_2{name}", of=DRIVES[name])
+    page.add("load_arm", first, "{L1} + ({u} - 1) * {L2}", symbol="l_I", of=DRIVES["I"])
+    page.add("load_arm", second, "{u} * {L2}", symbol="l_II", of=DRIVES["II"])
     most = [1000 * torque / arm for torque, arm in zip(held, (first, second), strict=True)]
     worse = "I" if most[0] < most[1] else "II"
-    page.add("load_held", min(most), f"1000 * {{T2_{worse}}} / {{l_{worse}}}", of=DRIVES[worse])
+    page.add("load_held", min(most), f"1000 * {{T_2{worse}}} / {{l_{worse}}}", of=DRIVES[worse])
     load = min(most) if keys.load is None else keys.load
     if given is not None:
         load = given[0]
@@ -215,16 +215,14 @@ def _load(page: Sheet, keys: LoadKeys) -> tuple[float, tuple[float, float]]:
     asked = load * first / 1000 + more, load * second / 1000 + more
     for name, torque in zip(DRIVES, asked, strict=True):
         formula = "" if more else f"{{F}} * {{l_{name}}} / 1000"
-        page.add("load_torque", torque, formula, symbol=f"T_F{name}", key=f"T_F{name}", of=DRIVES[name])
-    text = N_(
+        page.add("load_torque", torque, formula, symbol=f"T_F{name}", of=DRIVES[name])
+    page.note(
         "the worst place for drive I is where beta is 0, for drive II all are alike; the worst direction is that in "
         "which the drive moves the platform: for II across O2O3"
     )
-    page.note(text)
     if load:
         _statics(page, table, load)
-    told = N_("friction of the worms' flanks from f_s on locks them; the thesis has neither friction nor losses")
-    page.note(told)
+    page.note("friction of the worms' flanks from f_s on locks them; the thesis has neither friction nor losses")
     if max(a - h for a, h in zip(asked, held, strict=True)) > 1e-12 * max(held):
         page.note("the worms do not hold this load everywhere: at most {limit:.6g} N", limit=min(most))
     return load, held if keys.held else asked
@@ -324,11 +322,10 @@ def _table(name: str, title: str, table: TwoDisk, rows: list[_Row], most: list[W
         (N_("carried by"), ""), (N_("quantity"), ""), (N_("at most"), ""), ("x", "mm"), ("y", "mm"), ("δ", "deg"),
         ("β", "deg"), ("φ_F", "deg"), (N_("nowhere more than"), ""),
     )  # fmt: skip
-    labels, numbers = [], []
+    told = []
     for row, found in zip(rows, most, strict=True):
-        labels.append((row.who, row.what))
         at = complex(table.forward(found.place.delta, found.place.beta))
         angles = map(math.degrees, (found.place.delta, found.place.beta, found.place.direction))
         value, bound = (row.share * value**row.power for value in (found.value, found.bound))
-        numbers.append((value, at.real, at.imag, *angles, bound))
-    return Table(name, title, heads, tuple(numbers), shown=8, labels=tuple(labels))
+        told.append((row.who, row.what, value, at.real, at.imag, *angles, bound))
+    return replace(table_of(name, title, heads, told), shown=8)

@@ -323,13 +323,13 @@ class _Page:
         d1, d2 = map(float, one.distances)
         of = message("mesh {wheels}", wheels="1-2")
         formula = f"{{m}} * ({{z_1}} {one_sign} {{z_2}}) / 2"
-        page.add("reference_centre_distance", d1, formula, "trains (3)", symbol="a_12", key="a_12", of=of)
+        page.add("reference_centre_distance", d1, formula, "trains (3)", symbol="a_12", of=of)
         rim = "2'" if self.scheme.double else "2"
         of = message("mesh {wheels}", wheels=f"{rim}-3")
         formula = f"{module} * ({{z_3}} {two_sign} {{{self._second_rim}}}) / 2"
         page.add("reference_centre_distance", d2, formula, "trains (3)", symbol=f"a_{rim}3", key="a_23", of=of)
         if self.scheme.double:
-            page.add("greatest_common_divisor", math.gcd(*one.teeth[1:3]), symbol="g", key="g")
+            page.add("greatest_common_divisor", math.gcd(*one.teeth[1:3]), symbol="g")
             sign = "-" if self.scheme.alike else "+"
             formula = f"abs({{z_1}} * {{z_2p}} {sign} {{z_2}} * {{z_3}}) / {{g}}"
         else:

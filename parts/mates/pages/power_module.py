@@ -24,7 +24,7 @@ from parts.pages.error_map import ErrorMap
 from parts.pages.inputs import checked, refusal
 from parts.pages.misprints import printed_for_power_module
 from parts.pages.module_rules import CONDITIONS, DRIVERS, RULES, of_orientation, sizes, valued
-from parts.pages.page import Section, Sheet, Table
+from parts.pages.page import Section, Sheet
 
 TOPIC = "power-module"
 _GEAR, _BALLS = "thesis, 2.3", "thesis, 2.4"
@@ -116,10 +116,9 @@ def _found(keys: PowerModuleKeys, orientation: str) -> dict[str, float]:
 def _sizes(page: Sheet, keys: PowerModuleKeys, found: dict[str, float]) -> None:
     """Every rule by which the assembly ``power_module`` is sized, and its limits; what lacks as notes."""
     rules = of_orientation(RULES, keys.orientation)
-    labels = tuple((r.name, ", ".join(map(str, r.positions)), r.made_of, r.reason) for r in rules)
     heads = ((N_("size"), ""), (N_("positions"), ""), (N_("rule"), ""), (N_("reason"), ""), (N_("value"), "mm"))
-    rows = tuple((found[r.name],) for r in rules)
-    page.tables.append(Table("sizes", N_("Sizes of the assembly power_module, by rules"), heads, rows, labels=labels))
+    rows = ((r.name, ", ".join(map(str, r.positions)), r.made_of, r.reason, found[r.name]) for r in rules)
+    page.table("sizes", N_("Sizes of the assembly power_module, by rules"), heads, rows)
     _limits(page, keys, found)
 
 
@@ -130,9 +129,8 @@ def _limits(page: Sheet, keys: PowerModuleKeys, found: dict[str, float]) -> None
     heads = ((N_("driving size"), ""), (N_("what must be left"), ""), (N_("rule"), ""), (N_("left"), "mm"))
     counts = {"teeth": keys.pair_teeth, "worm_teeth": keys.worm_ratios}
     known: dict[str, float | str] = found | {name: "{:g}, {:g}".format(*pair) for name, pair in counts.items()}
-    labels = tuple((f"{c.driver} = {known[c.driver]}", c.reason, c.made_of) for c in limits)
-    rows = tuple((length,) for length in left)
-    page.tables.append(Table("limits", N_("Limits of the assembly power_module"), heads, rows, labels=labels))
+    rows = [(f"{c.driver} = {known[c.driver]}", c.reason, c.made_of, a) for c, a in zip(limits, left, strict=True)]
+    page.table("limits", N_("Limits of the assembly power_module"), heads, rows)
     for condition, length in zip(limits, left, strict=True):
         if length < 0:
             told = message("lacks {lacks} mm: {what}", lacks=f"{-length:.6g}", what=filled(condition.reason))
@@ -173,17 +171,17 @@ def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
                         ("width_ratio", 0.05)):  # fmt: skip
         page.add(name, value)
     least = 14 * (own * 1.05 * 3.55 * ratio / (keys.pair_teeth[1] ** 2 * 0.05 * allowed)) ** (1 / 3)
-    formula = "{K_m} * cbrt({T_11} * {K_Fb} * {Y_FS} * {u} / ({z12}**2 * {psi_bd} * {sigma_FP1}))"
+    formula = "{K_m} * cbrt({T_11} * {K_Fb} * {Y_FS} * {u} / ({z_12}**2 * {psi_bd} * {sigma_FP1}))"
     page.add("pair_least_module", least, formula, _GEAR)
     page.add("module", keys.module)
     page.section("Pair 11-12: contact")
     diameter = keys.module * pinion
-    page.add("reference_diameter", diameter, "{m} * {z11}", _GEAR, symbol="d_11", key="d11")
+    page.add("reference_diameter", diameter, "{m} * {z_11}", _GEAR, symbol="d_11")
     page.add("face_width", keys.face_width)
     along = 2000 * own / diameter
-    page.add("circumferential_force", along, "2000 * {T_11} / {d11}", _GEAR)
+    page.add("circumferential_force", along, "2000 * {T_11} / {d_11}", _GEAR)
     rough = 1.88 - 3.2 * (1 / pinion - 1 / keys.pair_teeth[1])
-    page.add("approximate_contact_ratio", rough, "1.88 - 3.2 * (1 / {z11} - 1 / {z12})", _GEAR)
+    page.add("approximate_contact_ratio", rough, "1.88 - 3.2 * (1 / {z_11} - 1 / {z_12})", _GEAR)
     page.add("helix_angle_deg", 0.0)
     page.add("overlap_ratio", 0.0, "{b} * sin({beta}) / (pi * {m})", _GEAR)
     factors = (("elasticity_factor", 190.0), ("zone_factor", 2.49), ("overlap_factor", 0.84),
@@ -194,7 +192,7 @@ def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
     page.add("exact_zone_factor", zone, "sqrt(4 / sin(2 * 20 * pi / 180))")
     page.add("exact_overlap_factor", math.sqrt((4 - rough) / 3), "sqrt((4 - {eps_r}) / 3)")
     stress = 190 * 2.49 * 0.84 * math.sqrt(along * 1.01 * 1.05 / (keys.face_width * diameter) * (ratio - 1) / ratio)
-    root = "sqrt({F_t} * {K_A} * {K_Hv} * {K_Fb} / ({b} * {d11}) * ({u} - 1) / {u})"
+    root = "sqrt({F_t} * {K_A} * {K_Hv} * {K_Fb} / ({b} * {d_11}) * ({u} - 1) / {u})"
     page.add("pair_contact_stress", stress, "{Z_E} * {Z_H} * {Z_eps} * " + root, _GEAR)
     for name, value in (("contact_limit", keys.contact_limit), ("contact_safety", 1.2),
                         ("contact_roughness_factor", 0.95), ("circumferential_speed_factor", 0.99)):  # fmt: skip
@@ -260,7 +258,7 @@ def _ball_ring(page: Sheet, keys: PowerModuleKeys, carried: Carried, found: Mapp
     least = keys.ball_diameter / math.sin(math.pi / keys.balls)
     page.add("least_ball_circle", least, "{d_b} / sin(pi / {z_b})")
     root = keys.module * (keys.pair_teeth[1] + 2.5)
-    page.add("ring_root_diameter", root, "{m} * ({z12} + 2.5)")
+    page.add("ring_root_diameter", root, "{m} * ({z_12} + 2.5)")
     page.add("ball_wall", (least - root) / 2 - keys.ball_diameter / 2, "({D_b} - {d_f12} - {d_b}) / 2")
     page.add("groove_radius", found["r_groove"])
     ball = keys.ball_diameter / 2
@@ -299,10 +297,10 @@ def _play(page: Sheet, keys: PowerModuleKeys) -> None:
     radii = np.linspace(least, most, _MAP_BANDS + 1)
     delta, beta = table.inverse(np.asarray(1j * radii, dtype=complex))
     parts, worst = _reached(table, delta, beta, slack)
-    heads = tuple((name, "mm") for name in ("r", "I", "II", "11-12", "Σ"))
+    heads = ((name, "mm") for name in ("r", "I", "II", "11-12", "Σ"))
     rows = np.stack([radii, *(np.abs(p) for p in parts), worst], 1)
     title = N_("Error of the platform's axis by the play of drive I, drive II and the pair, and of all, at most")
-    page.tables.append(Table("errors", title, heads, tuple(tuple(map(float, row)) for row in rows[::4])))
+    page.table("errors", title, heads, rows[::4])
     page.picture_file = keys.picture
     if keys.orientation == "thesis":
         turn = np.degrees(table.platform_turn(beta, keys.orientation_teeth))

@@ -20,7 +20,7 @@ from parts.keys.base import degrees, mm
 from parts.mates.pages.contour_marks import checked_picture
 from parts.pages.inputs import checked, refusal
 from parts.pages.misprints import printed_for_delta
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Sheet
 from parts.pages.table_scheme import scheme
 
 TOPIC = "power-table"
@@ -102,15 +102,15 @@ def given(page: Sheet, keys: TwoDiskKeys) -> None:
     page.section("Given")
     page.add("first_arm", keys.lengths[0])
     page.add("second_arm", keys.lengths[1])
-    page.add("number_of_teeth", keys.pair_teeth[0], symbol="z_11", key="z11")
-    page.add("number_of_teeth", keys.pair_teeth[1], symbol="z_12", key="z12")
-    page.add("pair_ratio", keys.table.ratio, "{z12} / {z11}", _THESIS)
-    for number, drive in enumerate(DRIVES, 1):
-        page.add("worm_ratio", keys.worm_ratios[number - 1], symbol=f"u_{drive}", key=f"u{number}", of=DRIVES[drive])
-    page.add("disk_3_ratio", keys.worm_ratios[1] / keys.table.ratio, "{u2} / {u}", _THESIS)
+    page.add("number_of_teeth", keys.pair_teeth[0], symbol="z_11")
+    page.add("number_of_teeth", keys.pair_teeth[1], symbol="z_12")
+    page.add("pair_ratio", keys.table.ratio, "{z_12} / {z_11}", _THESIS)
+    for drive, ratio in zip(DRIVES, keys.worm_ratios, strict=True):
+        page.add("worm_ratio", ratio, symbol=f"u_{drive}", key=f"u_{drive}", of=DRIVES[drive])
+    page.add("disk_3_ratio", keys.worm_ratios[1] / keys.table.ratio, "{u_II} / {u}", _THESIS)
     if keys.orientation == "thesis":
-        page.add("number_of_teeth", keys.orientation_teeth[0], symbol="z_6", key="z6")
-        page.add("number_of_teeth", keys.orientation_teeth[1], symbol="z_8", key="z8")
+        page.add("number_of_teeth", keys.orientation_teeth[0], symbol="z_6")
+        page.add("number_of_teeth", keys.orientation_teeth[1], symbol="z_8")
 
 
 def _points(page: Sheet, keys: PowerTableKeys) -> None:
@@ -127,8 +127,7 @@ def _points(page: Sheet, keys: PowerTableKeys) -> None:
     given(page, keys)
     if len(points) == 1:
         _steps(page, keys, complex(points[0]))
-    rows: list[tuple[float, ...]] = []
-    joints: list[tuple[complex, complex]] = []
+    rows, joints = [], list[tuple[complex, complex]]()
     for elbow in (1, -1):
         delta, beta = table.inverse(points, elbow, math.radians(keys.start_deg or 0.0))
         delta = np.unwrap(delta)
@@ -137,26 +136,22 @@ def _points(page: Sheet, keys: PowerTableKeys) -> None:
         moved = np.diff(delta, prepend=delta[:1])
         coupled = table.ratio * moved
         own = np.diff(beta, prepend=beta[:1]) - coupled
-        columns = _columns(keys, table, points, delta, beta)
-        rows += [
-            (elbow, *row, math.degrees(gamma), math.degrees(rest))
-            for row, gamma, rest in zip(columns, coupled, own, strict=True)
-        ]
+        columns = (*_columns(keys, table, points, delta, beta), np.degrees(coupled), np.degrees(own))
+        rows += [(elbow, *row) for row in zip(*columns, strict=True)]
     page.picture = scheme(table.arms, table.ratio, tuple(joints))
     heads = ((N_("elbow"), ""), *_heads(), ("γ", "deg"), ("Δβ'", "deg"))
-    page.tables.append(Table("points", N_("Points, both elbows"), heads, tuple(rows)))
+    page.table("points", N_("Points, both elbows"), heads, rows)
     if table.reach[0] == 0 and not points.all():
         page.note("at the centre every angle delta is right; it is kept at start_deg")
     _notes(page, keys)
 
 
-def _columns(keys: TwoDiskKeys, table: TwoDisk, points: Complex, delta: Real, beta: Real) -> list[tuple[float, ...]]:
+def _columns(keys: TwoDiskKeys, table: TwoDisk, points: Complex, delta: Real, beta: Real) -> tuple[Real, ...]:
     one, two = table.drives(delta, beta)
     ring = delta - beta / table.ratio
     turn = table.platform_turn(beta, keys.orientation_teeth) if keys.orientation == "thesis" else 0 * beta
     angles = (np.degrees(a) for a in (delta, beta, ring))
-    columns = (points.real, points.imag, *angles, one, two, np.degrees(turn))
-    return [tuple(map(float, row)) for row in zip(*columns, strict=True)]
+    return points.real, points.imag, *angles, one, two, np.degrees(turn)
 
 
 def _heads() -> tuple[tuple[str, str], ...]:
@@ -189,12 +184,12 @@ def _steps(page: Sheet, keys: PowerTableKeys, point: complex) -> None:
         if printed is not None:
             page.mark_misprint(printed)
         one, two = (float(n) for n in table.drives(delta, beta))
-        page.add("worm_turns", one, "{u1} * {delta} / (2 * pi)", symbol="n_I", of=DRIVES["I"])
+        page.add("worm_turns", one, "{u_I} * {delta} / (2 * pi)", symbol="n_I", of=DRIVES["I"])
         page.add("ring_angle_deg", math.degrees(delta - beta / table.ratio), "{delta} - {beta} / {u}")
-        page.add("worm_turns", two, "{u2} * {theta} / (2 * pi)", symbol="n_II", of=DRIVES["II"])
+        page.add("worm_turns", two, "{u_II} * {theta} / (2 * pi)", symbol="n_II", of=DRIVES["II"])
         if keys.orientation == "thesis":
             turn = float(table.platform_turn(beta, keys.orientation_teeth))
-            page.add("platform_turn_deg", math.degrees(turn), "(1 + {z8} / {z6}) * {beta}")
+            page.add("platform_turn_deg", math.degrees(turn), "(1 + {z_8} / {z_6}) * {beta}")
 
 
 def _path(page: Sheet, keys: PowerTableKeys) -> None:
@@ -207,12 +202,11 @@ def _path(page: Sheet, keys: PowerTableKeys) -> None:
     page.section("Path")
     page.add("path_length", float(rows.way[-1]))
     page.add("path_error", rows.error)
-    columns = _columns(keys, table, rows.place, rows.delta, rows.beta)
-    found = tuple((float(way), *row) for way, row in zip(rows.way, columns, strict=True))
+    found = zip(rows.way, *_columns(keys, table, rows.place, rows.delta, rows.beta), strict=True)
     joints = tuple((_second(table, rows.delta[k]), complex(rows.place[k])) for k in (0, -1))
     page.picture = replace(scheme(table.arms, table.ratio, joints), path=_points_of(pieces))
     heads = (("s", "mm"), *_heads())
-    page.tables.append(Table("path", N_("Path, row by row: both worms run evenly in between"), heads, found))
+    page.table("path", N_("Path, row by row: both worms run evenly in between"), heads, found)
     _notes(page, keys)
 
 
