@@ -349,7 +349,10 @@ def lift_bound(cam: DiskCam, count: int, error: float) -> Real:
 
     dS cos nu = error + kappa (dS sin nu)^2 / 2 on a pitch curve of curvature kappa; of a swinging follower over the
     arm of the contact, whose own path is bent too. Near the end of a guide's reach that has no root: a follower whose
-    reach ends within the error is not held. The worst of three neighbouring angles counts.
+    reach ends within the error is not held. Nor is one on a flank r = a phi^n, cos nu = phi / n,
+    kappa = (n + 1) phi / (n^2 r), that a chord within the errors cuts off down to the axis:
+    r phi <= 2 error (n + 1) (1 + 1/n)^n, of which the last factor is below e. The worst of three neighbouring angles
+    counts.
     """
     angle = np.arange(count, dtype=np.float64) * (TURN / count)
     slope = np.abs(cam.pressure_angle(angle))
@@ -367,6 +370,8 @@ def lift_bound(cam: DiskCam, count: int, error: float) -> Real:
         bend = bend + (face if cam.is_flat else 1 / way)
     room, spare = cosine**2 - 2 * bend * error, cam.reach_margin(angle)
     bound = np.fmax(bound, 2 * error / (cosine + np.sqrt(np.maximum(room, 0))))
+    cut_off = cosine**2 <= 2 * math.e * bend * error * np.sin(slope) ** 2
     loose = (spare <= error) | ((room <= 0) & (spare <= _NEAR_END * error))
+    loose |= cut_off & (np.abs(point) * cosine <= _NEAR_END * error)
     bound = np.where(loose, np.inf, cam.slackened(angle, bound / way))
     return np.maximum(np.maximum(np.roll(bound, 1), np.roll(bound, -1)), bound)

@@ -139,6 +139,9 @@ def _table_segments(cam: DiskCam, start: float, end: float, grow: float) -> list
 
 def _filling(cam: DiskCam, grow: float, before: Curve, after: Curve, angle: float) -> list[Segment]:
     """What closes the gap at a jump of velocity: the follower rolls over its own corner, or slides along its face."""
+    if not cam.is_flat and grow == cam.radius:
+        # both go through the centre, whatever they are off by beside a base circle that is next to nothing
+        return []
     start, end = end_point(before), start_point(after)
     # the base circle may be next to nothing beside the roller
     if abs(end - start) <= TOLERANCES.relative_join * (abs(start) + cam.radius):

@@ -8,8 +8,12 @@ import numpy as np
 import pytest
 
 from geometry.cams.contact.rolled import Outline, lift_bound, outline_of_loop, outline_of_polynomials, rolled_lift
+from geometry.cams.motion.follower_motion import dwell, follower_motion, return_, rise
 from geometry.cams.motion.guides import Oscillating
-from geometry.cams.plane.disk import DiskCam
+from geometry.cams.plane.disk import DiskCam, FollowerKind, translating_cam
+from geometry.cams.plane.shape import whole_profile
+from geometry.laws.named import NAMED_LAWS
+from geometry.plane.profile import Label
 from tests.geometry.cams.plane.test_disk_cam import CAMS, TURN, mount_of
 
 DISK, ARM = 40.0, 9.0
@@ -82,3 +86,50 @@ def test_an_outline_that_is_wrong_by_so_much_lifts_no_wronger_than_is_told(name:
         # of use: no more than an eighth above the worst of three neighbours
         three = np.maximum(np.maximum(np.roll(worst, 1), np.roll(worst, -1)), worst)
         assert np.median(bound / three) < 1.125
+
+
+def chords_within(points: np.ndarray, error: float) -> np.ndarray:
+    """Vertices among dense points of an outline, each chord as long as all points between stay within ``error``."""
+    kept, first = [], 0
+    while first < len(points) - 1:
+        step = len(points) - 1 - first
+        while True:
+            chord = points[first + step] - points[first]
+            aside = (np.conj(chord) * (points[first : first + step] - points[first])).imag / abs(chord)
+            if step == 1 or np.abs(aside).max() <= error:
+                break
+            step -= max(1, step // 50)
+        kept.append(points[first])
+        first += step
+    return np.array(kept)
+
+
+@pytest.mark.parametrize("law", ["cosine", "polynomial_345"])
+@pytest.mark.parametrize("base", [1e-4, 3e-3, 0.02])
+def test_chords_that_cut_flanks_off_down_to_the_axis_are_no_fault_and_a_wrong_vertex_is(law: str, base: float) -> None:
+    """A point on a cam that comes to a point: a dwell on next to nothing, flanks that leave it along its own radius."""
+    shape, third, error = NAMED_LAWS[law](), TURN / 3, 0.01
+    motion = follower_motion([rise(third, 20.0, shape), return_(third, 20.0, shape), dwell(third)])
+    cam = translating_cam(motion, FollowerKind.POINTED, base)
+    vertices = chords_within(cam.profile_point(np.linspace(TURN, 0.0, 20001)), error)
+    bound = lift_bound(cam, 3600, error)
+    assert np.isfinite(bound[200:2200]).all()
+
+    def excess(at: np.ndarray) -> np.ndarray:
+        lift = rolled_lift(cam, outline_of_loop(at, np.zeros(len(at))), 3600)
+        off = np.abs(lift - cam.motion.value(np.arange(3600) * (TURN / 3600))) - bound
+        return np.asarray(off[np.isfinite(bound)])
+
+    assert excess(vertices).max() <= 0
+    worst = int(np.abs(np.abs(vertices) - 10.0).argmin())
+    spoiled = vertices.copy()
+    spoiled[worst] *= 1 + 3 * error / 10.0
+    assert excess(spoiled).max() > 0
+
+
+@pytest.mark.parametrize("base", [1e-4, 1e-3, 3e-3])
+def test_a_point_rolls_over_no_corner_of_its_own_however_small_the_base_circle_is(base: float) -> None:
+    shape, third = NAMED_LAWS["sine"](), TURN / 3
+    motion = follower_motion([rise(third, 20.0, shape), return_(third, 20.0, shape), dwell(third)])
+    profile = whole_profile(translating_cam(motion, FollowerKind.POINTED, base))
+    assert {segment.label for segment in profile.period} == {Label.CAM, Label.DWELL}
