@@ -38,11 +38,6 @@ class BoundedCentrode(PolarCentrode, Protocol):
         """Bounds of the moduli of the Taylor coefficients on each interval [a, b]."""
 
 
-def _cosine(angle: Real, order: int, times: int) -> Series:
-    """Taylor coefficients of cos(times angle)."""
-    return [times**k * np.cos(times * angle + k * math.pi / 2) / math.factorial(k) for k in range(order + 1)]
-
-
 class LobedEllipse(Record):
     """r = p/(1 - e cos n phi), n lobes: the focal ellipse (n = 1) and the oval (n = 2) in one; rolls on its equal.
 
@@ -58,10 +53,11 @@ class LobedEllipse(Record):
         return [self.parameter * x for x in power(self._under(np.asarray(angle, dtype=float), order), -1.0)]
 
     def _under(self, angle: Real, order: int) -> Series:
-        under = [-self.eccentricity * x for x in _cosine(angle, order, self.lobes)]
+        e, turn = self.eccentricity, self.lobes * angle
         # 1 - e cos n phi without a difference of near numbers: slender ellipses have e near 1
-        under[0] = (1 - self.eccentricity) + 2 * self.eccentricity * np.sin(self.lobes * angle / 2) ** 2
-        return under
+        under = (1 - e) + 2 * e * np.sin(turn / 2) ** 2
+        waves = (np.cos(turn + k * math.pi / 2) / FACTORIALS[k] for k in range(1, order + 1))
+        return [under, *(-e * self.lobes**k * wave for k, wave in enumerate(waves, 1))]
 
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
         """Bounds of the moduli of the Taylor coefficients on each interval."""

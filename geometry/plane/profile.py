@@ -6,6 +6,7 @@ import cmath
 import math
 from collections.abc import Iterator
 from enum import StrEnum
+from functools import cached_property
 
 import numpy as np
 
@@ -48,7 +49,7 @@ class Segment(Record):
     label: Label
 
 
-class Profile(Record):
+class Profile(Record, dict=True):
     """A closed chain: the segments of one period, repeated ``count`` times about the origin.
 
     Period k is period 0 turned by 2 pi k / count, the other way round where ``clockwise`` (a toothed hole). The joins
@@ -89,6 +90,10 @@ class Profile(Record):
 
     def reach(self) -> float:
         """Greatest distance of a segment end from the origin, mm."""
+        return self._reach
+
+    @cached_property
+    def _reach(self) -> float:
         return max(abs(start_point(s.curve)) for s in self.period)
 
 

@@ -32,7 +32,8 @@ from geometry.curves.curve import Complex, Real
 from geometry.kinematics.centrodes import BoundedCentrode
 
 _NODES = 16
-_FIRST_PANELS, _MOST_PANELS = 64, 8192
+# panels of a turn, and of a lobe, to begin with, and the most of a lobe
+_FIRST_PANELS, _LEAST_PANELS, _MOST_PANELS = 64, 8, 8192
 # the last coefficients of the polynomials are below this part of the largest value; of the curvature and its slope
 _TAIL, _CURVATURE_TAIL, _SLOPE_TAIL = 4e-15, 1e-13, 1e-11
 # where more panels no longer help, rounding is left: up to this
@@ -112,7 +113,7 @@ class MateShape(Record):
 
 
 class _Table(Record):
-    """Panels in arc length with Chebyshev coefficients (panels, 7, 16) of the columns named above."""
+    """Panels of one lobe in arc length with Chebyshev coefficients (panels, 7, 16) of the columns named above."""
 
     edges: Real
     values: Real
@@ -131,27 +132,30 @@ class PitchLine(Record, eq=False, dict=True):
     @property
     def length(self) -> float:
         """The perimeter, mm."""
-        return float(self._table.edges[-1])
+        return float(self._table.edges[-1]) * self.lobes
 
     @cached_property
     def _table(self) -> _Table:
-        return _table_of(self.shape)
+        return _table_of(self.shape, self.lobes)
 
     def _looked_up(self, s: Real, first: int, last: int) -> tuple[Real, Real]:
-        """Columns ``first`` up to ``last`` (the last axis) at arc lengths, and the whole turns before them."""
+        """Columns ``first`` up to ``last`` (the last axis) at arc lengths, and the whole lobes before them."""
         table = self._table
-        turns = np.floor(s / table.edges[-1])
-        rest = s - turns * table.edges[-1]
+        before = np.floor(s / table.edges[-1])
+        rest = s - before * table.edges[-1]
         panel = np.minimum(table.edges.searchsorted(rest, side="right") - 1, len(table.edges) - 2)
         low, high = table.edges[panel], table.edges[panel + 1]
         x = np.maximum(np.minimum(2 * (rest - low) / (high - low) - 1, 1.0), -1.0)
         polynomials = np.cos(np.arccos(x)[..., None] * _ORDERS)
-        return np.matmul(table.values[panel, first:last], polynomials[..., None])[..., 0], turns
+        return np.matmul(table.values[panel, first:last], polynomials[..., None])[..., 0], before
 
     def _parameters(self, s: Real) -> tuple[Real, Real]:
         """Parameter t and angle Theta at arc lengths."""
-        found, turns = self._looked_up(s, _PARAMETER, _ANGLE + 1)
-        return found[..., 0] + turns * self.shape.period, found[..., 1] + turns * (2 * math.pi)
+        found, before = self._looked_up(s, _PARAMETER, _ANGLE + 1)
+        return (
+            found[..., 0] + before * (self.shape.period / self.lobes),
+            found[..., 1] + before * (2 * math.pi / self.lobes),
+        )
 
     def angle(self, s: ArrayLike) -> Real:
         """Polar angle at arc lengths, rad, continuous."""
@@ -187,9 +191,12 @@ class PitchLine(Record, eq=False, dict=True):
 
     def frame_and_slope(self, s: ArrayLike) -> tuple[Complex, Complex, Real, Real]:
         """c, T, the curvature kappa and d kappa / d s."""
-        found, _ = self._looked_up(np.asarray(s, dtype=float), _X, _SLOPE + 1)
-        point = found[..., 0] + 1j * found[..., 1]
-        return point, np.exp(1j * found[..., 2]), found[..., 3], found[..., 4]
+        found, before = self._looked_up(np.asarray(s, dtype=float), _X, _SLOPE + 1)
+        point, direction = found[..., 0] + 1j * found[..., 1], found[..., 2]
+        if self.lobes > 1:
+            turn = before % self.lobes * (2 * math.pi / self.lobes)
+            point, direction = point * np.exp(1j * turn), direction + turn
+        return point, np.exp(1j * direction), found[..., 3], found[..., 4]
 
     def curvature(self, s: ArrayLike) -> Real:
         """Curvature, 1/mm: positive where convex."""
@@ -221,10 +228,8 @@ class PitchLine(Record, eq=False, dict=True):
         return edges, np.array(self._bounds_on(_MOST_ORDER, edges[:-1], edges[1:]))
 
     def _bounds_on(self, order: int, a: Real, b: Real) -> Series:
-        """Bounds on each interval within one turn, by Taylor arithmetic on bounds."""
+        """Bounds on each interval within one lobe, by Taylor arithmetic on bounds."""
         low, high = self._parameters(a)[0], self._parameters(b)[0]
-        # a whole turn is the start again
-        high = np.where(high <= low, high + self.shape.period, high)
         # the table's rounding
         slack = 1e-13 * self.shape.period
         low, high = low - slack, high + slack
@@ -245,10 +250,10 @@ class PitchLine(Record, eq=False, dict=True):
 
 
 def _piece_at(edges: Real, s: Real) -> NDArray[np.int64]:
-    """Number of the piece at arc lengths; it goes on counting from turn to turn."""
-    turns = np.floor(s / edges[-1])
-    inside = np.clip(edges.searchsorted(s - turns * edges[-1], side="right") - 1, 0, len(edges) - 2)
-    return np.asarray(inside + (turns * (len(edges) - 1)).astype(np.int64))
+    """Number of the piece at arc lengths; it goes on counting from lobe to lobe."""
+    before = np.floor(s / edges[-1])
+    inside = np.clip(edges.searchsorted(s - before * edges[-1], side="right") - 1, 0, len(edges) - 2)
+    return np.asarray(inside + (before * (len(edges) - 1)).astype(np.int64))
 
 
 def _speed_square(radius: Series, rate: Series) -> Series:
@@ -275,13 +280,13 @@ def _along(radius: Series, rate: Series, slow: Series, turn: Complex | Real, ord
 
 
 @lru_cache(maxsize=16)
-def _table_of(shape: PolarShape) -> _Table:
+def _table_of(shape: PolarShape, lobes: int) -> _Table:
     """The table of a shape: both gears of a pair, and every trial of another key of one, share theirs."""
-    edges = np.linspace(0, shape.period, _FIRST_PANELS + 1)
+    edges = np.linspace(0, shape.period / lobes, max(_FIRST_PANELS // lobes, _LEAST_PANELS) + 1)
     # what the last coefficients were before a panel was halved
-    before = np.full(_FIRST_PANELS, math.inf)
+    before = np.full(len(edges) - 1, math.inf)
     while len(edges) <= _MOST_PANELS + 1:
-        table, tails = _tabulated(shape, edges)
+        table, tails = _tabulated(shape, edges, 2 * math.pi / lobes)
         wide = (tails > _TAIL) & ((tails >= _ROUNDING_TAIL) | (tails <= before / 4))
         if not wide.any():
             table.edges.flags.writeable = table.values.flags.writeable = False
@@ -292,8 +297,9 @@ def _table_of(shape: PolarShape) -> _Table:
     raise ConvergenceError("arc length of the centrode", float(tails.max()), len(edges) - 1)
 
 
-def _tabulated(shape: PolarShape, edges: Real) -> tuple[_Table, Real]:
-    """The table of panels of the parameter, and how large the last coefficients of each are left."""
+def _tabulated(shape: PolarShape, edges: Real, whole: float) -> tuple[_Table, Real]:
+    """The table of panels of the parameter, over all of which the angle grows by ``whole``, and how large the last
+    coefficients of each are left."""
     x = np.cos(math.pi * (np.arange(_NODES) + 0.5) / _NODES)
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
     half = np.diff(edges) / 2
@@ -318,7 +324,7 @@ def _tabulated(shape: PolarShape, edges: Real) -> tuple[_Table, Real]:
         length, _, speed = integrals(low, width)
         width = np.clip(width - (length - wanted) / speed, 0.0, 2 * half[:, None])
     turned = integrals(low, width)[1]
-    angle = np.broadcast_to(start[:-1, None], turned.shape) * (2 * math.pi / start[-1]) + turned
+    angle = np.broadcast_to(start[:-1, None], turned.shape) * (whole / start[-1]) + turned
     columns = np.stack([low + width, angle, *_columns(shape, low + width, angle)], axis=1)
     cosines = np.cos(np.outer(np.arange(_NODES), math.pi * (np.arange(_NODES) + 0.5) / _NODES)) * 2 / _NODES
     cosines[0] /= 2
