@@ -156,8 +156,8 @@ class Mating(Joined, kw_only=True):
         return 0.0, 0.0, 1.0
 
     def standing(self, first: Pose, second: Pose) -> Standing | None:
-        """How two placed instances stand to each other; None: the mate asks nothing of it."""
-        raise NotImplementedError
+        """How two placed instances stand to each other; None: the mate asks nothing of it, or ``lies``."""
+        return None
 
     def laid_standing(self, first: Placement3, second: Placement3) -> LaidStanding:
         """How two placed instances of what ``lies`` stand to each other."""
@@ -210,6 +210,17 @@ class Toothed(Touching, kw_only=True):
     def in_scheme(self) -> bool:
         """Whether the scheme of a train shows it: gears of one ratio all round."""
         return self.pair is not None
+
+    def turned_off(self, first: Pose, second: Pose, pitch: float, arm: float) -> Standing:
+        """Centre distance, and the second's turn off the middle of the backlash, where it fits at every ``pitch``.
+
+        ``arm``: from the second's axis to the line of action at most, mm.
+        """
+        spoke = second[0] - first[0]
+        direction = cmath.phase(spoke)
+        _, right = self.second_pose(*first, direction)
+        play = max(self.normal_backlash, 0.0) / (2 * arm)
+        return Standing(direction, abs(spoke), math.remainder(second[1] - right, pitch), play, arm)
 
 
 class MateKind(Generic[K, A, B]):

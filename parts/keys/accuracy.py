@@ -19,10 +19,7 @@ class AccuracyTable(Struct, forbid_unknown_fields=True):
     ]
     deviations: (
         Annotated[
-            tuple[
-                Annotated[float, mm("", least=-100, most=100)],
-                Annotated[float, mm("", least=-100, most=100)],
-            ],
+            tuple[Annotated[float, mm("", least=-100, most=100)], Annotated[float, mm("", least=-100, most=100)]],
             Meta(
                 description="drawing: limits of what is measured on the teeth, from the size in the table, read there",
                 examples=[[-0.1, -0.2]],

@@ -19,14 +19,10 @@ Direction = Annotated[float, degrees("of the guide, from +x counter-clockwise", 
 class DrivenRocker(Struct, forbid_unknown_fields=True, tag_field="member", tag="rocker"):
     """Rocker with joint A at its end, whose angle is start_angle_deg and the motion."""
 
-    pivot: Annotated[
-        tuple[Coordinate, Coordinate],
-        mm("x, y of its pivot", example=[91.0, 26.0]),
-    ]
+    pivot: Annotated[tuple[Coordinate, Coordinate], mm("x, y of its pivot", example=[91.0, 26.0])]
     length: Annotated[float, part_mm("from the pivot to joint A", above=0, example=58.0)]
     start_angle_deg: Annotated[
-        float,
-        degrees("at S = 0, from +x counter-clockwise", least=-360, most=360, example=167.0),
+        float, degrees("at S = 0, from +x counter-clockwise", least=-360, most=360, example=167.0)
     ]
     sense: Annotated[
         Literal["counter_clockwise", "clockwise"], Meta(description="how the rocker turns while the follower rises")
@@ -36,20 +32,14 @@ class DrivenRocker(Struct, forbid_unknown_fields=True, tag_field="member", tag="
 class DrivenSlider(Struct, forbid_unknown_fields=True, tag_field="member", tag="slider"):
     """Slider with joint A, which stands at start and moves by the motion."""
 
-    start: Annotated[
-        tuple[Coordinate, Coordinate],
-        mm("x, y of joint A at S = 0", example=[25.0, 30.0]),
-    ]
+    start: Annotated[tuple[Coordinate, Coordinate], mm("x, y of joint A at S = 0", example=[25.0, 30.0])]
     direction_deg: Direction = 90.0
 
 
 class GuidingRocker(Struct, forbid_unknown_fields=True, tag_field="member", tag="rocker"):
     """Rocker with joint B at its end."""
 
-    pivot: Annotated[
-        tuple[Coordinate, Coordinate],
-        mm("x, y of its pivot", example=[62.0, 124.0]),
-    ]
+    pivot: Annotated[tuple[Coordinate, Coordinate], mm("x, y of its pivot", example=[62.0, 124.0])]
     length: Annotated[float, part_mm("from the pivot to joint B", above=0, example=68.0)]
     assembly: Annotated[
         Literal["left", "right"], Meta(description="side of the line from joint A to the pivot on which B stands")
@@ -59,10 +49,7 @@ class GuidingRocker(Struct, forbid_unknown_fields=True, tag_field="member", tag=
 class GuidingSlider(Struct, forbid_unknown_fields=True, tag_field="member", tag="slider"):
     """Slider with joint B on a line."""
 
-    through: Annotated[
-        tuple[Coordinate, Coordinate],
-        mm("x, y of any point of the line", example=[0.0, 60.0]),
-    ]
+    through: Annotated[tuple[Coordinate, Coordinate], mm("x, y of any point of the line", example=[0.0, 60.0])]
     direction_deg: Direction = 0.0
     assembly: Annotated[
         Literal["forward", "backward"], Meta(description="B ahead of joint A's foot on the line or behind it")

@@ -22,6 +22,11 @@ def direction(text: str) -> Meta:
     return degrees(text, least=-360, most=360)
 
 
+def backlash(text: str) -> Meta:
+    """A normal backlash with another meaning."""
+    return mm(text, least=0, most=100, example=0.1)
+
+
 def further(direction_deg: float, angle: float) -> float:
     """A direction so many degrees on, within the range of the key; turned back by whole turns only beyond that."""
     found = direction_deg + angle
@@ -56,12 +61,9 @@ class InvolutePairKeys(GearPairKeys, kw_only=True):
     normal_backlash: (
         Annotated[
             float,
-            mm(
+            backlash(
                 "normal backlash j_bn = j_wt cos(alpha_wt) cos(beta_b), at right angles to the flanks: "
-                "thins both gears by half",
-                least=0,
-                most=100,
-                example=0.1,
+                "thins both gears by half"
             ),
         ]
         | None

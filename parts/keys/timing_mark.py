@@ -28,8 +28,7 @@ class TimingMarkTable(Struct, forbid_unknown_fields=True):
     diameter: Annotated[float, mm("of the mark", above=0, most=1000, example=3.0)]
     distance: (
         Annotated[
-            float,
-            part_mm("from the axis to its centre; default: between bore and base circle", above=0, example=22.0),
+            float, part_mm("from the axis to its centre; default: between bore and base circle", above=0, example=22.0)
         ]
         | None
     ) = None

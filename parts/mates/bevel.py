@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
-from parts.base.mate import End, LaidStanding, MateKind, Pose, Standing, Touching
+from parts.base.mate import End, LaidStanding, MateKind, Pose, Touching
 from parts.gears.thinning import shared_thinning
-from parts.keys.base import mm
-from parts.keys.mate import GearPairKeys
+from parts.keys.mate import GearPairKeys, backlash
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
@@ -32,13 +31,9 @@ _ROUNDING = 1e-9
 class BevelPairSpec(GearPairKeys, tag="bevel_pair", kw_only=True):
     """Keys of ``bevel_pair``."""
 
-    normal_backlash: (
-        Annotated[
-            float,
-            mm("normal backlash at the outer end: thins both gears by half", least=0, most=100, example=0.1),
-        ]
-        | None
-    ) = None
+    normal_backlash: Annotated[float, backlash("normal backlash at the outer end: thins both gears by half")] | None = (
+        None
+    )
 
 
 class BevelMating(Touching):
@@ -71,10 +66,6 @@ class BevelMating(Touching):
         ahead = math.remainder(rotation - direction, math.tau / first.number_of_teeth)
         turn = math.pi / second.number_of_teeth - ahead * first.number_of_teeth / second.number_of_teeth
         return centre + cmath.rect(self.distance, direction), direction + math.pi + turn
-
-    def standing(self, first: Pose, second: Pose) -> Standing | None:
-        """What a plane does not tell; see ``laid_standing``."""
-        return None
 
     def laid_standing(self, first: Placement3, second: Placement3) -> LaidStanding:
         """In the frame of the first, where its tooth is on +x: apexes, axes, and how far the second is turned off."""

@@ -12,7 +12,7 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Touching
 from parts.keys.mate import AboveKeys, Height, direction, height
-from parts.mates.sizes import same_size, turn_off
+from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
     from geometry.gears.mesh.search import ContactPlace, PairContact
@@ -80,7 +80,7 @@ class CycloidalMating(Touching):
         spoke = second[0] - first[0]
         direction = cmath.phase(spoke) if spoke else 0.0
         right = first[1] + self.disc.rotation(direction - first[1])
-        off = turn_off(second[1], right, self.disc.pitch_angle)
+        off = math.remainder(second[1] - right, self.disc.pitch_angle)
         gap = pin_contact(self.disc.side(), DiscMotion(self.disc)).worst.gap
         # a pin's normal passes the disc's centre at e z at most
         return Standing(direction, abs(spoke), off, max(gap, 0.0) / self.disc.pitch_radius, self.disc.pitch_radius)
@@ -182,7 +182,7 @@ class OutputMating(Touching):
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Distance of the axes, and the plate's turn against the holes."""
         _, right = self.second_pose(*first, 0.0)
-        off = turn_off(second[1], right, 2 * math.pi / self.output.count)
+        off = math.remainder(second[1] - right, 2 * math.pi / self.output.count)
         arm = self.output.pitch_circle_diameter / 2
         spoke = first[0] - second[0]
         play = 2 * math.asin(min(1.0, max(self.gap, 0.0) / (2 * arm)))

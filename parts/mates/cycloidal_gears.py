@@ -12,9 +12,8 @@ from geometry.base.record import replace
 from parts.base.mate import End, MateKind, Pose, Standing, Toothed
 from parts.gears.cycloidal_gear.part import CycloidalGearSpec
 from parts.gears.thinning import shared_thinning
-from parts.keys.base import mm
-from parts.keys.mate import GearPairKeys
-from parts.mates.sizes import same_size, turn_off
+from parts.keys.mate import GearPairKeys, backlash
+from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -28,11 +27,7 @@ class CycloidalGearPairSpec(GearPairKeys, tag="cycloidal_gear_pair", kw_only=Tru
     """Keys of ``cycloidal_gear_pair``."""
 
     normal_backlash: (
-        Annotated[
-            float,
-            mm("backlash along the pitch circles: thins both gears by half of it", least=0, most=100, example=0.1),
-        ]
-        | None
+        Annotated[float, backlash("backlash along the pitch circles: thins both gears by half of it")] | None
     ) = None
 
 
@@ -56,12 +51,8 @@ class CycloidalGearMating(Toothed):
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and the second's turn off the middle of the backlash."""
-        spoke = second[0] - first[0]
-        direction = cmath.phase(spoke)
-        off = turn_off(second[1], self.gears.second_rotation(first[1], direction), self.gears.second.pitch_angle)
         # normals of the flanks pass through the pitch point
-        arm = self.gears.second.pitch_radius
-        return Standing(direction, abs(spoke), off, max(self.normal_backlash, 0.0) / (2 * arm), arm)
+        return self.turned_off(first, second, self.gears.second.pitch_angle, self.gears.second.pitch_radius)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch."""

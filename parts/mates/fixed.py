@@ -38,11 +38,7 @@ class FixedSpec(MateKeys, tag="fixed", kw_only=True):
     """Keys of ``fixed``."""
 
     second: Annotated[str, Meta(description="instance that is fixed to it")]
-    offset: Annotated[tuple[_Shift, _Shift, _Shift], mm("x, y, z")] = (
-        0.0,
-        0.0,
-        0.0,
-    )
+    offset: Annotated[tuple[_Shift, _Shift, _Shift], mm("x, y, z")] = (0.0, 0.0, 0.0)
     rotation_deg: _Turn = 0.0
     axis: _Axis = None
 
@@ -168,13 +164,7 @@ class Fixed(MateKind[FixedSpec, Any, Any]):
 
 def _fixed(name: str, keys: MateKeys, offset: complex, height: float, rotation: float = 0.0) -> FixedMating:
     return FixedMating(
-        name,
-        keys.first,
-        keys.second,
-        height=height,
-        distance=abs(offset),
-        offset=offset,
-        rotation=rotation,
+        name, keys.first, keys.second, height=height, distance=abs(offset), offset=offset, rotation=rotation
     )
 
 

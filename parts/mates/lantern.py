@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from geometry.base.errors import Nearest, ParameterError, limit
 from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Toothed
 from parts.keys.mate import Direction, height
-from parts.mates.sizes import same_size, turn_off
+from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -52,13 +52,8 @@ class LanternMating(Toothed):
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and the gear's turn off the middle of its play."""
-        spoke = second[0] - first[0]
-        direction = cmath.phase(spoke)
-        _, right = self.second_pose(*first, direction)
-        off = turn_off(second[1], right, self.gear.pitch_angle)
         # a pin's normal passes the gear's axis at r at most
-        arm = self.gear.pitch_radius
-        return Standing(direction, abs(spoke), off, self.gear.pin_clearance / arm, arm)
+        return self.turned_off(first, second, self.gear.pitch_angle, self.gear.pitch_radius)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict of all pins over one pitch."""
@@ -94,9 +89,8 @@ class LanternPair(MateKind[LanternPairSpec, "PinPlate", "LanternGear"]):
         """The gear is for these pins, and goes between the plates."""
         lantern, gear = first.thing, second.thing
         if gear.number_of_pins != lantern.pins.count:
-            raise ParameterError(
-                "number_of_pins", gear.number_of_pins, "not_of_the_lantern", Nearest(lantern.pins.count)
-            )
+            pins = Nearest(lantern.pins.count)
+            raise ParameterError("number_of_pins", gear.number_of_pins, "not_of_the_lantern", pins)
         circles = gear.pin_circle_diameter, lantern.pins.pitch_circle_diameter
         same_size("pin_circle_diameter", *circles, "not_of_the_lantern")
         same_size("pin_diameter", gear.pin_diameter, lantern.pins.diameter, "not_of_the_lantern")

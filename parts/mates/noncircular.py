@@ -10,8 +10,7 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
 from parts.base.mate import End, MateKind, Pose, Standing, Toothed
 from parts.gears.thinning import shared_thinning
-from parts.keys.base import mm
-from parts.keys.mate import GearPairKeys
+from parts.keys.mate import GearPairKeys, backlash
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -26,11 +25,7 @@ class NoncircularGearPairSpec(GearPairKeys, tag="noncircular_gear_pair", kw_only
     """Keys of ``noncircular_gear_pair``."""
 
     normal_backlash: (
-        Annotated[
-            float,
-            mm("backlash along the line of action: thins both gears by half of it", least=0, most=100, example=0.1),
-        ]
-        | None
+        Annotated[float, backlash("backlash along the line of action: thins both gears by half of it")] | None
     ) = None
 
 
@@ -60,18 +55,8 @@ class NoncircularMating(Toothed):
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and the second gear's turn off the middle of its backlash: only this phase fits."""
-        direction = cmath.phase(second[0] - first[0])
-        turn = math.remainder(second[1] - self.gears.second_rotation(first[1], direction), 2 * math.pi)
-        symmetry = 2 * math.pi / self.gears.second.count
         # no line of action is farther from the axis
-        arm = self.gears.second.radii[1]
-        return Standing(
-            direction,
-            abs(second[0] - first[0]),
-            math.remainder(turn, symmetry),
-            max(self.normal_backlash, 0.0) / (2 * arm),
-            arm,
-        )
+        return self.turned_off(first, second, 2 * math.pi / self.gears.second.count, self.gears.second.radii[1])
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one whole turn of the first gear, or the part of it after which all comes again."""

@@ -125,12 +125,7 @@ class ConjugateCams(MateKind[ConjugateCamsSpec, "DiskCam", "SecondCam"]):
         if other.first != cam:
             raise ParameterError("of", None, "made_from_another_cam")
         return ConjugateMating(
-            *self.joined(keys),
-            height=keys.height,
-            module=_lowest(cam),
-            has_contact=False,
-            cam=cam,
-            other=other,
+            *self.joined(keys), height=keys.height, module=_lowest(cam), has_contact=False, cam=cam, other=other
         )
 
 

@@ -65,10 +65,7 @@ MATES: Index[MateKind[Any, Any, Any]] = Index(
             "parts.mates.cycloidal:OUTPUT_PINS",
             "The pins of an output plate (second) in the holes of a cycloidal disc (first)",
         ),
-        "pin_seat": (
-            "parts.mates.fixed:PIN_SEAT",
-            "A loose pin (second) in a seat or hole of a ring or plate (first)",
-        ),
+        "pin_seat": ("parts.mates.fixed:PIN_SEAT", "A loose pin (second) in a seat or hole of a ring or plate (first)"),
         "cycloidal_gear_pair": (
             "parts.mates.cycloidal_gears:CYCLOIDAL_GEAR_PAIR",
             "Two cycloidal gears in mesh, each one's tips on the other's roots",

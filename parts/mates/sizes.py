@@ -1,8 +1,6 @@
-"""Sizes that must be equal in two parts, and turns that count but for whole pitches."""
+"""Sizes that must be equal in two parts."""
 
 from __future__ import annotations
-
-import math
 
 from geometry.base.errors import Nearest, ParameterError
 
@@ -22,8 +20,3 @@ def same_as_cam(key: str, value: float, wanted: float, code: str = "cam_has_anot
     """Refuse a size of the follower that is not the one its cam is made for, mm."""
     if abs(value - wanted) > _SAME_AS_CAM:
         raise ParameterError(key, value, code, Nearest(wanted))
-
-
-def turn_off(found: float, right: float, pitch: float) -> float:
-    """How far a rotation is off the right one, rad, pitches left out."""
-    return math.remainder(found - right, pitch)

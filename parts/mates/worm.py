@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import nearest
-from parts.base.mate import End, MateKind, Pose, Standing, Touching
+from parts.base.mate import End, MateKind, Pose, Touching
 from parts.keys.mate import GearPairKeys
 from parts.keys.worm import AngleError, AxialError, DistanceError
 from parts.mates.sizes import same_size
@@ -87,10 +87,6 @@ class WormMating(Touching):
         ahead = math.remainder(rotation + pitch / 2 - direction, pitch)
         turn = self.worm.sign * ahead * self.drive.ratio + turn_for(self.teeth, self.errors)
         return centre + cmath.rect(self.distance, direction), direction + math.pi + turn
-
-    def standing(self, first: Pose, second: Pose) -> Standing | None:
-        """It is placed by its mate alone."""
-        return None
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch, in sections across the wheel's axis."""

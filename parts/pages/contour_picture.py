@@ -235,10 +235,7 @@ def tool_texts(pair: AnyShiftPair, words: Words) -> list[str]:
         return lines
     rule = "k_2 = 0" if pair.plain_tip else "k_2 = 0.25 - 0.125 x_2"
     lines.append(f"r_a2 = r_2 - ({pair.ring_addendum:g} - x_2 - k_2) m, {rule}")
-    tools = (
-        (N_("cutter of the ring: {sizes}"), pair.root),
-        (N_("cutter of the pinion: {sizes}"), pair.pinion_cutter),
-    )
+    tools = ((N_("cutter of the ring: {sizes}"), pair.root), (N_("cutter of the pinion: {sizes}"), pair.pinion_cutter))
     for whose, tool in tools:
         if isinstance(tool, PinionCutter):
             sizes = (

@@ -148,8 +148,7 @@ SAVVIN: dict[str, Printed] = {
         N_("both sides of the circle satisfy (11); with F, R times the relative turning the minus is the cam's"),
     ),
     "21": Printed(
-        "F·cos(α_2-α_1) + R·sin(α_2-α_1)",
-        N_("(4) gives the minus; the printed point leaves the circle of the roller"),
+        "F·cos(α_2-α_1) + R·sin(α_2-α_1)", N_("(4) gives the minus; the printed point leaves the circle of the roller")
     ),
     "27": Printed("γ_2 = γ_11 + α_1", N_("this is gamma_1, as (28) has it")),
     "28": Printed(

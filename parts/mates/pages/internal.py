@@ -106,10 +106,7 @@ def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
         ring_keys = msgspec.structs.replace(ring_keys, profile_shift_coefficient=shift / math.cos(helix))
         # shifts that were found for a distance give it back but for rounding
         mate = InternalGearPairSpec(first="first", second="second", normal_backlash=keys.normal_backlash)
-    ends: dict[str, End[Any]] = {
-        "first": first,
-        "second": End(ring_keys, checked_ring_gear(ring_keys)),
-    }
+    ends: dict[str, End[Any]] = {"first": first, "second": End(ring_keys, checked_ring_gear(ring_keys))}
     mating = mated(ends, [mate], _SAME)[1][0]
     assert isinstance(mating, InternalMating)
     return mating.pair
@@ -132,10 +129,7 @@ def rack_sheet(table: dict[str, Any]) -> Sheet:
     )
     try:
         same_helix(keys.first, keys.second)
-        ends: dict[str, End[Any]] = {
-            "first": _pinion(keys),
-            "second": End(keys.second, checked_rack_part(keys.second)),
-        }
+        ends: dict[str, End[Any]] = {"first": _pinion(keys), "second": End(keys.second, checked_rack_part(keys.second))}
         mating = mated(ends, [mate], _SAME)[1][0]
         assert isinstance(mating, RackMating)
         page = rack_page(mating.pair, TOPIC, _helical(keys), keys)

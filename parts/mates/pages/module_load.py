@@ -56,10 +56,7 @@ _NAMES: Mapping[Bearing, str] = {
     "ring": N_("ring on disk 2"),
     "disk_2": N_("disk 2 in the body"),
 }
-_ACROSS, _LIFT = (
-    N_("force across the axis, N"),
-    N_("force and moment that lift a ball most, times all balls, N"),
-)
+_ACROSS, _LIFT = (N_("force across the axis, N"), N_("force and moment that lift a ball most, times all balls, N"))
 
 
 class LoadKeys(TwoDiskKeys, kw_only=True):

@@ -33,8 +33,7 @@ class ChoiceKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     helix_angle_deg: HelixAngle = 0.0
     double_helical: Double = False
     face_width: Annotated[
-        float,
-        mm("helical: common face width, for the overlap ratio; 0 is none of it", least=0, most=10_000),
+        float, mm("helical: common face width, for the overlap ratio; 0 is none of it", least=0, most=10_000)
     ] = 0.0
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     least_contact_ratio: Annotated[

@@ -120,11 +120,7 @@ class Stage(Record):
 
 
 def parsed(
-    teeth: Mapping[str, int],
-    meshes: str,
-    shafts: str = "",
-    carriers: Mapping[str, str] | None = None,
-    held: str = "",
+    teeth: Mapping[str, int], meshes: str, shafts: str = "", carriers: Mapping[str, str] | None = None, held: str = ""
 ) -> Train:
     """A train from its words: ``"1-2, 2'-3 internal 3.5"``, ``"H-5"``, ``{"H": "2"}``, ``"4"``.
 

@@ -100,10 +100,7 @@ class WormMeasures(Record):
             if len(found) < len(wanted):
                 failures.append(
                     fault(
-                        "{layer}: {count} lines instead of {wanted}",
-                        layer=layer,
-                        count=len(found),
-                        wanted=len(wanted),
+                        "{layer}: {count} lines instead of {wanted}", layer=layer, count=len(found), wanted=len(wanted)
                     )
                 )
                 continue
