@@ -99,19 +99,6 @@ class CamModelKeys(RecipeKeys, kw_only=True, tag="cam_model"):
     density: Density | None = None
 
 
-class CamModelRecipe(Recipe[CamModelKeys]):
-    """Plates and dowels."""
-
-    name, keys = "cam_model", CamModelKeys
-
-    def expanded(self, keys: CamModelKeys) -> Expansion:
-        """The tables of one model."""
-        return _Making(keys).all()
-
-
-CAM_MODEL = CamModelRecipe()
-
-
 class _Making(Making):
     """The tables as they grow; the axle is at 0, the cam's lower face at height 0."""
 
@@ -161,7 +148,7 @@ class _Making(Making):
             "cam", kind="cam", face_width=thick, bore_diameter=keys.axle_diameter + keys.clearance, label=label,
             timing_mark={"diameter": self._mark()}, **self.given,
         )  # fmt: skip
-        self.found.origins |= {f"parts.cam.{key}": key for key in _CAM_KEYS}
+        self.told("cam", **{key: key for key in _CAM_KEYS})
         self.put("coaxial", "frame", "cam", height=thick, rotation_deg=keys.cam_angle_deg)
         stem = self._stem()
         if self.rolls:
@@ -233,3 +220,6 @@ class _Making(Making):
         self.fix("roller", "follower", 0j, 2 * thick)
         self.pin("roller_pin", keys.roller_pin_diameter, 3 * thick - _SHORT)
         self.fix("follower", "roller_pin", 0j, _SHORT - 2 * thick)
+
+
+CAM_MODEL = Recipe(CamModelKeys, lambda keys: _Making(keys).all())

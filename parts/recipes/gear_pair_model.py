@@ -43,47 +43,33 @@ class GearPairModelKeys(RecipeKeys, kw_only=True, tag="gear_pair_model"):
     density: Density | None = None
 
 
-class GearPairModelRecipe(Recipe[GearPairModelKeys]):
-    """Two gears, a plate, two dowels."""
-
-    name, keys = "gear_pair_model", GearPairModelKeys
-
-    def expanded(self, keys: GearPairModelKeys) -> Expansion:
-        """The tables of one model: the pinion at the origin; the frame comes under both axles, wherever they stand."""
-        thick, making = keys.plate_thickness, _making(keys)
-        beside = max(_BESIDE, keys.axle_diameter / 2 + _WALL)
-        making.part(
-            "frame", kind="plate", face_width=thick, corner_radius=_CORNER, width=2 * beside, height=2 * beside,
-            beyond_axles=beside, holes=[{"axis_of": wheel, "diameter": keys.axle_diameter} for wheel in _WHEELS],
-        )  # fmt: skip
-        making.found.instances |= {key: {"part": key} for key in (*_WHEELS, "frame")}
-        making.pin("axle", keys.axle_diameter, 4 * thick)
-        making.mate("external_gear_pair", *_WHEELS, normal_backlash=keys.normal_backlash)
-        for number, wheel in enumerate(_WHEELS, 1):
-            making.put("coaxial", wheel, f"axle_{number}", "axle", height=-thick)
-        making.found.origins |= {
-            "parts.frame.face_width": "plate_thickness", "parts.axle.diameter": "axle_diameter",
-            "mates[1].normal_backlash": "normal_backlash",
-        }  # fmt: skip
-        making.found.name_all(_TITLES)
-        return making.found
-
-
-GEAR_PAIR_MODEL = GearPairModelRecipe()
-
-
-def _making(keys: GearPairModelKeys) -> Making:
-    """The tables with both gears in them, named by what students are given."""
-    making = Making(keys.plate_thickness, made_of(keys.material, keys.density), _COLOURS)
+def _expanded(keys: GearPairModelKeys) -> Expansion:
+    """The tables of one model: the pinion at the origin; the frame comes under both axles, wherever they stand."""
+    thick, making = keys.plate_thickness, Making(keys.plate_thickness, made_of(keys.material, keys.density), _COLOURS)
+    # named by what students are given
     for number, (wheel, teeth, shift) in enumerate(zip(_WHEELS, keys.teeth, keys.shifts, strict=True), 1):
         making.part(
             wheel, kind="spur_gear", module=keys.module, number_of_teeth=teeth, profile_shift_coefficient=shift,
             face_width=keys.plate_thickness, bore_diameter=keys.axle_diameter + keys.clearance,
             label=f"z {teeth} m {keys.module:g}",
         )  # fmt: skip
-        own = {
-            "number_of_teeth": f"teeth[{number}]", "profile_shift_coefficient": f"shifts[{number}]", "module": "module",
-            "face_width": "plate_thickness",
-        }  # fmt: skip
-        making.found.origins |= {f"parts.{wheel}.{key}": origin for key, origin in own.items()}
-    return making
+        making.told(wheel, number_of_teeth=f"teeth[{number}]", profile_shift_coefficient=f"shifts[{number}]",
+                    module="module", face_width="plate_thickness")  # fmt: skip
+    beside = max(_BESIDE, keys.axle_diameter / 2 + _WALL)
+    making.part(
+        "frame", kind="plate", face_width=thick, corner_radius=_CORNER, width=2 * beside, height=2 * beside,
+        beyond_axles=beside, holes=[{"axis_of": wheel, "diameter": keys.axle_diameter} for wheel in _WHEELS],
+    )  # fmt: skip
+    making.found.instances |= {key: {"part": key} for key in (*_WHEELS, "frame")}
+    making.pin("axle", keys.axle_diameter, 4 * thick)
+    making.mate("external_gear_pair", *_WHEELS, normal_backlash=keys.normal_backlash)
+    for number, wheel in enumerate(_WHEELS, 1):
+        making.put("coaxial", wheel, f"axle_{number}", "axle", height=-thick)
+    making.told("frame", face_width="plate_thickness")
+    making.told("axle", diameter="axle_diameter")
+    making.found.origins["mates[1].normal_backlash"] = "normal_backlash"
+    making.found.name_all(_TITLES)
+    return making.found
+
+
+GEAR_PAIR_MODEL = Recipe(GearPairModelKeys, _expanded)

@@ -63,6 +63,16 @@ class Making:
         """A part of the material."""
         self.found.parts[name] = keys | self.material | {"colour": self.colours[colour or name]}
 
+    def told(self, *parts: str, **keys: str) -> None:
+        """Which key of the recipe each of these keys of some parts is."""
+        self.found.origins |= {f"parts.{part}.{key}": own for part in parts for key, own in keys.items()}
+
+    def drive(self, keys: RecipeKeys, **instances: str) -> None:
+        """Drives of instances, each by as many turns as a key of the recipe says."""
+        for instance, key in instances.items():
+            self.found.drives.append({"instance": instance, "turns": getattr(keys, key)})
+            self.found.origins[f"drives[{len(self.found.drives)}].turns"] = key
+
     def plate(self, name: str, size: float, holes: Sequence[Table], *, square: bool = False, **more: object) -> None:
         """A disk of a diameter, or a square plate of a side."""
         radius = min(_CORNER, size / 8) if square else size / 2

@@ -171,32 +171,26 @@ class _Set(Record):
         return self.wheels[::-1] if last.is_ring and not first.is_ring else self.wheels
 
 
-class PlanetarySetRecipe(Recipe[PlanetarySetKeys]):
+def _expanded(keys: PlanetarySetKeys) -> Expansion:
     """Wheels, carrier, pins, and with a frame what a model needs to be turned and counted."""
-
-    name, keys = "planetary_set", PlanetarySetKeys
-
-    def expanded(self, keys: PlanetarySetKeys) -> Expansion:
-        """The tables of one set."""
-        made = _settled(keys)
-        making = Making(keys.plate_thickness, made_of(keys.material, keys.density), _COLOURS)
-        for wheel in dict.fromkeys(made.wheels):
-            making.part(wheel.id, **_wheel_keys(made, wheel))
-            own = {"number_of_teeth": f"teeth[{wheel.item}]", "module": "module", "face_width": "face_width",
-                   "helix_angle_deg": "helix_angle_deg"}  # fmt: skip
-            if keys.shifts is not None:
-                own["profile_shift_coefficient"] = f"shifts[{wheel.item}]"
-            making.found.origins |= {f"parts.{wheel.id}.{key}": origin for key, origin in own.items()}
-        _add_meshes(made, making.found)
-        _add_carrier(made, making)
-        if keys.frame:
-            _add_frame(made, making)
-        _add_drive(made, making.found)
-        making.found.name_all(_TITLES)
-        return making.found
+    made = _settled(keys)
+    making = Making(keys.plate_thickness, made_of(keys.material, keys.density), _COLOURS)
+    for wheel in dict.fromkeys(made.wheels):
+        making.part(wheel.id, **_wheel_keys(made, wheel))
+        making.told(wheel.id, number_of_teeth=f"teeth[{wheel.item}]", module="module", face_width="face_width",
+                    helix_angle_deg="helix_angle_deg")  # fmt: skip
+        if keys.shifts is not None:
+            making.told(wheel.id, profile_shift_coefficient=f"shifts[{wheel.item}]")
+    _add_meshes(made, making.found)
+    _add_carrier(made, making)
+    if keys.frame:
+        _add_frame(made, making)
+    _add_drive(made, making.found)
+    making.found.name_all(_TITLES)
+    return making.found
 
 
-PLANETARY_SET = PlanetarySetRecipe()
+PLANETARY_SET = Recipe(PlanetarySetKeys, _expanded)
 
 
 def _settled(keys: PlanetarySetKeys) -> _Set:
@@ -398,16 +392,12 @@ def _add_carrier(made: _Set, making: Making) -> None:
     rim = made.chain[1]
     turning = {"kind": "coaxial", "first": "pin", "second": rim.id, "height": rim.height - bottom}
     _join(made, found, turning, ("pin", rim.id))
-    found.origins |= {
-        "parts.pin.diameter": "pin_diameter",
-        "parts.carrier.pin_diameter": "pin_diameter",
-        "parts.carrier.bore_diameter": "shaft_diameter",
-        "parts.carrier.face_width": "plate_thickness",
-    }
+    making.told("pin", diameter="pin_diameter")
+    making.told("carrier", pin_diameter="pin_diameter", bore_diameter="shaft_diameter", face_width="plate_thickness")
     for wheel in made.wheels:
         if not wheel.is_ring:
-            key = "pin_diameter" if wheel in made.wheels[1:3] else "shaft_diameter"
-            found.origins[f"parts.{wheel.id}.bore_diameter"] = key
+            turns = wheel in made.wheels[1:3]
+            making.told(wheel.id, bore_diameter="pin_diameter" if turns else "shaft_diameter")
 
 
 def _add_frame(made: _Set, making: Making) -> None:

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from typing import Annotated, Literal
@@ -32,9 +33,8 @@ from parts.keys.base import mm
 from parts.pages.module_rules import CONDITIONS, DRIVERS, M4, M8, M10, M12, Condition, of_orientation, sizes, valued
 from parts.recipes.making import Making, place
 from parts.recipes.power_module_kinematics import IDLER_SHIFT
-from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
+from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
-_Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 # of the M20 nut: radius, height; across flats of M8 and M12, height of their heads and nuts
 _NUT_20, _HEX_8, _HEX_12 = (17.0, 8.0), (13.0, 5.3), (18.0, 7.5, 10.8)
@@ -105,18 +105,14 @@ STANDARD: Mapping[str, tuple[int, str, str]] = {
     "nut_46": (46, N_("Nut M20x1.5-6H"), "11871-88"),
     "nut_47": (47, N_("Nut M45x1.5-6H"), "11871-88"),
     "screw_49": (49, N_("Screw M8-6g x 12"), "8878-83"),
-    "screw_49_up": (49, N_("Screw M8-6g x 12"), "8878-83"),
     "screw_51": (51, N_("Screw M8-6g x 16"), "11738-84"),
-    "screw_51_down": (51, N_("Screw M8-6g x 16"), "11738-84"),
     "screw_52": (52, N_("Screw M8-6g x 25"), "11738-84"),
     "screw_53": (53, N_("Screw M8-6g x 45"), "11738-84"),
-    "screw_53_down": (53, N_("Screw M8-6g x 45"), "11738-84"),
     "screw_54": (54, N_("Screw M8-6g x 75"), "11738-84"),
     "screw_55": (55, N_("Screw M10-6g x 30"), "11738-84"),
     "screw_56": (56, N_("Screw M12-6g x 35"), "11738-84"),
     "screw_57": (57, N_("Screw M14-6g x 20"), "11738-84"),
     "screw_59": (59, N_("Screw M4-6g x 6"), "17473-80"),
-    "screw_59_down": (59, N_("Screw M4-6g x 6"), "17473-80"),
     "ball": (61, N_("Ball 8"), "3722-81"),
 }
 # of instances, where their parts are several of one name, or one part is in several places
@@ -201,8 +197,8 @@ class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
         DRIVERS["balls"]
     )
     platform_size: Annotated[float, mm("side of the platform", above=0, most=5000)] = DRIVERS["platform_size"]
-    turns_of_disk: Annotated[_Turns, Meta(description="how far disk 2 is turned")] = 1.0
-    turns_of_ring: Annotated[_Turns, Meta(description="how far wheel 21 is turned")] = -2.0
+    turns_of_disk: Annotated[Turns, Meta(description="how far disk 2 is turned")] = 1.0
+    turns_of_ring: Annotated[Turns, Meta(description="how far wheel 21 is turned")] = -2.0
     names: Annotated[Literal["en", "uk"], Meta(description="language of designations")] = "en"
 
 
@@ -294,19 +290,6 @@ def _nearest_teeth(
     return Nearest(list(found)) if works(found) else None
 
 
-class PowerModuleRecipe(Recipe[PowerModuleKeys]):
-    """The whole module."""
-
-    name, keys = "power_module", PowerModuleKeys
-
-    def expanded(self, keys: PowerModuleKeys) -> Expansion:
-        """The tables of one module."""
-        return _Making(keys).all()
-
-
-POWER_MODULE = PowerModuleRecipe()
-
-
 class _Making(Making):
     """The tables as they grow; heights above the back of the disks."""
 
@@ -327,27 +310,13 @@ class _Making(Making):
         turning[self.keys.orientation]()
         self._platform()
         self._worms()
-        keys = self.keys
-        self.found.drives += [
-            {"instance": "disk_2", "turns": keys.turns_of_disk},
-            {"instance": "ring", "turns": keys.turns_of_ring},
-        ]
+        self.drive(self.keys, disk_2="turns_of_disk", ring="turns_of_ring")
         self._order()
         self._named()
-        self.found.origins |= {
-            "drives[1].turns": "turns_of_disk", "drives[2].turns": "turns_of_ring",
-            "parts.ring.number_of_teeth": "teeth", "parts.pinion.number_of_teeth": "teeth",
-            "parts.ring.module": "module", "parts.pinion.module": "module",
-            "parts.worm.module": "worm_module", "parts.worm_wheel_25.module": "worm_module",
-            "parts.worm_wheel_23.module": "worm_module",
-            "parts.worm.diameter_quotient": "worm_quotient", "parts.worm.thread_length": "worm_length",
-            "parts.ring.face_width": "face_width", "parts.pinion.face_width": "face_width",
-        } | {
-            f"parts.worm_wheel_{which}.{key}": driver for which in (25, 23) for key, driver in (
-                ("diameter_quotient", "worm_quotient"), ("number_of_teeth", "worm_teeth"),
-                ("face_width", "worm_wheel_width"),
-            )
-        }  # fmt: skip
+        self.told("ring", "pinion", number_of_teeth="teeth", module="module", face_width="face_width")
+        self.told("worm", thread_length="worm_length")
+        self.told("worm", "worm_wheel_25", "worm_wheel_23", module="worm_module", diameter_quotient="worm_quotient")
+        self.told("worm_wheel_25", "worm_wheel_23", number_of_teeth="worm_teeth", face_width="worm_wheel_width")
         return self.found
 
     def _named(self) -> None:
@@ -359,7 +328,7 @@ class _Making(Making):
                 number = told.text(_DESIGNATION, number=f"{position:02}")
                 table |= {"designation": number, "material": material, "colour": colour}
             else:
-                position, title, standard = STANDARD[name]
+                position, title, standard = STANDARD[re.sub("_(down|up)$", "", name)]
                 table |= {"standard": told.text(_STANDARD, number=standard), "material": STEEL, "colour": "#5f6870"}
             table |= {"position": position, "title": in_every_language(title)}
         self.found.name_instances(INSTANCES)
@@ -1058,6 +1027,9 @@ class _Making(Making):
         self._circle(
             name, f"{size}_ball_{number}", "ball", int(self.s[f"{size}_balls"]), self.s[f"r_{size}"], z - ball / 2
         )
+
+
+POWER_MODULE = Recipe(PowerModuleKeys, lambda keys: _Making(keys).all())
 
 
 def _pair(at: complex) -> list[float]:

@@ -25,7 +25,7 @@ from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
 from parts.keys.base import mm
 from parts.recipes.making import Making, hole, made_of, place, refused_by
-from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
+from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Turns
 
 # mm: walls between holes, boss of a crank about its pin, rim beyond the ring's teeth, the idler's link about its axles,
 # room for the balls between both disks
@@ -54,7 +54,6 @@ _TITLES = {
     "first_crank": N_("First crank"), "second_crank": N_("Second crank"), "flange_pin": N_("Flange pin"),
     "spider_pin": N_("Spider pin"), "long_pin": N_("Long pin"), "body_post": N_("Post of the housing"),
 }  # fmt: skip
-_Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 
 
@@ -86,8 +85,8 @@ class PowerModuleKinematicsKeys(RecipeKeys, kw_only=True, tag="power_module_kine
     satellite_axle_diameter: Annotated[float, mm("of the axle 13 and of the post", least=1, most=500)] = 20.0
     pin_diameter: Annotated[float, mm("of idlers' and cranks' pins", least=1, most=200)] = 10.0
     platform_size: Annotated[float, mm("side of the platform", above=0, most=5000)] = 260.0
-    turns_of_disk: Annotated[_Turns, Meta(description="how far disk 2 is turned")] = 1.0
-    turns_of_ring: Annotated[_Turns, Meta(description="how far the ring is turned")] = -2.0
+    turns_of_disk: Annotated[Turns, Meta(description="how far disk 2 is turned")] = 1.0
+    turns_of_ring: Annotated[Turns, Meta(description="how far the ring is turned")] = -2.0
     material: Material | None = None
     density: Density | None = None
 
@@ -171,19 +170,6 @@ def _checked(keys: PowerModuleKinematicsKeys) -> _Sizes:
     return _Sizes(keys).checked()
 
 
-class PowerModuleKinematicsRecipe(Recipe[PowerModuleKinematicsKeys]):
-    """Disks, wheels, links and cranks."""
-
-    name, keys = "power_module_kinematics", PowerModuleKinematicsKeys
-
-    def expanded(self, keys: PowerModuleKinematicsKeys) -> Expansion:
-        """The tables of one module."""
-        return _Making(_checked(keys)).all()
-
-
-POWER_MODULE_KINEMATICS = PowerModuleKinematicsRecipe()
-
-
 class _Making(Making):
     """The tables as they grow; heights are of lower faces, that of the disks is 0."""
 
@@ -200,19 +186,12 @@ class _Making(Making):
         keys = self.keys
         self._disks()
         {"cranks": self._cranks, "idlers": self._idlers, "thesis": self._wheels}[keys.orientation]()
-        self.found.drives += [
-            {"instance": "disk_2", "turns": keys.turns_of_disk},
-            {"instance": "ring", "turns": keys.turns_of_ring},
-        ]
+        self.drive(keys, disk_2="turns_of_disk", ring="turns_of_ring")
         for name, table in self.found.parts.items():
             table |= {"position": _POSITIONS[name]} if name in _POSITIONS else {}
         self.found.name_all(_TITLES)
-        self.found.origins |= {
-            "drives[1].turns": "turns_of_disk", "drives[2].turns": "turns_of_ring",
-            "parts.platform.width": "platform_size",
-            "parts.ring.number_of_teeth": "teeth", "parts.pinion.number_of_teeth": "teeth",
-            "parts.ring.module": "module", "parts.pinion.module": "module",
-        }  # fmt: skip
+        self.told("platform", width="platform_size")
+        self.told("ring", "pinion", number_of_teeth="teeth", module="module")
         return self.found
 
     def _disks(self) -> None:
@@ -365,3 +344,6 @@ class _Making(Making):
             self.fix("flange", f"long_pin_{k}", at, lower - flange, "long_pin")
             self.fix("body", f"body_post_{k}", at, keys.disk_thickness, "body_post")
         self._platform(spider, "spider", spider)
+
+
+POWER_MODULE_KINEMATICS = Recipe(PowerModuleKinematicsKeys, lambda keys: _Making(_checked(keys)).all())

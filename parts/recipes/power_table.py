@@ -23,7 +23,7 @@ from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
 from parts.keys.base import mm
 from parts.recipes.making import Making, hole, made_of, place, refused_by
-from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
+from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
 # modules: what a ring's root is beyond its reference circle at most, with its clearance; a rim beyond that, mm
 _ROOT, _RIM = 1.25, 8.0
@@ -60,7 +60,6 @@ _TITLES = {
     "disk_thin_bearing": N_("Thin bearing of disk 2's worm"),
     "ring_collar": N_("Collar of the ring's worm"), "disk_collar": N_("Collar of disk 2's worm"),
 }  # fmt: skip
-_Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 
 
 class PowerTableKeys(RecipeKeys, kw_only=True, tag="power_table"):
@@ -90,8 +89,8 @@ class PowerTableKeys(RecipeKeys, kw_only=True, tag="power_table"):
     worm_thinning: Annotated[float, mm("of the wheels' teeth, along the worms, for backlash", least=0, most=5)] = 0.2
     platform_axle_diameter: Annotated[float, mm("of the platform's axle", least=0.5, most=200)] = 6.0
     platform_size: Annotated[float, mm("side of the platform", above=0, most=2000)] = 84.0
-    turns_of_disk: Annotated[_Turns, Meta(description="how far disk 2 is turned")] = 1.0
-    turns_of_ring: Annotated[_Turns, Meta(description="how far the ring is turned")] = -2.0
+    turns_of_disk: Annotated[Turns, Meta(description="how far disk 2 is turned")] = 1.0
+    turns_of_ring: Annotated[Turns, Meta(description="how far the ring is turned")] = -2.0
     material: Material | None = None
     density: Density | None = None
 
@@ -250,19 +249,6 @@ def _side_by_side(crank: float, boss: float) -> float:
     return (crank + 2 * boss + 0.5) / math.sqrt(3)
 
 
-class PowerTableRecipe(Recipe[PowerTableKeys]):
-    """Plates, dowels and tubes."""
-
-    name, keys = "power_table", PowerTableKeys
-
-    def expanded(self, keys: PowerTableKeys) -> Expansion:
-        """The tables of one table."""
-        return _Making(_checked(keys)).all()
-
-
-POWER_TABLE = PowerTableRecipe()
-
-
 class _Making(Making):
     """The tables as they grow; heights are of lower faces, the base's is 0."""
 
@@ -295,21 +281,13 @@ class _Making(Making):
         self._second_stage()
         (self._worms if self.keys.drive == "worms" else self._hand_cranks)()
         self._order()
-        keys = self.keys
-        self.found.drives.append({"instance": "disk_2", "turns": keys.turns_of_disk})
-        self.found.drives.append({"instance": "ring", "turns": keys.turns_of_ring})
-        self.found.origins |= {
-            "parts.ring.number_of_teeth": "teeth", "parts.pinion.number_of_teeth": "teeth",
-            "parts.ring.module": "module", "parts.pinion.module": "module",
-            "drives[1].turns": "turns_of_disk", "drives[2].turns": "turns_of_ring",
-            "parts.pinion.bore_diameter": "axle_diameter", "parts.platform.width": "platform_size",
-            "parts.disk_worm_wheel.module": "worm_module", "parts.ring_worm_wheel.module": "worm_module",
-            "parts.disk_worm.module": "worm_module", "parts.ring_worm.module": "worm_module",
-            "parts.disk_worm_wheel.number_of_teeth": "worm_wheel_teeth",
-            "parts.ring_worm_wheel.number_of_teeth": "worm_wheel_teeth",
-            "parts.disk_worm_wheel.axial_thinning": "worm_thinning",
-            "parts.ring_worm_wheel.axial_thinning": "worm_thinning",
-        }  # fmt: skip
+        self.drive(self.keys, disk_2="turns_of_disk", ring="turns_of_ring")
+        self.told("ring", "pinion", number_of_teeth="teeth", module="module")
+        self.told("pinion", bore_diameter="axle_diameter")
+        self.told("platform", width="platform_size")
+        self.told("disk_worm_wheel", "ring_worm_wheel", module="worm_module", number_of_teeth="worm_wheel_teeth",
+                  axial_thinning="worm_thinning")  # fmt: skip
+        self.told("disk_worm", "ring_worm", module="worm_module")
         self.found.name_all(_TITLES)
         return self.found
 
@@ -529,3 +507,6 @@ class _Making(Making):
         """A part that stands still with its axis along -y."""
         at = place(middle + 0.5j * length, height)
         self.found.instances[name] = {"part": name, "at": at, "axis": [0.0, -1.0, 0.0], "held": True}
+
+
+POWER_TABLE = Recipe(PowerTableKeys, lambda keys: _Making(_checked(keys)).all())

@@ -1,21 +1,22 @@
 """What a kind of assembly has to say: its keys, and the plain tables of a scene that they become.
 
-A recipe is an instance of a subclass, registered by one entry of ``parts/recipes/registry.py``.
+A recipe is a ``Recipe``, registered by one entry of ``parts/recipes/registry.py``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Annotated, Any, Generic, TypeVar
 
 from msgspec import Meta, Struct
 
-from geometry.base.record import Draft, field
-from parts.base.texts import Text, in_every_language
+from geometry.base.record import Draft, Record, field
+from parts.base.texts import in_every_language
 from parts.keys.base import IDENTIFIER
 
 Table = dict[str, Any]
-# the id of an instance: that of its group, and its number there
+# how far something is driven
+Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 
 
 class RecipeKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=True):
@@ -62,19 +63,12 @@ class Expansion(Draft):
 K = TypeVar("K", bound=RecipeKeys)
 
 
-class Recipe(Generic[K]):
-    """A kind of assembly. ``K``: its keys (a msgspec struct, tagged with its name)."""
+class Recipe(Record, Generic[K]):
+    """A kind of assembly: its keys (a msgspec struct, tagged with its name), and what makes plain tables of them.
 
-    name: str
+    Ids in the tables are without the assembly's name. Where there is no such assembly, ``expanded`` raises a
+    ParameterError that names the recipe's key.
+    """
+
     keys: type[K]
-    reasons: Mapping[str, Text] = {}
-
-    def expanded(self, keys: K) -> Expansion:
-        """The plain tables, their ids without the assembly's name.
-
-        Raises
-        ------
-        ParameterError
-            There is no such assembly; names the recipe's key.
-        """
-        raise NotImplementedError
+    expanded: Callable[[K], Expansion]

@@ -51,7 +51,7 @@ class Fit(Record):
     is_least: bool = False
 
 
-class _Region(Record):
+class _Region(Record, dict=True):
     """Where a body is about an axis, r over z: at some turn at most, and all round.
 
     ``exact``: at each place it is, at some turn.
@@ -60,6 +60,21 @@ class _Region(Record):
     some: BaseGeometry
     all_round: BaseGeometry | None
     exact: bool
+
+    @cached_property
+    def inset(self) -> BaseGeometry:
+        """All but what only touches."""
+        return self.some.buffer(-TOUCH, join_style="mitre")
+
+    @cached_property
+    def upwards(self) -> _Region:
+        """Drawn out along the axis without end."""
+        return replace(self, some=drawn_along(self.some, 1j * FAR))
+
+    @cached_property
+    def downwards(self) -> _Region:
+        """The same against it."""
+        return replace(self, some=drawn_along(self.some, -1j * FAR))
 
 
 class Sectioned:
@@ -198,8 +213,6 @@ class Sections:
         self.parts = parts
         self.made = cache(lambda key: Sectioned(self.parts[key]))
         self._held: dict[object, Fit | None] = {}
-        self._shrunk: dict[int, tuple[BaseGeometry, BaseGeometry]] = {}
-        self._drawn: dict[tuple[int, int], tuple[_Region, _Region]] = {}
 
     def between(self, one: Instance, two: Instance) -> Fit | None:
         """Two instances as they stand, if sections about the axis of either tell it."""
@@ -224,7 +237,7 @@ class Sections:
         for k, at in ((0, second), (1, first)):
             regions = made[k].at(0j), made[1 - k].at(at)
             raised = lift if k == 0 else -lift
-            gap = self._apart(regions, raised)
+            gap = _apart(regions, raised)
             if gap is not None:
                 # about either axis it is at least so much
                 least = Fit(gap) if least is None else Fit(max(gap, least.gap))
@@ -242,22 +255,11 @@ class Sections:
             return False
         first, second, lift = stand
         for k, at in ((0, second), (1, first)):
-            one, two = self.made(parts[k]).at(0j), self.made(parts[1 - k]).at(at)
-            regions = (self._drawn_out(one, -way), two) if k == 0 else (one, self._drawn_out(two, -way))
-            if self._apart(regions, -lift if k else lift) is not None:
+            regions = [self.made(parts[k]).at(0j), self.made(parts[1 - k]).at(at)]
+            regions[k] = regions[k].downwards if way > 0 else regions[k].upwards
+            if _apart((regions[0], regions[1]), -lift if k else lift) is not None:
                 return True
         return False
-
-    def _drawn_out(self, region: _Region, way: int) -> _Region:
-        """A region drawn out along the axis, or against it, without end."""
-        found = self._drawn.get((id(region), way))
-        if found is None:
-            # the region is kept with it, so that its number stays its own
-            found = self._drawn[id(region), way] = (
-                region,
-                replace(region, some=drawn_along(region.some, 1j * way * FAR)),
-            )
-        return found[1]
 
     def _across(self, upright: Instance, lying: Instance) -> float:
         """What keeps an upright part from one that lies across it, mm, at least: cylinders about both."""
@@ -286,24 +288,7 @@ class Sections:
         if not all(m.known for m in made):
             return False
         near, far = round(near, _DIGITS), round(far, _DIGITS)
-        return self._apart((made[0].at(_rounded(at)), made[1].going(near, far)), lift) is not None
-
-    def _apart(self, regions: tuple[_Region, _Region], lift: float) -> float | None:
-        """What keeps two regions apart, mm; None: they are deeper in each other than what touches."""
-        import shapely
-
-        one, two = regions[0].some, _raised(regions[1].some, lift)
-        gap = float(shapely.distance(one, two))
-        if gap > 0:
-            return gap if gap > TOUCH else 0.0
-        return None if shapely.intersects(self._inset(one), _raised(self._inset(regions[1].some), lift)) else 0.0
-
-    def _inset(self, region: BaseGeometry) -> BaseGeometry:
-        found = self._shrunk.get(id(region))
-        if found is None:
-            # the region is kept with it, so that its number stays its own
-            found = self._shrunk[id(region)] = region, region.buffer(-TOUCH, join_style="mitre")
-        return found[1]
+        return _apart((made[0].at(_rounded(at)), made[1].going(near, far)), lift) is not None
 
     def _common(self, other: Sectioned, regions: tuple[_Region, _Region], at: complex, lift: float) -> float:
         """What is certainly in common, mm^3: where the first is whole all round and the other, turned, is; or 0."""
@@ -312,7 +297,7 @@ class Sections:
         one, two = regions
         if one.all_round is None or not two.exact or not isinstance(other.thing, HalfSection):
             return 0.0
-        common = shapely.intersection(self._inset(one.all_round), _raised(self._inset(two.some), lift))
+        common = shapely.intersection(one.all_round.buffer(-TOUCH, join_style="mitre"), _raised(two.inset, lift))
         if common.area <= 0:
             return 0.0
         r0, z0, r1, z1 = common.bounds
@@ -411,6 +396,17 @@ def _disk(radius: float, centre: complex = 0j) -> BaseGeometry:
 
 def _rounded(at: complex) -> complex:
     return complex(round(at.real, _DIGITS) + 0.0, round(at.imag, _DIGITS) + 0.0)
+
+
+def _apart(regions: tuple[_Region, _Region], lift: float) -> float | None:
+    """What keeps two regions apart, mm; None: they are deeper in each other than what touches."""
+    import shapely
+
+    one, two = regions
+    gap = float(shapely.distance(one.some, _raised(two.some, lift)))
+    if gap > 0:
+        return gap if gap > TOUCH else 0.0
+    return None if shapely.intersects(one.inset, _raised(two.inset, lift)) else 0.0
 
 
 def _raised(region: BaseGeometry, lift: float) -> BaseGeometry:

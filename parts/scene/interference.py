@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cache
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -54,30 +55,28 @@ def solid_overlaps(
     solid_of = solid_of or cache(lambda key: inner_solid(parts[key]))
     boxes = {i.id: _box(i, parts[i.part]) for i in placing.instances}
     found = []
-    for index, one in enumerate(placing.instances):
-        for two in placing.instances[index + 1 :]:
-            if frozenset((one.id, two.id)) in contact or not _meet(boxes[one.id], boxes[two.id]):
-                continue
-            fit = sections.between(one, two)
-            if fit is not None:
-                if fit.volume > 0:
-                    found.append(SolidOverlap(one.id, two.id, fit.volume))
-                elif fits is not None and not fit.is_least:
-                    fits.append((one, two, fit.gap))
-                continue
+    for pair in combinations(placing.instances, 2):
+        one, two = pair
+        if frozenset((one.id, two.id)) in contact or not _meet(boxes[one.id], boxes[two.id]):
+            continue
+        volume: float | None
+        if (fit := sections.between(one, two)) is not None:
+            volume = fit.volume
+            if fits is not None and volume == 0 and not fit.is_least:
+                fits.append((one, two, fit.gap))
+        else:
             try:
                 # a thread is meshed only where its hull is not clear
-                hulls = [sections.made(i.part).hull for i in (one, two)]
+                hulls = [sections.made(i.part).hull for i in pair]
                 volume = common_volume(
-                    [placed_solid(i, h or solid_of(i.part)) for i, h in zip((one, two), hulls, strict=True)]
+                    [placed_solid(i, h or solid_of(i.part)) for i, h in zip(pair, hulls, strict=True)]
                 )
                 if volume > 0 and any(hulls):
-                    volume = common_volume([placed_solid(i, solid_of(i.part)) for i in (one, two)])
+                    volume = common_volume([placed_solid(i, solid_of(i.part)) for i in pair])
             except GeometryError:
-                found.append(SolidOverlap(one.id, two.id, None))
-                continue
-            if volume > 0:
-                found.append(SolidOverlap(one.id, two.id, volume))
+                volume = None
+        if volume != 0:
+            found.append(SolidOverlap(one.id, two.id, volume))
     return tuple(found)
 
 

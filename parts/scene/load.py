@@ -458,6 +458,15 @@ def _part_spec(key: str, table: dict[str, Any], source: str) -> MaterialKeys:
     return spec
 
 
+# keys of exports: what they are where nobody asks, and the only format that takes them, or why CAD does not
+_OF_ONE_FORMAT = (
+    ("dxf_version", "R2000", "dxf"), ("author", "", "step"), ("organisation", "", "step"), ("shared", True, "step"),
+)  # fmt: skip
+_NOT_OF_CAD = (
+    ("kerf", 0.0, "shows_the_part"), ("curves", "arcs", "has_true_splines"), ("dxf_version", "R2000", "not_for_r12"),
+)  # fmt: skip
+
+
 def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, place: str) -> ExportSpec:
     spec = converted(table, ExportSpec, source, place)
 
@@ -470,12 +479,10 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
         if part not in parts:
             raise SceneError(source, f"{place}.parts", part, "no_such_part", meant(part, parts), known=list(parts))
     if spec.kerf and spec.offset:
-        raise SceneError(source, f"{place}.kerf", spec.kerf, "kerf_and_offset", REMOVED)
-    if spec.format != "dxf" and spec.dxf_version != "R2000":
-        refuse("dxf_version", "only_for_format", formats='"dxf"', format=spec.format)
-    for key, default in (("author", ""), ("organisation", ""), ("shared", True)):
-        if spec.format != "step" and getattr(spec, key) != default:
-            refuse(key, "only_for_format", formats='"step"', format=spec.format)
+        refuse("kerf", "kerf_and_offset")
+    for key, usual, only in _OF_ONE_FORMAT:
+        if spec.format != only and getattr(spec, key) != usual:
+            refuse(key, "only_for_format", formats=f'"{only}"', format=spec.format)
     if spec.assembly and spec.format not in ASSEMBLY_FORMATS:
         refuse("assembly", "only_for_format", formats=[f'"{f}"' for f in ASSEMBLY_FORMATS], format=spec.format)
     if spec.is_laid:
@@ -493,16 +500,12 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
     check_sheet_keys(spec, source, place)
     kind = file_kind(spec.format, spec.purpose)
     if spec.kerf and kind.form is Form.TRIANGLES:
-        raise SceneError(source, f"{place}.kerf", spec.kerf, "kerf_of_a_print", REMOVED, offset=spec.kerf / 2)
+        refuse("kerf", "kerf_of_a_print", offset=spec.kerf / 2)
     if spec.pitch_curve and kind.form is not Form.SPLINES:
         refuse("pitch_curve", "only_for_purpose", purpose="drawing")
-    if kind.is_cad:
-        if spec.kerf:
-            refuse("kerf", "shows_the_part")
-        if spec.curves != "arcs":
-            refuse("curves", "has_true_splines")
-        if spec.dxf_version != "R2000":
-            refuse("dxf_version", "not_for_r12")
+    for key, usual, code in _NOT_OF_CAD if kind.is_cad else ():
+        if getattr(spec, key) != usual:
+            refuse(key, code)
     if spec.tolerance is None:
         spec.tolerance = purposes[str(spec.purpose)]
     return spec

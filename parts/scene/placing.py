@@ -8,6 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 from typing import TYPE_CHECKING
 
 from geometry.base.errors import ParameterError
@@ -300,8 +301,8 @@ def _placed_so(instance: Instance, found: Placement3) -> Instance:
     # rounding of what is straight would turn it another way
     way = [0.0 if abs(row[2]) < _STRAIGHT else row[2] for row in found.rotation]
     x, y, z = (value / math.hypot(*way) for value in way)
-    turned = Placement3.towards((x, y, z), 0.0).inverse() @ found
-    return replace(instance, at=found.translation, rotation=_about_z(turned), axis=(x, y, z))
+    (cosine, *_), (sine, *_), _ = (Placement3.towards((x, y, z), 0.0).inverse() @ found).rotation
+    return replace(instance, at=found.translation, rotation=math.atan2(sine, cosine), axis=(x, y, z))
 
 
 def seen_from(first: Instance, second: Instance) -> tuple[Instance, Instance]:
@@ -310,11 +311,6 @@ def seen_from(first: Instance, second: Instance) -> tuple[Instance, Instance]:
         return first, second
     local = _placed_so(second, _frame(first).inverse() @ second.scene_from_part)
     return replace(first, at=(0.0, 0.0, 0.0), axis=UPWARDS), local
-
-
-def _about_z(turned: Placement3) -> float:
-    """The angle of a turn about z, rad."""
-    return math.atan2(turned.rotation[1][0], turned.rotation[0][0])
 
 
 def _axis(spec: InstanceSpec) -> Vector:
@@ -496,14 +492,13 @@ def _close_ones(
     joined = {frozenset((m.first.id, m.second.id)) for m in mates}
     gears = [i for i in instances if parts[i.part].kind == "spur_gear" and i.axis == UPWARDS]
     found = []
-    for index, one in enumerate(gears):
-        for two in gears[index + 1 :]:
-            if frozenset((one.id, two.id)) in joined or _common_width(one, two, parts) <= 0:
-                continue
-            tips = [parts[i.part].circles["tip_diameter"] / 2 for i in (one, two)]
-            distance = abs(two.centre - one.centre)
-            slack = TOLERANCES.relative_join * (abs(one.centre) + abs(two.centre) + sum(tips))
-            # one within the other's bore is for the solids to tell
-            if abs(tips[0] - tips[1]) < distance < sum(tips) - slack:
-                found.append(Closeness(one.id, two.id, distance, sum(tips)))
+    for one, two in combinations(gears, 2):
+        if frozenset((one.id, two.id)) in joined or _common_width(one, two, parts) <= 0:
+            continue
+        tips = [parts[i.part].circles["tip_diameter"] / 2 for i in (one, two)]
+        distance = abs(two.centre - one.centre)
+        slack = TOLERANCES.relative_join * (abs(one.centre) + abs(two.centre) + sum(tips))
+        # one within the other's bore is for the solids to tell
+        if abs(tips[0] - tips[1]) < distance < sum(tips) - slack:
+            found.append(Closeness(one.id, two.id, distance, sum(tips)))
     return tuple(found)

@@ -21,7 +21,7 @@ PER_CYCLE, MOST_CYCLES, _MOST_OF_AXES = 720, 400, 2000
 _SAME, _SAME_ANGLE, _ALIKE = 1e-7, 1e-9, 1e-6
 # times that are tried where two pairs may stand alike, and how often each is made better
 _TRIED, _HALVINGS = 8, 40
-_SPREAD = np.arange(1, 34) * (math.sqrt(5) - 1) / 2 % 1.0
+SPREAD = np.arange(1, 34) * (math.sqrt(5) - 1) / 2 % 1.0
 
 
 class Placed(Protocol):
@@ -92,7 +92,7 @@ class Path(Record):
         """Whether this pair passes through the same poses as another one of the same parts, at some other time."""
         if (self.period, self.counts) != (other.period, other.counts) or self.share < 1:
             return False
-        probe = np.concatenate([[0.0], float(self.period) * _SPREAD])
+        probe = np.concatenate([[0.0], float(self.period) * SPREAD])
         wanted = _stands(*self.seen(probe), self.counts)
         off = np.abs(other.stands - wanted[0]).max(axis=1)
         # the nearest times of all, then nearer
@@ -115,7 +115,7 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
         return None
     fastest = float(max(map(abs, rates)))
     # spread over the whole, so that no dwell is taken for rest
-    probe = min(float(common_period(rates)), MOST_CYCLES / fastest) * np.concatenate([[0.0], _SPREAD])
+    probe = min(float(common_period(rates)), MOST_CYCLES / fastest) * np.concatenate([[0.0], SPREAD])
     places, turns = _seen(course, pair, probe)
     still = float(np.abs(places - places[0]).max()) <= _SAME
     coaxial = float(np.abs(places).max()) <= _SAME

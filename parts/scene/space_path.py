@@ -11,13 +11,12 @@ from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.kinematics.mechanism import one_line, parallel
 from parts.scene.placing import Instance
-from parts.scene.relative_path import MOST_CYCLES, PER_CYCLE, Course, common_period
+from parts.scene.relative_path import MOST_CYCLES, PER_CYCLE, SPREAD, Course, common_period
 from parts.scene.shapes import Shape
 
 # what is one place or one direction, mm and parts of 1
 _SAME = 1e-7
 _Size = tuple[float, float, float]
-_SPREAD = np.arange(1, 34) * (math.sqrt(5) - 1) / 2 % 1.0
 
 
 class SpacePath(Record):
@@ -55,7 +54,7 @@ def space_path(
     cycles = float(period * fastest)
     share = min(1.0, MOST_CYCLES / cycles)
     times = np.linspace(0.0, float(period) * share, int(PER_CYCLE * max(1.0, cycles * share)) + 1)
-    probe = times[-1] * np.concatenate([[0.0], _SPREAD])
+    probe = times[-1] * np.concatenate([[0.0], SPREAD])
     if all(float(np.abs(x - x[:1]).max()) <= _SAME for x in _seen(course, pair, round_, probe)):
         return None
     turned, frames = _seen(course, pair, round_, times)
@@ -85,7 +84,7 @@ def lift_between(pair: tuple[Instance, Instance], course: Course) -> float | Non
     if parallel(pair[0].axis, pair[1].axis) != 1:
         return None
     slowest = max([1.0, *(float(1 / abs(step.rate)) for i in pair for step in course.chains[i.id] if step.rate)])
-    turned, places = _seen(course, pair, (False, False), slowest * np.concatenate([[0.0], _SPREAD]))
+    turned, places = _seen(course, pair, (False, False), slowest * np.concatenate([[0.0], SPREAD]))
     heights = places[:, 2]
     stays = np.ptp(heights) <= _SAME and (1 - turned[:, 2, 2]).max() <= _SAME**2
     return float(heights[0]) if stays else None
