@@ -51,14 +51,14 @@ FILE_KINDS = {
     kind.name: kind
     for kind in (
         FileKind("dxf", "dxf", Form.ARCS, {"laser": 0.005, "board": 0.005}),
-        FileKind("drawing", "dxf", Form.SPLINES, {"drawing": 1e-6}),
         FileKind("svg", "svg", Form.ARCS, {"laser": 0.005, "board": 0.005}),
         FileKind("stl", "stl", Form.TRIANGLES, {"print": 0.01}),
         FileKind("3mf", "3mf", Form.TRIANGLES, {"print": 0.01, "plate": 0.01}, assembly=True),
+        FileKind("drawing", "dxf", Form.SPLINES, {"drawing": 1e-6}),
         FileKind("step", "step", Form.FACES, {"model": 1e-6}, assembly=True),
+        FileKind("sheet", "sheet", Form.SHEET, dict.fromkeys(_SHEETS, 1e-6)),
         FileKind("part_dxf", "dxf", Form.SHEET, dict.fromkeys(WORKING, 1e-6)),
         FileKind("part_svg", "svg", Form.SHEET, dict.fromkeys(WORKING, 1e-6)),
-        FileKind("sheet", "sheet", Form.SHEET, dict.fromkeys(_SHEETS, 1e-6)),
         FileKind("pdf", "pdf", Form.SHEET, {"model": 1e-3, **dict.fromkeys((*_SHEETS, *WORKING), 2e-4)}),
         FileKind("motion", "motion", Form.SHEET, {"animation": 0.02}),
         FileKind("glb", "glb", Form.SHEET, {"animation": 0.02}),
@@ -69,6 +69,7 @@ FILE_KINDS = {
 OF_SCENES = ("motion", "glb", "csv")
 # the words of scenes
 FORMATS = tuple(dict.fromkeys(kind.format for kind in FILE_KINDS.values()))
+PURPOSES = tuple(dict.fromkeys(purpose for kind in FILE_KINDS.values() for purpose in kind.tolerances))
 ASSEMBLY_FORMATS = tuple(sorted((kind.format for kind in FILE_KINDS.values() if kind.assembly), reverse=True))
 
 

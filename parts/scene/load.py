@@ -27,7 +27,7 @@ from parts.keys.sheet import CamSpeed, CellsKey, Intervals, MateNumber, PaperKey
 from parts.keys.title import TitleBlockKey
 from parts.keys.working import WorkingTable
 from parts.scene.files import MOST_BYTES, built_in_scenes, tables_of, text_of
-from parts.scene.formats import ASSEMBLY_FORMATS, Form, file_kind, tolerances_of
+from parts.scene.formats import ASSEMBLY_FORMATS, FORMATS, PURPOSES, Form, file_kind, tolerances_of
 from parts.scene.instances import (
     DriveSpec,
     Group,
@@ -46,11 +46,11 @@ if TYPE_CHECKING:
 
 
 L = TypeVar("L", bound=LaidKeys)
-# the languages that have a catalogue
+# the languages that have a catalogue, and what exports may be
 if TYPE_CHECKING:
-    Language = str
+    Language = Format = Purpose = str
 else:
-    Language = Literal[languages()]
+    Language, Format, Purpose = Literal[languages()], Literal[FORMATS], Literal[PURPOSES]
 
 
 class SceneInfo(Struct, forbid_unknown_fields=True):
@@ -72,7 +72,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[exports]]``."""
 
     format: Annotated[
-        Literal["dxf", "svg", "stl", "3mf", "step", "sheet", "pdf", "motion", "glb", "csv"],
+        Format,
         Meta(
             description="file format; sheet: DXF and SVG of a drawing; motion, glb: what the drives move, as an "
             "animated SVG, and its solids as glTF; csv: the parts list",
@@ -81,22 +81,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     ]
     purpose: (
         Annotated[
-            Literal[
-                "laser",
-                "board",
-                "print",
-                "plate",
-                "drawing",
-                "model",
-                "meshing",
-                "generating",
-                "cam",
-                "train",
-                "parts_list",
-                "part",
-                "assembly",
-                "animation",
-            ],
+            Purpose,
             Meta(
                 description="dxf: laser (arcs) or drawing (splines); dxf, svg: board (all flat parts laid on boards); "
                 "3mf: plate (all parts laid on beds); sheet, pdf: meshing (picture of each pair), "

@@ -63,13 +63,9 @@ def course_of(train: Train, instances: Iterable[str]) -> Course:
     rates = {key: (most,) if chain is None else chain for key, chain in told.items()}
     once = frozenset(key for key, chain in told.items() if chain is None)
     moves = {key: chain for key, chain in rates.items() if any(chain)}
-
-    def placed(key: str, t: Real, *, own: bool) -> tuple[Real, Real]:
-        return train.placed(key, t) if own else train.carried(key, t)
-
     chains = {key: train.chain(key) for key in keys}
     spins = frozenset(key for key in keys if train.spins(key))
-    return Course(train.along, moves, once, placed, chains, train.in_space, spins)
+    return Course(train.along, moves, once, train.placed, chains, train.in_space, spins)
 
 
 class Path(Record):

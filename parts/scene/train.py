@@ -116,21 +116,15 @@ class Train(Record):
         at, angle = self.moving.pose(key, t, 0)
         return np.asarray(at[0]), np.asarray(angle[0])
 
-    def placed(self, key: str, t: Real) -> tuple[Real, Real]:
-        """Of any instance the turns (..., 3, 3) and places (..., 3), mm, of its frame in the scene, at many t."""
-        own = self.stand[key].scene_from_part
-        turned, moved = self.moving.displacement(key, t)
-        return np.asarray(turned @ np.array(own.rotation)), turned @ np.array(own.translation) + moved
+    def placed(self, key: str, t: Real, *, own: bool = True) -> tuple[Real, Real]:
+        """Of any instance the turns (..., 3, 3) and places (..., 3), mm, of its frame in the scene, at many t.
 
-    def carried(self, key: str, t: Real) -> tuple[Real, Real]:
-        """The same as ``placed`` with its body at rest on what carries that: no turn of its own."""
-        body = self.moving.stands.body(key)
-        joint = self.moving.stands.supports.get(body)
-        if not isinstance(joint, Revolute):
-            return self.placed(key, t)
-        own = self.stand[key].scene_from_part
-        turned, moved = self.moving.displacement(joint.on, t)
-        return np.asarray(turned @ np.array(own.rotation)), turned @ np.array(own.translation) + moved
+        Without the turn of its ``own``: with its body at rest on what carries that.
+        """
+        here, joint = self.stand[key].scene_from_part, self.moving.stands.supports.get(self.moving.stands.body(key))
+        moves = key if own or not isinstance(joint, Revolute) else joint.on
+        turned, moved = self.moving.displacement(moves, t)
+        return np.asarray(turned @ np.array(here.rotation)), turned @ np.array(here.translation) + moved
 
     def chain(self, key: str) -> tuple[Turning, ...]:
         """What turns an instance, from its own body down."""
