@@ -31,6 +31,7 @@ from parts.drawing.wheel_views import (
     circle_size,
     hole_axes,
     hole_round,
+    level,
     section_sides,
 )
 from parts.drawing.working import (
@@ -158,10 +159,10 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
         centres = [hole.centre for hole in found]
         for way in section_sides(centres):
             for near, far in _walls(loop, found[0]):
-                bar = closed([near.start, near.end, far.end, far.start])
-                drilled.append(bar if way > 0 else below(bar))
+                drill = closed([near.start, near.end, far.end, far.start])
+                drilled.append(drill if way > 0 else below(drill))
                 strokes += [(VISIBLE, wall if way > 0 else wall.mirrored()) for wall in (near, far)]
-            axes.append(Line(complex(low, way * radius), complex(high, way * radius)))
+            axes.append(level((low, high), way * radius))
         sizes.append(circle_size("holes", centres, low))
     hatched = (tuple(upper), below(lower), *map(tuple, drilled)) if cut else ()
     cuts = tuple(Cut(at, subject.letter(k)) for k, at in enumerate(_planes(half)))

@@ -111,6 +111,17 @@ def levels(shape: WheelShape) -> _Levels:
     return _Levels((0.0, width), disk, (-hub.below, width + hub.above) if hub else disk)
 
 
+def level(ends: tuple[float, float], height: float) -> Line:
+    """A line along the axis at a height."""
+    return Line(complex(ends[0], height), complex(ends[1], height))
+
+
+def bar(ends: tuple[float, float], near: float, far: float) -> tuple[Line, Line, tuple[Line, ...]]:
+    """What is drilled along a section: both walls, and the loop about it, which is not hatched."""
+    walls = level(ends, near), level(ends, far)
+    return *walls, closed([walls[0].start, walls[0].end, walls[1].end, walls[1].start])
+
+
 def circle_of(radius: float, centre: complex = 0j) -> Arc:
     """A whole circle."""
     return Arc(centre, radius, 0.0, 2 * math.pi)
@@ -159,15 +170,14 @@ def bore_cut(bore: Bore | None, low: float, high: float, turn: float) -> tuple[t
         if not any(_NEAR < x < corner.real - _NEAR for x in crossings(profile, 1j * corner.imag, 1.0)):
             heights.append(corner.imag)
     walls = reach(profile, _UP), reach(profile, -_UP)
-    return walls, [Line(complex(low, y), complex(high, y)) for y in heights]
+    return walls, [level((low, high), y) for y in heights]
 
 
 def keyway_edges(bore: Bore | None, low: float, high: float) -> Iterator[Line]:
     """The edges between keyways and their bore, once it stands upright, from end to end of it, mm."""
     if isinstance(bore, KeywayBore):
         rim = math.sqrt((bore.diameter - bore.width) * (bore.diameter + bore.width)) / 2
-        for way in (1, -1)[: bore.keys]:
-            yield Line(complex(low, way * rim), complex(high, way * rim))
+        yield from (level((low, high), way * rim) for way in (1, -1)[: bore.keys])
 
 
 def _half(wheel: Wheel, bore: float, outer: float, *, toothed: bool) -> list[complex]:
@@ -231,17 +241,14 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
         hatched.append(tuple(placed(solid)))
         strokes += outlined(placed(loop))
         strokes += [(VISIBLE, line) for line in placed((*root, *seen_edges(loop, cut=True)))]
-        ends = complex(0.0, way), complex(shape.face_width, way)
         if wheel.pitch is not None:
-            pitch = wheel.pitch
-            axes.append(Line(*(complex(e.real, e.imag * pitch) for e in ends)))
+            axes.append(level(at.rim, way * wheel.pitch))
         for low, high, is_hole in _openings(holes, wheel.turn, way):
-            sides = [Line(complex(at.web[0], way * y), complex(at.web[1], way * y)) for y in (low, high)]
-            hatched.append(closed([sides[0].start, sides[0].end, sides[1].end, sides[1].start]))
-            strokes += [(VISIBLE, side) for side in sides]
+            *walls, loop = bar(at.web, way * low, way * high)
+            hatched.append(loop)
+            strokes += [(VISIBLE, wall) for wall in walls]
             if is_hole:
-                middle = way * (low + high) / 2
-                axes.append(Line(complex(at.web[0], middle), complex(at.web[1], middle)))
+                axes.append(level(at.web, way * (low + high) / 2))
     strokes += [(VISIBLE, edge) for edge in edges]
     sizes, notes = tuple(_section_sizes(wheel, subject)), _section_notes(wheel, subject, at, -bores[1])
     return View(tuple(strokes), tuple(hatched), tuple(axes), sizes, tuple(_crown_rounds(wheel)), notes)
@@ -466,26 +473,22 @@ def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View
     wishes = subject.wishes
     if isinstance(bore, KeywayBore | FlatBore):
         radius = bore.diameter / 2
-        sizes.append(Size("bore_diameter", -1j * radius, 1j * radius, "left", "Ø", wishes.bore))
-        sizes.append(Size("bore.height", -1j * down, 1j * up, "right", "", _depth_limit(bore, subject)))
+        sizes += [Size("bore_diameter", -1j * radius, 1j * radius, "left", "Ø", wishes.bore),
+                  Size("bore.height", -1j * down, 1j * up, "right", "", _depth_limit(bore, subject))]  # fmt: skip
         if isinstance(bore, KeywayBore):
             half, corner = bore.width / 2, bore.corner_radius
             sizes.append(Size("bore.width", complex(-half, up - corner), complex(half, up - corner), "above", "",
                               wishes.keyway))  # fmt: skip
             if corner:
                 centre = complex(half - corner, up - corner)
-                rounds.append(
-                    Round("bore.corner_radius", centre, corner, "R", is_radius=True, angles=(45.0, 30.0, 60.0))
-                )
+                rounds.append(_corner(centre, corner, (45.0, 30.0, 60.0)))
     else:
         sizes.append(Size("bore.across_flats", -1j * down, 1j * up, "right", "", wishes.bore))
         rounded = max((curve for _, curve in strokes if isinstance(curve, Arc)), key=_leftmost, default=None)
         if rounded is not None:
             way = math.degrees(cmath.phase(rounded.centre))
             angles = tuple(way + turn for turn in (0.0, 15.0, -15.0, 30.0, -30.0))
-            rounds.append(
-                Round("bore.corner_radius", rounded.centre, rounded.radius, "R", is_radius=True, angles=angles)
-            )
+            rounds.append(_corner(rounded.centre, rounded.radius, angles))
     name, off = subject.letter(), 0.0 if others is None else math.remainder(angle - others, math.tau)
     if abs(off) > _NONE:
         name += f" {TURNED} {subject.say(abs(math.degrees(off)))}°"
@@ -493,6 +496,10 @@ def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View
     half = bore.diameter / 2 if isinstance(bore, KeywayBore | FlatBore) else bore.reach
     axes = Line(complex(-half), complex(half)), Line(-1j * down, 1j * up)
     return View(tuple(strokes), (), axes, tuple(sizes), tuple(rounds), (), name, _LEAST_BORE)
+
+
+def _corner(centre: complex, radius: float, angles: tuple[float, ...]) -> Round:
+    return Round("bore.corner_radius", centre, radius, "R", is_radius=True, angles=angles)
 
 
 def ring_section(width: float, radii: tuple[float, float, float], holes: HubHoles, subject: Subject) -> View:
@@ -507,14 +514,14 @@ def ring_section(width: float, radii: tuple[float, float, float], holes: HubHole
     axes, hatched = [Line(0j, complex(width))], [solid, below(solid)]
     for way in (1, -1):
         side = loop if way > 0 else below(loop)
-        strokes += [*outlined(side), (VISIBLE, Line(complex(0, way * begins), complex(width, way * begins)))]
+        strokes += [*outlined(side), (VISIBLE, level((0.0, width), way * begins))]
         strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=True)]
         for group in (g for g in circled(holes) if way in section_sides(_turned(g))):
             middle, half = group.pitch_circle_diameter / 2, group.diameter / 2
-            walls = [Line(complex(0, way * y), complex(width, way * y)) for y in (middle - half, middle + half)]
+            *walls, around = bar((0.0, width), way * (middle - half), way * (middle + half))
             strokes += [(VISIBLE, wall) for wall in walls]
-            axes.append(Line(complex(0, way * middle), complex(width, way * middle)))
-            hatched.append(closed([walls[0].start, walls[0].end, walls[1].end, walls[1].start]))
+            axes.append(level((0.0, width), way * middle))
+            hatched.append(around)
     wishes = subject.wishes
     sizes = [
         Size("outer_diameter", complex(0, -outer), complex(0, outer), "left", "Ø", wishes.tip),

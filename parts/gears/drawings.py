@@ -29,6 +29,7 @@ from parts.drawing.wheel_views import (
     exact_teeth,
     hole_round,
     keyway_edges,
+    level,
     ring_face,
     ring_section,
     seen_along,
@@ -155,12 +156,11 @@ def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, .
     width, outer, root = keys.face_width, ring.outer_radius, ring.root_radius
     tip, pitch, wishes = ring.tip_radius, ring.reference_radius, subject.wishes
     section = ring_section(width, (tip, root, outer), ring.holes, subject)
-    axes = [Line(complex(0, way * pitch), complex(width, way * pitch)) for way in (1, -1)]
+    axes = [level((0.0, width), way * pitch) for way in (1, -1)]
     told = Size("tip_diameter", complex(width, -tip), complex(width, tip), "right", "Ø", wishes.inner)
     rough = Note(complex(width, -pitch), subject.rough(wishes.flank_roughness), is_rough=True, goes_on=True)
-    section = replace(
-        section, axes=(*section.axes, *axes), sizes=(section.sizes[0], told, *section.sizes[1:]), notes=(rough,)
-    )
+    sizes = section.sizes[0], told, *section.sizes[1:]
+    section = replace(section, axes=(*section.axes, *axes), sizes=sizes, notes=(rough,))
     region = subject.part.section(0.0).region
     toothed = next(p for p in region.holes if p.count == ring.number_of_teeth)
     count = min(wishes.teeth, ring.number_of_teeth)
@@ -289,9 +289,7 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
         strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=False)]
         roots = [complex(z, way * r) for z, r in body.root_line()]
         strokes += [(THIN, Line(a, b)) for a, b in pairwise(roots)]
-        strokes.append(
-            (AXIS, Line(complex(-half, way * worm.reference_radius), complex(half, way * worm.reference_radius)))
-        )
+        strokes.append((AXIS, level((-half, half), way * worm.reference_radius)))
     low, high = body.ends()
     # the requirements tell the angle of the cones at the thread's ends, the table its depth
     cones = [c for c in loop if abs(c.start.imag - c.end.imag) > _NONE and abs(c.start.real - c.end.real) > _NONE
@@ -299,16 +297,15 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
     fits = Fits(wishes.shaft, "", wishes.tip)
     sizes = [*turned_sizes(loop, fits, subject.language, lambda curve: curve not in cones).sizes]
     if body.run_out:
-        sizes.append(
-            Size("thread_length", complex(-half, -worm.root_radius), complex(half, -worm.root_radius), "below")
-        )
+        root = level((-half, half), -worm.root_radius)
+        sizes.append(Size("thread_length", root.start, root.end, "below"))
     else:
         sizes = _with_thread(sizes, half, high)
     bore = bore_of(keys)
     made = None if bore is None else bore.bore()
     if made is not None:
         up, down = bore_radii(made)
-        strokes += [(HIDDEN, Line(complex(low, y), complex(high, y))) for y in (-down, up)]
+        strokes += [(HIDDEN, level((low, high), y)) for y in (-down, up)]
         strokes += [(HIDDEN, edge) for edge in keyway_edges(made, low, high)]
         if isinstance(made, RoundBore):
             sizes.append(Size("bore_diameter", complex(high, -down), complex(high, up), "right", "Ø", wishes.bore))

@@ -338,41 +338,43 @@ class _Making(Making):
         super().put(kind, first, second, part, **keys)
         self.found.instances[second]["subassembly"] = self.within
 
-    def _set(self, first: str, instance: str, part: str, z: float, at: complex = 0j, **more: object) -> None:
+    def _set(self, first: str, part: str, z: float, at: complex = 0j, name: str = "", **more: object) -> None:
         """An instance or a group of them (``count``), one body with another; ``z``: its lower face."""
-        table: Table = {"part": part, "subassembly": self.within, **more}
-        self.found.instances[instance] = table
-        self.low[instance] = z
-        self.mate("fixed", first, instance, offset=place(at, z - self.low[first]))
+        name = name or part
+        self.found.instances[name] = {"part": part, "subassembly": self.within, **more}
+        self.low[name] = z
+        self.mate("fixed", first, name, offset=place(at, z - self.low[first]))
 
     def _circle(
         self, first: str, name: str, part: str, count: int, radius: float, z: float, start: float = 0.0
     ) -> None:
         """A group on a circle about the axis of what it is fixed to; ``start``: its first one, degrees."""
-        self._set(first, name, part, z, cmath.rect(radius, math.radians(start)), count=count)
+        self._set(first, part, z, cmath.rect(radius, math.radians(start)), name, count=count)
 
-    def _turned(self, name: str, points: Sequence[Sequence[float]], *holes: Table) -> None:
-        """A turned part: r, z and the arc to the next point, z above its own lower face."""
+    def _turned(self, name: str, points: Sequence[Sequence[float]], *holes: Table) -> str:
+        """A turned part: r, z and the arc to the next point, z above its own lower face; its name."""
         rows = [dict(zip(("r", "z", "arc"), (round(x, 6) for x in row), strict=False)) for row in points]
         table: Table = {"kind": "turned", "points": rows}
         self.found.parts[name] = table | ({"holes": list(holes)} if holes else {})
+        return name
 
-    def _tube(self, name: str, inner: float, outer: float, height: float, *holes: Table) -> None:
-        self._turned(name, [(inner, 0), (outer, 0), (outer, height), (inner, height)], *holes)
+    def _tube(self, name: str, inner: float, outer: float, height: float, *holes: Table) -> str:
+        return self._turned(name, [(inner, 0), (outer, 0), (outer, height), (inner, height)], *holes)
 
-    def _layers(self, name: str, layers: Sequence[tuple[float, Table]]) -> None:
-        """A part of layers: thickness and contours of each; what is of no thickness is left out."""
+    def _layers(self, name: str, layers: Sequence[tuple[float, Table]]) -> str:
+        """A part of layers: thickness and contours of each; what is of no thickness is left out; its name."""
         rows = [{"thickness": round(thick, 6), **table} for thick, table in layers if thick > 1e-9]
         self.found.parts[name] = {"kind": "layered", "layers": rows}
+        return name
 
     def _screw(
         self, name: str, diameter: float, length: float, head: tuple[float, float], *, down: bool = False
-    ) -> None:
-        """Shank and round head, its tip below; ``down``: its head below."""
+    ) -> str:
+        """Shank and round head, its tip below; ``down``: its head below; its name."""
         shank, (wide, high) = diameter / 2, head
         points = [(0.0, 0.0), (shank, 0.0), (shank, length), (wide / 2, length), (wide / 2, length + high)]
         points += [(0.0, length + high)]
-        self._turned(name, [(r, length + high - z) for r, z in points] if down else points)
+        return self._turned(name, [(r, length + high - z) for r, z in points] if down else points)
 
     # -- what stands still
 
@@ -386,23 +388,20 @@ class _Making(Making):
         # the guide about the balls of disk 2 closes the opening of the lip, its screws in that
         count, inner, outer, high = _GUIDE_SCREWS, s["r_20_in"], s["r_open"] - keys.clearance, s["h_5"]
         radius, groove = s["r_groove"], s["h_groove"]
-        self._turned("guide_6", [
+        self._set("body", self._turned("guide_6", [
             (inner, 0), (outer, 0), (outer, high - _FLANGE), (s["r_6"], high - _FLANGE), (s["r_6"], high),
             (inner, high), (inner, s["z_ball"] + groove, -radius), (inner, s["z_ball"] - groove),
-        ], _holes(count, M8[0], s["r_6_screws"]))  # fmt: skip
-        self._set("body", "guide_6", "guide_6", 0.0)
-        self._screw("screw_51", 8, 16, M8[1:])
-        self._circle("body", "guide_6_screw", "screw_51", count, s["r_6_screws"], high - 16)
+        ], _holes(count, M8[0], s["r_6_screws"])), 0.0)  # fmt: skip
+        self._circle("body", "guide_6_screw", self._screw("screw_51", 8, 16, M8[1:]), count, s["r_6_screws"], high - 16)
         # what holds the central wheel
-        self._tube("spacer_18", 10.0, s["r_18"], s["h_18"], _holes(6, 8, s["r_54"]))
-        self._set("body", "spacer_18", "spacer_18", s["z_boss"])
+        self._set("body", self._tube("spacer_18", 10.0, s["r_18"], s["h_18"], _holes(6, 8, s["r_54"])), s["z_boss"])
         if self.cranks:
             self._body_plate()
         elif self.idlers:
             self._post()
         else:
             self._wheel("central_wheel", keys.wheel_width, 2 * _AXLE, holes=_holes(6, M8[0], s["r_54"]))
-            self._set("body", "central_wheel", "central_wheel", s["z_16"])
+            self._set("body", "central_wheel", s["z_16"])
         self._screw("screw_54", 8, 75, M8[1:])
         self._circle("body", "central_screw", "screw_54", 6, s["r_54"], s["z_boss"] + s["h_18"] + s["h_54"] - 75)
         # to the bed
@@ -410,8 +409,8 @@ class _Making(Making):
         self._layers("nut_44", [(_HEX_12[2], {"polygons": [_hexagon(_HEX_12[0])], "circles": [_round(12)]})])
         out = s["half"] + 20
         for k, at in enumerate(_around(out), 1):
-            self._set("body", f"bolt_42_{k}", "bolt_42", s["z_floor"] - 45, at)
-            self._set("body", f"nut_44_{k}", "nut_44", self.low["body"] - _HEX_12[2], at)
+            self._set("body", "bolt_42", s["z_floor"] - 45, at, name=f"bolt_42_{k}")
+            self._set("body", "nut_44", self.low["body"] - _HEX_12[2], at, name=f"nut_44_{k}")
 
     def _casting(self) -> list[tuple[float, Table]]:
         """The body's layers from the flange to the lip."""
@@ -522,9 +521,9 @@ class _Making(Making):
         self.put("coaxial", "body", "disk_2", height=round(-self.low["body"], 6))
         # shields
         self._tube("shield_7", s["r_7_in"], s["r_7_out"], s["h_shield"], _holes(16, M4[0], s["r_53"], 11.25))
-        self._set("disk_2", "shield_7", "shield_7", t)
+        self._set("disk_2", "shield_7", t)
         self._tube("shield_8", s["r_3"] - 6, s["r_8_out"], s["h_shield"], _holes(16, M4[0], s["r_8"]))
-        self._set("disk_2", "shield_8", "shield_8", t, arm)
+        self._set("disk_2", "shield_8", t, arm)
         self._screw("screw_59", 4, 6, M4[1:])
         self._screw("screw_59_down", 4, 6, M4[1:], down=True)
         tip = t + s["h_shield"] - 6
@@ -533,14 +532,14 @@ class _Making(Making):
         # rings that hold the balls of disk 3
         self._tube("protective_ring", s["r_33_in"], s["r_33_out"], s["h_33"], _holes(12, M4[0], s["r_59"]))
         rear, fore = s["seat_33"] - s["h_33"], t - s["seat_33"]
-        self._set("disk_2", "protective_ring_1", "protective_ring", fore, arm)
-        self._set("disk_2", "protective_ring_2", "protective_ring", rear, arm)
+        self._set("disk_2", "protective_ring", fore, arm, name="protective_ring_1")
+        self._set("disk_2", "protective_ring", rear, arm, name="protective_ring_2")
         self._layers("plug", [(s["h_32"], {
             "outlines": [_radial(s["r_32"] + s["gap_32"], s["r_59"], s["w_32"] / 2 - _PLAY, -s["r_59"], beyond=True)],
             "circles": [_round(4)],
         })])  # fmt: skip
         for k, z in enumerate((t - s["seat_33"] - s["h_32"], s["seat_33"]), 1):
-            self._set("disk_2", f"plug_{k}", "plug", z, complex(arm + s["r_59"]))
+            self._set("disk_2", "plug", z, complex(arm + s["r_59"]), name=f"plug_{k}")
         self._circle("protective_ring_1", "front_clip", "screw_59", 12, s["r_59"], fore + s["h_33"] - 6)
         self._circle("protective_ring_2", "rear_clip", "screw_59_down", 12, s["r_59"], rear - M4[2])
         self._turned("ball", [(0.0, 0.0, ball / 2), (0.0, ball)])
@@ -555,28 +554,26 @@ class _Making(Making):
         passing = [_round(M8[0], at) for at in through]
         bolts = [_round(8, at) for at in _on_circle(24, s["r_41"])]
         guides = [_round(8, at) for at in _on_circle(_RACE_SCREWS, s["r_41"], _RACE_START)]
-        self._layers("spacer_24", [
+        self._set("disk_2", self._layers("spacer_24", [
             (40 - wide + 1, {"circles": [*edges, *passing, *bolts]}),
             (h - (40 - wide + 1) - (25 - s["h_5"] + 1), {"circles": [*edges, *passing]}),
             (25 - s["h_5"] + 1, {"circles": [*edges, *passing, *guides]}),
-        ])  # fmt: skip
-        self._set("disk_2", "spacer_24", "spacer_24", -h)
+        ]), -h)  # fmt: skip
         self._screw("screw_53", 8, 45, M8[1:])
         self._screw("screw_53_down", 8, 45, M8[1:], down=True)
         self._circle("disk_2", "spacer_24_screw", "screw_53_down", 12, s["r_53"], -h - M8[2])
         low, aside, radius, quarter = s["z_race"], s["e_quarter"], s["r_groove"], s["h_quarter"]
         wall, middle = s["r_large"] + aside - radius, s["z_ball"] - low - aside
-        self._turned("guide_5", [
+        self._set("disk_2", self._turned("guide_5", [
             (s["r_2"], 0), (wall, 0), (wall, middle, -radius), (s["r_5"], middle + quarter),
             (s["r_5"], s["h_5"] - low), (s["r_2"], s["h_5"] - low),
-        ], _holes(_RACE_SCREWS, M8[0], s["r_41"], _RACE_START))  # fmt: skip
-        self._set("disk_2", "guide_5", "guide_5", low)
+        ], _holes(_RACE_SCREWS, M8[0], s["r_41"], _RACE_START)), low)  # fmt: skip
         self._screw("screw_52", 8, 25, M8[1:])
         self._circle("disk_2", "guide_5_screw", "screw_52", _RACE_SCREWS, s["r_41"], s["h_5"] - 25, _RACE_START)
         self._worm_wheel("worm_wheel_25", 0, s["r_25_in"], [
             _holes(24, M8[0], s["r_41"]), _holes(24, 8, s["r_20_screws"]),
         ])  # fmt: skip
-        self._set("disk_2", "worm_wheel_25", "worm_wheel_25", -h - wide)
+        self._set("disk_2", "worm_wheel_25", -h - wide)
         self._hex("bolt_41", 8, 40, _HEX_8, down=True)
         self._circle("disk_2", "worm_wheel_25_bolt", "bolt_41", 24, s["r_41"], -h - wide - _HEX_8[1])
         inner, middle, high = s["r_20_in"], s["r_large"] - aside + math.sqrt(radius**2 - aside**2), s["h_20"]
@@ -585,7 +582,7 @@ class _Making(Making):
             (inner, quarter - aside, -radius),
         ], _holes(24, M8[0], s["r_20_screws"]))  # fmt: skip
         for k, z in enumerate((s["z_20"], s["z_20"] - high), 1):
-            self._set("disk_2", f"bearing_ring_{k}", "bearing_ring", z)
+            self._set("disk_2", "bearing_ring", z, name=f"bearing_ring_{k}")
         self._circle("disk_2", "bearing_screw", "screw_53_down", 24, s["r_20_screws"], s["z_20"] - high - M8[2])
 
     # -- what turns with wheel 21
@@ -602,16 +599,15 @@ class _Making(Making):
         self.put("coaxial", "body", "ring", height=round(z - self.low["body"], 6))
         half, low, high = keys.ball / 2, s["z_23"] + keys.worm_wheel_width, s["h_22"]
         mid, groove = s["z_20"] - low, s["h_groove"]
-        self._turned("spacer_22", [
+        self._set("ring", self._turned("spacer_22", [
             (s["r_22_in"], 0), (s["r_21"], 0), (s["r_21"], mid - half - 2), (s["r_5"], mid - half - 2),
             (s["r_5"], mid - groove, -s["r_groove"]), (s["r_5"], mid + groove), (s["r_5"], mid + half + 2),
             (s["r_21"], mid + half + 2), (s["r_21"], high), (s["r_22_in"], high),
-        ], _holes(12, 8, s["r_21_screws"]))  # fmt: skip
-        self._set("ring", "spacer_22", "spacer_22", low)
+        ], _holes(12, 8, s["r_21_screws"])), low)  # fmt: skip
         self._circle("ring", "ring_screw", "screw_53", 12, s["r_21_screws"], z + keys.face_width - 45)
         self._row("ring", "large", 2, s["z_20"])
         self._worm_wheel("worm_wheel_23", 1, s["r_22_in"], [_holes(12, M8[0], s["r_21_screws"])])
-        self._set("ring", "worm_wheel_23", "worm_wheel_23", s["z_23"])
+        self._set("ring", "worm_wheel_23", s["z_23"])
         self._circle("ring", "worm_wheel_23_screw", "screw_53_down", 12, s["r_21_screws"], s["z_23"] - M8[2])
 
     # -- what turns with disk 3
@@ -633,22 +629,21 @@ class _Making(Making):
         self.mate("internal_gear_pair", "ring", "pinion")
         screws = _holes(6, M12[0], s["r_56"], 30.0)
         self._tube("sleeve_17", 20.0, s["r_56"] + 9, s["gap_21"] + 0.5, third, screws)
-        self._set("pinion", "sleeve_17", "sleeve_17", z + keys.face_width)
+        self._set("pinion", "sleeve_17", z + keys.face_width)
         high, groove, floor = t - 1.0, s["h_groove"], 17.0
         rows = [s["z_lower"] - 0.5, s["z_upper"] - 0.5]
-        self._turned("disk_3", [
+        self._set("pinion", self._turned("disk_3", [
             (20.0, 0.0), (s["r_3"], 0.0),
             *(p for row in rows for p in ((s["r_3"], row - groove, -s["r_groove"]), (s["r_3"], row + groove))),
             (s["r_3"], high), (s["r_56"] + 11, high), (s["r_56"] + 11, high - floor), (s["r_56"] - 11, high - floor),
             (s["r_56"] - 11, high), (0.0, high), (0.0, 6.0), (20.0, 6.0),
-        ], third, screws)  # fmt: skip
-        self._set("pinion", "disk_3", "disk_3", 0.5)
+        ], third, screws), 0.5)  # fmt: skip
         self._screw("screw_56", 12, 35, M12[1:])
         self._circle("pinion", "disk_3_screw", "screw_56", 6, s["r_56"], t - 0.5 - floor - 35, 30.0)
         self._tube(
             "cover_12", s["r_journal"] + 7, s["r_journal"] + 25, s["h_12"], _holes(4, M8[0], s["r_journal"] + 16, 45)
         )
-        self._set("pinion", "cover_12", "cover_12", z - s["h_12"], complex(arm))
+        self._set("pinion", "cover_12", z - s["h_12"], complex(arm))
         self._screw("screw_51_down", 8, 16, M8[1:], down=True)
         self._circle("cover_12", "cover_12_screw", "screw_51_down", 4, s["r_journal"] + 16, z - s["h_12"] - M8[2], 45)
 
@@ -666,16 +661,13 @@ class _Making(Making):
         """The axle 13 of what turns between two heights, clamped to the pinion by nut 46."""
         keys, z = self.keys, -self.s["h_24"]
         end, collar = low - keys.clearance, high + keys.clearance
-        self._turned("satellite_axle", [
+        self._set("pinion", self._turned("satellite_axle", [
             (7.0, 0.0), (10.0, 0.0), (10.0, collar - end), (15.0, collar - end), (15.0, z - end), (10.0, z - end),
             (10.0, z + keys.face_width + 10 - end), (0.0, z + keys.face_width + 10 - end), (0.0, 17.0), (7.0, 17.0),
-        ])  # fmt: skip
-        self._set("pinion", "satellite_axle", "satellite_axle", end)
+        ]), end)  # fmt: skip
         self._nut_46()
-        self._tube("spacer_15", 7.0, 14.0, 5.0)
-        self._set("pinion", "spacer_15", "spacer_15", end - 5)
-        self._screw("screw_57", 14, 20, (21.0, 14.0), down=True)
-        self._set("pinion", "screw_57", "screw_57", end - 5 - 14)
+        self._set("pinion", self._tube("spacer_15", 7.0, 14.0, 5.0), end - 5)
+        self._set("pinion", self._screw("screw_57", 14, 20, (21.0, 14.0), down=True), end - 5 - 14)
 
     def _platform_wheel(self) -> None:
         """Wheel 11, in mesh with wheel 14, or with the idler between."""
@@ -694,8 +686,7 @@ class _Making(Making):
 
     def _nut_46(self) -> None:
         """On what is clamped to the pinion in its middle."""
-        self._tube("nut_46", 10.0, *_NUT_20)
-        self._set("pinion", "nut_46", "nut_46", self.keys.face_width - self.s["h_24"])
+        self._set("pinion", self._tube("nut_46", 10.0, *_NUT_20), self.keys.face_width - self.s["h_24"])
 
     # -- what keeps it parallel: an idler on each arm
 
@@ -708,13 +699,12 @@ class _Making(Making):
         """What holds wheel 16 over the link of arm O1O2."""
         s, keys = self.s, self.keys
         top, neck = s["z_16"] + keys.wheel_width - s["z_39"], s["r_neck"]
-        self._turned("post", [
+        self._set("body", self._turned("post", [
             (0, 0), (s["r_18"], 0), (s["r_18"], s["h_54"]), (neck, s["h_54"]), (neck, s["z_16"] - s["z_39"]),
             (s["r_end"], s["z_16"] - s["z_39"]), (s["r_end"], top), (0, top),
-        ], _holes(6, M8[0], s["r_54"]))  # fmt: skip
-        self._set("body", "post", "post", s["z_39"])
+        ], _holes(6, M8[0], s["r_54"])), s["z_39"])  # fmt: skip
         self._wheel("central_wheel", keys.wheel_width, 2 * s["r_end"])
-        self._set("post", "central_wheel", "central_wheel", s["z_16"])
+        self._set("post", "central_wheel", s["z_16"])
 
     def _idlers(self) -> None:
         """Axle 13 with wheel 14 between both links, and the idler of arm O1O2."""
@@ -728,20 +718,18 @@ class _Making(Making):
         self._screw("idler_pin", 2 * s["r_37"], shank - head, (2 * s["r_37"] + 6, head))
         self._screw("idler_pin_down", 2 * s["r_37"], shank - head, (2 * s["r_37"] + 6, head), down=True)
         turning = 2 * (s["r_neck"] + keys.clearance)
-        self._layers("link", [(s["h_38"], {
+        self._set("disk_2", self._layers("link", [(s["h_38"], {
             "slots": [{"start": [0.0, 0.0], "end": [s["arm"], 0.0], "width": 2 * s["r_38"]}],
             "circles": [_round(turning), _round(2 * s["r_37"], s["arm"] / 2), _round(turning, s["arm"])],
-        })])  # fmt: skip
-        # hinged on two axes of a disk, a link turns as that does
-        self._set("disk_2", "link_1", "link", s["z_38_rear"])
-        self._set("link_1", "idler_pin_1", "idler_pin", s["z_38_rear"], complex(s["arm"] / 2))
+        })]), s["z_38_rear"], name="link_1")  # fmt: skip
+        self._set("link_1", "idler_pin", s["z_38_rear"], complex(s["arm"] / 2), name="idler_pin_1")
         self._idler(1, "central_wheel", "disk_2")
         self._wheel("satellite_wheel", s["h_14"], 2 * (_AXLE + keys.clearance))
         self.put("external_gear_pair", "idler_1", "satellite_wheel")
         self.mate("carried", "disk_2", "satellite_wheel")
-        self._set("pinion", "link_2", "link", s["z_38"])
+        self._set("pinion", "link", s["z_38"], name="link_2")
         low = s["z_11"] - s["play_36"] - head
-        self._set("pinion", "idler_pin_2", "idler_pin_down", low, complex(s["arm"] / 2))
+        self._set("pinion", "idler_pin_down", low, complex(s["arm"] / 2), name="idler_pin_2")
 
     def _idler(self, number: int, wheel: str, holder: str, **more: object) -> None:
         """In mesh with a wheel, carried by the disk whose arm it stands on."""
@@ -772,10 +760,9 @@ class _Making(Making):
         """Plate 16 with the pins of the first cranks; pins and cranks of both planes are alike."""
         s, keys = self.s, self.keys
         thick, r, collar, sunk = keys.wheel_width, s["r_35"], s["h_collar"], s["r_54"] + 7.5
-        self._turned("body_plate", [
+        self._set("body", self._turned("body_plate", [
             (10.0, 0), (s["r_11"], 0), (s["r_11"], thick), (sunk, thick), (sunk, s["h_54"]), (10.0, s["h_54"]),
-        ], _holes(3, 2 * r, s["r_pivots"]), _holes(6, M8[0], s["r_54"]))  # fmt: skip
-        self._set("body", "body_plate", "body_plate", s["z_16"])
+        ], _holes(3, 2 * r, s["r_pivots"]), _holes(6, M8[0], s["r_54"])), s["z_16"])  # fmt: skip
         self._turned("crank_pin", [
             (0, 0), (r, 0), (r, thick), (s["r_34"], thick), (s["r_34"], thick + collar), (r, thick + collar),
             (r, 2 * thick + collar), (0, 2 * thick + collar),
@@ -793,11 +780,10 @@ class _Making(Making):
         low, front, floor = s["z_14"], z + keys.face_width + 10, z - s["h_13"]
         back, step = z - s["gap_13"] - low, s["r_13_step"]
         rim = [(s["r_13_out"], back), (step, back)] if step < s["r_13_out"] else []
-        self._turned("ring_guide", [
+        self._set("pinion", self._turned("ring_guide", [
             (0, floor - low), (s["r_13"], floor - low), (s["r_13"], 0), (s["r_13_out"], 0), *rim,
             (step, z - low), (10.0, z - low), (10.0, front - low), (0, front - low),
-        ], _holes(1, 2 * s["r_window"], s["arm"]))  # fmt: skip
-        self._set("pinion", "ring_guide", "ring_guide", low)
+        ], _holes(1, 2 * s["r_window"], s["arm"])), low)  # fmt: skip
         self._nut_46()
         self.within = "platform_unit"
         pins = [_holes(3, 2 * s["r_35"], s["r_pivots"], start) for start in (0.0, 60.0)]
@@ -840,26 +826,22 @@ class _Making(Making):
             wheel = [(s["r_end"], end), (s["r_end"], step)]
             neck = [(0.0, end), *wheel, (s["r_neck"], step), (s["r_neck"], s["z_47"] - 2)]
         shoulder, flange = clamped - end, s["z_flange"] - end
-        self._turned("platform_axle", [
+        self._set(first, self._turned("platform_axle", [
             *((radius, z - end) for radius, z in neck), (_THREAD_47, s["z_47"] - 2 - end), (_THREAD_47, shoulder),
             (r, shoulder), (r, flange), (s["r_55"] + 10, flange),
             (s["r_55"] + 10, flange + 12), (r, flange + 12), (r, flange + 18), (0, flange + 18),
-        ], _holes(6, 10, s["r_55"]))  # fmt: skip
-        self._set(first, "platform_axle", "platform_axle", end)
-        self._tube("nut_47", _THREAD_47, s["r_47"], s["h_47"])
-        self._set(first, "nut_47", "nut_47", s["z_47"])
+        ], _holes(6, 10, s["r_55"])), end)  # fmt: skip
+        self._set(first, self._tube("nut_47", _THREAD_47, s["r_47"], s["h_47"]), s["z_47"])
         top = -s["h_24"] - 1
-        self._tube("spacer_10", r, r + 6, top - clamped)
-        self._set(first, "spacer_10", "spacer_10", clamped)
+        self._set(first, self._tube("spacer_10", r, r + 6, top - clamped), clamped)
         half = keys.platform_size / 2
         side, screws = _square(half, 10.0), _on_circle(6, s["r_55"])
         sunk = M10[2] + 1
         hold = s["h_4"] - sunk
-        self._layers("platform", [
+        self._set(first, self._layers("platform", [
             (hold, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[0], at) for at in screws)]}),
             (sunk, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[1] + 1, at) for at in screws)]}),
-        ])  # fmt: skip
-        self._set(first, "platform", "platform", s["z_4"])
+        ]), s["z_4"])  # fmt: skip
         self._screw("screw_55", 10, 30, M10[1:])
         self._circle(first, "platform_screw", "screw_55", 6, s["r_55"], s["z_4"] + hold - 30)
 
@@ -897,7 +879,7 @@ class _Making(Making):
                 }  # fmt: skip
             low = s["z_1"] + seat if worm == 1 else s["z_2"] - seat - 12
             for k, at in enumerate(self._set_screws(worm), 1):
-                self._set("body", f"set_screw_{worm}_{k}", f"screw_49{'_up' * (worm == 2)}", low, at)
+                self._set("body", f"screw_49{'_up' * (worm == 2)}", low, at, name=f"set_screw_{worm}_{k}")
 
     # -- how it is put together
 
@@ -1023,7 +1005,7 @@ class _Making(Making):
     def _row(self, first: str, size: str, number: int, z: float, at: float = 0.0) -> None:
         """A cage with its balls, their middles at a height."""
         name, ball = f"{size}_cage_{number}", self.keys.ball
-        self._set(first, name, f"{size}_cage", z - 0.7 * ball, complex(at))
+        self._set(first, f"{size}_cage", z - 0.7 * ball, complex(at), name=name)
         self._circle(
             name, f"{size}_ball_{number}", "ball", int(self.s[f"{size}_balls"]), self.s[f"r_{size}"], z - ball / 2
         )

@@ -20,7 +20,6 @@ from typing import Annotated, Literal
 from msgspec import Meta
 
 from geometry.base.errors import ParameterError, limit
-from geometry.base.record import Record
 from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
 from parts.keys.base import mm
@@ -91,42 +90,24 @@ class PowerModuleKinematicsKeys(RecipeKeys, kw_only=True, tag="power_module_kine
     density: Density | None = None
 
 
-class _Sizes(Record):
+class _Sizes:
     """What follows from the keys, mm."""
 
-    keys: PowerModuleKinematicsKeys
-
-    @property
-    def arm(self) -> float:
-        """O1O2 = O2O3: the centre distance of ring and pinion, and of the wheels of equal pitch circles."""
-        return self.keys.module * (self.keys.teeth[1] - self.keys.teeth[0]) / 2
-
-    @property
-    def disk_3(self) -> float:
-        """Radius of disk 3: the platform's axle in it, and the pinion's tips behind it."""
-        tip = self.keys.module * (self.keys.teeth[0] / 2 + 1)
-        return math.ceil(max(tip, self.arm + self.keys.platform_axle_diameter / 2 + _WALL)) + 3.0
-
-    @property
-    def boss(self) -> float:
-        """Radius of a crank's round end."""
-        return self.keys.pin_diameter / 2 + _BOSS
-
-    @property
-    def hub(self) -> float:
-        """Radius of the hub on which the flange runs: the platform's axle goes through it."""
-        return math.ceil(self.arm + self.keys.platform_axle_diameter / 2 + _WALL)
-
-    @property
-    def pivots(self) -> float:
-        """Radius of the second pivots' circle: outside of the hub, and beyond a crank from the platform's axle."""
-        past = self.arm + self.boss + self.keys.platform_axle_diameter / 2 + 2
-        return math.ceil(max(past, self.hub + self.keys.clearance + self.keys.pin_diameter / 2 + _WALL))
-
-    @property
-    def posts(self) -> float:
-        """Radius of the first pivots' circle: the flange's long pins stand outside of all that the spider reaches."""
-        return math.ceil(self.arm + self.pivots + self.boss + self.keys.pin_diameter / 2 + 2)
+    def __init__(self, keys: PowerModuleKinematicsKeys) -> None:
+        self.keys, (pinion, ring), pin = keys, keys.teeth, keys.pin_diameter / 2
+        # O1O2 = O2O3: the centre distance of ring and pinion, and of the wheels of equal pitch circles
+        self.arm = keys.module * (ring - pinion) / 2
+        beyond = self.arm + keys.platform_axle_diameter / 2
+        # radius of disk 3: the platform's axle in it, and the pinion's tips behind it; of a crank's round end
+        self.disk_3 = math.ceil(max(keys.module * (pinion / 2 + 1), beyond + _WALL)) + 3.0
+        self.boss = pin + _BOSS
+        # of the hub on which the flange runs: the platform's axle goes through it
+        self.hub = math.ceil(beyond + _WALL)
+        # of the second pivots' circle: outside of the hub, and beyond a crank from the platform's axle
+        past = self.arm + self.boss + keys.platform_axle_diameter / 2 + 2
+        self.pivots = math.ceil(max(past, self.hub + keys.clearance + pin + _WALL))
+        # of the first pivots' circle: the flange's long pins stand outside of all that the spider reaches
+        self.posts = math.ceil(self.arm + self.pivots + self.boss + pin + 2)
 
     @property
     def wheels(self) -> tuple[int, int]:

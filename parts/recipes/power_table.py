@@ -18,7 +18,6 @@ from typing import Annotated, Literal
 from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.base.record import Record
 from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
 from parts.keys.base import mm
@@ -95,68 +94,48 @@ class PowerTableKeys(RecipeKeys, kw_only=True, tag="power_table"):
     density: Density | None = None
 
 
-class _Sizes(Record):
-    """What follows from the keys, mm: each by the rule beside it."""
+class _Sizes:
+    """What follows from the keys, mm."""
 
-    keys: PowerTableKeys
-
-    @property
-    def arm(self) -> float:
-        """O1O2: the centre distance of ring and pinion without shifts."""
-        pinion, ring = self.keys.teeth
-        return self.keys.module * (ring - pinion) / 2
-
-    @property
-    def second_arm(self) -> float:
-        """O2O3."""
-        return self.keys.second_arm or self.arm
-
-    @property
-    def boss(self) -> float:
-        """Radius of the round end of a crank."""
-        return self.keys.pin_diameter / 2 + _BOSS
-
-    @property
-    def hub(self) -> float:
-        """Radius of the pinion's hub: the platform's axle goes through it."""
-        return math.ceil(self.second_arm + self.keys.platform_axle_diameter / 2 + _WALL)
-
-    @property
-    def ring(self) -> float:
-        """Outer radius of ring, rim and back disk."""
-        return math.ceil(self.keys.module * (self.keys.teeth[1] / 2 + _ROOT) + _RIM)
-
-    @property
-    def disk(self) -> float:
-        """Radius of disk 2: within the ring's tips, into whose plane it stands by a gap."""
-        return math.floor(self.keys.module * (self.keys.teeth[1] / 2 - 1) - self.keys.clearance)
-
-    @property
-    def posts(self) -> float:
-        """Radius of the posts' circle: out of the ring's way, their first cranks out of the hub's."""
-        beside = self.ring + self.keys.clearance + self.keys.pin_diameter / 2 + _WALL + 2
-        return math.ceil(max(beside, self.hub + self.arm + self.boss + 1, _side_by_side(self.arm, self.boss)))
-
-    @property
-    def pivots(self) -> float:
-        """Radius of the second pivots' circle on the flange: beside the hub, cranks beside the platform's axle."""
-        past = self.second_arm + self.keys.platform_axle_diameter / 2 + self.boss + 1
-        wall = self.hub + self.keys.clearance + self.keys.pin_diameter / 2 + _WALL
-        return math.ceil(max(past, wall, _side_by_side(self.second_arm, self.boss)))
-
-    @property
-    def half(self) -> float:
-        """Half a side of the base: beyond the posts, and the slots of the worms' bearings."""
-        beyond = self.posts + self.keys.pin_diameter / 2 + 8
-        if self.keys.drive == "worms":
-            far = max(self.worm_distance(teeth) for teeth in self.keys.worm_wheel_teeth) + self.bearing / 2
-            beyond = max(beyond, far + _BEARING + 3)
-        return beyond
-
-    @property
-    def tube(self) -> float:
-        """Outer diameter of the tube about the shaft of disk 2."""
-        return self.keys.axle_diameter + self.keys.clearance + 2 * _TUBE
+    def __init__(self, keys: PowerTableKeys) -> None:
+        self.keys, (pinion, ring) = keys, keys.teeth
+        pin, platform_axle = keys.pin_diameter / 2, keys.platform_axle_diameter / 2
+        # O1O2: the centre distance of ring and pinion without shifts; O2O3
+        self.arm = keys.module * (ring - pinion) / 2
+        self.second_arm = keys.second_arm or self.arm
+        # radius of the round end of a crank; of the pinion's hub, through which the platform's axle goes
+        self.boss = pin + _BOSS
+        self.hub = math.ceil(self.second_arm + platform_axle + _WALL)
+        # outer radius of ring, rim and back disk; of disk 2, which stands into the plane of the ring's tips by a gap
+        self.ring = math.ceil(keys.module * (ring / 2 + _ROOT) + _RIM)
+        self.disk = math.floor(keys.module * (ring / 2 - 1) - keys.clearance)
+        # radius of the posts' circle: out of the ring's way, their first cranks out of the hub's
+        beside = self.ring + keys.clearance + pin + _WALL + 2
+        self.posts = math.ceil(max(beside, self.hub + self.arm + self.boss + 1, _side_by_side(self.arm, self.boss)))
+        # of the second pivots' circle on the flange: beside the hub, cranks beside the platform's axle
+        past, wall = self.second_arm + platform_axle + self.boss + 1, self.hub + keys.clearance + pin + _WALL
+        self.pivots = math.ceil(max(past, wall, _side_by_side(self.second_arm, self.boss)))
+        # outer diameter of the tube about the shaft of disk 2
+        self.tube = keys.axle_diameter + keys.clearance + 2 * _TUBE
+        # seven modules, as whole teeth have it on a worm of q 10; diameter of a worm at its root
+        self.worm_wheel_width = 7 * keys.worm_module
+        self.worm_core = 2 * keys.worm_module * (_Q / 2 - _DEDENDUM)
+        # of a worm's thick journal, through whose bearing its thread goes; width of its bearings
+        self.journal = 2 * keys.worm_module * (_Q / 2 + _ADDENDUM) + 2
+        self.bearing = self.journal + keys.clearance + 2 * (_WALL + 1)
+        # how far the bearings stand from the middle of the worms: out of the wheels' way
+        wheel = max(map(self.worm_wheel, keys.worm_wheel_teeth)) / 2 + 1
+        inner = min(map(self.worm_distance, keys.worm_wheel_teeth)) - self.bearing / 2
+        past = math.sqrt(max(wheel**2 - max(inner, 0.0) ** 2, 0.0))
+        self.beside = max(past, keys.worm_module * _THREAD / 2 + _NECK)
+        # heights of the axes of the worms of disk 2 and of the ring, below the base, the ring's nearer to it
+        near = -(self.journal / 2 + 1)
+        self.worm_planes = near - self.worm_wheel_width / 2 - 1 - self.journal / 2, near
+        # half a side of the base: beyond the posts, and the slots of the worms' bearings
+        self.half = self.posts + pin + 8
+        if keys.drive == "worms":
+            far = max(map(self.worm_distance, keys.worm_wheel_teeth)) + self.bearing / 2
+            self.half = max(self.half, far + _BEARING + 3)
 
     def worm_distance(self, teeth: int) -> float:
         """Centre distance of a worm and its wheel."""
@@ -165,40 +144,6 @@ class _Sizes(Record):
     def worm_wheel(self, teeth: int) -> float:
         """Outer diameter of a worm wheel."""
         return self.keys.worm_module * (teeth + 2.5)
-
-    @property
-    def worm_wheel_width(self) -> float:
-        """Seven modules, as whole teeth have it on a worm of q 10."""
-        return 7 * self.keys.worm_module
-
-    @property
-    def worm_core(self) -> float:
-        """Diameter of a worm at its root."""
-        return 2 * self.keys.worm_module * (_Q / 2 - _DEDENDUM)
-
-    @property
-    def journal(self) -> float:
-        """Diameter of a worm's thick journal: its thread goes through the bearing of that."""
-        return 2 * self.keys.worm_module * (_Q / 2 + _ADDENDUM) + 2
-
-    @property
-    def bearing(self) -> float:
-        """Width of a worm's bearings."""
-        return self.journal + self.keys.clearance + 2 * (_WALL + 1)
-
-    @property
-    def beside(self) -> float:
-        """How far the bearings stand from the middle of the worms: out of the wheels' way."""
-        wheel = max(map(self.worm_wheel, self.keys.worm_wheel_teeth)) / 2 + 1
-        inner = min(map(self.worm_distance, self.keys.worm_wheel_teeth)) - self.bearing / 2
-        past = math.sqrt(max(wheel**2 - max(inner, 0.0) ** 2, 0.0))
-        return max(past, self.keys.worm_module * _THREAD / 2 + _NECK)
-
-    @property
-    def worm_planes(self) -> tuple[float, float]:
-        """Heights of the axes of the worms of disk 2 and of the ring, below the base, the ring's nearer to it."""
-        ring = -(self.journal / 2 + 1)
-        return ring - self.worm_wheel_width / 2 - 1 - self.journal / 2, ring
 
     def checked(self) -> _Sizes:
         """Refuse sizes that nothing follows from, by the driver and its limit."""

@@ -48,7 +48,9 @@ if TYPE_CHECKING:
 L = TypeVar("L", bound=LaidKeys)
 # the languages that have a catalogue, and what exports may be
 if TYPE_CHECKING:
-    Language = Format = Purpose = str
+    Language = str
+    Format = str
+    Purpose = str
 else:
     Language, Format, Purpose = Literal[languages()], Literal[FORMATS], Literal[PURPOSES]
 
@@ -488,8 +490,8 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
         refuse("kerf", "kerf_of_a_print", offset=spec.kerf / 2)
     if spec.pitch_curve and kind.form is not Form.SPLINES:
         refuse("pitch_curve", "only_for_purpose", purpose="drawing")
-    for key, usual, code in _NOT_OF_CAD if kind.is_cad else ():
-        if getattr(spec, key) != usual:
+    for key, plain, code in _NOT_OF_CAD if kind.is_cad else ():
+        if getattr(spec, key) != plain:
             refuse(key, code)
     if spec.tolerance is None:
         spec.tolerance = purposes[str(spec.purpose)]
