@@ -9,6 +9,7 @@ of the axes. What is described is the lower flank of a thread; half a turn about
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
@@ -32,32 +33,81 @@ _STEPS, _LEAST_STEP, _CALM, _NEAR, _THERE = 24, 1e-8, 5, 0.03, 1e-12
 _ANGLE_STEPS = 16
 
 
-class Meridian(Record, eq=False):
-    """Points of a thread's lower flank in the axial half plane: radius and z, mm, and a tangent there."""
+class Meridian(Record, eq=False, dict=True):
+    """Points of a thread's lower flank in the axial half plane: radius, mm, and a tangent there.
 
-    radius: Real
-    z: Real
-    outwards: Real
-    upwards: Real
-
-
-class Cut(Record, eq=False):
-    """What the hob leaves: points about the wheel's axis in the frame of its tooth 1, and when they are left.
-
-    ``plane``: x + iy of the lower side of tooth 1, mm; ``turn``: polar angle of the hob's point about the hob's axis,
-    rad; ``slid``: how far the hob has slid along its axis, mm; ``touching``: the point in the frame of the drive,
-    x - a + iz, mm. ``normal`` is that of the wheel's surface in the plane, out of its material; where ``steepness``,
-    its part along the line of centres, goes through 0 the contact has run off to infinity; of a swivelled hob it leaves
-    the plane across the wheel's axis before that: then no point is ``found`` in it.
+    ``axial`` gives their z, mm: how far from the wheel's axis they leave something does not ask for it.
     """
 
-    plane: Complex
-    turn: Real
-    slid: Real
+    radius: Real
+    axial: Callable[[], Real]
+    outwards: Real | float
+    upwards: Real
+
+    @cached_property
+    def z(self) -> Real:
+        """Along the thread's axis, mm."""
+        return self.axial()
+
+
+class Cut(Record, eq=False, dict=True):
+    """What the hob leaves: points about the wheel's axis in the frame of its tooth 1, and when they are left.
+
+    ``along``: how far along the hob's axis the ``meridian`` is touched, mm, at sine and cosine, ``side`` and ``out``,
+    of its polar angle there; ``touching``: the point in the frame of the drive, x - a + iz, mm, ``into``: the normal
+    into the thread. Of a swivelled hob the contact leaves the plane across the wheel's axis before it runs off to
+    infinity: then no point is ``found`` in it. All else is worked out when it is asked for.
+    """
+
+    hob: Hob
+    meridian: Meridian
+    side: Real
+    out: Real
+    along: Real
     touching: Complex
-    normal: Complex
-    steepness: Real
+    into: tuple[Real, Real, Real]
     found: NDArray[np.bool_]
+
+    @property
+    def distance(self) -> Real:
+        """From the wheel's axis, mm."""
+        return np.abs(self.touching)
+
+    @property
+    def runs_off(self) -> NDArray[np.bool_]:
+        """Where the contact has run off to infinity: ``steepness`` is not below 0."""
+        return ~(self.into[0] < 0)
+
+    @cached_property
+    def slid(self) -> Real:
+        """How far the hob has slid along its axis, mm."""
+        worm = self.hob.worm
+        return self.along - self.meridian.z - worm.sign * worm.parameter * np.arctan2(self.side, self.out)
+
+    @cached_property
+    def _turned(self) -> Complex:
+        with np.errstate(invalid="ignore"):
+            return -np.exp(-1j * (self.hob.rate * self.slid + math.pi / self.hob.number_of_teeth))
+
+    @cached_property
+    def plane(self) -> Complex:
+        """x + iy of the lower side of tooth 1, mm."""
+        return self.touching * self._turned
+
+    @cached_property
+    def _size(self) -> Real:
+        x, y, z = self.into
+        return np.sqrt(x * x + y * y + z * z)
+
+    @property
+    def normal(self) -> Complex:
+        """That of the wheel's surface in the plane, out of its material."""
+        return (self.into[0] + 1j * self.into[2]) * self._turned / self._size
+
+    @property
+    def steepness(self) -> Real:
+        """The normal's part along the line of centres; where it goes through 0 the contact has run off to infinity."""
+        return self.into[0] / self._size
 
 
 class Hob(Record, dict=True):
@@ -126,35 +176,47 @@ class Hob(Record, dict=True):
     def flank(self, radius: ArrayLike) -> Meridian:
         """The flank at radii, mm."""
         r = np.asarray(radius, float)
-        return Meridian(r, -self.worm.half_thickness(r), np.ones_like(r), self.worm.flank.slope(r))
+        return Meridian(r, lambda: -self.worm.half_thickness(r), 1.0, self.worm.flank.slope(r))
 
     def round(self, normal: ArrayLike) -> Meridian:
         """The rounding of the tip at angles of its normal, from ``least_normal`` to a right angle, rad."""
         angle = np.asarray(normal, float)
         sine, cosine = np.sin(angle), np.cos(angle)
         radius = self.tip_radius - self.rounding * (1 - sine)
-        return Meridian(radius, -self.half_land - self.rounding * cosine, cosine, sine)
+        return Meridian(radius, lambda: -self.half_land - self.rounding * cosine, cosine, sine)
 
     def land(self, share: ArrayLike) -> Meridian:
         """The tip between its roundings, from the lower one (0) to the upper one (1)."""
         z = self.half_land * (2 * np.asarray(share, float) - 1)
-        return Meridian(np.full_like(z, self.tip_radius), z, np.zeros_like(z), np.ones_like(z))
+        return Meridian(np.full_like(z, self.tip_radius), lambda: z, 0.0, np.ones_like(z))
 
     def cut(self, meridian: Meridian, height: ArrayLike) -> Cut:
         """What points of the thread leave in planes across the wheel's axis, ``height`` mm above its middle."""
         y = -np.asarray(height, float)
+        worm, r = self.worm, meridian.radius
+        sine, cosine, screw = math.sin(self.swivel), math.cos(self.swivel), worm.sign * worm.parameter
         with np.errstate(invalid="ignore", divide="ignore"):
-            turn = np.arcsin(y / meridian.radius)
+            side = y / r
             if self.swivel:
-                turn = self._turned(meridian, turn, y)
-            found = self._touch(meridian, turn)
-            n_x, n_y, n_z = found.normal
-            turned = -np.exp(-1j * (self.rate * found.slid + math.pi / self.number_of_teeth))
-            size = np.sqrt(n_x * n_x + n_y * n_y + n_z * n_z)
-            touching = found.x + 1j * found.z
-            normal = (n_x + 1j * n_z) * turned / size
-            there = (np.abs(found.y - y) <= _THERE * self.tip_radius) & (np.abs(turn) <= math.pi / 2)
-            return Cut(touching * turned, turn, found.slid, touching, normal, n_x / size, there)
+                turn = self._turned(meridian, np.arcsin(side), y)
+                side, out = np.sin(turn), np.cos(turn)
+            else:
+                out = np.sqrt((1 - side) * (1 + side))
+            # normal of the thread, into it: tangent of the meridian x tangent of the turn, in the hob's frame
+            rise, lift = screw * meridian.outwards, meridian.upwards * r
+            n_x, n_y, n_z = rise * side - lift * out, -lift * side - rise * out, r * meridian.outwards
+            x = r * out - self.centre_distance
+            # the hob slides along its axis, the wheel turns by ``rate``: n v = 0
+            if not self.swivel:
+                z = along = n_z * (self.rate * x - 1) / (n_x * self.rate)
+                there = np.isfinite(z)
+            else:
+                n_y, n_z = n_y * cosine - n_z * sine, n_y * sine + n_z * cosine
+                z = (n_y * sine - n_z * (cosine - self.rate * x)) / (n_x * self.rate)
+                along = (z - r * side * sine) / cosine
+                there = np.abs(r * side * cosine - along * sine - y) <= _THERE * self.tip_radius
+                there &= np.abs(turn) <= math.pi / 2
+            return Cut(self, meridian, side, out, along, x + 1j * z, (n_x, n_y, n_z), there)
 
     def _turned(self, meridian: Meridian, turn: Real, y: Real) -> Real:
         """Polar angles at which points of a swivelled thread touch the wheel in their planes, rad; from near ones.
@@ -191,34 +253,6 @@ class Hob(Record, dict=True):
             at = at[goes]
             p, q, c, s, k = (x[goes] for x in (p, q, c, s, k))
         return found.reshape(turn.shape)
-
-    def _touch(self, meridian: Meridian, turn: Real) -> _Touch:
-        """Where points of the thread touch the wheel."""
-        worm, r = self.worm, meridian.radius
-        sine, cosine = math.sin(self.swivel), math.cos(self.swivel)
-        out, side = np.cos(turn), np.sin(turn)
-        screw = worm.sign * worm.parameter
-        # normal of the thread, into it: tangent of the meridian x tangent of the turn, in the hob's frame
-        n_x = screw * meridian.outwards * side - meridian.upwards * r * out
-        n_side = -meridian.upwards * r * side - screw * meridian.outwards * out
-        n_along = r * meridian.outwards
-        n_y, n_z = n_side * cosine - n_along * sine, n_side * sine + n_along * cosine
-        x = r * out - self.centre_distance
-        # the hob slides along its axis, the wheel turns by ``rate``: n v = 0
-        z = (n_y * sine - n_z * (cosine - self.rate * x)) / (n_x * self.rate)
-        along = (z - r * side * sine) / cosine
-        y = r * side * cosine - along * sine
-        return _Touch(x, y, z, along - meridian.z - screw * turn, (n_x, n_y, n_z))
-
-
-class _Touch(Record, eq=False):
-    """A point in the frame of the drive about the wheel's axis, mm, the slide there, and the normal into the thread."""
-
-    x: Real
-    y: Real
-    z: Real
-    slid: Real
-    normal: tuple[Real, Real, Real]
 
 
 def oversized_hob(drive: WormDrive, rounding_coefficient: float, quotient: float) -> Hob:

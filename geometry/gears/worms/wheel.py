@@ -320,8 +320,11 @@ class WormTeeth(Record, dict=True):
     def _is_cut(self, radii: Real, normal: Real, z: Real) -> bool:
         """Whether flanks, (m, n), whose contact comes back from infinity, cut sides that are fillets up to the tip."""
         own, ends = self.hob.cut(self.hob.flank(radii), z), np.linspace(math.pi / 2, normal, _ANGLES)
+        below = own.found & (own.distance < self.tip_radius(z))
+        if not below.any():
+            return False
         fillet, deep = self.hob.cut(self.hob.round(ends), z).plane, _DEEP * math.tau / self.number_of_teeth
-        below = own.found & (np.abs(own.plane) < self.tip_radius(z)) & (np.angle(own.plane) < 0)
+        below &= np.angle(own.plane) < 0
         return any(
             bool((np.angle(flank[at]) > np.interp(np.abs(flank[at]), np.abs(side), np.angle(side)) + deep).any())
             for flank, side, at in zip(own.plane.T, fillet.T, below.T, strict=True)
@@ -413,7 +416,7 @@ class WormTeeth(Record, dict=True):
     def _left_at(self, points: Meridian, heights: Real) -> Real:
         """The same of what points of the thread leave, mm."""
         cut = self.hob.cut(points, heights)
-        return np.where(cut.found & (cut.steepness < 0), np.abs(cut.plane), np.inf)
+        return np.where(cut.found & ~cut.runs_off, cut.distance, np.inf)
 
     def _turning(self, low: Real, high: Real, heights: Real) -> Real:
         """Radii of the thread at which the flank turns back between others, mm."""
@@ -489,8 +492,9 @@ class WormTeeth(Record, dict=True):
         if side.all_fillet.any():
             # the end of the fillet
             end = self.hob.round(side.normal + 0 * share)
-            pairs = ((end.radius, own.radius), (end.z, own.z), (end.outwards, own.outwards), (end.upwards, own.upwards))
-            own = Meridian(*(np.where(side.all_fillet, one, other) for one, other in pairs))
+            pairs = (end.radius, own.radius), (end.z, own.z), (end.outwards, own.outwards), (end.upwards, own.upwards)
+            radius, z, outwards, upwards = (np.where(side.all_fillet, one, other) for one, other in pairs)
+            own = Meridian(radius, lambda: z, outwards, upwards)
         return self.hob.cut(own, side.heights)
 
     def fillet(self, side: Side, share: Real | float) -> Cut:
