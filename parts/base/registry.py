@@ -39,6 +39,10 @@ KINDS: Index[Kind[Any, Any]] = Index(
             "parts.gears.bevel_gear.part:BEVEL_GEAR",
             "Bevel gear of spherical involutes, straight, skew or spiral, for one mate; its back face lies at z = 0",
         ),
+        "face_gear": (
+            "parts.gears.face_gear.part:FACE_GEAR",
+            "Face gear (crown gear), conjugate to a spur pinion on an axis at 90 degrees; its lower face lies at z = 0",
+        ),
         "cam": (
             "parts.cams.disk_cam.part:CAM",
             "Disk cam; it turns counter-clockwise, cam angle 0 is the start of the first phase",

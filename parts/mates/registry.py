@@ -78,6 +78,10 @@ MATES: Index[MateKind[Any, Any, Any]] = Index(
             "parts.mates.bevel:BEVEL_PAIR",
             "Two bevel gears made for each other, laid so that the apexes of their cones meet",
         ),
+        "face_gear_pair": (
+            "parts.mates.face:FACE_GEAR_PAIR",
+            "A face gear (first) and its spur pinion (second), laid across its axis so that both axes meet",
+        ),
         "crossed_helical_pair": (
             "parts.mates.crossed:CROSSED_HELICAL_PAIR",
             "Two helical gears on crossed axes (screw gears), the second laid as their helix angles want it",

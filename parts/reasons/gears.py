@@ -170,6 +170,18 @@ REASONS = {
     "bevel_shift_leaves_no_tooth": N_("leaves no addendum or no dedendum"),
     "bevel_tips_run_out": N_("the tip cone, parallel to the root cone of the mate, leaves no flank at the inner end"),
     "bevel_too_flat": N_("the tip cone would be wider than {most} degrees from the axis: a face gear"),
+    "face_gear_below_base": N_(
+        "below {diameter} mm tips would reach below the base circle of the shaper, where it has no flank"
+    ),
+    "face_gear_narrow": N_("leaves the teeth no width: they begin at {diameter} mm"),
+    "face_gear_no_width": N_(
+        "leaves the teeth no width: undercut ends at {inner} mm, and they are pointed from {outer} mm on"
+    ),
+    "face_gear_not_moved": N_("is not for a face gear, whose flanks would be conjugate no more: thin its teeth"),
+    "face_gear_pointed": N_("the teeth are pointed from {diameter} mm on"),
+    "face_gear_pointed_inside": N_("leaves the teeth no width: they are pointed from {diameter} mm on"),
+    "face_gear_small_shaper": N_("a shaper with fewer teeth than the pinion would leave its flanks no room"),
+    "face_gear_undercut": N_("below {diameter} mm the shaper's tip cuts the flanks off: undercut"),
     "worm_not_moved": N_(
         "is not for a worm, which would lose the form of its flanks: thin the thread by axial_thinning"
     ),

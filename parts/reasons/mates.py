@@ -21,6 +21,7 @@ REASONS = {
     "contact_over_bar": N_("the contact runs over the bar's end"),
     "contact_over_plate": N_("the contact runs over the plate's edge"),
     "eccentric_needs_round_bore": N_("the disc needs a round bore for the eccentric"),
+    "face_gear_beside": N_("the pinion would stand beside the teeth of the face gear"),
     "fewer_seats": N_("is more than the number of seats"),
     "has_its_pins": N_("has its pins already; give it seats or holes"),
     "linkage_carries_follower": N_("the linkage carries the follower, which is no arm"),

@@ -36,6 +36,7 @@ MATES: dict[str, Text] = {
     "parallel": N_("{second} turns as {first} does"),
     "pin_seat": N_("seated in {first}: {second}"),
     "bevel_pair": N_("{first} and {second}: ratio {ratio:.6g}, contact ratio {transverse_contact_ratio:.4f}"),
+    "face_gear_pair": N_("{first} and {second}: axes at 90 deg, ratio {ratio:.6g}, contact ratio {contact_ratio:.4f}"),
     "crossed_helical_pair": N_(
         "{first} and {second}: a_w = {working_centre_distance:.5f} mm, shaft angle {shaft_angle_deg:.6g} deg, "
         "ratio {ratio:.6g}, contact ratio {contact_ratio:.4f}"

@@ -108,6 +108,8 @@ QUANTITIES: dict[str, str] = {
     "outer_spiral_angle_deg": N_("outer spiral angle, deg"),
     "virtual_teeth": N_("virtual number of teeth z_v"),
     "outer_tip_thickness": N_("thickness of the tip at the outer end s_ae, mm"),
+    "inner_tip_thickness": N_("thickness of the tip at the inner end, mm"),
+    "whole_depth": N_("depth of the teeth h, mm"),
     "mounting_distance": N_("from the apex to the back face, mm"),
     "tip_circle_to_apex": N_("from the apex to the plane of the outer tip circle, mm"),
     "axial_pressure_angle_deg": N_("axial pressure angle α_x, deg"),

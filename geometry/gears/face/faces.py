@@ -1,0 +1,249 @@
+"""The faces of a face gear: splines over its flanks and fillets, planes and cylinders for everything else, exact.
+
+Splines run from root to tip and along the radius; they interpolate the exact envelope at Greville's places.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache, partial
+
+import numpy as np
+
+from geometry.approximation.outline import spline_outline
+from geometry.approximation.tensor import axis_poles, clamped, greville, tensor_poles
+from geometry.base.errors import ConvergenceError
+from geometry.base.record import Record
+from geometry.curves.bspline import basis_matrix
+from geometry.curves.curve import Real
+from geometry.gears.face.gear import FLANK, SIDES, FaceGear
+from geometry.gears.face.walls import wall_distance
+from geometry.solids.faced import FacedBody, FacedSolid
+from geometry.solids.faces import Circular, Cylinder, Faces, Frame, Index, Plane, Spline, SplineSurface, Straight, Surface
+from geometry.solids.measured import Measured
+from geometry.solids.rings import AHEAD, UP, Ring, RingBuilder
+
+# spans one way at most, samples of each, and what is added to sampled errors
+_DEGREE, _MOST_SPANS, _SAMPLES, _MARGIN = 7, 64, 11, 1.5
+# kernels join edges and faces within 1e-7 mm
+_TARGET, _ROUNDING = 2e-8, 8e-15
+# by which power spans across a side come closer at the joint of fillet and flank
+_CLOSER = 1.5
+# lines of the other way on which the spans of one are chosen
+_LINES = 5
+
+# edges (n,) and whether they run forwards
+Use = tuple[Index, bool]
+
+
+def faced_face_gear(gear: FaceGear) -> FacedBody:
+    """A face gear as files, mass and checks take it."""
+    walls = tuple(
+        Measured(name, partial(wall_distance, gear, which), gear.number_of_teeth)
+        for name, which in zip(("fillet", "flank"), SIDES, strict=True)
+    )
+    made = lru_cache(maxsize=2)(partial(face_gear_solid, gear))
+    return FacedBody(lambda t: made(min(t, _TARGET)), walls, own_ends=(0.0, gear.height, gear.outer_radius))
+
+
+class _Wall(Record, eq=False):
+    """Splines of the upper side of tooth 1: knots from root to tip and inwards, poles (u, v, 3), error, mm."""
+
+    across: Real
+    along: Real
+    poles: Real
+    error: float
+
+
+def _points(gear: FaceGear, which: int, share: Real, inwards: Real) -> Real:
+    """Places (u, v, 3) of the upper side of tooth 1, mm.
+
+    Radii are those of the joint of fillet and flank at even pressure angles: near the undercut these have a branch.
+    """
+    ends = gear.outer_radius, gear.inner_radius
+    high, low = np.arccos(gear.section_x(0.0) / gear.side(FLANK, 0.0, np.array(ends)).x).tolist()
+    radius = gear.cut_radius(high + (low - high) * inwards, gear.shaper.form_length)
+    radius[inwards == 0], radius[inwards == 1] = ends
+    at = gear.side(which, share[:, None], radius)
+    return np.stack([at.plane.real, at.plane.imag, gear.shaper_distance - at.depth], axis=-1)
+
+
+def _spans(gear: FaceGear, which: int, axis: int, least: float) -> int:
+    """Least spans across a side (axis 0) or along it (1) with which its lines are near enough."""
+    lines, spans = np.linspace(0.0, 1.0, _LINES), 1
+    while spans <= _MOST_SPANS:
+        breaks = _breaks(which, axis, spans)
+        knots, fine = clamped(_DEGREE, breaks), _between(breaks)
+
+        def at(own: Real) -> Real:
+            share, radial = (own, lines) if axis == 0 else (lines, own)
+            return np.moveaxis(_points(gear, which, share, radial), axis, 0)
+
+        made = np.tensordot(basis_matrix(_DEGREE, knots, fine), axis_poles(_DEGREE, knots, at(greville(_DEGREE, knots)), 0), (1, 0))
+        error = float(np.linalg.norm(made - at(fine), axis=-1).max())
+        if error <= least / 2:
+            return spans
+        spans += 1 + spans // 4
+    raise ConvergenceError("spline of a face gear's tooth", error, spans)
+
+
+def _breaks(which: int, axis: int, spans: int) -> Real:
+    """Shares at the ends of spans, which across a side come closer at the joint of fillet and flank."""
+    even = np.linspace(0.0, 1.0, spans + 1)
+    if axis:
+        return even
+    return even**_CLOSER if which == FLANK else 1 - (1 - even) ** _CLOSER
+
+
+def _between(breaks: Real) -> Real:
+    """Shares at which splines are held against what they stand for."""
+    spans = len(breaks) - 1
+    return np.interp(np.linspace(0, spans, _SAMPLES * spans + 1), np.arange(spans + 1), breaks)
+
+
+def _fitted(gear: FaceGear, tolerance: float) -> tuple[_Wall, ...]:
+    """Fillet and flank; both have the same spans along the radius, where they share an edge."""
+    least = max(min(tolerance, _TARGET) / _MARGIN, _ROUNDING * gear.outer_radius)
+    across = [_spans(gear, which, 0, least) for which in SIDES]
+    along = max(_spans(gear, which, 1, least) for which in SIDES)
+    while max(*across, along) <= _MOST_SPANS:
+        walls = tuple(_fitted_wall(gear, which, across[which], along) for which in SIDES)
+        if max(wall.error for wall in walls) <= least * _MARGIN:
+            return walls
+        across, along = [n + (wall.error > least * _MARGIN) for n, wall in zip(across, walls, strict=True)], along + 1
+    raise ConvergenceError("spline of a face gear's tooth", max(wall.error for wall in walls), _MOST_SPANS)
+
+
+def _fitted_wall(gear: FaceGear, which: int, across: int, along: int) -> _Wall:
+    """A side on so many spans both ways, from the outer radius inwards."""
+    breaks = _breaks(which, 0, across), _breaks(which, 1, along)
+    u_knots, v_knots = (clamped(_DEGREE, own) for own in breaks)
+    exact = _points(gear, which, greville(_DEGREE, u_knots), greville(_DEGREE, v_knots))
+    poles = tensor_poles(_DEGREE, u_knots, v_knots, exact)
+    u, v = map(_between, breaks)
+    rows, columns = basis_matrix(_DEGREE, u_knots, u), basis_matrix(_DEGREE, v_knots, v)
+    made = np.einsum("iu,uvc,jv->ijc", rows, poles, columns, optimize=True)
+    return _Wall(u_knots, v_knots, poles, _MARGIN * float(np.linalg.norm(made - _points(gear, which, u, v), axis=2).max()))
+
+
+def face_gear_solid(gear: FaceGear, tolerance: float) -> FacedSolid:
+    """The faces of a face gear, splines within ``tolerance`` mm.
+
+    Raises
+    ------
+    ConvergenceError
+        64 spans one way are not enough.
+    """
+    walls = _fitted(gear, tolerance)
+    worst, bore = max(wall.error for wall in walls), None
+    made = _Built(gear, walls)
+    made.teeth()
+    if gear.bore is not None:
+        outline = spline_outline(gear.bore, tolerance, degree=_DEGREE, continuity=_DEGREE - 1)
+        bore, worst = outline, max(worst, outline.max_error)
+    made.body(None if bore is None else (made.ring(bore, 0.0), made.ring(bore, gear.thickness)))
+    return FacedSolid(made.solid(), worst, "sampled")
+
+
+class _Built(RingBuilder):
+    """Vertices, edges and faces of one gear: ends are the outer (0) and the inner one (1)."""
+
+    def __init__(self, gear: FaceGear, walls: tuple[_Wall, ...]) -> None:
+        super().__init__()
+        self.gear, self.walls = gear, walls
+        self.turns = np.exp(2j * math.pi * np.arange(gear.number_of_teeth) / gear.number_of_teeth)
+        self.radii = gear.outer_radius, gear.inner_radius
+        self.root_loop: Index = np.empty((1, 0), int)
+        self.rim_loop: Index = np.empty((1, 0), int)
+
+    def on_teeth(self, points: Real) -> Index:
+        """Numbers of points (k, 3) of tooth 1 on all teeth, (n, k)."""
+        plane = self.turns[:, None] * (points[:, 0] + 1j * points[:, 1])
+        return self.add_points(plane, np.broadcast_to(points[:, 2], plane.shape))
+
+    def face(self, surface: Surface, around: list[Use], *, along: bool = True) -> None:
+        """Faces within edges that turn left about them, as seen from outside."""
+        loop = np.stack([edge for edge, _ in around], axis=1), np.array([way for _, way in around])
+        self.faces.append(Faces(surface, (loop,), along))
+
+    def arcs(self, end: int, z: float, start: Index, stop: Index) -> Index:
+        """Arcs at a height on the cylinder of an end, counter-clockwise."""
+        return self.add_edges(start, stop, Circular(Frame(self.on_axis(z), UP, AHEAD), self.radii[end]))
+
+    def teeth(self) -> None:
+        """Flanks, fillets, tips, and what both ends leave between them."""
+        gear, mirror = self.gear, np.array([1.0, -1.0, 1.0])
+        fillet, flank = self.walls
+        corners, points = [], []
+        for end in (0, -1):
+            # from the lower foot over the tip to the upper foot
+            upper = np.array([fillet.poles[0, end], flank.poles[0, end], flank.poles[-1, end]])
+            points.append(self.on_teeth(np.concatenate([upper * mirror, upper[::-1]])))
+            corners.append(np.stack([self.add_vertices(column) for column in points[-1].T], axis=1))
+        radial: dict[int, Index] = {}
+        ends: tuple[dict[tuple[int, int], Index], ...] = {}, {}
+        for side, which in ((s, w) for s in (-1, 1) for w in SIDES):
+            first, last = (which, which + 1) if side < 0 else (5 - which, 4 - which)
+            wall = self.walls[which]
+            grid = self._grid(wall.poles * (mirror if side < 0 else 1.0), points, first, last)
+            for end in (0, 1):
+                curve = Spline(_DEGREE, wall.across, grid[:, :, -end])
+                ends[end][side, which] = self.add_edges(corners[end][:, first], corners[end][:, last], curve)
+            for corner, u in ((first, 0), (last, -1)):
+                if corner not in radial:
+                    line = Spline(_DEGREE, wall.along, grid[:, u])
+                    radial[corner] = self.add_edges(corners[0][:, corner], corners[1][:, corner], line)
+            surface = SplineSurface((_DEGREE, _DEGREE), wall.across, wall.along, grid)
+            around = [(ends[0][side, which], True), (radial[last], True), (ends[1][side, which], False),
+                      (radial[first], False)]  # fmt: skip
+            if side > 0:
+                around = [(edge, not way) for edge, way in reversed(around)]
+            self.face(surface, around, along=side < 0)
+        tips = [self.arcs(end, gear.height, corners[end][:, 2], corners[end][:, 3]) for end in (0, 1)]
+        self.face(Plane(Frame(self.on_axis(gear.height), UP, AHEAD)),
+                  [(tips[0], True), (radial[3], True), (tips[1], False), (radial[2], False)])  # fmt: skip
+        over = [[(side[-1, 0], True), (side[-1, 1], True), (tip, True), (side[1, 1], False), (side[1, 0], False)]
+                for side, tip in zip(ends, tips, strict=True)]  # fmt: skip
+        feet = self.arcs(1, gear.thickness, corners[1][:, 0], corners[1][:, 5])
+        self.face(self.around(1), [*over[1], (feet, False)], along=False)
+        roots = self.arcs(0, gear.thickness, corners[0][:, 5], np.roll(corners[0][:, 0], -1))
+        # the root and the plate within the teeth are one plane
+        after = [np.roll(radial[0], -1), np.roll(feet, -1), np.roll(radial[5], -1)]
+        self.root_loop = np.stack([roots, *after], axis=1).reshape(1, -1)
+        self._outside(corners[0][:, 0], roots, over[0])
+
+    def around(self, end: int) -> Cylinder:
+        """About the axis through an end."""
+        return Cylinder(Frame(self.on_axis(0.0), UP, AHEAD), self.radii[end])
+
+    def _grid(self, poles: Real, ends: list[Index], first: int, last: int) -> Index:
+        """Numbers (n, u, v) of poles (u, v, 3) on all teeth, whose corners stand already."""
+        inner = np.ones(poles.shape[:2], bool)
+        inner[np.ix_((0, -1), (0, -1))] = False
+        grid = np.empty((len(self.turns), *poles.shape[:2]), int)
+        grid[:, inner] = self.on_teeth(poles[inner])
+        for u, corner in ((0, first), (-1, last)):
+            for v in (0, 1):
+                grid[:, u, -v] = ends[v][:, corner]
+        return grid
+
+    def _outside(self, foot: Index, roots: Index, over: list[Use]) -> None:
+        """The outer cylinder, tooth by tooth."""
+        at = self.place(foot)
+        low = self.add_vertices(self.add_points(np.asarray(at[:, 0] + 1j * at[:, 1]), 0.0))
+        lines = self.add_edges(low, foot, Straight(UP))
+        arcs = self.arcs(0, 0.0, low, np.roll(low, -1))
+        back = [(edge, not way) for edge, way in reversed(over)]
+        self.face(self.around(0), [(arcs, True), (np.roll(lines, -1), True), (roots, False), *back, (lines, False)])
+        self.rim_loop = arcs[None]
+
+    def body(self, bore: tuple[Ring, Ring] | None) -> None:
+        """Root plane, lower face and bore."""
+        ways = np.tile([True, True, True, False], len(self.turns))
+        up, down = [(self.root_loop, ways)], [(self.rim_loop[:, ::-1], np.full(self.rim_loop.shape[1], False))]
+        if bore is not None:
+            self.swept(*bore, UP)
+            up.append(bore[1].loop(forwards=True))
+            down.append(bore[0].loop(forwards=False))
+        self.cap(self.gear.thickness, up, up=True)
+        self.cap(0.0, down, up=False)

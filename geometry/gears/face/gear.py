@@ -1,0 +1,306 @@
+"""A face gear: the envelope of a spur shaper that rolls on it about an axis that meets its own at a right angle.
+
+Frame: the gear's axis is z, its lower face lies at z = 0, tooth 1 is centred on +x, teeth point upwards. The shaper's
+axis is parallel to x, ``shaper_distance`` above the lower face, and y + ih tells places of its section from there,
+h downwards. Turned by phi from where a tooth points straight down the shaper turns the gear by phi z_0 / z_2, so in
+the plane at x from the axis both touch where their common normal meets the pitch point, x z_0 / z_2 below the
+shaper's axis (Litvin, Gear Geometry and Applied Theory, 18.4). The plane's pressure angle alpha tells it:
+x = r_b0 z_2 / (z_0 cos alpha). The upper side of tooth 1 is described; the lower one is its mirror image.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from geometry.base.errors import ConvergenceError, ParameterError, limit
+from geometry.base.record import Record, replace
+from geometry.base.roots import bracketed_root
+from geometry.curves.curve import Complex, Real
+from geometry.gears.teeth.cutter import PinionCutter
+from geometry.plane.profile import Profile
+
+FILLET, FLANK = 0, 1
+SIDES = (FILLET, FLANK)
+# Newton's steps for the pressure angle on a cylinder and what is enough, rad; the step of its derivative, which goes
+# off the real axis and cancels nothing
+_STEPS, _ENOUGH, _ASIDE = 30, 1e-15, 1e-30
+# pressure angles between which limits are sought
+_LEAST_ANGLE, _MOST_ANGLE, _LIMIT_STEPS = 1e-6, 1.5, 65
+# where a fillet is held against folding: shares and radii
+_SHARES, _RADII = np.linspace(0.0, 1.0, 33), 9
+# a face is no narrower, a tip no thinner, modules; what a limit is stepped back from by default
+LEAST_FACE, _LEAST_TIP, _NEXT = 0.05, 1e-3, 1e-12
+NEAR_UNDERCUT, USUAL_TIP = 0.1, 0.4
+
+
+class Places(Record, eq=False):
+    """Places of a side: radius, azimuth (rad, from the middle of tooth 1), depth below the shaper's axis, mm.
+
+    ``normal``: out of the material, y + ih of the shaper's section where it cuts them; ``x``: of that section, mm.
+    """
+
+    radius: Real
+    azimuth: Real
+    depth: Real
+    normal: Complex
+    x: Real
+
+    @property
+    def plane(self) -> Complex:
+        """Along the axis, mm."""
+        return np.asarray(self.radius * np.exp(1j * self.azimuth))
+
+    @property
+    def around(self) -> Complex:
+        """The part of the normal that lies on the cylinder about the axis: along the azimuth, and downwards."""
+        return np.asarray(self.normal.real * self.x / self.radius + 1j * self.normal.imag)
+
+
+class FaceGear(Record, dict=True):
+    """A face gear cut by ``cutter``, or by one with thicker teeth; lengths in mm.
+
+    ``circumferential_thinning``: of its teeth, along the shaper's reference circle.
+    ``addendum``: of its teeth above the pitch plane, the plane that touches the shaper's reference cylinder;
+    ``thickness``: of the plate below the root; ``bore``: its outline.
+    """
+
+    cutter: PinionCutter
+    number_of_teeth: int
+    pinion_teeth: int
+    addendum: float
+    inner_radius: float
+    outer_radius: float
+    thickness: float
+    circumferential_thinning: float = 0.0
+    bore: Profile | None = None
+
+    # sizes ----------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def shaper(self) -> PinionCutter:
+        """What cuts it, thicker than standard by the thinning."""
+        return replace(self.cutter, widening=self.circumferential_thinning / 2)
+
+    @property
+    def module(self) -> float:
+        """m, mm."""
+        return self.cutter.module
+
+    @property
+    def reference_radius(self) -> float:
+        """r_2 = m z_2 / 2, where the pressure angle is the shaper's."""
+        return self.module * self.number_of_teeth / 2
+
+    @property
+    def rolled(self) -> float:
+        """z_0 / z_2: what the gear turns for a turn of the shaper."""
+        return self.shaper.number_of_teeth / self.number_of_teeth
+
+    @property
+    def tip_depth(self) -> float:
+        """Of the tip plane below the shaper's axis."""
+        return self.shaper.reference_radius - self.addendum
+
+    @property
+    def whole_depth(self) -> float:
+        """h, from root to tip."""
+        return self.shaper.tip_radius - self.tip_depth
+
+    @property
+    def height(self) -> float:
+        """From the lower face to the tips."""
+        return self.thickness + self.whole_depth
+
+    @property
+    def shaper_distance(self) -> float:
+        """Of the shaper's axis from the lower face."""
+        return self.thickness + self.shaper.tip_radius
+
+    @property
+    def mounting_distance(self) -> float:
+        """Of the pinion's axis from the lower face: the reference cylinders of shaper and pinion touch one plane."""
+        pinion = self.module * self.pinion_teeth / 2
+        return self.shaper_distance - self.shaper.reference_radius + pinion
+
+    @property
+    def face_width(self) -> float:
+        """b, along the radius."""
+        return self.outer_radius - self.inner_radius
+
+    # places ---------------------------------------------------------------------------------------------------------
+
+    def section_x(self, alpha: ArrayLike) -> Real:
+        """Distance from the axis of the plane in which the pressure angle is ``alpha``, rad."""
+        return np.asarray(self.shaper.base_radius / self.rolled / np.cos(alpha))
+
+    def tip_length(self, alpha: Real) -> Real:
+        """Of the shaper's line of action in a plane up to the tip of the gear, from the base circle on, mm."""
+        return np.asarray((self.tip_depth - self.shaper.base_radius * np.cos(alpha)) / np.sin(alpha))
+
+    def side(self, which: int, share: ArrayLike, radius: ArrayLike) -> Places:
+        """Places of a fillet (0) or flank (1) at shares from its root to its tip and at radii, of one shape.
+
+        Raises
+        ------
+        ConvergenceError
+            A radius is less than that of the base cylinder's limit.
+        """
+        u, r = np.broadcast_arrays(np.asarray(share, float), np.asarray(radius, float))
+        alpha = np.arccos(self.section_x(0.0) / r)
+        for _ in range(_STEPS):
+            y = self._contact(which, u, alpha + 1j * _ASIDE)[0]
+            x = self.section_x(alpha)
+            off = x**2 + y.real**2 - r**2
+            step = off / (2 * x**2 * np.tan(alpha) + 2 * y.real * y.imag / _ASIDE)
+            alpha = alpha - step
+            if (np.abs(step) < _ENOUGH).all():
+                break
+        if not (np.abs(off) < 1e-9 * r**2).all():
+            raise ConvergenceError("section of a face gear", float(np.nanmax(np.abs(off))), _STEPS)
+        y, depth, normal, phi = self._contact(which, u, alpha)
+        x = self.section_x(alpha)
+        azimuth = math.pi / self.number_of_teeth + np.arctan2(y, x) - self.rolled * phi
+        return Places(r, azimuth, depth, normal, x)
+
+    def _contact(self, which: int, u: Real, alpha: Real | Complex) -> tuple[Real, Real, Complex, Real]:
+        """Where the shaper cuts a side: y, h, the normal, and how far it has turned; alpha may leave the real axis."""
+        base = self.shaper.base_radius
+        if which == FLANK:
+            s = (1 - u) * self.shaper.form_length + u * self.tip_length(alpha)
+            y, h = base * np.sin(alpha) - s * np.cos(alpha), base * np.cos(alpha) + s * np.sin(alpha)
+            phi = alpha - s / base + self.shaper.base_half_angle
+            return y, h, np.asarray(np.cos(alpha) - 1j * np.sin(alpha)), np.asarray(phi.real)
+        # the normal's angle from straight down; the rounding's centre and the contact lie on it beyond the pitch point
+        turn, pitch = -u * (math.pi / 2 - alpha), base / np.cos(alpha)
+        sine, cosine = np.sin(turn), np.cos(turn)
+        centre = np.sqrt(self.shaper.corner_radius**2 - (pitch * sine) ** 2) - pitch * cosine
+        reach = centre + self.shaper.rounding_radius
+        phi = np.arctan2((centre * sine).real, (pitch + centre * cosine).real) + self.shaper.corner_angle
+        return reach * sine, pitch + reach * cosine, np.asarray(-sine - 1j * cosine), phi
+
+    # limits ---------------------------------------------------------------------------------------------------------
+
+    def cut_radius(self, alpha: ArrayLike, s: ArrayLike) -> Real:
+        """Radius of what is cut ``s`` mm along the line of action in the plane of a pressure angle, mm."""
+        y = self.shaper.base_radius * np.sin(alpha) - s * np.cos(alpha)
+        return np.hypot(self.section_x(alpha), y)
+
+    @cached_property
+    def undercut_radius(self) -> float:
+        """Inside of it the shaper's tip cuts its own flank off: there s t = (x tan alpha)^2 at the end of the flank.
+
+        s and t: lengths along the line of action from the base circle and from the pitch point. Both ways along the
+        flank have one direction then (DERIVATIONS.md).
+        """
+        base, s = self.shaper.base_radius, self.shaper.form_length
+
+        def left(alpha: float) -> float:
+            slope = math.tan(alpha)
+            return s * (s - base * slope) - (float(self.section_x(alpha)) * slope) ** 2
+
+        return float(self.cut_radius(bracketed_root(left, 0.0, math.atan(s / base)).value, s))
+
+    def form_radius(self, s: float) -> float:
+        """From which radius on tips meet the pinion's involute ``s`` mm along its line of action or more, or 0."""
+
+        def over(alpha: float) -> float:
+            return float(self.tip_length(np.asarray(alpha))) - s
+
+        if over(_LEAST_ANGLE) >= 0:
+            return 0.0
+        return float(self.cut_radius(bracketed_root(over, _LEAST_ANGLE, _MOST_ANGLE).value, s))
+
+    @property
+    def least_radius(self) -> float:
+        """The inner radius may not be less: of undercut, and of tips that reach below the shaper's base circle."""
+        return max(self.undercut_radius, self.form_radius(0.0))
+
+    def tip_thickness(self, radius: ArrayLike) -> Real:
+        """Of the tip, an arc at radii, mm."""
+        at = self.side(FLANK, 1.0, radius)
+        return np.asarray(2 * at.radius * at.azimuth)
+
+    def tip_limit(self, thickness: float) -> float:
+        """The radius at which tips are that thick, mm; or the least one, where they are thinner."""
+        least = self.least_radius * (1 + _NEXT)
+        tip = np.asarray(1.0)
+
+        def over(alpha: float) -> float:
+            y, _, _, phi = self._contact(FLANK, tip, np.asarray(alpha))
+            x = self.section_x(alpha)
+            turn = math.pi / self.number_of_teeth + math.atan2(y, x) - self.rolled * float(phi)
+            return 2 * math.hypot(x, y) * turn - thickness
+
+        begins = math.acos(float(self.section_x(0.0) / self.side(FLANK, 1.0, least).x))
+        if over(begins) <= 0:
+            return least
+        steps = np.linspace(begins, _MOST_ANGLE, _LIMIT_STEPS)
+        ends = next((float(alpha) for alpha in steps if over(alpha) < 0), None)
+        if ends is None:
+            raise ConvergenceError("pointed tips of a face gear", over(_MOST_ANGLE), _LIMIT_STEPS)
+        alpha = bracketed_root(over, begins, ends).value
+        return float(self.cut_radius(alpha, self.tip_length(np.asarray(alpha))))
+
+    @cached_property
+    def pointed_radius(self) -> float:
+        """Where both flanks of a tooth meet on the tip plane, mm."""
+        return self.tip_limit(0.0)
+
+    def checked(self) -> FaceGear:
+        """The gear itself, or a refusal that names the nearest value that works.
+
+        Raises
+        ------
+        ParameterError
+            The face begins within the undercut, or ends beyond the pointed tips.
+        """
+        m = self.module
+        least, most = self.least_radius, self.tip_limit(_LEAST_TIP * m)
+        room = LEAST_FACE * m
+        if most - least < room:
+            raise ParameterError("addendum_coefficient", self.addendum / m, "face_gear_no_width",
+                                 inner=2 * least, outer=2 * most)  # fmt: skip
+        if self.inner_radius < least:
+            code = "face_gear_undercut" if least == self.undercut_radius else "face_gear_below_base"
+            raise ParameterError("inner_diameter", 2 * self.inner_radius, code,
+                                 limit(2 * least * (1 + 1e-9), 2 * self.inner_radius), diameter=2 * least)  # fmt: skip
+        if self.inner_radius > most - room:
+            raise ParameterError("inner_diameter", 2 * self.inner_radius, "face_gear_pointed_inside",
+                                 limit(2 * (most - room), 2 * self.inner_radius), diameter=2 * most)  # fmt: skip
+        if self.outer_radius > most:
+            raise ParameterError("outer_diameter", 2 * self.outer_radius, "face_gear_pointed",
+                                 limit(2 * most, 2 * self.outer_radius), diameter=2 * most)  # fmt: skip
+        if self.outer_radius < self.inner_radius + room:
+            raise ParameterError("outer_diameter", 2 * self.outer_radius, "face_gear_narrow",
+                                 limit(2 * (self.inner_radius + room), 2 * self.outer_radius),
+                                 diameter=2 * self.inner_radius)  # fmt: skip
+        if self._folds():
+            raise ParameterError("inner_diameter", 2 * self.inner_radius, "face_gear_undercut", diameter=2 * least)
+        return self
+
+    def _folds(self) -> bool:
+        """Whether a fillet turns back on its way from root to flank on some cylinder."""
+        radii = np.linspace(self.inner_radius, self.outer_radius, _RADII)
+        at = self.side(FILLET, _SHARES[:, None], radii)
+        way = np.diff(at.azimuth, axis=0) * at.radius[1:] + 1j * np.diff(at.depth, axis=0)
+        # along the material from root to tip: upwards, its normal to one side
+        along = (np.conj(at.around[1:] + at.around[:-1]) * way).imag
+        return not (along < 0).all()
+
+
+def sized(gear: FaceGear, inner: float | None, outer: float | None) -> FaceGear:
+    """The gear with radii that are given, mm, or those of the widest face without undercut and thin tips.
+
+    By default its tips begin where a pinion of the shaper's teeth, cut by the basic rack, still has its involute.
+    """
+    m, alpha = gear.module, gear.shaper.pressure_angle
+    if inner is None:
+        begins = gear.shaper.reference_radius * math.sin(alpha) - gear.addendum / math.sin(alpha)
+        inner = max(gear.least_radius, gear.form_radius(max(begins, 0.0))) + NEAR_UNDERCUT * m
+    if outer is None:
+        outer = max(gear.tip_limit(USUAL_TIP * m), inner + LEAST_FACE * m)
+    return replace(gear, inner_radius=inner, outer_radius=outer)

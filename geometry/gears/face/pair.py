@@ -1,0 +1,211 @@
+"""A face gear and its spur pinion: what both are together, and the gap between them over a pitch of motion.
+
+The pinion's axis stands at right angles to the gear's and meets it, ``mounting_distance`` above the lower face. Planes
+across the pinion's axis have a pressure angle each; in them both touch as the gear and its shaper do.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+
+import numpy as np
+
+from geometry.base.record import Record
+from geometry.base.tolerance import CONTACT_TOLERANCE
+from geometry.curves.curve import Complex, Real, start_point
+from geometry.gears.face.gear import FILLET, FLANK, FaceGear
+from geometry.gears.face.walls import side_off
+from geometry.gears.mesh.search import ContactPlace, PairContact, gear_outline
+from geometry.gears.teeth.spur import SpurGear
+from geometry.gears.teeth.tooth import ToothSide, tooth_side
+from geometry.plane.distance import Boundary, Verdict, folded
+from geometry.plane.profile import Label
+
+# drive angles in a pitch; planes; places along a curve; teeth to each side; radii of a ratio
+_DRIVE_ANGLES, _PLANES, _PLACES, _TEETH, _ALONG = 24, 9, 9, 2, 129
+
+
+class FacePair(Record, dict=True):
+    """A face gear and its pinion, whose face lies from ``low`` to ``high`` mm off the gear's axis."""
+
+    gear: FaceGear
+    pinion: SpurGear
+    low: float
+    high: float
+
+    @property
+    def ratio(self) -> float:
+        """u, turns of the pinion for one of the gear."""
+        return self.gear.number_of_teeth / self.pinion.number_of_teeth
+
+    @property
+    def normal_backlash(self) -> float:
+        """j_bn along the line of action, alike in all planes, mm."""
+        thinning = self.gear.circumferential_thinning + self.pinion.circumferential_thinning
+        return thinning * math.cos(self.pinion.pressure_angle)
+
+    @property
+    def bottom_clearances(self) -> tuple[float, float]:
+        """Between the gear's root and the pinion's tip, the pinion's root and the gear's tip, mm."""
+        gear, axis = self.gear, self.gear.mounting_distance
+        return axis - gear.thickness - self.pinion.tip_radius, axis - gear.height - self.pinion.root_radius
+
+    @cached_property
+    def side(self) -> ToothSide:
+        """The pinion's tooth."""
+        return tooth_side(self.pinion)
+
+    @cached_property
+    def form_length(self) -> float:
+        """From the base circle to where the pinion's involute begins, along the line of action, mm."""
+        flank = next(s for s in self.side.segments if s.label is Label.FLANK)
+        return math.sqrt(max(abs(start_point(flank.curve)) ** 2 - self.pinion.base_radius**2, 0.0))
+
+    @property
+    def touches_along_lines(self) -> bool:
+        """Whether the shaper had the pinion's teeth; else both touch at points, at the reference radius."""
+        return self.gear.shaper.number_of_teeth == self.pinion.number_of_teeth
+
+    @cached_property
+    def planes(self) -> Real:
+        """Distances from the gear's axis at which both have teeth and touch, mm."""
+        gear = self.gear
+        if not self.touches_along_lines:
+            return np.array([gear.reference_radius])
+        tip = gear.side(FLANK, 1.0, np.array([gear.inner_radius, gear.outer_radius])).x
+        return np.linspace(max(float(tip[0]), self.low), min(float(tip[1]), self.high), _PLANES)
+
+    def _angles(self, x: Real) -> Real:
+        """Pressure angles in planes, rad."""
+        return np.arccos(self.pinion.base_radius * self.ratio / x)
+
+    def tip_lengths(self, x: Real) -> Real:
+        """From the pinion's base circle to the gear's tip along the line of action in planes, mm."""
+        depth, alpha = self.gear.mounting_distance - self.gear.height, self._angles(x)
+        return np.asarray((depth - self.pinion.base_radius * np.cos(alpha)) / np.sin(alpha))
+
+    @property
+    def form_reserve(self) -> float:
+        """By how much the pinion's involute begins before the gear's tip asks for it, along the line of action, mm."""
+        return float(self.tip_lengths(self.planes).min()) - self.form_length
+
+    @property
+    def gear_form_reserve(self) -> float:
+        """By how much the gear's flank goes on below the pinion's tip, along the line of action, mm."""
+        return self._tip_length - self.pinion_form(self.gear)
+
+    def pinion_form(self, gear: FaceGear) -> float:
+        """Length at which the gear's flank ends, from the pinion's base circle, mm; of its own shaper that one's."""
+        shaper = gear.shaper
+        own = math.tan(shaper.pressure_angle)
+        return shaper.form_length - (shaper.base_radius - self.pinion.base_radius) * own
+
+    @property
+    def _tip_length(self) -> float:
+        """From the base circle to the pinion's tip, mm."""
+        return math.sqrt((self.pinion.tip_radius - self.pinion.base_radius)
+                         * (self.pinion.tip_radius + self.pinion.base_radius))  # fmt: skip
+
+    @cached_property
+    def contact_ratio(self) -> float:
+        """The pinion's turn from where two flanks meet first to where they part last, over its pitch."""
+        base = self.pinion.base_radius
+        x = np.linspace(self.planes[0], self.planes[-1], _ALONG)
+        alpha, begins = self._angles(x), np.maximum(self.tip_lengths(x), self.form_length)
+        turn = float((alpha - begins / base).max() - (alpha - self._tip_length / base).min())
+        return turn * self.pinion.number_of_teeth / math.tau
+
+    def contact(self, phase_off: float = 0.0, tolerance: float | None = None) -> PairContact:
+        """Verdict over one pitch; the pinion is ``phase_off`` rad further round than in the middle of its backlash."""
+        allowed = CONTACT_TOLERANCE * self.gear.module if tolerance is None else tolerance
+        drive = np.linspace(0.0, math.tau / self.pinion.number_of_teeth, _DRIVE_ANGLES, endpoint=False)
+        gaps = np.stack([self._least(drive, way * phase_off, way) for way in (1, -1)])
+        place = int(gaps.min(axis=0).argmin())
+        at = complex(self.gear.reference_radius, 0.0)
+        worst = ContactPlace(float(gaps.min()), float(drive[place]), at, (Label.FLANK, Label.FLANK))
+        if worst.gap < -allowed:
+            verdict = Verdict.OVERLAP
+        else:
+            verdict = Verdict.CONTACT if float(gaps.max(axis=1).min()) <= allowed else Verdict.CLEAR
+        least = gaps.min(axis=0)
+        return PairContact(
+            verdict, allowed, tuple(drive.tolist()), tuple(least.tolist()),
+            (tuple(gaps[0].tolist()), tuple(gaps[1].tolist())), worst, float(least.max()),
+        )  # fmt: skip
+
+    def _least(self, drive: Real, off: float, way: int) -> Real:
+        """Least gaps (n,) beside lower sides of the pinion's teeth, or (-1) upper ones seen in a mirror."""
+        turned = way * drive
+        return np.minimum(self._of_pinion(turned, off), self._of_gear(turned, off))
+
+    def _of_pinion(self, turned: Real, off: float) -> Real:
+        """Of places of the pinion's lower sides from the gear; teeth are told by their angle from straight down."""
+        gear, pinion = self.gear, self.pinion
+        pitch, base = pinion.pitch_angle, pinion.base_radius
+        nearest = turned - pitch * np.round(turned / pitch)
+        # (n, teeth, planes, places)
+        middles = (nearest[:, None] + pitch * np.arange(-_TEETH, _TEETH + 1))[:, :, None, None]
+        x = self.planes[:, None]
+        fixed: Complex = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, _PLACES))
+                                         for s in self.side.segments])  # fmt: skip
+        # where the line of action of the plane meets the flank
+        s = base * (self._angles(x) + pinion.base_half_angle - middles - off)
+        s = np.clip(s, self.form_length, self._tip_length)
+        roll = s / base
+        meets = base * np.exp(1j * (roll - pinion.base_half_angle)) * (1 - 1j * roll)
+        shape = np.broadcast_shapes(middles.shape, x.shape)
+        places = np.concatenate([np.broadcast_to(fixed, (*shape[:3], len(fixed))), meets], axis=3)
+        seen = places * np.exp(1j * (middles + off))
+        # from straight down: along y, and how deep
+        y, depth = seen.imag, seen.real
+        x = np.broadcast_to(x, y.shape)
+        own = np.broadcast_to(turned[:, None, None, None], y.shape)
+        found = np.full(y.shape, np.inf)
+        near = depth > gear.mounting_distance - gear.height
+        azimuth = np.arctan2(y, x) - own / self.ratio + math.pi / gear.number_of_teeth
+        found[near] = self._gear_off(np.hypot(x, y)[near], azimuth[near], depth[near])
+        return np.asarray(found.reshape(len(turned), -1).min(axis=1))
+
+    def _gear_off(self, radius: Real, azimuth: Real, depth: Real) -> Real:
+        """How far places below the gear's tips are outside of it; azimuths from the middle of a tooth, rad."""
+        gear = self.gear
+        pitch = math.tau / gear.number_of_teeth
+        aside = np.abs(azimuth - pitch * np.round(azimuth / pitch))
+        deep = depth + gear.shaper_distance - gear.mounting_distance
+        found = gear.mounting_distance - gear.thickness - depth
+        beside = np.flatnonzero((radius >= gear.inner_radius) & (radius <= gear.outer_radius))
+        row = radius[beside], aside[beside], deep[beside]
+        joint = gear.side(FLANK, 0.0, row[0]).depth
+        for which, mine in ((FILLET, row[2] > joint), (FLANK, row[2] <= joint)):
+            if mine.any():
+                off = side_off(gear, which, *(column[mine] for column in row))[0]
+                found[beside[mine]] = np.minimum(found[beside[mine]], off)
+        return found
+
+    @cached_property
+    def _outline(self) -> Boundary:
+        return gear_outline(self.side)
+
+    def _of_gear(self, turned: Real, off: float) -> Real:
+        """Of places of the gear's upper sides, whose spaces the pinion's lower sides stand in, from the pinion."""
+        gear, pinion = self.gear, self.pinion
+        radii = np.linspace(gear.inner_radius, gear.outer_radius, _PLANES)
+        share = np.linspace(0.0, 1.0, _PLACES)[:, None]
+        sides = [gear.side(which, share, radii) for which in (FILLET, FLANK)]
+        radius, azimuth, depth = (
+            np.concatenate([getattr(at, name).ravel() for at in sides]) for name in ("radius", "azimuth", "depth")
+        )
+        pitch = math.tau / gear.number_of_teeth
+        ahead = turned / self.ratio
+        nearest = ahead - pitch * np.round(ahead / pitch)
+        middles = nearest[:, None] + pitch * np.arange(-_TEETH, _TEETH + 1)
+        turn = azimuth + middles[:, :, None] - math.pi / gear.number_of_teeth
+        x, y = radius * np.cos(turn), radius * np.sin(turn)
+        down = depth - gear.shaper_distance + gear.mounting_distance + 1j * y
+        seen = down * np.exp(-1j * (turned[:, None, None] + off))
+        found = np.full(seen.shape, np.inf)
+        near = (np.abs(seen) < pinion.tip_radius + gear.module) & (x >= self.low) & (x <= self.high)
+        points, _ = folded(seen[near], np.zeros(int(near.sum()), complex), pinion.pitch_angle)
+        found[near] = self._outline.feet(points).distance
+        return np.asarray(found.reshape(len(turned), -1).min(axis=1))

@@ -1,0 +1,1 @@
+"""The part kind ``face_gear`` and its calculation."""

@@ -1,0 +1,223 @@
+"""The part kind ``face_gear``: a crown wheel whose teeth a spur shaper envelops, driven by a spur pinion at 90 degrees."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Annotated
+
+from msgspec import Meta
+from msgspec.structs import replace as changed
+
+from geometry.base.errors import Nearest, OffsetError, ParameterError
+from geometry.base.nearest import nearest
+from geometry.base.record import replace
+from geometry.gears.face.gear import FaceGear, sized
+from geometry.gears.teeth.cutter import CUTTER_ROUNDING, PinionCutter, checked_cutter
+from geometry.solids.hub_holes import least_wall
+from parts.base.kind import Kind, Others, Report
+from parts.base.part_keys import MaterialKeys
+from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, in_modules, mm
+from parts.keys.holes import BoreTable, bore_of, check_shape, hub_holes, wide_bore
+
+if TYPE_CHECKING:
+    from geometry.base.findings import Finding
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.solids.faced import FacedBody
+    from geometry.solids.hub_holes import HubHoles
+    from geometry.solids.sketch import Sketch
+
+# part of the largest rounding that a shaper's tooth takes; the plate below the root, the least tip, modules
+_ROUND, _USUAL_PLATE, _THIN = 0.9, 2.5, 0.3
+# addenda that are tried where none of the teeth has any width, part of the given one
+_LOWER = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4)
+
+Module = Annotated[float, mm("module m, that of the pinion", least=0.01, most=1000, example=2.0)]
+Teeth = Annotated[int, Meta(ge=8, le=10_000, description="number of teeth z2 of the face gear", examples=[60])]
+PinionTeeth = Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z1 of its pinion", examples=[20])]
+ShaperTeeth = Annotated[
+    int,
+    Meta(
+        ge=3, le=10_000, examples=[22],
+        description="teeth of the shaper; default: those of the pinion, which then touches along lines; one to three "
+        "more make flanks that it touches at points, and that a shift of its axis does not carry to an end",
+    ),
+]  # fmt: skip
+
+
+class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="face_gear"):
+    """Keys of ``face_gear``."""
+
+    module: Module
+    number_of_teeth: Teeth
+    pinion_teeth: PinionTeeth
+    shaper_teeth: ShaperTeeth | None = None
+    pressure_angle_deg: Annotated[float, degrees("pressure angle of the pinion", least=10, most=35)] = 20.0
+    addendum_coefficient: Annotated[float, in_modules("addendum above the pitch plane", least=0.1, most=3)] = 1.0
+    tip_clearance_coefficient: Annotated[
+        float, in_modules("by how much the shaper reaches deeper than the pinion's addendum", least=0, most=1)
+    ] = 0.25
+    tip_radius_coefficient: (
+        Annotated[
+            float, in_modules("rounding of the shaper's tip; default: 0.2, or what it takes", least=0, most=2, example=0.2)
+        ]
+        | None
+    ) = None
+    inner_diameter: (
+        Annotated[
+            float,
+            mm("where the teeth begin; default: beyond the undercut and where the pinion still has its involute",
+               above=0, most=MOST_LENGTH, example=121.0),
+        ]
+        | None
+    ) = None  # fmt: skip
+    outer_diameter: (
+        Annotated[
+            float,
+            mm("where the teeth end; default: where their tips are 0.4 m thick", above=0, most=MOST_LENGTH, example=132.0),
+        ]
+        | None
+    ) = None
+    circumferential_thinning: Annotated[
+        float, mm("thinning of the teeth along the pinion's reference circle, for backlash", least=0, most=1000)
+    ] = 0.0
+    plate_thickness: (
+        Annotated[float, mm("plate below the root; default: 2.5 m", least=0.01, most=10_000, example=5.0)] | None
+    ) = None
+    bore_diameter: BoreDiameter = 0.0
+    bore: BoreTable | None = None
+
+    def hub_holes(self) -> HubHoles:
+        """The bore."""
+        return hub_holes(bore_of(self), None, None)
+
+
+# keys of the shaper as its owner has them
+_SHAPER_KEYS = {"cutter.addendum": "addendum_coefficient", "cutter.tip_rounding": "tip_radius_coefficient",
+                "cutter.number_of_teeth": "pinion_teeth"}  # fmt: skip
+
+
+def shaper_of(keys: FaceGearSpec) -> PinionCutter:
+    """The shaper, checked to exist."""
+    teeth = keys.shaper_teeth or keys.pinion_teeth
+    if teeth < keys.pinion_teeth:
+        raise ParameterError("shaper_teeth", teeth, "face_gear_small_shaper", Nearest(keys.pinion_teeth, "at_least"))
+    addendum, sharp = keys.addendum_coefficient + keys.tip_clearance_coefficient, keys.tip_radius_coefficient or 0.0
+    shaper = PinionCutter(keys.module, teeth, math.radians(keys.pressure_angle_deg), 0.0, addendum, sharp)  # fmt: skip
+    try:
+        checked_cutter(replace(shaper, widening=keys.circumferential_thinning / 2))
+    except ParameterError as error:
+        key = _SHAPER_KEYS.get(error.name, error.name)
+        cure = error.nearest
+        if key == "addendum_coefficient":
+            cure = nearest(lambda value: bool(shaper_of(changed(keys, addendum_coefficient=value))),
+                           keys.addendum_coefficient, 0.1)  # fmt: skip
+        raise ParameterError(key, getattr(keys, key), error.code, cure, **error.numbers) from error
+    if keys.tip_radius_coefficient is not None:
+        return shaper
+    return replace(shaper, tip_rounding=min(CUTTER_ROUNDING, _ROUND * shaper.largest_rounding()))
+
+
+def _made(keys: FaceGearSpec) -> FaceGear:
+    """The gear of its keys, whose teeth can be."""
+    m = keys.module
+    plate = _USUAL_PLATE * m if keys.plate_thickness is None else keys.plate_thickness
+    bare = FaceGear(shaper_of(keys), keys.number_of_teeth, keys.pinion_teeth, keys.addendum_coefficient * m, 0.0, 0.0,
+                    plate, keys.circumferential_thinning)  # fmt: skip
+    inner, outer = (None if d is None else d / 2 for d in (keys.inner_diameter, keys.outer_diameter))
+    return sized(bare, inner, outer).checked()
+
+
+class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
+    """A face gear: its lower face at z = 0, its teeth upwards, one on +x."""
+
+    name, keys, has_outline = "face_gear", FaceGearSpec, False
+
+    def thing(self, keys: FaceGearSpec, others: Others) -> FaceGear:
+        """The gear, checked to exist."""
+        try:
+            gear = _made(keys)
+        except ParameterError as error:
+            if error.code != "face_gear_no_width":
+                raise
+
+            def lower() -> Nearest | None:
+                """The highest teeth that have some width."""
+                given = keys.addendum_coefficient
+                return nearest(lambda value: bool(_made(changed(keys, addendum_coefficient=value))), given,
+                               (given * share for share in _LOWER))  # fmt: skip
+
+            raise ParameterError(error.name, error.value, error.code, lower, **error.numbers) from error
+        room = gear.inner_radius - least_wall(gear.inner_radius)
+        check_shape(keys, FaceGearSpec.hub_holes, room)
+        holes = keys.hub_holes()
+        if holes.bore_reach > room:
+            raise wide_bore(keys, room, "leaves_no_wall")
+        bores = holes.profiles(0.0)
+        return replace(gear, bore=bores[0]) if bores else gear
+
+    def section(self, keys: FaceGearSpec, thing: FaceGear, offset: float) -> OffsetRegion:
+        """Its outside as seen along the axis, for pictures: nothing flat is cut from it."""
+        from geometry.plane.offset_region import OffsetRegion
+        from geometry.plane.profile import Label, Region, circle
+
+        _still(offset)
+        holes = () if thing.bore is None else (thing.bore,)
+        return OffsetRegion(Region(circle(thing.outer_radius, Label.BODY), holes), 0.0, ())
+
+    def solid(self, keys: FaceGearSpec, thing: FaceGear, offset: float) -> FacedBody:
+        """The gear."""
+        from geometry.gears.face.faces import faced_face_gear
+
+        _still(offset)
+        return faced_face_gear(thing)
+
+    def sketch(self, keys: FaceGearSpec, thing: FaceGear) -> Sketch:
+        """Its plate and the ring of its teeth."""
+        from geometry.gears.face.sketch import sketch_of_face_gear
+
+        return sketch_of_face_gear(thing)
+
+    def height(self, keys: FaceGearSpec, thing: FaceGear) -> float:
+        """From the lower face to the tips."""
+        return thing.height
+
+    def is_plate(self, keys: FaceGearSpec, thing: FaceGear) -> bool:
+        """Never."""
+        return False
+
+    def report(self, keys: FaceGearSpec, thing: FaceGear) -> Report:
+        """Diameters between which teeth can be, and where its pinion is mounted."""
+        inner, outer = thing.tip_thickness([thing.inner_radius, thing.outer_radius]).tolist()
+        circles = {
+            "outer_diameter": 2 * thing.outer_radius,
+            "inner_diameter": 2 * thing.inner_radius,
+            "reference_diameter": 2 * thing.reference_radius,
+            "undercut_diameter": 2 * thing.undercut_radius,
+            "least_inner_diameter": 2 * thing.least_radius,
+            "pointed_diameter": 2 * thing.pointed_radius,
+        }
+        quantities = {
+            "face_width": thing.face_width,
+            "whole_depth": thing.whole_depth,
+            "inner_tip_thickness": inner,
+            "outer_tip_thickness": outer,
+            "mounting_distance": thing.mounting_distance,
+        }
+        return Report(face_gear_findings(thing), circles, quantities)
+
+
+FACE_GEAR = FaceGearKind()
+
+
+def face_gear_findings(gear: FaceGear) -> tuple[Finding, ...]:
+    """Whether its tips are thin at the outer end."""
+    from geometry.base.findings import Finding
+
+    tip, least = float(gear.tip_thickness(gear.outer_radius)), _THIN * gear.module
+    return (Finding("thin_tip", tip, least),) if tip < least else ()
+
+
+def _still(offset: float) -> None:
+    """What is parallel to its flanks no shaper of its pinion cuts."""
+    if offset != 0:
+        raise OffsetError(offset, "face_gear_not_moved")

@@ -1,0 +1,191 @@
+"""A face gear and its spur pinion: both axes meet at a right angle, a tooth of one stands in a space of the other."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING, Annotated, Any
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.findings import Finding
+from geometry.base.record import replace
+from parts.base.mate import End, LaidStanding, MateKind, Pose, Standing, Touching
+from parts.gears.thinning import shared_thinning
+from parts.keys.base import MadeKeys, mm
+from parts.keys.helix import helix_of
+from parts.keys.mate import GearPairKeys
+from parts.mates.sizes import same_size
+
+if TYPE_CHECKING:
+    from geometry.base.placement import Placement3, Vector
+    from geometry.gears.face.gear import FaceGear
+    from geometry.gears.face.pair import FacePair
+    from geometry.gears.mesh.search import PairContact
+    from geometry.gears.teeth.spur import SpurGear
+    from geometry.kinematics.mechanism import Joint
+
+# of the module
+_ROUNDING = 1e-9
+
+
+class FaceGearPairSpec(GearPairKeys, tag="face_gear_pair", kw_only=True):
+    """Keys of ``face_gear_pair``."""
+
+    pinion_offset: Annotated[
+        float, mm("how far the middle of the pinion's face is off that of the gear's, outwards", least=-1e4, most=1e4)
+    ] = 0.0
+    normal_backlash: (
+        Annotated[float, mm("normal backlash: thins both gears by half", least=0, most=100, example=0.1)] | None
+    ) = None
+
+
+class FaceMating(Touching):
+    """A face gear (first) and its pinion, whose z leads to the gear's axis."""
+
+    pair: FacePair
+
+    # flanks touch along lines: meshes cannot tell
+    decides_solids = True
+    lies = True
+    asks_height = False
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Teeth on teeth; seen from where the axes meet both turn in opposite senses."""
+        from geometry.kinematics.mechanism import Rolling
+
+        teeth = self.pair.gear.number_of_teeth, self.pair.pinion.number_of_teeth
+        return (Rolling("bevel", self.first, self.second, teeth, sense=-1),)
+
+    def second_axis(self, direction: float) -> Vector:
+        """Towards the gear's axis."""
+        return -math.cos(direction), -math.sin(direction), 0.0
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """Where a tooth of the pinion stands in a space of the gear."""
+        gear = self.pair.gear
+        pitch = math.tau / gear.number_of_teeth
+        ahead = math.remainder(rotation + pitch / 2 - direction, pitch)
+        return centre + cmath.rect(self.distance, direction), direction + math.pi - ahead * self.pair.ratio
+
+    def standing(self, first: Pose, second: Pose) -> Standing | None:
+        """What a plane does not tell; see ``laid_standing``."""
+        return None
+
+    def laid_standing(self, first: Placement3, second: Placement3) -> LaidStanding:
+        """In the frame of the first, where its tooth is on +x: axes, and how far the pinion is turned off."""
+        import numpy as np
+
+        from geometry.base.placement import Placement3
+
+        pinion, meet = self.pair.pinion, np.array([0.0, 0.0, self.pair.gear.mounting_distance])
+        seen = first.inverse() @ second
+        x, y, z = axis = seen.z
+        apart = float(np.linalg.norm(np.cross(meet - seen.apply(np.zeros(3)), axis)))
+        direction = cmath.phase(complex(-x, -y))
+        _, right = self.second_pose(0j, 0.0, direction)
+        off = Placement3.towards(self.second_axis(direction), right).inverse() @ seen
+        turned = math.atan2(off.rotation[1][0], off.rotation[0][0])
+        arm = pinion.base_radius
+        return LaidStanding(
+            apart, math.atan2(math.hypot(x, y), z), math.pi / 2, math.remainder(turned, pinion.pitch_angle),
+            self.normal_backlash / 2 / arm, arm, self.pair.gear.outer_radius,
+        )  # fmt: skip
+
+    def laid(self, first: Placement3, second: Placement3) -> FaceMating:
+        """The same pair with the pinion's face where it stands."""
+        import numpy as np
+
+        seen = first.inverse() @ second
+        start = float(np.hypot(*seen.apply(np.zeros(3))[:2]))
+        width = self.pair.high - self.pair.low
+        return replace(self, pair=replace(self.pair, low=start - width, high=start))
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict over one pitch, in planes across the pinion's axis."""
+        return self.pair.contact(phase_off, tolerance)
+
+    def findings(self) -> tuple[Finding, ...]:
+        """Whether a tip meets what is no flank, or a root, and whether one tooth follows on the other."""
+        pair, found = self.pair, []
+        least = -_ROUNDING * pair.gear.module
+        if pair.form_reserve < least:
+            begins = pair.form_length
+            found.append(Finding("fillet_interference_second", begins + pair.form_reserve, begins))
+        for name, clearance in zip(("first", "second"), pair.bottom_clearances, strict=True):
+            if clearance < least:
+                found.append(Finding(f"tip_clearance_{name}", clearance, 0.0))
+        if pair.contact_ratio < 1:
+            found.append(Finding("contact_ratio", pair.contact_ratio, 1.0))
+        return tuple(found)
+
+    def quantities(self) -> dict[str, Any]:
+        """Ratio, contact ratio, clearances."""
+        clearances = self.pair.bottom_clearances
+        return {
+            "ratio": self.pair.ratio,
+            "contact_ratio": self.pair.contact_ratio,
+            "normal_backlash": self.pair.normal_backlash,
+            "bottom_clearance_at_root": {"first": clearances[0], "second": clearances[1]},
+        }
+
+
+class FaceGearPairKind(MateKind[FaceGearPairSpec, "FaceGear", "SpurGear"]):
+    """A face gear and the pinion that it is made for."""
+
+    name, keys = "face_gear_pair", FaceGearPairSpec
+    joins = (("face_gear", "spur_gear"),)
+
+    def check(self, keys: FaceGearPairSpec, first: Any, second: Any) -> None:
+        """The pinion is the one that the gear is made for: straight, unshifted, of its teeth."""
+        helix = helix_of(second)
+        if helix.angle:
+            raise ParameterError("helix_angle_deg", second.helix_angle_deg, "not_of_its_mate", Nearest(0.0))
+        if second.number_of_teeth != first.pinion_teeth:
+            raise ParameterError("number_of_teeth", second.number_of_teeth, "not_of_its_mate",
+                                 Nearest(first.pinion_teeth))  # fmt: skip
+        for key in ("module", "pressure_angle_deg"):
+            same_size(key, getattr(second, key), getattr(first, key), "not_of_its_mate")
+        if second.profile_shift_coefficient:
+            raise ParameterError("profile_shift_coefficient", second.profile_shift_coefficient, "not_of_its_mate",
+                                 Nearest(0.0))  # fmt: skip
+
+    def thinning(self, keys: FaceGearPairSpec, first: End[FaceGear], second: End[SpurGear]) -> tuple[float, float]:
+        """Half of the backlash each."""
+        if keys.normal_backlash is None:
+            return 0.0, 0.0
+        from geometry.gears.teeth.tooth import tooth_side
+
+        def build(index: int, thinning: float) -> object:
+            if index:
+                return tooth_side(replace(second.thing, circumferential_thinning=thinning))
+            return replace(first.thing, circumferential_thinning=thinning).checked()
+
+        cosine = math.cos(second.thing.pressure_angle)
+        return shared_thinning(keys.normal_backlash, (first.thing, second.thing), build, cosine)
+
+    def mating(self, keys: FaceGearPairSpec, first: End[FaceGear], second: End[SpurGear]) -> FaceMating:
+        """The pinion's face over the gear's."""
+        from geometry.gears.face.pair import FacePair
+
+        gear, pinion = first.thing, second.thing
+        assert isinstance(second.keys, MadeKeys)
+        width = second.keys.face_width
+        middle = (gear.inner_radius + gear.outer_radius) / 2 + keys.pinion_offset
+        room = (gear.face_width + width) / 2
+        if abs(keys.pinion_offset) >= room:
+            raise ParameterError("mate.pinion_offset", keys.pinion_offset, "face_gear_beside", Nearest(0.0))
+        pair = FacePair(gear, pinion, middle - width / 2, middle + width / 2)
+        return FaceMating(
+            *self.joined(keys),
+            direction_deg=keys.direction_deg,
+            height=gear.mounting_distance,
+            distance=middle + width / 2,
+            module=gear.module,
+            normal_backlash=pair.normal_backlash,
+            first_teeth=gear.number_of_teeth,
+            pair=pair,
+        )
+
+
+FACE_GEAR_PAIR = FaceGearPairKind()
