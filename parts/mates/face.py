@@ -112,6 +112,9 @@ class FaceMating(Touching):
         if pair.form_reserve < least:
             begins = pair.form_length
             found.append(Finding("fillet_interference_second", begins + pair.form_reserve, begins))
+        if pair.gear_form_reserve < least:
+            ends = pair.gear.shaper.form_length
+            found.append(Finding("fillet_interference_first", ends - pair.gear_form_reserve, ends))
         for name, clearance in zip(("first", "second"), pair.bottom_clearances, strict=True):
             if clearance < least:
                 found.append(Finding(f"tip_clearance_{name}", clearance, 0.0))

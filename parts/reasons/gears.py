@@ -180,7 +180,6 @@ REASONS = {
     "face_gear_not_moved": N_("is not for a face gear, whose flanks would be conjugate no more: thin its teeth"),
     "face_gear_pointed": N_("the teeth are pointed from {diameter} mm on"),
     "face_gear_pointed_inside": N_("leaves the teeth no width: they are pointed from {diameter} mm on"),
-    "face_gear_small_shaper": N_("a shaper with fewer teeth than the pinion would leave its flanks no room"),
     "face_gear_undercut": N_("below {diameter} mm the shaper's tip cuts the flanks off: undercut"),
     "worm_not_moved": N_(
         "is not for a worm, which would lose the form of its flanks: thin the thread by axial_thinning"

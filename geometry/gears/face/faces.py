@@ -19,7 +19,18 @@ from geometry.curves.curve import Real
 from geometry.gears.face.gear import FLANK, SIDES, FaceGear
 from geometry.gears.face.walls import wall_distance
 from geometry.solids.faced import FacedBody, FacedSolid
-from geometry.solids.faces import Circular, Cylinder, Faces, Frame, Index, Plane, Spline, SplineSurface, Straight, Surface
+from geometry.solids.faces import (
+    Circular,
+    Cylinder,
+    Faces,
+    Frame,
+    Index,
+    Plane,
+    Spline,
+    SplineSurface,
+    Straight,
+    Surface,
+)
 from geometry.solids.measured import Measured
 from geometry.solids.rings import AHEAD, UP, Ring, RingBuilder
 
@@ -65,7 +76,7 @@ def _points(gear: FaceGear, which: int, share: Real, inwards: Real) -> Real:
     radius = gear.cut_radius(high + (low - high) * inwards, gear.shaper.form_length)
     radius[inwards == 0], radius[inwards == 1] = ends
     at = gear.side(which, share[:, None], radius)
-    return np.stack([at.plane.real, at.plane.imag, gear.shaper_distance - at.depth], axis=-1)
+    return np.stack([at.plane.real, at.plane.imag, gear.mounting_distance - at.depth], axis=-1)
 
 
 def _spans(gear: FaceGear, which: int, axis: int, least: float) -> int:
@@ -79,7 +90,9 @@ def _spans(gear: FaceGear, which: int, axis: int, least: float) -> int:
             share, radial = (own, lines) if axis == 0 else (lines, own)
             return np.moveaxis(_points(gear, which, share, radial), axis, 0)
 
-        made = np.tensordot(basis_matrix(_DEGREE, knots, fine), axis_poles(_DEGREE, knots, at(greville(_DEGREE, knots)), 0), (1, 0))
+        made = np.tensordot(
+            basis_matrix(_DEGREE, knots, fine), axis_poles(_DEGREE, knots, at(greville(_DEGREE, knots)), 0), (1, 0)
+        )
         error = float(np.linalg.norm(made - at(fine), axis=-1).max())
         if error <= least / 2:
             return spans
@@ -123,7 +136,9 @@ def _fitted_wall(gear: FaceGear, which: int, across: int, along: int) -> _Wall:
     u, v = map(_between, breaks)
     rows, columns = basis_matrix(_DEGREE, u_knots, u), basis_matrix(_DEGREE, v_knots, v)
     made = np.einsum("iu,uvc,jv->ijc", rows, poles, columns, optimize=True)
-    return _Wall(u_knots, v_knots, poles, _MARGIN * float(np.linalg.norm(made - _points(gear, which, u, v), axis=2).max()))
+    return _Wall(
+        u_knots, v_knots, poles, _MARGIN * float(np.linalg.norm(made - _points(gear, which, u, v), axis=2).max())
+    )
 
 
 def face_gear_solid(gear: FaceGear, tolerance: float) -> FacedSolid:

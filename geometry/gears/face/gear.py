@@ -1,7 +1,7 @@
 """A face gear: the envelope of a spur shaper that rolls on it about an axis that meets its own at a right angle.
 
 Frame: the gear's axis is z, its lower face lies at z = 0, tooth 1 is centred on +x, teeth point upwards. The shaper's
-axis is parallel to x, ``shaper_distance`` above the lower face, and y + ih tells places of its section from there,
+axis is parallel to x, ``mounting_distance`` above the lower face, and y + ih tells places of its section from there,
 h downwards. Turned by phi from where a tooth points straight down the shaper turns the gear by phi z_0 / z_2, so in
 the plane at x from the axis both touch where their common normal meets the pitch point, x z_0 / z_2 below the
 shaper's axis (Litvin, Gear Geometry and Applied Theory, 18.4). The plane's pressure angle alpha tells it:
@@ -10,8 +10,10 @@ x = r_b0 z_2 / (z_0 cos alpha). The upper side of tooth 1 is described; the lowe
 
 from __future__ import annotations
 
+import cmath
 import math
 from functools import cached_property
+from typing import TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,11 +25,12 @@ from geometry.curves.curve import Complex, Real
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.plane.profile import Profile
 
+P = TypeVar("P", Real, Complex)
 FILLET, FLANK = 0, 1
 SIDES = (FILLET, FLANK)
-# Newton's steps for the pressure angle on a cylinder and what is enough, rad; the step of its derivative, which goes
-# off the real axis and cancels nothing
-_STEPS, _ENOUGH, _ASIDE = 30, 1e-15, 1e-30
+# Newton's steps for the pressure angle on a cylinder, what is enough, rad, and what is on it, part of the radius; the
+# step of the derivative, which goes off the real axis and cancels nothing
+_STEPS, _ENOUGH, _ON, _ASIDE = 30, 1e-15, 1e-12, 1e-30
 # pressure angles between which limits are sought
 _LEAST_ANGLE, _MOST_ANGLE, _LIMIT_STEPS = 1e-6, 1.5, 65
 # where a fillet is held against folding: shares and radii
@@ -64,13 +67,12 @@ class FaceGear(Record, dict=True):
     """A face gear cut by ``cutter``, or by one with thicker teeth; lengths in mm.
 
     ``circumferential_thinning``: of its teeth, along the shaper's reference circle.
-    ``addendum``: of its teeth above the pitch plane, the plane that touches the shaper's reference cylinder;
+    ``addendum``: of its teeth above the pitch plane, the plane that touches the pinion's reference cylinder;
     ``thickness``: of the plate below the root; ``bore``: its outline.
     """
 
     cutter: PinionCutter
     number_of_teeth: int
-    pinion_teeth: int
     addendum: float
     inner_radius: float
     outer_radius: float
@@ -116,15 +118,9 @@ class FaceGear(Record, dict=True):
         return self.thickness + self.whole_depth
 
     @property
-    def shaper_distance(self) -> float:
-        """Of the shaper's axis from the lower face."""
-        return self.thickness + self.shaper.tip_radius
-
-    @property
     def mounting_distance(self) -> float:
-        """Of the pinion's axis from the lower face: the reference cylinders of shaper and pinion touch one plane."""
-        pinion = self.module * self.pinion_teeth / 2
-        return self.shaper_distance - self.shaper.reference_radius + pinion
+        """Of the pinion's axis, which is the shaper's, from the lower face."""
+        return self.thickness + self.shaper.tip_radius
 
     @property
     def face_width(self) -> float:
@@ -137,9 +133,9 @@ class FaceGear(Record, dict=True):
         """Distance from the axis of the plane in which the pressure angle is ``alpha``, rad."""
         return np.asarray(self.shaper.base_radius / self.rolled / np.cos(alpha))
 
-    def tip_length(self, alpha: Real) -> Real:
+    def tip_length(self, alpha: P) -> P:
         """Of the shaper's line of action in a plane up to the tip of the gear, from the base circle on, mm."""
-        return np.asarray((self.tip_depth - self.shaper.base_radius * np.cos(alpha)) / np.sin(alpha))
+        return cast("P", (self.tip_depth - self.shaper.base_radius * np.cos(alpha)) / np.sin(alpha))
 
     def side(self, which: int, share: ArrayLike, radius: ArrayLike) -> Places:
         """Places of a fillet (0) or flank (1) at shares from its root to its tip and at radii, of one shape.
@@ -152,35 +148,37 @@ class FaceGear(Record, dict=True):
         u, r = np.broadcast_arrays(np.asarray(share, float), np.asarray(radius, float))
         alpha = np.arccos(self.section_x(0.0) / r)
         for _ in range(_STEPS):
-            y = self._contact(which, u, alpha + 1j * _ASIDE)[0]
+            y, depth, normal, phi = self._contact(which, u, alpha + 1j * _ASIDE)
             x = self.section_x(alpha)
             off = x**2 + y.real**2 - r**2
             step = off / (2 * x**2 * np.tan(alpha) + 2 * y.real * y.imag / _ASIDE)
-            alpha = alpha - step
             if (np.abs(step) < _ENOUGH).all():
                 break
-        if not (np.abs(off) < 1e-9 * r**2).all():
+            alpha = alpha - step
+        if not (np.abs(off) < _ON * r**2).all():
             raise ConvergenceError("section of a face gear", float(np.nanmax(np.abs(off))), _STEPS)
-        y, depth, normal, phi = self._contact(which, u, alpha)
-        x = self.section_x(alpha)
-        azimuth = math.pi / self.number_of_teeth + np.arctan2(y, x) - self.rolled * phi
-        return Places(r, azimuth, depth, normal, x)
+        azimuth = math.pi / self.number_of_teeth + np.arctan2(y.real, x) - self.rolled * phi
+        return Places(r, azimuth, depth.real, normal, x)
 
-    def _contact(self, which: int, u: Real, alpha: Real | Complex) -> tuple[Real, Real, Complex, Real]:
-        """Where the shaper cuts a side: y, h, the normal, and how far it has turned; alpha may leave the real axis."""
-        base = self.shaper.base_radius
+    def _contact(self, which: int, u: Real, alpha: Complex) -> tuple[Complex, Complex, Complex, Real]:
+        """Where the shaper cuts a side: y, h, the normal, and how far it has turned; alpha stands off the real axis."""
+        base, rounding = self.shaper.base_radius, self.shaper.rounding_radius
+        sine: Complex = np.sin(alpha)
+        cosine: Complex = np.cos(alpha)
         if which == FLANK:
-            s = (1 - u) * self.shaper.form_length + u * self.tip_length(alpha)
-            y, h = base * np.sin(alpha) - s * np.cos(alpha), base * np.cos(alpha) + s * np.sin(alpha)
-            phi = alpha - s / base + self.shaper.base_half_angle
-            return y, h, np.asarray(np.cos(alpha) - 1j * np.sin(alpha)), np.asarray(phi.real)
+            s: Complex = (1 - u) * self.shaper.form_length + u * self.tip_length(alpha)
+            phi = (alpha - s / base).real + self.shaper.base_half_angle
+            return base * sine - s * cosine, base * cosine + s * sine, np.asarray(cosine - 1j * sine), np.asarray(phi)
         # the normal's angle from straight down; the rounding's centre and the contact lie on it beyond the pitch point
-        turn, pitch = -u * (math.pi / 2 - alpha), base / np.cos(alpha)
+        turn: Complex = u * (alpha - math.pi / 2)
+        pitch: Complex = base / cosine
         sine, cosine = np.sin(turn), np.cos(turn)
-        centre = np.sqrt(self.shaper.corner_radius**2 - (pitch * sine) ** 2) - pitch * cosine
-        reach = centre + self.shaper.rounding_radius
+        aside: Complex = pitch * sine
+        radius = self.shaper.corner_radius
+        centre: Complex = np.asarray(np.sqrt((radius - aside) * (radius + aside)), complex) - pitch * cosine
         phi = np.arctan2((centre * sine).real, (pitch + centre * cosine).real) + self.shaper.corner_angle
-        return reach * sine, pitch + reach * cosine, np.asarray(-sine - 1j * cosine), phi
+        reach = centre + rounding
+        return reach * sine, pitch + reach * cosine, np.asarray(-sine - 1j * cosine), np.asarray(phi)
 
     # limits ---------------------------------------------------------------------------------------------------------
 
@@ -210,9 +208,11 @@ class FaceGear(Record, dict=True):
         def over(alpha: float) -> float:
             return float(self.tip_length(np.asarray(alpha))) - s
 
-        if over(_LEAST_ANGLE) >= 0:
+        # where tips reach deepest along it
+        deepest = math.acos(min(self.shaper.base_radius / self.tip_depth, math.cos(_LEAST_ANGLE)))
+        if over(deepest) >= 0:
             return 0.0
-        return float(self.cut_radius(bracketed_root(over, _LEAST_ANGLE, _MOST_ANGLE).value, s))
+        return float(self.cut_radius(bracketed_root(over, deepest, _MOST_ANGLE).value, s))
 
     @property
     def least_radius(self) -> float:
@@ -230,10 +230,10 @@ class FaceGear(Record, dict=True):
         tip = np.asarray(1.0)
 
         def over(alpha: float) -> float:
-            y, _, _, phi = self._contact(FLANK, tip, np.asarray(alpha))
-            x = self.section_x(alpha)
-            turn = math.pi / self.number_of_teeth + math.atan2(y, x) - self.rolled * float(phi)
-            return 2 * math.hypot(x, y) * turn - thickness
+            y, _, _, phi = self._contact(FLANK, tip, np.asarray(complex(alpha)))
+            x = complex(float(self.section_x(alpha)), float(y.real))
+            turn = math.pi / self.number_of_teeth + cmath.phase(x) - self.rolled * float(phi)
+            return 2 * abs(x) * turn - thickness
 
         begins = math.acos(float(self.section_x(0.0) / self.side(FLANK, 1.0, least).x))
         if over(begins) <= 0:
@@ -295,7 +295,7 @@ class FaceGear(Record, dict=True):
 def sized(gear: FaceGear, inner: float | None, outer: float | None) -> FaceGear:
     """The gear with radii that are given, mm, or those of the widest face without undercut and thin tips.
 
-    By default its tips begin where a pinion of the shaper's teeth, cut by the basic rack, still has its involute.
+    By default its tips begin where the pinion, cut by the basic rack, still has its involute.
     """
     m, alpha = gear.module, gear.shaper.pressure_angle
     if inner is None:

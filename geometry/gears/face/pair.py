@@ -62,44 +62,26 @@ class FacePair(Record, dict=True):
         flank = next(s for s in self.side.segments if s.label is Label.FLANK)
         return math.sqrt(max(abs(start_point(flank.curve)) ** 2 - self.pinion.base_radius**2, 0.0))
 
-    @property
-    def touches_along_lines(self) -> bool:
-        """Whether the shaper had the pinion's teeth; else both touch at points, at the reference radius."""
-        return self.gear.shaper.number_of_teeth == self.pinion.number_of_teeth
-
     @cached_property
     def planes(self) -> Real:
         """Distances from the gear's axis at which both have teeth and touch, mm."""
         gear = self.gear
-        if not self.touches_along_lines:
-            return np.array([gear.reference_radius])
         tip = gear.side(FLANK, 1.0, np.array([gear.inner_radius, gear.outer_radius])).x
         return np.linspace(max(float(tip[0]), self.low), min(float(tip[1]), self.high), _PLANES)
 
     def _angles(self, x: Real) -> Real:
         """Pressure angles in planes, rad."""
-        return np.arccos(self.pinion.base_radius * self.ratio / x)
-
-    def tip_lengths(self, x: Real) -> Real:
-        """From the pinion's base circle to the gear's tip along the line of action in planes, mm."""
-        depth, alpha = self.gear.mounting_distance - self.gear.height, self._angles(x)
-        return np.asarray((depth - self.pinion.base_radius * np.cos(alpha)) / np.sin(alpha))
+        return np.arccos(self.gear.section_x(0.0) / x)
 
     @property
     def form_reserve(self) -> float:
         """By how much the pinion's involute begins before the gear's tip asks for it, along the line of action, mm."""
-        return float(self.tip_lengths(self.planes).min()) - self.form_length
+        return float(self.gear.tip_length(self._angles(self.planes)).min()) - self.form_length
 
     @property
     def gear_form_reserve(self) -> float:
         """By how much the gear's flank goes on below the pinion's tip, along the line of action, mm."""
-        return self._tip_length - self.pinion_form(self.gear)
-
-    def pinion_form(self, gear: FaceGear) -> float:
-        """Length at which the gear's flank ends, from the pinion's base circle, mm; of its own shaper that one's."""
-        shaper = gear.shaper
-        own = math.tan(shaper.pressure_angle)
-        return shaper.form_length - (shaper.base_radius - self.pinion.base_radius) * own
+        return self.gear.shaper.form_length - self._tip_length
 
     @property
     def _tip_length(self) -> float:
@@ -112,7 +94,8 @@ class FacePair(Record, dict=True):
         """The pinion's turn from where two flanks meet first to where they part last, over its pitch."""
         base = self.pinion.base_radius
         x = np.linspace(self.planes[0], self.planes[-1], _ALONG)
-        alpha, begins = self._angles(x), np.maximum(self.tip_lengths(x), self.form_length)
+        alpha = self._angles(x)
+        begins = np.maximum(self.gear.tip_length(alpha), self.form_length)
         turn = float((alpha - begins / base).max() - (alpha - self._tip_length / base).min())
         return turn * self.pinion.number_of_teeth / math.tau
 
@@ -172,10 +155,9 @@ class FacePair(Record, dict=True):
         gear = self.gear
         pitch = math.tau / gear.number_of_teeth
         aside = np.abs(azimuth - pitch * np.round(azimuth / pitch))
-        deep = depth + gear.shaper_distance - gear.mounting_distance
         found = gear.mounting_distance - gear.thickness - depth
         beside = np.flatnonzero((radius >= gear.inner_radius) & (radius <= gear.outer_radius))
-        row = radius[beside], aside[beside], deep[beside]
+        row = radius[beside], aside[beside], depth[beside]
         joint = gear.side(FLANK, 0.0, row[0]).depth
         for which, mine in ((FILLET, row[2] > joint), (FLANK, row[2] <= joint)):
             if mine.any():
@@ -202,8 +184,7 @@ class FacePair(Record, dict=True):
         middles = nearest[:, None] + pitch * np.arange(-_TEETH, _TEETH + 1)
         turn = azimuth + middles[:, :, None] - math.pi / gear.number_of_teeth
         x, y = radius * np.cos(turn), radius * np.sin(turn)
-        down = depth - gear.shaper_distance + gear.mounting_distance + 1j * y
-        seen = down * np.exp(-1j * (turned[:, None, None] + off))
+        seen = (depth + 1j * y) * np.exp(-1j * (turned[:, None, None] + off))
         found = np.full(seen.shape, np.inf)
         near = (np.abs(seen) < pinion.tip_radius + gear.module) & (x >= self.low) & (x <= self.high)
         points, _ = folded(seen[near], np.zeros(int(near.sum()), complex), pinion.pitch_angle)

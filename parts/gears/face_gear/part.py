@@ -1,4 +1,4 @@
-"""The part kind ``face_gear``: a crown wheel whose teeth a spur shaper envelops, driven by a spur pinion at 90 degrees."""
+"""The part kind ``face_gear``: a crown wheel whose teeth its spur pinion envelops, on an axis at 90 degrees."""
 
 from __future__ import annotations
 
@@ -34,14 +34,6 @@ _LOWER = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4)
 Module = Annotated[float, mm("module m, that of the pinion", least=0.01, most=1000, example=2.0)]
 Teeth = Annotated[int, Meta(ge=8, le=10_000, description="number of teeth z2 of the face gear", examples=[60])]
 PinionTeeth = Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z1 of its pinion", examples=[20])]
-ShaperTeeth = Annotated[
-    int,
-    Meta(
-        ge=3, le=10_000, examples=[22],
-        description="teeth of the shaper; default: those of the pinion, which then touches along lines; one to three "
-        "more make flanks that it touches at points, and that a shift of its axis does not carry to an end",
-    ),
-]  # fmt: skip
 
 
 class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="face_gear"):
@@ -50,7 +42,6 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     module: Module
     number_of_teeth: Teeth
     pinion_teeth: PinionTeeth
-    shaper_teeth: ShaperTeeth | None = None
     pressure_angle_deg: Annotated[float, degrees("pressure angle of the pinion", least=10, most=35)] = 20.0
     addendum_coefficient: Annotated[float, in_modules("addendum above the pitch plane", least=0.1, most=3)] = 1.0
     tip_clearance_coefficient: Annotated[
@@ -58,7 +49,8 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     ] = 0.25
     tip_radius_coefficient: (
         Annotated[
-            float, in_modules("rounding of the shaper's tip; default: 0.2, or what it takes", least=0, most=2, example=0.2)
+            float,
+            in_modules("rounding of the shaper's tip; default: 0.2, or what it takes", least=0, most=2, example=0.2),
         ]
         | None
     ) = None
@@ -73,7 +65,12 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     outer_diameter: (
         Annotated[
             float,
-            mm("where the teeth end; default: where their tips are 0.4 m thick", above=0, most=MOST_LENGTH, example=132.0),
+            mm(
+                "where the teeth end; default: where their tips are 0.4 m thick",
+                above=0,
+                most=MOST_LENGTH,
+                example=132.0,
+            ),
         ]
         | None
     ) = None
@@ -98,11 +95,9 @@ _SHAPER_KEYS = {"cutter.addendum": "addendum_coefficient", "cutter.tip_rounding"
 
 def shaper_of(keys: FaceGearSpec) -> PinionCutter:
     """The shaper, checked to exist."""
-    teeth = keys.shaper_teeth or keys.pinion_teeth
-    if teeth < keys.pinion_teeth:
-        raise ParameterError("shaper_teeth", teeth, "face_gear_small_shaper", Nearest(keys.pinion_teeth, "at_least"))
     addendum, sharp = keys.addendum_coefficient + keys.tip_clearance_coefficient, keys.tip_radius_coefficient or 0.0
-    shaper = PinionCutter(keys.module, teeth, math.radians(keys.pressure_angle_deg), 0.0, addendum, sharp)  # fmt: skip
+    alpha = math.radians(keys.pressure_angle_deg)
+    shaper = PinionCutter(keys.module, keys.pinion_teeth, alpha, 0.0, addendum, sharp)
     try:
         checked_cutter(replace(shaper, widening=keys.circumferential_thinning / 2))
     except ParameterError as error:
@@ -121,7 +116,7 @@ def _made(keys: FaceGearSpec) -> FaceGear:
     """The gear of its keys, whose teeth can be."""
     m = keys.module
     plate = _USUAL_PLATE * m if keys.plate_thickness is None else keys.plate_thickness
-    bare = FaceGear(shaper_of(keys), keys.number_of_teeth, keys.pinion_teeth, keys.addendum_coefficient * m, 0.0, 0.0,
+    bare = FaceGear(shaper_of(keys), keys.number_of_teeth, keys.addendum_coefficient * m, 0.0, 0.0,
                     plate, keys.circumferential_thinning)  # fmt: skip
     inner, outer = (None if d is None else d / 2 for d in (keys.inner_diameter, keys.outer_diameter))
     return sized(bare, inner, outer).checked()
