@@ -175,7 +175,7 @@ class FaceGear(Record, dict=True):
         sine, cosine = np.sin(turn), np.cos(turn)
         aside: Complex = pitch * sine
         radius = self.shaper.corner_radius
-        centre: Complex = np.asarray(np.sqrt((radius - aside) * (radius + aside)), complex) - pitch * cosine
+        centre: Complex = np.sqrt((radius - aside) * (radius + aside)) - pitch * cosine
         phi = np.arctan2((centre * sine).real, (pitch + centre * cosine).real) + self.shaper.corner_angle
         reach = centre + rounding
         return reach * sine, pitch + reach * cosine, np.asarray(-sine - 1j * cosine), np.asarray(phi)
@@ -184,8 +184,9 @@ class FaceGear(Record, dict=True):
 
     def cut_radius(self, alpha: ArrayLike, s: ArrayLike) -> Real:
         """Radius of what is cut ``s`` mm along the line of action in the plane of a pressure angle, mm."""
-        y = self.shaper.base_radius * np.sin(alpha) - s * np.cos(alpha)
-        return np.hypot(self.section_x(alpha), y)
+        angle, length = np.asarray(alpha, float), np.asarray(s, float)
+        y = self.shaper.base_radius * np.sin(angle) - length * np.cos(angle)
+        return np.hypot(self.section_x(angle), y)
 
     @cached_property
     def undercut_radius(self) -> float:

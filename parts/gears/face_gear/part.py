@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import Nearest, OffsetError, ParameterError
+from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from geometry.gears.face.gear import FaceGear, sized
@@ -29,7 +31,9 @@ if TYPE_CHECKING:
 # part of the largest rounding that a shaper's tooth takes; the plate below the root, the least tip, modules
 _ROUND, _USUAL_PLATE, _THIN = 0.9, 2.5, 0.3
 # addenda that are tried where none of the teeth has any width, part of the given one
-_LOWER = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4)
+_LOWER = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
+# how near to the greatest one a value is offered, modules
+_NEAR = 1e-3
 
 Module = Annotated[float, mm("module m, that of the pinion", least=0.01, most=1000, example=2.0)]
 Teeth = Annotated[int, Meta(ge=8, le=10_000, description="number of teeth z2 of the face gear", examples=[60])]
@@ -102,10 +106,8 @@ def shaper_of(keys: FaceGearSpec) -> PinionCutter:
         checked_cutter(replace(shaper, widening=keys.circumferential_thinning / 2))
     except ParameterError as error:
         key = _SHAPER_KEYS.get(error.name, error.name)
-        cure = error.nearest
-        if key == "addendum_coefficient":
-            cure = nearest(lambda value: bool(shaper_of(changed(keys, addendum_coefficient=value))),
-                           keys.addendum_coefficient, 0.1)  # fmt: skip
+        # of the clearance too is what the shaper has, and its own limit is no gear's yet
+        cure = None if key == "addendum_coefficient" else error.nearest
         raise ParameterError(key, getattr(keys, key), error.code, cure, **error.numbers) from error
     if keys.tip_radius_coefficient is not None:
         return shaper
@@ -122,6 +124,24 @@ def _made(keys: FaceGearSpec) -> FaceGear:
     return sized(bare, inner, outer).checked()
 
 
+def _no_width(keys: FaceGearSpec, refusal: ParameterError) -> ParameterError:
+    """The refusal of teeth without any width, of the thinning where that alone is too much."""
+
+    def cured(key: str, ends: Sequence[float]) -> ParameterError:
+        def builds(value: float) -> bool:
+            _made(changed(keys, **{key: value}))
+            return True
+
+        given: float = getattr(keys, key)
+        cure = partial(nearest, builds, given, ends, enough=_NEAR * keys.module)
+        return ParameterError(key, given, refusal.code, cure, **refusal.numbers)
+
+    thinned = cured("circumferential_thinning", (0.0,))
+    if keys.circumferential_thinning and thinned.nearest is not None:
+        return thinned
+    return cured("addendum_coefficient", [keys.addendum_coefficient * share for share in _LOWER])
+
+
 class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
     """A face gear: its lower face at z = 0, its teeth upwards, one on +x."""
 
@@ -132,16 +152,9 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
         try:
             gear = _made(keys)
         except ParameterError as error:
-            if error.code != "face_gear_no_width":
+            if error.name != "addendum_coefficient":
                 raise
-
-            def lower() -> Nearest | None:
-                """The highest teeth that have some width."""
-                given = keys.addendum_coefficient
-                return nearest(lambda value: bool(_made(changed(keys, addendum_coefficient=value))), given,
-                               (given * share for share in _LOWER))  # fmt: skip
-
-            raise ParameterError(error.name, error.value, error.code, lower, **error.numbers) from error
+            raise _no_width(keys, error) from error
         room = gear.inner_radius - least_wall(gear.inner_radius)
         check_shape(keys, FaceGearSpec.hub_holes, room)
         holes = keys.hub_holes()
@@ -192,7 +205,7 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
             "pointed_diameter": 2 * thing.pointed_radius,
         }
         quantities = {
-            "face_width": thing.face_width,
+            "radial_width": thing.face_width,
             "whole_depth": thing.whole_depth,
             "inner_tip_thickness": inner,
             "outer_tip_thickness": outer,

@@ -59,7 +59,7 @@ def test_every_built_in_scene_builds_and_verifies(name: str, tmp_path: Path) -> 
 DAILY = {
     "shaft_set": "step", "working_drawings": "svg",
     "barrel_cam": "svg", "bevel_pair": "stl", "clock_gears": "dxf", "crossed_helical_pair": "3mf",
-    "conjugate_cams": "svg", "cycloidal_reducer": "dxf", "groove_cam": "svg",
+    "face_gear_pair": "stl", "conjugate_cams": "svg", "cycloidal_reducer": "dxf", "groove_cam": "svg",
     "guidelines_cam": "svg", "helical_gears": "stl", "helical_pair": "3mf", "idler_train": "3mf",
     "lantern_pair": "step", "laser_cam_model": "dxf", "laser_gear": "dxf", "laser_gear_set": "svg",
     "linkage_cam": "svg", "practicum_flat_cam": "stl", "practicum_pair": "dxf",

@@ -140,8 +140,9 @@ def test_every_boundary_of_a_section_moves_by_the_offset(name: str, offset: floa
         assert moved.area == pytest.approx(
             grown, abs=20 * offset**2 * math.sqrt(len(points)) + NEAR / 10 * plain.length
         )
-    # worms, their wheels and bevel gears are not drawn in: only they are not judged
-    assert judged or {part.kind for part in parts_of(name).values()} <= {"worm", "worm_wheel", "bevel_gear"}
+    # worms, their wheels, bevel and face gears are not drawn in: only they are not judged
+    kinds = {part.kind for part in parts_of(name).values()}
+    assert judged or kinds <= {"worm", "worm_wheel", "bevel_gear", "face_gear"}
 
 
 def test_a_lost_triangle_and_an_outline_that_stays_are_seen() -> None:

@@ -1,0 +1,169 @@
+"""Face gears through scenes: how the pinion stands, files, meshes of both in motion, refusals and what they offer."""
+
+from __future__ import annotations
+
+import json
+import math
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import manifold3d
+import numpy as np
+import pytest
+
+from exporters.command.cli import main
+from geometry.base.errors import GeometryError
+from parts.base.refusal import SceneError
+from parts.scene.load import make_parts, scene_from_dict
+from parts.scene.placing import place
+from parts.solids.mesh import body_mesh, mesh_outlines
+
+GEAR: dict[str, Any] = {"kind": "face_gear", "module": 2.0, "number_of_teeth": 21, "pinion_teeth": 14}
+PINION: dict[str, Any] = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 14, "face_width": 9.0}
+
+
+def scene(gear: dict[str, Any], pinion: dict[str, Any], **mate: Any) -> dict[str, Any]:
+    """A pair, the face gear first, which lies askew."""
+    return {
+        "parts": {"wheel": GEAR | gear, "pinion": PINION | pinion},
+        "instances": {
+            "wheel": {"part": "wheel", "rotation_deg": 13.0, "at": [1.0, 2.0, 3.0], "axis": [0.3, -0.4, 0.86]}
+        },
+        "mates": [{"kind": "face_gear_pair", "first": "wheel", "second": "pinion", "direction_deg": 40.0, **mate}],
+        "exports": [{"format": "step", "assembly": True}],
+        "checks": {"interference": True},
+    }
+
+
+def made(raw: dict[str, Any]) -> tuple[Any, Any, Any]:
+    file = scene_from_dict(raw, "s", "s")
+    parts, matings = make_parts(file, "s")
+    return parts, matings, {i.id: i for i in place(file.instances, [], parts, matings, "s").instances}
+
+
+def test_meshes_of_both_keep_half_of_the_backlash_all_over_a_pitch() -> None:
+    """By meshes alone, turned step by step in their ratio; beside it they clash."""
+    parts, _, stand = made(scene({}, {}, normal_backlash=0.2))
+    meshes = {}
+    for name, part in parts.items():
+        body = part.body(0.0)
+        meshes[name] = body_mesh(body, mesh_outlines(body, 0.003, 0.0))
+
+    def solid(name: str, turned: float) -> Any:
+        mesh, (c, s) = meshes[name], (math.cos(turned), math.sin(turned))
+        vertices = mesh.vertices @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]).T
+        vertices = stand[name].scene_from_part.apply(vertices)
+        return manifold3d.Manifold(manifold3d.Mesh(vertices.astype(np.float32), mesh.triangles.astype(np.uint32)))
+
+    for share in (0.0, 0.37, 0.71):
+        turned = share * math.tau / 14
+        pinion, wheel = solid("pinion", turned), solid("wheel", -turned * 14 / 21)
+        assert (pinion ^ wheel).volume() < 1e-6
+        assert pinion.min_gap(wheel, 1.0) == pytest.approx(0.1, abs=0.0065)
+    assert (solid("pinion", 0.4 * math.tau / 14) ^ solid("wheel", 0.0)).volume() > 1.0
+
+
+def test_axes_meet_at_a_right_angle_where_the_keys_have_it() -> None:
+    parts, matings, stand = made(scene({}, {}, pinion_offset=0.5))
+    gear, wheel, pinion = (parts["wheel"].thing, *(stand[name].scene_from_part for name in ("wheel", "pinion")))
+    assert np.dot(wheel.z, pinion.z) == pytest.approx(0.0, abs=1e-12)
+    middle = pinion.apply(np.array([0.0, 0.0, 4.5])) - wheel.apply(np.array([0.0, 0.0, gear.mounting_distance]))
+    assert middle == pytest.approx(-np.array(pinion.z) * ((gear.inner_radius + gear.outer_radius) / 2 + 0.5), abs=1e-9)
+    # the pitch planes: m z / 2 below the pinion's axis, an addendum below the tips
+    assert gear.mounting_distance - 14.0 == pytest.approx(gear.height - 2.0, abs=1e-12)
+    (mating,) = matings
+    assert mating.quantities()["ratio"] == pytest.approx(21 / 14, rel=1e-15)
+    assert [joint.ratio for joint in mating.joints] == [Fraction(-21, 14)]
+
+
+PAIR = """
+[parts.wheel]
+kind = "face_gear"
+module = 2.0
+number_of_teeth = 21
+pinion_teeth = 14
+bore = {{ shape = "keyway", diameter = 10.0 }}
+
+[parts.pinion]
+kind = "spur_gear"
+module = 2.0
+number_of_teeth = 14
+face_width = 9.0
+{placed}
+[[mates]]
+kind = "face_gear_pair"
+first = "wheel"
+second = "pinion"
+normal_backlash = 0.1
+
+[[exports]]
+format = "step"
+assembly = true
+
+[[exports]]
+format = "stl"
+parts = ["wheel"]
+"""
+
+
+@pytest.mark.parametrize(("up", "turned", "code"), [(0.0, 0.0, 0), (0.02, 0.0, 1), (0.0, 3.0, 1)])
+def test_a_pinion_that_stands_already_is_held_to_its_place(up: float, turned: float, code: int, tmp_path: Path) -> None:
+    """Phase and the place of its axis are looked at; along its axis it may be moved."""
+    raw = scene({}, {}, normal_backlash=0.1) | {"instances": {"wheel": {"part": "wheel"}}}
+    raw["mates"][0]["direction_deg"] = 0.0
+    pinion = made(raw)[2]["pinion"]
+    x, y, z = (float(c) for c in pinion.scene_from_part.apply(np.zeros(3)))
+    # z is laid on -x about y: of what the turn about z makes of x, its y is left
+    sine, cosine = (float(pinion.scene_from_part.rotation[1][k]) for k in (0, 1))
+    placed = (
+        "[instances.wheel]\npart = 'wheel'\n[instances.pinion]\npart = 'pinion'\n"
+        f"at = [{x + 0.3}, {y}, {z + up}]\naxis = [-1.0, 0.0, 0.0]\n"
+        f"rotation_deg = {math.degrees(math.atan2(sine, cosine)) + turned}\n"
+    )
+    file = tmp_path / "s.toml"
+    file.write_text(PAIR.format(placed=placed), encoding="utf-8")
+    assert main(["check", str(file)]) == code
+
+
+def test_files_are_read_back(tmp_path: Path) -> None:
+    file = tmp_path / "s.toml"
+    file.write_text(PAIR.format(placed=""), encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path), "--quiet"]) == 0
+    found = json.loads((tmp_path / "s" / "report.json").read_text(encoding="utf-8"))
+    assert {Path(file["path"]).suffix for file in found["files"]} == {".step", ".stl"}
+    assert all(file["max_error"] <= file["tolerance"] for file in found["files"])
+
+
+def test_a_pinion_that_the_gear_is_not_for_is_refused() -> None:
+    for key, value, right in (
+        ("helix_angle_deg", 10.0, 0.0), ("profile_shift_coefficient", 0.2, 0.0), ("number_of_teeth", 19, 14),
+        ("module", 2.5, 2.0), ("pressure_angle_deg", 25.0, 20.0),
+    ):  # fmt: skip
+        with pytest.raises(SceneError) as refusal:
+            made(scene({}, {key: value}))
+        assert f"parts.pinion.{key}" in str(refusal.value)
+        made(scene({}, {key: right}))
+
+
+@pytest.mark.parametrize(
+    ("keys", "key"),
+    [
+        ({"inner_diameter": 55.0}, "inner_diameter"), ({"outer_diameter": 90.0}, "outer_diameter"),
+        ({"inner_diameter": 80.0}, "inner_diameter"), ({"outer_diameter": 55.0}, "outer_diameter"),
+        ({"tip_radius_coefficient": 1.0}, "tip_radius_coefficient"),
+        ({"addendum_coefficient": 2.0}, "addendum_coefficient"),
+        ({"pinion_teeth": 4, "addendum_coefficient": 1.2}, "addendum_coefficient"),
+        ({"bore_diameter": 70.0}, "bore_diameter"), ({"circumferential_thinning": 4.0}, "circumferential_thinning"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_is_refused_with_a_value_that_builds(keys: dict[str, Any], key: str) -> None:
+    with pytest.raises(SceneError) as refusal:
+        made({"parts": {"wheel": GEAR | keys}})
+    nearest = refusal.value.nearest
+    assert f"parts.wheel.{key}" in str(refusal.value)
+    assert nearest is not None
+    try:
+        made({"parts": {"wheel": GEAR | keys | {key: nearest.value}}})
+    except (SceneError, GeometryError) as error:
+        pytest.fail(f"{key} = {nearest.value}: {error}")
