@@ -25,13 +25,13 @@ from geometry.gears.planetary.sets import (
 )
 from geometry.gears.shifts.external import Requirements
 from geometry.gears.shifts.internal_shifts import InternalState
-from parts.base.texts import N_, Message, Text, listed, message
+from parts.base.texts import N_, Message, listed, message
 from parts.gears.spur_gear.part import RackTable, basic_rack_of
 from parts.keys.base import degrees, in_modules, mm
 from parts.keys.cutter import RackName
 from parts.keys.helix import HelixAngle
 from parts.pages.inputs import calculation
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Sheet
 
 TOPIC = "planetary"
 SchemeName = Literal["james", "one_external_one_internal", "two_internal", "david"]
@@ -45,11 +45,8 @@ _TITLES = {
 # how formulas call the links
 _LETTERS: dict[Link, str] = {"first": "1", "second": "3", "carrier": "H"}
 _WHEELS = ("1", "2", "2'", "3")
-_KEYS = ("z_1", "z_2", "z_2p", "z_3")
 _PAIRS_TOLD = 4
 _MOST_TEETH_OFF = 3
-# columns of the table that sets with one rim do without
-_SECOND_RIM = (2, 12)
 
 
 # what a mesh may not keep
@@ -141,6 +138,10 @@ class _Page:
         self.driven: Link = next(link for link in LINKS if link not in (keys.driver, keys.held))
         if keys.second_module is not None and not self.scheme.double:
             raise ParameterError("second_module", keys.second_module, "one_rim_one_module", Nearest(None))
+        self.rim = "2'" if self.scheme.double else "2"
+        # those of the scheme, by their place among all
+        self.wheels = {k: wheel for k, wheel in enumerate(_WHEELS) if self.scheme.double or wheel != "2'"}
+        self.meshes = "1-2", f"{self.rim}-3"
         self.modules = _exact(keys.module), _exact(keys.second_module or keys.module)
         rack = basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg))
         self.helix = math.radians(abs(keys.helix_angle_deg))
@@ -148,21 +149,21 @@ class _Page:
         wish = Requirements(keys.least_tip_thickness, keys.least_contact_ratio)
         apart = Fraction(1, keys.satellites) if keys.satellites > 1 else None
         self.fitting = Fitting(rack, wish, apart, keys.least_gap, keys.working_centre_distance, self.helix)
-        self.sheet = Sheet(TOPIC, _TITLES[keys.scheme])
+        self.page = Sheet(TOPIC, _TITLES[keys.scheme])
 
     def made(self) -> Sheet:
         """The whole sheet."""
         keys = self.keys
         if (keys.teeth is None) == (keys.ratio is None):
-            name, value = ("ratio", None) if keys.ratio is None else ("ratio", keys.ratio)
-            raise ParameterError(name, value, "give_it_or" if value is None else "either_of", other="teeth")
+            code = "give_it_or" if keys.ratio is None else "either_of"
+            raise ParameterError("ratio", keys.ratio, code, other="teeth")
+        equal = tuple(Fraction(k, keys.satellites) for k in range(keys.satellites))
         if keys.teeth is not None:
             one = self._given(keys.teeth)
-            equal = tuple(Fraction(k, keys.satellites) for k in range(keys.satellites))
             places = self._assembled(one) if self._coaxial_enough(one) else equal
             self._set(one, self._fitted(one), places, N_("The set"))
-            return self.sheet
-        page = self.sheet
+            return self.page
+        page = self.page
         page.section("Wanted")
         page.add("wanted_ratio", keys.ratio or 0.0, symbol=self._symbol)
         page.add("ratio_tolerance_percent", keys.ratio_tolerance_percent)
@@ -172,10 +173,9 @@ class _Page:
         sets = self._sought()
         page.add("sets_found", len(sets))
         fits = [(one, self._fitted(one)) for one in sets[: keys.rows]]
-        page.tables.append(self._table(fits))
+        self._table(fits)
         best, fit = next(((one, fit) for one, fit in fits if fit is not None), fits[0])
-        places = tuple(Fraction(k, keys.satellites) for k in range(keys.satellites))
-        self._set(best, fit, places, N_("The smallest set that works"))
+        self._set(best, fit, equal, N_("The smallest set that works"))
         if any(fit is None for _, fit in fits):
             page.note(
                 "a set without shifts in the table: no shifts keep least_tip_thickness and "
@@ -251,9 +251,8 @@ class _Page:
     def _fitted(self, one: PlanetarySet) -> Fit | None:
         return self.fitting.fit(one) if self._coaxial_enough(one) else None
 
-    def _table(self, fits: list[tuple[PlanetarySet, Fit | None]]) -> Table:
+    def _table(self, fits: list[tuple[PlanetarySet, Fit | None]]) -> None:
         """The sets in their order, with the shifts that make them work."""
-        double = self.scheme.double
         rows = []
         for one, fit in fits:
             ratio = ratio_of(one.carried_ratio, self.driver, self.driven)
@@ -264,22 +263,21 @@ class _Page:
             shifts = (nan,) * 4 if fit is None else fit.shifts
             sizes = (float(one.diameter), nan, nan) if fit is None else (fit.diameter, fit.distance, fit.gap)
             most = float(one.most_satellites(_exact(self.keys.least_gap)))
-            columns = [*map(float, one.teeth), float(ratio), off, *sizes, most, *shifts]
-            rows.append(tuple(c for k, c in enumerate(columns) if double or k not in _SECOND_RIM))
-        teeth = [(f"z_{wheel}", "") for wheel in _WHEELS]
+            teeth, x = (tuple(float(own[k]) for k in self.wheels) for own in (one.teeth, shifts))
+            rows.append((*teeth, float(ratio), off, *sizes, most, *x))
+        z, x_of = ([(f"{letter}_{wheel}", "") for wheel in self.wheels.values()] for letter in "zx")
         sizes_of = [("D", "mm"), ("a_w", "mm"), ("g_s", "mm"), ("n_max", "")]
-        heads = [*teeth, (self._symbol, ""), ("δu", "%"), *sizes_of, *((f"x_{wheel}", "") for wheel in _WHEELS)]
-        kept = tuple(h for k, h in enumerate(heads) if double or k not in _SECOND_RIM)
+        heads = [*z, (self._symbol, ""), ("δu", "%"), *sizes_of, *x_of]
         title = N_("Sets, the smallest first: ratio, size, distance, gap of neighbours, most satellites, shifts")
-        return Table("sets", title, kept, tuple(rows))
+        self.page.table("sets", title, heads, rows)
 
     def _set(self, one: PlanetarySet, fit: Fit | None, places: tuple[Fraction, ...], title: str) -> None:
         """All about one set."""
-        page = self.sheet
+        page = self.page
         page.section("{title}: {teeth}", title=Message(title), teeth=one.name)
-        for key, wheel, z in zip(_KEYS, _WHEELS, one.teeth, strict=True):
-            if self.scheme.double or wheel != "2'":
-                page.add("number_of_teeth", z, symbol=f"z_{wheel}", key=key, of=message("wheel {wheel}", wheel=wheel))
+        for k, wheel in self.wheels.items():
+            of = message("wheel {wheel}", wheel=wheel)
+            page.add("number_of_teeth", one.teeth[k], symbol=f"z_{wheel}", of=of)
         self._ratio(one)
         self._conditions(one, places)
         if fit is None:
@@ -295,43 +293,37 @@ class _Page:
             "works": fit is not None,
         }
 
-    @property
-    def _second_rim(self) -> str:
-        return "z_2p" if self.scheme.double else "z_2"
-
     def _ratio(self, one: PlanetarySet) -> None:
-        page = self.sheet
+        page = self.page
         first, second = ("" if internal else "-" for internal in self.scheme.internal)
-        formula = f"({first}{{z_2}} / {{z_1}}) * ({second}{{z_3}} / {{{self._second_rim}}})"
-        page.add("carried_ratio", float(one.carried_ratio), formula, "practicum (2.3)", key="p")
+        formula = f"({first}{{z_2}} / {{z_1}}) * ({second}{{z_3}} / {{z_{self.rim}}})"
+        page.add("carried_ratio", float(one.carried_ratio), formula, "practicum (2.3)")
         ratio = ratio_of(one.carried_ratio, self.driver, self.driven)
         assert ratio is not None
         pair = {self.driver, self.driven}
         formula = "{p}" if "carrier" not in pair else "1 - {p}" if "first" in pair else "1 - 1 / {p}"
         if (self.driver == "carrier") or (self.driver, self.driven) == ("second", "first"):
             formula = f"1 / {formula}" if formula == "{p}" else f"1 / ({formula})"
-        page.add("planetary_ratio", float(ratio), formula, "practicum (2.5)", symbol=self._symbol, key="u")
-        page.add("exact_ratio", str(ratio), symbol=self._symbol, key="u_exact")
+        page.add("planetary_ratio", float(ratio), formula, "practicum (2.5)", symbol=self._symbol)
+        page.add("exact_ratio", str(ratio), symbol=self._symbol)
 
     def _conditions(self, one: PlanetarySet, places: tuple[Fraction, ...]) -> None:
         """Coaxiality, assembly and neighbours, by the teeth."""
-        page, keys = self.sheet, self.keys
+        page, keys = self.page, self.keys
         page.section("Conditions, by the teeth")
         self._modules()
         module = "{m_2}" if self.scheme.double else "{m}"
         one_sign, two_sign = ("-" if internal else "+" for internal in self.scheme.internal)
         d1, d2 = map(float, one.distances)
-        of = message("mesh {wheels}", wheels="1-2")
+        one_of, two_of = (message("mesh {wheels}", wheels=wheels) for wheels in self.meshes)
         formula = f"{{m}} * ({{z_1}} {one_sign} {{z_2}}) / 2"
-        page.add("reference_centre_distance", d1, formula, "trains (3)", symbol="a_12", of=of)
-        rim = "2'" if self.scheme.double else "2"
-        of = message("mesh {wheels}", wheels=f"{rim}-3")
-        formula = f"{module} * ({{z_3}} {two_sign} {{{self._second_rim}}}) / 2"
-        page.add("reference_centre_distance", d2, formula, "trains (3)", symbol=f"a_{rim}3", key="a_23", of=of)
+        page.add("reference_centre_distance", d1, formula, "trains (3)", symbol="a_12", of=one_of)
+        formula = f"{module} * ({{z_3}} {two_sign} {{z_{self.rim}}}) / 2"
+        page.add("reference_centre_distance", d2, formula, "trains (3)", symbol=f"a_{self.rim}3", of=two_of)
         if self.scheme.double:
             page.add("greatest_common_divisor", math.gcd(*one.teeth[1:3]), symbol="g")
             sign = "-" if self.scheme.alike else "+"
-            formula = f"abs({{z_1}} * {{z_2p}} {sign} {{z_2}} * {{z_3}}) / {{g}}"
+            formula = f"abs({{z_1}} * {{z_2'}} {sign} {{z_2}} * {{z_3}}) / {{g}}"
         else:
             formula = "{z_1} + {z_3}"
         page.add("satellite_places", one.places, formula)
@@ -346,7 +338,7 @@ class _Page:
 
     def _modules(self) -> None:
         """Of each mesh, ``{m}`` and ``{m_2}`` in formulas; of helical teeth the normal and the transverse."""
-        page, meshes = self.sheet, ("1-2", "2'-3") if self.scheme.double else ("",)
+        page, meshes = self.page, self.meshes if self.scheme.double else ("",)
         if self.helix:
             page.add("helix_angle_deg", math.degrees(self.helix))
         for wheels, module, mark, key in zip(meshes, self.modules, ("", "'"), ("", "_2"), strict=False):
@@ -360,17 +352,14 @@ class _Page:
 
     def _fit(self, one: PlanetarySet, fit: Fit) -> None:
         """Distance, shifts and what they give."""
-        page, x = self.sheet, fit.shifts
+        page, x = self.page, fit.shifts
         page.section("Shifts for one centre distance")
         page.add("working_centre_distance", fit.distance)
-        for k, wheel in enumerate(_WHEELS):
-            if self.scheme.double or wheel != "2'":
-                shift = 0.0 if abs(x[k]) < 1e-12 else x[k]
-                of = message("wheel {wheel}", wheel=wheel)
-                symbol = f"x_n{wheel}" if self.helix else f"x_{wheel}"
-                page.add("profile_shift_coefficient", shift, symbol=symbol, key=f"x_{_KEYS[k][2:]}", of=of)
-        rim = "2'" if self.scheme.double else "2"
-        for wheels, mesh, state in zip(("1-2", f"{rim}-3"), fit.meshes, fit.states(), strict=True):
+        for k, wheel in self.wheels.items():
+            shift, of = 0.0 if abs(x[k]) < 1e-12 else x[k], message("wheel {wheel}", wheel=wheel)
+            symbol = f"x_n{wheel}" if self.helix else f"x_{wheel}"
+            page.add("profile_shift_coefficient", shift, symbol=symbol, of=of)
+        for wheels, mesh, state in zip(self.meshes, fit.meshes, fit.states(), strict=True):
             of = message("mesh {wheels}", wheels=wheels)
             page.add("working_pressure_angle_deg", math.degrees(state.working_pressure_angle), of=of)
             page.add("contact_ratio", state.contact_ratio, "", "practicum (3.20)", of=of)
@@ -379,14 +368,13 @@ class _Page:
         if math.isfinite(fit.gap):
             page.add("satellite_gap", fit.gap)
         page.add("set_diameter", fit.diameter)
-        plain = self._plain(one)
-        for wheels, mesh, broken in plain:
+        for wheels, mesh, broken in self._plain(one):
             self._interference(wheels, mesh, broken)
 
     def _plain(self, one: PlanetarySet) -> list[tuple[str, RimMesh, list[str]]]:
         """Each mesh without shifts of the rims, with the names of what it breaks."""
-        plain, rim = self.fitting.plain(one), "2'" if self.scheme.double else "2"
-        meshes = zip(("1-2", f"{rim}-3"), plain.meshes, plain.broken(), strict=True)
+        plain = self.fitting.plain(one)
+        meshes = zip(self.meshes, plain.meshes, plain.broken(), strict=True)
         return [(wheels, mesh, [m.name for m in broken]) for wheels, mesh, broken in meshes]
 
     def _ring_addendum(self, mesh: RimMesh, state: InternalState) -> float:
@@ -399,32 +387,23 @@ class _Page:
         name = next((n for n in broken if n in ("involute_interference", "trochoid_interference")), None)
         if name is None or not isinstance(state, InternalState):
             return
-        addendum, allowed = self._ring_addendum(mesh, state), mesh.allowed_ring_addendum
-        told: list[Text] = [
-            message(
-                "mesh {wheels} without shifts: {what}: the ring's addendum is {addendum:.4g}, at most {allowed:.4g} is "
-                "clear of whole involutes",
-                wheels=wheels, what=_fault(name), addendum=addendum, allowed=allowed,
-            )
-        ]  # fmt: skip
+        page, addendum, allowed = self.page, self._ring_addendum(mesh, state), mesh.allowed_ring_addendum
+        text = N_(
+            "mesh {wheels} without shifts: {what}: the ring's addendum is {addendum:.4g}, at most {allowed:.4g} is "
+            "clear of whole involutes"
+        )
+        page.note(text, wheels=wheels, what=_fault(name), addendum=addendum, allowed=allowed)
         # a search for sets is not to wait for a search for contact
-        verdict = _exact_verdict(mesh, self.keys) if self.keys.teeth is not None else None
-        if verdict is not None:
-            told.append(
-                message("mesh {wheels} without shifts, teeth as cut, by exact contact: {verdict}",
-                        wheels=wheels, verdict=verdict)
-            )  # fmt: skip
-        shift = mesh.clearing_shift()
-        if shift is not None:
-            told.append(
-                message("mesh {wheels}: x = {shift:.2f} of both wheels removes the interference",
-                        wheels=wheels, shift=shift)
-            )  # fmt: skip
-        self.sheet.notes += told
+        if self.keys.teeth is not None and (verdict := _exact_verdict(mesh, self.keys)) is not None:
+            text = N_("mesh {wheels} without shifts, teeth as cut, by exact contact: {verdict}")
+            page.note(text, wheels=wheels, verdict=verdict)
+        if (shift := mesh.clearing_shift()) is not None:
+            text = N_("mesh {wheels}: x = {shift:.2f} of both wheels removes the interference")
+            page.note(text, wheels=wheels, shift=shift)
 
     def _not_fitted(self, one: PlanetarySet) -> None:
         """Why no shifts were found, and what else may work."""
-        page = self.sheet
+        page = self.page
         if not self._coaxial_enough(one):
             s1, s2 = one.spans
             if self.scheme.double:
@@ -446,7 +425,7 @@ class _Page:
             self._interference(wheels, mesh, broken)
         unseen = replace(self.fitting, wish=replace(self.fitting.wish, allow_undercut=True)).fit(one)
         if unseen is not None:
-            shown = ", ".join(f"{x:.4f}" for k, x in enumerate(unseen.shifts) if self.scheme.double or k != 2)
+            shown = ", ".join(f"{unseen.shifts[k]:.4f}" for k in self.wheels)
             text = N_("with undercut below the active flank: a_w = {distance:.4f} mm, shifts {shifts}")
             page.note(text, distance=unseen.distance, shifts=shown)
 
@@ -457,17 +436,15 @@ class _Page:
         equal = places == tuple(Fraction(k, n) for k in range(n))
         if equal and not any(clocking):
             if self.scheme.double and n > 1:
-                self.sheet.note("all satellites are alike: both rims clocked in one and the same way")
+                self.page.note("all satellites are alike: both rims clocked in one and the same way")
             return
-        heads = (("k", ""), ("θ", "deg"), ("γ", "deg"))
-        rows = tuple(
-            (k + 1.0, 360 * float(p), 360 * float(c)) for k, (p, c) in enumerate(zip(places, clocking, strict=True))
-        )
+        heads, pairs = (("k", ""), ("θ", "deg"), ("γ", "deg")), zip(places, clocking, strict=True)
+        rows = ((float(k), 360 * float(p), 360 * float(c)) for k, (p, c) in enumerate(pairs, 1))
         title = N_("Satellites: place on the carrier; rim 2' against rim 2, beyond that of the first satellite")
-        self.sheet.tables.append(Table("satellites", title, heads, rows))
+        self.page.table("satellites", title, heads, rows)
         if any(clocking):
-            self.sheet.data["clocking"] = [str(c) for c in clocking]
-            self.sheet.note("the satellites are not alike: each has its own clocking of both rims")
+            self.page.data["clocking"] = [str(c) for c in clocking]
+            self.page.note("the satellites are not alike: each has its own clocking of both rims")
 
 
 def _exact_verdict(mesh: RimMesh, keys: PlanetaryKeys) -> str | None:
