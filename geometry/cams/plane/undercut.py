@@ -248,10 +248,11 @@ def _reached(cam: DiskCam, grow: float, angles: Real, points: Complex) -> np.nda
         result = np.zeros(len(points), dtype=bool)
         block = max(1, 4_000_000 // len(points))
         height, normal = FaceEnvelope(cam.motion, cam.mount, 0.0, TURN, grow).support(angles, 0)
-        direction = np.exp(1j * normal[0])
+        # how far each point lies over each position of the face: x cos + y sin - h
+        faces = np.stack([np.cos(normal[0]), np.sin(normal[0]), -height[0]])
+        places = np.stack([points.real, points.imag, np.ones(len(points))], axis=1)
         for i in range(0, len(points), block):
-            over = (points[i : i + block, None] * np.conj(direction)).real - height[0]
-            result[i : i + block] = over.max(axis=1) > _REACH * size
+            result[i : i + block] = (places[i : i + block] @ faces).max(axis=1) > _REACH * size
         return result
     centres = CentreEnvelope(cam.motion, cam.mount, 0.0, TURN).point(angles)
     return have_near(points, centres, abs(grow - cam.radius) - _REACH * size)

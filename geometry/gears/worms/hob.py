@@ -250,8 +250,9 @@ class Hob(Record, dict=True):
                 goes &= size < _NEAR
             if not goes.any():
                 break
-            at = at[goes]
-            p, q, c, s, k = (x[goes] for x in (p, q, c, s, k))
+            if not goes.all():
+                at = at[goes]
+                p, q, c, s, k = (x[goes] for x in (p, q, c, s, k))
         return found.reshape(turn.shape)
 
 
