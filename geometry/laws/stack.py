@@ -108,13 +108,14 @@ class PieceStack:
 
     def at(self, index: Indices, t: Real, order: int = 0) -> Real:
         """s^(order) of the pieces ``index`` at ``t``."""
-        return self._at(index, t, (order,))[0]
+        return self.orders_at(index, t, (order,))[0]
 
     def values(self, t: Real, order: int) -> list[Real]:
         """s, s' ... s^(order), at a joint from the right."""
-        return self._at(self.index(t), t, range(order + 1))
+        return self.orders_at(self.index(t), t, range(order + 1))
 
-    def _at(self, index: Indices, t: Real, orders: Sequence[int]) -> list[Real]:
+    def orders_at(self, index: Indices, t: Real, orders: Sequence[int]) -> list[Real]:
+        """Several derivatives of the pieces ``index`` at ``t``, which share their powers."""
         which, flat = np.ravel(index), np.ravel(t)
         forms, rows = self._forms[which], self._rows[which]
         found = [np.empty(flat.size) for _ in orders]
@@ -154,14 +155,22 @@ class PieceStack:
             self._extremes[order] = index[ranks], t[ranks]
         return self._extremes[order]
 
-    def sign_changes(self, function: PieceFunction, samples: int) -> tuple[Indices, Real]:
-        """Roots of a function between samples of opposite sign on each piece: ``geometry.laws.piece.sign_changes``."""
+    def sign_changes(
+        self, function: PieceFunction, samples: int, pieces: Indices | None = None
+    ) -> tuple[Indices, Real]:
+        """Roots of a function between samples of opposite sign on each piece: ``geometry.laws.piece.sign_changes``.
+
+        ``pieces``: the numbers of those on which they are sought, by default on all.
+        """
         index, t = self.rows(samples)
+        if pieces is not None:
+            index, t = index[pieces], t[pieces]
         values = function(index, t)
         sign = np.sign(values)
         exact = (sign[:, 1:-1] == 0) & (sign[:, :-2] * sign[:, 2:] < 0)
-        k, i = np.nonzero(sign[:, :-1] * sign[:, 1:] < 0)
-        found = np.zeros(0)
+        row, i = np.nonzero(sign[:, :-1] * sign[:, 1:] < 0)
+        k, found = index[row, i], np.zeros(0)
         if k.size:
-            found = bracketed_roots(lambda x: function(k, x), t[k, i], t[k, i + 1], values[k, i], values[k, i + 1])
+            ends = t[row, i], t[row, i + 1], values[row, i], values[row, i + 1]
+            found = bracketed_roots(lambda x: function(k, x), *ends)
         return np.concatenate([k, index[:, 1:-1][exact]]), np.concatenate([found, t[:, 1:-1][exact]])

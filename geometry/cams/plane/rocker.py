@@ -58,7 +58,8 @@ def rocker_base(
     level, stack = least_radius + face_offset, motion.stack
 
     def terms(k: Indices, t: Real) -> tuple[Real, Real]:
-        return curvature_terms(stack.at(k, t, 1), stack.at(k, t, 2), sense)
+        rate, bend = stack.orders_at(k, t, (1, 2))
+        return curvature_terms(rate, bend, sense)
 
     needed = greatest_of(stack, lambda k, t: level / np.hypot(*terms(k, t))).value
     if not needed <= centre_distance:

@@ -51,11 +51,10 @@ def greatest_of(
         return Extreme(-math.inf, 0.0)
     samples = max(_LEAST_SAMPLES, min(_SAMPLES, _MOST_ARGUMENTS // len(chosen)))
     if slope is not None:
-        ends, (found, roots) = np.arange(len(stack.starts)), stack.sign_changes(slope, samples)
-        index = np.concatenate([ends, found, ends])
-        t = np.concatenate([stack.starts, roots, stack.ends])
+        found, roots = stack.sign_changes(slope, samples, chosen)
+        index = np.concatenate([chosen, found, chosen])
+        t = np.concatenate([stack.starts[chosen], roots, stack.ends[chosen]])
         ranks = np.lexsort((t, index))
-        ranks = ranks[np.isin(index[ranks], chosen)]
         index, t = index[ranks], t[ranks]
         values = function(index, t)
         best = int(np.argmax(values))
@@ -83,8 +82,8 @@ def flat_base_radius(motion: FollowerMotion, least_curvature_radius: float = 0.0
     """
     found = greatest_of(
         motion.stack,
-        lambda k, t: -(motion.stack.at(k, t) + motion.stack.at(k, t, 2)),
-        lambda k, t: motion.stack.at(k, t, 1) + motion.stack.at(k, t, 3),
+        lambda k, t: -np.add(*motion.stack.orders_at(k, t, (0, 2))),
+        lambda k, t: np.add(*motion.stack.orders_at(k, t, (1, 3))),
     )
     return Extreme(max(0.0, least_curvature_radius + found.value), found.angle)
 
@@ -123,10 +122,12 @@ def axis_region(motion: FollowerMotion, rise_limit: float, return_limit: float |
         for steepness in (cot, -cot):
 
             def height(k: Indices, t: Real, steepness: float = steepness) -> Real:
-                return steepness * stack.at(k, t, 1) - stack.at(k, t)
+                lift, rise = stack.orders_at(k, t, (0, 1))
+                return steepness * rise - lift
 
             def slope(k: Indices, t: Real, steepness: float = steepness) -> Real:
-                return steepness * stack.at(k, t, 2) - stack.at(k, t, 1)
+                rise, bend = stack.orders_at(k, t, (1, 2))
+                return steepness * bend - rise
 
             lines.append((greatest_of(stack, height, slope, pieces).value, steepness))
     return AxisRegion(tuple(lines))
@@ -320,23 +321,22 @@ def oscillating_start_angles(
     for pieces, limit in _limited(motion, rise_limit, return_limit):
         share = arm_length * math.cos(limit) / centre_distance
 
-        def cosine(k: Indices, t: Real, share: float = share) -> Real:
-            return share * (1 + sense * stack.at(k, t, 1))
-
         mine = np.isin(spots, pieces)
-        if not np.abs(cosine(spots[mine], places[mine])).max() <= 1:
+        if not np.abs(share * (1 + sense * stack.at(spots[mine], places[mine], 1))).max() <= 1:
             return math.inf, high
 
         def greatest(a: int, b: int, pieces: Indices = pieces, share: float = share) -> float:
             """Of a A + b S."""
 
             def angle(k: Indices, t: Real) -> Real:
-                return a * np.arccos(np.clip(cosine(k, t, share), -1, 1)) + b * stack.at(k, t)
+                turned, rate = stack.orders_at(k, t, (0, 1))
+                return a * np.arccos(np.clip(share * (1 + sense * rate), -1, 1)) + b * turned
 
             def slope(k: Indices, t: Real) -> Real:
                 # times the sine of A, which is never below 0
-                sine = np.sqrt(np.clip(1 - cosine(k, t, share) ** 2, 0, 1))
-                return b * stack.at(k, t, 1) * sine - a * share * sense * stack.at(k, t, 2)
+                rate, bend = stack.orders_at(k, t, (1, 2))
+                sine = np.sqrt(np.clip(1 - (share * (1 + sense * rate)) ** 2, 0, 1))
+                return b * rate * sine - a * share * sense * bend
 
             return greatest_of(stack, angle, slope, pieces).value
 
@@ -353,24 +353,27 @@ def _deepest(
     The axis is seen from the pivot, with the arm's lowest position along +x.
     """
 
-    def normal(k: Indices, t: Real) -> Complex:
-        along = np.exp(-1j * stack.at(k, t))
+    def normal(turned: Real) -> Complex:
+        along = np.exp(-1j * turned)
         return (math.tan(limit) * 1j * along + side * along) * math.cos(limit)
 
-    def level(k: Indices, t: Real) -> Real:
-        return side * arm * (1 + sense * stack.at(k, t, 1)) * math.cos(limit)
+    def plane(k: Indices, t: Real) -> tuple[Complex, Real]:
+        turned, rate = stack.orders_at(k, t, (0, 1))
+        return normal(turned), side * arm * (1 + sense * rate) * math.cos(limit)
 
     def depth(k: Indices, t: Real) -> Real:
-        return level(k, t) - (np.conj(normal(k, t)) * axis).real
+        across, level = plane(k, t)
+        return level - (np.conj(across) * axis).real
 
     def slope(k: Indices, t: Real) -> Real:
-        bend = side * arm * sense * math.cos(limit) * stack.at(k, t, 2)
-        return bend + stack.at(k, t, 1) * (np.conj(normal(k, t)) * axis).imag
+        turned, rate, bend = stack.orders_at(k, t, (0, 1, 2))
+        return side * arm * sense * math.cos(limit) * bend + rate * (np.conj(normal(turned)) * axis).imag
 
     found = greatest_of(stack, depth, slope, pieces)
     at = np.asarray(found.angle)
     k = np.asarray(next(k for k in pieces if stack.starts[k] <= found.angle <= stack.ends[k]))
-    return complex(normal(k, at)), float(level(k, at)), found.value
+    across, level = plane(k, at)
+    return complex(across), float(level), found.value
 
 
 def _nearest(home: complex, planes: list[tuple[complex, float]]) -> complex:
