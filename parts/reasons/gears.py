@@ -113,11 +113,21 @@ REASONS = {
     ),
     "ring_not_above_rim": N_("the ring of {ring} teeth must have more than its satellite, {rim}"),
     "satellites_collide": N_("the tips of neighbours would overlap"),
+    "satellites_do_not_divide": counted(
+        "satellites fit at {places} place, which this number does not divide",
+        "satellites fit at {places} places, which this number does not divide",
+        by="places",
+    ),
     "satellites_not_assembled": counted(
         'satellites fit at {places} place, which this number does not divide: teeth {teeth} take so many, '
         'or spacing = "unequal" at {spacing} degrees',
         'satellites fit at {places} places, which this number does not divide: teeth {teeth} take so many, '
         'or spacing = "unequal" at {spacing} degrees',
+        by="places",
+    ),
+    "satellites_take_other_teeth": counted(
+        "satellites fit at {places} place, which this number does not divide: teeth {teeth} take so many",
+        "satellites fit at {places} places, which this number does not divide: teeth {teeth} take so many",
         by="places",
     ),
     "shifts_leave_no_angle": N_("leave a mesh without a working pressure angle"),

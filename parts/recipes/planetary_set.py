@@ -16,6 +16,7 @@ from msgspec import Meta
 
 from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.nearest import kept
 from geometry.base.record import Record
 from geometry.base.tolerance import PLACED_MM
 from geometry.gears.planetary.assembly import Satellites, given_set, least_angle
@@ -203,8 +204,17 @@ def _settled(keys: PlanetarySetKeys) -> _Set:
     one = given_set(scheme, keys.teeth, (Fraction(str(modules[0])), Fraction(str(modules[1]))), cosine)
     if one.carried_ratio == 1:
         raise ParameterError("teeth", keys.teeth, "transmits_nothing")
-    places = Satellites(keys.satellites, keys.spacing, keys.identical).places(one)
-    distance, shifts = _given_shifts(keys, one) if keys.shifts is not None else _fitted(keys, one, places)
+    mesh = _fitted if keys.shifts is None else _given_shifts
+    two = Fraction(0), Fraction(1, keys.satellites)
+    try:
+        places = Satellites(keys.satellites, keys.spacing, keys.identical).places(
+            one, lambda other: kept(lambda at: bool(mesh(keys, other, at)), two)
+        )
+    except ParameterError:
+        # another number helps only where one alone has its meshes
+        mesh(keys, one, two[:1])
+        raise
+    distance, shifts = mesh(keys, one, places)
     step = keys.face_width + keys.axial_gap
     heights = (0.0, 0.0, step, step) if scheme.double else (0.0, 0.0, 0.0, 0.0)
     items = (1, 2, 3, 4) if scheme.double else (1, 2, 2, 3)
@@ -236,7 +246,9 @@ def _fitted(
     return fit.distance, fit.shifts
 
 
-def _given_shifts(keys: PlanetarySetKeys, one: PlanetarySet) -> tuple[float, tuple[float, float, float, float]]:
+def _given_shifts(
+    keys: PlanetarySetKeys, one: PlanetarySet, places: tuple[Fraction, ...]
+) -> tuple[float, tuple[float, float, float, float]]:
     """Shifts that the scene gives, held against one distance."""
     given = keys.shifts or []
     if len(given) != len(keys.teeth):

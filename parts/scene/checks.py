@@ -131,9 +131,18 @@ def pair_refused(
 
     given, theirs = refusal.value, getattr(ends[part_of[mate.first]].keys, key, None)
     alike = owner == "second" and theirs is not None and refusal.nearest == Nearest(theirs)
-    if alike and isinstance(given, int | float | str) and not _holds(partial(works, held=[mate]), theirs):
+
+    def stands(first: str) -> None:
+        elsewhere = [m for m in mates if part not in (part_of[m.first], part_of[m.second])]
+        check_fit(first, ends, {name: end.keys for name, end in ends.items()}, elsewhere, part_of)
+
+    if (
+        alike
+        and isinstance(given, int | float | str)
+        and not (_holds(partial(works, held=[mate]), theirs) and _holds(stands, part_of[mate.first]))
+    ):
         # what both have alike may be the first one's to change
-        other = ParameterError(f"first.{key}", theirs, refusal.code, Nearest(given))
+        other = ParameterError(f"first.{key}", theirs, "not_that_of_mate", Nearest(given))
         turned = pair_refused(other, ends, mate, mates, part_of, source, place)
         if turned.nearest is not None:
             return turned

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Literal
 
@@ -10,8 +10,8 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record, replace
 from geometry.gears.planetary.sets import PlanetarySet, Scheme
 
-# by how much teeth are changed for a set that can be assembled
-_NEARBY = 4
+# by how much teeth are changed for a set that can be assembled, and how many of these are tried
+_NEARBY, _TRIED = 4, 10
 
 
 def given_set(
@@ -53,8 +53,10 @@ class Satellites(Record):
     identical: bool = True
     gap: Fraction = Fraction(0)
 
-    def places(self, one: PlanetarySet) -> tuple[Fraction, ...]:
-        """Where they stand, parts of a turn.
+    def places(
+        self, one: PlanetarySet, meshes: Callable[[PlanetarySet], bool] = lambda other: True
+    ) -> tuple[Fraction, ...]:
+        """Where they stand, parts of a turn; ``meshes``: whether other teeth, which are offered, can be made.
 
         Raises
         ------
@@ -74,11 +76,14 @@ class Satellites(Record):
         if alike is None and (self.spacing == "unequal" or not free):
             raise ParameterError("satellites", n, "too_few_places", Nearest(one.places, "at_most"), places=one.places)
         if alike is not None and self.spacing == "equal" and not free and alike != equal:
-            degrees = ", ".join(f"{360 * float(p):.6g}" for p in alike)
-            raise ParameterError(
-                "satellites", n, "satellites_not_assembled", lambda: self._other_number(one),
-                places=one.places, teeth=self._other_teeth(one), spacing=degrees,
-            )  # fmt: skip
+            degrees, teeth = ", ".join(f"{360 * float(p):.6g}" for p in alike), self._other_teeth(one, meshes)
+            code = "satellites_do_not_divide"
+            if teeth:
+                beside = least_angle(alike)
+                room = beside is None or one.fits(beside, self.gap)
+                code = "satellites_not_assembled" if room else "satellites_take_other_teeth"
+            raise ParameterError("satellites", n, code, lambda: self._other_number(one), places=one.places,
+                                 teeth=teeth, spacing=degrees)  # fmt: skip
         return places
 
     def _other_number(self, one: PlanetarySet) -> Nearest:
@@ -86,8 +91,8 @@ class Satellites(Record):
         fitting = [k for k in range(1, one.most_satellites(self.gap) + 1) if one.places % k == 0]
         return Nearest(min(fitting, key=lambda k: (abs(k - self.number), -k)))
 
-    def _other_teeth(self, one: PlanetarySet) -> str:
-        """The teeth nearby, coaxial without shifts, that take so many satellites, by ratio, then by change."""
+    def _other_teeth(self, one: PlanetarySet, meshes: Callable[[PlanetarySet], bool]) -> str:
+        """The teeth nearby, coaxial without shifts, that take so many satellites, by ratio, then by change; or ""."""
         apart = Fraction(1, self.number)
         found = []
         changes = range(-_NEARBY, _NEARBY + 1)
@@ -99,7 +104,8 @@ class Satellites(Record):
                         continue
                     change = sum(abs(a - b) for a, b in zip(other.teeth, one.teeth, strict=True))
                     found.append((abs(other.carried_ratio - one.carried_ratio), change, other))
-        return min(found, key=lambda item: item[:2])[2].name if found else "-"
+        nearby = (other for _, _, other in sorted(found, key=lambda item: item[:2])[:_TRIED])
+        return next((other.name for other in nearby if meshes(other)), "")
 
 
 def _coaxial(one: PlanetarySet, z1: int, z2: int, z2p: int) -> PlanetarySet | None:

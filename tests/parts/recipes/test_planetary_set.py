@@ -275,6 +275,7 @@ def test_ferguson_has_three_different_satellites() -> None:
     [
         ({"teeth": [40, 40, 120]}, "satellites", "satellites_not_assembled"),
         ({"teeth": [24, 24, 72], "satellites": 50}, "satellites", "satellites_collide"),
+        ({"teeth": [667, 667, 2001]}, "teeth", "no_shifts_fit"),
         ({"teeth": [24, 24]}, "teeth", "wheels_of_scheme"),
         ({"teeth": [2, 24, 72]}, "teeth[1]", "not_allowed"),
         ({"teeth": [24, 24, 20]}, "teeth", "ring_not_above_rim"),
@@ -292,6 +293,29 @@ def test_ferguson_has_three_different_satellites() -> None:
 def test_a_refusal_names_the_key_of_the_recipe(keys: dict[str, Any], key: str, code: str) -> None:
     found = refusal(**keys)
     assert (found.key, found.code) == (f"assemblies[1].{key}", code)
+
+
+@pytest.mark.parametrize(
+    ("teeth", "satellites", "code"),
+    [
+        ([40, 40, 120], 3, "satellites_not_assembled"),
+        ([13, 14, 42], 2, "satellites_not_assembled"),
+        ([22, 45, 112], 4, "satellites_take_other_teeth"),
+        ([25, 15, 55], 7, "satellites_take_other_teeth"),
+    ],
+)
+def test_teeth_spacing_and_number_that_are_offered_for_satellites_that_do_not_go_in_are_built(
+    teeth: list[int], satellites: int, code: str
+) -> None:
+    found = refusal(teeth=teeth, satellites=satellites)
+    assert found.code == code
+    assert found.nearest is not None
+    scene(teeth=teeth, satellites=found.nearest.value)
+    scene(teeth=[int(z) for z in str(found.numbers["teeth"]).split("/")], satellites=satellites)
+    if code == "satellites_not_assembled":
+        scene(teeth=teeth, satellites=satellites, spacing="unequal")
+    else:
+        assert refusal(teeth=teeth, satellites=satellites, spacing="unequal").code == "satellites_collide"
 
 
 def distance_of(teeth: int, total: float, beta: float = 0.0) -> float:

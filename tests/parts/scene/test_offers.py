@@ -10,7 +10,9 @@ import copy
 import random
 import re
 import time
+import tomllib
 import zlib
+from importlib import resources
 from typing import Any
 
 import pytest
@@ -160,6 +162,17 @@ def test_an_offer_is_one_that_mates_and_what_is_made_of_the_part_take(
     assert refusal is not None
     assert (refusal.nearest is not None) is offered
     assert judged(raw, refusal) == []
+
+
+def test_a_size_that_two_mates_have_otherwise_is_the_one_to_change() -> None:
+    """The ring's pins, which the disc and the loose pin both have as they were."""
+    path = resources.files("parts.scenes") / "cycloidal_reducer.toml"
+    raw = put(tomllib.loads(path.read_text(encoding="utf-8")), ("parts", "ring", "pin_diameter"), 6.4)
+    refused = refusal_of(raw)
+    assert refused is not None
+    assert refused.key.endswith("parts.ring.pin_diameter")
+    assert refused.nearest is not None
+    assert refusal_of(put(raw, place_of(refused.key), refused.nearest.value)) is None
 
 
 @pytest.mark.parametrize(("name", "part"), [("external", "a"), ("fit_coupon", "gear_1"), ("practicum_pair", "wheel")])
