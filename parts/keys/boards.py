@@ -8,7 +8,7 @@ from typing import Annotated
 from msgspec import Meta, Struct
 
 from parts.base.refusal import SceneError, meant
-from parts.keys.base import mm, part_mm
+from parts.keys.base import mm, part_mm, size
 
 # the tables, and the purpose of exports that lay parts out on them
 PURPOSES_LAID = {"boards": "board", "beds": "plate"}
@@ -67,14 +67,7 @@ class BoardSpec(LaidKeys, kw_only=True):
     )
     feed: (
         Annotated[
-            float,
-            Meta(
-                gt=0,
-                le=10_000,
-                description="speed of the cut, from which its time is computed",
-                examples=[12.0],
-                extra={"unit": "mm/s"},
-            ),
+            float, size("mm/s", "speed of the cut, from which its time is computed", above=0, most=10_000, example=12.0)
         ]
         | None
     ) = None

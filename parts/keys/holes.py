@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Annotated, Literal, Protocol, TypeVar
+from typing import Annotated, ClassVar, Literal, Protocol, TypeVar
 
 from msgspec import Meta, Struct
 from msgspec.structs import replace
@@ -89,28 +89,29 @@ class DoubleFlatBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape",
         return FlatBore(self.diameter, self.across_flats / 2, 2, math.radians(self.angle_deg))
 
 
-class HexagonTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="hexagon"):
+class PolygonTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
+    """Keys of a bore that is a regular polygon."""
+
+    across_flats: AcrossFlats
+    corner_radius: CornerRadius = 0.0
+    angle_deg: Direction = 90.0
+    corners: ClassVar[int]
+
+    def bore(self) -> Bore:
+        """The bore of these sizes."""
+        return PolygonBore(self.corners, self.across_flats, self.corner_radius, math.radians(self.angle_deg))
+
+
+class HexagonTable(PolygonTable, tag="hexagon"):
     """Hexagonal bore."""
 
-    across_flats: AcrossFlats
-    corner_radius: CornerRadius = 0.0
-    angle_deg: Direction = 90.0
-
-    def bore(self) -> Bore:
-        """The bore of these sizes."""
-        return PolygonBore(6, self.across_flats, self.corner_radius, math.radians(self.angle_deg))
+    corners = 6
 
 
-class SquareTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="square"):
+class SquareTable(PolygonTable, tag="square"):
     """Square bore."""
 
-    across_flats: AcrossFlats
-    corner_radius: CornerRadius = 0.0
-    angle_deg: Direction = 90.0
-
-    def bore(self) -> Bore:
-        """The bore of these sizes."""
-        return PolygonBore(4, self.across_flats, self.corner_radius, math.radians(self.angle_deg))
+    corners = 4
 
 
 BoreTable = RoundBoreTable | KeywayTable | FlatBoreTable | DoubleFlatBoreTable | HexagonTable | SquareTable

@@ -7,11 +7,11 @@ from typing import Annotated, Any, Literal
 from msgspec import Meta
 
 from parts.base.refusal import REMOVED, SceneError
-from parts.keys.base import mm
+from parts.keys.base import mm, size
 
 RackStep = Annotated[float, mm("sheet, generating: way of the rack from position to position", least=0.01, most=1000)]
 Intervals = Annotated[int, Meta(ge=2, le=72, description="sheet, cam: parts of each phase on paper; default: 8")]
-CamSpeed = Annotated[float, Meta(gt=0, le=1e6, description="sheet, cam: adds velocities", extra={"unit": "rpm"})]
+CamSpeed = Annotated[float, size("rpm", "sheet, cam: adds velocities", above=0, most=1e6)]
 MateNumber = Annotated[int, Meta(ge=1, description="sheet: the pair that is shown, by number; default: all")]
 # GOST 2.301, 2.302
 PaperName = Literal["A4", "A3", "A2", "A1", "A0"]

@@ -19,7 +19,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.laws.law import AT_REST, REVERSED, Rates
 from geometry.laws.piece import LawPiece
 from parts.base.texts import N_, Message, Text, message
-from parts.keys.base import degrees
+from parts.keys.base import degrees, size
 from parts.pages.page import Sheet, Table
 from parts.pages.terms import TERMS
 
@@ -77,7 +77,7 @@ Cutter = Annotated[
         extra={"unit": "mm"},
     ),
 ]
-Speed = Annotated[float, Meta(gt=0, le=1e6, description="of the cam: adds velocities", extra={"unit": "rpm"})]
+Speed = Annotated[float, size("rpm", "of the cam: adds velocities", above=0, most=1e6)]
 
 
 class Phases(Record):

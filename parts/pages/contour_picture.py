@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
@@ -17,6 +16,7 @@ from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.ring import RoundedRoot
 from geometry.gears.teeth.transverse import normal_angle
 from parts.base.texts import N_, Message, Text, Words, message
+from parts.pages.svg import chain, circle, document, written
 
 _SIZE, _LEFT, _TOP, _BOTTOM, _KEY = 560.0, 60.0, 40.0, 50.0, 430.0
 _GRID = "stroke:#dde2e6;stroke-width:0.7"
@@ -145,33 +145,26 @@ def contour_svg(contour: BlockingContour, marks: dict[str, tuple[float, float]],
     scale = _SIZE / max(box.right - box.left, box.top - box.bottom)
     width, height = (box.right - box.left) * scale, (box.top - box.bottom) * scale
 
-    def at(point: complex) -> str:
-        return f"{_LEFT + (point.real - box.left) * scale:.2f},{_TOP + (box.top - point.imag) * scale:.2f}"
+    def at(point: complex) -> tuple[float, float]:
+        return _LEFT + (point.real - box.left) * scale, _TOP + (box.top - point.imag) * scale
 
-    total = (
-        _LEFT + width + _KEY,
-        max(_TOP + height + _BOTTOM, 19.0 * (len(kinds_shown(contour)) + len(marks) + 6) + _TOP),
-    )
-    lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {total[0]:.0f} {total[1]:.0f}" '
-        f'width="{total[0]:.0f}" height="{total[1]:.0f}">',
-        '<rect width="100%" height="100%" style="fill:#ffffff"/>',
-    ]
-    region = " ".join(f"M {' L '.join(at(p) for p in ring)} Z" for ring in contour.region)
+    lines = []
+    rings = (" L ".join(f"{x:.2f},{y:.2f}" for x, y in map(at, ring)) for ring in contour.region)
+    region = " ".join(f"M {ring} Z" for ring in rings)
     if region:
         lines.append(f'<path d="{region}" style="fill:#e4f2e4;fill-rule:evenodd;stroke:none"/>')
     lines += _axes(contour, scale, width, height)
     for line in contour.lines:
         style = _STYLES[line.name]
         for piece in clipped(line.points, box):
-            points = " ".join(at(p) for p in piece)
-            lines.append(f'<polyline points="{points}" style="fill:none;{_stroke(line, style)}"/>')
+            lines.append(chain(map(at, piece), f"fill:none;{_stroke(line, style)}"))
     lines += _key(contour, marks, _LEFT + width + 20, words)
     for name, (x1, x2) in marks.items():
-        x, y = at(complex(x1, x2)).split(",")
-        lines.append(f'<circle cx="{x}" cy="{y}" r="4" style="fill:#d00060;stroke:#ffffff;stroke-width:1"/>')
-        lines.append(_text(float(x) + 6, float(y) - 5, name.split(":")[0], "#d00060"))
-    return "\n".join([*lines, "</svg>", ""])
+        x, y = at(complex(x1, x2))
+        lines.append(circle(x, y, 4, "fill:#d00060;stroke:#ffffff;stroke-width:1", "g"))
+        lines.append(written(x + 6, y - 5, name.split(":")[0], "#d00060"))
+    told = len(kinds_shown(contour)) + len(marks) + 6
+    return document(_LEFT + width + _KEY, max(_TOP + height + _BOTTOM, 19.0 * told + _TOP), lines)
 
 
 def _stroke(line: ContourLine, style: _Style) -> str:
@@ -196,18 +189,18 @@ def _key(contour: BlockingContour, marks: dict[str, tuple[float, float]], left: 
         lines.append(
             f'<line x1="{left:.1f}" y1="{y:.1f}" x2="{left + 34:.1f}" y2="{y:.1f}" style="{_stroke(line, style)}"/>'
         )
-        lines.append(_text(left + 42, y + 4, line_title(line.name, line.level, words)))
+        lines.append(written(left + 42, y + 4, line_title(line.name, line.level, words)))
         y += 19
     y += 8
     lines.append(f'<rect x="{left:.1f}" y="{y - 8:.1f}" width="34" height="12" style="fill:#e4f2e4;stroke:#a0c0a0"/>')
-    lines.append(_text(left + 42, y + 3, region_text(contour, words)))
+    lines.append(written(left + 42, y + 3, region_text(contour, words)))
     for text in tool_texts(contour.pair, words):
         y += 19
-        lines.append(_text(left, y + 3, text))
+        lines.append(written(left, y + 3, text))
     y += 19
     for name, (x1, x2) in marks.items():
         lines.append(f'<circle cx="{left + 17:.1f}" cy="{y:.1f}" r="4" style="fill:#d00060"/>')
-        lines.append(_text(left + 42, y + 4, f"{name}: {x1:.4f} / {x2:.4f}"))
+        lines.append(written(left + 42, y + 4, f"{name}: {x1:.4f} / {x2:.4f}"))
         y += 19
     return lines
 
@@ -257,22 +250,17 @@ def _axes(contour: BlockingContour, scale: float, width: float, height: float) -
         x = _LEFT + (k * step - box.left) * scale
         heavy = "stroke:#808890;stroke-width:1" if k == 0 else _GRID
         lines.append(f'<line x1="{x:.2f}" y1="{_TOP:g}" x2="{x:.2f}" y2="{_TOP + height:.2f}" style="{heavy}"/>')
-        lines.append(_text(x - 10, _TOP + height + 16, f"{k * step:g}"[:5]))
+        lines.append(written(x - 10, _TOP + height + 16, f"{k * step:g}"[:5]))
     for k in range(math.ceil(box.bottom / step), math.floor(box.top / step) + 1):
         y = _TOP + (box.top - k * step) * scale
         heavy = "stroke:#808890;stroke-width:1" if k == 0 else _GRID
         lines.append(f'<line x1="{_LEFT:g}" y1="{y:.2f}" x2="{_LEFT + width:.2f}" y2="{y:.2f}" style="{heavy}"/>')
-        lines.append(_text(_LEFT - 34, y + 4, f"{k * step:g}"[:5]))
+        lines.append(written(_LEFT - 34, y + 4, f"{k * step:g}"[:5]))
     teeth = contour.pair.teeth
-    lines.append(_text(_LEFT, 22, f"z1 = {teeth[0]}, z2 = {teeth[1]}", size=15))
-    lines.append(_text(_LEFT + width - 20, _TOP + height + 34, "x1", size=14))
-    lines.append(_text(_LEFT - 34, _TOP - 12, "x2", size=14))
+    lines.append(written(_LEFT, 22, f"z1 = {teeth[0]}, z2 = {teeth[1]}", size=15))
+    lines.append(written(_LEFT + width - 20, _TOP + height + 34, "x1", size=14))
+    lines.append(written(_LEFT - 34, _TOP - 12, "x2", size=14))
     return lines
-
-
-def _text(x: float, y: float, text: str, colour: str = "#202830", size: int = 12) -> str:
-    style = f"font-family:sans-serif;font-size:{size}px;fill:{colour}"
-    return f'<text x="{x:.2f}" y="{y:.2f}" style="{style}">{html.escape(text)}</text>'
 
 
 def contour_text(contour: BlockingContour, marks: dict[str, tuple[float, float]], columns: int = 61) -> str:

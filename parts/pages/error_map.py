@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import html
-
 from geometry.base.record import Record
 from geometry.curves.curve import Complex
 from parts.base.texts import Text, Words
+from parts.pages.svg import chain, circle, document, written
 
 _SIZE, _EDGE, _KEY = 560.0, 30.0, 250.0
 _COLOURS = ("#1f4e8c", "#c2410c")
@@ -33,30 +32,20 @@ class ErrorMap(Record):
         centre = _EDGE + _SIZE / 2, _EDGE + _SIZE / 2 + 20
         low, high = min(self.values), max(self.values)
 
-        def at(point: complex) -> str:
-            return f"{centre[0] + point.real * scale:.2f},{centre[1] - point.imag * scale:.2f}"
+        def at(point: complex) -> tuple[float, float]:
+            return centre[0] + point.real * scale, centre[1] - point.imag * scale
 
-        width, height = _SIZE + 2 * _EDGE + _KEY, _SIZE + 2 * _EDGE + 20
-        lines = [
-            f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" '
-            f'width="{width:.0f}" height="{height:.0f}">',
-            '<rect width="100%" height="100%" style="fill:#ffffff"/>',
-            _text(_EDGE, 26, words.say(self.title), 15),
-        ]
+        lines = [written(_EDGE, 26, words.say(self.title), size=15)]
         for outer, value in reversed(list(zip(self.radii[1:], self.values, strict=True))):
-            colour = _shade(value, low, high)
-            x, y = centre
-            lines.append(f'<circle cx="{x:.2f}" cy="{y:.2f}" r="{outer * scale:.2f}" style="fill:{colour}"/>')
+            lines.append(circle(*centre, outer * scale, f"fill:{_shade(value, low, high)}"))
         if self.radii[0]:
-            r = self.radii[0] * scale
-            lines.append(f'<circle cx="{centre[0]:.2f}" cy="{centre[1]:.2f}" r="{r:.2f}" style="fill:#ffffff"/>')
+            lines.append(circle(*centre, self.radii[0] * scale, "fill:#ffffff"))
         for place, both in self.reached:
             for corners, colour in zip(both, _COLOURS, strict=True):
-                points = " ".join(at(place + self.magnified * complex(c)) for c in corners)
                 style = f"fill:{colour};fill-opacity:0.25;stroke:{colour};stroke-width:1"
-                lines.append(f'<polygon points="{points}" style="{style}"/>')
+                lines.append(chain((at(place + self.magnified * complex(c)) for c in corners), style, closed=True))
         lines += self._key(words, low, high)
-        return "\n".join([*lines, "</svg>", ""])
+        return document(_SIZE + 2 * _EDGE + _KEY, _SIZE + 2 * _EDGE + 20, lines)
 
     def _key(self, words: Words, low: float, high: float) -> list[str]:
         """Colours and their values, the elbows, how long the reach is."""
@@ -67,18 +56,18 @@ class ErrorMap(Record):
             lines.append(
                 f'<rect x="{left:.1f}" y="{y:.1f}" width="28" height="22" style="fill:{_shade(value, low, high)}"/>'
             )
-            lines.append(_text(left + 36, y + 15, f"{value:.4g} {words.text(self.unit)}"))
+            lines.append(written(left + 36, y + 15, f"{value:.4g} {words.text(self.unit)}"))
         y = top + 22 * 9 + 24
         for name, colour in zip(self.elbows, _COLOURS, strict=True):
             if self.reached:
                 style = f"fill:{colour};fill-opacity:0.25;stroke:{colour}"
                 lines.append(f'<rect x="{left:.1f}" y="{y - 11:.1f}" width="28" height="13" style="{style}"/>')
-                lines.append(_text(left + 36, y, words.say(name)))
+                lines.append(written(left + 36, y, words.say(name)))
                 y += 22
         if self.reached:
-            lines.append(_text(left, y, f"{self.magnified:g} : 1"))
+            lines.append(written(left, y, f"{self.magnified:g} : 1"))
             y += 22
-        lines.append(_text(left, y, f"r = {self.radii[0]:g} … {self.radii[-1]:g} {words.text('mm')}"))
+        lines.append(written(left, y, f"r = {self.radii[0]:g} … {self.radii[-1]:g} {words.text('mm')}"))
         return lines
 
 
@@ -89,8 +78,3 @@ def _shade(value: float, low: float, high: float) -> str:
     first, second, rest = (stops[0], stops[1], 2 * share) if share < 0.5 else (stops[1], stops[2], 2 * share - 1)
     mixed = (round(a + (b - a) * rest) for a, b in zip(first, second, strict=True))
     return "#" + "".join(f"{c:02x}" for c in mixed)
-
-
-def _text(x: float, y: float, text: str, size: int = 12) -> str:
-    style = f"font-family:sans-serif;font-size:{size}px;fill:#202830"
-    return f'<text x="{x:.2f}" y="{y:.2f}" style="{style}">{html.escape(text)}</text>'

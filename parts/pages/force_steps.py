@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Annotated, Protocol
 
-from msgspec import Meta, Struct
+from msgspec import Struct
 
 from geometry.base.errors import ParameterError
 from geometry.gears.pairs.external import ExternalPair
@@ -13,6 +13,7 @@ from geometry.gears.pairs.internal import InternalPair
 from geometry.gears.pairs.rack import RackPair
 from geometry.gears.pairs.tooth_forces import tooth_forces
 from parts.base.refusal import REMOVED
+from parts.keys.base import size
 from parts.pages.contact_steps import Helical
 from parts.pages.page import Sheet
 
@@ -21,9 +22,9 @@ _TORQUE = "torque on the first gear, which drives: adds the forces between the t
 _POWER = "power that the first gear takes in, by its speed: in place of its torque"
 
 
-Speed = Annotated[float, Meta(gt=0, le=1e6, description=_SPEED, extra={"unit": "rpm"})] | None
-Torque = Annotated[float, Meta(gt=0, le=1e9, description=_TORQUE, extra={"unit": "N*m"})] | None
-Power = Annotated[float, Meta(gt=0, le=1e9, description=_POWER, extra={"unit": "W"})] | None
+Speed = Annotated[float, size("rpm", _SPEED, above=0, most=1e6)] | None
+Torque = Annotated[float, size("N*m", _TORQUE, above=0, most=1e9)] | None
+Power = Annotated[float, size("W", _POWER, above=0, most=1e9)] | None
 
 
 class DrivenKeys(Struct, kw_only=True):

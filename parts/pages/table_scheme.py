@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import html
 import math
 from collections.abc import Iterator
 
 from geometry.base.record import Record
 from geometry.curves.curve import Complex
 from parts.base.texts import N_, Text, Words
+from parts.pages.svg import chain, circle, document, written
 
 _SIZE, _EDGE, _KEY = 560.0, 30.0, 330.0
 _PITCH, _PATH = "#9fb0c0", "#c2185b"
@@ -44,50 +44,35 @@ class TableScheme(Record):
         for fill, stroke, text in told:
             style = f"fill:{fill};stroke:{stroke};stroke-width:2"
             lines.append(f'<rect x="{left:.1f}" y="{y - 11:.1f}" width="26" height="12" style="{style}"/>')
-            lines.append(_text(left + 34, y, words.say(text)))
+            lines.append(written(left + 34, y, words.say(text)))
             y += 24
-        width, height = f"{_SIZE + 2 * _EDGE + _KEY:.0f}", f"{_SIZE + 2 * _EDGE:.0f}"
-        box = f'viewBox="0 0 {width} {height}" width="{width}" height="{height}"'
-        head = f'<svg xmlns="http://www.w3.org/2000/svg" {box}>'
-        return "\n".join([head, '<rect width="100%" height="100%" style="fill:#ffffff"/>', *lines, "</svg>", ""])
+        return document(_SIZE + 2 * _EDGE + _KEY, _SIZE + 2 * _EDGE, lines)
 
     def _drawn(self, scale: float, middle: float) -> Iterator[str]:
         def at(point: complex) -> tuple[float, float]:
             return middle + point.real * scale, middle - point.imag * scale
 
-        def circle(centre: complex, radius: float, style: str) -> str:
-            x, y = at(centre)
-            return f'<circle cx="{x:.2f}" cy="{y:.2f}" r="{radius * scale:.2f}" style="{style}"/>'
-
-        yield circle(0j, self.reach[1], "fill:#eef4ea;stroke:#7a9a6a;stroke-width:1.5")
+        yield circle(middle, middle, self.reach[1] * scale, "fill:#eef4ea;stroke:#7a9a6a;stroke-width:1.5")
         if self.reach[0]:
-            yield circle(0j, self.reach[0], "fill:#ffffff;stroke:#7a9a6a;stroke-width:1.5")
+            yield circle(middle, middle, self.reach[0] * scale, "fill:#ffffff;stroke:#7a9a6a;stroke-width:1.5")
         pitch = f"fill:none;stroke:{_PITCH};stroke-width:1.2;stroke-dasharray:8 3 2 3"
-        yield circle(0j, self.pitch[0], pitch)
+        yield circle(middle, middle, self.pitch[0] * scale, pitch)
         for axis in (1 + 0j, 1j):
-            ends = " ".join(f"{x:.2f},{y:.2f}" for x, y in (at(k * axis * 1.02 * self.pitch[0]) for k in (-1, 1)))
-            yield f'<polyline points="{ends}" style="stroke:#c8ccd0;stroke-width:0.8"/>'
+            yield chain((at(k * axis * 1.02 * self.pitch[0]) for k in (-1, 1)), "stroke:#c8ccd0;stroke-width:0.8")
         if self.path is not None:
-            points = " ".join(f"{x:.2f},{y:.2f}" for x, y in map(at, map(complex, self.path)))
-            yield f'<polyline points="{points}" style="fill:none;stroke:{_PATH};stroke-width:2"/>'
+            yield chain(map(at, map(complex, self.path)), f"fill:none;stroke:{_PATH};stroke-width:2")
         for number, (second, third) in enumerate(self.arms):
             colour = _COLOURS[0 if self.path is not None else number]
-            yield circle(second, self.pitch[1], pitch)
-            points = " ".join(f"{x:.2f},{y:.2f}" for x, y in map(at, (0j, second, third)))
-            yield f'<polyline points="{points}" style="fill:none;stroke:{colour};stroke-width:3"/>'
+            yield circle(*at(second), self.pitch[1] * scale, pitch)
+            yield chain(map(at, (0j, second, third)), f"fill:none;stroke:{colour};stroke-width:3")
             for point, name in ((0j, "O1"), (second, "O2"), (third, "O3")):
                 x, y = at(point)
-                yield f'<circle cx="{x:.2f}" cy="{y:.2f}" r="4" style="fill:#ffffff;stroke:{colour};stroke-width:2"/>'
+                yield circle(x, y, 4, f"fill:#ffffff;stroke:{colour};stroke-width:2", "g")
                 if number == 0 or name == "O2":
-                    yield _text(x + 7, y - 6, name)
+                    yield written(x + 7, y - 6, name)
 
 
 def scheme(arms: tuple[float, float], ratio: float, joints: tuple[tuple[complex, complex], ...]) -> TableScheme:
     """The scheme without a path: of the arms L1, L2 (mm) and what the ring has more teeth than the pinion."""
     pinion = arms[0] / (ratio - 1)
     return TableScheme((abs(arms[0] - arms[1]), math.fsum(arms)), (pinion * ratio, pinion), joints)
-
-
-def _text(x: float, y: float, text: str) -> str:
-    style = "font-family:sans-serif;font-size:12px;fill:#202830"
-    return f'<text x="{x:.2f}" y="{y:.2f}" style="{style}">{html.escape(text)}</text>'

@@ -12,7 +12,7 @@ from geometry.base.errors import ParameterError
 from geometry.kinematics.levers import Levers, Rods, Slider, Stone
 from parts.base.refusal import REMOVED
 from parts.base.schema import described_key
-from parts.keys.base import degrees, mm
+from parts.keys.base import degrees, mm, size
 
 _MOST = 1e5
 _CODE = "last four digits of a record-book number: chooses assignment and rows"
@@ -54,15 +54,9 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     second: Annotated[Literal["slider", "rocker", "none"], Meta(description="what the lever drives")] = "none"
     crank_length: Annotated[float, _length("crank O1A")] | None = None
     start_angle_deg: Annotated[float, degrees("angle of the crank from +x", least=-36_000, most=36_000)] = 0.0
-    speed: Annotated[
-        float, Meta(gt=0, le=1e6, description="angular velocity of the crank", extra={"unit": "rad/s"})
-    ] = 1.0
-    speed_rpm: (
-        Annotated[float, Meta(gt=0, le=1e7, description="the same in place of speed", extra={"unit": "rpm"})] | None
-    ) = None
-    acceleration: Annotated[
-        float, Meta(ge=-1e9, le=1e9, description="angular acceleration of the crank", extra={"unit": "rad/s2"})
-    ] = 0.0
+    speed: Annotated[float, size("rad/s", "angular velocity of the crank", above=0, most=1e6)] = 1.0
+    speed_rpm: Annotated[float, size("rpm", "the same in place of speed", above=0, most=1e7)] | None = None
+    acceleration: Annotated[float, size("rad/s2", "angular acceleration of the crank", least=-1e9, most=1e9)] = 0.0
     frame_length: Annotated[float, _length("frame O1O3")] | None = None
     frame_angle_deg: Annotated[float, degrees("direction from O1 to O3", least=-360, most=360)] = 0.0
     coupler_length: Annotated[float, _length("rod AB")] | None = None
@@ -85,12 +79,10 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     inertias: Annotated[dict[str, _Inertia], Meta(description=_INERTIAS)] | None = None
     centres: Annotated[dict[str, _Place], Meta(description=_CENTRES)] | None = None
     centre_offsets: Annotated[dict[str, _Place], Meta(description=_OFFSETS)] | None = None
-    gravity: Annotated[
-        float, Meta(ge=0, le=1e3, description="0 where the mechanism lies flat", extra={"unit": "m/s2"})
-    ] = 9.81
+    gravity: Annotated[float, size("m/s2", "0 where the mechanism lies flat", least=0, most=1e3)] = 9.81
     gravity_angle_deg: Annotated[float, degrees("direction of gravity", least=-360, most=360)] = -90.0
-    resistance: Annotated[float, Meta(gt=0, le=1e9, description=_FORCE, extra={"unit": "N"})] | None = None
-    resisting_moment: Annotated[float, Meta(gt=0, le=1e9, description=_MOMENT, extra={"unit": "N*m"})] | None = None
+    resistance: Annotated[float, size("N", _FORCE, above=0, most=1e9)] | None = None
+    resisting_moment: Annotated[float, size("N*m", _MOMENT, above=0, most=1e9)] | None = None
     resisted: Annotated[Literal["forward", "backward", "both"], Meta(description=_WAYS)] = "both"
     drive_radius: Annotated[float, mm(_TOOTHED, above=0, most=_MOST)] | None = None
     drive_pressure_angle_deg: Annotated[float, degrees("working pressure angle of that wheel", least=0, most=60)] = 20.0

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import cmath
-import html
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
@@ -15,6 +14,7 @@ from geometry.curves.curve import Complex, Real
 from parts.base.texts import N_, Text, Words
 from parts.pages.beside import Name, beside_line, beside_point, settled
 from parts.pages.page import Table, table_of, unit_text
+from parts.pages.svg import INK, chain, circle, document, written
 
 # a panel and what stays free about it, px
 _SIDE, _EDGE, _HEAD = 420.0, 34.0, 26.0
@@ -113,11 +113,8 @@ class LeverPicture(Record, eq=False):
         for number, (title, drawn) in enumerate(panels):
             x, y = number % 2 * step + _EDGE, number // 2 * (step + _HEAD) + _EDGE + _HEAD
             lines.append(f'<g transform="translate({x:.1f} {y:.1f})">')
-            lines += [_text(0, -14, words.say(title), "#202830"), *drawn, "</g>"]
-        width, height = 2 * step, (len(panels) + 1) // 2 * (step + _HEAD)
-        box = f'viewBox="0 0 {width:.0f} {height:.0f}" width="{width:.0f}" height="{height:.0f}"'
-        head = f'<svg xmlns="http://www.w3.org/2000/svg" {box}>'
-        return "\n".join([head, '<rect width="100%" height="100%" style="fill:#ffffff"/>', *lines, "</svg>", ""])
+            lines += [written(0, -14, words.say(title), INK, 13, "start"), *drawn, "</g>"]
+        return document(2 * step, (len(panels) + 1) // 2 * (step + _HEAD), lines)
 
     def _scheme(self) -> Iterator[str]:
         known = {**self.fixed, **self.points}
@@ -136,13 +133,13 @@ class LeverPicture(Record, eq=False):
         names = []
         for name, at in known.items():
             x, y = view.at(at)
-            fill = "#202830" if name in self.fixed else "#ffffff"
-            yield f'<circle cx="{x:.2f}" cy="{y:.2f}" r="4" style="fill:{fill};stroke:{_LINK};stroke-width:2"/>'
+            fill = INK if name in self.fixed else "#ffffff"
+            yield circle(x, y, 4, f"fill:{fill};stroke:{_LINK};stroke-width:2", "g")
             radius = 10.0 if name in self.blocks else 5.0
             # no other name stands on a joint
             lines += [(complex(x - 5, y), complex(x + 5, y)), (complex(x, y - 5), complex(x, y + 5))]
             names.append(beside_point(name, complex(x, y), radius))
-        yield from _named(names, lines, ("#202830",))
+        yield from _named(names, lines, (INK,))
         for name, way in self.blocks.items():
             x, y = view.at(known[name])
             turn = -math.degrees(cmath.phase(way))
@@ -164,11 +161,11 @@ class LeverPicture(Record, eq=False):
             zero = top + high / (high - low) * tall
             axis = f"stroke:{_AXIS};stroke-width:1"
             yield f'<line x1="0" y1="{zero:.2f}" x2="{_SIDE:.0f}" y2="{zero:.2f}" style="{axis}"/>'
-            points = " ".join(f"{a:.2f},{b:.2f}" for a, b in zip(x[::_EVERY], y[::_EVERY], strict=True))
-            yield f'<polyline points="{points}" style="fill:none;stroke:{_COLOURS[number]};stroke-width:1.6"/>'
+            points = zip(x[::_EVERY], y[::_EVERY], strict=True)
+            yield chain(points, f"fill:none;stroke:{_COLOURS[number]};stroke-width:1.6")
             ends = " … ".join(words.decimal(f"{value:.4g}") for value in (low, high))
             shown = f"{name}, {unit_text(unit, words)}  {ends}"
-            yield _text(0, top - 5, shown, _COLOURS[number])
+            yield written(0, top - 5, shown, _COLOURS[number], 13, "start")
 
 
 def _together(angle: Real, curves: Sequence[tuple[str, Real]], words: Words) -> Iterator[str]:
@@ -182,14 +179,14 @@ def _together(angle: Real, curves: Sequence[tuple[str, Real]], words: Words) -> 
     yield f'<line x1="0" y1="{zero:.2f}" x2="{_SIDE:.0f}" y2="{zero:.2f}" style="{axis}"/>'
     for number, (name, values) in enumerate(curves):
         y = top + (high - values) / (high - low) * tall
-        points = " ".join(f"{a:.2f},{b:.2f}" for a, b in zip(x[::_EVERY], y[::_EVERY], strict=True))
-        yield f'<polyline points="{points}" style="fill:none;stroke:{_COLOURS[number]};stroke-width:1.6"/>'
+        points = zip(x[::_EVERY], y[::_EVERY], strict=True)
+        yield chain(points, f"fill:none;stroke:{_COLOURS[number]};stroke-width:1.6")
         # what rounding leaves of 0 is 0
         told = (
             value if abs(value) > 1e-12 * (high - low) else 0.0 for value in map(float, (values.min(), values.max()))
         )
-        ends = (words.decimal(f"{value:.4g}") for value in told)
-        yield _text(0, 12 + 18 * number, f"{name}  {' … '.join(ends)}", _COLOURS[number])
+        ends = " … ".join(words.decimal(f"{value:.4g}") for value in told)
+        yield written(0, 12 + 18 * number, f"{name}  {ends}", _COLOURS[number], 13, "start")
 
 
 class _View:
@@ -207,8 +204,8 @@ class _View:
 
     def line(self, points: Complex, colour: str, width: float) -> str:
         """A chain of points."""
-        told = " ".join(f"{x:.2f},{y:.2f}" for x, y in (self.at(complex(p)) for p in points))
-        return f'<polyline points="{told}" style="fill:none;stroke:{colour};stroke-width:{width:g}"/>'
+        style = f"fill:none;stroke:{colour};stroke-width:{width:g}"
+        return chain((self.at(complex(p)) for p in points), style)
 
 
 def _plan(plan: Plan) -> Iterator[str]:
@@ -224,14 +221,13 @@ def _plan(plan: Plan) -> Iterator[str]:
             # an arrow of 9 px at its end
             dx, dy = (x1 - x0) / long, (y1 - y0) / long
             tip = [(x1, y1), (x1 - 9 * dx + 3 * dy, y1 - 9 * dy - 3 * dx), (x1 - 9 * dx - 3 * dy, y1 - 9 * dy + 3 * dx)]
-            told = " ".join(f"{x:.2f},{y:.2f}" for x, y in tip)
-            yield f'<polygon points="{told}" style="fill:{colour}"/>'
+            yield chain(tip, f"fill:{colour}", closed=True)
             names.append(beside_line(vector.name, complex(x0, y0), complex(x1, y1)))
             colours.append(colour)
     lines = [line for v in plan.vectors for line in _seen(view, np.array([v.start, v.end]))]
     yield from _named(names, lines, colours)
     x, y = view.at(0j)
-    yield f'<circle cx="{x:.2f}" cy="{y:.2f}" r="3.5" style="fill:#202830"/>'
+    yield circle(x, y, 3.5, f"fill:{INK}", "g")
 
 
 def _seen(view: _View, points: Complex) -> list[tuple[complex, complex]]:
@@ -244,9 +240,4 @@ def _named(names: Sequence[Name], lines: Sequence[tuple[complex, complex]], colo
     """Names where they have room; the colours begin anew after the last."""
     for number, (name, at) in enumerate(zip(names, settled(names, lines, _FIELD), strict=True)):
         # the foot of its letters lies 4 px below the middle
-        yield _text(at.real, at.imag + 4, name.text, colours[number % len(colours)], "middle")
-
-
-def _text(x: float, y: float, text: str, colour: str, anchor: str = "start") -> str:
-    style = f"font-family:sans-serif;font-size:13px;text-anchor:{anchor};fill:{colour}"
-    return f'<text x="{x:.2f}" y="{y:.2f}" style="{style}">{html.escape(text)}</text>'
+        yield written(at.real, at.imag + 4, name.text, colours[number % len(colours)], 13, "middle")
