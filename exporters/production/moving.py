@@ -36,7 +36,13 @@ def staging_folder(folder: Path) -> Iterator[Path]:
             done.enter_context(_locked(staging))
             done.callback(_remove, staging)
             done.callback(_settle, folder)
-        yield staging
+        try:
+            yield staging
+        except OSError as error:
+            # a disk that is full says so where something is written, not where a file is opened
+            if error.filename is None and error.strerror:
+                error.filename = str(folder)
+            raise
 
 
 @contextmanager

@@ -36,7 +36,12 @@ def text_of(raw: bytes) -> str:
     UnicodeDecodeError
         It is neither.
     """
-    return raw.decode("utf-16" if raw[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE) else "utf-8-sig")
+    if raw[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
+        return raw.decode("utf-16")
+    if (zero := raw.find(b"\0")) >= 0:
+        # no text of a scene has one, every other byte of UTF-16 is
+        raise UnicodeDecodeError("utf-8", raw, zero, zero + 1, "no text")
+    return raw.decode("utf-8-sig")
 
 
 def tables_of(raw: bytes) -> dict[str, Any]:
