@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -167,6 +167,13 @@ def fit_spline(
         raise ParameterError("tolerance", tolerance, "not_above_zero")
     if like is not None and (found := _alike(curve, like, tolerance)) is not None:
         return found
+    return _fit(curve, tolerance, degree, continuity, most)
+
+
+# sheets, drawings and their languages show the same curves
+@lru_cache(maxsize=256)
+def _fit(curve: Curve, tolerance: float, degree: int, continuity: int, most: int) -> SplineFit:
+    """``fit_spline`` without another fit."""
     parameter, draft = _first_parameter(curve, degree, continuity, _AIM * tolerance)
     spans = max(1, math.floor(_PILOT_SPANS * _CAUTION * _excess(draft, tolerance)))
     spans = spans if spans > _FEW_SPANS else 1
@@ -180,6 +187,7 @@ def fit_spline(
             draft = _rounded(draft, tolerance)
             error, bound = _bound(curve, draft)
             if error <= tolerance:
+                draft.poles.flags.writeable = False
                 return SplineFit(draft.spline, error, bound, spans, draft)
             # the samples have missed a peak by so much: more rounds once, then more spans
             goal = tolerance * max(draft.error / error, _LEAST_GOAL)
