@@ -179,22 +179,6 @@ def test_a_scene_of_utf16_without_a_mark_is_told_how_to_be_saved(
     assert "save it as UTF-8" in capsys.readouterr().err
 
 
-def test_a_disk_that_is_full_is_told_with_the_place(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A limit on the size of files stands for it: like a full disk it stops a write, which knows no path."""
-    import resource
-
-    scene = write_scene(tmp_path / "s.toml", {"g": GEAR}, [{"format": "svg"}])
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (500, before[1]))
-    try:
-        assert run("build", scene, "--out", tmp_path / "o") == 2
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, before)
-    told = capsys.readouterr().err
-    assert str(tmp_path / "o") in told
-    assert "--out" in told
-
-
 def test_a_pipe_gets_utf8_whatever_the_locale(tmp_path: Path) -> None:
     """A terminal may lack a letter, a file does not."""
     plain = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONIOENCODING": "cp1252", "PYTHONCOERCECLOCALE": "0"}

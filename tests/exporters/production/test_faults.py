@@ -148,7 +148,7 @@ def test_a_file_that_does_not_fit_on_the_disk(tmp_path: Path, form: str) -> None
     done = subprocess.run([sys.executable, "-m", "exporters", "build", str(scene), "--out", "o"], cwd=tmp_path,
                           preexec_fn=small_disk, text=True, capture_output=True, timeout=60, check=False)  # fmt: skip
     assert done.returncode == 2
-    assert done.stderr.startswith("higherpair: File too large")
+    assert done.stderr.startswith("higherpair: o/s: File too large")
     assert done.stderr.count("\n") == 1
     assert {p.name for p in tmp_path.iterdir()} == {"s.toml"}
 
