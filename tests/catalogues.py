@@ -27,10 +27,12 @@ from msgspec.structs import fields
 import parts
 from exporters.command.new import comments_of
 from geometry.base.record import Draft, Record
+from geometry.laws.named import NAMED_LAWS
 from parts.base.registry import KINDS
 from parts.base.schema import phrase_of
 from parts.base.texts import DOMAIN, LOCALE
 from parts.mates.registry import MATES
+from parts.pages.cam_steps import law_text
 from parts.pages.terms import TERMS
 from parts.recipes.registry import RECIPES
 from parts.scene.files import SCENE_FOLDER
@@ -77,6 +79,7 @@ def _kept_in_data() -> Iterator[str]:
     """Kinds, terms, keys and tables of scenes and calculations: they need no mark."""
     yield from (*KINDS.phrases.values(), *MATES.phrases.values(), *RECIPES.phrases.values())
     yield from (term.name for term in TERMS.values())
+    yield from (law_text(law().name).msgid for law in NAMED_LAWS.values())
     for file in sorted(file for name in _SPEAKING for file in SCENE_FOLDER.glob(f"{name}.toml")):
         yield from comments_of(file.read_text("utf-8"))
     for kind in _structs():

@@ -49,41 +49,39 @@ class ConstantTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="
     ordinate: Ordinate
 
 
-class LinearTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="linear"):
+class _EndsTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
+    """Keys of a segment between two ordinates."""
+
+    width: Width
+    first: Ordinate
+    last: Ordinate
+
+
+class _PeakTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
+    """Keys of a segment with one peak."""
+
+    width: Width
+    peak: Ordinate
+
+
+class LinearTable(_EndsTable, tag="linear"):
     """Sloping segment."""
 
-    width: Width
-    first: Ordinate
-    last: Ordinate
 
-
-class HalfSineTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="half_sine"):
+class HalfSineTable(_PeakTable, tag="half_sine"):
     """0, the peak, 0."""
 
-    width: Width
-    peak: Ordinate
 
-
-class QuarterSineTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="quarter_sine"):
+class QuarterSineTable(_PeakTable, tag="quarter_sine"):
     """0 to the peak, where it is horizontal."""
 
-    width: Width
-    peak: Ordinate
 
-
-class QuarterCosineTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="quarter_cosine"):
+class QuarterCosineTable(_PeakTable, tag="quarter_cosine"):
     """Horizontal at the peak, down to 0."""
 
-    width: Width
-    peak: Ordinate
 
-
-class HalfCosineTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="half_cosine"):
+class HalfCosineTable(_EndsTable, tag="half_cosine"):
     """Horizontal at both ends."""
-
-    width: Width
-    first: Ordinate
-    last: Ordinate
 
 
 class TrapezoidTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="trapezoid"):
@@ -278,12 +276,12 @@ def _made(kind: str, law: LawTable) -> Law:
     from geometry.laws.splines import bspline_law
 
     if kind == "diagram":
-        return diagram.law_of_diagram("own diagram", _drawn(law.diagram), balance=law.balance)
+        return diagram.law_of_diagram(N_("own diagram"), _drawn(law.diagram), balance=law.balance)
     if kind == "first_half":
         if law.second_half is None:
             raise ParameterError("second_half", None, "second_half_missing")
         halves = _drawn(law.first_half), _drawn(law.second_half)
-        return diagram.law_of_halves("own halves", *halves, share=law.first_share)
+        return diagram.law_of_halves(N_("own halves"), *halves, share=law.first_share)
     if kind == "conditions":
         return polynomial_law(law.conditions or [])
     if kind == "poles":

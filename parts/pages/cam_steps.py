@@ -20,29 +20,14 @@ from geometry.laws.law import AT_REST, REVERSED, Rates
 from geometry.laws.piece import LawPiece
 from parts.base.texts import N_, Message, Text, message
 from parts.keys.base import degrees, size
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Head, Sheet, Table, table_of
 from parts.pages.terms import TERMS
 
 TOPIC = "cam"
 LESSON_4, LESSON_5 = "practicum, lesson 4", "practicum, lesson 5"
-# what the laws of motion are called
+# names of laws that are none of ``NAMED_LAWS``
 _LAWS = (
-    N_("constant velocity"),
-    N_("constant acceleration"),
-    N_("linearly decreasing acceleration"),
-    N_("cosine acceleration"),
-    N_("sine acceleration"),
-    N_("trapezoidal acceleration"),
-    N_("triangular acceleration"),
-    N_("modified trapezoid"),
-    N_("modified sine"),
-    N_("modified sine CV {degree}"),
     N_("sine-constant-cosine acceleration"),
-    N_("3-4-5 polynomial"),
-    N_("4-5-6-7 polynomial"),
-    N_("Gutman 1-3"),
-    N_("own diagram"),
-    N_("own halves"),
     N_("polynomial of degree {degree}"),
     N_("B-spline of degree {degree}"),
 )
@@ -242,7 +227,7 @@ def with_left_sides(at: Real, jumps: Sequence[float]) -> tuple[Real, Real]:
 
 def motion_columns(
     values: Sequence[Real], argument: Real, *, swings: bool, slides: bool = False, speed: float | None = None
-) -> tuple[list[Real], list[tuple[str, str]]]:
+) -> tuple[list[Real], list[Head]]:
     """The columns phi, S, S', S'' and their heads; ``argument`` in degrees, or mm of a plate that ``slides``.
 
     A ``speed``, rad/s (mm/s of a plate), adds the follower's velocity and acceleration.
@@ -262,12 +247,6 @@ def motion_columns(
 def angular_speed(speed_rpm: float | None) -> float | None:
     """rad/s of a cam whose speed is given."""
     return None if speed_rpm is None else math.pi * speed_rpm / 30
-
-
-def table_of(name: str, title: Text, columns: Sequence[Real], heads: Sequence[tuple[str, str]]) -> Table:
-    """Columns as the rows of a table."""
-    rows = tuple(tuple(float(x) for x in row) for row in zip(*columns, strict=True))
-    return Table(name, title, tuple(heads), rows)
 
 
 def positions(
@@ -311,7 +290,7 @@ def positions(
     title = message("Positions: cam angle, motion, pressure angle, radius of curvature, profile")
     if whose:
         title = message("{title} ({whose})", title=title, whose=message(whose))
-    return replace(table_of(name, title, columns, heads), shown=shown)
+    return replace(table_of(name, title, heads, zip(*columns, strict=True)), shown=shown)
 
 
 def _coordinates(points: Complex) -> list[Real]:

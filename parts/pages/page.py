@@ -18,30 +18,6 @@ from parts.pages.terms import TERMS
 
 Value = float | int | str
 _SUPERSCRIPTS = {"2": "²", "3": "³", "4": "⁴"}
-# decimals shown for each unit; json has all of them
-_DECIMALS = {
-    "mm": 5,
-    "deg": 5,
-    "": 6,
-    "%": 3,
-    "mm/rad": 5,
-    "mm/rad2": 5,
-    "rpm": 3,
-    "rad/s": 5,
-    "s": 6,
-    "mm/s": 3,
-    "m/s": 5,
-    "m/s2": 4,
-    "rad/s2": 3,
-    "1/mm": 6,
-    "N": 3,
-    "N*m": 4,
-    "MPa": 4,
-    "W": 4,
-    "J": 4,
-    "kg": 4,
-    "kg*m2": 6,
-}
 
 
 class Picture(Protocol):
@@ -251,7 +227,7 @@ def number(value: Value, unit: str, *, enclosed: bool = False) -> str:
     elif not math.isfinite(value):
         text = "∞" if value > 0 else "-∞"
     else:
-        decimals = _DECIMALS[unit]
+        _, decimals = _UNITS[unit]
         text = shortest(value, decimals)
         # a small number keeps its leading digits: involutes, clearances
         if 1e-12 < abs(value) < (0.1 if not unit else 10.0 ** (2 - decimals)):
@@ -289,35 +265,35 @@ def pretty(text: str, words: Words) -> str:
     return re.sub(r"\b(arctan|tan)\b", lambda m: words.term("function", m[1]), text)
 
 
-# as printed; what stands behind the sign is a power
-_UNITS = {
-    "": "",
-    "%": "%",
-    "deg": "°",
-    "mm": NC_("unit", "mm"),
-    "rad": NC_("unit", "rad"),
-    "rpm": NC_("unit", "rpm"),
-    "s": NC_("unit", "s"),
-    "s/mm": NC_("unit", "s/mm"),
-    "1/mm": NC_("unit", "1/mm"),
-    "mm/rad": NC_("unit", "mm/rad"),
-    "mm/rad2": NC_("unit", "mm/rad²"),
-    "deg/rad": NC_("unit", "°/rad"),
-    "deg/rad2": NC_("unit", "°/rad²"),
-    "deg/mm": NC_("unit", "°/mm"),
-    "deg/mm2": NC_("unit", "°/mm²"),
-    "rad/s": NC_("unit", "rad/s"),
-    "rad/s2": NC_("unit", "rad/s²"),
-    "mm/s": NC_("unit", "mm/s"),
-    "m/s": NC_("unit", "m/s"),
-    "m/s2": NC_("unit", "m/s²"),
-    "N": NC_("unit", "N"),
-    "N*m": NC_("unit", "N·m"),
-    "MPa": NC_("unit", "MPa"),
-    "W": NC_("unit", "W"),
-    "J": NC_("unit", "J"),
-    "kg": NC_("unit", "kg"),
-    "kg*m2": NC_("unit", "kg·m²"),
+# as printed; what stands behind the sign is a power; decimals shown, where steps have it: json has all of them
+_UNITS: dict[str, tuple[str, int]] = {
+    "": ("", 6),
+    "%": ("%", 3),
+    "deg": ("°", 5),
+    "mm": (NC_("unit", "mm"), 5),
+    "rad": (NC_("unit", "rad"), 4),
+    "rpm": (NC_("unit", "rpm"), 3),
+    "s": (NC_("unit", "s"), 6),
+    "s/mm": (NC_("unit", "s/mm"), 4),
+    "1/mm": (NC_("unit", "1/mm"), 6),
+    "mm/rad": (NC_("unit", "mm/rad"), 5),
+    "mm/rad2": (NC_("unit", "mm/rad²"), 5),
+    "deg/rad": (NC_("unit", "°/rad"), 4),
+    "deg/rad2": (NC_("unit", "°/rad²"), 4),
+    "deg/mm": (NC_("unit", "°/mm"), 4),
+    "deg/mm2": (NC_("unit", "°/mm²"), 4),
+    "rad/s": (NC_("unit", "rad/s"), 5),
+    "rad/s2": (NC_("unit", "rad/s²"), 3),
+    "mm/s": (NC_("unit", "mm/s"), 3),
+    "m/s": (NC_("unit", "m/s"), 5),
+    "m/s2": (NC_("unit", "m/s²"), 4),
+    "N": (NC_("unit", "N"), 3),
+    "N*m": (NC_("unit", "N·m"), 4),
+    "MPa": (NC_("unit", "MPa"), 4),
+    "W": (NC_("unit", "W"), 4),
+    "J": (NC_("unit", "J"), 4),
+    "kg": (NC_("unit", "kg"), 4),
+    "kg*m2": (NC_("unit", "kg·m²"), 6),
 }
 # functions that languages write in their own way
 _FUNCTIONS = (NC_("function", "tan"), NC_("function", "arctan"))
@@ -325,5 +301,5 @@ _FUNCTIONS = (NC_("function", "tan"), NC_("function", "arctan"))
 
 def unit_text(unit: str, words: Words) -> str:
     """A unit in a language."""
-    text = _UNITS.get(unit, unit)
+    text, _ = _UNITS.get(unit, (unit, 0))
     return words.term("unit", text) if text else ""

@@ -14,7 +14,7 @@ from geometry.gears.pins.cycloidal import CycloidalDisc, disc_findings
 from parts.base.texts import N_
 from parts.keys.base import degrees
 from parts.pages.inputs import calculation, part_of_kind
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Sheet, Table, table_of
 from parts.pins.cycloidal_disc import CYCLOIDAL_DISC, CycloidalDiscSpec
 from parts.texts.findings import finding_message
 
@@ -152,5 +152,4 @@ def _table(disc: CycloidalDisc, step: float) -> Table:
                np.degrees(pressure_angles(disc, psi))]  # fmt: skip
     heads = (("psi", "deg"), ("r", "mm"), ("x", "mm"), ("y", "mm"), ("rho", "mm"), ("l", "mm"), ("alpha", "deg"))
     title = N_("Half a lobe from valley to top: profile, radius of curvature, arm and pressure angle of a pin")
-    rows = tuple(tuple(float(x) for x in row) for row in zip(*columns, strict=True))
-    return Table("profile", title, heads, rows)
+    return table_of("profile", title, heads, zip(*columns, strict=True))

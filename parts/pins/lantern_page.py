@@ -11,7 +11,7 @@ from msgspec import Meta
 from geometry.gears.pins.lantern import LanternGear, lantern_findings, limits_of
 from parts.base.texts import N_
 from parts.pages.inputs import calculation, part_of_kind
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Sheet, Table, table_of
 from parts.pins.lantern_gear import LANTERN_GEAR, LanternGearSpec
 from parts.texts.findings import finding_message
 
@@ -101,4 +101,4 @@ def _table(gear: LanternGear, rows: int) -> Table:
     columns = [np.degrees(u), np.degrees(turned), np.degrees(turned) / 2, np.abs(point), point.real, point.imag, bend]
     heads = (("u", "deg"), ("phi", "deg"), ("alpha", "deg"), ("r", "mm"), ("x", "mm"), ("y", "mm"), ("rho", "mm"))
     title = N_("Flank from root to tip: gear's and pin's angle, pressure angle, lower flank of tooth 1, its curvature")
-    return Table("flank", title, heads, tuple(tuple(float(x) for x in row) for row in zip(*columns, strict=True)))
+    return table_of("flank", title, heads, zip(*columns, strict=True))

@@ -28,10 +28,9 @@ from parts.pages.cam_steps import (
     motion_columns,
     phase_steps,
     straightened,
-    table_of,
 )
 from parts.pages.inputs import calculation
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Sheet, Table, table_of
 
 
 class BarrelKeys(BarrelCamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
@@ -118,7 +117,8 @@ def _positions(cam: BarrelCam, step: float, speed_rpm: float | None, *, swings: 
         where=_steepest_at(cam),
     )
     heads += [("nu", "deg"), ("y", "mm"), ("z", "mm")]
-    return table_of("positions", title, [*columns, np.degrees(slope), place.real, place.imag], heads)
+    columns += [np.degrees(slope), place.real, place.imag]
+    return table_of("positions", title, heads, zip(*columns, strict=True))
 
 
 def _walls(cam: BarrelCam, step: float) -> list[Table]:
@@ -138,7 +138,7 @@ def _walls(cam: BarrelCam, step: float) -> list[Table]:
             heads += [(f"x{index}", "mm"), (f"z{index}", "mm"), (f"rho{index}", "mm")]
         if cam.is_groove:
             title = message("{title}: upper wall (1) and lower wall (2)", title=title)
-        made.append(table_of(name, title, columns, heads))
+        made.append(table_of(name, title, heads, zip(*columns, strict=True)))
     return made
 
 

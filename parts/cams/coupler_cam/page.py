@@ -35,10 +35,9 @@ from parts.pages.cam_steps import (
     phase_steps,
     positions,
     radius_step,
-    table_of,
 )
 from parts.pages.inputs import calculation
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Sheet, Table, table_of
 from parts.texts.findings import finding_message
 
 _SAMPLES = 720
@@ -183,4 +182,4 @@ def linkage_table(cam: LinkageCam, step: float) -> Table:
         "Linkage: coupler angle, joints, follower, transmission angle, pressure angle at the contact, {last}"
     )
     last = message("rolling velocity") if str(cam.kind) == "roller" else message("sliding velocity")
-    return table_of("linkage", message(columns_told, last=last), columns, heads)
+    return table_of("linkage", message(columns_told, last=last), heads, zip(*columns, strict=True))

@@ -16,9 +16,9 @@ from parts.cams.disk_cam.part import CAM
 from parts.cams.positive.conjugate import CONJUGATE_CAM, ConjugateCamSpec, SecondCam
 from parts.cams.positive.yoke import YOKE_FRAME, YokeFrame, YokeFrameSpec
 from parts.cams.wheel import inner_radius
-from parts.pages.cam_steps import TOPIC, cam_angles, positions, table_of
+from parts.pages.cam_steps import TOPIC, cam_angles, positions
 from parts.pages.inputs import PLACE, checked, refusal
-from parts.pages.page import Sheet
+from parts.pages.page import Sheet, table_of
 
 # keys of the page, not of either part
 _PAGE = ("step", "intervals", "drawing", "speed_rpm", "cutter_diameter")
@@ -118,8 +118,8 @@ def _yoke(page: Sheet, frame: YokeFrame, step: float) -> None:
     upper = cam.contact(angle)
     # the lower face or roller touches the cam as the upper one does half a turn later, seen from the other side
     lower = -cam.contact(angle + math.pi)
-    columns = [degrees, cam.motion.value(angle), upper.real, upper.imag, lower.real, lower.imag]
-    heads = [("phi", "deg"), ("S", "mm"), ("x_1", "mm"), ("y_1", "mm"), ("x_2", "mm"), ("y_2", "mm"), ("B", "mm")]
     reached = cam.reference_point(angle).imag + cam.reference_point(angle + math.pi).imag
+    columns = [degrees, cam.motion.value(angle), upper.real, upper.imag, lower.real, lower.imag, reached]
+    heads = [("phi", "deg"), ("S", "mm"), ("x_1", "mm"), ("y_1", "mm"), ("x_2", "mm"), ("y_2", "mm"), ("B", "mm")]
     title = N_("Contacts in the frame: upper (1) and lower (2), and the breadth between faces or rollers")
-    page.tables.insert(1, table_of("yoke", title, [*columns, reached], heads))
+    page.tables.insert(1, table_of("yoke", title, heads, zip(*columns, strict=True)))

@@ -24,11 +24,10 @@ from parts.pages.cam_steps import (
     phase_steps,
     radius_step,
     straightened,
-    table_of,
     with_left_sides,
 )
 from parts.pages.inputs import calculation
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Sheet, Table, table_of
 from parts.texts.findings import finding_message
 
 # rows of a table by default, about, and at most
@@ -135,10 +134,8 @@ def _positions(cam: WedgeCam, step: float, velocity: float | None, *, swings: bo
         bend = -1 / cam.pitch_curvature(at) - cam.radius
     title = N_("Positions: travel of the plate, motion, pressure angle, radius of curvature, profile of the plate")
     heads += [("nu", "deg"), ("rho", "mm"), ("x", "mm"), ("y", "mm")]
-    slope = np.degrees(cam.pressure_angle(at))
-    return table_of(
-        "positions", title, [*columns, slope, straightened(bend, travel), profile.real, profile.imag], heads
-    )
+    columns += [np.degrees(cam.pressure_angle(at)), straightened(bend, travel), profile.real, profile.imag]
+    return table_of("positions", title, heads, zip(*columns, strict=True))
 
 
 def _velocities(page: Sheet, cam: WedgeCam, velocity: float, *, swings: bool) -> None:

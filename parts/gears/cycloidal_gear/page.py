@@ -16,7 +16,7 @@ from parts.gears.cycloidal_gear.part import CYCLOIDAL_GEAR, CycloidalGearSpec
 from parts.gears.thinning import shared_thinning
 from parts.keys.base import in_modules, mm
 from parts.pages.inputs import SceneKeys, calculation, part_of_kind, refusal
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Sheet, Table, table_of
 from parts.texts.findings import finding_message
 
 TOPIC = "cycloidal-gear"
@@ -185,4 +185,4 @@ def _table(gear: CycloidalGear, rows: int, *, tips: bool) -> Table:
     point = flank.point(u)
     heads = (("u", "deg"), ("r", "mm"), ("x", "mm"), ("y", "mm"))
     columns = np.degrees(u), np.abs(point), point.real, point.imag
-    return Table(name, title, heads, tuple(tuple(float(x) for x in row) for row in zip(*columns, strict=True)))
+    return table_of(name, title, heads, zip(*columns, strict=True))

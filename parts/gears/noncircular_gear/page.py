@@ -17,7 +17,7 @@ from parts.base.texts import N_, message
 from parts.gears.noncircular_gear.part import NONCIRCULAR_GEAR, NoncircularGearSpec
 from parts.pages.cam_steps import Step
 from parts.pages.inputs import calculation, part_of_kind, told
-from parts.pages.page import Sheet, Table
+from parts.pages.page import Sheet, Table, table_of
 from parts.texts.findings import finding_message
 
 TOPIC = "noncircular"
@@ -180,4 +180,4 @@ def _table(pair: CentrodePair, step: float) -> Table:
     heads = (("phi_1", "deg"), ("r_1", "mm"), ("phi_2", "deg"), ("r_2", "mm"), ("i", ""), ("rho_1", "mm"),
              ("rho_2", "mm"))  # fmt: skip
     title = N_("Centrodes: angles, radii and curvature of driver (1) and mate (2), ratio")
-    return Table("centrodes", title, heads, tuple(tuple(float(x) for x in row) for row in zip(*columns, strict=True)))
+    return table_of("centrodes", title, heads, zip(*columns, strict=True))
