@@ -116,6 +116,8 @@ class Mating(Joined, kw_only=True):
     follows = False
     # whether the ratio of its joints is only that of whole turns
     uneven = False
+    # whether the second of an ``uneven`` pair drives nothing: it is locked while it stands
+    only_first_drives = False
     # whether a second that stands already must stand at ``height``
     asks_height = True
     # whether the first may lie on any axis, and the second stand already: ``laid_standing`` holds them together

@@ -99,6 +99,14 @@ KINDS: Index[Kind[Any, Any]] = Index(
             "parts.pins.lantern_gear:LANTERN_GEAR",
             "External gear for a lantern: flanks parallel to the epicycloid of its pins",
         ),
+        "geneva_wheel": (
+            "parts.pins.geneva_wheel:GENEVA_WHEEL",
+            "Wheel of a Geneva drive, external or internal: radial slots, and arcs that the driver's disc locks",
+        ),
+        "geneva_driver": (
+            "parts.pins.geneva_driver:GENEVA_DRIVER",
+            "Driver of a Geneva wheel: crank plate, locking disc and pins, or one of its flat pieces; pin 1 on +x",
+        ),
         "cycloidal_gear": (
             "parts.gears.cycloidal_gear.part:CYCLOIDAL_GEAR",
             "Cycloidal gear, as clocks have it: tips by a circle that rolls outside, roots by one that rolls inside",

@@ -17,6 +17,7 @@ from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
     from geometry.base.placement import Vector
+    from geometry.gears.pins.geneva_driver import GenevaDriver
     from geometry.solids.pin_plates import PinPlate, RoundDisc
     from geometry.solids.pin_ring import PinRing
 
@@ -195,13 +196,18 @@ class Carried(MateKind[CarriedSpec, Any, Any]):
         )
 
 
-class PinSeat(MateKind[PinSeatSpec, "PinRing | PinPlate", "RoundDisc"]):
+_HOLDERS = ("pin_ring", "output_plate", "lantern_wheel", "geneva_driver", "carrier_plate")
+
+
+class PinSeat(MateKind[PinSeatSpec, "PinRing | PinPlate | GenevaDriver", "RoundDisc"]):
     """A loose pin in its seat."""
 
     name, keys = "pin_seat", PinSeatSpec
-    joins = tuple((holder, "pin") for holder in ("pin_ring", "output_plate", "lantern_wheel", "carrier_plate"))
+    joins = tuple((holder, "pin") for holder in _HOLDERS)
 
-    def mating(self, keys: PinSeatSpec, first: End[PinRing | PinPlate], second: End[RoundDisc]) -> FixedMating:
+    def mating(
+        self, keys: PinSeatSpec, first: End[PinRing | PinPlate | GenevaDriver], second: End[RoundDisc]
+    ) -> FixedMating:
         """There is such a seat for a loose pin of this diameter."""
         holder = first.thing
         if not holder.takes_loose_pins:

@@ -74,6 +74,10 @@ MATES: Index[MateKind[Any, Any, Any]] = Index(
             "parts.mates.lantern:LANTERN_PAIR",
             "A lantern (first) and its gear (second): exact centre distance and phase",
         ),
+        "geneva_pair": (
+            "parts.mates.geneva:GENEVA_PAIR",
+            "A driver (first) and its Geneva wheel (second), which it turns step by step and locks between",
+        ),
         "bevel_pair": (
             "parts.mates.bevel:BEVEL_PAIR",
             "Two bevel gears made for each other, laid so that the apexes of their cones meet",

@@ -26,6 +26,7 @@ REASONS = {
     "has_its_pins": N_("has its pins already; give it seats or holes"),
     "linkage_carries_follower": N_("the linkage carries the follower, which is no arm"),
     "linkage_has_another": N_("must be that of the linkage"),
+    "made_for_another_wheel": N_("is made for another wheel than the mate's second; name that one"),
     "made_from_another_cam": N_("is made from another cam than the mate's first; name that one"),
     "mate_is_straight": N_("must be 0: the mate's teeth are straight, and straight teeth mesh only with straight ones"),
     "mate_joins": N_("is a {found}; {mate} joins {joins}"),

@@ -8,6 +8,7 @@ REASONS = {
     "bore_axis_leaves_disc": N_("the bore's axis leaves the disc"),
     "bore_reaches_output_holes": N_("reaches the output holes"),
     "bore_reaches_pins": N_("reaches the pins"),
+    "bore_reaches_relief": N_("reaches the disc's reliefs"),
     "closes_ring": N_("closes the ring"),
     "closes_ring_between_pins": N_("closes the ring between its pins"),
     "closes_seats": N_("closes the seats of the pins"),
@@ -18,19 +19,27 @@ REASONS = {
     "inside_beyond_pins": N_("lies beyond the pins"),
     "inside_buries_pins": N_("buries the pins"),
     "inside_reaches_pin_holes": N_("reaches the holes of the pins"),
+    "leaves_no_arcs": N_("leaves no locking arcs"),
     "leaves_no_disc": N_("leaves no disc"),
+    "holes_reach_slots": N_("the holes reach the slots"),
+    "leaves_no_dwell": N_("leaves no dwell between two pins"),
     "leaves_no_hole": N_("leaves no hole"),
     "leaves_no_lobes": N_("leaves no lobes"),
     "leaves_no_lobes_or_rim": N_("leaves no lobes or no rim"),
     "leaves_no_pin": N_("leaves no pin"),
     "leaves_no_pins": N_("leaves no pins"),
     "leaves_no_seat": N_("leaves no seat"),
+    "leaves_no_tip": N_("leaves no tips between slots and locking arcs"),
     "leaves_no_tooth_between_pins": N_("leaves no tooth between two pins"),
     "leaves_no_tooth_with_clearances": N_(
         "leaves no tooth between two pins; thinner ones need pin_clearance and root_clearance to be less too"
     ),
     "leaves_no_wall": N_("leaves no wall"),
     "leaves_no_wall_about_bore": N_("leaves no wall about the bore"),
+    "needs_distance_or_crank": N_("is missing; give centre_distance or crank_radius"),
+    "not_of_this_piece": N_("is not for this piece"),
+    "only_of_external": N_("is for external wheels"),
+    "only_of_internal": N_("is for internal wheels"),
     "only_of_solid_pins": N_('is for pins = "solid"'),
     "output_holes_do_not_fit": N_("holes of {diameter} mm (pin + 2 e + clearance) do not fit"),
     "output_holes_fit_elsewhere": N_(
@@ -48,5 +57,9 @@ REASONS = {
         "a hundredth more than the pin's"
     ),
     "seats_touch": N_("the seats touch each other"),
+    "slots_meet": N_("the slots meet each other"),
+    "tips_leave_no_disc": N_(
+        "the tips of that wheel leave no disc of {diameter} mm; give it thinner pins or a larger locking_diameter"
+    ),
     "tooth_pointed_at": N_("the tooth is pointed at {diameter} mm"),
 }

@@ -302,7 +302,9 @@ def _ahead(mating: Mating, joint: Rolling, stand: Stand, matings: Sequence[Matin
     """What a noncircular pair adds to its ratio of whole turns; the driver is the one nearer to the drives."""
     beyond = hanging_together(mating.second, [other for other in matings if other is not mating])
     driver, mean = mating.first, float(joint.ratio)
-    if drives.intersection(beyond):
+    if behind := drives.intersection(beyond):
+        if mating.only_first_drives:
+            raise ParameterError("drives", min(behind), "moves_by_law")
         driver, mean = mating.second, 1 / mean
     first, second = stand[mating.first], stand[mating.second]
     towards, begins = second.centre - first.centre, stand[driver].rotation

@@ -50,7 +50,7 @@ def named(section: OffsetRegion, exact: OffsetRegion, text: str, gap: float = 0.
     widest = 0.0 if clear.is_empty else shapely.maximum_inscribed_circle(clear, _CHORDS).length
     strokes = _inside(clear, widest, text)
     if strokes is not None:
-        return replace(section, region=replace(region, strokes=strokes))
+        return replace(section, region=replace(region, strokes=(*region.strokes, *strokes)))
     _, low, right, high = shapely.bounds(_polygon(region.outer)).tolist()
     for piece in region.apart:
         right = max(right, shapely.bounds(_polygon(piece))[2])
@@ -62,7 +62,7 @@ def named(section: OffsetRegion, exact: OffsetRegion, text: str, gap: float = 0.
     tag = PlateOutline(rounded(corners)).region(section.offset).region.outer
     moved = tuple(tuple(p + middle for p in stroke) for stroke in letters)
     told = Finding("label_on_tag", 2 * max(widest, 0.0), _LEAST)
-    made = replace(region, strokes=moved, apart=(*region.apart, tag))
+    made = replace(region, strokes=(*region.strokes, *moved), apart=(*region.apart, tag))
     return OffsetRegion(made, section.offset, (*section.findings, told))
 
 

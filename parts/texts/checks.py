@@ -46,6 +46,10 @@ MATES: dict[str, Text] = {
         "lantern pair {first} - {second}: a_w = {working_centre_distance:.5f} mm, ratio {gear_ratio:.6g}, "
         "contact ratio {lantern_contact_ratio:.4f}"
     ),
+    "geneva_pair": N_(
+        "{first} turns {second} by {step_deg:.6g} deg at a time, in {motion_share:.6g} of its turn: "
+        "a = {working_centre_distance:.5f} mm, r = {crank_radius:.5f} mm"
+    ),
     "cycloidal_gear_pair": N_(
         "cycloidal pair {first} - {second}: a_w = {working_centre_distance:.5f} mm, ratio {gear_ratio:.6g}, "
         "contact ratio {contact_ratio:.4f}: where {first} drives, {approach_ratio:.4f} before the line of centres, "

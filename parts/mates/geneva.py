@@ -1,0 +1,112 @@
+"""The mate ``geneva_pair``: a driver and the Geneva wheel that it turns step by step."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING, Annotated, Any
+
+from geometry.base.errors import ParameterError
+from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Touching
+from parts.keys.mate import Direction, height
+
+if TYPE_CHECKING:
+    from geometry.gears.mesh.search import PairContact
+    from geometry.gears.pins.geneva import GenevaDisc, GenevaWheel
+    from geometry.gears.pins.geneva_driver import GenevaDriver
+    from geometry.kinematics.mechanism import Joint, Kind
+
+
+class GenevaPairSpec(MateKeys, tag="geneva_pair", kw_only=True):
+    """Keys of ``geneva_pair``."""
+
+    direction_deg: Direction = 0.0
+    height: Annotated[float, height("wheel above the driver's lower face; default: midway on the disc")] | None = None
+
+
+class GenevaMating(Touching):
+    """A driver and its wheel."""
+
+    disc: GenevaDisc
+
+    uneven = True
+    only_first_drives = True
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Of whole turns: pins and slots are teeth."""
+        from geometry.kinematics.mechanism import Rolling
+
+        drive = self.disc.drive
+        kind: Kind = "internal" if drive.internal else "external"
+        return (Rolling(kind, self.first, self.second, (drive.number_of_pins, drive.number_of_slots)),)
+
+    def partner(self, driver: str, rotation: float, direction: float) -> float:
+        """The wheel's rotation, dwells included."""
+        return self.disc.drive.wheel_rotation(rotation, direction)
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """The wheel beyond the line of centres, turned as the driver stands."""
+        turned = self.disc.drive.wheel_rotation(rotation, direction)
+        return centre + cmath.rect(self.distance, direction), turned
+
+    def standing(self, first: Pose, second: Pose) -> Standing:
+        """Centre distance, and the wheel's turn off the middle of its play."""
+        spoke = second[0] - first[0]
+        direction = cmath.phase(spoke)
+        _, right = self.second_pose(*first, direction)
+        drive, wheel = self.disc.drive, self.disc.wheel
+        off = math.remainder(second[1] - right, 2 * drive.half_slot_angle)
+        # no pin is farther from the wheel's axis; no locking arc slides past the disc by more
+        arm = max(drive.mouth_radius, drive.deepest_radius)
+        play = min(wheel.slot_clearance / 2, wheel.locking_clearance)
+        return Standing(direction, abs(spoke), off, play / arm, arm)
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict of pins, disc and tips over the cycle of one pin."""
+        from geometry.gears.pins.geneva_contact import GenevaContact
+
+        return GenevaContact(self.disc, phase_off, distance_off).result(tolerance)
+
+    def quantities(self) -> dict[str, Any]:
+        """Sizes of the pair, mm, what the wheel turns at a time, and the part of the time in which it turns."""
+        drive = self.disc.drive
+        return {
+            "working_centre_distance": self.distance,
+            "crank_radius": drive.crank_radius,
+            "step_deg": math.degrees(2 * drive.half_slot_angle),
+            "motion_share": drive.number_of_pins * drive.half_motion_angle / math.pi,
+        }
+
+
+class GenevaPair(MateKind[GenevaPairSpec, "GenevaDriver", "GenevaWheel"]):
+    """A driver and its wheel."""
+
+    name, keys = "geneva_pair", GenevaPairSpec
+    joins = (("geneva_driver", "geneva_wheel"),)
+
+    def mating(self, keys: GenevaPairSpec, first: End[GenevaDriver], second: End[GenevaWheel]) -> GenevaMating:
+        """The driver is made for this wheel, which stands above its plate."""
+        driver, wheel = first.thing, second.thing
+        if driver.disc.wheel != wheel:
+            raise ParameterError("first.of", None, "made_for_another_wheel")
+        above = keys.height
+        if above is None:
+            width = float(getattr(second.keys, "face_width", 0.0))
+            above = 0.0 if driver.piece == "disc" else driver.plate_thickness
+            above += max(driver.width - width, 0.0) / 2 if driver.piece != "plate" else 0.0
+        return GenevaMating(
+            *self.joined(keys),
+            direction_deg=keys.direction_deg,
+            height=above,
+            distance=driver.disc.drive.centre_distance,
+            module=driver.pin_radius,
+            first_teeth=driver.disc.number_of_pins,
+            normal_backlash=min(wheel.slot_clearance, 2 * wheel.locking_clearance),
+            # the plate alone stands beside the wheel
+            has_contact=driver.piece != "plate",
+            disc=driver.disc,
+        )
+
+
+GENEVA_PAIR = GenevaPair()

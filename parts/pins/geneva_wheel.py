@@ -1,0 +1,221 @@
+"""The part kind ``geneva_wheel``: a wheel, or a ring, whose radial slots a pin enters one after another."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Annotated
+
+import msgspec
+from msgspec import Meta
+
+from geometry.base.errors import Nearest, OffsetError, ParameterError
+from geometry.base.nearest import nearest
+from geometry.base.record import replace
+from geometry.solids.hub_holes import HubHoles, least_wall
+from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
+from parts.base.kind import Others, Report
+from parts.keys.base import MOST_LENGTH, either, mm, part_mm, start
+from parts.keys.pins import MARGIN, PinDiameter, check_holes, holes_of, least_of, moved_region
+from parts.keys.wheel import WheelKeys, WheelKind, shape_of
+
+if TYPE_CHECKING:
+    from geometry.gears.pins.geneva import GenevaWheel
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.plane.profile import Profile, Region
+    from geometry.solids.body import Body
+
+# of the pin's diameter: the wall of a tip by default, and gaps that no key tells
+_TIP, _GAP = 1.0, 0.1
+_ONLY_EXTERNAL = ("bore_diameter", "bore", "spokes", "web", "hub", "face_chamfer")
+
+
+class GenevaWheelSpec(WheelKeys, kw_only=True, tag_field="kind", tag="geneva_wheel"):
+    """Keys of ``geneva_wheel``."""
+
+    number_of_slots: Annotated[int, Meta(ge=3, le=100, description="number of slots n", examples=[6])]
+    centre_distance: (
+        Annotated[float, part_mm("between the axes of driver and wheel; or give crank_radius", above=0), start(60.0)]
+        | None
+    ) = None
+    crank_radius: (
+        Annotated[
+            float,
+            part_mm("from the driver's axis to a pin, in place of centre_distance", above=0, example=30.0),
+        ]
+        | None
+    ) = None
+    pin_diameter: Annotated[PinDiameter, Meta(examples=[6.0])]
+    internal: Annotated[bool, Meta(description="slots open inwards, the driver turns within the wheel")] = False
+    slot_clearance: Annotated[float, mm("width of a slot beyond the pin's diameter", least=0, most=100)] = 0.0
+    end_clearance: (
+        Annotated[
+            float,
+            mm("gap at the end of a slot; default: a tenth of the pin", least=0, most=100, example=0.6),
+        ]
+        | None
+    ) = None
+    locking_diameter: (
+        Annotated[
+            float,
+            part_mm("of the driver's disc; default: leaves tips as thick as the pin", above=0, example=42.0),
+        ]
+        | None
+    ) = None
+    locking_clearance: Annotated[float, mm("gap between that disc and the wheel's arcs", least=0, most=100)] = 0.0
+    tip_rounding: Annotated[float, mm("radius between a slot and the tip circle", least=0, most=1000)] = 0.0
+    outer_diameter: (
+        Annotated[
+            float,
+            mm("of an internal wheel; default: two pins beyond", above=0, most=2 * MOST_LENGTH, example=240.0),
+        ]
+        | None
+    ) = None
+
+
+class GenevaWheelKind(WheelKind[GenevaWheelSpec, "GenevaWheel"]):
+    """A wheel with radial slots."""
+
+    name, keys = "geneva_wheel", GenevaWheelSpec
+
+    def thing(self, keys: GenevaWheelSpec, others: Others) -> GenevaWheel:
+        """The wheel, checked to have slots and tips, and holes within them."""
+        wheel = _with_tips(keys)
+        if keys.internal:
+            return _ring(keys, wheel)
+        if keys.outer_diameter is not None:
+            raise ParameterError("outer_diameter", keys.outer_diameter, "only_of_internal", Nearest(None))
+        holes = holes_of(keys)
+        check_holes(keys, holes, wheel.root_radius)
+        check_wheel(shape_of(keys), 2 * wheel.root_radius, holes)
+        return replace(wheel, holes=holes)
+
+    def section(self, keys: GenevaWheelSpec, thing: GenevaWheel, offset: float) -> OffsetRegion:
+        """The exact section, moved."""
+        return moved_region(lambda by: _region(thing, by), offset)
+
+    def solid(self, keys: GenevaWheelSpec, thing: GenevaWheel, offset: float) -> Body:
+        """The wheel with its web, hub and chamfers, or the ring."""
+        from geometry.solids.body import plate
+        from geometry.solids.plate import moved_profile
+
+        if keys.internal:
+            return plate(self.section(keys, thing, offset).region, 0.0, keys.face_width)
+
+        def outline(offset: float, depth: float) -> Profile:
+            return moved_profile(thing.outline(), offset - depth)
+
+        return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
+
+    def report(self, keys: GenevaWheelSpec, thing: GenevaWheel) -> Report:
+        """Its sizes."""
+        drive = thing.drive
+        circles = {"tip_diameter": 2 * thing.tip_radius, "root_diameter": 2 * thing.root_radius}
+        quantities = {
+            "centre_distance_of_pair": drive.centre_distance,
+            "crank_radius": drive.crank_radius,
+            "slot_width": 2 * thing.half_width,
+            "locking_diameter": 2 * thing.locking_radius,
+            "tip_width": thing.tip_width,
+        }
+        return Report(circles=circles, quantities=quantities)
+
+
+GENEVA_WHEEL = GenevaWheelKind()
+
+
+def wheel_of(keys: GenevaWheelSpec) -> GenevaWheel:
+    """The wheel of the keys, not yet checked, without holes.
+
+    Raises
+    ------
+    ParameterError
+        Both or none of ``centre_distance`` and ``crank_radius`` are given.
+    """
+    from geometry.gears.pins.geneva import Geneva, GenevaWheel
+
+    if keys.centre_distance is not None and keys.crank_radius is not None:
+        raise either("crank_radius", keys.crank_radius, "centre_distance")
+    if keys.centre_distance is not None:
+        drive = Geneva(keys.number_of_slots, keys.centre_distance, internal=keys.internal)
+    elif keys.crank_radius is not None:
+        whole = Geneva(keys.number_of_slots, 1.0, internal=keys.internal)
+        drive = replace(whole, centre_distance=keys.crank_radius / whole.crank_radius)
+    else:
+        raise ParameterError("centre_distance", None, "needs_distance_or_crank")
+    pin = keys.pin_diameter
+    # measured along the wall where the pin enters
+    locking = drive.crank_radius - (pin + keys.slot_clearance) / 2 - _TIP * pin - keys.locking_clearance
+    if keys.locking_diameter is not None:
+        locking = keys.locking_diameter / 2
+    gap = _GAP * pin if keys.end_clearance is None else keys.end_clearance
+    wheel = GenevaWheel(drive, pin, locking, keys.slot_clearance, gap, keys.locking_clearance, keys.tip_rounding)
+    if not keys.internal:
+        return wheel
+    outer = wheel.root_radius + 2 * pin
+    return replace(wheel, outer_radius=outer if keys.outer_diameter is None else keys.outer_diameter / 2)
+
+
+def _with_tips(keys: GenevaWheelSpec) -> GenevaWheel:
+    """The wheel of the keys, checked; where the disc follows from the pin, that is to blame."""
+    from geometry.gears.pins.geneva import checked_wheel
+
+    try:
+        return checked_wheel(wheel_of(keys))
+    except ParameterError as refusal:
+        if keys.locking_diameter is not None or refusal.name != "locking_diameter":
+            raise
+
+        def fits(diameter: float) -> bool:
+            try:
+                checked_wheel(wheel_of(msgspec.structs.replace(keys, pin_diameter=diameter)))
+            except ParameterError:
+                return False
+            return True
+
+        pin = keys.pin_diameter
+        cure = partial(nearest, fits, pin, [pin * 0.5**k for k in range(1, 12)], digits=6)
+        raise ParameterError("pin_diameter", pin, refusal.code, cure) from refusal
+
+
+def _ring(keys: GenevaWheelSpec, wheel: GenevaWheel) -> GenevaWheel:
+    """An internal wheel with holes in its rim."""
+    for key in _ONLY_EXTERNAL:
+        value = getattr(keys, key)
+        if value:
+            raise ParameterError(key, None if hasattr(value, "__struct_fields__") else value, "only_of_external",
+                                 Nearest(None))  # fmt: skip
+    holes = holes_of(keys)
+    least = least_wall(wheel.root_radius) * (1 + MARGIN)
+    for key, group in holes.groups():
+        group.check(key)
+        circle, needed = group.pitch_circle_diameter, 2 * (wheel.root_radius + least) + group.diameter
+        if circle < needed:
+            raise ParameterError(f"{key}.pitch_circle_diameter", circle, "holes_reach_slots", least_of(needed, circle))
+    HubHoles(None, holes.round_holes).check(max(wheel.outer_radius, holes.reach * 2 + least))
+    beyond = max(wheel.root_radius, holes.reach) + least
+    if wheel.outer_radius < beyond:
+        wide = least_of(2 * beyond, 2 * wheel.outer_radius)
+        raise ParameterError("outer_diameter", keys.outer_diameter, "leaves_no_rim", wide)
+    return replace(wheel, holes=holes)
+
+
+def _region(wheel: GenevaWheel, offset: float) -> Region:
+    """The section, moved ``offset`` mm out of the material.
+
+    Raises
+    ------
+    GeometryError
+        A slot closes, a tip or a wall does not survive.
+    """
+    from geometry.plane.profile import Label, Profile, Region, Segment, circle
+    from geometry.solids.plate import moved_edges
+
+    slots = Profile(tuple(Segment(e, Label.BODY) for e in moved_edges(wheel.outline(), offset)))
+    holes = wheel.holes.profiles(offset)
+    if not wheel.drive.internal:
+        if wheel.holes.number and wheel.root_radius + offset <= wheel.holes.reach - offset:
+            raise OffsetError(offset, "leaves_no_rim")
+        return Region(slots, holes)
+    if -2 * offset >= wheel.outer_radius - max(wheel.root_radius, wheel.holes.reach):
+        raise OffsetError(offset, "leaves_no_rim")
+    return Region(circle(wheel.outer_radius + offset, Label.BODY), (slots, *holes))

@@ -1,0 +1,110 @@
+"""Geneva wheels and drivers in scenes: pieces, mates, motion, refusals that name what works."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.production.check import scene_checks
+from geometry.solids.mass import body_moments
+from parts.base.refusal import SceneError
+from parts.scene.load import make_parts, scene_from_dict
+from parts.scene.placing import Placing, place
+
+Keys = dict[str, Any]
+WHEEL: Keys = {"kind": "geneva_wheel", "number_of_slots": 6, "centre_distance": 60.0, "pin_diameter": 5.0}
+RING: Keys = WHEEL | {"internal": True}
+DRIVER: Keys = {"kind": "geneva_driver", "of": "wheel", "bore_diameter": 6.0}
+MATE: Keys = {"kind": "geneva_pair", "first": "driver", "second": "wheel"}
+DRIVE: Keys = {"instance": "driver", "turns": 3.0}
+
+
+def placed(wheel: Keys, driver: Keys, mates: list[Keys] | None = None, **more: Any) -> tuple[Placing, dict[str, Any]]:
+    """Where both stand, and what the checks say."""
+    tables = {"parts": {"wheel": wheel, "driver": driver}, "mates": mates or [MATE], "drives": [DRIVE], **more}
+    made = scene_from_dict(tables, "t", "t")
+    parts, matings = make_parts(made, "t")
+    placing = place(made.instances, made.drives, parts, matings, "t")
+    return placing, scene_checks(placing, parts, made.drives, "en", contact=True)
+
+
+@pytest.mark.parametrize(
+    ("wheel", "pins", "turns"), [(WHEEL, 1, -0.5), (WHEEL, 2, -1.0), (RING, 1, 0.5)], ids=["one", "two", "internal"]
+)
+def test_a_driver_turns_its_wheel_step_by_step(wheel: Keys, pins: int, turns: float) -> None:
+    placing, checks = placed(wheel, DRIVER | {"number_of_pins": pins}, [MATE | {"direction_deg": 20.0}])
+    assert [mate["verdict"] for mate in checks["mates"]] == ["contact"]
+    assert placing.turns[0] == pytest.approx({"driver": 3.0, "wheel": turns})
+    train = placing.train
+    assert train is not None
+    # the pin on the line of centres, then a slot's step later for each, and in the dwell between no way at all
+    poses = [train.poses([at / 24])["wheel"][1] for at in range(25)]
+    step = math.copysign(2 * math.pi / 6, turns) * pins
+    assert math.remainder(poses[-1] - poses[0] - step, 2 * math.pi) == pytest.approx(0.0, abs=1e-12)
+    # the driver begins with its pin on +x, which in a ring is half a turn on
+    middle = 0.0 if wheel is RING else 0.5 / pins
+    still = [train.poses([middle + share])["wheel"][1] for share in np.linspace(-0.02, 0.02, 5)]
+    assert np.ptp(still) < 1e-12
+
+
+def test_a_wheel_drives_nothing() -> None:
+    with pytest.raises(SceneError) as refused:
+        placed(WHEEL, DRIVER, drives=[{"instance": "wheel", "turns": 1.0}])
+    assert (refused.value.key, refused.value.code) == ("drives[1].instance", "moves_by_law")
+
+
+def test_pieces_make_the_whole() -> None:
+    """Plate, disc and pins have the volume of the driver of one piece; its bore goes through all of it."""
+    own = {"face_width": 4.0, "plate_thickness": 3.0}
+    parts = {"wheel": WHEEL} | {piece: DRIVER | own | {"piece": piece} for piece in ("whole", "plate", "disc")}
+    made, _ = make_parts(scene_from_dict({"parts": parts}, "t", "t"), "t")
+    whole, plate, disc = (body_moments(made[name].body(0.0)).volume for name in ("whole", "plate", "disc"))
+    pin = math.pi * 2.5**2
+    assert whole == pytest.approx(plate + 3.0 * pin + disc + 4.0 * pin, rel=1e-9)
+    longer = DRIVER | own | {"pin_length": 6.0}
+    made, _ = make_parts(scene_from_dict({"parts": {"wheel": WHEEL, "longer": longer}}, "t", "t"), "t")
+    assert body_moments(made["longer"].body(0.0)).volume == pytest.approx(whole + 2.0 * pin, rel=1e-9)
+
+
+REFUSED: dict[str, tuple[Keys, Keys, str, str]] = {
+    "no distance": (WHEEL | {"centre_distance": None}, DRIVER, "centre_distance", "needs_distance_or_crank"),
+    "both": (WHEEL | {"crank_radius": 30.0}, DRIVER, "crank_radius", "either_key"),
+    "thick pin": (WHEEL | {"pin_diameter": 25.0}, DRIVER, "pin_diameter", "leaves_no_arcs"),
+    "wide disc": (WHEEL | {"locking_diameter": 56.0}, DRIVER, "locking_diameter", "leaves_no_tip"),
+    "wide bore": (WHEEL | {"bore_diameter": 56.0}, DRIVER, "bore_diameter", "leaves_no_wall_about_bore"),
+    "rim": (WHEEL | {"outer_diameter": 200.0}, DRIVER, "outer_diameter", "only_of_internal"),
+    "bore of a ring": (RING | {"bore_diameter": 6.0}, DRIVER, "bore_diameter", "only_of_external"),
+    "thin ring": (RING | {"outer_diameter": 180.0}, DRIVER, "outer_diameter", "leaves_no_rim"),
+    "three pins": (WHEEL, DRIVER | {"number_of_pins": 3}, "number_of_pins", "leaves_no_dwell"),
+    "two in a ring": (RING, DRIVER | {"number_of_pins": 2}, "number_of_pins", "leaves_no_dwell"),
+    "deep relief": (WHEEL, DRIVER | {"relief_clearance": 30.0}, "relief_clearance", "leaves_no_disc"),
+    "bored relief": (WHEEL, DRIVER | {"bore_diameter": 16.0}, "bore_diameter", "bore_reaches_relief"),
+    "small plate": (WHEEL, DRIVER | {"plate_diameter": 60.0}, "plate_diameter", "pins_reach_edge"),
+    "pins of a disc": (WHEEL, DRIVER | {"piece": "disc", "pin_length": 5.0}, "pin_length", "not_of_this_piece"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("wheel", "driver", "key", "code"), REFUSED.values(), ids=REFUSED.keys())
+def test_what_cannot_be_is_refused_with_what_can(wheel: Keys, driver: Keys, key: str, code: str) -> None:
+    parts = {"wheel": {k: v for k, v in wheel.items() if v is not None}, "driver": driver}
+    with pytest.raises(SceneError) as refused:
+        make_parts(scene_from_dict({"parts": parts}, "t", "t"), "t")
+    owner, _, name = refused.value.key.removeprefix("parts.").partition(".")
+    assert (name, refused.value.code) == (key, code)
+    if code in ("needs_distance_or_crank", "either_key"):
+        return
+    found = refused.value.nearest
+    assert found is not None
+    parts[owner] = {k: v for k, v in (parts[owner] | {key: found.value}).items() if v is not None}
+    make_parts(scene_from_dict({"parts": parts}, "t", "t"), "t")
+
+
+def test_a_driver_is_for_one_wheel() -> None:
+    parts = {"wheel": WHEEL, "other": WHEEL | {"number_of_slots": 5}, "driver": DRIVER | {"of": "other"}}
+    made = scene_from_dict({"parts": parts, "mates": [MATE]}, "t", "t")
+    with pytest.raises(SceneError) as refused:
+        make_parts(made, "t")
+    assert (refused.value.key, refused.value.code) == ("mates[1]: parts.driver.of", "made_for_another_wheel")
