@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from itertools import pairwise
 from typing import Annotated, Any
@@ -16,7 +16,7 @@ from geometry.base.record import replace
 from geometry.gears.planetary.sets import coaxial_modules
 from geometry.kinematics.mechanism import FRAME, Mobility, Rolling, Turns, mobility, turns
 from geometry.kinematics.statics import Statics, statics
-from parts.base.refusal import SceneError, meant
+from parts.base.refusal import REMOVED, SceneError, meant
 from parts.base.texts import N_, Message, Text, listed, message
 from parts.keys.base import mm
 from parts.mates.pages.train_cases import CASES, Case
@@ -38,6 +38,8 @@ _KINDS = {
     "crossed": N_("crossed helical"),
 }
 _PAIRS_TOLD = 4
+# rad/s
+_RPM = Fraction(math.pi) / 30
 _BLANK = "________"
 
 
@@ -71,6 +73,7 @@ class TrainKeys(Struct, forbid_unknown_fields=True):
     speeds: Annotated[
         dict[str, float], Meta(description="angular velocities of the driving links in rad/s, as speeds.1=120")
     ] = {}
+    speeds_rpm: Annotated[dict[str, float], Meta(description="the same in rpm, as speeds_rpm.1=1150")] = {}
     torques: Annotated[
         dict[str, float], Meta(description="torques of the loads in N m, counter-clockwise above 0, as torques.H=-4")
     ] = {}
@@ -112,7 +115,12 @@ class _Page:
         if not self.words:
             what = message("wheels in mesh, as 1-2, 2'-3 internal")
             raise ParameterError("meshes", None, "missing_key", None, what=what)
+        for name in keys.speeds.keys() & keys.speeds_rpm.keys():
+            rpm = keys.speeds_rpm[name]
+            raise ParameterError(f"speeds_rpm.{name}", rpm, "other_is_given", REMOVED, other=f"speeds.{name}")
         self.speeds = {name: _exact(w) for name, w in {**case.speeds, **keys.speeds}.items()}
+        # ratios of them stay exact
+        self.speeds |= {name: _exact(n) * _RPM for name, n in keys.speeds_rpm.items()}
         # which instance of a scene a name stands for
         self.instances = names
         self.keys, self.open, self.module = keys, case.open, keys.module or case.module
@@ -137,13 +145,13 @@ class _Page:
         try:
             self.moved: Turns = turns(mechanism, self.drives)
         except ParameterError as error:
-            raise error.renamed("speeds" if self.speeds else "driver") from error
+            raise error.renamed(self._speed_key(self.inputs[0]) if self.speeds else "driver") from error
         self._scheme()
         self._mobility(freedom)
         self._distances()
         if self.moved.free:
             names = list(dict.fromkeys(self._name(train.bodies[link]) for link in self.moved.free))
-            raise ParameterError("speeds", names[0], "left_free", None, free=names)
+            raise ParameterError(self._speed_key(self.inputs[0]), names[0], "left_free", None, free=names)
         found = stages(train, self.inputs[0], self.driven) if len(self.inputs) == 1 else None
         if found:
             self._stages(found)
@@ -167,7 +175,7 @@ class _Page:
         page, one, two = self.page, names[1], names[2]
         page.section("What the speeds ask for")
         for name in (one, two):
-            page.add("angular_velocity", float(self.speeds[name]), symbol=f"ω_{name}")
+            self._tell_speed(name, self.speeds[name], [name])
         u, ratio = self.speeds[one] / self.speeds[two], f"u_{one}{two}"
         external = (names[3] or "external").strip() == "external"
         sign = "-" if external and u > 0 else ""
@@ -184,8 +192,9 @@ class _Page:
         known = self.teeth[other]
         wanted = known * abs(u) if wheel == two else known / abs(u)
         if wanted.denominator != 1:
-            given, teeth = float(self.speeds[one]), float(wanted)
-            raise ParameterError("speeds", given, "no_whole_teeth", None, wheel=wheel, teeth=teeth)
+            key = self._speed_key(one)
+            given, teeth = getattr(self.keys, key).get(one, float(self.speeds[one])), float(wanted)
+            raise ParameterError(key, given, "no_whole_teeth", None, wheel=wheel, teeth=teeth)
         self.teeth = {one: self.teeth.get(one, int(wanted)), two: self.teeth.get(two, int(wanted))}
         page.add("number_of_teeth", known, symbol=f"z_{other}")
         formula = f"{{z_{other}}} {operation} abs({{{ratio}}})"
@@ -200,14 +209,14 @@ class _Page:
         if driver and self.speeds and driver not in self.speeds:
             raise ParameterError("driver", driver, "driver_without_speed", None, known=list(self.speeds))
         self.driven = self.driven or self._last(bodies.get(self.inputs[0], ""))
-        places = {"driver": [driver] if driver else [], "driven": [self.driven], "speeds": self.inputs}
-        for key, names in {**places, "torques": list(self.keys.torques)}.items():
-            for name in names:
-                if name not in bodies:
-                    raise ParameterError(key, name, "no_such_link", meant(name, bodies), known=list(bodies))
+        places = [("driver", name) for name in [driver] if name] + [("driven", self.driven)]
+        places += [(self._speed_key(name), name) for name in self.inputs]
+        for key, name in (*places, *(("torques", name) for name in self.keys.torques)):
+            if name not in bodies:
+                raise ParameterError(key, name, "no_such_link", meant(name, bodies), known=list(bodies))
         for name in self.inputs:
             if self.train.still(bodies[name]):
-                raise ParameterError("speeds" if self.speeds else "driver", name, "driver_is_held")
+                raise ParameterError(self._speed_key(name) if self.speeds else "driver", name, "driver_is_held")
         if len(self.inputs) == 1 and bodies[self.driven] == bodies[self.inputs[0]]:
             raise ParameterError("driven", self.driven, "driven_is_driver")
 
@@ -488,6 +497,22 @@ class _Page:
         speeds = {self.train.bodies[name]: w for name, w in self.speeds.items()}
         return sum((share * speeds[d] for d, share in self.moved.of(body).items()), Fraction())
 
+    def _speed_key(self, name: str) -> str:
+        """The key that gives the speed of a link."""
+        return "speeds_rpm" if name in self.keys.speeds_rpm else "speeds"
+
+    def _tell_speed(
+        self, link: str, speed: Fraction, names: Iterable[str], formula: str = "", source: str = ""
+    ) -> None:
+        """In rad/s and in rpm, that one first which is given to one of its names."""
+        given = [self.keys.speeds_rpm[name] for name in names if name in self.speeds and name in self.keys.speeds_rpm]
+        if given:
+            self.page.add("rotational_speed", given[0], symbol=f"N_{link}", given=True)
+            formula, source = f"pi * {{N_{link}}} / 30", ""
+        self.page.add("angular_velocity", float(speed), formula, source, symbol=f"ω_{link}")
+        if not given:
+            self.page.add("rotational_speed", float(speed / _RPM), f"30 * {{ω_{link}}} / pi", symbol=f"N_{link}")
+
     def _speeds(self, found: tuple[Stage, ...]) -> None:
         """Angular velocities, stage by stage, of satellites by their own inversion; of differentials as solved."""
         page, train = self.page, self.train
@@ -498,7 +523,7 @@ class _Page:
             body = train.bodies[name]
             if body not in known:
                 known.add(body)
-                page.add("angular_velocity", float(self._speed(body)), formula, source, symbol=f"ω_{self._name(body)}")
+                self._tell_speed(self._name(body), self._speed(body), self._names(body), formula, source)
 
         for name in self.inputs:
             tell(name)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import math
 import random
+import re
 import subprocess
 import sys
 from fractions import Fraction
@@ -303,3 +305,17 @@ def test_symbols_of_links_are_lowered_and_what_is_held_is_raised() -> None:
 def test_a_load_that_turns_with_its_link_is_told(load: int, drives: bool) -> None:
     text = calculate("train", [*JAMES, "held=3", "speeds.1=100", f"torques.H={load}"], "text", "en")
     assert ("the load on H acts along its turning" in text) == drives
+
+
+def test_speeds_are_taken_and_told_in_rpm_too() -> None:
+    """The carrier of 24/24/72 turns once for four turns of the sun: 1440 rpm, 150.796 rad/s."""
+    words = ["meshes=1-2, 2-3 internal", "teeth=[24,24,72]", "carriers.H=2", "held=3"]
+    text = calculate("train", [*words, "speeds_rpm.1=1440"], "text", "en")
+    assert "N_1 = 1440 rpm" in text
+    assert "= 150.79645 rad/s" in text
+    assert re.search(r"N_H = .* = 360 rpm", text)
+    same = calculate("train", [*words, f"speeds.1={48 * math.pi!r}"], "text", "en")
+    assert re.search(r"N_1 = .* = 1440 rpm", same)
+    assert re.search(r"N_H = .* = 360 rpm", same)
+    with pytest.raises(SceneError, match=r"speeds_rpm\.1"):
+        calculate("train", [*words, "speeds_rpm.1=1440", "speeds.1=1"], "text", "en")
