@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -42,6 +43,8 @@ class Piece(Record):
         return Piece(np.conj(self.points[::-1]), self.bulges[::-1], self.max_error, self.certified)
 
 
+# cut files, pictures, films and checks ask for the same outlines
+@lru_cache(maxsize=32)
 def approximate_profile(profile: Profile, tolerance: float, *, arcs: bool, least_edge: float = 0.0) -> Approximation:
     """A closed profile as a contour within ``tolerance`` mm.
 
@@ -73,6 +76,7 @@ def approximate_profile(profile: Profile, tolerance: float, *, arcs: bool, least
         contour, merged_error = merge_short_edges(contour, edges, profile, tolerance, least_edge)
         error = max(error, merged_error)
         bound = "sampled" if merged_error > 0 else bound
+    contour.vertices.flags.writeable = contour.bulges.flags.writeable = False
     return Approximation(contour, error, bound if error > 0 else "exact", tolerance)
 
 
