@@ -160,6 +160,8 @@ def faults(english: str, told: str, language: str) -> list[str]:
         found.append("said twice")
     if "{ " not in english and times(told) != times(english):
         found.append("a field stands there more or less often")
+    if "``" in told:
+        found.append("a mark of a docstring")
     if told.count("  ") > english.count("  "):
         found.append("two spaces")
     if re.search(" [-–] ", told) and " - " not in english:
@@ -219,6 +221,7 @@ def test_translations_are_sound(file: Path) -> None:
         ("the wall is thin", "стінка is тонка is thin"),
         ("gear ratio", "передатне відношення"),
         ("which tooth", "который зуб"),
+        ("keys of ``cam``", "ключі ``cam``"),
     ],
 )
 def test_an_unsound_translation_would_be_noticed(english: str, told: str) -> None:

@@ -29,7 +29,7 @@ KINDS: Index[Kind[Any, Any]] = Index(
         ),
         "noncircular_gear": (
             "parts.gears.noncircular_gear.part:NONCIRCULAR_GEAR",
-            "Noncircular gear, one of a pair: the keys tell the driver's centrode, ``role`` which of both this part is",
+            "Noncircular gear, one of a pair: the keys tell the driver's centrode, role which of both this part is",
         ),
         "worm": (
             "parts.gears.worm.part:WORM",
@@ -53,7 +53,7 @@ KINDS: Index[Kind[Any, Any]] = Index(
         ),
         "groove_cam": (
             "parts.cams.groove_cam.part:GROOVE_CAM",
-            "Groove cam; the keys of the motion, bore, holes and hub are those of ``cam``",
+            "Groove cam; the keys of the motion, bore, holes and hub are those of cam",
         ),
         "groove_piece": (
             "parts.cams.groove_cam.piece:GROOVE_PIECE",

@@ -355,8 +355,8 @@ def untold(kind: type[Struct], named: Collection[str] = (), place: str = "") -> 
 
 
 def phrase_of(kind: type[Struct]) -> str:
-    """What a table of keys is, in one phrase: a text."""
-    return (kind.__doc__ or "").splitlines()[0].rstrip(".")
+    """What a table of keys is, in one phrase: a text, without the marks of a docstring."""
+    return (kind.__doc__ or "").splitlines()[0].rstrip(".").replace("``", "")
 
 
 def _steps(path: str) -> list[str | int]:

@@ -42,7 +42,7 @@ MATES: Index[MateKind[Any, Any, Any]] = Index(
         ),
         "fixed": (
             "parts.mates.fixed:FIXED",
-            "The second instance stands still on the first: ``offset`` and ``rotation_deg`` in the first one's frame",
+            "The second instance stands still on the first: offset and rotation_deg in the first one's frame",
         ),
         "coaxial": ("parts.mates.fixed:COAXIAL", "The second instance on the axis of the first, free to turn"),
         "carried": (

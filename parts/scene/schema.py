@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 from typing import Annotated, Any, Union
 
@@ -43,6 +44,10 @@ def scene_schema() -> str:
     names = default_names(ExportSpec)
     told = {"type": "object", "properties": {key: {} for key in names}, "additionalProperties": False}
     schema["$defs"]["Scene"]["properties"]["defaults"] = told
+    for table in schema["$defs"].values():
+        if "description" in table:
+            # a docstring, which an editor shows as it stands
+            table["description"] = inspect.cleandoc(table["description"]).replace("``", "")
     # words may be told in several languages
     several = {"type": "object", "additionalProperties": {"type": "string"}}
     recipes = [(entry.keys.__name__, WORDS) for entry in RECIPES.values()]
