@@ -10,9 +10,14 @@ from typing import Any
 from geometry.base.errors import Nearest
 from geometry.base.record import Record
 from geometry.gears.shifts.external import BlockingContour
-from geometry.gears.shifts.finder import Proposal
+from geometry.gears.shifts.finder import AnyShiftPair, Proposal
+from geometry.gears.shifts.internal_shifts import InternalShiftPair
+from geometry.gears.teeth.basic_rack import BasicRack
 from parts.base.refusal import SceneError
 from parts.base.texts import ENGLISH, Message, words
+from parts.gears.spur_gear.page import section_data
+from parts.mates.pages.pair_keys import ChoiceKeys
+from parts.pages.contact_steps import face_steps
 from parts.pages.contour_picture import ContourPicture
 from parts.pages.inputs import PLACE
 from parts.pages.page import Printed, Sheet
@@ -37,6 +42,25 @@ def checked_picture(topic: str, name: str | None, endings: tuple[str, ...] = END
         raise SceneError(PLACE, f"{topic}.picture", name, "picture_ends_in", works, known=endings)
     if not file.parent.is_dir():
         raise SceneError(PLACE, f"{topic}.picture", name, "no_such_folder", Nearest(file.name))
+
+
+def show_given(page: Sheet, keys: ChoiceKeys, pair: AnyShiftPair, rack: BasicRack) -> str:
+    """Teeth, section, ``rack`` of the normal section, face; the formula of the least shift without undercut."""
+    page.section("Given")
+    page.both("number_of_teeth", pair.teeth)
+    page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
+    section_data(page, keys.module, rack.pressure_angle, pair.helix_angle)
+    if isinstance(pair, InternalShiftPair):
+        page.both("addendum_coefficient", (rack.addendum, pair.ring_addendum))
+    else:
+        page.add("addendum_coefficient", rack.addendum)
+    page.add("tip_clearance_coefficient", rack.tip_clearance)
+    page.add("tip_radius_coefficient", rack.tip_radius)
+    square = "sin({alpha})**2"
+    if pair.helix_angle:
+        face_steps(page, keys.face)
+        square += " / cos({beta})"
+    return f"({{h_a}} + {{c}} - {{rho_f}} * (1 - sin({{alpha_n}}))) - {{z#}} * {square} / 2"
 
 
 class Choice(Record):

@@ -6,6 +6,7 @@ import math
 from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
+from msgspec.structs import asdict
 
 from geometry.base.errors import Nearest, ParameterError, rounded
 from geometry.base.record import replace
@@ -27,14 +28,13 @@ from geometry.gears.teeth.transverse import transverse_cutter, transverse_rack
 from parts.base.refusal import SceneError
 from parts.base.texts import N_, Message, counted, listed, message
 from parts.gears.ring_gear.part import RingGearSpec, RoundedRootTable, settled_section, tip_finding
-from parts.gears.spur_gear.page import section_data
 from parts.gears.spur_gear.part import basic_rack_of
 from parts.keys.base import in_modules
 from parts.keys.cutter import CutterTable, cutter_of
 from parts.keys.helix import in_keys
-from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices
+from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices, show_given
 from parts.mates.pages.pair_keys import ChoiceKeys, section_table
-from parts.pages.contact_steps import face_steps, working_steps
+from parts.pages.contact_steps import working_steps
 from parts.pages.contour_picture import line_name
 from parts.pages.inputs import PLACE, checked, refusal
 from parts.pages.page import Sheet
@@ -105,14 +105,7 @@ def internal_sheet(table: dict[str, Any]) -> Sheet:
         works = Nearest(teeth[0] + 1, "at_least")
         raise SceneError(PLACE, f"{TOPIC}.second.number_of_teeth", teeth[1], "not_above_pinion_teeth", works)
     pair = shift_pair(keys)
-    wish = InternalRequirements(
-        keys.least_tip_thickness,
-        keys.least_contact_ratio,
-        keys.allow_undercut,
-        keys.pole_inside,
-        keys.least_tip_clearance,
-        keys.radial_assembly,
-    )
+    wish = InternalRequirements(*keys.kept, keys.least_tip_clearance, keys.radial_assembly)
     try:
         return _page(keys, pair, wish)
     except ParameterError as error:
@@ -164,20 +157,9 @@ def _root_of(keys: InternalShiftKeys, angle: float) -> PinionCutter | RoundedRoo
 
 def _ring_of(keys: InternalShiftKeys, shift: float) -> RingGear:
     """The section of the ring at a shift with the cutter and the tip of a build, normal module 1."""
-    ring = keys.second
-    return settled_section(
-        RingGearSpec(
-            module=1.0,
-            number_of_teeth=ring.number_of_teeth,
-            profile_shift_coefficient=shift,
-            pressure_angle_deg=keys.pressure_angle_deg,
-            helix_angle_deg=keys.helix_angle_deg,
-            addendum_coefficient=ring.addendum_coefficient,
-            cutter=ring.cutter,
-            rounded_root=ring.rounded_root,
-            tip_rule=ring.tip_rule,
-        )
-    )
+    own = asdict(keys.second) | {"profile_shift_coefficient": shift}
+    alpha, beta = keys.pressure_angle_deg, keys.helix_angle_deg
+    return settled_section(RingGearSpec(module=1.0, pressure_angle_deg=alpha, helix_angle_deg=beta, **own))
 
 
 def _as_built(keys: InternalShiftKeys, pair: InternalShiftPair, shift: float) -> InternalShiftPair:
@@ -203,18 +185,8 @@ def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequir
 
 
 def _given(page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> None:
-    page.section("Given")
-    page.both("number_of_teeth", pair.teeth)
-    page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
-    angle, helix, square = math.radians(keys.pressure_angle_deg), pair.helix_angle, "sin({alpha})**2"
-    rack = basic_rack_of(keys.basic_rack, angle)
-    section_data(page, keys.module, angle, helix)
-    page.both("addendum_coefficient", (rack.addendum, pair.ring_addendum))
-    page.add("tip_clearance_coefficient", rack.tip_clearance)
-    page.add("tip_radius_coefficient", rack.tip_radius)
-    if helix:
-        square += " / cos({beta})"
-        face_steps(page, keys.face)
+    rack = basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg))
+    formula = show_given(page, keys, pair, rack).replace("{h_a}", "{h_a1}").replace("#", "1")
     if isinstance(pair.root, PinionCutter):
         # in normal modules
         page.add("cutter_teeth", pair.root.number_of_teeth)
@@ -226,9 +198,8 @@ def _given(page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: 
     page.add("required_contact_ratio", wish.contact_ratio, "", "practicum 1")
     page.add("required_tip_thickness", wish.tip_thickness, "", "practicum (1.3)")
     page.add("required_tip_clearance", wish.tip_clearance)
-    formula = f"({{h_a1}} + {{c}} - {{rho_f}} * (1 - sin({{alpha_n}}))) - {{z1}} * {square} / 2"
     formula = formula if pair.pinion_cutter is None else ""
-    symbol = "x_n,min" if helix else ""
+    symbol = "x_n,min" if pair.helix_angle else ""
     page.add("least_shift_without_undercut", least_pinion_shift(pair), formula, "ISO 21771", 1, symbol=symbol)
 
 
@@ -264,17 +235,17 @@ def _found_choices(
             _nearest_distance(page, keys.module, pair, wish, wanted)
         proposals.append((message("a_w = {distance:g} mm", distance=keys.working_centre_distance), found))
         page.note("a_w needs x2 - x1 = {difference:.4f}", difference=wanted)
+    text = N_(
+        "{rule}: no shifts keep all requirements; less least_contact_ratio, least_tip_thickness or "
+        "least_tip_clearance, or a smaller addendum_coefficient may work"
+    )
     result = []
     for rule, found in proposals:
-        if found is not None:
+        if found is None:
+            page.note(text, rule=rule)
+        else:
             result.append(BuiltChoice(rule, found, pair=pair))
             _tell_other_cutter(page, keys, pair, found.second, rule)
-            continue
-        page.note(
-            "{rule}: no shifts keep all requirements; less least_contact_ratio, least_tip_thickness or "
-            "least_tip_clearance, or a smaller addendum_coefficient may work",
-            rule=rule,
-        )
     return result
 
 

@@ -58,11 +58,8 @@ def sheet(table: dict[str, Any]) -> Sheet:
 
 
 def _is_example(table: Mapping[str, Any]) -> bool:
-    return "".join(ch for ch in str(table.get("code", "")) if ch.isdigit()) == EXAMPLE["code"] and set(table) <= {
-        "code",
-        "picture",
-        "positions",
-    }
+    digits = "".join(filter(str.isdigit, str(table.get("code", ""))))
+    return digits == EXAMPLE["code"] and set(table) <= {"code", "picture", "positions"}
 
 
 def _chosen(keys: LeverKeys, table: Mapping[str, Any]) -> tuple[dict[str, Any], int | None]:

@@ -45,6 +45,11 @@ class ChoiceKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     picture: Annotated[str, Meta(description="SVG or DXF file of the contour to write")] | None = None
 
     @property
+    def kept(self) -> tuple[float, float, bool, bool]:
+        """What every choice must keep, as ``Requirements`` begin."""
+        return self.least_tip_thickness, self.least_contact_ratio, self.allow_undercut, self.pole_inside
+
+    @property
     def face(self) -> CommonFace:
         """The face that both gears have in common.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 from msgspec import Meta
@@ -21,7 +21,7 @@ from parts.mates.pages.contour_marks import checked_picture
 from parts.mates.pages.module_load import MODULUS, Carried, LoadKeys, load_sections
 from parts.mates.pages.power_table import DRIVES, given
 from parts.pages.error_map import ErrorMap
-from parts.pages.inputs import checked, refusal
+from parts.pages.inputs import calculation
 from parts.pages.misprints import printed_for_power_module
 from parts.pages.module_rules import CONDITIONS, DRIVERS, RULES, of_orientation, sizes, valued
 from parts.pages.page import Section, Sheet
@@ -75,29 +75,26 @@ class PowerModuleKeys(LoadKeys, kw_only=True):
         return first, second
 
 
-def sheet(table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, PowerModuleKeys)
+def sheet(keys: PowerModuleKeys) -> Sheet:
     """The calculation of one module."""
-    keys: PowerModuleKeys = checked(table, PowerModuleKeys, TOPIC)
     checked_picture(TOPIC, keys.picture, (".svg",))
     page = Sheet(TOPIC, N_("Two-disk power module"))
     if keys == PowerModuleKeys(**{name: getattr(keys, name) for name in _BESIDE_THE_THESIS}):
         page.printed = printed_for_power_module()
-    try:
-        keys.table  # noqa: B018 - the ring is the larger one
-        if keys.groove_radius is not None and not keys.ball_diameter / 2 < keys.groove_radius:
-            raise ParameterError("groove_radius", keys.groove_radius, "groove_below_ball", None,
-                                 least=keys.ball_diameter / 2)  # fmt: skip
-        given(page, keys)
-        found = _found(keys, keys.orientation)
-        carried = load_sections(page, keys, found)
-        _worms(page, keys, carried.torques)
-        _pair(page, keys, carried.torques[1])
-        _ball_ring(page, keys, carried, found)
-        _orientation(page, keys)
-        _play(page, keys)
-        _sizes(page, keys, found)
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    keys.table  # noqa: B018 - the ring is the larger one
+    least = keys.ball_diameter / 2
+    if keys.groove_radius is not None and not least < keys.groove_radius:
+        raise ParameterError("groove_radius", keys.groove_radius, "groove_below_ball", None, least=least)
+    given(page, keys)
+    found = _found(keys, keys.orientation)
+    carried = load_sections(page, keys, found)
+    _worms(page, keys, carried.torques)
+    _pair(page, keys, carried.torques[1])
+    _ball_ring(page, keys, carried, found)
+    _orientation(page, keys)
+    _play(page, keys)
+    _sizes(page, keys, found)
     return page
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
 from msgspec import Meta, Struct
@@ -18,7 +18,7 @@ from geometry.kinematics.two_disk_path import Piece, followed
 from parts.base.texts import N_, Text, message
 from parts.keys.base import degrees, mm
 from parts.mates.pages.contour_marks import checked_picture
-from parts.pages.inputs import checked, refusal
+from parts.pages.inputs import calculation
 from parts.pages.misprints import printed_for_delta
 from parts.pages.page import Sheet
 from parts.pages.table_scheme import scheme
@@ -79,21 +79,18 @@ class PowerTableKeys(TwoDiskKeys, kw_only=True):
     start_deg: Annotated[float, degrees("delta before the path begins", least=-36_000, most=36_000)] | None = None
 
 
-def sheet(table: dict[str, Any]) -> Sheet:
+@calculation(TOPIC, PowerTableKeys)
+def sheet(keys: PowerTableKeys) -> Sheet:
     """The table of points or of a path."""
-    keys: PowerTableKeys = checked(table, PowerTableKeys, TOPIC)
     checked_picture(TOPIC, keys.picture, (".svg",))
     page = Sheet(TOPIC, N_("Two-disk power table"), picture_file=keys.picture)
-    try:
-        if keys.path is not None:
-            for name, given_too in (("x", keys.x), ("y", keys.y)):
-                if given_too is not None:
-                    raise ParameterError(name, given_too, "either_of", None, other="path")
-            _path(page, keys)
-        else:
-            _points(page, keys)
-    except ParameterError as error:
-        raise refusal(TOPIC, error, keys=keys) from error
+    if keys.path is None:
+        _points(page, keys)
+        return page
+    for name, given_too in (("x", keys.x), ("y", keys.y)):
+        if given_too is not None:
+            raise ParameterError(name, given_too, "either_of", None, other="path")
+    _path(page, keys)
     return page
 
 

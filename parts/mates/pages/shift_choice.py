@@ -28,14 +28,13 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear, transverse_rack
 from parts.base.refusal import SceneError
 from parts.base.texts import N_, message
-from parts.gears.spur_gear.page import section_data
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of
 from parts.keys.helix import in_keys
 from parts.mates.pages import external as gear_pair
 from parts.mates.pages import internal_shift_choice
-from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices
+from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices, show_given
 from parts.mates.pages.pair_keys import GEARS, ChoiceKeys, kind_of_pair, section_table
-from parts.pages.contact_steps import face_steps, working_steps
+from parts.pages.contact_steps import working_steps
 from parts.pages.inputs import SceneKeys, checked, refusal, told
 from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Printed, Sheet
@@ -80,17 +79,11 @@ def sheet(table: dict[str, Any]) -> Sheet:
     keys: ShiftChoiceKeys = checked(table, ShiftChoiceKeys, TOPIC)
     checked_picture(TOPIC, keys.picture)
     try:
-        gear = gear_of(
-            SpurGearSpec(
-                module=keys.module,
-                number_of_teeth=keys.first.number_of_teeth,
-                pressure_angle_deg=keys.pressure_angle_deg,
-                basic_rack=keys.basic_rack,
-            )
-        )
+        z, angle, basic = keys.first.number_of_teeth, keys.pressure_angle_deg, keys.basic_rack
+        spec = SpurGearSpec(module=keys.module, number_of_teeth=z, pressure_angle_deg=angle, basic_rack=basic)
+        gear = gear_of(spec)
         pair = _pair(keys, gear.rack)
-        wish = Requirements(keys.least_tip_thickness, keys.least_contact_ratio, keys.allow_undercut, keys.pole_inside)
-        return _page(keys, gear.rack, pair, wish)
+        return _page(keys, gear.rack, pair, Requirements(*keys.kept))
     except ParameterError as error:
         raise refusal(TOPIC, in_keys(error), keys=keys) from error
 
@@ -105,26 +98,15 @@ def _pair(keys: ShiftChoiceKeys, rack: BasicRack) -> ShiftPair:
 
 def _page(keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair, wish: Requirements) -> Sheet:
     page = Sheet(TOPIC, N_("Choice of profile shifts"))
-    page.section("Given")
-    page.both("number_of_teeth", pair.teeth)
-    page.add("gear_ratio", pair.gear_ratio, "{z2} / {z1}", "practicum (3.2)")
-    helix, square = pair.helix_angle, "sin({alpha})**2"
-    section_data(page, keys.module, rack.pressure_angle, helix)
-    page.add("addendum_coefficient", rack.addendum)
-    page.add("tip_clearance_coefficient", rack.tip_clearance)
-    page.add("tip_radius_coefficient", rack.tip_radius)
-    if helix:
-        square += " / cos({beta})"
-        face_steps(page, keys.face)
+    formula = show_given(page, keys, pair, rack)
     page.add("required_contact_ratio", wish.contact_ratio, "", "practicum 1")
     page.add("required_tip_thickness", wish.tip_thickness, "", "practicum (1.3)")
-    least = (least_shift(pair, 0), least_shift(pair, 1))
-    formula = f"({{h_a}} + {{c}} - {{rho_f}} * (1 - sin({{alpha_n}}))) - {{z#}} * {square} / 2"
-    for index, value in enumerate(least, 1):
-        symbol = "x_n,min" if helix else ""
-        page.add("least_shift_without_undercut", value, formula, "ISO 21771", index, symbol=symbol)
+    symbol = "x_n,min" if pair.helix_angle else ""
+    for index in (1, 2):
+        least = least_shift(pair, index - 1)
+        page.add("least_shift_without_undercut", least, formula, "ISO 21771", index, symbol=symbol)
     tables = []
-    if helix:
+    if pair.helix_angle:
         page.note("the tables and the recommendations of GOST 16532 are left out: they are of spur gears")
     else:
         tables = _table_choices(page, pair, wish)
@@ -155,10 +137,8 @@ def _table_choices(page: Sheet, pair: ShiftPair, wish: Requirements) -> list[Cho
             continue
         source = f"{name}, table {shifts.table}"
         found.append(Choice(rule, proposal(pair, wish, shifts.first, shifts.second), source, _mending(shifts)))
-    for kinematic, rule in (
-        (False, message("GOST 16532, power drive")),
-        (True, message("GOST 16532, kinematic drive")),
-    ):
+    drives = message("GOST 16532, power drive"), message("GOST 16532, kinematic drive")
+    for kinematic, rule in zip((False, True), drives, strict=True):
         try:
             for shifts in shift_tables.gost_16532(z1, z2, kinematic=kinematic):
                 found.append(Choice(rule, proposal(pair, wish, shifts.first, shifts.second), "GOST 16532-70"))
@@ -189,16 +169,11 @@ def _found_choices(
         proposals.append((message("a_w = {distance:g} mm", distance=keys.working_centre_distance), found))
         if found is None:
             _explain_sum(page, pair, wish, total)
-    result = []
+    text = N_("{rule}: no shifts keep all requirements; less least_contact_ratio or least_tip_thickness may work")
     for rule, found in proposals:
-        if found is not None:
-            result.append(Choice(rule, found))
-            continue
-        page.note(
-            "{rule}: no shifts keep all requirements; less least_contact_ratio or least_tip_thickness may work",
-            rule=rule,
-        )
-    return result
+        if found is None:
+            page.note(text, rule=rule)
+    return [Choice(rule, found) for rule, found in proposals if found is not None]
 
 
 def _explain_sum(page: Sheet, pair: ShiftPair, wish: Requirements, total: float) -> None:

@@ -43,6 +43,11 @@ _RPM = Fraction(math.pi) / 30
 _BLANK = "________"
 
 
+_TEETH = "numbers of teeth: of wheels 1, 2, … in a list, or by name, as teeth.2'=20; a worm's starts"
+_MESHES = "wheels in mesh, as 1-2, 2'-3 internal 3.5: kind and module where they differ, + or - of bevels"
+_Teeth = Annotated[int, Meta(ge=1)]
+
+
 class TrainKeys(Struct, forbid_unknown_fields=True):
     """Keys of the topic."""
 
@@ -50,21 +55,8 @@ class TrainKeys(Struct, forbid_unknown_fields=True):
         Annotated[str, Meta(description="a train of the sources to start from, as practicum_1, 2.10.2, trains_7")]
         | None
     ) = None
-    teeth: (
-        Annotated[
-            list[Annotated[int, Meta(ge=1)]] | dict[str, Annotated[int, Meta(ge=1)]],
-            Meta(
-                description="numbers of teeth: of wheels 1, 2, … in a list, or by name, as teeth.2'=20; a worm's starts"
-            ),
-        ]
-        | None
-    ) = None
-    meshes: Annotated[
-        str,
-        Meta(
-            description="wheels in mesh, as 1-2, 2'-3 internal 3.5: kind and module where they differ, + or - of bevels"
-        ),
-    ] = ""
+    teeth: Annotated[list[_Teeth] | dict[str, _Teeth], Meta(description=_TEETH)] | None = None
+    meshes: Annotated[str, Meta(description=_MESHES)] = ""
     shafts: Annotated[str, Meta(description="wheels of one shaft, as 2-3, H-5; 2 and 2' need no such word")] = ""
     carriers: Annotated[dict[str, Name], Meta(description="satellites of each carrier, as carriers.H=2")] = {}
     held: Annotated[Name, Meta(description="held wheels or carriers, with commas between them")] = ""
