@@ -14,6 +14,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from geometry.approximation.chords import approximate_profile
 from geometry.base.record import Record, replace
@@ -104,8 +105,8 @@ class Sectioned:
         """Inner and outer radius at two levels: rows z0, z1, inner at both, outer at both, mm."""
         if self.half is not None:
             return _bands(self.half)
-        rows = [(low, high, *self._radii(section, 0j)) for low, high, section in self.layers]
-        return np.array([(z0, z1, near, near, far, far) for z0, z1, near, far in rows])
+        near, far = self._radii(0j)
+        return np.column_stack([self._levels, near, near, far, far])
 
     @cached_property
     def hull(self) -> Any | None:
@@ -161,14 +162,27 @@ class Sectioned:
             found += [(low, high, piece) for piece in shapely.get_parts(shapely.difference(walls, holes))]
         return found
 
-    @staticmethod
-    def _radii(section: BaseGeometry, at: complex) -> tuple[float, float]:
-        """Between which a connected section lies about a place, mm."""
+    @cached_property
+    def _levels(self) -> Real:
+        """Between which the layers lie, (n, 2), mm."""
+        return np.array([(low, high) for low, high, _ in self.layers])
+
+    @cached_property
+    def _corners(self) -> tuple[Real, NDArray[np.intp]]:
+        """Those of all layers, one after the other, mm, and where those of each begin."""
         import shapely
 
-        corners = shapely.get_coordinates(section)
-        near = float(shapely.distance(shapely.Point(at.real, at.imag), section))
-        return near, float(np.hypot(corners[:, 0] - at.real, corners[:, 1] - at.imag).max())
+        corners, layer = shapely.get_coordinates([section for _, _, section in self.layers], return_index=True)
+        return corners, np.searchsorted(layer, np.arange(len(self.layers)))
+
+    def _radii(self, at: complex) -> tuple[Real, Real]:
+        """Between which each layer lies about a place, mm."""
+        import shapely
+
+        corners, first = self._corners
+        near = shapely.distance(shapely.Point(at.real, at.imag), [section for _, _, section in self.layers])
+        far = np.hypot(corners[:, 0] - at.real, corners[:, 1] - at.imag)
+        return near, np.maximum.reduceat(far, first)
 
     def _at(self, at: complex) -> _Region:
         """About an upright axis in its own frame."""
@@ -188,9 +202,9 @@ class Sectioned:
                 return _Region(some, None, False)
             bored = [shapely.box(abs(h.centre) - h.radius, low, abs(h.centre) + h.radius, high) for h in self.holes]
             return _Region(some, shapely.difference(some, shapely.union_all(bored)), True)
-        rows = [(low, high, *self._radii(section, at)) for low, high, section in self.layers]
-        some = shapely.union_all([shapely.box(near, z0, far, z1) for z0, z1, near, far in rows])
-        return _Region(some, None, not self.teeth)
+        near, far = self._radii(at)
+        low, high = self._levels.T
+        return _Region(shapely.union_all(shapely.box(near, low, far, high)), None, not self.teeth)
 
     def _going(self, near: float, far: float) -> _Region:
         """As its own axis goes about another one, ``near`` to ``far`` from it, mm."""
