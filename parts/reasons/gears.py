@@ -184,6 +184,7 @@ REASONS = {
         "below {diameter} mm tips would reach below the base circle of the shaper, where it has no flank"
     ),
     "face_gear_narrow": N_("leaves the teeth no width: they begin at {diameter} mm"),
+    "face_gear_no_flank": N_("below {diameter} mm fillets would reach the tips: the shaper leaves no flank there"),
     "face_gear_no_width": N_(
         "leaves the teeth no width: undercut ends at {inner} mm, and they are pointed from {outer} mm on"
     ),

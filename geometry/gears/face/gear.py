@@ -23,27 +23,30 @@ from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real
 from geometry.gears.teeth.cutter import PinionCutter
+from geometry.gears.teeth.limits import root_form_diameter
+from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.profile import Profile
 
 P = TypeVar("P", Real, Complex)
 FILLET, FLANK = 0, 1
 SIDES = (FILLET, FLANK)
-# Newton's steps for the pressure angle on a cylinder, what is enough, rad, and what is on it, part of the radius; the
-# step of the derivative, which goes off the real axis and cancels nothing
-_STEPS, _ENOUGH, _ON, _ASIDE = 30, 1e-15, 1e-12, 1e-30
+# Newton's steps for the pressure angle on a cylinder, after which one more is enough, rad, and what is on it, part of
+# the radius squared; the step of the derivative, which goes off the real axis and cancels nothing
+_STEPS, _ENOUGH, _ON, _ASIDE = 30, 1e-9, 1e-13, 1e-30
 # pressure angles between which limits are sought
 _LEAST_ANGLE, _MOST_ANGLE, _LIMIT_STEPS = 1e-6, 1.5, 65
 # where a fillet is held against folding: shares and radii
 _SHARES, _RADII = np.linspace(0.0, 1.0, 33), 9
-# a face is no narrower, a tip no thinner, modules; what a limit is stepped back from by default
-LEAST_FACE, _LEAST_TIP, _NEXT = 0.05, 1e-3, 1e-12
-NEAR_UNDERCUT, USUAL_TIP = 0.1, 0.4
+# a face is no narrower, a tip no thinner, a flank no lower, modules; what a limit is stepped back from by default
+LEAST_FACE, _LEAST_TIP, _LEAST_FLANK, _NEXT = 0.05, 1e-3, 0.05, 1e-12
+NEAR_UNDERCUT, USUAL_TIP, USUAL_FACE = 0.1, 0.4, 0.5
 
 
 class Places(Record, eq=False):
     """Places of a side: radius, azimuth (rad, from the middle of tooth 1), depth below the shaper's axis, mm.
 
-    ``normal``: out of the material, y + ih of the shaper's section where it cuts them; ``x``: of that section, mm.
+    ``normal``: out of the material, y + ih of the shaper's section where it cuts them; ``x``: of that section, mm;
+    ``turn``: how far the shaper has turned then from where a tooth points straight down, rad.
     """
 
     radius: Real
@@ -51,6 +54,7 @@ class Places(Record, eq=False):
     depth: Real
     normal: Complex
     x: Real
+    turn: Real
 
     @property
     def plane(self) -> Complex:
@@ -147,18 +151,19 @@ class FaceGear(Record, dict=True):
         """
         u, r = np.broadcast_arrays(np.asarray(share, float), np.asarray(radius, float))
         alpha = np.arccos(self.section_x(0.0) / r)
+        last = False
         for _ in range(_STEPS):
             y, depth, normal, phi = self._contact(which, u, alpha + 1j * _ASIDE)
             x = self.section_x(alpha)
             off = x**2 + y.real**2 - r**2
-            step = off / (2 * x**2 * np.tan(alpha) + 2 * y.real * y.imag / _ASIDE)
-            if (np.abs(step) < _ENOUGH).all():
+            if last:
                 break
-            alpha = alpha - step
+            step = off / (2 * x**2 * np.tan(alpha) + 2 * y.real * y.imag / _ASIDE)
+            alpha, last = alpha - step, bool((np.abs(step) < _ENOUGH).all())
         if not (np.abs(off) < _ON * r**2).all():
             raise ConvergenceError("section of a face gear", float(np.nanmax(np.abs(off))), _STEPS)
         azimuth = math.pi / self.number_of_teeth + np.arctan2(y.real, x) - self.rolled * phi
-        return Places(r, azimuth, depth.real, normal, x)
+        return Places(r, azimuth, depth.real, normal, x, phi)
 
     def _contact(self, which: int, u: Real, alpha: Complex) -> tuple[Complex, Complex, Complex, Real]:
         """Where the shaper cuts a side: y, h, the normal, and how far it has turned; alpha stands off the real axis."""
@@ -215,10 +220,17 @@ class FaceGear(Record, dict=True):
             return 0.0
         return float(self.cut_radius(bracketed_root(over, deepest, _MOST_ANGLE).value, s))
 
+    @cached_property
+    def flank_radius(self) -> float:
+        """Inside of it fillets reach the tip, mm: there h = r_b cos(alpha) + s sin(alpha) of the end of the flank."""
+        base, s = self.shaper.base_radius, self.shaper.form_length
+        depth = (self.tip_depth + _LEAST_FLANK * self.module) / math.hypot(base, s)
+        return 0.0 if depth >= 1 else float(self.cut_radius(max(math.atan2(s, base) - math.acos(depth), 0.0), s))
+
     @property
     def least_radius(self) -> float:
-        """The inner radius may not be less: of undercut, and of tips that reach below the shaper's base circle."""
-        return max(self.undercut_radius, self.form_radius(0.0))
+        """The inner radius may not be less: of undercut, of fillets, and of tips below the shaper's base circle."""
+        return max(self.undercut_radius, self.flank_radius, self.form_radius(0.0))
 
     def tip_thickness(self, radius: ArrayLike) -> Real:
         """Of the tip, an arc at radii, mm."""
@@ -266,7 +278,8 @@ class FaceGear(Record, dict=True):
             raise ParameterError("addendum_coefficient", self.addendum / m, "face_gear_no_width",
                                  inner=2 * least, outer=2 * most)  # fmt: skip
         if self.inner_radius < least:
-            code = "face_gear_undercut" if least == self.undercut_radius else "face_gear_below_base"
+            codes = {self.flank_radius: "face_gear_no_flank", self.undercut_radius: "face_gear_undercut"}
+            code = codes.get(least, "face_gear_below_base")
             raise ParameterError("inner_diameter", 2 * self.inner_radius, code,
                                  limit(2 * least * (1 + 1e-9), 2 * self.inner_radius), diameter=2 * least)  # fmt: skip
         if self.inner_radius > most - room:
@@ -293,15 +306,21 @@ class FaceGear(Record, dict=True):
         return not (along < 0).all()
 
 
-def sized(gear: FaceGear, inner: float | None, outer: float | None) -> FaceGear:
+def form_length(pinion: SpurGear) -> float:
+    """From the base circle to where a pinion's involute begins, along its line of action, mm."""
+    radius, base = root_form_diameter(pinion) / 2, pinion.base_radius
+    return math.sqrt(max((radius - base) * (radius + base), 0.0))
+
+
+def sized(gear: FaceGear, inner: float | None, outer: float | None, form_length: float = 0.0) -> FaceGear:
     """The gear with radii that are given, mm, or those of the widest face without undercut and thin tips.
 
-    By default its tips begin where the pinion, cut by the basic rack, still has its involute.
+    By default its tips begin where the pinion still has its involute, from ``form_length`` mm of its line of action on.
     """
-    m, alpha = gear.module, gear.shaper.pressure_angle
+    m = gear.module
     if inner is None:
-        begins = gear.shaper.reference_radius * math.sin(alpha) - gear.addendum / math.sin(alpha)
-        inner = max(gear.least_radius, gear.form_radius(max(begins, 0.0))) + NEAR_UNDERCUT * m
+        inner = max(gear.least_radius, gear.form_radius(form_length)) + NEAR_UNDERCUT * m
+        inner = max(min(inner, gear.pointed_radius - USUAL_FACE * m), gear.least_radius * (1 + _NEXT))
     if outer is None:
-        outer = max(gear.tip_limit(USUAL_TIP * m), inner + LEAST_FACE * m)
+        outer = max(gear.tip_limit(USUAL_TIP * m), min(inner + USUAL_FACE * m, gear.tip_limit(_LEAST_TIP * m)))
     return replace(gear, inner_radius=inner, outer_radius=outer)

@@ -7,23 +7,39 @@ across the pinion's axis have a pressure angle each; in them both touch as the g
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
 
 from geometry.base.record import Record
+from geometry.base.roots import bracketed_roots
 from geometry.base.tolerance import CONTACT_TOLERANCE
-from geometry.curves.curve import Complex, Real, start_point
-from geometry.gears.face.gear import FILLET, FLANK, FaceGear
+from geometry.curves.curve import Complex, Real
+from geometry.gears.face.gear import FILLET, FLANK, FaceGear, Places, form_length
 from geometry.gears.face.walls import side_off
 from geometry.gears.mesh.search import ContactPlace, PairContact, gear_outline
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import ToothSide, tooth_side
 from geometry.plane.distance import Boundary, Verdict, folded
 from geometry.plane.profile import Label
+from geometry.solids.faces import Index
 
 # drive angles in a pitch; planes; places along a curve; teeth to each side; radii of a ratio
 _DRIVE_ANGLES, _PLANES, _PLACES, _TEETH, _ALONG = 24, 9, 9, 2, 129
+# how near to where both touch a plane stands, rad or mm: it tells which plane, not where they touch in it
+_NEAR = 1e-7
+
+
+def _root(function: Callable[[Real, Index], Real], count: int) -> Real:
+    """Shares of flanks (count,) at which a falling function of shares and numbers is 0, or the end nearer to it."""
+    every = np.arange(count)
+    first, last = function(np.zeros(count), every), function(np.ones(count), every)
+    share = np.where(first <= 0, 0.0, 1.0)
+    rows = np.flatnonzero((first > 0) & (last < 0))
+    ends = np.zeros(len(rows)), np.ones(len(rows)), first[rows], last[rows]
+    share[rows] = bracketed_roots(lambda own: function(own, rows), *ends, enough=_NEAR)
+    return share
 
 
 class FacePair(Record, dict=True):
@@ -59,8 +75,7 @@ class FacePair(Record, dict=True):
     @cached_property
     def form_length(self) -> float:
         """From the base circle to where the pinion's involute begins, along the line of action, mm."""
-        flank = next(s for s in self.side.segments if s.label is Label.FLANK)
-        return math.sqrt(max(abs(start_point(flank.curve)) ** 2 - self.pinion.base_radius**2, 0.0))
+        return form_length(self.pinion)
 
     @cached_property
     def planes(self) -> Real:
@@ -92,12 +107,26 @@ class FacePair(Record, dict=True):
     @cached_property
     def contact_ratio(self) -> float:
         """The pinion's turn from where two flanks meet first to where they part last, over its pitch."""
-        base = self.pinion.base_radius
-        x = np.linspace(self.planes[0], self.planes[-1], _ALONG)
-        alpha = self._angles(x)
-        begins = np.maximum(self.gear.tip_length(alpha), self.form_length)
-        turn = float((alpha - begins / base).max() - (alpha - self._tip_length / base).min())
-        return turn * self.pinion.number_of_teeth / math.tau
+        radii = np.linspace(self.gear.inner_radius, self.gear.outer_radius, _ALONG)
+        ends = [self._on(length, radii) for length in (self.form_length, self._tip_length)]
+        begins, parts = (at.turn[(at.x >= self.low) & (at.x <= self.high)] for at in ends)
+        return float(begins.max() - parts.min()) * self.pinion.number_of_teeth / math.tau
+
+    def _on(self, length: float, radii: Real) -> Places:
+        """Places of the flank at radii that stand so far along the line of action, mm, or the nearest end."""
+
+        def over(share: Real, which: Index) -> Real:
+            at = self.gear.side(FLANK, share, radii[which])
+            return np.sqrt(at.depth**2 + at.radius**2 - at.x**2 - self.pinion.base_radius**2) - length
+
+        return self.gear.side(FLANK, _root(over, len(radii)), radii)
+
+    def _meeting(self, turn: Real) -> Real:
+        """Planes in which a flank of the shaper turned so far, (...), touches on cylinders, (..., radii), mm."""
+        radii = np.linspace(self.gear.inner_radius, self.gear.outer_radius, _PLANES)
+        wanted, radii = (a.ravel() for a in np.broadcast_arrays(turn[..., None], radii))
+        share = _root(lambda u, which: wanted[which] - self.gear.side(FLANK, u, radii[which]).turn, len(wanted))
+        return self.gear.side(FLANK, share, radii).x.reshape(*turn.shape, _PLANES)
 
     def contact(self, phase_off: float = 0.0, tolerance: float | None = None) -> PairContact:
         """Verdict over one pitch; the pinion is ``phase_off`` rad further round than in the middle of its backlash."""
@@ -128,24 +157,25 @@ class FacePair(Record, dict=True):
         pitch, base = pinion.pitch_angle, pinion.base_radius
         nearest = turned - pitch * np.round(turned / pitch)
         # (n, teeth, planes, places)
-        middles = (nearest[:, None] + pitch * np.arange(-_TEETH, _TEETH + 1))[:, :, None, None]
-        x = self.planes[:, None]
-        fixed: Complex = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, _PLACES))
-                                         for s in self.side.segments])  # fmt: skip
-        # where the line of action of the plane meets the flank
-        s = base * (self._angles(x) + pinion.base_half_angle - middles - off)
-        s = np.clip(s, self.form_length, self._tip_length)
-        roll = s / base
-        meets = base * np.exp(1j * (roll - pinion.base_half_angle)) * (1 - 1j * roll)
-        shape = np.broadcast_shapes(middles.shape, x.shape)
-        places = np.concatenate([np.broadcast_to(fixed, (*shape[:3], len(fixed))), meets], axis=3)
-        seen = places * np.exp(1j * (middles + off))
+        middles = nearest[:, None] + pitch * np.arange(-_TEETH, _TEETH + 1)
+        fixed: Complex = np.concatenate(
+            [s.curve.point(np.linspace(*s.curve.domain, _PLACES)) for s in self.side.segments]
+        )
+        # where the line of action of a plane meets the flank
+        half = pinion.base_half_angle
+        meet = self._meeting(middles + off + gear.shaper.base_half_angle - half)[..., None]
+        s = base * (self._angles(meet) + half - middles[:, :, None, None] - off)
+        roll = np.clip(s, self.form_length, self._tip_length) / base
+        meets = base * np.exp(1j * (roll - half)) * (1 - 1j * roll)
+        shape = (*middles.shape, _PLANES, len(fixed))
+        places = np.concatenate([np.broadcast_to(fixed, shape), meets], axis=3)
+        x = np.concatenate([np.broadcast_to(self.planes[:, None], shape), meet], axis=3)
+        seen = places * np.exp(1j * (middles[:, :, None, None] + off))
         # from straight down: along y, and how deep
         y, depth = seen.imag, seen.real
-        x = np.broadcast_to(x, y.shape)
         own = np.broadcast_to(turned[:, None, None, None], y.shape)
         found = np.full(y.shape, np.inf)
-        near = depth > gear.mounting_distance - gear.height
+        near = (depth > gear.tip_depth) & (x >= self.low) & (x <= self.high)
         azimuth = np.arctan2(y, x) - own / self.ratio + math.pi / gear.number_of_teeth
         found[near] = self._gear_off(np.hypot(x, y)[near], azimuth[near], depth[near])
         return np.asarray(found.reshape(len(turned), -1).min(axis=1))

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import OffsetError, ParameterError
+from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
-from geometry.gears.face.gear import FaceGear, sized
-from geometry.gears.teeth.cutter import CUTTER_ROUNDING, PinionCutter, checked_cutter
+from geometry.gears.face.gear import FaceGear, form_length, sized
+from geometry.gears.teeth.cutter import CUTTER_ADDENDUM, CUTTER_ROUNDING, PinionCutter, checked_cutter
 from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
@@ -28,9 +28,9 @@ if TYPE_CHECKING:
     from geometry.solids.hub_holes import HubHoles
     from geometry.solids.sketch import Sketch
 
-# part of the largest rounding that a shaper's tooth takes; the plate below the root, the least tip, modules
+# part of the largest rounding of a shaper's tooth that it has at most; the plate below the root, the least tip, modules
 _ROUND, _USUAL_PLATE, _THIN = 0.9, 2.5, 0.3
-# addenda that are tried where none of the teeth has any width, part of the given one
+# addenda and dedenda that are tried where teeth have no width, part of the given one
 _LOWER = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
 # how near to the greatest one a value is offered, modules
 _NEAR = 1e-3
@@ -48,9 +48,9 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     pinion_teeth: PinionTeeth
     pressure_angle_deg: Annotated[float, degrees("pressure angle of the pinion", least=10, most=35)] = 20.0
     addendum_coefficient: Annotated[float, in_modules("addendum above the pitch plane", least=0.1, most=3)] = 1.0
-    tip_clearance_coefficient: Annotated[
-        float, in_modules("by how much the shaper reaches deeper than the pinion's addendum", least=0, most=1)
-    ] = 0.25
+    dedendum_coefficient: Annotated[
+        float, in_modules("dedendum below it: what the shaper's teeth have for an addendum", least=0.1, most=3)
+    ] = CUTTER_ADDENDUM
     tip_radius_coefficient: (
         Annotated[
             float,
@@ -93,25 +93,22 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
 
 
 # keys of the shaper as its owner has them
-_SHAPER_KEYS = {"cutter.addendum": "addendum_coefficient", "cutter.tip_rounding": "tip_radius_coefficient",
-                "cutter.number_of_teeth": "pinion_teeth"}  # fmt: skip
+_SHAPER_KEYS = {"cutter.addendum": "dedendum_coefficient", "cutter.number_of_teeth": "pinion_teeth"}  # fmt: skip
 
 
 def shaper_of(keys: FaceGearSpec) -> PinionCutter:
     """The shaper, checked to exist."""
-    addendum, sharp = keys.addendum_coefficient + keys.tip_clearance_coefficient, keys.tip_radius_coefficient or 0.0
-    alpha = math.radians(keys.pressure_angle_deg)
-    shaper = PinionCutter(keys.module, keys.pinion_teeth, alpha, 0.0, addendum, sharp)
+    alpha, rounding = math.radians(keys.pressure_angle_deg), keys.tip_radius_coefficient
+    shaper = PinionCutter(keys.module, keys.pinion_teeth, alpha, 0.0, keys.dedendum_coefficient, 0.0)
     try:
         checked_cutter(replace(shaper, widening=keys.circumferential_thinning / 2))
     except ParameterError as error:
-        key = _SHAPER_KEYS.get(error.name, error.name)
-        # of the clearance too is what the shaper has, and its own limit is no gear's yet
-        cure = None if key == "addendum_coefficient" else error.nearest
-        raise ParameterError(key, getattr(keys, key), error.code, cure, **error.numbers) from error
-    if keys.tip_radius_coefficient is not None:
-        return shaper
-    return replace(shaper, tip_rounding=min(CUTTER_ROUNDING, _ROUND * shaper.largest_rounding()))
+        raise error.renamed(_SHAPER_KEYS.get(error.name, error.name)) from error
+    # the root keeps some width
+    most = _ROUND * shaper.largest_rounding()
+    if rounding is not None and rounding > most:
+        raise ParameterError("tip_radius_coefficient", rounding, "cutter_rounding_does_not_fit", limit(most, rounding))
+    return replace(shaper, tip_rounding=min(CUTTER_ROUNDING, most) if rounding is None else rounding)
 
 
 def _made(keys: FaceGearSpec) -> FaceGear:
@@ -121,11 +118,24 @@ def _made(keys: FaceGearSpec) -> FaceGear:
     bare = FaceGear(shaper_of(keys), keys.number_of_teeth, keys.addendum_coefficient * m, 0.0, 0.0,
                     plate, keys.circumferential_thinning)  # fmt: skip
     inner, outer = (None if d is None else d / 2 for d in (keys.inner_diameter, keys.outer_diameter))
-    return sized(bare, inner, outer).checked()
+    return sized(bare, inner, outer, 0.0 if inner else _form_length(keys)).checked()
 
 
-def _no_width(keys: FaceGearSpec, refusal: ParameterError) -> ParameterError:
-    """The refusal of teeth without any width, of the thinning where that alone is too much."""
+def _form_length(keys: FaceGearSpec) -> float:
+    """Where the involute of a pinion that the rack of ISO 53 A cuts begins, along the line of action, mm."""
+    from geometry.gears.teeth.spur import SpurGear
+    from parts.gears.spur_gear.part import basic_rack_of
+
+    try:
+        rack = basic_rack_of("ISO 53 A", math.radians(keys.pressure_angle_deg))
+        return form_length(SpurGear(keys.module, keys.pinion_teeth, rack))
+    except GeometryError:
+        # of another rack only its own pinion may be
+        return 0.0
+
+
+def _cured(keys: FaceGearSpec, refusal: ParameterError) -> ParameterError:
+    """A refusal of teeth that cannot be, of the thinning where that alone is too much, with what leaves some width."""
 
     def cured(key: str, ends: Sequence[float]) -> ParameterError:
         def builds(value: float) -> bool:
@@ -139,7 +149,7 @@ def _no_width(keys: FaceGearSpec, refusal: ParameterError) -> ParameterError:
     thinned = cured("circumferential_thinning", (0.0,))
     if keys.circumferential_thinning and thinned.nearest is not None:
         return thinned
-    return cured("addendum_coefficient", [keys.addendum_coefficient * share for share in _LOWER])
+    return cured(refusal.name, [getattr(keys, refusal.name) * share for share in _LOWER])
 
 
 class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
@@ -152,9 +162,9 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
         try:
             gear = _made(keys)
         except ParameterError as error:
-            if error.name != "addendum_coefficient":
+            if error.name not in ("addendum_coefficient", "dedendum_coefficient"):
                 raise
-            raise _no_width(keys, error) from error
+            raise _cured(keys, error) from error
         room = gear.inner_radius - least_wall(gear.inner_radius)
         check_shape(keys, FaceGearSpec.hub_holes, room)
         holes = keys.hub_holes()

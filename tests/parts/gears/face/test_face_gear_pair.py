@@ -152,8 +152,7 @@ def test_a_pinion_that_the_gear_is_not_for_is_refused() -> None:
         ({"inner_diameter": 55.0}, "inner_diameter"), ({"outer_diameter": 90.0}, "outer_diameter"),
         ({"inner_diameter": 80.0}, "inner_diameter"), ({"outer_diameter": 55.0}, "outer_diameter"),
         ({"tip_radius_coefficient": 1.0}, "tip_radius_coefficient"),
-        ({"addendum_coefficient": 2.0}, "addendum_coefficient"),
-        ({"pinion_teeth": 4, "addendum_coefficient": 1.2}, "addendum_coefficient"),
+        ({"dedendum_coefficient": 2.0}, "dedendum_coefficient"),
         ({"bore_diameter": 70.0}, "bore_diameter"), ({"circumferential_thinning": 4.0}, "circumferential_thinning"),
     ],
 )  # fmt: skip
