@@ -44,22 +44,20 @@ def sheet(keys: DiscKeys) -> Sheet:
     _pushing(page, disc)
     if keys.output_holes is not None:
         output = keys.output_holes
-        page.section(N_("Output holes"))
+        page.section("Output holes")
         page.add("output_pin_diameter", output.pin_diameter)
         page.add("output_hole_clearance", output.clearance)
         hole = output.pin_diameter + 2 * keys.eccentricity + output.clearance
         page.add("output_hole_diameter", hole, "{d_o} + 2 * {e} + {c_o}")
     page.tables.append(_table(disc, keys.step))
-    page.notes.append(
-        N_("the disc turns against its eccentric; psi: from the eccentric to a pin, about the pins' axis")
-    )
-    page.notes.append(N_("pressure angle: between a pin's normal and the way of the touched point about the disc"))
+    page.note("the disc turns against its eccentric; psi: from the eccentric to a pin, about the pins' axis")
+    page.note("pressure angle: between a pin's normal and the way of the touched point about the disc")
     page.notes += [finding_message(f) for f in disc_findings(disc)]
     return page
 
 
 def _given(page: Sheet, disc: CycloidalDisc) -> None:
-    page.section(N_("Given"))
+    page.section("Given")
     page.add("number_of_lobes", disc.number_of_lobes)
     page.add("number_of_pins", disc.number_of_pins, "{z} + 1")
     page.add("pin_circle_radius", disc.pin_circle_diameter / 2)
@@ -72,7 +70,7 @@ def _given(page: Sheet, disc: CycloidalDisc) -> None:
 
 
 def _sizes(page: Sheet, disc: CycloidalDisc) -> None:
-    page.section(N_("Ratio and sizes"))
+    page.section("Ratio and sizes")
     page.add("reduction", disc.number_of_lobes, "{z}")
     page.add("reduction_of_pins", disc.number_of_pins, "{N}")
     page.add("disc_centrode_radius", disc.pitch_radius, "{e} * {z}")
@@ -83,7 +81,7 @@ def _sizes(page: Sheet, disc: CycloidalDisc) -> None:
 
 
 def _limits(page: Sheet, disc: CycloidalDisc) -> None:
-    page.section(N_("Limits"))
+    page.section("Limits")
     lam, pins = disc.shortening, disc.number_of_pins
     page.add("shortening_coefficient", lam, "{e} * {N} / {R_g}", _CURVE)
     most = greatest_shortening(disc.generating_radius, pins, disc.generating_pin_radius)
@@ -97,7 +95,7 @@ def _limits(page: Sheet, disc: CycloidalDisc) -> None:
 
 
 def _pushing(page: Sheet, disc: CycloidalDisc) -> None:
-    page.section(N_("Transmission"))
+    page.section("Transmission")
     page.add("driving_pins", math.ceil(disc.number_of_pins / 2))
     # the arm is that of the line from the pole, r_2 from the pins' axis, to the pin's centre
     page.add("greatest_force_arm", disc.pitch_radius, "{r_1}")

@@ -36,15 +36,13 @@ def sheet(keys: LanternKeys) -> Sheet:
     _limits(page, gear)
     _contact(page, gear)
     page.tables.append(_table(gear, keys.rows))
-    page.notes.append(
-        N_("where the gear drives, its flanks touch from the line of centres on; where the lantern drives, up to it")
-    )
+    page.note("where the gear drives, its flanks touch from the line of centres on; where the lantern drives, up to it")
     page.notes += [finding_message(f) for f in lantern_findings(gear)]
     return page
 
 
 def _given(page: Sheet, gear: LanternGear) -> None:
-    page.section(N_("Given"))
+    page.section("Given")
     page.add("number_of_teeth", gear.number_of_teeth)
     page.add("number_of_pins", gear.number_of_pins)
     page.add("lantern_pitch_radius", gear.lantern_radius)
@@ -54,7 +52,7 @@ def _given(page: Sheet, gear: LanternGear) -> None:
 
 
 def _sizes(page: Sheet, gear: LanternGear) -> None:
-    page.section(N_("Sizes"))
+    page.section("Sizes")
     page.add("gear_ratio", gear.number_of_teeth / gear.number_of_pins, "{z} / {N}")
     page.add("lantern_gear_pitch_radius", gear.pitch_radius, "{r_2} * {z} / {N}")
     page.add("working_centre_distance", gear.centre_distance, "{r_1} + {r_2}")
@@ -68,7 +66,7 @@ def _sizes(page: Sheet, gear: LanternGear) -> None:
 
 def _limits(page: Sheet, gear: LanternGear) -> None:
     found = limits_of(gear)
-    page.section(N_("Limits of the tooth"))
+    page.section("Limits of the tooth")
     page.add("greatest_pin_radius", gear.lantern_radius * math.sin(math.pi / gear.number_of_pins),
              "{r_2} * sin(pi / {N})")  # fmt: skip
     neck = 2 * (gear.pitch_radius * math.sin(gear.pitch_angle / 2) - gear.root_arc_radius)
@@ -81,7 +79,7 @@ def _limits(page: Sheet, gear: LanternGear) -> None:
 
 def _contact(page: Sheet, gear: LanternGear) -> None:
     found = limits_of(gear)
-    page.section(N_("Contact"))
+    page.section("Contact")
     page.add("flank_start_angle_deg", math.degrees(found.start))
     page.add("flank_end_angle_deg", math.degrees(found.tip))
     page.add("lantern_contact_ratio", gear.contact_ratio, "({u_2} - {u_1}) / {tau}")

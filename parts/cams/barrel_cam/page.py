@@ -47,7 +47,7 @@ def sheet(keys: BarrelKeys) -> Sheet:
     cam, swings = body.cam, keys.oscillating is not None
     phases = Phases(cam.motion.phases, cam.motion.lift, swings, left_rows=cam.motion.left_rows)
     page = Sheet(TOPIC, N_("Cylindrical cam"))
-    page.section(N_("Characteristics"))
+    page.section("Characteristics")
     phase_steps(page, phases)
     page.add("roller_diameter", keys.roller_diameter)
     if cam.taper:
@@ -64,15 +64,13 @@ def sheet(keys: BarrelKeys) -> Sheet:
     if keys.speed_rpm is not None:
         speed_section(page, cam.motion, keys.speed_rpm, slides=not swings)
     impact_notes(page, cam.motion)
-    page.notes.append(
-        N_("x = R (polar angle + pi) on the unrolled cylinder, seen from outside, cam angle 0 at the right end")
-    )  # fmt: skip
+    page.note("x = R (polar angle + pi) on the unrolled cylinder, seen from outside, cam angle 0 at the right end")
     return page
 
 
 def _sizes(page: Sheet, keys: BarrelKeys, body: BarrelBody) -> None:
     cam = body.cam
-    page.section(N_("Sizes"))
+    page.section("Sizes")
     page.add("outer_diameter", 2 * cam.outer)
     page.add("groove_depth", keys.groove_depth, called="" if cam.is_groove else N_("width of the track"))
     page.add("floor_diameter" if cam.is_groove else "inner_diameter", 2 * cam.inner, "{D} - 2 * {t}")

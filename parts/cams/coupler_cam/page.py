@@ -72,7 +72,7 @@ def sheet(keys: LinkageKeys) -> Sheet:
     title = N_("Cam with its follower on a connecting rod")
     motion, page = cam.motion, Sheet(TOPIC, title)
     phases = Phases(motion.phases, motion.lift, cam.swings, left_rows=motion.left_rows)
-    page.section(N_("Characteristics"))
+    page.section("Characteristics")
     phase_steps(page, phases)
     radius_step(page, cam.kind, cam.radius)
     _linkage(page, keys, cam)
@@ -109,7 +109,7 @@ def _chosen(keys: LinkageKeys, cam: LinkageCam) -> float:
 
 def _linkage(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
     """The data of the linkage, fixed frame: the axis of the cam is its origin."""
-    page.section(N_("Linkage (the axis of the cam is the origin)"))
+    page.section("Linkage (the axis of the cam is the origin)")
     linkage = cam.mount.linkage
     drive, guide = linkage.drive, linkage.guide
     if isinstance(drive, RockerDrive):
@@ -138,7 +138,7 @@ def _linkage(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
 
 def _sizes(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
     """What the cam and the linkage reach over a turn."""
-    page.section(N_("Sizes"))
+    page.section("Sizes")
     if keys.least_curvature_radius:
         page.add("curvature_reserve", keys.least_curvature_radius)
     page.add("least_cam_radius", inner_radius(cam))

@@ -14,7 +14,6 @@ from geometry.base.record import Record
 from geometry.base.series import derived, quotient
 from geometry.cams.plane.coupler import LinkageCam
 from geometry.kinematics.linkage import RockerDrive, RockerGuide, SliderDrive, SliderGuide
-from parts.base.texts import message
 from parts.pages.misprints import SAVVIN
 from parts.pages.page import Sheet
 
@@ -86,13 +85,13 @@ def position_steps(page: Sheet, at: Position) -> None:
     degrees = math.degrees(at.angle)
     # as typed
     shown = f"{degrees:.9g}"
-    page.section(message("Position at cam angle {angle} deg: the linkage", angle=shown))
+    page.section("Position at cam angle {angle} deg: the linkage", angle=shown)
     page.add("position_deg", degrees)
     _motion(page, at)
     _drive(page, at)
     _guide(page, at)
     _follower(page, at)
-    page.section(message("Position at cam angle {angle} deg: the cam", angle=shown))
+    page.section("Position at cam angle {angle} deg: the cam", angle=shown)
     _relative(page, at)
     _contact(page, at)
     _pressure(page, at)

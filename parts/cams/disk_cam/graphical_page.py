@@ -43,12 +43,12 @@ def graphical_section(
     """Both integrations by mid-ordinates, the least radius and the profile that follow, each with its error."""
     hindered = graphical_hindrance(cam.motion)
     if hindered is not None:
-        page.notes.append(filled(_HINDRANCES[hindered[0]], law=law_text(hindered[1])))
+        page.note(_HINDRANCES[hindered[0]], law=law_text(hindered[1]))
         return
     drawn = graphical_motion(cam.motion, intervals, Drawing(drawing))
     swings = cam.swings
     integration, radius, profile = _SOURCES[cam.is_flat]
-    page.section(N_("Graphical method"))
+    page.section("Graphical method")
     page.add("graphical_intervals", intervals, "", integration)
     for index, phase in enumerate(drawn.phases, 1):
         symbol = f"k_{index}" if len(drawn.phases) > 1 else ""

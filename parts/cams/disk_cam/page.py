@@ -151,7 +151,7 @@ def finish(page: Sheet, keys: Any, cam: DiskCam, transmission_angle_deg: float |
 
 def characteristics(page: Sheet, keys: Any, cam: DiskCam) -> None:
     """The characteristics table of the sheets: H, phases, E, gamma_min."""
-    page.section(N_("Characteristics"))
+    page.section("Characteristics")
     phase_steps(page, phases_of(cam))
     if isinstance(cam.mount, Oscillating):
         _arm_steps(page, keys, cam, cam.mount)
@@ -174,7 +174,7 @@ def _arm_steps(page: Sheet, keys: Any, cam: DiskCam, mount: Oscillating) -> None
 
 def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
     """Least radius by the pressure angle or the curvature, and what the cam has."""
-    page.section(N_("Sizes"))
+    page.section("Sizes")
     asked = keys.least_transmission_angle_deg
     if isinstance(cam.mount, Translating):
         if cam.is_flat:
@@ -205,7 +205,7 @@ def roller_section(page: Sheet, cam: DiskCam, least_curvature_radius: float) -> 
     if cam.kind != "roller":
         return
     most, pitch = largest_roller_radius(cam, least_curvature_radius), least_pitch_radius(cam)
-    page.section(N_("Roller"))
+    page.section("Roller")
     page.add("least_pitch_radius", pitch)
     if not most:
         return

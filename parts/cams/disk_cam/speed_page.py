@@ -7,14 +7,13 @@ import math
 import numpy as np
 
 from geometry.cams.motion.follower_motion import FollowerMotion
-from parts.base.texts import N_
 from parts.pages.page import Sheet
 
 
 def speed_section(page: Sheet, motion: FollowerMotion, speed_rpm: float, *, slides: bool) -> None:
     """omega = pi n / 30, and of each moving phase t = phi / omega and the peaks of v = S' omega, a = S'' omega^2."""
     omega = math.pi * speed_rpm / 30
-    page.section(N_("At this speed of the cam"))
+    page.section("At this speed of the cam")
     page.add("speed_rpm", speed_rpm)
     page.add("angular_speed", omega, "pi * {n_rpm} / 30")
     moving = [p for p in motion.phases if p.law is not None]

@@ -52,13 +52,13 @@ def sheet(keys: GrooveKeys) -> Sheet:
     page.tables.append(positions(cam, keys.step, "positions_outer", outer, beyond=beyond, speed_rpm=keys.speed_rpm))
     # the drawing's least radius is that of the rise alone
     finish(page, keys, cam, None)
-    page.notes.append(_SIGN)
+    page.note(_SIGN)
     return page
 
 
 def _sizes(page: Sheet, keys: GrooveKeys, disk: GrooveDisk) -> None:
     cam = disk.cam
-    page.section(N_("Sizes"))
+    page.section("Sizes")
     asked = keys.least_transmission_angle_deg
     if isinstance(cam.mount, Translating) and asked is not None:
         limit = math.radians(90 - asked)
@@ -70,7 +70,7 @@ def _sizes(page: Sheet, keys: GrooveKeys, disk: GrooveDisk) -> None:
     reached(page, cam)
     page.add("least_curvature_radius", least_convex_radius(cam).value)
     page.add("least_hollow_radius", least_hollow_radius(cam).value)
-    page.section(N_("Groove"))
+    page.section("Groove")
     page.add("clearance", disk.clearance)
     page.add("groove_width", 2 * cam.radius + disk.clearance, "2 * {r} + {c_r}")
     page.add("least_path_radius", inner_radius(cam) + cam.radius)

@@ -76,7 +76,7 @@ def _sheet(table: dict[str, Any], *, conjugate: bool) -> Sheet:
 
 def _second(page: Sheet, second: SecondCam, keys: CamKeys) -> None:
     cam = second.cam
-    page.section(N_("Second disk"))
+    page.section("Second disk")
     between = between_rollers(second.first, second.pair)
     if cam.swings:
         page.add("inner_roller_angle_deg", 360.0 - math.degrees(between))
@@ -99,13 +99,13 @@ def _second(page: Sheet, second: SecondCam, keys: CamKeys) -> None:
         cutter_diameter=keys.cutter_diameter,
     )
     page.tables.insert(1, second_table)
-    page.notes.append(N_("S of the second disk is that of its own roller: it sinks where the first one rises"))
+    page.note("S of the second disk is that of its own roller: it sinks where the first one rises")
 
 
 def _yoke(page: Sheet, frame: YokeFrame, step: float) -> None:
     cam = frame.cam
     low = cam.motion.extremes()[0]
-    page.section(N_("Yoke"))
+    page.section("Yoke")
     # the height of the face or of the roller's centre stands among the sizes already
     page.add("breadth", frame.breadth - frame.play, "2 * {s_0} + {H}" if low == 0 else "")
     page.add("breadth_error", breadth_error(cam.motion))

@@ -54,7 +54,7 @@ def sheet(keys: WedgeKeys) -> Sheet:
     lift = math.radians(keys.swing_deg) if swings else keys.lift
     phases = Phases(tuple(wedge_phases(keys, lift)), lift, swings, slides=True)
     page = Sheet(TOPIC, N_("Wedge cam (a plate that slides)"))
-    page.section(N_("Characteristics"))
+    page.section("Characteristics")
     phase_steps(page, phases)
     page.add("whole_travel", cam.motion.travel)
     radius_step(page, cam.kind, cam.radius)
@@ -84,7 +84,7 @@ def _step(keys: WedgeKeys, travel: float) -> float:
 
 
 def _sizes(page: Sheet, cam: WedgeCam) -> None:
-    page.section(N_("Sizes"))
+    page.section("Sizes")
     for name, sense in (("rise", 1), ("return", -1)):
         found = _steepest(cam, sense)
         if found is None:
@@ -140,7 +140,7 @@ def _positions(cam: WedgeCam, step: float, velocity: float | None, *, swings: bo
 
 def _velocities(page: Sheet, cam: WedgeCam, velocity: float, *, swings: bool) -> None:
     """v = S' c, a = S'' c^2."""
-    page.section(N_("At this velocity of the plate"))
+    page.section("At this velocity of the plate")
     page.add("plate_velocity", velocity)
     first, second = (max(map(abs, cam.motion.extremes(k))) for k in (1, 2))
     names = ("greatest_angular_velocity", "greatest_angular_acceleration")

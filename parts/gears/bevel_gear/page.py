@@ -54,14 +54,12 @@ def sheet(keys: BevelKeys) -> Sheet:
     _forces(page, pair, keys)
     for number, gear in enumerate(pair.gears, 1):
         page.notes += [
-            message(N_("gear {number}: {what}"), number=number, what=finding_message(f)) for f in bevel_findings(gear)
+            message("gear {number}: {what}", number=number, what=finding_message(f)) for f in bevel_findings(gear)
         ]
     for number, reserve in enumerate(pair.form_reserves, 1):
         if reserve < -_RIGHT:
-            page.notes.append(
-                message(N_("gear {number}: its mate's tip reaches {depth:.4g} mm below where the involute begins"),
-                        number=number, depth=-reserve)
-            )  # fmt: skip
+            text = N_("gear {number}: its mate's tip reaches {depth:.4g} mm below where the involute begins")
+            page.note(text, number=number, depth=-reserve)
     return page
 
 
@@ -110,7 +108,7 @@ def _normal_share(keys: BevelKeys) -> float:
 
 
 def _given(page: Sheet, pair: BevelPair) -> None:
-    page.section(N_("Given"))
+    page.section("Given")
     first = pair.first
     page.both("number_of_teeth", (first.number_of_teeth, first.mate_teeth))
     page.add("outer_module", first.module)
@@ -138,7 +136,7 @@ def _each(pair: BevelPair, value: Callable[[BevelGear], float]) -> tuple[float, 
 
 def _cones(page: Sheet, pair: BevelPair) -> None:
     first = pair.first
-    page.section(N_("Cones"))
+    page.section("Cones")
     page.add("gear_ratio", pair.ratio, "{z2} / {z1}")
     # where the pitch cone opens wider than a right angle the arc tangent is that of its supplement
     angles = _each(pair, lambda g: math.degrees(g.pitch_angle))
@@ -193,7 +191,7 @@ def _lines(page: Sheet, gear: BevelGear) -> None:
 
 
 def _teeth(page: Sheet, pair: BevelPair) -> None:
-    page.section(N_("Teeth at the outer end"))
+    page.section("Teeth at the outer end")
     thickness = "(pi / 2 + 2 * {x#} * tan({alpha}) + {x_tau#}) * {m} - {A#}"
     page.both("outer_thickness", _each(pair, lambda g: g.thickness), thickness, (_GOST, _GOST))
     page.both("virtual_teeth", _each(pair, lambda g: g.virtual_teeth), "{z#} / cos({delta#})")
@@ -244,7 +242,7 @@ def _involute(gear: BevelGear, angle: float) -> float:
 
 def _middle(page: Sheet, pair: BevelPair) -> None:
     """What is measured half way along the face, where the tooth is smaller by R_m / R_e."""
-    page.section(N_("Teeth in the middle of the face"))
+    page.section("Teeth in the middle of the face")
     share = 1 - pair.first.face_width / 2 / pair.first.cone_distance
     high = _each(pair, lambda g: float(g.addendum_at(share * g.cone_distance)))
     page.both("mean_addendum", high, "{h_ae#} - {b} / 2 * tan({theta_a#})")
@@ -290,7 +288,7 @@ def _normal_chords(page: Sheet, pair: BevelPair, high: tuple[float, float]) -> N
 
 
 def _contact(page: Sheet, pair: BevelPair) -> None:
-    page.section(N_("Contact"))
+    page.section("Contact")
     page.both("bottom_clearance_at_root", pair.bottom_clearances, "{h_fe#} - {h_ae~}")
     lean = "" if pair.first.is_straight else " / sqrt(1 + (tan({beta_e}) * cos({alpha}))**2)"
     page.add("normal_backlash", pair.normal_backlash, "({A1} + {A2}) * cos({alpha})" + lean)
@@ -344,7 +342,7 @@ def _overlap(page: Sheet, pair: BevelPair) -> None:
 
 def _speeds(page: Sheet, pair: BevelPair, speed_rpm: float) -> None:
     """Of both gears, of their outer pitch circles, of sliding at the outer tips; the first gear drives."""
-    page.section(N_("Speeds"))
+    page.section("Speeds")
     page.add("gear_speed", speed_rpm, gear=1, given=True)
     page.add("gear_speed", speed_rpm / pair.ratio, "{n1} / {u}", gear=2)
     speed = math.pi * speed_rpm / 30 * pair.first.module * pair.first.number_of_teeth / 2

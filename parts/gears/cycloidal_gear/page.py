@@ -109,7 +109,7 @@ def _mate(keys: CycloidalGearKeys, gear: CycloidalGear) -> CycloidalGear:
 
 
 def _given(page: Sheet, gears: list[CycloidalGear]) -> None:
-    page.section(N_("Given"))
+    page.section("Given")
     page.add("module", gears[0].module)
     for index, gear in enumerate(gears, 1):
         page.add("number_of_teeth", gear.number_of_teeth, gear=index)
@@ -121,7 +121,7 @@ def _given(page: Sheet, gears: list[CycloidalGear]) -> None:
 
 
 def _sizes(page: Sheet, gears: list[CycloidalGear]) -> None:
-    page.section(N_("Sizes"))
+    page.section("Sizes")
     page.add("pitch", gears[0].pitch, "pi * {m}", symbol="p")
     for index, gear in enumerate(gears, 1):
         page.add("reference_radius", gear.pitch_radius, "{m} * {z#} / 2", gear=index)
@@ -138,7 +138,7 @@ def _sizes(page: Sheet, gears: list[CycloidalGear]) -> None:
 
 
 def _limits(page: Sheet, gear: CycloidalGear) -> None:
-    page.section(N_("Limits of the tooth"))
+    page.section("Limits of the tooth")
     page.add("greatest_root_fillet_radius", gear.greatest_rounding, gear=1)
     page.add("flank_start_radius", gear.form_radius, gear=1)
     page.add("pointed_radius", gear.pointed_radius, gear=1)
@@ -147,7 +147,7 @@ def _limits(page: Sheet, gear: CycloidalGear) -> None:
 
 def _contact(page: Sheet, pair: CycloidalPair) -> None:
     gears = pair.first, pair.second
-    page.section(N_("Contact, the first gear driving"))
+    page.section("Contact, the first gear driving")
     page.add("gear_ratio", gears[1].number_of_teeth / gears[0].number_of_teeth, "{z2} / {z1}")
     page.add("working_centre_distance", pair.centre_distance, "{r1} + {r2}")
     for index, (gear, circle) in enumerate(zip(gears, ("rho_a", "rho_i"), strict=True), 1):
@@ -167,7 +167,7 @@ def _contact(page: Sheet, pair: CycloidalPair) -> None:
     page.add("normal_backlash", pair.normal_backlash, "{A1} + {A2}")
     page.add("bottom_clearance_at_root", pair.tip_clearances[0], "{a_w} - {r_a2} - {r_f1}", gear=1)
     page.notes += [
-        message(N_("the gear and its mate: {what}"), what=finding_message(f))
+        message("the gear and its mate: {what}", what=finding_message(f))
         for f in pair.findings()
         if not f.code.endswith("_second")
     ]

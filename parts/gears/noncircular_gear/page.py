@@ -13,7 +13,7 @@ from geometry.gears.noncircular.gear import NoncircularGear
 from geometry.gears.noncircular.pair import NoncircularPair
 from geometry.gears.noncircular.pairing import Pairing
 from geometry.kinematics.centrodes import CentrodePair, FourierRatio, LobedEllipse
-from parts.base.texts import N_, message
+from parts.base.texts import N_
 from parts.gears.noncircular_gear.part import NONCIRCULAR_GEAR, NoncircularGearSpec
 from parts.pages.cam_steps import Step
 from parts.pages.inputs import calculation, part_of_kind, told
@@ -48,9 +48,9 @@ def sheet(keys: NoncircularKeys) -> Sheet:
     _closure(page, gear, pairing, pair)
     _teeth(page, keys, gear)
     page.tables.append(_table(pair, keys.step))
-    page.notes.append(_convex_note(pair))
+    page.note(_convex_note(pair))
     if pairing.is_self_mating:
-        page.notes.append(
+        page.note(
             N_("two equal parts mesh with each other (rule: teeth over lobes odd)")
             if pairing.twins_mesh
             else N_("two equal parts do not mesh with each other (rule: teeth over lobes odd)")
@@ -62,7 +62,7 @@ def sheet(keys: NoncircularKeys) -> Sheet:
 def _given(page: Sheet, pairing: Pairing) -> None:
     """The driver's centrode."""
     one = pairing.centrode
-    page.section(N_("Centrode of the driver"))
+    page.section("Centrode of the driver")
     page.add("gear_teeth", pairing.teeth[0])
     page.add("mate_teeth", pairing.teeth[1])
     if isinstance(one, LobedEllipse):
@@ -80,12 +80,12 @@ def _given(page: Sheet, pairing: Pairing) -> None:
         page.add("centrode_lobes", one.ratio.lobes)
         page.add("noncircular_distance", pairing.centre_distance)
         page.data["ratio_cosines"], page.data["ratio_sines"] = list(one.ratio.cosines), list(one.ratio.sines)
-        page.notes.append(N_("i = i_m (1 + sum a_k cos k n phi + b_k sin k n phi), r_1 = a i / (1 + i)"))
+        page.note("i = i_m (1 + sum a_k cos k n phi + b_k sin k n phi), r_1 = a i / (1 + i)")
 
 
 def _closure(page: Sheet, gear: NoncircularGear, pairing: Pairing, pair: CentrodePair) -> None:
     """Radii, ratio, and that both centrodes close."""
-    page.section(N_("Ratio and closure"))
+    page.section("Ratio and closure")
     line = pairing.lines[0]
     least, greatest = replace(gear, line=line).radii
     page.add("least_centrode_radius", least)
@@ -149,12 +149,12 @@ def _contact(page: Sheet, keys: NoncircularKeys, gear: NoncircularGear) -> None:
         pair = NoncircularPair(gear, NONCIRCULAR_GEAR.thing(other, {}))
         ratio = pair.least_contact_ratio
     except ParameterError as error:
-        page.notes.append(message("the mate cannot be cut: {why}", why=told(error)))
+        page.note("the mate cannot be cut: {why}", why=told(error))
         return
     except GeometryError:
-        page.notes.append(N_("the mate cannot be cut"))
+        page.note("the mate cannot be cut")
         return
-    page.section(N_("Pair"))
+    page.section("Pair")
     page.add("noncircular_contact_ratio", ratio)
     page.notes += [finding_message(f) for f in pair.findings()]
 

@@ -8,7 +8,7 @@ from typing import Annotated
 from geometry.base.record import replace
 from geometry.gears.teeth import rack_measurement
 from geometry.gears.teeth.rack import Rack
-from parts.base.texts import N_, message
+from parts.base.texts import N_
 from parts.gears.rack.part import RackSpec, checked_rack_part
 from parts.gears.spur_gear.page import section_data
 from parts.gears.spur_gear.part import rounding_finding
@@ -41,7 +41,7 @@ def sheet(keys: RackKeys) -> Sheet:
     _given(page, rack, keys, helix)
     _dimensions(page, rack)
     _pins(page, rack, keys, helix)
-    page.section(N_("Chords"))
+    page.section("Chords")
     chord, constant = rack_measurement.reference_chord(rack, helix), rack_measurement.constant_chord(rack, helix)
     page.add("rack_chord", chord.thickness, "{S} * cos({beta})" if helix else "{S}", _ISO)
     page.add("chordal_height", chord.height, "{h_aR}", _ISO)
@@ -54,7 +54,7 @@ def sheet(keys: RackKeys) -> Sheet:
 
 def _given(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
     """Module, angle, teeth and the basic rack, in normal modules."""
-    page.section(N_("Given"))
+    page.section("Given")
     section_data(page, keys.module, math.radians(keys.pressure_angle_deg), helix)
     page.add("number_of_teeth", rack.number_of_teeth)
     normal = rack.module / keys.module
@@ -67,7 +67,7 @@ def _given(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
 
 def _dimensions(page: Sheet, rack: Rack) -> None:
     """Pitch, heights and thicknesses."""
-    page.section(N_("Pitch and tooth thickness"))
+    page.section("Pitch and tooth thickness")
     page.add("rack_pitch", rack.pitch, "pi * {m}", _ISO)
     page.add("rack_length", rack.length, "{z} * {p}")
     page.add("rack_addendum", rack.addendum, "{h_a} * {m_n}", _ISO, symbol="h_a")
@@ -81,7 +81,7 @@ def _dimensions(page: Sheet, rack: Rack) -> None:
 
 def _pins(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
     """Over a pin, from the rack's back."""
-    page.section(N_("Over a pin"))
+    page.section("Over a pin")
     share = " * cos({beta})" if helix else ""
     best = rack_measurement.pin_touching_at(rack, 0.0, helix)
     low, high = rack_measurement.pin_limits(rack, helix)
@@ -112,4 +112,4 @@ def _pins(page: Sheet, rack: Rack, keys: RackKeys, helix: float) -> None:
     page.add("pin_contact_height", found.contact_height, formula)
     if not (found.touches_flanks and found.stands_out):
         told = N_("a pin of {diameter:.4g} mm does not touch the flanks or does not stand out; take the best one")
-        page.notes.append(message(told, diameter=pin))
+        page.note(told, diameter=pin)

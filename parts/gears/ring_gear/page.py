@@ -66,7 +66,7 @@ def sheet(keys: RingKeys) -> Sheet:
 
 def _given(page: Sheet, ring: RingGear, keys: RingKeys, helix: float) -> None:
     """Module, angle, shift, addendum, and what makes the root, in normal modules."""
-    page.section(N_("Given"))
+    page.section("Given")
     section_data(page, keys.module, math.radians(keys.pressure_angle_deg), helix)
     page.add("number_of_teeth", ring.number_of_teeth)
     shift_data(page, keys.profile_shift_coefficient, helix)
@@ -83,7 +83,7 @@ def _given(page: Sheet, ring: RingGear, keys: RingKeys, helix: float) -> None:
 
 def _dimensions(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
     """Pitches and diameters; the root is where the cutter's tips come to."""
-    page.section(N_("Diameters"))
+    page.section("Diameters")
     page.add("pitch", math.pi * ring.module, "pi * {m}", _ISO)
     page.add("base_pitch", ring.pitch_angle * ring.base_radius, "{p} * cos({alpha})", _ISO)
     helix_steps(page, ring.module, ring.number_of_teeth, math.radians(keys.helix_angle_deg))
@@ -106,7 +106,7 @@ def _dimensions(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
 
 def _thicknesses(page: Sheet, ring: RingGear, diameter: float | None) -> None:
     """Tooth and space on the reference, base and tip circles, and on one that is asked for."""
-    page.section(N_("Tooth thickness"))
+    page.section("Tooth thickness")
     page.add("profile_shift", ring.profile_shift_coefficient * ring.module, "{x} * {m}", _ISO)
     less = " - {A}" if ring.circumferential_thinning else ""
     formula = f"0.5 * {{p}} - 2 * {{x}} * {{m}} * tan({{alpha}}){less}"
@@ -123,7 +123,7 @@ def _thicknesses(page: Sheet, ring: RingGear, diameter: float | None) -> None:
 
 def _limits(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
     """Margins of the cutting, the pointed tip, and what is poor."""
-    page.section(N_("Conditions: margins"))
+    page.section("Conditions: margins")
     if (mesh := generation(ring)) is not None:
         for margin in mesh.margins():
             page.add(f"{margin.name}_margin", margin.margin, "", "KHK")

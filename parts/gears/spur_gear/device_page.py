@@ -18,7 +18,7 @@ from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS, checked_gear, practicum_undercut
 from geometry.gears.teeth.spur import SpurGear
 from parts.base.refusal import REMOVED, SceneError
-from parts.base.texts import N_, message
+from parts.base.texts import N_
 from parts.gears.spur_gear.page import greatest_shift
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear
 from parts.keys.base import in_modules, mm
@@ -75,7 +75,7 @@ def sheet(table: dict[str, Any], *, zero_only: bool = False) -> Sheet:
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     page = Sheet(TOPIC, N_("Generating a tooth profile, device TMM-42"))
-    page.section(N_("1) Data of the device"))
+    page.section("1) Data of the device")
     page.add("module", zero.module)
     page.add("pressure_angle_deg", keys.pressure_angle_deg)
     page.add("reference_diameter", 2 * zero.reference_radius)
@@ -123,7 +123,7 @@ def _teeth(keys: Tmm42Keys) -> int:
 
 
 def _zero_wheel(page: Sheet, gear: SpurGear) -> None:
-    page.section(N_("2) Zero wheel, x = 0: table 1.1"))
+    page.section("2) Zero wheel, x = 0: table 1.1")
     page.add("number_of_teeth", gear.number_of_teeth, "{d} / {m}", _SOURCES[1])
     page.add("base_diameter", 2 * gear.base_radius, "{d} * cos({alpha})", _SOURCES[1])
     page.add("pitch", math.pi * gear.module, "pi * {m}", _SOURCES[1])
@@ -133,7 +133,7 @@ def _zero_wheel(page: Sheet, gear: SpurGear) -> None:
 
 
 def _shifted_wheel(page: Sheet, gear: SpurGear, is_given: bool, rule: float) -> None:
-    page.section(N_("3) Shifted wheel: table 1.2"))
+    page.section("3) Shifted wheel: table 1.2")
     formula = "(17 - {z}) / 17" if not is_given and rule >= 0 else ""
     page.add("profile_shift_coefficient", gear.profile_shift_coefficient, formula, _SOURCES[2], symbol="ξ")
     page.add("profile_shift", gear.profile_shift_coefficient * gear.module, "{x} * {m}", _SOURCES[2])
@@ -142,12 +142,12 @@ def _shifted_wheel(page: Sheet, gear: SpurGear, is_given: bool, rule: float) -> 
     formula = "{d_b} * ({S2} / {d} + inv({alpha}))"
     page.add("base_thickness", measurement.base_thickness(gear), formula, "ISO 21771", 2)
     if rule < 0 and not is_given:
-        page.notes.append(N_("17 teeth and more need no shift: both wheels are the same"))
+        page.note("17 teeth and more need no shift: both wheels are the same")
 
 
 def _measured(page: Sheet, gear: SpurGear, index: int) -> None:
     """What a ruler finds on the generated profile, arcs."""
-    page.section(message("Measured off the generated profile, wheel {number}", number=index))
+    page.section("Measured off the generated profile, wheel {number}", number=index)
     found: ProfileReadings = profile_readings(gear, gear.reference_radius)
     source = _SOURCES[index]
     page.add("measured_thickness", found.thickness, "", source, index)
@@ -160,7 +160,7 @@ def _measured(page: Sheet, gear: SpurGear, index: int) -> None:
 
 
 def _conditions(page: Sheet, zero: SpurGear, shifted: SpurGear) -> None:
-    page.section(N_("Conditions"))
+    page.section("Conditions")
     page.add("least_shift_without_undercut", limits.least_shift_without_undercut(zero), "", "ISO 21771")
     page.add(
         "least_tip_thickness", LEAST_TIP_THICKNESS * zero.module, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)"
@@ -168,7 +168,7 @@ def _conditions(page: Sheet, zero: SpurGear, shifted: SpurGear) -> None:
     greatest = greatest_shift(zero)
     if greatest is not None:
         page.add("greatest_shift_for_tip_thickness", greatest, "", "practicum (1.3)")
-    page.notes.append(N_("practicum (1.3) prints x_0.3 <= x <= x_min; right is x_min <= x <= x_0.3"))
+    page.note("practicum (1.3) prints x_0.3 <= x <= x_min; right is x_min <= x <= x_0.3")
     undercut = (
         N_("zero wheel: the foot is undercut, the involute begins {lost:.4f} mm above the base circle"),
         N_("shifted wheel: the foot is undercut, the involute begins {lost:.4f} mm above the base circle"),
@@ -185,8 +185,8 @@ def _conditions(page: Sheet, zero: SpurGear, shifted: SpurGear) -> None:
                     "x = {x:.4f} is less than x_min = {least:.4f}, exactly: the foot is undercut by less than 0.001 mm"
                 )
                 least = limits.least_shift_without_undercut(gear)
-                page.notes.append(message(slight, x=gear.profile_shift_coefficient, least=least))
+                page.note(slight, x=gear.profile_shift_coefficient, least=least)
             else:
-                page.notes.append(message(undercut[index], lost=lost))
+                page.note(undercut[index], lost=lost)
         if limits.thin_tip(gear).margin < 0:
-            page.notes.append(pointed[index])
+            page.note(pointed[index])

@@ -43,7 +43,7 @@ def sheet(keys: InvoluteKeys) -> Sheet:
             raise ParameterError("last_deg", keys.last_deg, "before_first_row", Nearest(keys.first_deg))
         _tables(page, keys.first_deg, keys.last_deg)
         return page
-    page.section(N_("Angle"))
+    page.section("Angle")
     if keys.angle_deg is not None:
         angle = keys.angle_deg
         page.add("function_angle_deg", angle, given=True)

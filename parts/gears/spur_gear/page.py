@@ -47,7 +47,7 @@ def sheet(keys: SpurKeys) -> Sheet:
     normal = checked_spur_gear(keys) if helix == 0 else gear_of(keys)
     gear = section_of(normal, helix)
     page = Sheet(TOPIC, N_("External gear"))
-    page.section(N_("Given"))
+    page.section("Given")
     given_data(page, normal, gear, helix)
     dimensions(page, gear, helix)
     _thicknesses(page, gear, keys.diameter)
@@ -163,7 +163,7 @@ def thickness_formula(gear: SpurGear) -> str:
 
 def dimensions(page: Sheet, gear: SpurGear, helix: float) -> None:
     """Pitches and diameters of one gear."""
-    page.section(N_("Diameters"))
+    page.section("Diameters")
     page.add("pitch", math.pi * gear.module, "pi * {m}", "practicum, table 1.1")
     page.add("base_pitch", gear.pitch_angle * gear.base_radius, "{p} * cos({alpha})", "ISO 21771")
     helix_steps(page, gear.module, gear.number_of_teeth, helix)
@@ -221,7 +221,7 @@ def height_steps(page: Sheet, heights: tuple[float, float], formulas: tuple[str,
 
 
 def _thicknesses(page: Sheet, gear: SpurGear, diameter: float | None) -> None:
-    page.section(N_("Tooth thickness"))
+    page.section("Tooth thickness")
     page.add("profile_shift", gear.profile_shift_coefficient * gear.module, "{x} * {m}", "practicum (1.1)")
     page.add("reference_thickness", gear.reference_thickness, thickness_formula(gear), "practicum (3.16)")
     page.add("space_width", math.pi * gear.module - gear.reference_thickness, "{p} - {S}", "practicum, table 1.1")
@@ -234,7 +234,7 @@ def _thicknesses(page: Sheet, gear: SpurGear, diameter: float | None) -> None:
 
 
 def _limits(page: Sheet, gear: SpurGear, helix: float) -> None:
-    page.section(N_("Undercut and pointed tip"))
+    page.section("Undercut and pointed tip")
     rack = gear.cutter is None
     height = "({h_a} + {c} - {rho_f} * (1 - sin({alpha})))" if rack and not helix else ""
     if rack:
@@ -255,11 +255,11 @@ def _limits(page: Sheet, gear: SpurGear, helix: float) -> None:
     if greatest is not None:
         symbol = "x_n,0.3" if helix else ""
         page.add("greatest_shift_for_tip_thickness", greatest / math.cos(helix), "", "practicum (1.3)", symbol=symbol)
-    page.notes.append(N_("practicum (1.3) prints x_0.3 <= x <= x_min; right is x_min <= x <= x_0.3"))
+    page.note("practicum (1.3) prints x_0.3 <= x <= x_min; right is x_min <= x <= x_0.3")
     if limits.undercut(gear).margin < 0:
-        page.notes.append(N_("the tooth is undercut: x < x_min"))
+        page.note("the tooth is undercut: x < x_min")
     if limits.thin_tip(gear).margin < 0:
-        page.notes.append(N_("the tip is thinner than 0.3 m"))
+        page.note("the tip is thinner than 0.3 m")
 
 
 def greatest_shift(gear: SpurGear) -> float | None:

@@ -19,7 +19,7 @@ from geometry.gears.worms.measures import BALL, over_balls, reference_chord
 from geometry.gears.worms.thread import Thread, thread_of
 from geometry.gears.worms.worm import Worm
 from parts.base.refusal import REMOVED, SceneError, meant
-from parts.base.texts import N_, message
+from parts.base.texts import N_
 from parts.gears.worm.part import WormSpec, told_worm
 from parts.gears.worm_wheel.part import WORM_WHEEL, WormWheelSpec
 from parts.keys.base import mm, size
@@ -198,7 +198,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
         if keys.speed_rpm is not None:
             _speeds(page, drive, keys.speed_rpm)
         if driving is not None or keys.wheel_torque is not None or keys.friction_coefficient:
-            page.section(N_("Torques and losses"))
+            page.section("Torques and losses")
             _pitch_angles(page, drive)
         worth = _losses(page, drive, keys)
         torque = _torques(page, drive, keys, driving, worth)
@@ -209,7 +209,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
 
 
 def _given(page: Sheet, keys: WormKeys, quotient: float) -> None:
-    page.section(N_("Given"))
+    page.section("Given")
     page.add("axial_module", keys.module)
     page.add("diameter_quotient", quotient)
     page.add("number_of_starts", keys.number_of_starts)
@@ -280,7 +280,7 @@ def _wheel(page: Sheet, drive: WormDrive) -> None:
 
 def _sections(page: Sheet, worm: Worm, keys: WormKeys) -> None:
     """What follows from the exact surfaces."""
-    page.section(N_("Exact sections"))
+    page.section("Exact sections")
     page.add("axial_pressure_angle_deg", math.degrees(worm.axial_pressure_angle), "")
     less = " - {A}" if keys.axial_thinning else ""
     page.add("axial_thickness", 2 * worm.screw.half_thickness, f"pi * {{m}} / 2{less}")
@@ -291,7 +291,7 @@ def _sections(page: Sheet, worm: Worm, keys: WormKeys) -> None:
 def _measures(page: Sheet, thread: Thread) -> None:
     """What is read on the thread: its chord, and over balls."""
     chord, ball = reference_chord(thread), BALL * thread.worm.module
-    page.section(N_("Measured"))
+    page.section("Measured")
     page.add("thread_chord", chord.thickness)
     page.add("thread_chord_height", chord.height)
     if (size := over_balls(thread, ball)) is not None:
@@ -301,26 +301,26 @@ def _measures(page: Sheet, thread: Thread) -> None:
 
 def _lengths(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
     """How long the worm and how wide the wheel is, and what of it is used."""
-    page.section(N_("Length and width"))
+    page.section("Length and width")
     if keys.face_width is not None:
         outer = drive.default_outer_diameter if keys.outer_diameter is None else keys.outer_diameter
         used = drive.worm_length_used(keys.face_width, outer / 2)
         if used is None:
-            page.notes.append(N_("the wheel's corners do not touch the worm: its rim is wider than the mesh"))
+            page.note("the wheel's corners do not touch the worm: its rim is wider than the mesh")
         else:
             page.add("worm_length_used", used, "")
     if keys.worm_length is not None:
         page.add("worm_length", keys.worm_length)
         if keys.worm_length < (least := drive.least_worm_length):
-            page.notes.append(message(N_("the worm is shorter than {limit:.5g} mm"), limit=least))
+            page.note("the worm is shorter than {limit:.5g} mm", limit=least)
     if keys.face_width is not None:
         page.add("rim_width", keys.face_width)
         if keys.face_width > (most := drive.most_face_width):
-            page.notes.append(message(N_("the wheel's rim is wider than {limit:.5g} mm"), limit=most))
+            page.note("the wheel's rim is wider than {limit:.5g} mm", limit=most)
     if keys.outer_diameter is not None:
         page.add("wheel_outer_diameter", keys.outer_diameter)
         if keys.outer_diameter > (most := drive.most_outer_diameter):
-            page.notes.append(message(N_("the wheel's outer diameter is more than {limit:.5g} mm"), limit=most))
+            page.note("the wheel's outer diameter is more than {limit:.5g} mm", limit=most)
 
 
 def _off_places(page: Sheet, drive: WormDrive, keys: WormKeys, errors: AxisErrors) -> None:
@@ -333,7 +333,7 @@ def _off_places(page: Sheet, drive: WormDrive, keys: WormKeys, errors: AxisError
         found = contact_under(thread, WORM_WHEEL.thing(spec, {}).teeth, errors, None)
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
-    page.section(N_("Axes off their places"))
+    page.section("Axes off their places")
     for key in _ERRORS:
         page.add(key, getattr(keys, key))
     page.add("least_flank_gap", found.worst.gap)
@@ -342,7 +342,7 @@ def _off_places(page: Sheet, drive: WormDrive, keys: WormKeys, errors: AxisError
 
 def _speeds(page: Sheet, drive: WormDrive, speed_rpm: float) -> None:
     """Speeds of both shafts, and with which the flanks slide at the pitch point."""
-    page.section(N_("Speeds"))
+    page.section("Speeds")
     page.add("worm_speed", speed_rpm, given=True)
     page.add("worm_wheel_speed", speed_rpm / drive.ratio, "{n1} / {u}")
     speed = math.pi * speed_rpm / 30 * drive.pitch_radius_of_worm
@@ -373,7 +373,7 @@ def _losses(page: Sheet, drive: WormDrive, keys: WormKeys) -> float:
     page.add("worm_efficiency", worth, "tan({gamma_w}) / tan({gamma_w} + {rho_v})")
     page.add("back_driving_efficiency", strength.efficiency(drive, friction, back=True), "")
     if friction >= drive.pitch_lead_angle:
-        page.notes.append(N_("the drive is self-locking: the wheel cannot turn the worm"))
+        page.note("the drive is self-locking: the wheel cannot turn the worm")
     return worth
 
 
@@ -413,7 +413,7 @@ def _forces(page: Sheet, drive: WormDrive, keys: WormKeys, torques: tuple[float,
 def _strength(page: Sheet, drive: WormDrive, keys: WormKeys, load: strength.Load) -> None:
     """Bending and contact of the wheel's teeth; beside what the thesis prints."""
     worm = drive.worm
-    page.section(N_("Bending of the wheel's teeth"))
+    page.section("Bending of the wheel's teeth")
     width = drive.most_face_width if keys.face_width is None else keys.face_width
     share = min(width / drive.most_face_width, 1.0)
     page.add("width_share", share, "{b2} / {b2_max}" if keys.face_width and share < 1 else "")
@@ -433,7 +433,7 @@ def _strength(page: Sheet, drive: WormDrive, keys: WormKeys, load: strength.Load
         printed = strength.least_module(drive, load, bending, 0.5)
         page.add("thesis_least_module", printed, f"cbrt(3 * {acting})", _THESIS)
     page.add("least_module", strength.least_module(drive, load, bending, share), f"cbrt(1.5 / {{psi}} * {acting})")
-    page.section(N_("Contact of the flanks"))
+    page.section("Contact of the flanks")
     page.add("contact_life_factor", keys.contact_life_factor)
     contact = 0.75 * keys.tensile_strength * keys.contact_life_factor
     page.add("allowed_contact_stress", contact, "0.75 * {sigma_b} * {K_HL}", _THESIS)
@@ -445,6 +445,6 @@ def _strength(page: Sheet, drive: WormDrive, keys: WormKeys, load: strength.Load
     least = drive.most_face_width * (strength.contact_stress(drive, load, 1.0) / contact) ** 2
     page.add("least_rim_width", least, "{b2_max} * {psi} * ({sigma_H} / {sigma_HP})**2")
     if strength.least_module(drive, load, bending, share) > worm.module:
-        page.notes.append(N_("the module is less than bending needs"))
+        page.note("the module is less than bending needs")
     if stress > contact:
-        page.notes.append(N_("the contact stress is more than allowed"))
+        page.note("the contact stress is more than allowed")
