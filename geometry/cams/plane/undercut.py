@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -121,6 +122,8 @@ def _has_lost_corner(cam: DiskCam, grow: float) -> bool:
     return False
 
 
+# the checks of a cam ask for them, and then its shape, walls and drawings
+@lru_cache(maxsize=16)
 def kept_arcs(cam: DiskCam, grow: float = 0.0) -> Kept:
     """What remains of the envelope of a cam, and what is lost.
 
