@@ -358,7 +358,7 @@ def _parser(told: Words) -> Parser:
         help=told.text(
             "{topics} or {last}",
             topics="spur, ring, rack, tmm42, gear-pair, shift-choice, involute, bevel, worm, train, planetary, cam, "
-            "cycloidal, cycloidal-gear, lantern, noncircular, lever, power-table",
+            "cycloidal, cycloidal-gear, lantern, geneva, noncircular, lever, power-table",
             last="power-module",
         ),
     )

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry.base.errors import ParameterError
-from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Touching
+from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Toothed
 from parts.keys.mate import Direction, height
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ class GenevaPairSpec(MateKeys, tag="geneva_pair", kw_only=True):
     height: Annotated[float, height("wheel above the driver's lower face; default: midway on the disc")] | None = None
 
 
-class GenevaMating(Touching):
+class GenevaMating(Toothed):
     """A driver and its wheel."""
 
     disc: GenevaDisc
@@ -52,15 +52,10 @@ class GenevaMating(Touching):
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and the wheel's turn off the middle of its play."""
-        spoke = second[0] - first[0]
-        direction = cmath.phase(spoke)
-        _, right = self.second_pose(*first, direction)
-        drive, wheel = self.disc.drive, self.disc.wheel
-        off = math.remainder(second[1] - right, 2 * drive.half_slot_angle)
-        # no pin is farther from the wheel's axis; no locking arc slides past the disc by more
+        drive = self.disc.drive
+        # no pin is farther from the wheel's axis
         arm = max(drive.mouth_radius, drive.deepest_radius)
-        play = min(wheel.slot_clearance / 2, wheel.locking_clearance)
-        return Standing(direction, abs(spoke), off, play / arm, arm)
+        return self.turned_off(first, second, 2 * drive.half_slot_angle, arm)
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict of pins, disc and tips over the cycle of one pin."""

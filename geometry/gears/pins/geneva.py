@@ -98,6 +98,22 @@ class Geneva(Record):
             -bend * (square * c - 4 * x * s * s) / square**3,
         )
 
+    @property
+    def acceleration_angle(self) -> float:
+        """Crank angle of the wheel's greatest acceleration, rad: in an internal wheel that at which a pin enters.
+
+        The third derivative vanishes at 2 x c^2 + (1 + x^2) c - 4 x = 0, c = cos(alpha), x the ratio (Bickford).
+        """
+        if self.internal:
+            return self.half_motion_angle
+        part = (1 + self.ratio**2) / (4 * self.ratio)
+        return math.acos(math.sqrt(part * part + 2) - part)
+
+    @property
+    def greatest_acceleration(self) -> float:
+        """Of the wheel, for an even driver's velocity of 1."""
+        return abs(float(self.motion(self.acceleration_angle)[2]))
+
     def wheel_turn(self, turn: ArrayLike) -> Real:
         """How far the wheel has turned in its sense when the driver has, both since pin 1 was deepest; rad."""
         turn = np.asarray(turn, dtype=float)

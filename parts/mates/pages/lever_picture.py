@@ -104,17 +104,11 @@ class LeverPicture(Record, eq=False):
             moments = (("M_c", run.resisting), ("M_d", np.full(len(run.angle), run.driving)))
             energies = (("ΔT", run.gained), ("ΔT_l", run.of_links), ("ΔT_m", run.of_flywheel))
             panels += [
-                (N_("Reduced moments, N·m"), list(_together(run.angle, moments, words))),
-                (N_("Gained energy, J; KK_1 is the height of ΔT_m"), list(_together(run.angle, energies, words))),
+                (N_("Reduced moments, N·m"), list(together(run.angle, moments, words))),
+                (N_("Gained energy, J; KK_1 is the height of ΔT_m"), list(together(run.angle, energies, words))),
             ]
         panels += [(title, list(_plan(plan))) for title, plan in self.forces]
-        lines = []
-        step = _SIDE + 2 * _EDGE
-        for number, (title, drawn) in enumerate(panels):
-            x, y = number % 2 * step + _EDGE, number // 2 * (step + _HEAD) + _EDGE + _HEAD
-            lines.append(f'<g transform="translate({x:.1f} {y:.1f})">')
-            lines += [written(0, -14, words.say(title), INK, 13, "start"), *drawn, "</g>"]
-        return document(2 * step, (len(panels) + 1) // 2 * (step + _HEAD), lines)
+        return paneled(panels, words)
 
     def _scheme(self) -> Iterator[str]:
         known = {**self.fixed, **self.points}
@@ -168,7 +162,18 @@ class LeverPicture(Record, eq=False):
             yield written(0, top - 5, shown, _COLOURS[number], 13, "start")
 
 
-def _together(angle: Real, curves: Sequence[tuple[str, Real]], words: Words) -> Iterator[str]:
+def paneled(panels: Sequence[tuple[Text, Sequence[str]]], words: Words) -> str:
+    """Panels under their titles, two beside each other, as a document."""
+    lines: list[str] = []
+    step = _SIDE + 2 * _EDGE
+    for number, (title, drawn) in enumerate(panels):
+        x, y = number % 2 * step + _EDGE, number // 2 * (step + _HEAD) + _EDGE + _HEAD
+        lines.append(f'<g transform="translate({x:.1f} {y:.1f})">')
+        lines += [written(0, -14, words.say(title), INK, 13, "start"), *drawn, "</g>"]
+    return document(2 * step, (len(panels) + 1) // 2 * (step + _HEAD), lines)
+
+
+def together(angle: Real, curves: Sequence[tuple[str, Real]], words: Words) -> Iterator[str]:
     """Curves over the angle in one field, with the least and the greatest of each."""
     low, high = min(0.0, *(float(v.min()) for _, v in curves)), max(0.0, *(float(v.max()) for _, v in curves))
     high = high if high > low else low + 1

@@ -113,6 +113,7 @@ SHEETS = [
     ("cycloidal", "cycloidal_reducer"),
     ("cycloidal-gear", "clock_gears", "part=wheel"),
     ("lantern", "lantern_pair"),
+    ("geneva", "geneva_drive", "part=wheel"),
     ("noncircular", "oval_gears", "part=oval"),
     ("power-table", "x=50", "y=-80", "orientation=thesis"),
     ("power-table", "arms=[72,50]", "x=-30", "y=40"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from pathlib import Path
 from typing import Any
 
 import mpmath
@@ -31,12 +32,17 @@ RATIO = ("centrode=ratio", "number_of_teeth=24", "mate_number_of_teeth=48", "cen
          "ratio_cosines=[0.2,0.03]", "ratio_sines=[0.05]", "step=15")  # fmt: skip
 SHEETS = [("cycloidal", *DISC), ("cycloidal", "cycloidal_reducer"), ("cycloidal", *DISC[:3], "eccentricity=0.5"),
           ("lantern", *LANTERN), ("cycloidal-gear", "clock_gears", "part=wheel"),
+          ("geneva", "geneva_drive", "part=wheel", "speed_rpm=75", "number_of_pins=2"),
+          ("geneva", "geneva_drive", "part=ring", "speed_rpm=75"),
           ("cycloidal-gear", "module=2", "number_of_teeth=30", "tip_rolling_diameter=10", "root_rolling_diameter=10",
            "mate_teeth=20", "mate_addendum_coefficient=0.8", "circumferential_thinning=0.05", "root_rounding=0.3"),
           ("noncircular", *OVAL), ("noncircular", *ELLIPSE), ("noncircular", *RATIO),
           ("noncircular", *RATIO[:1], "role=mate", "number_of_teeth=48", "mate_number_of_teeth=24", *RATIO[3:]),
           ("cam", "groove_cam"), ("cam", "wedge_cam"), ("cam", "barrel_cam", "part=barrel"),
           ("cam", "yoke_cam")]  # fmt: skip
+
+PUBLISHED = Path(__file__).parents[2] / "published"
+GENEVA_TABLE = json.loads((PUBLISHED / "geneva_drives.json").read_text(encoding="utf-8"))["external"]
 
 
 def calculated(*words: str) -> dict[str, Any]:
@@ -289,3 +295,39 @@ def test_the_rule_for_equal_ovals_is_told() -> None:
 )
 def test_wrong_input_gets_one_clear_line(words: tuple[str, ...], told: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert told in complaint(capsys, "calc", *words)
+
+
+@pytest.mark.parametrize("row", GENEVA_TABLE, ids=lambda row: str(row["slots"]))
+def test_geneva_wheels_of_printed_tables(row: dict[str, Any]) -> None:
+    found = calculated("geneva", f"number_of_slots={row['slots']}", "centre_distance=100", "pin_diameter=4")["values"]
+    degrees, minutes = row["angle"]
+    assert found["acceleration_angle_deg"] == pytest.approx(degrees + minutes / 60, abs=0.6 / 60)
+    half = 0.05 if row["slots"] == 3 else 0.005
+    for name, key, digit in (
+        ("greatest_velocity_ratio", "velocity", 0.005),
+        ("motion_share", "motion_share", 5e-5),
+        ("entry_acceleration_ratio", "entry", 5e-4),
+        ("greatest_acceleration_ratio", "acceleration", half),
+    ):
+        assert found[name] == pytest.approx(row[key], abs=digit)
+    assert int(found["pin_limit"] + 1e-9) == row["most_pins"]
+
+
+def test_times_and_speeds_of_an_internal_geneva_wheel() -> None:
+    """By the triangle of both axes and the pin, whose angle at the wheel is told by a difference quotient."""
+    words = ("number_of_slots=5", "centre_distance=40", "pin_diameter=4", "internal=true", "speed_rpm=90")
+    data = calculated("geneva", *words)
+    found, pin = data["values"], math.sin(math.pi / 5)
+    assert found["motion_time"] == pytest.approx(60 / 90 * (5 + 2) / 10)
+    assert found["motion_time"] + found["dwell_time"] == pytest.approx(60 / 90)
+    step, omega = 1e-4, math.pi * 3
+    end = math.pi / 2 + math.pi / 5
+
+    def turned(alpha: float) -> float:
+        return math.atan2(pin * math.sin(alpha), 1 + pin * math.cos(alpha))
+
+    assert found["greatest_angular_velocity"] == pytest.approx(omega * turned(step) / step, rel=1e-6)
+    bend = (turned(end) - 2 * turned(end - step) + turned(end - 2 * step)) / step**2
+    assert found["greatest_angular_acceleration"] == pytest.approx(abs(bend) * omega**2, rel=1e-3)
+    rows = data["motion"]
+    assert column(rows, "φ_2") == pytest.approx([math.degrees(turned(math.radians(row["α"]))) for row in rows])

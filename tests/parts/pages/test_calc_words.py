@@ -22,6 +22,7 @@ CYRILLIC = re.compile("[а-яіїєґА-ЯІЇЄҐ]")
 SHEETS = {
     "noncircular": ("noncircular", ["oval_gears", "part=oval"]),
     "lantern": ("lantern", ["lantern_pair"]),
+    "geneva": ("geneva", ["geneva_drive", "part=ring"]),
     "cycloidal": ("cycloidal", ["cycloidal_reducer"]),
     "barrel": ("cam", ["barrel_cam", "part=barrel"]),
     "wedge": ("cam", ["wedge_cam"]),
