@@ -215,11 +215,8 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
         def tried(key: str, value: float | None) -> CrossedPair:
             return self.made(changed(keys, **{key: value}), first, second)
 
-        def ratio(pair: CrossedPair) -> float:
-            return pair.contact_ratio if keys.leaves(pair.normal_backlash) else 0.0
-
         # the one without which they reach each other; none of them where both are wrong
-        alone = [key for key in asked if kept(lambda name: ratio(tried(name, None)) > 0, key)]
+        alone = [key for key in asked if kept(lambda name: tried(name, None).contact_ratio > 0, key)]
         key = (alone or asked)[0]
         given = getattr(keys, key)
 
@@ -228,10 +225,17 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
             if not alone:
                 return None
             own = tried(key, None)
-            wanted, toward = min(1.0, own.contact_ratio), own.working_centre_distance
+            wanted = min(1.0, own.contact_ratio)
             if key == "shaft_angle_deg":
                 toward = math.degrees(abs(own.shaft_angle))
-            return nearest(lambda value: ratio(tried(key, value)) >= wanted, given, toward)
+            else:
+                toward = own.working_centre_distance if keys.leaves(own.normal_backlash) else own.touching_distance
+
+            def holds(value: float) -> bool:
+                pair = tried(key, value)
+                return pair.contact_ratio >= wanted and keys.leaves(pair.normal_backlash)
+
+            return nearest(holds, given, toward)
 
         raise ParameterError(f"mate.{key}", given, code, cure)
 

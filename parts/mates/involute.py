@@ -394,7 +394,8 @@ class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
                 made = self.made(keys, first, second, at)
                 return made.pair.contact_ratio if keys.leaves(made.normal_backlash) else 0.0
 
-            found = nearest(lambda at: ratio(at) >= wanted, distance, nominal.distance)
+            toward = nominal.distance if keys.leaves(nominal.normal_backlash) else nominal.pair.touching_distance
+            found = nearest(lambda at: ratio(at) >= wanted, distance, toward)
             if found is None or not isinstance(found.value, float):
                 return found
             beyond = found.value + math.copysign(_STEP * found.value, distance - found.value)

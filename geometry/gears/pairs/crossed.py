@@ -118,6 +118,11 @@ class CrossedPair(Record, dict=True):
             opened = 0.0
         return self.thinning_backlash + 2 * opened * self.action.normal[0]
 
+    @property
+    def touching_distance(self) -> float:
+        """At which both would have no backlash at this angle, mm."""
+        return self.working_centre_distance - self.normal_backlash / (2 * self.action.normal[0])
+
     def _distance_at(self, action: Action) -> float:
         """The distance of the shifts on such a line of action: without backlash but for the thinning."""
         reached = sum(
@@ -341,11 +346,9 @@ def crossed_pair(
         pair = replace(pair, shaft_angle=math.copysign(shaft_angle, pair.shaft_angle))
         pair = replace(pair, working_centre_distance=pair._distance_at(pair.action))
     if working_centre_distance is not None:
-        own = pair._distance_at(pair.action) - pair.thinning_backlash / (2 * pair.action.normal[0])
         pair = replace(pair, working_centre_distance=working_centre_distance)
         if pair.normal_backlash < -_ROUNDING * working_centre_distance:
-            if shaft_angle is None:
-                own = _least_distance(bare)
+            own = _least_distance(bare) if shaft_angle is None else pair.touching_distance
             cure = limit(own, working_centre_distance, digits=_DIGITS)
             raise ParameterError("working_centre_distance", working_centre_distance, "teeth_overlap", cure)
     shifts = sum(g.profile_shift_coefficient * g.module for g in bare.gears)

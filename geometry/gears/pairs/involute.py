@@ -219,6 +219,11 @@ class InvolutePair(Record, Generic[G, S], dict=True):
         return Sums.of(self.first, self.second).normal_backlash(self.working_pressure_angle)
 
     @property
+    def touching_distance(self) -> float:
+        """At which both would have no backlash, mm."""
+        return Sums.of(self.first, self.second).touching_distance
+
+    @property
     def circumferential_backlash(self) -> float:
         """j_wt = j_bn / cos(alpha_w), mm: play as an arc on the working circles; ISO 21771."""
         return self.normal_backlash / math.cos(self.working_pressure_angle)
@@ -363,6 +368,12 @@ class Sums(Record):
             opened = 0.0
         return self.thinning * math.cos(self.alpha) + 2 * self.base * opened
 
+    @property
+    def touching_distance(self) -> float:
+        """At which no backlash is left, mm: less than that of the shifts by the thinning, in a ring more."""
+        spare = self.thinning * math.cos(self.alpha) / (2 * self.base)
+        return self.distance(inverse_involute(max(self.involute - spare, 0.0)))
+
     def shift_at(self, distance: float) -> float:
         """x1 + x2 of the pair without thinning at a distance, mm.
 
@@ -418,9 +429,7 @@ def angle_at(sums: Sums, distance: float) -> float:
     """alpha_w at a distance, mm, at which the teeth have room; raises ParameterError with the nearest one that has."""
     if distance >= abs(sums.base) and sums.normal_backlash(sums.angle(distance)) >= -1e-12 * distance:
         return sums.angle(distance)
-    spare = sums.thinning * math.cos(sums.alpha) / (2 * sums.base)
-    angle = inverse_involute(max(sums.involute - spare, 0.0))
-    cure = limit(sums.distance(angle), distance, digits=_NEAREST_DIGITS)
+    cure = limit(sums.touching_distance, distance, digits=_NEAREST_DIGITS)
     raise ParameterError("working_centre_distance", distance, "teeth_overlap", cure)
 
 

@@ -107,7 +107,15 @@ class RackPair(Record, dict=True):
     @property
     def normal_backlash(self) -> float:
         """j_bt, mm (j_bn of spur gears): (A_1 + A_2) cos(alpha) + 2 (distance - r - x m) sin(alpha)."""
-        return _normal_backlash(self.gear, self.rack, self.distance)
+        alpha, gear = self.rack.rack.pressure_angle, self.gear
+        thinning = gear.circumferential_thinning + self.rack.circumferential_thinning
+        nominal = gear.reference_radius + gear.profile_shift_coefficient * gear.module
+        return thinning * math.cos(alpha) + 2 * (self.distance - nominal) * math.sin(alpha)
+
+    @property
+    def touching_distance(self) -> float:
+        """At which both would have no backlash, mm."""
+        return self.distance - self.normal_backlash / (2 * math.sin(self.rack.rack.pressure_angle))
 
     def rack_position(self, rotation: float, *, contact: int = 0) -> float:
         """y of the space's centre line that faces the tooth at ``rotation`` (rad), mm; the rack moves by r per radian.
@@ -159,20 +167,11 @@ def rack_pair(gear: SpurGear, rack: Rack, distance: float | None = None) -> Rack
     """
     refuse_other_rack(gear, rack.module, rack.rack.pressure_angle, "gear")
     nominal = gear.reference_radius + gear.profile_shift_coefficient * gear.module
-    if distance is None:
-        return RackPair(gear, rack, nominal)
-    if not _normal_backlash(gear, rack, distance) >= -1e-12 * nominal:
-        thinning = gear.circumferential_thinning + rack.circumferential_thinning
-        least = nominal - thinning / (2 * math.tan(rack.rack.pressure_angle))
-        raise ParameterError("working_centre_distance", distance, "teeth_overlap", limit(least, distance, digits=6))
-    return RackPair(gear, rack, distance)
-
-
-def _normal_backlash(gear: SpurGear, rack: Rack, distance: float) -> float:
-    alpha = rack.rack.pressure_angle
-    thinning = gear.circumferential_thinning + rack.circumferential_thinning
-    nominal = gear.reference_radius + gear.profile_shift_coefficient * gear.module
-    return thinning * math.cos(alpha) + 2 * (distance - nominal) * math.sin(alpha)
+    pair = RackPair(gear, rack, nominal if distance is None else distance)
+    if distance is not None and not pair.normal_backlash >= -1e-12 * nominal:
+        cure = limit(pair.touching_distance, distance, digits=6)
+        raise ParameterError("working_centre_distance", distance, "teeth_overlap", cure)
+    return pair
 
 
 def rack_flank_gaps(pair: RackPair, rotation: Real, position: Real, distance: float) -> Real:

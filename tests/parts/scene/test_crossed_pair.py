@@ -20,6 +20,7 @@ WHEEL = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 18, "helix_angle
          "profile_shift_coefficient": 0.3}  # fmt: skip
 PINION = WHEEL | {"number_of_teeth": 13, "helix_angle_deg": 40.0, "face_width": 15.0, "profile_shift_coefficient": 0.2}
 
+THIN = {"circumferential_thinning": 0.3}
 SMALL = {"module": 0.01, "face_width": 0.1}
 
 
@@ -128,6 +129,8 @@ def test_two_that_stand_are_held_to_distance_angle_and_phase() -> None:
         ({}, {}, {"shaft_angle_deg": 71.0, "working_centre_distance": 60.0}, "working_centre_distance"),
         (SMALL, SMALL, {"working_centre_distance": 1e6}, "working_centre_distance"),
         ({}, {}, {"working_centre_distance": 60.0, "normal_backlash": 0.1}, "working_centre_distance"),
+        ({}, THIN, {"working_centre_distance": 60.0, "normal_backlash": 0.1}, "working_centre_distance"),
+        ({}, THIN, {"working_centre_distance": 30.0, "normal_backlash": 0.1}, "working_centre_distance"),
     ],
 )
 def test_what_does_not_fit_is_refused_by_its_key_with_what_works(

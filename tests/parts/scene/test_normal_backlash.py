@@ -96,17 +96,24 @@ def test_a_distance_that_gives_more_names_the_normal_one() -> None:
 @pytest.mark.parametrize(
     ("kind", "share"), [("external_gear_pair", 1.1), ("internal_gear_pair", 0.9), ("rack_pair", 1.3)]
 )
-def test_a_distance_too_far_names_one_that_gives_no_more_than_is_asked(kind: str, share: float) -> None:
-    far = share * mated(kind).distance
-    with pytest.raises(SceneError) as refused:
-        mated(kind, working_centre_distance=far, normal_backlash=0.1)
-    assert refused.value.key.endswith("working_centre_distance")
-    assert refused.value.nearest is not None
-    offered = refused.value.nearest.value
-    assert isinstance(offered, float)
-    assert mated(kind, working_centre_distance=offered, normal_backlash=0.1).normal_backlash == pytest.approx(0.1)
-    with pytest.raises(SceneError, match="normal_backlash"):
-        mated(kind, working_centre_distance=offered + math.copysign(1e-3, share - 1), normal_backlash=0.1)
+@pytest.mark.parametrize("own", [0.0, 0.3])
+def test_a_distance_too_far_or_too_near_names_one_that_gives_no_more_than_is_asked(
+    kind: str, share: float, own: float
+) -> None:
+    """At that of the shifts 0.3 mm of thinning are more than 0.1 mm of backlash already."""
+    thinned, bare = ({}, {"circumferential_thinning": own}), mated(kind).distance
+    for given, fault in ((share * bare, "normal_backlash"), ((2 - share) * bare, "teeth would overlap")):
+        with pytest.raises(SceneError) as refused:
+            mated(kind, thinned, working_centre_distance=given, normal_backlash=0.1)
+        assert refused.value.key.endswith("working_centre_distance")
+        assert refused.value.nearest is not None
+        offered = refused.value.nearest.value
+        assert isinstance(offered, float)
+        found = mated(kind, thinned, working_centre_distance=offered, normal_backlash=0.1)
+        assert found.normal_backlash == pytest.approx(0.1)
+        with pytest.raises(SceneError, match=fault):
+            mated(kind, thinned, working_centre_distance=offered + math.copysign(1e-3, given - bare),
+                  normal_backlash=0.1)  # fmt: skip
 
 
 def test_spur_pairs_keep_theirs() -> None:
