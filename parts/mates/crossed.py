@@ -11,7 +11,7 @@ from msgspec.structs import replace as changed
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
-from parts.base.mate import End, LaidStanding, MateKind, Pose, Standing, Touching
+from parts.base.mate import End, LaidStanding, MateKind, Pose, Touching
 from parts.gears.thinning import shared_thinning
 from parts.keys.base import MadeKeys, degrees
 from parts.keys.helix import helix_of
@@ -76,10 +76,6 @@ class CrossedMating(Touching):
         """At right angles to both axes."""
         across = complex(axis[1], -axis[0]) or offset
         return cmath.phase(across * math.copysign(1.0, (across.conjugate() * offset).real))
-
-    def standing(self, first: Pose, second: Pose) -> Standing | None:
-        """What a plane does not tell; see ``laid_standing``."""
-        return None
 
     def laid(self, first: Placement3, second: Placement3) -> CrossedMating:
         """The same pair with its faces where they stand: each may be moved along its axis."""

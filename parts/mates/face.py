@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
-from parts.base.mate import End, LaidStanding, MateKind, Pose, Standing, Touching
+from parts.base.mate import End, LaidStanding, MateKind, Pose, Touching
 from parts.gears.thinning import shared_thinning
 from parts.keys.base import MadeKeys, mm
 from parts.keys.helix import helix_of
-from parts.keys.mate import GearPairKeys
+from parts.keys.mate import GearPairKeys, backlash
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
@@ -34,9 +34,7 @@ class FaceGearPairSpec(GearPairKeys, tag="face_gear_pair", kw_only=True):
     pinion_offset: Annotated[
         float, mm("how far the middle of the pinion's face is off that of the gear's, outwards", least=-1e4, most=1e4)
     ] = 0.0
-    normal_backlash: (
-        Annotated[float, mm("normal backlash: thins both gears by half", least=0, most=100, example=0.1)] | None
-    ) = None
+    normal_backlash: Annotated[float, backlash("normal backlash: thins both gears by half")] | None = None
 
 
 class FaceMating(Touching):
@@ -67,10 +65,6 @@ class FaceMating(Touching):
         pitch = math.tau / gear.number_of_teeth
         ahead = math.remainder(rotation + pitch / 2 - direction, pitch)
         return centre + cmath.rect(self.distance, direction), direction + math.pi - ahead * self.pair.ratio
-
-    def standing(self, first: Pose, second: Pose) -> Standing | None:
-        """What a plane does not tell; see ``laid_standing``."""
-        return None
 
     def laid_standing(self, first: Placement3, second: Placement3) -> LaidStanding:
         """In the frame of the first, where its tooth is on +x: axes, and how far the pinion is turned off."""

@@ -358,13 +358,8 @@ def _thicknesses(page: Sheet, asked: Asked) -> None:
     page.section("Pitch and tooth thickness")
     page.add("pitch", math.pi * pair.module, "pi * {m}", "practicum (3.15)")
     for index, gear in enumerate(gears, 1):
-        page.add(
-            "reference_thickness",
-            gear.reference_thickness,
-            thickness_formula(gear),
-            f"practicum (3.{15 + index})",
-            index,
-        )
+        formula, source = thickness_formula(gear), f"practicum (3.{15 + index})"
+        page.add("reference_thickness", gear.reference_thickness, formula, source, index)
     values = (measurement.base_thickness(gears[0]), measurement.base_thickness(gears[1]))
     page.both("base_thickness", values, "2 * {r_b#} * ({S#} / (2 * {r#}) + inv({alpha}))", ("ISO 21771",) * 2)
     one, two = (measurement.thickness_at(g, r) for g, r in zip(gears, pair.working_radii, strict=True))

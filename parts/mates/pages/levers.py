@@ -331,11 +331,7 @@ class _Page:
             return
         before = np.asarray(self.start + step * turns, float)
         found = bracketed_roots(
-            lambda angles: self._going(self.levers.moved(angles)),
-            before,
-            np.add(before, step),
-            speeds[turns],
-            after[turns],
+            lambda angles: self._going(self.levers.moved(angles)), before, before + step, speeds[turns], after[turns]
         )
         low, high = np.mod(found, 2 * math.pi)[:: 1 if after[turns[0]] > 0 else -1]
         forward = float((high - low) % (2 * math.pi))
