@@ -171,12 +171,11 @@ class WormTeeth(Record, dict=True):
 
     def top(self, heights: ArrayLike) -> Real:
         """Distance from the axis of the tip, or of the ridge, at heights, mm."""
-        return np.abs(self.flank(self.side(heights), 1.0).plane)
+        return self.flank(self.side(heights), 1.0).distance
 
     def root_radius(self, heights: ArrayLike) -> Real:
         """Of what the land of the hob's tip leaves at heights, mm."""
-        land = self.hob.cut(self.hob.land(np.full(np.shape(heights), 0.5)), heights)
-        return np.abs(land.plane)
+        return self.hob.cut(self.hob.land(np.full(np.shape(heights), 0.5)), heights).distance
 
     def side(self, heights: ArrayLike) -> Side:
         """Where fillet and flank of the lower side begin and end.
@@ -276,14 +275,14 @@ class WormTeeth(Record, dict=True):
             if self._is_cut(radii[:, all_fillet], normal[all_fillet], z[all_fillet]):
                 raise NoTooth("worm_wheel_undercut")
         hurry, goes_on = self._hurry(z, inner, normal, outer)
-        way = np.abs(self.hob.cut(self.hob.round(math.pi / 2 + (normal - math.pi / 2) * _FOLD), z).plane)
+        way = self.hob.cut(self.hob.round(math.pi / 2 + (normal - math.pi / 2) * _FOLD), z).distance
         if not (np.diff(way, axis=0) > 0).all():
             raise NoTooth("worm_wheel_undercut")
         if not (goes_on | all_fillet).all():
             # the contact has run off to infinity on the other side, where the hob cuts from behind
             raise NoTooth("worm_wheel_flank_ends")
         side = Side(z, inner, normal, outer, undercut, hurry, all_fillet)
-        run = np.diff(np.abs(self.flank(side, _FOLD).plane), axis=0)
+        run = np.diff(self.flank(side, _FOLD).distance, axis=0)
         short = all_fillet | (run.sum(axis=0) < _LEAST_DEPTH * hob.worm.module)
         if not ((run > _STILL * run.mean(axis=0)) | short).all():
             # about to fold within the flank
@@ -689,9 +688,9 @@ class WormTeeth(Record, dict=True):
             return ()
 
         def beyond(plain: Side) -> Real:
-            form = self.hob.cut(self.hob.flank(np.full(len(plain.heights), self.hob.form_radius)), plain.heights).plane
-            border = np.where(plain.all_fillet, form, self.fillet(plain, 1.0).plane)
-            return np.abs(border) - np.abs(self.flank(self._topped(plain), 1.0).plane)
+            form = self.hob.cut(self.hob.flank(np.full(len(plain.heights), self.hob.form_radius)), plain.heights)
+            border = np.where(plain.all_fillet, form.distance, self.fillet(plain, 1.0).distance)
+            return border - self.flank(self._topped(plain), 1.0).distance
 
         held = beyond(self._plain_levels) > 0
         return self._turns(lambda z: beyond(self._plain(z)) > 0, self._levels, held)
