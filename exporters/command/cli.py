@@ -357,8 +357,8 @@ def _parser(told: Words) -> Parser:
         metavar=told.term("command line", "TOPIC"),
         help=told.text(
             "{topics} or {last}",
-            topics="spur, ring, rack, tmm42, gear-pair, shift-choice, involute, bevel, worm, train, planetary, cam, "
-            "cycloidal, cycloidal-gear, lantern, geneva, noncircular, lever, power-table",
+            topics="spur, ring, rack, tmm42, gear-pair, shift-choice, involute, bevel, face-gear, worm, train, "
+            "planetary, cam, cycloidal, cycloidal-gear, lantern, geneva, noncircular, lever, power-table",
             last="power-module",
         ),
     )

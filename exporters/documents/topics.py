@@ -31,6 +31,7 @@ TOPICS = {
     "shift-choice": ("parts.mates.pages.shift_choice", "ShiftChoiceKeys"),
     "involute": ("parts.gears.spur_gear.involute_page", "InvoluteKeys"),
     "bevel": ("parts.gears.bevel_gear.page", "BevelKeys"),
+    "face-gear": ("parts.gears.face_gear.page", "FaceKeys"),
     "worm": ("parts.gears.worm.page", "WormKeys"),
     "train": ("parts.scene.train_page", "TrainKeys"),
     "planetary": ("parts.mates.pages.planetary", "PlanetaryKeys"),

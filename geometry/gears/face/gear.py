@@ -194,8 +194,8 @@ class FaceGear(Record, dict=True):
         return np.hypot(self.section_x(angle), y)
 
     @cached_property
-    def undercut_radius(self) -> float:
-        """Inside of it the shaper's tip cuts its own flank off: there s t = (x tan alpha)^2 at the end of the flank.
+    def undercut_angle(self) -> float:
+        """Pressure angle of the plane in which s t = (x tan alpha)^2 at the end of the flank, rad.
 
         s and t: lengths along the line of action from the base circle and from the pitch point. Both ways along the
         flank have one direction then (DERIVATIONS.md).
@@ -206,7 +206,12 @@ class FaceGear(Record, dict=True):
             slope = math.tan(alpha)
             return s * (s - base * slope) - (float(self.section_x(alpha)) * slope) ** 2
 
-        return float(self.cut_radius(bracketed_root(left, 0.0, math.atan(s / base)).value, s))
+        return bracketed_root(left, 0.0, math.atan(s / base)).value
+
+    @property
+    def undercut_radius(self) -> float:
+        """Inside of it the shaper's tip cuts its own flank off, mm."""
+        return float(self.cut_radius(self.undercut_angle, self.shaper.form_length))
 
     def form_radius(self, s: float) -> float:
         """From which radius on tips meet the pinion's involute ``s`` mm along its line of action or more, or 0."""

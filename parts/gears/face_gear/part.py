@@ -23,6 +23,7 @@ from parts.keys.holes import BoreTable, bore_of, check_shape, hub_holes, wide_bo
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
+    from geometry.gears.teeth.spur import SpurGear
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.faced import FacedBody
     from geometry.solids.hub_holes import HubHoles
@@ -121,14 +122,19 @@ def _made(keys: FaceGearSpec) -> FaceGear:
     return sized(bare, inner, outer, 0.0 if inner else _form_length(keys)).checked()
 
 
-def _form_length(keys: FaceGearSpec) -> float:
-    """Where the involute of a pinion that the rack of ISO 53 A cuts begins, along the line of action, mm."""
+def pinion_of(keys: FaceGearSpec) -> SpurGear:
+    """The pinion that the rack of ISO 53 A cuts."""
     from geometry.gears.teeth.spur import SpurGear
     from parts.gears.spur_gear.part import basic_rack_of
 
+    rack = basic_rack_of("ISO 53 A", math.radians(keys.pressure_angle_deg))
+    return SpurGear(keys.module, keys.pinion_teeth, rack)
+
+
+def _form_length(keys: FaceGearSpec) -> float:
+    """Where its involute begins, along the line of action, mm."""
     try:
-        rack = basic_rack_of("ISO 53 A", math.radians(keys.pressure_angle_deg))
-        return form_length(SpurGear(keys.module, keys.pinion_teeth, rack))
+        return form_length(pinion_of(keys))
     except GeometryError:
         # of another rack only its own pinion may be
         return 0.0
@@ -156,6 +162,7 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
     """A face gear: its lower face at z = 0, its teeth upwards, one on +x."""
 
     name, keys, has_outline = "face_gear", FaceGearSpec, False
+    page = "parts.gears.face_gear.page"
 
     def thing(self, keys: FaceGearSpec, others: Others) -> FaceGear:
         """The gear, checked to exist."""

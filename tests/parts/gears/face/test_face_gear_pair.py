@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from exporters.command.cli import main
+from exporters.documents.topics import calculate
 from geometry.base.errors import GeometryError
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
@@ -166,3 +167,12 @@ def test_what_cannot_be_is_refused_with_a_value_that_builds(keys: dict[str, Any]
         made({"parts": {"wheel": GEAR | keys | {key: nearest.value}}})
     except (SceneError, GeometryError) as error:
         pytest.fail(f"{key} = {nearest.value}: {error}")
+
+
+def test_forces_of_the_calculation_balance_both_torques() -> None:
+    """About the gear's axis the force along it turns the gear as the ratio has it; its parts make up the normal one."""
+    values = json.loads(calculate("face-gear", ("face_gear_pair", "torque=12"), "json", "en"))["values"]
+    along, across = values["circumferential_force"], values["radial_force"]["first"]
+    assert along * values["middle_plane"] / 1000 == pytest.approx(36.0, rel=1e-9)
+    assert math.hypot(along, across) == pytest.approx(values["normal_force"], rel=1e-12)
+    assert values["normal_force"] * values["base_diameter"]["first"] / 2000 == pytest.approx(12.0, rel=1e-12)

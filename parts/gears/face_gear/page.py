@@ -1,0 +1,146 @@
+"""``higherpair calc face-gear``: between which diameters teeth can be, contact and forces of the pair."""
+
+from __future__ import annotations
+
+import math
+from contextlib import suppress
+
+import numpy as np
+
+from geometry.base.errors import GeometryError
+from geometry.gears.face.gear import FLANK, FaceGear
+from geometry.gears.face.pair import FacePair
+from parts.base.texts import N_
+from parts.gears.face_gear.part import FACE_GEAR, FaceGearSpec, face_gear_findings, pinion_of
+from parts.pages.force_steps import Power, Speed, Torque, driving_torque
+from parts.pages.inputs import calculation, part_of_kind
+from parts.pages.page import Sheet
+from parts.texts.findings import finding_message
+
+TOPIC = "face-gear"
+table_from = part_of_kind("face_gear")
+_LITVIN = "Litvin, 18.4"
+# a place of a plane: twice its distance from the gear's axis
+_PLACE = "2 * sqrt({%s}**2 + ({d_b1} / 2 * sin({%s}) - {%s} * cos({%s}))**2)"
+
+
+class FaceKeys(FaceGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
+    """Keys of the face gear, which tell its pinion too, and of the pair at work."""
+
+    speed_rpm: Speed = None
+    torque: Torque = None
+    power: Power = None
+
+
+@calculation(TOPIC, FaceKeys)
+def sheet(keys: FaceKeys) -> Sheet:
+    """The calculation of a face gear and its pinion."""
+    gear = FACE_GEAR.thing(keys, {})
+    page = Sheet(TOPIC, N_("Face gear and spur pinion at a right angle"))
+    _given(page, keys, gear)
+    _sizes(page, gear)
+    _limits(page, gear)
+    _face(page, gear)
+    with suppress(GeometryError):
+        # of another rack only its own pinion may be
+        pair = FacePair(gear, pinion_of(keys), gear.inner_radius - gear.module, gear.outer_radius + gear.module)
+        page.add("total_contact_ratio", pair.contact_ratio)
+    if keys.speed_rpm is not None:
+        page.section(N_("Speeds"))
+        page.add("gear_speed", keys.speed_rpm, gear=1, given=True)
+        page.add("gear_speed", keys.speed_rpm * gear.rolled, "{n1} / {u}", gear=2)
+    _forces(page, gear, keys)
+    page.notes += [finding_message(found) for found in face_gear_findings(gear)]
+    return page
+
+
+def _given(page: Sheet, keys: FaceKeys, gear: FaceGear) -> None:
+    page.section(N_("Given"))
+    page.both("number_of_teeth", (keys.pinion_teeth, keys.number_of_teeth))
+    page.add("module", keys.module)
+    page.add("pressure_angle_deg", keys.pressure_angle_deg)
+    page.add("addendum_coefficient", keys.addendum_coefficient)
+    page.add("dedendum_coefficient", keys.dedendum_coefficient)
+    page.add("cutter_tip_rounding", gear.shaper.tip_rounding)
+    if keys.circumferential_thinning:
+        page.add("circumferential_thinning", keys.circumferential_thinning)
+    page.add("plate_thickness", gear.thickness)
+
+
+def _sizes(page: Sheet, gear: FaceGear) -> None:
+    shaper = gear.shaper
+    page.section(N_("Pinion, shaper and teeth"))
+    page.add("gear_ratio", 1 / gear.rolled, "{z2} / {z1}")
+    diameters = 2 * shaper.reference_radius, 2 * gear.reference_radius
+    page.both("reference_diameter", diameters, "{m} * {z#}")
+    angles = math.degrees(math.atan(gear.rolled)), math.degrees(math.atan(1 / gear.rolled))
+    page.both("pitch_cone_angle_deg", angles, "arctan({z#} / {z~})")
+    page.add("base_diameter", 2 * shaper.base_radius, "{d1} * cos({alpha})", gear=1)
+    page.add("shaper_tip_diameter", 2 * shaper.tip_radius, "{d1} + 2 * {h_f} * {m}")
+    corner = "{d_a0} / 2 - {rho_0} * {m}"
+    page.add("shaper_form_length", shaper.form_length, f"sqrt(({corner})**2 - ({{d_b1}} / 2)**2) + {{rho_0}} * {{m}}")
+    page.add("face_tip_depth", gear.tip_depth, "{d1} / 2 - {h_a} * {m}")
+    page.add("face_tooth_depth", gear.whole_depth, "({h_a} + {h_f}) * {m}")
+    page.add("pinion_axis_height", gear.mounting_distance, "{t} + {d_a0} / 2")
+    if gear.circumferential_thinning:
+        backlash = gear.circumferential_thinning * math.cos(shaper.pressure_angle)
+        page.add("normal_backlash", backlash, "{A} * cos({alpha})")
+
+
+def _angle(gear: FaceGear, share: float, radius: float) -> float:
+    """Pressure angle of the plane of a place of the flank, rad."""
+    return math.acos(float(gear.section_x(0.0) / gear.side(FLANK, share, radius).x))
+
+
+def _limits(page: Sheet, gear: FaceGear) -> None:
+    """Undercut, the base circle, pointed tips; two angles are roots of one equation each."""
+    page.section(N_("Limits of the face"))
+    plane = "{d_b1} * {u} / (2 * cos({%s}))"
+    angle = gear.undercut_angle
+    # s (s - r_b tan alpha) = (x tan alpha)^2
+    page.add("undercut_angle_deg", math.degrees(angle), "", _LITVIN)
+    page.add("undercut_plane", float(gear.section_x(angle)), plane % "alpha_u")
+    page.add("undercut_diameter", 2 * gear.undercut_radius, _PLACE % ("x_u", "alpha_u", "s_F", "alpha_u"))
+    if gear.form_radius(0.0):
+        page.add("base_limit_angle_deg", math.degrees(math.acos(gear.tip_depth / gear.shaper.base_radius)),
+                 "arccos(2 * {h_t} / {d_b1})")  # fmt: skip
+        limit = "{d_b1} * sqrt(({u} / cos({alpha_l}))**2 + sin({alpha_l})**2)"
+        page.add("base_limit_diameter", 2 * gear.form_radius(0.0), limit)
+    angle = _angle(gear, 1.0, gear.pointed_radius)
+    page.add("pointed_angle_deg", math.degrees(angle), "", _LITVIN)
+    page.add("pointed_plane", float(gear.section_x(angle)), plane % "alpha_p")
+    length = float(gear.tip_length(np.asarray(angle)))
+    page.add("pointed_length", length, "({h_t} - {d_b1} / 2 * cos({alpha_p})) / sin({alpha_p})")
+    page.add("pointed_diameter", 2 * gear.pointed_radius, _PLACE % ("x_p", "alpha_p", "s_p", "alpha_p"))
+
+
+def _face(page: Sheet, gear: FaceGear) -> None:
+    page.section(N_("Face and contact"))
+    page.add("face_inner_diameter", 2 * gear.inner_radius)
+    page.add("face_outer_diameter", 2 * gear.outer_radius)
+    page.add("face_width", gear.face_width, "({D_e} - {D_i}) / 2")
+    inner, outer = gear.tip_thickness([gear.inner_radius, gear.outer_radius]).tolist()
+    page.add("inner_tip_thickness", inner)
+    page.add("outer_tip_thickness", outer)
+    middle = (gear.inner_radius + gear.outer_radius) / 2
+    page.add("middle_plane", middle, "({D_i} + {D_e}) / 4")
+    page.add("middle_angle_deg", math.degrees(_plane_angle(gear, middle)), "arccos({d_b1} * {u} / (2 * {x_m}))")
+
+
+def _plane_angle(gear: FaceGear, x: float) -> float:
+    return math.acos(float(gear.section_x(0.0)) / x)
+
+
+def _forces(page: Sheet, gear: FaceGear, keys: FaceKeys) -> None:
+    """Along the line of action in the middle of the face, where a load is given, the pinion driving."""
+    torque = driving_torque(page, keys)
+    if torque is None:
+        return
+    page.add("gear_torque", torque / gear.rolled, "{T1} * {u}", gear=2)
+    normal = 1000 * torque / gear.shaper.base_radius
+    page.add("normal_force", normal, "2000 * {T1} / {d_b1}")
+    alpha = _plane_angle(gear, (gear.inner_radius + gear.outer_radius) / 2)
+    page.add("circumferential_force", normal * math.cos(alpha), "{F_n} * cos({alpha_m})")
+    across = normal * math.sin(alpha)
+    page.add("radial_force", across, "{F_n} * sin({alpha_m})", gear=1)
+    page.add("axial_force", across, "{F_r1}", gear=2)
