@@ -376,6 +376,7 @@ class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
         """The mating at the distance that the keys give, at which the teeth must reach each other."""
         distance = keys.working_centre_distance
         code, numbers = "teeth_do_not_reach", dict[str, Any]()
+        touching: Nearest | None = None
         try:
             made = self.made(keys, first, second, distance)
             if distance is None or made.pair.contact_ratio > 0:
@@ -383,11 +384,15 @@ class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
         except ParameterError as refusal:
             if distance is None or refusal.name != "working_centre_distance":
                 raise self._in_normal_terms(refusal, first, second) from refusal
-            code, numbers = refusal.code, refusal.numbers
+            code, numbers, touching = refusal.code, refusal.numbers, refusal.nearest
 
         def cure() -> Nearest | None:
             """From the distance of the shifts on: as far as tooth follows tooth, no more backlash than is asked."""
-            nominal = self.made(keys, first, second, None)
+            try:
+                nominal = self.made(keys, first, second, None)
+            except ParameterError:
+                # shifts without a distance of their own
+                return touching
             wanted = min(1.0, nominal.pair.contact_ratio)
 
             def ratio(at: float) -> float:

@@ -46,9 +46,10 @@ def external_pair(first: SpurGear, second: SpurGear, working_centre_distance: fl
         no room for the teeth. Each names the nearest value that works.
     """
     sums = common_sums(first, second, "first")
-    angle = working_angle(sums, first, second, "first")
-    distance = sums.distance(angle)
-    if working_centre_distance is not None:
+    if working_centre_distance is None:
+        angle = working_angle(sums, first, second, "first")
+        distance = sums.distance(angle)
+    else:
         distance, angle = working_centre_distance, angle_at(sums, working_centre_distance)
     reference = first.reference_radius + second.reference_radius
     shortening = sums.shift - (distance - reference) / first.module

@@ -80,9 +80,10 @@ def internal_pair(pinion: SpurGear, ring: RingGear, working_centre_distance: flo
     if sums.teeth >= 0:
         least = Nearest(pinion.number_of_teeth + 1, "at_least")
         raise ParameterError("number_of_teeth", ring.number_of_teeth, "not_above_pinion_teeth", least)
-    angle = working_angle(sums, pinion, ring, "pinion")
-    distance = sums.distance(angle)
-    if working_centre_distance is not None:
+    if working_centre_distance is None:
+        angle = working_angle(sums, pinion, ring, "pinion")
+        distance = sums.distance(angle)
+    else:
         # farther out there is no more room, but less
         sums.refuse_below_base(working_centre_distance)
         distance, angle = working_centre_distance, angle_at(sums, working_centre_distance)

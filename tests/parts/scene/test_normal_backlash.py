@@ -73,6 +73,32 @@ def test_thinned_teeth_may_stand_nearer_and_have_the_backlash_that_is_asked(
     assert refused.value.key.endswith("normal_backlash")
 
 
+@pytest.mark.parametrize(
+    ("kind", "own", "distance"),
+    [
+        ("external_gear_pair", ({"profile_shift_coefficient": -0.9}, {"profile_shift_coefficient": -0.9}), 49.9),
+        (
+            "internal_gear_pair",
+            ({"number_of_teeth": 33, "profile_shift_coefficient": 0.143},
+             {"number_of_teeth": 23, "profile_shift_coefficient": 0.4749, "circumferential_thinning": 0.4917}),
+            9.5,
+        ),
+    ],
+)  # fmt: skip
+def test_shifts_without_a_distance_of_their_own_mesh_where_there_is_room(
+    kind: str, own: tuple[dict[str, Any], dict[str, Any]], distance: float
+) -> None:
+    straight = tuple(keys | {"helix_angle_deg": 0.0} for keys in own)
+    with pytest.raises(SceneError, match="no working pressure angle"):
+        mated(kind, straight)
+    mating = mated(kind, straight, working_centre_distance=distance)
+    touched = [Brute(mating.pair, way).touch(0.1) for way in (1, -1)]
+    assert touched == pytest.approx([mating.normal_backlash / 2] * 2, abs=2e-4)
+    with pytest.raises(SceneError) as refused:
+        mated(kind, straight, working_centre_distance=distance - 2.0)
+    assert refused.value.nearest is not None
+
+
 @KINDS
 def test_a_refused_backlash_names_a_normal_one_that_works(kind: str) -> None:
     with pytest.raises(SceneError) as refused:
