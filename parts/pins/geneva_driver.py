@@ -65,6 +65,7 @@ class GenevaDriverKind(Kind[GenevaDriverSpec, "GenevaDriver"]):
     """A crank with its locking disc."""
 
     name, keys, made_from = "geneva_driver", GenevaDriverSpec, _GENEVA_WHEEL
+    drawing = "parts.pins.geneva_drawing"
 
     def thing(self, keys: GenevaDriverSpec, others: Others) -> GenevaDriver:
         """The driver of another part's wheel, checked to hold its pins and its bore."""

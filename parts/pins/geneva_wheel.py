@@ -76,6 +76,7 @@ class GenevaWheelKind(WheelKind[GenevaWheelSpec, "GenevaWheel"]):
     """A wheel with radial slots."""
 
     name, keys = "geneva_wheel", GenevaWheelSpec
+    drawing = "parts.pins.geneva_drawing"
 
     def thing(self, keys: GenevaWheelSpec, others: Others) -> GenevaWheel:
         """The wheel, checked to have slots and tips, and holes within them."""

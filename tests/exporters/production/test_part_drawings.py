@@ -72,6 +72,12 @@ PARTS["disc"] = {
 }  # fmt: skip
 PARTS["clock"] = {"kind": "cycloidal_gear", "module": 2.0, "number_of_teeth": 30, "mate_teeth": 8, "bore_diameter": 8.0,
                   "face_width": 5.0}  # fmt: skip
+PARTS["geneva"] = {"kind": "geneva_wheel", "number_of_slots": 4, "centre_distance": 80.0, "pin_diameter": 8.0,
+                   "slot_clearance": 0.5, "locking_diameter": 84.0, "locking_clearance": 0.5, "end_clearance": 1.0,
+                   "bore_diameter": 10.0}  # fmt: skip
+PARTS["geneva ring"] = {key: value for key, value in PARTS["geneva"].items() if key != "bore_diameter"} | {
+    "internal": True, "tip_rounding": 1.0, "outer_diameter": 320.0,
+}  # fmt: skip
 PARTS |= {
     "pin": {"kind": "pin", "diameter": 8.0, "length": 60.0},
     "eccentric": {"kind": "eccentric", "diameter": 32.0, "eccentricity": 4.0, "bore_diameter": 10.0},
@@ -143,6 +149,24 @@ SIZES: dict[str, list[float]] = {
     "disc": [8, 20, 56, 12, 96, 84],
     # m z, and a module and a quarter more
     "clock": [5, 8, 60, 64, 55],
+    # a slot's walls begin where the pin enters, at a cos(pi / n); it ends beyond pin and gap at a -+ r
+    "geneva": [
+        10,
+        10,
+        2 * math.hypot(80 * math.cos(math.pi / 4), 4.25),
+        8.5,
+        80 * (1 - math.sin(math.pi / 4)) - 5,
+        42.5,
+    ],
+    "geneva ring": [
+        10,
+        320,
+        2 * (math.hypot(80 * math.cos(math.pi / 4), 5.25) - 1),
+        8.5,
+        80 * (1 + math.sin(math.pi / 4)) + 5,
+        42.5,
+        1,
+    ],
     "plate": [120, 80, 8, 15, 105, 60, 15, 50, 6, 20],
     "pin": [8, 60],
     "eccentric": [10, 10, 4, 32],
