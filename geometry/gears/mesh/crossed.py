@@ -15,9 +15,10 @@ import numpy as np
 from geometry.base.record import replace
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
+from geometry.curves.involute import Involute
 from geometry.gears.mesh.search import ContactPlace, PairContact, gear_outline
 from geometry.gears.pairs.crossed import CrossedPair
-from geometry.plane.distance import Feet, Flags, Indices, Verdict, folded
+from geometry.plane.distance import Boundary, Feet, Flags, Indices, Verdict, folded
 from geometry.plane.profile import Label
 
 # drive angles in a pitch; heights, and places along a curve, of the first look; how often the grid about the least is
@@ -68,6 +69,13 @@ class _Teeth:
         self.gear, self.mate = pair.gears[own], pair.gears[1 - own]
         self.side, self.outline = pair.sides[1 - own], gear_outline(pair.sides[own])
         self.labels = [segment.label for segment in pair.sides[own].segments]
+        # the flank alone: beside a tip's edge the tip may be nearer in the section and is not in space; on beyond the
+        # edge, since of the places within a wedge the nearer plane decides
+        self.flank_at = self.labels.index(Label.FLANK)
+        flank = self.outline.curves[self.flank_at]
+        assert isinstance(flank, Involute)
+        self.end_roll = flank.end_roll
+        self.flank = Boundary((replace(flank, end_roll=flank.end_roll + self.gear.pitch_angle),))
         self.twist, self.mate_twist = pair.twists[own], pair.twists[1 - own]
         self.distance, angle = pair.working_centre_distance, pair.shaft_angle
         self.sine, self.cosine = math.sin(angle), math.cos(angle)
@@ -101,10 +109,17 @@ class _Teeth:
         return np.where(inside, np.abs(spoke) - self.gear.tip_radius, np.inf), spoke, at.own + self.twist * z
 
     def feet(self, spoke: Complex, turned: Real) -> tuple[Feet, Real]:
-        """The nearest of the gear's section, and how much nearer along the normal of its screw surface that is."""
+        """The nearest of the gear's surfaces in its section, and how much nearer along the screw's normal that is."""
         inner, _ = folded(spoke * np.exp(-1j * turned), spoke, self.gear.pitch_angle)
-        feet = self.outline.feet(inner)
-        return feet, 1 / np.hypot(1.0, self.twist * (np.conj(inner) * feet.normal).imag)
+        feet, flank = self.outline.feet(inner), self.flank.feet(inner)
+        share, leaning = (1 / np.hypot(1.0, self.twist * (np.conj(inner) * f.normal).imag) for f in (feet, flank))
+        low, high = self.flank.curves[0].domain
+        within = np.where(feet.distance < 0, high, self.end_roll)
+        nearer = (flank.parameter > low) & (flank.parameter < within) & (flank.distance * feet.distance > 0)
+        nearer &= np.abs(flank.distance * leaning) < np.abs(feet.distance * share)
+        index = np.where(nearer, self.flank_at, feet.curve_index)
+        chosen = (np.where(nearer, a, b) for a, b in ((flank.parameter, feet.parameter), (flank.normal, feet.normal)))
+        return Feet(np.where(nearer, flank.distance, feet.distance), index, *chosen), np.where(nearer, leaning, share)
 
     def measured(self, at: _Places) -> _Places:
         """The same places with their gaps, mm: those well beyond the tip cylinder only by that."""

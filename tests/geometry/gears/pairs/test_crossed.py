@@ -7,16 +7,18 @@ import math
 import numpy as np
 import pytest
 from scipy.optimize import minimize
+from scipy.spatial import cKDTree
 
 from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement3
 from geometry.base.record import replace
-from geometry.gears.mesh.crossed import crossed_contact
+from geometry.gears.mesh.crossed import _Teeth, crossed_contact
 from geometry.gears.pairs.crossed import CrossedPair, crossed_pair, crossing
 from geometry.gears.teeth.basic_rack import iso_53
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import transverse_gear
 from geometry.plane.distance import Verdict
+from geometry.plane.profile import Label
 from tests.sampling import some_of
 
 # m_n, z, beta in degrees (above 0 right-hand), x, face width of both
@@ -217,3 +219,24 @@ def test_the_line_of_centres_of_placements() -> None:
     offset, feet = crossing(placed)
     assert offset == pytest.approx(-5j, abs=1e-12)
     assert feet == pytest.approx((2.0, -7.0), abs=1e-12)
+
+
+@pytest.mark.parametrize("own", [0, 1])
+def test_places_beside_a_tips_edge_are_as_deep_as_the_nearest_of_flank_and_tip_in_space(own: int) -> None:
+    """Against a cloud of points of the gear's screw surfaces; in the section the tip cylinder may be nearer."""
+    pair = crossed_pair(_bare(CASES["obtuse"]))
+    teeth, gear, side = _Teeth(pair, own, 1), pair.gears[own], pair.sides[own]
+    flank = next(s.curve for s in side.segments if s.label is Label.FLANK)
+    edge = complex(flank.point(np.array([flank.domain[1]]))[0])
+    rolls = np.linspace(*flank.domain, 400)
+    curves = [flank.point(rolls), gear.tip_radius * np.exp(1j * np.linspace(np.angle(edge), 0.0, 200))]
+    z = np.linspace(-0.6, 0.6, 401)
+    turned = np.concatenate(curves)[:, None] * np.exp(1j * teeth.twist * z)
+    cloud = np.stack([turned.real, turned.imag, np.broadcast_to(z, turned.shape)], axis=-1).reshape(-1, 3)
+    draw = np.random.default_rng(0)
+    places = edge + draw.uniform(-0.15, 0.15, 200) + 1j * draw.uniform(-0.15, 0.15, 200)
+    feet, share = teeth.feet(places, np.zeros(200))
+    found, _ = cKDTree(cloud).query(np.stack([places.real, places.imag, np.zeros(200)], axis=-1))
+    inside = feet.distance < 0
+    assert inside.sum() > 40
+    assert np.abs(feet.distance * share)[inside] == pytest.approx(found[inside], rel=0.02, abs=0.006)
