@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.plane.profile import Profile, Region
     from geometry.solids.body import Body
+    from parts.base.readback import Probe
 
 # of the pin's diameter: the wall of a tip by default, and gaps that no key tells
 _TIP, _GAP = 1.0, 0.1
@@ -106,6 +107,12 @@ class GenevaWheelKind(WheelKind[GenevaWheelSpec, "GenevaWheel"]):
             return moved_profile(thing.outline(), offset - depth)
 
         return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
+
+    def probes(self, keys: GenevaWheelSpec, thing: GenevaWheel) -> tuple[Probe, ...]:
+        """The pin goes through its slots, the disc into its arcs."""
+        from parts.pins.geneva_probe import SlotProbe
+
+        return (SlotProbe(thing, keys.face_width / 2),)
 
     def report(self, keys: GenevaWheelSpec, thing: GenevaWheel) -> Report:
         """Its sizes."""

@@ -1,0 +1,69 @@
+"""What the files of a Geneva wheel must also do: let the pin through every slot, the disc into every locking arc."""
+
+from __future__ import annotations
+
+import cmath
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geometry.base.record import Record
+from parts.base.readback import Probed, ReadError
+from parts.base.texts import fault
+
+if TYPE_CHECKING:
+    from geometry.curves.curve import Complex
+    from geometry.gears.pins.geneva import GenevaWheel
+    from parts.base.readback import ReadBack, ReadLoop
+
+# places along a slot; along an edge of the file, and along all of them at most
+_PLACES, _ALONG, _MOST = 65, 129, 40_000
+# rounding, as a part of the wheel's size
+_ROUNDING = 1e-12
+
+
+class SlotProbe(Record):
+    """A pin moved along the slots, the disc held in the arcs; ``height``: where a solid is cut, mm."""
+
+    wheel: GenevaWheel
+    height: float
+    name: str = ""
+    needs_whole: bool = False
+
+    def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
+        """Both by the distances of the outline's points, all slots at once; see ``parts.base.readback.Probe``."""
+        wheel, drive = self.wheel, self.wheel.drive
+        points, pitch = _points(self._loop(file)), 2 * drive.half_slot_angle
+        places = np.linspace(drive.mouth_radius, drive.deepest_radius, _PLACES)
+        slots = points * np.exp(-1j * pitch * np.round(np.angle(points) / pitch))
+        pin = min(float(np.abs(slots - place).min()) for place in places) - wheel.pin_diameter / 2
+        half = cmath.rect(1.0, pitch / 2)
+        arcs = points / half * np.exp(-1j * pitch * np.round(np.angle(points / half) / pitch))
+        disc = float(np.abs(arcs - drive.centre_distance).min()) - wheel.locking_radius
+        allowed = declared + offset + _ROUNDING * drive.centre_distance
+        wanted = min(wheel.slot_clearance / 2, wheel.end_clearance), wheel.locking_clearance
+        failures = []
+        if pin < wanted[0] - allowed:
+            failures.append(fault("the gap between pin and slots is {gap:.6g} mm", gap=pin))
+        if disc < wanted[1] - allowed:
+            failures.append(fault("the gap between disc and locking arcs is {gap:.6g} mm", gap=disc))
+        return Probed({"slot_gap": pin, "locking_gap": disc}, tuple(failures))
+
+    def _loop(self, file: ReadBack) -> ReadLoop:
+        """The outermost outline; of a ring the next one."""
+        loops = sorted(file.section(self.height), key=lambda loop: loop.size)
+        number = 2 if self.wheel.drive.internal else 1
+        if len(loops) < number:
+            raise ReadError("there are no slots for the pin to pass")
+        return loops[-number]
+
+
+def _points(loop: ReadLoop) -> Complex:
+    """Points along an outline, mm."""
+    found = []
+    families = loop.outline().edges
+    count = max(3, min(_ALONG, _MOST // max(sum(map(len, families)), 1)))
+    for family in families:
+        edges = np.repeat(np.arange(len(family)), count)
+        found.append(family.at(edges, np.tile(np.linspace(0, 1, count), len(family)))[0])
+    return np.concatenate(found)
