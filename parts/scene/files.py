@@ -38,8 +38,9 @@ def text_of(raw: bytes) -> str:
     """
     if raw[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
         return raw.decode("utf-16")
-    if (zero := raw.find(b"\0")) >= 0:
-        # no text of a scene has one, every other byte of UTF-16 is
+    if (b"\0" in raw[::2]) is not (b"\0" in raw[1::2]):
+        # of UTF-16 without a mark the same half of each Latin letter
+        zero = raw.index(b"\0")
         raise UnicodeDecodeError("utf-8", raw, zero, zero + 1, "no text")
     return raw.decode("utf-8-sig")
 
