@@ -163,6 +163,7 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
 
     name, keys, has_outline = "face_gear", FaceGearSpec, False
     page = "parts.gears.face_gear.page"
+    drawing = data_table = "parts.gears.face_gear.drawing"
 
     def thing(self, keys: FaceGearSpec, others: Others) -> FaceGear:
         """The gear, checked to exist."""

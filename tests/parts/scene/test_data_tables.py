@@ -29,7 +29,7 @@ from parts.scene.load import load_scene, make_parts, scene_from_toml
 from parts.scene.placing import place
 
 TOPICS = {"spur_gear": "spur", "ring_gear": "ring", "rack": "rack", "worm": "worm", "worm_wheel": "worm",
-          "bevel_gear": "bevel",
+          "bevel_gear": "bevel", "face_gear": "face-gear",
           "noncircular_gear": "noncircular", "cycloidal_disc": "cycloidal", "lantern_gear": "lantern",
           "cycloidal_gear": "cycloidal-gear"}  # fmt: skip
 CAMS = (
@@ -42,7 +42,7 @@ CAMS = (
     "conjugate_cams",
 )
 TOOTHED = ("practicum_pair", "helical_pair", "rack_and_pinion", "thesis_internal_pair", "worm_set_print", "bevel_pair",
-           "spiral_bevel_pair")  # fmt: skip
+           "spiral_bevel_pair", "face_gear_pair")  # fmt: skip
 ROUND = ("oval_gears", "cycloidal_reducer", "lantern_pair", "clock_gears")
 # what drawings call by other names than calculations do, which have the seeds'
 CALLED = {
@@ -52,8 +52,8 @@ CALLED = {
     "pitch": "pitch of the rack",
 }
 # what of a mate, and of the scene's keys, stands in a table, and is no step of the part's own calculation
-BESIDE = {"teeth of the mate", "drawing of the mate", "centre distance", "number of starts of the worm",
-          "left end of the plate", "its lower edge"}  # fmt: skip
+BESIDE = {"number of teeth of the face gear", "teeth of the mate", "drawing of the mate", "centre distance",
+          "number of starts of the worm", "left end of the plate", "its lower edge"}  # fmt: skip
 
 
 @cache
@@ -71,7 +71,7 @@ def calculated(topic: str, address: str, key: str, part: Any) -> dict[str, Any]:
     more = []
     if topic in ("spur", "ring"):
         more.append(f"tip_diameter={part.circles['tip_diameter']!r}")
-    if topic in ("spur", "ring", "rack", "noncircular", "bevel"):
+    if topic in ("spur", "ring", "rack", "noncircular", "bevel", "face-gear"):
         more.append(f"circumferential_thinning={part.thing.circumferential_thinning!r}")
     elif part.kind == "worm":
         more.append(f"axial_thinning={part.thing.thread.worm.thinning!r}")
