@@ -80,7 +80,7 @@ class GenevaDriverKind(Kind[GenevaDriverSpec, "GenevaDriver"]):
             disc = checked_disc(GenevaDisc(wheel, keys.number_of_pins, gap), holes.bore_reach)
         except ParameterError as refusal:
             if refusal.name == "locking_diameter":
-                raise ParameterError("of", keys.of, refusal.code, diameter=refusal.value) from refusal
+                raise ParameterError("of", keys.of, refusal.code, **refusal.numbers) from refusal
             raise
         usual = disc.drive.crank_radius + pin + max(keys.seat_clearance, 0.0)
         driver = GenevaDriver(

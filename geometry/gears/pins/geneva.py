@@ -397,7 +397,7 @@ def checked_disc(disc: GenevaDisc, core: float = 0.0) -> GenevaDisc:
     least = least_wall(radius)
     room = disc.swept_apex + radius - least if drive.internal else disc.swept_apex - least
     if room < 0:
-        raise ParameterError("locking_diameter", 2 * radius, "tips_leave_no_disc")
+        raise ParameterError("locking_diameter", 2 * radius, "tips_leave_no_disc", diameter=2 * radius)
     if not drive.internal and room >= core:
         room -= core
 

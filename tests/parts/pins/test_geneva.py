@@ -102,6 +102,13 @@ def test_what_cannot_be_is_refused_with_what_can(wheel: Keys, driver: Keys, key:
     make_parts(scene_from_dict({"parts": parts}, "t", "t"), "t")
 
 
+def test_a_wheel_whose_tips_leave_no_disc_is_refused_by_its_name() -> None:
+    wheel = RING | {"number_of_slots": 5, "centre_distance": 32.0, "tip_rounding": 0.5}
+    with pytest.raises(SceneError) as refused:
+        make_parts(scene_from_dict({"parts": {"wheel": wheel, "driver": DRIVER}}, "t", "t"), "t")
+    assert (refused.value.key, refused.value.code) == ("parts.driver.of", "tips_leave_no_disc")
+
+
 def test_a_driver_is_for_one_wheel() -> None:
     parts = {"wheel": WHEEL, "other": WHEEL | {"number_of_slots": 5}, "driver": DRIVER | {"of": "other"}}
     made = scene_from_dict({"parts": parts, "mates": [MATE]}, "t", "t")
