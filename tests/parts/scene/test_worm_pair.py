@@ -108,7 +108,8 @@ def test_a_size_that_the_worm_cannot_have_is_told_to_the_wheel(
     file.write_text(file.read_text().replace("thread_length", worm))
     code, said = _checked(file, capsys)
     assert code == 2
-    assert "parts.wheel.addendum_coefficient = 1.0: must fit its mate; 0.6 modules works" in said
+    assert "parts.wheel.addendum_coefficient = 1.0: " in said
+    assert "; 0.6 modules works" in said
 
 
 @pytest.mark.sampled(1)
