@@ -85,10 +85,9 @@ def _with_slots(face: View, wheel: GenevaWheel, language: str) -> View:
 
     around = (towards, towards + 20, towards - 20)
     rounds = [round_("locking_arc", wheel.drive.centre_distance * way, wheel.arc_radius, around, slots)]
-    if wheel.tip_rounding > 0:
-        corner = complex(wheel.drive.mouth_radius, half + wheel.tip_rounding)
-        outward = -60.0 if sense < 0 else -120.0
-        rounds.append(round_("tip_rounding", corner, wheel.tip_rounding, (outward, -30.0), 2 * slots))
+    corner = wheel.half_period()[2]
+    if wheel.tip_rounding > 0 and isinstance(corner, Arc):
+        rounds.append(round_("tip_rounding", corner.centre, corner.radius, arc_angles(corner), 2 * slots))
     mouth = wheel.drive.mouth_radius
     sizes = (
         Size(
