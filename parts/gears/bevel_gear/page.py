@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Annotated
 
 from msgspec.structs import replace as changed
@@ -109,7 +110,7 @@ def _normal_share(keys: BevelKeys) -> float:
 
 def _given(page: Sheet, pair: BevelPair) -> None:
     page.section("Given")
-    first = pair.first
+    first, both = pair.first, partial(_both, page, pair)
     page.both("number_of_teeth", (first.number_of_teeth, first.mate_teeth))
     page.add("outer_module", first.module)
     page.add("shaft_angle_deg", math.degrees(first.shaft_angle))
@@ -123,9 +124,9 @@ def _given(page: Sheet, pair: BevelPair) -> None:
     page.add("addendum_coefficient", first.addendum_coefficient)
     page.add("tip_clearance_coefficient", first.tip_clearance_coefficient)
     page.add("tip_radius_coefficient", first.tip_radius_coefficient)
-    page.both("profile_shift_coefficient", _each(pair, lambda g: g.profile_shift_coefficient))
-    page.both("thickness_coefficient", _each(pair, lambda g: g.thickness_coefficient))
-    page.both("circumferential_thinning", _each(pair, lambda g: g.circumferential_thinning))
+    both("profile_shift_coefficient", lambda g: g.profile_shift_coefficient)
+    both("thickness_coefficient", lambda g: g.thickness_coefficient)
+    both("circumferential_thinning", lambda g: g.circumferential_thinning)
     page.add("face_width", first.face_width)
 
 
@@ -134,8 +135,15 @@ def _each(pair: BevelPair, value: Callable[[BevelGear], float]) -> tuple[float, 
     return first, second
 
 
+def _both(
+    page: Sheet, pair: BevelPair, name: str, value: Callable[[BevelGear], float], formula: str = "", source: str = ""
+) -> None:
+    """A step of either gear."""
+    page.both(name, _each(pair, value), formula, (source, source))
+
+
 def _cones(page: Sheet, pair: BevelPair) -> None:
-    first = pair.first
+    first, both = pair.first, partial(_both, page, pair)
     page.section("Cones")
     page.add("gear_ratio", pair.ratio, "{z2} / {z1}")
     # where the pitch cone opens wider than a right angle the arc tangent is that of its supplement
@@ -148,32 +156,24 @@ def _cones(page: Sheet, pair: BevelPair) -> None:
     page.add("mean_module", mean, "{m} * {R_m} / {R_e}")
     if not first.is_straight:
         _lines(page, first)
-    page.both("outer_addendum", _each(pair, lambda g: g.addendum), "({h_a} + {x#}) * {m}")
-    page.both("outer_dedendum", _each(pair, lambda g: g.dedendum), "({h_a} + {c} - {x#}) * {m}")
-    page.both("outer_depth", _each(pair, lambda g: g.addendum + g.dedendum), "{h_ae#} + {h_fe#}")
-    dedendum = _each(pair, lambda g: math.degrees(g.dedendum_angle))
-    page.both("dedendum_angle_deg", dedendum, "arctan({h_fe#} / {R_e})", (_GOST, _GOST))
-    addendum = _each(pair, lambda g: math.degrees(g.addendum_angle))
-    if first.tip_to_apex:
-        page.both("addendum_angle_deg", addendum, "arctan({h_ae#} / {R_e})")
-    else:
-        page.both("addendum_angle_deg", addendum, "{theta_f~}", (_GOST, _GOST))
-    page.both("tip_cone_angle_deg", _each(pair, lambda g: math.degrees(g.tip_cone_angle)), "{delta#} + {theta_a#}")
-    rays = _each(pair, lambda g: math.degrees(g.tip_angle))
-    page.both("outer_tip_ray_deg", rays, "{delta#} + arctan({h_ae#} / {R_e})")
-    page.both("root_cone_angle_deg", _each(pair, lambda g: math.degrees(g.root_angle)), "{delta#} - {theta_f#}")
-    base = _each(pair, lambda g: math.degrees(g.involute.base))
-    page.both("base_cone_angle_deg", base, "arcsin(sin({delta#}) * cos({alpha}))")
-    page.both("outer_pitch_diameter", _each(pair, lambda g: g.module * g.number_of_teeth), "{m} * {z#}")
-    page.both("mean_pitch_diameter", _each(pair, lambda g: mean * g.number_of_teeth), "{m_m} * {z#}")
-    tips = _each(pair, lambda g: 2 * g.outer(g.tip_angle).real)
-    page.both("outer_tip_circle", tips, "{d_e#} + 2 * {h_ae#} * cos({delta#})", (_GOST, _GOST))
-    inner = _each(pair, lambda g: 2 * g.inner(g.inner_tip_angle).real)
-    page.both("inner_tip_circle", inner, "{d_ae#} - 2 * {b} * sin({delta_a#}) / cos({theta_a#})")
-    roots = _each(pair, lambda g: 2 * g.outer(g.root_angle).real)
-    page.both("outer_root_circle", roots, "{d_e#} - 2 * {h_fe#} * cos({delta#})")
-    heights = _each(pair, lambda g: g.outer(g.tip_angle).imag)
-    page.both("tip_circle_to_apex", heights, "{R_e} * cos({delta#}) - {h_ae#} * sin({delta#})", (_GOST, _GOST))
+    both("outer_addendum", lambda g: g.addendum, "({h_a} + {x#}) * {m}")
+    both("outer_dedendum", lambda g: g.dedendum, "({h_a} + {c} - {x#}) * {m}")
+    both("outer_depth", lambda g: g.addendum + g.dedendum, "{h_ae#} + {h_fe#}")
+    both("dedendum_angle_deg", lambda g: math.degrees(g.dedendum_angle), "arctan({h_fe#} / {R_e})", _GOST)
+    formula, source = ("arctan({h_ae#} / {R_e})", "") if first.tip_to_apex else ("{theta_f~}", _GOST)
+    both("addendum_angle_deg", lambda g: math.degrees(g.addendum_angle), formula, source)
+    both("tip_cone_angle_deg", lambda g: math.degrees(g.tip_cone_angle), "{delta#} + {theta_a#}")
+    both("outer_tip_ray_deg", lambda g: math.degrees(g.tip_angle), "{delta#} + arctan({h_ae#} / {R_e})")
+    both("root_cone_angle_deg", lambda g: math.degrees(g.root_angle), "{delta#} - {theta_f#}")
+    both("base_cone_angle_deg", lambda g: math.degrees(g.involute.base), "arcsin(sin({delta#}) * cos({alpha}))")
+    both("outer_pitch_diameter", lambda g: g.module * g.number_of_teeth, "{m} * {z#}")
+    both("mean_pitch_diameter", lambda g: mean * g.number_of_teeth, "{m_m} * {z#}")
+    both("outer_tip_circle", lambda g: 2 * g.outer(g.tip_angle).real, "{d_e#} + 2 * {h_ae#} * cos({delta#})", _GOST)
+    formula = "{d_ae#} - 2 * {b} * sin({delta_a#}) / cos({theta_a#})"
+    both("inner_tip_circle", lambda g: 2 * g.inner(g.inner_tip_angle).real, formula)
+    both("outer_root_circle", lambda g: 2 * g.outer(g.root_angle).real, "{d_e#} - 2 * {h_fe#} * cos({delta#})")
+    formula = "{R_e} * cos({delta#}) - {h_ae#} * sin({delta#})"
+    both("tip_circle_to_apex", lambda g: g.outer(g.tip_angle).imag, formula, _GOST)
 
 
 def _lines(page: Sheet, gear: BevelGear) -> None:
@@ -192,22 +192,23 @@ def _lines(page: Sheet, gear: BevelGear) -> None:
 
 def _teeth(page: Sheet, pair: BevelPair) -> None:
     page.section("Teeth at the outer end")
+    both = partial(_both, page, pair)
     thickness = "(pi / 2 + 2 * {x#} * tan({alpha}) + {x_tau#}) * {m} - {A#}"
-    page.both("outer_thickness", _each(pair, lambda g: g.thickness), thickness, (_GOST, _GOST))
-    page.both("virtual_teeth", _each(pair, lambda g: g.virtual_teeth), "{z#} / cos({delta#})")
+    both("outer_thickness", lambda g: g.thickness, thickness, _GOST)
+    both("virtual_teeth", lambda g: g.virtual_teeth, "{z#} / cos({delta#})")
     if pair.first.is_straight:
         _outer_chords(page, pair)
     arc = "arccos(cos({%s#}) / cos({delta_b#})) / sin({delta_b#}) - arccos(tan({delta_b#}) / tan({%s#}))"
-    page.both("pitch_involute_deg", _each(pair, lambda g: _involute(g, g.pitch_angle)), arc % ("delta", "delta"))
-    page.both("tip_involute_deg", _each(pair, lambda g: _involute(g, g.tip_angle)), arc % ("delta_t", "delta_t"))
+    both("pitch_involute_deg", lambda g: _involute(g, g.pitch_angle), arc % ("delta", "delta"))
+    both("tip_involute_deg", lambda g: _involute(g, g.tip_angle), arc % ("delta_t", "delta_t"))
     land = "{d_ae#} * ({s_e#} / {d_e#} + {phi_e#} - {phi_a#})"
-    page.both("outer_tip_thickness", _each(pair, lambda g: g.tip_land), land)
+    both("outer_tip_thickness", lambda g: g.tip_land, land)
     rounding, touching = "arctan({rho_f} * {m} / {R_e})", "arctan(tan({delta#}) * sin({alpha}))"
     deepest = f"{rounding} + arcsin(sin({{alpha}}) * sin({touching} - {rounding}))"
     least = f"{{h_a}} + {{c}} - {{R_e}} / {{m}} * tan({deepest})"
-    page.both("least_shift_without_undercut", _each(pair, lambda g: g.least_shift), least)
+    both("least_shift_without_undercut", lambda g: g.least_shift, least)
     virtual = "{h_a} + {c} - {rho_f} * (1 - sin({alpha})) - {z_v#} * sin({alpha})**2 / 2"
-    page.both("virtual_least_shift", _each(pair, lambda g: g.virtual_least_shift), virtual, (_GOST, _GOST))
+    both("virtual_least_shift", lambda g: g.virtual_least_shift, virtual, _GOST)
     first, ratio = pair.first, max(pair.ratio, 1 / pair.ratio)
     if abs(first.shaft_angle - math.pi / 2) < _RIGHT and ratio > 1:
         small = min(pair.gears, key=lambda g: g.number_of_teeth)
@@ -223,17 +224,17 @@ def _teeth(page: Sheet, pair: BevelPair) -> None:
 
 def _outer_chords(page: Sheet, pair: BevelPair) -> None:
     """What is measured on straight teeth."""
-    halves = _each(pair, lambda g: math.degrees(g.virtual_half_angle))
-    page.both("outer_chord_angle_deg", halves, "{s_e#} / ({m} * {z_v#})")
-    chords = _each(pair, lambda g: g.virtual_diameter * math.sin(g.virtual_half_angle))
-    page.both("outer_chord", chords, "{m} * {z_v#} * sin({psi#})")
-    heights = _each(pair, lambda g: g.addendum + g.virtual_diameter / 2 * (1 - math.cos(g.virtual_half_angle)))
-    page.both("outer_chord_height", heights, "{h_ae#} + {m} * {z_v#} / 2 * (1 - cos({psi#}))")
+    both = partial(_both, page, pair)
+    both("outer_chord_angle_deg", lambda g: math.degrees(g.virtual_half_angle), "{s_e#} / ({m} * {z_v#})")
+    both("outer_chord", lambda g: g.virtual_diameter * math.sin(g.virtual_half_angle), "{m} * {z_v#} * sin({psi#})")
+    rise = "{h_ae#} + {m} * {z_v#} / 2 * (1 - cos({psi#}))"
+    both(
+        "outer_chord_height", lambda g: g.addendum + g.virtual_diameter / 2 * (1 - math.cos(g.virtual_half_angle)), rise
+    )
     cosine, double = math.cos(pair.first.pressure_angle), math.sin(2 * pair.first.pressure_angle)
-    constant = _each(pair, lambda g: g.thickness * cosine**2)
-    page.both("outer_constant_chord", constant, "{s_e#} * cos({alpha})**2", (_GOST, _GOST))
-    heights = _each(pair, lambda g: g.addendum - g.thickness * double / 4)
-    page.both("outer_constant_chord_height", heights, "{h_ae#} - {s_e#} * sin(2 * {alpha}) / 4", (_GOST, _GOST))
+    both("outer_constant_chord", lambda g: g.thickness * cosine**2, "{s_e#} * cos({alpha})**2", _GOST)
+    formula = "{h_ae#} - {s_e#} * sin(2 * {alpha}) / 4"
+    both("outer_constant_chord_height", lambda g: g.addendum - g.thickness * double / 4, formula, _GOST)
 
 
 def _involute(gear: BevelGear, angle: float) -> float:
@@ -243,22 +244,17 @@ def _involute(gear: BevelGear, angle: float) -> float:
 def _middle(page: Sheet, pair: BevelPair) -> None:
     """What is measured half way along the face, where the tooth is smaller by R_m / R_e."""
     page.section("Teeth in the middle of the face")
-    share = 1 - pair.first.face_width / 2 / pair.first.cone_distance
+    share, both = 1 - pair.first.face_width / 2 / pair.first.cone_distance, partial(_both, page, pair)
     high = _each(pair, lambda g: float(g.addendum_at(share * g.cone_distance)))
     page.both("mean_addendum", high, "{h_ae#} - {b} / 2 * tan({theta_a#})")
-    page.both("mean_thickness", _each(pair, lambda g: share * g.thickness), "{s_e#} * {R_m} / {R_e}")
+    both("mean_thickness", lambda g: share * g.thickness, "{s_e#} * {R_m} / {R_e}")
     if not pair.first.is_straight:
         _normal_chords(page, pair, high)
         return
-    chords = _each(pair, lambda g: share * g.virtual_diameter * math.sin(g.virtual_half_angle))
-    page.both("mean_chord", chords, "{m_m} * {z_v#} * sin({psi#})")
-    heights = _each(
-        pair,
-        lambda g: (
-            float(g.addendum_at(share * g.cone_distance))
-            + share * g.virtual_diameter / 2 * (1 - math.cos(g.virtual_half_angle))
-        ),
-    )
+    formula = "{m_m} * {z_v#} * sin({psi#})"
+    both("mean_chord", lambda g: share * g.virtual_diameter * math.sin(g.virtual_half_angle), formula)
+    rises = _each(pair, lambda g: share * g.virtual_diameter / 2 * (1 - math.cos(g.virtual_half_angle)))
+    heights = high[0] + rises[0], high[1] + rises[1]
     page.both("mean_chord_height", heights, "{h_am#} + {m_m} * {z_v#} / 2 * (1 - cos({psi#}))")
 
 
@@ -275,13 +271,11 @@ def _normal_chords(page: Sheet, pair: BevelPair, high: tuple[float, float]) -> N
     def half(gear: BevelGear) -> float:
         return thickness(gear) / (module * teeth(gear))
 
-    gost = _GOST_SPIRAL, _GOST_SPIRAL
-    page.both("mean_normal_thickness", _each(pair, thickness), "{s_m#} * cos({beta_m})", gost)
-    page.both("normal_virtual_teeth", _each(pair, teeth), "{z#} / (cos({delta#}) * cos({beta_m})**3)", gost)
-    halves = _each(pair, lambda g: math.degrees(half(g)))
-    page.both("normal_chord_angle_deg", halves, "{s_mn#} / ({m_mn} * {z_vn#})")
-    chords = _each(pair, lambda g: module * teeth(g) * math.sin(half(g)))
-    page.both("mean_normal_chord", chords, "{m_mn} * {z_vn#} * sin({psi_n#})")
+    both = partial(_both, page, pair)
+    both("mean_normal_thickness", thickness, "{s_m#} * cos({beta_m})", _GOST_SPIRAL)
+    both("normal_virtual_teeth", teeth, "{z#} / (cos({delta#}) * cos({beta_m})**3)", _GOST_SPIRAL)
+    both("normal_chord_angle_deg", lambda g: math.degrees(half(g)), "{s_mn#} / ({m_mn} * {z_vn#})")
+    both("mean_normal_chord", lambda g: module * teeth(g) * math.sin(half(g)), "{m_mn} * {z_vn#} * sin({psi_n#})")
     rises = _each(pair, lambda g: module * teeth(g) / 2 * (1 - math.cos(half(g))))
     heights = high[0] + rises[0], high[1] + rises[1]
     page.both("mean_normal_chord_height", heights, "{h_am#} + {m_mn} * {z_vn#} / 2 * (1 - cos({psi_n#}))")
@@ -289,6 +283,7 @@ def _normal_chords(page: Sheet, pair: BevelPair, high: tuple[float, float]) -> N
 
 def _contact(page: Sheet, pair: BevelPair) -> None:
     page.section("Contact")
+    both = partial(_both, page, pair)
     page.both("bottom_clearance_at_root", pair.bottom_clearances, "{h_fe#} - {h_ae~}")
     lean = "" if pair.first.is_straight else " / sqrt(1 + (tan({beta_e}) * cos({alpha}))**2)"
     page.add("normal_backlash", pair.normal_backlash, "({A1} + {A2}) * cos({alpha})" + lean)
@@ -302,7 +297,7 @@ def _contact(page: Sheet, pair: BevelPair) -> None:
         _inner_contact(page, pair, whole=whole)
     if not pair.first.is_straight:
         _overlap(page, pair)
-    page.both("virtual_radius", _each(pair, lambda g: g.virtual_diameter / 2), "{m} * {z_v#} / 2")
+    both("virtual_radius", lambda g: g.virtual_diameter / 2, "{m} * {z_v#} / 2")
     roots = " + ".join(f"sqrt(({{r_v{k}}} + {{h_ae{k}}})**2 - ({{r_v{k}}} * cos({{alpha}}))**2)" for k in (1, 2))
     formula = f"({roots} - ({{r_v1}} + {{r_v2}}) * sin({{alpha}})) / (pi * {{m}} * cos({{alpha}}))"
     page.add("virtual_contact_ratio", pair.virtual_contact_ratio, formula)
@@ -310,10 +305,10 @@ def _contact(page: Sheet, pair: BevelPair) -> None:
 
 def _inner_contact(page: Sheet, pair: BevelPair, *, whole: bool) -> None:
     """Where the teeth are lower than rays of the apex would have them."""
-    inner = pair.first.inner_distance
+    inner, both = pair.first.inner_distance, partial(_both, page, pair)
     if pair.first.is_straight:
         page.add("inner_cone_distance", inner, "{R_e} - {b}")
-    page.both("inner_addendum", _each(pair, lambda g: float(g.addendum_at(inner))), "{h_ae#} - {b} * tan({theta_a#})")
+    both("inner_addendum", lambda g: float(g.addendum_at(inner)), "{h_ae#} - {b} * tan({theta_a#})")
     arcs = " + ".join(
         f"arccos(cos({{delta{k}}} + arctan({{h_ai{k}}} / {{R_i}})) / cos({{delta_b{k}}}))"
         f" - arctan(tan({{delta{k}}}) * sin({{alpha}}))"
