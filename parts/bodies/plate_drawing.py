@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from operator import attrgetter
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from parts.drawing.working import (
     Note,
     PartDrawing,
     Round,
+    Side,
     Size,
     Stroke,
     Subject,
@@ -132,15 +134,12 @@ def listed_holes(part: Part, circles: Sequence[HoleCircle] = ()) -> list[tuple[c
 
 def place_sizes(datum: complex, places: Iterable[complex], bounds: tuple[complex, complex]) -> Iterator[Size]:
     """Each distance of places from the datum once, across and upwards; none of what has its own within ``bounds``."""
-    places, (low, high) = list(places), bounds
-    across = sorted({round(p.real, _DIGITS): p for p in places}.items())
-    upwards = sorted({round(p.imag, _DIGITS): p for p in places}.items())
-    for k, (x, at) in enumerate(across, 1):
-        if low.real < x < high.real and abs(x - datum.real) > _NEAR:
-            yield Size(f"x.{k}", datum, at, "below")
-    for k, (y, at) in enumerate(upwards, 1):
-        if low.imag < y < high.imag and abs(y - datum.imag) > _NEAR:
-            yield Size(f"y.{k}", datum, at, "left")
+    places, sides = list(places), dict[str, Side](x="below", y="left")
+    for (name, side), of in zip(sides.items(), (attrgetter("real"), attrgetter("imag")), strict=True):
+        low, high = map(of, bounds)
+        for k, (value, at) in enumerate(sorted({round(of(p), _DIGITS): p for p in places}.items()), 1):
+            if low < value < high and abs(value - of(datum)) > _NEAR:
+                yield Size(f"{name}.{k}", datum, at, side)
 
 
 def _length(curve: Curve) -> float:

@@ -433,15 +433,13 @@ def _untangled(leaders: list[_Leader], ink: Ink) -> list[_Leader]:
     """The same, two that cross exchange their shelves, which makes both shorter."""
     for _ in range(len(leaders) ** 2):
         pairs = [(i, j) for i in range(len(leaders)) for j in range(i) if _cross(leaders[i], leaders[j])]
-        swapped = False
         for i, j in pairs:
             one, two = leaders[i], leaders[j]
             new = _Leader(one.number, one.spot, two.elbow, one.way), _Leader(two.number, two.spot, one.elbow, two.way)
             if all(ink.holds(leader.lines(), leader.words.box) for leader in new):
                 leaders[i], leaders[j] = new
-                swapped = True
                 break
-        if not swapped:
+        else:
             break
     return leaders
 

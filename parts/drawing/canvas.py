@@ -375,14 +375,9 @@ class Canvas(Draft):
             self.line("ORDINATE", complex(area.left, y), complex(area.right, y))
 
     def write(
-        self,
-        text: str,
-        at: complex,
-        height: float = TEXT_HEIGHT,
-        most: float | None = None,
-        *,
+        self, text: str, at: complex, height: float = TEXT_HEIGHT, most: float | None = None, *,
         answer: bool | None = None,
-    ) -> Text:
+    ) -> Text:  # fmt: skip
         """A line of text from the left end of its base line."""
         made = replace(text_of(text, at, height, most), answer=answer)
         self.texts.append(made)

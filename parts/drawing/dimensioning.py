@@ -196,8 +196,8 @@ class _Layout:
     def _turned(self, middle: complex) -> None:
         """The sign of a view that is turned: most of a circle with an arrow at its end; GOST 2.305."""
         arc = Arc(middle, TITLE_TEXT / 2, math.radians(20.0), -math.radians(300.0))
-        self._stroke(_DIMENSION, arc)
         tip = middle + cmath.rect(TITLE_TEXT / 2, arc.start_angle + arc.sweep)
+        self._stroke(_DIMENSION, arc)
         for line in _arrow(tip, cmath.rect(1.0, arc.start_angle + arc.sweep + math.radians(127.0))):
             self._stroke(_DIMENSION, line)
 
@@ -224,7 +224,7 @@ class _Layout:
             coming = [self.paper.point(p).real for one in near for p in (one.start, one.end)]
             # where their extension lines end at the latest
             last = way * edge + _FIRST + _STEP * len(near)
-            places: list[tuple[list[Line], list[Line], Text]] = []
+            places: list[tuple[Line, list[Line], Text]] = []
             for low in (edge + way * (_MARK + _STROKE * k) for k in range(_OUT)):
                 tip = complex(x, low + way * (_STROKE - 2.0))
                 foot = 1.0 if cut.from_right else -1.0
@@ -236,21 +236,18 @@ class _Layout:
                 end = 4.2 if way > 0 else -3.0 - TITLE_TEXT
                 for left, lift in zip(lefts, (-TITLE_TEXT / 2, 1.0, -TITLE_TEXT / 2, end), strict=True):
                     text = text_of(cut.letter, tip + complex(left, lift), TITLE_TEXT)
-                    places.append(([mark], [Line(tip + foot * _LOOK, tip), *lines], text))
+                    places.append((mark, [Line(tip + foot * _LOOK, tip), *lines], text))
             free = (
                 place for place in places
-                if self.ink.holds([*place[0], *place[1]], place[2].box)
+                if self.ink.holds([place[0], *place[1]], place[2].box)
                 and (
                     min(way * place[2].box.low, way * place[2].box.high) > last
                     or not any(place[2].box.left - 2 * FREE < at < place[2].box.right + 2 * FREE for at in coming)
                 )
             )  # fmt: skip
-            marks, lines, text = next(free, places[-4])
-            for line in marks:
-                self._stroke(VISIBLE, line, "edge")
-            for line in lines:
-                self._stroke(_DIMENSION, line)
-            self._write(text)
+            mark, lines, text = next(free, places[-4])
+            self._stroke(VISIBLE, mark, "edge")
+            self._drawn(lines, text)
 
     def _put(self, places: Iterable[_Place]) -> bool:
         """Put words into the best of places, which rise in their least cost; whether one of them is free."""

@@ -31,14 +31,9 @@ class Labeller:
         self._points = canvas.obstacles()
 
     def name(
-        self,
-        text: str,
-        point: complex,
-        height: float | None = None,
-        prefer: complex = 0j,
-        *,
+        self, text: str, point: complex, height: float | None = None, prefer: complex = 0j, *,
         answer: bool | None = None,
-    ) -> None:
+    ) -> None:  # fmt: skip
         """A word beside a point, in the direction ``prefer`` where that costs nothing; ``answer`` as of a text."""
         height = height or self._canvas.letters
         width = text_width(text, height)
@@ -46,8 +41,7 @@ class Labeller:
         texts = [(abs(nearest(t.box, point) - point), t.box) for t in self._canvas.texts]
         below = text_of(text, 0j, height).box
         # no box of this word goes farther beyond the reach of its middle
-        corners = [complex(x, y) for x in (below.left, below.right) for y in (below.low, below.high)]
-        beyond = width + height + max(map(abs, corners)) + 2 * _CLEARANCE
+        beyond = width + height + max(map(abs, below.corners)) + 2 * _CLEARANCE
         best: tuple[float, complex, float] | None = None
         for reach in _REACHES:
             least = math.inf if best is None else best[0]
@@ -59,16 +53,10 @@ class Labeller:
             words = [box for off, box in texts if off < reach + beyond + _CLEARANCE]
             for k in range(_DIRECTIONS):
                 way = cmath.exp(2j * math.pi * k / _DIRECTIONS)
-                middle = (
-                    point
-                    + way * reach
-                    + complex(
-                        math.copysign(min(abs(way.real) * 2, 1) * width / 2, way.real),
-                        math.copysign(min(abs(way.imag) * 2, 1) * height / 2, way.imag),
-                    )
-                )
-                at = middle - complex(width, height) / 2
-                box = Box(at.real + below.left, at.imag + below.low, at.real + below.right, at.imag + below.high)
+                aside = math.copysign(min(abs(way.real) * 2, 1) * width / 2, way.real)
+                above = math.copysign(min(abs(way.imag) * 2, 1) * height / 2, way.imag)
+                at = point + way * reach + complex(aside, above) - complex(width, height) / 2
+                box = below.moved(at)
                 cost = self._cost(box, point, reach, near, words, math.inf if best is None else best[0])
                 if cost is not None and prefer:
                     cost += 0.5 * abs(way - prefer / abs(prefer))
@@ -96,9 +84,7 @@ class Labeller:
         if cost >= most:
             return None
         if reach > _NEAR:
-            path = (point + (nearest(box, point) - point) * np.linspace(0, 1, 2 + int(reach / _STEP))).astype(
-                np.complex128
-            )
+            path = point + (nearest(box, point) - point) * np.linspace(0, 1, 2 + int(reach / _STEP)).astype(complex)
             if any(other.grown(_CLEARANCE).holds(path) for other in texts):
                 return None
         return cost

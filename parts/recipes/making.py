@@ -100,6 +100,21 @@ class Making:
                      "start_deg": 60.0},
         )  # fmt: skip
 
+    def hang_cranks(
+        self, name: str, part: str, on: str, places: Sequence[complex], height: float,
+        pins: Sequence[tuple[str, str, float]], carried: str = "",
+    ) -> None:  # fmt: skip
+        """Parallel cranks about places of what they turn on, at a height of that, and ``carried`` by another.
+
+        ``pins``: of each crank what they are fixed to, which, and how high there.
+        """
+        for k, at in enumerate(places, 1):
+            self.put("parallel", on, f"{name}_{k}", part, offset=place(at, height))
+            if carried:
+                self.mate("carried", carried, f"{name}_{k}")
+            for holder, pin, low in pins:
+                self.fix(holder, f"{pin}_{k}", at, low, pin)
+
     def put(self, kind: str, first: str, second: str, part: str = "", **keys: object) -> None:
         """An instance by its first mate."""
         self.found.instances[second] = {"part": part or second}

@@ -297,6 +297,8 @@ class _Making(Making):
         self.keys, self.s = keys, checked_sizes(keys)
         super().__init__(keys.disk_thickness, {}, {name: row[3] for name, row in PARTS.items()})
         self.within = ""
+        # cranks, no wheels; idlers between the wheels
+        self.cranks, self.idlers = keys.orientation == "cranks", keys.orientation == "idlers"
         # heights of what others are fixed to
         self.low = {"body": self.s["z_floor"] - self.s["h_floor"]}
 
@@ -690,11 +692,6 @@ class _Making(Making):
 
     # -- what keeps it parallel: an idler on each arm
 
-    @property
-    def idlers(self) -> bool:
-        """Idlers between the wheels."""
-        return self.keys.orientation == "idlers"
-
     def _post(self) -> None:
         """What holds wheel 16 over the link of arm O1O2."""
         s, keys = self.s, self.keys
@@ -737,11 +734,6 @@ class _Making(Making):
         self.mate("carried", holder, f"idler_{number}")
 
     # -- what keeps it parallel: cranks
-
-    @property
-    def cranks(self) -> bool:
-        """Cranks, no wheels."""
-        return self.keys.orientation == "cranks"
 
     def _moving(self, kind: str, first: str, instance: str, part: str, at: complex, z: float) -> None:
         """An instance that turns for itself or with another, its axis carried; ``z``: its lower face."""

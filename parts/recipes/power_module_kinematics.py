@@ -315,15 +315,10 @@ class _Making(Making):
         self.pin("spider_pin", pin, upper + thick - spider)
         self.pin("long_pin", pin, flange + thick - lower)
         self.pin("body_post", pin, lower + thick - self.low - keys.disk_thickness)
-        for k, at in enumerate(pivots, 1):
-            self.put("parallel", "pinion", f"second_crank_{k}", "crank", offset=place(at, upper - self.gears))
-            self.mate("carried", "flange", f"second_crank_{k}")
-            self.fix("flange", f"flange_pin_{k}", at, upper - flange, "flange_pin")
-            self.fix("spider", f"spider_pin_{k}", at, 0.0, "spider_pin")
-        for k, at in enumerate(posts, 1):
-            self.put("parallel", "disk_2", f"first_crank_{k}", "crank", offset=place(at, lower))
-            self.fix("flange", f"long_pin_{k}", at, lower - flange, "long_pin")
-            self.fix("body", f"body_post_{k}", at, keys.disk_thickness, "body_post")
+        pins = ("flange", "flange_pin", upper - flange), ("spider", "spider_pin", 0.0)
+        self.hang_cranks("second_crank", "crank", "pinion", pivots, upper - self.gears, pins, "flange")
+        pins = ("flange", "long_pin", lower - flange), ("body", "body_post", keys.disk_thickness)
+        self.hang_cranks("first_crank", "crank", "disk_2", posts, lower, pins)
         self._platform(spider, "spider", spider)
 
 

@@ -323,11 +323,9 @@ class _Making(Making):
         turning = (keys.pin_diameter + keys.clearance,) * 2
         self.crank("first_crank", sizes.arm, turning, (2 * sizes.boss,) * 2)
         self.pin("upper_pin", keys.pin_diameter, self.flange + thick - self.first_cranks)
-        for k in range(3):
-            at = sizes.posts * cmath.exp(2j * math.pi * k / 3)
-            to = place(at, self.first_cranks - self.disk)
-            self.put("parallel", "disk_2", f"first_crank_{k + 1}", "first_crank", offset=to)
-            self.fix("flange", f"upper_pin_{k + 1}", at, self.first_cranks - self.flange, "upper_pin")
+        posts = [sizes.posts * cmath.exp(2j * math.pi * k / 3) for k in range(3)]
+        self.hang_cranks("first_crank", "first_crank", "disk_2", posts, self.first_cranks - self.disk,
+                    [("flange", "upper_pin", self.first_cranks - self.flange)])  # fmt: skip
 
     def _second_stage(self) -> None:
         """The platform on its axle, hung on the flange by cranks as long as O2O3."""
@@ -342,12 +340,10 @@ class _Making(Making):
         self.crank("second_crank", sizes.second_arm, turning, (2 * sizes.boss,) * 2)
         self.pin("flange_pin", keys.pin_diameter, self.second_cranks + thick - self.flange)
         self.pin("platform_pin", keys.pin_diameter, self.platform + thick - self.second_cranks)
-        for k, at in enumerate(pivots, 1):
-            to = place(at, self.second_cranks - self.pinion)
-            self.put("parallel", "pinion", f"second_crank_{k}", "second_crank", offset=to)
-            self.mate("carried", "flange", f"second_crank_{k}")
-            self.fix("flange", f"flange_pin_{k}", at, 0.0, "flange_pin")
-            self.fix("platform", f"platform_pin_{k}", at, self.second_cranks - self.platform, "platform_pin")
+        pins = ("flange", "flange_pin", 0.0), ("platform", "platform_pin", self.second_cranks - self.platform)
+        self.hang_cranks(
+            "second_crank", "second_crank", "pinion", pivots, self.second_cranks - self.pinion, pins, "flange"
+        )
 
     def _hand_cranks(self) -> None:
         """Behind the base: that of the ring on the tube, that of disk 2 on the shaft, shorter, further back."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import tomllib
 from collections.abc import Iterator, Mapping
@@ -226,7 +227,7 @@ def load_scene(address: str, language: str | None = None) -> SceneFile:
     except NotAFileError:
         raise SceneError(address, "", None, "not_a_file", None, most=MOST_BYTES) from None
     except FileNotFoundError:
-        known = [*built_in, *([f"{address}.toml"] if _is_file(f"{address}.toml") else [])]
+        known = [*built_in, *([f"{address}.toml"] if os.path.isfile(f"{address}.toml") else [])]
         raise SceneError(address, "", None, "no_such_scene", meant(address, known), known=list(built_in)) from None
     except OSError as error:
         raise SceneError(address, "", None, "unreadable", None, why=error.strerror or str(error)) from None
@@ -240,14 +241,6 @@ def load_scene(address: str, language: str | None = None) -> SceneFile:
     if name.partition(".")[0].lower() in DEVICE_NAMES:
         raise SceneError(address, "", None, "device_name")
     return scene_from_toml(raw_bytes, str(path), name, language)
-
-
-def _is_file(address: str) -> bool:
-    """Whether a file stands there; a name may be too long to be one."""
-    try:
-        return Path(address).is_file()
-    except OSError:
-        return False
 
 
 def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | None = None) -> SceneFile:
