@@ -16,7 +16,8 @@ from parts.base.mate import Mating, Toothed, Touching
 from parts.base.part import Part
 from parts.base.texts import N_, words
 from parts.scene.instances import DriveSpec
-from parts.scene.placing import Closeness, Condition, Instance, PlacedMate, Placing
+from parts.scene.placing import Closeness, Condition, PlacedMate, Placing
+from parts.scene.standing import Instance
 from parts.texts.checks import OFF_CENTRE, called, condition_message
 from parts.texts.findings import finding_text
 

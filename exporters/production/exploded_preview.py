@@ -20,7 +20,7 @@ from parts.base.texts import words
 from parts.drawing.parts_list import ListRow
 from parts.scene.exploded import apart
 from parts.scene.parts_list import list_rows
-from parts.scene.placing import Instance
+from parts.scene.standing import Instance
 from parts.scene.steps import stages
 from parts.solids.axonometry import TOWARDS, Picture, loops_of, pictured, seen
 

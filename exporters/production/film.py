@@ -17,9 +17,9 @@ from geometry.curves.curve import Real
 from parts.base.part import Part
 from parts.base.texts import N_, fault
 from parts.scene.load import ExportSpec
-from parts.scene.placing import Instance
 from parts.scene.relative_path import Course, common_period, course_of
 from parts.scene.shapes import Shape
+from parts.scene.standing import Instance
 
 # seconds for a turn of the first drive, and for a loop at least and at most; turns of the fastest in a loop at most
 _SECONDS, _LEAST, _MOST, _MOST_TURNS = 4.0, 4.0, 60.0, 20

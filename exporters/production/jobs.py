@@ -16,7 +16,7 @@ from geometry.base.record import Record, field
 from geometry.base.tolerance import LEAST_SEGMENT_MM
 from parts.scene.formats import Form
 from parts.scene.load import ExportSpec
-from parts.scene.placing import Instance
+from parts.scene.standing import Instance
 
 if TYPE_CHECKING:
     from exporters.verification.verdict import Verdict

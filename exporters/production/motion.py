@@ -28,8 +28,8 @@ from geometry.plane.contour import Contour
 from geometry.plane.profile import Profile
 from parts.base.readback import ReadError
 from parts.base.texts import fault, fault_of
-from parts.scene.placing import Instance
 from parts.scene.relative_path import Course
+from parts.scene.standing import Instance
 
 # of numbers in the file, mm
 _ROUNDING = 2e-6

@@ -21,7 +21,7 @@ from geometry.curves.curve import Real
 from parts.base.readback import ReadError
 from parts.base.texts import fault, fault_of
 from parts.scene.formats import file_kind
-from parts.scene.placing import Instance
+from parts.scene.standing import Instance
 from parts.solids.mesh import body_mesh
 
 # of a turn between two values: the shorter way round is the right one

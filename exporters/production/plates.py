@@ -22,7 +22,7 @@ from parts.base.refusal import SceneError
 from parts.base.texts import Message, listed
 from parts.keys.boards import BedSpec
 from parts.scene.boards import pieces_of
-from parts.scene.placing import Instance
+from parts.scene.standing import Instance
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry

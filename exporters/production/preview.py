@@ -21,7 +21,7 @@ from geometry.plane.contour import Approximation, Contour, edge_points
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.texts import counted, filled, words
-from parts.scene.placing import UPWARDS, Instance
+from parts.scene.standing import UPWARDS, Instance
 from parts.texts.findings import finding_text
 from parts.texts.quantities import quantity_name
 

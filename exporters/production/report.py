@@ -20,7 +20,7 @@ from parts.base.content import content
 from parts.base.part import Part
 from parts.base.texts import ENGLISH, languages, words
 from parts.scene.load import resolved
-from parts.scene.placing import UPWARDS, Instance
+from parts.scene.standing import UPWARDS, Instance
 from parts.texts.findings import finding_text
 
 NAME = "report.json"

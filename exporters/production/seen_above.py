@@ -14,8 +14,8 @@ from geometry.curves.line_arc import Line
 from geometry.plane.profile import Label, Profile, Segment
 from parts.base.part import Part
 from parts.scene.half_sections import Sectioned
-from parts.scene.placing import Instance
 from parts.scene.shapes import Shape
+from parts.scene.standing import Instance
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry

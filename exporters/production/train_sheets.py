@@ -15,7 +15,8 @@ from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.mates.sheets.train_picture import Link, Rim, TrainPicture
 from parts.mates.sheets.train_sheet import train_sheet
-from parts.scene.placing import UPWARDS, Instance, Placing, seen_from
+from parts.scene.placing import Placing, seen_from
+from parts.scene.standing import UPWARDS, Instance
 from parts.scene.train import Train
 
 

@@ -17,7 +17,7 @@ from parts.base.part import Part
 from parts.base.readback import ReadBack, ReadError
 from parts.base.texts import fault, fault_of
 from parts.scene.formats import FileKind
-from parts.scene.placing import Instance
+from parts.scene.standing import Instance
 
 # a place is kept to this, mm, and to the digits of a file's numbers as a part of its distance
 _PLACE, _DIGITS = 1e-9, 1e-13

@@ -126,22 +126,24 @@ def bores(loop: Loop, told: Told = lambda curve: True) -> tuple[Line, ...]:
     return tuple(narrow[:1] if _are_listed(edges) else narrow)
 
 
-def seats(loop: Loop, told: Told = lambda curve: True) -> tuple[Line, ...]:
+def seats(loop: Loop) -> tuple[Line, ...]:
     """The outer cylinders, the longest one of each diameter, without chamfers; grooves left out.
 
     Where corners are too many for sizes, the widest one alone.
     """
-    *_, edges = _taken_apart(_walled(_joined(loop)), told)
+    *_, edges = _taken_apart(_walled(_joined(loop)))
     found = dict[float, Line]()
     for k, edge in enumerate(edges):
-        if edge.told and edge.outer and edge.runs_along() and isinstance(edge.curve, Line) and not _groove(edges, k):
+        if edge.outer and edge.runs_along() and isinstance(edge.curve, Line) and not _groove(edges, k):
             radius = _radius(edge.ends[0].imag)
             found[radius] = max(found.get(radius, edge.curve), edge.curve, key=lambda line: abs(line.end - line.start))
     wide = [found[radius] for radius in sorted(found, reverse=True)]
     return tuple(wide[:1] if _are_listed(edges) else wide)
 
 
-def _taken_apart(whole: Sequence[Line | Arc], told: Told) -> tuple[list[int], list[int], list[_Edge]]:
+def _taken_apart(
+    whole: Sequence[Line | Arc], told: Told = lambda curve: True
+) -> tuple[list[int], list[int], list[_Edge]]:
     """Places of chamfers and of fillets, and all else without them."""
     chamfers = [k for k in range(len(whole)) if _is_chamfer(whole, k)]
     fillets = [k for k in range(len(whole)) if _is_fillet(whole, k)]

@@ -340,10 +340,9 @@ class _Making(Making):
         self.crank("second_crank", sizes.second_arm, turning, (2 * sizes.boss,) * 2)
         self.pin("flange_pin", keys.pin_diameter, self.second_cranks + thick - self.flange)
         self.pin("platform_pin", keys.pin_diameter, self.platform + thick - self.second_cranks)
+        height = self.second_cranks - self.pinion
         pins = ("flange", "flange_pin", 0.0), ("platform", "platform_pin", self.second_cranks - self.platform)
-        self.hang_cranks(
-            "second_crank", "second_crank", "pinion", pivots, self.second_cranks - self.pinion, pins, "flange"
-        )
+        self.hang_cranks("second_crank", "second_crank", "pinion", pivots, height, pins, "flange")
 
     def _hand_cranks(self) -> None:
         """Behind the base: that of the ring on the tube, that of disk 2 on the shaft, shorter, further back."""

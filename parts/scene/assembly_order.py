@@ -23,8 +23,9 @@ from geometry.gears.worms.body import WormBody
 from parts.base.part import Part
 from parts.scene.half_sections import FAR, TOUCH, Sections, drawn_along
 from parts.scene.interference import by_contact, common_volume, inner_solid, placed_solid
-from parts.scene.placing import UPWARDS, Instance, Placing
+from parts.scene.placing import Placing
 from parts.scene.shapes import Shape
+from parts.scene.standing import UPWARDS, Instance
 from parts.scene.steps import Stage, StepSpec, stages
 
 # what is no way, and of what two ways have in common: digits

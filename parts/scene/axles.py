@@ -11,7 +11,8 @@ from parts.base.part_keys import MaterialKeys
 from parts.base.refusal import REMOVED, SceneError
 from parts.bodies.plate import FlatKeys
 from parts.scene.instances import InstanceSpec, check_instance
-from parts.scene.placing import UPWARDS, Placing
+from parts.scene.placing import Placing
+from parts.scene.standing import UPWARDS
 
 Parts = dict[str, Part]
 

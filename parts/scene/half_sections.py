@@ -25,7 +25,7 @@ from geometry.solids.body import Body
 from geometry.solids.turned import HalfSection, Hole, Piece
 from parts.base.part import Part
 from parts.gears.worm_wheel.part import WheelThing
-from parts.scene.placing import UPWARDS, Instance
+from parts.scene.standing import UPWARDS, Instance
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry

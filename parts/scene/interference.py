@@ -20,7 +20,8 @@ from geometry.curves.curve import Real
 from geometry.solids.faced import FacedBody
 from parts.base.part import Part
 from parts.scene.half_sections import Sections
-from parts.scene.placing import UPWARDS, Instance, Placing
+from parts.scene.placing import Placing
+from parts.scene.standing import UPWARDS, Instance
 from parts.solids.mesh import Mesh, body_mesh, mesh_outlines
 
 # boundaries go this far into the material, as a part of the solid's size, and the mesh half of it

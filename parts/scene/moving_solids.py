@@ -21,10 +21,11 @@ from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.curve import Real
 from parts.scene.half_sections import Sections
 from parts.scene.interference import INSET, SLIVER, by_contact, common_volume, placed_solid
-from parts.scene.placing import UPWARDS, Instance, Placing
+from parts.scene.placing import Placing
 from parts.scene.relative_path import Course, Path, path_of, stays_free
 from parts.scene.shapes import Shape, SweptShape, free_between
 from parts.scene.space_path import SpacePath, coaxial, lift_between, space_path
+from parts.scene.standing import UPWARDS, Instance
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry

@@ -15,7 +15,7 @@ from parts.drawing.parts_list import SECTIONS, ListRow
 
 if TYPE_CHECKING:
     from parts.base.part import Part
-    from parts.scene.placing import Instance
+    from parts.scene.standing import Instance
 
 # of what one mass is
 _SAME = 1e-9

@@ -18,6 +18,7 @@ from geometry.base.tolerance import PLACED_MM, TOLERANCES
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, placed
 from parts.scene.instances import DriveSpec, InstanceSpec
+from parts.scene.standing import UPWARDS, Instance
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -25,43 +26,12 @@ if TYPE_CHECKING:
     from parts.base.mate import Mating
     from parts.scene.train import Train
 
-UPWARDS: Vector = (0.0, 0.0, 1.0)
 # mates whose second has no axle of its own on the frame, or moves with another instance
 _CARRYING = ("fixed", "carried", "pin_seat", "eccentric_bearing", "cam_follower", "linkage_member", "wedge_follower")
 # between things that no mate and no ``at`` places, mm; parts of an axis that are none
 _GAP, _STRAIGHT = 5.0, 1e-12
 # between axes that are to be one direction, rad
 _SAME_AXIS = 1e-7
-
-
-class Instance(Record):
-    """A part at its place: the part's frame turned by ``rotation`` (rad) about z, then moved to ``at`` (mm).
-
-    ``subassembly``: its place in the product tree.
-
-    Between both z is laid on the unit vector ``axis``, as ``Placement3.towards`` does it.
-
-    ``placed_by``: "at" (the scene says where), "mate", "origin" (the first of all), "row" (laid out beside), or "axles"
-    (a frame, under them).
-    """
-
-    id: str
-    part: str
-    at: Vector = (0.0, 0.0, 0.0)
-    rotation: float = 0.0
-    placed_by: str = "origin"
-    axis: Vector = UPWARDS
-    subassembly: str | None = None
-
-    @property
-    def centre(self) -> complex:
-        """Its axis in the plane, mm."""
-        return complex(self.at[0], self.at[1])
-
-    @property
-    def scene_from_part(self) -> Placement3:
-        """The placement of the part's frame in the scene."""
-        return Placement3.towards(self.axis, math.remainder(self.rotation, 2 * math.pi), self.at)
 
 
 class Condition(Record):

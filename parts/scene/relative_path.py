@@ -11,8 +11,8 @@ import numpy as np
 
 from geometry.base.record import Record, field
 from geometry.curves.curve import Complex, Real
-from parts.scene.placing import Instance
 from parts.scene.shapes import Shape, free_between
+from parts.scene.standing import Instance
 from parts.scene.train import Train, Turning
 
 # samples of a path for each cycle of its fastest rate; cycles at most, of axes alone too, of which the rest is told

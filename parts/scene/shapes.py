@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
     from geometry.solids.faced import FacedBody
-    from parts.scene.placing import Instance
+    from parts.scene.standing import Instance
 
 # what is one length, mm; what radii may lie beyond samples, or chords, as a part of them
 _SAME, _DIGITS, _MARGIN = 1e-7, 7, 1e-3

@@ -10,9 +10,9 @@ import numpy as np
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.kinematics.mechanism import one_line, parallel
-from parts.scene.placing import Instance
 from parts.scene.relative_path import MOST_CYCLES, PER_CYCLE, SPREAD, Course, common_period
 from parts.scene.shapes import Shape
+from parts.scene.standing import Instance
 
 # what is one place or one direction, mm and parts of 1
 _SAME = 1e-7

@@ -6,7 +6,7 @@ import cmath
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -36,36 +36,13 @@ from geometry.kinematics.moving import Drive, Moving, in_plane, moving
 from parts.base.mate import Mating, Pose, Toothed
 from parts.base.refusal import SceneError
 from parts.scene.instances import DriveSpec
+from parts.scene.standing import Instance
 
 if TYPE_CHECKING:
-    from geometry.base.placement import Vector
+    pass
 
 
-class Stood(Protocol):
-    """How an instance stands: its axis ``at`` a place (mm), turned by ``rotation`` (rad) about it."""
-
-    @property
-    def at(self) -> Vector:
-        """A place on its axis, the origin of its frame, mm."""
-
-    @property
-    def centre(self) -> complex:
-        """The same in the plane, mm."""
-
-    @property
-    def rotation(self) -> float:
-        """About its axis, rad."""
-
-    @property
-    def axis(self) -> Vector:
-        """A unit vector along its z."""
-
-    @property
-    def scene_from_part(self) -> Placement3:
-        """Where its frame stands."""
-
-
-Stand = Mapping[str, Stood]
+Stand = Mapping[str, Instance]
 
 
 class Turning(Record):
@@ -230,7 +207,7 @@ def scene_mechanism(
         An instance stands on two others, or the axes of a mesh part: named ``mates[k].KEY``.
     """
     bodies = Bodies(stand, matings)
-    axes: dict[str, Stood] = {}
+    axes: dict[str, Instance] = {}
     carriers: dict[str, list[tuple[str, int]]] = {}
     joints: dict[str, Joint] = {}
     for index, mating in enumerate(matings):
@@ -324,12 +301,12 @@ def _ahead(mating: Mating, joint: Rolling, stand: Stand, matings: Sequence[Matin
     return Uneven(driver, ahead)
 
 
-def _about(key: str, one: Stood) -> Revolute:
+def _about(key: str, one: Instance) -> Revolute:
     """The joint of what turns about the axis of an instance."""
     return Revolute(key, at=one.centre, z=one.at[2], axis=one.axis)
 
 
-def _slide(key: str, one: Stood) -> Prismatic:
+def _slide(key: str, one: Instance) -> Prismatic:
     """The joint of what slides along the x axis of an instance."""
     if one.axis == Z:
         return Prismatic(key, direction=cmath.rect(1.0, one.rotation))
@@ -413,7 +390,7 @@ def driven_train(
     return Train(stand, moved, keys, tuple(turned), tuple(slid), _uneven(keys, joined, matings), in_space)
 
 
-def _in_space(key: str, one: Stood, moved: Moving) -> bool:
+def _in_space(key: str, one: Instance, moved: Moving) -> bool:
     """Whether an instance moves otherwise than upright in the plane, or about its own axis, which stands still."""
     stands = moved.stands
     joint = stands.supports[stands.body(key)]

@@ -27,9 +27,10 @@ from geometry.kinematics.moving import Drive
 from parts.scene.half_sections import Sections
 from parts.scene.interference import common_volume
 from parts.scene.moving_solids import Clear, Meeting, MotionFound, Uncovered, hold
-from parts.scene.placing import UPWARDS, Instance, Placing
+from parts.scene.placing import Placing
 from parts.scene.relative_path import Course, common_period, course_of
 from parts.scene.shapes import LyingShape, Shape, free_between
+from parts.scene.standing import UPWARDS, Instance
 from parts.scene.train import Train
 
 # amplitudes below this are none, mm

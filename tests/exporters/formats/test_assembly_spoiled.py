@@ -17,7 +17,8 @@ from parts.base.part import Part
 from parts.base.readback import Probe, Probed, ReadBack
 from parts.scene.formats import file_kind
 from parts.scene.load import make_parts, scene_from_toml
-from parts.scene.placing import Instance, place
+from parts.scene.placing import place
+from parts.scene.standing import Instance
 from tests.exporters.making import read_report, run
 from tests.exporters.train import TRAIN
 

@@ -20,9 +20,10 @@ from geometry.gears.mesh.search import PairContact
 from parts.mates.involute import GearMating
 from parts.scene.load import make_parts, scene_from_dict, scene_from_toml
 from parts.scene.moving_solids import motion_found
-from parts.scene.placing import Instance, Placing, place
+from parts.scene.placing import Placing, place
 from parts.scene.relative_path import Course
 from parts.scene.shapes import Shape
+from parts.scene.standing import Instance
 from tests.exporters.making import run, table
 from tests.parts.scene.test_trains import DRIVE, JAMES
 

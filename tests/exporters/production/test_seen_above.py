@@ -8,7 +8,7 @@ import shapely
 
 from exporters.production.seen_above import seen_lying
 from parts.scene.load import make_parts, scene_from_toml
-from parts.scene.placing import Instance
+from parts.scene.standing import Instance
 from tests.sampling import some_of
 
 # the wheel of a grinder's head, and the pinion of an axle: their hulls and cones meet in slivers

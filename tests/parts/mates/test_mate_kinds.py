@@ -15,7 +15,8 @@ from geometry.base.errors import Nearest
 from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
-from parts.scene.placing import Instance, place
+from parts.scene.placing import place
+from parts.scene.standing import Instance
 
 RING = {"kind": "ring_gear", "module": 2.0, "number_of_teeth": 60}
 SUN = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 20}

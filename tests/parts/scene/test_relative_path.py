@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from geometry.curves.curve import Complex, Real
-from parts.scene.placing import Instance
 from parts.scene.relative_path import Course, path_of
+from parts.scene.standing import Instance
 
 # of each body how far its axis is from the frame's, and its turns for one t: its own, then those of what carries it
 Body = tuple[complex, tuple[int, ...]]

@@ -15,7 +15,7 @@ from geometry.base.placement import Vector
 from parts.base.part import Part
 from parts.scene.half_sections import TOUCH, Sections, drawn_along
 from parts.scene.load import make_parts, scene_from_dict
-from parts.scene.placing import Instance
+from parts.scene.standing import Instance
 from parts.solids.mesh import body_mesh, mesh_outlines
 
 RIGHT: Vector = (1.0, 0.0, 0.0)

@@ -11,7 +11,8 @@ import pytest
 from parts.base.refusal import SceneError
 from parts.mates.fixed import CarriedMating
 from parts.scene.load import load_scene, make_parts, resolved, scene_from_resolved, scene_from_toml
-from parts.scene.placing import Instance, Placing, place
+from parts.scene.placing import Placing, place
+from parts.scene.standing import Instance
 
 GEAR = '[parts.{}]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = {}\nface_width = 5.0\n'
 PARTS = (

@@ -15,7 +15,8 @@ from geometry.base.placement import Vector
 from parts.base.part import Part
 from parts.scene.assembly_order import FAR, HOWS, Leg, OrderFound, legs, order_found
 from parts.scene.load import make_parts, scene_from_dict
-from parts.scene.placing import Instance, Placing, place
+from parts.scene.placing import Placing, place
+from parts.scene.standing import Instance
 from parts.scene.steps import StepSpec
 from tests.parts.scene.test_sections_apart import PARTS, RIGHT, at, tube, turned
 

@@ -15,7 +15,8 @@ from geometry.base.record import replace
 from parts.base.refusal import SceneError
 from parts.scene.instances import DriveSpec
 from parts.scene.load import make_parts, scene_from_dict
-from parts.scene.placing import Instance, Placing, place
+from parts.scene.placing import Placing, place
+from parts.scene.standing import Instance
 from parts.solids.mesh import body_mesh, mesh_outlines
 
 SIDE: dict[str, Any] = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 18, "mate_teeth": 12,
