@@ -49,17 +49,11 @@ class CarrierPlateSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     pin_circle_diameter: Annotated[PinCircle, Meta(examples=[80.0])]
     pin_diameter: Annotated[PinDiameter, Meta(examples=[6.0])]
     directions_deg: (
-        Annotated[
-            list[Direction],
-            Meta(
-                min_length=1,
-                max_length=200,
-                description="of each pin; default: equally spaced, the first on +x",
-                examples=[[0.0, 117.0, 243.0]],
-            ),
-        ]
+        Annotated[list[Direction], Meta(min_length=1, max_length=200,
+                                        description="of each pin; default: equally spaced, the first on +x",
+                                        examples=[[0.0, 117.0, 243.0]])]
         | None
-    ) = None
+    ) = None  # fmt: skip
     seat_clearance: Annotated[float, mm("radius of a hole beyond the pin's", least=-10, most=100)] = 0.0
     boss_diameter: (
         Annotated[float, part_mm("of each arm's round end; default: 2.4 pins", above=0, example=15.0)] | None

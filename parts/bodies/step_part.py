@@ -37,14 +37,10 @@ class StepPartSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="step_part"
         ),
     ]
     solid: (
-        Annotated[
-            int,
-            Meta(
-                ge=1, le=1000, description="which of the file's solids, from 1 on, where it has several", examples=[2]
-            ),
-        ]
+        Annotated[int, Meta(ge=1, le=1000, description="which of the file's solids, from 1 on, where it has several",
+                            examples=[2])]
         | None
-    ) = None
+    ) = None  # fmt: skip
     origin: Annotated[tuple[_Place, _Place, _Place], mm("the part's origin in the file, which mates place")] = (
         0.0,
         0.0,

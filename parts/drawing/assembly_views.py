@@ -174,10 +174,7 @@ class _Cover(Record, dict=True):
             return found
         sketch, placement = self.faced
         places = np.asarray(placement.inverse().apply(points[near]))
-        if isinstance(heights, float):
-            found[near] = sketch.covers(places, heights - one.depth)
-            return found
-        levels = (heights - one.depth)[near]
+        levels = np.broadcast_to(heights - one.depth, points.shape)[near]
         inner = np.zeros(len(places), dtype=bool)
         for level in np.unique(levels):
             inner[levels == level] = sketch.covers(places[levels == level], float(level))
@@ -203,25 +200,22 @@ class _Cover(Record, dict=True):
     @cached_property
     def places(self) -> Complex:
         """Points all over it, in the view."""
-        rings, place = self._outlines()
-        all_points = np.concatenate([ring.points for ring in rings])
+        layers, place = self._upper
+        all_points = np.concatenate([ring.points for layer in layers for ring in layer])
         x, y = (np.linspace(a.min(), a.max(), _GRID + 2)[1:-1] for a in (all_points.real, all_points.imag))
         grid = (x[:, None] + 1j * y[None, :]).ravel()
         inside = np.zeros(len(grid), dtype=bool)
-        for layer in self._layers(rings):
+        for layer in layers:
             inside |= np.sum([ring.holds(grid) for ring in layer], axis=0) % 2 == 1
         return np.asarray(place.apply(grid[inside]))
 
-    def _outlines(self) -> tuple[list[Ring], Placement2]:
+    @property
+    def _upper(self) -> tuple[list[tuple[Ring, ...]], Placement2]:
+        """The upper rings of its layers, or its outline, and how their plane lies in the view."""
         if not self.one.stands:
-            return [self.silhouette], Placement2()
+            return [(self.silhouette,)], Placement2()
         sketch, placement = self.faced
-        return [ring for layer in sketch.layers for ring in layer.upper], placement
-
-    def _layers(self, rings: list[Ring]) -> list[Sequence[Ring]]:
-        if not self.one.stands:
-            return [rings]
-        return [layer.upper for layer in self.faced[0].layers]
+        return [layer.upper for layer in sketch.layers], placement
 
     def top(self, points: Complex) -> np.ndarray:
         """Height of its highest place at points that are on it."""

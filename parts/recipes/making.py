@@ -135,6 +135,16 @@ class Making:
         self.put("fixed", first, second, part, offset=place(at, height))
 
 
+def front(*things: str) -> list[tuple[str, str]]:
+    """Steps that bring one thing after the other from the front."""
+    return [("front", one) for one in things]
+
+
+def behind(*things: str) -> list[tuple[str, str]]:
+    """The same from behind."""
+    return [("behind", one) for one in things]
+
+
 def place(at: complex, height: float) -> list[float]:
     """An offset as scenes have it, its rounding taken off."""
     return [round(at.real, 6), round(at.imag, 6), round(height, 6)]

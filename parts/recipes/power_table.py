@@ -21,7 +21,7 @@ from geometry.base.errors import Nearest, ParameterError
 from parts.base.part_keys import Density, Material
 from parts.base.texts import N_
 from parts.keys.base import mm
-from parts.recipes.making import Making, hole, made_of, place, refused_by
+from parts.recipes.making import Making, front, hole, made_of, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
 # modules: what a ring's root is beyond its reference circle at most, with its clearance; a rim beyond that, mm
@@ -425,18 +425,15 @@ class _Making(Making):
         self.bring("flange", ("behind", *each("upper_pin", three)), ("front", *each("flange_pin", three)))
         self.bring("platform", ("behind", *each("platform_pin", three)))
         first, second = each("first_crank", three), each("second_crank", three)
-        self.bring(
-            "base", ("front", "back"), ("front", "disk_2"), ("front", "ring"), ("front", "pinion"), ("front", *first),
-            ("front", "flange"), ("front", *second), ("front", "platform"),
-        )  # fmt: skip
+        self.bring("base", *front("back", "disk_2", "ring", "pinion"), ("front", *first), *front("flange"),
+                   ("front", *second), *front("platform"))  # fmt: skip
         if self.keys.drive == "hand_cranks":
             for name in ("ring", "disk"):
                 self.bring(f"{name}_hand_crank", ("behind", f"{name}_handle"))
                 self.bring("base", ("behind", f"{name}_hand_crank"))
             return
-        self.bring(
-            "base", ("behind", *(f"{name}_{end}_bearing" for name in ("ring", "disk") for end in ("thick", "thin")))
-        )
+        bearings = [f"{name}_{end}_bearing" for name in ("ring", "disk") for end in ("thick", "thin")]
+        self.bring("base", ("behind", *bearings))
         # both wheels first: that of disk 2 goes past where the worm of the ring will lie
         self.bring("base", ("behind", "ring_worm_wheel"), ("behind", "disk_worm_wheel"))
         for name, thick, thin in (("ring", "back", "fore"), ("disk", "fore", "back")):

@@ -23,14 +23,10 @@ class RecipeKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=T
     """Keys of every assembly."""
 
     name: (
-        Annotated[
-            str,
-            Meta(
-                pattern=IDENTIFIER, description=("the ids of all its parts begin with it, as in a_sun"), examples=["a"]
-            ),
-        ]
+        Annotated[str, Meta(pattern=IDENTIFIER, description="the ids of all its parts begin with it, as in a_sun",
+                            examples=["a"])]
         | None
-    ) = None
+    ) = None  # fmt: skip
 
 
 class Expansion(Draft):

@@ -37,12 +37,9 @@ class InstanceSpec(Struct, forbid_unknown_fields=True):
         | None
     ) = None
     rotation_deg: (
-        Annotated[
-            float,
-            degrees("rotation about the part's axis, counter-clockwise", least=-36_000, most=36_000),
-        ]
+        Annotated[float, degrees("rotation about the part's axis, counter-clockwise", least=-36_000, most=36_000)]
         | None
-    ) = None
+    ) = None  # fmt: skip
     axis: (
         Annotated[
             list[Annotated[float, Meta(ge=-1e6, le=1e6)]],
@@ -57,12 +54,10 @@ class InstanceSpec(Struct, forbid_unknown_fields=True):
     ) = None
     held: Annotated[bool, Meta(description="stands still, as the frame does: a ring that is screwed on")] | None = None
     subassembly: (
-        Annotated[
-            str,
-            Meta(pattern=IDENTIFIER, description="what it is assembled with, in the product tree", examples=["drive"]),
-        ]
+        Annotated[str, Meta(pattern=IDENTIFIER, description="what it is assembled with, in the product tree",
+                            examples=["drive"])]
         | None
-    ) = None
+    ) = None  # fmt: skip
 
     title: Title | None = None
 
@@ -74,14 +69,10 @@ class InstanceTable(InstanceSpec, forbid_unknown_fields=True):
         Annotated[int, Meta(ge=1, le=1000, description=("number of equal ones: ID_1, ID_2 ..."), examples=[3])] | None
     ) = None
     about: (
-        Annotated[
-            list[_Coordinate],
-            Meta(
-                min_length=2, max_length=2, description=("with count: [x, y] of the axis about which they stand, in mm")
-            ),
-        ]
+        Annotated[list[_Coordinate], Meta(min_length=2, max_length=2,
+                                          description="with count: [x, y] of the axis about which they stand, in mm")]
         | None
-    ) = None
+    ) = None  # fmt: skip
     step_deg: (
         Annotated[float, degrees("with count: from each to the next; default: 360 / count", least=-360, most=360)]
         | None

@@ -44,10 +44,8 @@ class StepSpec(Struct, forbid_unknown_fields=True):
         | None
     ) = None
     outwards: (
-        Annotated[
-            float, mm("then each moves by this away from the axis of `to`, below 0 towards it", least=-1e6, most=1e6,
-                      example=8.0)
-        ]
+        Annotated[float, mm("then each moves by this away from the axis of `to`, below 0 towards it", least=-1e6,
+                            most=1e6, example=8.0)]
         | None
     ) = None  # fmt: skip
     one_hole: Annotated[
@@ -60,17 +58,10 @@ class StepSpec(Struct, forbid_unknown_fields=True):
     ] = False
     screwed: Annotated[bool, Meta(description="turned in by its thread: a worm past its wheel")] = False
     opened: (
-        Annotated[
-            float,
-            mm(
-                "for turned parts like a snap ring: by how much its radius is opened on the way",
-                above=0,
-                most=1e3,
-                example=1.5,
-            ),
-        ]
+        Annotated[float, mm("for turned parts like a snap ring: by how much its radius is opened on the way", above=0,
+                            most=1e3, example=1.5)]
         | None
-    ) = None
+    ) = None  # fmt: skip
 
     @property
     def one_by_one(self) -> bool:

@@ -57,11 +57,8 @@ class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_
     number_of_teeth: Teeth
     mate_teeth: MateTeeth
     face_width: (
-        Annotated[
-            float,
-            mm("length of the teeth b along the pitch cone; default: the lesser of 0.3 R_e and 10 m",
-               least=0.01, most=10_000, example=12.0),
-        ]
+        Annotated[float, mm("length of the teeth b along the pitch cone; default: the lesser of 0.3 R_e and 10 m",
+                            least=0.01, most=10_000, example=12.0)]
         | None
     ) = None  # fmt: skip
     shaft_angle_deg: ShaftAngle = 90.0
@@ -105,20 +102,15 @@ class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_
         float, mm("thinning of the tooth along the outer pitch circle, for backlash", least=0, most=1000)
     ] = 0.0
     rim_thickness: (
-        Annotated[
-            float,
-            mm("rim below the outer root, along the back cone; default: 2.5 m", above=0, most=_MOST, example=5.0),
-        ]
+        Annotated[float, mm("rim below the outer root, along the back cone; default: 2.5 m", above=0, most=_MOST,
+                            example=5.0)]
         | None
-    ) = None
+    ) = None  # fmt: skip
     hub_diameter: Annotated[float, mm("hub behind the rim; 0 is none", least=0, most=_MOST)] = 0.0
     hub_length: Annotated[float, mm("length of the hub behind the rim", least=0, most=10_000)] = 0.0
     mounting_distance: (
-        Annotated[
-            float,
-            mm("from the apex to the back face; it sets hub_length, or without a hub rim_thickness",
-               above=0, most=_MOST, example=50.0),
-        ]
+        Annotated[float, mm("from the apex to the back face; it sets hub_length, or without a hub rim_thickness",
+                            above=0, most=_MOST, example=50.0)]
         | None
     ) = None  # fmt: skip
     bore_diameter: BoreDiameter = 0.0

@@ -57,17 +57,10 @@ class CycloidalGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="cycloida
     addendum_coefficient: Annotated[float, in_modules("height of the tips", least=0.001, most=10)] = 1.0
     dedendum_coefficient: Annotated[float, in_modules("depth of the roots", least=0.001, most=10)] = 1.25
     root_rounding: (
-        Annotated[
-            float,
-            mm(
-                "fillet; default: a fifth of the module, half the depth, or the full round",
-                least=0,
-                most=1000,
-                example=0.4,
-            ),
-        ]
+        Annotated[float, mm("fillet; default: a fifth of the module, half the depth, or the full round", least=0,
+                            most=1000, example=0.4)]
         | None
-    ) = None
+    ) = None  # fmt: skip
     circumferential_thinning: Annotated[
         float, mm("thinning of each tooth for backlash, arc of the pitch circle", least=0, most=1000)
     ] = 0.0

@@ -82,14 +82,11 @@ class NoncircularGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="noncir
         | None
     ) = None
     ratio_cosines: (
-        Annotated[
-            list[_Amplitude],
-            Meta(
-                max_length=20, description="ratio: a_k of 1 + sum a_k cos k n phi + b_k sin k n phi", examples=[[0.3]]
-            ),
-        ]
+        Annotated[list[_Amplitude], Meta(max_length=20,
+                                         description="ratio: a_k of 1 + sum a_k cos k n phi + b_k sin k n phi",
+                                         examples=[[0.3]])]
         | None
-    ) = None
+    ) = None  # fmt: skip
     ratio_sines: Annotated[list[_Amplitude], Meta(max_length=20, description="ratio: b_k", examples=[[0.1]])] | None = (
         None
     )

@@ -30,12 +30,10 @@ class RackHolesTable(Struct, forbid_unknown_fields=True):
     diameter: Annotated[float, mm("diameter of each hole", above=0, most=100_000, example=2.5)]
     spacing: Annotated[float, mm("from hole to hole", above=0, most=100_000)] = 20.0
     depth: (
-        Annotated[
-            float,
-            mm("centres below the root line; default: the middle of the body", above=0, most=100_000, example=2.5),
-        ]
+        Annotated[float, mm("centres below the root line; default: the middle of the body", above=0, most=100_000,
+                            example=2.5)]
         | None
-    ) = None
+    ) = None  # fmt: skip
 
 
 class RackSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="rack"):

@@ -8,7 +8,6 @@ from typing import Annotated
 from msgspec import Meta
 
 from geometry.gears.teeth import measurement, ring_limits
-from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_made import generation
 from parts.base.texts import N_
@@ -19,6 +18,7 @@ from parts.gears.spur_gear.page import (
     generating_shift,
     height_steps,
     helix_steps,
+    least_tip_step,
     section_data,
     shift_data,
     thickness_steps,
@@ -129,8 +129,7 @@ def _limits(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
             page.add(f"{margin.name}_margin", margin.margin, "", "KHK")
     if (pointed := ring_limits.pointed_tip(ring).limit) > 0:
         page.add("pointed_diameter", pointed)
-    least = LEAST_TIP_THICKNESS * ring.module
-    page.add("least_tip_thickness", least, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)")
+    least_tip_step(page, ring.module)
     limited = tip_finding(ring, keys.module)
     found = [*([] if limited is None else [limited]), *ring_limits.findings(ring)]
     page.notes += [finding_of(0, finding) for finding in found]

@@ -76,14 +76,10 @@ class RingGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
     ) = None
     thinning_method: Literal["wider_cutter_tooth", "deeper_cut"] = "wider_cutter_tooth"
     outer_diameter: (
-        Annotated[
-            float,
-            mm(
-                "outside of the rim; default: root diameter + 5 m, or holes + 2 m", above=0, most=200_000, example=140.0
-            ),
-        ]
+        Annotated[float, mm("outside of the rim; default: root diameter + 5 m, or holes + 2 m", above=0, most=200_000,
+                            example=140.0)]
         | None
-    ) = None
+    ) = None  # fmt: skip
     holes: RimHolesTable | list[RimHolesTable] | None = None
     tooth_mark: ToothMarkTable | None = None
 

@@ -15,11 +15,11 @@ from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.record import replace
 from geometry.gears.pictures.readings import ProfileReadings, profile_readings
 from geometry.gears.teeth import limits, measurement
-from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS, checked_gear, practicum_undercut
+from geometry.gears.teeth.limits import checked_gear, practicum_undercut
 from geometry.gears.teeth.spur import SpurGear
 from parts.base.refusal import REMOVED, SceneError
 from parts.base.texts import N_
-from parts.gears.spur_gear.page import greatest_shift
+from parts.gears.spur_gear.page import greatest_shift, least_tip_step
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear
 from parts.keys.base import in_modules, mm
 from parts.keys.cutter import PressureAngle
@@ -162,9 +162,7 @@ def _measured(page: Sheet, gear: SpurGear, index: int) -> None:
 def _conditions(page: Sheet, zero: SpurGear, shifted: SpurGear) -> None:
     page.section("Conditions")
     page.add("least_shift_without_undercut", limits.least_shift_without_undercut(zero), "", "ISO 21771")
-    page.add(
-        "least_tip_thickness", LEAST_TIP_THICKNESS * zero.module, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)"
-    )
+    least_tip_step(page, zero.module)
     greatest = greatest_shift(zero)
     if greatest is not None:
         page.add("greatest_shift_for_tip_thickness", greatest, "", "practicum (1.3)")

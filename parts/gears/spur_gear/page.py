@@ -248,9 +248,7 @@ def _limits(page: Sheet, gear: SpurGear, helix: float) -> None:
     least = limits.least_shift_without_undercut(gear) / math.cos(helix)
     page.add("least_shift_without_undercut", least, formula, "ISO 21771", symbol="x_n,min" if helix else "")
     page.add("pointed_diameter", limits.pointed_diameter(gear))
-    page.add(
-        "least_tip_thickness", LEAST_TIP_THICKNESS * gear.module, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)"
-    )
+    least_tip_step(page, gear.module)
     greatest = greatest_shift(gear)
     if greatest is not None:
         symbol = "x_n,0.3" if helix else ""
@@ -260,6 +258,12 @@ def _limits(page: Sheet, gear: SpurGear, helix: float) -> None:
         page.note("the tooth is undercut: x < x_min")
     if limits.thin_tip(gear).margin < 0:
         page.note("the tip is thinner than 0.3 m")
+
+
+def least_tip_step(page: Sheet, module: float) -> None:
+    """How thick a tip is at least, by the practicum."""
+    formula = f"{LEAST_TIP_THICKNESS} * {{m}}"
+    page.add("least_tip_thickness", LEAST_TIP_THICKNESS * module, formula, "practicum (1.3)")
 
 
 def greatest_shift(gear: SpurGear) -> float | None:

@@ -59,14 +59,10 @@ class RackTable(Struct, forbid_unknown_fields=True):
     addendum_coefficient: Annotated[float, in_modules("addendum of the basic rack", least=0.1, most=3)] = 1.0
     tip_clearance_coefficient: Annotated[float, in_modules("tip clearance", least=0, most=1)] = 0.25
     tip_radius_coefficient: (
-        Annotated[
-            float,
-            in_modules(
-                "tip rounding; default: the least of 0.38, c/(1 - sin a), full round", least=0, most=2, example=0.38
-            ),
-        ]
+        Annotated[float, in_modules("tip rounding; default: the least of 0.38, c/(1 - sin a), full round", least=0,
+                                    most=2, example=0.38)]
         | None
-    ) = None
+    ) = None  # fmt: skip
 
 
 class ReliefTable(Struct, forbid_unknown_fields=True):

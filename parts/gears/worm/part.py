@@ -105,13 +105,8 @@ class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field
         ),
     ] = "cut"
     run_out_deg: (
-        Annotated[
-            float,
-            degrees(
-                "turn of the worm within which the tool leaves, of thread_ends run_out; default: 90",
-                least=10, most=120, example=90.0,
-            ),
-        ]
+        Annotated[float, degrees("turn of the worm within which the tool leaves, of thread_ends run_out; default: 90",
+                                 least=10, most=120, example=90.0)]
         | None
     ) = None  # fmt: skip
     shaft_below: Steps = field(default_factory=list)

@@ -81,24 +81,15 @@ class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_fie
     hob_diameter_quotient: HobQuotient | None = None
     axial_thinning: HobThinning = 0.0
     face_width: (
-        Annotated[
-            float,
-            mm(
-                "width b2 of the rim; default: the largest by GOST 19650 that has whole teeth",
-                least=0.01,
-                most=10_000,
-                example=14.0,
-            ),
-        ]
+        Annotated[float, mm("width b2 of the rim; default: the largest by GOST 19650 that has whole teeth",
+                            least=0.01, most=10_000, example=14.0)]
         | None
-    ) = None  # type: ignore[assignment]
+    ) = None  # type: ignore[assignment]  # fmt: skip
     outer_diameter: (
-        Annotated[
-            float,
-            mm("d_ae2, outside of the throat; default: the largest by GOST 19650", above=0, most=200_000, example=66.0),
-        ]
+        Annotated[float, mm("d_ae2, outside of the throat; default: the largest by GOST 19650", above=0, most=200_000,
+                            example=66.0)]
         | None
-    ) = None
+    ) = None  # fmt: skip
     spokes: SpokesTable | None = None
     web: WebTable | None = None
     hub: HubTable | None = None
