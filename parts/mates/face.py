@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
+from geometry.base.tolerance import CONTACT_TOLERANCE
 from parts.base.mate import End, LaidStanding, MateKind, Pose, Touching
 from parts.gears.thinning import shared_thinning
 from parts.keys.base import MadeKeys, mm
@@ -101,11 +102,16 @@ class FaceMating(Touching):
 
     def findings(self) -> tuple[Finding, ...]:
         """Whether a tip meets what is no flank, or a root, and whether one tooth follows on the other."""
+        from geometry.gears.teeth.limits import root_form_diameter
+
         pair, found = self.pair, []
         least = -_ROUNDING * pair.gear.module
         if pair.form_reserve < least:
             begins = pair.form_length
             found.append(Finding("fillet_interference_second", begins + pair.form_reserve, begins))
+        elif pair.tip_in_fillet[0] < -CONTACT_TOLERANCE * pair.gear.module:
+            begins = root_form_diameter(pair.pinion) / 2
+            found.append(Finding("contact_below_flank_second", pair.tip_in_fillet[1], begins))
         if pair.gear_form_reserve < least:
             ends = pair.gear.shaper.form_length
             found.append(Finding("fillet_interference_first", ends - pair.gear_form_reserve, ends))

@@ -186,8 +186,9 @@ REASONS = {
     "face_gear_narrow": N_("leaves the teeth no width: they begin at {diameter} mm"),
     "face_gear_no_flank": N_("below {diameter} mm fillets would reach the tips: the shaper leaves no flank there"),
     "face_gear_no_width": N_(
-        "leaves the teeth no width: undercut ends at {inner} mm, and they are pointed from {outer} mm on"
+        "leaves the teeth no width: they would begin at {inner} mm, and are pointed from {outer} mm on"
     ),
+    "face_gear_no_tip": N_("the tips would stand above the shaper's base circle wherever they are"),
     "face_gear_not_moved": N_("is not for a face gear, whose flanks would be conjugate no more: thin its teeth"),
     "face_gear_pointed": N_("the teeth are pointed from {diameter} mm on"),
     "face_gear_pointed_inside": N_("leaves the teeth no width: they are pointed from {diameter} mm on"),

@@ -40,6 +40,8 @@ _SHARES, _RADII = np.linspace(0.0, 1.0, 33), 9
 # a face is no narrower, a tip no thinner, a flank no lower, modules; what a limit is stepped back from by default
 LEAST_FACE, _LEAST_TIP, _LEAST_FLANK, _NEXT = 0.05, 1e-3, 0.05, 1e-12
 NEAR_UNDERCUT, USUAL_TIP, USUAL_FACE = 0.1, 0.4, 0.5
+# addenda by default, the first that leaves a wide face, modules
+_ADDENDA, _WIDE_FACE = tuple(k / 20 for k in range(20, 1, -1)), 1.0
 
 
 class Places(Record, eq=False):
@@ -214,11 +216,13 @@ class FaceGear(Record, dict=True):
         return float(self.cut_radius(self.undercut_angle, self.shaper.form_length))
 
     def form_radius(self, s: float) -> float:
-        """From which radius on tips meet the pinion's involute ``s`` mm along its line of action or more, or 0."""
+        """From which radius on tips meet the pinion's involute ``s`` mm along its line of action or more; 0: all."""
 
         def over(alpha: float) -> float:
             return float(self.tip_length(np.asarray(alpha))) - s
 
+        if over(_MOST_ANGLE) < 0:
+            return math.inf
         # where tips reach deepest along it
         deepest = math.acos(min(self.shaper.base_radius / self.tip_depth, math.cos(_LEAST_ANGLE)))
         if over(deepest) >= 0:
@@ -245,6 +249,8 @@ class FaceGear(Record, dict=True):
     def tip_limit(self, thickness: float) -> float:
         """The radius at which tips are that thick, mm; or the least one, where they are thinner."""
         least = self.least_radius * (1 + _NEXT)
+        if math.isinf(least):
+            return least
         tip = np.asarray(1.0)
 
         def over(alpha: float) -> float:
@@ -279,6 +285,8 @@ class FaceGear(Record, dict=True):
         m = self.module
         least, most = self.least_radius, self.tip_limit(_LEAST_TIP * m)
         room = LEAST_FACE * m
+        if math.isinf(least):
+            raise ParameterError("addendum_coefficient", self.addendum / m, "face_gear_no_tip")
         if most - least < room:
             raise ParameterError("addendum_coefficient", self.addendum / m, "face_gear_no_width",
                                  inner=2 * least, outer=2 * most)  # fmt: skip
@@ -317,6 +325,24 @@ def form_length(pinion: SpurGear) -> float:
     return math.sqrt(max((radius - base) * (radius + base), 0.0))
 
 
+def _usual_inner(gear: FaceGear, form_length: float) -> float:
+    """Beyond the undercut, and from where on tips meet the pinion's involute, mm."""
+    return max(gear.least_radius, gear.form_radius(form_length)) + NEAR_UNDERCUT * gear.module
+
+
+def topped(gear: FaceGear, form_length: float = 0.0) -> FaceGear:
+    """The gear with an addendum of a module, or less where its pinion's teeth are so few that the face would be narrow.
+
+    ``form_length``: as of ``sized``. No thinning changes it.
+    """
+    m, whole = gear.module, replace(gear, circumferential_thinning=0.0)
+    for share in _ADDENDA:
+        whole = replace(whole, addendum=share * m)
+        if whole.tip_limit(USUAL_TIP * m) - _usual_inner(whole, form_length) >= _WIDE_FACE * m:
+            break
+    return replace(gear, addendum=whole.addendum)
+
+
 def sized(gear: FaceGear, inner: float | None, outer: float | None, form_length: float = 0.0) -> FaceGear:
     """The gear with radii that are given, mm, or those of the widest face without undercut and thin tips.
 
@@ -324,7 +350,7 @@ def sized(gear: FaceGear, inner: float | None, outer: float | None, form_length:
     """
     m = gear.module
     if inner is None:
-        inner = max(gear.least_radius, gear.form_radius(form_length)) + NEAR_UNDERCUT * m
+        inner = _usual_inner(gear, form_length)
         inner = max(min(inner, gear.pointed_radius - USUAL_FACE * m), gear.least_radius * (1 + _NEXT))
     if outer is None:
         outer = max(gear.tip_limit(USUAL_TIP * m), min(inner + USUAL_FACE * m, gear.tip_limit(_LEAST_TIP * m)))

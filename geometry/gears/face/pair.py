@@ -201,10 +201,14 @@ class FacePair(Record, dict=True):
 
     def _of_gear(self, turned: Real, off: float) -> Real:
         """Of places of the gear's upper sides, whose spaces the pinion's lower sides stand in, from the pinion."""
+        gap, _, _ = self._feet(turned, off, [(which, np.linspace(0.0, 1.0, _PLACES)) for which in (FILLET, FLANK)])
+        return np.asarray(gap.reshape(len(turned), -1).min(axis=1))
+
+    def _feet(self, turned: Real, off: float, places: list[tuple[int, Real]]) -> tuple[Real, Real, Index]:
+        """Of places (side, shares) on all radii at turns (n,): gaps, radii on the pinion, nearest curves."""
         gear, pinion = self.gear, self.pinion
         radii = np.linspace(gear.inner_radius, gear.outer_radius, _PLANES)
-        share = np.linspace(0.0, 1.0, _PLACES)[:, None]
-        sides = [gear.side(which, share, radii) for which in (FILLET, FLANK)]
+        sides = [gear.side(which, share[:, None], radii) for which, share in places]
         radius, azimuth, depth = (
             np.concatenate([getattr(at, name).ravel() for at in sides]) for name in ("radius", "azimuth", "depth")
         )
@@ -215,8 +219,19 @@ class FacePair(Record, dict=True):
         turn = azimuth + middles[:, :, None] - math.pi / gear.number_of_teeth
         x, y = radius * np.cos(turn), radius * np.sin(turn)
         seen = (depth + 1j * y) * np.exp(-1j * (turned[:, None, None] + off))
-        found = np.full(seen.shape, np.inf)
+        found, curves = np.full(seen.shape, np.inf), np.zeros(seen.shape, int)
         near = (np.abs(seen) < pinion.tip_radius + gear.module) & (x >= self.low) & (x <= self.high)
         points, _ = folded(seen[near], np.zeros(int(near.sum()), complex), pinion.pitch_angle)
-        found[near] = self._outline.feet(points).distance
-        return np.asarray(found.reshape(len(turned), -1).min(axis=1))
+        feet = self._outline.feet(points)
+        found[near], curves[near] = feet.distance, feet.curve_index
+        return found, np.abs(seen), curves
+
+    @cached_property
+    def tip_in_fillet(self) -> tuple[float, float]:
+        """Where tips come nearest to what is no flank of the pinion: the gap, from its axis, mm; (inf, 0) nowhere."""
+        drive = np.linspace(0.0, math.tau / self.pinion.number_of_teeth, _DRIVE_ANGLES, endpoint=False)
+        gap, reach, curves = self._feet(drive, 0.0, [(FLANK, np.ones(1))])
+        below = [k for k, s in enumerate(self.side.segments) if s.label in (Label.ROOT_FILLET, Label.ROOT_LAND)]
+        gap[~np.isin(curves, below)] = np.inf
+        least = int(gap.argmin())
+        return float(gap.flat[least]), float(reach.flat[least])

@@ -59,7 +59,7 @@ def _given(page: Sheet, keys: FaceKeys, gear: FaceGear) -> None:
     page.both("number_of_teeth", (keys.pinion_teeth, keys.number_of_teeth))
     page.add("module", keys.module)
     page.add("pressure_angle_deg", keys.pressure_angle_deg)
-    page.add("addendum_coefficient", keys.addendum_coefficient)
+    page.add("addendum_coefficient", gear.addendum / keys.module)
     page.add("dedendum_coefficient", keys.dedendum_coefficient)
     page.add("cutter_tip_rounding", gear.shaper.tip_rounding)
     if keys.circumferential_thinning:

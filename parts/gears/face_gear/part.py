@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
+from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
-from geometry.gears.face.gear import FaceGear, form_length, sized
+from geometry.gears.face.gear import FaceGear, form_length, sized, topped
 from geometry.gears.teeth.cutter import CUTTER_ADDENDUM, CUTTER_ROUNDING, PinionCutter, checked_cutter
 from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
@@ -48,7 +48,14 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     number_of_teeth: Teeth
     pinion_teeth: PinionTeeth
     pressure_angle_deg: Annotated[float, degrees("pressure angle of the pinion", least=10, most=35)] = 20.0
-    addendum_coefficient: Annotated[float, in_modules("addendum above the pitch plane", least=0.1, most=3)] = 1.0
+    addendum_coefficient: (
+        Annotated[
+            float,
+            in_modules("addendum above the pitch plane; default: 1, or less where z1 is small", least=0.1, most=3,
+                       example=1.0),
+        ]
+        | None
+    ) = None  # fmt: skip
     dedendum_coefficient: Annotated[
         float, in_modules("dedendum below it: what the shaper's teeth have for an addendum", least=0.1, most=3)
     ] = CUTTER_ADDENDUM
@@ -116,10 +123,13 @@ def _made(keys: FaceGearSpec) -> FaceGear:
     """The gear of its keys, whose teeth can be."""
     m = keys.module
     plate = _USUAL_PLATE * m if keys.plate_thickness is None else keys.plate_thickness
-    bare = FaceGear(shaper_of(keys), keys.number_of_teeth, keys.addendum_coefficient * m, 0.0, 0.0,
+    addendum, begins = keys.addendum_coefficient, _form_length(keys)
+    bare = FaceGear(shaper_of(keys), keys.number_of_teeth, m if addendum is None else addendum * m, 0.0, 0.0,
                     plate, keys.circumferential_thinning)  # fmt: skip
+    if addendum is None:
+        bare = topped(bare, begins)
     inner, outer = (None if d is None else d / 2 for d in (keys.inner_diameter, keys.outer_diameter))
-    return sized(bare, inner, outer, 0.0 if inner else _form_length(keys)).checked()
+    return sized(bare, inner, outer, begins).checked()
 
 
 def pinion_of(keys: FaceGearSpec) -> SpurGear:
@@ -143,19 +153,22 @@ def _form_length(keys: FaceGearSpec) -> float:
 def _cured(keys: FaceGearSpec, refusal: ParameterError) -> ParameterError:
     """A refusal of teeth that cannot be, of the thinning where that alone is too much, with what leaves some width."""
 
-    def cured(key: str, ends: Sequence[float]) -> ParameterError:
-        def builds(value: float) -> bool:
-            _made(changed(keys, **{key: value}))
-            return True
+    def cured(key: str, given: float, ends: Sequence[float]) -> ParameterError:
+        def builds(value: float) -> FaceGear:
+            return _made(changed(keys, **{key: value}))
 
-        given: float = getattr(keys, key)
-        cure = partial(nearest, builds, given, ends, enough=_NEAR * keys.module)
+        def cure() -> Nearest | None:
+            """With tips that leave something for a backlash, where there are such."""
+            search = partial(nearest, given=given, toward=ends, enough=_NEAR * keys.module)
+            return search(lambda value: not face_gear_findings(builds(value))) or search(lambda v: bool(builds(v)))
+
         return ParameterError(key, given, refusal.code, cure, **refusal.numbers)
 
-    thinned = cured("circumferential_thinning", (0.0,))
+    thinned = cured("circumferential_thinning", keys.circumferential_thinning, (0.0,))
     if keys.circumferential_thinning and thinned.nearest is not None:
         return thinned
-    return cured(refusal.name, [getattr(keys, refusal.name) * share for share in _LOWER])
+    assert isinstance(refusal.value, float)
+    return cured(refusal.name, refusal.value, [refusal.value * share for share in _LOWER])
 
 
 class FaceGearKind(Kind[FaceGearSpec, FaceGear]):

@@ -43,26 +43,30 @@ def made(raw: dict[str, Any]) -> tuple[Any, Any, Any]:
     return parts, matings, {i.id: i for i in place(file.instances, [], parts, matings, "s").instances}
 
 
+def turned(parts: Any, stand: Any, *shares: float) -> list[Any]:
+    """Meshes of pinion and face gear where they stand, turned on by shares of their pitches."""
+    solids = []
+    for name, way, share in zip(("pinion", "wheel"), (1, -1), shares, strict=True):
+        body = parts[name].body(0.0)
+        mesh = body_mesh(body, mesh_outlines(body, 0.003, 0.0))
+        angle = way * share * math.tau / parts[name].keys.number_of_teeth
+        c, s = math.cos(angle), math.sin(angle)
+        vertices = mesh.vertices @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]).T
+        vertices = stand[name].scene_from_part.apply(vertices)
+        mesh3 = manifold3d.Mesh(vertices.astype(np.float32), mesh.triangles.astype(np.uint32))
+        solids.append(manifold3d.Manifold(mesh3))
+    return solids
+
+
 def test_meshes_of_both_keep_half_of_the_backlash_all_over_a_pitch() -> None:
     """By meshes alone, turned step by step in their ratio; beside it they clash."""
     parts, _, stand = made(scene({}, {}, normal_backlash=0.2))
-    meshes = {}
-    for name, part in parts.items():
-        body = part.body(0.0)
-        meshes[name] = body_mesh(body, mesh_outlines(body, 0.003, 0.0))
-
-    def solid(name: str, turned: float) -> Any:
-        mesh, (c, s) = meshes[name], (math.cos(turned), math.sin(turned))
-        vertices = mesh.vertices @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]).T
-        vertices = stand[name].scene_from_part.apply(vertices)
-        return manifold3d.Manifold(manifold3d.Mesh(vertices.astype(np.float32), mesh.triangles.astype(np.uint32)))
-
     for share in (0.0, 0.37, 0.71):
-        turned = share * math.tau / 14
-        pinion, wheel = solid("pinion", turned), solid("wheel", -turned * 14 / 21)
+        pinion, wheel = turned(parts, stand, share, share)
         assert (pinion ^ wheel).volume() < 1e-6
         assert pinion.min_gap(wheel, 1.0) == pytest.approx(0.1, abs=0.0065)
-    assert (solid("pinion", 0.4 * math.tau / 14) ^ solid("wheel", 0.0)).volume() > 1.0
+    pinion, wheel = turned(parts, stand, 0.4, 0.0)
+    assert (pinion ^ wheel).volume() > 1.0
 
 
 def test_axes_meet_at_a_right_angle_where_the_keys_have_it() -> None:
@@ -72,7 +76,7 @@ def test_axes_meet_at_a_right_angle_where_the_keys_have_it() -> None:
     middle = pinion.apply(np.array([0.0, 0.0, 4.5])) - wheel.apply(np.array([0.0, 0.0, gear.mounting_distance]))
     assert middle == pytest.approx(-np.array(pinion.z) * ((gear.inner_radius + gear.outer_radius) / 2 + 0.5), abs=1e-9)
     # the pitch planes: m z / 2 below the pinion's axis, an addendum below the tips
-    assert gear.mounting_distance - 14.0 == pytest.approx(gear.height - 2.0, abs=1e-12)
+    assert gear.mounting_distance - 14.0 == pytest.approx(gear.height - gear.addendum, abs=1e-12)
     (mating,) = matings
     assert mating.quantities()["ratio"] == pytest.approx(21 / 14, rel=1e-15)
     assert [joint.ratio for joint in mating.joints] == [Fraction(-21, 14)]
@@ -154,6 +158,10 @@ def test_a_pinion_that_the_gear_is_not_for_is_refused() -> None:
         ({"inner_diameter": 80.0}, "inner_diameter"), ({"outer_diameter": 55.0}, "outer_diameter"),
         ({"tip_radius_coefficient": 1.0}, "tip_radius_coefficient"),
         ({"dedendum_coefficient": 2.0}, "dedendum_coefficient"),
+        ({"addendum_coefficient": 2.5}, "addendum_coefficient"),
+        ({"pinion_teeth": 5}, "dedendum_coefficient"), ({"pinion_teeth": 3}, "dedendum_coefficient"),
+        ({"pinion_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.0}, "addendum_coefficient"),
+        ({"pinion_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.5}, "addendum_coefficient"),
         ({"bore_diameter": 70.0}, "bore_diameter"), ({"circumferential_thinning": 4.0}, "circumferential_thinning"),
     ],
 )  # fmt: skip
@@ -167,6 +175,38 @@ def test_what_cannot_be_is_refused_with_a_value_that_builds(keys: dict[str, Any]
         made({"parts": {"wheel": GEAR | keys | {key: nearest.value}}})
     except (SceneError, GeometryError) as error:
         pytest.fail(f"{key} = {nearest.value}: {error}")
+
+
+@pytest.mark.parametrize(("teeth", "others"), [(7, 60), (8, 17), (10, 200), (13, 26)])
+def test_pinions_of_few_teeth_mesh_by_default(teeth: int, others: int) -> None:
+    """Undercut begins their involute late: the gear's teeth are low enough to be wide, and to be thinned, beyond it."""
+    few = {"number_of_teeth": teeth}
+    parts, (mating,), _ = made(scene({"number_of_teeth": others, "pinion_teeth": teeth}, few, normal_backlash=0.4))
+    gear = parts["wheel"].thing
+    assert gear.face_width >= 2.0
+    assert mating.contact(0.0, 0.0, None).verdict.name == "CLEAR"
+    assert [found.code for found in mating.findings() if found.code != "contact_ratio"] == []
+
+
+def test_an_offer_leaves_tips_that_a_backlash_may_thin() -> None:
+    with pytest.raises(SceneError) as refusal:
+        made(scene({"addendum_coefficient": 2.5}, {}, normal_backlash=0.1))
+    assert refusal.value.nearest is not None
+    made(scene({"addendum_coefficient": refusal.value.nearest.value}, {}, normal_backlash=0.1))
+
+
+@pytest.mark.parametrize(("addendum", "codes"), [(1.1, []), (1.24, ["contact_below_flank_second"])])
+def test_tips_in_the_pinions_fillet_are_told(addendum: float, codes: list[str]) -> None:
+    """Of tips off the pinion's root and on its involute whose corners cut into its fillet: so do the meshes."""
+    gear = {"pinion_teeth": 20, "number_of_teeth": 60, "addendum_coefficient": addendum}
+    parts, (mating,), stand = made(scene(gear, {"number_of_teeth": 20}, normal_backlash=0.1))
+    assert mating.contact(0.0, 0.0, None).verdict.name == ("OVERLAP" if codes else "CLEAR")
+    found = mating.findings()
+    assert [one.code for one in found] == codes
+    # between the root and where the involute begins
+    assert all(20.0 - 2.5 < one.value < one.limit < 20.0 for one in found)
+    shared = [pinion ^ wheel for pinion, wheel in (turned(parts, stand, share, share) for share in (0.2, 0.8))]
+    assert (max(one.volume() for one in shared) > 1e-4) == bool(codes)
 
 
 def test_forces_of_the_calculation_balance_both_torques() -> None:
