@@ -9,7 +9,7 @@ import msgspec
 from msgspec import Meta
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError
-from geometry.base.nearest import nearest
+from geometry.base.nearest import moved, nearest
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
@@ -98,13 +98,12 @@ class GenevaWheelKind(WheelKind[GenevaWheelSpec, "GenevaWheel"]):
     def solid(self, keys: GenevaWheelSpec, thing: GenevaWheel, offset: float) -> Body:
         """The wheel with its web, hub and chamfers, or the ring."""
         from geometry.solids.body import plate
-        from geometry.solids.plate import moved_profile
 
         if keys.internal:
             return plate(self.section(keys, thing, offset).region, 0.0, keys.face_width)
 
         def outline(offset: float, depth: float) -> Profile:
-            return moved_profile(thing.outline(), offset - depth)
+            return moved(thing.profile, offset - depth)
 
         return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
 
@@ -215,10 +214,9 @@ def _region(wheel: GenevaWheel, offset: float) -> Region:
     GeometryError
         A slot closes, a tip or a wall does not survive.
     """
-    from geometry.plane.profile import Label, Profile, Region, Segment, circle
-    from geometry.solids.plate import moved_edges
+    from geometry.plane.profile import Label, Region, circle
 
-    slots = Profile(tuple(Segment(e, Label.BODY) for e in moved_edges(wheel.outline(), offset)))
+    slots = wheel.profile(offset)
     holes = wheel.holes.profiles(offset)
     if not wheel.drive.internal:
         if wheel.holes.number and wheel.root_radius + offset <= wheel.holes.reach - offset:

@@ -19,8 +19,9 @@ from parts.scene.train import Train, Turning
 PER_CYCLE, MOST_CYCLES, _MOST_OF_AXES = 720, 400, 2000
 # what is one place, mm; one angle, rad; one pose, mm or share of a turn
 _SAME, _SAME_ANGLE, _ALIKE = 1e-7, 1e-9, 1e-6
-# times that are tried where two pairs may stand alike, and how often each is made better
-_TRIED, _HALVINGS = 8, 40
+# samples in a part that may repeat; times that are tried where two pairs may stand alike, and how often each is
+# made better
+_LEAST_PART, _TRIED, _HALVINGS = 36, 8, 40
 SPREAD = np.arange(1, 34) * (math.sqrt(5) - 1) / 2 % 1.0
 
 
@@ -143,7 +144,21 @@ def path_of(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape], course
     # an arc is longer than its chord
     length = np.concatenate([[0.0], np.cumsum(steps)]) * (1 + 2.0 / PER_CYCLE)
     stands = _stands(places, turned, counts)
-    return Path(lambda t: _seen(course, pair, t), counts, period, share, times, length, np.abs(places), stands)
+    parts = _repeats(stands) if once and share == 1 else 1
+    kept = slice(0, (len(times) - 1) // parts + 1)
+    return Path(lambda t: _seen(course, pair, t), counts, period / parts, share, times[kept], length[kept],
+                np.abs(places[kept]), stands[kept])  # fmt: skip
+
+
+def _repeats(stands: Complex) -> int:
+    """Into how many equal parts of its way a pair falls that stands alike in all of them, by every sample."""
+    steps = len(stands) - 1
+    for parts in range(steps // _LEAST_PART, 1, -1):
+        if steps % parts == 0:
+            size = steps // parts
+            if float(np.abs(stands[size:] - stands[:-size]).max()) <= _ALIKE:
+                return parts
+    return 1
 
 
 def _axes_free(

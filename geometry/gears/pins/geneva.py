@@ -25,8 +25,9 @@ from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line, arc_between
+from geometry.plane.profile import Label, Profile, Segment
 from geometry.solids.hub_holes import HubHoles, least_wall
-from geometry.solids.plate import Edge, PlateOutline
+from geometry.solids.plate import Edge, PlateOutline, moved_edges
 
 _NO_HOLES = HubHoles()
 # places along a curve, turns of the driver and rounds of both by which the deepest is sought; a part that is rounding
@@ -240,6 +241,18 @@ class GenevaWheel(Record):
         turns = [Placement2(2 * self.drive.half_slot_angle * k) for k in range(self.drive.number_of_slots)]
         edges = tuple(edge.placed(turn) for turn in turns for edge in self.period())
         return tuple(e.reversed() for e in reversed(edges)) if self.drive.internal else edges
+
+    def profile(self, offset: float) -> Profile:
+        """The outline by its periods, moved ``offset`` mm out of the material.
+
+        Raises
+        ------
+        GeometryError
+            A slot closes, or a tip does not survive.
+        """
+        edges, slots = moved_edges(self.outline(), offset), self.drive.number_of_slots
+        period = tuple(Segment(edge, Label.BODY) for edge in edges[: len(edges) // slots])
+        return Profile(period, slots, self.drive.internal)
 
 
 def checked_wheel(wheel: GenevaWheel) -> GenevaWheel:

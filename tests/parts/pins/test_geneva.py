@@ -50,6 +50,22 @@ def test_a_driver_turns_its_wheel_step_by_step(wheel: Keys, pins: int, turns: fl
     assert np.ptp(still) < 1e-12
 
 
+def test_a_loose_pin_is_held_against_every_slot() -> None:
+    """The wheel looks alike after each of its slots, so that one turn of the crank is seen as finely as it wants."""
+    pieces = {piece: DRIVER | {"piece": piece} for piece in ("plate", "disc")}
+    pin = {"kind": "pin", "diameter": 5.0, "length": 13.0}
+    loose = {"parts": {"wheel": WHEEL | {"slot_clearance": 0.2, "locking_clearance": 0.1}, "pin": pin} | pieces}
+    mates = [
+        {"kind": "fixed", "first": "plate", "second": "disc", "offset": [0.0, 0.0, 3.0]},
+        MATE | {"first": "disc"},
+        {"kind": "pin_seat", "first": "plate", "second": "pin"},
+    ]
+    _, checks = placed(WHEEL, DRIVER, mates, drives=[{"instance": "plate", "turns": 6.0}], **loose)
+    motion = checks["motion"]
+    assert motion["tested"] > 0
+    assert motion["uncovered"] == []
+
+
 def test_a_wheel_drives_nothing() -> None:
     with pytest.raises(SceneError) as refused:
         placed(WHEEL, DRIVER, drives=[{"instance": "wheel", "turns": 1.0}])

@@ -119,3 +119,20 @@ def test_satellites_are_alike_where_one_comes_through_the_poses_of_another(
     # neither farther out nor with other teeth
     assert not one.is_like(path(((30.01, (-2, 1)), sun), teeth))
     assert not one.is_like(path(((30.0, (-2, 1)), sun), (teeth[0], teeth[1] + 1)))
+
+
+@pytest.mark.parametrize(("teeth", "parts"), [((6, 0), 6), ((5, 0), 1), ((1, 0), 1)])
+def test_what_moves_by_a_law_is_followed_until_it_stands_alike(teeth: tuple[int, int], parts: int) -> None:
+    """Six turns of a crank, each of which moves a wheel on by a sixth: alike after one of them if it has six slots."""
+
+    def pose(key: str, t: Real) -> tuple[Complex, Real]:
+        turn = 12 * math.pi * np.asarray(t)
+        return (60 + 0 * turn, -(turn + np.sin(turn)) / 6) if key == "0" else (30 * np.exp(1j * turn), turn)
+
+    course = Course(pose, {key: (Fraction(6),) for key in "01"}, frozenset("0"))
+    shapes: Any = tuple(Toothed(z, 10.0) for z in teeth)
+    made = path_of((Instance("0", "p"), Instance("1", "p")), shapes, course)
+    assert made is not None
+    assert made.period == Fraction(1, parts)
+    assert made.times[-1] == pytest.approx(1 / parts)
+    assert made.length[-1] > 2 * math.pi * 30 * 6 / parts
