@@ -17,6 +17,8 @@ _MARKS = {
     "NC_": "ct",
     "message": "t",
     "fault": "t",
+    # behind what must hold
+    "unless": "-t",
     "counted": "tp",
     "in_context": "ct",
     ".text": "t",

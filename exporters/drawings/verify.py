@@ -17,7 +17,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import distance_to_curve, distance_to_curves
 from parts.base.readback import ReadError
-from parts.base.texts import fault
+from parts.base.texts import N_, fault, unless
 from parts.drawing.canvas import Box, Canvas, Run
 from parts.drawing.expected import Expected, Meshing
 from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText
@@ -51,15 +51,9 @@ def _check(
     sheet: ReadSheet, expected: Expected, tolerance: float, measured: dict[str, float], failures: list[str]
 ) -> None:
     canvas = expected.canvas
-    if max(abs(sheet.width - canvas.width), abs(sheet.height - canvas.height)) > _PAPER:
-        failures.append(
-            fault(
-                "has paper of {width:g} x {height:g} mm instead of {paper}",
-                width=sheet.width,
-                height=sheet.height,
-                paper=canvas.paper,
-            )
-        )
+    off = max(abs(sheet.width - canvas.width), abs(sheet.height - canvas.height))
+    told = N_("has paper of {width:g} x {height:g} mm instead of {paper}")
+    failures += unless(off <= _PAPER, told, width=sheet.width, height=sheet.height, paper=canvas.paper)
     reach = max([canvas.width, canvas.height, *(c.radius for c in expected.circles)])
     allowed = tolerance + _ROUNDING * reach
     _check_circles(sheet, expected, allowed, measured, failures)
@@ -88,15 +82,8 @@ def _check_circles(
             spokes = [np.abs(points - circle.centre) for layer, points in sheet.samples if layer == circle.layer]
             off = min((float(np.abs(r - circle.radius).max()) for r in spokes), default=math.inf)
         worst = max(worst, off)
-        if not off <= allowed:
-            failures.append(
-                fault(
-                    "{layer}: no circle of {radius:.6f} mm within {off:.3g} mm",
-                    layer=circle.layer,
-                    radius=circle.radius,
-                    off=off,
-                )
-            )
+        told = N_("{layer}: no circle of {radius:.6f} mm within {off:.3g} mm")
+        failures += unless(off <= allowed, told, layer=circle.layer, radius=circle.radius, off=off)
     measured["circles"] = float(len(expected.circles))
     measured["circle_deviation"] = worst
 
@@ -115,37 +102,29 @@ def _check_curves(
             ends = np.abs(curve.point(np.array(curve.domain))[:, None] - model).min(1).max()
             worst = max(worst, off * paper.scale, float(ends) * paper.scale)
     measured["max_deviation"] = worst
-    if not worst <= allowed:
-        failures.append(fault("outlines deviate by {worst:.3g} mm from the exact ones", worst=worst))
+    failures += unless(worst <= allowed, "outlines deviate by {worst:.3g} mm from the exact ones", worst=worst)
 
 
 def _check_meshing(
     sheet: ReadSheet, wanted: Meshing, allowed: float, measured: dict[str, float], failures: list[str]
 ) -> None:
     """The line of action touches the base circles; the contact ratio by both ways of measuring."""
-    lines = {name: [x for x in sheet.lines if x.layer == name] for name in ("LINE_OF_ACTION", "ACTIVE_LINE")}
+    actions, actives = ([x for x in sheet.lines if x.layer == name] for name in ("LINE_OF_ACTION", "ACTIVE_LINE"))
     arcs = [a for a in sheet.arcs if a.layer == "ARC_OF_ACTION"]
     pitches = [a.radius * a.sweep for a in sheet.arcs if a.layer == "WORKING_PITCH"]
     pitches += [abs(x.end - x.start) for x in sheet.lines if x.layer == "WORKING_PITCH"]
-    if not (lines["LINE_OF_ACTION"] and lines["ACTIVE_LINE"] and arcs and pitches):
+    if not (actions and actives and arcs and pitches):
         failures.append(fault("the line of action, its active part, the arc of action or the pitch is missing"))
         return
-    action, active = lines["LINE_OF_ACTION"][0], lines["ACTIVE_LINE"][0]
+    action, active = actions[0], actives[0]
     way = (action.end - action.start) / abs(action.end - action.start)
     for centre, radius in wanted.tangents:
         off = abs(abs(((centre - action.start) / way).imag) - radius)
-        if not off <= 2 * allowed + 1e-9 * radius:
-            failures.append(
-                fault(
-                    "the line of action misses the base circle of {radius:.6f} mm by {off:.3g} mm",
-                    radius=radius,
-                    off=off,
-                )
-            )
+        told = N_("the line of action misses the base circle of {radius:.6f} mm by {off:.3g} mm")
+        failures += unless(off <= 2 * allowed + 1e-9 * radius, told, radius=radius, off=off)
     for point in (active.start, active.end):
         off = abs(((point - action.start) / way).imag)
-        if not off <= 2 * allowed:
-            failures.append(fault("the active line leaves the line of action by {off:.3g} mm", off=off))
+        failures += unless(off <= 2 * allowed, "the active line leaves the line of action by {off:.3g} mm", off=off)
     base_pitch = 2 * math.pi * wanted.tangents[0][1] / wanted.teeth
     length, arc = abs(active.end - active.start), arcs[0].radius * arcs[0].sweep
     measured["contact_ratio_by_line"] = length / base_pitch
@@ -155,22 +134,12 @@ def _check_meshing(
         ("arc of action", arc, wanted.arc_length),
         ("working pitch", pitches[0], wanted.pitch_length),
     ):
-        if not abs(value - right) <= 2 * allowed:
-            failures.append(
-                fault(
-                    "the {name} measures {value:.6f} mm instead of {right:.6f} mm", name=name, value=value, right=right
-                )
-            )
+        told = N_("the {name} measures {value:.6f} mm instead of {right:.6f} mm")
+        failures += unless(abs(value - right) <= 2 * allowed, told, name=name, value=value, right=right)
     for name in ("contact_ratio_by_line", "contact_ratio_by_arc"):
-        if not abs(measured[name] - wanted.contact_ratio) <= max(1e-6, 4 * allowed / wanted.pitch_length):
-            failures.append(
-                fault(
-                    "{name} measures {found:.7f} instead of {wanted:.7f}",
-                    name=name,
-                    found=measured[name],
-                    wanted=wanted.contact_ratio,
-                )
-            )
+        found, told = measured[name], N_("{name} measures {found:.7f} instead of {wanted:.7f}")
+        near = abs(found - wanted.contact_ratio) <= max(1e-6, 4 * allowed / wanted.pitch_length)
+        failures += unless(near, told, name=name, found=found, wanted=wanted.contact_ratio)
 
 
 def _check_words(sheet: ReadSheet, canvas: Canvas, measured: dict[str, float], failures: list[str]) -> None:
@@ -178,14 +147,10 @@ def _check_words(sheet: ReadSheet, canvas: Canvas, measured: dict[str, float], f
     _check_places(sheet, canvas, failures)
     # a rounding less than each: neighbours may touch
     boxes = [_box(t).grown(-sheet.rounding) for t in sheet.texts]
-    for index, box in enumerate(boxes):
-        if not box.within(canvas.reach):
-            failures.append(fault("{text} leaves the frame", text=sheet.texts[index].text))
-        for other in range(index):
-            if box.overlaps(boxes[other]):
-                failures.append(
-                    fault("{text} stands over {other}", text=sheet.texts[index].text, other=sheet.texts[other].text)
-                )
+    for index, (box, one) in enumerate(zip(boxes, sheet.texts, strict=True)):
+        failures += unless(box.within(canvas.reach), "{text} leaves the frame", text=one.text)
+        over = (other.text for place, other in zip(boxes[:index], sheet.texts, strict=False) if box.overlaps(place))
+        failures += [fault("{text} stands over {other}", text=one.text, other=other) for other in over]
     measured["words"] = float(len(boxes))
 
 
@@ -193,20 +158,19 @@ def _check_places(sheet: ReadSheet, canvas: Canvas, failures: list[str]) -> None
     """Every word is at its place, as long, as high and turned as it should be."""
     runs = [run for text in canvas.texts for run in text.runs]
     missing = Counter(run.text for run in runs) - Counter(t.text for t in sheet.texts)
-    if missing:
-        failures.append(fault("words are missing: {missing}", missing=", ".join(sorted(missing))))
+    failures += unless(not missing, "words are missing: {missing}", missing=", ".join(sorted(missing)))
     for text in sorted({run.text for run in runs if run.text not in missing} | {t.text for t in sheet.texts}):
         wanted = _rows(_marks(run) for run in runs if run.text == text)
         found = _rows(_marks(t) for t in sheet.texts if t.text == text)
         # lengths are as exact as the widths of all letters together
         longest = max((run.width for run in runs if run.text == text), default=0.0)
         away, strange = _unmatched(wanted, found, sheet.rounding * max(1.0, longest / _PER_PLACE))
-        failures += [
-            fault("{text} does not stand at {at} mm as it should", text=text, at=_told(wanted[k, 0])) for k in away
-        ]
-        failures += [
-            fault("{text} stands at {at} mm where it should not", text=text, at=_told(found[k, 0])) for k in strange
-        ]
+        lost, more = (
+            N_("{text} does not stand at {at} mm as it should"),
+            N_("{text} stands at {at} mm where it should not"),
+        )
+        failures += [fault(lost, text=text, at=_told(wanted[k, 0])) for k in away]
+        failures += [fault(more, text=text, at=_told(found[k, 0])) for k in strange]
 
 
 def _marks(words: Run | ReadText) -> tuple[complex, complex, complex]:
@@ -225,24 +189,12 @@ def _check_strokes(sheet: ReadSheet, canvas: Canvas, allowed: float, failures: l
             return _follows(samples[n], curves[k], allowed)
 
         away, strange = _unmatched(wanted, found, allowed, follows)
-        failures += [
-            fault(
-                "{layer}: no line from {start} to {end} mm",
-                layer=layer,
-                start=_told(wanted[k, 0]),
-                end=_told(wanted[k, 2]),
-            )
-            for k in away
-        ]
-        failures += [
-            fault(
-                "{layer}: a line too many from {start} to {end} mm",
-                layer=layer,
-                start=_told(found[k, 0]),
-                end=_told(found[k, 2]),
-            )
-            for k in strange
-        ]
+        lost, more = (
+            N_("{layer}: no line from {start} to {end} mm"),
+            N_("{layer}: a line too many from {start} to {end} mm"),
+        )
+        for text, row in (*((lost, wanted[k]) for k in away), *((more, found[k]) for k in strange)):
+            failures.append(fault(text, layer=layer, start=_told(row[0]), end=_told(row[2])))
 
 
 def _sampled(curve: CadCurve) -> tuple[Complex, bool]:
@@ -318,5 +270,5 @@ def _box(text: ReadText) -> Box:
 def _check_frame(sheet: ReadSheet, frame: Box, failures: list[str]) -> None:
     """Nothing is drawn beyond the frame."""
     for layer, points in sheet.samples:
-        if len(points) != frame.grown(1e-9).holds(points):
-            failures.append(fault("{layer}: a curve leaves the frame", layer=layer))
+        held = len(points) == frame.grown(1e-9).holds(points)
+        failures += unless(held, "{layer}: a curve leaves the frame", layer=layer)

@@ -15,7 +15,7 @@ from geometry.base.errors import Nearest
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from parts.base.part import Part
-from parts.base.texts import N_, fault
+from parts.base.texts import N_, unless
 from parts.scene.load import ExportSpec
 from parts.scene.relative_path import Course, common_period, course_of
 from parts.scene.shapes import Shape
@@ -92,16 +92,16 @@ class Film(Record, FileJob):
 
     def late(self, seconds: float) -> list[str]:
         """What is wrong with a file that takes so many seconds for a loop."""
-        if not seconds or math.isclose(seconds, self.seconds, rel_tol=1e-6):
-            return []
-        return [fault("a loop takes {seconds:g} s instead of {wanted:g} s", seconds=seconds, wanted=self.seconds)]
+        right, told = (
+            math.isclose(seconds, self.seconds, rel_tol=1e-6),
+            N_("a loop takes {seconds:g} s instead of {wanted:g} s"),
+        )
+        return unless(right or not seconds, told, seconds=seconds, wanted=self.seconds)
 
     def off_place(self, worst: float, shape: float, declared: float) -> list[str]:
         """What is wrong with a file whose instances are so far off their places, and its shapes off theirs, mm."""
-        if worst + shape <= declared:
-            return []
         text = N_("an instance is {worst:.3g} mm off its place; {declared:.3g} mm is declared")
-        return [fault(text, worst=worst, declared=declared)]
+        return unless(worst + shape <= declared, text, worst=worst, declared=declared)
 
     def frames(self, instance: Instance, shares: Real) -> tuple[Real, Real]:
         """Exact turns (n, 3, 3) and places (n, 3), mm, of an instance's frame at shares of the loop."""

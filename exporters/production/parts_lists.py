@@ -10,7 +10,7 @@ from exporters.production.jobs import FileJob, Made
 from exporters.production.request import Request
 from exporters.verification.verdict import Verdict
 from geometry.base.record import Record
-from parts.base.texts import fault, in_context, words
+from parts.base.texts import N_, fault, in_context, unless, words
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.drawing.parts_list import SECTIONS, ListRow, list_sheets
@@ -64,12 +64,9 @@ class ListJob(Record, FileJob):
             return Verdict({}, (fault("is no CSV: {error}", error=error),))
         wanted = self.lines()
         wrong = [str(n) for n, (a, b) in enumerate(zip(read, wanted, strict=False), 1) if a != b]
-        failures = [fault("lines {wrong} differ", wrong=", ".join(wrong))] if wrong else []
-        failures += (
-            [fault("has {count} lines instead of {wanted}", count=len(read), wanted=len(wanted))]
-            if len(read) != len(wanted)
-            else []
-        )
+        failures = unless(not wrong, "lines {wrong} differ", wrong=", ".join(wrong))
+        told = N_("has {count} lines instead of {wanted}")
+        failures += unless(len(read) == len(wanted), told, count=len(read), wanted=len(wanted))
         return Verdict({"lines": float(len(read))}, tuple(failures))
 
     def declared(self, made: Made) -> tuple[float, str]:

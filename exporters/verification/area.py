@@ -1,15 +1,33 @@
-"""The area that a STEP file tells of its faces, against what is measured on them."""
+"""What a STEP file tells of its solid, volume, area and precision, against what is measured on it."""
 
 from __future__ import annotations
 
-from exporters.formats.read_solid import Model
+import numpy as np
+
+from exporters.formats.read_solid import ROUND, Model
+from exporters.formats.read_step import ReadSolid
 from exporters.formats.read_surfaces import area_of
+from exporters.verification.verdict import Verdict, precision_failures, volume_failures
 from parts.base.texts import fault
 
 # into how many pieces spans of splines are cut, one after the other, until their area is the one that is told
 _PIECES = 1, 2, 4, 8
 # what an area is good to, part of it, and how far a file's rounding moves the bounds of faces, mm
 _AREA, _LAST_DECIMAL = 1e-9, 1e-9
+
+
+def told_verdict(found: ReadSolid, exact: float, bound: float, precision: float) -> Verdict:
+    """What a file tells of its solid, and its cylinders; ``exact`` volume, ``bound`` by which it may differ, mm^3."""
+    model, said = found.model, found.said
+    volume = float(model.flux.sum())
+    failures = (
+        *volume_failures(volume, exact, bound, said.get("volume")),
+        *precision_failures(found.precision, precision),
+        *area_failures(model, said.get("surface area")),
+    )
+    cylinders = np.count_nonzero((model.kind == ROUND) & (model.sizes[:, 1] == 0))
+    measured = {"volume": volume, "volume_error": volume / exact - 1, "volume_bound": bound / exact}
+    return Verdict(measured | {"cylinders": float(cylinders)}, failures)
 
 
 def area_failures(model: Model, said: str | float | None) -> list[str]:

@@ -15,7 +15,7 @@ from exporters.verification.verdict import Verdict
 from geometry.base.record import Record
 from parts.base.part import Part
 from parts.base.readback import ReadBack, ReadError
-from parts.base.texts import fault, fault_of
+from parts.base.texts import N_, fault, fault_of, unless
 from parts.scene.formats import FileKind
 from parts.scene.standing import Instance
 
@@ -60,11 +60,8 @@ def verify_assembly(
 
 
 def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[ReadBack, Part], Verdict]) -> Verdict:
-    failures = (
-        []
-        if found.title == expected.title
-        else [fault('it is named "{title}" instead of "{wanted}"', title=found.title, wanted=expected.title)]
-    )
+    named = N_('it is named "{title}" instead of "{wanted}"')
+    failures = unless(found.title == expected.title, named, title=found.title, wanted=expected.title)
     failures += _name_failures(fault("part"), [p.name for p in found.prototypes], list(expected.parts))
     failures += _name_failures(fault("instance"), [o.name for o in found.occurrences], list(expected.occurrences))
     measured: dict[str, float] = {"parts": len(found.prototypes), "instances": len(found.occurrences)}
@@ -75,23 +72,14 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[R
             continue
         part, place, wanted = expected.occurrences[name]
         prototype = found.prototypes[index].name
-        if prototype != part:
-            failures.append(
-                fault("instance {name} is {prototype} instead of {part}", name=name, prototype=prototype, part=part)
-            )
-        if within not in (None, wanted):
-            failures.append(
-                fault(
-                    'instance {name} stands in "{within}" instead of "{wanted}"',
-                    name=name,
-                    within=within,
-                    wanted=wanted,
-                )
-            )
+        told = N_("instance {name} is {prototype} instead of {part}")
+        failures += unless(prototype == part, told, name=name, prototype=prototype, part=part)
+        told = N_('instance {name} stands in "{within}" instead of "{wanted}"')
+        failures += unless(within in (None, wanted), told, name=name, within=within, wanted=wanted)
         off = _displacement(placed, place, reach[part])
         worst_place = max(worst_place, off)
-        if not off <= _PLACE + _DIGITS * (reach[part] + float(np.abs(place[:, 3]).max())):
-            failures.append(fault("instance {name} stands {off:.6g} mm off its place", name=name, off=off))
+        least = _PLACE + _DIGITS * (reach[part] + float(np.abs(place[:, 3]).max()))
+        failures += unless(off <= least, "instance {name} stands {off:.6g} mm off its place", name=name, off=off)
     measured["max_displacement"] = worst_place
     volume = bound = 0.0
     for index, (name, shape, colour) in enumerate(found.prototypes):
@@ -101,15 +89,8 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[R
         share = verdict.measured.get("volume", 0.0) * sum(o.prototype == index for o in found.occurrences)
         volume, bound = volume + share, bound + share * verdict.measured.get("volume_bound", 0.0)
         failures += [fault_of(name, failure) for failure in verdict.failures]
-        if not same_shade(colour, expected.parts[name].colour):
-            failures.append(
-                fault(
-                    "{name} is coloured {colour} instead of {wanted}",
-                    name=name,
-                    colour=colour,
-                    wanted=expected.parts[name].colour,
-                )
-            )
+        shade, told = expected.parts[name].colour, N_("{name} is coloured {colour} instead of {wanted}")
+        failures += unless(same_shade(colour, shade), told, name=name, colour=colour, wanted=shade)
         deviation = verdict.measured.get("max_deviation", float("inf"))
         measured["max_deviation"] = max(measured.get("max_deviation", 0.0), deviation)
         # what the probes say, under the part's name
@@ -119,17 +100,14 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[R
 
 def _name_failures(what: str, found: list[str], expected: list[str]) -> list[str]:
     """Names that are missing, strange or there more than once."""
-    failures = [fault("{what} {name} is missing", what=what, name=name) for name in expected if name not in found]
-    failures += [
-        fault('{what} "{name}" does not belong there', what=what, name=name)
-        for name in dict.fromkeys(found)
-        if name not in expected
-    ]
-    return failures + [
-        fault("{what} {name} is there {times} times", what=what, name=name, times=found.count(name))
-        for name in expected
-        if found.count(name) > 1
-    ]
+    failures = []
+    for name in dict.fromkeys((*expected, *found)):
+        times = found.count(name)
+        failures += unless(times, "{what} {name} is missing", what=what, name=name)
+        failures += unless(name in expected, '{what} "{name}" does not belong there', what=what, name=name)
+        many = times > 1 and name in expected
+        failures += unless(not many, "{what} {name} is there {times} times", what=what, name=name, times=times)
+    return failures
 
 
 def _displacement(placed: NDArray[np.float64], place: NDArray[np.float64], reach: float) -> float:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from functools import reduce
-from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +24,7 @@ from geometry.plane.contour import edge_box, edge_points
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.readback import ReadError
-from parts.base.texts import fault, fault_of
+from parts.base.texts import N_, fault, fault_of, unless
 from parts.keys.boards import BoardSpec
 from parts.scene.formats import FileKind
 
@@ -126,15 +125,8 @@ def _verdict(
         for i in own:
             layer = region.layers()[owners[i][1]]
             wanted = "CUT_INNER" if layer == "CUT_OUTER" and inside[i] else layer
-            if loops[i].layer != wanted:
-                failures.append(
-                    fault(
-                        "{id}: a contour stands on {layer} instead of {wanted}",
-                        id=piece.id,
-                        layer=loops[i].layer,
-                        wanted=wanted,
-                    )
-                )
+            told = N_("{id}: a contour stands on {layer} instead of {wanted}")
+            failures += unless(loops[i].layer == wanted, told, id=piece.id, layer=loops[i].layer, wanted=wanted)
         # in the order of the part's own profiles, so that copies compare
         back = [x for _, x in sorted(zip((owners[i][1] for i in own), back, strict=True), key=lambda row: row[0])]
         if piece.part not in first:
@@ -143,10 +135,9 @@ def _verdict(
             worst = max(worst, said.measured.get("max_deviation", math.inf))
             shortest = min(shortest, said.measured.get("shortest_edge", math.inf))
             failures += [fault_of(piece.id, failure) for failure in said.failures]
-        elif (off := _unlike(back, first[piece.part])) > _ALIKE:
-            failures.append(
-                fault("{id} is off the other {part} by {off:.3g} mm", id=piece.id, part=piece.part, off=off)
-            )
+        else:
+            off, told = _unlike(back, first[piece.part]), N_("{id} is off the other {part} by {off:.3g} mm")
+            failures += unless(off <= _ALIKE, told, id=piece.id, part=piece.part, off=off)
     measured |= {"max_deviation": worst, "shortest_edge": shortest}
     failures += _room_failures(expected, material, measured)
     names = [p.moved(np.array(stroke)) for p in expected.pieces for stroke in expected.region(p).strokes]
@@ -230,8 +221,7 @@ def _inside(polygons: Sequence[BaseGeometry]) -> list[list[int]]:
 def _order_failures(loops: Sequence[Loop], inside: Sequence[Sequence[int]]) -> Iterable[str]:
     """Nothing is cut after what it lies in, nor after the layer that follows its own."""
     layers = [("ENGRAVE", "CUT_INNER", "CUT_OUTER").index(x.layer) for x in loops]
-    if any(b < a for a, b in pairwise(layers)):
-        yield fault("a contour comes after the layer that follows its own")
+    yield from unless(layers == sorted(layers), "a contour comes after the layer that follows its own")
     cut = [[k for k in others if loops[k].layer != "ENGRAVE"] for others in inside]
     if any(other < index for index, others in enumerate(cut) for other in others):
         yield fault("a contour is cut after the one that it lies in")
@@ -266,14 +256,9 @@ def _room_failures(
     edges = np.concatenate([bounds[:, :2], np.array([board.width, board.height]) - bounds[:, 2:]], axis=1)
     # arcs may stand out of their chords
     measured["least_margin"] = float(edges.min()) - _SAG
-    if measured["least_margin"] < board.margin - _KEPT:
-        piece = expected.pieces[int(edges.min(axis=1).argmin())]
-        yield fault(
-            "{id} lies {found:.6g} mm from the edge of the board instead of {margin:g}",
-            id=piece.id,
-            found=measured["least_margin"],
-            margin=board.margin,
-        )
+    margin, piece = measured["least_margin"], expected.pieces[int(edges.min(axis=1).argmin())]
+    told = N_("{id} lies {found:.6g} mm from the edge of the board instead of {margin:g}")
+    yield from unless(margin >= board.margin - _KEPT, told, id=piece.id, found=margin, margin=board.margin)
     tree, every = shapely.STRtree(list(material)), np.array(material, dtype=object)
     for a, b in zip(*tree.query(every, predicate="intersects").tolist(), strict=True):
         if a < b:
@@ -284,12 +269,10 @@ def _room_failures(
         return
     gaps = [_distance(material[a], material[b], board.gap + 1.0) - 2 * _SAG for a, b in pairs]
     nearest = int(np.argmin(gaps))
-    measured["least_gap"] = gaps[nearest]
-    if gaps[nearest] < board.gap - _KEPT:
-        a, b = (expected.pieces[k].id for k in pairs[nearest])
-        yield fault(
-            "{a} and {b} lie {nearest:.6g} mm apart instead of {gap:g}", a=a, b=b, nearest=gaps[nearest], gap=board.gap
-        )
+    measured["least_gap"] = gap = gaps[nearest]
+    a, b = (expected.pieces[k].id for k in pairs[nearest])
+    told = N_("{a} and {b} lie {nearest:.6g} mm apart instead of {gap:g}")
+    yield from unless(gap >= board.gap - _KEPT, told, a=a, b=b, nearest=gap, gap=board.gap)
 
 
 def _distance(one: BaseGeometry, two: BaseGeometry, reach: float) -> float:

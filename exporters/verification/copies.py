@@ -14,7 +14,7 @@ from exporters.formats.read_solid import GAP, Model
 from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.body import Body
-from parts.base.texts import fault
+from parts.base.texts import N_, unless
 
 # nets that are no copies of each other differ by more in one of so many measures, mm
 _APART, _MEASURES = 1e-4, 3
@@ -26,20 +26,14 @@ def copy_failures(model: Model, body: Body) -> list[str]:
     counts = {p.count for p, screw in walls if screw or not all(isinstance(s.curve, Line | Arc) for s in p.period)}
     if len(counts) != 1 or (count := counts.pop()) == 1:
         return []
-    failures = []
+    failures: list[str] = []
     for poles, who in _nets(model):
         own, places = _turned_home(poles, count)
         for members in _alike(own, places):
             # others are edges of chamfers on bores
             off = np.abs(own[members] - np.median(own[members], axis=0)).max(axis=1) * (len(members) % count == 0)
-            if off.max() > GAP:
-                failures.append(
-                    fault(
-                        "#{entity} of the STEP file is {off:.3g} mm off its copies",
-                        entity=who[members[off.argmax()]],
-                        off=off.max(),
-                    )
-                )
+            worst, told = off.max(), N_("#{entity} of the STEP file is {off:.3g} mm off its copies")
+            failures += unless(not worst > GAP, told, entity=who[members[off.argmax()]], off=worst)
     return failures
 
 

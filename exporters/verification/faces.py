@@ -14,18 +14,12 @@ from numpy.typing import NDArray
 from exporters.formats.read_solid import EXTRUSION, ROUND, SPLINE
 from exporters.formats.read_step import ReadSolid
 from exporters.formats.readback import ReadMesh
-from exporters.verification.area import area_failures
+from exporters.verification.area import told_verdict
 from exporters.verification.samples import edge_points, inner_points
 from exporters.verification.topology import doubled_normals, topology_failures
-from exporters.verification.verdict import (
-    Verdict,
-    deviation_failures,
-    precision_failures,
-    volume_bound,
-    volume_failures,
-)
+from exporters.verification.verdict import Verdict, deviation_failures, volume_bound
 from geometry.curves.curve import Real
-from parts.base.texts import fault
+from parts.base.texts import N_, unless
 
 if TYPE_CHECKING:
     from geometry.solids.measured import Faced, Measured
@@ -56,10 +50,12 @@ def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: f
     exact = body.moments.volume
     reach = body.reach()
     failures += deviation_failures(deviation, declared, tolerance, reach)
-    if lone:
-        failures.append(fault("{count} faces of the part have no triangle", count=lone))
-    if not abs(volume - exact) <= declared * float(sizes.sum()) / 2 + 1e-9 * exact:
-        failures.append(fault("volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3", volume=volume, exact=exact))
+    failures += unless(not lone, "{count} faces of the part have no triangle", count=lone)
+    bound, told = (
+        declared * float(sizes.sum()) / 2 + 1e-9 * exact,
+        N_("volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3"),
+    )
+    failures += unless(abs(volume - exact) <= bound, told, volume=volume, exact=exact)
     edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
     measured = count | {
         "volume": volume,
@@ -177,25 +173,13 @@ def verify_faced_solid(found: ReadSolid, body: Faced, declared: float, tolerance
             starts = np.cumsum([0, *(len(points[face]) for face in mine[:-1])])
             away[index, mine] = np.maximum.reduceat(surface.distance(np.concatenate([points[f] for f in mine])), starts)
     used, worst = set(away.argmin(axis=0).tolist()), float(away.min(axis=0).max())
-    failures = [
-        fault("a {what} of the part is missing", what=surface.what)
-        for i, surface in enumerate(surfaces)
-        if i not in used
-    ]
-    failures += deviation_failures(worst, declared, tolerance, body.reach())
-    volume, exact = float(model.flux.sum()), body.moments.volume
+    failures = deviation_failures(worst, declared, tolerance, body.reach())
+    for index, surface in enumerate(surfaces):
+        failures += unless(index in used, "a {what} of the part is missing", what=surface.what)
     walls = float(model.area[np.isin(model.kind, (EXTRUSION, SPLINE))].sum())
     # what a cone holds goes by heights, which a flat one makes the most of
     steep = np.where(model.kind == ROUND, np.maximum(1.0, model.sizes[:, 1]), 1.0)
+    exact = body.moments.volume
     bound = volume_bound(exact, float(model.area @ steep), walls + body.slack, declared)
-    failures += volume_failures(volume, exact, bound, found.said.get("volume"))
-    failures += precision_failures(found.precision, body.precision)
-    failures += area_failures(model, found.said.get("surface area"))
-    measured = {
-        "volume": volume,
-        "volume_error": volume / exact - 1,
-        "volume_bound": bound / exact,
-        "cylinders": float(np.count_nonzero((model.kind == ROUND) & (model.sizes[:, 1] == 0))),
-        "max_deviation": worst,
-    }
-    return Verdict(measured, tuple(dict.fromkeys(failures)))
+    told = told_verdict(found, exact, bound, body.precision)
+    return Verdict(told.measured | {"max_deviation": worst}, tuple(dict.fromkeys((*failures, *told.failures))))

@@ -17,7 +17,7 @@ from geometry.base.findings import Finding
 from geometry.base.record import replace
 from parts.base.part import Part
 from parts.base.readback import Probe, ReadBack, ReadError
-from parts.base.texts import N_, fault, fault_of
+from parts.base.texts import N_, fault_of, unless
 from parts.scene.formats import FileKind, Form
 
 if TYPE_CHECKING:
@@ -95,9 +95,9 @@ def held(
 def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
     """What is wrong with what a STEP file says of a part, or a 3MF of its title; volume and area are held elsewhere."""
     if kind.form is not Form.FACES:
-        if found.names() is None or (title := cast("ReadMesh", found).title) == part.title:
-            return []
-        return [fault("says of its title: {title} instead of {wanted}", title=title, wanted=part.title)]
+        title = part.title if found.names() is None else cast("ReadMesh", found).title
+        told = N_("says of its title: {title} instead of {wanted}")
+        return unless(title == part.title, told, title=title, wanted=part.title)
     said = cast("ReadSolid", found).said
     expected = {
         "title": None if part.product_name == part.id else part.product_name,
@@ -105,14 +105,12 @@ def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
         "material name": part.material,
         "density": part.density,
     }
-    wrong = [
-        fault("says of its {key}: {said} instead of {wanted}", key=k, said=said.get(k), wanted=v)
-        for k, v in expected.items()
-        if said.get(k) != v
-    ]
-    return wrong + [
-        fault("does not say its {what}", what=what) for what in ("volume", "surface area") if what not in said
-    ]
+    wrong, told = list[str](), N_("says of its {key}: {said} instead of {wanted}")
+    for key, wanted in expected.items():
+        wrong += unless(said.get(key) == wanted, told, key=key, said=said.get(key), wanted=wanted)
+    for what in ("volume", "surface area"):
+        wrong += unless(what in said, "does not say its {what}", what=what)
+    return wrong
 
 
 def signed(file: Path, kind: FileKind, author: str, organisation: str, verdict: Verdict) -> Verdict:
@@ -125,13 +123,10 @@ def signed(file: Path, kind: FileKind, author: str, organisation: str, verdict: 
         found = read_signature(file)
     except (ReadError, OSError) as error:
         return replace(verdict, failures=(str(error),))
-    pairs = zip(("author", "organisation"), found, (author, organisation), strict=True)
-    wrong = tuple(
-        fault('its {what} is "{own}" instead of "{told}"', what=what, own=own, told=told)
-        for what, own, told in pairs
-        if own != told
-    )
-    return replace(verdict, failures=wrong)
+    wrong = list[str]()
+    for what, own, told in zip(("author", "organisation"), found, (author, organisation), strict=True):
+        wrong += unless(own == told, 'its {what} is "{own}" instead of "{told}"', what=what, own=own, told=told)
+    return replace(verdict, failures=tuple(wrong))
 
 
 def same_shade(found: str | None, expected: str | None) -> bool:
@@ -202,13 +197,10 @@ _HELD: dict[Form, Callable[..., Verdict]] = {
 
 def probed(found: ReadBack, part: Part, offset: float, declared: float, verdict: Verdict) -> Verdict:
     """Add to a verdict what the probes of a part say. Files that are broken already are not put to them."""
-    if verdict.failures:
-        return verdict
-    probes = part.probes
-    if not probes:
+    if verdict.failures or not part.probes:
         return verdict
     trimmed = bool(part.section(offset).findings)
-    return with_probes(found, (p for p in probes if not (trimmed and p.needs_whole)), offset, declared, verdict)
+    return with_probes(found, (p for p in part.probes if not (trimmed and p.needs_whole)), offset, declared, verdict)
 
 
 def with_probes(found: ReadBack, probes: Iterable[Probe], offset: float, declared: float, verdict: Verdict) -> Verdict:

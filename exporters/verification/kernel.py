@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from exporters.verification.verdict import Verdict
 from geometry.base.record import replace
 from geometry.solids.mass import body_moments
-from parts.base.texts import fault
+from parts.base.texts import N_, unless
 from parts.solids.kernel import solids_of, volume_of
 
 if TYPE_CHECKING:
@@ -28,21 +28,17 @@ def judged_by_kernel(file: Path, bodies: Sequence[Body | Faced], verdict: Verdic
     from OCP.ShapeAnalysis import ShapeAnalysis_ShapeTolerance
 
     solids = solids_of(file.read_text(encoding="ascii"))
-    failures = (
-        []
-        if len(solids) == len(bodies)
-        else [fault("the kernel finds {count} solids instead of {wanted}", count=len(solids), wanted=len(bodies))]
-    )
-    if not all(BRepCheck_Analyzer(solid).IsValid() for solid in solids):
-        failures.append(fault("the kernel calls a solid invalid"))
+    count, wanted = len(solids), len(bodies)
+    told = N_("the kernel finds {count} solids instead of {wanted}")
+    failures = unless(count == wanted, told, count=count, wanted=wanted)
+    valid = all(BRepCheck_Analyzer(solid).IsValid() for solid in solids)
+    failures += unless(valid, "the kernel calls a solid invalid")
     loose = max((ShapeAnalysis_ShapeTolerance().Tolerance(solid, 1) for solid in solids), default=0.0)
-    if not loose <= _TOLERANCE:
-        failures.append(fault("the kernel joins what stands {loose:.3g} mm apart", loose=loose))
+    failures += unless(loose <= _TOLERANCE, "the kernel joins what stands {loose:.3g} mm apart", loose=loose)
     exact = sum(b.moments.volume if b.is_faced else body_moments(b).volume for b in bodies)
     found = volume_of(solids, exact, _VOLUME)
-    if not abs(found / exact - 1) <= _VOLUME + verdict.measured["volume_bound"]:
-        failures.append(
-            fault("the kernel finds {found:.12g} mm^3 instead of {exact:.12g} mm^3", found=found, exact=exact)
-        )
+    near = abs(found / exact - 1) <= _VOLUME + verdict.measured["volume_bound"]
+    told = N_("the kernel finds {found:.12g} mm^3 instead of {exact:.12g} mm^3")
+    failures += unless(near, told, found=found, exact=exact)
     measured = verdict.measured | {"kernel_volume_error": found / exact - 1, "kernel_tolerance": loose}
     return replace(verdict, measured=measured, failures=(*verdict.failures, *failures))

@@ -13,7 +13,7 @@ from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.plane.measure import profile_area, profile_length
 from geometry.solids.body import Body, Wall
 from geometry.solids.mass import body_moments
-from parts.base.texts import fault
+from parts.base.texts import N_, fault, unless
 
 # heights are float32 numbers, rounded twice where a file holds them as text
 _LEVEL = 2.0**-23
@@ -70,15 +70,13 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
         worst = max(worst, verdict.measured["max_deviation"])
         edges.append(verdict.measured["shortest_edge"])
         border += profile_length(body.loop_profile(wall.lower))
-    if np.any(upright):
-        failures.append(fault("a wall does not end at the faces of the part"))
+    failures += unless(not np.any(upright), "a wall does not end at the faces of the part")
     exact = body_moments(body).volume
-    if abs(measured["volume"] - exact) > border * declared * (levels[-1] - levels[0]):
-        failures.append(
-            fault("volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3", volume=measured["volume"], exact=exact)
-        )
+    volume, told = measured["volume"], N_("volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3")
+    bound = border * declared * (levels[-1] - levels[0])
+    failures += unless(not abs(volume - exact) > bound, told, volume=volume, exact=exact)
     measured |= {
-        "volume_error": measured["volume"] / exact - 1,
+        "volume_error": volume / exact - 1,
         "max_deviation": worst,
         "shortest_edge": min(edges),
         "least_triangle_area": float(np.linalg.norm(doubled_normals(corners), axis=1).min() / 2),
@@ -106,10 +104,8 @@ def _walls_by_height(body: Body) -> dict[tuple[float, float], list[Wall]]:
     """The walls between each two levels, without screw surfaces."""
     found: dict[tuple[float, float], list[Wall]] = {}
     for wall in body.walls:
-        if body.is_screw(wall):
-            continue
-        low, high = body.height(wall)
-        found.setdefault((low, high), []).append(wall)
+        if not body.is_screw(wall):
+            found.setdefault(body.height(wall), []).append(wall)
     return found
 
 
@@ -121,25 +117,18 @@ def _cap_failures(body: Body, corners: NDArray[np.float64], declared: float) -> 
         profiles = [body.loop_profile(i) for i in (cap.outer, *cap.holes)]
         outer, *holes = (abs(profile_area(p)) for p in profiles)
         slack = declared * sum(profile_length(p) for p in profiles)
-        key = (body.loops[cap.outer].z, cap.up)
-        total = expected.setdefault(key, [0.0, 0.0])
+        total = expected.setdefault((body.loops[cap.outer].z, cap.up), [0.0, 0.0])
         total[0] += outer - sum(holes)
         total[1] += slack
-    failures = []
+    failures: list[str] = []
+    told = N_("the face at z = {z:g} has {found:.9g} mm^2 instead of {area:.9g} mm^2")
     for (z, up), (area, slack) in expected.items():
         mine = (heights == z) & ((doubled > 0) == up)
         found = float(np.abs(doubled[mine]).sum() / 2)
-        if abs(found - area) > slack + 1e-12 * area:
-            failures.append(
-                fault(
-                    "the face at z = {z:g} has {found:.9g} mm^2 instead of {area:.9g} mm^2", z=z, found=found, area=area
-                )
-            )
+        failures += unless(not abs(found - area) > slack + 1e-12 * area, told, z=z, found=found, area=area)
     known = np.array([[z, up] for z, up in expected])
     strange = ~np.any((heights[:, None] == known[:, 0]) & ((doubled > 0)[:, None] == known[:, 1]), axis=1)
-    if np.any(strange):
-        failures.append(fault("triangles of a face overlap"))
-    return failures
+    return failures + unless(not np.any(strange), "triangles of a face overlap")
 
 
 def _verify_walls(

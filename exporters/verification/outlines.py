@@ -17,7 +17,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Contour, edge_points, signed_area
 from geometry.plane.measure import distance_to_profile, profile_area, profile_disc
 from geometry.plane.profile import Profile
-from parts.base.texts import fault
+from parts.base.texts import N_, fault, unless
 
 # how many points of a file are measured: all edges get at least 3 between their ends
 _POINTS = 10_000
@@ -43,26 +43,30 @@ def verify_loops(
     known_simple: bool = False,
 ) -> Verdict:
     """Closed loops against exact profiles; ``layers``: where each profile's loop must stand (empty: anywhere)."""
-    if len(loops) != len(profiles):
-        return Verdict(
-            {"contours": len(loops)},
-            (fault("{count} contours instead of {wanted}", count=len(loops), wanted=len(profiles)),),
-        )
+    count = {"contours": float(len(loops))}
+    if failures := _count_failures(loops, profiles):
+        return Verdict(count, tuple(failures))
     order = [loop.layer.upper() for loop in loops if loop.layer.upper() in _ORDER]
-    later = [b for a, b in pairwise(order) if _ORDER.index(b) < _ORDER.index(a)]
-    failures = [fault("a contour on {later} comes after one that lets it fall", later=later[0])] if later else []
+    later = next((b for a, b in pairwise(order) if _ORDER.index(b) < _ORDER.index(a)), "")
+    failures = unless(not later, "a contour on {later} comes after one that lets it fall", later=later)
     worst, shortest = 0.0, float("inf")
     unmatched = list(loops)
     for profile, layer in zip(profiles, layers, strict=True):
         loop = unmatched.pop(_nearest([x.vertices for x in unmatched], profile))
-        if loop.layer and loop.layer.upper() != layer:
-            failures.append(fault("a contour stands on {layer} instead of {wanted}", layer=loop.layer, wanted=layer))
+        right, told = loop.layer.upper() in ("", layer), N_("a contour stands on {layer} instead of {wanted}")
+        failures += unless(right, told, layer=loop.layer, wanted=layer)
         deviation, found = _check_loop(loop, profile, declared, known_simple)
         worst = max(worst, deviation)
         shortest = min(shortest, float(np.abs(np.roll(loop.vertices, -1) - loop.vertices).min()))
         failures += found
     failures += deviation_failures(worst, declared, tolerance, max(p.reach() for p in profiles))
-    return Verdict({"contours": len(loops), "max_deviation": worst, "shortest_edge": shortest}, tuple(failures))
+    return Verdict(count | {"max_deviation": worst, "shortest_edge": shortest}, tuple(failures))
+
+
+def _count_failures(loops: Sequence[object], profiles: Sequence[Profile]) -> list[str]:
+    """There are as many contours as there should be."""
+    count, wanted = len(loops), len(profiles)
+    return unless(count == wanted, "{count} contours instead of {wanted}", count=count, wanted=wanted)
 
 
 def stroke_failures(found: Sequence[Complex], strokes: Sequence[Complex], declared: float) -> tuple[str, ...]:
@@ -86,24 +90,20 @@ def verify_samples(
 
     The samples' polygon knows it to a part in 500.
     """
-    if len(loops) != len(profiles):
-        return Verdict(
-            {"contours": float(len(loops))},
-            (fault("{count} contours instead of {wanted}", count=len(loops), wanted=len(profiles)),),
-        )
-    failures: list[str] = []
+    count = {"contours": float(len(loops))}
+    if failures := _count_failures(loops, profiles):
+        return Verdict(count, tuple(failures))
     worst, left = 0.0, list(loops)
     found = list(areas if areas is not None else (signed_area(x, np.zeros(len(x))) for x in loops))
     for profile in profiles:
         index = _nearest(left, profile)
         loop, area, exact = left.pop(index), abs(found.pop(index)), abs(profile_area(profile))
         worst = max(worst, _samples_deviation(loop, profile, declared))
-        if not is_simple(loop):
-            failures.append(fault("a contour crosses itself"))
-        if abs(area / exact - 1) > _AREA:
-            failures.append(fault("encloses {area:.6g} mm^2 instead of {exact:.6g} mm^2", area=area, exact=exact))
+        failures += unless(is_simple(loop), "a contour crosses itself")
+        told = N_("encloses {area:.6g} mm^2 instead of {exact:.6g} mm^2")
+        failures += unless(not abs(area / exact - 1) > _AREA, told, area=area, exact=exact)
     failures += deviation_failures(worst, declared, tolerance, max(p.reach() for p in profiles))
-    return Verdict({"contours": float(len(loops)), "max_deviation": worst}, tuple(failures))
+    return Verdict(count | {"max_deviation": worst}, tuple(failures))
 
 
 def _samples_deviation(loop: Complex, profile: Profile, declared: float) -> float:
@@ -144,20 +144,18 @@ def _check_loop(loop: Loop, profile: Profile, declared: float, known_simple: boo
     starts, ends = loop.vertices, np.roll(loop.vertices, -1)
     if len(starts) < 2 or not (np.all(np.isfinite(starts)) and np.all(np.isfinite(loop.bulges))):
         return float("inf"), ["a contour holds no shape or a coordinate that is not a number"]
-    failures = []
-    if np.any(starts == ends):
-        failures.append(fault("a contour repeats a vertex"))
-    exact, found = profile_area(profile), signed_area(starts, loop.bulges)
+    failures = unless(not np.any(starts == ends), "a contour repeats a vertex")
+    exact, found = abs(profile_area(profile)), loop.size
     deviation, length = _deviation(loop, profile, declared)
-    if abs(abs(found) - abs(exact)) > max(deviation, declared) * length + 1e-12 * abs(exact):
-        failures.append(
-            fault("encloses {found:.9g} mm^2 instead of {exact:.9g} mm^2", found=abs(found), exact=abs(exact))
-        )
+    bound, told = (
+        max(deviation, declared) * length + 1e-12 * exact,
+        N_("encloses {found:.9g} mm^2 instead of {exact:.9g} mm^2"),
+    )
+    failures += unless(not abs(found - exact) > bound, told, found=found, exact=exact)
     shares = _shares(len(starts))
     few = shares[:: max(1, len(shares) // 4)]
-    if not known_simple and not is_simple(edge_points(starts, ends, loop.bulges, few).ravel()):
-        failures.append(fault("a contour crosses itself"))
-    return deviation, failures
+    simple = known_simple or is_simple(edge_points(starts, ends, loop.bulges, few).ravel())
+    return deviation, failures + unless(simple, "a contour crosses itself")
 
 
 def _deviation(loop: Loop, profile: Profile, declared: float) -> tuple[float, float]:

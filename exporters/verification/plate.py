@@ -10,7 +10,7 @@ from exporters.formats.reading import ASSEMBLY_READERS
 from exporters.verification.assembly import ExpectedAssembly, verify_assembly
 from exporters.verification.verdict import Verdict
 from geometry.base.record import Record, replace
-from parts.base.texts import fault
+from parts.base.texts import N_, unless
 from parts.keys.boards import BedSpec
 from parts.scene.formats import FileKind
 
@@ -33,7 +33,7 @@ def _on_bed(file: Path, kind: FileKind, bed: BedSpec, declared: float, verdict: 
     import shapely
 
     found = ASSEMBLY_READERS[kind.name](file)
-    hulls, failures = [], []
+    hulls, failures = [], list[str]()
     reach = np.array([bed.width, bed.depth, bed.height])
     edge = np.array([bed.margin, bed.margin, 0.0])
     least, most = np.full(3, np.inf), np.full(3, -np.inf)
@@ -42,8 +42,8 @@ def _on_bed(file: Path, kind: FileKind, bed: BedSpec, declared: float, verdict: 
         corners = found.prototypes[index].part.faces().reshape(-1, 3) @ place[:, :3].T + place[:, 3]
         low, high = corners.min(axis=0), corners.max(axis=0)
         least, most = np.minimum(least, low), np.maximum(most, high)
-        if np.any(low < edge - declared) or np.any(high > reach - edge + declared):
-            failures.append(fault("{name} does not lie on the bed", name=name))
+        beside = np.any(low < edge - declared) or np.any(high > reach - edge + declared)
+        failures += unless(not beside, "{name} does not lie on the bed", name=name)
         hulls.append(shapely.MultiPoint(np.unique(corners[:, :2], axis=0)).convex_hull)
     measured = {"least_margin": float(min(least[:2].min(), (reach - most)[:2].min())), "height": float(most[2])}
     one, two = shapely.STRtree(hulls).query(np.array(hulls, dtype=object), predicate="dwithin", distance=bed.gap + 1.0)
@@ -51,15 +51,7 @@ def _on_bed(file: Path, kind: FileKind, bed: BedSpec, declared: float, verdict: 
         if a < b:
             gap = float(shapely.distance(hulls[a], hulls[b]))
             measured["least_gap"] = min(gap, measured.get("least_gap", gap))
-            if gap < bed.gap - declared:
-                names = [found.occurrences[k].name for k in (a, b)]
-                failures.append(
-                    fault(
-                        "{names} and {other} stand {gap:.6g} mm apart instead of {wanted:g}",
-                        names=names[0],
-                        other=names[1],
-                        gap=gap,
-                        wanted=bed.gap,
-                    )
-                )
+            names, other = (found.occurrences[k].name for k in (a, b))
+            told = N_("{names} and {other} stand {gap:.6g} mm apart instead of {wanted:g}")
+            failures += unless(gap >= bed.gap - declared, told, names=names, other=other, gap=gap, wanted=bed.gap)
     return replace(verdict, measured=verdict.measured | measured, failures=tuple(failures))

@@ -6,27 +6,21 @@ import numpy as np
 
 from exporters.formats.read_curves import Flags, lobatto, spans_of
 from exporters.formats.read_part21 import Index, Real
-from exporters.formats.read_solid import LEVEL, PLANE, ROUND, SQUARE, Model
+from exporters.formats.read_solid import LEVEL, PLANE, SQUARE, Model
 from exporters.formats.read_step import ReadSolid
-from exporters.verification.area import area_failures
+from exporters.verification.area import told_verdict
 from exporters.verification.chamfers import chamfer_deviation
 from exporters.verification.copies import copy_failures
 from exporters.verification.outlines import verify_samples
 from exporters.verification.samples import edge_points, foot_points, inner_points
-from exporters.verification.verdict import (
-    Verdict,
-    deviation_failures,
-    precision_failures,
-    volume_bound,
-    volume_failures,
-)
+from exporters.verification.verdict import Verdict, deviation_failures, volume_bound
 from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_nearest, distance_to_profile
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body, Wall
 from geometry.solids.mass import body_moments, wall_area
-from parts.base.texts import fault
+from parts.base.texts import fault, unless
 
 # heights of walls are told apart by so many digits
 _DIGITS = 6
@@ -35,15 +29,11 @@ _DIGITS = 6
 def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float) -> Verdict:
     """Hold a re-read solid against its exact body: caps, walls, cylinders, volume."""
     model = found.model
-    exact, volume = body_moments(body).volume, float(model.flux.sum())
+    exact = body_moments(body).volume
     bound = volume_bound(exact, float(model.area.sum()), wall_area(body), declared)
     reach = max(p.reach() for p in body.profiles)
-    cylinders = int(np.count_nonzero((model.kind == ROUND) & (model.sizes[:, 1] == 0)))
-    failures = _cylinder_failures(cylinders, body)
-    failures += volume_failures(volume, exact, bound, found.said.get("volume"))
-    failures += precision_failures(found.precision, body.precision)
-    failures += area_failures(model, found.said.get("surface area"))
-    failures += copy_failures(model, body)
+    told = told_verdict(found, exact, bound, body.precision)
+    failures = [*_cylinder_failures(int(told.measured["cylinders"]), body), *told.failures, *copy_failures(model, body)]
     flat = (model.kind == PLANE) & (np.abs(model.frames.axes[:, 2, 2]) > 1 - SQUARE)
     sheared = body.has_screws() and not body.twisted_profiles()
     upright = model.is_upright & ~flat & (not sheared)
@@ -61,17 +51,9 @@ def verify_solid(found: ReadSolid, body: Body, declared: float, tolerance: float
         points = np.concatenate([edge_points(model, slanted), inner_points(model, slanted)])
         of = screw_deviation if body.has_screws() else chamfer_deviation
         worst = max(worst, of(points, body, declared))
-    elif body.has_screws():
-        failures.append(fault("the solid has no screw surface"))
+    failures += unless(slanted.size or not body.has_screws(), "the solid has no screw surface")
     failures += deviation_failures(worst, declared, tolerance, reach)
-    measured = {
-        "volume": volume,
-        "volume_error": volume / exact - 1,
-        "volume_bound": bound / exact,
-        "cylinders": float(cylinders),
-        "contours": float(contours),
-        "max_deviation": worst,
-    }
+    measured = told.measured | {"contours": float(contours), "max_deviation": worst}
     return Verdict(measured, tuple(dict.fromkeys(failures)))
 
 
@@ -168,9 +150,8 @@ def _cylinder_failures(cylinders: int, body: Body) -> list[str]:
     upright = sum(_cylinders(body.loop_profile(w.lower)) for w in walls if not body.is_screw(w))
     turned = sum(_cylinders(body.loop_profile(w.lower), turned=True) for w in walls if body.is_screw(w))
     more = cylinders - upright
-    if more == turned or (turned and more > 0 and more % turned == 0):
-        return []
-    return [fault("{count} cylinders instead of {wanted}", count=cylinders, wanted=upright + turned)]
+    right = more == turned or (turned and more > 0 and more % turned == 0)
+    return unless(right, "{count} cylinders instead of {wanted}", count=cylinders, wanted=upright + turned)
 
 
 def _cylinders(profile: Profile, *, turned: bool = False) -> int:

@@ -13,7 +13,7 @@ from exporters.verification.topology import Triangles, chains
 from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.plane.measure import distance_to_profile, profile_area, profile_length
 from geometry.solids.body import Body, Wall
-from parts.base.texts import fault
+from parts.base.texts import N_, fault, unless
 
 # places of a triangle that are measured beside its corners: the middles of its edges, its centre, and between them
 _PLACES = np.array([(1, 1, 0), (0, 1, 1), (1, 0, 1), (1, 1, 1), (4, 1, 1), (1, 4, 1), (1, 1, 4)], dtype=float)
@@ -34,9 +34,8 @@ def verify_twisted(
     profile, z = body.loop_profile(wall.lower), mesh.vertices[:, 2]
     levels, index = np.unique(z[triangles], return_inverse=True)
     index = index.reshape(triangles.shape)
-    failures = []
-    if np.any(np.ptp(index, axis=1) != 1) or (levels[0], levels[-1]) != body.height(wall):
-        failures.append(fault("a screw surface does not run from slice to slice between its ends"))
+    runs = not np.any(np.ptp(index, axis=1) != 1) and (levels[0], levels[-1]) == body.height(wall)
+    failures = unless(runs, "a screw surface does not run from slice to slice between its ends")
     area, length = abs(profile_area(profile)), profile_length(profile)
     order = np.argsort(index.min(axis=1), kind="stable")
     starts = np.searchsorted(index.min(axis=1)[order], np.arange(len(levels)))
@@ -47,19 +46,11 @@ def verify_twisted(
         loops = chains(mine, z == level, len(z))
         outline = body.moved_back(wall, mesh.vertices[loops[0]])
         found = 0.5 * abs(float(np.sum((np.conj(outline) * np.roll(outline, -1)).imag)))
-        if len(loops) > 1:
-            failures.append(
-                fault("the slice at z = {level:.6g} mm has {count} outlines", level=level, count=len(loops))
-            )
-        elif abs(found - area) > declared * length + 1e-12 * area:
-            failures.append(
-                fault(
-                    "the slice at z = {level:.6g} mm encloses {found:.9g} mm^2 instead of {area:.9g} mm^2",
-                    level=level,
-                    found=found,
-                    area=area,
-                )
-            )
+        told = N_("the slice at z = {level:.6g} mm has {count} outlines")
+        failures += unless(len(loops) == 1, told, level=level, count=len(loops))
+        near = len(loops) > 1 or not abs(found - area) > declared * length + 1e-12 * area
+        told = N_("the slice at z = {level:.6g} mm encloses {found:.9g} mm^2 instead of {area:.9g} mm^2")
+        failures += unless(near, told, level=level, found=found, area=area)
     corners = mesh.vertices[triangles]
     places = _PLACES if len(triangles) < _MANY else _PLACES[3:4]
     shares = places / places.sum(axis=1, keepdims=True)

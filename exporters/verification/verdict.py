@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from geometry.base.findings import Finding
 from geometry.base.record import Record
-from parts.base.texts import fault
+from parts.base.texts import N_, unless
 
 # rounding of the measurement itself, as a part of the section's size
 _ROUNDING = 1e-13
@@ -30,31 +30,16 @@ def judges(measured: Mapping[str, float]) -> list[str]:
 def deviation_failures(worst: float, declared: float, tolerance: float, reach: float) -> list[str]:
     """What is wrong with a deviation, mm: more than the tolerance, or more than was declared."""
     allowed = _ROUNDING * reach
-    failures = []
-    if not worst <= tolerance + allowed:
-        failures.append(
-            fault(
-                "deviates by {worst:.6g} mm from the exact outline; the tolerance is {tolerance:g} mm",
-                worst=worst,
-                tolerance=tolerance,
-            )
-        )
-    elif not worst <= declared + allowed:
-        failures.append(
-            fault(
-                "deviates by {worst:.6g} mm, more than the declared {declared:.6g} mm", worst=worst, declared=declared
-            )
-        )
-    return failures
+    told = N_("deviates by {worst:.6g} mm from the exact outline; the tolerance is {tolerance:g} mm")
+    beyond = unless(worst <= tolerance + allowed, told, worst=worst, tolerance=tolerance)
+    told = N_("deviates by {worst:.6g} mm, more than the declared {declared:.6g} mm")
+    return beyond or unless(worst <= declared + allowed, told, worst=worst, declared=declared)
 
 
 def precision_failures(said: float, precision: float) -> list[str]:
     """What is wrong with the distance within which a file calls points one, mm."""
-    return (
-        []
-        if said == precision
-        else [fault("calls points one within {said:g} mm instead of {precision:g} mm", said=said, precision=precision)]
-    )
+    told = N_("calls points one within {said:g} mm instead of {precision:g} mm")
+    return unless(said == precision, told, said=said, precision=precision)
 
 
 def volume_bound(exact: float, area: float, walls: float, declared: float) -> float:
@@ -67,11 +52,10 @@ def volume_bound(exact: float, area: float, walls: float, declared: float) -> fl
 
 def volume_failures(volume: float, exact: float, bound: float, said: str | float | None) -> list[str]:
     """What is wrong with a volume, mm^3: measured off by more than a bound, or told in the file as another."""
-    failures = []
-    if not abs(volume - exact) <= bound:
-        failures.append(fault("volume {volume:.12g} mm^3 instead of {exact:.12g} mm^3", volume=volume, exact=exact))
-    if said is not None and not abs(float(said) - exact) <= bound:
-        failures.append(
-            fault("says that its volume is {said} mm^3 instead of {exact:.12g} mm^3", said=said, exact=exact)
-        )
-    return failures
+    told = N_("volume {volume:.12g} mm^3 instead of {exact:.12g} mm^3")
+    failures = unless(abs(volume - exact) <= bound, told, volume=volume, exact=exact)
+    near, told = (
+        said is None or abs(float(said) - exact) <= bound,
+        N_("says that its volume is {said} mm^3 instead of {exact:.12g} mm^3"),
+    )
+    return failures + unless(near, told, said=said, exact=exact)

@@ -4,8 +4,8 @@ A text is a msgid, or a ``Message``: a msgid with the numbers for its ``{name}``
 language is known. Data keep texts; ``words(language).say(text)`` tells them. English reads no file.
 
 The marks that the extraction finds (``python -m tests.catalogues``): ``N_``, ``NC_``, ``message``, ``fault``,
-``counted``, ``in_context`` and the methods ``text``, ``plural``, ``term``, ``note`` and ``section``, where their msgids
-are literals.
+``unless``, ``counted``, ``in_context`` and the methods ``text``, ``plural``, ``term``, ``note`` and ``section``, where
+their msgids are literals.
 """
 
 from __future__ import annotations
@@ -73,6 +73,11 @@ def fault(msgid: str, /, **numbers: object) -> str:
     told = Fault(msgid.format(**numbers))
     told.message = message(msgid, **numbers)
     return told
+
+
+def unless(well: object, msgid: str, /, **numbers: object) -> list[str]:
+    """What is wrong with a file that should be well in something; nothing where it is."""
+    return [] if well else [fault(msgid, **numbers)]
 
 
 def fault_of(who: str, what: str) -> str:
