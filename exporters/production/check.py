@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import asdict
 
-from geometry.base.record import replace
+from geometry.base.record import Record, replace
 from geometry.base.tolerance import PLACED_MM
 from parts.base.mate import Mating, Toothed, Touching
 from parts.base.part import Part
@@ -25,6 +25,18 @@ if TYPE_CHECKING:
     from geometry.gears.mesh.search import PairContact
     from parts.scene.steps import StepSpec
     from parts.scene.workspace import Struck
+
+
+class _Teller(Record):
+    """Tells of instances in a language, by what sentences call them."""
+
+    language: str
+    names: Mapping[str, str]
+
+    def text(self, msgid: str, **numbers: object) -> str:
+        """A sentence; instances among its numbers by their names."""
+        return words(self.language).text(msgid, **called(numbers, self.names))
+
 
 # what is farther apart is no fit, mm
 _FIT = 0.5
@@ -51,8 +63,9 @@ def scene_checks(
     ``names`` of instances that sentences call otherwise than by their ids.
     """
     checks: dict[str, Any] = {}
+    told = _Teller(language, names)
     if placing.mates:
-        checks["mates"] = [_mate(m, language, names, contact=contact) for m in placing.mates]
+        checks["mates"] = [_mate(m, told, contact=contact) for m in placing.mates]
         for found, mate in zip(checks["mates"], placing.mates, strict=True):
             if transmission:
                 _add_transmission(found, mate)
@@ -63,16 +76,12 @@ def scene_checks(
     if placing.mates and (alone := [i.id for i in placing.instances if i.placed_by == "row"]):
         checks["in_a_row"] = alone
     if placing.close:
-        checks["neighbours"] = [_neighbours(c, language, names) for c in placing.close]
+        checks["neighbours"] = [_neighbours(c, told) for c in placing.close]
     if placing.off_centre:
-        told = words(language)
-        rows = [
-            {"frame": o.frame, "axle": o.axle, "distance": o.distance, "clearance": o.clearance}
-            for o in placing.off_centre
-        ]
-        checks["axles"] = [{**row, "text": told.text(OFF_CENTRE, **called(row, names))} for row in rows]
+        rows = [asdict(one) for one in placing.off_centre]
+        checks["axles"] = [{**row, "text": told.text(OFF_CENTRE, **row)} for row in rows]
     if contact and len(placing.instances) > 1:
-        checks |= _solids(placing, parts, drives, language, workspace, names)
+        checks |= _solids(placing, parts, drives, told, workspace)
     if steps:
         from exporters.production.order import order_checks
 
@@ -151,23 +160,21 @@ def _where(mating: Mating, drive: float) -> dict[str, float]:
     return {"drive_travel": drive} if mating.kind == "wedge_follower" else {"drive_angle_deg": math.degrees(drive)}
 
 
-def _mate(mate: PlacedMate, language: str, names: Mapping[str, str], *, contact: bool) -> dict[str, Any]:
+def _mate(mate: PlacedMate, told: _Teller, *, contact: bool) -> dict[str, Any]:
     """A mate as its instances stand; contact is sought where its conditions hold."""
-    contact = contact and all(c.met for c in mate.conditions)
-    if not contact:
+    if not (contact and all(c.met for c in mate.conditions)):
         found = pair_quantities(mate.mating)
     elif mate.only_checks:
         module = mate.mating.module if isinstance(mate.mating, Touching) else 0.0
         allowed = max(PLACED_MM, 1e-8 * module)
-        found = check_pair(
-            mate.mating, language, second_turn=mate.second_turn, centre_shift=mate.centre_shift, tolerance=allowed
-        )
+        off = {"second_turn": mate.second_turn, "centre_shift": mate.centre_shift}
+        found = check_pair(mate.mating, told.language, tolerance=allowed, **off)
     else:
-        found = check_pair(mate.mating, language)
+        found = check_pair(mate.mating, told.language)
     found["direction_deg"] = math.degrees(mate.direction)
     found["second_rotation_deg"] = math.degrees(mate.second.rotation)
     if mate.conditions:
-        found["conditions"] = [_condition(c, mate, language, names) for c in mate.conditions]
+        found["conditions"] = [_condition(c, mate, told) for c in mate.conditions]
     return found
 
 
@@ -176,39 +183,29 @@ def _add_transmission(found: dict[str, Any], mate: PlacedMate) -> None:
     if not (isinstance(mate.mating, Toothed) and mate.mating.pair):
         if mate.mating.kind not in _WITHOUT_TEETH:
             found["transmission_error"] = None
-        return
-    if not all(c.met for c in mate.conditions):
-        return
-    found["transmission_error"] = mate.mating.transmission_error(mate.centre_shift)
+    elif all(c.met for c in mate.conditions):
+        found["transmission_error"] = mate.mating.transmission_error(mate.centre_shift)
 
 
-def _condition(condition: Condition, mate: PlacedMate, language: str, names: Mapping[str, str]) -> dict[str, Any]:
+def _condition(condition: Condition, mate: PlacedMate, told: _Teller) -> dict[str, Any]:
     numbers = {"value": condition.value, "required": condition.required, "tolerance": condition.tolerance}
-    first, second = (names.get(one.id, one.id) for one in (mate.first, mate.second))
-    text = words(language).say(condition_message(condition.code, first, second, **numbers))
+    first, second = (told.names.get(one.id, one.id) for one in (mate.first, mate.second))
+    text = words(told.language).say(condition_message(condition.code, first, second, **numbers))
     return {"code": condition.code, "met": condition.met, **numbers, "text": text}
 
 
-def _neighbours(close: Closeness, language: str, names: Mapping[str, str]) -> dict[str, Any]:
-    return {
-        "first": close.first,
-        "second": close.second,
-        "distance": close.distance,
-        "sum_of_tip_radii": close.tip_sum,
-        "text": words(language).text(
-            "{first} and {second} may touch: {value:.6g} mm apart, their tips reach {limit:.6g} mm, no mate joins them",
-            first=names.get(close.first, close.first),
-            second=names.get(close.second, close.second),
-            value=close.distance,
-            limit=close.tip_sum,
-        ),
-    }
+def _neighbours(close: Closeness, told: _Teller) -> dict[str, Any]:
+    both, distance, limit = {"first": close.first, "second": close.second}, close.distance, close.tip_sum
+    text = N_(
+        "{first} and {second} may touch: {value:.6g} mm apart, their tips reach {limit:.6g} mm, no mate joins them"
+    )
+    text = told.text(text, **both, value=distance, limit=limit)
+    return {**both, "distance": distance, "sum_of_tip_radii": limit, "text": text}
 
 
 def _solids(
-    placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec], language: str, workspace: int | None,
-    names: Mapping[str, str],
-) -> dict[str, Any]:  # fmt: skip
+    placing: Placing, parts: dict[str, Part], drives: Sequence[DriveSpec], told: _Teller, workspace: int | None
+) -> dict[str, Any]:
     """Solids as they stand, then on the way that the drives move them, or wherever these may stand."""
     from parts.scene.interference import by_contact, has_solid_pairs, solid_overlaps
     from parts.scene.shapes import Shape
@@ -216,14 +213,14 @@ def _solids(
     shapes = {name: Shape(parts[name]) for name in dict.fromkeys(i.part for i in placing.instances)}
     fits: list[tuple[Instance, Instance, float]] = []
     overlaps = solid_overlaps(placing, parts, lambda name: shapes[name].solid, fits)
-    solids = [_overlap(o.first, o.second, o.volume, language, names) for o in overlaps]
+    solids = [_overlap(o.first, o.second, o.volume, told) for o in overlaps]
     checks: dict[str, Any] = {}
     known = {frozenset((o.first, o.second)) for o in overlaps}
     if placing.train is not None and workspace is not None:
         from parts.scene.workspace import workspace_found
 
         all_over = workspace_found(placing, shapes, by_contact(placing, parts), known, workspace)
-        solids += [_struck(x, drives, language, names) for x in all_over.struck]
+        solids += [_struck(x, drives, told) for x in all_over.struck]
         checks["workspace"] = {
             "rest": all_over.rest,
             "tested": all_over.tested,
@@ -239,7 +236,7 @@ def _solids(
         course = course_of(placing.train, [i.id for i in placing.instances])
         apart = never_meeting(placing, shapes, by_contact(placing, parts))
         found = motion_found(placing, shapes, course, known, apart)
-        solids += [_overlap(x.first, x.second, x.volume, language, names, drives[0], x.time) for x in found.struck]
+        solids += [_overlap(x.first, x.second, x.volume, told, drives[0], x.time) for x in found.struck]
         checks["motion"] = {
             "pairs": found.pairs,
             "tested": found.tested,
@@ -263,46 +260,40 @@ def _fits(found: Sequence[tuple[Instance, Instance, float]]) -> list[dict[str, A
     ]
 
 
-def _struck(struck: Struck, drives: Sequence[DriveSpec], language: str, names: Mapping[str, str]) -> dict[str, Any]:
+def _struck(struck: Struck, drives: Sequence[DriveSpec], told: _Teller) -> dict[str, Any]:
     """Two solids in each other where the drives have turned so far."""
-    found = _overlap(struck.first, struck.second, struck.volume, language, names)
+    found = _overlap(struck.first, struck.second, struck.volume, told)
     if struck.volume is None:
         return found
     turns = {drive.instance: 360.0 * turned for drive, turned in zip(drives, struck.turns, strict=True)}
-    told = words(language)
-    where = ", ".join(
-        told.text("{drive} by {way:.6g} deg", drive=names.get(name, name), way=way) for name, way in turns.items()
-    )
-    text = told.text(
-        "{first} and {second} run into each other: {value:.4g} mm^3 in common where drives have turned: {where}",
-        **called({"first": struck.first, "second": struck.second}, names), value=struck.volume, where=where,
-    )  # fmt: skip
+    where = ", ".join(told.text("{drive} by {way:.6g} deg", drive=name, way=way) for name, way in turns.items())
+    text = N_("{first} and {second} run into each other: {value:.4g} mm^3 in common where drives have turned: {where}")
+    text = told.text(text, first=struck.first, second=struck.second, value=struck.volume, where=where)
     return {**found, "drive_turns_deg": turns, "text": text}
 
 
 def _overlap(
-    first: str, second: str, volume: float | None, language: str, names: Mapping[str, str],
-    drive: DriveSpec | None = None, share: float = 0.0,
-) -> dict[str, Any]:  # fmt: skip
+    first: str, second: str, volume: float | None, told: _Teller, drive: DriveSpec | None = None, share: float = 0.0
+) -> dict[str, Any]:
     """Two solids in each other, as they stand or where a drive has run a share of what it is asked for."""
-    verdict, told = "overlap", N_("{first} and {second} run into each other: {value:.4g} mm^3 in common as they stand")
+    verdict, text = "overlap", N_("{first} and {second} run into each other: {value:.4g} mm^3 in common as they stand")
     found: dict[str, Any] = {"first": first, "second": second, "volume": volume}
     way = 0.0
     if volume is None:
         verdict = "undecided"
-        told = N_("{first} and {second}: a wall is too thin to tell whether the solids run into each other; thicken it")
+        text = N_("{first} and {second}: a wall is too thin to tell whether the solids run into each other; thicken it")
     elif drive is not None and drive.travel is not None:
         way = found["drive_travel"] = share * drive.travel
-        told = N_(
+        text = N_(
             "{first} and {second} run into each other: {value:.4g} mm^3 in common where {drive} has travelled "
             "{way:.6g} mm"
         )
     elif drive is not None:
         way = found["drive_turn_deg"] = 360.0 * share * drive.turns
-        told = N_(
+        text = N_(
             "{first} and {second} run into each other: {value:.4g} mm^3 in common where {drive} has turned by "
             "{way:.6g} deg"
         )
-    said = called({"first": first, "second": second, "drive": "" if drive is None else drive.instance}, names)
-    text = words(language).text(told, **said, value=volume, way=way)
+    driven = "" if drive is None else drive.instance
+    text = told.text(text, first=first, second=second, drive=driven, value=volume, way=way)
     return {**found, "verdict": verdict, "text": text}

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
@@ -21,10 +21,11 @@ from parts.scene.relative_path import Course, common_period, course_of
 from parts.scene.shapes import Shape
 from parts.scene.standing import Instance
 
+T = TypeVar("T")
 # seconds for a turn of the first drive, and for a loop at least and at most; turns of the fastest in a loop at most
 _SECONDS, _LEAST, _MOST, _MOST_TURNS = 4.0, 4.0, 60.0, 20
 # values of a way at first, and at most; of the tolerance what outlines and ways may take
-VALUES, MOST_VALUES, SHARE = 60, 16_000, 0.5
+_VALUES, MOST_VALUES, SHARE = 60, 16_000, 0.5
 # times at which a file is held against exact poses
 TIMES = np.concatenate([[0.0, 1.0], np.arange(1, 48) * (math.sqrt(5) - 1) / 2 % 1.0])
 
@@ -68,14 +69,26 @@ class Film(Record, FileJob):
 
     def ways(self, instance: Instance, reach: float) -> tuple[Any, Any, float]:
         """Places and angles at even shares of the loop, and how far what is straight between them is off, mm."""
-        count = VALUES
-        while True:
-            places, angles = self.poses(instance, np.linspace(0, 1, 2 * count + 1))
-            # an even way is off the most in the middle between its ends
+
+        def at(shares: Real) -> tuple[tuple[Any, Any], float]:
+            places, angles = self.poses(instance, shares)
             ways = [x[1::2] - (x[:-1:2] + x[2::2]) / 2 for x in (places, angles)]
-            off = float((np.abs(ways[0]) + reach * np.abs(ways[1])).max())
-            if off <= SHARE * self.tolerance / 2 or count >= MOST_VALUES:
-                return places[::2], angles[::2], 2 * off
+            return (places[::2], angles[::2]), float((np.abs(ways[0]) + reach * np.abs(ways[1])).max())
+
+        (places, angles), off = self.near_enough(at, MOST_VALUES)
+        return places, angles, off
+
+    def near_enough(self, at: Callable[[Real], tuple[T, float]], most: int) -> tuple[T, float]:
+        """What is found at so many even shares of the loop that it is as near as asked, and how far it is off, mm.
+
+        ``at``: what is found at every other one of some shares, and how far it is off at those between, where an even
+        way is off the most; ``most``: values.
+        """
+        count = _VALUES
+        while True:
+            found, off = at(np.linspace(0, 1, 2 * count + 1))
+            if off <= SHARE * self.tolerance / 2 or count >= most:
+                return found, 2 * off
             count *= 2
 
     def poses(self, instance: Instance, shares: Real) -> tuple[Any, Any]:

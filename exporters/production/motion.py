@@ -14,7 +14,7 @@ from exporters.formats.motion_svg import CORNERS, Track, even_values, write_moti
 from exporters.formats.read_motion import ReadTrack, read_motion
 from exporters.formats.readback import Loop
 from exporters.formats.svg import fill
-from exporters.production.film import SHARE, TIMES, VALUES, Film
+from exporters.production.film import SHARE, TIMES, Film
 from exporters.production.jobs import Made
 from exporters.production.seen_above import is_round, seen_lying
 from exporters.production.turning_silhouette import Ends, ends_of, thinned
@@ -63,17 +63,16 @@ class MotionJob(Film, dict=True):
 
     def _forms(self, instance: Instance) -> tuple[Complex, float]:
         """Outlines of what changes at even shares of the loop, and how far they are off, mm."""
-        ends, count = self._changing[instance.id], VALUES
-        while True:
-            turned, _ = self.frames(instance, np.linspace(0, 1, 2 * count + 1))
+        ends = self._changing[instance.id]
+
+        def at(shares: Real) -> tuple[tuple[Real, Complex], float]:
+            turned, _ = self.frames(instance, shares)
             forms = ends.outlines(turned[::2])
-            off = ends.off_between(turned[1::2], forms)
-            if off <= SHARE * self.tolerance / 2 or count >= _MOST_FORMS:
-                break
-            count *= 2
+            return (turned[::2], forms), ends.off_between(turned[1::2], forms)
+
+        (turned, forms), off = self.near_enough(at, _MOST_FORMS)
         made = thinned(forms, self._chord)
-        # an even way is off the most in the middle between its ends
-        return made, 2 * off + ends.off_outlines(turned[::2], made) + ends.off + 10.0**-CORNERS
+        return made, off + ends.off_outlines(turned, made) + ends.off + 10.0**-CORNERS
 
     def poses(self, instance: Instance, shares: Real) -> tuple[Any, Any]:
         """As seen from above; of what is turned over the turn of its mirror image."""

@@ -11,7 +11,7 @@ from exporters.formats.glb import SolidTrack, write_glb
 from exporters.formats.motion_svg import even_values
 from exporters.formats.read_glb import read_glb
 from exporters.formats.svg import fill
-from exporters.production.film import MOST_VALUES, SHARE, TIMES, VALUES, Film
+from exporters.production.film import MOST_VALUES, SHARE, TIMES, Film
 from exporters.production.jobs import Job, Made
 from exporters.verification.judge import held
 from exporters.verification.verdict import Verdict
@@ -76,23 +76,22 @@ class SolidFilm(Film):
 
     def _in_space(self, instance: Instance, reach: float) -> tuple[SolidTrack, float]:
         """The track of what lies and goes round, and how far it is off its way between its values, mm."""
-        count = VALUES
-        while True:
-            turned, places = self.frames(instance, np.linspace(0, 1, 2 * count + 1))
+
+        def at(shares: Real) -> tuple[tuple[Real, Real], float]:
+            turned, places = self.frames(instance, shares)
             turns = _quaternions(turned)
             # between two values a viewer takes the shorter way round, evenly: half way it is their sum
             middle = turns[:-1:2] + turns[2::2]
             middle /= np.linalg.norm(middle, axis=1)[:, None]
             angles = 2 * np.arccos(np.clip(np.abs(np.einsum("nj,nj->n", middle, turns[1::2])), 0.0, 1.0))
             aside = np.linalg.norm(places[1::2] - (places[:-1:2] + places[2::2]) / 2, axis=1)
-            off = float((aside + reach * angles).max())
-            if off <= SHARE * self.tolerance / 2 or count >= MOST_VALUES:
-                break
-            count *= 2
+            return (places, turns), float((aside + reach * angles).max())
+
+        (places, turns), off = self.near_enough(at, MOST_VALUES)
         run = float(np.abs(np.diff(places, axis=0)).sum() + reach * _angles(turns).sum())
         far = float(np.abs(places).max())
         track = SolidTrack(instance.id, instance.part, places[::2], turns[::2])
-        return track, 2 * off + 2 * _FLOAT32 * (far + run) + _TURNED * reach
+        return track, off + 2 * _FLOAT32 * (far + run) + _TURNED * reach
 
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write it; counts of what is in it."""

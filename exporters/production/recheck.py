@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Sequence
 from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -19,11 +18,10 @@ from exporters.verification.judge import signed, verify_part
 from exporters.verification.verdict import Verdict, judges
 from geometry.base.errors import GeometryError
 from geometry.base.record import Record
-from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.base.texts import fault
 from parts.keys.sheet import on_sheet
-from parts.scene.formats import OF_SCENES, FileKind, Form, file_kind
+from parts.scene.formats import OF_SCENES, Form, file_kind
 from parts.scene.load import SceneFile, make_parts, scene_from_resolved
 from parts.scene.placing import place
 
@@ -93,11 +91,9 @@ def _rechecked(file: Path) -> Recheck:
         if file.name in entries:
             return _against(file, source, report, entries[file.name], digest)
         failure = failure_of(report, file.name)
-    except (KeyError, TypeError, AttributeError, ArithmeticError, RecursionError, GeometryError) as error:
-        raise SceneError(source, "", None, "damaged_report", None, why=str(error)) from error
-    except ValueError as error:
-        if isinstance(error, SceneError):
-            raise
+    except SceneError:
+        raise
+    except (KeyError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError, GeometryError) as error:
         raise SceneError(source, "", None, "damaged_report", None, why=str(error)) from error
     if failure is not None:
         code = "last_build_failed" if failure.fits else "last_build_failed_otherwise"
@@ -108,38 +104,63 @@ def _rechecked(file: Path) -> Recheck:
 
 def _against(file: Path, source: str, report: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
     scene = scene_from_resolved(report["scene"], source)
-    if on_sheet(entry["format"], entry["purpose"]) or entry["format"] in OF_SCENES:
-        return _against_sheet(file, source, report["scene"], entry, digest)
-    if "board" in entry:
-        return _against_board(file, source, scene, entry, digest)
-    if "bed" in entry:
-        return _against_plate(file, source, scene, entry, digest)
-    if entry["part"] is None:
-        return _against_assembly(file, source, scene, entry, digest)
-    part = make_parts(scene, source)[0][entry["part"]]
     declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
-    kind = file_kind(entry["format"], entry["purpose"])
-    also = audited if kind.form is Form.ARCS and kind.format == "dxf" else None
-    offset = float(entry["offset"])
-    path = part.pitch_curve if entry.get("pitch_curve") else None
-    verdict = verify_part(file, kind, part, offset, declared, tolerance, also, path)
-    verdict = _signed(file, kind, entry, verdict)
-    verdict = _by_kernel_too(file, kind, [part], offset, verdict)
+    if on_sheet(entry["format"], entry["purpose"]) or entry["format"] in OF_SCENES:
+        # drawn again from the scene, and the file measured against that
+        job = _sheets_of(json.dumps(report["scene"]), source, entry["format"])[entry["path"]]
+        verdict = job.verify(file, declared)
+    else:
+        verdict = _held(file, source, scene, entry, declared, tolerance)
     return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
 
 
-def _signed(file: Path, kind: FileKind, entry: dict[str, Any], verdict: Verdict) -> Verdict:
-    """A verdict that counts whom the header must name too."""
-    return signed(file, kind, str(entry.get("author", "")), str(entry.get("organisation", "")), verdict)
+def _held(
+    file: Path, source: str, scene: SceneFile, entry: dict[str, Any], declared: float, tolerance: float
+) -> Verdict:
+    """A file of parts: pieces where the report says that they lie, instances in places that are worked out again.
 
+    STEP files are held against the CAD kernel as well, where that is installed.
+    """
+    kind, offset = file_kind(entry["format"], entry["purpose"]), float(entry["offset"])
+    parts, matings = make_parts(scene, source)
+    if "board" in entry:
+        from exporters.verification.board import BoardPiece, ExpectedBoard, verify_board
 
-def _by_kernel_too(file: Path, kind: FileKind, parts: Sequence[Part], offset: float, verdict: Verdict) -> Verdict:
-    """A good STEP file is held against the CAD kernel as well, where that is installed."""
+        pieces = tuple(
+            BoardPiece(name, told["part"], float(told["turn_deg"]), complex(*told["at"]))
+            for name, told in entry["pieces"].items()
+        )
+        board = ExpectedBoard(scene.boards[entry["board"]], parts, pieces, offset)
+        return verify_board(file, kind, board, declared, tolerance)
+    if entry["part"] is not None:
+        used = [parts[entry["part"]]]
+        also = audited if kind.form is Form.ARCS and kind.format == "dxf" else None
+        path = used[0].pitch_curve if entry.get("pitch_curve") else None
+        verdict = verify_part(file, kind, used[0], offset, declared, tolerance, also, path)
+    else:
+        from exporters.production.plates import instances_of
+        from exporters.verification.assembly import expected_of, verify_assembly
+
+        if "bed" in entry:
+            stand = instances_of(entry["pieces"])
+        else:
+            placed = {i.id: i for i in place(scene.instances, scene.drives, parts, matings, source).instances}
+            stand = [placed[name] for name in entry["instances"]]
+        if not kind.assembly or not stand:
+            raise KeyError(f"an assembly of {len(stand)} instances, format {kind.format}")
+        used = [parts[i.part] for i in stand]
+        expected = expected_of(assembly_name(scene.name), {part.id: part for part in used}, offset, stand)
+        if "bed" in entry:
+            from exporters.verification.plate import ExpectedPlate, verify_plate
+
+            return verify_plate(file, kind, ExpectedPlate(scene.beds[entry["bed"]], expected), declared, tolerance)
+        verdict = verify_assembly(file, kind, expected, declared, tolerance)
+    verdict = signed(file, kind, str(entry.get("author", "")), str(entry.get("organisation", "")), verdict)
     if kind.form is not Form.FACES or verdict.failures or find_spec("OCP") is None:
         return verdict
     from exporters.verification.kernel import judged_by_kernel
 
-    return judged_by_kernel(file, [part.body(offset) for part in parts], verdict)
+    return judged_by_kernel(file, [part.body(offset) for part in used], verdict)
 
 
 def audited(file: Path) -> None:
@@ -147,13 +168,6 @@ def audited(file: Path) -> None:
     from exporters.formats.read_drawing import opened
 
     opened(file)
-
-
-def _against_sheet(file: Path, source: str, told: dict[str, Any], entry: dict[str, Any], digest: str) -> Recheck:
-    """A sheet: drawn again from the scene, and the file measured against that."""
-    job = _sheets_of(json.dumps(told), source, entry["format"])[entry["path"]]
-    declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
-    return Recheck(file, job.verify(file, declared), declared, tolerance, digest == entry["sha256"])
 
 
 # files of one folder are verified one behind the other
@@ -164,51 +178,3 @@ def _sheets_of(told: str, source: str, form: str) -> dict[str, SheetJob | Film |
 
     plan = plan_build(scene_from_resolved(json.loads(told), source), source, [], [form])
     return {sheet.path: sheet for sheet in plan.sheets}
-
-
-def _against_board(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:
-    """A board: its pieces where the report says that they lie."""
-    from exporters.verification.board import BoardPiece, ExpectedBoard, verify_board
-
-    pieces = tuple(
-        BoardPiece(name, told["part"], float(told["turn_deg"]), complex(*told["at"]))
-        for name, told in entry["pieces"].items()
-    )
-    expected = ExpectedBoard(scene.boards[entry["board"]], make_parts(scene, source)[0], pieces, float(entry["offset"]))
-    declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
-    verdict = verify_board(file, file_kind(entry["format"], entry["purpose"]), expected, declared, tolerance)
-    return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
-
-
-def _against_plate(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:
-    """A plate: its pieces where the report says that they stand."""
-    from exporters.production.plates import instances_of
-    from exporters.verification.assembly import expected_of
-    from exporters.verification.plate import ExpectedPlate, verify_plate
-
-    made, stand = make_parts(scene, source)[0], instances_of(entry["pieces"])
-    used = {i.part: made[i.part] for i in stand}
-    expected = expected_of(assembly_name(scene.name), used, float(entry["offset"]), stand)
-    declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
-    kind, plate = file_kind(entry["format"], entry["purpose"]), ExpectedPlate(scene.beds[entry["bed"]], expected)
-    return Recheck(file, verify_plate(file, kind, plate, declared, tolerance), declared, tolerance,
-                   digest == entry["sha256"])  # fmt: skip
-
-
-def _against_assembly(file: Path, source: str, scene: SceneFile, entry: dict[str, Any], digest: str) -> Recheck:
-    """An assembly file: its instances by the report, their places worked out again."""
-    from exporters.verification.assembly import expected_of, verify_assembly
-
-    made, matings = make_parts(scene, source)
-    stand = {i.id: i for i in place(scene.instances, scene.drives, made, matings, source).instances}
-    instances = [stand[name] for name in entry["instances"]]
-    declared, tolerance = float(entry["max_error"]), float(entry["tolerance"])
-    kind = file_kind(entry["format"], entry["purpose"])
-    if not kind.assembly or not instances:
-        raise KeyError(f"an assembly of {len(instances)} instances, format {kind.format}")
-    used = {i.part: made[i.part] for i in instances}
-    expected = expected_of(assembly_name(scene.name), used, float(entry["offset"]), instances)
-    verdict = _signed(file, kind, entry, verify_assembly(file, kind, expected, declared, tolerance))
-    stood = [made[i.part] for i in instances]
-    verdict = _by_kernel_too(file, kind, stood, expected.offset, verdict)
-    return Recheck(file, verdict, declared, tolerance, digest == entry["sha256"])
