@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TextIO, TypeVar
 
 from exporters import __version__
 from exporters.command.parser import WRONG_INPUT, Misused, Parser, parsed, speaking
-from parts.base.texts import ENGLISH, Words, languages, words
+from parts.base.texts import ENGLISH, N_, NC_, Words, languages, words
 
 if TYPE_CHECKING:
     from exporters.production.plan import Plan
@@ -28,7 +28,18 @@ DONE, FAILED, INTERRUPTED = 0, 1, 130
 # so many things are made between two searches for circles of them
 _MADE = 100_000
 _OURS = {"geometry", "parts", "exporters"}
+S = TypeVar("S")
 T = TypeVar("T")
+# what stands for the words of a command line
+_SHOWN = (
+    NC_("command line", "COMMAND"), NC_("command line", "SCENE"), NC_("command line", "FILE"),
+    NC_("command line", "PART.KEY=VALUES"), NC_("command line", "ADDRESS"), NC_("command line", "TOPIC"),
+    NC_("command line", "SCENE | KEY=VALUE"), NC_("command line", "KIND"), NC_("command line", "ID"),
+    NC_("command line", "L"),
+)  # fmt: skip
+# the topics of calc: to import them would cost more than all else of the command line
+_TOPICS = """spur ring rack tmm42 gear-pair shift-choice involute bevel face-gear worm train planetary cam cycloidal
+cycloidal-gear lantern geneva noncircular lever power-table power-module"""
 _EXAMPLES = """
   higherpair build practicum_pair
   higherpair new spur_gear --out my_gear.toml
@@ -261,133 +272,103 @@ def _parser(told: Words) -> Parser:
     )
     version = told.text("show program's version number and exit")
     parser.add_argument("-V", "--version", action="version", version=f"higherpair {__version__}", help=version)
-    commands = parser.add_subparsers(
-        prog="higherpair", required=True, metavar=told.term("command line", "COMMAND"), parser_class=Parser
-    )
-    spoken = Parser(add_help=False)
-    spoken.add_argument(
-        "--language",
-        metavar=told.term("command line", "L"),
-        help=told.text("{languages} (default: that of the scene, or en)", languages=", ".join(languages())),
-    )
 
-    as_json = Parser(add_help=False)
-    as_json.add_argument("--json", action="store_true", help=told.text("print the results as JSON"))
-    quiet = Parser(add_help=False)
-    quiet.add_argument("-q", "--quiet", action="store_true", help=told.text("print nothing if all is well"))
-    page = Parser(add_help=False)
-    page.add_argument(
-        "--out",
-        type=Path,
-        metavar=told.term("command line", "FILE"),
-        help=told.text("write to a file, in UTF-8 (default: to the terminal)"),
-    )
+    def shown(word: str) -> str:
+        return told.term("command line", word)
 
-    def command(name: str, meaning: str, *takes: Parser) -> argparse.ArgumentParser:
-        made = commands.add_parser(name, help=meaning, parents=[spoken, *takes])
-        made.set_defaults(command=name, json=False, quiet=False)
+    commands = parser.add_subparsers(prog="higherpair", required=True, metavar=shown("COMMAND"), parser_class=Parser)
+
+    def argument_of(name: str, **looks: Any) -> Parser:
+        """What several commands take."""
+        taken = Parser(add_help=False)
+        taken.add_argument(*name.split(), **looks)
+        return taken
+
+    def command(name: str, meaning: str, run: Callable[[argparse.Namespace], int], *takes: Parser) -> Parser:
+        made: Parser = commands.add_parser(name, help=meaning, parents=[spoken, *takes])
+        made.set_defaults(command=name, json=False, quiet=False, run=run)
         return made
 
+    default = told.text("{languages} (default: that of the scene, or en)", languages=", ".join(languages()))
+    spoken = argument_of("--language", metavar=shown("L"), help=default)
+    as_json = argument_of("--json", action="store_true", help=told.text("print the results as JSON"))
+    quiet = argument_of("-q --quiet", action="store_true", help=told.text("print nothing if all is well"))
+    to_file = told.text("write to a file, in UTF-8 (default: to the terminal)")
+    page = argument_of("--out", type=Path, metavar=shown("FILE"), help=to_file)
     scene = told.text("a built-in scene or a scene file (.toml)")
-    scenes = told.text("built-in scenes or scene files (.toml)")
-    one = told.term("command line", "ID")
-    out = told.text("write the results to OUT/<scene name> (default: out)")
-    build = command("build", told.text("make the files of a scene"), as_json, quiet)
-    build.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
-    build.add_argument("--out", default="out", type=Path, help=out)
-    build.add_argument(
-        "--part", action="append", default=[], metavar=one, help=told.text("only this part (may be repeated)")
-    )
-    build.add_argument(
-        "--format", action="append", default=[], metavar="F", help=told.text("only this format (may be repeated)")
-    )
+    of_scenes = told.text("built-in scenes or scene files (.toml)")
+    results = told.text("write the results to OUT/<scene name> (default: out)")
+    # what arguments of one kind share
+    scenes: dict[str, Any] = {"nargs": "+", "metavar": shown("SCENE"), "help": of_scenes}
+    out: dict[str, Any] = {"default": "out", "type": Path}
+    repeated: dict[str, Any] = {"action": "append", "default": []}
+
+    build = command("build", told.text("make the files of a scene"), _build, as_json, quiet)
+    build.add_argument("scenes", **scenes)
+    build.add_argument("--out", help=results, **out)
+    build.add_argument("--part", metavar=shown("ID"), help=told.text("only this part (may be repeated)"), **repeated)
+    build.add_argument("--format", metavar="F", help=told.text("only this format (may be repeated)"), **repeated)
     build.add_argument("--no-verify", action="store_true", help=told.text("do not read the files back"))
-    build.add_argument(
-        "--verify",
-        choices=["reader", "kernel"],
-        default="reader",
-        help=told.text("what reads STEP files back: our reader, or the CAD kernel too"),
-    )
-    build.set_defaults(run=_build, several=("scenes", str))
-    catalogue = command("catalogue", told.text("build a scene for every combination of the values of some keys"), quiet)
-    catalogue.add_argument("scene", metavar=told.term("command line", "SCENE"), help=scene)
-    catalogue.add_argument(
-        "--vary",
-        action="append",
-        required=True,
-        metavar=told.term("command line", "PART.KEY=VALUES"),
-        help=told.text("values 1,2,5 or a range 8:200 or 0.5:2:0.25, ends included (may be repeated)"),
-    )
-    who = catalogue.add_mutually_exclusive_group()
-    who.add_argument("--jobs", type=int, default=1, metavar="N", help=told.text("processes (default: 1)"))
-    who.add_argument(
-        "--dask",
-        metavar=told.term("command line", "ADDRESS"),
-        help=told.text("a Dask cluster that works on the same disk, like tcp://host:8786"),
-    )
-    catalogue.add_argument("--out", default="out", type=Path, help=out)
-    catalogue.set_defaults(run=_catalogue)
-    check = command("check", told.text("check contact and interference of the pairs of a scene"), as_json, quiet)
-    check.add_argument("scenes", nargs="+", metavar=told.term("command line", "SCENE"), help=scenes)
-    check.add_argument(
-        "--steps", action="store_true", help=told.text("print the order of assembly too, if the scene has one")
-    )
-    check.set_defaults(run=_check, several=("scenes", str))
-    verify = command(
-        "verify", told.text("read files back and compare them with the part in their report"), as_json, quiet
-    )
-    verify.add_argument("files", nargs="+", type=Path, metavar=told.term("command line", "FILE"))
-    verify.set_defaults(run=_verify, several=("files", Path))
-    converge = command("converge", told.text("measure error against run time, over a ladder of tolerances"))
+    who = told.text("what reads STEP files back: our reader, or the CAD kernel too")
+    build.add_argument("--verify", choices=["reader", "kernel"], default="reader", help=who)
+    build.set_defaults(several=("scenes", str))
+
+    meaning = told.text("build a scene for every combination of the values of some keys")
+    catalogue = command("catalogue", meaning, _catalogue, quiet)
+    catalogue.add_argument("scene", metavar=shown("SCENE"), help=scene)
+    values = told.text("values 1,2,5 or a range 8:200 or 0.5:2:0.25, ends included (may be repeated)")
+    catalogue.add_argument("--vary", action="append", required=True, metavar=shown("PART.KEY=VALUES"), help=values)
+    workers = catalogue.add_mutually_exclusive_group()
+    workers.add_argument("--jobs", type=int, default=1, metavar="N", help=told.text("processes (default: 1)"))
+    cluster = told.text("a Dask cluster that works on the same disk, like tcp://host:8786")
+    workers.add_argument("--dask", metavar=shown("ADDRESS"), help=cluster)
+    catalogue.add_argument("--out", help=results, **out)
+
+    meaning = told.text("check contact and interference of the pairs of a scene")
+    check = command("check", meaning, _check, as_json, quiet)
+    check.add_argument("scenes", **scenes)
+    steps = told.text("print the order of assembly too, if the scene has one")
+    check.add_argument("--steps", action="store_true", help=steps)
+    check.set_defaults(several=("scenes", str))
+
+    meaning = told.text("read files back and compare them with the part in their report")
+    verify = command("verify", meaning, _verify, as_json, quiet)
+    verify.add_argument("files", nargs="+", type=Path, metavar=shown("FILE"))
+    verify.set_defaults(several=("files", Path))
+
+    meaning = told.text("measure error against run time, over a ladder of tolerances")
+    converge = command("converge", meaning, _converge)
     converge.add_argument("scene", help=scene)
-    converge.add_argument("--out", default="out", type=Path, help=out)
-    converge.add_argument("--part", action="append", default=[], metavar=one, help=told.text("only this part"))
-    converge.add_argument("--format", action="append", default=[], metavar="F", help=told.text("only this format"))
-    converge.set_defaults(run=_converge)
-    stress = command("stress", told.text("measure how many digits stiff and extreme cases leave"), as_json, quiet)
-    stress.add_argument(
-        "--out", default="out", type=Path, help=told.text("write the results to OUT/stress (default: out)")
-    )
-    stress.set_defaults(run=_stress)
-    listing = command("list", told.text("list kinds of parts and built-in scenes"), as_json)
-    listing.set_defaults(run=_list)
-    calc = command("calc", told.text("print a textbook calculation, step by step"), page)
-    calc.add_argument(
-        "topic",
-        metavar=told.term("command line", "TOPIC"),
-        help=told.text(
-            "{topics} or {last}",
-            topics="spur, ring, rack, tmm42, gear-pair, shift-choice, involute, bevel, face-gear, worm, train, "
-            "planetary, cam, cycloidal, cycloidal-gear, lantern, geneva, noncircular, lever, power-table",
-            last="power-module",
-        ),
-    )
-    calc.add_argument(
-        "words",
-        nargs="*",
-        metavar=told.term("command line", "SCENE | KEY=VALUE"),
-        help=told.text("a scene, or keys as in scenes"),
-    )
-    calc.add_argument(
-        "--format",
-        default="text",
-        metavar="F",
-        help=told.text("text, md, html, json, or the tables alone as csv (default: text)"),
-    )
+    converge.add_argument("--out", help=results, **out)
+    converge.add_argument("--part", metavar=shown("ID"), help=told.text("only this part"), **repeated)
+    converge.add_argument("--format", metavar="F", help=told.text("only this format"), **repeated)
+
+    meaning = told.text("measure how many digits stiff and extreme cases leave")
+    stress = command("stress", meaning, _stress, as_json, quiet)
+    stress.add_argument("--out", help=told.text("write the results to OUT/stress (default: out)"), **out)
+
+    command("list", told.text("list kinds of parts and built-in scenes"), _list, as_json)
+
+    calc = command("calc", told.text("print a textbook calculation, step by step"), _calc, page)
+    *topics, last = _TOPICS.split()
+    known = told.text("{topics} or {last}", topics=", ".join(topics), last=last)
+    calc.add_argument("topic", metavar=shown("TOPIC"), help=known)
+    asked = told.text("a scene, or keys as in scenes")
+    calc.add_argument("words", nargs="*", metavar=shown("SCENE | KEY=VALUE"), help=asked)
+    forms = told.text("text, md, html, json, or the tables alone as csv (default: text)")
+    calc.add_argument("--format", default="text", metavar="F", help=forms)
     listed = told.text("print every key of the topic with unit, range and default")
     calc.add_argument("--keys", action="store_true", help=listed)
-    calc.set_defaults(run=_calc, several=("words", str))
-    new = command("new", told.text("print a scene with comments to start from; for a mate, its table"), page)
-    new.add_argument(
-        "kind",
-        metavar=told.term("command line", "KIND"),
-        help=told.text("a kind of part or mate or a built-in scene, see `{command}`", command="higherpair list"),
-    )
+    calc.set_defaults(several=("words", str))
+
+    meaning = told.text("print a scene with comments to start from; for a mate, its table")
+    new = command("new", meaning, _new, page)
+    kinds = told.text("a kind of part or mate or a built-in scene, see `{command}`", command="higherpair list")
+    new.add_argument("kind", metavar=shown("KIND"), help=kinds)
     plain = told.text("print the plain scene that an assembly, or a scene with one, becomes")
     new.add_argument("--expand", action="store_true", help=plain)
-    new.set_defaults(run=_new)
-    schema = command("schema", told.text("print the JSON Schema of scenes, by which an editor completes keys"), page)
-    schema.set_defaults(run=_schema)
+
+    command("schema", told.text("print the JSON Schema of scenes, by which an editor completes keys"), _schema, page)
     return parser
 
 
@@ -405,7 +386,7 @@ def _build(options: argparse.Namespace) -> int:
         from parts.base.refusal import SceneError
 
         raise SceneError(options.scenes[0], "--verify", "kernel", "needs_kernel")
-    plans, refused = _each(options, planned)
+    plans, refused = _each(options.scenes, planned, lambda: _language(options))
     if refused:
         return WRONG_INPUT
     _refuse_one_folder(plans)
@@ -471,16 +452,9 @@ def _catalogue(options: argparse.Namespace) -> int:
         entries = catalogue(scene, options.scene, axes, folder, executor, advance)
     verdicts = Counter(entry["verdict"] for entry in entries)
     if verdicts[BAD] or not options.quiet:
-        told = words(scene.scene.language)
-        print(
-            told.text(
-                "{file}: {ok} ok, {refused} refused, {failed} failed",
-                file=folder / "catalogue.csv",
-                ok=verdicts[OK],
-                refused=verdicts[REFUSED],
-                failed=verdicts[BAD],
-            )
-        )
+        counts = {"ok": verdicts[OK], "refused": verdicts[REFUSED], "failed": verdicts[BAD]}
+        text = N_("{file}: {ok} ok, {refused} refused, {failed} failed")
+        print(words(scene.scene.language).text(text, file=folder / "catalogue.csv", **counts))
     return FAILED if verdicts[BAD] else DONE
 
 
@@ -495,27 +469,26 @@ def _refuse_one_folder(plans: Sequence[Plan]) -> None:
             raise SceneError("build", "SCENE", plan.source, "same_scene_name", None, other=other)
 
 
-def _each(options: argparse.Namespace, run: Callable[[str], T]) -> tuple[list[T], bool]:
-    """Something of every scene of a command, and whether one was refused; the refusal of the only one is raised."""
+def _each(asked: Sequence[S], run: Callable[[S], T], language: Callable[[], str]) -> tuple[list[T], bool]:
+    """Something of everything that is asked for, and whether one was refused, which is told in a language."""
     from parts.base.refusal import SceneError, sentence
 
     found, refused = [], False
-    for address in options.scenes:
+    for one in asked:
         try:
-            found.append(run(address))
+            found.append(run(one))
         except SceneError as error:
-            if len(options.scenes) == 1:
-                raise
-            print(f"higherpair: {sentence(error, _language(options))}", file=sys.stderr)
+            print(f"higherpair: {sentence(error, language())}", file=sys.stderr)
             refused = True
     return found, refused
 
 
 def _print_json(asked: Sequence[object], found: Sequence[object]) -> None:
-    """One result as it is, several as a list."""
+    """One result as it is, several as a list; nothing where the only one was refused."""
     import json
 
-    print(json.dumps(found[0] if len(asked) == 1 else found, indent=1, ensure_ascii=False))
+    if found or len(asked) > 1:
+        print(json.dumps(found[0] if len(asked) == 1 else found, indent=1, ensure_ascii=False))
 
 
 def _mate_for(parts: Iterable[Part]) -> str:
@@ -551,7 +524,7 @@ def _check(options: argparse.Namespace) -> int:
         )  # fmt: skip
         return checks, scene, names
 
-    found, refused = _each(options, checked)
+    found, refused = _each(options.scenes, checked, lambda: _language(options))
     if options.json:
         _print_json(options.scenes, [checks for checks, *_ in found])
     for checks, scene, names in found:
@@ -573,25 +546,16 @@ def _verify(options: argparse.Namespace) -> int:
     from exporters.command.tables import verify_table
     from exporters.production.recheck import recheck
     from exporters.production.report import report_language
-    from parts.base.refusal import SceneError, sentence
 
     _check_language(options)
     language = options.language or report_language(options.files[0])
-    results, refused = [], False
-    for file in options.files:
-        try:
-            results.append(recheck(file))
-        except SceneError as error:
-            print(f"higherpair: {sentence(error, language)}", file=sys.stderr)
-            refused = True
+    results, refused = _each(options.files, recheck, lambda: language)
     failed = any(r.verdict.failures for r in results)
     if options.json:
         _print_json(options.files, [r.told for r in results])
     elif results and not (options.quiet and not failed):
         verify_table(results, words(language))
-    if failed:
-        return FAILED
-    return WRONG_INPUT if refused else DONE
+    return FAILED if failed else WRONG_INPUT if refused else DONE
 
 
 def _converge(options: argparse.Namespace) -> int:

@@ -246,6 +246,8 @@ def test_verify_complains_about_what_it_cannot_judge(tmp_path: Path, capsys: pyt
     assert "no such file" in complaint(capsys, "verify", folder)
     assert "g.svg" in complaint(capsys, "verify", stranger)
     assert "report.json" in complaint(capsys, "verify", alone)
+    # with --json it was an IndexError
+    assert "no such file" in complaint(capsys, "verify", folder / "none.svg", "--json")
     assert run("verify", folder / "g.svg", folder / "g.svg") == 0
 
 
