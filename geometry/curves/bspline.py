@@ -22,7 +22,7 @@ from geometry.base.placement import Placement2
 from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.bounds import Bound
-from geometry.curves.curve import Complex, Curve, Real
+from geometry.curves.curve import Complex, Curve, Real, Span
 
 Index = NDArray[np.intp]
 
@@ -137,6 +137,20 @@ class BSpline(Record, eq=False):
     def mirrored(self) -> BSpline:
         """Mirror image in the x axis, travelled the other way: material stays on the same side."""
         return BSpline(self.degree, _mirrored_knots(self.knots), np.conj(self.poles[::-1]))
+
+
+class SeenEdge(Span, Record):
+    """A part of an edge of a tooth as it is seen along the axis, which is a plane spline."""
+
+    spline: BSpline
+    start: float = 0.0
+    end: float = 1.0
+
+    def point(self, t: ArrayLike) -> Complex:
+        return self.spline.point(t)
+
+    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
+        return self.spline.derivative(t, order)
 
 
 def _mirrored_knots(knots: Real) -> Real:

@@ -120,6 +120,7 @@ QUANTITIES: dict[str, str] = {
     "radial_width": N_("width of the teeth along the radius b, mm"),
     "whole_depth": N_("depth of the teeth h, mm"),
     "mounting_distance": N_("from the apex to the back face, mm"),
+    "pinion_axis_height": N_("height of the pinion's axis above the lower face, mm"),
     "tip_circle_to_apex": N_("from the apex to the plane of the outer tip circle, mm"),
     "axial_pressure_angle_deg": N_("axial pressure angle α_x, deg"),
     "axial_thickness": N_("axial thickness of the thread s_x, mm"),

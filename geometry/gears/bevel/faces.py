@@ -14,14 +14,13 @@ from collections.abc import Callable
 from functools import lru_cache, partial
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from geometry.approximation.outline import spline_outline
 from geometry.approximation.tensor import axis_poles, clamped, greville, tensor_poles
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
-from geometry.curves.bspline import BSpline, basis_matrix
-from geometry.curves.curve import Complex, Real, Span, end_point, start_point
+from geometry.curves.bspline import BSpline, SeenEdge, basis_matrix
+from geometry.curves.curve import Complex, Real, end_point, start_point
 from geometry.curves.line_arc import Arc
 from geometry.gears.bevel.gear import BevelGear
 from geometry.gears.bevel.walls import wall_distance
@@ -83,20 +82,6 @@ def bevel_solid(gear: BevelGear, tolerance: float) -> FacedSolid:
     made.body(holes)
     worst = made.worst if bore is None else max(made.worst, bore.max_error)
     return FacedSolid(made.solid(), worst, "sampled")
-
-
-class SeenEdge(Span, Record):
-    """A part of an edge of a tooth as it is seen along the axis, which is a plane spline."""
-
-    spline: BSpline
-    start: float = 0.0
-    end: float = 1.0
-
-    def point(self, t: ArrayLike) -> Complex:
-        return self.spline.point(t)
-
-    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
-        return self.spline.derivative(t, order)
 
 
 def seen_profile(gear: BevelGear, tolerance: float) -> Profile:

@@ -5,6 +5,7 @@ Splines run from root to tip and along the radius; they interpolate the exact en
 
 from __future__ import annotations
 
+import cmath
 import math
 from functools import lru_cache, partial
 
@@ -13,11 +14,14 @@ import numpy as np
 from geometry.approximation.outline import spline_outline
 from geometry.approximation.tensor import axis_poles, clamped, greville, tensor_poles
 from geometry.base.errors import ConvergenceError
+from geometry.base.placement import Placement2
 from geometry.base.record import Record
-from geometry.curves.bspline import basis_matrix
-from geometry.curves.curve import Real
+from geometry.curves.bspline import BSpline, SeenEdge, basis_matrix
+from geometry.curves.curve import Real, end_point, start_point
+from geometry.curves.line_arc import Arc
 from geometry.gears.face.gear import FLANK, SIDES, FaceGear
 from geometry.gears.face.walls import wall_distance
+from geometry.plane.profile import Label, Profile, Segment
 from geometry.solids.faced import FacedBody, FacedSolid
 from geometry.solids.faces import (
     Circular,
@@ -64,6 +68,23 @@ class _Wall(Record, eq=False):
     along: Real
     poles: Real
     error: float
+
+
+def seen_spaces(gear: FaceGear, tolerance: float) -> Profile:
+    """What lies between the tips, and within them, as it is seen along the axis; splines within ``tolerance`` mm."""
+    breaks = np.linspace(0.0, 1.0, _spans(gear, FLANK, 1, tolerance) + 1)
+    knots = clamped(_DEGREE, breaks)
+    poles = axis_poles(_DEGREE, knots, _points(gear, FLANK, np.ones(1), greville(_DEGREE, knots))[0], 0)
+    inwards = SeenEdge(BSpline(_DEGREE, knots, poles[:, 0] + 1j * poles[:, 1]))
+    outer, inner = (cmath.phase(end(inwards)) for end in (start_point, end_point))
+    pitch = math.tau / gear.number_of_teeth
+    # from middle to middle of teeth: points are folded into that sector
+    below = [Arc(0j, gear.inner_radius, start, inner) for start in (0.0, pitch - inner)]
+    space = Arc(0j, gear.outer_radius, outer, pitch - 2 * outer)
+    into = inwards.reversed().mirrored().placed(Placement2(pitch))
+    edges = below[0], inwards.reversed(), space, into, below[1]
+    labels = Label.BODY, Label.FLANK, Label.BODY, Label.FLANK, Label.BODY
+    return Profile(tuple(map(Segment, edges, labels)), gear.number_of_teeth)
 
 
 def _points(gear: FaceGear, which: int, share: Real, inwards: Real) -> Real:

@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 _ROUND, _USUAL_PLATE, _THIN = 0.9, 2.5, 0.3
 # addenda and dedenda that are tried where teeth have no width, part of the given one
 _LOWER = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
+# mm: how near pictures are to the edges of tips
+_SEEN = 1e-6
 # how near to the greatest one a value is offered, modules
 _NEAR = 1e-3
 
@@ -195,13 +197,16 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
         return replace(gear, bore=bores[0]) if bores else gear
 
     def section(self, keys: FaceGearSpec, thing: FaceGear, offset: float) -> OffsetRegion:
-        """Its outside as seen along the axis, for pictures: nothing flat is cut from it."""
+        """As seen along the axis, for pictures, spaces of the teeth as marks: nothing flat is cut from it."""
+        from geometry.gears.face.faces import seen_spaces
         from geometry.plane.offset_region import OffsetRegion
         from geometry.plane.profile import Label, Region, circle
 
         _still(offset)
         holes = () if thing.bore is None else (thing.bore,)
-        return OffsetRegion(Region(circle(thing.outer_radius, Label.BODY), holes), 0.0, ())
+        # the circle first: it lies on the outline of the spaces
+        marks = circle(thing.inner_radius, Label.BODY), seen_spaces(thing, _SEEN)
+        return OffsetRegion(Region(circle(thing.outer_radius, Label.BODY), holes, marks), 0.0, ())
 
     def solid(self, keys: FaceGearSpec, thing: FaceGear, offset: float) -> FacedBody:
         """The gear."""
@@ -240,7 +245,7 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
             "whole_depth": thing.whole_depth,
             "inner_tip_thickness": inner,
             "outer_tip_thickness": outer,
-            "mounting_distance": thing.mounting_distance,
+            "pinion_axis_height": thing.mounting_distance,
         }
         return Report(face_gear_findings(thing), circles, quantities)
 

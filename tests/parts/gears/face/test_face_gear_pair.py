@@ -15,6 +15,7 @@ import pytest
 from exporters.command.cli import main
 from exporters.documents.topics import calculate
 from geometry.base.errors import GeometryError
+from geometry.plane.measure import profile_area
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import place
@@ -207,6 +208,25 @@ def test_tips_in_the_pinions_fillet_are_told(addendum: float, codes: list[str]) 
     assert all(20.0 - 2.5 < one.value < one.limit < 20.0 for one in found)
     shared = [pinion ^ wheel for pinion, wheel in (turned(parts, stand, share, share) for share in (0.2, 0.8))]
     assert (max(one.volume() for one in shared) > 1e-4) == bool(codes)
+
+
+def test_pictures_show_the_spaces_between_tips(tmp_path: Path) -> None:
+    """Area between root and tip circles less that of all tips, by their thickness; a film of it is read back."""
+    raw = scene({}, {}, normal_backlash=0.1)
+    parts, _, _ = made(raw)
+    gear = parts["wheel"].thing
+    region = parts["wheel"].section(0.0).region
+    inner, spaces = (profile_area(profile) for profile in region.marks)
+    radii, weights = np.polynomial.legendre.leggauss(12)
+    radii = (gear.inner_radius + gear.outer_radius) / 2 + gear.face_width / 2 * radii
+    tips = 21 * float((gear.tip_thickness(radii) * weights).sum()) * gear.face_width / 2
+    assert spaces == pytest.approx(math.pi * gear.outer_radius**2 - tips, rel=1e-9)
+    assert inner == pytest.approx(math.pi * gear.inner_radius**2, rel=1e-12)
+    assert region.outer.reach() == pytest.approx(gear.outer_radius, rel=1e-15)
+    file = tmp_path / "s.toml"
+    film = '[[drives]]\ninstance = "pinion"\nturns = 3.0\n[[exports]]\nformat = "motion"\n'
+    file.write_text(PAIR.format(placed="").split("[[exports]]")[0] + film, encoding="utf-8")
+    assert main(["build", str(file), "--out", str(tmp_path), "--quiet"]) == 0
 
 
 def test_forces_of_the_calculation_balance_both_torques() -> None:
