@@ -8,6 +8,7 @@ from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
+from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report
 from parts.base.links import owner_of
@@ -40,8 +41,8 @@ class GenevaDriverSpec(HoledKeys, kw_only=True, tag_field="kind", tag="geneva_dr
     relief_clearance: (
         Annotated[
             float,
-            mm("gap to the wheel's tips at the bottom of a relief; default: a tenth of the pin", least=0, most=100,
-               example=0.6),
+            mm("gap to the wheel's tips at the bottom of a relief; default: a tenth of the pin, at most half the room",
+               least=0, most=100, example=0.6),
         ]
         | None
     ) = None  # fmt: skip
@@ -75,13 +76,11 @@ class GenevaDriverKind(Kind[GenevaDriverSpec, "GenevaDriver"]):
         wheel = GENEVA_WHEEL.thing(owner_of(keys.of, others, GenevaWheelSpec), others)
         pin = wheel.pin_diameter
         holes = holes_of(keys)
-        gap = _GAP * pin if keys.relief_clearance is None else keys.relief_clearance
-        try:
-            disc = checked_disc(GenevaDisc(wheel, keys.number_of_pins, gap), holes.bore_reach)
-        except ParameterError as refusal:
-            if refusal.name == "locking_diameter":
-                raise ParameterError("of", keys.of, refusal.code, **refusal.numbers) from refusal
-            raise
+        disc = GenevaDisc(wheel, keys.number_of_pins)
+        gap = keys.relief_clearance
+        if gap is None:
+            gap = min(_GAP * pin, disc.room(holes.bore_reach) / 2)
+        disc = checked_disc(replace(disc, relief_clearance=gap), holes.bore_reach)
         usual = disc.drive.crank_radius + pin + max(keys.seat_clearance, 0.0)
         driver = GenevaDriver(
             disc,
@@ -121,8 +120,12 @@ class GenevaDriverKind(Kind[GenevaDriverSpec, "GenevaDriver"]):
             "locking_diameter": 2 * thing.disc.wheel.locking_radius,
             "relief_apex": thing.disc.apex,
         }
+        axle = thing.disc.wheel.holes.bore_reach
+        room = thing.disc.drive.centre_distance - axle
+        reaches = axle > 0 and thing.piece != "disc" and thing.plate_radius > room
+        findings = (Finding("plate_reaches_axle", 2 * thing.plate_radius, 2 * room),) if reaches else ()
         flat = (Finding("flat_pins", 0.0, 0.0),) if thing.piece == "whole" else ()
-        return Report(circles=circles, quantities=quantities, flat_findings=flat)
+        return Report(circles=circles, quantities=quantities, findings=findings, flat_findings=flat)
 
 
 GENEVA_DRIVER = GenevaDriverKind()

@@ -15,7 +15,7 @@ from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
 from parts.keys.base import MOST_LENGTH, either, mm, part_mm, start
-from parts.keys.pins import MARGIN, PinDiameter, check_holes, holes_of, least_of, moved_region
+from parts.keys.pins import MARGIN, check_holes, holes_of, least_of, moved_region
 from parts.keys.wheel import WheelKeys, WheelKind, shape_of
 
 if TYPE_CHECKING:
@@ -25,8 +25,9 @@ if TYPE_CHECKING:
     from geometry.solids.body import Body
     from parts.base.readback import Probe
 
-# of the pin's diameter: the wall of a tip by default, and gaps that no key tells
-_TIP, _GAP = 1.0, 0.1
+# by default: the pin's diameter as a part of the crank radius; of the pin's, the wall of a tip, at most such a part of
+# what a slot leaves of the crank for disc and tip; of the pin's, gaps that no key tells
+_PIN, _TIP, _MOST_OF_TIP, _GAP = 1 / 8, 1.0, 1 / 6, 0.1
 _ONLY_EXTERNAL = ("bore_diameter", "bore", "spokes", "web", "hub", "face_chamfer")
 
 
@@ -45,7 +46,12 @@ class GenevaWheelSpec(WheelKeys, kw_only=True, tag_field="kind", tag="geneva_whe
         ]
         | None
     ) = None
-    pin_diameter: Annotated[PinDiameter, Meta(examples=[6.0])]
+    pin_diameter: (
+        Annotated[
+            float, part_mm("diameter of each pin; default: an eighth of the crank radius", least=0.01, example=3.75)
+        ]
+        | None
+    ) = None
     internal: Annotated[bool, Meta(description="slots open inwards, the driver turns within the wheel")] = False
     slot_clearance: Annotated[float, mm("width of a slot beyond the pin's diameter", least=0, most=100)] = 0.0
     end_clearance: (
@@ -58,7 +64,11 @@ class GenevaWheelSpec(WheelKeys, kw_only=True, tag_field="kind", tag="geneva_whe
     locking_diameter: (
         Annotated[
             float,
-            part_mm("of the driver's disc; default: leaves tips as thick as the pin", above=0, example=42.0),
+            part_mm(
+                "of the driver's disc; default: leaves tips as thick as the pin, at most a fifth of the disc's radius",
+                above=0,
+                example=48.75,
+            ),
         ]
         | None
     ) = None
@@ -149,13 +159,12 @@ def wheel_of(keys: GenevaWheelSpec) -> GenevaWheel:
         drive = replace(whole, centre_distance=keys.crank_radius / whole.crank_radius)
     else:
         raise ParameterError("centre_distance", None, "needs_distance_or_crank")
-    pin = keys.pin_diameter
-    # measured along the wall where the pin enters
-    locking = drive.crank_radius - (pin + keys.slot_clearance) / 2 - _TIP * pin - keys.locking_clearance
-    if keys.locking_diameter is not None:
-        locking = keys.locking_diameter / 2
+    pin = _PIN * drive.crank_radius if keys.pin_diameter is None else keys.pin_diameter
     gap = _GAP * pin if keys.end_clearance is None else keys.end_clearance
-    wheel = GenevaWheel(drive, pin, locking, keys.slot_clearance, gap, keys.locking_clearance, keys.tip_rounding)
+    wheel = GenevaWheel(drive, pin, 0.0, keys.slot_clearance, gap, keys.locking_clearance, keys.tip_rounding)
+    room = wheel.room_of_disc
+    usual = room - min(_TIP * pin, _MOST_OF_TIP * room)
+    wheel = replace(wheel, locking_radius=usual if keys.locking_diameter is None else keys.locking_diameter / 2)
     if not keys.internal:
         return wheel
     outer = wheel.root_radius + 2 * pin
@@ -163,23 +172,21 @@ def wheel_of(keys: GenevaWheelSpec) -> GenevaWheel:
 
 
 def _with_tips(keys: GenevaWheelSpec) -> GenevaWheel:
-    """The wheel of the keys, checked; where the disc follows from the pin, that is to blame."""
+    """The wheel of the keys, checked; where all follows from the pin, that is to blame."""
     from geometry.gears.pins.geneva import checked_wheel
 
+    wheel = wheel_of(keys)
     try:
-        return checked_wheel(wheel_of(keys))
+        return checked_wheel(wheel)
     except ParameterError as refusal:
-        if keys.locking_diameter is not None or refusal.name != "locking_diameter":
+        follows = refusal.name == "locking_diameter" and keys.locking_diameter is None
+        if not follows and refusal.name != "pin_diameter":
             raise
 
         def fits(diameter: float) -> bool:
-            try:
-                checked_wheel(wheel_of(msgspec.structs.replace(keys, pin_diameter=diameter)))
-            except ParameterError:
-                return False
-            return True
+            return checked_wheel(wheel_of(msgspec.structs.replace(keys, pin_diameter=diameter))).locks
 
-        pin = keys.pin_diameter
+        pin = wheel.pin_diameter
         cure = partial(nearest, fits, pin, [pin * 0.5**k for k in range(1, 12)], digits=6)
         raise ParameterError("pin_diameter", pin, refusal.code, cure) from refusal
 

@@ -58,8 +58,6 @@ REASONS = {
     ),
     "seats_touch": N_("the seats touch each other"),
     "slots_meet": N_("the slots meet each other"),
-    "tips_leave_no_disc": N_(
-        "the tips of that wheel leave no disc of {diameter} mm; give it thinner pins or a larger locking_diameter"
-    ),
+    "tips_leave_no_disc": N_("the tips leave nothing of the driver's disc as they come by"),
     "tooth_pointed_at": N_("the tooth is pointed at {diameter} mm"),
 }

@@ -239,6 +239,9 @@ FINDINGS: dict[str, Text] = {
     "flat_pins": N_(
         "the pins of one piece are not in a flat outline, which has holes in their place; STL, 3MF and STEP have them"
     ),
+    "plate_reaches_axle": N_(
+        "the crank plate of {value:.6g} mm reaches under the wheel's bore: above {limit:.6g} mm no axle passes it"
+    ),
     "cycloidal_near_cusp": N_(
         "the lobes are nearly sharp: least radius {value:.4f} mm is below a tenth of the pin's, "
         "{limit:.4f} mm; a smaller eccentricity or thinner pins round them"

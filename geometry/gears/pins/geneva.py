@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import Nearest, ParameterError, limit
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Real
@@ -35,6 +35,8 @@ _SHARES, _TURNS, _ROUNDS = 33, 361, 6
 _ROUNDING = 1e-12
 # what is kept from a limit, as a part of it
 _MARGIN = 1e-6
+# of what is left beside a slot, tips that are tried where those that are asked for leave no disc
+_TIP_PARTS = (0.2, 0.1, 0.05, 0.02, 0.01)
 
 
 class Geneva(Record):
@@ -203,6 +205,11 @@ class GenevaWheel(Record):
         return math.atan2(self.half_width + self.tip_rounding, self.drive.mouth_radius)
 
     @property
+    def room_of_disc(self) -> float:
+        """Radius of the disc that would leave nothing of the tips, measured along the wall where the pin enters, mm."""
+        return self.drive.crank_radius - self.half_width - self.locking_clearance
+
+    @property
     def tip_width(self) -> float:
         """Of the land between a slot and a locking arc, mm; not above 0 where the tip is pointed."""
         return self.tip_radius * (self.horn_angle - self.land_angle)
@@ -270,25 +277,26 @@ def checked_wheel(wheel: GenevaWheel) -> GenevaWheel:
 
         cure = partial(nearest, thinner, wheel.pin_diameter, wheel.pin_diameter * 1e-3, digits=6)
         raise ParameterError("pin_diameter", wheel.pin_diameter, "slots_meet", cure)
-    if _has_tips(wheel):
+    code = "tips_leave_no_disc" if _has_tips(wheel) else "leaves_no_tip"
+    if _is_whole(wheel):
         return wheel
-    # the least disc that reaches beyond the tips
-    locking = (abs(wheel.drive.centre_distance - wheel.tip_radius) - wheel.locking_clearance) * (1 + _MARGIN)
     if not wheel.locks:
+        # the least disc that reaches beyond the tips
+        locking = (abs(wheel.drive.centre_distance - wheel.tip_radius) - wheel.locking_clearance) * (1 + _MARGIN)
         least_disc = limit(2 * locking, 2 * wheel.locking_radius, digits=6)
         raise ParameterError("locking_diameter", 2 * wheel.locking_radius, "leaves_no_arcs", least_disc)
-    for key, own, least, factor in (("tip_rounding", "tip_rounding", 0.0, 1.0),
-                                    ("locking_diameter", "locking_radius", locking, 2.0)):  # fmt: skip
-        given = factor * float(getattr(wheel, own))
+    discs = [2 * (1 - part) * wheel.room_of_disc for part in _TIP_PARTS]
+    for key, own, factor, ends in (("tip_rounding", "tip_rounding", 1.0, [0.0]),
+                                   ("locking_diameter", "locking_radius", 2.0, discs)):  # fmt: skip
 
         def fits(value: float, own: str = own, factor: float = factor) -> bool:
             changed: dict[str, Any] = {own: value / factor}
-            return _has_tips(replace(wheel, **changed))
+            return _is_whole(replace(wheel, **changed))
 
-        if given > factor * least and fits(factor * least):
-            cure = partial(nearest, fits, given, factor * least, digits=6)
-            raise ParameterError(key, given, "leaves_no_tip", cure)
-    raise ParameterError("pin_diameter", wheel.pin_diameter, "leaves_no_tip")
+        given = factor * float(getattr(wheel, own))
+        if any(given != end and kept(fits, end) for end in ends):
+            raise ParameterError(key, given, code, partial(nearest, fits, given, ends, digits=6))
+    raise ParameterError("pin_diameter", wheel.pin_diameter, code)
 
 
 def _has_slots(wheel: GenevaWheel) -> bool:
@@ -299,6 +307,11 @@ def _has_slots(wheel: GenevaWheel) -> bool:
 
 def _has_tips(wheel: GenevaWheel) -> bool:
     return wheel.locks and wheel.tip_width >= least_wall(wheel.drive.centre_distance)
+
+
+def _is_whole(wheel: GenevaWheel) -> bool:
+    """Whether it has tips, and they leave something of the disc as they come by, and of its clearance."""
+    return _has_tips(wheel) and GenevaDisc(wheel).room() >= _MARGIN * wheel.locking_radius
 
 
 class GenevaDisc(Record, dict=True):
@@ -325,17 +338,15 @@ class GenevaDisc(Record, dict=True):
         the one through it counts, and the least of all is sought. Negative in an internal drive, whose disc is a
         piece beyond the axis.
         """
-        drive, low, high = self.drive, 0.0, 0.0
-        angle = drive.half_motion_angle
-        curves = _near_mouth(self.wheel)
+        angle = self.drive.half_motion_angle
         shares, turns = np.linspace(0, 1, _SHARES), np.linspace(-angle, angle, _TURNS)
         found = self.wheel.locking_radius
-        for curve in curves:
+        for curve in _near_mouth(self.wheel):
+            low, high = curve.domain
             centre, span = (0.5, 0.0), (0.5, angle)
             for _ in range(_ROUNDS):
                 u = np.clip(centre[0] + span[0] * (2 * shares - 1), 0, 1)
                 t = np.clip(centre[1] + span[1] * turns / angle, -angle, angle)
-                low, high = curve.domain
                 apexes = self._apexes(np.asarray(curve.point(low + (high - low) * u))[:, None], t)
                 row, column = np.unravel_index(int(np.argmin(apexes)), apexes.shape)
                 centre = float(u[row]), float(t[column])
@@ -360,6 +371,13 @@ class GenevaDisc(Record, dict=True):
             double = within / off
             apex = double / 2 - np.sign(off) * np.sqrt(np.maximum(double**2 / 4 - double * chord + radius**2, 0.0))
         return np.where(within > _ROUNDING * radius**2, np.where(off == 0, chord, apex), radius)
+
+    def room(self, core: float = 0.0) -> float:
+        """The most of ``relief_clearance``, mm: to the axis, or to a bore that reaches so far (``core``) and fits."""
+        room = self.swept_apex - least_wall(self.wheel.locking_radius)
+        if self.drive.internal:
+            return room + self.wheel.locking_radius
+        return room - core if room >= core else room
 
     @property
     def apex(self) -> float:
@@ -397,22 +415,17 @@ def _near_mouth(wheel: GenevaWheel) -> list[Edge]:
 
 
 def checked_disc(disc: GenevaDisc, core: float = 0.0) -> GenevaDisc:
-    """The same disc, if there is some dwell, and room for its reliefs; ``core``: how far its bore reaches, mm.
+    """The same disc of a checked wheel, if there is some dwell, and room for its reliefs; ``core``: see ``room``.
 
     Raises
     ------
     ParameterError
-        Names ``number_of_pins``, ``relief_clearance`` and what works, or ``locking_diameter``, which is the wheel's.
+        Names ``number_of_pins`` or ``relief_clearance`` and what works.
     """
-    drive, radius = disc.drive, disc.wheel.locking_radius
+    drive = disc.drive
     if drive.number_of_pins > (most := most_pins(drive.number_of_slots, internal=drive.internal)):
         raise ParameterError("number_of_pins", drive.number_of_pins, "leaves_no_dwell", Nearest(most, "at_most"))
-    least = least_wall(radius)
-    room = disc.swept_apex + radius - least if drive.internal else disc.swept_apex - least
-    if room < 0:
-        raise ParameterError("locking_diameter", 2 * radius, "tips_leave_no_disc", diameter=2 * radius)
-    if not drive.internal and room >= core:
-        room -= core
+    room = disc.room(core)
 
     def fits(clearance: float) -> bool:
         return clearance <= room and PlateOutline(replace(disc, relief_clearance=clearance).outline()).exists()

@@ -88,7 +88,10 @@ def test_pieces_make_the_whole() -> None:
 REFUSED: dict[str, tuple[Keys, Keys, str, str]] = {
     "no distance": (WHEEL | {"centre_distance": None}, DRIVER, "centre_distance", "needs_distance_or_crank"),
     "both": (WHEEL | {"crank_radius": 30.0}, DRIVER, "crank_radius", "either_key"),
-    "thick pin": (WHEEL | {"pin_diameter": 25.0}, DRIVER, "pin_diameter", "leaves_no_arcs"),
+    "thick pin": (WHEEL | {"pin_diameter": 25.0}, DRIVER, "pin_diameter", "tips_leave_no_disc"),
+    "small disc": (WHEEL | {"locking_diameter": 8.0}, DRIVER, "locking_diameter", "leaves_no_arcs"),
+    "disc that the tips cut": (WHEEL | {"number_of_slots": 12, "locking_diameter": 13.0},
+                               DRIVER | {"bore_diameter": 0.0}, "locking_diameter", "tips_leave_no_disc"),
     "wide disc": (WHEEL | {"locking_diameter": 56.0}, DRIVER, "locking_diameter", "leaves_no_tip"),
     "wide bore": (WHEEL | {"bore_diameter": 56.0}, DRIVER, "bore_diameter", "leaves_no_wall_about_bore"),
     "rim": (WHEEL | {"outer_diameter": 200.0}, DRIVER, "outer_diameter", "only_of_internal"),
@@ -118,11 +121,32 @@ def test_what_cannot_be_is_refused_with_what_can(wheel: Keys, driver: Keys, key:
     make_parts(scene_from_dict({"parts": parts}, "t", "t"), "t")
 
 
-def test_a_wheel_whose_tips_leave_no_disc_is_refused_by_its_name() -> None:
-    wheel = RING | {"number_of_slots": 5, "centre_distance": 32.0, "tip_rounding": 0.5}
-    with pytest.raises(SceneError) as refused:
-        make_parts(scene_from_dict({"parts": {"wheel": wheel, "driver": DRIVER}}, "t", "t"), "t")
-    assert (refused.value.key, refused.value.code) == ("parts.driver.of", "tips_leave_no_disc")
+@pytest.mark.parametrize("internal", [False, True], ids=["external", "internal"])
+def test_any_number_of_slots_makes_a_drive_from_two_keys(internal: bool) -> None:
+    """Its contact is clear or touches; thick pins build too, or are refused with thinner ones that do."""
+    for slots in (3, 5, 12, 24, 100):
+        wheel = {"kind": "geneva_wheel", "number_of_slots": slots, "centre_distance": 60.0, "internal": internal}
+        _, checks = placed(wheel, {"kind": "geneva_driver", "of": "wheel"})
+        assert [mate["verdict"] for mate in checks["mates"]] == ["contact"]
+    for slots in (12, 24, 40):
+        wheel = {"kind": "geneva_wheel", "number_of_slots": slots, "centre_distance": 60.0, "internal": internal}
+        parts = {"wheel": wheel | {"pin_diameter": 6.0}, "driver": {"kind": "geneva_driver", "of": "wheel"}}
+        if slots > (24 if internal else 12):
+            with pytest.raises(SceneError) as refused:
+                make_parts(scene_from_dict({"parts": parts}, "t", "t"), "t")
+            found = refused.value.nearest
+            assert (refused.value.key, found is None) == ("parts.wheel.pin_diameter", False)
+            assert found is not None
+            parts["wheel"] |= {"pin_diameter": found.value}
+        make_parts(scene_from_dict({"parts": parts}, "t", "t"), "t")
+
+
+def test_a_plate_that_reaches_under_the_axle_of_the_wheel_is_told() -> None:
+    for diameter, told in ((114.1, 1), (113.9, 0)):
+        parts = {"wheel": WHEEL | {"bore_diameter": 6.0}, "driver": DRIVER | {"plate_diameter": diameter}}
+        made, _ = make_parts(scene_from_dict({"parts": parts}, "t", "t"), "t")
+        found = [f for f in made["driver"].findings if f.code == "plate_reaches_axle"]
+        assert [(f.value, f.limit) for f in found] == [(diameter, 114.0)] * told
 
 
 def test_a_driver_is_for_one_wheel() -> None:

@@ -67,6 +67,27 @@ def test_printed_tables(row: dict[str, float]) -> None:
     assert replace(drive, number_of_pins=most_pins(slots, internal=False) + 1).dwell_angle < 1e-9
 
 
+@pytest.mark.parametrize("slots", range(3, 13))
+def test_the_greatest_acceleration_is_where_the_jerk_of_the_triangle_vanishes(slots: int) -> None:
+    """With 30 digits; in a ring the acceleration grows until the pin leaves, where it is tan(pi / n)."""
+    drive, ring = Geneva(slots, 60.0), Geneva(slots, 60.0, internal=True)
+    with mpmath.workdps(30):
+
+        def derived(alpha: mpmath.mpf, order: int) -> mpmath.mpf:
+            return mpmath.diff(lambda x: turned(slots, x, internal=False), alpha, order)
+
+        start = mpmath.mpf(drive.acceleration_angle)
+        place = mpmath.findroot(lambda x: derived(x, 3), (0.9 * start, 1.1 * start), solver="anderson")
+        most = abs(derived(place, 2))
+        assert drive.acceleration_angle == pytest.approx(float(place), rel=1e-13)
+        assert drive.greatest_acceleration == pytest.approx(float(most), rel=1e-13)
+        beside = [abs(derived(k * mpmath.mpf(drive.half_motion_angle) / 24, 2)) for k in range(25)]
+        assert max(beside) <= most
+    found = np.abs(ring.motion(np.linspace(0, ring.half_motion_angle, 2001))[2])
+    assert np.all(np.diff(found) > 0)
+    assert ring.greatest_acceleration == pytest.approx(math.tan(math.pi / slots), rel=1e-13)
+
+
 @BOTH
 def test_the_wheel_goes_on_by_a_slot_for_each_pin_and_stands_between(internal: bool) -> None:
     drive = Geneva(5, 60.0, 1 if internal else 3, internal)
