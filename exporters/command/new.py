@@ -61,13 +61,14 @@ _TAIL = """
 ## first = "{first}"
 ## second = "{second}"{direction}
 ##
+## [instances.{other}]
 ## [instances.second_{other}]{pad}# {more}
 ## part = "{other}"
-## at = [100.0, 0.0, 0.0]                     # {place}
+## at = [300.0, 0.0, 0.0]                     # {place}
 ## rotation_deg = 0.0
 ##
 ## [[drives]]
-## instance = "gear"
+## instance = "{first}"
 ## turns = 1.0
 ##
 ## [checks]
@@ -84,7 +85,7 @@ def new_scene(kind: str, language: str = ENGLISH) -> str:
     formats = ("dxf", "svg", "stl") if KINDS[kind].has_outline else ("stl", "step")
     owner: list[str] = []
     if made_from is not None:
-        note = told.text("the cam that the part below belongs to")
+        note = told.text("the part that the one below is made for")
         owner = [f"# {note}", f"[parts.{_SOURCE}]", *(f"{key} = {_toml(v)}" for key, v in made_from.items()), ""]
     lines = [
         *_head(told),
@@ -305,9 +306,9 @@ def _several(kind: str, told: Words) -> list[str]:
 
 
 def _mate_of(kind: str) -> tuple[str, tuple[str, str] | None]:
-    """The first kind of mate that joins a kind of part, and both its kinds; else the one that joins anything."""
-    for mate in MATES.values():
-        for places in mate.joins or ():
-            if kind in places:
-                return mate.name, places
-    return "fixed", None
+    """The first kind of mate that joins a kind of part, that with what it is made from before the others, and both its
+    kinds; else the one that joins anything.
+    """
+    found = [(mate.name, places) for mate in MATES.values() for places in mate.joins or () if kind in places]
+    source = (KINDS[kind].made_from or {}).get("kind")
+    return next((one for one in found if source in one[1]), found[0] if found else ("fixed", None))

@@ -396,6 +396,22 @@ def test_the_mate_at_the_end_of_a_new_scene_joins_its_kind(kind: str, capsys: py
     )
 
 
+@pytest.mark.parametrize("kind", ["spur_gear", "rack", "cam", "lantern_gear", "geneva_wheel", "geneva_driver"])
+def test_a_new_scene_with_its_second_part_and_without_both_marks_stands(
+    kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """All that follows the part too: both instances and one more, the mate, the drive of what may drive."""
+    text = new_scene(capsys, kind)
+    partner = re.search(r'second part, \[parts\.(\w+)\] of kind "(\w+)"', text)
+    assert partner is not None
+    text = re.sub("^## ?", "", text, flags=re.MULTILINE)
+    if f"[parts.{partner[1]}]" not in text.replace(partner[0], ""):
+        other = new_scene(capsys, partner[2]).partition("[parts.gear]")[2].partition("[[exports]]")[0]
+        text += f"[parts.{partner[1]}]{other}".replace('of = "source"', 'of = "gear"')
+    (tmp_path / "s.toml").write_text(text, encoding="utf-8")
+    assert run("check", tmp_path / "s.toml") == 0
+
+
 def test_every_commented_key_may_be_set_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Defaults and examples as printed: each on its own builds, so that nobody starts with an error."""
     lines = new_scene(capsys).splitlines()
