@@ -19,7 +19,6 @@ from parts.base.texts import N_, fault, fault_of
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
-    from geometry.cams.plane.walls import CamWall
     from geometry.cams.plane.wedge import WedgeCam
     from geometry.plane.profile import Profile
 
@@ -38,9 +37,11 @@ _ROUGH = 16
 class TurningProbe(Record):
     """A follower rolled over a cam that turns; ``height``: where a solid is cut, mm.
 
-    ``profile(offset)``: the exact wall, moved out of the material, next to which its loop lies; without one it is the
-    outermost. ``turn``, ``below``: see ``geometry.cams.plane.walls.CamWall``. On the outer wall of a groove runs the
-    roller that fills it: its lift is the law's, and what a smaller one has beyond that is the play.
+    ``profile(offset)``: the exact wall in the part's frame, moved out of the material, next to which its loop lies;
+    without one it is the outermost. ``turn`` rad: how the wall is turned about the axis from the cam's frame.
+    ``below``: the wall holds the follower up; else it stands beyond the roller, as the outer wall of a groove, where
+    the roller runs that fills it: its lift is the law's, and what a smaller one has beyond that is the play. ``name``:
+    of the wall, where the part has more of them.
     """
 
     cam: DiskCam
@@ -82,11 +83,6 @@ class TurningProbe(Record):
         return (
             tuple(fault_of(fault(walls.get(self.name, self.name)), one) for one in failures) if self.name else failures
         )
-
-
-def wall_probe(wall: CamWall, *, alone: bool) -> TurningProbe:
-    """The probe of one wall, named where the part has more of them."""
-    return TurningProbe(wall.cam, wall.height, wall.profile, wall.turn, wall.below, "" if alone else wall.name)
 
 
 class SlidingProbe(Record):

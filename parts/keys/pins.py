@@ -13,9 +13,11 @@ from geometry.base.nearest import moved
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Region
 from geometry.solids.hub_holes import HubHoles, least_wall
+from geometry.solids.wheel import check_wheel
 from geometry.solids.windows import RoundHoles
 from parts.keys.base import part_mm
 from parts.keys.holes import BoredKeys, with_remedy
+from parts.keys.wheel import HubbedKeys, shape_of
 
 LobeCount = Annotated[int, Meta(ge=2, le=1000, description="number of lobes z of the disc", examples=[11])]
 PinCount = Annotated[int, Meta(ge=3, le=1000, description="number of pins", examples=[12])]
@@ -69,6 +71,20 @@ def check_holes(keys: BoredKeys, holes: HubHoles, radius: float, own: int = 0, c
         holes.check(radius - centre)
     except ParameterError as refusal:
         raise with_remedy(_renamed(refusal, holes, own), keys, fits) from refusal
+
+
+def wheel_holes(keys: HubbedKeys, root_radius: float) -> HubHoles:
+    """Bore and holes of a wheel, which stay within ``root_radius`` mm and leave its body its room.
+
+    Raises
+    ------
+    ParameterError
+        Names the key and what would work.
+    """
+    holes = holes_of(keys)
+    check_holes(keys, holes, root_radius)
+    check_wheel(shape_of(keys), 2 * root_radius, holes)
+    return holes
 
 
 def _renamed(refusal: ParameterError, holes: HubHoles, own: int) -> ParameterError:

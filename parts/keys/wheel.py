@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Protocol, TypeVar
+from typing import TYPE_CHECKING, Annotated, Protocol, TypeVar
 
 from msgspec import Struct
 
 from geometry.solids.hub_holes import HubHoles
-from geometry.solids.wheel import Hub, Web, WheelShape
+from geometry.solids.wheel import Hub, Web, WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind
 from parts.keys.base import mm, part_mm
 from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes
+
+if TYPE_CHECKING:
+    from geometry.plane.profile import Profile
+    from geometry.solids.body import Body
 
 
 class WebTable(Struct, forbid_unknown_fields=True):
@@ -85,11 +89,35 @@ def wheel_shape(
 
 
 K = TypeVar("K", bound=HubbedKeys)
-T = TypeVar("T")
+T = TypeVar("T", bound="Holed")
+
+
+class Holed(Protocol):
+    """A wheel that exists: what lies within its roots, mm."""
+
+    @property
+    def root_radius(self) -> float:
+        """Of the largest circle within its outline, mm."""
+
+    @property
+    def holes(self) -> HubHoles:
+        """Bore and holes."""
 
 
 class WheelKind(Kind[K, T]):
     """A kind of wheel: its section with web, hub and chamfers."""
+
+    def outline(self, thing: T, offset: float) -> Profile:
+        """The outer boundary moved ``offset`` mm out of the material."""
+        raise NotImplementedError
+
+    def solid(self, keys: K, thing: T, offset: float) -> Body:
+        """The wheel with its web, hub and chamfers."""
+
+        def outline(moved: float, depth: float) -> Profile:
+            return self.outline(thing, moved - depth)
+
+        return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
 
     def is_plate(self, keys: K, thing: T) -> bool:
         """Whether there is nothing but the section."""

@@ -13,7 +13,7 @@ from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
-from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
+from geometry.solids.wheel import check_wheel
 from geometry.solids.windows import RoundHoles
 from parts.base.kind import Others, Report
 from parts.keys.base import mm, part_mm
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     from geometry.gears.pins.cycloidal import CycloidalDisc
     from geometry.plane.offset_region import OffsetRegion
     from geometry.plane.profile import Profile
-    from geometry.solids.body import Body
 
 
 class OutputHolesTable(Struct, forbid_unknown_fields=True):
@@ -100,17 +99,12 @@ class CycloidalDiscKind(WheelKind[CycloidalDiscSpec, "CycloidalDisc"]):
 
         return disc_region(thing, offset)
 
-    def solid(self, keys: CycloidalDiscSpec, thing: CycloidalDisc, offset: float) -> Body:
-        """The disc with its hub and chamfers."""
-
-        def outline(offset: float, depth: float) -> Profile:
-            moved = offset - depth
-            least, most = thing.offset_limits()
-            if not least <= moved <= most:
-                raise OffsetError(moved, "leaves_no_outline", most if moved > most else least)
-            return thing.profile(moved)
-
-        return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
+    def outline(self, thing: CycloidalDisc, offset: float) -> Profile:
+        """Of its lobes."""
+        least, most = thing.offset_limits()
+        if not least <= offset <= most:
+            raise OffsetError(offset, "leaves_no_outline", most if offset > most else least)
+        return thing.profile(offset)
 
     def report(self, keys: CycloidalDiscSpec, thing: CycloidalDisc) -> Report:
         """Diameters, reduction and radii of curvature."""

@@ -7,17 +7,15 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 
 from geometry.base.record import replace
-from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
 from parts.keys.base import MOST_LENGTH, mm, part_mm
-from parts.keys.pins import PinDiameter, check_holes, holes_of
-from parts.keys.wheel import WheelKeys, WheelKind, shape_of
+from parts.keys.pins import PinDiameter, wheel_holes
+from parts.keys.wheel import WheelKeys, WheelKind
 
 if TYPE_CHECKING:
     from geometry.gears.pins.lantern import LanternGear
     from geometry.plane.offset_region import OffsetRegion
     from geometry.plane.profile import Profile
-    from geometry.solids.body import Body
 
 
 class LanternGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="lantern_gear"):
@@ -67,10 +65,7 @@ class LanternGearKind(WheelKind[LanternGearSpec, "LanternGear"]):
                 keys.tip_diameter,
             )
         )
-        holes = holes_of(keys)
-        check_holes(keys, holes, gear.root_radius)
-        check_wheel(shape_of(keys), 2 * gear.root_radius, holes)
-        return replace(gear, holes=holes, face_width=keys.face_width)
+        return replace(gear, holes=wheel_holes(keys, gear.root_radius), face_width=keys.face_width)
 
     def section(self, keys: LanternGearSpec, thing: LanternGear, offset: float) -> OffsetRegion:
         """The exact section, moved."""
@@ -78,14 +73,11 @@ class LanternGearKind(WheelKind[LanternGearSpec, "LanternGear"]):
 
         return lantern_region(thing, offset)
 
-    def solid(self, keys: LanternGearSpec, thing: LanternGear, offset: float) -> Body:
-        """The wheel with its web, hub and chamfers."""
+    def outline(self, thing: LanternGear, offset: float) -> Profile:
+        """Of its teeth."""
         from geometry.gears.pins.lantern import lantern_side
 
-        def outline(offset: float, depth: float) -> Profile:
-            return lantern_side(thing, offset - depth).profile()
-
-        return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
+        return lantern_side(thing, offset).profile()
 
     def report(self, keys: LanternGearSpec, thing: LanternGear) -> Report:
         """Diameters, pitch and what is poor."""

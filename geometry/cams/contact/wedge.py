@@ -25,7 +25,7 @@ def wedge_contact(cam: WedgeCam, end: FollowerEnd, tolerance: float, *, out: flo
     """
     edges = [p.start for p in cam.motion.pieces]
     travel = np.unique(np.concatenate([np.linspace(0, cam.motion.travel, _PLACES), edges]))
-    fence = Fence(wedge_profile(cam, cam.runs, cam.corner))
+    fence = Fence(wedge_profile(cam))
     shift = out * outwards(cam, travel)
     centre, normal = cam.centre(travel) + shift, 1j * cam.rate(travel)
     gaps = fence.signed_distance(centre) - cam.radius

@@ -18,7 +18,7 @@ from geometry.base.record import Record
 from geometry.base.series import taylor
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion
 from geometry.cams.motion.guides import Mount, Oscillating, Translating, oscillating_start_angle
-from geometry.cams.plane.curves import CentreEnvelope, Faced, FaceEnvelope
+from geometry.cams.plane.curves import CentreEnvelope, Faced, FaceEnvelope, Lift
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
 
@@ -79,15 +79,16 @@ class DiskCam(Record):
 
     def curve(self, piece: LawPiece, grow: float = 0.0) -> CentreEnvelope | FaceEnvelope:
         """The exact cam over one piece of the motion, over growing cam angle; ``grow`` mm out of the material."""
-        if self.is_flat:
-            return FaceEnvelope(piece, self.mount, piece.start, piece.end, grow)
-        return CentreEnvelope(piece, self.mount, piece.start, piece.end, grow - self.radius)
+        return self._envelope(piece, piece.start, piece.end, grow)
 
     def table_curve(self, start: float, end: float, grow: float = 0.0) -> CentreEnvelope | FaceEnvelope:
         """The same over any rows of a motion that is a table."""
+        return self._envelope(self.motion.stack, start, end, grow)
+
+    def _envelope(self, lift: Lift, start: float, end: float, grow: float) -> CentreEnvelope | FaceEnvelope:
         if self.is_flat:
-            return FaceEnvelope(self.motion.stack, self.mount, start, end, grow)
-        return CentreEnvelope(self.motion.stack, self.mount, start, end, grow - self.radius)
+            return FaceEnvelope(lift, self.mount, start, end, grow)
+        return CentreEnvelope(lift, self.mount, start, end, grow - self.radius)
 
     def reference_point(self, angle: ArrayLike) -> Complex:
         """Roller centre, point, or the foot of the axis on a flat face, in the fixed frame, mm."""
@@ -141,9 +142,7 @@ class DiskCam(Record):
         at = np.asarray(angle, dtype=float)
         if self.is_flat:
             whole = FaceEnvelope(self.motion, self.mount, 0.0, TURN)
-            height, normal = whole.support(at, 1)
-            del height
-            return whole.speed(at) / normal[1]
+            return whole.speed(at) / whole.support(at, 1)[1][1]
         with np.errstate(divide="ignore"):
             return -1 / CentreEnvelope(self.motion, self.mount, 0.0, TURN).pitch_curvature(at)
 

@@ -1,4 +1,4 @@
-"""Cams that hold their follower from both sides: groove, conjugate pair, yoke of constant breadth."""
+"""Cams that hold their follower from both sides: conjugate pair, yoke of constant breadth."""
 
 from __future__ import annotations
 
@@ -11,40 +11,10 @@ from geometry.base.record import Record
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion
 from geometry.cams.motion.guides import Oscillating, Translating
 from geometry.cams.plane.disk import DiskCam, FollowerKind
-from geometry.cams.plane.shape import CamShape, cam_shape
 
 # a motion is of constant breadth where S(phi) + S(phi + pi) departs from H by less than this part of it
 _BREADTH = 1e-9
 _BREADTH_SAMPLES = 2049
-
-
-class Groove(Record):
-    """Both walls of a groove, each a counter-clockwise outline in the cam's frame, and its width, mm."""
-
-    inner: CamShape
-    outer: CamShape
-    width: float
-
-
-def groove(cam: DiskCam, clearance: float = 0.0) -> Groove:
-    """The groove in which a roller runs: the outer wall stands ``clearance`` mm farther than the roller reaches.
-
-    The inner wall is the disk cam; the outer one is undercut where a concave arc of the path is sharper than the
-    roller, which a disk cam does not mind.
-
-    Raises
-    ------
-    ParameterError
-        No roller, or a clearance below 0.
-    UndercutError
-        A wall does not hang together.
-    """
-    if cam.kind is not FollowerKind.ROLLER:
-        raise ParameterError("follower", str(cam.kind), "needs_roller")
-    if not clearance >= 0:
-        raise ParameterError("clearance", clearance, "below_zero")
-    width = 2 * cam.radius + clearance
-    return Groove(cam_shape(cam), cam_shape(cam, width), width)
 
 
 class Conjugate(Record):

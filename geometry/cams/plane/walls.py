@@ -1,10 +1,8 @@
-"""Walls of cams that hold a roller: which cam each is, how it lies in its part; grooves cut into a solid."""
+"""Walls of cams that hold a roller, and grooves cut into a solid."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from geometry.base.record import Record, replace
+from geometry.base.record import replace
 from geometry.cams.plane.disk import DiskCam
 from geometry.cams.plane.shape import cam_shape
 from geometry.cams.plane.undercut import lost_to_undercut
@@ -12,23 +10,6 @@ from geometry.curves.curve import Reversed
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile, Segment
 from geometry.solids.body import Body, Cap, opened
-
-
-class CamWall(Record):
-    """One wall that a roller runs on, of a part with several, or of one that is turned on its shaft.
-
-    ``cam``: the motion with the roller that touches this wall while it follows it. ``below``: the wall holds the
-    roller up; else it stands beyond the roller, as the outer wall of a groove. ``turn`` rad: how the wall is turned
-    about the axis from the cam's frame. ``height`` mm: where a solid is cut. ``profile(offset)``: the exact wall in the
-    part's frame, moved ``offset`` mm out of the material.
-    """
-
-    name: str
-    cam: DiskCam
-    height: float
-    profile: Callable[[float], Profile]
-    below: bool = True
-    turn: float = 0.0
 
 
 def reversed_profile(profile: Profile) -> Profile:
@@ -39,17 +20,6 @@ def reversed_profile(profile: Profile) -> Profile:
         back = curve.reversed() if isinstance(curve, Arc | Line | Reversed) else Reversed(curve)
         turned.append(Segment(back, segment.label))
     return Profile(tuple(turned), profile.count, not profile.clockwise if profile.count > 1 else profile.clockwise)
-
-
-def inner_wall(cam: DiskCam, offset: float = 0.0) -> Profile:
-    """The wall nearer to the axis, counter-clockwise: the disk cam itself, moved ``offset`` mm out of the material.
-
-    Raises
-    ------
-    UndercutError
-        Nothing of it hangs together.
-    """
-    return cam_shape(cam, offset).profile
 
 
 def outer_wall(cam: DiskCam, clearance: float, offset: float = 0.0) -> Profile:

@@ -29,7 +29,7 @@ from geometry.curves.line_arc import Arc, Line
 from geometry.laws.piece import LawPiece
 from geometry.plane.profile import Label, Profile, Segment
 
-_SAMPLES = 513
+_SAMPLES, _STEEP_SAMPLES = 513, 257
 # a crest whose radius of curvature is less than this part of the path's is a corner
 _SHARP = 1e-7
 # a step of the envelope below this part of its size is none
@@ -223,6 +223,12 @@ class WedgeCam(Record):
         angle = at * (math.pi / self.motion.travel)
         return np.where(np.abs(angle - math.pi / 2) < 0.6 * math.pi, angle, np.nan), lift
 
+    @property
+    def ends(self) -> tuple[float, float]:
+        """x of the plate's ends, mm: its profile ends where the arm has carried the follower."""
+        first, last = (float(self.centre(at).real) for at in (0.0, self.motion.travel))
+        return first - self.runs[0], last + self.runs[1]
+
     def height_at(self, travel: float) -> float:
         """y of the profile under the resting follower, mm."""
         return float(self.centre(travel).imag) - self.radius
@@ -255,6 +261,23 @@ def wedge_fault(cam: WedgeCam, grow: float = 0.0) -> tuple[str, float] | None:
     return None
 
 
+def steepest(cam: WedgeCam, sense: int) -> float | None:
+    """Greatest pressure angle while the follower rises (``sense`` 1) or sinks (-1), rad; None where it never does."""
+    worst = None
+    for piece in cam.motion.pieces:
+        if piece.is_constant:
+            continue
+        t = np.union1d(np.linspace(*piece.domain, _STEEP_SAMPLES), piece.extremes(1))
+        rate = sense * piece.value(t, 1)
+        if not rate.max() > 0:
+            continue
+        # the piece's end as it is seen from the left
+        nu = np.abs(cam.pressure_angle(np.minimum(t, np.nextafter(piece.end, 0))))
+        found = float(np.where(rate >= 0, nu, 0.0).max())
+        worst = found if worst is None else max(worst, found)
+    return worst
+
+
 def sharpest_crest(cam: WedgeCam) -> float:
     """Least radius of curvature of the path's crests, mm: a roller must be smaller; inf without crests."""
     worst = 0.0
@@ -267,34 +290,30 @@ def sharpest_crest(cam: WedgeCam) -> float:
     return math.inf if worst >= 0 else -1 / worst
 
 
-def wedge_profile(cam: WedgeCam, runs: tuple[float, float], corner: float = 0.0, grow: float = 0.0) -> Profile:
+def wedge_profile(cam: WedgeCam, grow: float = 0.0) -> Profile:
     """The plate's outline, counter-clockwise, moved ``grow`` mm out of the material.
-
-    ``runs``: straight ends before and after the profile, mm; ``corner``: rounding of the plate's four corners, mm.
 
     Raises
     ------
     OffsetError
         The profile is not whole any more, or an end vanishes; names the nearest offset that works.
     """
-    made = _outline(cam, runs, corner, grow)
+    made = _outline(cam, grow)
     if made is not None:
         return made
-    works = last_that_holds(lambda offset: _outline(cam, runs, corner, offset) is not None, grow)
+    works = last_that_holds(lambda offset: _outline(cam, offset) is not None, grow)
     raise OffsetError(grow, "no_whole_profile", works)
 
 
-def _outline(cam: WedgeCam, runs: tuple[float, float], corner: float, grow: float) -> Profile | None:
+def _outline(cam: WedgeCam, grow: float) -> Profile | None:
     """The outline, or None where it is not whole."""
-    radius, travel = max(0.0, corner + grow), cam.motion.travel
-    first, last = cam.height_at(0.0) + grow, cam.height_at(travel) + grow
-    starting, ending = float(cam.centre(0.0).real), float(cam.centre(travel).real)
-    # the follower's starting place is x = 0, its last one is where the arm has carried it
-    left, right = starting - runs[0] - grow, ending + runs[1] + grow
+    radius, (start, end) = max(0.0, cam.corner + grow), cam.ends
+    first, last = (cam.height_at(at) + grow for at in (0.0, cam.motion.travel))
+    left, right = start - grow, end + grow
     least = min(first, last, *(_lowest(cam, p) + grow for p in cam.motion.pieces))
     if wedge_fault(cam, grow) is not None or not least + grow > 2 * radius or not least + grow > 0:
         return None
-    top = _top(cam, runs, grow)
+    top = _top(cam, grow)
     # the straight ends are cut or made longer as far as the corners' roundings
     left_end, right_end = end_point(top[0]), start_point(top[-1])
     if not (left + radius < left_end.real and right_end.real < right - radius):
@@ -332,10 +351,10 @@ def _with_runs(cam: WedgeCam, runs: tuple[float, float]) -> list[LawPiece]:
     return [LawPiece(-runs[0], 0.0, (before,)), *pieces, LawPiece(travel, travel + runs[1], (after,))]
 
 
-def _top(cam: WedgeCam, runs: tuple[float, float], grow: float) -> list[Curve]:
+def _top(cam: WedgeCam, grow: float) -> list[Curve]:
     """The profile along the travel: exact curves split at inflections and vertices, arcs where velocity jumps."""
     made: list[Curve] = []
-    for piece in _with_runs(cam, runs):
+    for piece in _with_runs(cam, cam.runs):
         curve = cam.curve(piece, *piece.domain, grow)
         if made:
             start, end = end_point(made[-1]), complex(curve.point(piece.start))

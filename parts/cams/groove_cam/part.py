@@ -44,9 +44,9 @@ from parts.keys.wheel import shape_of
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
-    from geometry.cams.plane.walls import CamWall
     from geometry.solids.body import Body
     from parts.base.readback import Probe
+    from parts.cams.probes import TurningProbe
 
 # default rim beyond the groove, part of the groove's width
 _RIM_SHARE = 0.5
@@ -119,9 +119,9 @@ class GrooveDisk(Record):
 
     def inner(self, offset: float = 0.0) -> Profile:
         """The wall nearer to the axis."""
-        from geometry.cams.plane.walls import inner_wall
+        from geometry.cams.plane.shape import cam_shape
 
-        return inner_wall(self.cam, offset)
+        return cam_shape(self.cam, offset).profile
 
     def outer(self, offset: float = 0.0) -> Profile:
         """The wall beyond the roller."""
@@ -129,17 +129,16 @@ class GrooveDisk(Record):
 
         return outer_wall(self.cam, self.clearance, offset)
 
-    def inner_wall(self, height: float) -> CamWall:
-        """The inner wall as a solid has it, cut at a height, mm."""
-        from geometry.cams.plane.walls import CamWall
+    def wall_probes(self, height: float) -> tuple[TurningProbe, TurningProbe]:
+        """A roller along the inner wall and one along the outer one, of a solid cut at a height, mm."""
+        from geometry.cams.plane.walls import wide_roller
+        from parts.cams.probes import TurningProbe
 
-        return CamWall("inner", self.cam, height, self.inner)
-
-    def outer_wall(self, height: float) -> CamWall:
-        """The outer wall likewise."""
-        from geometry.cams.plane.walls import CamWall, wide_roller
-
-        return CamWall("outer", wide_roller(self.cam, self.clearance), height, self.outer, below=False)
+        wide = wide_roller(self.cam, self.clearance)
+        return (
+            TurningProbe(self.cam, height, self.inner, name="inner"),
+            TurningProbe(wide, height, self.outer, below=False, name="outer"),
+        )
 
 
 def _as_cam(spec: GrooveCamSpec) -> CamSpec:
@@ -304,9 +303,7 @@ class GrooveCam(Kind[GrooveCamSpec, GrooveDisk]):
 
     def pitch_curve(self, keys: GrooveCamSpec, thing: GrooveDisk) -> Profile:
         """The inner wall, moved out by the roller's radius."""
-        from geometry.cams.plane.walls import inner_wall
-
-        return inner_wall(thing.cam, thing.cam.radius)
+        return thing.inner(thing.cam.radius)
 
     def is_plate(self, keys: GrooveCamSpec, thing: GrooveDisk) -> bool:
         """Without hub and chamfers."""
@@ -320,10 +317,7 @@ class GrooveCam(Kind[GrooveCamSpec, GrooveDisk]):
 
     def probes(self, keys: GrooveCamSpec, thing: GrooveDisk) -> tuple[Probe, ...]:
         """A roller along each wall."""
-        from parts.cams.probes import wall_probe
-
-        height = thing.floor + thing.depth / 2
-        return tuple(wall_probe(w, alone=False) for w in (thing.inner_wall(height), thing.outer_wall(height)))
+        return thing.wall_probes(thing.floor + thing.depth / 2)
 
 
 GROOVE_CAM = GrooveCam()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from msgspec import Meta
 
 from geometry.base.errors import OffsetError
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Region, circle
 from parts.base.kind import Kind, Others, Report
@@ -86,10 +86,8 @@ class Piece(Kind[GroovePieceSpec, GroovePiece]):
         """A roller along the wall that the plate has."""
         if keys.piece == "floor":
             return ()
-        from parts.cams.probes import wall_probe
-
-        made = thing.disk.inner_wall if keys.piece == "core" else thing.disk.outer_wall
-        return (wall_probe(made(thing.thickness / 2), alone=True),)
+        inner, outer = thing.disk.wall_probes(thing.thickness / 2)
+        return (replace(inner if keys.piece == "core" else outer, name=""),)
 
 
 GROOVE_PIECE = Piece()

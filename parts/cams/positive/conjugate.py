@@ -289,14 +289,12 @@ class ConjugateCam(Turned[ConjugateCamSpec, SecondCam]):
 
     def probes(self, keys: ConjugateCamSpec, thing: SecondCam) -> tuple[Probe, ...]:
         """The roller, rolled over the outline as it is turned."""
-        from geometry.cams.plane.walls import CamWall
-        from parts.cams.probes import wall_probe
+        from parts.cams.probes import TurningProbe
 
         def profile(offset: float) -> Profile:
             return self.outline(thing, offset)[0]
 
-        wall = CamWall("cam", thing.cam, thing.width / 2, profile, turn=thing.pair.turn)
-        return (wall_probe(wall, alone=True),)
+        return (TurningProbe(thing.cam, thing.width / 2, profile, thing.pair.turn),)
 
 
 CONJUGATE_CAM = ConjugateCam()

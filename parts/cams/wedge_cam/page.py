@@ -9,9 +9,7 @@ import numpy as np
 from msgspec import Meta
 
 from geometry.base.errors import ParameterError, limit
-from geometry.cams.plane.wedge import Swinging, Upright, WedgeCam, sharpest_crest
-from geometry.curves.curve import Real
-from geometry.laws.piece import LawPiece
+from geometry.cams.plane.wedge import Swinging, Upright, WedgeCam, sharpest_crest, steepest
 from parts.base.texts import N_
 from parts.cams.wedge_cam.part import WEDGE_CAM, WedgeCamSpec, wedge_findings, wedge_phases
 from parts.keys.base import mm
@@ -86,7 +84,7 @@ def _step(keys: WedgeKeys, travel: float) -> float:
 def _sizes(page: Sheet, cam: WedgeCam) -> None:
     page.section("Sizes")
     for name, sense in (("rise", 1), ("return", -1)):
-        found = _steepest(cam, sense)
+        found = steepest(cam, sense)
         if found is None:
             continue
         if isinstance(cam.mount, Upright):
@@ -95,30 +93,6 @@ def _sizes(page: Sheet, cam: WedgeCam) -> None:
         page.add(f"pressure_angle_{name}_deg", math.degrees(found), formula)
     crest = sharpest_crest(cam)
     page.add("least_curvature_radius", crest - cam.radius)
-
-
-def _steepest(cam: WedgeCam, sense: int) -> float | None:
-    """Greatest pressure angle while the follower rises (sense 1) or sinks, rad; None where it never does."""
-    worst = None
-    for piece in cam.motion.pieces:
-        if piece.is_constant:
-            continue
-        t = np.union1d(np.linspace(*piece.domain, 257), piece.extremes(1))
-        rate = sense * piece.value(t, 1)
-        if not rate.max() > 0:
-            continue
-        nu = np.abs(_pressure(cam, piece, t))
-        found = float(np.where(rate >= 0, nu, 0.0).max())
-        worst = found if worst is None else max(worst, found)
-    return worst
-
-
-def _pressure(cam: WedgeCam, piece: LawPiece, t: Real) -> Real:
-    """Pressure angles on one piece, its end from the left."""
-    value, rate = piece.value(t), piece.value(t, 1)
-    normal = 1j * (1.0 + cam.mount.centre([value, rate])[1])
-    way = cam.mount.centre([value, np.ones(np.shape(t))])[1]
-    return np.asarray(-np.angle(way / normal))
 
 
 def _positions(cam: WedgeCam, step: float, velocity: float | None, *, swings: bool) -> Table:

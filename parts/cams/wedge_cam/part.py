@@ -91,15 +91,15 @@ class WedgeCamSpec(MadeKeys, forbid_unknown_fields=True, tag_field="kind", tag="
     holes: WedgeHoleTable | list[WedgeHoleTable] | None = None
 
 
-def _spare(keys: WedgeCamSpec, cam: WedgeCam) -> float:
+def _spare(cam: WedgeCam) -> float:
     """Height of the plate at its lowest place over the least that is left, mm."""
     lowest = min(float(cam.centre(p.extremes(0)).imag.min()) for p in cam.motion.pieces) - cam.radius
-    return lowest - _LEAST_WALL - 2 * keys.corner_radius
+    return lowest - _LEAST_WALL - 2 * cam.corner
 
 
 def _too_low(keys: WedgeCamSpec, cam: WedgeCam) -> ParameterError:
     """The refusal of a plate that is too low for its corners, or for its follower."""
-    spare, corner, height = _spare(keys, cam), keys.corner_radius, keys.base_height
+    spare, corner, height = _spare(cam), keys.corner_radius, keys.base_height
     roundings = Suspect("corner_radius", corner, 0.0, lambda value: spare + 2 * (corner - value) > 0)
     if blamed([roundings], "corner_radius") is not None:
         return ParameterError("corner_radius", corner, "no_room_in_plate", limit(corner + spare / 2 - 1e-6, corner))
@@ -108,8 +108,7 @@ def _too_low(keys: WedgeCamSpec, cam: WedgeCam) -> ParameterError:
     ends = [height - spare * share for share in _LONGER]
 
     def is_left(value: float) -> bool:
-        changed = replace(keys, base_height=value)
-        return _spare(changed, _wedge_of(changed)) > 0
+        return _spare(_wedge_of(replace(keys, base_height=value))) > 0
 
     def fits(value: float) -> bool:
         return is_left(value) and _fits(replace(keys, base_height=value))
@@ -153,7 +152,7 @@ def _fits(keys: WedgeCamSpec) -> bool:
     from geometry.cams.plane.wedge import wedge_fault
 
     cam = _wedge_of(keys)
-    if wedge_fault(cam) is not None or not _spare(keys, cam) > 0:
+    if wedge_fault(cam) is not None or not _spare(cam) > 0:
         return False
     _check_holes(keys, cam)
     return True
@@ -242,9 +241,10 @@ def _check_holes(keys: WedgeCamSpec, cam: WedgeCam) -> None:
     """Every hole stays in the plate and clear of the others."""
     import numpy as np
 
+    from geometry.cams.plane.wedge import wedge_profile
     from geometry.plane.measure import distance_to_profile
 
-    holes, outline = _holes_of(keys), _outline(keys, cam, 0.0)
+    holes, outline = _holes_of(keys), wedge_profile(cam)
     lone = isinstance(keys.holes, WedgeHoleTable)
     for index, hole in enumerate(holes):
         at = complex(hole.x, hole.y)
@@ -252,9 +252,9 @@ def _check_holes(keys: WedgeCamSpec, cam: WedgeCam) -> None:
         key = "holes" if lone else f"holes[{index + 1}]"
         others = [abs(at - complex(h.x, h.y)) - h.diameter / 2 for h in holes[:index]]
         most = 2 * (min([room, *others]) - _LEAST_WALL)
-        outside = not _inside(cam, keys, at)
+        outside = not _inside(cam, at)
         if outside or (most <= 0 and hole.diameter > most):
-            place = _nearest_place(cam, keys, hole, holes[:index], outline)
+            place = _nearest_place(cam, hole, holes[:index], outline)
             works, code = (
                 None if place is None else Nearest(place),
                 "hole_outside_plate" if outside else "no_room_there",
@@ -266,15 +266,13 @@ def _check_holes(keys: WedgeCamSpec, cam: WedgeCam) -> None:
             raise ParameterError(f"{key}.diameter", hole.diameter, "hole_reaches_edge", limit(most, hole.diameter))
 
 
-def _nearest_place(
-    cam: WedgeCam, keys: WedgeCamSpec, hole: WedgeHoleTable, others: list[WedgeHoleTable], outline: Profile
-) -> float | None:
+def _nearest_place(cam: WedgeCam, hole: WedgeHoleTable, others: list[WedgeHoleTable], outline: Profile) -> float | None:
     """The x nearest to a hole's at which it has room at its height, mm; None where there is none."""
     import numpy as np
 
     from geometry.plane.measure import distance_to_profile
 
-    ends = float(cam.centre(0.0).real) - keys.run_in, float(cam.centre(cam.motion.travel).real) + keys.run_out
+    ends = cam.ends
     places = (np.round(np.linspace(*ends, _PLACES), 4) + 1j * hole.y).astype(np.complex128)
 
     def fit(at: Complex) -> Flags:
@@ -286,10 +284,10 @@ def _nearest_place(
 
     def fits(x: float) -> bool:
         at = complex(x, hole.y)
-        return bool(fit(np.array([at]))[0]) and _inside(cam, keys, at)
+        return bool(fit(np.array([at]))[0]) and _inside(cam, at)
 
     near = sorted(places[fit(places)].real, key=lambda x: abs(float(x) - hole.x))
-    place = next((float(x) for x in near if _inside(cam, keys, complex(float(x), hole.y))), None)
+    place = next((float(x) for x in near if _inside(cam, complex(float(x), hole.y))), None)
     if place is None:
         return None
     # between it and the next one, which has none
@@ -298,11 +296,11 @@ def _nearest_place(
     return place if found is None or not isinstance(found.value, float) else found.value
 
 
-def _inside(cam: WedgeCam, keys: WedgeCamSpec, at: complex) -> bool:
+def _inside(cam: WedgeCam, at: complex) -> bool:
     """Whether a place lies in the plate: between the ends, above the lower edge, below the profile."""
     import numpy as np
 
-    ends = float(cam.centre(0.0).real) - keys.run_in, float(cam.centre(cam.motion.travel).real) + keys.run_out
+    ends = cam.ends
     if not (ends[0] < at.real < ends[1] and at.imag > 0):
         return False
     travel = np.linspace(0, cam.motion.travel, 2049)
@@ -312,20 +310,16 @@ def _inside(cam: WedgeCam, keys: WedgeCamSpec, at: complex) -> bool:
     return at.imag < float(np.interp(at.real, edge.real, edge.imag))
 
 
-def _outline(keys: WedgeCamSpec, cam: WedgeCam, offset: float) -> Profile:
-    from geometry.cams.plane.wedge import wedge_profile
-
-    return wedge_profile(cam, (keys.run_in, keys.run_out), keys.corner_radius, offset)
-
-
 def _region(keys: WedgeCamSpec, cam: WedgeCam, offset: float) -> Region:
     """The plate's section, every boundary moved ``offset`` mm out of the material."""
+    from geometry.cams.plane.wedge import wedge_profile
+
     holes = []
     for hole in _holes_of(keys):
         if not hole.diameter / 2 > offset:
             raise OffsetError(offset, "hole_closed", hole.diameter / 2 * (1 - 1e-6))
         holes.append(circle(hole.diameter / 2 - offset, Label.HOLE, hole=True, centre=complex(hole.x, hole.y)))
-    return Region(_outline(keys, cam, offset), tuple(holes))
+    return Region(wedge_profile(cam, offset), tuple(holes))
 
 
 def wedge_quantities(keys: WedgeCamSpec, cam: WedgeCam) -> dict[str, float]:
@@ -339,24 +333,17 @@ def wedge_quantities(keys: WedgeCamSpec, cam: WedgeCam) -> dict[str, float]:
     found["travel"] = cam.motion.travel
     if cam.radius > 0:
         found["follower_radius"] = cam.radius
-    found["pressure_angle_deg"] = math.degrees(_steepest(cam))
+    found["pressure_angle_deg"] = math.degrees(_greatest_pressure_angle(cam))
     crest = sharpest_crest(cam)
     if np.isfinite(crest):
         found["least_curvature_radius"] = crest - cam.radius
     return found
 
 
-def _steepest(cam: WedgeCam) -> float:
-    """Greatest pressure angle, rad; upright at the greatest |S'|."""
-    import numpy as np
+def _greatest_pressure_angle(cam: WedgeCam) -> float:
+    from geometry.cams.plane.wedge import steepest
 
-    found = [0.0]
-    for piece in cam.motion.pieces:
-        if piece.is_constant:
-            continue
-        travel = np.union1d(np.linspace(*piece.domain, 257), piece.extremes(1))
-        found.append(float(np.abs(cam.pressure_angle(np.minimum(travel, np.nextafter(piece.end, 0)))).max()))
-    return max(found)
+    return max(steepest(cam, sense) or 0.0 for sense in (1, -1))
 
 
 def wedge_findings(keys: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
@@ -375,7 +362,7 @@ def wedge_findings(keys: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
             code, unit = ("wedge_swung", math.degrees(1.0)) if swings else ("wedge", 1.0)
             found.append(Finding(f"{code}_{name}_impact", size * unit, at))
             break
-    usual, steepest = USUAL_PRESSURE_ANGLE[swings], math.degrees(_steepest(cam))
+    usual, steepest = USUAL_PRESSURE_ANGLE[swings], math.degrees(_greatest_pressure_angle(cam))
     if steepest > usual + 1e-9:
         found.append(Finding("steep_pressure_angle", steepest, usual))
     return tuple(found)
@@ -396,7 +383,7 @@ class Wedge(Kind[WedgeCamSpec, "WedgeCam"]):
         fault = wedge_fault(cam)
         if fault is not None:
             raise _refusal(keys, cam, *fault)
-        if not _spare(keys, cam) > 0:
+        if not _spare(cam) > 0:
             raise _too_low(keys, cam)
         least = keys.corner_radius + _LEAST_WALL
         for name in ("run_in", "run_out"):

@@ -8,17 +8,15 @@ from msgspec import Meta
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
-from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
 from parts.keys.base import in_modules, mm, part_mm, start
-from parts.keys.pins import check_holes, holes_of
-from parts.keys.wheel import WheelKeys, WheelKind, shape_of
+from parts.keys.pins import wheel_holes
+from parts.keys.wheel import WheelKeys, WheelKind
 
 if TYPE_CHECKING:
     from geometry.gears.cycloidal.gear import CycloidalGear
     from geometry.plane.offset_region import OffsetRegion
     from geometry.plane.profile import Profile
-    from geometry.solids.body import Body
 
 
 class CycloidalGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="cycloidal_gear"):
@@ -91,10 +89,7 @@ class CycloidalGearKind(WheelKind[CycloidalGearSpec, "CycloidalGear"]):
                 keys.root_rounding,
             )
         )
-        holes = holes_of(keys)
-        check_holes(keys, holes, gear.root_radius)
-        check_wheel(shape_of(keys), 2 * gear.root_radius, holes)
-        return replace(gear, holes=holes)
+        return replace(gear, holes=wheel_holes(keys, gear.root_radius))
 
     def section(self, keys: CycloidalGearSpec, thing: CycloidalGear, offset: float) -> OffsetRegion:
         """The exact section, moved."""
@@ -102,14 +97,11 @@ class CycloidalGearKind(WheelKind[CycloidalGearSpec, "CycloidalGear"]):
 
         return cycloidal_region(thing, offset)
 
-    def solid(self, keys: CycloidalGearSpec, thing: CycloidalGear, offset: float) -> Body:
-        """The wheel with its web, hub and chamfers."""
+    def outline(self, thing: CycloidalGear, offset: float) -> Profile:
+        """Of its teeth."""
         from geometry.gears.cycloidal.gear import cycloidal_side
 
-        def outline(offset: float, depth: float) -> Profile:
-            return cycloidal_side(thing, offset - depth).profile()
-
-        return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
+        return cycloidal_side(thing, offset).profile()
 
     def report(self, keys: CycloidalGearSpec, thing: CycloidalGear) -> Report:
         """Diameters, thicknesses and what is poor."""

@@ -13,6 +13,7 @@ import pytest
 from exporters.formats.read_dxf import read_dxf
 from exporters.production.recheck import recheck
 from geometry.base.errors import OffsetError
+from geometry.base.record import replace
 from geometry.cams.contact.rolled import rolled_lift
 from geometry.cams.plane.disk import FollowerKind
 from geometry.cams.plane.wedge import Swinging, Upright, WedgeCam, WedgeMotion, wedge_fault, wedge_profile
@@ -284,9 +285,9 @@ def test_a_plate_reaches_as_far_as_its_runs(name: str, offset: float) -> None:
 
 def test_corners_are_no_rounder_than_the_plate_is_high() -> None:
     _, cam = wedge("roller")
-    assert wedge_profile(cam, (10.0, 10.0), 7.49)
+    assert wedge_profile(replace(cam, corner=7.49))
     with pytest.raises(OffsetError):
-        wedge_profile(cam, (10.0, 10.0), 7.51)
+        wedge_profile(replace(cam, corner=7.51))
 
 
 def test_the_lowest_place_between_the_ends_must_stand_above_the_lower_edge() -> None:
@@ -294,10 +295,10 @@ def test_the_lowest_place_between_the_ends_must_stand_above_the_lower_edge() -> 
         fall = (LawPiece(0.0, 30.0, (0.0, 0.0, -depth, -depth)), LawPiece(30.0, 60.0, (-depth, -depth, 0.0, 0.0)))
         cam = WedgeCam(WedgeMotion(fall), Upright(8.0))
         if whole:
-            wedge_profile(cam, (10.0, 10.0))
+            wedge_profile(cam)
         else:
             with pytest.raises(OffsetError):
-                wedge_profile(cam, (10.0, 10.0))
+                wedge_profile(cam)
 
 
 def test_an_arm_may_run_with_the_plate_and_no_faster() -> None:
@@ -360,7 +361,7 @@ def test_a_straight_slope_has_no_crest() -> None:
 def test_the_follower_itself_rounds_a_valley_where_its_velocity_jumps(grow: float) -> None:
     """A parabola that starts with the slope 1/3 and ends level: every point of the edge is as far from the path."""
     cam = WedgeCam(WedgeMotion((LawPiece(0.0, 60.0, (0.0, 10.0, 10.0)),)), Upright(25.0), 7.0)
-    outline = wedge_profile(cam, (10.0, 10.0), 0.0, grow)
+    outline = wedge_profile(cam, grow)
     points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 60)) for s in outline.segments()])
     upper = points[(points.imag > 12) & (points.real > -9) & (points.real < 69)]
     x = np.linspace(-15.0, 75.0, 9001)
