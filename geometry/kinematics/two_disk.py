@@ -114,10 +114,6 @@ class TwoDisk(Record):
         delta = 2 * math.pi * np.asarray(first) / self.worm_ratios[0]
         return delta, self.ratio * (delta - 2 * math.pi * np.asarray(second) / self.worm_ratios[1])
 
-    def coupled(self, delta: float) -> float:
-        """gamma: what disk 3 turns against disk 2 (and beta grows) with the ring held."""
-        return self.ratio * delta
-
     def jacobian(self, delta: Real | float, beta: Real | float) -> tuple[Complex, Complex]:
         """d O3 / d delta with beta held, and d O3 / d beta, mm/rad; their cross product is L1 L2 sin beta."""
         turned = np.exp(1j * (np.asarray(beta) - np.asarray(delta)))

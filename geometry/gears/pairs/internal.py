@@ -45,13 +45,12 @@ class InternalPair(InvolutePair[RingGear, RingSide], dict=True):
         most = math.hypot(self.pinion.base_radius, max(forms[1] - line, 0.0))
         return 2 * most, 2 * math.hypot(self.ring.base_radius, line + forms[0])
 
-    def pinion_rotation(self, ring_rotation: float, direction: float = 0.0, *, contact: int = 0) -> float:
+    def pinion_rotation(self, ring_rotation: float, direction: float = 0.0) -> float:
         """Rotation of the pinion that brings a tooth of it into the middle of a space of the ring, rad.
 
-        ``direction`` is that of the line of centres. ``contact`` = +1 or -1 turns the pinion on, counter-clockwise or
-        clockwise, by half of the backlash: its flanks then touch. Not reduced to one turn.
+        ``direction`` is that of the line of centres. Not reduced to one turn.
         """
-        return direction + (ring_rotation - direction) * self.gear_ratio + contact * self._half_play(self.pinion)
+        return direction + (ring_rotation - direction) * self.gear_ratio
 
     @property
     def mesh(self) -> InternalMesh:

@@ -8,7 +8,6 @@ both have a column, or one of them has and the other has come to its end.
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 import numpy as np
 
@@ -264,15 +263,15 @@ class BandFaces(WormRings):
             foot, head = below.get(number), over.get(number)
             on = {-1: -end - pitch + margin < angle < -end - margin, 1: end - pitch + margin < angle < end - margin}
             if foot is None and head is not None and on[-1]:
-                foot = self._on_circle(angle, -height)
+                foot = self.on_circle(radius, self.band.turned + angle, -height)
                 circles[-1].append((number, foot))
             elif head is None and foot is not None and on[1]:
-                head = self._on_circle(angle, height)
+                head = self.on_circle(radius, self.band.turned + angle, height)
                 circles[1].append((number, head))
             if foot is not None and head is not None:
                 lines.append((foot, head))
         # where the bands end: upright lines to the circles, both of one band, taken with the band above too
-        ends = {s: self._on_circle(s * end, s * height) for s in (-1, 1)}
+        ends = {s: self.on_circle(radius, self.band.turned + s * end, s * height) for s in (-1, 1)}
         low_corner, high_corner = lower.corners[0][corner], upper.corners[-1][corner]
         uprights = {-1: self.add_edges(ends[-1], low_corner, Straight(UP)),
                     1: self.add_edges(high_corner, ends[1], Straight(UP))}  # fmt: skip
@@ -290,26 +289,10 @@ class BandFaces(WormRings):
         for s, own in ((-1, bottom[:own_bottom]), (1, arcs)):
             self.rims[s] = [(np.array([edge[j]]), way) for j in range(n) for edge, way in own]
         edges = [self.add_edges(foot, head, Straight(UP)) for foot, head in lines]
-        at = [(_find(bottom_nodes, foot), _find(top_nodes, head)) for foot, head in lines]
-        cuts = [(0, 0), *at, (len(bottom), len(top))]
         surface = self.pipe(radius)
-        for i, ((b0, t0), (b1, t1)) in enumerate(pairwise(cuts)):
-            around = bottom[b0:b1]
-            if i < len(edges):
-                around = [*around, (edges[i], True)]
-            around += [(edge, not way) for edge, way in reversed(top[t0:t1])]
-            if i > 0:
-                around.append((edges[i - 1], False))
+        for around in self.panels(edges, lines, (bottom, bottom_nodes), (top, top_nodes)):
             self.face(surface, around)
 
     def _even(self) -> int:
         """Which kind of cells has even steps."""
         return next((k for k, c in enumerate(self.kinds) if c.step), 0)
-
-    def _on_circle(self, angle: float, z: float) -> Index:
-        turns = angle + self.band.turned + math.tau * self.starts / len(self.starts)
-        return self.add_vertices(self.add_points(self.band.radius * np.exp(1j * self.worm.sign * turns), z))
-
-
-def _find(nodes: list[Index], node: Index) -> int:
-    return next(k for k, other in enumerate(nodes) if other[0] == node[0])

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache, partial
-from itertools import pairwise
 
 import numpy as np
 
@@ -285,7 +284,7 @@ class CutThreads(WormRings):
         )
         # nodes on the circles at both ends, where lines stand on them
         circles: dict[int, list[tuple[int, Index]]] = {-1: [], 1: []}
-        lines: list[tuple[int, Index, Index]] = []
+        lines: list[tuple[Index, Index]] = []
         for number in numbers:
             angle = self.level(number)
             foot, head = below_nodes.get(number), above_nodes.get(number)
@@ -294,13 +293,13 @@ class CutThreads(WormRings):
                 1: ends[-1, 1] + margin < angle < ends[1, 1] - margin,
             }
             if foot is None and on[-1] and (head is not None or on[1]):
-                foot = self._on_circle(number, radius, -half)
+                foot = self.on_circle(radius, angle, -half)
                 circles[-1].append((number, foot))
             if head is None and on[1] and foot is not None:
-                head = self._on_circle(number, radius, half)
+                head = self.on_circle(radius, angle, half)
                 circles[1].append((number, head))
             if foot is not None and head is not None:
-                lines.append((number, foot, head))
+                lines.append((foot, head))
         # both ways from the lower end of the side above to the upper end of the side below
         start, stop = lower.corners[0][above, 0], upper.corners[0][:, -1]
         bottom, bottom_nodes = self.arcs(radius, -half, [start, *(x for _, x in circles[-1]), upper.corners[0][:, 0]])
@@ -313,19 +312,11 @@ class CutThreads(WormRings):
         edges: Index | tuple[()] = ()
         if lines:
             # of a short thread there are none
-            feet, heads = (np.concatenate([line[k] for line in lines]) for k in (1, 2))
+            feet, heads = (np.concatenate([line[k] for line in lines]) for k in (0, 1))
             edges = self.add_edges(feet, heads, Straight(UP)).reshape(-1, n)
-        at = [(_find(bottom_nodes, foot), _find(top_nodes, head)) for _, foot, head in lines]
-        cuts = [(0, 0), *at, (len(bottom), len(top))]
         # faces of alike bounds are one bundle
         alike: dict[tuple[bool, ...], list[list[Use]]] = {}
-        for i, ((b0, t0), (b1, t1)) in enumerate(pairwise(cuts)):
-            around = bottom[b0:b1]
-            if i < len(edges):
-                around = [*around, (edges[i], True)]
-            around += [(edge, not way) for edge, way in reversed(top[t0:t1])]
-            if i > 0:
-                around.append((edges[i - 1], False))
+        for around in self.panels(edges, lines, (bottom, bottom_nodes), (top, top_nodes)):
             alike.setdefault(tuple(way for _, way in around), []).append(around)
         for ways, faces in alike.items():
             columns = [np.concatenate([around[k][0] for around in faces]) for k in range(len(ways))]
@@ -334,10 +325,6 @@ class CutThreads(WormRings):
     def _inner(self, strip: _Strip, column: int) -> bool:
         """Whether a column is none of the ends."""
         return 0 < column < len(strip.levels) - 1
-
-    def _on_circle(self, number: int, radius: float, z: float) -> Index:
-        angle = self.worm.sign * (self.level(number) + math.tau * self.starts / len(self.starts))
-        return self.add_vertices(self.add_points(radius * np.exp(1j * angle), z))
 
     def thread_ends(self) -> None:
         """What the cones, or planes, at both ends leave of every thread."""
@@ -361,7 +348,3 @@ class CutThreads(WormRings):
             # the whole circle, thread by thread: what lies above thread j comes before it
             own = [*self.space_arcs[end], under]
             self.rims[end] = [(np.array([edge[j]]), way) for j in range(len(self.starts)) for edge, way in own]
-
-
-def _find(nodes: list[Index], node: Index) -> int:
-    return next(k for k, other in enumerate(nodes) if other[0] == node[0])

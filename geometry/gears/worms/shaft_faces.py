@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -50,6 +51,28 @@ class WormRings(RingBuilder):
             along = along != threaded
         loop = np.stack([edge for edge, _ in around], axis=1), np.array([way for _, way in around])
         self.faces.append(Faces(surface, (loop,), along))
+
+    def panels(
+        self,
+        edges: Sequence[Index] | Index,
+        ends: Sequence[tuple[Index, Index]],
+        below: tuple[list[Use], list[Index]],
+        above: tuple[list[Use], list[Index]],
+    ) -> list[list[Use]]:
+        """What lies between two chains of edges, cut by ``edges`` from a node of the lower to one of the upper one."""
+        (bottom, bottom_nodes), (top, top_nodes) = below, above
+        at = [(_find(bottom_nodes, foot), _find(top_nodes, head)) for foot, head in ends]
+        made = []
+        for i, ((b0, t0), (b1, t1)) in enumerate(pairwise([(0, 0), *at, (len(bottom), len(top))])):
+            right: list[Use] = [(edges[i], True)] if i < len(edges) else []
+            left: list[Use] = [(edges[i - 1], False)] if i > 0 else []
+            made.append([*bottom[b0:b1], *right, *((edge, not way) for edge, way in reversed(top[t0:t1])), *left])
+        return made
+
+    def on_circle(self, radius: float, angle: float, z: float) -> Index:
+        """New vertices at an angle of thread 0 of a right-hand worm, rad, on all threads, (n,)."""
+        turned = self.worm.sign * (angle + math.tau * self.starts / len(self.starts))
+        return self.add_vertices(self.add_points(radius * np.exp(1j * turned), z))
 
     def arc(self, radius: float, z: float, start: Index, end: Index) -> Use:
         """Arcs about the axis towards growing angles of a right-hand worm."""
@@ -153,3 +176,7 @@ def _loop(outer: list[Use], *, left: bool) -> kinds.Loop:
     around = outer if left else [(e, not w) for e, w in reversed(outer)]
     edges, ways = zip(*around, strict=True)
     return np.stack(edges, axis=1), np.array(ways)
+
+
+def _find(nodes: list[Index], node: Index) -> int:
+    return next(k for k, other in enumerate(nodes) if other[0] == node[0])

@@ -290,7 +290,7 @@ def laid_out() -> dict[tuple[str, str], float]:
         ("layout.L2", "reach_mm"): most, ("ik.reach", "r_min_mm"): least, ("ik.reach", "r_max_mm"): most,
         ("ik.reach", "stroke_mm"): 2 * most, ("layout.total_ratio", "disk2"): turn / relative[0],
         ("layout.total_ratio", "disk3_relative_to_disk2"): shown(MODULE, "disk_3_ratio", 0, {}),
-        ("gamma", "gamma_over_d_delta"): table.coupled(1.0),
+        ("gamma", "gamma_over_d_delta"): table.ratio,
         # disk 3 turns back by what beta grows
         ("gamma", "rel_rotation_of_disk3_from_pitch_point_velocity"): -beta / delta,
         ("gamma", "abs_rotation_of_disk3"): (delta - beta) / delta,

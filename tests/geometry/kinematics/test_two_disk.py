@@ -131,7 +131,7 @@ def test_ratios_of_the_drives() -> None:
     assert one == 0
     assert two == pytest.approx(-212 / 3, rel=1e-15)
     # the ring held: disk 3 turns by 1.5 delta against disk 2
-    assert THESIS.drives(1.0, THESIS.coupled(1.0))[1] == pytest.approx(0, abs=1e-15)
+    assert THESIS.drives(1.0, THESIS.ratio)[1] == pytest.approx(0, abs=1e-15)
     # on the spot at the centre: 90 degrees of disk 2
     assert THESIS.drives(turn / 4, 0.0) == (32, 26.5)
 
