@@ -140,7 +140,7 @@ class FaceGearPairKind(MateKind[FaceGearPairSpec, "FaceGear", "SpurGear"]):
     joins = (("face_gear", "spur_gear"),)
 
     def check(self, keys: FaceGearPairSpec, first: Any, second: Any) -> None:
-        """The pinion is the one that the gear is made for: straight, unshifted, of its teeth."""
+        """The pinion is the one that the gear is made for: straight, of its teeth and its shift."""
         helix = helix_of(second)
         if helix.angle:
             raise ParameterError("helix_angle_deg", second.helix_angle_deg, "not_of_its_mate", Nearest(0.0))
@@ -149,9 +149,8 @@ class FaceGearPairKind(MateKind[FaceGearPairSpec, "FaceGear", "SpurGear"]):
                                  Nearest(first.pinion_teeth))  # fmt: skip
         for key in ("module", "pressure_angle_deg"):
             same_size(key, getattr(second, key), getattr(first, key), "not_of_its_mate")
-        if second.profile_shift_coefficient:
-            raise ParameterError("profile_shift_coefficient", second.profile_shift_coefficient, "not_of_its_mate",
-                                 Nearest(0.0))  # fmt: skip
+        shift = first.pinion_profile_shift_coefficient
+        same_size("profile_shift_coefficient", second.profile_shift_coefficient, shift, "not_of_its_mate")
 
     def thinning(self, keys: FaceGearPairSpec, first: End[FaceGear], second: End[SpurGear]) -> tuple[float, float]:
         """Half of the backlash each."""

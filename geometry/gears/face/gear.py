@@ -73,7 +73,8 @@ class FaceGear(Record, dict=True):
     """A face gear cut by ``cutter``, or by one with thicker teeth; lengths in mm.
 
     ``circumferential_thinning``: of its teeth, along the shaper's reference circle.
-    ``addendum``: of its teeth above the pitch plane, the plane that touches the pinion's reference cylinder;
+    ``addendum``: of its teeth above the pitch plane, the plane that touches the pinion's reference cylinder, or, of a
+    pinion with a shift, above a plane so much farther from its axis;
     ``thickness``: of the plate below the root; ``bore``: its outline.
     """
 
@@ -111,7 +112,7 @@ class FaceGear(Record, dict=True):
     @property
     def tip_depth(self) -> float:
         """Of the tip plane below the shaper's axis."""
-        return self.shaper.reference_radius - self.addendum
+        return self.shaper.reference_radius + self.shaper.profile_shift_coefficient * self.module - self.addendum
 
     @property
     def whole_depth(self) -> float:

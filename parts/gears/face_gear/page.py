@@ -58,9 +58,11 @@ def _given(page: Sheet, keys: FaceKeys, gear: FaceGear) -> None:
     page.section(N_("Given"))
     page.both("number_of_teeth", (keys.pinion_teeth, keys.number_of_teeth))
     page.add("module", keys.module)
+    if keys.pinion_profile_shift_coefficient:
+        page.add("profile_shift_coefficient", keys.pinion_profile_shift_coefficient, gear=1)
     page.add("pressure_angle_deg", keys.pressure_angle_deg)
     page.add("addendum_coefficient", gear.addendum / keys.module)
-    page.add("dedendum_coefficient", keys.dedendum_coefficient)
+    page.add("dedendum_coefficient", gear.shaper.addendum)
     page.add("cutter_tip_rounding", gear.shaper.tip_rounding)
     if keys.circumferential_thinning:
         page.add("circumferential_thinning", keys.circumferential_thinning)
@@ -76,10 +78,12 @@ def _sizes(page: Sheet, gear: FaceGear) -> None:
     angles = math.degrees(math.atan(gear.rolled)), math.degrees(math.atan(1 / gear.rolled))
     page.both("pitch_cone_angle_deg", angles, "arctan({z#} / {z~})")
     page.add("base_diameter", 2 * shaper.base_radius, "{d1} * cos({alpha})", gear=1)
-    page.add("shaper_tip_diameter", 2 * shaper.tip_radius, "{d1} + 2 * {h_f} * {m}")
+    # a shift carries the gear's teeth along
+    root, tip = ("({h_f} + {x1})", "({h_a} - {x1})") if shaper.profile_shift_coefficient else ("{h_f}", "{h_a}")
+    page.add("shaper_tip_diameter", 2 * shaper.tip_radius, f"{{d1}} + 2 * {root} * {{m}}")
     corner = "{d_a0} / 2 - {rho_0} * {m}"
     page.add("shaper_form_length", shaper.form_length, f"sqrt(({corner})**2 - ({{d_b1}} / 2)**2) + {{rho_0}} * {{m}}")
-    page.add("face_tip_depth", gear.tip_depth, "{d1} / 2 - {h_a} * {m}")
+    page.add("face_tip_depth", gear.tip_depth, f"{{d1}} / 2 - {tip} * {{m}}")
     page.add("face_tooth_depth", gear.whole_depth, "({h_a} + {h_f}) * {m}")
     page.add("pinion_axis_height", gear.mounting_distance, "{t} + {d_a0} / 2")
     if gear.circumferential_thinning:

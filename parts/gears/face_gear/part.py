@@ -11,7 +11,7 @@ from msgspec import Meta
 from msgspec.structs import replace as changed
 
 from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
 from geometry.gears.face.gear import FaceGear, form_length, sized, topped
 from geometry.gears.teeth.cutter import CUTTER_ADDENDUM, CUTTER_ROUNDING, PinionCutter, checked_cutter
@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 # part of the largest rounding of a shaper's tooth that it has at most; the plate below the root, the least tip, modules
 _ROUND, _USUAL_PLATE, _THIN = 0.9, 2.5, 0.3
+# dedenda by default, the first that the shaper's tooth takes, modules
+_DEDENDA = CUTTER_ADDENDUM, 1.2, 1.15, 1.1, 1.05
 # addenda and dedenda that are tried where teeth have no width, part of the given one
 _LOWER = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
 # mm: how near pictures are to the edges of tips
@@ -50,6 +52,9 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     number_of_teeth: Teeth
     pinion_teeth: PinionTeeth
     pressure_angle_deg: Annotated[float, degrees("pressure angle of the pinion", least=10, most=35)] = 20.0
+    pinion_profile_shift_coefficient: Annotated[
+        float, in_modules("profile shift x1 of its pinion, with which its own teeth go along", least=-2, most=3)
+    ] = 0.0
     addendum_coefficient: (
         Annotated[
             float,
@@ -58,9 +63,18 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
         ]
         | None
     ) = None  # fmt: skip
-    dedendum_coefficient: Annotated[
-        float, in_modules("dedendum below it: what the shaper's teeth have for an addendum", least=0.1, most=3)
-    ] = CUTTER_ADDENDUM
+    dedendum_coefficient: (
+        Annotated[
+            float,
+            in_modules(
+                "dedendum below it, the addendum of the shaper; default: 1.25, or what its tooth takes from 1.05 on",
+                least=0.1,
+                most=3,
+                example=1.25,
+            ),
+        ]
+        | None
+    ) = None  # fmt: skip
     tip_radius_coefficient: (
         Annotated[
             float,
@@ -103,15 +117,26 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
 
 
 # keys of the shaper as its owner has them
-_SHAPER_KEYS = {"cutter.addendum": "dedendum_coefficient", "cutter.number_of_teeth": "pinion_teeth"}  # fmt: skip
+_SHAPER_KEYS = {
+    "cutter.addendum": "dedendum_coefficient", "cutter.number_of_teeth": "pinion_teeth",
+    "cutter.profile_shift_coefficient": "pinion_profile_shift_coefficient",
+}  # fmt: skip
 
 
 def shaper_of(keys: FaceGearSpec) -> PinionCutter:
     """The shaper, checked to exist."""
     alpha, rounding = math.radians(keys.pressure_angle_deg), keys.tip_radius_coefficient
-    shaper = PinionCutter(keys.module, keys.pinion_teeth, alpha, 0.0, keys.dedendum_coefficient, 0.0)
-    try:
+    shift = keys.pinion_profile_shift_coefficient
+    sharp = PinionCutter(keys.module, keys.pinion_teeth, alpha, shift, CUTTER_ADDENDUM, 0.0)
+
+    def cut(dedendum: float) -> PinionCutter:
+        shaper = replace(sharp, addendum=dedendum)
         checked_cutter(replace(shaper, widening=keys.circumferential_thinning / 2))
+        return shaper
+
+    dedenda = _DEDENDA if keys.dedendum_coefficient is None else (keys.dedendum_coefficient,)
+    try:
+        shaper = cut(next((one for one in dedenda if kept(lambda own: bool(cut(own)), one)), dedenda[0]))
     except ParameterError as error:
         raise error.renamed(_SHAPER_KEYS.get(error.name, error.name)) from error
     # the root keeps some width
@@ -140,7 +165,7 @@ def pinion_of(keys: FaceGearSpec) -> SpurGear:
     from parts.gears.spur_gear.part import basic_rack_of
 
     rack = basic_rack_of("ISO 53 A", math.radians(keys.pressure_angle_deg))
-    return SpurGear(keys.module, keys.pinion_teeth, rack)
+    return SpurGear(keys.module, keys.pinion_teeth, rack, keys.pinion_profile_shift_coefficient)
 
 
 def _form_length(keys: FaceGearSpec) -> float:

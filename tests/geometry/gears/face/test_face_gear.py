@@ -20,14 +20,14 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.distance import Verdict
 from parts.gears.spur_gear.part import basic_rack_of
 
-Case = tuple[float, int, int, float, float, float]
-# module, teeth of the shaper and of the gear, pressure angle, tip rounding of the shaper, thinning
-CASES: tuple[Case, ...] = ((2.0, 20, 60, 20.0, 0.2, 0.05), (1.0, 12, 36, 20.0, 0.02, 0.0),
-                           (1.0, 40, 200, 20.0, 0.2, 0.0), (1.5, 25, 30, 25.0, 0.1, 0.0))  # fmt: skip
+Case = tuple[float, int, int, float, float, float, float]
+# module, teeth of the shaper and of the gear, pressure angle, tip rounding of the shaper, thinning, shift of the pinion
+CASES: tuple[Case, ...] = ((2.0, 20, 60, 20.0, 0.2, 0.05, 0.0), (1.0, 12, 36, 20.0, 0.01, 0.0, 0.3),
+                           (1.0, 40, 200, 20.0, 0.2, 0.0, 0.0), (1.5, 25, 30, 25.0, 0.1, 0.0, -0.2))  # fmt: skip
 
 
-def made(m: float, z1: int, z2: int, alpha: float, rounding: float, thinning: float) -> FaceGear:
-    shaper = PinionCutter(m, z1, math.radians(alpha), tip_rounding=rounding)
+def made(m: float, z1: int, z2: int, alpha: float, rounding: float, thinning: float, shift: float = 0.0) -> FaceGear:
+    shaper = PinionCutter(m, z1, math.radians(alpha), shift, tip_rounding=rounding)
     return sized(FaceGear(shaper, z2, m, 0.0, 0.0, 3 * m, thinning), None, None).checked()
 
 
@@ -122,7 +122,7 @@ def test_beyond_the_pointed_radius_nothing_is_left_of_the_tip(case: Case) -> Non
 def pair(case: Case, **pinion: float) -> FacePair:
     gear = made(*case)
     rack: BasicRack = basic_rack_of("ISO 53 A", gear.shaper.pressure_angle)
-    own = SpurGear(gear.module, case[1], rack, **pinion)
+    own = SpurGear(gear.module, case[1], rack, case[6], **pinion)
     gear = sized(gear, None, None, form_length(own))
     return FacePair(gear, own, gear.inner_radius - 1.0, gear.outer_radius + 1.0)
 

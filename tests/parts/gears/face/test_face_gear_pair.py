@@ -150,6 +150,7 @@ def test_a_pinion_that_the_gear_is_not_for_is_refused() -> None:
             made(scene({}, {key: value}))
         assert f"parts.pinion.{key}" in str(refusal.value)
         made(scene({}, {key: right}))
+    made(scene({"pinion_profile_shift_coefficient": 0.2}, {"profile_shift_coefficient": 0.2}))
 
 
 @pytest.mark.parametrize(
@@ -160,7 +161,8 @@ def test_a_pinion_that_the_gear_is_not_for_is_refused() -> None:
         ({"tip_radius_coefficient": 1.0}, "tip_radius_coefficient"),
         ({"dedendum_coefficient": 2.0}, "dedendum_coefficient"),
         ({"addendum_coefficient": 2.5}, "addendum_coefficient"),
-        ({"pinion_teeth": 5}, "dedendum_coefficient"), ({"pinion_teeth": 3}, "dedendum_coefficient"),
+        ({"pinion_teeth": 5, "dedendum_coefficient": 1.25}, "dedendum_coefficient"),
+        ({"pinion_teeth": 8, "pinion_profile_shift_coefficient": 0.5}, "dedendum_coefficient"),
         ({"pinion_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.0}, "addendum_coefficient"),
         ({"pinion_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.5}, "addendum_coefficient"),
         ({"bore_diameter": 70.0}, "bore_diameter"), ({"circumferential_thinning": 4.0}, "circumferential_thinning"),
