@@ -81,7 +81,8 @@ class GenevaDriverKind(Kind[GenevaDriverSpec, "GenevaDriver"]):
         if gap is None:
             gap = min(_GAP * pin, disc.room(holes.bore_reach) / 2)
         disc = checked_disc(replace(disc, relief_clearance=gap), holes.bore_reach)
-        usual = disc.drive.crank_radius + pin + max(keys.seat_clearance, 0.0)
+        reach = disc.drive.crank_radius + pin / 2 + max(keys.seat_clearance, 0.0)
+        usual = reach + max(pin / 2, least_wall(2 * reach) * (1 + 2 * MARGIN))
         driver = GenevaDriver(
             disc,
             keys.piece,
@@ -142,7 +143,7 @@ def _check(keys: GenevaDriverSpec, driver: GenevaDriver) -> None:
     smallest = -driver.pin_radius / 2
     if keys.seat_clearance < smallest:
         raise ParameterError("seat_clearance", keys.seat_clearance, "leaves_no_hole", least_of(smallest, 0.0))
-    least = least_wall(driver.plate_radius) * (1 + MARGIN)
+    least = least_wall(2 * seats.reach) * (1 + MARGIN)
     if driver.piece != "disc" and driver.plate_radius < seats.reach + least:
         wide = least_of(2 * (seats.reach + least), 2 * driver.plate_radius)
         raise ParameterError("plate_diameter", keys.plate_diameter, "pins_reach_edge", wide, diameter=2 * seats.reach)

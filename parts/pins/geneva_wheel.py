@@ -9,7 +9,7 @@ import msgspec
 from msgspec import Meta
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError
-from geometry.base.nearest import moved, nearest
+from geometry.base.nearest import kept, moved, nearest
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 # by default: the pin's diameter as a part of the crank radius; of the pin's, the wall of a tip, at most such a part of
 # what a slot leaves of the crank for disc and tip; of the pin's, gaps that no key tells
 _PIN, _TIP, _MOST_OF_TIP, _GAP = 1 / 8, 1.0, 1 / 6, 0.1
+# discs that are tried where the one that is given does not work, as parts of the room
+_DISCS = (0.8, 0.9, 0.95, 0.98, 0.99)
 _ONLY_EXTERNAL = ("bore_diameter", "bore", "spokes", "web", "hub", "face_chamfer")
 
 
@@ -172,23 +174,26 @@ def wheel_of(keys: GenevaWheelSpec) -> GenevaWheel:
 
 
 def _with_tips(keys: GenevaWheelSpec) -> GenevaWheel:
-    """The wheel of the keys, checked; where all follows from the pin, that is to blame."""
+    """The wheel of the keys, checked; the first key that alone cures it is to blame."""
     from geometry.gears.pins.geneva import checked_wheel
 
     wheel = wheel_of(keys)
     try:
         return checked_wheel(wheel)
     except ParameterError as refusal:
-        follows = refusal.name == "locking_diameter" and keys.locking_diameter is None
-        if not follows and refusal.name != "pin_diameter":
-            raise
+        discs = [] if keys.locking_diameter is None else [2 * wheel.room_of_disc * part for part in _DISCS]
+        pins = [_PIN * wheel.drive.crank_radius * 0.5**k for k in range(12)]
+        ways = {key: [0.0] for key in ("tip_rounding", "slot_clearance", "locking_clearance", "end_clearance")}
+        for key, ends in (ways | {"locking_diameter": discs, "pin_diameter": pins}).items():
+            given = getattr(keys, key) or (wheel.pin_diameter if key == "pin_diameter" else 0.0)
 
-        def fits(diameter: float) -> bool:
-            return checked_wheel(wheel_of(msgspec.structs.replace(keys, pin_diameter=diameter))).locks
+            def fits(value: float, key: str = key) -> bool:
+                return checked_wheel(wheel_of(msgspec.structs.replace(keys, **{key: value}))).locks
 
-        pin = wheel.pin_diameter
-        cure = partial(nearest, fits, pin, [pin * 0.5**k for k in range(1, 12)], digits=6)
-        raise ParameterError("pin_diameter", pin, refusal.code, cure) from refusal
+            if given and any(kept(fits, end) for end in ends):
+                cure = partial(nearest, fits, given, ends, digits=6)
+                raise ParameterError(key, given, refusal.code, cure) from refusal
+        raise
 
 
 def _ring(keys: GenevaWheelSpec, wheel: GenevaWheel) -> GenevaWheel:

@@ -14,13 +14,12 @@ from __future__ import annotations
 import cmath
 import math
 from functools import cached_property, partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geometry.base.errors import Nearest, ParameterError, limit
-from geometry.base.nearest import kept, nearest
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.nearest import nearest
 from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Real
@@ -35,8 +34,6 @@ _SHARES, _TURNS, _ROUNDS = 33, 361, 6
 _ROUNDING = 1e-12
 # what is kept from a limit, as a part of it
 _MARGIN = 1e-6
-# of what is left beside a slot, tips that are tried where those that are asked for leave no disc
-_TIP_PARTS = (0.2, 0.1, 0.05, 0.02, 0.01)
 
 
 class Geneva(Record):
@@ -263,55 +260,26 @@ class GenevaWheel(Record):
 
 
 def checked_wheel(wheel: GenevaWheel) -> GenevaWheel:
-    """The same wheel, if its slots and tips exist.
+    """The same wheel, if its slots and tips exist, and leave something of the driver's disc as they come by.
 
     Raises
     ------
     ParameterError
-        Names ``pin_diameter``, ``tip_rounding`` or ``locking_diameter`` and what works.
+        Names ``pin_diameter`` or ``locking_diameter``.
     """
-    if not _has_slots(wheel):
-
-        def thinner(diameter: float) -> bool:
-            return _has_slots(replace(wheel, pin_diameter=diameter))
-
-        cure = partial(nearest, thinner, wheel.pin_diameter, wheel.pin_diameter * 1e-3, digits=6)
-        raise ParameterError("pin_diameter", wheel.pin_diameter, "slots_meet", cure)
-    code = "tips_leave_no_disc" if _has_tips(wheel) else "leaves_no_tip"
-    if _is_whole(wheel):
-        return wheel
-    if not wheel.locks:
-        # the least disc that reaches beyond the tips
-        locking = (abs(wheel.drive.centre_distance - wheel.tip_radius) - wheel.locking_clearance) * (1 + _MARGIN)
-        least_disc = limit(2 * locking, 2 * wheel.locking_radius, digits=6)
-        raise ParameterError("locking_diameter", 2 * wheel.locking_radius, "leaves_no_arcs", least_disc)
-    discs = [2 * (1 - part) * wheel.room_of_disc for part in _TIP_PARTS]
-    for key, own, factor, ends in (("tip_rounding", "tip_rounding", 1.0, [0.0]),
-                                   ("locking_diameter", "locking_radius", 2.0, discs)):  # fmt: skip
-
-        def fits(value: float, own: str = own, factor: float = factor) -> bool:
-            changed: dict[str, Any] = {own: value / factor}
-            return _is_whole(replace(wheel, **changed))
-
-        given = factor * float(getattr(wheel, own))
-        if any(given != end and kept(fits, end) for end in ends):
-            raise ParameterError(key, given, code, partial(nearest, fits, given, ends, digits=6))
-    raise ParameterError("pin_diameter", wheel.pin_diameter, code)
-
-
-def _has_slots(wheel: GenevaWheel) -> bool:
-    """Whether the slots of an external wheel leave something between them, and about the axis."""
-    least = least_wall(wheel.drive.centre_distance)
-    return wheel.drive.internal or (wheel.neck_width >= least and wheel.slot_end - wheel.half_width >= least)
-
-
-def _has_tips(wheel: GenevaWheel) -> bool:
-    return wheel.locks and wheel.tip_width >= least_wall(wheel.drive.centre_distance)
-
-
-def _is_whole(wheel: GenevaWheel) -> bool:
-    """Whether it has tips, and they leave something of the disc as they come by, and of its clearance."""
-    return _has_tips(wheel) and GenevaDisc(wheel).room() >= _MARGIN * wheel.locking_radius
+    radius, least = wheel.locking_radius, least_wall(wheel.drive.centre_distance)
+    between = min(wheel.neck_width, wheel.slot_end - wheel.half_width)
+    if not wheel.drive.internal and between < least:
+        raise ParameterError("pin_diameter", wheel.pin_diameter, "slots_meet")
+    for holds, code in (
+        (lambda: wheel.locks, "leaves_no_arcs"),
+        (lambda: wheel.tip_width >= least, "leaves_no_tip"),
+        # and something of its clearance
+        (lambda: GenevaDisc(wheel).room() >= _MARGIN * radius, "tips_leave_no_disc"),
+    ):
+        if not holds():
+            raise ParameterError("locking_diameter", 2 * radius, code)
+    return wheel
 
 
 class GenevaDisc(Record, dict=True):

@@ -18,6 +18,7 @@ Keys = dict[str, Any]
 WHEEL: Keys = {"kind": "geneva_wheel", "number_of_slots": 6, "centre_distance": 60.0, "pin_diameter": 5.0}
 RING: Keys = WHEEL | {"internal": True}
 DRIVER: Keys = {"kind": "geneva_driver", "of": "wheel", "bore_diameter": 6.0}
+UNBORED: Keys = DRIVER | {"bore_diameter": 0.0}
 MATE: Keys = {"kind": "geneva_pair", "first": "driver", "second": "wheel"}
 DRIVE: Keys = {"instance": "driver", "turns": 3.0}
 
@@ -91,9 +92,14 @@ REFUSED: dict[str, tuple[Keys, Keys, str, str]] = {
     "thick pin": (WHEEL | {"pin_diameter": 25.0}, DRIVER, "pin_diameter", "tips_leave_no_disc"),
     "small disc": (WHEEL | {"locking_diameter": 8.0}, DRIVER, "locking_diameter", "leaves_no_arcs"),
     "disc that the tips cut": (WHEEL | {"number_of_slots": 12, "locking_diameter": 13.0},
-                               DRIVER | {"bore_diameter": 0.0}, "locking_diameter", "tips_leave_no_disc"),
+                               UNBORED, "locking_diameter", "tips_leave_no_disc"),
     "wide disc": (WHEEL | {"locking_diameter": 56.0}, DRIVER, "locking_diameter", "leaves_no_tip"),
     "wide bore": (WHEEL | {"bore_diameter": 56.0}, DRIVER, "bore_diameter", "leaves_no_wall_about_bore"),
+    "thin pin": (WHEEL | {"pin_diameter": 0.016}, DRIVER, "pin_diameter", "leaves_no_tip"),
+    "round tips": (WHEEL | {"tip_rounding": 9.0}, UNBORED, "tip_rounding", "leaves_no_tip"),
+    "rounder tips": (RING | {"tip_rounding": 140.0}, DRIVER, "tip_rounding", "leaves_no_arcs"),
+    "loose disc": (WHEEL | {"locking_clearance": 28.0}, UNBORED, "locking_clearance", "leaves_no_arcs"),
+    "wide slots": (WHEEL | {"slot_clearance": 50.0}, DRIVER, "slot_clearance", "slots_meet"),
     "rim": (WHEEL | {"outer_diameter": 200.0}, DRIVER, "outer_diameter", "only_of_internal"),
     "bore of a ring": (RING | {"bore_diameter": 6.0}, DRIVER, "bore_diameter", "only_of_external"),
     "thin ring": (RING | {"outer_diameter": 180.0}, DRIVER, "outer_diameter", "leaves_no_rim"),
@@ -102,6 +108,7 @@ REFUSED: dict[str, tuple[Keys, Keys, str, str]] = {
     "deep relief": (WHEEL, DRIVER | {"relief_clearance": 30.0}, "relief_clearance", "leaves_no_disc"),
     "bored relief": (WHEEL, DRIVER | {"bore_diameter": 16.0}, "bore_diameter", "bore_reaches_relief"),
     "small plate": (WHEEL, DRIVER | {"plate_diameter": 60.0}, "plate_diameter", "pins_reach_edge"),
+    "tiny plate": (WHEEL, DRIVER | {"plate_diameter": 0.03}, "plate_diameter", "pins_reach_edge"),
     "pins of a disc": (WHEEL, DRIVER | {"piece": "disc", "pin_length": 5.0}, "pin_length", "not_of_this_piece"),
 }  # fmt: skip
 
