@@ -19,11 +19,12 @@ from geometry.base.record import Record
 from geometry.base.series import About, Series, conjugate, derived, product, quotient, sharpened
 from geometry.cams.motion.follower_motion import FollowerMotion
 from geometry.cams.plane.disk import DiskCam, FollowerKind, check_radius
+from geometry.cams.plane.lost_lift import greatest_value
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.linkage import Linkage, RockerDrive
 from geometry.laws.piece import LawPiece
 
-_TABLE, _NEWTON_STEPS, _ZOOMS = 513, 4, 6
+_TABLE, _NEWTON_STEPS = 513, 4
 _DROP_SAMPLES, _BISECTIONS = 129, 50
 # outlines that are off ask for an S this far beyond the motion: part of the lift, and at least this many mm
 _BEYOND, _BEYOND_LENGTH = 0.02, 2.0
@@ -359,12 +360,5 @@ def check_holds(cam: LinkageCam) -> None:
 
 
 def least_value(function: Callable[[Real], Real], low: float, high: float) -> float:
-    """Least value of a smooth function: 257 samples, zoomed in about the least; -inf where it is no number."""
-    best = np.inf
-    for _ in range(_ZOOMS):
-        t = np.linspace(low, high, _REACH_SAMPLES)
-        values = np.nan_to_num(function(t), nan=-np.inf)
-        at = int(np.argmin(values))
-        best = min(best, float(values[at]))
-        low, high = t[max(at - 1, 0)], t[min(at + 1, len(t) - 1)]
-    return best
+    """Least value of a smooth function, zoomed in about the least; -inf where it is no number."""
+    return -greatest_value(lambda t: -np.nan_to_num(function(t), nan=-np.inf), low, high)

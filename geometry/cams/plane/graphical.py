@@ -85,14 +85,8 @@ class GraphicalMotion(Record):
 _CODES = {"table": "table_has_no_diagram", "rests": "rests_all_turn", "rigid": "law_with_rigid_impact"}
 
 
-def graphical_fault(motion: FollowerMotion) -> ParameterError | None:
-    """Why a motion cannot be integrated on paper from its acceleration diagram; None where it can."""
-    found = graphical_hindrance(motion)
-    return None if found is None else ParameterError("phases", None, _CODES[found[0]], law=found[1])
-
-
 def graphical_hindrance(motion: FollowerMotion) -> tuple[str, str] | None:
-    """What keeps a motion from being integrated on paper (table, rests, rigid), and the law that does."""
+    """What keeps a motion from being integrated on paper (table, rests, rigid), and the law that does; else None."""
     if not motion.phases:
         return "table", ""
     if all(phase.law is None for phase in motion.phases):
@@ -124,9 +118,9 @@ def graphical_motion(
         raise ParameterError(
             "intervals", intervals, "out_of_range", nearest, least=LEAST_INTERVALS, most=MOST_INTERVALS
         )
-    if (fault := graphical_fault(motion)) is not None:
-        raise fault
-    found: list[GraphicalPhase] = []
+    if (found := graphical_hindrance(motion)) is not None:
+        raise ParameterError("phases", None, _CODES[found[0]], law=found[1])
+    phases: list[GraphicalPhase] = []
     at, height, position = 0.0, 0.0, 0
     for index, phase in enumerate(motion.phases):
         last = index == len(motion.phases) - 1
@@ -134,7 +128,7 @@ def graphical_motion(
         if phase.law is not None:
             drawn = _integrated(phase.law, intervals, drawing)
             step = end - at
-            found.append(
+            phases.append(
                 GraphicalPhase(
                     phase.kind,
                     phase.law.name,
@@ -150,7 +144,7 @@ def graphical_motion(
             )
         position += 1 if phase.law is None else intervals
         at, height = end, height + phase.lift
-    return GraphicalMotion(motion, tuple(found), intervals)
+    return GraphicalMotion(motion, tuple(phases), intervals)
 
 
 class _Drawn(Record):

@@ -11,7 +11,7 @@ from geometry.cams.plane.disk import DiskCam
 from geometry.curves.curve import Complex, Real
 
 _SAMPLES = 257
-_REFINEMENTS = 5
+_REFINEMENTS = 6
 
 
 def lost_lift(cam: DiskCam, angle: Real, corner: complex, distance: float) -> Real:

@@ -10,7 +10,7 @@ from geometry.base.record import Record
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.motion.guides import Translating
 from geometry.cams.plane.disk import DiskCam
-from geometry.cams.plane.graphical import GraphicalMotion, graphical_fault, graphical_motion
+from geometry.cams.plane.graphical import GraphicalMotion, graphical_hindrance, graphical_motion
 from geometry.cams.plane.synthesis import greatest_pressure_angle
 from parts.drawing.canvas import decimal, standard_scale
 
@@ -73,7 +73,7 @@ def cam_picture(
         The number of intervals is out of range.
     """
     drawn = None
-    if graphical_fault(cam.motion) is None:
+    if graphical_hindrance(cam.motion) is None:
         drawn = graphical_motion(cam.motion, intervals)
     gamma = None if gamma_deg is None else math.radians(gamma_deg)
     if gamma is None and not cam.is_flat and cam.motion.moving_pieces(PhaseKind.RISE):

@@ -13,7 +13,7 @@ import pytest
 from exporters.command.cli import main
 from exporters.command.new import new_scene
 from geometry.cams.motion.follower_motion import follower_motion, return_, rise
-from geometry.cams.plane.graphical import graphical_fault
+from geometry.cams.plane.graphical import graphical_hindrance
 from geometry.laws.named import NAMED_LAWS
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_toml
@@ -69,7 +69,7 @@ def test_rounding_is_no_impact() -> None:
     cosine = NAMED_LAWS["cosine"]()
     unequal = follower_motion([rise(2.0, 20.0, cosine), return_(2 * math.pi - 2.0, 20.0, cosine)])
     assert {j.impact for j in unequal.impacts()} == {"soft"}
-    assert graphical_fault(unequal) is None
+    assert graphical_hindrance(unequal) is None
 
 
 def _swept(law: str = '"sine"', move: str = "return_", more: str = "") -> str:

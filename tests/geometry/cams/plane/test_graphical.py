@@ -16,7 +16,7 @@ from geometry.cams.plane.disk import DiskCam, FollowerKind, oscillating_cam, tra
 from geometry.cams.plane.graphical import (
     Drawing,
     GraphicalMotion,
-    graphical_fault,
+    graphical_hindrance,
     graphical_motion,
     graphical_profile_error,
     graphical_radius,
@@ -189,10 +189,10 @@ def test_an_exact_hand_draws_the_exact_cam(name: str) -> None:
 
 def test_what_cannot_be_drawn_is_refused() -> None:
     for moves in (motion("constant_velocity"), motion_of_table([0, 2, 4], [0, 1, 2])):
-        assert graphical_fault(moves)
+        assert graphical_hindrance(moves)
         with pytest.raises(ParameterError, match="phases"):
             graphical_motion(moves)
-    assert graphical_fault(motion("sine")) is None
+    assert graphical_hindrance(motion("sine")) is None
     for number, nearest in ((1, 2), (73, 72)):
         with pytest.raises(ParameterError) as caught:
             graphical_motion(motion("sine"), number)
