@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -31,8 +32,8 @@ _REFINEMENTS = 5
 _STEPS = 60
 # Newton's steps square what is left: below this share the next one is rounding
 _SETTLED = 1e-10
-# samples of a roller's way past a point, per unit of its slope; sines of angles beside it; points at once
-_PER_SLOPE, _SIDE, _CHUNK = 12, 0.999, 4096
+# samples of a roller's way past a point, per unit of its slope; at least, at most; sines beside it; points at once
+_PER_SLOPE, _LEAST, _MOST, _SIDE, _CHUNK = 12, 12, 400, 0.999, 4096
 # an edge that is slower than this share of the cam is as good as a cusp: a ridge that nothing can run on
 LEAST_SPEED = 0.05
 
@@ -234,19 +235,23 @@ class BarrelCam(Record):
     def least_edge_speed(self) -> tuple[float, float]:
         """The least speed of any edge between both cylinders, and the cam angle (rad) where it stands."""
         radii = np.linspace(self.inner, self.outer, _RADII)
-        where = 0.0
+
+        def speed(piece: LawPiece, side: int, t: Real) -> Real:
+            return self.edge_speed(t[:, None], side, radii, piece).min(axis=1)
+
         # where the roller rests the edges go round as fast as the cam
-        best = 1.0
-        for piece in self.motion.moving_pieces():
-            for side in self.sides:
+        return self._least_over(speed, 1.0)
 
-                def speed(t: Real, side: int = side, piece: LawPiece = piece) -> Real:
-                    return self.edge_speed(t[:, None], side, radii, piece).min(axis=1)
-
-                value, at = _least(speed, piece)
-                if value < best:
-                    best, where = value, at
-        return best, where
+    def _least_over(
+        self, function: Callable[[LawPiece, int, Real], Real], still: float, kind: PhaseKind | None = None
+    ) -> tuple[float, float]:
+        """The least value over all moving pieces and walls, and its cam angle, rad; ``still``: where nothing moves."""
+        found = [
+            _least(partial(function, piece, side), piece)
+            for piece in self.motion.moving_pieces(kind)
+            for side in self.sides
+        ]
+        return min([(still, 0.0), *found], key=lambda least: least[0])
 
     def pressure_angle(self, angle: Real, radius: ArrayLike, piece: LawPiece, side: int = LOWER) -> Real:
         """Angle between the normal of the contact on a cylinder and the roller's way, rad."""
@@ -257,21 +262,12 @@ class BarrelCam(Record):
 
     def greatest_pressure_angle(self, kind: PhaseKind) -> tuple[float, float]:
         """The greatest pressure angle of the rises or returns, rad, at the inner ends of the walls; and its angle."""
-        best, where = 0.0, 0.0
-        for piece in self.motion.moving_pieces(kind):
-            for side in self.sides:
 
-                def minus(t: Real, side: int = side, piece: LawPiece = piece) -> Real:
-                    return -self.pressure_angle(t, self.inner, piece, side)
+        def minus(piece: LawPiece, side: int, t: Real) -> Real:
+            return -self.pressure_angle(t, self.inner, piece, side)
 
-                value, at = _least(minus, piece)
-                if -value > best:
-                    best, where = -value, at
-        return best, where
-
-    def with_radius(self, radius: float, taper: float | None = None) -> BarrelCam:
-        """The same motion with another roller, of the same cone angle or of another."""
-        return replace(self, radius=radius, taper=self.taper if taper is None else taper)
+        value, where = self._least_over(minus, 0.0, kind)
+        return abs(value), where
 
     def distance(self, points: Real, near: Real | None = None, width: float = 0.0) -> Real:
         """Distance of points (n, 3) of the cam's frame from the nearest place of the roller, mm: below 0 inside it.
@@ -297,18 +293,22 @@ class BarrelCam(Record):
         """About the greatest speed of the roller, mm/rad."""
         return max(float(np.abs(self.place(np.linspace(*p.domain, 9), 1, p)[1]).max()) for p in self.motion.pieces)
 
+    def passing(self, plane: Complex, room: float) -> Real:
+        """Cam angles (count, n) at which the roller's axis passes points x + iy (n,), ``room`` mm beside it, rad."""
+        polar, size = np.angle(plane), np.abs(plane)
+        ends = [y + sense * room for y, sense in zip(self.side_range(), (-1, 1), strict=True)]
+        first, last = (np.arcsin(np.clip(y / size, -_SIDE, _SIDE)) for y in ends)
+        count = math.ceil(np.clip(_PER_SLOPE * (1 + self.fastest() / self.inner), _LEAST, _MOST))
+        return np.asarray(-polar + first + np.linspace(0, 1, count)[:, None] * (last - first))
+
     def _nearest(self, points: Real) -> tuple[Real, Real]:
         plane, z = points[:, 0] + 1j * points[:, 1], points[:, 2]
-        polar, size = np.angle(plane), np.abs(plane)
-        ends = [y + sense * 1.2 * self.radius for y, sense in zip(self.side_range(), (-1, 1), strict=True)]
-        first, last = (np.arcsin(np.clip(y / size, -_SIDE, _SIDE)) for y in ends)
-        share = np.linspace(0, 1, math.ceil(np.clip(_PER_SLOPE * (1 + self.fastest() / self.inner), 12, 400)))
-        samples = -polar + first + share[:, None] * (last - first)
+        samples = self.passing(plane, 1.2 * self.radius)
         turned = plane * np.exp(1j * samples)
         away = np.abs(turned.imag + 1j * z - self.place(samples, 0)[0]) - self.radius_at(turned.real)
         best = np.argmin(away, axis=0)
         column = np.arange(len(points))
-        low, high = (samples[np.clip(best + k, 0, len(share) - 1), column] for k in (-1, 1))
+        low, high = (samples[np.clip(best + k, 0, len(samples) - 1), column] for k in (-1, 1))
         return self._refined(points, samples[best, column], low, high)[:2]
 
     def _refined(self, points: Real, at: Real, low: Real, high: Real) -> tuple[Real, Real, Real]:

@@ -20,8 +20,8 @@ from geometry.curves.curve import Complex, Real
 
 # Newton's steps within a bracket, and the cam angle at which they have settled, rad
 _STEPS, _SETTLED = 60, 1e-12
-# samples of a roller's way past a point, per unit of its slope; at least, at most; sines beside it; points at once
-_PER_SLOPE, _LEAST, _MOST, _SIDE, _CHUNK = 12, 12, 400, 0.999, 4096
+# sines beside a point; points at once
+_SIDE, _CHUNK = 0.999, 4096
 # a bound of the heights is so near to one that was found, part of it; halvings of a triangle until then
 _NEAR, _HALVINGS = 0.02, 40
 # steps to the cam angle at which an unrolled edge is touched
@@ -97,15 +97,9 @@ def _contact(cam: BarrelCam, plane: complex, at: float) -> tuple[float, float, f
 
 def _sought(cam: BarrelCam, side: int, plane: Complex, z: Real) -> Real:
     """Cam angles at which V of points (n,) is greatest: by samples, then by Newton's steps."""
-    polar, size = np.angle(plane), np.abs(plane)
-    room = float(cam.radius_at(cam.outer))
-    ends = [y + sense * room for y, sense in zip(cam.side_range(), (-1, 1), strict=True)]
-    first, last = (np.arcsin(np.clip(y / size, -_SIDE, _SIDE)) for y in ends)
-    count = math.ceil(np.clip(_PER_SLOPE * (1 + cam.fastest() / cam.inner), _LEAST, _MOST))
-    share = np.linspace(0, 1, count)[:, None]
-    samples = -polar + first + share * (last - first)
+    samples = cam.passing(plane, float(cam.radius_at(cam.outer)))
     best, column = np.argmax(held(cam, side, plane, z, samples)[0], axis=0), np.arange(len(plane))
-    low, high = (samples[np.clip(best + k, 0, count - 1), column] for k in (-1, 1))
+    low, high = (samples[np.clip(best + k, 0, len(samples) - 1), column] for k in (-1, 1))
     return _refined(cam, side, plane, samples[best, column], low, high)
 
 

@@ -42,8 +42,7 @@ def follower_contact(
     +-tolerance everywhere, of a groove at one of its walls; else CLEAR. The rest of the follower's body is held
     against the cam every 5 degrees: where it runs into it, the gap is minus the depth.
     """
-    joints = [p.start for p in cam.motion.pieces]
-    angles = distinct(np.concatenate([np.arange(_ANGLES) * TURN / _ANGLES, np.mod(joints, TURN)]))
+    angles = contact_angles(cam)
     fence = Fence(cam_shape(cam).profile)
     gaps, points = (_face_gaps if cam.is_flat else _round_gaps)(cam, fence, angles, out)
     if end.outline is not None:
@@ -62,6 +61,12 @@ def follower_contact(
         outer = -Fence(beyond).signed_distance(centre * np.exp(-1j * angles)) - cam.radius
         points = np.where(outer < gaps, centre + cam.radius * cam.normal(angles), points)
     return judged(angles, (gaps, outer), points, tolerance)
+
+
+def contact_angles(cam: DiskCam) -> Real:
+    """Cam angles at which contact is looked at, rad: 360, and every joint of the motion."""
+    joints = [p.start for p in cam.motion.pieces]
+    return distinct(np.concatenate([np.arange(_ANGLES) * TURN / _ANGLES, np.mod(joints, TURN)]))
 
 
 def body_points(end: FollowerEnd) -> Complex:
@@ -91,8 +96,10 @@ def press_in(gaps: Real, points: Complex, fence: Fence, body_at: Callable[[int],
             gaps[owners[row]], points[owners[row]] = -depth[row], here[row]
 
 
-def judged(places: Real, walls: tuple[Real, Real], points: Complex, tolerance: float) -> PairContact:
-    """The verdict on the gaps at one wall or two: CONTACT where one of them touches at every place.
+def judged(
+    places: Real, walls: tuple[Real, Real], points: Complex, tolerance: float, *, both: bool = False
+) -> PairContact:
+    """The verdict on the gaps at one wall or two: CONTACT where one of them, or ``both``, touch at every place.
 
     ``greatest_gap`` is that of both walls.
     """
@@ -103,7 +110,8 @@ def judged(places: Real, walls: tuple[Real, Real], points: Complex, tolerance: f
     elif nearer[worst] < -tolerance:
         verdict = Verdict.OVERLAP
     else:
-        verdict = Verdict.CONTACT if nearer.max() <= tolerance else Verdict.CLEAR
+        farthest = greatest if both else nearer.max()
+        verdict = Verdict.CONTACT if farthest <= tolerance else Verdict.CLEAR
     place = ContactPlace(float(nearer[worst]), float(places[worst]), complex(points[worst]), (Label.CAM, Label.BODY))
     curves = tuple(walls[0].tolist()), tuple(walls[1].tolist())
     return PairContact(verdict, tolerance, tuple(places.tolist()), tuple(nearer.tolist()), curves, place, greatest)

@@ -170,21 +170,12 @@ def gost_16532(first_teeth: int, second_teeth: int, *, kinematic: bool = False) 
     return found
 
 
-def equalising_shift(first_teeth: int, second_teeth: int) -> float | None:
-    """Delta y of tables А.1 (u <= 2) and Б.1 (u <= 5); None beyond them."""
-    if second_teeth <= 2 * first_teeth:
-        return _table_a().get(first_teeth)
-    return _table_b().get(first_teeth, (None, None))[0]
-
-
 def _from_v(first_teeth: int, second_teeth: int) -> TableShift:
     table = _table_v()
     if (first_teeth, second_teeth) not in table:
         raise _not_there("В.1", first_teeth, second_teeth, _nearest(list(table), first_teeth, second_teeth))
     shifts = table[first_teeth, second_teeth]
-    return TableShift(
-        *shifts, equalising_shift(first_teeth, second_teeth), "В.1", _mending("В.1", first_teeth, second_teeth)
-    )
+    return TableShift(*shifts, _table_a().get(first_teeth), "В.1", _mending("В.1", first_teeth, second_teeth))
 
 
 def _from_g(first_teeth: int, second_teeth: int) -> TableShift:

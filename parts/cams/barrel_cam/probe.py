@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.cams.barrel.body import BarrelBody, Plane
 from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam
 from geometry.cams.barrel.rolling import UnrolledWall, rolled_places, wall_height
@@ -53,7 +53,7 @@ class GrooveRoller(Record):
     def _in_triangles(self, corners: Real, offset: float, declared: float) -> Probed:
         body = self.body(offset)
         cam, walls = body.cam, walls_of(corners, body)
-        place = rolled_places(cam.with_radius(self.diameter / 2 - offset / cam.upright), walls, ANGLES)
+        place = rolled_places(replace(cam, radius=self.diameter / 2 - offset / cam.upright), walls, ANGLES)
         lost = ~np.isfinite(np.array([place[side] for side in cam.sides])).all(axis=0)
         if lost.any():
             at = 360 * int(np.argmax(lost)) / ANGLES

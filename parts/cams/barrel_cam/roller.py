@@ -54,8 +54,8 @@ def largest_radius(cam: BarrelCam, apex_play: float | None = None) -> float:
     from geometry.cams.barrel.cam import LEAST_SPEED
 
     def spare(radius: float) -> float:
-        taper = None if apex_play is None else (radius - apex_play / 2) / cam.reference
-        return cam.with_radius(radius, taper).least_edge_speed()[0] - LEAST_SPEED
+        taper = cam.taper if apex_play is None else (radius - apex_play / 2) / cam.reference
+        return replace(cam, radius=radius, taper=taper).least_edge_speed()[0] - LEAST_SPEED
 
     stray = max(map(abs, cam.side_range()))
     most = INSIDE * cam.inner - stray

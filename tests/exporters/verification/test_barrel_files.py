@@ -138,7 +138,7 @@ def test_the_roller_in_the_groove_feels_the_walls() -> None:
     cam = body.cam
     axis = cam.place(np.arange(COUNT) * TURN / COUNT, 0)[0].imag
     walls = walls_of(mesh.faces(), body)
-    found, smaller = (rolled_places(cam.with_radius(r), walls, COUNT) for r in (cam.radius, cam.radius - 0.5))
+    found, smaller = (rolled_places(replace(cam, radius=r), walls, COUNT) for r in (cam.radius, cam.radius - 0.5))
     for side in (UPPER, LOWER):
         assert np.abs(found[side] - axis).max() < 1.5 * error
     # half a mm of play on each side in a dwell, more on slopes

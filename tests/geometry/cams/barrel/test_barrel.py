@@ -134,7 +134,7 @@ def test_a_parallel_curve_at_one_radius_is_not_the_wall() -> None:
 def test_distance_finds_how_far_a_point_is_from_the_wall() -> None:
     angles = np.linspace(0, 6, 50)
     for shift in (-0.3, 0.2):
-        other = AXIAL.with_radius(RADIUS + shift)
+        other = replace(AXIAL, radius=RADIUS + shift)
         found = AXIAL.distance(other.wall(angles, LOWER, 26.0))
         assert np.abs(found - shift).max() < 1e-12
 
@@ -142,7 +142,7 @@ def test_distance_finds_how_far_a_point_is_from_the_wall() -> None:
 @pytest.mark.parametrize("cam", CONES, ids=["apex", "blunt", "slim"])
 def test_a_cone_moved_along_its_normals_leaves_a_parallel_wall(cam: BarrelCam) -> None:
     for shift in (-0.3, 0.2):
-        other = cam.with_radius(RADIUS + shift * math.hypot(1, cam.taper))
+        other = replace(cam, radius=RADIUS + shift * math.hypot(1, cam.taper))
         found = cam.distance(other.wall(np.linspace(0, 6, 50), UPPER, 26.0))
         assert np.abs(found - shift).max() < 1e-12
 
@@ -226,7 +226,7 @@ def test_a_roller_that_is_too_large_undercuts_where_the_speed_says(cam: BarrelCa
     """Where every edge's speed is positive no other position cuts a wall; else some does."""
     steep = replace(cam, motion=motion(cam.motion.lift * 1.5), outer=40.0)
     for radius in np.linspace(2.0, 20.0, 7).tolist():
-        tried = steep.with_radius(radius)
+        tried = replace(steep, radius=radius)
         speed, at = tried.least_edge_speed()
         angles = np.concatenate([np.linspace(0, 2 * math.pi, 40), at + np.linspace(-0.2, 0.2, 20)])
         if tried.radius_at(0.7 * INNER) <= 0:

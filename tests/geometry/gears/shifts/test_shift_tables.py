@@ -17,7 +17,7 @@ from geometry.gears.pairs.side_clearance import (
     normal_from_circumferential,
 )
 from geometry.gears.shifts.external import ShiftPair, state_of
-from geometry.gears.shifts.tables import MENDED, equalising_shift, gost_16532, guidelines, kudryavtsev
+from geometry.gears.shifts.tables import MENDED, gost_16532, guidelines, kudryavtsev
 from geometry.gears.teeth.basic_rack import iso_53
 from geometry.gears.teeth.spur import SpurGear
 
@@ -91,9 +91,8 @@ def test_between_the_rows_of_table_g() -> None:
     low, high = kudryavtsev(12, 45), kudryavtsev(12, 50)
     assert found.between == (45, 50)
     assert found.second == pytest.approx(low.second + 0.4 * (high.second - low.second), rel=1e-12)
-    assert equalising_shift(12, 47) == 0.17
-    assert equalising_shift(13, 21) == 0.16
-    assert equalising_shift(60, 61) is None
+    assert found.tip_shortening == 0.17
+    assert kudryavtsev(13, 21).tip_shortening == 0.16
 
 
 def test_the_guidelines() -> None:
