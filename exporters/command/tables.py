@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 from exporters.production.check_lines import check_lines, names_of
 from exporters.production.jobs import Written
 from exporters.production.plan import Plan
-from parts.base.texts import N_, Words, counted, words
+from parts.base.texts import N_, Words, words
 from parts.texts.findings import finding_message
 
 if TYPE_CHECKING:
@@ -32,15 +32,9 @@ def build_table(plan: Plan, folder: Path, built: Built) -> None:
     remarks = [told.text("preview: {path}", path=one) for one in named if one not in notes]
     remarks += [told.text("how it is made and used: {path}", path=one) for one in notes]
     if len(named) < len(built.previews):
+        count = len(of_parts)
         remarks.append(
-            told.say(
-                counted(
-                    "previews of {parts} part beside it",
-                    "previews of {parts} parts beside it",
-                    by="parts",
-                    parts=len(of_parts),
-                )
-            )
+            told.plural("previews of {parts} part beside it", "previews of {parts} parts beside it", count, parts=count)
         )
     if any(item.failures for item in written):
         from exporters.production.kept import kept_lines

@@ -10,14 +10,15 @@ from types import MappingProxyType
 from typing import Any
 
 from parts.base.part import Part
-from parts.base.texts import N_, Message, Text, Words, counted, filled, message, words
+from parts.base.texts import N_, Message, Words, counted, filled, listed, message, words
 from parts.scene.instances import InstanceSpec
-from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS, called
+from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS, called, pairs_counted
 
 # gaps below this are rounding, mm
 _ROUNDING = 1e-9
 # the number that a name ends in, without zeros in front
 _NUMBERED = re.compile(r"(?<!\d)[1-9]\d*$", re.ASCII)
+_ERROR = N_("transmission error (peak to peak, first turns {sense}): {value:.3g} mm on the line of action, {motion}")
 _SENSES = {"clockwise": N_("clockwise"), "counter_clockwise": N_("counter-clockwise")}
 
 
@@ -30,6 +31,10 @@ _REST = {
     "swept": N_("{pairs} past what one sweeps about its axis"),
     "round": N_("{pairs} round about a common axis"),
 }
+_WALLS = N_(
+    "gaps at the inner wall {inner[0]:.3g} to {inner[1]:.3g} mm, at the outer wall {outer[0]:.3g} to "
+    "{outer[1]:.3g} mm, clearance {clearance:.6g} mm"
+)
 _UNITS = {"mm": N_("mm"), "deg": N_("deg")}
 
 
@@ -59,13 +64,7 @@ def check_lines(
             if mate["verdict"] == "clear" and mate["gap"] <= mate["tolerance"]:
                 text += f"; {told.text('the teeth part on their way')}"
         if "walls" in mate:
-            walls = told.text(
-                "gaps at the inner wall {inner[0]:.3g} to {inner[1]:.3g} mm, at the outer wall {outer[0]:.3g} to "
-                "{outer[1]:.3g} mm, clearance {clearance:.6g} mm",
-                **mate["walls"],
-                clearance=mate["roller_clearance"],
-            )
-            text += f"; {walls}"
+            text += f"; {told.text(_WALLS, **mate['walls'], clearance=mate['roller_clearance'])}"
         lines.append(text)
         lines += _transmission(mate, told)
         lines += [told.text("note: {text}", text=f["text"]) for f in mate.get("findings", [])]
@@ -73,13 +72,10 @@ def check_lines(
     lines += [told.text("BROKEN: {text}", text=axle["text"]) for axle in checks.get("axles", [])]
     if "in_a_row" in checks:
         apart = ", ".join(names.get(name, name) for name in checks["in_a_row"])
-        lines.append(
-            told.text("note: neither `at` nor a mate places them, so they stand in a row: {names}", names=apart)
-        )
-    for close in checks.get("neighbours", []):
-        lines.append(told.text("note: {text}", text=close["text"]))
-    for found in checks.get("solids", []):
-        lines.append(f"{told.text(VERDICTS[found['verdict']])}: {found['text']}")
+        row = N_("note: neither `at` nor a mate places them, so they stand in a row: {names}")
+        lines.append(told.text(row, names=apart))
+    lines += [told.text("note: {text}", text=close["text"]) for close in checks.get("neighbours", [])]
+    lines += [f"{told.text(VERDICTS[one['verdict']])}: {one['text']}" for one in checks.get("solids", [])]
     if "motion" in checks and not brief:
         lines += _motion(checks["motion"], told, names)
     if "workspace" in checks and not brief:
@@ -90,8 +86,7 @@ def check_lines(
         lines += order_lines(checks["order"], told)
         for found in checks["order"]["hindered"]:
             lines.append(f"{told.text(VERDICTS[found['verdict']])}: {hindered_told(found, told, names)}")
-    lines += _drives(checks, names, told)
-    return lines
+    return [*lines, *_drives(checks, names, told)]
 
 
 def caption_lines(checks: dict[str, Any], language: str, names: Mapping[str, str], most: int) -> list[str]:
@@ -105,7 +100,7 @@ def caption_lines(checks: dict[str, Any], language: str, names: Mapping[str, str
     lines = check_lines({**held, "mates": bad}, language, names, brief=True)
     counts = Counter(mate["verdict"] for mate in mates if "verdict" in mate and mate not in bad)
     for verdict, count in counts.items():
-        lines.append(_pairs(count, N_("{verdict}: {pairs}"), told, verdict=Message(VERDICTS[verdict])))
+        lines.append(told.text("{verdict}: {pairs}", verdict=Message(VERDICTS[verdict]), pairs=pairs_counted(count)))
     drives = _drives(checks, names, told)
     return [*lines, *(drives if sum(map(len, (*lines, *drives))) <= most else [])]
 
@@ -135,17 +130,12 @@ def _motion(motion: dict[str, Any], told: Words, names: Mapping[str, str]) -> li
         return [told.text("note: no drive moves this scene: its solids were checked only as they stand")]
     lines = []
     if motion["pairs"]:
-        pairs = counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=motion["pairs"])
         poses = counted("{poses} pose", "{poses} poses", by="poses", poses=motion["poses"])
         held = N_("solids in motion: {pairs} over the period of each; {poses} checked, the rest repeats or lies apart")
         apart = N_("solids in motion: {pairs}; none can meet the other")
-        lines.append(told.say(filled(held if motion["tested"] else apart, pairs=pairs, poses=poses)))
-    for found in (x for x in motion["uncovered"] if x["share"] < 1):
-        lines.append(
-            told.text(
-                "note: {first} and {second} were checked over {share:.3g} of their period", **called(found, names)
-            )
-        )
+        lines.append(told.text(held if motion["tested"] else apart, pairs=pairs_counted(motion["pairs"]), poses=poses))
+    partly = N_("note: {first} and {second} were checked over {share:.3g} of their period")
+    lines += [told.text(partly, **called(found, names)) for found in motion["uncovered"] if found["share"] < 1]
     return [*lines, *_uncovered(motion, told, names)]
 
 
@@ -154,46 +144,36 @@ def _workspace(found: dict[str, Any], told: Words, names: Mapping[str, str]) -> 
     counts = Counter(drives for *_, drives in found["tested"])
     poses = counted("{poses} pose", "{poses} poses", by="poses", poses=found["poses"])
     over, still = N_("{pairs} over {drives}"), N_("{pairs} as they stand")
-    held = [
-        _pairs(count, over if drives else still, told, drives=", ".join(names.get(d, d) for d in drives))
-        for drives, count in counts.items()
-    ]
-    rest = [_pairs(len(pairs), _REST[why], told) for why, pairs in found["rest"].items() if pairs]
-    head = message("solids wherever drives may stand: {held}; {poses}", held=", ".join(held), poses=poses)
-    lines = [told.say(head if held else N_("solids wherever drives may stand: none can meet another"))]
+    rows = ((count, ", ".join(names.get(d, d) for d in drives)) for drives, count in counts.items())
+    held = [told.text(over if drives else still, pairs=pairs_counted(n), drives=drives) for n, drives in rows]
+    rest = [told.text(_REST[why], pairs=pairs_counted(len(pairs))) for why, pairs in found["rest"].items() if pairs]
+    head, none = (
+        N_("solids wherever drives may stand: {held}; {poses}"),
+        N_("solids wherever drives may stand: none can meet another"),
+    )
+    lines = [told.text(head if held else none, held=", ".join(held), poses=poses)]
     lines += [told.text("cannot meet: {rest}", rest=", ".join(rest))] if rest else []
     if found["fits"]:
         touching = sum(fit["touching"] for fit in found["fits"])
         free = sum(fit["pairs"] for fit in found["fits"]) - touching
-        fits = (_pairs(touching, N_("{pairs} in touch"), told), _pairs(free, N_("{pairs} with a clearance"), told))
-        lines.append(told.text("seats by half sections: {fits}", fits=", ".join(fits)))
+        fits = (
+            message("{pairs} in touch", pairs=pairs_counted(touching)),
+            message("{pairs} with a clearance", pairs=pairs_counted(free)),
+        )
+        lines.append(told.text("seats by half sections: {fits}", fits=listed(fits)))
     return [*lines, *_uncovered(found, told, names)]
-
-
-def _pairs(count: int, text: Text, told: Words, **more: object) -> str:
-    """So many pairs, of which something is told."""
-    pairs = counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=count)
-    return told.say(filled(text, pairs=pairs, **more))
 
 
 def _uncovered(motion: dict[str, Any], told: Words, names: Mapping[str, str]) -> list[str]:
     """What may be hidden between poses."""
-    lines = []
-    if motion["uncovered"]:
-        worst = max(motion["uncovered"], key=lambda x: x["depth"])
-        pairs = counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=len(motion["uncovered"]))
-        lines.append(
-            told.say(
-                message(
-                    (
-                        "note: between the poses checked {first} and {second} may overlap by up to {depth:.3g} "
-                        "mm, the most of {pairs}"
-                    ),
-                    **{**called(worst, names), "pairs": pairs},
-                )
-            )
-        )
-    return lines
+    found: list[dict[str, Any]] = motion["uncovered"]
+    if not found:
+        return []
+    text = N_(
+        "note: between the poses checked {first} and {second} may overlap by up to {depth:.3g} mm, the most of {pairs}"
+    )
+    worst = max(found, key=lambda x: x["depth"])
+    return [told.text(text, **{**called(worst, names), "pairs": pairs_counted(len(found))})]
 
 
 def _seen(gap: float) -> float:
@@ -248,17 +228,10 @@ def _transmission(mate: dict[str, Any], told: Words) -> list[str]:
         lines.append(told.text("no transmission error: the teeth slip past each other"))
     for sense, found in mate.get("transmission_error", {}).items():
         turns = "second_arcsec" in found
-        motion = N_('{value:.3g}" of {second}') if turns else N_("{value:.3g} mm of {second}")
+        moved = N_('{value:.3g}" of {second}') if turns else N_("{value:.3g} mm of {second}")
         value = found["second_arcsec" if turns else "second_travel"]
-        lines.append(
-            told.text(
-                "transmission error (peak to peak, first turns {sense}): {value:.3g} mm on the line of action, "
-                "{motion}",
-                sense=told.text(_SENSES[sense]),
-                value=found["line_of_action"],
-                motion=told.text(motion, value=value, second=mate["second"]),
-            )
-        )
+        motion = message(moved, value=value, second=mate["second"])
+        lines.append(told.text(_ERROR, sense=Message(_SENSES[sense]), value=found["line_of_action"], motion=motion))
     return lines
 
 
@@ -281,8 +254,7 @@ def _mate_head(mate: dict[str, Any]) -> Message:
 def has_bad_verdict(checks: dict[str, Any]) -> bool:
     """Whether something overlaps, could not be decided, or breaks a condition."""
     mates = checks.get("mates", [])
-    if checks.get("axles"):
-        return True
     held = (*mates, *checks.get("solids", []), *checks.get("order", {}).get("hindered", []))
     bad = any(found.get("verdict") in ("overlap", "undecided") for found in held)
-    return bad or any(not condition["met"] for mate in mates for condition in mate.get("conditions", []))
+    broken = any(not condition["met"] for mate in mates for condition in mate.get("conditions", []))
+    return bad or broken or bool(checks.get("axles"))

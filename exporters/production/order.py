@@ -6,11 +6,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
+from msgspec.structs import asdict
+
 from parts.base.part import Part
-from parts.base.texts import N_, Message, Words, counted, filled, message, words
+from parts.base.texts import N_, Message, Words, counted, filled, listed, message, words
 from parts.scene.assembly_order import order_found
 from parts.scene.placing import Placing
 from parts.scene.steps import StepSpec
+from parts.texts.checks import pairs_counted
 
 # the ways along the axes of a scene
 _WAYS = {
@@ -35,11 +38,7 @@ def order_checks(
 ) -> dict[str, Any]:
     """What holding the order of a scene has shown: pairs by how they were decided, what is hindered."""
     found = order_found(steps, placing, parts)
-    rows = [
-        {"step": x.step, "coming": x.coming, "standing": x.standing, "volume": x.volume,
-         "verdict": "undecided" if x.volume is None else "overlap"}
-        for x in found.hindered
-    ]  # fmt: skip
+    rows = [{**asdict(one), "verdict": "undecided" if one.volume is None else "overlap"} for one in found.hindered]
     told = words(language)
     hindered = [{**row, "text": hindered_told(row, told)} for row in rows]
     return {"steps": found.steps, "pairs": found.pairs, "hindered": hindered}
@@ -56,22 +55,12 @@ def hindered_told(found: Mapping[str, Any], told: Words, names: Mapping[str, str
 
 def order_lines(found: Mapping[str, Any], told: Words) -> Iterator[str]:
     """What holding an order has shown, a line each."""
-    pairs = ", ".join(
-        told.say(filled(_HOWS[how], pairs=counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=count)))
-        for how, count in found["pairs"].items()
-        if count
-    )
+    pairs = listed([filled(_HOWS[how], pairs=pairs_counted(count)) for how, count in found["pairs"].items() if count])
     steps = counted("{steps} step", "{steps} steps", by="steps", steps=found["steps"])
-    if not found["hindered"]:
-        yield told.say(
-            message(
-                "order of assembly, {steps}: each part reaches its place straight, past all that stands: {pairs}",
-                steps=steps,
-                pairs=pairs,
-            )
-        )
-    else:
-        yield told.say(message("order of assembly, {steps}: {pairs}", steps=steps, pairs=pairs))
+    text = N_("order of assembly, {steps}: each part reaches its place straight, past all that stands: {pairs}")
+    if found["hindered"]:
+        text = N_("order of assembly, {steps}: {pairs}")
+    yield told.text(text, steps=steps, pairs=pairs)
 
 
 def steps_told(
@@ -85,8 +74,7 @@ def steps_told(
     for number, step in enumerate(steps, 1):
         things = ", ".join(rows(names.get(name, name) for name in step.bring))
         to = names.get(step.to, step.to)
-        way = told.say(_way(step))
-        yield told.text("{number}. {things} to {to}: {way}", number=number, things=things, to=to, way=way)
+        yield told.text("{number}. {things} to {to}: {way}", number=number, things=things, to=to, way=_way(step))
 
 
 def _way(step: StepSpec) -> Message:
@@ -98,10 +86,11 @@ def _way(step: StepSpec) -> Message:
     if (x, y, z) in _WAYS:
         way = Message(_WAYS[x, y, z])
     if step.outwards is not None:
-        if step.outwards > 0:
-            way = message("{way}, then {length:.4g} mm outwards from its axis", way=way, length=step.outwards)
-        else:
-            way = message("{way}, then {length:.4g} mm inwards to its axis", way=way, length=-step.outwards)
+        outwards, inwards = (
+            N_("{way}, then {length:.4g} mm outwards from its axis"),
+            N_("{way}, then {length:.4g} mm inwards to its axis"),
+        )
+        way = message(outwards if step.outwards > 0 else inwards, way=way, length=abs(step.outwards))
     if step.one_hole:
         way = message("{way}, each through the hole of the first, the row turned on", way=way)
     if step.opened is not None:

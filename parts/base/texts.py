@@ -118,15 +118,17 @@ def told_in(language: str, told: str | Mapping[str, str]) -> str:
 
 
 class Words(NamedTuple):
-    """One language; its methods translate, then fill in the placeholders where numbers are given."""
+    """One language; its methods translate, then fill in the placeholders where numbers are given.
+
+    Numbers may be messages too, which are told in the same language.
+    """
 
     language: str
     catalogue: NullTranslations | None
 
     def text(self, msgid: str, /, **numbers: object) -> str:
         """A text."""
-        told = self.catalogue.gettext(msgid) if self.catalogue and msgid else msgid
-        return told.format(**numbers) if numbers else told
+        return self._filled(self.catalogue.gettext(msgid) if self.catalogue and msgid else msgid, numbers)
 
     def plural(self, one: str, many: str, n: float, /, **numbers: object) -> str:
         """A text by a count, 1 tooth or 2 teeth; a count with a fraction may have a form of its own."""
@@ -134,12 +136,11 @@ class Words(NamedTuple):
             told = self.catalogue.ngettext(one, many, abs(int(n)) if n == int(n) else _FRACTION)
         else:
             told = one if n == 1 else many
-        return told.format(**numbers) if numbers else told
+        return self._filled(told, numbers)
 
     def term(self, context: str, msgid: str, /, **numbers: object) -> str:
         """A text of one of the meanings of an English word."""
-        told = self.catalogue.pgettext(context, msgid) if self.catalogue else msgid
-        return told.format(**numbers) if numbers else told
+        return self._filled(self.catalogue.pgettext(context, msgid) if self.catalogue else msgid, numbers)
 
     def say(self, text: Text) -> str:
         """A text that may have waited, with all that it holds."""
@@ -147,14 +148,17 @@ class Words(NamedTuple):
             text = text.message
         if isinstance(text, str):
             return self.text(text)
-        numbers = {name: self.say(n) if isinstance(n, Message | Fault) else n for name, n in text.numbers.items()}
         if text.many:
             count = text.numbers[text.by]
             assert isinstance(count, int | float)
-            return self.plural(text.msgid, text.many, count, **numbers)
+            return self.plural(text.msgid, text.many, count, **text.numbers)
         if text.context:
-            return self.term(text.context, text.msgid, **numbers)
-        return self.text(text.msgid, **numbers)
+            return self.term(text.context, text.msgid, **text.numbers)
+        return self.text(text.msgid, **text.numbers)
+
+    def _filled(self, told: str, numbers: Mapping[str, object]) -> str:
+        said = {name: self.say(n) if isinstance(n, Message | Fault) else n for name, n in numbers.items()}
+        return told.format(**said) if said else told
 
     def decimal(self, number: str) -> str:
         """A number, or a formula with numbers, as the language prints it on drawings: 0.5 or 0,5."""

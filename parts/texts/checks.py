@@ -114,6 +114,11 @@ def called(row: Mapping[str, object], names: Mapping[str, str]) -> dict[str, obj
     return {key: names.get(told, told) if isinstance(told, str) else told for key, told in row.items()}
 
 
+def pairs_counted(count: int) -> Message:
+    """So many pairs."""
+    return counted("{pairs} pair", "{pairs} pairs", by="pairs", pairs=count)
+
+
 def condition_message(code: str, first: str, second: str, value: float, required: float, tolerance: float) -> Message:
     """A condition of a mate as a sentence."""
     if code == "train":
