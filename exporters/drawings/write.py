@@ -100,24 +100,13 @@ def _add_dimension(drawing: Drawing, one: Dimension) -> BlockLayout:
     name = f"{_DIMSTYLE}_{one.scale:g}".replace(".", "_")
     if name not in drawing.dimstyles:
         is_first = not any(style.dxf.name.startswith(_DIMSTYLE) for style in drawing.dimstyles)
-        size = {"dimtxt": TEXT_HEIGHT, "dimasz": ARROW, "dimexe": 1.5, "dimexo": 0.0, "dimgap": 0.9, "dimdli": 8.0,
-                "dimclrt": STYLES["TEXT"].aci}  # fmt: skip
-        looks = {"dimtad": 1, "dimtih": 0, "dimtoh": 0, "dimdec": 3, "dimzin": 8, "dimlunit": 2, "dimtofl": 1}
-        drawing.dimstyles.new(
-            name,
-            {
-                **size,
-                **looks,
-                "dimdsep": ord(one.mark),
-                "dimlfac": 1 / one.scale,
-                "dimtxsty": _STYLE,
-                "dimaunit": 1,
-                "dimadec": 4,
-            },
-        )
+        told = {"dimtxt": TEXT_HEIGHT, "dimasz": ARROW, "dimexe": 1.5, "dimexo": 0.0, "dimgap": 0.9, "dimdli": 8.0,
+                "dimclrt": STYLES["TEXT"].aci, "dimlfac": 1 / one.scale, "dimdec": 3, "dimzin": 8, "dimtad": 1,
+                "dimdsep": ord(one.mark)}  # fmt: skip
+        more = {"dimtih": 0, "dimtoh": 0, "dimlunit": 2, "dimtofl": 1, "dimtxsty": _STYLE, "dimaunit": 1, "dimadec": 4}
+        drawing.dimstyles.new(name, {**told, **more})
         # some programs know one style only: the first, that of the sheet
-        heads = {**size, "dimlfac": 1 / one.scale, "dimdec": 3, "dimzin": 8, "dimtad": 1, "dimdsep": ord(one.mark)}
-        for key, value in heads.items() if is_first else ():
+        for key, value in told.items() if is_first else ():
             drawing.header[f"${key.upper()}"] = value
         # LibreCAD has Cyrillic in that one alone
         drawing.header["$DIMTXSTY"] = _STYLE

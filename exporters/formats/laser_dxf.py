@@ -7,6 +7,7 @@ them, since importing ezdxf takes longer than all else a laser file needs. Layer
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import count
 from pathlib import Path
 
 import numpy as np
@@ -52,7 +53,8 @@ def laser_dxf(
     ``strokes``: points of open ones, which stand on ENGRAVE before all else.
     """
     seed, frame = (_FRAMES / f"{version}.dxf").read_text("ascii").split("\n", 1)
-    handles = _handles(int(seed, 16))
+    # fresh ones, in capital hexadecimal digits
+    handles = (f"{number:X}" for number in count(int(seed, 16)))
     names = tuple(dict.fromkeys((*(["ENGRAVE"] if strokes else []), *layers)))
     rows = [_layer(name, next(handles), version) for name in names]
     drawn = [_polyline(stroke, np.zeros(len(stroke)), "ENGRAVE", handles, version, closed=0) for stroke in strokes]
@@ -66,13 +68,6 @@ def laser_dxf(
     for slot, text in zip(SLOTS, texts, strict=True):
         frame = frame.replace(slot, text)
     return frame
-
-
-def _handles(first: int) -> Iterator[str]:
-    """Fresh handles, in capital hexadecimal digits."""
-    while True:
-        yield f"{first:X}"
-        first += 1
 
 
 def _rows(*pairs: tuple[int, object]) -> str:

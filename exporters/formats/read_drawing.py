@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from exporters.formats.chains import chained, nodes, smooth_loops
-from exporters.formats.readback import SmoothLoop
+from exporters.formats.readback import ReadFlat, SmoothLoop
 from geometry.base.distinct import distinct
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
@@ -296,17 +296,12 @@ def opened(file: Path, *, audit: bool = True) -> Drawing:
     return document
 
 
-class ReadDrawing(Record):
+class ReadDrawing(ReadFlat):
     """A drawing of true curves: the outlines on one layer, ``paths`` of a follower's centre on another."""
 
     curves: tuple[DrawnCurve, ...]
     paths: tuple[DrawnCurve, ...] = ()
     has_arcs = False
-    is_flat = True
-    colour = None
-
-    def names(self) -> None:
-        """The format has none."""
 
     def loops(self) -> list[Complex]:
         """The closed outlines, densely sampled."""
@@ -320,10 +315,6 @@ class ReadDrawing(Record):
         """The closed outlines as polynomials."""
         share = nodes()
         return smooth_loops([span for curve in self.curves for span in curve.spans(share)])
-
-    def faces(self) -> Real:
-        """None."""
-        return np.zeros((0, 3, 3))
 
 
 def read_drawing(file: Path) -> ReadDrawing:

@@ -46,17 +46,18 @@ def read_path(file: Path, key: str) -> list[Piece]:
     path, left = runs[0], runs[1:]
     while left:
         end = complex(*path[-1][2:4])
-        found = next((run for run in left if abs(complex(*run[0][:2]) - end) <= _JOINT), None)
+        # as they run, or turned round
+        ways = [*((run, run) for run in left), *((run, _turned(run)) for run in left)]
+        found = next((row for row in ways if abs(complex(*row[1][0][:2]) - end) <= _JOINT), None)
         if found is None:
-            turned = next((run for run in left if abs(complex(*run[-1][2:4]) - end) <= _JOINT), None)
-            if turned is None:
-                raise SceneError(PLACE, key, str(file), "path_is_open", None, x=end.real, y=end.imag, left=len(left))
-            left.remove(turned)
-            found = [[x2, y2, x1, y1, -bulge] for x1, y1, x2, y2, bulge in reversed(turned)]
-        else:
-            left.remove(found)
-        path = path + found
+            raise SceneError(PLACE, key, str(file), "path_is_open", None, x=end.real, y=end.imag, left=len(left))
+        left.remove(found[0])
+        path = path + found[1]
     return path
+
+
+def _turned(run: list[Piece]) -> list[Piece]:
+    return [[x2, y2, x1, y1, -bulge] for x1, y1, x2, y2, bulge in reversed(run)]
 
 
 def _pieces(entity: DXFEntity, key: str, file: Path) -> list[list[Piece]]:

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
 # a file that is larger, or unpacks to more, is none of ours
 MOST_READ_BYTES = 1_000_000_000
-_NO_FACES = np.zeros((0, 3, 3))
 
 
 class Loop(Record):
@@ -66,25 +65,30 @@ class SmoothLoop(Record):
         return outline_of_polynomials(self.coefficients * turn, clockwise=clockwise)
 
 
-class ReadOutlines(Record):
-    """A flat file of lines and arcs; ``strokes``: points of open chains of lines, engraved."""
+class ReadFlat(Record):
+    """What files of outlines say alike: they tell no names and no colours, and hold no faces."""
 
-    loops: tuple[Loop, ...]
-    strokes: tuple[Complex, ...] = ()
-    has_arcs = True
     is_flat = True
     colour = None
 
     def names(self) -> None:
         """The format has none."""
 
+    def faces(self) -> Real:
+        """None."""
+        return np.zeros((0, 3, 3))
+
+
+class ReadOutlines(ReadFlat):
+    """A flat file of lines and arcs; ``strokes``: points of open chains of lines, engraved."""
+
+    loops: tuple[Loop, ...]
+    strokes: tuple[Complex, ...] = ()
+    has_arcs = True
+
     def section(self, z: float) -> tuple[ReadLoop, ...]:
         """All outlines."""
         return self.loops
-
-    def faces(self) -> Real:
-        """None."""
-        return _NO_FACES
 
 
 class ReadMesh(Record):

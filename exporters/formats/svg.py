@@ -30,36 +30,20 @@ def fill(index: int) -> str:
 
 
 def write_laser_svg(
-    file: Path, layers: tuple[str, ...], boundaries: tuple[Approximation, ...], strokes: Sequence[Complex] = ()
+    file: Path,
+    layers: tuple[str, ...],
+    boundaries: tuple[Approximation, ...],
+    strokes: Sequence[Complex] = (),
+    board: complex | None = None,
 ) -> dict[str, int]:
     """Write outlines at their true size; one user unit is one mm. No transform, no class, no style sheet.
 
-    ``strokes``: points of open chains, which are engraved before all else.
+    ``strokes``: points of open chains, which are engraved before all else. The origin stands in the middle of the page,
+    or in the lower left corner of a ``board`` of this size, mm.
     """
     middle = round(max(float(np.abs(b.geometry.vertices).max()) for b in boundaries), _PICTURE_DECIMALS) + _MARGIN
-    return _write_outlines(file, layers, boundaries, strokes, head(middle), complex(middle, middle))
-
-
-def write_board_svg(
-    file: Path,
-    layers: tuple[str, ...],
-    boundaries: tuple[Approximation, ...],
-    size: complex,
-    strokes: Sequence[Complex] = (),
-) -> dict[str, int]:
-    """Write the outlines of a board, whose lower left corner is the origin, on a page of its size, mm."""
-    return _write_outlines(file, layers, boundaries, strokes, page_head(size.real, size.imag), 1j * size.imag)
-
-
-def _write_outlines(
-    file: Path,
-    layers: tuple[str, ...],
-    boundaries: tuple[Approximation, ...],
-    strokes: Sequence[Complex],
-    opening: str,
-    origin: complex,
-) -> dict[str, int]:
-    lines = [opening]
+    page, origin = (2 * middle * (1 + 1j), middle * (1 + 1j)) if board is None else (board, 1j * board.imag)
+    lines = [page_head(page.real, page.imag)]
     lines += [f'<path d="{stroke_data(stroke, origin)}" {_look("ENGRAVE")}/>' for stroke in strokes]
     lines += [_shape(b.geometry, _look(layer), origin) for layer, b in zip(layers, boundaries, strict=True)]
     save(file, lines)

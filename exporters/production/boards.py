@@ -80,10 +80,9 @@ class BoardJob(Record, PartsJob):
         own = {m.part.id: strokes_of(m) for m in self.members}
         strokes = [np.round(p.moved(stroke), _FILE_DECIMALS) + 0.0 for p in self.pieces for stroke in own[p.part]]
         if self.export.format == "svg":
-            from exporters.formats.svg import write_board_svg
+            from exporters.formats.svg import write_laser_svg
 
-            size = complex(self.board.width, self.board.height)
-            counts = write_board_svg(file, layers, boundaries, size, strokes)
+            counts = write_laser_svg(file, layers, boundaries, strokes, complex(self.board.width, self.board.height))
         else:
             from exporters.formats.laser_dxf import write_laser_dxf
 

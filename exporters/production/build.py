@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection
+from functools import partial
 from pathlib import Path
 from typing import Any
-
-import msgspec
 
 from exporters.formats.registry import Chords, Shape, least_tolerance, number_rounding, shape_of
 from exporters.production.check_lines import has_bad_verdict, names_of
@@ -155,8 +154,7 @@ def approximated(job: Job, source: str, beside: Collection[Job]) -> tuple[Shape,
         place, said = f"{job.place}.tolerance", {"residual": error.residual, "steps": error.iterations}
         raise SceneError(source, place, job.asked, "tolerance_not_met", None, "", **said) from error
     except ThinWallError as error:
-        place = f"{job.place}.tolerance"
-        raise SceneError(source, place, job.asked, "wall_too_thin_for_mesh", None, "mm", part=job.part.id) from error
+        raise _refused(job, source, "wall_too_thin_for_mesh") from error
 
 
 def _for_every_part(refusal: ParameterError, job: Job, beside: Collection[Job]) -> ParameterError:
@@ -177,7 +175,7 @@ def _write(job: FileJob, made: Made, file: Path, source: str, *, verify: bool) -
     try:
         entities = job.write(made, file)
     except ThinWallError as error:
-        raise next(_too_coarse(m, source) for m in job.members if _is_thin(m, m.chords(made))) from error
+        raise next(_too_coarse(m, source) for m in job.members if _is_thin(m, partial(m.chords, made))) from error
     seconds = {"write": time.perf_counter() - start}
     max_error, bound = job.declared(made)
     findings = job.findings(made)
@@ -205,11 +203,11 @@ def _by_kernel_too(item: Written) -> Written:
     return replace(item, measured=verdict.measured, failures=verdict.failures)
 
 
-def _is_thin(job: Job, made: Chords) -> bool:
+def _is_thin(job: Job, made: Callable[[], Chords]) -> bool:
     from parts.solids.mesh import body_mesh
 
     try:
-        body_mesh(job.body, made)
+        body_mesh(job.body, made())
     except ThinWallError:
         return True
     return False
@@ -217,17 +215,18 @@ def _is_thin(job: Job, made: Chords) -> bool:
 
 def _too_coarse(job: Job, source: str) -> SceneError:
     """The refusal of a tolerance whose chords cross a thin wall, with the nearest one that works, if any does."""
-    from parts.solids.mesh import body_mesh, mesh_outlines
+    from parts.solids.mesh import mesh_outlines
 
     def crosses(finer: float) -> bool:
-        try:
-            body_mesh(job.body, mesh_outlines(job.body, finer - number_rounding(job), 64 * number_rounding(job)))
-        except ThinWallError:
-            return True
-        return False
+        rounding = number_rounding(job)
+        return _is_thin(job, lambda: mesh_outlines(job.body, finer - rounding, 64 * rounding))
 
     works = _finer(job, crosses)
-    code = "wall_too_thin_for_mesh" if works is None else "chords_cross_wall"
+    return _refused(job, source, "wall_too_thin_for_mesh" if works is None else "chords_cross_wall", works)
+
+
+def _refused(job: Job, source: str, code: str, works: Nearest | None = None) -> SceneError:
+    """The refusal of the tolerance that a part is asked for with."""
     return SceneError(source, f"{job.place}.tolerance", job.asked, code, works, "mm", part=job.part.id)
 
 
@@ -244,12 +243,10 @@ def _crossing(job: Job, source: str) -> SceneError:
     """The refusal of a tolerance at which an outline crosses itself: a part of it is smaller than that."""
 
     def crosses(finer: float) -> bool:
-        tried = replace(job, export=msgspec.structs.replace(job.export, tolerance=finer))
+        tried = job.at(finer)
         return _is_crossed(tried, shape_of(tried))
 
-    works = _finer(job, crosses)
-    place = f"{job.place}.tolerance"
-    return SceneError(source, place, job.asked, "outline_crosses_itself", works, "mm", part=job.part.id)
+    return _refused(job, source, "outline_crosses_itself", _finer(job, crosses))
 
 
 def _finer(job: Job, fails: Callable[[float], bool]) -> Nearest | None:

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from msgspec.structs import astuple
 
 from exporters.formats.registry import REGISTRY, declared_error, shape_of
 from exporters.production.jobs import Job
@@ -20,7 +21,7 @@ from geometry.approximation.arcs import arc_spline_of
 from geometry.approximation.chords import chords_of
 from geometry.approximation.splines import spline_of_spans
 from geometry.base.errors import ConvergenceError, ParameterError
-from geometry.base.record import Record, replace
+from geometry.base.record import Record
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.base.texts import Words
@@ -85,22 +86,15 @@ def ladder(plan: Plan, folder: Path, progress: Callable[[str], None] = lambda pa
     for job in plan.jobs:
         progress(job.path)
         for tolerance in CAD_LADDER if job.kind.is_cad else LADDER:
-            export, start = replace_export(job, tolerance), time.perf_counter()
+            start = time.perf_counter()
             try:
-                rungs.append(_rung(export, folder / job.path))
+                rungs.append(_rung(job.at(tolerance), folder / job.path))
             except (ParameterError, ConvergenceError):
                 # this format cannot carry so fine a tolerance: the ladder ends here
                 break
             if time.perf_counter() - start > _MOST_SECONDS:
                 break
     return rungs
-
-
-def replace_export(job: Job, tolerance: float) -> Job:
-    """The job at another tolerance."""
-    import msgspec
-
-    return replace(job, export=msgspec.structs.replace(job.export, tolerance=tolerance))
 
 
 def _rung(job: Job, file: Path) -> Rung:
@@ -115,11 +109,9 @@ def _rung(job: Job, file: Path) -> Rung:
     verdict = verify_file(file, job.kind, job.exact, max_error, tolerance)
     size = file.stat().st_size
     file.unlink()
-    edges = sum(entities.values())
-    measured = verdict.measured.get("max_deviation", math.nan)
-    spread = max(seconds) - min(seconds)
-    name = job.export.format
-    return Rung(job.path, name, tolerance, max_error, measured, edges, size, statistics.median(seconds), spread)
+    made_of, measured = sum(entities.values()), verdict.measured.get("max_deviation", math.nan)
+    median, spread = statistics.median(seconds), max(seconds) - min(seconds)
+    return Rung(job.path, job.export.format, tolerance, max_error, measured, made_of, size, median, spread)
 
 
 def orders(plan: Plan) -> list[Order]:
@@ -149,9 +141,7 @@ def _order(
         counts.append(count)
         errors.append(error)
         count *= 2
-    observed = None
-    if len(counts) > 1:
-        observed = -float(np.polyfit(np.log(counts), np.log(errors), 1)[0])
+    observed = -float(np.polyfit(np.log(counts), np.log(errors), 1)[0]) if len(counts) > 1 else None
     return Order(part, label, method, theory, observed, tuple(counts), tuple(errors))
 
 
@@ -159,13 +149,9 @@ def write_csv(file: Path, rungs: list[Rung], found: list[Order]) -> None:
     """Both tables as one CSV: files first, then curves."""
     with file.open("w", encoding="utf-8", newline="") as stream:
         rows = csv.writer(stream, lineterminator="\n")
-        rows.writerow(
-            ["file", "format", "tolerance_mm", "declared_mm", "measured_mm", "edges", "bytes", "s", "spread_s"]
-        )
-        for r in rungs:
-            rows.writerow(
-                [r.file, r.format, r.tolerance, r.max_error, r.measured, r.entities, r.bytes, r.seconds, r.spread]
-            )
+        errors = "tolerance_mm", "declared_mm", "measured_mm"
+        rows.writerow(["file", "format", *errors, "edges", "bytes", "s", "spread_s"])
+        rows.writerows(map(astuple, rungs))
         rows.writerow([])
         rows.writerow(["part", "curve", "method", "order_of_method", "observed_order", "pieces", "error_mm"])
         for o in found:

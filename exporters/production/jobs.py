@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import numpy as np
+from msgspec.structs import replace as with_keys
 
 from exporters.formats.registry import BOUNDS, REGISTRY, Chords, Content, Shape, declared_error
 from geometry.base.findings import Finding
-from geometry.base.record import Record, field
+from geometry.base.record import Record, field, replace
 from geometry.base.tolerance import LEAST_SEGMENT_MM
 from parts.scene.formats import Form
 from parts.scene.load import ExportSpec
@@ -133,6 +134,10 @@ class Job(Content, FileJob):
     def asked(self) -> float:
         """The tolerance that the scene asks for, mm."""
         return self.tolerance / self.share
+
+    def at(self, tolerance: float) -> Job:
+        """The job at another tolerance."""
+        return replace(self, export=with_keys(self.export, tolerance=tolerance))
 
     @property
     def label(self) -> str:

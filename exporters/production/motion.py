@@ -27,7 +27,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Contour
 from geometry.plane.profile import Profile
 from parts.base.readback import ReadError
-from parts.base.texts import fault, fault_of
+from parts.base.texts import fault, fault_of, unless
 from parts.scene.relative_path import Course
 from parts.scene.standing import Instance
 
@@ -183,39 +183,31 @@ class MotionJob(Film, dict=True):
         failures = self.late(found.seconds)
         worst, outline = 0.0, 0.0
         for look, profiles in self._profiles.items():
-            alike = [i for i in self.instances if self._look(i) == look and i.id not in self._changing]
-            same = [_loops(found.tracks[i.id], i) for i in alike]
+            lying = [i for i in self.instances if self._look(i) == look and i.id not in self._changing]
+            same = [_loops(found.tracks[i.id], i) for i in lying]
             verdict = verify_loops(same[0], profiles, [""] * len(profiles), declared, self.tolerance)
-            failures += [fault_of(alike[0].part, text) for text in verdict.failures]
+            failures += [fault_of(lying[0].part, text) for text in verdict.failures]
             outline = max(outline, verdict.measured.get("max_deviation", 0.0))
-            if not all(_is_same(loops, same[0]) for loops in same):
-                failures.append(fault("{part}: its instances differ", part=alike[0].part))
+            equal = all(_is_same(loops, same[0]) for loops in same)
+            failures += unless(equal, "{part}: its instances differ", part=lying[0].part)
         for instance in self.instances:
             reach = self._reach(instance)
             track = found.tracks[instance.id]
             # every value that the file has, too
             values = [np.linspace(0, 1, len(way)) for way in (track.places, track.angles)]
             times = np.unique(np.concatenate([TIMES, *values]))
-            for exact, read in zip(self._points(instance, reach, times), _read(track, reach, times), strict=True):
-                worst = max(worst, float(np.abs(exact - read).max()))
-            ends = self._changing.get(instance.id)
-            if (ends is None) != (track.forms is None):
-                failures.append(fault("{part}: its outline is that of another", part=instance.part))
-            elif ends is not None and (forms := track.formed(TIMES)) is not None:
-                outline = max(outline, ends.off_outlines(self.frames(instance, TIMES)[0], forms))
+            (place, angle), (read, turn) = self.poses(instance, times), track.pose(times)
+            ends = place + reach * np.exp(1j * angle), read + reach * np.exp(1j * turn)
+            worst = max(worst, float(np.abs(place - read).max()), float(np.abs(ends[0] - ends[1]).max()))
+            changing, forms = self._changing.get(instance.id), track.formed(TIMES)
+            alike = (changing is None) == (forms is None)
+            failures += unless(alike, "{part}: its outline is that of another", part=instance.part)
+            if changing is not None and forms is not None:
+                outline = max(outline, changing.off_outlines(self.frames(instance, TIMES)[0], forms))
         failures += self.off_place(worst, outline, declared)
         return Verdict(
             {"max_deviation": outline, "pose_deviation": worst, "loop_seconds": found.seconds}, tuple(failures)
         )
-
-    def _points(self, instance: Instance, reach: float, times: Real) -> list[Any]:
-        places, angles = self.poses(instance, times)
-        return [places, places + reach * np.exp(1j * angles)]
-
-
-def _read(track: ReadTrack, reach: float, times: Real) -> list[Any]:
-    places, angles = track.pose(times)
-    return [places, places + reach * np.exp(1j * angles)]
 
 
 def _upright(instance: Instance) -> bool:

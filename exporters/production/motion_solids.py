@@ -19,7 +19,7 @@ from geometry.base.placement import Placement3
 from geometry.base.record import replace
 from geometry.curves.curve import Real
 from parts.base.readback import ReadError
-from parts.base.texts import fault, fault_of
+from parts.base.texts import fault, fault_of, unless
 from parts.scene.formats import file_kind
 from parts.scene.standing import Instance
 from parts.solids.mesh import body_mesh
@@ -112,10 +112,10 @@ class SolidFilm(Film):
         except (ReadError, OSError) as error:
             return Verdict({}, (str(error),))
         if list(found.tracks) != [i.id for i in self.instances] or list(found.solids) != list(self.parts):
-            return Verdict(
-                {},
-                (fault("holds {tracks} of {solids}", tracks=", ".join(found.tracks), solids=", ".join(found.solids)),),
+            held_of = fault(
+                "holds {tracks} of {solids}", tracks=", ".join(found.tracks), solids=", ".join(found.solids)
             )
+            return Verdict({}, (held_of,))
         failures = self.late(found.seconds)
         solid = 0.0
         for name, part in self.parts.items():
@@ -125,8 +125,8 @@ class SolidFilm(Film):
         worst = 0.0
         for instance in self.instances:
             track = found.tracks[instance.id]
-            if track.solid != instance.part:
-                failures.append(fault("{id} is shown as {solid}", id=instance.id, solid=track.solid))
+            right = track.solid == instance.part
+            failures += unless(right, "{id} is shown as {solid}", id=instance.id, solid=track.solid)
             probes = np.vstack([np.zeros(3), self.reach(instance) * np.eye(3)])
             # every value that the file has, too
             values = np.concatenate([way[0] for way in (track.places, track.turns)])

@@ -22,7 +22,7 @@ from exporters.formats.read_3mf import read_3mf_assembly
 from exporters.formats.read_stl import read_stl
 from exporters.formats.readback import Loop, ReadMesh, SmoothLoop
 from exporters.formats.stl import write_stl
-from exporters.formats.svg import number, path_data, write_board_svg
+from exporters.formats.svg import number, path_data, write_laser_svg
 from exporters.formats.threemf import MeshPart, write_3mf, write_3mf_assembly
 from geometry.approximation.splines import fit_spline
 from geometry.base.placement import Placement3
@@ -114,10 +114,11 @@ def test_a_laser_file_says_how_much_is_in_it(version: str, kind: str, tmp_path: 
     assert len(ezdxf.readfile(tmp_path / "l.dxf").modelspace()) == 4
     plain = write_laser_dxf(tmp_path / "l.dxf", layers, (square, toothed), version=version)
     assert plain == {kind: 2, "vertices": 16, "arcs": 8}
-    assert write_board_svg(tmp_path / "b.svg", layers, (square, toothed), 30 + 20j, strokes) == {
+    assert write_laser_svg(tmp_path / "b.svg", layers, (square, toothed), strokes, 30 + 20j) == {
         "shapes": 2, "strokes": 2, "vertices": 16
     }  # fmt: skip
-    assert write_board_svg(tmp_path / "b.svg", layers, (square, toothed), 30 + 20j) == {"shapes": 2, "vertices": 16}
+    plain = write_laser_svg(tmp_path / "b.svg", layers, (square, toothed), board=30 + 20j)
+    assert plain == {"shapes": 2, "vertices": 16}
     assert 'width="30mm" height="20mm" viewBox="0 0 30 20"' in (tmp_path / "b.svg").read_text("utf-8")
 
 
