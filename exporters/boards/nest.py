@@ -54,6 +54,11 @@ class Room(Record):
     gap: float
     turns: tuple[int, ...] = QUARTERS
 
+    @property
+    def inner(self) -> complex:
+        """The size of what is within its margins, mm."""
+        return complex(self.width - 2 * self.margin, self.height - 2 * self.margin)
+
 
 class Laid(Record):
     """A piece in its place: its shape, the board's number from 0 on, quarter turns, and where its origin stands, mm."""
@@ -83,10 +88,8 @@ class _Shape(Draft):
 
 def largest_scale(geometry: BaseGeometry, room: Room) -> float:
     """The largest scale at which a shape has room."""
-    low_x, low_y, high_x, high_y = geometry.bounds
-    wide, high = room.width - 2 * room.margin, room.height - 2 * room.margin
-    sizes = (high_x - low_x, high_y - low_y), (high_y - low_y, high_x - low_x)
-    return max(min(wide / sizes[turn % 2][0], high / sizes[turn % 2][1]) for turn in room.turns)
+    inner, sizes = room.inner, [_turned(_size(geometry), turn) for turn in room.turns]
+    return max(min(inner.real / size.real, inner.imag / size.imag) for size in sizes)
 
 
 def lacking(room: Room, wide: float, high: float) -> Literal["width", "height"]:
@@ -94,14 +97,13 @@ def lacking(room: Room, wide: float, high: float) -> Literal["width", "height"]:
 
     The width where neither does alone.
     """
-    inner = room.width - 2 * room.margin, room.height - 2 * room.margin
+    inner = room.inner
     grown: list[tuple[float, Literal["width", "height"]]] = []
-    for turn in room.turns:
-        x, y = (wide, high)[turn % 2], (high, wide)[turn % 2]
-        if y <= inner[1]:
-            grown.append((x - inner[0], "width"))
-        if x <= inner[0]:
-            grown.append((y - inner[1], "height"))
+    for size in (_turned(complex(wide, high), turn) for turn in room.turns):
+        if size.imag <= inner.imag:
+            grown.append((size.real - inner.real, "width"))
+        if size.real <= inner.real:
+            grown.append((size.imag - inner.imag, "height"))
     return min(grown, key=lambda one: one[0], default=(0.0, "width"))[1]
 
 
@@ -135,8 +137,8 @@ def _plain(shapes: Mapping[str, tuple[BaseGeometry, int]], gap: float) -> dict[s
     import shapely
 
     def sides(geometry: BaseGeometry) -> list[float]:
-        low_x, low_y, high_x, high_y = geometry.bounds
-        return sorted((high_x - low_x, high_y - low_y))
+        size = _size(geometry)
+        return sorted((size.real, size.imag))
 
     boxes = [sides(geometry) for geometry, _ in shapes.values()]
     found = {}
@@ -148,6 +150,17 @@ def _plain(shapes: Mapping[str, tuple[BaseGeometry, int]], gap: float) -> dict[s
             pieces.append(shapely.Polygon(piece.exterior, kept))
         found[name] = shapely.union_all(pieces)
     return found
+
+
+def _size(geometry: BaseGeometry) -> complex:
+    """Width and height of its box."""
+    low_x, low_y, high_x, high_y = geometry.bounds
+    return complex(high_x - low_x, high_y - low_y)
+
+
+def _turned(size: complex, quarters: int) -> complex:
+    """A size after quarter turns."""
+    return complex(size.imag, size.real) if quarters % 2 else size
 
 
 def _middle(geometry: BaseGeometry) -> complex:
@@ -184,12 +197,12 @@ class _Nest:
 
     def __init__(self, shapes: Mapping[str, tuple[BaseGeometry, int]], room: Room) -> None:
         self.room = room
-        self.inner = complex(room.width - 2 * room.margin, room.height - 2 * room.margin)
+        self.inner = room.inner
         self.counts = {name: count for name, (_, count) in shapes.items()}
         filled = sum(geometry.area * count for geometry, count in shapes.values())
         self.many = filled > _FEW_BOARDS * self.inner.real * self.inner.imag
-        boxes = [g.bounds for g, _ in shapes.values()]
-        spans = np.array([max(b[2] - b[0], b[3] - b[1]) + room.gap for b in boxes])
+        sizes = [_size(geometry) for geometry, _ in shapes.values()]
+        spans = np.array([max(size.real, size.imag) + room.gap for size in sizes])
         # squares about all pairs of shapes in all turns to each other, of which each is looked at cell by cell
         pairs = len(room.turns) * float(np.square(spans[:, None] + spans).sum())
         longer = max(room.width, room.height)
@@ -204,10 +217,8 @@ class _Nest:
         """A shape in all turns in which it fits."""
         from shapely.affinity import rotate
 
-        low_x, low_y, high_x, high_y = geometry.bounds
-        middle, half = _middle(geometry), complex(high_x - low_x, high_y - low_y) / 2
-        about = _about(geometry)
-        halves = half, complex(half.imag, half.real)
+        middle, half, about = _middle(geometry), _size(geometry) / 2, _about(geometry)
+        halves = half, _turned(half, 1)
         # a shape that has room but no place on the grid stands beside it by half a cell each way at most
         tight = any(len(self._places(h, axis)) == 0 for h in halves for axis in (0, 1) if self._has_room(h))
         more = self.cell / math.sqrt(2) if tight else 0.0
@@ -453,8 +464,4 @@ def _without(order: Sequence[str], counts: Mapping[str, int]) -> list[str]:
 
 def _fast(count: int) -> int:
     """The next length of which a transform is fast."""
-    best = 1 << (count - 1).bit_length()
-    for factor in (9, 5, 3, 15):
-        scaled = factor << max(0, math.ceil(math.log2(count / factor)))
-        best = min(best, scaled) if scaled >= count else best
-    return best
+    return min(factor << (-(-count // factor) - 1).bit_length() for factor in (1, 3, 5, 9, 15))

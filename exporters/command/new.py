@@ -46,13 +46,7 @@ _SHEET = """
 ##
 ## [[exports]]
 ## format = "sheet"                           # {sheet}
-## mate = 1                                   # {one_pair}{device}
-## title_block = true                         # {block}"""
-_OWN_SHEET = """
-##
-## [[exports]]
-## format = "sheet"                           # {sheet}
-## purpose = "{purpose}"
+## {only}
 ## title_block = true                         # {block}"""
 _TAIL = """
 # {may}
@@ -89,9 +83,6 @@ def new_scene(kind: str, language: str = ENGLISH) -> str:
         owner = [f"# {note}", f"[parts.{_SOURCE}]", *(f"{key} = {_toml(v)}" for key, v in made_from.items()), ""]
     lines = [
         *_head(told),
-        "[scene]",
-        *_keys(fields(SceneInfo), told),
-        "",
         *owner,
         f"[parts.{_OWN}]",
         f'kind = "{kind}"',
@@ -130,7 +121,7 @@ def _sentences(head: str) -> list[str]:
 
 
 def _head(told: Words) -> list[str]:
-    """What a scene to start from says first."""
+    """What a scene to start from says first, and of itself."""
     return [
         # the directive by which an editor finds the schema, see Taplo
         f"#:schema {_SCHEMA}",
@@ -138,6 +129,9 @@ def _head(told: Words) -> list[str]:
         f"# {told.text('Lines that begin with # show defaults or examples; remove the # to set them.')}",
         f"# {told.text('Lengths in mm, angles in degrees.')}",
         f"# {told.text('An editor of TOML completes the keys after  {command}', command=_SCHEMA_COMMAND)}",
+        "",
+        "[scene]",
+        *_keys(fields(SceneInfo), told),
         "",
     ]
 
@@ -168,9 +162,6 @@ def new_assembly(kind: str, language: str = ENGLISH) -> str:
     told, expand = words(language), f"higherpair new {kind} --expand"
     lines = [
         *_head(told),
-        "[scene]",
-        *_keys(fields(SceneInfo), told),
-        "",
         f"# {told.text(RECIPES.phrases[kind])}.",
         f"# {told.text('It becomes parts, instances and mates; see {command}', command=expand)}",
         "[[assemblies]]",
@@ -285,10 +276,11 @@ def _several(kind: str, told: Words) -> list[str]:
     uneven = told.text("transmission error of each mate, without load")
     purpose, shown = KINDS[kind].sheet_shown or ("", "")
     text = _TAIL
-    if toothed:
+    only = f"mate = 1                                   # {comments['one_pair']}{told.text(shown)}"
+    if toothed or purpose:
         text += _SHEET
-    elif purpose:
-        text, comments["sheet"] = text + _OWN_SHEET, told.text(shown)
+    if purpose and not toothed:
+        only, comments["sheet"] = f'purpose = "{purpose}"', told.text(shown)
     return text.format(
         **comments,
         may=told.text(may, part=part),
@@ -300,8 +292,7 @@ def _several(kind: str, told: Words) -> list[str]:
         direction="" if turned is None else f"\n## direction_deg = {turned}",
         pad=" " * max(1, 24 - len(other)),
         transmission=f"\n## transmission_error = true                  # {uneven}" if toothed else "",
-        purpose=purpose,
-        device=shown and told.text(shown),
+        only=only,
     ).splitlines()
 
 

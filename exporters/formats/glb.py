@@ -41,19 +41,13 @@ def write_glb(
 ) -> None:
     """Write meshes (mm) with their colours (#rrggbb) and what moves them."""
     data = _Data()
-    meshes = [
-        {
-            "name": name,
-            "primitives": [
-                {
-                    "attributes": {"POSITION": data.add(mesh.vertices.astype("<f4"), _VERTICES)},
-                    "indices": data.add(mesh.triangles.astype("<u4").reshape(-1, 1), _INDICES),
-                    "material": number,
-                }
-            ],
-        }
-        for number, (name, (mesh, _)) in enumerate(solids.items())
-    ]
+    meshes = []
+    for number, (name, (mesh, _)) in enumerate(solids.items()):
+        attributes = {"POSITION": data.add(mesh.vertices.astype("<f4"), _VERTICES)}
+        indices = data.add(mesh.triangles.astype("<u4").reshape(-1, 1), _INDICES)
+        meshes.append(
+            {"name": name, "primitives": [{"attributes": attributes, "indices": indices, "material": number}]}
+        )
     materials = [
         {"pbrMetallicRoughness": {"baseColorFactor": _linear(colour), "metallicFactor": 0.1, "roughnessFactor": 0.6}}
         for _, colour in solids.values()

@@ -24,6 +24,9 @@ _LINE = 88
 # sheets of a PDF as a class uses them
 _EMPTY = N_("to hand out: the given data are filled in, the cells of the results are empty")
 _FILLED = N_("the same with all numbers")
+_FITS = N_(
+    "If the fits are too loose or too tight, cut `{coupon}` and write the number it shows into `kerf` of the board."
+)
 _MODEL = N_("1:1, to be cut out: print at 100 %; its square must measure 100 mm")
 
 
@@ -48,19 +51,11 @@ def write_notes(plan: Plan, folder: Path) -> Path:
 
 def _files(plan: Plan, told: Words) -> Iterator[str]:
     """What lies on each board and plate, and what the sheets for a class are."""
-    laid = laid_jobs(plan)
-    rows = [
-        (
-            ", ".join((jobs[0].path, *(f".{job.export.format}" for job in jobs[1:]))),
-            "; ".join(
-                (
-                    ", ".join(lying_on(jobs[0], told).values()),
-                    *(told.say(finding_message(f)) for f in several(jobs[0].export, jobs[0].times)),
-                )
-            ),
-        )
-        for jobs in laid.values()
-    ]
+    laid, rows = laid_jobs(plan), []
+    for first, *others in laid.values():
+        times = (told.say(finding_message(f)) for f in several(first.export, first.times))
+        files = ", ".join((first.path, *(f".{job.export.format}" for job in others)))
+        rows.append((files, "; ".join((", ".join(lying_on(first, told).values()), *times))))
     empty = {job.export.purpose for job in plan.sheets if job.export.cells == "empty"}
     for job in (job for job in plan.sheets if job.export.format == "pdf"):
         if job.export.purpose == "model":
@@ -70,13 +65,7 @@ def _files(plan: Plan, told: Words) -> Iterator[str]:
     if any(jobs[0].export.purpose == "board" for jobs in laid.values()):
         text = told.text("Cut the boards: blue is engraved first, then green is cut, red last.")
         if any(jobs[0].export.kerf for jobs in laid.values()):
-            text += " " + told.text(
-                (
-                    "If the fits are too loose or too tight, cut `{coupon}` and write the number it shows into "
-                    "`kerf` of the board."
-                ),
-                coupon="kerf_coupon",
-            )
+            text += " " + told.text(_FITS, coupon="kerf_coupon")
         yield from ("", *wrap(text, _LINE))
     if rows:
         yield ""

@@ -96,8 +96,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     noted = scene.scene.notes or scene.steps or purposes & {*PURPOSES_LAID.values()}
     # the notes tell how long they are to be cut
     rods = {p for p, part in parts.items() if noted and part.stock is not None}
-    unused = [p for p in parts if p not in used and p not in rods]
-    unused = [f"parts.{p}" for p in unused]
+    unused = [f"parts.{p}" for p in parts if p not in used | rods]
     unused += [f"{key}.{n}" for key, word in PURPOSES_LAID.items() for n in getattr(scene, key) if word not in purposes]
     left_out += [LeftOut(what, N_("no export asks for it"), as_asked=bool(only_formats)) for what in unused]
     jobs: list[Job] = []
@@ -247,8 +246,7 @@ def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> l
     exports = [(f"exports[{i + 1}]", e) for i, e in enumerate(scene.exports)]
     for name in only_formats:
         if not any(e.format == name for _, e in exports):
-            spec = default_export(name)
-            exports.append((f"--format {name}", spec))
+            exports.append((f"--format {name}", default_export(name)))
     exports = [(where, e) for where, e in exports if not only_formats or e.format in only_formats]
     if not exports:
         raise SceneError(source, "exports", None, "no_exports")

@@ -6,6 +6,7 @@ import cmath
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from html import escape
 from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -20,7 +21,7 @@ from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation, Contour, edge_points
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
-from parts.base.texts import counted, filled, words
+from parts.base.texts import words
 from parts.scene.standing import UPWARDS, Instance
 from parts.texts.findings import finding_text
 from parts.texts.quantities import quantity_name
@@ -91,8 +92,8 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
 
     language = plan.scene.scene.language
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
-    own = names_of(plan.scene.instances, plan.parts)
-    names = _together(own, stand)
+    every = names_of(plan.scene.instances, plan.parts)
+    names = _together(every, stand)
     lying = {i.id: _seen_lying(i, plan.parts[i.part]) for i in stand if not _stands(i)}
     outers = [
         np.concatenate(lying[i.id]) if i.id in lying else _outer(i, samples(outlines[i.part][-1].geometry))
@@ -108,25 +109,20 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     body: list[str] = []
     labels, loops = list[Label](), list[list[Complex]]()
     for index, instance in enumerate(stand):
-        turn = cmath.exp(1j * instance.rotation)
-        placed = [_placed(b.geometry, turn, instance.centre + shift) for b in reversed(outlines[instance.part])]
-        solid = _solid_pins(plan.parts[instance.part], outlines[instance.part])
-        if _over(instance):
-            loops_below = [_turned_over(b.geometry) for b in reversed(outlines[instance.part])]
-            placed = [_placed(loop, turn.conjugate(), instance.centre + shift) for loop in loops_below]
-            solid = []
-        elif instance.id in lying:
-            placed, solid = [Contour(loop + shift, np.zeros(len(loop))) for loop in lying[instance.id]], []
+        place, own = instance.centre + shift, outlines[instance.part]
+        placed = [_placed(b.geometry, instance, place) for b in reversed(own)]
+        if instance.id in lying:
+            placed = [Contour(loop + shift, np.zeros(len(loop))) for loop in lying[instance.id]]
         data = " ".join(path_data(contour, corner) for contour in placed)
         loops.append([middle + samples(contour).real + 1j * (middle - samples(contour).imag) for contour in placed])
         shade = plan.parts[instance.part].colour or fill(index)
         style = f"fill:{shade};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
         body.append(f'<path d="{data}" style="{style}"/>')
-        pins = " ".join(path_data(_placed(c, turn, instance.centre + shift), corner) for c in solid)
+        solid = _solid_pins(plan.parts[instance.part], own) if instance.axis == UPWARDS else []
+        pins = " ".join(path_data(_placed(c, instance, place), corner) for c in solid)
         if pins:
             body.append(f'<path d="{pins}" style="{_PIN_STYLE};stroke-width:{reach / 600:.4g}"/>')
-        place = instance.centre + shift
-        height = _label_height(outlines[instance.part], outers[index] - instance.centre)
+        height = _label_height(own, outers[index] - instance.centre)
         if instance.axis != UPWARDS:
             ends = outers[index].real, outers[index].imag
             place, height = complex(*((x.min() + x.max()) / 2 for x in ends)) + shift, 0.0
@@ -145,18 +141,18 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     written = {one.text for one in named if one}
     covered = [label.text for label in labels if label.text not in written]
     told = words(language)
-    rows = [plan.scene.scene.title or plan.scene.name, *caption_lines(checks, language, own, _MOST_LETTERS)]
+    rows = [plan.scene.scene.title or plan.scene.name, *caption_lines(checks, language, every, _MOST_LETTERS)]
     if covered:
         row = told.text("without its name in the picture: {names}", names=", ".join(in_rows(dict.fromkeys(covered))))
-        count = counted(
-            "without its name in the picture: {parts} part",
-            "without its name in the picture: {parts} parts",
-            by="parts",
-        )
-        rows.append(row if len(row) <= _MOST_LETTERS // 2 else told.say(filled(count, parts=len(covered))))
+        count = len(covered)
+        less = told.plural(
+            "without its name in the picture: {parts} part", "without its name in the picture: {parts} parts", count,
+            parts=count,
+        )  # fmt: skip
+        rows.append(row if len(row) <= _MOST_LETTERS // 2 else less)
     rows = [line for row in rows for line in wrap(told.decimal(row), _WIDE_LETTERS)]
     caption = size * 1.7 * (len(rows) + 1)
-    file = folder / f"{scene_preview_name(plan)}"
+    file = folder / scene_preview_name(plan)
     lines = [head(middle, extra_height=caption - spare), '<rect width="100%" height="100%" style="fill:#ffffff"/>']
     lines.append(f'<g transform="translate(0 {number(caption - spare / 2)})">')
     save(file, [*lines, *body, "</g>", *_caption(rows, size, size)])
@@ -183,12 +179,6 @@ def _together(names: Mapping[str, str], stand: Sequence[Instance]) -> dict[str, 
 def _over(instance: Instance) -> bool:
     """Whether it is turned over: its axis points straight down."""
     return instance.axis[:2] == (0.0, 0.0) and instance.axis[2] < 0
-
-
-def _turned_over(contour: Contour) -> Contour:
-    """An outline as it is seen from below."""
-    vertices, bulges = contour.expanded()
-    return Contour(vertices.conj(), -bulges)
 
 
 def _stands(instance: Instance) -> bool:
@@ -272,9 +262,13 @@ def _label_height(outlines: Outlines, outer: Complex) -> float:
     return -(inner + float(np.abs(outer).min())) / 2
 
 
-def _placed(contour: Contour, turn: complex, shift: complex) -> Contour:
+def _placed(contour: Contour, instance: Instance, place: complex) -> Contour:
+    """An outline of an instance that stands at a place, or is turned over there."""
     vertices, bulges = contour.expanded()
-    return Contour(vertices * turn + shift, bulges)
+    turn = cmath.exp(1j * instance.rotation)
+    if _over(instance):
+        vertices, bulges, turn = vertices.conj(), -bulges, turn.conjugate()
+    return Contour(vertices * turn + place, bulges)
 
 
 _CIRCLE_COLOURS = {"reference_diameter": "#c03020", "base_diameter": "#2060c0", "root_form_diameter": "#209050"}
@@ -300,4 +294,4 @@ def _caption(rows: list[str], left: float, size: float) -> list[str]:
 
 def escaped(text: str) -> str:
     """A text as it stands in an SVG."""
-    return text.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    return escape(text, quote=False)

@@ -83,8 +83,7 @@ class Tops:
         0: not beside what is seen of it, on what is above it, or not whole in the picture.
         """
         left, top, right, low = label.box
-        begin, end = self._picture
-        if left < begin.real or top < begin.imag or right > end.real or low > end.imag:
+        if not self._holds(label):
             return 0
         beside = self._within(left - label.size, top - label.size, right + label.size, low + label.size)
         under = set(self._within(left, top, right, low).ravel().tolist())
@@ -97,10 +96,13 @@ class Tops:
 
     def free(self, label: Label) -> bool:
         """Whether a word stands whole in the picture, on no part."""
+        return self._holds(label) and bool((self._within(*label.box) < 0).all())
+
+    def _holds(self, label: Label) -> bool:
+        """Whether a word stands whole in the picture."""
         left, top, right, low = label.box
         begin, end = self._picture
-        inside = left >= begin.real and top >= begin.imag and right <= end.real and low <= end.imag
-        return inside and bool((self._within(left, top, right, low) < 0).all())
+        return left >= begin.real and top >= begin.imag and right <= end.real and low <= end.imag
 
     def spot(self, number: int) -> complex:
         """A place where the part of this number is seen, in the midst of what is seen of it."""

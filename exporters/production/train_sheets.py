@@ -80,15 +80,8 @@ def train_picture(
     names |= {body: f"H{number}" if len(bare) > 1 else "H" for number, body in enumerate(bare, 1)}
     heights = _unfolded(stands, meshes, bodies, axes)
     rates = {body: train.moving.courses[body].rate * _sense(stands, body, frame) for body in bodies}
-    links = tuple(
-        Link(
-            names[body],
-            heights[body],
-            rates[body] / rates[driver],
-            bodies.index(carriers[body]) if body in carriers else None,
-        )
-        for body in bodies
-    )
+    on_which = {body: bodies.index(carrier) for body, carrier in carriers.items()}
+    links = tuple(Link(names[b], heights[b], rates[b] / rates[driver], on_which.get(b)) for b in bodies)
     levels, rings = _levels(rims, meshes, stand), {_ring(mesh) for mesh in meshes}
     teeth = {key: z for mesh in meshes for key, z in zip((mesh.first, mesh.second), mesh.teeth, strict=True)}
     made = []
