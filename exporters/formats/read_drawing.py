@@ -273,13 +273,12 @@ def _check_layer(document: Drawing, name: str) -> None:
     if name not in document.layers:
         raise ReadError(f"layer {name} is not in the layer table")
     layer = document.layers.get(name)
-    for is_so, what in ((layer.is_off(), "off"), (layer.is_frozen(), "frozen"), (not layer.dxf.plot, "not plotted")):
+    for is_so, what in (
+        (layer.is_off(), "is off"), (layer.is_frozen(), "is frozen"), (not layer.dxf.plot, "is not plotted"),
+        (layer.dxf.hasattr("true_color"), "has a colour beside its own"), (layer.transparency, "is transparent"),
+    ):  # fmt: skip
         if is_so:
-            raise ReadError(f"layer {name} is {what}")
-    if layer.dxf.hasattr("true_color"):
-        raise ReadError(f"layer {name} has a colour beside its own")
-    if layer.transparency:
-        raise ReadError(f"layer {name} is transparent")
+            raise ReadError(f"layer {name} {what}")
 
 
 def opened(file: Path, *, audit: bool = True) -> Drawing:

@@ -139,20 +139,18 @@ def _layers(sections: dict[str, Pairs]) -> set[str]:
         found.add(name)
         if name.upper() not in _COLOURS:
             continue
-        if int(record.first(70, "0")) & _FROZEN:
-            raise ReadError(f"layer {name} is frozen")
-        if int(record.first(62, "7")) < 0:
-            raise ReadError(f"layer {name} is off")
-        if record.first(290, "1") == "0":
-            raise ReadError(f"layer {name} is not plotted")
-        if int(record.first(62, "7")) != _COLOURS[name.upper()] or len(record.numbers(420)):
-            raise ReadError(f"layer {name} has another colour than {_COLOURS[name.upper()]}")
-        if "AcCmTransparency" in record.values:
-            raise ReadError(f"layer {name} is transparent")
-        if record.first(6, "Continuous").upper() != "CONTINUOUS":
-            raise ReadError(f"layer {name} is not drawn through")
-        if int(record.first(370, "-3")) > _WIDEST:
-            raise ReadError(f"layer {name} is drawn wider than {_WIDEST / 100} mm")
+        colour, own = int(record.first(62, "7")), _COLOURS[name.upper()]
+        for is_so, what in (
+            (int(record.first(70, "0")) & _FROZEN, "is frozen"),
+            (colour < 0, "is off"),
+            (record.first(290, "1") == "0", "is not plotted"),
+            (colour != own or len(record.numbers(420)), f"has another colour than {own}"),
+            ("AcCmTransparency" in record.values, "is transparent"),
+            (record.first(6, "Continuous").upper() != "CONTINUOUS", "is not drawn through"),
+            (int(record.first(370, "-3")) > _WIDEST, f"is drawn wider than {_WIDEST / 100} mm"),
+        ):
+            if is_so:
+                raise ReadError(f"layer {name} {what}")
     return found
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -101,13 +102,7 @@ def _values(group: Element, kind: str, durations: set[str]) -> Complex:
         raise ReadError(f"a group is placed by {placed}")
     texts = [found[1]]
     if moves:
-        wanted = {"attributeName": "transform", "type": kind, "repeatCount": "indefinite"}
-        if len(moves) != 1 or any(moves[0].get(key) != value for key, value in wanted.items()):
-            raise ReadError(f"a group has no {kind} that goes on for ever")
-        durations.add(moves[0].get("dur", ""))
-        texts = moves[0].get("values", "").split(";")
-        if texts[0] != found[1]:
-            raise ReadError(f"a group stands at {found[1]}, its motion starts at {texts[0]}")
+        texts = _animated(moves, {"attributeName": "transform", "type": kind}, found[1], durations)
     try:
         numbers = [[float(x) for x in text.split(",")] for text in texts]
     except ValueError as error:
@@ -117,15 +112,23 @@ def _values(group: Element, kind: str, durations: set[str]) -> Complex:
     return np.array([complex(row[0], row[1] if len(row) > 1 else 0.0) for row in numbers])
 
 
+def _animated(moves: Sequence[Element], looks: dict[str, str], first: str, durations: set[str]) -> list[str]:
+    """The values that the only animation goes through over and over, from that on which stands there before."""
+    wanted = {**looks, "repeatCount": "indefinite"}
+    if len(moves) != 1 or any(moves[0].get(key) != value for key, value in wanted.items()):
+        raise ReadError(f"has no {looks.get('type', 'change')} that goes on for ever")
+    durations.add(moves[0].get("dur", ""))
+    texts = moves[0].get("values", "").split(";")
+    if texts[0] != first:
+        raise ReadError(f"stands at {first}, but its motion starts at {texts[0]}")
+    return texts
+
+
 def _forms(path: Element, durations: set[str]) -> Complex:
     """The corners (k, n) of an outline that changes, y up."""
-    wanted = {"attributeName": "d", "repeatCount": "indefinite"}
-    if len(path) != 1 or path[0].tag != f"{_SVG}animate" or any(path[0].get(k) != v for k, v in wanted.items()):
-        raise ReadError("an outline does not change for ever")
-    durations.add(path[0].get("dur", ""))
-    texts = path[0].get("values", "").split(";")
-    if texts[0] != path.get("d"):
-        raise ReadError("an outline is not that with which its change begins")
+    if path[0].tag != f"{_SVG}animate":
+        raise ReadError("an outline is moved where it should change")
+    texts = _animated([*path], {"attributeName": "d"}, path.get("d", ""), durations)
     loops = [svg_path(text, "") for text in texts]
     if len({len(loop.vertices) for loop in loops}) > 1 or any(loop.bulges.any() for loop in loops):
         raise ReadError("an outline that changes is not of as many lines throughout")

@@ -1,4 +1,4 @@
-"""Every kind of file in one row: how far its numbers are rounded, the shape that it holds, how it is written and read.
+"""Every kind of file in one row: how far its numbers are rounded, the shape that it holds, how it is written.
 
 Purposes, tolerances and what it holds stand in the row of parts/scene/formats.py. Writers are imported when a file of
 their kind is written; readers (exporters/formats/reading.py) when one is read.
@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
 
 import numpy as np
 
-from exporters.formats.reading import READERS
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import Nearest, ParameterError, limit, rounded
 from geometry.base.placement import Placement3
@@ -31,7 +30,6 @@ if TYPE_CHECKING:
     from geometry.approximation.outline import Outline
     from geometry.solids.body import Body
     from geometry.solids.faced import FacedBody
-    from parts.base.readback import ReadBack
     from parts.solids.faces import Curves as SolidCurves
     from parts.solids.step_text import StepForm, StepPart
 
@@ -116,10 +114,6 @@ class FileFormat(Record, Generic[S]):
     shape: Callable[[Content, float], S]
     write: Callable[[Content, S, Path], dict[str, int]]
     write_assembly: Callable[[str, Sequence[Content], dict[str, S], Places, Path], dict[str, int]] | None = None
-
-    def read(self, file: Path) -> ReadBack:
-        """A file of one part."""
-        return READERS[self.name](file)
 
 
 def shape_of(content: Content) -> Shape:

@@ -107,10 +107,9 @@ def _sha256(file: Path) -> str:
 
 def _file(entry: dict[str, Any], parts: dict[str, Any]) -> dict[str, Any]:
     """A file as the catalogue tells of it, with what its part weighs."""
-    told = {key: entry.get(key) for key in ("path", "format", "purpose", "part", "bytes", "sha256", "max_error")}
-    weighed = parts.get(entry["part"], {})
-    deviation = entry["measured"].get("max_deviation")
-    return {**told, "deviation": deviation, "volume": weighed.get("volume"), "mass": weighed.get("mass")}
+    weighed = {key: parts.get(entry["part"], {}).get(key) for key in ("volume", "mass")}
+    told = {**entry, "deviation": entry["measured"].get("max_deviation"), **weighed}
+    return {key: told.get(key) for key in _COLUMNS.values()}
 
 
 def _table(entries: Sequence[dict[str, Any]], keys: Sequence[str]) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from exporters.formats.svg import fill, save
 from exporters.production.plan import Plan
 from exporters.production.preview import escaped
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Real
 from geometry.solids.sketch import Layer, Sketch, round_ring, sketch_of_body
 from parts.base.part import Part
@@ -64,18 +64,15 @@ def exploded_preview(plan: Plan, folder: Path) -> Path:
     scale = _SIZE / max(float(rough), 1e-9)
     things = []
     for instance in placing.instances:
-        key = _alike(instance, sketches[instance.part])
-        if key not in known:
-            laid = instance.scene_from_part
-            about = type(laid)(laid.rotation)
-            known[key] = len(drawings)
-            drawings.append((instance.part, pictured(sketches[instance.part], about, _TOLERANCE / scale)))
+        sketch, laid = sketches[instance.part], instance.scene_from_part
+        number = known.setdefault(_alike(instance, sketch), len(drawings))
+        if number == len(drawings):
+            drawings.append((instance.part, pictured(sketch, type(laid)(laid.rotation), _TOLERANCE / scale)))
         at = np.array(instance.at)
-        things.append(_Thing(instance, known[key], at, drawings[known[key]][1].corners + at))
+        things.append(_Thing(instance, number, at, drawings[number][1].corners + at))
     moved = apart(stages(plan.scene.steps, [i.id for i in placing.instances]), {t.instance.id: t.box for t in things})
-    stand = [
-        _Thing(t.instance, t.drawing, t.shift + moved[t.instance.id], t.box + moved[t.instance.id]) for t in things
-    ]
+    ways = ((thing, moved[thing.instance.id]) for thing in things)
+    stand = [replace(thing, shift=thing.shift + way, box=thing.box + way) for thing, way in ways]
     ordered = [stand[k] for k in from_behind(np.array([t.box for t in stand]))]
     ends = np.concatenate([_corners(t.box) for t in ordered])
     wide, high = float(np.ptp(ends.real)), float(np.ptp(ends.imag))
@@ -87,7 +84,7 @@ def exploded_preview(plan: Plan, folder: Path) -> Path:
     covered = {row.position for row in rows} - set(numbered)
     caption, reach = _caption(plan, rows, covered, complex(width, high * scale))
     width = max(width, reach)
-    deep = high * scale + _TEXT * (len(caption) and 3 + max(len(column) for column in caption)) * 1.4
+    deep = high * scale + _TEXT * (3 + max(map(len, caption))) * 1.4
     file = folder / f"{plan.scene.name}.exploded.preview.svg"
     margin = 4 * _TEXT
     head = (

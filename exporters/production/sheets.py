@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -330,18 +331,13 @@ def _meshing(mating: Toothed, picture: MeshingPicture, scene: SceneFile, asked: 
     if asked.by_hand:
         return Expected(canvas, view.paper, ())
     circles, paper = [], view.paper
-    for body in picture.bodies:
-        for name, radius in body.radii.items():
-            if not view.shows(body, name):
-                continue
-            layer = f"CIRCLE_{name.upper()}"
-            if body.centre is None:
-                circles.append(Circle(layer, None, paper.point(1j * radius).imag))
-            else:
-                circles.append(Circle(layer, paper.point(body.centre), paper.scale * radius))
-    tangents = tuple(
-        (paper.point(b.centre), paper.scale * b.radii["base"]) for b in picture.bodies if b.centre is not None
-    )
+    for body, name in ((one, name) for one in picture.bodies for name in one.radii if view.shows(one, name)):
+        centre, size = None, paper.point(1j * body.radii[name]).imag
+        if body.centre is not None:
+            centre, size = paper.point(body.centre), paper.scale * body.radii[name]
+        circles.append(Circle(f"CIRCLE_{name.upper()}", centre, size))
+    wheels = [(body.centre, body.radii["base"]) for body in picture.bodies if body.centre is not None]
+    tangents = tuple((paper.point(centre), paper.scale * radius) for centre, radius in wheels)
     teeth = {
         "OUTLINE": [c for b in picture.bodies for c in b.chain(picture.shown, TEETH)],
         "TOOTH_START": [c for b in picture.bodies for c in b.tooth_at(picture.start)],
@@ -359,8 +355,7 @@ def _facts(mating: Toothed, picture: MeshingPicture, language: str, specs: list[
     """Title and table of the sheet; of helical parts (``specs``) the normal data too."""
     pair: Any = mating.pair
 
-    def word(key: str) -> str:
-        return sheet_words(language, key)
+    word = partial(sheet_words, language)
 
     def say(value: float, digits: int) -> str:
         return decimal(f"{value:.{digits}f}", language)
@@ -373,8 +368,8 @@ def _facts(mating: Toothed, picture: MeshingPicture, language: str, specs: list[
             Row(word("helix_angle"), "β", f"{say(helix, 4)}°", answers=0),
             Row(word("transverse_module"), "m_{t}", decimal(f"{mating.module:.6g}", language)),
         ]
-    for index, gear in enumerate(pair.gears, 1):
-        rows.append(Row(word("number_of_teeth"), f"z_{{{index}}}", str(gear.number_of_teeth), answers=0))
+    teeth = [(f"z_{{{index}}}", str(gear.number_of_teeth)) for index, gear in enumerate(pair.gears, 1)]
+    rows += [Row(word("number_of_teeth"), symbol, count, answers=0) for symbol, count in teeth]
     for index, gear in enumerate(pair.gears, 1):
         shift = gear.profile_shift_coefficient / math.cos(math.radians(helix))
         name, symbol = ("normal_shift", f"x_{{n{index}}}") if helix else ("shift", f"x_{{{index}}}")
@@ -393,7 +388,13 @@ def _facts(mating: Toothed, picture: MeshingPicture, language: str, specs: list[
         Row(word("arc"), "dd'", say(arc.radius * arc.sweep, 3)),
         Row(word("pitch"), "p_{w}", say(picture.working_pitch, 3)),
         Row(word("ratio"), "ε_{α}", say(picture.contact_ratio, 4)),
-        *_overlap_rows(specs, helix, language),
+    ]
+    if helix:
+        width = min(s.face_width for s in specs)
+        overlap = overlap_ratio(width, math.radians(helix), specs[0].module)
+        rows.append(Row(word("face_width"), "b", decimal(f"{width:g}", language)))
+        rows.append(Row(word("overlap"), "ε_{β}", say(overlap, 4)))
+    rows += [
         # what a file's numbers do not show is none
         *([Row(word("normal_backlash"), "j_{n}", say(play, 3))] if (play := mating.normal_backlash) >= 5e-4 else []),
         Row(word("start"), sample="TOOTH_START"),
@@ -411,15 +412,3 @@ def _facts(mating: Toothed, picture: MeshingPicture, language: str, specs: list[
         first, second = second, first
     section = f" ({word('transverse_section')})" if helix else ""
     return Facts(f"{word(picture.kind)}{section}: {first} (1), {second} (2)", tuple(rows))
-
-
-def _overlap_rows(specs: list[Any], helix: float, language: str) -> list[Row]:
-    """Common face width and axial overlap of helical teeth."""
-    if not helix:
-        return []
-    width = min(s.face_width for s in specs)
-    value = overlap_ratio(width, math.radians(helix), specs[0].module)
-    return [
-        Row(sheet_words(language, "face_width"), "b", decimal(f"{width:g}", language)),
-        Row(sheet_words(language, "overlap"), "ε_{β}", decimal(f"{value:.4f}", language)),
-    ]
