@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geometry.curves.curve import Complex, Real
-from geometry.plane.contour import Approximation, edge_box, edge_points
+from geometry.curves.curve import Complex
+from geometry.plane.contour import Approximation, Contour
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -55,11 +55,11 @@ def _depths(boundaries: Sequence[Approximation]) -> list[int]:
     """How many others each boundary lies in: boundaries do not cross, so the boxes and one point of each tell."""
     import shapely
 
-    rings = [b.geometry.expanded() for b in boundaries]
-    boxes = [edge_box(v, np.roll(v, -1), b) for v, b in rings]
+    rings = [boundary.geometry for boundary in boundaries]
+    boxes = [ring.box() for ring in rings]
     low, high = np.array([a for a, _ in boxes]), np.array([b for _, b in boxes])
-    first = np.array([v[0] for v, _ in rings])
-    polygons = [_polygon(*ring) for ring in rings]
+    first = np.array([ring.expanded()[0][0] for ring in rings])
+    polygons = [_polygon(ring) for ring in rings]
     depths = [0] * len(rings)
     for index in range(len(rings)):
         within = (low[index].real < low.real) & (low[index].imag < low.imag)
@@ -73,12 +73,10 @@ def _depths(boundaries: Sequence[Approximation]) -> list[int]:
     return depths
 
 
-def _polygon(vertices: Complex, bulges: Real) -> BaseGeometry:
+def _polygon(contour: Contour) -> BaseGeometry:
     """A contour by chords, the more the longer its arcs are."""
     import shapely
 
-    shares = np.linspace(
-        0, 1, 1 + math.ceil(_CHORDS / (2 * math.pi) * 4 * float(np.arctan(np.abs(bulges)).max())), endpoint=False
-    )
-    points = edge_points(vertices, np.roll(vertices, -1), bulges, shares).ravel()
+    sweep = 4 * float(np.arctan(np.abs(contour.bulges)).max())
+    points = contour.sampled(1 + math.ceil(_CHORDS / (2 * math.pi) * sweep))
     return shapely.Polygon(np.stack([points.real, points.imag], axis=1))

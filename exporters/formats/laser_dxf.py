@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from geometry.curves.curve import Complex, Real
-from geometry.plane.contour import Approximation, edge_box
+from geometry.plane.contour import Approximation
 
 # ACI colours: engraving blue, first of all; inner contours green, cut before the outer ones, red
 LAYER_COLOURS = {"ENGRAVE": 5, "CUT_INNER": 3, "CUT_OUTER": 1}
@@ -60,7 +60,7 @@ def laser_dxf(
     drawn = [_polyline(stroke, np.zeros(len(stroke)), "ENGRAVE", handles, version, closed=0) for stroke in strokes]
     outlines = zip(layers, (a.geometry.expanded() for a in boundaries), strict=True)
     drawn += [_polyline(*corners, layer, handles, version) for layer, corners in outlines]
-    boxes = [edge_box(v, np.roll(v, -1), b) for v, b in (a.geometry.expanded() for a in boundaries)]
+    boxes = [boundary.geometry.box() for boundary in boundaries]
     left, low = min(a.real for a, _ in boxes), min(a.imag for a, _ in boxes)
     right, high = max(b.real for _, b in boxes), max(b.imag for _, b in boxes)
     extents = (repr(round(edge, _EXTENT_DECIMALS)) for edge in (left, low, right, high))

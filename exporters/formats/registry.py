@@ -214,11 +214,22 @@ def _step_rounding(content: Content) -> float:
     return 10.0 ** -decimals(content.tolerance) + _STEP_ROUNDING * content.body.section_reach()
 
 
-def _write_laser_dxf(content: Content, made: Chords, file: Path) -> dict[str, int]:
-    from exporters.formats.laser_dxf import write_laser_dxf
+def write_outlines(
+    file: Path, export: ExportSpec, layers: tuple[str, ...], made: Chords, strokes: Sequence[Complex],
+    board: complex | None = None,
+) -> dict[str, int]:  # fmt: skip
+    """Write outlines for a laser as an export wants them, ``board``: on one of this size; counts of what is in it."""
+    if export.format == "dxf":
+        from exporters.formats.laser_dxf import write_laser_dxf
 
-    region, version = content.section.region, content.export.dxf_version
-    return write_laser_dxf(file, region.layers(), made, version=version, strokes=strokes_of(content))
+        return write_laser_dxf(file, layers, made, version=export.dxf_version, strokes=strokes)
+    from exporters.formats.svg import write_laser_svg
+
+    return write_laser_svg(file, layers, made, strokes, board)
+
+
+def _write_laser(content: Content, made: Chords, file: Path) -> dict[str, int]:
+    return write_outlines(file, content.export, content.section.region.layers(), made, strokes_of(content))
 
 
 def _write_drawing_dxf(content: Content, made: Curves, file: Path) -> dict[str, int]:
@@ -226,12 +237,6 @@ def _write_drawing_dxf(content: Content, made: Curves, file: Path) -> dict[str, 
 
     count = len(content.section.region.profiles())
     return write_drawing_dxf(file, made[:count], made[count:])
-
-
-def _write_svg(content: Content, made: Chords, file: Path) -> dict[str, int]:
-    from exporters.formats.svg import write_laser_svg
-
-    return write_laser_svg(file, content.section.region.layers(), made, strokes_of(content))
 
 
 def strokes_of(content: Content) -> tuple[Complex, ...]:
@@ -312,9 +317,9 @@ def _write_step_assembly(
 REGISTRY: dict[str, FileFormat[Any]] = {
     row.name: row
     for row in (
-        FileFormat("dxf", _flat_rounding, _arcs, _write_laser_dxf),
+        FileFormat("dxf", _flat_rounding, _arcs, _write_laser),
         FileFormat("drawing", _drawing_rounding, _splines, _write_drawing_dxf),
-        FileFormat("svg", _flat_rounding, _arcs, _write_svg),
+        FileFormat("svg", _flat_rounding, _arcs, _write_laser),
         FileFormat("stl", _mesh_rounding, _chords, _write_stl),
         FileFormat("3mf", lambda c: _TEXT_ROUNDINGS * _mesh_rounding(c), _chords, _write_3mf, _write_3mf_assembly),
         FileFormat("step", _step_rounding, _solid_curves, _write_step, _write_step_assembly),

@@ -12,7 +12,7 @@ from msgspec.structs import replace as with_keys
 
 from exporters.boards.cuts import in_order
 from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, lacking, nest
-from exporters.formats.registry import strokes_of
+from exporters.formats.registry import strokes_of, write_outlines
 from exporters.production.jobs import Job, Made, PartsJob, several
 from exporters.production.request import Request
 from exporters.verification.board import BoardPiece, ExpectedBoard, verify_board
@@ -79,14 +79,8 @@ class BoardJob(Record, PartsJob):
         layers, boundaries = self.cuts(made)
         own = {m.part.id: strokes_of(m) for m in self.members}
         strokes = [np.round(p.moved(stroke), _FILE_DECIMALS) + 0.0 for p in self.pieces for stroke in own[p.part]]
-        if self.export.format == "svg":
-            from exporters.formats.svg import write_laser_svg
-
-            counts = write_laser_svg(file, layers, boundaries, strokes, complex(self.board.width, self.board.height))
-        else:
-            from exporters.formats.laser_dxf import write_laser_dxf
-
-            counts = write_laser_dxf(file, layers, boundaries, version=self.export.dxf_version, strokes=strokes)
+        size = complex(self.board.width, self.board.height)
+        counts = write_outlines(file, self.export, layers, boundaries, strokes, size)
         return {**counts, "pieces": len(self.pieces)}
 
     def findings(self, made: Made) -> tuple[Finding, ...]:

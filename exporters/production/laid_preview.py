@@ -13,7 +13,7 @@ from exporters.formats.svg import fill, page_head, path_data, save, stroke_data
 from exporters.production.boards import BoardJob
 from exporters.production.laid import laid_jobs, lying_on
 from exporters.production.plan import Plan
-from exporters.production.preview import escaped, outlines_of, samples
+from exporters.production.preview import PER_EDGE, escaped, outlines_of
 from geometry.base.record import Record
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Contour
@@ -95,7 +95,7 @@ def _drawn(part: Part, job: LaidJob, number: str, fill: str) -> _Drawn:
     section = tuple(o.geometry for o in outlines_of(part.section(0.0).region))
     hull = np.array(job.feet[part.id].exterior.coords[:-1]) @ (1, 1j)
     around = (Contour(hull, np.zeros(len(hull))),)
-    own, seen = _box(samples(section[-1])), _box(hull)
+    own, seen = _box(section[-1].sampled(PER_EDGE)), _box(hull)
     # a section may be less than what is seen, and a development is no view
     layers = (
         (section,) if np.allclose(own, seen, rtol=0.02) else (around, section) if max(own / seen) < 1 else (around,)
@@ -113,7 +113,8 @@ def _word(words: Sequence[str], outlines: Sequence[Contour], corner: complex, mo
     import shapely
 
     # of places with the same room the same one on any processor
-    rings = [shapely.Polygon(np.round(np.column_stack([p.real, p.imag]), 6)) for p in map(samples, outlines)]
+    places = [outline.sampled(PER_EDGE) for outline in outlines]
+    rings = [shapely.Polygon(np.round(np.column_stack([p.real, p.imag]), 6)) for p in places]
     clear = shapely.difference(rings[-1].buffer(0), shapely.union_all([ring.buffer(0) for ring in rings[:-1]]))
     x, y = shapely.maximum_inscribed_circle(clear, most / 10).coords[0]
     tried = [(word, most * share) for word in words for share in _SIZES]

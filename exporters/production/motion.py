@@ -45,7 +45,7 @@ class MotionJob(Film, dict=True):
     @classmethod
     def shows(cls, instance: Instance, course: Course, times: Real) -> bool:
         """Whether what lies keeps its lean."""
-        if _upright(instance) and instance.id not in course.in_space:
+        if instance.is_upright and instance.id not in course.in_space:
             return True
         ways = course.placed(instance.id, times, own=instance.id not in course.spins)[0][:, 2, 2]
         return bool(np.abs(ways - ways[0]).max() <= _LEVEL)
@@ -53,7 +53,7 @@ class MotionJob(Film, dict=True):
     @cached_property
     def _changing(self) -> dict[str, Ends]:
         """What turns on an axis that lies without being round."""
-        lying = (i for i in self.instances if i.id in self.course.spins and not _upright(i))
+        lying = (i for i in self.instances if i.id in self.course.spins and not i.is_upright)
         return {i.id: ends_of(self.parts[i.part], self._chord) for i in lying if not is_round(self.parts[i.part])}
 
     @property
@@ -76,7 +76,7 @@ class MotionJob(Film, dict=True):
 
     def poses(self, instance: Instance, shares: Real) -> tuple[Any, Any]:
         """As seen from above; of what is turned over the turn of its mirror image."""
-        if _upright(instance) and instance.id not in self.course.in_space:
+        if instance.is_upright and instance.id not in self.course.in_space:
             places, angles = super().poses(instance, shares)
             return places, -angles if instance.axis[2] < 0 else angles
         if instance.id in self._changing:
@@ -84,7 +84,7 @@ class MotionJob(Film, dict=True):
             return places[:, 0] + 1j * places[:, 1], np.zeros(len(shares))
         own = instance.id not in self.course.spins
         turned, places = self.course.placed(instance.id, shares * float(self.loop), own=own)
-        if not _upright(instance):
+        if not instance.is_upright:
             turned = turned @ np.array(self._start(instance).rotation).T
         order = np.argsort(shares)
         angles = np.empty(len(shares))
@@ -103,13 +103,13 @@ class MotionJob(Film, dict=True):
             part, key = self.parts[instance.part], self._look(instance)
             if key not in found and instance.id not in self._changing:
                 found[key] = (
-                    part.section(0.0).region.profiles() if _upright(instance) else (self._silhouette(instance)[0],)
+                    part.section(0.0).region.profiles() if instance.is_upright else (self._silhouette(instance)[0],)
                 )
         return found
 
     def _look(self, instance: Instance) -> object:
         """By what its outline is told: its part, and how it lies."""
-        if _upright(instance):
+        if instance.is_upright:
             return instance.part
         return instance.part, instance.axis, instance.rotation, instance.id in self.course.spins
 
@@ -135,9 +135,9 @@ class MotionJob(Film, dict=True):
                 worst = max(worst, off + beside)
                 made.append(Track(instance.id, (), colour, even_values(places), turned, forms))
                 continue
-            worst = max(worst, off if _upright(instance) else off + self._silhouette(instance)[1])
+            worst = max(worst, off if instance.is_upright else off + self._silhouette(instance)[1])
             own = outlines[self._look(instance)]
-            if instance.axis[2] < 0 and _upright(instance):
+            if instance.is_over:
                 own = tuple(replace(o, geometry=_over(o.geometry)) for o in own)
             made.append(Track(instance.id, own, colour, even_values(places), turned))
         return made, worst + max((x.max_error for row in outlines.values() for x in row), default=0.0)
@@ -153,7 +153,7 @@ class MotionJob(Film, dict=True):
         spans = []
         for track, instance in zip(tracks, sorted(self.instances, key=lambda i: i.at[2]), strict=True):
             places, angles = self.poses(instance, np.linspace(0, 1, 721))
-            if not (_upright(instance) or track.forms is not None):
+            if not (instance.is_upright or track.forms is not None):
                 # its origin may be far from its middle
                 corners = track.outlines[0].geometry.vertices
                 places = (places[:, None] + 1.03 * corners * np.exp(1j * angles)[:, None]).ravel()
@@ -210,11 +210,6 @@ class MotionJob(Film, dict=True):
         )
 
 
-def _upright(instance: Instance) -> bool:
-    """Whether its axis points up, or straight down."""
-    return instance.axis[0] == instance.axis[1] == 0
-
-
 def _over(contour: Contour) -> Contour:
     """An outline turned over about x."""
     return replace(contour, vertices=contour.vertices.conj(), bulges=-contour.bulges, clockwise=not contour.clockwise)
@@ -222,7 +217,7 @@ def _over(contour: Contour) -> Contour:
 
 def _loops(track: ReadTrack, instance: Instance) -> tuple[Loop, ...]:
     """The outlines of a track, turned back where its instance is turned over."""
-    if not (_upright(instance) and instance.axis[2] < 0):
+    if not instance.is_over:
         return track.loops
     return tuple(replace(loop, vertices=loop.vertices.conj(), bulges=-loop.bulges) for loop in track.loops)
 

@@ -18,7 +18,7 @@ from exporters.production.plan import Plan
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import GeometryError
 from geometry.curves.curve import Complex
-from geometry.plane.contour import Approximation, Contour, edge_points
+from geometry.plane.contour import Approximation, Contour
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.texts import words
@@ -37,6 +37,8 @@ _MOST_LETTERS = 500
 _PIN_STYLE = "fill:#7f8c99;stroke:#202830"
 # outlines of more curves than this are drawn by so many points of each: arcs take seconds to fit
 _MOST_ARCS, _POINTS = 300, 8
+# points of an edge by which its place is seen
+PER_EDGE = 8
 # what chords may leave of what lies, part of its reach
 _NEAR = 2e-3
 # of more alike than this one is named for all, by its name without its number
@@ -94,9 +96,9 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     stand = sorted(plan.placing.instances, key=lambda i: i.at[2])
     every = names_of(plan.scene.instances, plan.parts)
     names = _together(every, stand)
-    lying = {i.id: _seen_lying(i, plan.parts[i.part]) for i in stand if not _stands(i)}
+    lying = {i.id: _seen_lying(i, plan.parts[i.part]) for i in stand if not i.is_upright}
     outers = [
-        np.concatenate(lying[i.id]) if i.id in lying else _outer(i, samples(outlines[i.part][-1].geometry))
+        np.concatenate(lying[i.id]) if i.id in lying else _outer(i, outlines[i.part][-1].geometry.sampled(PER_EDGE))
         for i in stand
     ]
     points = np.concatenate(outers)
@@ -114,7 +116,8 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
         if instance.id in lying:
             placed = [Contour(loop + shift, np.zeros(len(loop))) for loop in lying[instance.id]]
         data = " ".join(path_data(contour, corner) for contour in placed)
-        loops.append([middle + samples(contour).real + 1j * (middle - samples(contour).imag) for contour in placed])
+        places = [contour.sampled(PER_EDGE) for contour in placed]
+        loops.append([middle + points.real + 1j * (middle - points.imag) for points in places])
         shade = plan.parts[instance.part].colour or fill(index)
         style = f"fill:{shade};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;stroke-width:{reach / 600:.4g}"
         body.append(f'<path d="{data}" style="{style}"/>')
@@ -176,19 +179,9 @@ def _together(names: Mapping[str, str], stand: Sequence[Instance]) -> dict[str, 
     return {key: f"{row[0]} × {many[row]}" if many[row] > _MANY else names[key] for key, row in stems.items()}
 
 
-def _over(instance: Instance) -> bool:
-    """Whether it is turned over: its axis points straight down."""
-    return instance.axis[:2] == (0.0, 0.0) and instance.axis[2] < 0
-
-
-def _stands(instance: Instance) -> bool:
-    """Whether its axis points up, or straight down."""
-    return instance.axis == UPWARDS or _over(instance)
-
-
 def _outer(instance: Instance, points: Complex) -> Complex:
     """The outer boundary of an instance that stands, seen from above."""
-    if _over(instance):
+    if instance.is_over:
         return np.asarray(points.conj() * cmath.exp(-1j * instance.rotation) + instance.centre)
     return points * cmath.exp(1j * instance.rotation) + instance.centre
 
@@ -245,12 +238,6 @@ def _solid_pins(part: Part, outlines: Outlines) -> list[Contour]:
     return [c for c, at in zip(contours, centres, strict=True) if abs(abs(at) - radius) < 1e-6 * radius]
 
 
-def samples(contour: Contour) -> Complex:
-    """Points all along a contour."""
-    vertices, bulges = contour.expanded()
-    return edge_points(vertices, np.roll(vertices, -1), bulges, np.linspace(0, 1, 9)[:-1]).ravel()
-
-
 def _label_height(outlines: Outlines, outer: Complex) -> float:
     """Height over the axis at which a name stands on material: half way from the largest hole about it to the teeth."""
     inner = max((float(np.abs(a.geometry.vertices).max()) for a in outlines[:-1]), default=0.0)
@@ -266,7 +253,7 @@ def _placed(contour: Contour, instance: Instance, place: complex) -> Contour:
     """An outline of an instance that stands at a place, or is turned over there."""
     vertices, bulges = contour.expanded()
     turn = cmath.exp(1j * instance.rotation)
-    if _over(instance):
+    if instance.is_over:
         vertices, bulges, turn = vertices.conj(), -bulges, turn.conjugate()
     return Contour(vertices * turn + place, bulges)
 

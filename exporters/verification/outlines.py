@@ -198,9 +198,7 @@ def _spread(loop: Loop, count: int) -> float:
 
 def is_crossed(contour: Contour) -> bool:
     """Whether a closed chain of lines and arcs crosses itself, seen by a few points of each."""
-    vertices, bulges = contour.expanded()
-    shares = np.linspace(0, 1, _SHAPE, endpoint=False)
-    return not is_simple(edge_points(vertices, np.roll(vertices, -1), bulges, shares).ravel())
+    return not is_simple(contour.sampled(_SHAPE))
 
 
 def is_simple(points: Complex) -> bool:

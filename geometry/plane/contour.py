@@ -40,6 +40,16 @@ class Contour(Record):
             vertices = np.round(vertices, self.decimals) + 0.0
         return vertices, np.tile(self.bulges, self.count)
 
+    def box(self) -> tuple[complex, complex]:
+        """Lower left and upper right corner of the box about it."""
+        vertices, bulges = self.expanded()
+        return edge_box(vertices, np.roll(vertices, -1), bulges)
+
+    def sampled(self, count: int) -> Complex:
+        """Points all along it, so many of each edge, its first end among them."""
+        vertices, bulges = self.expanded()
+        return edge_points(vertices, np.roll(vertices, -1), bulges, np.linspace(0, 1, count, endpoint=False)).ravel()
+
     def written(self, decimals: int) -> Contour:
         """The contour with vertices of so many decimals, and each bulge with as many as keep its crown so well.
 

@@ -35,6 +35,16 @@ class Instance(Record):
         return complex(self.at[0], self.at[1])
 
     @property
+    def is_upright(self) -> bool:
+        """Whether its axis points up, or straight down."""
+        return self.axis[0] == self.axis[1] == 0
+
+    @property
+    def is_over(self) -> bool:
+        """Whether it is turned over: its axis points straight down."""
+        return self.is_upright and self.axis[2] < 0
+
+    @property
     def scene_from_part(self) -> Placement3:
         """The placement of the part's frame in the scene."""
         return Placement3.towards(self.axis, math.remainder(self.rotation, 2 * math.pi), self.at)
