@@ -13,7 +13,7 @@ from geometry.base.record import Record, replace
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_curve
-from parts.base.texts import fault
+from parts.base.texts import N_, fault, unless
 from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text, text_width
 from parts.drawing.cells import wrapped
 from parts.drawing.choice import Asked, blank, sheet_for
@@ -71,8 +71,7 @@ class PartMeasures(Record):
                 off = min(off, float(distance_to_curve(model, curve).max()) * paper.scale)
             worst = max(worst, off)
         measured["max_deviation"] = worst
-        if not worst <= allowed:
-            failures.append(fault("outlines deviate by {worst:.3g} mm from the exact ones", worst=worst))
+        failures += unless(worst <= allowed, "outlines deviate by {worst:.3g} mm from the exact ones", worst=worst)
         if sheet.dimensions is None:
             return
         wanted = self.canvas.dimensions
@@ -83,11 +82,10 @@ class PartMeasures(Record):
             return
         off = max((abs(a.value - b.value) for a, b in zip(sheet.dimensions, wanted, strict=True)), default=0.0)
         measured["dimensions"], measured["dimension_deviation"] = float(len(wanted)), off
-        if not off <= _SAME:
-            failures.append(fault("a dimension measures {off:.3g} beside the model", off=off))
+        failures += unless(off <= _SAME, "a dimension measures {off:.3g} beside the model", off=off)
+        told = N_("a dimension says {text} instead of {other}")
         for read, one in zip(sheet.dimensions, wanted, strict=True):
-            if read.text != one.text:
-                failures.append(fault("a dimension says {text} instead of {other}", text=read.text, other=one.text))
+            failures += unless(read.text == one.text, told, text=read.text, other=one.text)
 
 
 class Block(Record):

@@ -9,7 +9,7 @@ import numpy as np
 
 from geometry.base.record import Record
 from parts.base.readback import Probed, ReadError
-from parts.base.texts import fault
+from parts.base.texts import unless
 
 if TYPE_CHECKING:
     from geometry.curves.curve import Complex
@@ -42,11 +42,10 @@ class SlotProbe(Record):
         disc = float(np.abs(arcs - drive.centre_distance).min()) - wheel.locking_radius
         allowed = declared + offset + _ROUNDING * drive.centre_distance
         wanted = min(wheel.slot_clearance / 2, wheel.end_clearance), wheel.locking_clearance
-        failures = []
-        if pin < wanted[0] - allowed:
-            failures.append(fault("the gap between pin and slots is {gap:.6g} mm", gap=pin))
-        if disc < wanted[1] - allowed:
-            failures.append(fault("the gap between disc and locking arcs is {gap:.6g} mm", gap=disc))
+        failures = [
+            *unless(pin >= wanted[0] - allowed, "the gap between pin and slots is {gap:.6g} mm", gap=pin),
+            *unless(disc >= wanted[1] - allowed, "the gap between disc and locking arcs is {gap:.6g} mm", gap=disc),
+        ]
         return Probed({"slot_gap": pin, "locking_gap": disc}, tuple(failures))
 
     def _loop(self, file: ReadBack) -> ReadLoop:

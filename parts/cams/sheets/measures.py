@@ -8,7 +8,7 @@ import numpy as np
 
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Curve, Real
-from parts.base.texts import fault
+from parts.base.texts import N_, fault, unless
 from parts.drawing.canvas import Paper
 from parts.drawing.readback import ReadLine, ReadSheet
 
@@ -44,8 +44,7 @@ class CamMeasures(Record):
                 worst = max(worst, float(distance_by_sections(points, curve).max()))
                 worst = max(worst, float(np.abs(ends[:, None] - points).min(axis=1).max()))
         measured["diagram_deviation"] = worst
-        if not worst <= allowed:
-            failures.append(fault("diagrams deviate by {worst:.3g} mm from the exact ones", worst=worst))
+        failures += unless(worst <= allowed, "diagrams deviate by {worst:.3g} mm from the exact ones", worst=worst)
         self._check_lines(sheet, allowed, measured, failures)
         self._check_lift(sheet, allowed, measured, failures)
         if self.joint is not None:
@@ -66,9 +65,8 @@ class CamMeasures(Record):
                 back = np.maximum(np.abs(starts - end), np.abs(ends - start))
                 off = float(np.minimum(along, back).min())
             worst = max(worst, off)
-            if not off <= allowed:
-                at = f"({start.real:.3f}, {start.imag:.3f}) - ({end.real:.3f}, {end.imag:.3f})"
-                failures.append(fault("{layer}: no line {at} within {off:.3g} mm", layer=layer, at=at, off=off))
+            at = f"({start.real:.3f}, {start.imag:.3f}) - ({end.real:.3f}, {end.imag:.3f})"
+            failures += unless(off <= allowed, "{layer}: no line {at} within {off:.3g} mm", layer=layer, at=at, off=off)
         measured["lines"] = float(len(self.lines))
         measured["line_deviation"] = worst
 
@@ -78,16 +76,13 @@ class CamMeasures(Record):
         if not heights:
             return
         every = np.concatenate(heights)
-        measured["lift_by_diagram"] = float(every.max() - every.min()) * self.lift_scale
+        measured["lift_by_diagram"] = lift = float(every.max() - every.min()) * self.lift_scale
         # an extreme within a curve lies between its samples: of a table of points only
-        if not measured["lift_by_diagram"] <= self.lift + 2 * allowed * self.lift_scale:
-            failures.append(
-                fault(
-                    "the diagram of S measures {measured:.6f} instead of {lift:.6f}",
-                    measured=measured["lift_by_diagram"],
-                    lift=self.lift,
-                )
-            )
+        near, told = (
+            lift <= self.lift + 2 * allowed * self.lift_scale,
+            N_("the diagram of S measures {measured:.6f} instead of {lift:.6f}"),
+        )
+        failures += unless(near, told, measured=lift, lift=self.lift)
 
     def _check_radius(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
         """The lowest point in which a tangent at gamma_min meets the line of the offset is the nearest axis."""
@@ -98,12 +93,11 @@ class CamMeasures(Record):
             return
         model = [self._height(x) for x in tangents]
         height = min(*model, 0.0)
-        measured["least_radius_by_diagram"] = math.hypot(self.offset, height)
-        off = abs(measured["least_radius_by_diagram"] - self.least_radius) * self.joint.scale
+        measured["least_radius_by_diagram"] = found = math.hypot(self.offset, height)
+        off = abs(found - self.least_radius) * self.joint.scale
+        text = f"{found:.6f} mm instead of {self.least_radius:.6f} mm"
         # the ends of a line carry its middle
-        if not off <= 8 * allowed:
-            text = f"{measured['least_radius_by_diagram']:.6f} mm instead of {self.least_radius:.6f} mm"
-            failures.append(fault("the tangents give the least radius {text}", text=text))
+        failures += unless(off <= 8 * allowed, "the tangents give the least radius {text}", text=text)
 
     def _height(self, line: ReadLine) -> float:
         assert self.joint is not None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from geometry.base.record import Record
-from parts.base.texts import fault
+from parts.base.texts import N_, fault, unless
 from parts.drawing.canvas import Box, Canvas, standard_scale
 from parts.drawing.labels import Labeller
 from parts.drawing.readback import ReadLine, ReadSheet
@@ -141,8 +141,7 @@ class PlanMeasures(Record):
                 continue
             off = max(max(abs(x.start - a), abs(x.end - b)) for x, (_, a, b) in zip(found, wanted, strict=True))
             measured[f"{layer.lower()}_deviation"] = off
-            if not off <= allowed:
-                failures.append(fault("{layer}: a line is {off:.3g} mm off", layer=layer, off=off))
+            failures += unless(off <= allowed, "{layer}: a line is {off:.3g} mm off", layer=layer, off=off)
             slopes = {link: _slope(line) for line, (link, _, _) in zip(found, wanted, strict=True)}
             for link, slope in slopes.items():
                 if link == driver or not abs(slope) > _LEAST * max(map(abs, slopes.values())):
@@ -152,10 +151,9 @@ class PlanMeasures(Record):
                 measured[name] = ratio
                 # the guidelines read it off a drawing: within a thousandth, where the dividers' points allow it
                 least = min(abs((x.end - x.start).real) for x in found)
-                if not abs(ratio / right - 1) <= max(1e-3, 8 * allowed / max(least, 1e-300)):
-                    failures.append(
-                        fault("{name} measures {ratio:.6g} instead of {right:.6g}", name=name, ratio=ratio, right=right)
-                    )
+                near = abs(ratio / right - 1) <= max(1e-3, 8 * allowed / max(least, 1e-300))
+                told = N_("{name} measures {ratio:.6g} instead of {right:.6g}")
+                failures += unless(near, told, name=name, ratio=ratio, right=right)
 
 
 def _slope(line: ReadLine) -> float:

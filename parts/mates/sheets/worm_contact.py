@@ -14,7 +14,7 @@ from geometry.base.record import Record, replace
 from geometry.curves.bspline import BSpline, basis_matrix
 from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.field import Field
-from parts.base.texts import fault
+from parts.base.texts import fault, unless
 from parts.drawing.canvas import TITLE_TEXT, Box, Canvas, Paper, Stroke, decimal, scale_text
 from parts.drawing.choice import Asked, sheet_for
 from parts.drawing.expected import Expected
@@ -114,8 +114,7 @@ class WormMeasures(Record):
                 off = np.abs(model[some] - curve.points(at, curve.line.exact(at))).max()
                 worst = max(worst, curve.paper.scale * float(max(off, ends)))
         measured["contact_line_deviation"] = worst
-        if not worst <= allowed:
-            failures.append(fault("lines of contact are {worst:.3g} mm off", worst=worst))
+        failures += unless(worst <= allowed, "lines of contact are {worst:.3g} mm off", worst=worst)
 
 
 def worm_sheet(mating: WormMating, field: Field, title: str, asked: Asked) -> Expected:
