@@ -7,7 +7,6 @@ the hashes that stand there. A refusal is a row, with why.
 from __future__ import annotations
 
 import csv
-import hashlib
 import io
 import json
 import os
@@ -24,6 +23,7 @@ from typing import Any
 from exporters import __version__
 from exporters.production.build import build
 from exporters.production.check_lines import has_bad_verdict
+from exporters.production.kept import hash_of
 from exporters.production.moving import clear, write_whole
 from exporters.production.plan import plan_build
 from exporters.production.report import whole_report
@@ -98,11 +98,8 @@ def _is_finished(report: dict[str, Any] | None, scene: dict[str, Any], folder: P
         return False
     if report["failed"] or not all(one["verified"] for one in report["files"]):
         return False
-    return all(_sha256(folder / one["path"]) == one["sha256"] for one in (*report["files"], *report["previews"]))
-
-
-def _sha256(file: Path) -> str:
-    return hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else ""
+    told = ((folder / one["path"], one["sha256"]) for one in (*report["files"], *report["previews"]))
+    return all(file.is_file() and hash_of(file) == sha256 for file, sha256 in told)
 
 
 def _file(entry: dict[str, Any], parts: dict[str, Any]) -> dict[str, Any]:

@@ -13,6 +13,11 @@ _FITS = N_("{path} in the folder is of an earlier build of this same scene; it w
 _OUTDATED = N_("{path} in the folder is of an EARLIER build and does not fit this scene: do not make a part from it")
 
 
+def hash_of(file: Path) -> str:
+    """The SHA-256 of a file's bytes, by which reports know it."""
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
 def kept_file(file: Path, scene: dict[str, Any], before: dict[str, Any] | None) -> dict[str, Any] | None:
     """What a report says of a file that stays where a failed one should have come; None where there is none.
 
@@ -21,7 +26,7 @@ def kept_file(file: Path, scene: dict[str, Any], before: dict[str, Any] | None) 
     """
     if not file.is_file():
         return None
-    digest = hashlib.sha256(file.read_bytes()).hexdigest()
+    digest = hash_of(file)
     vouched: list[tuple[str, str]] = []
     if before is not None and before.get("scene") == scene:
         vouched = [(entry["path"], entry["sha256"]) for entry in before["files"]]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from functools import lru_cache
 from importlib.util import find_spec
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from exporters.formats.readback import MOST_READ_BYTES
 from exporters.production.jobs import assembly_name
-from exporters.production.kept import failure_of
+from exporters.production.kept import failure_of, hash_of
 from exporters.production.moving import is_half_moved
 from exporters.production.report import NAME, whole_report
 from exporters.verification.judge import signed, verify_part
@@ -82,7 +81,7 @@ def _rechecked(file: Path) -> Recheck:
     try:
         if report is None:
             raise SceneError(source, "", None, "no_report")
-        digest = hashlib.sha256(file.read_bytes()).hexdigest()
+        digest = hash_of(file)
         previews = {entry["path"]: entry["sha256"] for entry in report["previews"]}
         if file.name in previews:
             same = digest == previews[file.name]

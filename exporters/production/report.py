@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 import sys
@@ -13,6 +12,7 @@ import numpy as np
 
 from exporters import __version__
 from exporters.production.jobs import Written
+from exporters.production.kept import hash_of, kept_file
 from exporters.production.plan import Plan
 from exporters.verification.verdict import judges
 from geometry.base.findings import Finding
@@ -60,7 +60,7 @@ def write_report(
         "instances": {instance.id: _placement(instance) for instance in plan.placing.instances},
         "files": [_entry(item, language) for item in written if not item.failures],
         "failed": [_failed(item, folder, resolved(plan.scene), before) for item in written if item.failures],
-        "previews": [{"path": p.name, "bytes": p.stat().st_size, "sha256": _sha256(p)} for p in previews],
+        "previews": [{"path": p.name, "bytes": p.stat().st_size, "sha256": hash_of(p)} for p in previews],
         "checks": checks,
         "left_out": [{"what": one.what, "why": words(ENGLISH).say(one.why)} for one in plan.left_out],
         "versions": _versions(written),
@@ -179,15 +179,13 @@ def _entry(item: Written, language: str) -> dict[str, Any]:
         "judges": judges(item.measured),
         "entities": item.entities,
         "bytes": item.file.stat().st_size,
-        "sha256": _sha256(item.file),
+        "sha256": hash_of(item.file),
         "findings": _findings(item.findings, language),
     }
 
 
 def _failed(item: Written, folder: Path, scene: dict[str, Any], before: dict[str, Any] | None) -> dict[str, Any]:
     """A file that failed its read-back, and the one of an earlier build that keeps its place."""
-    from exporters.production.kept import kept_file
-
     kept = kept_file(folder / item.job.path, scene, before)
     return {"path": item.job.path, "failures": list(item.failures), "kept": kept}
 
@@ -216,10 +214,6 @@ def _versions(written: list[Written]) -> dict[str, str]:
         if formats & users and name in sys.modules:
             versions[name] = str(getattr(sys.modules[name], "__version__", "installed"))
     return versions
-
-
-def _sha256(file: Path) -> str:
-    return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
 def _peak_memory() -> float | None:

@@ -17,6 +17,7 @@ import pytest
 
 from exporters.production import catalogue
 from exporters.production.catalogue import Task, entry_of
+from exporters.production.kept import hash_of
 from exporters.verification import judge
 from exporters.verification.verdict import Verdict
 from parts.scene.load import load_scene
@@ -220,8 +221,8 @@ def test_a_build_is_finished_when_each_of_its_files_is_verified(tmp_path: Path) 
     for first, second in ((True, True), (True, False), (False, True), (False, False)):
         report = {
             "scene": {"s": 1}, "versions": {"higherpair": catalogue.__version__}, "failed": [],
-            "files": [{"path": "a", "sha256": catalogue._sha256(tmp_path / "a"), "verified": first},
-                      {"path": "b", "sha256": catalogue._sha256(tmp_path / "b"), "verified": second}],
+            "files": [{"path": "a", "sha256": hash_of(tmp_path / "a"), "verified": first},
+                      {"path": "b", "sha256": hash_of(tmp_path / "b"), "verified": second}],
             "previews": [],
         }  # fmt: skip
         assert catalogue._is_finished(report, {"s": 1}, tmp_path) == (first and second)
