@@ -100,7 +100,10 @@ def _decided(gap: Real, allowed: float) -> bool:
     return bool(np.all(np.abs(gap) <= allowed)) or not np.all(np.isfinite(gap))
 
 
-def _verdict(gap: Real, allowed: float) -> Verdict:
+def verdict_of(gap: Real, allowed: float) -> Verdict:
+    """The verdict on gaps (n, 2) of both sides at n positions; ``allowed``: |gap| that is contact, mm."""
+    if not np.isfinite(gap).all():
+        return Verdict.UNDECIDED
     if gap.min() < -allowed:
         return Verdict.OVERLAP
     return Verdict.CONTACT if gap.max(axis=0).min() <= allowed else Verdict.CLEAR
@@ -155,11 +158,10 @@ class MeshSearch:
             extra = _around_the_least(angles, found.gap.reshape(-1, 2).min(axis=1), self.pitches[0])
             angles, found = _merged(angles, found, extra, least_gaps(self, extra, far=far))
         sides = found.gap.reshape(-1, 2)
-        finite = np.isfinite(sides)
         closed = self.closed_form(angles)
         missed = (np.abs(closed) < _COMPARED * self.module) & (closed < sides - allowed)
         gaps = sides.min(axis=1)
-        verdict = _verdict(sides, allowed) if finite.all() and not missed.any() else Verdict.UNDECIDED
+        verdict = Verdict.UNDECIDED if missed.any() else verdict_of(sides, allowed)
         if verdict is Verdict.CLEAR and overlap_ratio and _bridged(self, angles, sides, allowed, overlap_ratio):
             verdict = Verdict.CONTACT
         return PairContact(

@@ -14,10 +14,10 @@ import numpy as np
 from geometry.base.record import Record
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
-from geometry.gears.mesh.search import ContactPlace, PairContact
+from geometry.gears.mesh.search import ContactPlace, PairContact, verdict_of
 from geometry.gears.noncircular.pair import NoncircularPair
 from geometry.gears.noncircular.table import CurveTable
-from geometry.plane.distance import Flags, Indices, Verdict, least_in_brackets, promising
+from geometry.plane.distance import Flags, Indices, least_in_brackets, promising
 from geometry.plane.profile import Label
 
 # positions in a pitch, and rounds of more positions beside the least gap
@@ -78,13 +78,8 @@ def _concluded(pair: NoncircularPair, arcs: Real, found: _Gaps, allowed: float) 
         pair.second.outline.segments[found.second[row, side]].label,
     )
     place = ContactPlace(float(gap[worst, side]), float(drive[worst]), complex(found.point[row, side]), labels)
-    if not np.isfinite(gap).all():
-        verdict = Verdict.UNDECIDED
-    elif gap.min() < -allowed:
-        verdict = Verdict.OVERLAP
-    else:
-        verdict = Verdict.CONTACT if gap.max(axis=0).min() <= allowed else Verdict.CLEAR
     sides = tuple(gap[:, 0].tolist()), tuple(gap[:, 1].tolist())
+    verdict = verdict_of(gap, allowed)
     return PairContact(verdict, allowed, tuple(drive.tolist()), tuple(gaps.tolist()), sides, place, float(gaps.max()))
 
 

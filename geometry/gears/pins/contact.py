@@ -14,10 +14,10 @@ import numpy as np
 from geometry.base.placement import Placement2
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
-from geometry.gears.mesh.search import ContactPlace, PairContact
+from geometry.gears.mesh.search import ContactPlace, PairContact, gear_outline
 from geometry.gears.pins.cycloidal import CycloidalDisc
 from geometry.gears.teeth.tooth import ToothSide
-from geometry.plane.distance import Boundary, Indices, Verdict, least_in_brackets
+from geometry.plane.distance import Indices, Verdict, least_in_brackets
 from geometry.plane.profile import Label
 
 # |gap| up to this part of the pin's radius is contact
@@ -80,17 +80,11 @@ class DiscMotion(Record):
         return Placement2(turned, complex(self.disc.eccentricity + self.shift))
 
 
-def half_outline(side: ToothSide) -> Boundary:
-    """Half a pitch of a body's outline; beyond its ends it goes on as its mirror image."""
-    ends = complex(np.exp(-0.5j * side.pitch_angle)), 1 + 0j
-    return Boundary(tuple(s.curve for s in side.segments), end_normals=ends)
-
-
 class _Gap:
     """The gap of one pin over its phase."""
 
     def __init__(self, side: ToothSide, motion: PinMotion) -> None:
-        self.outline, self.pitch, self.motion = half_outline(side), side.pitch_angle, motion
+        self.outline, self.pitch, self.motion = gear_outline(side), side.pitch_angle, motion
         self.labels = [s.label for s in side.segments]
 
     def __call__(self, phase: Real) -> tuple[Real, Real, Indices, Complex]:

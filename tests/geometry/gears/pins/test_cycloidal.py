@@ -17,7 +17,8 @@ from geometry.approximation.chords import approximate_profile
 from geometry.approximation.outline import spline_outline
 from geometry.base.errors import GeometryError, OffsetError, ParameterError, UndercutError
 from geometry.base.record import replace
-from geometry.gears.pins.contact import DiscMotion, half_outline, lost_motion, pin_contact, pin_gaps, pins_in_contact
+from geometry.gears.mesh.search import gear_outline
+from geometry.gears.pins.contact import DiscMotion, lost_motion, pin_contact, pin_gaps, pins_in_contact
 from geometry.gears.pins.cycloidal import CycloidalDisc, checked_disc, disc_findings, disc_region
 from geometry.plane.distance import Boundary, Verdict, folded
 from geometry.plane.measure import profile_area
@@ -117,7 +118,7 @@ def test_clearance(clearance: float, shift: float) -> None:
 
 def played(disc: CycloidalDisc) -> float:
     """How far the disc turns from stop to stop at the freest of 24 drive angles, rad: by halving, gap by gap."""
-    pins, outline = disc.number_of_pins, half_outline(disc.side())
+    pins, outline = disc.number_of_pins, gear_outline(disc.side())
     drives = (np.arange(24) + 0.5) * 2 * math.pi / pins / 24
     angles = drives[:, None] - 2 * math.pi * np.arange(pins) / pins
     centres = disc.pin_circle_diameter / 2 - disc.eccentricity * np.exp(1j * angles)
@@ -222,7 +223,7 @@ def test_any_disc_is_built_or_refused_with_what_works(disc: CycloidalDisc) -> No
 @pytest.mark.sampled(2)
 @EVERY
 def test_offsets_are_parallel_and_end_where_they_are_told(disc: CycloidalDisc) -> None:
-    boundary = half_outline(disc.side())
+    boundary = gear_outline(disc.side())
     least, most = disc.offset_limits()
     for offset in (0.9 * least, 0.1, min(0.9 * most, 5.0)):
         if not least < offset < most:
