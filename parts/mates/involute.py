@@ -265,7 +265,7 @@ class RackMating(GearMating):
 
 A = TypeVar("A")
 B = TypeVar("B")
-# share of a distance that is one step
+# one step of a distance, mm, or share of one below 1 mm: a longer one may pass over all that runs with interruptions
 _STEP = 1e-3
 K = TypeVar("K", bound=InvolutePairKeys)
 M = TypeVar("M", bound=GearMating)
@@ -403,7 +403,7 @@ class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
             found = nearest(lambda at: ratio(at) >= wanted, distance, toward)
             if found is None or not isinstance(found.value, float):
                 return found
-            beyond = found.value + math.copysign(_STEP * found.value, distance - found.value)
+            beyond = found.value + math.copysign(_STEP * min(found.value, 1.0), distance - found.value)
             # where nearer ones run too, with interruptions, this is no limit, but what to take
             return Nearest(found.value) if kept(lambda at: ratio(at) > 0, beyond) else found
 

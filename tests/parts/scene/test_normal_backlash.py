@@ -142,6 +142,26 @@ def test_a_distance_too_far_or_too_near_names_one_that_gives_no_more_than_is_ask
                   normal_backlash=0.1)  # fmt: skip
 
 
+def test_a_distance_beyond_which_teeth_still_run_with_interruptions_is_told_as_no_limit() -> None:
+    """Tooth follows tooth up to 87.578 mm, the backlash allows 87.62 mm: less than a thousandth farther."""
+    straight = {"helix_angle_deg": 0.0, "hand": "right"}
+    own = (
+        {**straight, "number_of_teeth": 25, "tip_diameter": 52.763},
+        {**straight, "number_of_teeth": 62, "profile_shift_coefficient": -0.24, "circumferential_thinning": 0.0374},
+    )
+    with pytest.raises(SceneError, match="do not reach") as refused:
+        mated("external_gear_pair", own, working_centre_distance=94.0, normal_backlash=0.8)
+    assert refused.value.nearest is not None
+    offered, side = refused.value.nearest.value, refused.value.nearest.side
+    assert isinstance(offered, float)
+    ratios = [
+        mated("external_gear_pair", own, working_centre_distance=at, normal_backlash=0.8).pair.contact_ratio
+        for at in (offered, offered + 0.02)
+    ]
+    assert ratios[0] > 1 > ratios[1] > 0
+    assert side == "exactly"
+
+
 def test_spur_pairs_keep_theirs() -> None:
     first, second = ({**p, "helix_angle_deg": 0.0, "hand": "right"} for p in PARTS["external_gear_pair"])
     mate = {"kind": "external_gear_pair", "first": "a", "second": "b", "normal_backlash": 0.1}
