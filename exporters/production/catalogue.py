@@ -23,8 +23,7 @@ from typing import Any
 from exporters import __version__
 from exporters.production.build import build
 from exporters.production.check_lines import has_bad_verdict
-from exporters.production.kept import hash_of
-from exporters.production.moving import clear, write_whole
+from exporters.production.moving import clear, hash_of, write_whole
 from exporters.production.plan import plan_build
 from exporters.production.report import whole_report
 from geometry.base.record import Record

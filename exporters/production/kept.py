@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
 from pathlib import Path
 from typing import Any
 
+from exporters.production.moving import hash_of
 from geometry.base.record import Record
 from parts.base.texts import N_, words
 
 _FITS = N_("{path} in the folder is of an earlier build of this same scene; it was not replaced")
 _OUTDATED = N_("{path} in the folder is of an EARLIER build and does not fit this scene: do not make a part from it")
-
-
-def hash_of(file: Path) -> str:
-    """The SHA-256 of a file's bytes, by which reports know it."""
-    return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
 def kept_file(file: Path, scene: dict[str, Any], before: dict[str, Any] | None) -> dict[str, Any] | None:

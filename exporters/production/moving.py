@@ -8,6 +8,7 @@ is the first to go away and the last to come: there is none beside other files t
 from __future__ import annotations
 
 import errno
+import hashlib
 import json
 import os
 import shutil
@@ -210,6 +211,11 @@ def _locked(folder: Path) -> Iterator[None]:
         yield
     finally:
         os.close(handle)
+
+
+def hash_of(file: Path) -> str:
+    """The SHA-256 of a file's bytes, by which reports know it."""
+    return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
 def write_whole(file: Path, text: str) -> None:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from exporters.formats.readback import MOST_READ_BYTES
 from exporters.production.jobs import assembly_name
-from exporters.production.kept import failure_of, hash_of
-from exporters.production.moving import is_half_moved
+from exporters.production.kept import failure_of
+from exporters.production.moving import hash_of, is_half_moved
 from exporters.production.report import NAME, whole_report
 from exporters.verification.judge import signed, verify_part
 from exporters.verification.verdict import Verdict, judges

@@ -12,7 +12,7 @@ import numpy as np
 
 from exporters import __version__
 from exporters.production.jobs import Written
-from exporters.production.kept import hash_of, kept_file
+from exporters.production.moving import hash_of
 from exporters.production.plan import Plan
 from exporters.verification.verdict import judges
 from geometry.base.findings import Finding
@@ -186,6 +186,8 @@ def _entry(item: Written, language: str) -> dict[str, Any]:
 
 def _failed(item: Written, folder: Path, scene: dict[str, Any], before: dict[str, Any] | None) -> dict[str, Any]:
     """A file that failed its read-back, and the one of an earlier build that keeps its place."""
+    from exporters.production.kept import kept_file
+
     kept = kept_file(folder / item.job.path, scene, before)
     return {"path": item.job.path, "failures": list(item.failures), "kept": kept}
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from parts.base.texts import N_
 
 REASONS = {
-    "below_zero": N_("must be at least 0"),
     "before_first_row": N_("lies before first_deg"),
     "either_key": N_("give either {one} or {other}"),
     "knots_not_clamped": N_("must rise, with degree + 1 equal knots at each end"),

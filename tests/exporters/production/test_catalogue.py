@@ -17,7 +17,7 @@ import pytest
 
 from exporters.production import catalogue
 from exporters.production.catalogue import Task, entry_of
-from exporters.production.kept import hash_of
+from exporters.production.moving import hash_of
 from exporters.verification import judge
 from exporters.verification.verdict import Verdict
 from parts.scene.load import load_scene
