@@ -18,9 +18,7 @@ from geometry.curves.curve import Real
 from geometry.gears.bevel.gear import BevelGear
 from geometry.gears.bevel.sphere import spatial
 from geometry.gears.bevel.walls import tooth_off
-from geometry.gears.mesh.search import ContactPlace, PairContact
-from geometry.plane.distance import Verdict
-from geometry.plane.profile import Label
+from geometry.gears.mesh.search import PairContact, flanks_contact
 
 # drive angles in a pitch; places along a fillet, a flank, half a tip land; teeth to each side of the pitch line
 _DRIVE_ANGLES, _PLACES, _NEAR_TEETH = 24, 17, 3
@@ -159,18 +157,7 @@ class BevelPair(Record, dict=True):
                 both += [_least(one, two, way, own, others), _least(two, one, way, others, own)]
             found.append(np.min(both, axis=0))
         gaps = np.stack(found) * (first.cone_distance * first.normal_share / math.cos(first.pressure_angle))
-        place = int(gaps.min(axis=0).argmin())
-        at = complex(first.outer(first.pitch_angle).real)
-        worst = ContactPlace(float(gaps.min()), float(drive[place]), at, (Label.FLANK, Label.FLANK))
-        if worst.gap < -allowed:
-            verdict = Verdict.OVERLAP
-        else:
-            verdict = Verdict.CONTACT if float(gaps.max(axis=1).min()) <= allowed else Verdict.CLEAR
-        least = gaps.min(axis=0)
-        return PairContact(
-            verdict, allowed, tuple(drive.tolist()), tuple(least.tolist()),
-            (tuple(gaps[0].tolist()), tuple(gaps[1].tolist())), worst, float(least.max()),
-        )  # fmt: skip
+        return flanks_contact(gaps, drive, complex(first.outer(first.pitch_angle).real), allowed)
 
     def _sections(self) -> list[tuple[BevelGear, BevelGear, float, float]]:
         """The teeth of both on spheres, and how far the tooth line turns them there, rad."""

@@ -18,10 +18,10 @@ from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
 from geometry.gears.face.gear import FILLET, FLANK, FaceGear, Places, form_length
 from geometry.gears.face.walls import side_off
-from geometry.gears.mesh.search import ContactPlace, PairContact, gear_outline
+from geometry.gears.mesh.search import PairContact, flanks_contact, gear_outline
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import ToothSide, tooth_side
-from geometry.plane.distance import Boundary, Verdict, folded
+from geometry.plane.distance import Boundary, folded
 from geometry.plane.profile import Label
 from geometry.solids.faces import Index
 
@@ -133,18 +133,7 @@ class FacePair(Record, dict=True):
         allowed = CONTACT_TOLERANCE * self.gear.module if tolerance is None else tolerance
         drive = np.linspace(0.0, math.tau / self.pinion.number_of_teeth, _DRIVE_ANGLES, endpoint=False)
         gaps = np.stack([self._least(drive, way * phase_off, way) for way in (1, -1)])
-        place = int(gaps.min(axis=0).argmin())
-        at = complex(self.gear.reference_radius, 0.0)
-        worst = ContactPlace(float(gaps.min()), float(drive[place]), at, (Label.FLANK, Label.FLANK))
-        if worst.gap < -allowed:
-            verdict = Verdict.OVERLAP
-        else:
-            verdict = Verdict.CONTACT if float(gaps.max(axis=1).min()) <= allowed else Verdict.CLEAR
-        least = gaps.min(axis=0)
-        return PairContact(
-            verdict, allowed, tuple(drive.tolist()), tuple(least.tolist()),
-            (tuple(gaps[0].tolist()), tuple(gaps[1].tolist())), worst, float(least.max()),
-        )  # fmt: skip
+        return flanks_contact(gaps, drive, complex(self.gear.reference_radius, 0.0), allowed)
 
     def _least(self, drive: Real, off: float, way: int) -> Real:
         """Least gaps (n,) beside lower sides of the pinion's teeth, or (-1) upper ones seen in a mirror."""

@@ -109,6 +109,16 @@ def verdict_of(gap: Real, allowed: float) -> Verdict:
     return Verdict.CONTACT if gap.max(axis=0).min() <= allowed else Verdict.CLEAR
 
 
+def flanks_contact(gaps: Real, drive: Real, at: complex, allowed: float) -> PairContact:
+    """The verdict on gaps (2, n), mm, of lower and upper flanks at n drive angles; ``at``: where they are told."""
+    least = gaps.min(axis=0)
+    worst = ContactPlace(float(least.min()), float(drive[least.argmin()]), at, (Label.FLANK, Label.FLANK))
+    return PairContact(
+        verdict_of(gaps.T, allowed), allowed, tuple(drive.tolist()), tuple(least.tolist()),
+        (tuple(gaps[0].tolist()), tuple(gaps[1].tolist())), worst, float(least.max()),
+    )  # fmt: skip
+
+
 class MeshSearch:
     """Both half-pitch outlines and the motion. Subclasses tell what the second body is.
 
