@@ -6,6 +6,7 @@ polygon's area before it is used; no vertex is added but the middle of a wheel w
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -18,8 +19,15 @@ from geometry.curves.curve import Complex
 from geometry.plane.contour import Contour
 
 Triangles = NDArray[np.int64]
+# of the grid on which vertices stand, in a reach of 1
+_GRID_DIGITS = 8
 # decimals of angles (rad) and heights (mm) that are compared
 _ANGLE_DIGITS, _HEIGHT_DIGITS = 11, 10
+
+
+def grid_decimals(reach: float) -> int:
+    """Decimals of a mesh's vertices: a step of 1e-8 of its reach or less, which a float32 does not hold."""
+    return _GRID_DIGITS - math.floor(math.log10(reach) + 1e-9)
 
 
 def cap_triangles(outer: Contour, holes: Sequence[Contour]) -> tuple[Triangles, Complex]:

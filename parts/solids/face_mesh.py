@@ -33,7 +33,7 @@ from geometry.solids.charts import (
 from geometry.solids.faced import FacedBody, Proof
 from geometry.solids.faces import Circular, Cone, Edges, Extrusion, Faces, Solid, Sphere, Spline, SplineSurface, Torus
 from geometry.solids.unrolled import Side, unrolled
-from parts.solids.caps import Triangles, library_triangles
+from parts.solids.caps import Triangles, grid_decimals, library_triangles
 from parts.solids.flips import constrained, inner_cells
 from parts.solids.grids import Grid, grid_between, rows_between
 from parts.solids.spacing import Bends, bend_places, graded
@@ -65,6 +65,8 @@ _AT_ONCE = 4_000
 _SIDES = ((0, 2), (2, 0), (1, 3), (3, 1)), ((0, 1), (1, 0), (2, 3), (3, 2))
 # differences by which two patches are one turned, part of the solid
 _ALIKE = 1e-9
+# decimals of the grid on which triangles of bent faces are chosen, in steps of theirs
+_STEP_DIGITS = 7
 # radius at which a surface is its pole, part of the greatest of a face
 _AT_POLE = 1e-9
 # angles at which a pole stands in the plane of a face
@@ -142,6 +144,7 @@ class _Mesher:
         self.bound: Bound = "exact"
         self.bundle, self.row = edge_rows(solid)
         self.reach = float(np.abs(solid.points).max())
+        self.decimals = grid_decimals(float(np.abs(self.points[0]).max()))
         # sagittas that have done for patches, by their nets
         self.passed: dict[bytes, float] = {}
         self.bent, self.patched = (self._bounding(kinds) for kinds in (Torus | Sphere | SplineSurface, SplineSurface))
@@ -326,15 +329,16 @@ class _Mesher:
         """Triangles of any face, and their u and v."""
         rings, names = _closed(chart, loops, numbers)
         if chart.is_plane:
-            triangles = library_triangles(np.concatenate(rings), _numbered(rings))
-            plane = np.concatenate(rings)
+            # on a grid, as the vertices will stand: what machines round differently chooses no triangle
+            plane = np.concatenate(rings).round(self.decimals)
+            triangles = library_triangles(plane, _numbered(rings))
         else:
             size = max(float(np.abs(chart.meridian(ring.imag)[0]).max()) for ring in rings)
             u_step = _chord(size, _ALONG * self.tolerance)
             high = max(float(np.ptp(ring.imag)) for ring in rings)
             # along rulings steps cost nothing
             v_step = _chord(_tube(chart), _ACROSS * self.tolerance) if chart.is_bent else max(high / 2, 1e-9)
-            scaled = [ring.real / u_step + 1j * ring.imag / v_step for ring in rings]
+            scaled = [(ring.real / u_step + 1j * ring.imag / v_step).round(_STEP_DIGITS) for ring in rings]
             cells = inner_cells(scaled) if chart.is_bent else None
             inside = cells.points if cells else np.zeros(0, complex)
             triangles = constrained(scaled, cells)

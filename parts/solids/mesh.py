@@ -6,7 +6,6 @@ closed by construction. parts/solids/faces.py is the other half.
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -20,13 +19,19 @@ from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Approximation, Contour
 from geometry.solids.body import Body, Cap
 from geometry.solids.chamfer import chamfer_bow, cut_chamfers, level_shares
-from parts.solids.caps import Triangles, aligned_bore, begun_at, cap_triangles, is_round, start_in_space
+from parts.solids.caps import (
+    Triangles,
+    aligned_bore,
+    begun_at,
+    cap_triangles,
+    grid_decimals,
+    is_round,
+    start_in_space,
+)
 
 if TYPE_CHECKING:
     from geometry.solids.faced import FacedBody
     from parts.solids.face_mesh import FaceMesh
-
-_GRID_DIGITS = 8
 
 
 class Mesh(Record):
@@ -100,8 +105,8 @@ def body_mesh(body: Body | FacedBody, outlines: tuple[Approximation, ...]) -> Me
     """
     if body.is_faced:
         made = cast("FaceMesh", outlines[0])
-        return _whole(np.round(made.vertices, _decimals(body)) + 0.0, made.geometry)
-    body, decimals = _sliced(body, outlines[0].tolerance), _decimals(body)
+        return _whole(np.round(made.vertices, grid_decimals(body.section_reach())) + 0.0, made.geometry)
+    body, decimals = _sliced(body, outlines[0].tolerance), grid_decimals(body.section_reach())
     # on a grid before any triangle is chosen: what machines round differently chooses none
     contours = _begun_in_spaces(body, [replace(a.geometry, decimals=decimals) for a in outlines])
     try:
@@ -215,12 +220,7 @@ def _assembled(body: Body, contours: list[Contour], steps: list[float], caps: _C
         index.append(added(middle + body.loops[cap.outer].shift, body.loops[cap.outer].z) + np.arange(len(middle)))
         face = np.concatenate(index)[found]
         triangles.append(face if cap.up else face[:, ::-1])
-    return Mesh(np.round(np.concatenate(pieces), _decimals(body)) + 0.0, np.concatenate(triangles))
-
-
-def _decimals(body: Body | FacedBody) -> int:
-    """Decimals of a mesh's vertices: a step of 1e-8 of the section or less, which a float32 does not hold."""
-    return _GRID_DIGITS - math.floor(math.log10(body.section_reach()) + 1e-9)
+    return Mesh(np.round(np.concatenate(pieces), grid_decimals(body.section_reach())) + 0.0, np.concatenate(triangles))
 
 
 def _wall_triangles(count: int, lower: int, upper: int, rising: NDArray[np.bool_] | None = None) -> Triangles:

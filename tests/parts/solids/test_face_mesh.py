@@ -179,6 +179,22 @@ def test_a_worm_wheel_has_triangles_where_it_is_bent() -> None:
     assert lone == 0
 
 
+@pytest.mark.parametrize(("scene", "part"), [("bevel_pair", "pinion"), ("worm_set_print", "wheel")])
+def test_no_triangle_is_chosen_by_last_bits(scene: str, part: str) -> None:
+    """Another machine rounds coordinates otherwise: the triangles are the same, the volume too."""
+    parts, _ = make_parts(load_scene(scene), scene)
+    body = parts[part].body(0.0)
+    solid = body.within(0.02).geometry
+    made = face_mesh(solid, 0.2, body.proof)
+    assert topology_failures(ReadMesh(made.vertices, made.geometry)) == []
+    draw = np.random.default_rng(37)
+    for _ in range(2):
+        bits = draw.integers(-2, 3, solid.points.shape) * np.finfo(float).eps
+        other = face_mesh(replace(solid, points=solid.points * (1 + bits)), 0.2, body.proof)
+        assert np.array_equal(other.geometry, made.geometry)
+        assert other.vertices == pytest.approx(made.vertices, abs=1e-9)
+
+
 def test_a_solid_reaches_as_far_as_closed_forms_say() -> None:
     """A ball off the axis, a ring, and a ring that leans: its highest place lies inside its face."""
     found = extent(ball(5.0, 7 + 2j))
