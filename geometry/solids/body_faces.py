@@ -126,9 +126,9 @@ class BodyFaces(RingBuilder):
 
     def face(self, cap: Cap) -> None:
         """A plane face within its rings."""
-        loops = [self._around(cap.outer, cap.up), *(self._around(hole, not cap.up) for hole in cap.holes)]
+        loops = [self.around(cap.outer, cap.up), *(self.around(hole, not cap.up) for hole in cap.holes)]
         self.cap(self.body.loops[cap.outer].z, loops, up=cap.up)
 
-    def _around(self, loop: int, left: bool) -> Loop:
+    def around(self, loop: int, left: bool) -> Loop:
         """A ring as a loop that turns left, or right, as seen from above."""
         return self.at(loop).loop(forwards=(profile_area(self.body.loop_profile(loop)) > 0) == left)

@@ -12,9 +12,10 @@ from geometry.base.record import replace
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from parts.base.mate import End, LaidStanding, MateKind, Pose, Touching
 from parts.gears.thinning import shared_thinning
-from parts.keys.base import MadeKeys, mm
+from parts.keys.base import mm
 from parts.keys.helix import helix_of
 from parts.keys.mate import GearPairKeys, backlash
+from parts.keys.wheel import shape_of
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
@@ -118,6 +119,8 @@ class FaceMating(Touching):
         for name, clearance in zip(("first", "second"), pair.bottom_clearances, strict=True):
             if clearance < least:
                 found.append(Finding(f"tip_clearance_{name}", clearance, 0.0))
+        if pair.hub_clearance < least:
+            found.append(Finding("hub_clearance_first", pair.hub_clearance, 0.0))
         if pair.contact_ratio < 1:
             found.append(Finding("contact_ratio", pair.contact_ratio, 1.0))
         return tuple(found)
@@ -169,15 +172,16 @@ class FaceGearPairKind(MateKind[FaceGearPairSpec, "FaceGear", "SpurGear"]):
     def mating(self, keys: FaceGearPairSpec, first: End[FaceGear], second: End[SpurGear]) -> FaceMating:
         """The pinion's face over the gear's."""
         from geometry.gears.face.pair import FacePair
+        from parts.gears.spur_gear.part import SpurGearSpec
 
         gear, pinion = first.thing, second.thing
-        assert isinstance(second.keys, MadeKeys)
-        width = second.keys.face_width
+        assert isinstance(second.keys, SpurGearSpec)
+        width, hub = second.keys.face_width, shape_of(second.keys).hub
         middle = (gear.inner_radius + gear.outer_radius) / 2 + keys.pinion_offset
         room = (gear.face_width + width) / 2
         if abs(keys.pinion_offset) >= room:
             raise ParameterError("mate.pinion_offset", keys.pinion_offset, "face_gear_beside", Nearest(0.0))
-        pair = FacePair(gear, pinion, middle - width / 2, middle + width / 2)
+        pair = FacePair(gear, pinion, middle - width / 2, middle + width / 2, hub)
         return FaceMating(
             *self.joined(keys),
             direction_deg=keys.direction_deg,

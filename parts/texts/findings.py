@@ -45,6 +45,7 @@ FINDINGS: dict[str, Text] = {
         "the mate asks for it from {value:.4f} mm, it begins at {limit:.4f} mm on the line of action"
     ),
     "tip_clearance_second": N_("the mate's tip strikes the root of the second gear: clearance {value:.4f} mm"),
+    "hub_clearance_first": N_("the second gear strikes the hub of the first one: clearance {value:.4f} mm"),
     "contact_below_flank_first": N_(
         "the mate's tip runs into the fillet of the first gear: it reaches a radius of {value:.4f} mm, the flank "
         "begins at {limit:.4f} mm"

@@ -1,4 +1,4 @@
-"""The faces of a face gear: splines over its flanks and fillets, planes and cylinders for everything else, exact.
+"""The faces of a face gear: splines over its flanks and fillets; planes and cylinders, and all within, as its core.
 
 Splines run from root to tip and along the radius; they interpolate the exact envelope at Greville's places.
 """
@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 from functools import lru_cache, partial
 
 import numpy as np
 
-from geometry.approximation.outline import spline_outline
+from geometry.approximation.outline import Outline
 from geometry.approximation.tensor import axis_poles, clamped, greville, tensor_poles
 from geometry.base.errors import ConvergenceError
 from geometry.base.placement import Placement2
@@ -22,6 +23,7 @@ from geometry.curves.line_arc import Arc
 from geometry.gears.face.gear import FLANK, SIDES, FaceGear
 from geometry.gears.face.walls import wall_distance
 from geometry.plane.profile import Label, Profile, Segment
+from geometry.solids.body_faces import BodyFaces, body_outlines
 from geometry.solids.faced import FacedBody, FacedSolid
 from geometry.solids.faces import (
     Circular,
@@ -29,6 +31,7 @@ from geometry.solids.faces import (
     Faces,
     Frame,
     Index,
+    Loop,
     Plane,
     Spline,
     SplineSurface,
@@ -36,7 +39,7 @@ from geometry.solids.faces import (
     Surface,
 )
 from geometry.solids.measured import Measured
-from geometry.solids.rings import AHEAD, UP, Ring, RingBuilder
+from geometry.solids.rings import AHEAD, UP
 
 # spans one way at most, samples of each, and what is added to sampled errors
 _DEGREE, _MOST_SPANS, _SAMPLES, _MARGIN = 7, 64, 11, 1.5
@@ -58,7 +61,9 @@ def faced_face_gear(gear: FaceGear) -> FacedBody:
         for name, which in zip(("fillet", "flank"), SIDES, strict=True)
     )
     made = lru_cache(maxsize=2)(partial(face_gear_solid, gear))
-    return FacedBody(lambda t: made(min(t, _TARGET)), walls, own_ends=(0.0, gear.height, gear.outer_radius))
+    low, *_, high = gear.core.levels()
+    ends = low, max(high, gear.height), gear.outer_radius
+    return FacedBody(lambda t: made(min(t, _TARGET)), walls, own_ends=ends)
 
 
 class _Wall(Record, eq=False):
@@ -171,33 +176,36 @@ def face_gear_solid(gear: FaceGear, tolerance: float) -> FacedSolid:
         64 spans one way are not enough.
     """
     walls = _fitted(gear, tolerance)
-    worst, bore = max(wall.error for wall in walls), None
-    made = _Built(gear, walls)
+    core = body_outlines(gear.core, tolerance)
+    made = _Built(gear, walls, core)
     made.teeth()
-    if gear.bore is not None:
-        outline = spline_outline(gear.bore, tolerance, degree=_DEGREE, continuity=_DEGREE - 1)
-        bore, worst = outline, max(worst, outline.max_error)
-    made.body(None if bore is None else (made.ring(bore, 0.0), made.ring(bore, gear.thickness)))
+    for wall in gear.core.walls[1:]:
+        made.wall(wall)
+    for cap in gear.core.caps:
+        made.face(cap)
+    worst = max(*(wall.error for wall in walls), *(outline.max_error for outline in core))
     return FacedSolid(made.solid(), worst, "sampled")
 
 
-class _Built(RingBuilder):
-    """Vertices, edges and faces of one gear: ends are the outer (0) and the inner one (1)."""
+class _Built(BodyFaces):
+    """Vertices, edges and faces of one gear: ends are the outer (0) and the inner one (1).
 
-    def __init__(self, gear: FaceGear, walls: tuple[_Wall, ...]) -> None:
-        super().__init__()
+    ``rims``: what stands in place of the core's first wall, by its loops.
+    """
+
+    def __init__(self, gear: FaceGear, walls: tuple[_Wall, ...], core: Sequence[Outline]) -> None:
+        super().__init__(gear.core, core)
         self.gear, self.walls = gear, walls
         self.turns = np.exp(2j * math.pi * np.arange(gear.number_of_teeth) / gear.number_of_teeth)
         self.radii = gear.outer_radius, gear.inner_radius
-        self.root_loop: Index = np.empty((1, 0), int)
-        self.rim_loop: Index = np.empty((1, 0), int)
+        self.rims: dict[int, Loop] = {}
 
     def on_teeth(self, points: Real) -> Index:
         """Numbers of points (k, 3) of tooth 1 on all teeth, (n, k)."""
         plane = self.turns[:, None] * (points[:, 0] + 1j * points[:, 1])
         return self.add_points(plane, np.broadcast_to(points[:, 2], plane.shape))
 
-    def face(self, surface: Surface, around: list[Use], *, along: bool = True) -> None:
+    def within(self, surface: Surface, around: list[Use], *, along: bool = True) -> None:
         """Faces within edges that turn left about them, as seen from outside."""
         loop = np.stack([edge for edge, _ in around], axis=1), np.array([way for _, way in around])
         self.faces.append(Faces(surface, (loop,), along))
@@ -234,21 +242,22 @@ class _Built(RingBuilder):
                       (radial[first], False)]  # fmt: skip
             if side > 0:
                 around = [(edge, not way) for edge, way in reversed(around)]
-            self.face(surface, around, along=side < 0)
+            self.within(surface, around, along=side < 0)
         tips = [self.arcs(end, gear.height, corners[end][:, 2], corners[end][:, 3]) for end in (0, 1)]
-        self.face(Plane(Frame(self.on_axis(gear.height), UP, AHEAD)),
+        self.within(Plane(Frame(self.on_axis(gear.height), UP, AHEAD)),
                   [(tips[0], True), (radial[3], True), (tips[1], False), (radial[2], False)])  # fmt: skip
         over = [[(side[-1, 0], True), (side[-1, 1], True), (tip, True), (side[1, 1], False), (side[1, 0], False)]
                 for side, tip in zip(ends, tips, strict=True)]  # fmt: skip
         feet = self.arcs(1, gear.thickness, corners[1][:, 0], corners[1][:, 5])
-        self.face(self.around(1), [*over[1], (feet, False)], along=False)
+        self.within(self.cylinder(1), [*over[1], (feet, False)], along=False)
         roots = self.arcs(0, gear.thickness, corners[0][:, 5], np.roll(corners[0][:, 0], -1))
         # the root and the plate within the teeth are one plane
         after = [np.roll(radial[0], -1), np.roll(feet, -1), np.roll(radial[5], -1)]
-        self.root_loop = np.stack([roots, *after], axis=1).reshape(1, -1)
+        ways = np.tile([True, True, True, False], len(self.turns))
+        self.rims[self.body.walls[0].upper] = np.stack([roots, *after], axis=1).reshape(1, -1), ways
         self._outside(corners[0][:, 0], roots, over[0])
 
-    def around(self, end: int) -> Cylinder:
+    def cylinder(self, end: int) -> Cylinder:
         """About the axis through an end."""
         return Cylinder(Frame(self.on_axis(0.0), UP, AHEAD), self.radii[end])
 
@@ -270,16 +279,9 @@ class _Built(RingBuilder):
         lines = self.add_edges(low, foot, Straight(UP))
         arcs = self.arcs(0, 0.0, low, np.roll(low, -1))
         back = [(edge, not way) for edge, way in reversed(over)]
-        self.face(self.around(0), [(arcs, True), (np.roll(lines, -1), True), (roots, False), *back, (lines, False)])
-        self.rim_loop = arcs[None]
+        self.within(self.cylinder(0), [(arcs, True), (np.roll(lines, -1), True), (roots, False), *back, (lines, False)])
+        self.rims[self.body.walls[0].lower] = arcs[::-1][None], np.full(len(arcs), False)
 
-    def body(self, bore: tuple[Ring, Ring] | None) -> None:
-        """Root plane, lower face and bore."""
-        ways = np.tile([True, True, True, False], len(self.turns))
-        up, down = [(self.root_loop, ways)], [(self.rim_loop[:, ::-1], np.full(self.rim_loop.shape[1], False))]
-        if bore is not None:
-            self.swept(*bore, UP)
-            up.append(bore[1].loop(forwards=True))
-            down.append(bore[0].loop(forwards=False))
-        self.cap(self.gear.thickness, up, up=True)
-        self.cap(0.0, down, up=False)
+    def around(self, loop: int, left: bool) -> Loop:
+        """The loop of a face, which runs about teeth or plate where the core begins."""
+        return self.rims[loop] if loop in self.rims else super().around(loop, left)

@@ -13,7 +13,7 @@ from __future__ import annotations
 import cmath
 import math
 from functools import cached_property
-from typing import TypeVar, cast
+from typing import TYPE_CHECKING, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,7 +25,12 @@ from geometry.curves.curve import Complex, Real
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.limits import root_form_diameter
 from geometry.gears.teeth.spur import SpurGear
-from geometry.plane.profile import Profile
+from geometry.plane.profile import Label, circle
+from geometry.solids.hub_holes import HubHoles
+from geometry.solids.wheel import Hub, Web, WheelShape, wheel_body, wheel_sections
+
+if TYPE_CHECKING:
+    from geometry.solids.body import Body
 
 P = TypeVar("P", Real, Complex)
 FILLET, FLANK = 0, 1
@@ -75,7 +80,7 @@ class FaceGear(Record, dict=True):
     ``circumferential_thinning``: of its teeth, along the shaper's reference circle.
     ``addendum``: of its teeth above the pitch plane, the plane that touches the pinion's reference cylinder, or, of a
     pinion with a shift, above a plane so much farther from its axis;
-    ``thickness``: of the plate below the root; ``bore``: its outline.
+    ``thickness``: of the plate below the root, which ``web``, ``hub`` and ``holes`` shape within the teeth.
     """
 
     cutter: PinionCutter
@@ -85,7 +90,9 @@ class FaceGear(Record, dict=True):
     outer_radius: float
     thickness: float
     circumferential_thinning: float = 0.0
-    bore: Profile | None = None
+    holes: HubHoles = HubHoles()
+    hub: Hub | None = None
+    web: Web | None = None
 
     # sizes ----------------------------------------------------------------------------------------------------------
 
@@ -133,6 +140,17 @@ class FaceGear(Record, dict=True):
     def face_width(self) -> float:
         """b, along the radius."""
         return self.outer_radius - self.inner_radius
+
+    @cached_property
+    def shape(self) -> WheelShape:
+        """Plate, web and hub."""
+        return WheelShape(self.thickness, self.web, self.hub)
+
+    @cached_property
+    def core(self) -> Body:
+        """What is within the teeth; teeth and plate take the place of its first wall, a circle of the inner radius."""
+        rim = circle(self.inner_radius, Label.BODY)
+        return wheel_body(self.shape, wheel_sections(lambda *_: rim, self.inner_radius, self.holes))
 
     # places ---------------------------------------------------------------------------------------------------------
 

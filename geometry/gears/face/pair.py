@@ -24,6 +24,7 @@ from geometry.gears.teeth.tooth import ToothSide, tooth_side
 from geometry.plane.distance import Boundary, folded
 from geometry.plane.profile import Label
 from geometry.solids.faces import Index
+from geometry.solids.wheel import Hub
 
 # drive angles in a pitch; planes; places along a curve; teeth to each side; radii of a ratio
 _DRIVE_ANGLES, _PLANES, _PLACES, _TEETH, _ALONG = 24, 9, 9, 2, 129
@@ -43,12 +44,13 @@ def _root(function: Callable[[Real, Index], Real], count: int) -> Real:
 
 
 class FacePair(Record, dict=True):
-    """A face gear and its pinion, whose face lies from ``low`` to ``high`` mm off the gear's axis."""
+    """A face gear and its pinion, whose face lies from ``low`` to ``high`` mm off the gear's axis, its hub beside."""
 
     gear: FaceGear
     pinion: SpurGear
     low: float
     high: float
+    pinion_hub: Hub | None = None
 
     @property
     def ratio(self) -> float:
@@ -66,6 +68,20 @@ class FacePair(Record, dict=True):
         """Between the gear's root and the pinion's tip, the pinion's root and the gear's tip, mm."""
         gear, axis = self.gear, self.gear.mounting_distance
         return axis - gear.thickness - self.pinion.tip_radius, axis - gear.height - self.pinion.root_radius
+
+    @property
+    def hub_clearance(self) -> float:
+        """Between the hub that stands out of the gear's plate and the pinion with its own, mm; infinite without one."""
+        gear, hub = self.gear, self.gear.hub
+        if hub is None or not hub.above:
+            return math.inf
+        ends = [(self.low, self.pinion.tip_radius)]
+        if self.pinion_hub is not None:
+            # z leads to the gear's axis
+            ends.append((self.low - self.pinion_hub.above, self.pinion_hub.diameter / 2))
+        steps = [(begins - hub.diameter / 2, gear.mounting_distance - radius - gear.thickness - hub.above)
+                 for begins, radius in ends]  # fmt: skip
+        return min(math.hypot(*step) if min(step) > 0 else max(step) for step in steps)
 
     @cached_property
     def side(self) -> ToothSide:
@@ -133,6 +149,8 @@ class FacePair(Record, dict=True):
         allowed = CONTACT_TOLERANCE * self.gear.module if tolerance is None else tolerance
         drive = np.linspace(0.0, math.tau / self.pinion.number_of_teeth, _DRIVE_ANGLES, endpoint=False)
         gaps = np.stack([self._least(drive, way * phase_off, way) for way in (1, -1)])
+        if (clearance := self.hub_clearance) < 0:
+            gaps = np.minimum(gaps, clearance)
         return flanks_contact(gaps, drive, complex(self.gear.reference_radius, 0.0), allowed)
 
     def _least(self, drive: Real, off: float, way: int) -> Real:

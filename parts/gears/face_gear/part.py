@@ -16,10 +16,21 @@ from geometry.base.record import replace
 from geometry.gears.face.gear import FaceGear, form_length, sized, topped
 from geometry.gears.teeth.cutter import CUTTER_ADDENDUM, CUTTER_ROUNDING, PinionCutter, checked_cutter
 from geometry.solids.hub_holes import least_wall
+from geometry.solids.wheel import check_wheel
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, in_modules, mm
-from parts.keys.holes import BoreTable, bore_of, check_shape, hub_holes, wide_bore
+from parts.keys.holes import (
+    BoreTable,
+    HolesTable,
+    SpokesTable,
+    bore_of,
+    check_holes,
+    check_shape,
+    hub_holes,
+    wide_bore,
+)
+from parts.keys.wheel import HubTable, WebTable, wheel_shape
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -110,10 +121,14 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     ) = None
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
+    holes: HolesTable | list[HolesTable] | None = None
+    spokes: SpokesTable | None = None
+    web: WebTable | None = None
+    hub: HubTable | None = None
 
     def hub_holes(self) -> HubHoles:
-        """The bore."""
-        return hub_holes(bore_of(self), None, None)
+        """Bore, holes and windows."""
+        return hub_holes(bore_of(self), self.holes, self.spokes)
 
 
 # keys of the shaper as its owner has them
@@ -213,13 +228,15 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
             if error.name not in ("addendum_coefficient", "dedendum_coefficient"):
                 raise
             raise _cured(keys, error) from error
-        room = gear.inner_radius - least_wall(gear.inner_radius)
+        inside, holes = gear.inner_radius, keys.hub_holes()
+        room = inside - least_wall(inside)
         check_shape(keys, FaceGearSpec.hub_holes, room)
-        holes = keys.hub_holes()
         if holes.bore_reach > room:
             raise wide_bore(keys, room, "leaves_no_wall")
-        bores = holes.profiles(0.0)
-        return replace(gear, bore=bores[0]) if bores else gear
+        check_holes(keys, FaceGearSpec.hub_holes, root_radius=inside)
+        shape = wheel_shape(gear.thickness, keys.web, keys.hub, 0.0)
+        check_wheel(shape, 2 * inside, holes)
+        return replace(gear, holes=holes, hub=shape.hub, web=shape.web)
 
     def section(self, keys: FaceGearSpec, thing: FaceGear, offset: float) -> OffsetRegion:
         """As seen along the axis, for pictures, spaces of the teeth as marks: nothing flat is cut from it."""
@@ -228,7 +245,7 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
         from geometry.plane.profile import Label, Region, circle
 
         _still(offset)
-        holes = () if thing.bore is None else (thing.bore,)
+        holes = thing.holes.profiles(0.0)
         # the circle first: it lies on the outline of the spaces
         marks = circle(thing.inner_radius, Label.BODY), seen_spaces(thing, _SEEN)
         return OffsetRegion(Region(circle(thing.outer_radius, Label.BODY), holes, marks), 0.0, ())

@@ -51,7 +51,9 @@ PARTS: dict[str, dict[str, Any]] = {
     "bevel": {"kind": "bevel_gear", "module": 3.0, "number_of_teeth": 20, "mate_teeth": 40, "hub_diameter": 34.0,
               "profile_shift_coefficient": 0.3, "hub_length": 12.0, "bore": {"shape": "keyway", "diameter": 16.0}},
     "face": {"kind": "face_gear", "module": 2.0, "number_of_teeth": 60, "pinion_teeth": 20, "inner_diameter": 122.0,
-             "outer_diameter": 130.0, "plate_thickness": 6.0, "bore_diameter": 25.0},
+             "outer_diameter": 130.0, "plate_thickness": 6.0, "bore_diameter": 25.0,
+             "hub": {"diameter": 40.0, "below": 8.0, "above": 4.0},
+             "holes": {"count": 6, "diameter": 12.0, "pitch_circle_diameter": 80.0}},
     "bearing": {"kind": "turned", "points": [
         {"r": 20.0, "z": 0.0}, {"r": 31.0, "z": 0.0, "chamfer": 1.0}, {"r": 31.0, "z": 16.0}, {"r": 20.0, "z": 16.0},
         {"r": 20.0, "z": 11.0, "arc": -3.5}, {"r": 20.0, "z": 5.0}]},
@@ -142,7 +144,7 @@ SIZES: dict[str, list[float]] = {
     "wheel": [136, 128, 25, 30, 15, 16],
     "bevel": bevel_sizes(),
     # 1 and 1.25 modules about the pitch plane, m z1 / 2 below the pinion's axis
-    "face": [130, 122, 25, 4.5, 10.5, 28.5],
+    "face": [130, 122, 25, 6, 10.5, 28.5, 40, 8, 18, 80, 12],
     "bearing": [62, 40, 16, 1, 3.5, 5, 6],
     # the cone of a centre hole opens to 2.12 d at 60 degrees, its tip is that of a drill of 120 degrees
     "shaft": [20, 30, 30, 70, 1, 20, 5, 6, 16.5, 2, 4.24, *(np.cumsum([1.12 * math.sqrt(3), 2, 1 / math.sqrt(3)]))],

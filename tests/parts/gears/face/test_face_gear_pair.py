@@ -23,6 +23,8 @@ from parts.solids.mesh import body_mesh, mesh_outlines
 
 GEAR: dict[str, Any] = {"kind": "face_gear", "module": 2.0, "number_of_teeth": 21, "pinion_teeth": 14}
 PINION: dict[str, Any] = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 14, "face_width": 9.0}
+HUB: dict[str, Any] = {"diameter": 18.0, "below": 4.0, "above": 2.0}
+HOLES: dict[str, Any] = {"count": 5, "diameter": 5.0, "pitch_circle_diameter": 27.0}
 
 
 def scene(gear: dict[str, Any], pinion: dict[str, Any], **mate: Any) -> dict[str, Any]:
@@ -90,6 +92,8 @@ module = 2.0
 number_of_teeth = 21
 pinion_teeth = 14
 bore = {{ shape = "keyway", diameter = 10.0 }}
+hub = {{ diameter = 18.0, below = 4.0, above = 2.0 }}
+holes = {{ count = 5, diameter = 5.0, pitch_circle_diameter = 27.0 }}
 
 [parts.pinion]
 kind = "spur_gear"
@@ -165,7 +169,11 @@ def test_a_pinion_that_the_gear_is_not_for_is_refused() -> None:
         ({"pinion_teeth": 8, "pinion_profile_shift_coefficient": 0.5}, "dedendum_coefficient"),
         ({"pinion_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.0}, "addendum_coefficient"),
         ({"pinion_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.5}, "addendum_coefficient"),
-        ({"bore_diameter": 70.0}, "bore_diameter"), ({"circumferential_thinning": 4.0}, "circumferential_thinning"),
+        ({"bore_diameter": 70.0}, "bore_diameter"), ({"hub": HUB | {"diameter": 60.0}}, "hub.diameter"),
+        ({"holes": HOLES | {"pitch_circle_diameter": 40.0}}, "holes.pitch_circle_diameter"),
+        ({"hub": HUB, "holes": HOLES | {"pitch_circle_diameter": 22.0}}, "hub.diameter"),
+        ({"web": {"thickness": 6.0, "rim_diameter": 30.0}}, "web.thickness"),
+        ({"circumferential_thinning": 4.0}, "circumferential_thinning"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_refused_with_a_value_that_builds(keys: dict[str, Any], key: str) -> None:
@@ -174,8 +182,10 @@ def test_what_cannot_be_is_refused_with_a_value_that_builds(keys: dict[str, Any]
     nearest = refusal.value.nearest
     assert f"parts.wheel.{key}" in str(refusal.value)
     assert nearest is not None
+    table, _, inner = key.rpartition(".")
+    cured = {key: nearest.value} if not table else {table: keys[table] | {inner: nearest.value}}
     try:
-        made({"parts": {"wheel": GEAR | keys | {key: nearest.value}}})
+        made({"parts": {"wheel": GEAR | keys | cured}})
     except (SceneError, GeometryError) as error:
         pytest.fail(f"{key} = {nearest.value}: {error}")
 
@@ -210,6 +220,41 @@ def test_tips_in_the_pinions_fillet_are_told(addendum: float, codes: list[str]) 
     assert all(20.0 - 2.5 < one.value < one.limit < 20.0 for one in found)
     shared = [pinion ^ wheel for pinion, wheel in (turned(parts, stand, share, share) for share in (0.2, 0.8))]
     assert (max(one.volume() for one in shared) > 1e-4) == bool(codes)
+
+
+def test_hub_web_and_holes_weigh_what_they_are() -> None:
+    """Cylinders added to a plain gear and taken from it; its mesh, as high as the hub is long, has that volume."""
+    web = {"thickness": 3.0, "rim_diameter": 36.0, "shift": 0.5}
+    keys = {"hub": HUB, "holes": HOLES, "web": web, "bore_diameter": 10.0, "material": "steel"}
+    bodies = [made({"parts": {"wheel": GEAR | more}})[0]["wheel"].body(0.0) for more in ({}, keys)]
+    plain, whole = (body.moments.volume for body in bodies)
+    thin = (36.0**2 - 18.0**2) * 2.0 + 5 * 5.0**2 * 3.0 + 10.0**2 * 11.0
+    assert whole - plain == pytest.approx(math.pi / 4 * (18.0**2 * 6.0 - thin), rel=1e-9)
+    mesh = body_mesh(bodies[1], mesh_outlines(bodies[1], 0.002, 0.0))
+    solid = manifold3d.Manifold(manifold3d.Mesh(mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32)))
+    assert solid.volume() == pytest.approx(whole, rel=1e-3)
+    assert solid.bounding_box()[2::3] == pytest.approx((-4.0, bodies[0].levels()[1]), abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("above", "pinion_hub", "code"),
+    [(0.3, 0.0, 0), (8.0, 0.0, 1), (8.0, 6.0, 1), (0.3, 6.0, 0)],
+)
+def test_a_hub_beside_the_pinion_is_kept_off_it(above: float, pinion_hub: float, code: int) -> None:
+    """As meshes of both have it; a hub of the pinion may reach over it."""
+    gear = {"hub": {"diameter": 34.0, "above": above}}
+    pinion = {"face_width": 14.0} | ({"hub": {"diameter": 20.0, "above": pinion_hub}} if pinion_hub else {})
+    parts, (mating,), stand = made(scene(gear, pinion, normal_backlash=0.2))
+    one, other = turned(parts, stand, 0.0, 0.0)
+    clearance = mating.pair.hub_clearance
+    if code:
+        assert (one ^ other).volume() > 1e-3
+        assert clearance < 0
+        assert "hub_clearance_first" in [found.code for found in mating.findings()]
+    else:
+        assert (one ^ other).volume() < 1e-6
+        assert clearance > 0
+    assert (mating.contact(0.0, 0.0, None).verdict.name == "OVERLAP") == bool(code)
 
 
 def test_pictures_show_the_spaces_between_tips(tmp_path: Path) -> None:
