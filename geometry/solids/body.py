@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.placement import Placement2
-from geometry.base.record import Draft, Record, field
+from geometry.base.record import Draft, Record, field, replace
 from geometry.base.tolerance import PRECISION
 from geometry.curves.curve import Complex, Real
 from geometry.plane.measure import profile_area
@@ -170,6 +170,10 @@ class Body(Record):
     def height(self, wall: Wall) -> tuple[float, float]:
         """Lower and upper z of a wall, mm."""
         return self.loops[wall.lower].z, self.loops[wall.upper].z
+
+    def raised(self, height: float) -> Body:
+        """The same, which has no chamfers, so much higher, mm."""
+        return replace(self, loops=tuple(replace(loop, z=loop.z + height) for loop in self.loops))
 
     def levels(self) -> tuple[float, ...]:
         """All heights at which loops stand, ascending, mm."""

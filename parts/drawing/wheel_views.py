@@ -229,7 +229,7 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
     """The axial section; holes and spokes are turned into its plane."""
     shape, holes, at = wheel.shape, wheel.holes, levels(wheel.shape)
     strokes: list[Stroke] = []
-    hatched: list[tuple[Line | Arc, ...]] = []
+    hatched: list[Loop] = []
     axes = [Line(complex(min(at.hub[0], 0.0)), complex(max(at.hub[1], shape.face_width)))]
     bores, edges = bore_cut(holes.bore, *at.hub, wheel.turn)
     for bore, tip, way in zip(bores, wheel.tip, (1, -1), strict=True):
@@ -243,15 +243,29 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
         strokes += [(VISIBLE, line) for line in placed((*root, *seen_edges(loop, cut=True)))]
         if wheel.pitch is not None:
             axes.append(level(at.rim, way * wheel.pitch))
-        for low, high, is_hole in _openings(holes, wheel.turn, way):
-            *walls, loop = bar(at.web, way * low, way * high)
-            hatched.append(loop)
-            strokes += [(VISIBLE, wall) for wall in walls]
-            if is_hole:
-                axes.append(level(at.web, way * (low + high) / 2))
+        cut_holes(holes, wheel.turn, way, at.web, (strokes, hatched, axes))
     strokes += [(VISIBLE, edge) for edge in edges]
     sizes, notes = tuple(_section_sizes(wheel, subject)), _section_notes(wheel, subject, at, -bores[1])
-    return View(tuple(strokes), tuple(hatched), tuple(axes), sizes, tuple(_crown_rounds(wheel)), notes)
+    return View(tuple(strokes), tuple(map(tuple, hatched)), tuple(axes), sizes, tuple(_crown_rounds(wheel)), notes)
+
+
+def cut_holes(
+    holes: HubHoles, turn: float, way: int, ends: tuple[float, float],
+    drawn: tuple[list[Stroke], list[Loop], list[Line]],
+) -> None:  # fmt: skip
+    """Holes and windows in a half of a section, between ``ends``: their strokes, loops not hatched, and axes."""
+    strokes, hatched, axes = drawn
+    for low, high, is_hole in _openings(holes, turn, way):
+        *walls, loop = bar(ends, way * low, way * high)
+        hatched.append(loop)
+        strokes += [(VISIBLE, wall) for wall in walls]
+        if is_hole:
+            axes.append(level(ends, way * (low + high) / 2))
+
+
+def circle_sizes(holes: HubHoles, turn: float, z: float) -> list[Size]:
+    """The diameters of the circles on which holes stand."""
+    return [circle_size(f"holes.{k}", _turned(group, turn), z) for k, group in enumerate(circled(holes), 1)]
 
 
 def _crown_rounds(wheel: Wheel) -> Iterator[Round]:
@@ -304,9 +318,7 @@ def _section_sizes(wheel: Wheel, subject: Subject) -> list[Size]:
         if at.web[0] > 0:
             inner = 1j * shape.web.rim_diameter / 2
             found.append(Size("web.below", inner, at.web[0] + inner, "above"))
-    turn = wheel.turn
-    for index, group in enumerate(circled(wheel.holes), 1):
-        found.append(circle_size(f"holes.{index}", _turned(group, turn), at.web[0]))
+    found += circle_sizes(wheel.holes, wheel.turn, at.web[0])
     if (spokes := wheel.holes.spokes) is not None:
         diameter("spokes.inner_diameter", spokes.inner_diameter, at.web[0], "left")
         diameter("spokes.outer_diameter", spokes.outer_diameter, at.web[0], "left")
@@ -527,7 +539,7 @@ def ring_section(width: float, radii: tuple[float, float, float], holes: HubHole
         Size("outer_diameter", complex(0, -outer), complex(0, outer), "left", "Ø", wishes.tip),
         Size("face_width", complex(0, -outer), complex(width, -outer), "below", "", wishes.width),
     ]
-    sizes += [circle_size(f"holes.{index}", _turned(group), 0.0) for index, group in enumerate(circled(holes), 1)]
+    sizes += circle_sizes(holes, 0.0, 0.0)
     return View(tuple(strokes), tuple(hatched), tuple(axes), tuple(sizes))
 
 

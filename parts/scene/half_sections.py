@@ -330,9 +330,9 @@ class Sections:
 
 def _bevel_outline(gear: BevelGear) -> Complex:
     """Half a section about a bevel gear, its teeth whole up to the tips, its bore as wide as it is all round."""
-    hub, bore, inside = gear.blank, gear.blank.bore, 0.0
+    hub, bore, inside = gear.blank, gear.blank.holes.bore, 0.0
     if bore is not None:
-        contour = approximate_profile(bore, _CHORD, arcs=False).geometry
+        contour = approximate_profile(bore.profile(), _CHORD, arcs=False).geometry
         # nearest in the middle of a side
         xy = contour.expanded()[0]
         way = np.roll(xy, -1) - xy

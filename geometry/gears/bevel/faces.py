@@ -15,7 +15,6 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from geometry.approximation.outline import spline_outline
 from geometry.approximation.tensor import axis_poles, clamped, greville, tensor_poles
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
@@ -25,21 +24,22 @@ from geometry.curves.line_arc import Arc
 from geometry.gears.bevel.gear import BevelGear
 from geometry.gears.bevel.walls import wall_distance
 from geometry.plane.profile import Label, Profile, Segment
+from geometry.solids.body_faces import BodyFaces, body_outlines
 from geometry.solids.faced import FacedBody, FacedSolid
 from geometry.solids.faces import (
     Circular,
     Cone,
-    Cylinder,
     Faces,
     Frame,
     Index,
+    Loop,
     Spline,
     SplineSurface,
     Straight,
     Surface,
 )
 from geometry.solids.measured import Measured
-from geometry.solids.rings import AHEAD, UP, Ring, RingBuilder
+from geometry.solids.rings import AHEAD, UP
 
 # spans across a tooth and along it at most: tooth lines bend most where they come near the apex
 _DEGREE, _MOST_SPANS, _MOST_ALONG, _SAMPLES, _MARGIN = 7, 64, 256, 11, 1.5
@@ -73,15 +73,13 @@ def bevel_solid(gear: BevelGear, tolerance: float) -> FacedSolid:
     ConvergenceError
         64 spans for a curve are not enough.
     """
-    bore = None
-    if gear.blank.bore is not None:
-        bore = spline_outline(gear.blank.bore, tolerance, degree=_DEGREE, continuity=_DEGREE - 1)
     made = _Bevel(gear, tolerance)
     made.teeth()
-    holes = None if bore is None else (made.ring(bore, 0.0), made.ring(bore, made.height(gear.front)))
-    made.body(holes)
-    worst = made.worst if bore is None else max(made.worst, bore.max_error)
-    return FacedSolid(made.solid(), worst, "sampled")
+    for wall in made.body.walls[1:]:
+        made.wall(wall)
+    for cap in made.body.caps:
+        made.face(cap)
+    return FacedSolid(made.solid(), max(made.worst, *(outline.max_error for outline in made.outlines)), "sampled")
 
 
 def seen_profile(gear: BevelGear, tolerance: float) -> Profile:
@@ -184,12 +182,16 @@ def _fitted_wall(gear: BevelGear, name: str, across: Real, along: Real, fine: Re
 # faces ----------------------------------------------------------------------------------------------------------
 
 
-class _Bevel(RingBuilder):
-    """Vertices, edges and faces of one gear; ``worst``: of its splines, mm."""
+class _Bevel(BodyFaces):
+    """Vertices, edges and faces of one gear; ``worst``: of its splines, mm.
+
+    ``rims``: what stands in place of the core's first wall, by its loops.
+    """
 
     def __init__(self, gear: BevelGear, tolerance: float) -> None:
-        super().__init__()
-        self.gear, upper = gear, _fitted_walls(gear, tolerance)
+        core = gear.core
+        super().__init__(core, body_outlines(core, tolerance))
+        self.gear, upper, self.rims = gear, _fitted_walls(gear, tolerance), dict[int, Loop]()
         self.starts = np.arange(gear.number_of_teeth)
         other = gear.opposite()
         self.walls = {-1: upper if other == gear else _fitted_walls(other, tolerance), 1: upper}
@@ -205,7 +207,7 @@ class _Bevel(RingBuilder):
         plane = turn[:, None] * (points[:, 0] + 1j * points[:, 1])
         return self.add_points(plane, np.broadcast_to(points[:, 2], plane.shape))
 
-    def face(self, surface: Surface, around: list[Use], *, along: bool = True) -> None:
+    def within(self, surface: Surface, around: list[Use], *, along: bool = True) -> None:
         """Faces within edges that turn left about them, as seen from outside."""
         loop = np.stack([edge for edge, _ in around], axis=1), np.array([way for _, way in around])
         self.faces.append(Faces(surface, (loop,), along))
@@ -259,22 +261,23 @@ class _Bevel(RingBuilder):
             around = [(low, True), (rays[last], True), (high, False), (rays[first], False)]
             if side > 0:
                 around = [(edge, not way) for edge, way in reversed(around)]
-            self.face(surface, around, along=side < 0)
+            self.within(surface, around, along=side < 0)
         after = [np.roll(v[:, 0], -1) for v in vertices]
         tops = gear.outer(gear.tip_angle), gear.inner(gear.inner_tip_angle)
         tips = [self.arc(top, v[:, 2], v[:, 3]) for top, v in zip(tops, vertices, strict=True)]
         feet_at = gear.outer(gear.root_angle), gear.front
         roots = [self.arc(foot, v[:, 5], a) for foot, v, a in zip(feet_at, vertices, after, strict=True)]
-        self.face(self.cone(tops[0], gear.tip_cone_angle, up=False),
+        self.within(self.cone(tops[0], gear.tip_cone_angle, up=False),
                   [(tips[0], True), (rays[3], True), (tips[1], False), (rays[2], False)])  # fmt: skip
-        self.face(self.cone(gear.outer(gear.root_angle), gear.root_angle, up=False),
+        self.within(self.cone(gear.outer(gear.root_angle), gear.root_angle, up=False),
                   [(roots[0], True), (np.roll(rays[0], -1), True), (roots[1], False), (rays[5], False)])  # fmt: skip
         feet = self.arc(gear.front, vertices[1][:, 0], vertices[1][:, 5])
         over = [(splines[1]["fillet", -1], True), (splines[1]["flank", -1], True), (tips[1], True),
                 (splines[1]["flank", 1], False), (splines[1]["fillet", 1], False), (feet, False)]  # fmt: skip
         slant = math.pi / 2 - gear.pitch_angle
-        self.face(self.cone(gear.front, slant, up=True), over, along=False)
-        self.front_loop = np.stack([feet, roots[1]], axis=1).reshape(1, -1)
+        self.within(self.cone(gear.front, slant, up=True), over, along=False)
+        front = np.stack([feet, roots[1]], axis=1).reshape(1, -1)
+        self.rims[self.body.walls[0].upper] = front, np.full(front.shape[1], True)
         self._back_cone(splines[0], tips[0], roots[0], slant)
 
     def _grid(self, poles: Real, ends: list[Index], first: int, last: int) -> Index:
@@ -303,30 +306,9 @@ class _Bevel(RingBuilder):
             (splines["flank", 1], True), (tips, False), (splines["flank", -1], False), (splines["fillet", -1], False),
             (lines, False),
         ]  # fmt: skip
-        self.face(self.cone(gear.rim, slant, up=True), around)
-        self.rim_loop = arcs[None]
+        self.within(self.cone(gear.rim, slant, up=True), around)
+        self.rims[self.body.walls[0].lower] = arcs[::-1][None], np.full(len(arcs), False)
 
-    def body(self, holes: tuple[Ring, Ring] | None) -> None:
-        """Front, back, hub and bore."""
-        gear, blank = self.gear, self.gear.blank
-        front = [(self.front_loop, np.full(self.front_loop.shape[1], True))]
-        rim = self.rim_loop[:, ::-1], np.full(self.rim_loop.shape[1], False)
-        bored = [] if holes is None else [holes[0].loop(forwards=False)]
-        if holes is not None:
-            self.swept(*holes, UP)
-            front.append(holes[1].loop(forwards=True))
-        self.cap(self.height(gear.front), front, up=True)
-        if not blank.hub_length:
-            self.cap(0.0, [rim, *bored], up=False)
-            return
-        radius = blank.hub_diameter / 2
-        circles, vertices = [], []
-        for z in (0.0, blank.hub_length):
-            vertex = self.add_vertices(self.add_points(np.array([complex(radius)]), z))
-            circles.append(self.add_edges(vertex, vertex, Circular(Frame(self.on_axis(z), UP, AHEAD), radius)))
-            vertices.append(vertex)
-        seam = self.add_edges(vertices[0], vertices[1], Straight(UP))
-        pipe = Cylinder(Frame(self.on_axis(0.0), UP, AHEAD), radius)
-        self.face(pipe, [(circles[0], True), (seam, True), (circles[1], False), (seam, False)])
-        self.cap(blank.hub_length, [rim, (circles[1][:, None], np.array([True]))], up=False)
-        self.cap(0.0, [(circles[0][:, None], np.array([False])), *bored], up=False)
+    def around(self, loop: int, left: bool) -> Loop:
+        """The loop of a face, which runs about teeth or rim where the core begins."""
+        return self.rims[loop] if loop in self.rims else super().around(loop, left)

@@ -25,7 +25,10 @@ from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Real
 from geometry.gears.bevel.sphere import SphericalFillet, SphericalInvolute, spatial
 from geometry.gears.bevel.tooth_line import ToothLine
-from geometry.plane.profile import Profile
+from geometry.plane.profile import Label, circle
+from geometry.solids.body import Body
+from geometry.solids.hub_holes import HubHoles
+from geometry.solids.wheel import Hub, WheelShape, wheel_body, wheel_sections
 
 # the tip cone is a cone that opens away from the apex
 _STEEPEST = math.radians(89.5)
@@ -46,12 +49,12 @@ _LEAST_FLANK = 0.01
 
 
 class Blank(Record):
-    """What carries the teeth, mm: the rim below the outer root, along the back cone, and the hub behind it."""
+    """What carries the teeth, mm: the rim below the outer root, along the back cone, and the hub behind it; holes."""
 
     rim_thickness: float
     hub_diameter: float = 0.0
     hub_length: float = 0.0
-    bore: Profile | None = None
+    holes: HubHoles = HubHoles()
 
 
 class BevelGear(Record, dict=True):
@@ -567,5 +570,23 @@ class BevelGear(Record, dict=True):
     @property
     def bore_room(self) -> float:
         """How far from the axis a bore may reach, mm."""
-        back = self.blank.hub_diameter / 2 if self.blank.hub_length else self.rim.real
-        return min(self.front.real, back) - self._wall
+        back = self.blank.hub_diameter / 2 if self.blank.hub_length else self.core_radius
+        return min(self.core_radius, back) - self._wall
+
+    @property
+    def core_radius(self) -> float:
+        """Within it front and back are planes, mm."""
+        return min(self.front.real, self.rim.real)
+
+    @property
+    def core_shape(self) -> WheelShape:
+        """What is within that, without its holes; the hub stands below."""
+        length, high = self.blank.hub_length, self.rim.imag - self.front.imag
+        return WheelShape(high, hub=Hub(self.blank.hub_diameter, length) if length else None)
+
+    @property
+    def core(self) -> Body:
+        """The same as it stands, with its holes; the gear takes the place of its first wall."""
+        rim = circle(self.core_radius, Label.BODY)
+        sections = wheel_sections(lambda *_: rim, self.core_radius, self.blank.holes)
+        return wheel_body(self.core_shape, sections).raised(self.blank.hub_length)

@@ -28,7 +28,11 @@ def sketch_of_bevel(gear: BevelGear) -> Sketch:
     ends = [front, complex(0.0, front.imag)]
     levels = sorted({p.imag for p in (*begins, *roots, *tips, *ends)})
     solid = list(lathe(_cut([*begins, *roots, *ends], levels)))
-    bore = () if hub.bore is None else (Ring(tuple(s.curve for s in hub.bore.segments())),)
+    profiles = hub.holes.profiles()
+    bore, holes = (
+        [Ring(tuple(s.curve for s in profile.segments())) for profile in own]
+        for own in ((profiles[:1], profiles[1:]) if hub.holes.bore is not None else ((), profiles))
+    )
     layers = []
     for layer in lathe(_cut([*begins, *tips, *ends], levels)):
         own = next((k for k in solid if abs(k.low - layer.low) < _SAME), None)
@@ -38,7 +42,8 @@ def sketch_of_bevel(gear: BevelGear) -> Sketch:
             roots_of = [_radius(side) for side in (own.lower, own.upper)]
             outer = [_radius(side) for side in (layer.lower, layer.upper)]
             toothed = any(tip - root > _SAME for tip, root in zip(outer, roots_of, strict=True))
-            sides = [[round_ring(tip, root if toothed else None), *bore]
+            through = bore if layer.low < hub.hub_length - _SAME else [*bore, *holes]
+            sides = [[round_ring(tip, root if toothed else None), *through]
                      for tip, root in zip(outer, roots_of, strict=True)]  # fmt: skip
         layers.append(Layer(layer.low, layer.high, tuple(sides[0]), tuple(sides[1])))
     cone = place(gear.outer(gear.pitch_angle)), place(gear.inner(gear.pitch_angle))

@@ -14,7 +14,17 @@ from parts.base.texts import N_
 from parts.drawing.directions import directions
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
 from parts.drawing.turned_sizes import Fits, turned_sizes
-from parts.drawing.wheel_views import bore_note, bore_radii, bore_view, keyway_edges, seen_along
+from parts.drawing.wheel_views import (
+    Wheel,
+    bore_note,
+    bore_radii,
+    bore_view,
+    circle_sizes,
+    cut_holes,
+    face_view,
+    keyway_edges,
+    seen_along,
+)
 from parts.drawing.working import (
     AXIS,
     VISIBLE,
@@ -31,7 +41,6 @@ from parts.drawing.working import (
 from parts.gears.bevel_gear import page as bevel_page
 from parts.gears.bevel_gear.part import BevelGearSpec
 from parts.gears.data_tables import grade_rows, hand_row, mate_rows, with_limits
-from parts.keys.holes import bore_of, hub_holes
 from parts.pages.data_table import DataRow, DataTable, Mated, own_rows, sexagesimal, standard_told
 from parts.pages.inputs import SceneKeys, given
 
@@ -50,10 +59,12 @@ def part_drawing(subject: Subject) -> PartDrawing:
     """The gear in section, and its bore where that is not round."""
     keys, gear = subject.part.keys, subject.part.thing
     assert isinstance(keys, BevelGearSpec)
-    holes = hub_holes(bore_of(keys), None, None)
+    holes, low, high = keys.hub_holes(), gear.blank.hub_length, gear.mounting_distance - gear.front.imag
+    wheel = Wheel(gear.core_shape, holes, (_tips(gear)[0].imag,) * 2, None)
+    axes = [Line(0j, complex(gear.mounting_distance))]
     up, down = bore_radii(holes.bore)
     strokes: list[Stroke] = []
-    hatched = []
+    hatched: list[Loop] = []
     for way, bore in ((1, up), (-1, down)):
         tips: Loop = _half(gear, bore, _tips(gear))
         roots: Loop = _half(gear, bore, _along(gear, gear.root_angle))
@@ -66,7 +77,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
         edges = seen_edges(_half(gear, bore, _along(gear, gear.root_angle)), cut=True)
         strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in edges]
         hatched.append(tuple(roots))
-    high = gear.mounting_distance - gear.front.imag
+        cut_holes(holes, wheel.turn, way, (low, high), (strokes, hatched, axes))
     strokes += [(VISIBLE, edge) for edge in keyway_edges(holes.bore, 0.0, high)]
     wishes = subject.wishes
     is_round = holes.bore is None or isinstance(holes.bore, RoundBore)
@@ -80,18 +91,22 @@ def part_drawing(subject: Subject) -> PartDrawing:
     # on the right stands the angle of the tips
     sizes = [replace(one, side="left") if abs(one.value - 2 * outer.imag) < _NONE else one for one in sizes]
     sizes.append(Size("mounting_distance", 0j, complex(gear.mounting_distance), "below"))
-    axes = (Line(0j, complex(gear.mounting_distance)),)
+    sizes += circle_sizes(holes, wheel.turn, low)
     middle = sum(_along(gear, gear.pitch_angle)) / 2
     notes = [Note(middle, subject.rough(wishes.flank_roughness), is_rough=True)]
     if holes.bore is not None:
         notes.append(bore_note((0.0, high), -down, subject.rough(wishes.bore_roughness)))
     cones = _back_angle(gear), _tip_angle(gear)
-    view = View(tuple(strokes), tuple(hatched), axes, tuple(sizes), slants=(_face_width(gear),), angles=cones,
-                notes=tuple(notes))  # fmt: skip
+    view = View(
+        tuple(strokes), tuple(map(tuple, hatched)), tuple(axes), tuple(sizes), notes=tuple(notes),
+        slants=(_face_width(gear),), angles=cones,
+    )  # fmt: skip
     more = directions(holes, subject, "zero_tooth", keys.number_of_teeth)
+    others = (face_view(wheel, subject),) if holes.round_holes else ()
     if holes.bore is None or is_round:
-        return PartDrawing((view,), requirements(subject, *more))
-    return PartDrawing((seen_along(view, high, subject), bore_view(holes.bore, subject)), requirements(subject, *more))
+        return PartDrawing((view, *others), requirements(subject, *more))
+    bored = bore_view(holes.bore, subject, wheel.turn if others else None)
+    return PartDrawing((seen_along(view, high, subject), *others, bored), requirements(subject, *more))
 
 
 def _place(gear: BevelGear, place: complex) -> complex:

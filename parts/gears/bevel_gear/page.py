@@ -13,6 +13,7 @@ from geometry.base.errors import ParameterError
 from geometry.base.record import replace
 from geometry.gears.bevel.gear import BevelGear, Blank
 from geometry.gears.bevel.pair import BevelPair
+from geometry.solids.hub_holes import HubHoles
 from parts.base.texts import N_, message
 from parts.gears.bevel_gear.part import BEVEL_GEAR, BevelGearSpec, bevel_findings, bevel_gear
 from parts.keys.base import either, mm
@@ -80,7 +81,7 @@ def _pair(keys: BevelKeys) -> BevelPair:
         first, number_of_teeth=first.mate_teeth, mate_teeth=first.number_of_teeth,
         profile_shift_coefficient=-first.profile_shift_coefficient,
         thickness_coefficient=-first.thickness_coefficient, circumferential_thinning=own, hand=first.opposite().hand,
-        blank=replace(first.blank, hub_diameter=0.0, hub_length=0.0, bore=None),
+        blank=replace(first.blank, hub_diameter=0.0, hub_length=0.0, holes=HubHoles()),
     )  # fmt: skip
     second = replace(second, blank=replace(second.blank, rim_thickness=min(second.blank.rim_thickness,
                                                                            second.rim_room / 2)))  # fmt: skip

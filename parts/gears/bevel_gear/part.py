@@ -11,13 +11,14 @@ from geometry.base.errors import ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.base.record import replace
 from geometry.gears.bevel.gear import BevelGear, Blank
+from geometry.solids.wheel import check_wheel
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
 from parts.base.refusal import REMOVED
 from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import BoreDiameter, degrees, either, in_modules, mm
 from parts.keys.helix import told_in_keys
-from parts.keys.holes import BoreTable, bore_of, check_shape, hub_holes, wide_bore
+from parts.keys.holes import BoreTable, HolesTable, bore_of, check_holes, check_shape, hub_holes, wide_bore
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
@@ -115,7 +116,12 @@ class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_
     ) = None  # fmt: skip
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
+    holes: HolesTable | list[HolesTable] | None = None
     accuracy: AccuracyKey = None
+
+    def hub_holes(self) -> HubHoles:
+        """Bore and holes."""
+        return hub_holes(bore_of(self), self.holes, None)
 
 
 def bevel_gear(keys: BevelGearSpec, blank: Blank) -> BevelGear:
@@ -146,31 +152,33 @@ def _lined(keys: BevelGearSpec, gear: BevelGear) -> BevelGear:
     )  # fmt: skip
 
 
-def _holes_of(keys: BevelGearSpec) -> HubHoles:
-    return hub_holes(bore_of(keys), None, None)
-
-
 @told_in_keys
 def _made(keys: BevelGearSpec) -> BevelGear:
     """The gear with its blank, checked to exist."""
-    check_shape(keys, _holes_of)
-    holes = _holes_of(keys)
+    check_shape(keys, BevelGearSpec.hub_holes)
+    holes = keys.hub_holes()
     usual = _USUAL_RIM * keys.module
     rim = usual if keys.rim_thickness is None else keys.rim_thickness
-    gear = bevel_gear(keys, Blank(rim, keys.hub_diameter, keys.hub_length, *holes.profiles(0.0)))
+    gear = bevel_gear(keys, Blank(rim, keys.hub_diameter, keys.hub_length, holes))
     if keys.rim_thickness is None:
-        # half of what a hub or a bore leaves of it at most
-        room = gear.rim_room - max(keys.hub_diameter / 2, holes.bore_reach) / math.cos(gear.pitch_angle)
+        # half of what a hub or holes leave of it at most
+        room = gear.rim_room - max(keys.hub_diameter / 2, holes.reach) / math.cos(gear.pitch_angle)
         rim = min(usual, max(room / 2, _LEAST_RIM * keys.module))
         gear = replace(gear, blank=replace(gear.blank, rim_thickness=rim))
     if keys.mounting_distance is not None:
-        gear = _mounted(keys, gear, keys.mounting_distance, holes.bore_reach)
+        gear = _mounted(keys, gear, keys.mounting_distance, holes.reach)
     if bool(gear.blank.hub_diameter) != bool(gear.blank.hub_length):
         key = "hub_length" if keys.hub_diameter else "hub_diameter"
         raise ParameterError(key, getattr(keys, key), "bevel_hub_half_told")
     gear = gear.checked()
     if holes.bore_reach > gear.bore_room:
         raise wide_bore(keys, gear.bore_room, "leaves_no_wall")
+    if holes.round_holes:
+        check_holes(keys, BevelGearSpec.hub_holes, root_radius=gear.core_radius)
+        try:
+            check_wheel(gear.core_shape, 2 * gear.core_radius, holes)
+        except ParameterError as refusal:
+            raise refusal.renamed(refusal.name.replace("hub.", "hub_")) from refusal
     return gear
 
 
@@ -211,8 +219,7 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
         from geometry.plane.profile import Region
 
         self.stays(offset)
-        holes = () if thing.blank.bore is None else (thing.blank.bore,)
-        return OffsetRegion(Region(seen_profile(thing, 1e-6), holes), 0.0, ())
+        return OffsetRegion(Region(seen_profile(thing, 1e-6), thing.blank.holes.profiles()), 0.0, ())
 
     def solid(self, keys: BevelGearSpec, thing: BevelGear, offset: float) -> FacedBody:
         """The gear."""

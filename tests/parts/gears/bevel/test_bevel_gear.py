@@ -230,6 +230,40 @@ def test_a_gear_of_thirty_metres_is_drawn_too() -> None:
         assert part.body(0.0).within(1e-7).max_error < 3e-8
 
 
+HOLED: dict[str, Any] = {
+    "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 50, "mate_teeth": 20, "rim_thickness": 4.0,
+    "hub_diameter": 30.0, "hub_length": 6.0, "bore_diameter": 10.0,
+    "holes": {"count": 4, "diameter": 8.0, "pitch_circle_diameter": 44.0},
+}  # fmt: skip
+
+
+def test_holes_run_from_the_front_to_the_back_of_the_rim(tmp_path: Path) -> None:
+    """As cylinders that are taken out of it; files and the sheet are read back."""
+    keys = {name: value for name, value in HOLED.items() if name != "holes"}
+    scenes = ({"parts": {"wheel": one}} for one in (keys, HOLED))
+    plain, holed = (make_parts(scene_from_dict(raw, "s", "s"), "s")[0]["wheel"] for raw in scenes)
+    gear = plain.thing
+    # from the inner root circle to where the back cone ends
+    delta, root = math.atan2(50, 20), gear.root_angle
+    cone = 50.0 / math.sin(delta)
+    front = (cone - gear.face_width) / math.cos(root - delta) * math.cos(root)
+    back = cone / math.cos(root - delta) * math.cos(root) + 4.0 * math.sin(delta)
+    lost = plain.body(0.0).moments.volume - holed.body(0.0).moments.volume
+    assert lost == pytest.approx(4 * math.pi * 4.0**2 * (back - front), rel=1e-9)
+    exports = [{"format": "step"}, {"format": "stl", "tolerance": 0.02}, {"format": "svg", "purpose": "part"}]
+    file = write_scene(tmp_path / "s.toml", {"wheel": HOLED}, exports)
+    assert main(["build", str(file), "--out", str(tmp_path), "--quiet"]) == 0
+
+
+@pytest.mark.parametrize(("circle", "key"), [(64.0, "holes.pitch_circle_diameter"), (34.0, "hub_diameter")])
+def test_holes_that_have_no_room_are_refused_with_some_that_have(circle: float, key: str) -> None:
+    keys = HOLED | {"holes": HOLED["holes"] | {"pitch_circle_diameter": circle}}
+    with pytest.raises(SceneError) as refusal:
+        make_parts(scene_from_dict({"parts": {"wheel": keys}}, "s", "s"), "s")
+    assert f"parts.wheel.{key}" in str(refusal.value)
+    assert refusal.value.nearest is not None
+
+
 @pytest.mark.parametrize(
     ("pinion", "wheel", "key", "told"),
     [
