@@ -20,8 +20,8 @@ STOREYS = (
     "geometry.base", "geometry.curves", "geometry.laws", "geometry.kinematics", "geometry.plane",
     "geometry.approximation", "geometry.solids", "geometry.gears", "geometry.cams",
     "parts.locale", "parts.solids", "parts.base", "parts.reasons", "parts.texts", "parts.keys", "parts.drawing",
-    "parts.pages", "parts.bodies", "parts.gears", "parts.pins", "parts.cams", "parts.mates", "parts.recipes",
-    "parts.scene", "parts.outside",
+    "parts.pages", "parts.bodies", "parts.gears", "parts.pins", "parts.chains", "parts.cams", "parts.mates",
+    "parts.recipes", "parts.scene", "parts.outside",
     "exporters.formats", "exporters.verification", "exporters.drawings", "exporters.documents", "exporters.boards",
     "exporters.production", "exporters.command", "exporters.__main__",
 )  # fmt: skip

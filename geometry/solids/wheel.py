@@ -18,7 +18,7 @@ from geometry.solids.hub_holes import HubHoles, least_wall
 
 if TYPE_CHECKING:
     # a flat section asks for the shape of a wheel, not for its solid
-    from geometry.solids.body import Body, Twist
+    from geometry.solids.body import Body, BodyBuilder, Twist
 
 # of a short piece, at least this share stays
 _KEPT_SHARE = 0.1
@@ -81,6 +81,8 @@ class WheelSections(Record):
     core: HubHoles
     bore: Boundary | None
     holes: tuple[Boundary, ...] = ()
+    # the walls of what is not one outline from face to face, moved; gives the loops at both faces
+    rim: Callable[[BodyBuilder, float], tuple[int, int]] | None = None
 
 
 def wheel_sections(outline: Boundary, root_radius: float, holes: HubHoles) -> WheelSections:
@@ -110,7 +112,7 @@ def wheel_body(shape: WheelShape, sections: WheelSections, offset: float = 0.0) 
     from geometry.solids.body import plate
 
     _check_heights(shape)
-    if shape.is_plate:
+    if shape.is_plate and sections.rim is None:
         holes = [s(offset, 0.0) for s in ((sections.bore,) if sections.bore else ()) + sections.holes]
         outline = sections.outline(offset, 0.0)
         return plate(Region(outline, tuple(holes)), 0.0, shape.face_width, shape.twist, toothed=outline)
@@ -168,7 +170,9 @@ class _Wheel:
     def body(self) -> Body:
         """Walls first, then the caps of both sides."""
         recessed = self._recessed
-        if self.twist is None:
+        if self.sections.rim is not None:
+            outline = self.sections.rim(self.made, self.offset)
+        elif self.twist is None:
             outline = self._run(self.sections.outline, self.rim, (True, True), "outline")
         else:
             outline = self.made.run(self.sections.outline(self.offset, 0.0), self.twist.stations(*self.rim))

@@ -12,6 +12,9 @@ from geometry.curves.curve import Complex, Real
 if TYPE_CHECKING:
     from geometry.cams.contact.rolled import Outline
 
+# points along an edge of a file, and along all of them at most
+_ALONG, _MOST = 129, 40_000
+
 
 class ReadError(ValueError):
     """A file is not what its ending says, or holds something that its receivers refuse."""
@@ -64,6 +67,19 @@ class ReadBack(Protocol):
     def faces(self) -> Real:
         """Corners (n, 3, 3) of its triangles, mm; n = 0 where it has none."""
         ...
+
+
+def outline_points(loop: ReadLoop) -> Complex:
+    """Points along an outline, mm."""
+    import numpy as np
+
+    found = []
+    families = loop.outline().edges
+    count = max(3, min(_ALONG, _MOST // max(sum(map(len, families)), 1)))
+    for family in families:
+        edges = np.repeat(np.arange(len(family)), count)
+        found.append(family.at(edges, np.tile(np.linspace(0, 1, count), len(family)))[0])
+    return np.concatenate(found)
 
 
 class Probed(Record):

@@ -8,7 +8,10 @@ from importlib import import_module
 
 from parts.base.texts import N_, Text
 
-SUBJECTS = ("general", "gears", "cams", "wheels", "pins", "noncircular", "mates", "motion", "scene", "pages", "exports")
+SUBJECTS = (
+    "general", "gears", "cams", "wheels", "pins", "chains", "noncircular", "mates", "motion", "scene", "pages",
+    "exports",
+)  # fmt: skip
 # what would work, by the side of the nearest value
 REMEDIES = {
     "at_most": N_("at most {value} works"),

@@ -107,6 +107,10 @@ KINDS: Index[Kind[Any, Any]] = Index(
             "parts.pins.geneva_driver:GENEVA_DRIVER",
             "Driver of a Geneva wheel: crank plate, locking disc and pins, or one of its flat pieces; pin 1 on +x",
         ),
+        "sprocket": (
+            "parts.chains.sprocket:SPROCKET",
+            "Sprocket for a roller chain, with the teeth of ISO 606 or of GOST 591; rollers stand on its pitch circle",
+        ),
         "cycloidal_gear": (
             "parts.gears.cycloidal_gear.part:CYCLOIDAL_GEAR",
             "Cycloidal gear, as clocks have it: tips by a circle that rolls outside, roots by one that rolls inside",

@@ -8,16 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geometry.base.record import Record
-from parts.base.readback import Probed, ReadError
+from parts.base.readback import Probed, ReadError, outline_points
 from parts.base.texts import unless
 
 if TYPE_CHECKING:
-    from geometry.curves.curve import Complex
     from geometry.gears.pins.geneva import GenevaWheel
     from parts.base.readback import ReadBack, ReadLoop
 
-# places along a slot; along an edge of the file, and along all of them at most
-_PLACES, _ALONG, _MOST = 65, 129, 40_000
+# places along a slot
+_PLACES = 65
 # rounding, as a part of the wheel's size
 _ROUNDING = 1e-12
 
@@ -33,7 +32,7 @@ class SlotProbe(Record):
     def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
         """Both by the distances of the outline's points, all slots at once; see ``parts.base.readback.Probe``."""
         wheel, drive = self.wheel, self.wheel.drive
-        points, pitch = _points(self._loop(file)), 2 * drive.half_slot_angle
+        points, pitch = outline_points(self._loop(file)), 2 * drive.half_slot_angle
         places = np.linspace(drive.mouth_radius, drive.deepest_radius, _PLACES)
         slots = points * np.exp(-1j * pitch * np.round(np.angle(points) / pitch))
         pin = min(float(np.abs(slots - place).min()) for place in places) - wheel.pin_diameter / 2
@@ -55,14 +54,3 @@ class SlotProbe(Record):
         if len(loops) < number:
             raise ReadError("there are no slots for the pin to pass")
         return loops[-number]
-
-
-def _points(loop: ReadLoop) -> Complex:
-    """Points along an outline, mm."""
-    found = []
-    families = loop.outline().edges
-    count = max(3, min(_ALONG, _MOST // max(sum(map(len, families)), 1)))
-    for family in families:
-        edges = np.repeat(np.arange(len(family)), count)
-        found.append(family.at(edges, np.tile(np.linspace(0, 1, count), len(family)))[0])
-    return np.concatenate(found)

@@ -19,6 +19,8 @@ FINDINGS: dict[str, Text] = {
     "bevel_wide_face": N_("face width {value:.4g} mm is more than the usual {limit:.4g} mm: 0.3 R_e and 10 m"),
     "thin_tip": N_("thin tip: s_a = {value:.3f} mm is below 0.3 m = {limit:.3f} mm"),
     "thin_rim": N_("thin rim: {value:.3f} mm between bore and root circle, less than one module ({limit:.3f} mm)"),
+    "thin_sprocket_tip": N_("thin tip: {value:.3f} mm is below a fiftieth of the pitch, {limit:.3f} mm"),
+    "hub_in_way_of_plates": N_("the hub, {value:.4g} mm, is in the way of the chain's plates: at most {limit:.5g} mm"),
     "relief_not_reached": N_("the tip circle, {value:.3f} mm, lies below the tip relief: this tooth has none"),
     "tip_lost": N_("the offset makes the teeth pointed: {value:.4f} mm of the tip is lost"),
     "fillet_cusp_trimmed": N_(

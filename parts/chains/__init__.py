@@ -1,0 +1,1 @@
+"""Kinds and calculations of chain drives: sprockets."""

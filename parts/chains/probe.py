@@ -1,0 +1,43 @@
+"""What the files of a sprocket must also do: take a roller in every gap, on the pitch circle."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geometry.base.record import Record
+from parts.base.readback import Probed, ReadError, outline_points
+from parts.base.texts import unless
+
+if TYPE_CHECKING:
+    from geometry.gears.chains.sprocket import Sprocket
+    from parts.base.readback import ReadBack
+
+_ROUNDING = 1e-12
+
+
+class RollerProbe(Record):
+    """A roller set in every gap; ``height``: where a solid is cut, mm."""
+
+    sprocket: Sprocket
+    height: float
+    name: str = ""
+    needs_whole: bool = False
+
+    def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
+        """The least gap to its rollers, of all gaps at once; see ``parts.base.readback.Probe``."""
+        sprocket = self.sprocket
+        loops = sorted(file.section(self.height), key=lambda loop: loop.size)
+        if not loops:
+            raise ReadError("there are no teeth for a chain")
+        pitch = sprocket.pitch_angle
+        points = outline_points(loops[-1]) * np.exp(-0.5j * pitch)
+        points *= np.exp(-1j * pitch * np.round(np.angle(points) / pitch))
+        gap = float(np.abs(points - sprocket.pitch_radius).min()) - sprocket.chain.roller_diameter / 2
+        wanted = sprocket.gap.depth - sprocket.chain.roller_diameter / 2
+        allowed = declared + offset + _ROUNDING * sprocket.pitch_radius
+        return Probed(
+            {"roller_gap": gap},
+            tuple(unless(gap >= wanted - allowed, "the gap between rollers and teeth is {gap:.6g} mm", gap=gap)),
+        )

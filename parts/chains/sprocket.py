@@ -1,0 +1,237 @@
+"""The part kind ``sprocket``: a wheel for a roller chain, with the teeth of ISO 606 or of GOST 591-69."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from msgspec import Meta
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import replace
+from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
+from parts.base.kind import Others, Report
+from parts.keys.base import MOST_LENGTH, either, mm, start
+from parts.keys.pins import check_holes, holes_of, most_of
+from parts.keys.wheel import WheelKeys, WheelKind, wheel_shape
+
+if TYPE_CHECKING:
+    from geometry.gears.chains.chain import Chain
+    from geometry.gears.chains.sprocket import Sprocket
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.plane.profile import Profile
+    from geometry.solids.body import Body
+    from parts.base.readback import Probe
+
+# sizes of a chain that is told by its designation or by these
+_SIZES = ("pitch", "roller_diameter", "inner_width", "plate_height", "transverse_pitch", "strands")
+_Length = float | None
+
+
+class SprocketSpec(WheelKeys, kw_only=True, tag_field="kind", tag="sprocket"):
+    """Keys of ``sprocket``."""
+
+    number_of_teeth: Annotated[int, Meta(ge=6, le=200, description="number of teeth z", examples=[17])]
+    chain: (
+        Annotated[
+            str,
+            Meta(description="designation of ISO 606 (08B-1, 16A-2, 081) or GOST 13568 (PR-12.7-18.2), or give pitch"),
+            start("08B-1"),
+        ]
+        | None
+    ) = None
+    pitch: Annotated[float, mm("pitch of a chain of your own", above=0, most=1000, example=12.7)] | None = None
+    roller_diameter: (
+        Annotated[float, mm("diameter of its rollers, or of bushes without them", above=0, most=1000, example=8.51)]
+        | None
+    ) = None
+    inner_width: (
+        Annotated[float, mm("width between its inner plates", above=0, most=1000, example=7.75)] | None
+    ) = None  # fmt: skip
+    plate_height: Annotated[float, mm("height of its plates", above=0, most=1000, example=11.81)] | None = None
+    transverse_pitch: (
+        Annotated[float, mm("from strand to strand of it", above=0, most=1000, example=13.92)] | None
+    ) = None  # fmt: skip
+    strands: Annotated[int, Meta(ge=1, le=3, description="strands of it: rows of teeth", examples=[1])] | None = None
+    tooth_form: Annotated[Literal["ISO 606", "GOST 591"], Meta(description="standard of the tooth form")] = "ISO 606"
+    form: Annotated[
+        float, Meta(ge=0, le=1, description="ISO 606: 0 is the minimum tooth gap, 1 the maximum one")
+    ] = 0.0  # fmt: skip
+    displaced: Annotated[bool, Meta(description="GOST 591: with displaced centres of the seats, e = 0.03 t")] = False
+    tip_diameter: (
+        Annotated[
+            float,
+            mm(
+                "tip diameter; default: midway between the limits of ISO 606, or that of GOST 591",
+                above=0,
+                most=2 * MOST_LENGTH,
+                example=74.0,
+            ),
+        ]
+        | None
+    ) = None
+    face_width: Annotated[float, mm("of a row of teeth; 0: by the inner width of the chain", least=0, most=10_000)] = (
+        0.0
+    )
+
+
+class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
+    """A sprocket for a roller chain."""
+
+    name, keys = "sprocket", SprocketSpec
+
+    def thing(self, keys: SprocketSpec, others: Others) -> Sprocket:
+        """The sprocket, checked to have teeth that enter the chain, and holes within them."""
+        from geometry.gears.chains.sprocket import GostForm, IsoForm, Sprocket, checked_sprocket
+
+        chain = chain_of_keys(keys)
+        gost = keys.tooth_form == "GOST 591"
+        for key, value, none in (("form", keys.form, 0.0), ("displaced", keys.displaced, False)):
+            if value and gost == (key == "form"):
+                raise ParameterError(key, value, "of_another_tooth_form", Nearest(none), form=keys.tooth_form)
+        form = GostForm(keys.displaced) if gost else IsoForm(keys.form)
+        sprocket = checked_sprocket(Sprocket(keys.number_of_teeth, chain, form, keys.tip_diameter))
+        sprocket = replace(sprocket, face_width=_face_width(keys, sprocket))
+        if chain.strands > 1:
+            _check_rows(keys, sprocket)
+        holes, core = holes_of(keys), sprocket.core_radius
+        check_holes(keys, holes, core)
+        check_wheel(_shape(keys, sprocket), 2 * core, holes)
+        return replace(sprocket, holes=holes)
+
+    def section(self, keys: SprocketSpec, thing: Sprocket, offset: float) -> OffsetRegion:
+        """The exact section of the teeth, moved."""
+        from geometry.gears.chains.sprocket import sprocket_region
+
+        return sprocket_region(thing, offset)
+
+    def outline(self, thing: Sprocket, offset: float) -> Profile:
+        """Of its teeth."""
+        from geometry.gears.chains.sprocket import sprocket_side
+
+        return sprocket_side(thing, offset).profile()
+
+    def solid(self, keys: SprocketSpec, thing: Sprocket, offset: float) -> Body:
+        """The sprocket with its rows of teeth, web, hub and chamfers."""
+
+        def outline(moved: float, depth: float) -> Profile:
+            return self.outline(thing, moved - depth)
+
+        sections = wheel_sections(outline, thing.core_radius, thing.holes)
+        if thing.strands > 1:
+            from geometry.gears.chains.rows import rows_of_teeth
+
+            sections = replace(sections, rim=partial(rows_of_teeth, thing))
+        return wheel_body(_shape(keys, thing), sections, offset)
+
+    def height(self, keys: SprocketSpec, thing: Sprocket) -> float:
+        """Width of all rows, mm."""
+        return thing.total_width
+
+    def is_plate(self, keys: SprocketSpec, thing: Sprocket) -> bool:
+        """Whether there is nothing but one section."""
+        return thing.strands == 1 and _shape(keys, thing).is_plate
+
+    def numbers(self, keys: SprocketSpec) -> str:
+        """Teeth, and the chain."""
+        pitch = f"p\u00a0{keys.pitch:.6g}" if keys.pitch else keys.chain
+        return f"{super().numbers(keys)} {pitch}"
+
+    def report(self, keys: SprocketSpec, thing: Sprocket) -> Report:
+        """Diameters, the measurement over pins, and what is poor."""
+        from geometry.base.findings import Finding
+        from geometry.gears.chains.sprocket import sprocket_findings
+
+        circles = {
+            "tip_diameter": 2 * thing.tip_radius,
+            "pitch_diameter": 2 * thing.pitch_radius,
+            "root_diameter": 2 * thing.root_radius,
+        }
+        quantities = {
+            "pitch": thing.chain.pitch,
+            "roller_diameter": thing.chain.roller_diameter,
+            "tooth_row_width": thing.face_width,
+            "tip_tooth_thickness": thing.tip_thickness,
+            "sprocket_over_pins": thing.over_pins,
+        }
+        found, room = sprocket_findings(thing), thing.plate_room
+        if room:
+            quantities["plate_room_diameter"] = room
+        if keys.hub is not None and 0 < room < keys.hub.diameter:
+            found += (Finding("hub_in_way_of_plates", keys.hub.diameter, room),)
+        return Report(found, circles, quantities)
+
+    def probes(self, keys: SprocketSpec, thing: Sprocket) -> tuple[Probe, ...]:
+        """Rollers sit in every gap."""
+        from parts.chains.probe import RollerProbe
+
+        return (RollerProbe(thing, thing.face_width / 2),)
+
+
+SPROCKET = SprocketKind()
+
+
+def chain_of_keys(keys: SprocketSpec) -> Chain:
+    """The chain of the keys, by its designation or by its sizes.
+
+    Raises
+    ------
+    ParameterError
+        No such chain, one that is told twice, or a size that is missing.
+    """
+    from geometry.gears.chains.chain import Chain, chain_of, like_chain
+
+    if keys.chain is not None:
+        for key in _SIZES:
+            if (value := getattr(keys, key)) is not None:
+                raise either(key, value, "chain")
+        found = chain_of(keys.chain)
+        if found is None:
+            like = like_chain(keys.chain)
+            raise ParameterError("chain", keys.chain, "no_such_chain", Nearest(like, "meant") if like else None)
+        return found
+    for key in ("pitch", "roller_diameter"):
+        if getattr(keys, key) is None:
+            raise ParameterError(key, None, "one_of_two_is_missing", other="chain")
+    pitch, roller = keys.pitch or 0.0, keys.roller_diameter or 0.0
+    sizes = keys.inner_width or 0.0, keys.plate_height or 0.0, keys.transverse_pitch or 0.0
+    return Chain(pitch, roller, *sizes, strands=keys.strands or 1)
+
+
+def _face_width(keys: SprocketSpec, sprocket: Sprocket) -> float:
+    """Width of a row of teeth, which enters the chain, mm."""
+    from geometry.gears.chains.sprocket import face_width
+
+    inner = sprocket.chain.inner_width
+    if keys.face_width == 0:
+        if not inner:
+            raise ParameterError("inner_width", None, "one_of_two_is_missing", other="face_width")
+        width = face_width(sprocket.chain, sprocket.form)
+        if not width > 0:
+            raise ParameterError("inner_width", inner, "leaves_no_tooth_between_plates")
+        return width
+    if inner and keys.face_width >= inner:
+        raise ParameterError(
+            "face_width", keys.face_width, "wider_than_chain", most_of(inner, keys.face_width), width=inner
+        )
+    return keys.face_width
+
+
+def _check_rows(keys: SprocketSpec, sprocket: Sprocket) -> None:
+    """Rows of teeth stand apart, their chain's plates go between them, and its body has no chamfers."""
+    chain = sprocket.chain
+    for key in ("transverse_pitch", "plate_height"):
+        if not getattr(chain, key):
+            raise ParameterError(key, None, "needed_for_strands", strands=chain.strands)
+    if sprocket.face_width >= chain.transverse_pitch:
+        most, apart = most_of(chain.transverse_pitch, sprocket.face_width), chain.transverse_pitch
+        raise ParameterError("face_width", sprocket.face_width, "wider_than_strands", most, width=apart)
+    if not sprocket.core_radius > 0:
+        raise ParameterError("plate_height", chain.plate_height, "leaves_no_core")
+    if keys.face_chamfer:
+        raise ParameterError("face_chamfer", None, "of_one_strand", Nearest(None))
+
+
+def _shape(keys: SprocketSpec, sprocket: Sprocket) -> WheelShape:
+    """Width of all rows, web, hub and chamfers."""
+    return wheel_shape(sprocket.total_width, keys.web, keys.hub, keys.face_chamfer)

@@ -1,0 +1,189 @@
+"""Sprockets: makers' tables, forms by the constructions of their standards, rollers as disks of shapely."""
+
+from __future__ import annotations
+
+import cmath
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from shapely.geometry import Point, Polygon
+
+from geometry.base.errors import ParameterError
+from geometry.curves.curve import Complex
+from geometry.curves.line_arc import Arc
+from geometry.gears.chains.chain import Chain, chain_of, chains
+from geometry.gears.chains.sprocket import GostForm, IsoForm, Sprocket, checked_sprocket, face_width, sprocket_side
+from geometry.plane.profile import Label, Profile
+from tests.sampling import examples
+
+PRINTED = json.loads((Path(__file__).parents[3] / "published" / "sprockets.json").read_text(encoding="utf-8"))
+FORMS = (IsoForm(), IsoForm(0.5), IsoForm(1.0), GostForm(), GostForm(displaced=True))
+
+
+def named(designation: str) -> Chain:
+    """A chain of the table."""
+    found = chain_of(designation)
+    assert found is not None
+    return found
+
+
+def points(profile: Profile, each: int = 60) -> Complex:
+    """Along the outline, arcs by chords."""
+    return np.concatenate([s.curve.point(np.linspace(*s.curve.domain, each)[:-1]) for s in profile.segments()])
+
+
+@pytest.mark.parametrize("row", PRINTED["chains"]["rows"], ids=lambda row: row[0])
+def test_chains_of_a_makers_table(row: list[float]) -> None:
+    chain = named(str(row[0]))
+    sizes = chain.pitch, chain.transverse_pitch, chain.roller_diameter, chain.inner_width, chain.plate_height
+    # the maker rounds inches to 0.01 mm in its own way
+    assert sizes == pytest.approx(row[1:], abs=0.011)
+    assert chain.strands == 2
+
+
+@pytest.mark.parametrize(("table", "chain"), [("plate_wheels_081", "081-1"), ("duplex_32B", "32B-2")])
+def test_pitch_and_tip_diameters_of_catalogues(table: str, chain: str) -> None:
+    for teeth, tip, pitch in PRINTED[table]["rows"]:
+        sprocket = Sprocket(teeth, named(chain), IsoForm())
+        if pitch is not None:
+            # printed to 0.01, some cut off and not rounded
+            assert 2 * sprocket.pitch_radius == pytest.approx(pitch, abs=0.035)
+        if tip is not None:
+            # inside the limits of the standard, which leave makers their choice
+            least, most = sprocket.form.tips(sprocket.chain, teeth)
+            assert least < tip < most
+            assert checked_sprocket(Sprocket(teeth, named(chain), IsoForm(), tip)).tip_radius == tip / 2
+
+
+def test_sizes_of_a_sprocket_08b_by_hand() -> None:
+    """z = 17, p = 12.7, d1 = 8.51, b1 = 7.75: every formula of ISO 606, put in by hand to four figures and more."""
+    form, chain = IsoForm(), named("08B-1")
+    sprocket = Sprocket(17, chain, form, face_width=1.0)
+    assert 2 * sprocket.pitch_radius == pytest.approx(69.1158, abs=1e-4)
+    assert 2 * sprocket.root_radius == pytest.approx(60.6058, abs=1e-4)
+    assert form.tips(chain, 17) == pytest.approx((72.1105, 76.4808), abs=1e-4)
+    # M_R = d cos(90 deg / z) + d_R, 17 is odd; of 18 teeth d + d_R with d = 73.1364
+    assert sprocket.over_pins == pytest.approx(69.1158 * math.cos(math.radians(90 / 17)) + 8.51, abs=2e-4)
+    assert Sprocket(18, chain, form).over_pins == pytest.approx(73.1364 + 8.51, abs=1e-4)
+    assert face_width(chain, form) == pytest.approx(0.93 * 7.75)
+    assert face_width(named("16B-1"), form) == pytest.approx(0.95 * 17.02)
+    assert face_width(named("08B-2"), form) == pytest.approx(0.91 * 7.75)
+    assert face_width(named("16B-3"), form) == pytest.approx(0.93 * 17.02)
+    assert sprocket.plate_room == pytest.approx(12.7 / math.tan(math.pi / 17) - 1.04 * 11.81 - 0.76)
+    assert [form.flank_radius(8.51, 17), IsoForm(1.0).flank_radius(8.51, 17)] == pytest.approx([19.4028, 31.9295])
+    assert [form.seating_radius(8.51), IsoForm(1.0).seating_radius(8.51)] == pytest.approx([4.2976, 4.4384], abs=1e-4)
+
+
+@pytest.mark.parametrize("displaced", [False, True])
+@pytest.mark.parametrize(("chain", "teeth"), [("ПР-25,4-60", 25), ("ПР-12,7-18,2", 9), ("ПР-38,1-127", 40)])
+def test_gost_gaps_have_the_centres_of_their_standard(chain: str, teeth: int, displaced: bool) -> None:
+    """Centres O, O1, O2 by the coordinates that GOST 591-69 gives, x across the gap and y outwards from O."""
+    found = named(chain)
+    size, sprocket = found.roller_diameter, Sprocket(teeth, found, GostForm(displaced))
+    alpha, beta = math.radians(55 - 60 / teeth), math.radians(18 - 56 / teeth)
+    radius = 0.5025 * size + 0.05
+    centre = sprocket.pitch_radius + (0.5j * 0.03 * found.pitch if displaced else 0j)
+    seat, wide = complex(0.8 * size * math.cos(alpha), -0.8 * size * math.sin(alpha)), 1.24 * size
+    head = wide * complex(-math.sin(math.pi / teeth), math.cos(math.pi / teeth))
+    turned = cmath.rect(1.0, -math.pi / teeth)
+    wanted = [(centre + o) * turned for o in (0j, seat, head)]
+    arcs = [s.curve for s in sprocket_side(sprocket).segments if isinstance(s.curve, Arc) and s.label != Label.TIP_LAND]
+    assert [arc.centre for arc in arcs] == pytest.approx(wanted, abs=1e-9 * sprocket.tip_radius)
+    assert [arc.radius for arc in arcs[:2]] == pytest.approx([radius, 0.8 * size + radius])
+    assert arcs[1].sweep == pytest.approx(-beta)
+    # D_e = t (K + cot(180 deg / z)), K by the pitch over the roller: 0.532 of 1.6, 0.480 of 1.49, 0.575 of 1.71
+    height = {"ПР-25,4-60": 0.532, "ПР-12,7-18,2": 0.480, "ПР-38,1-127": 0.575}[chain]
+    assert 2 * sprocket.tip_radius == pytest.approx(found.pitch * (height + 1 / math.tan(math.pi / teeth)))
+
+
+@pytest.mark.parametrize("form", FORMS, ids=repr)
+def test_outlines_are_smooth_but_for_their_tips_and_take_a_roller_in_every_gap(form: IsoForm | GostForm) -> None:
+    for designation, teeth in (("08B", 17), ("ПР-19,05-31,8", 6), ("081", 50)):
+        sprocket = checked_sprocket(Sprocket(teeth, named(designation), form))
+        side = sprocket_side(sprocket)
+        joints = [
+            abs(complex(b.curve.tangent(0.0)) - complex(a.curve.tangent(a.curve.domain[1])))
+            for a, b in zip(side.segments[:-2], side.segments[1:-1], strict=True)
+        ]
+        assert max(joints) < 1e-9
+        outline = points(side.profile())
+        roller, depth = sprocket.chain.roller_diameter / 2, sprocket.gap.depth
+        for k in range(teeth):
+            centre = cmath.rect(sprocket.pitch_radius, (2 * k + 1) * math.pi / teeth)
+            assert np.abs(outline - centre).min() - roller == pytest.approx(depth - roller, abs=1e-4)
+        assert np.abs(outline).min() == pytest.approx(sprocket.root_radius, abs=1e-9 * sprocket.tip_radius)
+
+
+@pytest.mark.parametrize("form", FORMS, ids=repr)
+def test_a_roller_that_leaves_along_its_involute_cuts_no_tooth(form: IsoForm | GostForm) -> None:
+    """A link that is straightened about its seated neighbour: the roller at its end runs on a circle about that."""
+    for designation, teeth in (("08B", 9), ("08B", 38), ("16A", 17)):
+        sprocket = checked_sprocket(Sprocket(teeth, named(designation), form))
+        outline = points(sprocket_side(sprocket).profile())
+        plate = Polygon(np.column_stack((outline.real, outline.imag)))
+        chain, step = sprocket.chain, sprocket.pitch_angle
+        seat = cmath.rect(sprocket.pitch_radius, step / 2)
+        deepest = 0.0
+        for turn in np.linspace(0.0, step, 13):
+            # from the next gap outwards by as much as the sprocket turns on: then it seats the next roller
+            place = seat + (cmath.rect(sprocket.pitch_radius, 1.5 * step) - seat) * cmath.rect(1.0, -turn)
+            disk = Point(place.real, place.imag).buffer(chain.roller_diameter / 2, 128)
+            deepest = max(deepest, plate.intersection(disk).area)
+        assert deepest < 1e-4 * chain.roller_diameter**2
+
+
+@examples(25)
+@given(
+    teeth=st.integers(6, 200),
+    name=st.sampled_from(sorted(chains())),
+    form=st.sampled_from(FORMS),
+    offset=st.sampled_from((-0.1, -0.01, 0.01, 0.1)),
+)
+def test_every_sprocket_of_the_table_is_an_outline_or_says_why_not(
+    teeth: int, name: str, form: IsoForm | GostForm, offset: float
+) -> None:
+    sprocket = Sprocket(teeth, named(name), form)
+    try:
+        checked_sprocket(sprocket)
+    except ParameterError as refusal:
+        found = refusal
+    else:
+        found = None
+    if found is not None:
+        # teeth of the least pitches to a roller are pointed with displaced seats
+        assert found.name == "displaced"
+        assert found.nearest is not None
+        return
+    side = sprocket_side(sprocket, offset)
+    plain = Polygon([(p.real, p.imag) for p in points(side.profile(), 12)])
+    whole = Polygon([(p.real, p.imag) for p in points(sprocket_side(sprocket).profile(), 12)])
+    assert plain.is_valid
+    # outline and parallel lie |offset| apart, chords of 12 to an arc aside
+    if not side.findings:
+        # of one period: the others are like it
+        around = plain.exterior.coords[: len(plain.exterior.coords) // teeth]
+        apart = [whole.exterior.distance(Point(place)) for place in around]
+        assert max(apart) == pytest.approx(abs(offset), abs=0.01 * sprocket.chain.pitch)
+    assert (plain.area - whole.area) * offset > 0
+
+
+def test_refusals_name_what_works() -> None:
+    chain = named("08B-1")
+    for wrong, cured in ((80.0, 76.4808), (70.0, 72.1105)):
+        with pytest.raises(ParameterError) as refused:
+            checked_sprocket(Sprocket(17, chain, IsoForm(), wrong))
+        assert refused.value.name == "tip_diameter"
+        assert refused.value.nearest is not None
+        assert refused.value.nearest.value == pytest.approx(cured, abs=2e-4)
+        checked_sprocket(Sprocket(17, chain, IsoForm(), float(str(refused.value.nearest.value))))
+    with pytest.raises(ParameterError, match="no_height_of_tooth"):
+        checked_sprocket(Sprocket(17, Chain(12.7, 6.0), GostForm()))
+    with pytest.raises(ParameterError, match="leaves_no_tooth_between_rollers"):
+        checked_sprocket(Sprocket(17, Chain(12.7, 12.6), IsoForm()))
+    assert chain_of("08X-1") is None
+    assert chain_of("081-2") is None

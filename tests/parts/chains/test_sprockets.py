@@ -1,0 +1,93 @@
+"""Sprockets in scenes: chains by name or by sizes, rows of teeth, refusals that name what works, files with rollers."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from exporters.formats.read_dxf import read_dxf
+from geometry.base.record import replace
+from geometry.plane.measure import profile_area
+from geometry.solids.mass import body_moments
+from parts.base.part import Part
+from parts.base.refusal import SceneError
+from parts.chains.probe import RollerProbe
+from parts.scene.load import make_parts, scene_from_dict
+from tests.exporters.making import read_report, run, write_scene
+
+Keys = dict[str, Any]
+PLATE: Keys = {"kind": "sprocket", "chain": "08B-1", "number_of_teeth": 17, "bore_diameter": 20.0}
+OWN: Keys = {"kind": "sprocket", "pitch": 12.7, "roller_diameter": 8.51, "number_of_teeth": 17}
+
+
+def made(keys: Keys) -> Part:
+    """The part of its keys."""
+    return make_parts(scene_from_dict({"parts": {"a": keys}}, "t", "t"), "t")[0]["a"]
+
+
+def test_a_chain_by_its_name_is_one_by_its_sizes() -> None:
+    by_name = made(PLATE).thing
+    by_sizes = made(OWN | {"inner_width": 7.75, "bore_diameter": 20.0}).thing
+    assert (by_name.tip_radius, by_name.face_width) == (by_sizes.tip_radius, by_sizes.face_width)
+    assert made(PLATE).is_plate
+
+
+def test_three_rows_of_teeth_are_plates_on_a_core() -> None:
+    """Areas of the rows and of the circle that ISO 606 leaves to the plates, with hub and bore."""
+    part = made(PLATE | {"chain": "08B-3", "hub": {"diameter": 40.0, "above": 6.0}})
+    teeth = profile_area(part.section(0.0).region.outer)
+    core = 12.7 / math.tan(math.pi / 17) - 1.04 * 11.81 - 0.76
+    width, length = 0.91 * 7.75, 2 * 13.92 + 0.91 * 7.75
+    assert part.face_width == pytest.approx(length)
+    wanted = 3 * width * teeth + 2 * (13.92 - width) * math.pi * core**2 / 4 + 6.0 * math.pi * 20.0**2
+    wanted -= (length + 6.0) * math.pi * 10.0**2
+    assert body_moments(part.body(0.0)).volume == pytest.approx(wanted, rel=1e-12)
+    assert not part.is_plate
+
+
+@pytest.mark.parametrize(
+    ("keys", "key", "cure"),
+    [
+        (PLATE | {"chain": "08C"}, "chain", "08B"),
+        (PLATE | {"chain": "081-2"}, "chain", "081"),
+        (PLATE | {"pitch": 12.7}, "pitch", None),
+        (OWN, "inner_width", None),
+        (PLATE | {"face_width": 8.0}, "face_width", 7.749992),
+        (PLATE | {"displaced": True}, "displaced", False),
+        (PLATE | {"form": 0.5, "tooth_form": "GOST 591"}, "form", 0.0),
+        (PLATE | {"tip_diameter": 77.0}, "tip_diameter", 76.480827),
+        (PLATE | {"bore_diameter": 61.0}, "bore_diameter", 60.505767),
+        (PLATE | {"chain": "08B-2", "face_chamfer": 0.5}, "face_chamfer", None),
+        (OWN | {"inner_width": 7.75, "strands": 2}, "transverse_pitch", None),
+        (PLATE | {"chain": "06B", "number_of_teeth": 90, "tooth_form": "GOST 591", "displaced": True}, "displaced",
+         False),
+    ],
+)  # fmt: skip
+def test_bad_keys_are_refused_with_what_works(keys: Keys, key: str, cure: object) -> None:
+    with pytest.raises(SceneError) as refused:
+        made(keys)
+    assert refused.value.key == f"parts.a.{key}"
+    nearest = refused.value.nearest
+    if cure is not None:
+        assert nearest is not None
+        assert nearest.value == (pytest.approx(cure) if isinstance(cure, float) else cure)
+        made(keys | {key: nearest.value})
+
+
+def test_files_take_rollers_and_one_that_does_not_is_caught(tmp_path: Path) -> None:
+    parts = {"iso": PLATE, "gost": PLATE | {"tooth_form": "GOST 591", "number_of_teeth": 12, "chain": "ПР-12,7-18,2"}}
+    exports = ({"format": "dxf"}, {"format": "dxf", "name": "cut", "kerf": 0.2}, {"format": "svg"}, {"format": "stl"})
+    assert run("build", write_scene(tmp_path / "s.toml", parts, exports), "--out", tmp_path / "out") == 0
+    built = tmp_path / "out" / "s"
+    for entry in read_report(built)["files"]:
+        gap = 0.0025 * 8.51 + 0.05 if entry["part"] == "gost" else 0.0
+        off = entry["max_error"] + 1e-6
+        assert entry["measured"]["roller_gap"] == pytest.approx(gap - entry["offset"], abs=off)
+    sprocket, file = made(PLATE).thing, read_dxf(built / "iso.laser.dxf")
+    assert RollerProbe(sprocket, 2.0).run(file, 0.0, 1e-6).failures == ()
+    thick = replace(sprocket, chain=replace(sprocket.chain, roller_diameter=8.52))
+    (failure,) = RollerProbe(thick, 2.0).run(file, 0.0, 1e-6).failures
+    assert "rollers" in failure
