@@ -128,20 +128,24 @@ def _filled(
     view: View, scale: float, language: str, free: Mapping[Side, float], *, own: bool, first: Sequence[Note] = ()
 ) -> _Layout | None:
     """A view with all of its dimensions, ``first`` those notes; None where they find no room."""
-    sizes = sorted(view.sizes, key=lambda one: one.value)
     leaders: list[_Led] = [*view.slants, *view.angles, *view.rounds, *(() if first else view.notes)]
+    order: list[Size | _Led] = [*sorted(view.sizes, key=lambda one: one.value), *leaders]
     tried: list[list[Size | _Led]] = []
-    while (order := [*sizes, *leaders]) not in tried and len(tried) < _TRIES:
+    while order not in tried and len(tried) < _TRIES:
         tried.append(order)
         made = _Layout(view, scale, language, free, own=own)
         try:
-            made.fill(first, sizes, leaders, view.title)
+            made.fill(first, order, view.title)
             return made
         except _NoRoomError as refusal:
-            # what had no room is the first to choose
             owner = refusal.owner
-            sizes = [*(one for one in sizes if one is owner), *(one for one in sizes if one is not owner)]
-            leaders = [*(one for one in leaders if one is owner), *(one for one in leaders if one is not owner)]
+            rest = [one for one in order if one is not owner]
+            # what had no room is the first to choose among sizes or leaders, then before all
+            like = [k for k, one in enumerate(rest) if isinstance(one, Size) == isinstance(owner, Size)]
+            at = min(like, default=len(rest))
+            order = [*rest[:at], owner, *rest[at:]]
+            if order in tried:
+                order = [owner, *rest]
     return None
 
 
@@ -167,17 +171,18 @@ class _Layout:
         for cut in view.cuts:
             self._cut(cut, view.sizes)
 
-    def fill(self, first: Sequence[Note], sizes: Sequence[Size], leaders: Sequence[_Led], title: str) -> None:
+    def fill(self, first: Sequence[Note], order: Sequence[Size | _Led], title: str) -> None:
         """Add all words with their lines, in this order."""
         for note in first:
             self._note(note)
-        for k, size in enumerate(sizes):
-            # where extension lines will run past its words
-            ends = [p for other in sizes[k + 1 :] if other.side == size.side for p in (other.start, other.end)]
-            if not any(self._size(size, coming) for coming in (ends, ())):
-                raise _NoRoomError(size)
-        for one in leaders:
-            if isinstance(one, Round):
+        for k, one in enumerate(order):
+            if isinstance(one, Size):
+                # where extension lines will run past its words
+                later = (other for other in order[k + 1 :] if isinstance(other, Size) and other.side == one.side)
+                ends = [p for other in later for p in (other.start, other.end)]
+                if not any(self._size(one, coming) for coming in (ends, ())):
+                    raise _NoRoomError(one)
+            elif isinstance(one, Round):
                 self._round(one)
             elif isinstance(one, Note):
                 self._note(one)

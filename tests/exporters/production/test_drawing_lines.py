@@ -195,3 +195,13 @@ def test_the_sign_on_the_seats_of_a_ring_keeps_off_dimension_lines(tmp_path: Pat
     (job,) = jobs(PARTS["pin ring"], formats=("dxf",))
     job.write({}, tmp_path / job.path)
     assert run_over(tmp_path / job.path) == 0
+
+
+def test_an_angle_without_room_beside_sizes_chooses_before_them(tmp_path: Path) -> None:
+    """As it was: the tip angle found room at 1:5 only, with leaders across each other."""
+    scene = load_scene("bevel_differential")
+    scene.exports = [ExportSpec(format="dxf", purpose="part", parts=["side"])]
+    (job,) = plan_build(scene, "bevel_differential", [], []).sheets
+    job.write({}, tmp_path / job.path)
+    assert tangles(tmp_path / job.path) == []
+    assert {one.scale for one in job.canvas.dimensions} == {1.0}
