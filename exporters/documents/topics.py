@@ -39,6 +39,7 @@ TOPICS = {
     "cycloidal": ("parts.pins.cycloidal_page", "DiscKeys"),
     "cycloidal-gear": ("parts.gears.cycloidal_gear.page", "CycloidalGearKeys"),
     "lantern": ("parts.pins.lantern_page", "LanternKeys"),
+    "sprocket": ("parts.chains.page", "SprocketKeys"),
     "geneva": ("parts.mates.pages.geneva", "GenevaKeys"),
     "noncircular": ("parts.gears.noncircular_gear.page", "NoncircularKeys"),
     "lever": ("parts.mates.pages.levers", "LeverKeys"),

@@ -79,6 +79,7 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
     """A sprocket for a roller chain."""
 
     name, keys = "sprocket", SprocketSpec
+    drawing = data_table = "parts.chains.drawing"
 
     def thing(self, keys: SprocketSpec, others: Others) -> Sprocket:
         """The sprocket, checked to have teeth that enter the chain, and holes within them."""
@@ -96,7 +97,7 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
             _check_rows(keys, sprocket)
         holes, core = holes_of(keys), sprocket.core_radius
         check_holes(keys, holes, core)
-        check_wheel(_shape(keys, sprocket), 2 * core, holes)
+        check_wheel(shape_of_sprocket(keys, sprocket), 2 * core, holes)
         return replace(sprocket, holes=holes)
 
     def section(self, keys: SprocketSpec, thing: Sprocket, offset: float) -> OffsetRegion:
@@ -122,7 +123,7 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
             from geometry.gears.chains.rows import rows_of_teeth
 
             sections = replace(sections, rim=partial(rows_of_teeth, thing))
-        return wheel_body(_shape(keys, thing), sections, offset)
+        return wheel_body(shape_of_sprocket(keys, thing), sections, offset)
 
     def height(self, keys: SprocketSpec, thing: Sprocket) -> float:
         """Width of all rows, mm."""
@@ -130,7 +131,7 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
 
     def is_plate(self, keys: SprocketSpec, thing: Sprocket) -> bool:
         """Whether there is nothing but one section."""
-        return thing.strands == 1 and _shape(keys, thing).is_plate
+        return thing.strands == 1 and shape_of_sprocket(keys, thing).is_plate
 
     def numbers(self, keys: SprocketSpec) -> str:
         """Teeth, and the chain."""
@@ -232,6 +233,6 @@ def _check_rows(keys: SprocketSpec, sprocket: Sprocket) -> None:
         raise ParameterError("face_chamfer", None, "of_one_strand", Nearest(None))
 
 
-def _shape(keys: SprocketSpec, sprocket: Sprocket) -> WheelShape:
+def shape_of_sprocket(keys: SprocketSpec, sprocket: Sprocket) -> WheelShape:
     """Width of all rows, web, hub and chamfers."""
     return wheel_shape(sprocket.total_width, keys.web, keys.hub, keys.face_chamfer)

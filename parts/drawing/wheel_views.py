@@ -67,13 +67,21 @@ class Crown(Record):
         return [line for line in found if isinstance(line, Arc) or abs(line.end - line.start) > 1e-9]
 
 
+class Groove(Record):
+    """A groove turned into a rim: from z to z, down to a radius, mm."""
+
+    low: float
+    high: float
+    radius: float
+
+
 class Wheel(Record):
     """What the views of a wheel show, radii in mm.
 
     ``tip`` up and down from the axis, where it is not round; ``root`` and ``pitch``: of teeth on it, None: it has none;
     ``outline``: the exact one, None: it has another at each height; ``crown``: of a worm wheel; ``rounds``: circles
     about the axis that are shown, with their sizes; ``stands``: its face is drawn with the bore upright; ``runs``: its
-    outside, which is round, is a working surface.
+    outside, which is round, is a working surface; ``grooves``: between rows of teeth.
     """
 
     shape: WheelShape
@@ -86,6 +94,7 @@ class Wheel(Record):
     rounds: tuple[Round, ...] = ()
     stands: bool = True
     runs: bool = False
+    grooves: tuple[Groove, ...] = ()
 
     @property
     def turn(self) -> float:
@@ -201,7 +210,9 @@ def _half(wheel: Wheel, bore: float, outer: float, *, toothed: bool) -> list[com
         last = 0.0 if toothed else cut
         points += [complex(at.rim[side], outer - last), complex(at.rim[side] - way * last, outer)]
         sides.append(points)
-    return [*sides[0], *sides[1][::-1]]
+    notches = [complex(z, r) for g in reversed(wheel.grooves)
+           for z, r in ((g.high, outer), (g.high, g.radius), (g.low, g.radius), (g.low, outer))]  # fmt: skip
+    return [*sides[0], *notches, *sides[1][::-1]]
 
 
 def _loops(wheel: Wheel, bore: float, tip: float) -> tuple[Loop, Loop, Loop]:

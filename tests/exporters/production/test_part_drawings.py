@@ -82,6 +82,8 @@ PARTS["geneva"] = {"kind": "geneva_wheel", "number_of_slots": 4, "centre_distanc
 PARTS["geneva ring"] = {key: value for key, value in PARTS["geneva"].items() if key != "bore_diameter"} | {
     "internal": True, "tip_rounding": 1.0, "outer_diameter": 320.0,
 }  # fmt: skip
+PARTS["sprocket"] = {"kind": "sprocket", "chain": "08B-2", "number_of_teeth": 12, "bore_diameter": 14.0,
+                     "hub": {"diameter": 30.0, "above": 8.0}}  # fmt: skip
 PARTS |= {
     "pin": {"kind": "pin", "diameter": 8.0, "length": 60.0},
     "eccentric": {"kind": "eccentric", "diameter": 32.0, "eccentricity": 4.0, "bore_diameter": 10.0},
@@ -172,6 +174,19 @@ SIZES: dict[str, list[float]] = {
         80 * (1 + math.sin(math.pi / 4)) + 5,
         42.5,
         1,
+    ],
+    # ISO 606: d and d - d1, d + p (1.125 - 0.8/z) - d1, b_f = 0.91 b1, p_t, p cot(180 deg / z) - 1.04 h2 - 0.76
+    "sprocket": [
+        14,
+        30,
+        12.7 / math.sin(math.pi / 12),
+        12.7 / math.sin(math.pi / 12) - 8.51,
+        12.7 / math.sin(math.pi / 12) + 12.7 * (1.125 - 0.8 / 12) - 8.51,
+        0.91 * 7.75,
+        13.92,
+        13.92 + 0.91 * 7.75,
+        21.92 + 0.91 * 7.75,
+        12.7 / math.tan(math.pi / 12) - 1.04 * 11.81 - 0.76,
     ],
     "plate": [120, 80, 8, 15, 105, 60, 15, 50, 6, 20],
     "pin": [8, 60],
