@@ -13,14 +13,14 @@ from functools import lru_cache, partial
 import numpy as np
 
 from geometry.approximation.outline import Outline
-from geometry.approximation.tensor import axis_poles, clamped, greville, tensor_poles
+from geometry.approximation.tensor import axis_poles, clamped, greville
 from geometry.base.errors import ConvergenceError
 from geometry.base.placement import Placement2
 from geometry.base.record import Record
 from geometry.curves.bspline import BSpline, SeenEdge, basis_matrix
 from geometry.curves.curve import Real, end_point, start_point
 from geometry.curves.line_arc import Arc
-from geometry.gears.face.gear import FLANK, SIDES, FaceGear
+from geometry.gears.face.gear import FLANK, SIDES, FaceGear, Places
 from geometry.gears.face.walls import wall_distance
 from geometry.plane.profile import Label, Profile, Segment
 from geometry.solids.body_faces import BodyFaces, body_outlines
@@ -41,10 +41,12 @@ from geometry.solids.faces import (
 from geometry.solids.measured import Measured
 from geometry.solids.rings import AHEAD, UP
 
-# spans one way at most, samples of each, and what is added to sampled errors
-_DEGREE, _MOST_SPANS, _SAMPLES, _MARGIN = 7, 64, 11, 1.5
-# kernels join edges and faces within 1e-7 mm
-_TARGET, _ROUNDING = 2e-8, 8e-15
+# degrees across a side and along it, where it is nearly straight; spans one way at most, samples of each, and what is
+# added to sampled errors
+_DEGREES, _MOST_SPANS, _SAMPLES, _MARGIN = (7, 5), 64, 11, 1.5
+# mm: splines are never farther off, along the normal; and at both ends from the cylinders there, where kernels join
+# edges and faces within 1e-7 mm
+_COARSEST, _JOINT, _ROUNDING = 1e-6, 2e-8, 8e-15
 # by which power spans across a side come closer at the joint of fillet and flank
 _CLOSER = 1.5
 # lines of the other way on which the spans of one are chosen
@@ -63,24 +65,28 @@ def faced_face_gear(gear: FaceGear) -> FacedBody:
     made = lru_cache(maxsize=2)(partial(face_gear_solid, gear))
     low, *_, high = gear.core.levels()
     ends = low, max(high, gear.height), gear.outer_radius
-    return FacedBody(lambda t: made(min(t, _TARGET)), walls, own_ends=ends)
+    return FacedBody(lambda t: made(min(t, _COARSEST)), walls, own_ends=ends)
 
 
 class _Wall(Record, eq=False):
-    """Splines of the upper side of tooth 1: knots from root to tip and inwards, poles (u, v, 3), error, mm."""
+    """Splines of the upper side of tooth 1: knots from root to tip and inwards, poles (u, v, 3).
+
+    Errors, mm: along the normals, and of both ends off their cylinders.
+    """
 
     across: Real
     along: Real
     poles: Real
     error: float
+    ends: float
 
 
 def seen_spaces(gear: FaceGear, tolerance: float) -> Profile:
     """What lies between the tips, and within them, as it is seen along the axis; splines within ``tolerance`` mm."""
-    breaks = np.linspace(0.0, 1.0, _spans(gear, FLANK, 1, tolerance) + 1)
-    knots = clamped(_DEGREE, breaks)
-    poles = axis_poles(_DEGREE, knots, _points(gear, FLANK, np.ones(1), greville(_DEGREE, knots))[0], 0)
-    inwards = SeenEdge(BSpline(_DEGREE, knots, poles[:, 0] + 1j * poles[:, 1]))
+    degree = _DEGREES[1]
+    knots = clamped(degree, np.linspace(0.0, 1.0, _spans(gear, FLANK, 1, tolerance) + 1))
+    poles = axis_poles(degree, knots, _spatial(gear, _places(gear, FLANK, np.ones(1), greville(degree, knots)))[0], 0)
+    inwards = SeenEdge(BSpline(degree, knots, poles[:, 0] + 1j * poles[:, 1]))
     outer, inner = (cmath.phase(end(inwards)) for end in (start_point, end_point))
     pitch = math.tau / gear.number_of_teeth
     # from middle to middle of teeth: points are folded into that sector
@@ -92,8 +98,8 @@ def seen_spaces(gear: FaceGear, tolerance: float) -> Profile:
     return Profile(tuple(map(Segment, edges, labels)), gear.number_of_teeth)
 
 
-def _points(gear: FaceGear, which: int, share: Real, inwards: Real) -> Real:
-    """Places (u, v, 3) of the upper side of tooth 1, mm.
+def _places(gear: FaceGear, which: int, share: Real, inwards: Real) -> Places:
+    """Places (u, v) of the upper side of tooth 1.
 
     Radii are those of the joint of fillet and flank at even pressure angles: near the undercut these have a branch.
     """
@@ -101,29 +107,50 @@ def _points(gear: FaceGear, which: int, share: Real, inwards: Real) -> Real:
     high, low = np.arccos(gear.section_x(0.0) / gear.side(FLANK, 0.0, np.array(ends)).x).tolist()
     radius = gear.cut_radius(high + (low - high) * inwards, gear.shaper.form_length)
     radius[inwards == 0], radius[inwards == 1] = ends
-    at = gear.side(which, share[:, None], radius)
+    return gear.side(which, share[:, None], radius)
+
+
+def _spatial(gear: FaceGear, at: Places) -> Real:
+    """The same as points of the part (..., 3), mm."""
     return np.stack([at.plane.real, at.plane.imag, gear.mounting_distance - at.depth], axis=-1)
+
+
+def _off(gear: FaceGear, at: Places, made: Real) -> Real:
+    """How far points (u, v, 3) are off places (u, v) along the normals of the side, mm."""
+    # the gear has turned with the shaper since it stood as it is described
+    turn = gear.rolled * at.turn - math.pi / gear.number_of_teeth
+    normal = np.stack([at.normal.real * np.sin(turn), at.normal.real * np.cos(turn), -at.normal.imag], axis=-1)
+    return np.abs(((made - _spatial(gear, at)) * normal).sum(axis=-1))
+
+
+def _off_ends(gear: FaceGear, made: Real) -> float:
+    """How far points (u, v, 3) of both ends of v are off the cylinders there, mm."""
+    radii = np.hypot(made[:, [0, -1], 0], made[:, [0, -1], 1])
+    return float(np.abs(radii - (gear.outer_radius, gear.inner_radius)).max())
 
 
 def _spans(gear: FaceGear, which: int, axis: int, least: float) -> int:
     """Least spans across a side (axis 0) or along it (1) with which its lines are near enough."""
-    lines, spans = np.linspace(0.0, 1.0, _LINES), 1
+    lines, spans, degree = np.linspace(0.0, 1.0, _LINES), 1, _DEGREES[axis]
     while spans <= _MOST_SPANS:
         breaks = _breaks(which, axis, spans)
-        knots, fine = clamped(_DEGREE, breaks), _between(breaks)
+        knots, fine = clamped(degree, breaks), _between(breaks)
 
-        def at(own: Real) -> Real:
-            share, radial = (own, lines) if axis == 0 else (lines, own)
-            return np.moveaxis(_points(gear, which, share, radial), axis, 0)
+        def at(own: Real) -> Places:
+            return _places(gear, which, *((own, lines) if axis == 0 else (lines, own)))
 
-        made = np.tensordot(
-            basis_matrix(_DEGREE, knots, fine), axis_poles(_DEGREE, knots, at(greville(_DEGREE, knots)), 0), (1, 0)
-        )
-        error = float(np.linalg.norm(made - at(fine), axis=-1).max())
-        if error <= least / 2:
+        poles = axis_poles(degree, knots, _spatial(gear, at(greville(degree, knots))), axis)
+        made = np.moveaxis(np.tensordot(basis_matrix(degree, knots, fine), poles, (1, axis)), 0, axis)
+        error = float(_off(gear, at(fine), made).max())
+        if error <= least and (axis or _off_ends(gear, made) <= _joint(gear)):
             return spans
         spans += 1 + spans // 4
     raise ConvergenceError("spline of a face gear's tooth", error, spans)
+
+
+def _joint(gear: FaceGear) -> float:
+    """How far an end may be off its cylinder, mm."""
+    return max(_JOINT / _MARGIN, _ROUNDING * gear.outer_radius)
 
 
 def _breaks(which: int, axis: int, spans: int) -> Real:
@@ -142,29 +169,30 @@ def _between(breaks: Real) -> Real:
 
 def _fitted(gear: FaceGear, tolerance: float) -> tuple[_Wall, ...]:
     """Fillet and flank; both have the same spans along the radius, where they share an edge."""
-    least = max(min(tolerance, _TARGET) / _MARGIN, _ROUNDING * gear.outer_radius)
+    least = max(tolerance / _MARGIN, _ROUNDING * gear.outer_radius)
     across = [_spans(gear, which, 0, least) for which in SIDES]
     along = max(_spans(gear, which, 1, least) for which in SIDES)
     while max(*across, along) <= _MOST_SPANS:
         walls = tuple(_fitted_wall(gear, which, across[which], along) for which in SIDES)
-        if max(wall.error for wall in walls) <= least * _MARGIN:
+        far = [wall.error > least * _MARGIN or wall.ends > _joint(gear) for wall in walls]
+        if not any(far):
             return walls
-        across, along = [n + (wall.error > least * _MARGIN) for n, wall in zip(across, walls, strict=True)], along + 1
+        across, along = [n + more for n, more in zip(across, far, strict=True)], along + 1
     raise ConvergenceError("spline of a face gear's tooth", max(wall.error for wall in walls), _MOST_SPANS)
 
 
 def _fitted_wall(gear: FaceGear, which: int, across: int, along: int) -> _Wall:
     """A side on so many spans both ways, from the outer radius inwards."""
     breaks = _breaks(which, 0, across), _breaks(which, 1, along)
-    u_knots, v_knots = (clamped(_DEGREE, own) for own in breaks)
-    exact = _points(gear, which, greville(_DEGREE, u_knots), greville(_DEGREE, v_knots))
-    poles = tensor_poles(_DEGREE, u_knots, v_knots, exact)
-    u, v = map(_between, breaks)
-    rows, columns = basis_matrix(_DEGREE, u_knots, u), basis_matrix(_DEGREE, v_knots, v)
+    knots = [clamped(degree, own) for degree, own in zip(_DEGREES, breaks, strict=True)]
+    exact = _places(gear, which, *(greville(degree, own) for degree, own in zip(_DEGREES, knots, strict=True)))
+    half = axis_poles(_DEGREES[1], knots[1], _spatial(gear, exact), 1)
+    poles = axis_poles(_DEGREES[0], knots[0], half, 0)
+    fine = [_between(own) for own in breaks]
+    rows, columns = (basis_matrix(*each) for each in zip(_DEGREES, knots, fine, strict=True))
     made = np.einsum("iu,uvc,jv->ijc", rows, poles, columns, optimize=True)
-    return _Wall(
-        u_knots, v_knots, poles, _MARGIN * float(np.linalg.norm(made - _points(gear, which, u, v), axis=2).max())
-    )
+    error = _MARGIN * float(_off(gear, _places(gear, which, *fine), made).max())
+    return _Wall(knots[0], knots[1], poles, error, _off_ends(gear, made))
 
 
 def face_gear_solid(gear: FaceGear, tolerance: float) -> FacedSolid:
@@ -231,13 +259,13 @@ class _Built(BodyFaces):
             wall = self.walls[which]
             grid = self._grid(wall.poles * (mirror if side < 0 else 1.0), points, first, last)
             for end in (0, 1):
-                curve = Spline(_DEGREE, wall.across, grid[:, :, -end])
+                curve = Spline(_DEGREES[0], wall.across, grid[:, :, -end])
                 ends[end][side, which] = self.add_edges(corners[end][:, first], corners[end][:, last], curve)
             for corner, u in ((first, 0), (last, -1)):
                 if corner not in radial:
-                    line = Spline(_DEGREE, wall.along, grid[:, u])
+                    line = Spline(_DEGREES[1], wall.along, grid[:, u])
                     radial[corner] = self.add_edges(corners[0][:, corner], corners[1][:, corner], line)
-            surface = SplineSurface((_DEGREE, _DEGREE), wall.across, wall.along, grid)
+            surface = SplineSurface(_DEGREES, wall.across, wall.along, grid)
             around = [(ends[0][side, which], True), (radial[last], True), (ends[1][side, which], False),
                       (radial[first], False)]  # fmt: skip
             if side > 0:

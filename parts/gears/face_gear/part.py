@@ -47,7 +47,7 @@ _DEDENDA = CUTTER_ADDENDUM, 1.2, 1.15, 1.1, 1.05
 # addenda and dedenda that are tried where teeth have no width, part of the given one
 _LOWER = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
 # mm: how near pictures are to the edges of tips
-_SEEN = 1e-6
+_SEEN = 1e-7
 # how near to the greatest one a value is offered, modules
 _NEAR = 1e-3
 

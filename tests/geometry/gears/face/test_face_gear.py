@@ -9,6 +9,7 @@ import pytest
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
+from geometry.curves.bspline import basis_matrix
 from geometry.curves.curve import Real
 from geometry.gears.face.faces import faced_face_gear
 from geometry.gears.face.gear import FILLET, FLANK, SIDES, FaceGear, Places, form_length, sized
@@ -18,6 +19,7 @@ from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.distance import Verdict
+from geometry.solids.faces import SplineSurface
 from parts.gears.spur_gear.part import basic_rack_of
 
 Case = tuple[float, int, int, float, float, float, float]
@@ -161,7 +163,18 @@ def test_splines_follow_the_sides_and_points_off_them_are_measured() -> None:
         near = wall_distance(gear, which, points + np.array([0.0, 0.0, 1e-4]))
         # sideways of a step upwards: the share of the normal along the axis
         assert near == pytest.approx(1e-4 * np.abs(at.normal.imag), abs=2e-7)
-    assert faced_face_gear(gear).within(1e-6).max_error < 1e-7
+    for tolerance in (1e-6, 1e-7):
+        found = faced_face_gear(gear).within(tolerance)
+        assert found.max_error < tolerance
+        for surface in (faces.surface for faces in found.geometry.faces if isinstance(faces.surface, SplineSurface)):
+            u, v = rng.uniform(0, 1, 40), np.concatenate([[0.0, 1.0], rng.uniform(0, 1, 20)])
+            rows, columns = map(basis_matrix, surface.degrees, (surface.u_knots, surface.v_knots), (u, v))
+            points = np.einsum("iu,uvc,jv->ijc", rows, found.geometry.points[surface.poles[3]], columns)
+            off = [wall_distance(gear, which, points.reshape(-1, 3)) for which in SIDES]
+            assert np.min(off, axis=0).max() < found.max_error
+            # kernels join them to the cylinders of both ends within 1e-7 mm
+            ends = np.hypot(points[:, :2, 0], points[:, :2, 1]) - (gear.outer_radius, gear.inner_radius)
+            assert np.abs(ends).max() < 3e-8
 
 
 def test_the_volume_is_that_of_the_plate_and_of_teeth_sliced_on_cylinders() -> None:
