@@ -95,8 +95,10 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         owner, name = _owner(kind, keys, table), unknown.group(1)
         tag = owner.__struct_config__.tag_field
         known = ([tag] if tag else []) + [f.encode_name for f in own_first(owner)]
-        held = _lookup(table, [*keys, name])
-        return SceneError(source, f"{where}.{name}", held, "unknown_key", meant(name, known), known=known)
+        around = _lookup(table, keys)
+        # hardly a key that stands there already
+        like = meant(name, [key for key in known if key not in around]) or meant(name, known)
+        return SceneError(source, f"{where}.{name}", around[name], "unknown_key", like, known=known)
     if missing := re.search(r"missing required field `(.*?)`", message):
         name = missing.group(1)
         what = _tags_of(kind, [*keys, name], table) or described_key(_owner(kind, keys, table), name)
