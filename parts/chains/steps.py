@@ -59,11 +59,11 @@ def gap_steps(page: Sheet, sprocket: Sprocket) -> None:
         return
     radius, angles = form.seating_radius(roller), form.angles(teeth)
     page.add("joining_radius", 0.8 * roller + radius, "0.8 * {d_r} + {r}", GOST)
-    for name, angle, (whole, part) in zip(
+    for name, half, (whole, part) in zip(
         ("half_gap_angle_deg", "joining_angle_deg", "half_tooth_angle_deg"), angles, ((55, 60), (18, 56), (17, 64)),
         strict=True,
     ):  # fmt: skip
-        page.add(name, math.degrees(angle), f"({whole} - {part} / {{z}}) * pi / 180", GOST)
+        page.add(name, math.degrees(half), f"({whole} - {part} / {{z}}) * pi / 180", GOST)
     head = "{d_r} * (1.24 * cos({phi}) + 0.8 * cos({beta}) - 1.3025) - 0.05"
     page.add("head_radius", form.flank_radius(roller, teeth), head, GOST)
     straight = roller * (1.24 * math.sin(angles[2]) - 0.8 * math.sin(angles[1]))
