@@ -16,7 +16,7 @@ from geometry.base.record import replace
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
 from geometry.curves.involute import Involute
-from geometry.gears.mesh.search import ContactPlace, PairContact, gear_outline
+from geometry.gears.mesh.search import ContactPlace, PairContact, gear_outline, told_contact, verdict_of
 from geometry.gears.pairs.crossed import CrossedPair
 from geometry.plane.distance import Boundary, Feet, Flags, Indices, Verdict, folded
 from geometry.plane.profile import Label
@@ -225,18 +225,8 @@ def crossed_contact(pair: CrossedPair, phase_off: float = 0.0, tolerance: float 
     searched = np.stack(sides)
     gaps = np.minimum(searched, closed)
     missed = (closed < _COMPARED * pair.normal_module) & (closed < searched - _FOUND * pair.normal_module)
-    if missed.any() or not np.isfinite(gaps).all():
-        verdict = Verdict.UNDECIDED
-    elif gaps.min() < -allowed:
-        verdict = Verdict.OVERLAP
-    else:
-        verdict = Verdict.CONTACT if float(gaps.max(axis=1).min()) <= allowed else Verdict.CLEAR
-    least_gaps = gaps.min(axis=0)
-    worst = replace(worst, gap=float(gaps.min()))
-    return PairContact(
-        verdict, allowed, tuple(drive.tolist()), tuple(least_gaps.tolist()),
-        (tuple(gaps[0].tolist()), tuple(gaps[1].tolist())), worst, float(least_gaps.max()),
-    )  # fmt: skip
+    verdict = Verdict.UNDECIDED if missed.any() else verdict_of(gaps.T, allowed)
+    return told_contact(verdict, allowed, drive, gaps.T, replace(worst, gap=float(gaps.min())))
 
 
 def _closed_form(pair: CrossedPair, turned: Real, way: int, phase_off: float) -> Real:

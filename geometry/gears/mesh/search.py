@@ -100,23 +100,30 @@ def _decided(gap: Real, allowed: float) -> bool:
     return bool(np.all(np.abs(gap) <= allowed)) or not np.all(np.isfinite(gap))
 
 
-def verdict_of(gap: Real, allowed: float) -> Verdict:
-    """The verdict on gaps (n, 2) of both sides at n positions; ``allowed``: |gap| that is contact, mm."""
-    if not np.isfinite(gap).all():
+def verdict_of(gap: Real, allowed: float, beside: float = math.inf) -> Verdict:
+    """The verdict on gaps (n, 2) of both sides at n positions; ``allowed``: |gap| that is contact, mm.
+
+    ``beside``: the least gap of anything else, mm.
+    """
+    if not np.isfinite(gap).all() or math.isnan(beside):
         return Verdict.UNDECIDED
-    if gap.min() < -allowed:
+    if min(gap.min(), beside) < -allowed:
         return Verdict.OVERLAP
     return Verdict.CONTACT if gap.max(axis=0).min() <= allowed else Verdict.CLEAR
+
+
+def told_contact(verdict: Verdict, allowed: float, drive: Real, gaps: Real, worst: ContactPlace) -> PairContact:
+    """A verdict with the gaps (n, 2), mm, of both sides at n drive angles."""
+    least, (lower, upper) = gaps.min(axis=1), (tuple(side) for side in gaps.T.tolist())
+    angles = tuple(drive.tolist())
+    return PairContact(verdict, allowed, angles, tuple(least.tolist()), (lower, upper), worst, float(least.max()))
 
 
 def flanks_contact(gaps: Real, drive: Real, at: complex, allowed: float) -> PairContact:
     """The verdict on gaps (2, n), mm, of lower and upper flanks at n drive angles; ``at``: where they are told."""
     least = gaps.min(axis=0)
     worst = ContactPlace(float(least.min()), float(drive[least.argmin()]), at, (Label.FLANK, Label.FLANK))
-    return PairContact(
-        verdict_of(gaps.T, allowed), allowed, tuple(drive.tolist()), tuple(least.tolist()),
-        (tuple(gaps[0].tolist()), tuple(gaps[1].tolist())), worst, float(least.max()),
-    )  # fmt: skip
+    return told_contact(verdict_of(gaps.T, allowed), allowed, drive, gaps.T, worst)
 
 
 class MeshSearch:
@@ -170,19 +177,10 @@ class MeshSearch:
         sides = found.gap.reshape(-1, 2)
         closed = self.closed_form(angles)
         missed = (np.abs(closed) < _COMPARED * self.module) & (closed < sides - allowed)
-        gaps = sides.min(axis=1)
         verdict = Verdict.UNDECIDED if missed.any() else verdict_of(sides, allowed)
         if verdict is Verdict.CLEAR and overlap_ratio and _bridged(self, angles, sides, allowed, overlap_ratio):
             verdict = Verdict.CONTACT
-        return PairContact(
-            verdict,
-            allowed,
-            tuple(angles.tolist()),
-            tuple(gaps.tolist()),
-            (tuple(sides[:, 0].tolist()), tuple(sides[:, 1].tolist())),
-            self.place(angles, found),
-            float(gaps.max()),
-        )
+        return told_contact(verdict, allowed, angles, sides, self.place(angles, found))
 
     def teeth_in_reach(self) -> tuple[int, int]:
         """Teeth of both bodies on either side of the line of centres that are looked at."""

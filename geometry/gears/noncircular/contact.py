@@ -14,7 +14,7 @@ import numpy as np
 from geometry.base.record import Record
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
-from geometry.gears.mesh.search import ContactPlace, PairContact, verdict_of
+from geometry.gears.mesh.search import ContactPlace, PairContact, told_contact, verdict_of
 from geometry.gears.noncircular.pair import NoncircularPair
 from geometry.gears.noncircular.table import CurveTable
 from geometry.plane.distance import Flags, Indices, least_in_brackets, promising
@@ -70,7 +70,6 @@ def _concluded(pair: NoncircularPair, arcs: Real, found: _Gaps, allowed: float) 
     drive = pair.rotations(arcs)[0]
     order = np.argsort(drive)
     gap, drive = found.gap[order], drive[order]
-    gaps = gap.min(axis=1)
     worst, side = divmod(int(np.argmin(gap)), 2)
     row = int(order[worst])
     labels: tuple[Label, Label] = (
@@ -78,9 +77,7 @@ def _concluded(pair: NoncircularPair, arcs: Real, found: _Gaps, allowed: float) 
         pair.second.outline.segments[found.second[row, side]].label,
     )
     place = ContactPlace(float(gap[worst, side]), float(drive[worst]), complex(found.point[row, side]), labels)
-    sides = tuple(gap[:, 0].tolist()), tuple(gap[:, 1].tolist())
-    verdict = verdict_of(gap, allowed)
-    return PairContact(verdict, allowed, tuple(drive.tolist()), tuple(gaps.tolist()), sides, place, float(gaps.max()))
+    return told_contact(verdict_of(gap, allowed), allowed, drive, gap, place)
 
 
 class _Lanes(Record):

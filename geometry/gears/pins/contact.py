@@ -14,10 +14,10 @@ import numpy as np
 from geometry.base.placement import Placement2
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
-from geometry.gears.mesh.search import ContactPlace, PairContact, gear_outline
+from geometry.gears.mesh.search import ContactPlace, PairContact, gear_outline, told_contact, verdict_of
 from geometry.gears.pins.cycloidal import CycloidalDisc
 from geometry.gears.teeth.tooth import ToothSide
-from geometry.plane.distance import Indices, Verdict, least_in_brackets
+from geometry.plane.distance import Indices, least_in_brackets
 from geometry.plane.profile import Label
 
 # |gap| up to this part of the pin's radius is contact
@@ -133,18 +133,9 @@ def pin_contact(
     # phase = drive + 2 pi k / N: sorted phases fall into N runs of the same drive angles
     table = values.reshape(pins, -1)
     lower = phases.reshape(pins, -1) < 0
-    sides = [np.where(flags, table, np.inf).min(axis=0) for flags in (lower, ~lower)]
-    both = np.minimum(*sides)
-    finite = bool(np.all(np.isfinite(both))) and math.isfinite(place.gap)
-    verdict = Verdict.UNDECIDED
-    if finite:
-        verdict = Verdict.CONTACT if min(s.max() for s in sides) <= allowed else Verdict.CLEAR
-        verdict = Verdict.OVERLAP if place.gap < -allowed else verdict
+    sides = np.stack([np.where(flags, table, np.inf).min(axis=0) for flags in (lower, ~lower)], axis=1)
     drives = phases[: table.shape[1]] + math.pi
-    return PairContact(
-        verdict, allowed, tuple(drives.tolist()), tuple(both.tolist()),
-        (tuple(sides[0].tolist()), tuple(sides[1].tolist())), place, float(both.max()),
-    )  # fmt: skip
+    return told_contact(verdict_of(sides, allowed, place.gap), allowed, drives, sides, place)
 
 
 def _worst(gap: _Gap, phases: Real, values: Real, others: tuple[ContactPlace, ...]) -> ContactPlace:
@@ -185,7 +176,5 @@ def pins_in_contact(side: ToothSide, motion: PinMotion) -> int:
 
 def stated_contact(gap: float, allowed: float, labels: tuple[Label, Label], point: complex) -> PairContact:
     """The verdict on a gap (mm) that is the same at every drive angle."""
-    verdict = Verdict.CONTACT if gap <= allowed else Verdict.CLEAR
-    verdict = Verdict.OVERLAP if gap < -allowed else verdict
-    place = ContactPlace(gap, 0.0, point, labels)
-    return PairContact(verdict, allowed, (0.0,), (gap,), ((gap,), (gap,)), place, gap)
+    gaps, place = np.full((1, 2), gap), ContactPlace(gap, 0.0, point, labels)
+    return told_contact(verdict_of(gaps, allowed), allowed, np.zeros(1), gaps, place)

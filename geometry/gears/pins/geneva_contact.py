@@ -15,10 +15,10 @@ import numpy as np
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
-from geometry.gears.mesh.search import ContactPlace, PairContact
+from geometry.gears.mesh.search import ContactPlace, PairContact, told_contact, verdict_of
 from geometry.gears.pins.contact import PIN_CONTACT_TOLERANCE
 from geometry.gears.pins.geneva import GenevaDisc
-from geometry.plane.distance import Boundary, Indices, Verdict
+from geometry.plane.distance import Boundary, Indices
 from geometry.plane.profile import Label, joint_turn
 
 # turns of the driver in a cycle, rounds of finer ones beside the least gap, places on a locking arc of the disc
@@ -43,17 +43,13 @@ class GenevaContact(Record, dict=True):
         ends = [way * drive.half_motion_angle * part for way in (-1, 1) for part in (1.0, 1 - 1e-6)]
         turns: Real = np.unique(np.concatenate([np.linspace(-half, half, _TURNS + 1), [0.0, *ends]]))
         found = self.gaps(turns)
-        gaps = found[0]
         worst, step = _least(turns, *found), 2 * half / _TURNS
         for _ in range(_ROUNDS):
             more = np.clip(worst.drive_angle + step * np.linspace(-1, 1, _NEAR), -half, half)
             worst = min(worst, _least(more, *self.gaps(more)), key=lambda place: place.gap)
             step *= 2 / (_NEAR - 1)
-        verdict = Verdict.OVERLAP if worst.gap < -allowed else Verdict.CLEAR
-        if verdict is Verdict.CLEAR and gaps.max() <= allowed:
-            verdict = Verdict.CONTACT
-        row = tuple(gaps.tolist())
-        return PairContact(verdict, allowed, tuple(turns.tolist()), row, (row, row), worst, float(gaps.max()))
+        gaps = np.stack([found[0]] * 2, axis=1)
+        return told_contact(verdict_of(gaps, allowed, worst.gap), allowed, turns, gaps, worst)
 
     def gaps(self, turns: Real) -> tuple[Real, Complex, Indices]:
         """At turns (n,) the least gap, mm, its place from the driver's axis, the line of centres along +x, and what it

@@ -19,12 +19,11 @@ from geometry.base.record import Record, replace
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
-from geometry.gears.mesh.search import ContactPlace, PairContact
+from geometry.gears.mesh.search import ContactPlace, PairContact, told_contact, verdict_of
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.thread import Thread
 from geometry.gears.worms.wheel import Side, WormTeeth
 from geometry.gears.worms.worm import Worm
-from geometry.plane.distance import Verdict
 from geometry.plane.profile import Label
 
 # places of the worm in a pitch, planes, shares of a flank, teeth on either side, steps of the golden section
@@ -163,17 +162,7 @@ def _told(
         worst = replace(worst, point=worst.point.conjugate())
     if clearance < worst.gap:
         worst = ContactPlace(clearance, 0.0, complex(distance - worm.tip_radius), (Label.ROOT_LAND, Label.TIP_LAND))
-    if not np.all(np.isfinite(gaps)):
-        verdict = Verdict.UNDECIDED
-    elif worst.gap < -allowed:
-        verdict = Verdict.OVERLAP
-    else:
-        verdict = Verdict.CONTACT if float(gaps.max(axis=1).min()) <= allowed else Verdict.CLEAR
-    least = np.minimum(*gaps)
-    return PairContact(
-        verdict, allowed, tuple((rate * slid).tolist()), tuple(least.tolist()),
-        (tuple(gaps[0].tolist()), tuple(gaps[1].tolist())), worst, float(least.max()),
-    )  # fmt: skip
+    return told_contact(verdict_of(gaps.T, allowed, worst.gap), allowed, rate * slid, gaps.T, worst)
 
 
 @lru_cache(maxsize=4)
