@@ -7,6 +7,7 @@ that a surface and the edges at its rim share them. Nothing here knows of a kern
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -112,6 +113,21 @@ Surface: TypeAlias = Plane | Cylinder | Cone | Torus | Sphere | Extrusion | Spli
 Loop: TypeAlias = tuple[Index, NDArray[np.bool_]]
 
 
+# edges (n,) about faces, and whether they run forwards
+Use: TypeAlias = tuple[Index, bool]
+
+
+def loop_of(around: Sequence[Use]) -> Loop:
+    """Edges in order as the loop of faces."""
+    edges, ways = zip(*around, strict=True)
+    return np.stack(edges, axis=1), np.array(ways)
+
+
+def turned_over(around: Sequence[Use]) -> list[Use]:
+    """The same edges the other way round."""
+    return [(edge, not way) for edge, way in reversed(around)]
+
+
 class Faces(Record, eq=False):
     """Faces of one kind, n of them, the outer loop first; ``along``: their surfaces' normals point outwards."""
 
@@ -167,6 +183,10 @@ class SolidBuilder:
         """The numbers of new edges, (n,)."""
         self.edges.append(Edges(start, end, curve))
         return self._numbers(2, len(start))
+
+    def bounded(self, surface: Surface, around: Sequence[Use], *, along: bool = True) -> None:
+        """Faces within edges that turn left about them, as seen from outside."""
+        self.faces.append(Faces(surface, (loop_of(around),), along))
 
     def solid(self) -> Solid:
         """What was collected."""

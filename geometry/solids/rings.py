@@ -105,10 +105,17 @@ class RingBuilder(SolidBuilder):
             edges.append(self.add_edges(starts[i], following(starts, i), shapes[i]))
         return Ring(curves, turns, tuple(starts), tuple(points), tuple(shapes), tuple(edges))
 
+    def frame_at(self, z: float) -> Frame:
+        """The upright frame at height z mm."""
+        return Frame(self.on_axis(z), UP, AHEAD)
+
+    def pipe(self, radius: float) -> Cylinder:
+        """The cylinder about the axis, its radius in mm."""
+        return Cylinder(self.frame_at(0.0), radius)
+
     def cap(self, z: float, loops: Sequence[Loop], *, up: bool) -> None:
         """A plane face at height z mm."""
-        origin = self.on_axis(z)
-        self.faces.append(Faces(Plane(Frame(origin, UP, AHEAD)), tuple(loops), up))
+        self.faces.append(Faces(Plane(self.frame_at(z)), tuple(loops), up))
 
     def swept(self, lower: Ring, upper: Ring, way: Real) -> None:
         """Faces swept along a direction (1, 3)."""
@@ -163,8 +170,7 @@ class RingBuilder(SolidBuilder):
     ) -> None:
         """The faces over curve i between two rings and the edges from corner to corner."""
         around = (low.edges, True), (following(corners, i), True), (high.edges, False), (corners[i], False)
-        edges, ways = zip(*(use for use in around if use[0] is not None), strict=True)
-        self.faces.append(Faces(surface, ((np.stack(edges, axis=1), np.array(ways)),), along))
+        self.bounded(surface, [(edges, way) for edges, way in around if edges is not None], along=along)
 
     def _cylinder(
         self, low: Slot, high: Slot, corners: Sequence[Index], i: int, widening: float = 0.0,

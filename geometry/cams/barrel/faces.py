@@ -20,9 +20,9 @@ from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
 from geometry.solids import faces as kinds
 from geometry.solids.faced import FacedBody, FacedSolid
-from geometry.solids.faces import Circular, Faces, Frame, Index, Loop, Solid, Spline, Straight
+from geometry.solids.faces import Circular, Index, Loop, Solid, Spline, Straight, Use, turned_over
 from geometry.solids.measured import Measured
-from geometry.solids.rings import AHEAD, UP, RingBuilder
+from geometry.solids.rings import UP, RingBuilder
 from geometry.solids.rings import Ring as Edging
 
 # with fewer poles the edges leave the walls by more than solids allow; what a STEP file asks for serves all else too
@@ -124,16 +124,16 @@ class _Maker(RingBuilder):
             self.circles[lower], self.circles[upper] = self.upright(whole, lower.z, upper.z)
             return
         row = 0 if lower.radius == self.cam.inner else 1
-        frame = Frame(self.on_axis(0.0), UP, AHEAD)
+        pipe = self.pipe(lower.radius)
         below, above = self._starts(lower, row), self._starts(upper, row)
         seams = self.add_edges(below, above, Straight(UP))
         for i, (first, last) in enumerate(self.cuts):
             after = (i + 1) % len(self.cuts)
             # anticlockwise from the later cut to the earlier one
             around = [*self._along(lower, row, i, first, last), (seams[i : i + 1], True)]
-            around += [(e, not way) for e, way in reversed(self._along(upper, row, i, first, last))]
+            around += turned_over(self._along(upper, row, i, first, last))
             around.append((seams[after : after + 1], False))
-            self._face(kinds.Cylinder(frame, lower.radius), around, along=face.outward)
+            self._face(pipe, around, along=face.outward)
 
     def upright(self, outline: Outline, low: float, high: float) -> tuple[Edging, Edging]:
         """An upright wall; its rings."""
@@ -152,12 +152,9 @@ class _Maker(RingBuilder):
             loops.append(self.bore[1 if face.up else 0].loop(forwards=face.up))
         self.cap(face.outer.z, loops, up=face.up)
 
-    def _face(self, surface: kinds.Surface, around: list[tuple[Index, bool]], *, along: bool) -> None:
+    def _face(self, surface: kinds.Surface, around: list[Use], *, along: bool) -> None:
         """A face within edges that turn left about its surface's normal; ``along``: that points outwards."""
-        edges, ways = (list(x) for x in zip(*around, strict=True))
-        if not along:
-            edges, ways = edges[::-1], [not way for way in ways[::-1]]
-        self.faces.append(Faces(surface, ((np.stack(edges, axis=1), np.array(ways)),), along))
+        self.bounded(surface, around if along else turned_over(around), along=along)
 
     def _starts(self, ring: Ring, row: int) -> Index:
         """The vertices of a ring at the cuts."""
@@ -169,13 +166,12 @@ class _Maker(RingBuilder):
             places = self.place(above)
             way: Complex = np.exp(1j * np.arctan2(places[:, 1], places[:, 0]))
             vertices = self.add_vertices(self.add_points(ring.radius * way, ring.z))
-            frame = Frame(self.on_axis(ring.z), UP, AHEAD)
             # the cam angle grows clockwise
-            edges = self.add_edges(np.roll(vertices, -1), vertices, Circular(frame, ring.radius))
+            edges = self.add_edges(np.roll(vertices, -1), vertices, Circular(self.frame_at(ring.z), ring.radius))
             self.arcs[ring] = vertices, edges
         return self.arcs[ring][0]
 
-    def _along(self, ring: Ring, row: int, i: int, first: int, last: int) -> list[tuple[Index, bool]]:
+    def _along(self, ring: Ring, row: int, i: int, first: int, last: int) -> list[Use]:
         """The edges of a ring from the cut after part i to that before it, anticlockwise."""
         if ring.side:
             return [(edge, False) for edge in reversed(self.rims[ring.side, row][first:last])]

@@ -17,29 +17,18 @@ import numpy as np
 
 from geometry.approximation.tensor import axis_poles, clamped, greville, tensor_poles
 from geometry.base.errors import ConvergenceError
-from geometry.base.record import Record
 from geometry.curves.bspline import BSpline, SeenEdge, basis_matrix
 from geometry.curves.curve import Complex, Real, end_point, start_point
 from geometry.curves.line_arc import Arc
 from geometry.gears.bevel.gear import BevelGear
 from geometry.gears.bevel.walls import wall_distance
 from geometry.plane.profile import Label, Profile, Segment
-from geometry.solids.body_faces import BodyFaces, body_outlines
+from geometry.solids.body_faces import body_outlines
 from geometry.solids.faced import FacedBody, FacedSolid
-from geometry.solids.faces import (
-    Circular,
-    Cone,
-    Faces,
-    Frame,
-    Index,
-    Loop,
-    Spline,
-    SplineSurface,
-    Straight,
-    Surface,
-)
+from geometry.solids.faces import Circular, Cone, Frame, Index, Straight, Use, turned_over
 from geometry.solids.measured import Measured
 from geometry.solids.rings import AHEAD, UP
+from geometry.solids.toothed import ToothedFaces, ToothWall
 
 # spans across a tooth and along it at most: tooth lines bend most where they come near the apex
 _DEGREE, _MOST_SPANS, _MOST_ALONG, _SAMPLES, _MARGIN = 7, 64, 256, 11, 1.5
@@ -49,9 +38,6 @@ _TARGET, _ROUNDING = 2e-8, 8e-15
 _EDGE = 0.8
 _RULED = np.array([0.0, 0.0, 1.0, 1.0])
 _SIDES = ("fillet", "flank")
-
-# edges (n,) and whether they run forwards
-Use = tuple[Index, bool]
 
 
 def faced_bevel(gear: BevelGear) -> FacedBody:
@@ -75,10 +61,7 @@ def bevel_solid(gear: BevelGear, tolerance: float) -> FacedSolid:
     """
     made = _Bevel(gear, tolerance)
     made.teeth()
-    for wall in made.body.walls[1:]:
-        made.wall(wall)
-    for cap in made.body.caps:
-        made.face(cap)
+    made.within()
     return FacedSolid(made.solid(), max(made.worst, *(outline.max_error for outline in made.outlines)), "sampled")
 
 
@@ -127,23 +110,10 @@ def _fitted(gear: BevelGear, name: str, tolerance: float) -> tuple[Real, Real, f
     raise ConvergenceError("spline of a bevel tooth", error, spans)
 
 
-class _Walls(Record):
-    """Splines of the upper side of tooth 0 by name: knots from root to tip, degrees and knots along the teeth, poles.
-
-    ``error``: of them all, mm.
-    """
-
-    across: dict[str, Real]
-    degrees: dict[str, int]
-    along: dict[str, Real]
-    poles: dict[str, Real]
-    error: float
-
-
-def _fitted_walls(gear: BevelGear, tolerance: float) -> _Walls:
-    """Its flank and fillet, ruled by rays of the apex where they are cones."""
-    across, degrees, along, poles = {}, dict.fromkeys(_SIDES, 1), dict.fromkeys(_SIDES, _RULED), {}
-    error, apex = 0.0, gear.placed(np.zeros(3))
+def _fitted_walls(gear: BevelGear, tolerance: float) -> tuple[tuple[ToothWall, ...], float]:
+    """Its flank and fillet, ruled by rays of the apex where they are cones, and the error of both, mm."""
+    degrees, along = dict.fromkeys(_SIDES, 1), dict.fromkeys(_SIDES, _RULED)
+    across, poles, error, apex = {}, {}, 0.0, gear.placed(np.zeros(3))
     for name in _SIDES:
         across[name], outer, worst = _fitted(gear, name, tolerance)
         error = max(error, worst)
@@ -166,7 +136,8 @@ def _fitted_walls(gear: BevelGear, tolerance: float) -> _Walls:
         low, high = np.moveaxis(poles["fillet"], 1, 0)
         shares = greville(_DEGREE, along["flank"])
         poles["fillet"] = low[:, None] + shares[:, None] * (high - low)[:, None]
-    return _Walls(across, degrees, along, poles, max(error, _MARGIN * worst if free else 0.0))
+    walls = tuple(ToothWall((_DEGREE, degrees[k]), across[k], along[k], poles[k]) for k in _SIDES)
+    return walls, max(error, _MARGIN * worst if free else 0.0)
 
 
 def _fitted_wall(gear: BevelGear, name: str, across: Real, along: Real, fine: Real) -> tuple[Real, float]:
@@ -182,35 +153,19 @@ def _fitted_wall(gear: BevelGear, name: str, across: Real, along: Real, fine: Re
 # faces ----------------------------------------------------------------------------------------------------------
 
 
-class _Bevel(BodyFaces):
-    """Vertices, edges and faces of one gear; ``worst``: of its splines, mm.
-
-    ``rims``: what stands in place of the core's first wall, by its loops.
-    """
+class _Bevel(ToothedFaces):
+    """Vertices, edges and faces of one gear; ``worst``: of its splines, mm."""
 
     def __init__(self, gear: BevelGear, tolerance: float) -> None:
-        core = gear.core
-        super().__init__(core, body_outlines(core, tolerance))
-        self.gear, upper, self.rims = gear, _fitted_walls(gear, tolerance), dict[int, Loop]()
-        self.starts = np.arange(gear.number_of_teeth)
+        super().__init__(gear.core, body_outlines(gear.core, tolerance), gear.number_of_teeth)
+        self.gear, (upper, error) = gear, _fitted_walls(gear, tolerance)
         other = gear.opposite()
-        self.walls = {-1: upper if other == gear else _fitted_walls(other, tolerance), 1: upper}
-        self.worst = max(walls.error for walls in self.walls.values())
+        lower, worst = (upper, error) if other == gear else _fitted_walls(other, tolerance)
+        self.walls, self.worst = {-1: lower, 1: upper}, max(error, worst)
 
     def height(self, place: complex) -> float:
         """z of a place of the blank, mm."""
         return self.gear.mounting_distance - place.imag
-
-    def on_teeth(self, points: Real) -> Index:
-        """Numbers of points (k, 3) of tooth 0 on all teeth, (n, k)."""
-        turn = np.exp(1j * math.tau * self.starts / self.gear.number_of_teeth)
-        plane = turn[:, None] * (points[:, 0] + 1j * points[:, 1])
-        return self.add_points(plane, np.broadcast_to(points[:, 2], plane.shape))
-
-    def within(self, surface: Surface, around: list[Use], *, along: bool = True) -> None:
-        """Faces within edges that turn left about them, as seen from outside."""
-        loop = np.stack([edge for edge, _ in around], axis=1), np.array([way for _, way in around])
-        self.faces.append(Faces(surface, (loop,), along))
 
     def cone(self, place: complex, slant: float, *, up: bool) -> Cone:
         """The cone about the axis through a place of the blank, which widens upwards or downwards by ``slant`` rad."""
@@ -219,96 +174,35 @@ class _Bevel(BodyFaces):
 
     def arc(self, place: complex, start: Index, end: Index) -> Index:
         """Arcs on the circle of a place of the blank, counter-clockwise."""
-        frame = Frame(self.on_axis(self.height(place)), UP, AHEAD)
-        return self.add_edges(start, end, Circular(frame, place.real))
+        return self.add_edges(start, end, Circular(self.frame_at(self.height(place)), place.real))
 
     def teeth(self) -> None:
         """Flanks, fillets, lands, and what both ends leave between them."""
-        gear, mirror = self.gear, np.array([1.0, -1.0, 1.0])
-        ends, vertices = [], []
-        for end in (0, -1):
-            # from the lower root over the tip to the upper root
-            lower, upper = (
-                np.array([poles["fillet"][0, end], poles["flank"][0, end], poles["flank"][-1, end]])
-                for poles in (self.walls[-1].poles, self.walls[1].poles)
-            )
-            points = self.on_teeth(np.concatenate([lower * mirror, upper[::-1]]))
-            ends.append(points)
-            vertices.append(np.stack([self.add_vertices(column) for column in points.T], axis=1))
-        self.vertices_at = vertices
-        places = [self.place(vertex) for vertex in np.concatenate(vertices, axis=1).T]
-        rays: dict[int, Index] = {}
-        # flanks end at the tip cone on rays where that meets the apex
-        degrees = self.walls[1].degrees
-        for k in range(6) if degrees["flank"] == 1 else (0, 1, 4, 5) if degrees["fillet"] == 1 else ():
-            way = places[6 + k] - places[k]
-            way = way / np.linalg.norm(way, axis=1)[:, None]
-            rays[k] = self.add_edges(vertices[0][:, k], vertices[1][:, k], Straight(way))
-        splines: list[dict[tuple[str, int], Index]] = [{}, {}]
-        for side, (place, name) in [(s, p) for s in (-1, 1) for p in enumerate(_SIDES)]:
-            first, last = (place, place + 1) if side < 0 else (5 - place, 4 - place)
-            walls = self.walls[side]
-            grid = self._grid(walls.poles[name] * (mirror if side < 0 else 1.0), ends, first, last)
-            for end in (0, 1):
-                curve = Spline(_DEGREE, walls.across[name], grid[:, :, -end])
-                splines[end][name, side] = self.add_edges(vertices[end][:, first], vertices[end][:, last], curve)
-            for corner, u in ((first, 0), (last, -1)):
-                if corner not in rays:
-                    line = Spline(walls.degrees[name], walls.along[name], grid[:, u])
-                    rays[corner] = self.add_edges(vertices[0][:, corner], vertices[1][:, corner], line)
-            surface = SplineSurface((_DEGREE, walls.degrees[name]), walls.across[name], walls.along[name], grid)
-            low, high = splines[0][name, side], splines[1][name, side]
-            around = [(low, True), (rays[last], True), (high, False), (rays[first], False)]
-            if side > 0:
-                around = [(edge, not way) for edge, way in reversed(around)]
-            self.within(surface, around, along=side < 0)
-        after = [np.roll(v[:, 0], -1) for v in vertices]
+        gear, made = self.gear, self.sides(self.walls)
+        (outer, inner), rays = made.corners, made.radial
         tops = gear.outer(gear.tip_angle), gear.inner(gear.inner_tip_angle)
-        tips = [self.arc(top, v[:, 2], v[:, 3]) for top, v in zip(tops, vertices, strict=True)]
+        tips = [self.arc(top, at[:, 2], at[:, 3]) for top, at in zip(tops, made.corners, strict=True)]
         feet_at = gear.outer(gear.root_angle), gear.front
-        roots = [self.arc(foot, v[:, 5], a) for foot, v, a in zip(feet_at, vertices, after, strict=True)]
-        self.within(self.cone(tops[0], gear.tip_cone_angle, up=False),
-                  [(tips[0], True), (rays[3], True), (tips[1], False), (rays[2], False)])  # fmt: skip
-        self.within(self.cone(gear.outer(gear.root_angle), gear.root_angle, up=False),
-                  [(roots[0], True), (np.roll(rays[0], -1), True), (roots[1], False), (rays[5], False)])  # fmt: skip
-        feet = self.arc(gear.front, vertices[1][:, 0], vertices[1][:, 5])
-        over = [(splines[1]["fillet", -1], True), (splines[1]["flank", -1], True), (tips[1], True),
-                (splines[1]["flank", 1], False), (splines[1]["fillet", 1], False), (feet, False)]  # fmt: skip
+        roots = [self.arc(f, at[:, 5], np.roll(at[:, 0], -1)) for f, at in zip(feet_at, made.corners, strict=True)]
+        self.bounded(self.cone(tops[0], gear.tip_cone_angle, up=False),
+                     [(tips[0], True), (rays[3], True), (tips[1], False), (rays[2], False)])  # fmt: skip
+        self.bounded(self.cone(feet_at[0], gear.root_angle, up=False),
+                     [(roots[0], True), (np.roll(rays[0], -1), True), (roots[1], False), (rays[5], False)])  # fmt: skip
+        feet = self.arc(gear.front, inner[:, 0], inner[:, 5])
         slant = math.pi / 2 - gear.pitch_angle
-        self.within(self.cone(gear.front, slant, up=True), over, along=False)
+        self.bounded(self.cone(gear.front, slant, up=True), [*made.over(1, tips[1]), (feet, False)], along=False)
         front = np.stack([feet, roots[1]], axis=1).reshape(1, -1)
         self.rims[self.body.walls[0].upper] = front, np.full(front.shape[1], True)
-        self._back_cone(splines[0], tips[0], roots[0], slant)
+        self._back_cone(outer[:, 0], roots[0], made.over(0, tips[0]), slant)
 
-    def _grid(self, poles: Real, ends: list[Index], first: int, last: int) -> Index:
-        """Numbers (n, u, v) of poles (u, v, 3) on all teeth, whose corners stand already."""
-        inner = np.ones(poles.shape[:2], bool)
-        inner[np.ix_((0, -1), (0, -1))] = False
-        grid = np.empty((len(self.starts), *poles.shape[:2]), int)
-        grid[:, inner] = self.on_teeth(poles[inner])
-        for u, corner in ((0, first), (-1, last)):
-            for v in (0, 1):
-                grid[:, u, -v] = ends[v][:, corner]
-        return grid
-
-    def _back_cone(self, splines: dict[tuple[str, int], Index], tips: Index, roots: Index, slant: float) -> None:
+    def _back_cone(self, feet: Index, roots: Index, over: list[Use], slant: float) -> None:
         """From the teeth down to the rim, tooth by tooth."""
-        gear, rim = self.gear, self.gear.rim
-        roots_at = self.vertices_at[0][:, 0]
-        at = self.place(roots_at)
+        rim, at = self.gear.rim, self.place(feet)
         plane: Complex = at[:, 0] + 1j * at[:, 1]
         low = self.add_vertices(self.add_points(np.asarray(plane / np.abs(plane) * rim.real), self.height(rim)))
         way = at - self.place(low)
-        lines = self.add_edges(low, roots_at, Straight(way / np.linalg.norm(way, axis=1)[:, None]))
+        lines = self.add_edges(low, feet, Straight(way / np.linalg.norm(way, axis=1)[:, None]))
         arcs = self.arc(rim, low, np.roll(low, -1))
-        around = [
-            (arcs, True), (np.roll(lines, -1), True), (roots, False), (splines["fillet", 1], True),
-            (splines["flank", 1], True), (tips, False), (splines["flank", -1], False), (splines["fillet", -1], False),
-            (lines, False),
-        ]  # fmt: skip
-        self.within(self.cone(gear.rim, slant, up=True), around)
+        around = [(arcs, True), (np.roll(lines, -1), True), (roots, False), *turned_over(over), (lines, False)]
+        self.bounded(self.cone(rim, slant, up=True), around)
         self.rims[self.body.walls[0].lower] = arcs[::-1][None], np.full(len(arcs), False)
-
-    def around(self, loop: int, left: bool) -> Loop:
-        """The loop of a face, which runs about teeth or rim where the core begins."""
-        return self.rims[loop] if loop in self.rims else super().around(loop, left)

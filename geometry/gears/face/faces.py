@@ -16,30 +16,18 @@ from geometry.approximation.outline import Outline
 from geometry.approximation.tensor import axis_poles, clamped, greville
 from geometry.base.errors import ConvergenceError
 from geometry.base.placement import Placement2
-from geometry.base.record import Record
 from geometry.curves.bspline import BSpline, SeenEdge, basis_matrix
 from geometry.curves.curve import Real, end_point, start_point
 from geometry.curves.line_arc import Arc
 from geometry.gears.face.gear import FLANK, SIDES, FaceGear, Places
 from geometry.gears.face.walls import wall_distance
 from geometry.plane.profile import Label, Profile, Segment
-from geometry.solids.body_faces import BodyFaces, body_outlines
+from geometry.solids.body_faces import body_outlines
 from geometry.solids.faced import FacedBody, FacedSolid
-from geometry.solids.faces import (
-    Circular,
-    Cylinder,
-    Faces,
-    Frame,
-    Index,
-    Loop,
-    Plane,
-    Spline,
-    SplineSurface,
-    Straight,
-    Surface,
-)
+from geometry.solids.faces import Circular, Index, Plane, Straight, Use, turned_over
 from geometry.solids.measured import Measured
-from geometry.solids.rings import AHEAD, UP
+from geometry.solids.rings import UP
+from geometry.solids.toothed import ToothedFaces, ToothWall
 
 # degrees across a side and along it, where it is nearly straight; spans one way at most, samples of each, and what is
 # added to sampled errors
@@ -51,9 +39,6 @@ _COARSEST, _JOINT, _ROUNDING = 1e-6, 2e-8, 8e-15
 _CLOSER = 1.5
 # lines of the other way on which the spans of one are chosen
 _LINES = 5
-
-# edges (n,) and whether they run forwards
-Use = tuple[Index, bool]
 
 
 def faced_face_gear(gear: FaceGear) -> FacedBody:
@@ -68,15 +53,9 @@ def faced_face_gear(gear: FaceGear) -> FacedBody:
     return FacedBody(lambda t: made(min(t, _COARSEST)), walls, own_ends=ends)
 
 
-class _Wall(Record, eq=False):
-    """Splines of the upper side of tooth 1: knots from root to tip and inwards, poles (u, v, 3).
+class _Wall(ToothWall, eq=False):
+    """With its errors, mm: along the normals, and of both ends off their cylinders."""
 
-    Errors, mm: along the normals, and of both ends off their cylinders.
-    """
-
-    across: Real
-    along: Real
-    poles: Real
     error: float
     ends: float
 
@@ -192,7 +171,7 @@ def _fitted_wall(gear: FaceGear, which: int, across: int, along: int) -> _Wall:
     rows, columns = (basis_matrix(*each) for each in zip(_DEGREES, knots, fine, strict=True))
     made = np.einsum("iu,uvc,jv->ijc", rows, poles, columns, optimize=True)
     error = _MARGIN * float(_off(gear, _places(gear, which, *fine), made).max())
-    return _Wall(knots[0], knots[1], poles, error, _off_ends(gear, made))
+    return _Wall(_DEGREES, knots[0], knots[1], poles, error, _off_ends(gear, made))
 
 
 def face_gear_solid(gear: FaceGear, tolerance: float) -> FacedSolid:
@@ -207,98 +186,38 @@ def face_gear_solid(gear: FaceGear, tolerance: float) -> FacedSolid:
     core = body_outlines(gear.core, tolerance)
     made = _Built(gear, walls, core)
     made.teeth()
-    for wall in gear.core.walls[1:]:
-        made.wall(wall)
-    for cap in gear.core.caps:
-        made.face(cap)
+    made.within()
     worst = max(*(wall.error for wall in walls), *(outline.max_error for outline in core))
     return FacedSolid(made.solid(), worst, "sampled")
 
 
-class _Built(BodyFaces):
-    """Vertices, edges and faces of one gear: ends are the outer (0) and the inner one (1).
-
-    ``rims``: what stands in place of the core's first wall, by its loops.
-    """
+class _Built(ToothedFaces):
+    """Vertices, edges and faces of one gear."""
 
     def __init__(self, gear: FaceGear, walls: tuple[_Wall, ...], core: Sequence[Outline]) -> None:
-        super().__init__(gear.core, core)
+        super().__init__(gear.core, core, gear.number_of_teeth)
         self.gear, self.walls = gear, walls
-        self.turns = np.exp(2j * math.pi * np.arange(gear.number_of_teeth) / gear.number_of_teeth)
         self.radii = gear.outer_radius, gear.inner_radius
-        self.rims: dict[int, Loop] = {}
-
-    def on_teeth(self, points: Real) -> Index:
-        """Numbers of points (k, 3) of tooth 1 on all teeth, (n, k)."""
-        plane = self.turns[:, None] * (points[:, 0] + 1j * points[:, 1])
-        return self.add_points(plane, np.broadcast_to(points[:, 2], plane.shape))
-
-    def within(self, surface: Surface, around: list[Use], *, along: bool = True) -> None:
-        """Faces within edges that turn left about them, as seen from outside."""
-        loop = np.stack([edge for edge, _ in around], axis=1), np.array([way for _, way in around])
-        self.faces.append(Faces(surface, (loop,), along))
 
     def arcs(self, end: int, z: float, start: Index, stop: Index) -> Index:
         """Arcs at a height on the cylinder of an end, counter-clockwise."""
-        return self.add_edges(start, stop, Circular(Frame(self.on_axis(z), UP, AHEAD), self.radii[end]))
+        return self.add_edges(start, stop, Circular(self.frame_at(z), self.radii[end]))
 
     def teeth(self) -> None:
         """Flanks, fillets, tips, and what both ends leave between them."""
-        gear, mirror = self.gear, np.array([1.0, -1.0, 1.0])
-        fillet, flank = self.walls
-        corners, points = [], []
-        for end in (0, -1):
-            # from the lower foot over the tip to the upper foot
-            upper = np.array([fillet.poles[0, end], flank.poles[0, end], flank.poles[-1, end]])
-            points.append(self.on_teeth(np.concatenate([upper * mirror, upper[::-1]])))
-            corners.append(np.stack([self.add_vertices(column) for column in points[-1].T], axis=1))
-        radial: dict[int, Index] = {}
-        ends: tuple[dict[tuple[int, int], Index], ...] = {}, {}
-        for side, which in ((s, w) for s in (-1, 1) for w in SIDES):
-            first, last = (which, which + 1) if side < 0 else (5 - which, 4 - which)
-            wall = self.walls[which]
-            grid = self._grid(wall.poles * (mirror if side < 0 else 1.0), points, first, last)
-            for end in (0, 1):
-                curve = Spline(_DEGREES[0], wall.across, grid[:, :, -end])
-                ends[end][side, which] = self.add_edges(corners[end][:, first], corners[end][:, last], curve)
-            for corner, u in ((first, 0), (last, -1)):
-                if corner not in radial:
-                    line = Spline(_DEGREES[1], wall.along, grid[:, u])
-                    radial[corner] = self.add_edges(corners[0][:, corner], corners[1][:, corner], line)
-            surface = SplineSurface(_DEGREES, wall.across, wall.along, grid)
-            around = [(ends[0][side, which], True), (radial[last], True), (ends[1][side, which], False),
-                      (radial[first], False)]  # fmt: skip
-            if side > 0:
-                around = [(edge, not way) for edge, way in reversed(around)]
-            self.within(surface, around, along=side < 0)
-        tips = [self.arcs(end, gear.height, corners[end][:, 2], corners[end][:, 3]) for end in (0, 1)]
-        self.within(Plane(Frame(self.on_axis(gear.height), UP, AHEAD)),
-                  [(tips[0], True), (radial[3], True), (tips[1], False), (radial[2], False)])  # fmt: skip
-        over = [[(side[-1, 0], True), (side[-1, 1], True), (tip, True), (side[1, 1], False), (side[1, 0], False)]
-                for side, tip in zip(ends, tips, strict=True)]  # fmt: skip
-        feet = self.arcs(1, gear.thickness, corners[1][:, 0], corners[1][:, 5])
-        self.within(self.cylinder(1), [*over[1], (feet, False)], along=False)
-        roots = self.arcs(0, gear.thickness, corners[0][:, 5], np.roll(corners[0][:, 0], -1))
+        gear, made = self.gear, self.sides({-1: self.walls, 1: self.walls})
+        (outer, inner), radial = made.corners, made.radial
+        tips = [self.arcs(end, gear.height, made.corners[end][:, 2], made.corners[end][:, 3]) for end in (0, 1)]
+        self.bounded(Plane(self.frame_at(gear.height)),
+                     [(tips[0], True), (radial[3], True), (tips[1], False), (radial[2], False)])  # fmt: skip
+        feet = self.arcs(1, gear.thickness, inner[:, 0], inner[:, 5])
+        self.bounded(self.pipe(self.radii[1]), [*made.over(1, tips[1]), (feet, False)], along=False)
+        roots = self.arcs(0, gear.thickness, outer[:, 5], np.roll(outer[:, 0], -1))
         # the root and the plate within the teeth are one plane
         after = [np.roll(radial[0], -1), np.roll(feet, -1), np.roll(radial[5], -1)]
         ways = np.tile([True, True, True, False], len(self.turns))
         self.rims[self.body.walls[0].upper] = np.stack([roots, *after], axis=1).reshape(1, -1), ways
-        self._outside(corners[0][:, 0], roots, over[0])
-
-    def cylinder(self, end: int) -> Cylinder:
-        """About the axis through an end."""
-        return Cylinder(Frame(self.on_axis(0.0), UP, AHEAD), self.radii[end])
-
-    def _grid(self, poles: Real, ends: list[Index], first: int, last: int) -> Index:
-        """Numbers (n, u, v) of poles (u, v, 3) on all teeth, whose corners stand already."""
-        inner = np.ones(poles.shape[:2], bool)
-        inner[np.ix_((0, -1), (0, -1))] = False
-        grid = np.empty((len(self.turns), *poles.shape[:2]), int)
-        grid[:, inner] = self.on_teeth(poles[inner])
-        for u, corner in ((0, first), (-1, last)):
-            for v in (0, 1):
-                grid[:, u, -v] = ends[v][:, corner]
-        return grid
+        self._outside(outer[:, 0], roots, made.over(0, tips[0]))
 
     def _outside(self, foot: Index, roots: Index, over: list[Use]) -> None:
         """The outer cylinder, tooth by tooth."""
@@ -306,10 +225,6 @@ class _Built(BodyFaces):
         low = self.add_vertices(self.add_points(np.asarray(at[:, 0] + 1j * at[:, 1]), 0.0))
         lines = self.add_edges(low, foot, Straight(UP))
         arcs = self.arcs(0, 0.0, low, np.roll(low, -1))
-        back = [(edge, not way) for edge, way in reversed(over)]
-        self.within(self.cylinder(0), [(arcs, True), (np.roll(lines, -1), True), (roots, False), *back, (lines, False)])
+        around = [(arcs, True), (np.roll(lines, -1), True), (roots, False), *turned_over(over), (lines, False)]
+        self.bounded(self.pipe(self.radii[0]), around)
         self.rims[self.body.walls[0].lower] = arcs[::-1][None], np.full(len(arcs), False)
-
-    def around(self, loop: int, left: bool) -> Loop:
-        """The loop of a face, which runs about teeth or plate where the core begins."""
-        return self.rims[loop] if loop in self.rims else super().around(loop, left)

@@ -15,10 +15,10 @@ from geometry.approximation.tensor import axis_poles, clamped, greville
 from geometry.curves.curve import Real
 from geometry.gears.worms.band import Band, Cell
 from geometry.gears.worms.body import WormBody
-from geometry.gears.worms.shaft_faces import Use, WormRings
+from geometry.gears.worms.shaft_faces import WormRings
 from geometry.gears.worms.strips import DEGREE, fitted_knots
 from geometry.solids import faces as kinds
-from geometry.solids.faces import Frame, Index, Spline, Straight
+from geometry.solids.faces import Frame, Index, Spline, Straight, Use, turned_over
 from geometry.solids.rings import UP
 
 # steps of the angle a turn, and what is left of one at an end at least
@@ -172,7 +172,7 @@ class BandFaces(WormRings):
         uses: list[Use] = [(np.concatenate(column), way) for column, way in zip(columns, ways, strict=True)]
         up = side * self.band.kind > 0
         if not up:
-            uses = [(edge, not way) for edge, way in reversed(uses)]
+            uses = turned_over(uses)
         self.face(surface, uses, along=up, threaded=True)
 
     def _middles(self) -> list[Index]:
@@ -228,7 +228,7 @@ class BandFaces(WormRings):
             around.append((top, False))
             around += [(edge, False) for edge in reversed(self.sides[-1].across[column])]
             if end < 0:
-                around = [(edge, not way) for edge, way in reversed(around)]
+                around = turned_over(around)
             self.face(kinds.Plane(Frame(origin, normals, UP)), around)
 
     # cylinder ---------------------------------------------------------------------------------------------------

@@ -20,12 +20,12 @@ from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.band import Lifted
 from geometry.gears.worms.band_faces import BandFaces
 from geometry.gears.worms.body import Screwed, WormBody, worm_moments
-from geometry.gears.worms.shaft_faces import Use, WormRings
+from geometry.gears.worms.shaft_faces import WormRings
 from geometry.gears.worms.strips import DEGREE, MARGIN, TARGET, fitted_knots
 from geometry.gears.worms.thread import SectionLine
 from geometry.solids import faces as kinds
 from geometry.solids.faced import FacedBody, FacedSolid, Measured
-from geometry.solids.faces import Frame, Index, Spline, Straight
+from geometry.solids.faces import Frame, Index, Spline, Straight, Use, turned_over
 from geometry.solids.rings import AHEAD, UP
 
 # steps of the polar angle: one start has so many a turn; more starts have one or two from thread to thread
@@ -216,7 +216,7 @@ class CutThreads(WormRings):
                     (edges[:, 1:][:, own_cells].ravel(), False), (helices[k][:, own_cells].ravel(), False),
                 ]  # fmt: skip
                 if side < 0:
-                    around = [(edge, not way) for edge, way in reversed(around)]
+                    around = turned_over(around)
                 self.face(surface, around, along=side > 0, threaded=True)
         return _Strip(tuple(levels), first, first + self.steps, np.stack(corners), np.stack(helices), tuple(across))
 
@@ -336,14 +336,14 @@ class CutThreads(WormRings):
                 frame = Frame(origin, -end * UP, AHEAD)
                 surface = kinds.Cone(frame, worm.root_radius, math.pi / 2 - self.body.end_angle)
             else:
-                surface = kinds.Plane(Frame(origin, UP, AHEAD))
+                surface = kinds.Plane(self.frame_at(end * half))
             under = self.arc(worm.root_radius, end * half, upper.corners[0][:, column], lower.corners[0][:, column])
             around: list[Use] = [(e[:, column], True) for e in upper.across]
             around.append(self.tip_arcs[end])
             around += [(e[:, column], False) for e in reversed(lower.across)]
             around.append((under[0], not under[1]))
             if end < 0:
-                around = [(edge, not way) for edge, way in reversed(around)]
+                around = turned_over(around)
             self.face(surface, around, along=end > 0 or self.body.end_angle > 0)
             # the whole circle, thread by thread: what lies above thread j comes before it
             own = [*self.space_arcs[end], under]

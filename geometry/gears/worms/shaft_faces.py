@@ -13,11 +13,8 @@ from geometry.curves.curve import Real
 from geometry.curves.line_arc import Arc
 from geometry.gears.worms.body import WormBody
 from geometry.solids import faces as kinds
-from geometry.solids.faces import Circular, Faces, Frame, Index, Straight
+from geometry.solids.faces import Circular, Frame, Index, Straight, Use, loop_of, turned_over
 from geometry.solids.rings import AHEAD, UP, Ring, RingBuilder
-
-# an edge of every thread (n,), and whether it runs forwards
-Use = tuple[Index, bool]
 
 
 class WormRings(RingBuilder):
@@ -47,10 +44,8 @@ class WormRings(RingBuilder):
         ``along``: those point outwards; ``threaded``: a left-hand worm has them turned over.
         """
         if self.worm.sign < 0:
-            around = [(edge, not way) for edge, way in reversed(around)]
-            along = along != threaded
-        loop = np.stack([edge for edge, _ in around], axis=1), np.array([way for _, way in around])
-        self.faces.append(Faces(surface, (loop,), along))
+            around, along = turned_over(around), along != threaded
+        self.bounded(surface, around, along=along)
 
     def panels(
         self,
@@ -66,7 +61,7 @@ class WormRings(RingBuilder):
         for i, ((b0, t0), (b1, t1)) in enumerate(pairwise([(0, 0), *at, (len(bottom), len(top))])):
             right: list[Use] = [(edges[i], True)] if i < len(edges) else []
             left: list[Use] = [(edges[i - 1], False)] if i > 0 else []
-            made.append([*bottom[b0:b1], *right, *((edge, not way) for edge, way in reversed(top[t0:t1])), *left])
+            made.append([*bottom[b0:b1], *right, *turned_over(top[t0:t1]), *left])
         return made
 
     def on_circle(self, radius: float, angle: float, z: float) -> Index:
@@ -76,14 +71,8 @@ class WormRings(RingBuilder):
 
     def arc(self, radius: float, z: float, start: Index, end: Index) -> Use:
         """Arcs about the axis towards growing angles of a right-hand worm."""
-        frame = Frame(self.on_axis(z), UP, AHEAD)
-        if self.worm.sign < 0:
-            return self.add_edges(end, start, Circular(frame, radius)), False
-        return self.add_edges(start, end, Circular(frame, radius)), True
-
-    def pipe(self, radius: float) -> kinds.Cylinder:
-        """The cylinder about the axis, its radius in mm."""
-        return kinds.Cylinder(Frame(self.on_axis(0.0), UP, AHEAD), radius)
+        forwards, circle = self.worm.sign > 0, Circular(self.frame_at(z), radius)
+        return self.add_edges(*((start, end) if forwards else (end, start)), circle), forwards
 
     def arcs(self, radius: float, z: float, nodes: list[Index]) -> tuple[list[Use], list[Index]]:
         """Arcs from node to node; and the nodes."""
@@ -101,9 +90,7 @@ class WormRings(RingBuilder):
         for end in (-1, 1):
             points = self.body.outline(above=end > 0)
             # as seen from the end
-            outer: list[Use] = (
-                self.rims[end] if self.worm.sign > 0 else [(e, not w) for e, w in reversed(self.rims[end])]
-            )
+            outer = self.rims[end] if self.worm.sign > 0 else turned_over(self.rims[end])
             for before, after in pairwise(points):
                 ring = self.ring(_whole(after[1]), after[0], self._first_angle(outer))
                 if before[0] == after[0]:
@@ -149,7 +136,7 @@ class WormRings(RingBuilder):
         (z0, r0), (z1, r1) = before, after
         surface: kinds.Surface
         if r0 == r1:
-            surface = kinds.Cylinder(Frame(self.on_axis(z0), UP, AHEAD), r0)
+            surface = kinds.Cylinder(self.frame_at(z0), r0)
         else:
             # towards the wider end
             way = math.copysign(1.0, (r1 - r0) * (z1 - z0))
@@ -159,12 +146,8 @@ class WormRings(RingBuilder):
         first = self._first(outer)
         straight = self.place(ring.starts[0]) - self.place(first)
         seam = self.add_edges(first, ring.starts[0], Straight(straight / np.linalg.norm(straight)))
-        rim = [(e, True) for e in ring.edges]
-        around = [*outer, (seam, True), *((e, not w) for e, w in reversed(rim)), (seam, False)]
-        if end < 0:
-            around = [(e, not w) for e, w in reversed(around)]
-        edges, ways = zip(*around, strict=True)
-        self.faces.append(Faces(surface, ((np.stack(edges, axis=1), np.array(ways)),)))
+        around = [*outer, (seam, True), *((e, False) for e in reversed(ring.edges)), (seam, False)]
+        self.bounded(surface, around if end > 0 else turned_over(around))
 
 
 def _whole(radius: float) -> Outline:
@@ -173,9 +156,7 @@ def _whole(radius: float) -> Outline:
 
 def _loop(outer: list[Use], *, left: bool) -> kinds.Loop:
     """A ring, which turns left as seen from above, as the loop of a face."""
-    around = outer if left else [(e, not w) for e, w in reversed(outer)]
-    edges, ways = zip(*around, strict=True)
-    return np.stack(edges, axis=1), np.array(ways)
+    return loop_of(outer if left else turned_over(outer))
 
 
 def _find(nodes: list[Index], node: Index) -> int:
