@@ -12,6 +12,7 @@ import ast
 import inspect
 import io
 import pkgutil
+import re
 import sys
 from collections.abc import Iterator
 from importlib import import_module
@@ -33,6 +34,8 @@ from parts.base.schema import phrase_of
 from parts.base.texts import DOMAIN, LOCALE
 from parts.mates.registry import MATES
 from parts.pages.cam_steps import law_text
+from parts.pages.contour_picture import STYLES
+from parts.pages.module_rules import CONDITIONS, RULES
 from parts.pages.terms import TERMS
 from parts.recipes.registry import RECIPES
 from parts.scene.files import SCENE_FOLDER
@@ -79,6 +82,9 @@ def _kept_in_data() -> Iterator[str]:
     """Kinds, terms, keys and tables of scenes and calculations: they need no mark."""
     yield from (*KINDS.phrases.values(), *MATES.phrases.values(), *RECIPES.phrases.values())
     yield from (term.name for term in TERMS.values())
+    yield from (row.reason for row in (*RULES, *CONDITIONS))
+    # the rest are symbols
+    yield from (style.name for style in STYLES.values() if re.search("[a-z]{4}", style.name))
     yield from (law_text(law().name).msgid for law in NAMED_LAWS.values())
     for file in sorted(file for name in _SPEAKING for file in SCENE_FOLDER.glob(f"{name}.toml")):
         yield from comments_of(file.read_text("utf-8"))

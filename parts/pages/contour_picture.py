@@ -15,6 +15,7 @@ from geometry.gears.shifts.internal_shifts import InternalShiftPair
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.ring import RoundedRoot
 from geometry.gears.teeth.transverse import normal_angle
+from parts.base.psv import rows_of
 from parts.base.texts import N_, Message, Text, Words, message
 from parts.pages.svg import chain, circle, document, written
 
@@ -48,7 +49,7 @@ class ContourPicture(Record):
         }
 
 
-class _Style(Record):
+class Style(Record):
     """Colour and dashes of a line, its name."""
 
     colour: str
@@ -56,42 +57,14 @@ class _Style(Record):
     name: str
 
 
-_STYLES = {
-    "working_angle": _Style("#808080", "2 2", "inv α_w = 0"),
-    "undercut_first": _Style("#c03020", "", N_("undercut, gear 1: x_min1")),
-    "undercut_second": _Style("#2060c0", "", N_("undercut, gear 2: x_min2")),
-    "undercut_to_active_flank_first": _Style("#c03020", "7 3", N_("undercut reaches the active flank, 1")),
-    "undercut_to_active_flank_second": _Style("#2060c0", "7 3", N_("undercut reaches the active flank, 2")),
-    "fillet_interference_first": _Style("#c03020", "2 3", N_("fillet interference, gear 1")),
-    "fillet_interference_second": _Style("#2060c0", "2 3", N_("fillet interference, gear 2")),
-    "tip_thickness_first": _Style("#a06000", "", "S_a1"),
-    "tip_thickness_second": _Style("#008090", "", "S_a2"),
-    "contact_ratio": _Style("#209050", "", "ε_α"),
-    "total_contact_ratio": _Style("#209050", "", "ε_γ"),
-    "approach": _Style("#8030a0", "7 2 2 2", N_("pole at the start of action")),
-    "recess": _Style("#8030a0", "2 2", N_("pole at the end of action")),
-    "involute_interference": _Style("#b01070", "", N_("involute interference")),
-    "trochoid_interference": _Style("#b01070", "6 2", N_("tip (trochoid) interference")),
-    "radial_assembly": _Style("#704010", "6 2 2 2", N_("radial assembly")),
-    "tip_above_base": _Style("#808080", "", N_("r_a2 = r_b2: ring tips on the base circle")),
-    "tip_clearance_first": _Style("#6080a0", "1 2", N_("c_1: clearance at the pinion's root")),
-    "tip_clearance_second": _Style("#6080a0", "5 2", N_("c_2: clearance at the ring's root")),
-    "rounded_root": _Style("#607020", "2 2", N_("the rounding fills the space")),
-    "cutter_working_angle": _Style("#607020", "1 3", N_("cutter: inv α_w0 = 0")),
-    "cutter_involute_interference": _Style("#607020", "", N_("cutter: involute interference")),
-    "cutter_trochoid_interference": _Style("#607020", "6 2", N_("cutter trims the tips")),
-    "cutter_radial_assembly": _Style("#607020", "6 2 2 2", N_("cutter: radial feed")),
-    "cutter_working_angle_first": _Style("#a0a020", "1 3", N_("pinion's cutter: inv α_w0 = 0")),
-    "cutter_reach_first": _Style("#a0a020", "", N_("pinion's cutter: tip reached")),
-    "equal_sliding": _Style("#000000", "9 3", N_("equal sliding ζ_f1 = ζ_f2")),
-}
+STYLES = {name: Style(*cells) for name, *cells in rows_of(__file__, "contour_lines")}
 # the tighter the level the fainter the line
 _OPACITY = {0.0: 1.0, 0.25: 0.75, 0.3: 0.6, 0.4: 0.4, 1.0: 1.0, 1.1: 0.7, 1.2: 0.45}
 
 
 def line_name(name: str) -> Message:
     """A line of the contour, or a condition, in words."""
-    return message(_STYLES[name if name in _STYLES else name.replace("active_flank", "fillet_interference")].name)
+    return message(STYLES[name if name in STYLES else name.replace("active_flank", "fillet_interference")].name)
 
 
 def line_title(name: str, level: float | None, words: Words) -> str:
@@ -155,7 +128,7 @@ def contour_svg(contour: BlockingContour, marks: dict[str, tuple[float, float]],
         lines.append(f'<path d="{region}" style="fill:#e4f2e4;fill-rule:evenodd;stroke:none"/>')
     lines += _axes(contour, scale, width, height)
     for line in contour.lines:
-        style = _STYLES[line.name]
+        style = STYLES[line.name]
         for piece in clipped(line.points, box):
             lines.append(chain(map(at, piece), f"fill:none;{_stroke(line, style)}"))
     lines += _key(contour, marks, _LEFT + width + 20, words)
@@ -167,7 +140,7 @@ def contour_svg(contour: BlockingContour, marks: dict[str, tuple[float, float]],
     return document(_LEFT + width + _KEY, max(_TOP + height + _BOTTOM, 19.0 * told + _TOP), lines)
 
 
-def _stroke(line: ContourLine, style: _Style) -> str:
+def _stroke(line: ContourLine, style: Style) -> str:
     opacity = 1.0 if line.level is None else _OPACITY.get(line.level, 1.0)
     dashes = f";stroke-dasharray:{style.dashes}" if style.dashes else ""
     return f"stroke:{style.colour};stroke-width:1.4;stroke-opacity:{opacity:g}{dashes}"
@@ -185,7 +158,7 @@ def kinds_shown(contour: BlockingContour) -> list[ContourLine]:
 def _key(contour: BlockingContour, marks: dict[str, tuple[float, float]], left: float, words: Words) -> list[str]:
     lines, y = [], _TOP + 4
     for line in kinds_shown(contour):
-        style = _STYLES[line.name]
+        style = STYLES[line.name]
         lines.append(
             f'<line x1="{left:.1f}" y1="{y:.1f}" x2="{left + 34:.1f}" y2="{y:.1f}" style="{_stroke(line, style)}"/>'
         )

@@ -6,9 +6,10 @@ The table of them all is ``terms.psv``.
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Sequence
 
 from geometry.base.record import Record
+from parts.base.psv import rows_in, rows_of
 
 
 class Term(Record):
@@ -31,11 +32,13 @@ def add_terms(text: str) -> None:
     ValueError
         A name that is taken.
     """
-    lines = [line for line in text.strip().splitlines() if not line.startswith("#")]
-    rows = [[cell.strip() for cell in line.split("|")] for line in lines]
+    _add(rows_in(text))
+
+
+def _add(rows: Sequence[Sequence[str]]) -> None:
     if taken := {name for name, *_ in rows} & TERMS.keys():
         raise ValueError(f"terms that are there already: {taken}")
     TERMS.update({name: Term(*cells) for name, *cells in rows})
 
 
-add_terms((Path(__file__).parent / "terms.psv").read_text("utf-8"))
+_add(rows_of(__file__, "terms"))

@@ -22,7 +22,7 @@ from parts.mates.pages.contour_marks import checked_picture
 from parts.mates.pages.lever_forces import ForcePage, Forces, asked, weighs
 from parts.mates.pages.lever_keys import NAMES, LeverKeys, levers_of
 from parts.mates.pages.lever_picture import LeverPicture, Plan, Run, Vector, plan_of
-from parts.mates.pages.lever_tasks import ASSIGNMENTS, EXAMPLE, assigned, rows_of_code
+from parts.mates.pages.lever_tasks import EXAMPLE, MACHINES, assigned, rows_of_code
 from parts.pages.inputs import checked, refusal
 from parts.pages.page import Misprints, Printed, Sheet
 from parts.pages.terms import TERMS
@@ -492,7 +492,7 @@ class _Page:
     def _notes(self) -> None:
         page, levers = self.page, self.levers
         if self.number is not None:
-            machine = message(ASSIGNMENTS[self.number][0])
+            machine = message(MACHINES[self.number])
             page.note("assignment {number}: {machine}", number=self.number, machine=machine)
             if self.number != 1:
                 page.note(

@@ -1,0 +1,16 @@
+"""Tables of the product's own data in files: a row a line, cells between ``|``; lines with ``#`` first are remarks."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+
+def rows_in(text: str) -> list[list[str]]:
+    """The cells of each row of a text."""
+    lines = text.strip().splitlines()
+    return [[cell.strip() for cell in line.split("|")] for line in lines if line and not line.startswith("#")]
+
+
+def rows_of(module: str, table: str) -> list[list[str]]:
+    """Those of a table that lies beside a module; ``module``: its ``__file__``."""
+    return rows_in(Path(module).with_name(f"{table}.psv").read_text("utf-8"))
