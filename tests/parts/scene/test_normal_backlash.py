@@ -7,10 +7,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 
 from geometry.gears.teeth.transverse import normal_share
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
+from tests import brute
 from tests.geometry.gears.mesh.test_transmission_error import Brute
 
 BETA = 25.0
@@ -65,9 +67,9 @@ def test_thinned_teeth_may_stand_nearer_and_have_the_backlash_that_is_asked(
     asked = there + (0.03 if 0.0 in own else 0.0)
     mating = mated(kind, thinned, working_centre_distance=nearer, normal_backlash=asked)
     assert mating.normal_backlash == pytest.approx(asked, abs=1e-9)
-    brute = Brute(mating.pair, 1), Brute(mating.pair, -1)
+    ways = Brute(mating.pair, 1), Brute(mating.pair, -1)
     share = shares()[1] if beta else 1.0
-    assert [b.touch(0.1) for b in brute] == pytest.approx([asked / share / 2] * 2, abs=2e-4)
+    assert [b.touch(0.1) for b in ways] == pytest.approx([asked / share / 2] * 2, abs=2e-4)
     with pytest.raises(SceneError) as refused:
         mated(kind, thinned, working_centre_distance=nearer, normal_backlash=there - 0.01)
     assert refused.value.key.endswith("normal_backlash")
@@ -97,6 +99,36 @@ def test_shifts_without_a_distance_of_their_own_mesh_where_there_is_room(
     with pytest.raises(SceneError) as refused:
         mated(kind, straight, working_centre_distance=distance - 2.0)
     assert refused.value.nearest is not None
+
+
+@pytest.mark.parametrize(
+    ("kind", "own", "step"),
+    [("rack_pair", (0.5, 0.3), -0.2), ("rack_pair", (1.0, 0.2), 0.1), ("internal_gear_pair", (0.8, 0.4), 0.3)],
+)
+def test_tips_beside_fillets_and_roots_may_be_nearer_than_half_of_the_backlash(
+    kind: str, own: tuple[float, float], step: float
+) -> None:
+    """Of teeth that have much of it, or stand deep: as whole polygons are at 50 phases."""
+    straight = tuple({"helix_angle_deg": 0.0, "circumferential_thinning": thinning} for thinning in own)
+    first, second = (part | more for part, more in zip(PARTS[kind], straight, strict=True))
+    mate = {"kind": kind, "first": "a", "second": "b"}
+    mate["working_centre_distance"] = mated(kind, straight).distance + step
+    parts, (mating,) = make_parts(scene_from_dict({"parts": {"a": first, "b": second}, "mates": [mate]}, "t", "t"), "t")
+    worst = mating.contact(0.0, 0.0, None).worst
+    regions = [parts[name].section(0.0).region for name in "ab"]
+    # the toothed boundary alone: of a ring the hole
+    toothed = [max((r.outer, *r.holes), key=lambda p: p.count) for r in regions]
+    lines = [np.concatenate([brute.dense(s.curve, 25)[:-1] for s in profile.segments()]) for profile in toothed]
+
+    def gap(turn: float) -> float:
+        centre, rotation = mating.second_pose(0j, turn, 0.0)
+        placed = lines[0] * np.exp(1j * turn), centre + lines[1] * np.exp(1j * rotation)
+        one, other = (shapely.LinearRing(np.column_stack([p.real, p.imag])) for p in placed)
+        return float(one.distance(other))
+
+    assert worst.gap < mating.normal_backlash / 2 - 1e-3
+    pitch = math.tau / first["number_of_teeth"]
+    assert min(gap(pitch * k / 50) for k in range(50)) == pytest.approx(worst.gap, abs=2e-4)
 
 
 @KINDS
