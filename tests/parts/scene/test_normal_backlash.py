@@ -118,7 +118,7 @@ def test_tips_beside_fillets_and_roots_may_be_nearer_than_half_of_the_backlash(
     regions = [parts[name].section(0.0).region for name in "ab"]
     # the toothed boundary alone: of a ring the hole
     toothed = [max((r.outer, *r.holes), key=lambda p: p.count) for r in regions]
-    lines = [np.concatenate([brute.dense(s.curve, 25)[:-1] for s in profile.segments()]) for profile in toothed]
+    lines = [np.concatenate([brute.dense(s.curve, 40)[:-1] for s in profile.segments()]) for profile in toothed]
 
     def gap(turn: float) -> float:
         centre, rotation = mating.second_pose(0j, turn, 0.0)
