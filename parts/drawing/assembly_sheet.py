@@ -43,8 +43,8 @@ _TRIES = 12
 # the largest extent of the views on paper, below which larger paper is better, but for what is enlarged so far
 _LEAST, _ENLARGED = 120.0, 2.0
 _LETTER = "A"
-# mm by which lines along a size are off it at most
-_LEVEL = 1e-6
+# mm by which lines along a size are off it at most; digits of what is a tie on any machine
+_LEVEL, _DIGITS = 1e-6, 6
 # how many times higher than a view a column of numbers may be that crosses fewer dimension lines
 _HIGHER = 2.0
 # how many times longer than high a view is whose numbers stand above it, and from one of these to the next, mm
@@ -233,7 +233,8 @@ def _shared(drawns: Sequence[Drawn], rows: Sequence[ListRow], scale: float) -> l
         if max(room) > 0:
             best = room.index(max(room))
             ordered = sorted(places[best], key=lambda spot: -spot[1])
-            found[best][row.position] = tuple(scale * p for p, off in ordered if off >= _ROOMY * max(room))
+            ends = np.array([p for p, off in ordered if off >= _ROOMY * max(room)])
+            found[best][row.position] = tuple((scale * ends).round(_DIGITS).tolist())
     return found
 
 
@@ -262,16 +263,16 @@ def _numbered(view: AssemblyView, share: Mapping[int, tuple[complex, ...]], scal
     """A view with its sizes and its numbers; None where one would run through words.
 
     The numbers stand in a column on each side, those of a long view above it. Where leaders would cross dimension lines
-    all stand on one side, or nearer to the view than these.
+    all stand on one side, or nearer to the view than these: as the leaders are shortest.
     """
     if (usual := _sized(view, scale, language, {})) is None:
         return None
     numbers, box = sorted(share.items(), key=lambda pair: (pair[1][0].real, pair[0])), usual.box
     tall, wide, sides = box.tall, box.wide, _sides(numbers, box)
     room = _AWAY + 2 * _SHELF + max((text_width(str(number), _HEIGHT) for number in share), default=0.0)
-    best, least = None, (math.inf, math.inf)
+    best, least = None, (math.inf, math.inf, math.inf)
     for free, (left, right) in product((0.0, room), (sides, (numbers, []), ([], numbers))):
-        if best is not None and (not least[1] or _STEP * max(len(left), len(right)) > _HIGHER * tall):
+        if best is not None and (not any(least[1:]) or _STEP * max(len(left), len(right)) > _HIGHER * tall):
             continue
         kept: dict[Side, float] = {"left": free if left else 0.0, "right": free if right else 0.0}
         one = _sized(view, scale, language, kept) if free else usual
@@ -283,7 +284,11 @@ def _numbered(view: AssemblyView, share: Mapping[int, tuple[complex, ...]], scal
         found = row or _led(left, right, _body(view, scale) if free else box, one.ink())
         if found is not None:
             lines = [*_size_lines(one.canvas)]
-            cost = float(_crossings(found, ())), float(sum(_runs_over(leader, lines) for leader in found))
+            long = sum(_off(leader.spot, leader.elbow) for leader in found)
+            cost = (
+                float(_crossings(found, ())), float(sum(_runs_over(leader, lines) for leader in found)),
+                0.0 if one is usual and left is sides[0] else long,
+            )  # fmt: skip
             best, least = ((one, found), cost) if cost < least else (best, least)
     if best is None:
         return None
@@ -339,7 +344,7 @@ def _runs_over(leader: _Leader, lines: Sequence[tuple[complex, complex]]) -> int
 def _sides(numbers: Sequence[_Numbered], box: Box) -> tuple[list[_Numbered], list[_Numbered]]:
     """Numbers, from the left, of the left and of the right column: what one has no room for stands in the other one."""
     most = max(int(box.tall / _STEP) + 1, math.ceil(len(numbers) / 2))
-    left = sum(spots[0].real < box.middle.real for _, spots in numbers)
+    left = sum(spots[0].real < box.middle.real - _LEVEL for _, spots in numbers)
     left = max(min(left, most), len(numbers) - most)
     return [*numbers[:left]], [*numbers[left:]]
 
@@ -426,7 +431,7 @@ def _swept(
 def _slope(elbow: complex, one: _Numbered) -> float:
     """How steeply a leader rises from its shelf."""
     way = one[1][0] - elbow
-    return way.imag / abs(way.real)
+    return round(way.imag / abs(way.real), _DIGITS)
 
 
 def _untangled(leaders: list[_Leader], ink: Ink) -> list[_Leader]:
@@ -445,8 +450,8 @@ def _untangled(leaders: list[_Leader], ink: Ink) -> list[_Leader]:
 
 
 def _off(one: complex, other: complex) -> float:
-    """Distance of two points."""
-    return abs(one - other)
+    """Distance of two points, mm."""
+    return round(abs(one - other), _DIGITS)
 
 
 def _cross(one: _Leader, two: _Leader) -> bool:

@@ -16,8 +16,9 @@ import numpy as np
 from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2, Placement3
 from geometry.base.record import Record
-from geometry.curves.curve import Complex, Curve
+from geometry.curves.curve import Complex, Curve, Real
 from geometry.curves.line_arc import Arc, Line
+from geometry.plane.measure import distance_to_curve
 from geometry.solids.sketch import Ring, Sketch, crossing, hatched, reaching, round_ring, stacked
 from parts.drawing.shown import SAMPLES, shown_pieces
 from parts.drawing.working import AXIS, VISIBLE
@@ -123,7 +124,7 @@ def along_axes(shown: Sequence[Shown]) -> Drawn:
         for layer, curve in _pitches(one):
             strokes += [(layer, piece) for piece in _visible(curve, top, one, covers)]
         axes += _axes(one)
-    lines = _samples(strokes)
+    lines = _Lines(strokes)
     spots: dict[str, tuple[Spot, ...]] = {}
     for one, cover in zip(shown, covers.all, strict=True):
         if len(spots.get(one.part, ())) >= _ENOUGH:
@@ -132,8 +133,7 @@ def along_axes(shown: Sequence[Shown]) -> Drawn:
         for other in covers.near(found, cover.reach[1] - cover.tall) if len(found) else ():
             if other is not cover:
                 found = found[~other.hides(found, cover.top(found))]
-        near = lines[np.abs(lines - one.centre) <= cover.reach[0] + _SAME]
-        spots[one.part] = (*spots.get(one.part, ()), *_farthest(found, near))
+        spots[one.part] = (*spots.get(one.part, ()), *_farthest(found, lines.room(found, one.centre, cover.reach[0])))
     return Drawn(_once(strokes), (), _once_each(axes), spots)
 
 
@@ -345,8 +345,8 @@ def cut(shown: Sequence[Shown]) -> Drawn:
         if drawn:
             strokes += _pitches(one) if abs(one.depth) < _SAME or one.stands else ()
             axes += _axes(one) if abs(one.depth) < _SAME or one.stands else ()
-    lines = _samples(strokes)
-    spots = {part: _farthest(_within(loops), lines) for part, loops in filled.items()}
+    lines = _Lines(strokes)
+    spots = {part: _farthest(*_within(loops, lines)) for part, loops in filled.items()}
     hatched = tuple(tuple(loops) for loops in hatches.values() if loops)
     return Drawn(_once(strokes), hatched, _once_each(axes), spots)
 
@@ -433,27 +433,48 @@ def _plain(curve: Curve) -> list[Line | Arc]:
     return [Line(a, b) for a, b in pairwise(points)]
 
 
-def _samples(strokes: Sequence[Stroke]) -> Complex:
-    """Points all along the lines of a view."""
-    rows = [curve.point(np.linspace(*curve.domain, SAMPLES)) for _, curve in strokes]
-    return np.concatenate(rows) if rows else np.zeros(0, dtype=complex)
+class _Lines:
+    """The lines of a view, their samples (n, SAMPLES), and the boxes about them."""
+
+    def __init__(self, strokes: Sequence[Stroke]) -> None:
+        self.curves = [curve for _, curve in strokes]
+        samples = [curve.point(np.linspace(*curve.domain, SAMPLES)) for curve in self.curves]
+        self.samples = np.array(samples, dtype=complex).reshape(-1, SAMPLES)
+        x, y = self.samples.real, self.samples.imag
+        self.sides = [x.min(axis=1), x.max(axis=1), y.min(axis=1), y.max(axis=1)]
+
+    def room(self, points: Complex, about: complex, reach: float) -> Real:
+        """How far points are from the lines that come within ``reach`` of a place, mm.
+
+        Rounded: what has as much room is a tie on any machine, here and beside other instances.
+        """
+        if not len(points):
+            return np.zeros(0)
+        (left, right, low, high), reach = self.sides, reach + _SAME
+        near = (left <= about.real + reach) & (right >= about.real - reach)
+        near &= (low <= about.imag + reach) & (high >= about.imag - reach)
+        off = [self._off(points, k) for k in np.flatnonzero(near).tolist()]
+        return np.min(off, axis=0).round(_DIGITS)
+
+    def _off(self, points: Complex, k: int) -> Real:
+        """Of points from a line: a circle may be parted anywhere, so exactly; of other curves by samples."""
+        if isinstance(curve := self.curves[k], Line | Arc):
+            return distance_to_curve(points, curve)
+        return np.abs(points[:, None] - self.samples[k]).min(axis=1)
 
 
-def _within(loops: Sequence[Sequence[Line | Arc]]) -> Complex:
-    """Points in what is hatched."""
-    found = []
+def _within(loops: Sequence[Sequence[Line | Arc]], lines: _Lines) -> tuple[Complex, Real]:
+    """Points in what is hatched, and how much room is about each, mm."""
+    found, rooms = [np.zeros(0, dtype=complex)], [np.zeros(0)]
     for loop in loops:
         points = np.concatenate([c.point(np.linspace(*c.domain, 9)) for c in loop])
-        x, y = (np.linspace(a.min(), a.max(), 9)[1:-1] for a in (points.real, points.imag))
-        grid = (x[:, None] + 1j * y[None, :]).ravel()
+        x, y = (np.linspace(a.min(), a.max(), 9) for a in (points.real, points.imag))
+        grid = (x[1:-1, None] + 1j * y[None, 1:-1]).ravel()
         found.append(grid[Ring(tuple(loop)).holds(grid)])
-    return np.concatenate(found) if found else np.zeros(0, dtype=complex)
+        rooms.append(lines.room(found[-1], complex(x[4], y[4]), max(x[-1] - x[0], y[-1] - y[0]) / 2))
+    return np.concatenate(found), np.concatenate(rooms)
 
 
-def _farthest(points: Complex, lines: Complex) -> tuple[Spot, ...]:
-    """The best few of places, the farthest from all lines first."""
-    if not len(points):
-        return ()
-    off = np.array([float(np.abs(lines - p).min()) for p in points])
-    order = np.argsort(-np.round(off, 6), kind="stable")[:_FEW]
-    return tuple((complex(points[k]), float(off[k])) for k in order)
+def _farthest(points: Complex, room: Real) -> tuple[Spot, ...]:
+    """The best few of places, those with the most room about first."""
+    return tuple((complex(points[k]), float(room[k])) for k in np.argsort(-room, kind="stable")[:_FEW])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +12,12 @@ import ezdxf
 import numpy as np
 import pytest
 
+from exporters.production import assembly_drawings
 from exporters.production.plan import plan_build
 from exporters.production.sheets import SheetJob
 from geometry.base.placement import Placement3
 from geometry.base.record import replace
+from geometry.curves.line_arc import Arc, Line
 from geometry.solids.sketch import Layer, Sketch, round_ring, sketch_of_turned
 from geometry.solids.turned import HalfSection, Piece
 from parts.base.refusal import SceneError
@@ -183,3 +186,45 @@ def test_an_assembly_is_drawn_alike_wherever_it_stands(at: list[float]) -> None:
     plain, moved = drawn([0.0, 0.0, 0.0]), drawn(at)
     assert moved == plain
     assert plain[0].total() > 50
+
+
+def leaders(job: SheetJob) -> list[Line]:
+    """The lines that begin in a dot, as numbers' leaders do."""
+    thin = [stroke.curve for stroke in job.canvas.strokes if stroke.layer == "THIN"]
+    dots = {curve.centre for curve in thin if isinstance(curve, Arc) and curve.radius == 0.5}
+    return [curve for curve in thin if isinstance(curve, Line) and curve.start in dots]
+
+
+def test_no_leader_is_chosen_by_last_bits(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Both gears have many places with as much room about: another machine takes the same ones."""
+    raw = scene("practicum_pair", exports=[{"format": "svg", "purpose": "assembly"}])
+    draw, plain = np.random.default_rng(37), assembly_drawings.seen
+
+    def moved(shown: Sequence[Shown], view: Placement3) -> list[Shown]:
+        def off(place: Placement3) -> Placement3:
+            x, y, z = (float(w + draw.integers(-3, 4) * 1e-15 * max(abs(w), 1.0)) for w in place.translation)
+            return replace(place, translation=(x, y, z))
+
+        return [replace(one, place=off(one.place)) for one in plain(shown, view)]
+
+    found = []
+    for number in range(4):
+        monkeypatch.setattr(assembly_drawings, "seen", moved if number else plain)
+        (job,) = plan_build(scene_from_dict(raw, "s", "s"), "s", [], []).sheets
+        assert isinstance(job, SheetJob)
+        found.append(np.array([end for line in leaders(job) for end in (line.start, line.end)]))
+    for other in found[1:]:
+        assert other == pytest.approx(found[0], abs=1e-6)
+
+
+def test_a_leader_comes_from_the_side_on_which_its_part_stands() -> None:
+    """A height stands on the right: a leader from the left crosses the other part, one from the right the height."""
+    parts = {"left": DISC, "right": DISC | {"diameter": 60.0}}
+    places = {"left": [0.0, 0.0, 0.0], "right": [200.0, 5.0, 0.0]}
+    raw = {"parts": parts, "instances": {k: {"part": k, "at": at} for k, at in places.items()},
+           "exports": [{"format": "svg", "purpose": "assembly"}]}  # fmt: skip
+    (job,) = plan_build(scene_from_dict(raw, "t", "t"), "t", [], []).sheets
+    assert isinstance(job, SheetJob)
+    one, two = sorted(leaders(job), key=lambda line: line.start.real)
+    assert one.end.real < one.start.real
+    assert two.end.real > two.start.real
