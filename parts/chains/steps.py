@@ -52,8 +52,8 @@ def gap_steps(page: Sheet, sprocket: Sprocket) -> None:
     if isinstance(form, IsoForm):
         page.add("gap_share", form.share)
         page.add("seating_radius", form.seating_radius(roller), "0.505 * {d_r} + {f} * 0.069 * cbrt({d_r})", ISO)
-        angle = "(140 - 20 * {f} - 90 / {z}) * pi / 180"
-        page.add("seating_angle_deg", math.degrees(form.seating_angle(teeth)), angle, ISO)
+        seat = "(140 - 20 * {f} - 90 / {z}) * pi / 180"
+        page.add("seating_angle_deg", math.degrees(form.seating_angle(teeth)), seat, ISO)
         flank = "(1 - {f}) * 0.12 * {d_r} * ({z} + 2) + {f} * 0.008 * {d_r} * ({z}**2 + 180)"
         page.add("chain_flank_radius", form.flank_radius(roller, teeth), flank, ISO)
         return
