@@ -131,6 +131,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
             place, height = complex(*((x.min() + x.max()) / 2 for x in ends)) + shift, 0.0
         x, y = middle + place.real, middle - place.imag - height
         labels.append(Label(names[instance.id], x, y, size))
+    body += _chains(plan, shift, corner, reach)
     # a wide scene is drawn wide: what is above and below it is cut off
     spare = max(0.0, 2 * (middle - (high - low) / 2 - 0.08 * reach))
     seen = (1j * spare / 2, complex(2 * middle, 2 * middle - spare / 2))
@@ -160,6 +161,25 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     lines.append(f'<g transform="translate(0 {number(caption - spare / 2)})">')
     save(file, [*lines, *body, "</g>", *_caption(rows, size, size)])
     return file
+
+
+def _chains(plan: Plan, shift: complex, corner: complex, reach: float) -> list[str]:
+    """The rollers of every chain that runs upright, and the line through their centres."""
+    lines, line = [], f"stroke-width:{reach / 600:.4g}"
+    for mate in plan.placing.mates:
+        pose = mate.first.centre, mate.first.rotation
+        found = mate.mating.rollers(pose, mate.direction) if mate.first.axis == UPWARDS else None
+        if found is None:
+            continue
+        centres, radius = found[0] + shift, found[1]
+        data = path_data(Contour(centres, np.zeros(len(centres))), corner)
+        lines.append(f'<path d="{data}" style="fill:none;stroke:#c03020;{line}"/>')
+        lines += [
+            f'<circle cx="{number(at.real + corner.real)}" cy="{number(corner.imag - at.imag)}" r="{number(radius)}" '
+            f'style="fill:#7f8c99;fill-opacity:0.5;stroke:#202830;{line}"/>'
+            for at in centres.tolist()
+        ]
+    return lines
 
 
 def _leader(label: Label) -> str:

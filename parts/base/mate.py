@@ -19,6 +19,7 @@ from parts.base.texts import Text
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
     from geometry.base.placement import Placement3, Vector
+    from geometry.curves.curve import Complex
     from geometry.gears.mesh.search import PairContact
     from geometry.gears.pairs.external import ExternalPair
     from geometry.gears.pairs.internal import InternalPair
@@ -172,6 +173,10 @@ class Mating(Joined, kw_only=True):
     def centres_direction(self, offset: complex, axis: Vector) -> float:
         """Of the line of centres, rad, where the second's frame stands so against the first."""
         return cmath.phase(offset)
+
+    def rollers(self, first: Pose, direction: float) -> tuple[Complex, float] | None:
+        """Centres of a chain's rollers in order and their radius, mm, where the first stands so; None: it has none."""
+        return None
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact | None:
         """Verdict over one pitch or turn, the second that far off its exact place; None: nothing moves here."""

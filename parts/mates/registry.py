@@ -74,6 +74,10 @@ MATES: Index[MateKind[Any, Any, Any]] = Index(
             "parts.mates.lantern:LANTERN_PAIR",
             "A lantern (first) and its gear (second): exact centre distance and phase",
         ),
+        "chain_drive": (
+            "parts.mates.chain:CHAIN_DRIVE",
+            "Two sprockets and their chain: links or centre distance, phase; both turn the same way",
+        ),
         "geneva_pair": (
             "parts.mates.geneva:GENEVA_PAIR",
             "A driver (first) and its Geneva wheel (second), which it turns step by step and locks between",

@@ -46,6 +46,13 @@ MATES: dict[str, Text] = {
         "lantern pair {first} - {second}: a_w = {working_centre_distance:.5f} mm, ratio {gear_ratio:.6g}, "
         "contact ratio {lantern_contact_ratio:.4f}"
     ),
+    "chain_drive": counted(
+        "chain drive {first} - {second}: {number_of_links} link, a = {working_centre_distance:.5f} mm, "
+        "ratio {gear_ratio:.6g}, wrap {wrap_deg:.5g} deg, chain {chain_slack:.3g} mm longer than taut",
+        "chain drive {first} - {second}: {number_of_links} links, a = {working_centre_distance:.5f} mm, "
+        "ratio {gear_ratio:.6g}, wrap {wrap_deg:.5g} deg, chain {chain_slack:.3g} mm longer than taut",
+        by="number_of_links",
+    ),
     "geneva_pair": N_(
         "{first} turns {second} by {step_deg:.6g} deg at a time, in {motion_share:.6g} of its turn: "
         "a = {working_centre_distance:.5f} mm, r = {crank_radius:.5f} mm"

@@ -29,6 +29,8 @@ _HEIGHTS = ((1.5, 0.480), (1.6, 0.532), (1.7, 0.555), (1.8, 0.575), (2.0, 0.565)
 # of the pitch: tips by default are so thick where the limits of the tip diameter let them; thinner ones are told
 _TIP_LAND, _THIN_LAND = 0.05, 0.02
 _MARGIN = 1e-6
+# that ISO 606 gives gaps for
+_ISO_TEETH = (9, 150)
 
 
 class Piece(NamedTuple):
@@ -391,10 +393,15 @@ def checked_sprocket(sprocket: Sprocket) -> Sprocket:
 
 
 def sprocket_findings(sprocket: Sprocket) -> tuple[Finding, ...]:
-    """Teeth that are thin at their tips."""
+    """Teeth that are thin at their tips, and numbers of them that ISO 606 has no gaps for."""
     land = _THIN_LAND * sprocket.chain.pitch
     thin = sprocket.tip_thickness
-    return (Finding("thin_sprocket_tip", thin, land),) if thin < land * (1 - _MARGIN) else ()
+    found = [Finding("thin_sprocket_tip", thin, land)] if thin < land * (1 - _MARGIN) else []
+    teeth, (least, most) = sprocket.number_of_teeth, _ISO_TEETH
+    if isinstance(sprocket.form, IsoForm):
+        found += [Finding("few_sprocket_teeth", teeth, least)] if teeth < least else []
+        found += [Finding("many_sprocket_teeth", teeth, most)] if teeth > most else []
+    return tuple(found)
 
 
 def face_width(chain: Chain, form: IsoForm | GostForm) -> float:

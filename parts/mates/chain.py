@@ -1,0 +1,182 @@
+"""The mate ``chain_drive``: two sprockets and the roller chain about them."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from functools import partial
+from typing import TYPE_CHECKING, Annotated, Any
+
+from msgspec import Meta
+
+from geometry.base.errors import Nearest, ParameterError, limit
+from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Toothed
+from parts.keys.base import mm
+from parts.keys.mate import Direction, height
+from parts.mates.sizes import same_size
+
+if TYPE_CHECKING:
+    from geometry.base.findings import Finding
+    from geometry.curves.curve import Complex
+    from geometry.gears.chains.drive import ChainMesh
+    from geometry.gears.chains.sprocket import Sprocket
+    from geometry.gears.mesh.search import PairContact
+    from geometry.kinematics.mechanism import Joint
+
+# numbers of links that are tried where one is too small
+_TRIED = 4096
+# links that are too many: two fewer go round as well
+_TOO_MANY = 2
+
+
+class ChainDriveSpec(MateKeys, tag="chain_drive", kw_only=True):
+    """Keys of ``chain_drive``."""
+
+    second: Annotated[str, Meta(description="instance that the chain drives, or that drives it")]
+    number_of_links: (
+        Annotated[int, Meta(ge=6, le=10_000, description="links of the chain, even at best", examples=[100])] | None
+    ) = None
+    centre_distance: (
+        Annotated[
+            float,
+            mm("centre distance; default: the greatest for number_of_links, with the chain taut", above=0, most=1e6,
+               example=458.0),
+        ]
+        | None
+    ) = None  # fmt: skip
+    direction_deg: Direction = 0.0
+    height: Annotated[float, height("second above the first; default: the rows of teeth face each other")] | None = None
+
+
+class ChainMating(Toothed):
+    """Two sprockets of one chain."""
+
+    mesh: ChainMesh
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """Both turn the same way, as often as their teeth say."""
+        from geometry.kinematics.mechanism import Rolling
+
+        return (Rolling("internal", self.first, self.second, self.mesh.teeth),)
+
+    def _second(self, rotation: float, direction: float) -> tuple[float, float]:
+        """Rotation of the second in the middle of its play, and half of that, rad."""
+        play = self.mesh.drive.play(self._seat(rotation, direction), self.mesh.links)
+        return direction + play.middle - self.mesh.sprockets[1].pitch_angle / 2, play.half
+
+    def _seat(self, rotation: float, direction: float) -> float:
+        """Phase of the first's seat that is nearest to the side away from the second, rad."""
+        step = self.mesh.sprockets[0].pitch_angle
+        return math.pi + math.remainder(rotation - direction + step / 2 - math.pi, step)
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """Beyond the line of centres, where its seats take the rollers."""
+        return centre + cmath.rect(self.distance, direction), self._second(rotation, direction)[0]
+
+    def standing(self, first: Pose, second: Pose) -> Standing:
+        """Centre distance, and the second's turn off the middle of its play."""
+        spoke = second[0] - first[0]
+        direction = cmath.phase(spoke)
+        right, play = self._second(first[1], direction)
+        sprocket = self.mesh.sprockets[1]
+        off = math.remainder(second[1] - right, sprocket.pitch_angle)
+        return Standing(direction, abs(spoke), off, play, sprocket.pitch_radius)
+
+    def rollers(self, first: Pose, direction: float) -> tuple[Complex, float]:
+        """Of the chain, in the middle of the second's play."""
+        one = self.mesh.sprockets[0]
+        places = self.mesh.rollers(self._seat(first[1], direction))[1]
+        return first[0] + places * cmath.rect(1.0, direction), one.chain.roller_diameter / 2
+
+    def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
+        """Verdict of all rollers and the teeth of both over one pitch."""
+        from geometry.base.record import replace
+
+        return replace(self.mesh, turn=phase_off, shift=distance_off).contact(tolerance)
+
+    def findings(self) -> tuple[Finding, ...]:
+        """An odd number of links, little wrap, a loose chain."""
+        return self.mesh.findings()
+
+    def quantities(self) -> dict[str, Any]:
+        """Links, distance, ratio, wrap, what the chain is longer than a taut one, and what is between the tips, mm."""
+        teeth = self.mesh.teeth
+        return {
+            "number_of_links": self.mesh.links,
+            "working_centre_distance": self.distance,
+            "gear_ratio": teeth[1] / teeth[0],
+            "wrap_deg": math.degrees(self.mesh.drive.wrap),
+            "chain_slack": self.mesh.slack,
+            "tip_gap": self.mesh.tip_gap,
+        }
+
+
+class ChainDriveKind(MateKind[ChainDriveSpec, "Sprocket", "Sprocket"]):
+    """Two sprockets of one chain."""
+
+    name, keys = "chain_drive", ChainDriveSpec
+    joins = (("sprocket", "sprocket"),)
+
+    def mating(self, keys: ChainDriveSpec, first: End[Sprocket], second: End[Sprocket]) -> ChainMating:
+        """Both take the same chain, which goes round them."""
+        one, two = first.thing, second.thing
+        for key in ("pitch", "roller_diameter"):
+            same_size(key, getattr(two.chain, key), getattr(one.chain, key), "not_of_the_chain")
+        if two.strands != one.strands:
+            raise ParameterError("strands", two.strands, "not_of_the_chain", Nearest(one.strands))
+        mesh = chain_mesh((one, two), keys.number_of_links, keys.centre_distance)
+        above = (one.face_width - two.face_width) / 2 if keys.height is None else keys.height
+        return ChainMating(
+            *self.joined(keys),
+            direction_deg=keys.direction_deg,
+            height=above,
+            distance=mesh.centre_distance,
+            module=one.chain.pitch / math.pi,
+            first_teeth=one.number_of_teeth,
+            # the chain alone touches them
+            has_contact=False,
+            mesh=mesh,
+        )
+
+
+CHAIN_DRIVE = ChainDriveKind()
+
+
+def chain_mesh(
+    sprockets: tuple[Sprocket, Sprocket], links: int | None, distance: float | None, prefix: str = "mate."
+) -> ChainMesh:
+    """The drive of two sprockets by its links, its centre distance (mm), or both; ``prefix``: of their keys.
+
+    Raises
+    ------
+    ParameterError
+        None of both is given, the tips meet, the chain is too short or much too long; names the key and what works.
+    """
+    from geometry.gears.chains.drive import ChainMesh, exact_distance, links_for
+
+    pitch, teeth = sprockets[0].chain.pitch, (sprockets[0].number_of_teeth, sprockets[1].number_of_teeth)
+    least = sum(s.tip_radius for s in sprockets) / pitch
+    keys = f"{prefix}number_of_links", f"{prefix}centre_distance"
+    if links is None and distance is None:
+        raise ParameterError(keys[0], None, "one_of_two_is_missing", other="centre_distance")
+    if distance is not None and distance <= least * pitch:
+        raise ParameterError(keys[1], distance, "sprockets_meet", limit(least * pitch * (1 + 1e-9), distance))
+    if links is None:
+        assert distance is not None
+        return ChainMesh(sprockets, distance, links_for(teeth, distance / pitch, least))
+    found = exact_distance(teeth, links, least)
+    if found is None:
+        more = (k for k in range(links + 1, links + _TRIED) if k % 2 == 0)
+        cure = partial(next, (Nearest(k, "at_least") for k in more if exact_distance(teeth, k, least)), None)
+        raise ParameterError(keys[0], links, "chain_too_short_for_sprockets", cure)
+    if distance is None:
+        return ChainMesh(sprockets, found * pitch, links)
+    if distance > found * pitch * (1 + 1e-9):
+        raise ParameterError(
+            keys[1], distance, "chain_too_short", limit(found * pitch, distance, digits=6), links=links
+        )
+    needed = links_for(teeth, distance / pitch, least)
+    if links >= needed + _TOO_MANY:
+        raise ParameterError(keys[0], links, "chain_too_long", Nearest(needed), links=needed)
+    return ChainMesh(sprockets, distance, links)

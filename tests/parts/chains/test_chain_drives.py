@@ -1,0 +1,88 @@
+"""Chain drives in scenes: links or distance, phases, drives, what is told and refused, the chain in pictures."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from exporters.production.check import scene_checks
+from parts.base.refusal import SceneError
+from parts.scene.load import make_parts, scene_from_dict
+from parts.scene.placing import Placing, place
+from tests.exporters.making import run, table, write_scene
+
+Keys = dict[str, Any]
+SMALL: Keys = {"kind": "sprocket", "chain": "08B-1", "number_of_teeth": 17}
+LARGE = SMALL | {"number_of_teeth": 38}
+MATE: Keys = {"kind": "chain_drive", "first": "a", "second": "b"}
+
+
+def placed(mate: Keys, one: Keys = SMALL, two: Keys = LARGE, **more: Any) -> tuple[Placing, dict[str, Any]]:
+    """Where both stand, and what the checks say of them."""
+    tables = {
+        "parts": {"a": one, "b": two},
+        "mates": [MATE | mate],
+        "drives": [{"instance": "a", "turns": 2.0}],
+        **more,
+    }
+    made = scene_from_dict(tables, "t", "t")
+    parts, matings = make_parts(made, "t")
+    placing = place(made.instances, made.drives, parts, matings, "t")
+    return placing, scene_checks(placing, parts, made.drives, "en", contact=True)
+
+
+def test_both_turn_the_same_way_and_touch_no_roller_wrongly() -> None:
+    placing, checks = placed({"number_of_links": 80, "direction_deg": 20.0})
+    assert placing.turns[0] == pytest.approx({"a": 2.0, "b": 2.0 * 17 / 38})
+    (mate,) = checks["mates"]
+    assert mate["verdict"] == "contact"
+    assert mate["findings"] == []
+    # by the belt of textbooks 330.66 mm
+    assert mate["working_centre_distance"] == pytest.approx(330.639, abs=5e-4)
+    back = placed({"centre_distance": mate["working_centre_distance"] - 1e-6})[1]["mates"][0]
+    assert back["number_of_links"] == 80
+    assert back["chain_slack"] == pytest.approx(2e-6, rel=0.1)
+
+
+@pytest.mark.parametrize("turn", [0.0, 7.0, 100.0])
+def test_seats_of_a_second_that_stands_already_must_take_the_rollers(turn: float) -> None:
+    there = placed({"number_of_links": 80, "direction_deg": 30.0}, instances={"a": {"rotation_deg": turn}, "b": {}})
+    other = next(i for i in there[0].instances if i.id == "b")
+    at = [*other.at]
+    for off, met in ((0.0, True), (1e-3, False)):
+        instances = {"a": {"rotation_deg": turn}, "b": {"at": at, "rotation_deg": math.degrees(other.rotation + off)}}
+        (mate,) = placed({"number_of_links": 80}, instances=instances)[1]["mates"]
+        assert all(condition["met"] for condition in mate["conditions"]) == met
+
+
+@pytest.mark.parametrize(
+    ("mate", "two", "key", "cure"),
+    [
+        ({}, LARGE, "mates[1].number_of_links", None),
+        # tips of 74.3 and 159.3 mm: 2 a / p + 27.5 + 11.2 p / a = 47.1 links where they touch
+        ({"number_of_links": 30}, LARGE, "mates[1].number_of_links", 48),
+        ({"centre_distance": 110.0}, LARGE, "mates[1].centre_distance", None),
+        ({"number_of_links": 80, "centre_distance": 335.0}, LARGE, "mates[1].centre_distance", 330.638823),
+        ({"number_of_links": 90, "centre_distance": 330.0}, LARGE, "mates[1].number_of_links", 80),
+        ({"number_of_links": 80}, LARGE | {"chain": "081"}, "mates[1]: parts.b.roller_diameter", None),
+        ({"number_of_links": 80}, LARGE | {"chain": "08B-2"}, "mates[1]: parts.b.strands", None),
+    ],
+)
+def test_drives_that_cannot_be_are_refused_with_what_works(mate: Keys, two: Keys, key: str, cure: float | None) -> None:
+    with pytest.raises(SceneError) as refused:
+        placed(mate, two=two)
+    assert refused.value.key == key
+    if cure is not None:
+        assert refused.value.nearest is not None
+        assert refused.value.nearest.value == pytest.approx(cure)
+        placed(mate | {key.rpartition(".")[2]: refused.value.nearest.value}, two=two)
+
+
+def test_the_picture_shows_every_roller(tmp_path: Path) -> None:
+    mate = table("[[mates]]", MATE | {"number_of_links": 80})
+    scene = write_scene(tmp_path / "s.toml", {"a": SMALL, "b": LARGE}, [{"format": "svg"}], mate)
+    assert run("build", scene, "--out", tmp_path / "out") == 0
+    assert (tmp_path / "out" / "s" / "s.preview.svg").read_text("utf-8").count("<circle") == 80
