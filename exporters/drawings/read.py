@@ -16,7 +16,7 @@ from exporters.drawings.dashes import LONGEST
 from exporters.drawings.write import BEARING
 from geometry.base.record import replace
 from geometry.curves.curve import Complex
-from parts.base.readback import ReadError
+from parts.base.readback import ReadError, refuse_if
 from parts.drawing.canvas import FRAME, STYLES
 from parts.drawing.readback import PER_CURVE, ReadDimension, ReadSheet, ReadText, base_line
 
@@ -46,8 +46,7 @@ def read_sheets(file: Path, layers: Sequence[Sequence[str]]) -> list[ReadSheet]:
         from exporters.drawings.read_pdf import read_pdf
 
         pages = read_pdf(file)
-        if len(pages) != len(layers):
-            raise ReadError(f"has {len(pages)} pages instead of {len(layers)}")
+        refuse_if(len(pages) != len(layers), f"has {len(pages)} pages instead of {len(layers)}")
         return [page.sheet(wanted) for page, wanted in zip(pages, layers, strict=True)]
     return [_read_dxf(file) if file.suffix == ".dxf" else _read_svg(file)]
 
@@ -128,8 +127,7 @@ def _read_svg(file: Path) -> ReadSheet:
     sheet = ReadSheet(width=float(sizes[2]), height=height)
     for group in root.findall(f"{_SVG}g"):
         layer = group.get("id", "")
-        if group.get("style", "") != _look(layer):
-            raise ReadError(f"layer {layer} looks otherwise than it should")
+        refuse_if(group.get("style", "") != _look(layer), f"layer {layer} looks otherwise than it should")
         for path in group.findall(f"{_SVG}path"):
             _read_path(sheet, layer, path.get("d", ""), height)
         for text in group.findall(f"{_SVG}text"):
@@ -150,10 +148,8 @@ def _read_svg(file: Path) -> ReadSheet:
 def _check_known(root: ElementTree.Element) -> None:
     """A ground of white, then groups of paths and words, none of which says how it looks: its group does."""
     ground, *groups = [*root] or [root]
-    if ground.tag != f"{_SVG}rect" or dict(ground.attrib) != _GROUND:
-        raise ReadError("has no ground of white")
-    if any(group.tag != f"{_SVG}g" for group in groups):
-        raise ReadError("holds something beside its layers")
+    refuse_if(ground.tag != f"{_SVG}rect" or dict(ground.attrib) != _GROUND, "has no ground of white")
+    refuse_if(any(group.tag != f"{_SVG}g" for group in groups), "holds something beside its layers")
     for element in (root, *(e for group in groups for e in group.iter())):
         tag = element.tag.removeprefix(_SVG)
         if tag not in _KNOWN or (tag == "g") != (element in groups) or (tag in ("path", "text") and len(element)):
@@ -180,8 +176,7 @@ def _read_path(sheet: ReadSheet, layer: str, data: str, height: float) -> None:
     for command, text in re.findall(r"([A-Za-z])([^A-Za-z]*)", data):
         values = [float(v) for v in _NUMBER.findall(text)]
         places = values[-2:] if command == "A" else values
-        if len(places) % 2 or not places:
-            raise ReadError(f"the path command {command} lacks a coordinate")
+        refuse_if(len(places) % 2 or not places, f"the path command {command} lacks a coordinate")
         ends = [complex(x, height - y) for x, y in zip(places[::2], places[1::2], strict=True)]
         if command == "L":
             sheet.add_line(layer, at, ends[-1])

@@ -12,7 +12,7 @@ import numpy as np
 
 from geometry.base.record import Draft, Record, field
 from geometry.curves.curve import Complex
-from parts.base.readback import ReadError
+from parts.base.readback import ReadError, refuse_if
 from parts.drawing.canvas import STYLES, Style
 from parts.drawing.readback import PER_CURVE, ReadArc, ReadSheet, ReadText, base_line
 
@@ -56,11 +56,9 @@ class PdfPage(Draft):
             A path looks otherwise, or there are more or fewer.
         """
         found = ReadSheet(texts=self.texts, width=self.width, height=self.height, rounding=_PLACES)
-        if len(self.paths) != len(layers):
-            raise ReadError(f"has {len(self.paths)} paths on a page instead of {len(layers)}")
+        refuse_if(len(self.paths) != len(layers), f"has {len(self.paths)} paths on a page instead of {len(layers)}")
         for path, layer in zip(self.paths, layers, strict=True):
-            if not _looks(path, STYLES[layer]):
-                raise ReadError(f"layer {layer} looks otherwise than it should")
+            refuse_if(not _looks(path, STYLES[layer]), f"layer {layer} looks otherwise than it should")
             for pieces in path.strokes:
                 _add(found, layer, pieces)
         return found
@@ -83,8 +81,7 @@ def read_pdf(file: Path) -> list[PdfPage]:
     try:
         data = file.read_bytes()
         objects = {int(number): body for number, body in _OBJECT.findall(data)}
-        if not data.startswith(b"%PDF-") or not data.rstrip().endswith(b"%%EOF"):
-            raise ReadError("is not a whole PDF file")
+        refuse_if(not data.startswith(b"%PDF-") or not data.rstrip().endswith(b"%%EOF"), "is not a whole PDF file")
         kids = next(body for body in objects.values() if b"/Type /Pages" in body)
         order = [int(n) for n in re.findall(rb"(\d+) 0 R", _after(kids, rb"/Kids \[([^\]]*)\]"))]
         font = next((_Font(objects, body) for body in objects.values() if b"/Subtype /Type0" in body), None)
@@ -133,8 +130,7 @@ def _page(objects: dict[int, bytes], number: int, parent: bytes, font: _Font | N
             raise ReadError(f"has a page with {strange.pop().decode()}, which may turn, cut or scale it")
     box = _after(body if b"/MediaBox" in body else parent, rb"/MediaBox \[([^\]]*)\]")
     left, low, width, height = (float(x) / _POINT for x in box.split())
-    if left or low:
-        raise ReadError(f"has a page from {left:g}, {low:g} mm on instead of 0, 0")
+    refuse_if(left or low, f"has a page from {left:g}, {low:g} mm on instead of 0, 0")
     page = PdfPage(width, height)
     _Reader(page, font, _states(objects, body)).run(_stream(objects[int(_after(body, rb"/Contents (\d+) 0 R"))]))
     return page

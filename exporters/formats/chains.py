@@ -7,7 +7,7 @@ import numpy as np
 from exporters.formats.readback import SmoothLoop
 from geometry.base.tolerance import DRAWN_ROUNDING
 from geometry.curves.curve import Complex, Real
-from parts.base.readback import ReadError
+from parts.base.readback import refuse_if
 
 # samples of each span of a spline: polynomials up to this degree less one come back exactly
 _SAMPLES = 8
@@ -55,8 +55,7 @@ def _chains(pieces: list[Complex]) -> list[list[Complex]]:
             last = chain[-1][-1]
             low, high = np.searchsorted(places, (last.real - joint, last.real + joint))
             near = [int(i) for i in order[low:high] if int(i) // 2 in left and abs(ends[i] - last) <= joint]
-            if not near:
-                raise ReadError(f"a contour is open at ({last.real:.6g}, {last.imag:.6g})")
+            refuse_if(not near, f"a contour is open at ({last.real:.6g}, {last.imag:.6g})")
             index, side = divmod(min(near, key=lambda i: abs(ends[i] - last)), 2)
             del left[index]
             chain.append(pieces[index] if side == 0 else pieces[index][::-1])

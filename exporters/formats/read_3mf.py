@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from exporters.formats.read_assembly import Occurrence, Prototype, ReadAssembly
 from exporters.formats.readback import MOST_READ_BYTES, ReadMesh
-from parts.base.readback import ReadError
+from parts.base.readback import ReadError, refuse_if
 
 # numbers as text pack five to ten times; a small package may do as it likes
 _DENSEST, _SMALL = 30, 4_000_000
@@ -45,8 +45,7 @@ def read_3mf(file: Path) -> ReadMesh:
     """The single object of a 3MF package, built once where it stands."""
     root = _model(file)
     objects, items = root.findall(f".//{_CORE}object"), root.findall(f".//{_CORE}item")
-    if len(objects) != 1 or len(items) != 1:
-        raise ReadError("the 3MF does not hold one object, built once")
+    refuse_if(len(objects) != 1 or len(items) != 1, "the 3MF does not hold one object, built once")
     if items[0].get("transform") is not None:
         raise ReadError("the part of the 3MF has been moved out of its frame")
     return _mesh(objects[0], _base_colour(objects[0], _bases(root)))
@@ -67,8 +66,7 @@ def read_3mf_assembly(file: Path) -> ReadAssembly:
         prototypes.append(Prototype(mesh.name or "", mesh, _base_colour(item, bases)))
     occurrences = []
     for item in root.iter(f"{_CORE}item"):
-        if item.get("objectid") not in index:
-            raise ReadError("a build item names an object that is not there")
+        refuse_if(item.get("objectid") not in index, "a build item names an object that is not there")
         place = _transform(item)
         occurrences.append(Occurrence(item.get("partnumber", ""), index[item.get("objectid")], place))
     return ReadAssembly(title, prototypes, occurrences)
@@ -77,8 +75,7 @@ def read_3mf_assembly(file: Path) -> ReadAssembly:
 def _bases(root: ElementTree.Element) -> dict[str | None, list[str]]:
     """The colours, #rrggbb, of each group of materials."""
     shades = [base.get("displaycolor", "").lower() for base in root.iter(f"{_CORE}base")]
-    if any(shade[7:] not in ("", "ff") for shade in shades):
-        raise ReadError("a material of the 3MF can be seen through")
+    refuse_if(any(shade[7:] not in ("", "ff") for shade in shades), "a material of the 3MF can be seen through")
     return {
         group.get("id"): [base.get("displaycolor", "")[:7].lower() for base in group.iter(f"{_CORE}base")]
         for group in root.iter(f"{_CORE}basematerials")
@@ -99,8 +96,7 @@ def _transform(item: ElementTree.Element) -> NDArray[np.float64]:
         numbers = np.array([float(x) for x in text.split()])
     except ValueError as error:
         raise ReadError(f"a broken transform in the 3MF: {error}") from error
-    if numbers.size != 12 or not np.all(np.isfinite(numbers)):
-        raise ReadError("a transform of the 3MF has not twelve numbers")
+    refuse_if(numbers.size != 12 or not np.all(np.isfinite(numbers)), "a transform of the 3MF has not twelve numbers")
     return numbers.reshape(4, 3).T
 
 
@@ -116,19 +112,15 @@ def _model(file: Path) -> ElementTree.Element:
             if package.testzip() is not None:
                 raise ReadError("the 3MF package is damaged")
             names = [name.lower() for name in package.namelist()]
-            if len(set(names)) < len(names):
-                raise ReadError("the 3MF package holds a part twice")
-            if _TYPES not in package.namelist():
-                raise ReadError(f"the 3MF package has no {_TYPES}")
+            refuse_if(len(set(names)) < len(names), "the 3MF package holds a part twice")
+            refuse_if(_TYPES not in package.namelist(), f"the 3MF package has no {_TYPES}")
             relations = ElementTree.fromstring(package.read(_STARTS))
             starts = [r.get("Target") for r in relations if r.get("Type") == _START]
-            if starts != [f"/{_MODEL}"]:
-                raise ReadError(f"the 3MF package begins with {starts} instead of its model")
+            refuse_if(starts != [f"/{_MODEL}"], f"the 3MF package begins with {starts} instead of its model")
             root = ElementTree.fromstring(package.read(_MODEL))
     except (zipfile.BadZipFile, KeyError, ElementTree.ParseError, OSError, EOFError, zlib.error) as error:
         raise ReadError(f"not a readable 3MF: {error}") from error
-    if root.get("unit") != "millimeter":
-        raise ReadError("the 3MF is not in mm")
+    refuse_if(root.get("unit") != "millimeter", "the 3MF is not in mm")
     _check_known(root)
     return root
 
@@ -141,8 +133,7 @@ def _check_known(root: ElementTree.Element) -> None:
         if known is None:
             raise ReadError(f"the 3MF holds <{tag}>, which is not read here")
         for name, value in element.items():
-            if name not in known:
-                raise ReadError(f"a <{tag}> of the 3MF has {name}, which is not read here")
+            refuse_if(name not in known, f"a <{tag}> of the 3MF has {name}, which is not read here")
             if (allowed := known[name]) and value not in allowed:
                 raise ReadError(f'a <{tag}> of the 3MF has {name} = "{value}"')
 

@@ -20,7 +20,7 @@ from exporters.formats.read_solid import EXTRUSION, GAP, PLANE, ROUND, SPHERE, S
 from exporters.formats.read_surfaces import measure
 from geometry.base.record import replace
 from geometry.base.vectors import cross
-from parts.base.readback import ReadError
+from parts.base.readback import ReadError, refuse_if
 
 # spans of arcs at most, rad, as polynomials off by 6e-12 of the radius, and degree of splines: integrals over them are
 # exact up to 7, and of 8 to rounding
@@ -266,8 +266,7 @@ def _curves(read: Followed, curve: Index, vertices: Real, ends: Index, sense: Fl
     counts = np.ones(len(curve), dtype=np.int64)
     straight = np.flatnonzero(curve < lines)
     round_ = np.flatnonzero((curve >= lines) & (curve < lines + arcs))
-    if np.any(round_ >= len(ids)):
-        raise ReadError("an extrusion of the STEP file moves an arc that is none of its edges")
+    refuse_if(np.any(round_ >= len(ids)), "an extrusion of the STEP file moves an arc that is none of its edges")
     of_lines = straight, *np.zeros((2, 0, 3))
     if straight.size:
         origin, way = (x[curve[straight]] for x in read.lines)

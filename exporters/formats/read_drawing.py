@@ -18,7 +18,7 @@ from exporters.formats.readback import ReadFlat, SmoothLoop
 from geometry.base.distinct import distinct
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
-from parts.base.readback import ReadError
+from parts.base.readback import ReadError, refuse_if
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -214,8 +214,7 @@ def _of_dimensions(document: Drawing) -> Iterator[DXFGraphic]:
 
 def _block_of(document: Drawing, entity: Dimension) -> BlockLayout:
     """What a dimension consists of."""
-    if entity.dxf.geometry not in document.blocks:
-        raise ReadError("a DIMENSION has no block of lines")
+    refuse_if(entity.dxf.geometry not in document.blocks, "a DIMENSION has no block of lines")
     return document.blocks.get(entity.dxf.geometry)
 
 
@@ -243,12 +242,10 @@ def _angle(document: Drawing, entity: Dimension) -> DrawnDimension:
     """An angle between two lines from one place, in degrees by its own points, with its arc."""
     dxf = entity.dxf
     at, other, on_arc = (_plane(place) for place in (dxf.defpoint2, dxf.defpoint4, dxf.defpoint5))
-    if abs(at - other) > _SAME:
-        raise ReadError("an angular DIMENSION has lines that begin at two places")
+    refuse_if(abs(at - other) > _SAME, "an angular DIMENSION has lines that begin at two places")
     first, second, middle = (place - at for place in (_plane(dxf.defpoint3), _plane(dxf.defpoint), on_arc))
     turn, within = (math.degrees(cmath.phase(way / first)) % 360.0 for way in (second, middle))
-    if not 0.0 < within < turn:
-        raise ReadError(f"an angular DIMENSION of {turn:g} degrees has its arc on the other side")
+    refuse_if(not 0.0 < within < turn, f"an angular DIMENSION of {turn:g} degrees has its arc on the other side")
     if abs(turn - math.degrees(dxf.get("actual_measurement", math.nan))) > _SAME * max(1.0, turn):
         raise ReadError(f"a DIMENSION of {turn:g} degrees says that it measures otherwise")
     arcs = (one.dxf for one in _block_of(document, entity).query("ARC"))
@@ -270,15 +267,13 @@ def _check_plain(entity: DXFGraphic, *, dashes: bool) -> None:
 
 def _check_layer(document: Drawing, name: str) -> None:
     """A layer is seen and plotted."""
-    if name not in document.layers:
-        raise ReadError(f"layer {name} is not in the layer table")
+    refuse_if(name not in document.layers, f"layer {name} is not in the layer table")
     layer = document.layers.get(name)
     for is_so, what in (
         (layer.is_off(), "is off"), (layer.is_frozen(), "is frozen"), (not layer.dxf.plot, "is not plotted"),
         (layer.dxf.hasattr("true_color"), "has a colour beside its own"), (layer.transparency, "is transparent"),
     ):  # fmt: skip
-        if is_so:
-            raise ReadError(f"layer {name} {what}")
+        refuse_if(is_so, f"layer {name} {what}")
 
 
 def opened(file: Path, *, audit: bool = True) -> Drawing:
@@ -325,8 +320,7 @@ def read_drawing(file: Path) -> ReadDrawing:
         The file is no sound DXF, not in mm, or holds something else, or on another layer.
     """
     document = opened(file)
-    if document.header.get("$INSUNITS") != _MILLIMETRES:
-        raise ReadError("the DXF is not in mm ($INSUNITS is not 4)")
+    refuse_if(document.header.get("$INSUNITS") != _MILLIMETRES, "the DXF is not in mm ($INSUNITS is not 4)")
     for entity in document.modelspace():
         if entity.dxf.layer.upper() not in _LOOKS:
             raise ReadError(f"a {entity.dxftype()} stands on layer {entity.dxf.layer} instead of {_LAYER}")

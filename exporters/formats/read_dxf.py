@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from exporters.formats.readback import Loop, ReadOutlines
 from geometry.base.record import Record
-from parts.base.readback import ReadError
+from parts.base.readback import ReadError, refuse_if
 
 _MILLIMETRES = "4"
 # groups that point at a handle, and those that are one
@@ -87,8 +87,7 @@ def read_dxf(file: Path) -> ReadOutlines:
     if strange := {loop.layer for loop, _ in chains} - layers:
         raise ReadError(f"the DXF has no layer {strange.pop()}, on which a contour stands")
     order = [closed for _, closed in chains]
-    if order != sorted(order):
-        raise ReadError("an engraved line comes after a closed contour")
+    refuse_if(order != sorted(order), "an engraved line comes after a closed contour")
     return ReadOutlines(
         tuple(loop for loop, closed in chains if closed), tuple(loop.vertices for loop, closed in chains if not closed)
     )
@@ -96,11 +95,9 @@ def read_dxf(file: Path) -> ReadOutlines:
 
 def _pairs(file: Path) -> Pairs:
     lines = file.read_text(encoding="latin-1").splitlines()
-    if len(lines) % 2:
-        raise ReadError("not a readable DXF: it ends within a pair of lines")
+    refuse_if(len(lines) % 2, "not a readable DXF: it ends within a pair of lines")
     pairs = Pairs(np.array(list(map(int, lines[::2])), dtype=np.int64), [v.strip() for v in lines[1::2]])
-    if not lines or (pairs.codes[-1], pairs.values[-1]) != (0, "EOF"):
-        raise ReadError("not a readable DXF: it ends too early")
+    refuse_if(not lines or (pairs.codes[-1], pairs.values[-1]) != (0, "EOF"), "not a readable DXF: it ends too early")
     return pairs
 
 
@@ -134,8 +131,7 @@ def _layers(sections: dict[str, Pairs]) -> set[str]:
         name = record.first(2)
         if record.values[0] != "LAYER":
             continue
-        if name.upper() in {known.upper() for known in found}:
-            raise ReadError(f"the DXF has two layers {name}")
+        refuse_if(name.upper() in {known.upper() for known in found}, f"the DXF has two layers {name}")
         found.add(name)
         if name.upper() not in _COLOURS:
             continue
@@ -149,8 +145,7 @@ def _layers(sections: dict[str, Pairs]) -> set[str]:
             (record.first(6, "Continuous").upper() != "CONTINUOUS", "is not drawn through"),
             (int(record.first(370, "-3")) > _WIDEST, f"is drawn wider than {_WIDEST / 100} mm"),
         ):
-            if is_so:
-                raise ReadError(f"layer {name} {what}")
+            refuse_if(is_so, f"layer {name} {what}")
     return found
 
 
@@ -177,8 +172,7 @@ def _check_handles(sections: dict[str, Pairs], seed: int) -> None:
                 kind = ""
         pointers |= {pairs.values[i] for i in np.flatnonzero(np.isin(pairs.codes, _POINTERS)).tolist()}
     known = set(handles)
-    if len(known) < len(handles):
-        raise ReadError("the DXF uses a handle twice")
+    refuse_if(len(known) < len(handles), "the DXF uses a handle twice")
     if lost := pointers - known - {"0"}:
         raise ReadError(f"the DXF points at a handle {min(lost)} that is not there")
     if handles and max(int(h, 16) for h in handles) >= seed:
@@ -222,22 +216,19 @@ def _check_plain(entity: Pairs, kind: str, layer: str) -> None:
 
 
 def _loop(entity: Pairs, kind: str, layer: str) -> Loop:
-    if int(entity.first(70, "0")) & ~0x81:
-        raise ReadError(f"an open or bent polyline on layer {layer}")
+    refuse_if(int(entity.first(70, "0")) & ~0x81, f"an open or bent polyline on layer {layer}")
     if any(np.any(entity.numbers(code) != (code == _EXTRUSION[-1])) for code in _EXTRUSION):
         raise ReadError(f"a polyline on layer {layer} lies in a plane of its own")
     if kind == "POLYLINE":
         begins = entity.starts()
-        if entity.values[begins[-1]] != "SEQEND":
-            raise ReadError(f"a polyline on layer {layer} has no SEQEND")
+        refuse_if(entity.values[begins[-1]] != "SEQEND", f"a polyline on layer {layer} has no SEQEND")
         # its own point comes before the vertices
         entity, told = entity.part(int(begins[1]), int(begins[-1])), len(begins) - 2
     else:
         told = int(entity.first(90))
     places = entity.codes == 10
     x, y = entity.numbers(10), entity.numbers(20)
-    if not len(x) == len(y) == told:
-        raise ReadError(f"a polyline on layer {layer} has {len(x)} vertices where {told} are told")
+    refuse_if(not len(x) == len(y) == told, f"a polyline on layer {layer} has {len(x)} vertices where {told} are told")
     bulges = np.zeros(told)
     bulges[(np.cumsum(places) - 1)[entity.codes == 42]] = entity.numbers(42)
     return Loop(x + 1j * y, bulges, layer)

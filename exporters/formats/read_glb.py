@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from exporters.formats.readback import ReadMesh
 from geometry.base.record import Record
 from geometry.curves.curve import Real
-from parts.base.readback import ReadError
+from parts.base.readback import ReadError, refuse_if
 
 _WIDTH = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
 _KIND = {5125: "<u4", 5126: "<f4"}
@@ -91,8 +91,7 @@ def _read(data: bytes) -> ReadGlb:
         if length != 4 * width * told["count"] or start < 0 or start + length > size:
             raise ReadError(f"accessor {number} does not fit its bytes")
         values = np.frombuffer(blob[start : start + length], kind).reshape(-1, width)
-        if kind == "<f4" and not np.isfinite(values).all():
-            raise ReadError(f"a number of accessor {number} is none")
+        refuse_if(kind == "<f4" and not np.isfinite(values).all(), f"a number of accessor {number} is none")
         for key, bound in (("min", values.min(axis=0)), ("max", values.max(axis=0))):
             if key in told and told[key] != bound.tolist():
                 raise ReadError(f"accessor {number} says another {key} than its numbers have")
@@ -130,8 +129,7 @@ def _read(data: bytes) -> ReadGlb:
         if np.abs(np.linalg.norm(turns[1], axis=1) - 1).max() > _UNIT:
             raise ReadError(f"instance {node['name']} has a turn that is none")
         tracks[node["name"]] = ReadSolidTrack(names[node["mesh"]], places, turns)
-    if moved:
-        raise ReadError("moves what is not there")
+    refuse_if(moved, "moves what is not there")
     return ReadGlb(solids, tracks, seconds)
 
 
@@ -148,12 +146,10 @@ def _moved(
             times, values = array(sampler["input"])[:, 0], array(sampler["output"])
             if key in found or set(sampler) != {"input", "output"} or len(times) != len(values):
                 raise ReadError(f"node {key[0]} has more than one {key[1]}, or another one than linear")
-            if times[0] != 0 or not np.all(np.diff(times) > 0):
-                raise ReadError("times do not rise from 0")
+            refuse_if(times[0] != 0 or not np.all(np.diff(times) > 0), "times do not rise from 0")
             found[key] = times, values
             ends.add(float(times[-1]))
-    if len(ends) > 1 or len(scene.get("animations", ())) > 1:
-        raise ReadError("instances take unlike times for their loop")
+    refuse_if(len(ends) > 1 or len(scene.get("animations", ())) > 1, "instances take unlike times for their loop")
     return found, ends.pop() if ends else 0.0
 
 

@@ -13,7 +13,7 @@ from exporters.formats.read_svg import root_of, svg_path
 from exporters.formats.readback import Loop
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
-from parts.base.readback import ReadError
+from parts.base.readback import ReadError, refuse_if
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
@@ -87,8 +87,7 @@ def read_motion(file: Path) -> ReadMotion:
         forms = _forms(path, durations) if len(path) else None
         places, angles = _values(outer, "translate", durations), _values(inner, "rotate", durations)
         tracks[name] = ReadTrack(places.conj(), np.asarray(-np.radians(angles.real) + 0j), loops, forms)
-    if len(durations) > 1:
-        raise ReadError("instances take unlike times for their loop")
+    refuse_if(len(durations) > 1, "instances take unlike times for their loop")
     seconds = float(durations.pop().removesuffix("s")) if durations else 0.0
     return ReadMotion(tracks, seconds)
 
@@ -107,8 +106,7 @@ def _values(group: Element, kind: str, durations: set[str]) -> Complex:
         numbers = [[float(x) for x in text.split(",")] for text in texts]
     except ValueError as error:
         raise ReadError(f"a value of a motion is no number: {error}") from error
-    if {len(row) for row in numbers} != {2 if kind == "translate" else 1}:
-        raise ReadError("a value of a motion lacks a number")
+    refuse_if({len(row) for row in numbers} != {2 if kind == "translate" else 1}, "a value of a motion lacks a number")
     return np.array([complex(row[0], row[1] if len(row) > 1 else 0.0) for row in numbers])
 
 
@@ -126,8 +124,7 @@ def _animated(moves: Sequence[Element], looks: dict[str, str], first: str, durat
 
 def _forms(path: Element, durations: set[str]) -> Complex:
     """The corners (k, n) of an outline that changes, y up."""
-    if path[0].tag != f"{_SVG}animate":
-        raise ReadError("an outline is moved where it should change")
+    refuse_if(path[0].tag != f"{_SVG}animate", "an outline is moved where it should change")
     texts = _animated([*path], {"attributeName": "d"}, path.get("d", ""), durations)
     loops = [svg_path(text, "") for text in texts]
     if len({len(loop.vertices) for loop in loops}) > 1 or any(loop.bulges.any() for loop in loops):

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.record import Record
-from parts.base.readback import ReadError
+from parts.base.readback import ReadError, refuse_if
 
 Index = NDArray[np.int64]
 Real = NDArray[np.float64]
@@ -312,8 +312,7 @@ def _header(held: bytes) -> tuple[re.Match[bytes], int]:
     found = _HEADER.fullmatch(_COMMENT.sub(rb"\1", begin[1]))
     if found is None:
         raise ReadError("the header of the STEP file is none of description, name and schema")
-    if not _SCHEMA.match(found[3]):
-        raise ReadError("the STEP file is not of the schema AUTOMOTIVE_DESIGN")
+    refuse_if(not _SCHEMA.match(found[3]), "the STEP file is not of the schema AUTOMOTIVE_DESIGN")
     return found, begin.end()
 
 
@@ -324,8 +323,7 @@ def _pieces(source: BinaryIO) -> Iterator[bytes]:
     held = held[end_of_header:]
     while more := source.read(_PIECE):
         cut = max(held.rfind(end) for end in (b";\n#", b";\r\n#", b";#")) + 1
-        if cut == 0:
-            raise ReadError(f"the STEP file has no end of an entity in {_PIECE} bytes")
+        refuse_if(cut == 0, f"the STEP file has no end of an entity in {_PIECE} bytes")
         yield held[:cut]
         held = held[cut:] + more
     end = _END.search(held, max(0, len(held) - _TAIL))
@@ -339,10 +337,8 @@ def _without_strings(piece: bytes) -> tuple[bytes, list[bytes]]:
     if b"/*" in piece:
         piece = _COMMENT.sub(lambda m: m[1] or b" ", piece)
     parts = piece.split(b"'")
-    if len(parts) % 2 == 0:
-        raise ReadError("a string in the STEP file has no end")
-    if _CONTROL.search(b"".join(parts[1::2])):
-        raise ReadError("a string in the STEP file holds a line end")
+    refuse_if(len(parts) % 2 == 0, "a string in the STEP file has no end")
+    refuse_if(_CONTROL.search(b"".join(parts[1::2])), "a string in the STEP file holds a line end")
     strings: list[bytes] = []
     for number, text in enumerate(parts[1::2]):
         if text:
@@ -360,8 +356,7 @@ def _check_blanks(text: bytes) -> None:
     bytes_ = np.frombuffer(text.strip(_BLANK), np.uint8)
     blank, word = _IS_BLANK[bytes_], _IS_WORD[bytes_]
     before, after = np.flatnonzero(blank[1:] & ~blank[:-1]), np.flatnonzero(blank[:-1] & ~blank[1:]) + 1
-    if np.any(word[before] & word[after]):
-        raise ReadError("a blank stands within a word of the STEP file")
+    refuse_if(np.any(word[before] & word[after]), "a blank stands within a word of the STEP file")
 
 
 def _by_kind(text: bytes) -> dict[str, list[bytes]]:

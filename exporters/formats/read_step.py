@@ -31,7 +31,7 @@ from exporters.formats.read_part21 import (
 from exporters.formats.read_solid import GAP, LOOSEST, Model
 from exporters.formats.readback import SmoothLoop
 from geometry.base.record import Record, replace
-from parts.base.readback import ReadError
+from parts.base.readback import ReadError, refuse_if
 
 _SHADES = {
     "red": "#ff0000", "green": "#00ff00", "blue": "#0000ff", "yellow": "#ffff00", "magenta": "#ff00ff",
@@ -86,8 +86,7 @@ class ReadSolid(Record, eq=False):
 def read_step(file: Path) -> ReadSolid:
     """The single solid of a STEP file."""
     products = _Products(read_part21(file))
-    if len(products.model.solids) != 1:
-        raise ReadError(f"{len(products.model.solids)} solids instead of 1")
+    refuse_if(len(products.model.solids) != 1, f"{len(products.model.solids)} solids instead of 1")
     found = products.prototype(next(iter(products.shapes))).part if len(products.names) == 1 else None
     names = tuple(products.names.values())
     return replace(found, products=names) if isinstance(found, ReadSolid) else ReadSolid(products.model, names)
@@ -97,8 +96,7 @@ def read_step_assembly(file: Path) -> ReadAssembly:
     """The parts of a STEP file in their places, or a single one in its own."""
     products = _Products(read_part21(file))
     top = [definition for definition in products.names if definition not in products.used]
-    if len(top) != 1:
-        raise ReadError(f"{len(top)} products stand alone in the STEP file instead of 1")
+    refuse_if(len(top) != 1, f"{len(top)} products stand alone in the STEP file instead of 1")
     found = list(products.parts(top[0], np.eye(3, 4), ()))
     kinds = list(dict.fromkeys(definition for _, definition, _, _ in found))
     return ReadAssembly(
@@ -142,8 +140,7 @@ class _Products:
         self.colours: dict[int, str] = {}
         for number, item in self.of_kind["STYLED_ITEM"]:
             *styles, solid = item.references
-            if solid in self.colours:
-                raise ReadError(f"#{number} of the STEP file colours a solid that has a colour")
+            refuse_if(solid in self.colours, f"#{number} of the STEP file colours a solid that has a colour")
             self.colours[solid] = self._shade(styles)
         self.said: dict[int, dict[str, str | float]] = {}
         for number, item in self.of_kind["PROPERTY_DEFINITION_REPRESENTATION"]:
@@ -157,8 +154,7 @@ class _Products:
 
     def parts(self, definition: int, place: Place, above: tuple[int, ...]) -> Iterator[tuple[str, int, Place, str]]:
         """What stands in a product, and in what stands there: name, product, place and what it stands in; or itself."""
-        if definition in above:
-            raise ReadError("a product of the STEP file stands in itself")
+        refuse_if(definition in above, "a product of the STEP file stands in itself")
         if definition not in self.inside:
             yield self.names[definition], definition, place, ""
         own = self.names[definition] if above else ""
@@ -213,8 +209,7 @@ class _Products:
         assemblies = {definition for definition, item in self.shapes.items() if item.kind == ASSEMBLY}
         for number, item in self.of_kind["CONTEXT_DEPENDENT_SHAPE_REPRESENTATION"]:
             relation, (occurrence,) = (self.items[n].references for n in item.references)
-            if occurrence not in uses:
-                raise ReadError(f"#{number} of the STEP file places nothing, or something twice")
+            refuse_if(occurrence not in uses, f"#{number} of the STEP file places nothing, or something twice")
             use = uses.pop(occurrence)
             outer, inner = use.references
             if inner in assemblies and use.strings[1] != self.names[inner]:

@@ -8,25 +8,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exporters.formats.readback import ReadMesh
-from parts.base.readback import ReadError
+from parts.base.readback import ReadError, refuse_if
 
 
 def read_stl(file: Path) -> ReadMesh:
     """A binary STL; equal corners become one vertex."""
     data = file.read_bytes()
-    if len(data) < 84:
-        raise ReadError("too short for a binary STL")
+    refuse_if(len(data) < 84, "too short for a binary STL")
     if data[:80].lstrip().lower().startswith(b"solid"):
         raise ReadError('the STL begins with "solid", by which programs know an STL of text')
     count = int.from_bytes(data[80:84], "little")
     if len(data) != 84 + 50 * count or count == 0:
         raise ReadError(f"{len(data)} bytes do not hold the {count} triangles that the STL announces")
     rows = np.frombuffer(data, dtype=np.uint8, offset=84).reshape(count, 50)
-    if np.any(rows[:, 48:]):
-        raise ReadError("an STL triangle has an attribute, which programs take for a colour")
+    refuse_if(np.any(rows[:, 48:]), "an STL triangle has an attribute, which programs take for a colour")
     corners = rows[:, 12:48].copy().view("<f4").reshape(-1, 3)
-    if not np.all(np.isfinite(corners)):
-        raise ReadError("an STL coordinate is not a number")
+    refuse_if(not np.all(np.isfinite(corners)), "an STL coordinate is not a number")
     _check_normals(corners.reshape(-1, 3, 3).astype(float), rows[:, :12].copy().view("<f4").astype(float))
     # + 0 makes one number of the two zeros
     keys = (corners + np.float32(0.0)).view("<u4")
@@ -43,5 +40,4 @@ def _check_normals(corners: NDArray[np.float64], normals: NDArray[np.float64]) -
     """Normals must agree with their corners; STL allows zero for "not given"."""
     true = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     size = np.linalg.norm(true, axis=1) * np.linalg.norm(normals, axis=1)
-    if np.any(np.einsum("ij,ij->i", true, normals) < 0.99 * size):
-        raise ReadError("an STL normal contradicts its triangle")
+    refuse_if(np.any(np.einsum("ij,ij->i", true, normals) < 0.99 * size), "an STL normal contradicts its triangle")

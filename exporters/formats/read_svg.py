@@ -12,7 +12,7 @@ import numpy as np
 
 from exporters.formats.readback import Loop, ReadOutlines
 from geometry.curves.curve import Complex
-from parts.base.readback import ReadError
+from parts.base.readback import ReadError, refuse_if
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
@@ -94,8 +94,7 @@ def _layer(element: Element) -> str:
     if shown is None or shown[1] not in _LAYERS or not 0 < float(shown[2]) <= _WIDEST:
         raise ReadError(f'an outline of the SVG has the style "{style}"')
     layer = _LAYERS[shown[1]]
-    if name and name != layer:
-        raise ReadError(f"an outline of the SVG is named {name}, but coloured as {layer}")
+    refuse_if(name and name != layer, f"an outline of the SVG is named {name}, but coloured as {layer}")
     return layer
 
 
@@ -107,8 +106,7 @@ def _millimetres(text: str) -> float:
 
 def svg_path(data: str, layer: str) -> Loop:
     """One closed subpath of absolute M, L, A and Z."""
-    if re.sub(_COMMAND, "", data).strip():
-        raise ReadError("an SVG path holds more than M, L, A and Z")
+    refuse_if(re.sub(_COMMAND, "", data).strip(), "an SVG path holds more than M, L, A and Z")
     points: list[complex] = []
     bulges: list[float] = []
     closed = False
@@ -118,13 +116,11 @@ def svg_path(data: str, layer: str) -> Loop:
             closed = True
         elif command == "A":
             radius, large, sweep, end = circular(numbers)
-            if not points:
-                raise ReadError("an SVG path begins with an arc")
+            refuse_if(not points, "an SVG path begins with an arc")
             bulges.append(_svg_bulge(end.conjugate() - points[-1], radius, large, sweep))
             points.append(end.conjugate())
         else:
-            if len(numbers) != 2 or closed:
-                raise ReadError("an SVG path has more than one part")
+            refuse_if(len(numbers) != 2 or closed, "an SVG path has more than one part")
             if points:
                 bulges.append(0.0)
             points.append(complex(numbers[0], -numbers[1]))

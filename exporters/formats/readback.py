@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import signed_area
-from parts.base.readback import ReadError, ReadLoop
+from parts.base.readback import ReadLoop, refuse_if
 
 if TYPE_CHECKING:
     from geometry.cams.contact.rolled import Outline
@@ -130,8 +130,7 @@ class ReadMesh(Record):
             first, at = following.popitem()
             keys = [first]
             while at != first:
-                if at not in following:
-                    raise ReadError("the outline of a wall is not closed")
+                refuse_if(at not in following, "the outline of a wall is not closed")
                 keys.append(at)
                 at = following.pop(at)
             points = self._cut(np.array(keys), z)

@@ -7,7 +7,7 @@ import numpy as np
 from exporters.formats.read_curves import lobatto, spans_of
 from exporters.formats.read_part21 import Index, Real
 from exporters.formats.read_solid import EXTRUSION, LEVEL, PLANE, ROUND, SPHERE, SPLINE, TORUS, Model
-from parts.base.readback import ReadError
+from parts.base.readback import refuse_if
 
 # which of the nodes on the way up are looked at: few heights, each of which may need a section of its own
 _KEPT = [0, 2, 4, 7, 9, 11]
@@ -71,8 +71,7 @@ def _placed(model: Model, face: Index, at: Real) -> Real:
 def _on_rulings(at: Real, use: Index) -> Real:
     """Of an extrusion between two copies of its curve: the lower one, lifted towards the other."""
     low, *others, high = sorted((float(at[use == k, :, 2].mean()), k) for k in np.unique(use).tolist())
-    if others:
-        raise ReadError("an extrusion of the STEP file does not lie between two copies of its curve")
+    refuse_if(others, "an extrusion of the STEP file does not lie between two copies of its curve")
     lifts = np.array([0.0, 0.0, high[0] - low[0]]) * lobatto()[0][_KEPT, None]
     return np.asarray((at[use == low[1]].reshape(-1, 1, 3) + lifts).reshape(-1, 3))
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from exporters.formats.readback import ReadMesh
-from parts.base.readback import ReadError
+from parts.base.readback import refuse_if
 from parts.base.texts import fault
 
 Triangles = NDArray[np.int64]
@@ -40,10 +40,8 @@ def chains(triangles: Triangles, on_level: NDArray[np.bool_], count: int) -> lis
     """Closed chains of the triangles' edges that lie on a level, as vertex numbers."""
     edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     edges = edges[on_level[edges].all(axis=1)]
-    if not len(edges):
-        raise ReadError("a wall has no edge at one of its ends")
-    if np.bincount(edges[:, 0], minlength=count).max() > 1:
-        raise ReadError("an outline touches itself in a point")
+    refuse_if(not len(edges), "a wall has no edge at one of its ends")
+    refuse_if(np.bincount(edges[:, 0], minlength=count).max() > 1, "an outline touches itself in a point")
     following = dict(zip(edges[:, 0].tolist(), edges[:, 1].tolist(), strict=True))
     chains = []
     while following:
@@ -51,8 +49,7 @@ def chains(triangles: Triangles, on_level: NDArray[np.bool_], count: int) -> lis
         chain = [start]
         while vertex != start:
             chain.append(vertex)
-            if vertex not in following:
-                raise ReadError("the outline of a wall is not closed")
+            refuse_if(vertex not in following, "the outline of a wall is not closed")
             vertex = following.pop(vertex)
         chains.append(chain)
     return chains

@@ -20,6 +20,18 @@ class ReadError(ValueError):
     """A file is not what its ending says, or holds something that its receivers refuse."""
 
 
+def refuse_if(wrong: object, why: str) -> None:
+    """A file in which something is wrong.
+
+    Raises
+    ------
+    ReadError
+        That is so: it says why.
+    """
+    if wrong:
+        raise ReadError(why)
+
+
 class ReadLoop(Protocol):
     """A closed outline as a file has it."""
 

@@ -14,7 +14,7 @@ from geometry.cams.contact.rolled import lift_bound, rolled_lift
 from geometry.cams.motion.follower_motion import TURN
 from geometry.curves.curve import Real
 from geometry.plane.measure import distance_to_profile
-from parts.base.readback import Probed, ReadBack, ReadError, ReadLoop
+from parts.base.readback import Probed, ReadBack, ReadLoop, refuse_if
 from parts.base.texts import N_, fault, fault_of
 
 if TYPE_CHECKING:
@@ -113,15 +113,13 @@ class SlidingProbe(Record):
 
 def outermost(loops: Sequence[ReadLoop]) -> ReadLoop:
     """The largest of some outlines."""
-    if not loops:
-        raise ReadError("there is no outline for the follower to touch")
+    refuse_if(not loops, "there is no outline for the follower to touch")
     return max(loops, key=lambda loop: loop.size)
 
 
 def _nearest(loops: Sequence[ReadLoop], exact: Profile) -> ReadLoop:
     """The loop that stays nearest to a profile at all of its points."""
-    if not loops:
-        raise ReadError("there is no outline for the follower to touch")
+    refuse_if(not loops, "there is no outline for the follower to touch")
     rough = [x.points[:: max(1, len(x.points) // _ROUGH)] for x in loops]
     return loops[int(np.argmin([distance_to_profile(x, exact, trusted=np.inf).max() for x in rough]))]
 

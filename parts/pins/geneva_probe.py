@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geometry.base.record import Record
-from parts.base.readback import Probed, ReadError, outline_points
+from parts.base.readback import Probed, outline_points, refuse_if
 from parts.base.texts import unless
 
 if TYPE_CHECKING:
@@ -51,6 +51,5 @@ class SlotProbe(Record):
         """The outermost outline; of a ring the next one."""
         loops = sorted(file.section(self.height), key=lambda loop: loop.size)
         number = 2 if self.wheel.drive.internal else 1
-        if len(loops) < number:
-            raise ReadError("there are no slots for the pin to pass")
+        refuse_if(len(loops) < number, "there are no slots for the pin to pass")
         return loops[-number]
