@@ -32,6 +32,11 @@ def involute_function(angle: float) -> float:
     return roll_minus_polar(math.tan(angle))
 
 
+def tangent_length(radius: float, base: float) -> float:
+    """sqrt(r^2 - r_b^2), mm: from the base circle to a radius, along the normal of the flank; 0 inside that circle."""
+    return math.sqrt(max((radius - base) * (radius + base), 0.0))
+
+
 def inverse_involute(value: float) -> float:
     """The angle in [0, pi/2) whose involute function is ``value``, rad; to the rounding of that function.
 

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, TypeVar, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geometry.base.angles import tangent_length
 from geometry.base.errors import ConvergenceError, ParameterError, limit
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
@@ -340,8 +341,7 @@ class FaceGear(Record, dict=True):
 
 def form_length(pinion: SpurGear) -> float:
     """From the base circle to where a pinion's involute begins, along its line of action, mm."""
-    radius, base = root_form_diameter(pinion) / 2, pinion.base_radius
-    return math.sqrt(max((radius - base) * (radius + base), 0.0))
+    return tangent_length(root_form_diameter(pinion) / 2, pinion.base_radius)
 
 
 def _usual_inner(gear: FaceGear, form_length: float) -> float:

@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from geometry.base.angles import tangent_length
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_roots
 from geometry.base.tolerance import CONTACT_TOLERANCE
@@ -117,8 +118,7 @@ class FacePair(Record, dict=True):
     @property
     def _tip_length(self) -> float:
         """From the base circle to the pinion's tip, mm."""
-        return math.sqrt((self.pinion.tip_radius - self.pinion.base_radius)
-                         * (self.pinion.tip_radius + self.pinion.base_radius))  # fmt: skip
+        return tangent_length(self.pinion.tip_radius, self.pinion.base_radius)
 
     @cached_property
     def contact_ratio(self) -> float:

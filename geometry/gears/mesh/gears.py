@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from geometry.base.angles import tangent_length
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.search import MeshSearch, gear_outline
 from geometry.gears.pairs.external import ExternalPair
@@ -150,16 +151,16 @@ class GearMesh(TurningMesh):
         return min(lenses[0], self.pair.teeth[0] // 2 + 1), min(lenses[1], self.pair.teeth[1] // 2 + 1)
 
     def _teeth_on_path(self) -> int:
-        gears, line = self.pair.gears, self.distance
-        along = sum(math.sqrt(max(g.tip_radius**2 - g.base_radius**2, 0)) for g in gears)
-        least = math.sqrt(max(line**2 - (gears[0].base_radius + gears[1].base_radius) ** 2, 0))
+        gears = self.pair.gears
+        along = sum(tangent_length(g.tip_radius, g.base_radius) for g in gears)
+        least = tangent_length(self.distance, gears[0].base_radius + gears[1].base_radius)
         return math.ceil(max(along - least, 0.0) / self.pair.base_pitch / 2 + 0.5) + 1
 
     def _teeth_on_path_in_ring(self, pair: InternalPair, angle: float) -> int:
         ring, pinion = pair.ring, pair.pinion
         pitch_point = ring.base_radius * math.tan(angle)
-        low = math.sqrt(max(ring.tip_radius**2 - ring.base_radius**2, 0.0))
-        high = math.sqrt(pinion.tip_radius**2 - pinion.base_radius**2) + self.distance * math.sin(angle)
+        low = tangent_length(ring.tip_radius, ring.base_radius)
+        high = tangent_length(pinion.tip_radius, pinion.base_radius) + self.distance * math.sin(angle)
         along = max(pitch_point - low, high - pitch_point, 0.0)
         return math.ceil(along / pair.base_pitch + 0.5) + 1
 

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from geometry.base.angles import tangent_length
 from geometry.base.placement import Placement2
 from geometry.curves.curve import Complex, Real
 from geometry.gears.mesh.search import MeshSearch, gear_outline
@@ -67,7 +68,7 @@ class RackMesh(MeshSearch):
         """Enough for the whole path of contact and one more, and no more than the tip circle encloses."""
         alpha = self.pair.rack.rack.pressure_angle
         radius = self.pair.gear.reference_radius
-        after = math.sqrt(self.pair.gear.tip_radius**2 - self.pair.gear.base_radius**2) - radius * math.sin(alpha)
+        after = tangent_length(self.pair.gear.tip_radius, self.pair.gear.base_radius) - radius * math.sin(alpha)
         before = (radius - self.distance + self.pair.rack.addendum) / math.sin(alpha)
         teeth = math.ceil(max(after, before, 0.0) / self.pair.base_pitch + 0.5) + 1
         teeth = min(teeth, math.ceil(self._reach() / self.pitches[1] + 0.5))

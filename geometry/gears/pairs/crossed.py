@@ -13,13 +13,12 @@ from __future__ import annotations
 import math
 from functools import cached_property
 
-from geometry.base.angles import involute_function
+from geometry.base.angles import involute_function, tangent_length
 from geometry.base.errors import ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.base.placement import Placement3, Vector
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
-from geometry.gears.pairs.involute import flank_radii, tangent_length
 from geometry.gears.pairs.tooth_forces import ToothForces
 from geometry.gears.teeth.limits import undercut
 from geometry.gears.teeth.spur import SpurGear
@@ -196,7 +195,7 @@ class CrossedPair(Record, dict=True):
         """Where contact begins and ends on the line of action between both flanks, whatever the face widths, mm."""
         ends = []
         for gear, side, beta in zip(self.gears, self.sides, self.base_helices, strict=True):
-            low, high = (tangent_length(r, gear.base_radius) / math.cos(beta) for r in flank_radii(side))
+            low, high = (tangent_length(r, gear.base_radius) / math.cos(beta) for r in side.flank_radii(relief=True))
             ends.append((low, high))
         (low, high), (start, end), length = *ends, self.action.length
         return max(low, length - end), min(high, length - start)
@@ -205,7 +204,7 @@ class CrossedPair(Record, dict=True):
     def tips_path(self) -> tuple[float, float]:
         """The same as both tips would have it, were the flanks whole down to the axes."""
         one, two = (
-            tangent_length(flank_radii(side)[1], gear.base_radius) / math.cos(beta)
+            tangent_length(side.flank_radii(relief=True)[1], gear.base_radius) / math.cos(beta)
             for gear, side, beta in zip(self.gears, self.sides, self.base_helices, strict=True)
         )
         return self.action.length - two, one

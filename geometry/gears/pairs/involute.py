@@ -17,27 +17,26 @@ from typing import ClassVar, Generic, NamedTuple, TypeVar
 
 import numpy as np
 
-from geometry.base.angles import inverse_involute, involute_function
+from geometry.base.angles import inverse_involute, involute_function, tangent_length
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Curve, Real, end_point, start_point
+from geometry.curves.curve import Real
 from geometry.gears.teeth.limits import Margin, not_kept
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.ring_tooth import RingSide
+from geometry.gears.teeth.side import Side
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import ToothSide, tooth_side
 from geometry.plane.distance import Flags
-from geometry.plane.profile import Label
 
 # to which the sought limit is given, so that it works when a printed one is typed back
 _NEAREST_DIGITS = 6
 
 Gear = SpurGear | RingGear
-Side = ToothSide | RingSide
 G = TypeVar("G", bound=Gear)
-S = TypeVar("S", bound=Side)
+S = TypeVar("S", bound=ToothSide | RingSide)
 
 
 class Signed(NamedTuple):
@@ -143,12 +142,12 @@ class InvolutePair(Record, Generic[G, S], dict=True):
     @property
     def root_form_radii(self) -> tuple[float, float]:
         """r_Ff, mm: where each involute gives way to the fillet; the ring's is its outer end."""
-        return flank_radii(self.first_side)[0], flank_radii(self.second_side)[0]
+        return self.first_side.flank_radii()[0], self.second_side.flank_radii()[0]
 
     @property
     def tip_form_radii(self) -> tuple[float, float]:
         """r_Fa, mm: where each flank (relief included) ends; the tip radius unless the tip is broken."""
-        return flank_radii(self.first_side)[1], flank_radii(self.second_side)[1]
+        return self.first_side.flank_radii(relief=True)[1], self.second_side.flank_radii(relief=True)[1]
 
     @property
     def tip_pressure_angles(self) -> tuple[float, float]:
@@ -453,23 +452,7 @@ def facing_gaps(
     return found
 
 
-def tangent_length(radius: float, base: float) -> float:
-    """sqrt(r^2 - r_b^2), mm; 0 inside the base circle."""
-    return math.sqrt(max((radius - base) * (radius + base), 0.0))
-
-
-def flank_radii(side: Side, *, relief: bool = True) -> tuple[float, float]:
-    """Radii at which the involute gives way to the fillet and to the tip, mm; ``relief``: with that part."""
-    curves = _flanks(side, relief=relief)
-    return abs(start_point(curves[0])), abs(end_point(curves[-1]))
-
-
-def _flanks(side: Side, *, relief: bool = True) -> list[Curve]:
-    labels = (Label.FLANK, Label.RELIEF) if relief else (Label.FLANK,)
-    return [s.curve for s in side.segments if s.label in labels]
-
-
 def _main_flank(side: Side, base: float) -> tuple[float, float]:
     """The lengths from the base circle, mm, between which the main flank lies."""
-    low, high = sorted(abs(roll) * base for roll in _flanks(side, relief=False)[0].domain)
+    low, high = sorted(abs(roll) * base for roll in side.flanks()[0].domain)
     return low, high

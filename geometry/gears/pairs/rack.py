@@ -11,12 +11,13 @@ from functools import cached_property
 
 import numpy as np
 
+from geometry.base.angles import tangent_length
 from geometry.base.errors import ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.base.record import Record
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Real, end_point, start_point
-from geometry.gears.pairs.involute import facing_gaps, flank_radii, refuse_other_rack
+from geometry.gears.pairs.involute import facing_gaps, refuse_other_rack
 from geometry.gears.teeth.limits import Margin, not_kept
 from geometry.gears.teeth.rack import Rack, RackSide
 from geometry.gears.teeth.spur import SpurGear
@@ -64,9 +65,8 @@ class RackPair(Record, dict=True):
 
     def _gear_tangents(self, *, relief: bool = True) -> tuple[float, float]:
         """Length from the base circle to the gear's first and last flank point, mm; ``relief``: that part too."""
-        ends = flank_radii(self.sides[0], relief=relief)
-        low, high = (math.sqrt(max(r * r - self.gear.base_radius**2, 0.0)) for r in ends)
-        return low, high
+        low, high = self.sides[0].flank_radii(relief=relief)
+        return tangent_length(low, self.gear.base_radius), tangent_length(high, self.gear.base_radius)
 
     def _rack_depths(self) -> tuple[float, float]:
         """x of the rack's first and last flank point in the mesh frame with the datum line at ``distance``, mm."""

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 
+from geometry.base.angles import tangent_length
 from geometry.base.record import Record
 from geometry.gears.pairs.external import ExternalPair
 from geometry.gears.pairs.internal import InternalPair
-from geometry.gears.pairs.involute import tangent_length
 
 # of the line: as near as a root search or a limit typed with six digits comes to a base circle
 _ON_THE_BASE_CIRCLE = 1e-6

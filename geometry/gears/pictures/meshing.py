@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
+from geometry.base.angles import tangent_length
 from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2
 from geometry.base.record import Record
@@ -20,7 +21,6 @@ from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.pairs.external import ExternalPair
 from geometry.gears.pairs.internal import InternalPair
-from geometry.gears.pairs.involute import tangent_length
 from geometry.gears.pairs.rack import RackPair
 from geometry.gears.teeth.ring_tooth import RingSide
 from geometry.gears.teeth.tooth import ToothSide

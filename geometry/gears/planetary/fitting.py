@@ -152,7 +152,7 @@ class Fit(Record):
         first = one.margins(self.wish, x2, x1), two.margins(self.wish, x2p, x3)
         kept = tuple(tuple(m for m in found if not m.margin >= -_ROUNDING) for found in first)
         if not self.gap >= self.least_gap - _ROUNDING:
-            near = Margin("neighbours", self.gap, self.least_gap, self.gap - self.least_gap)
+            near = Margin.above("neighbours", self.gap, self.least_gap)
             return (*kept[0], near), kept[1]
         return kept[0], kept[1]
 

@@ -141,7 +141,7 @@ def active_flank(pair: ShiftPair, x1: float, x2: float, index: int) -> Margin:
     start = state_of(pair, x1, x2).starts[index]
     share = math.cos(pair.helix_angle)
     form = form_tangent(pair.teeth[index], pair.rack, (x1, x2)[index] * share) / share
-    return Margin(f"active_flank_{('first', 'second')[index]}", start, form, start - form)
+    return Margin.above(f"active_flank_{('first', 'second')[index]}", start, form)
 
 
 class Condition(Record):
@@ -233,7 +233,7 @@ class Requirements(Record):
 
 def margins(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> tuple[Margin, ...]:
     """Every requirement with its margin; nan where the pair does not exist."""
-    return tuple(Margin(name, value, limit, value - limit) for name, value, limit in _sides(pair, wish, x1, x2))
+    return tuple(Margin.above(*side) for side in _sides(pair, wish, x1, x2))
 
 
 def _sides(pair: ShiftPair, wish: Requirements, x1: float, x2: float) -> Iterator[tuple[str, float, float]]:

@@ -166,8 +166,7 @@ def _limit(pair: InternalShiftPair, wish: InternalRequirements, name: str) -> fl
 def margins(pair: InternalShiftPair, wish: InternalRequirements, x1: float, x2: float) -> tuple[Margin, ...]:
     """Every requirement with its margin; nan where the pair does not exist."""
     state = internal_state(pair, x1, x2)
-    every = ((name, sides(x1, x2, state)) for name, sides in _required(pair, wish))
-    return tuple(Margin(name, value, limit, value - limit) for name, (value, limit) in every)
+    return tuple(Margin.above(name, *sides(x1, x2, state)) for name, sides in _required(pair, wish))
 
 
 def least_margin(pair: InternalShiftPair, wish: InternalRequirements, x1: float, x2: float) -> float:

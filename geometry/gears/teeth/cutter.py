@@ -6,7 +6,7 @@ import cmath
 import math
 from functools import cached_property
 
-from geometry.base.angles import inverse_involute, involute_function, roll_minus_polar
+from geometry.base.angles import inverse_involute, involute_function, roll_minus_polar, tangent_length
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
@@ -89,15 +89,13 @@ class PinionCutter(InvoluteTeeth, dict=True):
     def _corner_angle(self, rounding: float) -> float:
         """The same for a rounding in mm: the centre lies on the flank moved into the tooth by it."""
         base = self.base_radius
-        centre = self.tip_radius - rounding
-        reach = math.sqrt(max((centre - base) * (centre + base), 0.0))
+        reach = tangent_length(self.tip_radius - rounding, base)
         return self.base_half_angle - rounding / base - roll_minus_polar(reach / base)
 
     @cached_property
     def form_length(self) -> float:
         """Length from the base circle to where the flank gives way to the rounding, along the flank's normal, mm."""
-        base, centre = self.base_radius, self.corner_radius
-        return math.sqrt(max((centre - base) * (centre + base), 0.0)) + self.rounding_radius
+        return tangent_length(self.corner_radius, self.base_radius) + self.rounding_radius
 
     def largest_rounding(self) -> float:
         """The tip rounding, in modules, at which both corners of a tooth meet, or that starts at the base circle."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from geometry.base.angles import involute_function, roll_minus_polar
+from geometry.base.angles import involute_function, roll_minus_polar, tangent_length
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.gears.teeth.limits import Margin
@@ -29,8 +29,7 @@ class InternalMesh(Record):
     def _tip_involutes(self) -> tuple[float, float]:
         """inv(alpha_a) of both tips, rad; a tip inside its base circle counts as on it."""
         first, second = (
-            roll_minus_polar(math.sqrt(max((a - b) * (a + b), 0.0)) / b)
-            for a, b in zip(self.tip_radii, self.base_radii, strict=True)
+            roll_minus_polar(tangent_length(a, b) / b) for a, b in zip(self.tip_radii, self.base_radii, strict=True)
         )
         return first, second
 
@@ -42,8 +41,7 @@ class InternalMesh(Record):
         tip, base = self.tip_radii[1], self.base_radii[1]
         # a tip circle inside the base circle has no involute there: its own depth counts
         value = math.sqrt((tip - base) * (tip + base)) if tip >= base else tip - base
-        limit = self.distance * math.sin(self.angle)
-        return Margin("involute_interference", value, limit, value - limit)
+        return Margin.above("involute_interference", value, self.distance * math.sin(self.angle))
 
     def trochoid_interference(self) -> Margin:
         """Room between the tip corners where both tip circles cross, as an arc on the ring's tip circle, mm.
@@ -58,7 +56,7 @@ class InternalMesh(Record):
         tips, working = self._tip_involutes(), involute_function(self.angle)
         scale = self.tip_radii[1]
         value = scale * ((first + tips[0] - working) * ratio + working - tips[1])
-        return Margin("trochoid_interference", value, scale * second, value - scale * second)
+        return Margin.above("trochoid_interference", value, scale * second)
 
     def _within(self, name: str) -> Margin:
         """What tip circles that do not cross keep wholly (inf) or, the ring's the smaller, not at all (-inf)."""
@@ -95,8 +93,7 @@ class InternalMesh(Record):
         # beyond the crossing of the tip circles the pinion's corner stays inside the ring's teeth
         last = min(first, math.pi / 2)
         at = bracketed_root(rate, 0.0, last).value if rate(0.0) > 0 > rate(last) else (last if rate(last) >= 0 else 0.0)
-        value, limit = two * math.sin(ring_angle(at)), one * math.sin(at)
-        return Margin("radial_assembly", value, limit, value - limit)
+        return Margin.above("radial_assembly", two * math.sin(ring_angle(at)), one * math.sin(at))
 
     def margins(self) -> tuple[Margin, ...]:
         """All three, each >= 0 where kept."""

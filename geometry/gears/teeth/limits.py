@@ -12,13 +12,12 @@ from geometry.base.findings import Finding
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import start_point
+from geometry.curves.involute import Involute
 from geometry.gears.teeth.joints import pointed_radius
 from geometry.gears.teeth.shaping import check_shaping, least_shift_with_cutter
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from geometry.gears.teeth.transverse import transverse_gear
-from geometry.plane.profile import Label
 
 if TYPE_CHECKING:
     from geometry.gears.teeth.ring import RingGear
@@ -41,6 +40,16 @@ class Margin(Record):
     limit: float
     margin: float
 
+    @classmethod
+    def above(cls, name: str, value: float, limit: float) -> Margin:
+        """Of a value that is to keep above a limit."""
+        return cls(name, value, limit, value - limit)
+
+    @classmethod
+    def below(cls, name: str, value: float, limit: float) -> Margin:
+        """Of a value that is to keep below a limit."""
+        return cls(name, value, limit, limit - value)
+
 
 def not_kept(margins: Iterable[Margin], size: float) -> tuple[Finding, ...]:
     """The limits that are not kept, as remarks; a margin within rounding of a size, mm, counts as kept."""
@@ -57,57 +66,49 @@ def least_shift_without_undercut(gear: SpurGear) -> float:
 
 def undercut(gear: SpurGear) -> Margin:
     """Undercut, exactly: the generating shift against x_min."""
-    limit = least_shift_without_undercut(gear)
-    value = gear.generating_shift_coefficient
-    return Margin("undercut", value, limit, value - limit)
+    return Margin.above("undercut", gear.generating_shift_coefficient, least_shift_without_undercut(gear))
 
 
 def practicum_undercut(gear: SpurGear) -> Margin:
     """Undercut by the practicum's rule (1.2), xi_min = (17 - z) / 17, meant for 20 degrees and h_a = 1."""
-    limit = (PRACTICUM_LEAST_TEETH - gear.number_of_teeth) / PRACTICUM_LEAST_TEETH
-    value = gear.profile_shift_coefficient
-    return Margin("practicum_undercut", value, limit, value - limit)
+    least = (PRACTICUM_LEAST_TEETH - gear.number_of_teeth) / PRACTICUM_LEAST_TEETH
+    return Margin.above("practicum_undercut", gear.profile_shift_coefficient, least)
 
 
 def pointed_diameter(gear: SpurGear) -> float:
     """Diameter at which both flanks of a tooth meet, mm."""
-    flanks = [gear.flank()]
-    if gear.rack.relief is not None:
-        flanks.append(gear.relief_flank())
-    return 2 * min(pointed_radius(f) for f in flanks)
+    return 2 * min(map(pointed_radius, _flanks(gear)))
+
+
+def _flanks(gear: SpurGear) -> list[Involute]:
+    """The main flank, and the relieved one."""
+    return [gear.flank()] if gear.rack.relief is None else [gear.flank(), gear.relief_flank()]
 
 
 def pointed_tip(gear: SpurGear) -> Margin:
     """Tip diameter against the diameter at which the tooth is pointed, mm."""
-    limit, value = pointed_diameter(gear), 2 * gear.tip_radius
-    return Margin("pointed_tip", value, limit, limit - value)
+    return Margin.below("pointed_tip", 2 * gear.tip_radius, pointed_diameter(gear))
 
 
 def tip_thickness(gear: SpurGear) -> float:
     """s_a: thickness of the tooth on the tip circle before its corners are broken, mm (an arc)."""
-    flanks = [gear.flank()]
-    if gear.rack.relief is not None:
-        flanks.append(gear.relief_flank())
-    angle = max(f.polar_angle_at_radius(gear.tip_radius) for f in flanks)
+    angle = max(flank.polar_angle_at_radius(gear.tip_radius) for flank in _flanks(gear))
     return -2 * gear.tip_radius * angle
 
 
 def thin_tip(gear: SpurGear) -> Margin:
     """s_a against 0.3 m, mm; practicum, below (1.3)."""
-    value, limit = tip_thickness(gear), LEAST_TIP_THICKNESS * gear.module
-    return Margin("thin_tip", value, limit, value - limit)
+    return Margin.above("thin_tip", tip_thickness(gear), LEAST_TIP_THICKNESS * gear.module)
 
 
 def root_below_bore(gear: SpurGear) -> Margin:
     """Diameter that the bore reaches against the root diameter, mm."""
-    value, limit = 2 * gear.bore_radius, 2 * gear.root_radius
-    return Margin("root_below_bore", value, limit, limit - value)
+    return Margin.below("root_below_bore", 2 * gear.bore_radius, 2 * gear.root_radius)
 
 
 def root_form_diameter(gear: SpurGear) -> float:
     """d_Ff: diameter at which the involute begins, mm."""
-    flank = next(s for s in tooth_side(gear).segments if s.label is Label.FLANK)
-    return 2 * abs(start_point(flank.curve))
+    return 2 * tooth_side(gear).flank_radii()[0]
 
 
 def margins(gear: SpurGear) -> tuple[Margin, ...]:

@@ -16,13 +16,11 @@ from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
-from geometry.curves.curve import end_point, start_point
 from geometry.gears.teeth.ring import RingGear
-from geometry.gears.teeth.ring_tooth import flank_ends, ring_side
+from geometry.gears.teeth.ring_tooth import ring_side
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from geometry.gears.teeth.transverse import base_helix_angle, normal_angle
-from geometry.plane.profile import Label
 
 Measured = SpurGear | RingGear
 G = TypeVar("G", bound=SpurGear | RingGear)
@@ -76,11 +74,7 @@ def _base_helix(gear: Measured, helix_angle: float) -> float:
 
 def flank_radii(gear: Measured) -> tuple[float, float]:
     """Radii at which the main flank ends, mm: at its fillet, and at the tip or what breaks it (chamfer, relief)."""
-    if isinstance(gear, RingGear):
-        tip, root = flank_ends(ring_side(gear))
-        return root, tip
-    flank = next(s.curve for s in tooth_side(gear).segments if s.label is Label.FLANK)
-    return abs(start_point(flank)), abs(end_point(flank))
+    return (ring_side(gear) if isinstance(gear, RingGear) else tooth_side(gear)).flank_radii()
 
 
 def _on_flank(gear: Measured, radius: float) -> bool:

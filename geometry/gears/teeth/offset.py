@@ -8,7 +8,6 @@ is trimmed; an offset that closes the space is refused.
 from __future__ import annotations
 
 import cmath
-import math
 from collections.abc import Callable
 
 import numpy as np
@@ -16,20 +15,18 @@ import numpy as np
 from geometry.base.errors import OffsetError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
-from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Curve, Reversed, end_point, start_point
+from geometry.curves.curve import Reversed, start_point
 from geometry.curves.fillet import Fillet
 from geometry.curves.intersect import first_above
 from geometry.curves.line_arc import Arc
-from geometry.gears.teeth.moved_segments import corner_arc, kept_from
+from geometry.gears.teeth.moved_segments import SAMPLES, after_cusp, kept_from, with_corner_arcs
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import SideCurves, ToothSide, assemble_side, tooth_side
 from geometry.plane.offset_region import OffsetRegion, moved_teeth
 from geometry.plane.profile import Label, Profile, Region, Segment
 from geometry.solids.hub_holes import HubHoles
 
-_SAMPLES = 65
 # share of a tip rounding's radius that is left at the edge of the deepest face chamfer
 KEPT_ROUNDING = 0.25
 
@@ -103,13 +100,13 @@ def _moved_side(gear: SpurGear, offset: float) -> ToothSide:
 
 def grown_side(side: ToothSide, distance: float) -> ToothSide:
     """A tooth side moved ``distance`` mm out of the material."""
-    pieces = _with_corner_arcs(side.segments, distance)
+    pieces = with_corner_arcs(side.segments, distance, lambda segment: _grown(segment, distance), 0.0)
     findings = list(side.findings)
     half_pitch = side.pitch_angle / 2
     land = pieces.pop(0) if pieces[0].label is Label.ROOT_LAND else None
-    start = _after_cusp(pieces, distance, findings)
+    start, trimmed = after_cusp(pieces, distance, findings)
     bottom = abs(start_point(side.segments[0].curve)) + distance
-    pieces, land = _joined_to_root(start, land, bottom, half_pitch, trimmed=len(findings) > len(side.findings))
+    pieces, land = _joined_to_root(start, land, bottom, half_pitch, trimmed=trimmed)
     if land is None:
         pieces = _above_centre_line(pieces, half_pitch, bottom, findings)
     else:
@@ -118,38 +115,12 @@ def grown_side(side: ToothSide, distance: float) -> ToothSide:
     return ToothSide(tuple(pieces), side.pitch_angle, tuple(findings))
 
 
-def _with_corner_arcs(segments: tuple[Segment, ...], distance: float) -> list[Segment]:
-    """Every segment moved outwards, an arc about each convex corner, the tip closed on the centre line."""
-    moved: list[Segment] = []
-    for index, segment in enumerate(segments):
-        moved += corner_arc(segments[index - 1].curve, segment.curve, distance) if index else []
-        moved.append(Segment(_grown(segment.curve, distance), segment.label))
-    last = segments[-1].curve
-    if segments[-1].label is not Label.TIP_LAND:
-        leaving = cmath.phase(complex(last.tangent(last.domain[1]))) - math.pi / 2
-        if leaving < -TOLERANCES.smooth_angle:
-            moved.append(Segment(Arc(end_point(last), distance, leaving, -leaving), Label.CORNER))
-    return moved
-
-
-def _grown(curve: Curve, distance: float) -> Curve:
+def _grown(segment: Segment, distance: float) -> list[Segment]:
     """The parallel curve on the space's side; a fillet may turn back, which is trimmed afterwards."""
+    curve = segment.curve
     if isinstance(curve, Fillet):
-        return replace(curve, tip_radius=curve.tip_radius - distance)
-    return curve.offset(-distance)
-
-
-def _after_cusp(pieces: list[Segment], distance: float, findings: list[Finding]) -> list[Segment]:
-    """The pieces without the part of the fillet that runs back; a finding where there was one."""
-    fillet = pieces[0].curve
-    if not isinstance(fillet, Fillet) or fillet.cusp() is None:
-        return pieces
-    findings.append(Finding("fillet_cusp_trimmed", distance, fillet.tip_radius + distance))
-    low, high = fillet.domain
-    if float(fillet.speed(high)) <= 0:
-        return pieces[1:]
-    turning = bracketed_root(lambda u: float(fillet.speed(u)), low, high).value
-    return [Segment(replace(fillet, start=turning), Label.ROOT_FILLET), *pieces[1:]]
+        return [Segment(replace(curve, tip_radius=curve.tip_radius - distance), segment.label)]
+    return [Segment(curve.offset(-distance), segment.label)]
 
 
 def _joined_to_root(
@@ -173,7 +144,7 @@ def _above_centre_line(
 ) -> list[Segment]:
     """The pieces from where they leave the space's centre line for good; refused where that closes the space."""
     turn = cmath.exp(1j * half_pitch)
-    heights = [np.imag(p.curve.point(np.linspace(*p.curve.domain, _SAMPLES)) * turn) for p in pieces]
+    heights = [np.imag(p.curve.point(np.linspace(*p.curve.domain, SAMPLES)) * turn) for p in pieces]
     outside = [h < -1e-13 * bottom for h in heights]
     if not any(o.any() for o in outside):
         return pieces

@@ -24,7 +24,7 @@ from geometry.gears.teeth.limits import (
 )
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_made import DEFAULT_CUTTER_TEETH, check_made, generation, makes, settled_ring
-from geometry.gears.teeth.ring_tooth import RingCurves, apex_radius, flank_ends, ring_side
+from geometry.gears.teeth.ring_tooth import RingCurves, apex_radius, ring_side
 from geometry.gears.teeth.transverse_ring import transverse_ring
 from geometry.solids.hub_holes import Wall
 
@@ -39,31 +39,28 @@ def tip_thickness(gear: RingGear) -> float:
 
 def thin_tip(gear: RingGear) -> Margin:
     """s_a2 against 0.3 m, mm; practicum, below (1.3)."""
-    value, limit = tip_thickness(gear), LEAST_TIP_THICKNESS * gear.module
-    return Margin("thin_tip", value, limit, value - limit)
+    return Margin.above("thin_tip", tip_thickness(gear), LEAST_TIP_THICKNESS * gear.module)
 
 
 def pointed_tip(gear: RingGear) -> Margin:
     """Tip diameter against the diameter at which the ring's tooth is pointed, mm; 0 where it never is."""
-    limit, value = 2 * apex_radius(RingCurves.of(gear).flank, gear.pitch_angle / 2), 2 * gear.tip_radius
-    return Margin("pointed_tip", value, limit, value - limit)
+    apex = apex_radius(RingCurves.of(gear).flank, gear.pitch_angle / 2)
+    return Margin.above("pointed_tip", 2 * gear.tip_radius, 2 * apex)
 
 
 def tip_above_base(gear: RingGear) -> Margin:
     """Tip diameter against the base diameter, mm: the involute ends there."""
-    value, limit = 2 * gear.tip_radius, 2 * gear.base_radius
-    return Margin("tip_above_base", value, limit, value - limit)
+    return Margin.above("tip_above_base", 2 * gear.tip_radius, 2 * gear.base_radius)
 
 
 def rim(gear: RingGear) -> Margin:
     """Rim outside the root circle against one module, mm; without any there is no ring."""
-    value = gear.outer_radius - gear.root_radius
-    return Margin("thin_ring_rim", value, gear.module, value - gear.module)
+    return Margin.above("thin_ring_rim", gear.outer_radius - gear.root_radius, gear.module)
 
 
 def root_form_diameter(gear: RingGear) -> float:
     """d_Ff2: diameter at which the fillet begins, mm."""
-    return 2 * flank_ends(ring_side(gear))[1]
+    return 2 * ring_side(gear).flank_radii()[0]
 
 
 def margins(gear: RingGear) -> tuple[Margin, ...]:

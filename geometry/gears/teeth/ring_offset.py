@@ -15,20 +15,17 @@ import numpy as np
 from geometry.base.errors import CuspError, OffsetError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
-from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Curve, Reversed, end_point, start_point
+from geometry.curves.curve import Curve, Reversed, start_point
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.intersect import first_above
 from geometry.curves.line_arc import Arc
-from geometry.gears.teeth.moved_segments import corner_arc, kept_from
+from geometry.gears.teeth.moved_segments import SAMPLES, after_cusp, kept_from, with_corner_arcs
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.ring_limits import rim_walls
 from geometry.gears.teeth.ring_tooth import RingCurves, RingSide, assemble_ring_side, ring_side
 from geometry.plane.offset_region import OffsetRegion, moved_teeth
 from geometry.plane.profile import Label, Region, Segment, circle
-
-_SAMPLES = 65
 
 
 def ring_region(gear: RingGear, offset: float = 0.0) -> OffsetRegion:
@@ -68,31 +65,19 @@ def grown_ring_side(side: RingSide, distance: float) -> RingSide:
     findings = list(side.findings)
     segments = side.segments
     bottom = abs(start_point(segments[0].curve)) - distance
-    pieces = _with_corner_arcs(segments, distance, side.pitch_angle)
+    facing = math.pi - side.pitch_angle / 2
+    pieces = with_corner_arcs(segments, distance, lambda segment: _grown(segment, distance), facing)
     land = pieces.pop(0) if pieces[0].label is Label.ROOT_LAND else None
-    pieces, trimmed = _after_cusp(pieces, distance, findings)
+    pieces, trimmed = after_cusp(pieces, distance, findings)
+    if pieces[0].label is Label.FLANK and not trimmed:
+        findings.append(Finding("fillet_cusp_trimmed", distance, 0.0))
+        trimmed = True
     if land is not None and trimmed:
         pieces, land = _joined_to_root(pieces, bottom)
     if land is None:
         pieces = _below_centre_line(pieces, bottom, findings)
     _check_space(pieces)
     return RingSide(tuple(pieces if land is None else [land, *pieces]), side.pitch_angle, tuple(findings))
-
-
-def _with_corner_arcs(segments: tuple[Segment, ...], distance: float, pitch: float) -> list[Segment]:
-    """Every segment moved out of the material, an arc about each convex corner, the tooth closed on its centre line."""
-    moved: list[Segment] = []
-    for index, segment in enumerate(segments):
-        moved += corner_arc(segments[index - 1].curve, segment.curve, distance) if index else []
-        moved += _grown(segment, distance)
-    last = segments[-1].curve
-    if segments[-1].label is not Label.TIP_LAND:
-        leaving = cmath.phase(complex(last.tangent(last.domain[1])) * cmath.exp(0.5j * pitch)) - math.pi / 2
-        # the tooth's centre line points inwards, at pi once it is turned onto the x axis
-        rest = math.remainder(math.pi - leaving, 2 * math.pi)
-        if rest > TOLERANCES.smooth_angle:
-            moved.append(Segment(Arc(end_point(last), distance, leaving - pitch / 2, rest), Label.CORNER))
-    return moved
 
 
 def _grown(segment: Segment, distance: float) -> list[Segment]:
@@ -110,28 +95,6 @@ def _grown(segment: Segment, distance: float) -> list[Segment]:
     return [Segment(moved, segment.label)]
 
 
-def _after_cusp(pieces: list[Segment], distance: float, findings: list[Finding]) -> tuple[list[Segment], bool]:
-    """The pieces without the part of the fillet that runs back, and whether there was one."""
-    fillet = pieces[0].curve
-    if pieces[0].label is Label.FLANK:
-        findings.append(Finding("fillet_cusp_trimmed", distance, 0.0))
-        return pieces, True
-    if not isinstance(fillet, CutterFillet) or fillet.cusp() is None:
-        return pieces, False
-    findings.append(Finding("fillet_cusp_trimmed", distance, fillet.tip_radius + distance))
-    low, high = fillet.domain
-    if float(fillet.speed(high)) <= 0:
-        return pieces[1:], True
-    if float(fillet.speed(low)) > 0:
-        # regular at both ends, running back between them: what is behind the last turn is kept
-        places = np.linspace(low, high, _SAMPLES)
-        low = float(places[np.flatnonzero(fillet.speed(places) <= 0)[-1]]) if np.any(fillet.speed(places) <= 0) else low
-        if float(fillet.speed(low)) > 0:
-            return pieces, True
-    turning = bracketed_root(lambda u: float(fillet.speed(u)), low, high).value
-    return [Segment(replace(fillet, start=turning), Label.ROOT_FILLET), *pieces[1:]], True
-
-
 def _joined_to_root(pieces: list[Segment], radius: float) -> tuple[list[Segment], Segment | None]:
     """Pieces and root land trimmed to their crossing; no land where they meet beyond the centre line."""
     found = first_above([p.curve for p in pieces], lambda point: radius - abs(point))
@@ -146,7 +109,7 @@ def _joined_to_root(pieces: list[Segment], radius: float) -> tuple[list[Segment]
 
 def _below_centre_line(pieces: list[Segment], bottom: float, findings: list[Finding]) -> list[Segment]:
     """The pieces from where they leave the space's centre line for good."""
-    heights = [np.imag(p.curve.point(np.linspace(*p.curve.domain, _SAMPLES))) for p in pieces]
+    heights = [np.imag(p.curve.point(np.linspace(*p.curve.domain, SAMPLES))) for p in pieces]
     if not any((h > 1e-13 * bottom).any() for h in heights):
         return pieces
     found = first_above([p.curve for p in pieces], lambda point: -point.imag)
@@ -163,6 +126,6 @@ def _check_space(pieces: list[Segment]) -> None:
     if flank is None or not isinstance(flank, Reversed):
         raise OffsetError(0.0, "closes_tooth_spaces")
     for piece in pieces:
-        points = piece.curve.point(np.linspace(*piece.curve.domain, _SAMPLES))
+        points = piece.curve.point(np.linspace(*piece.curve.domain, SAMPLES))
         if np.imag(points).max() > 1e-12 * float(np.abs(points).max()):
             raise OffsetError(0.0, "closes_tooth_spaces")

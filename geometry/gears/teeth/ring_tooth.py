@@ -14,22 +14,19 @@ from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Reversed, end_point
+from geometry.curves.curve import Reversed
 from geometry.curves.cutter_fillet import CutterFillet
 from geometry.curves.intersect import height_over_line
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line, arc_between
 from geometry.gears.teeth.cutter import CUTTER_ROUNDING, PinionCutter, full_round
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
+from geometry.gears.teeth.side import Side
 from geometry.plane.profile import Label, Profile, Segment
 
 
-class RingSide(Record):
-    """Segments of the lower side of space 1, space centre to tooth centre, clockwise, and what was noticed."""
-
-    segments: tuple[Segment, ...]
-    pitch_angle: float
-    findings: tuple[Finding, ...] = ()
+class RingSide(Side):
+    """Segments of the lower side of space 1, space centre to tooth centre, clockwise."""
 
     def profile(self) -> Profile:
         """The closed hole: mirrored upper side, lower side, both lands made whole, placed z times clockwise."""
@@ -244,9 +241,3 @@ def _whole_land(land: object, middle: float) -> Arc:
     """A half land about the axis made whole: as long on either side of the polar angle ``middle``."""
     assert isinstance(land, Arc)
     return Arc(0j, land.radius, middle + abs(land.sweep), -2 * abs(land.sweep))
-
-
-def flank_ends(side: RingSide) -> tuple[float, float]:
-    """Radii at which the involute of a ring begins at the tip and ends at the fillet (root form radius), mm."""
-    curve = next(s.curve for s in side.segments if s.label is Label.FLANK)
-    return abs(end_point(curve)), abs(complex(curve.point(curve.domain[0])))

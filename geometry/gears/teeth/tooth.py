@@ -26,16 +26,13 @@ from geometry.gears.teeth.joints import (
     joint_roll,
     pointed_radius,
 )
+from geometry.gears.teeth.side import Side
 from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.profile import Label, Profile, Segment
 
 
-class ToothSide(Record):
-    """Segments of the lower tooth side, space centre to tooth centre, and what was noticed."""
-
-    segments: tuple[Segment, ...]
-    pitch_angle: float
-    findings: tuple[Finding, ...] = ()
+class ToothSide(Side):
+    """Segments of the lower tooth side, space centre to tooth centre."""
 
     def profile(self) -> Profile:
         """The closed outline: lower side, mirrored upper side, both lands made whole, placed z times."""

@@ -18,7 +18,7 @@ from geometry.gears.teeth.internal_mesh import InternalMesh
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_limits import checked_ring
 from geometry.gears.teeth.ring_offset import ring_region
-from geometry.gears.teeth.ring_tooth import flank_ends, ring_side
+from geometry.gears.teeth.ring_tooth import ring_side
 from geometry.plane.measure import profile_area
 from geometry.plane.profile import Label, Profile, Region, joint_turn
 from tests import brute
@@ -200,7 +200,7 @@ def test_tip_chamfer_and_rounding() -> None:
     side = ring_side(rounded)
     turns = [abs(joint_turn(a.curve, b.curve)) for a, b in zip(side.segments[:-1], side.segments[1:], strict=True)]
     assert max(turns) <= 1e-9
-    assert flank_ends(side)[0] > plain.tip_radius
+    assert side.flank_radii()[1] > plain.tip_radius
 
 
 def section(region: Region, points: int) -> shapely.Polygon:
