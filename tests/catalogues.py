@@ -35,6 +35,7 @@ from parts.base.texts import DOMAIN, LOCALE
 from parts.mates.registry import MATES
 from parts.pages.cam_steps import law_text
 from parts.pages.contour_picture import STYLES
+from parts.pages.misprints import CASES
 from parts.pages.module_rules import CONDITIONS, RULES
 from parts.pages.terms import TERMS
 from parts.recipes.registry import RECIPES
@@ -83,6 +84,7 @@ def _kept_in_data() -> Iterator[str]:
     yield from (*KINDS.phrases.values(), *MATES.phrases.values(), *RECIPES.phrases.values())
     yield from (term.name for term in TERMS.values())
     yield from (row.reason for row in (*RULES, *CONDITIONS))
+    yield from (printed.why for case in CASES.values() for printed in case.values())
     # the rest are symbols
     yield from (style.name for style in STYLES.values() if re.search("[a-z]{4}", style.name))
     yield from (law_text(law().name).msgid for law in NAMED_LAWS.values())

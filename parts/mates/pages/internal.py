@@ -40,7 +40,7 @@ from parts.pages.contact_steps import (
 )
 from parts.pages.force_steps import DrivenKeys, force_steps
 from parts.pages.inputs import checked, keys_of, refusal
-from parts.pages.misprints import printed_for_internal
+from parts.pages.misprints import printed_for
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
@@ -157,7 +157,7 @@ def _refused(error: ParameterError, keys: Struct) -> SceneError:
 
 def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> Sheet:
     pinion, ring = pair.pinion, pair.ring
-    printed = {} if helical.angle else printed_for_internal(pair.teeth, pair.module)
+    printed = {} if helical.angle else printed_for("thesis {}/{} {}".format(*pair.teeth, pair.module))
     page = Sheet(TOPIC, N_("Internal gear pair"), printed=printed)
     page.section("Given")
     given_data(page, helical.normal, pinion, helical.angle, 1)

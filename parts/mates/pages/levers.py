@@ -24,7 +24,8 @@ from parts.mates.pages.lever_keys import NAMES, LeverKeys, levers_of
 from parts.mates.pages.lever_picture import LeverPicture, Plan, Run, Vector, plan_of
 from parts.mates.pages.lever_tasks import EXAMPLE, MACHINES, assigned, rows_of_code
 from parts.pages.inputs import checked, refusal
-from parts.pages.page import Misprints, Printed, Sheet
+from parts.pages.misprints import printed_for
+from parts.pages.page import Sheet
 from parts.pages.terms import TERMS
 
 TOPIC = "lever"
@@ -112,7 +113,7 @@ class _Page:
         self.keys, self.number = keys, number
         self.levers = levers_of(keys)
         self.is_example = is_example
-        printed = dict(_PRINTED) if is_example else {}
+        printed = printed_for("lever example") if is_example else {}
         self.page = Sheet(TOPIC, N_("Lever mechanism"), picture_file=keys.picture, printed=printed)
         self.forces = Forces(keys, self.levers) if asked(keys) else None
         self.start, self.way = math.radians(keys.start_angle_deg), cmath.exp(1j * math.radians(keys.guide_angle_deg))
@@ -519,21 +520,3 @@ _SLIPS = (
     N_("the guidelines' conclusion on the structure names the knotter; this is the screen"),
     N_("the guidelines write l_CD = l_CO3·3.5, and reckon with the 2.8 of row 7, which is right"),
 )
-_OFF_PLAN = N_("measured off the plan")
-# the worked example: what it prints where the mechanism itself gives another number, and why
-_PRINTED: Misprints = {
-    "l_AO3": Printed("887", _OFF_PLAN),
-    "ω_3": Printed("13.2", _OFF_PLAN),
-    "V_B": Printed("14.22", _OFF_PLAN),
-    "V_C": Printed("3.56", N_("from ω_3 = 13.2")),
-    "V_D": Printed("3.58", N_("pd_5 = 36.8 mm, not 35.8: both plans fit together with the guide through O3 alone")),
-    "ω_4": Printed("0.542", N_("c_4d_4 = 4.4 mm, not 4.1: that is V_C sin φ_3, the rod parallel to its guide")),
-    "a_A3A2_k": Printed("73.1", N_("from ω_3 = 13.2")),
-    "a_3n": Printed("154.6", N_("from ω_3 = 13.2")),
-    "ε_3": Printed("42.6", _OFF_PLAN),
-    "a_B": Printed("194.1", _OFF_PLAN),
-    "a_C": Printed("48.6", _OFF_PLAN),
-    "a_4n": Printed("0.22", N_("from ω_4 = 0.542")),
-    "ε_4": Printed("64.3", _OFF_PLAN),
-    "a_D": Printed("0.3", N_("0.1 mm of the plan, which is how finely it can be read")),
-}

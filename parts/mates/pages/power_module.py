@@ -22,7 +22,7 @@ from parts.mates.pages.module_load import MODULUS, Carried, LoadKeys, load_secti
 from parts.mates.pages.power_table import DRIVES, given
 from parts.pages.error_map import ErrorMap
 from parts.pages.inputs import calculation
-from parts.pages.misprints import printed_for_power_module
+from parts.pages.misprints import printed_for
 from parts.pages.module_rules import CONDITIONS, DRIVERS, RULES, of_orientation, sizes, valued
 from parts.pages.page import Section, Sheet
 
@@ -81,7 +81,7 @@ def sheet(keys: PowerModuleKeys) -> Sheet:
     checked_picture(TOPIC, keys.picture, (".svg",))
     page = Sheet(TOPIC, N_("Two-disk power module"))
     if keys == PowerModuleKeys(**{name: getattr(keys, name) for name in _BESIDE_THE_THESIS}):
-        page.printed = printed_for_power_module()
+        page.printed = printed_for("power module")
     keys.table  # noqa: B018 - the ring is the larger one
     least = keys.ball_diameter / 2
     if keys.groove_radius is not None and not least < keys.groove_radius:

@@ -22,7 +22,7 @@ from parts.keys.base import mm
 from parts.mates.pages.train_cases import CASES, Case
 from parts.mates.pages.train_model import ACROSS, Leg, Mesh, Stage, Train, central_ways, parsed, satellites, stages
 from parts.pages.inputs import PLACE, checked, refusal
-from parts.pages.misprints import printed_for_train
+from parts.pages.misprints import printed_for
 from parts.pages.page import Printed, Sheet
 
 TOPIC = "train"
@@ -119,7 +119,7 @@ class _Page:
         self.shafts, self.held = keys.shafts or case.shafts, str(keys.held) or case.held
         self.carriers = {**case.carriers, **{c: str(names) for c, names in keys.carriers.items()}}
         self.driven = str(keys.driven) or case.driven
-        printed = printed_for_train(tuple(self.teeth.values()))
+        printed = printed_for(" ".join(map(str, ("train", *self.teeth.values()))))
         self.page = Sheet(TOPIC, N_("Kinematic analysis of a gear train"), printed=printed)
 
     def made(self) -> Sheet:
