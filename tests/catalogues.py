@@ -38,6 +38,7 @@ from parts.pages.contour_picture import STYLES
 from parts.pages.misprints import CASES
 from parts.pages.module_rules import CONDITIONS, RULES
 from parts.pages.terms import TERMS
+from parts.recipes.names import NAMES
 from parts.recipes.registry import RECIPES
 from parts.scene.files import SCENE_FOLDER
 from tests.sources import told
@@ -83,6 +84,7 @@ def _kept_in_data() -> Iterator[str]:
     """Kinds, terms, keys and tables of scenes and calculations: they need no mark."""
     yield from (*KINDS.phrases.values(), *MATES.phrases.values(), *RECIPES.phrases.values())
     yield from (term.name for term in TERMS.values())
+    yield from (one.title for recipe in NAMES.values() for one in recipe.values() if one.title)
     yield from (row.reason for row in (*RULES, *CONDITIONS))
     yield from (printed.why for case in CASES.values() for printed in case.values())
     # the rest are symbols

@@ -15,7 +15,6 @@ from msgspec import Meta
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.solids.hub_holes import least_wall
 from parts.base.part_keys import Density, Material
-from parts.base.texts import N_
 from parts.cams.disk_cam.part import CamSpec, cam_of, greatest_radius
 from parts.cams.wheel import inner_radius
 from parts.keys.base import degrees, mm
@@ -49,15 +48,6 @@ _CAM_KEYS = (
     "follower", "lift", "phases", "motion_table", "table_tolerance", "follower_radius", "follower_offset",
     "base_circle_radius", "least_transmission_angle_deg", "least_curvature_radius",
 )  # fmt: skip
-_COLOURS = {
-    "cam": "#d9b27c", "roller": "#d8d8d8", "washer": "#c9b79c", "spacer": "#c9b79c", "follower": "#a8c4a0",
-    "frame": "#efe3cc", "pin": "#d0d4d8",
-}  # fmt: skip
-_TITLES = {
-    "cam": N_("Cam"), "roller": N_("Roller"), "washer": N_("Washer"), "spacer": N_("Spacer"),
-    "follower": N_("Follower"), "frame": N_("Frame"), "axle": N_("Axle of the cam"), "guide_pin": N_("Guide pin"),
-    "roller_pin": N_("Pin of the roller"),
-}  # fmt: skip
 
 
 class CamModelKeys(RecipeKeys, kw_only=True, tag="cam_model"):
@@ -103,7 +93,7 @@ class _Making(Making):
     """The tables as they grow; the axle is at 0, the cam's lower face at height 0."""
 
     def __init__(self, keys: CamModelKeys) -> None:
-        super().__init__(keys.plate_thickness, made_of(keys.material, keys.density), _COLOURS)
+        super().__init__("cam_model", keys.plate_thickness, made_of(keys.material, keys.density))
         self.keys, self.rolls = keys, keys.follower == "roller"
         given = {key: getattr(keys, key) for key in _CAM_KEYS}
         self.given = {key: value for key, value in given.items() if value is not None}
@@ -161,7 +151,7 @@ class _Making(Making):
             self.put("cam_follower", "cam", "follower")
         self.part("follower", kind="follower", end=keys.follower, face_width=thick, **stem)
         self.found.drives.append({"instance": "cam", "turns": 1.0})
-        self.found.name_all(_TITLES)
+        self.name_all()
         return self.found
 
     def _frame(self) -> None:

@@ -11,7 +11,6 @@ from typing import Annotated
 from msgspec import Meta
 
 from parts.base.part_keys import Density, Material
-from parts.base.texts import N_
 from parts.keys.base import mm
 from parts.recipes.making import Making, made_of
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
@@ -19,8 +18,6 @@ from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 # mm: of the frame about its axles, and at least beyond the hole of one; its corners
 _BESIDE, _WALL, _CORNER = 10.0, 5.0, 5.0
 _WHEELS = ("pinion", "wheel")
-_COLOURS = {"pinion": "#c08040", "wheel": "#4f8fc0", "frame": "#efe3cc", "pin": "#d0d4d8"}
-_TITLES = {"pinion": N_("Pinion"), "wheel": N_("Wheel"), "frame": N_("Frame"), "axle": N_("Axle")}
 
 
 class GearPairModelKeys(RecipeKeys, kw_only=True, tag="gear_pair_model"):
@@ -45,7 +42,10 @@ class GearPairModelKeys(RecipeKeys, kw_only=True, tag="gear_pair_model"):
 
 def _expanded(keys: GearPairModelKeys) -> Expansion:
     """The tables of one model: the pinion at the origin; the frame comes under both axles, wherever they stand."""
-    thick, making = keys.plate_thickness, Making(keys.plate_thickness, made_of(keys.material, keys.density), _COLOURS)
+    thick, making = (
+        keys.plate_thickness,
+        Making("gear_pair_model", keys.plate_thickness, made_of(keys.material, keys.density)),
+    )
     # named by what students are given
     for number, (wheel, teeth, shift) in enumerate(zip(_WHEELS, keys.teeth, keys.shifts, strict=True), 1):
         making.part(
@@ -68,7 +68,7 @@ def _expanded(keys: GearPairModelKeys) -> Expansion:
     making.told("frame", face_width="plate_thickness")
     making.told("axle", diameter="axle_diameter")
     making.found.origins["mates[1].normal_backlash"] = "normal_backlash"
-    making.found.name_all(_TITLES)
+    making.name_all()
     return making.found
 
 

@@ -10,6 +10,8 @@ from msgspec.structs import replace
 
 from geometry.base.errors import ParameterError
 from geometry.base.nearest import kept, nearest
+from parts.base.texts import in_every_language
+from parts.recipes.names import NAMES
 from parts.recipes.recipe import Expansion, RecipeKeys, Table
 
 K = TypeVar("K", bound=RecipeKeys)
@@ -53,15 +55,24 @@ def refused_by(
 
 
 class Making:
-    """An expansion that grows; ``colours`` by part, of what has none there that of ``pin``."""
+    """An expansion that grows; ``recipe``: whose names its parts have."""
 
-    def __init__(self, thickness: float, material: Table, colours: Mapping[str, str]) -> None:
-        self.found = Expansion()
-        self.thickness, self.material, self.colours = thickness, material, colours
+    def __init__(self, recipe: str, thickness: float, material: Table) -> None:
+        self.found, self.names = Expansion(), NAMES[recipe]
+        self.thickness, self.material = thickness, material
 
     def part(self, name: str, colour: str = "", /, **keys: object) -> None:
         """A part of the material."""
-        self.found.parts[name] = keys | self.material | {"colour": self.colours[colour or name]}
+        self.found.parts[name] = keys | self.material | {"colour": self.names[colour or name].colour}
+
+    def name_all(self) -> None:
+        """Give parts their titles and positions, and instances their titles."""
+        for part, table in self.found.parts.items():
+            known = self.names[part]
+            table |= {"title": in_every_language(known.title)}
+            if known.position:
+                table["position"] = int(known.position)
+        self.found.name_instances(self.names)
 
     def told(self, *parts: str, **keys: str) -> None:
         """Which key of the recipe each of these keys of some parts is."""
@@ -82,7 +93,7 @@ class Making:
     def pin(self, name: str, diameter: float, length: float, bore: float = 0.0) -> None:
         """A rod or a tube."""
         table = {"kind": "pin", "diameter": diameter, "length": length, "bore_diameter": bore}
-        self.found.parts[name] = table | {"colour": self.colours["pin"]}
+        self.found.parts[name] = table | {"colour": self.names["pin"].colour}
 
     def crank(self, name: str, length: float, holes: tuple[float, float], ends: tuple[float, float]) -> None:
         """A link: diameters of its holes and of the round ends about them, that of the pivot first."""

@@ -27,7 +27,6 @@ from geometry.gears.teeth.basic_rack import ISO_53_ANGLE, iso_53
 from geometry.gears.teeth.helix import Hand
 from geometry.gears.teeth.transverse import transverse_angle
 from parts.base.part_keys import Density, Material
-from parts.base.texts import N_
 from parts.keys.base import degrees, mm, part_mm
 from parts.keys.helix import HelixAngle
 from parts.keys.mate import further
@@ -43,17 +42,6 @@ _WHEELS = {
     "two_internal": ("ring", "satellite", "second_satellite", "second_ring"),
     "david": ("sun", "satellite", "second_satellite", "second_sun"),
 }
-_COLOURS = {
-    "sun": "#d9a066", "ring": "#9fb0c0", "satellite": "#4f8fc0", "second_satellite": "#70a0d0", "carrier": "#b5c7a3",
-    "second_sun": "#c08040", "second_ring": "#8c96a0", "pin": "#d0d4d8", "base": "#ece8df", "crank": "#d98880",
-}  # fmt: skip
-# of parts, and of instances whose id is not their part's
-_TITLES = {
-    "sun": N_("Sun"), "second_sun": N_("Second sun"), "ring": N_("Ring"),
-    "second_ring": N_("Second ring"), "satellite": N_("Satellite"), "second_satellite": N_("Second satellite"),
-    "spacer": N_("Spacer"), "carrier": N_("Carrier"), "upper_carrier": N_("Upper carrier plate"), "pin": N_("Pin"),
-    "base": N_("Base"), "foot": N_("Foot"), "shaft": N_("Shaft"), "crank": N_("Hand crank"), "handle": N_("Handle"),
-}  # fmt: skip
 # mm: a ring's rim beyond its teeth where screws go through it, the screws, the base beyond the ring, a crank's handle
 _RIM, _SCREW, _MARGIN, _HANDLE = 14.0, 4.0, 12.0, 25.0
 _MOST_TURNS = 10_000
@@ -175,7 +163,7 @@ class _Set(Record):
 def _expanded(keys: PlanetarySetKeys) -> Expansion:
     """Wheels, carrier, pins, and with a frame what a model needs to be turned and counted."""
     made = _settled(keys)
-    making = Making(keys.plate_thickness, made_of(keys.material, keys.density), _COLOURS)
+    making = Making("planetary_set", keys.plate_thickness, made_of(keys.material, keys.density))
     for wheel in dict.fromkeys(made.wheels):
         making.part(wheel.id, **_wheel_keys(made, wheel))
         making.told(wheel.id, number_of_teeth=f"teeth[{wheel.item}]", module="module", face_width="face_width",
@@ -187,7 +175,7 @@ def _expanded(keys: PlanetarySetKeys) -> Expansion:
     if keys.frame:
         _add_frame(made, making)
     _add_drive(made, making.found)
-    making.found.name_all(_TITLES)
+    making.name_all()
     return making.found
 
 

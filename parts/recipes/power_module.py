@@ -19,7 +19,7 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Annotated, Literal
 
@@ -32,6 +32,7 @@ from parts.base.texts import N_, Message, in_every_language, words
 from parts.keys.base import mm
 from parts.pages.module_rules import CONDITIONS, DRIVERS, M4, M8, M10, M12, Condition, of_orientation, sizes, valued
 from parts.recipes.making import Making, behind, front, place
+from parts.recipes.names import NAMES
 from parts.recipes.power_module_kinematics import IDLER_SHIFT
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
@@ -49,101 +50,6 @@ _FLANGE, _GUIDE_SCREWS, _DEEP = 8.0, 20, 10.0
 # guide 5: how many screws, where the first is, degrees
 _RACE_SCREWS, _RACE_START = 32, 1.875
 
-STEEL, IRON, BRONZE, BRASS = "steel", "cast iron", "bronze", "brass"
-# by part: position, name, material, colour; beyond 33, and what 11, 13, 14, 16 are with cranks, not the thesis's
-PARTS: Mapping[str, tuple[int, str, str, str]] = {
-    "body": (1, N_("Housing"), IRON, "#b8bfc4"),
-    "disk_2": (2, N_("Outer disk"), IRON, "#d9a066"),
-    "disk_3": (3, N_("Inner disk"), STEEL, "#e6c08a"),
-    "platform": (4, N_("Platform"), IRON, "#f2e2b6"),
-    "guide_5": (5, N_("Clip-on guide"), STEEL, "#8fa8b8"),
-    "guide_6": (6, N_("Clip-on guide"), STEEL, "#7f98a8"),
-    "shield_7": (7, N_("Protective disk"), STEEL, "#cfd4d8"),
-    "shield_8": (8, N_("Protective disk"), STEEL, "#dfe3e6"),
-    "platform_axle": (9, N_("Platform axle"), STEEL, "#a9b1b8"),
-    "spacer_10": (10, N_("Spacer ring"), STEEL, "#c2c8cc"),
-    "platform_wheel": (11, N_("Platform gear wheel"), STEEL, "#c08040"),
-    "platform_plate": (11, N_("Crank plate of the platform"), STEEL, "#c08040"),
-    "cover_12": (12, N_("Cover of the platform bearing unit"), STEEL, "#b5c7a3"),
-    "satellite_axle": (13, N_("Satellite gear axle"), STEEL, "#a9b1b8"),
-    "ring_guide": (13, N_("Guide of the free ring"), STEEL, "#a9b1b8"),
-    "satellite_wheel": (14, N_("Satellite gear wheel"), STEEL, "#b07030"),
-    "free_ring": (14, N_("Free ring"), BRONZE, "#b07030"),
-    "spacer_15": (15, N_("Spacer ring"), STEEL, "#c2c8cc"),
-    "central_wheel": (16, N_("Central gear wheel"), STEEL, "#c08040"),
-    "body_plate": (16, N_("Crank plate of the housing"), STEEL, "#c08040"),
-    "sleeve_17": (17, N_("Spacer sleeve"), STEEL, "#c2c8cc"),
-    "spacer_18": (18, N_("Spacer ring"), STEEL, "#c2c8cc"),
-    "pinion": (19, N_("Gear wheel of the inner disk"), STEEL, "#4f8fc0"),
-    "bearing_ring": (20, N_("Bearing ring"), STEEL, "#7fa8c9"),
-    "ring": (21, N_("Internal gear wheel"), STEEL, "#9fb0c0"),
-    "spacer_22": (22, N_("Spacer ring"), STEEL, "#8899aa"),
-    "worm_wheel_23": (23, N_("Worm wheel rotating the inner disk"), BRONZE, "#c8955c"),
-    "spacer_24": (24, N_("Spacer ring"), STEEL, "#98a8b0"),
-    "worm_wheel_25": (25, N_("Worm wheel rotating the outer disk"), BRONZE, "#d0a06a"),
-    "worm": (26, N_("Worm shaft"), STEEL, "#9aa5b1"),
-    "end_cover": (27, N_("End cover"), STEEL, "#b5c7a3"),
-    "spacer_28": (28, N_("Spacer ring"), STEEL, "#c2c8cc"),
-    "snap_ring": (29, N_("Snap ring"), STEEL, "#606a72"),
-    "small_cage": (30, N_("Small cage"), BRASS, "#d8c060"),
-    "large_cage": (31, N_("Large cage"), BRASS, "#d8c060"),
-    "plug": (32, N_("Plug"), STEEL, "#606a72"),
-    "protective_ring": (33, N_("Protective ring"), STEEL, "#9fb8a8"),
-    "crank": (34, N_("Crank"), STEEL, "#d98880"),
-    "crank_pin": (35, N_("Crank pin"), STEEL, "#d0d4d8"),
-    "idler": (36, N_("Idler"), STEEL, "#8c96a0"),
-    "idler_pin": (37, N_("Idler pin"), STEEL, "#d0d4d8"),
-    "idler_pin_down": (37, N_("Idler pin"), STEEL, "#d0d4d8"),
-    "link": (38, N_("Link"), STEEL, "#d98880"),
-    "post": (39, N_("Post"), STEEL, "#c2c8cc"),
-}
-# standard items: position, name, standard; those with "_down" and "_up" are the same, laid the other way round
-STANDARD: Mapping[str, tuple[int, str, str]] = {
-    "bolt_41": (41, N_("Bolt M8-6g x 40"), "7805-70"),
-    "bolt_42": (42, N_("Bolt M12-6g x 45"), "7805-70"),
-    "nut_44": (44, N_("Nut M12-6H"), "5927-70"),
-    "nut_46": (46, N_("Nut M20x1.5-6H"), "11871-88"),
-    "nut_47": (47, N_("Nut M45x1.5-6H"), "11871-88"),
-    "screw_49": (49, N_("Screw M8-6g x 12"), "8878-83"),
-    "screw_51": (51, N_("Screw M8-6g x 16"), "11738-84"),
-    "screw_52": (52, N_("Screw M8-6g x 25"), "11738-84"),
-    "screw_53": (53, N_("Screw M8-6g x 45"), "11738-84"),
-    "screw_54": (54, N_("Screw M8-6g x 75"), "11738-84"),
-    "screw_55": (55, N_("Screw M10-6g x 30"), "11738-84"),
-    "screw_56": (56, N_("Screw M12-6g x 35"), "11738-84"),
-    "screw_57": (57, N_("Screw M14-6g x 20"), "11738-84"),
-    "screw_59": (59, N_("Screw M4-6g x 6"), "17473-80"),
-    "ball": (61, N_("Ball 8"), "3722-81"),
-}
-# of instances, where their parts are several of one name, or one part is in several places
-INSTANCES: Mapping[str, str] = {
-    "small_cage_1": N_("Front small cage"), "small_cage_2": N_("Rear small cage"),
-    "large_cage_1": N_("Large cage in the housing"), "large_cage_2": N_("Large cage of ring 22"),
-    "small_ball_1": N_("Ball of the front small cage"), "small_ball_2": N_("Ball of the rear small cage"),
-    "large_ball_1": N_("Ball of the large cage in the housing"),
-    "large_ball_2": N_("Ball of the large cage of ring 22"),
-    "protective_ring_1": N_("Front protective ring"), "protective_ring_2": N_("Rear protective ring"),
-    "front_clip": N_("Screw of the front protective ring"), "rear_clip": N_("Screw of the rear protective ring"),
-    "guide_5": N_("Clip-on guide 5"), "guide_5_screw": N_("Screw of guide 5"),
-    "guide_6": N_("Clip-on guide 6"), "guide_6_screw": N_("Screw of guide 6"),
-    "shield_7": N_("Protective disk 7"), "shield_7_screw": N_("Screw of disk 7"),
-    "shield_8": N_("Protective disk 8"), "shield_8_screw": N_("Screw of disk 8"),
-    "spacer_10": N_("Spacer ring 10"), "spacer_15": N_("Spacer ring 15"), "spacer_18": N_("Spacer ring 18"),
-    "spacer_22": N_("Spacer ring 22"), "spacer_24": N_("Spacer ring 24"), "spacer_24_screw": N_("Screw of ring 24"),
-    "bearing_screw": N_("Screw of both bearing rings"), "ring_screw": N_("Screw of wheel 21"),
-    "worm_wheel_23_screw": N_("Screw of worm wheel 23"), "worm_wheel_25_bolt": N_("Bolt of worm wheel 25"),
-    "disk_3_screw": N_("Screw of the inner disk"), "cover_12_screw": N_("Screw of cover 12"),
-    "central_screw": N_("Screw of ring 18"), "platform_screw": N_("Screw of the platform"),
-    "body_plate_pin": N_("Pin of plate 16"), "platform_plate_pin_rear": N_("Pin of plate 11"),
-    "free_ring_pin": N_("Front pin of the free ring"), "free_ring_pin_rear": N_("Rear pin of the free ring"),
-    "first_crank": N_("First crank"), "second_crank": N_("Second crank"),
-    "plug_1": N_("Plug of the front row of balls"), "plug_2": N_("Plug of the rear row of balls"),
-    "spacer_28_1": N_("Spacer ring of worm I"), "spacer_28_2": N_("Spacer ring of worm II"),
-    "link_1": N_("Link of arm O1O2"), "link_2": N_("Link of arm O2O3"),
-    "idler_1": N_("Idler of arm O1O2"), "idler_2": N_("Idler of arm O2O3"),
-    "idler_pin_1": N_("Pin of the idler of arm O1O2"), "idler_pin_2": N_("Pin of the idler of arm O2O3"),
-    "set_screw_1": N_("Set screw of worm I"), "set_screw_2": N_("Set screw of worm II"),
-}  # fmt: skip
 _DESIGNATION, _STANDARD = N_("KRB.PM.25.33.13.00.{number}"), N_("GOST {number}")
 
 
@@ -295,7 +201,7 @@ class _Making(Making):
 
     def __init__(self, keys: PowerModuleKeys) -> None:
         self.keys, self.s = keys, checked_sizes(keys)
-        super().__init__(keys.disk_thickness, {}, {name: row[3] for name, row in PARTS.items()})
+        super().__init__("power_module", keys.disk_thickness, {})
         self.within = ""
         # cranks, no wheels; idlers between the wheels
         self.cranks, self.idlers = keys.orientation == "cranks", keys.orientation == "idlers"
@@ -314,26 +220,27 @@ class _Making(Making):
         self._worms()
         self.drive(self.keys, disk_2="turns_of_disk", ring="turns_of_ring")
         self._order()
-        self._named()
+        self.name_all()
         self.told("ring", "pinion", number_of_teeth="teeth", module="module", face_width="face_width")
         self.told("worm", thread_length="worm_length")
         self.told("worm", "worm_wheel_25", "worm_wheel_23", module="worm_module", diameter_quotient="worm_quotient")
         self.told("worm_wheel_25", "worm_wheel_23", number_of_teeth="worm_teeth", face_width="worm_wheel_width")
         return self.found
 
-    def _named(self) -> None:
+    def name_all(self) -> None:
         """Position, titles, designation or standard and material of every part."""
         told = words(self.keys.names)
         for name, table in self.found.parts.items():
-            if name in PARTS:
-                position, title, material, colour = PARTS[name]
-                number = told.text(_DESIGNATION, number=f"{position:02}")
-                table |= {"designation": number, "material": material, "colour": colour}
+            # standard items with "_down" and "_up" are the same, laid the other way round
+            known = self.names.get(name) or self.names[re.sub("_(down|up)$", "", name)]
+            position, number = int(known.position), known.standard
+            if number:
+                table["standard"] = told.text(_STANDARD, number=number)
             else:
-                position, title, standard = STANDARD[re.sub("_(down|up)$", "", name)]
-                table |= {"standard": told.text(_STANDARD, number=standard), "material": STEEL, "colour": "#5f6870"}
-            table |= {"position": position, "title": in_every_language(title)}
-        self.found.name_instances(INSTANCES)
+                table["designation"] = told.text(_DESIGNATION, number=f"{position:02}")
+            table |= {"material": known.material, "colour": known.colour, "position": position,
+                      "title": in_every_language(known.title)}  # fmt: skip
+        self.found.name_instances(NAMES["power_module, instances"])
 
     def put(self, kind: str, first: str, second: str, part: str = "", **keys: object) -> None:
         """An instance by its first mate, in the sub-assembly that grows."""

@@ -21,7 +21,6 @@ from msgspec import Meta
 
 from geometry.base.errors import ParameterError, limit
 from parts.base.part_keys import Density, Material
-from parts.base.texts import N_
 from parts.keys.base import mm
 from parts.recipes.making import Making, hole, made_of, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Turns
@@ -31,28 +30,6 @@ from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Turns
 _WALL, _BOSS, _RIM, _LINK, _GUIDE = 8.0, 8.0, 20.0, 24.0, 2.0
 # shift of an idler, of its partners the same below 0: z 12 without undercut, each mesh at its plain distance
 IDLER_SHIFT = 0.3
-_COLOURS = {
-    "body": "#ece8df", "disk_2": "#d9a066", "disk_3": "#e6c08a", "spacer": "#e6c08a", "ring": "#9fb0c0",
-    "pinion": "#4f8fc0", "hub": "#70a0d0", "platform": "#f2e2b6", "wheel": "#c08040", "idler": "#8c96a0",
-    "link": "#b5c7a3", "flange": "#b5c7a3", "spider": "#f2e2b6", "crank": "#d98880", "pin": "#d0d4d8",
-}  # fmt: skip
-# positions of the parts list
-_POSITIONS = {
-    "body": 1, "disk_2": 2, "disk_3": 3, "platform": 4, "platform_axle": 9, "platform_wheel": 11, "satellite_axle": 13,
-    "satellite_wheel": 14, "central_wheel": 16, "pinion": 19, "ring": 21,
-}  # fmt: skip
-# of parts, and of instances whose id is not their part's
-_TITLES = {
-    "body": N_("Housing"), "disk_2": N_("Outer disk"), "disk_3": N_("Inner disk"), "platform": N_("Platform"),
-    "platform_axle": N_("Platform axle"), "platform_wheel": N_("Platform gear wheel"),
-    "satellite_axle": N_("Satellite gear axle"), "satellite_wheel": N_("Satellite gear wheel"),
-    "satellite_front": N_("Front rim of the satellite gear wheel"), "central_wheel": N_("Central gear wheel"),
-    "pinion": N_("Gear wheel of the inner disk"), "ring": N_("Internal gear wheel"), "spacer": N_("Spacer"),
-    "post": N_("Post"), "idler": N_("Idler"), "idler_pin": N_("Idler pin"), "front_idler_pin": N_("Front idler pin"),
-    "link": N_("Link"), "hub": N_("Hub"), "flange": N_("Flange"), "spider": N_("Spider"), "crank": N_("Crank"),
-    "first_crank": N_("First crank"), "second_crank": N_("Second crank"), "flange_pin": N_("Flange pin"),
-    "spider_pin": N_("Spider pin"), "long_pin": N_("Long pin"), "body_post": N_("Post of the housing"),
-}  # fmt: skip
 _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 
 
@@ -156,7 +133,8 @@ class _Making(Making):
 
     def __init__(self, sizes: _Sizes) -> None:
         self.sizes, self.keys = sizes, sizes.keys
-        super().__init__(self.keys.wheel_width, made_of(self.keys.material, self.keys.density), _COLOURS)
+        material = made_of(self.keys.material, self.keys.density)
+        super().__init__("power_module_kinematics", self.keys.wheel_width, material)
         self.gears = -self.keys.axial_gap - self.keys.face_width
         # planes behind the pinion, the nearest first
         pitch = self.keys.axial_gap + self.keys.wheel_width
@@ -168,9 +146,7 @@ class _Making(Making):
         self._disks()
         {"cranks": self._cranks, "idlers": self._idlers, "thesis": self._wheels}[keys.orientation]()
         self.drive(keys, disk_2="turns_of_disk", ring="turns_of_ring")
-        for name, table in self.found.parts.items():
-            table |= {"position": _POSITIONS[name]} if name in _POSITIONS else {}
-        self.found.name_all(_TITLES)
+        self.name_all()
         self.told("platform", width="platform_size")
         self.told("ring", "pinion", number_of_teeth="teeth", module="module")
         return self.found

@@ -19,7 +19,6 @@ from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.part_keys import Density, Material
-from parts.base.texts import N_
 from parts.keys.base import mm
 from parts.recipes.making import Making, front, hole, made_of, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
@@ -36,29 +35,6 @@ _MARK = 0.4
 # worms: quotient q; addendum, dedendum and length of the thread, modules; bearings, neck before them, collar, mm
 _Q, _ADDENDUM, _DEDENDUM, _THREAD = 10.0, 1.0, 1.2, 20.0
 _BEARING, _NECK, _COLLAR = 6.0, 6.0, 5.0
-_COLOURS = {
-    "base": "#ece8df", "guide": "#e0d8c8", "back": "#c9b79c", "rim": "#c9b79c", "ring": "#9fb0c0", "disk_2": "#d9a066",
-    "pinion": "#4f8fc0", "hub": "#70a0d0", "flange": "#b5c7a3", "crank": "#d98880", "platform": "#f2e2b6",
-    "pin": "#d0d4d8", "worm": "#8c96a0", "worm_wheel": "#c08040", "bearing": "#e0d8c8",
-}  # fmt: skip
-# of parts, and of instances whose id is not their part's
-_TITLES = {
-    "base": N_("Base"), "guide": N_("Guide"), "foot": N_("Foot"), "post": N_("Post"), "ring": N_("Ring"),
-    "back": N_("Back disk"), "rim": N_("Rim"), "dowel": N_("Dowel"), "tube": N_("Tube"), "disk_2": N_("Disk 2"),
-    "shaft": N_("Shaft of disk 2"), "axle": N_("Axle of the pinion"), "pinion": N_("Pinion (disk 3)"), "hub": N_("Hub"),
-    "platform_axle": N_("Platform axle"), "flange": N_("Flange"), "first_crank": N_("First crank"),
-    "upper_pin": N_("Upper pin"), "platform": N_("Platform"), "second_crank": N_("Second crank"),
-    "flange_pin": N_("Flange pin"), "platform_pin": N_("Platform pin"), "handle": N_("Handle"),
-    "ring_hand_crank": N_("Hand crank of the ring"), "disk_hand_crank": N_("Hand crank of disk 2"),
-    "ring_handle": N_("Handle of the ring"), "disk_handle": N_("Handle of disk 2"),
-    "ring_worm_wheel": N_("Worm wheel of the ring"), "disk_worm_wheel": N_("Worm wheel of disk 2"),
-    "ring_worm": N_("Worm of the ring"), "disk_worm": N_("Worm of disk 2"),
-    "ring_thick_bearing": N_("Thick bearing of the ring's worm"),
-    "disk_thick_bearing": N_("Thick bearing of disk 2's worm"),
-    "ring_thin_bearing": N_("Thin bearing of the ring's worm"),
-    "disk_thin_bearing": N_("Thin bearing of disk 2's worm"),
-    "ring_collar": N_("Collar of the ring's worm"), "disk_collar": N_("Collar of disk 2's worm"),
-}  # fmt: skip
 
 
 class PowerTableKeys(RecipeKeys, kw_only=True, tag="power_table"):
@@ -200,7 +176,7 @@ class _Making(Making):
     def __init__(self, sizes: _Sizes) -> None:
         self.sizes, self.keys = sizes, sizes.keys
         thick, gap = self.keys.plate_thickness, self.keys.axial_gap
-        super().__init__(thick, made_of(self.keys.material, self.keys.density), _COLOURS)
+        super().__init__("power_table", thick, made_of(self.keys.material, self.keys.density))
         self.back = thick + gap
         # half of a thin plate is left under a mark
         self.mark = {"depth": thick / 2} if thick < 2 * _MARK else {}
@@ -233,7 +209,7 @@ class _Making(Making):
         self.told("disk_worm_wheel", "ring_worm_wheel", module="worm_module", number_of_teeth="worm_wheel_teeth",
                   axial_thinning="worm_thinning")  # fmt: skip
         self.told("disk_worm", "ring_worm", module="worm_module")
-        self.found.name_all(_TITLES)
+        self.name_all()
         return self.found
 
     def pin(self, name: str, diameter: float, length: float, bore: float = 0.0) -> None:

@@ -13,6 +13,7 @@ from msgspec import Meta, Struct
 from geometry.base.record import Draft, Record, field
 from parts.base.texts import in_every_language
 from parts.keys.base import IDENTIFIER
+from parts.recipes.names import Named
 
 Table = dict[str, Any]
 # how far something is driven
@@ -39,14 +40,9 @@ class Expansion(Draft):
     steps: list[Table] = field(default_factory=list)
     origins: dict[str, str] = field(default_factory=dict)
 
-    def name_all(self, titles: Mapping[str, str]) -> None:
-        """Give parts their titles (msgids, by id), and instances theirs whose id is not their part's."""
-        for part, table in self.parts.items():
-            table["title"] = in_every_language(titles[part])
-        self.name_instances(titles)
-
-    def name_instances(self, titles: Mapping[str, str]) -> None:
-        """Give instances their titles (msgids), by id, or by what it is without its number and is not their part's."""
+    def name_instances(self, names: Mapping[str, Named]) -> None:
+        """Give instances their titles, by id, or by what it is without its number and is not their part's."""
+        titles = {name: one.title for name, one in names.items() if one.title}
         for name, table in self.instances.items():
             stem, _, number = name.rpartition("_")
             if name in titles:
