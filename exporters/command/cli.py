@@ -39,7 +39,8 @@ _SHOWN = (
 )  # fmt: skip
 # the topics of calc: to import them would cost more than all else of the command line
 _TOPICS = """spur ring rack tmm42 gear-pair shift-choice involute bevel face-gear worm train planetary cam cycloidal
-cycloidal-gear lantern geneva sprocket noncircular lever power-table power-module"""
+cycloidal-gear lantern geneva sprocket chain noncircular lever
+power-table power-module"""
 _EXAMPLES = """
   higherpair build practicum_pair
   higherpair new spur_gear --out my_gear.toml

@@ -40,6 +40,7 @@ TOPICS = {
     "cycloidal-gear": ("parts.gears.cycloidal_gear.page", "CycloidalGearKeys"),
     "lantern": ("parts.pins.lantern_page", "LanternKeys"),
     "sprocket": ("parts.chains.page", "SprocketKeys"),
+    "chain": ("parts.mates.pages.chain", "ChainKeys"),
     "geneva": ("parts.mates.pages.geneva", "GenevaKeys"),
     "noncircular": ("parts.gears.noncircular_gear.page", "NoncircularKeys"),
     "lever": ("parts.mates.pages.levers", "LeverKeys"),

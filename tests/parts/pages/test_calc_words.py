@@ -23,6 +23,7 @@ SHEETS = {
     "noncircular": ("noncircular", ["oval_gears", "part=oval"]),
     "lantern": ("lantern", ["lantern_pair"]),
     "geneva": ("geneva", ["geneva_drive", "part=ring"]),
+    "chain": ("chain", ["chain_drive", "part=printed_pinion", "speed_rpm=300", "torque=5"]),
     "cycloidal": ("cycloidal", ["cycloidal_reducer"]),
     "barrel": ("cam", ["barrel_cam", "part=barrel"]),
     "wedge": ("cam", ["wedge_cam"]),

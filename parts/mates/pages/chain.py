@@ -1,0 +1,129 @@
+"""``higherpair calc chain``: sprockets, links and centre distance, speeds, irregularity and forces of a chain drive."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+from msgspec import Meta
+
+from geometry.base.record import replace
+from geometry.gears.chains.drive import ChainMesh, textbook_distance, textbook_links
+from geometry.gears.chains.sprocket import checked_sprocket
+from parts.base.texts import N_
+from parts.chains.sprocket import SPROCKET, SprocketSpec
+from parts.chains.steps import chain_steps, circle_steps
+from parts.keys.base import mm
+from parts.mates.chain import ChainDriveSpec, chain_mesh
+from parts.pages.force_steps import Power, Speed, Torque, driving_torque
+from parts.pages.inputs import SceneKeys, calculation, chosen_part, given
+from parts.pages.page import Sheet
+from parts.texts.findings import finding_message
+
+TOPIC = "chain"
+_SHIGLEY, _DUNAEV, _SHEINBLIT = "Shigley", "Dunaev, Lelikov", "Sheinblit"
+# textbooks: the shaft's load by the force of a drive that lies, and how much nearer it is mounted for the slack strand
+_LOAD, _MOUNTED = 1.15, 0.995
+
+
+class ChainKeys(SprocketSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
+    """Keys of the driving sprocket, the teeth of the other one, the chain's length and what it carries."""
+
+    mate_teeth: Annotated[int, Meta(ge=6, le=200, description="number of teeth of the driven sprocket", examples=[38])]
+    number_of_links: Annotated[int, Meta(ge=6, le=10_000, description="links of the chain", examples=[100])] | None = (
+        None
+    )
+    centre_distance: Annotated[float, mm("centre distance", above=0, most=1e6, example=458.0)] | None = None
+    speed_rpm: Speed = None
+    torque: Torque = None
+    power: Power = None
+
+
+def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The keys of the first sprocket of a scene's one chain drive, or of that of the sprocket that ``part`` names."""
+    ends: dict[str, ChainDriveSpec] = {}
+    for one in scene.mates:
+        if isinstance(one, ChainDriveSpec):
+            ends.setdefault(str(scene.instances[one.first].part), one)
+    mate = ends[chosen_part("sprocket", [*ends], [*ends], source, table)]
+    first, second = (scene.parts[str(scene.instances[key].part)] for key in (mate.first, mate.second))
+    assert isinstance(second, SprocketSpec)
+    asked = {key: getattr(mate, key) for key in ("number_of_links", "centre_distance")}
+    own = given(first) | {key: value for key, value in asked.items() if value is not None}
+    return own | {"mate_teeth": second.number_of_teeth} | table
+
+
+@calculation(TOPIC, ChainKeys)
+def sheet(keys: ChainKeys) -> Sheet:
+    """The calculation of a chain drive."""
+    one = SPROCKET.thing(keys, {})
+    two = checked_sprocket(replace(one, number_of_teeth=keys.mate_teeth, given_tip_diameter=None))
+    mesh = chain_mesh((one, two), keys.number_of_links, keys.centre_distance, "")
+    page = Sheet(TOPIC, N_("Chain drive"))
+    page.section(N_("Given"))
+    page.both("number_of_teeth", mesh.teeth)
+    chain_steps(page, one.chain)
+    page.section(N_("Sprockets"))
+    page.add("gear_ratio", mesh.teeth[1] / mesh.teeth[0], "{z2} / {z1}")
+    for gear, sprocket in ((1, one), (2, two)):
+        circle_steps(page, sprocket, gear)
+        page.add("sprocket_over_pins", sprocket.over_pins, gear=gear)
+    _links(page, mesh, keys.centre_distance)
+    if keys.speed_rpm is not None:
+        _speeds(page, mesh, keys.speed_rpm)
+    torque = driving_torque(page, keys)
+    if torque is not None:
+        _forces(page, mesh, torque)
+    page.note(N_("a taut chain is the hull of both polygons of pins at its tightest stand; "
+                 "textbooks have a belt in its place, about circles as long as both sprockets have teeth"))  # fmt: skip
+    page.notes += [finding_message(found) for found in mesh.findings()]
+    return page
+
+
+def _links(page: Sheet, mesh: ChainMesh, distance: float | None) -> None:
+    """Links by the distance that is asked for, and the distance of whole links, of textbooks and exact."""
+    page.section(N_("Links and centre distance"))
+    square = "(({z2} - {z1}) / (2 * pi))**2"
+    if distance is not None:
+        page.add("chain_distance", distance, given=True)
+        formula = f"2 * {{a}} / {{p}} + ({{z1}} + {{z2}}) / 2 + {square} * {{p}} / {{a}}"
+        page.add("textbook_links", textbook_links(mesh.teeth, distance / mesh.pitch), formula, _SHIGLEY)
+    page.add("number_of_links", mesh.links)
+    belt = textbook_distance(mesh.teeth, mesh.links) * mesh.pitch
+    free = "({L} - ({z1} + {z2}) / 2)"
+    formula = f"{{p}} / 4 * ({free} + sqrt({free}**2 - 8 * {square}))"
+    page.add("textbook_chain_distance", belt, formula, _SHIGLEY)
+    taut = chain_mesh(mesh.sprockets, mesh.links, None, "").centre_distance
+    page.add("exact_chain_distance", taut)
+    page.add("chain_distance_difference", belt - taut, "{a_t} - {a_0}")
+    if distance is None:
+        page.add("mounting_chain_distance", _MOUNTED * taut, f"{_MOUNTED} * {{a_0}}", _SHEINBLIT)
+    else:
+        page.add("chain_slack", mesh.slack)
+    nearest = "{a}" if distance is not None else "{a_0}"
+    wrap = f"pi - 2 * arcsin(abs({{d2}} - {{d1}}) / (2 * {nearest}))"
+    page.add("wrap_deg", math.degrees(mesh.drive.wrap), wrap)
+
+
+def _speeds(page: Sheet, mesh: ChainMesh, speed: float) -> None:
+    """Of both shafts and of the chain, and how unevenly it runs while the driver turns evenly."""
+    one, two = mesh.teeth
+    page.section(N_("Speeds"))
+    page.add("gear_speed", speed, gear=1, given=True)
+    page.add("gear_speed", speed * one / two, "{n1} * {z1} / {z2}", gear=2)
+    page.add("chain_speed", one * speed * mesh.pitch / 60_000, "{z1} * {n1} * {p} / 60000", _SHIGLEY)
+    tip = math.pi * speed / 30 * mesh.sprockets[0].pitch_radius / 1000
+    page.add("greatest_chain_speed", tip, "pi * {n1} * {d1} / 60000", _SHIGLEY)
+    page.add("least_chain_speed", tip * math.cos(math.pi / one), "{v_g} * cos(pi / {z1})", _SHIGLEY)
+    uneven = math.pi / one * (1 / math.sin(math.pi / one) - 1 / math.tan(math.pi / one))
+    page.add("chain_irregularity", uneven, "({v_g} - {v_l}) / {v}", _SHIGLEY)
+
+
+def _forces(page: Sheet, mesh: ChainMesh, torque: float) -> None:
+    """In the chain, on the shafts, and how often it is carried by the chain."""
+    chain, force = mesh.sprockets[0].chain, 2000 * torque / (2 * mesh.sprockets[0].pitch_radius)
+    page.add("chain_force", force, "2000 * {T1} / {d1}")
+    page.add("chain_shaft_load", _LOAD * force, f"{_LOAD} * {{F_t}}", _DUNAEV)
+    if chain.breaking_load:
+        page.add("chain_breaking_load", 1000 * chain.breaking_load * chain.strands)
+        page.add("chain_safety", 1000 * chain.breaking_load * chain.strands / force, "{F_u} / {F_t}")

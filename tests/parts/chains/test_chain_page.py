@@ -1,0 +1,58 @@
+"""``higherpair calc chain``: a worked example of a textbook, speeds and forces by the motion of the pins."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from exporters.documents.topics import calculate
+from parts.base.refusal import SceneError
+
+
+def values(*words: str) -> dict[str, Any]:
+    """What the page tells, by name."""
+    found: dict[str, Any] = json.loads(calculate("chain", list(words), "json", "en"))["values"]
+    return found
+
+
+DRIVE = ("chain=08B-1", "number_of_teeth=17", "mate_teeth=38")
+
+
+def test_speeds_and_forces_are_those_of_the_pins() -> None:
+    found = values(*DRIVE, "number_of_links=80", "speed_rpm=300", "power=1500")
+    # while the sprocket turns by a pitch the seated pin moves the strand by r sin(angle)
+    radius, omega = 12.7 / (2 * math.sin(math.pi / 17)), math.pi * 300 / 30
+    angle = np.linspace(-math.pi / 17, math.pi / 17, 20_001)
+    speed = np.gradient(radius * np.sin(angle), angle) * omega / 1000
+    assert found["greatest_chain_speed"] == pytest.approx(speed.max(), rel=1e-6)
+    assert found["least_chain_speed"] == pytest.approx(speed[1:-1].min(), rel=1e-4)
+    mean = 2 * radius * math.sin(math.pi / 17) / (2 * math.pi / 17 / omega) / 1000
+    assert found["chain_speed"] == pytest.approx(mean, rel=1e-12)
+    # Shigley's diagram of chordal speed variation has 1.7 per cent at 17 teeth
+    assert found["chain_irregularity"] == pytest.approx(0.017, abs=5e-4)
+    assert found["gear_speed"]["second"] == pytest.approx(300 * 17 / 38)
+    assert found["chain_force"] * radius / 1000 * omega == pytest.approx(1500.0, rel=1e-12)
+    assert found["chain_safety"] == pytest.approx(17_800 / found["chain_force"])
+
+
+def test_links_of_a_distance_are_those_of_textbooks() -> None:
+    """Jindal, Machine Design, example 30-1: 17 and 51 teeth, p = 9.52 mm, 300 mm apart: 98 links by its formula."""
+    found = values("pitch=9.52", "roller_diameter=6.35", "face_width=5", "number_of_teeth=17", "mate_teeth=51",
+                   "centre_distance=300")  # fmt: skip
+    assert found["textbook_links"] == pytest.approx(2 * 300 / 9.52 + 34 + (34 / (2 * math.pi)) ** 2 * 9.52 / 300)
+    assert found["number_of_links"] == 98
+    assert found["textbook_chain_distance"] > found["exact_chain_distance"] > 300
+    assert found["chain_slack"] == pytest.approx(2 * (found["exact_chain_distance"] - 300), rel=0.05)
+
+
+def test_a_scene_gives_its_drive() -> None:
+    found = values("chain_drive", "part=pinion")
+    assert found["number_of_links"] == 80
+    with pytest.raises(SceneError, match="add part=ID"):
+        values("chain_drive")
+    with pytest.raises(SceneError, match="centre_distance"):
+        values(*DRIVE)
