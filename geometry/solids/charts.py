@@ -11,6 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from geometry.base.both import both
 from geometry.base.distinct import distinct
 from geometry.base.record import Record
 from geometry.base.vectors import cross
@@ -65,8 +66,7 @@ def along_edges(solid: Solid, edges: Edges, shares: Real) -> tuple[Real, Real]:
         steps = np.stack([-ways[..., 1], ways[..., 0]], axis=-1) * sweep[:, None, None]
         return origin[:, None] + ways @ axes[:, :2], steps @ axes[:, :2]
     poles = solid.points[curve.poles]
-    points, steps = (np.einsum("kp,npc->nkc", m, poles) for m in spline_rows(curve.degree, curve.knots, shares, 1))
-    return points, steps
+    return both(np.einsum("kp,npc->nkc", m, poles) for m in spline_rows(curve.degree, curve.knots, shares, 1))
 
 
 def spline_rows(degree: int, knots: Real, shares: Real, order: int) -> tuple[Real, ...]:

@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from geometry.base.both import both
 from geometry.base.record import Record
 from geometry.base.tolerance import CONTACT_TOLERANCE
 from geometry.curves.curve import Real
@@ -50,8 +51,7 @@ class BevelPair(Record, dict=True):
     @cached_property
     def _rolled(self) -> tuple[float, float]:
         """Of the line of action from the pitch line to both base circles, rad."""
-        first, second = (float(gear.involute.arc(gear.pitch_angle)) for gear in self.gears)
-        return first, second
+        return both(float(gear.involute.arc(gear.pitch_angle)) for gear in self.gears)
 
     @property
     def tip_arcs(self) -> tuple[float, float]:

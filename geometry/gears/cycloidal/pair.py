@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from geometry.base.both import both
 from geometry.base.findings import Finding
 from geometry.base.record import Record
 from geometry.curves.curve import Real
@@ -50,25 +51,22 @@ class CycloidalPair(Record):
 
         A chord of the rolling circle through the pitch point leans on its tangent by half of the arc.
         """
-        first, second = (g.tip_roll * g.pitch_radius / (2 * g.tip_rolling_radius) for g in (self.first, self.second))
-        return first, second
+        return both(g.tip_roll * g.pitch_radius / (2 * g.tip_rolling_radius) for g in (self.first, self.second))
 
     @property
     def tip_clearances(self) -> tuple[float, float]:
         """Between the tips of the second and the roots of the first, and the other way round, mm."""
-        first, second = (
+        return both(
             self.centre_distance - other.tip_radius - own.root_radius
             for own, other in ((self.first, self.second), (self.second, self.first))
         )
-        return first, second
 
     def contact_radii(self) -> tuple[float, float]:
         """Where contact ends on the root flank of the first and of the second, mm."""
-        first, second = (
+        return both(
             abs(complex(own.root_flank().point(-other.tip_roll * other.pitch_radius / own.pitch_radius)))
             for own, other in ((self.first, self.second), (self.second, self.first))
         )
-        return first, second
 
     def second_rotation(self, rotation: float, direction: float = 0.0) -> float:
         """Rotation of the second where the first stands so, in the middle of the play, rad."""
@@ -94,24 +92,14 @@ class CycloidalMesh(TurningMesh):
 
     def __init__(self, pair: CycloidalPair, second_turn: float = 0.0, distance_shift: float = 0.0) -> None:
         first, second = pair.first, pair.second
-        super().__init__(
-            (cycloidal_side(first), cycloidal_side(second)),
-            (first.number_of_teeth, second.number_of_teeth),
-            first.module,
-            (first.root_radius, first.tip_radius),
-            (first.tip_radius, second.tip_radius),
-            second.tip_radius,
-            pair.centre_distance + distance_shift,
-            1,
-            pair.second_rotation(0.0) + second_turn,
-            math.pi,
-            second.pitch_radius,
-        )
+        sides = cycloidal_side(first), cycloidal_side(second)
+        radii = (first.root_radius, first.tip_radius), (second.root_radius, second.tip_radius)
+        distance, start = pair.centre_distance + distance_shift, pair.second_rotation(0.0) + second_turn
+        super().__init__(sides, first.module, radii, distance, 1, start, second.pitch_radius)
 
     def teeth_in_reach(self) -> tuple[int, int]:
         """What both tip circles enclose."""
-        first, second = (math.ceil(self.lens(k) / self.pitches[k] + 0.5) for k in (0, 1))
-        return first, second
+        return both(math.ceil(self.lens(k) / self.pitches[k] + 0.5) for k in (0, 1))
 
     def closed_form(self, drive: Real, shift: float = 0.0) -> Real:
         """None for cycloids."""

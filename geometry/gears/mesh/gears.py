@@ -22,42 +22,39 @@ _CLEAR_CORNERS = 0.1
 class TurningMesh(MeshSearch):
     """Two bodies that turn about parallel axes: the first about the origin, the second about ``centre`` on the x axis.
 
-    ``sides``: a side of a tooth of each; ``tip_radii``: how far each reaches, that of a ring inwards; ``sign``: -1 in a
-    ring; ``start``: rotation of the second where the first stands at 0, and ``facing`` where it sees the mesh, rad;
-    ``arm``: that of the flanks of the second, mm.
+    ``sides``: a side of a tooth of each; ``radii``: of the root and of the tip of each; ``sign``: -1 in a ring;
+    ``start``: rotation of the second where the first stands at 0, rad; ``arm``: that of the flanks of the second, mm.
     """
 
     def __init__(
         self,
         sides: tuple[ToothSide, ToothSide | RingSide],
-        teeth: tuple[int, int],
         module: float,
-        first_radii: tuple[float, float],
-        tip_radii: tuple[float, float],
-        reach: float,
+        radii: tuple[tuple[float, float], tuple[float, float]],
         distance: float,
         sign: int,
         start: float,
-        facing: float,
         arm: float,
     ) -> None:
-        self.distance, self.sign, self.tip_radii = distance, sign, tip_radii
+        (first, second), self.distance, self.sign = sides, distance, sign
+        # how far each reaches, a ring inwards
+        self.tip_radii = radii[0][1], radii[1][1]
         # of the second's axis
         self.centre = sign * distance
-        first, second = sides
+        teeth = [round(math.tau / side.pitch_angle) for side in sides]
         rate = -sign * teeth[0] / teeth[1]
         super().__init__(
             (gear_outline(first), gear_outline(second)),
             (first.segments, second.segments),
             module,
-            first_radii,
+            radii[0],
             (first.pitch_angle, second.pitch_angle),
             rate,
             start,
-            facing,
+            facing=math.pi if sign > 0 else 0.0,
             arm=arm,
             closing=sign,
-            reach=reach,
+            reach=max(radii[1]),
             relative_turning=abs(1 - rate),
         )
 
@@ -117,20 +114,10 @@ class GearMesh(TurningMesh):
     def __init__(
         self, pair: ExternalPair | InternalPair, second_turn: float = 0.0, distance_shift: float = 0.0
     ) -> None:
-        self.pair = pair
-        super().__init__(
-            pair.sides,
-            (pair.first.number_of_teeth, pair.second.number_of_teeth),
-            pair.module,
-            (pair.first.root_radius, pair.first.tip_radius),
-            (pair.gears[0].tip_radius, pair.gears[1].tip_radius),
-            max(pair.second.tip_radius, pair.second.root_radius),
-            pair.working_centre_distance + distance_shift,
-            pair.sign,
-            pair.second_rotation(0.0) + second_turn,
-            pair.facing,
-            pair.second.base_radius,
-        )
+        self.pair, (first, second) = pair, pair.gears
+        radii = (first.root_radius, first.tip_radius), (second.root_radius, second.tip_radius)
+        distance, start = pair.working_centre_distance + distance_shift, pair.second_rotation(0.0) + second_turn
+        super().__init__(pair.sides, pair.module, radii, distance, pair.sign, start, second.base_radius)
 
     def teeth_in_reach(self) -> tuple[int, int]:
         """Enough for the whole path of contact and one more, and no more than the tip circles enclose.

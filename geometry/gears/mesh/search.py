@@ -42,6 +42,8 @@ _EVENT = 1e-9
 _COMPARED = 0.02
 # teeth on either side of the line of centres that are measured at once where there are more than _MOST_NEAR
 _NEAR_TEETH, _MOST_NEAR = 2, 4
+# parts of the way from the drive angle of the least gap to its neighbours
+_PARTS = 4
 # far teeth are excluded by gaps that are known to this part of the module
 _ROUGH = 5e-4
 
@@ -172,7 +174,8 @@ class MeshSearch:
         for _ in range(2):
             if _decided(found.gap, allowed):
                 break
-            extra = _around_the_least(angles, found.gap.reshape(-1, 2).min(axis=1), self.pitches[0])
+            least = int(np.argmin(found.gap.reshape(-1, 2).min(axis=1)))
+            extra = between(angles, least, self.pitches[0], _PARTS)
             angles, found = _merged(angles, found, extra, least_gaps(self, extra, far=far))
         sides = found.gap.reshape(-1, 2)
         closed = self.closed_form(angles)
@@ -456,13 +459,13 @@ def gear_outline(side: ToothSide | RingSide) -> Boundary:
     return Boundary(tuple(s.curve for s in side.segments), end_normals=ends)
 
 
-def _around_the_least(angles: Real, gap: Real, pitch: float) -> Real:
-    """Drive angles between the one of the least gap and its neighbours."""
-    i = int(np.argmin(gap))
-    before = angles[i - 1] - (pitch if i == 0 else 0.0)
-    after = angles[(i + 1) % len(angles)] + (pitch if i == len(angles) - 1 else 0.0)
-    shares = np.array([0.25, 0.5, 0.75])
-    return np.concatenate([before + shares * (angles[i] - before), angles[i] + shares * (after - angles[i])])
+def between(angles: Real, index: int, pitch: float, parts: int) -> Real:
+    """Drive angles that part the way from one to either of its neighbours within a pitch, which may lie beyond it."""
+    here = angles[index]
+    before = angles[index - 1] - (pitch if index == 0 else 0.0)
+    after = angles[(index + 1) % len(angles)] + (pitch if index == len(angles) - 1 else 0.0)
+    shares = np.arange(1, parts) / parts
+    return np.concatenate([before + shares * (here - before), here + shares * (after - here)])
 
 
 def _merged(angles: Real, found: Gaps, extra: Real, more: Gaps) -> tuple[Real, Gaps]:

@@ -17,7 +17,7 @@ from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Real
 from geometry.gears.mesh.least_gap import ACCURACY
-from geometry.gears.mesh.search import least_gaps
+from geometry.gears.mesh.search import between, least_gaps
 
 if TYPE_CHECKING:
     from geometry.gears.mesh.search import MeshSearch
@@ -109,7 +109,8 @@ def _curve(mesh: MeshSearch, side: int) -> tuple[Real, Real]:
         least = max(_GAINED * float(np.ptp(errors)), _NOTHING * mesh.module)
         if not gaining or np.ptp(errors) <= _NOTHING * mesh.module:
             break
-        more = np.concatenate([_between(angles, int((k * errors).argmax()), pitch) for k in gaining])
+        more = np.concatenate([between(angles, int((k * errors).argmax()), pitch, _CLOSER) for k in gaining])
+        more = np.mod(more, pitch)
         near = np.interp(more, angles, errors, period=pitch)
         errors = np.concatenate([errors, _errors(mesh, more, side, ideal, near)])
         angles = np.concatenate([angles, more])
@@ -131,15 +132,6 @@ def _without_flanks(mesh: MeshSearch, side: int, ideal: float) -> Real:
     ends = np.flatnonzero(lost & ~np.roll(lost, -1))
     ends = np.where(ends[0] < starts[0], np.append(ends[1:], ends[0] + _FINE), ends)
     return np.mod(np.concatenate([starts - 1, (starts + ends) / 2, ends + 1]) * step, mesh.pitches[0])
-
-
-def _between(angles: Real, index: int, pitch: float) -> Real:
-    """Drive angles between one and its neighbours."""
-    here = angles[index]
-    before = angles[index - 1] - (pitch if index == 0 else 0.0)
-    after = angles[(index + 1) % len(angles)] + (pitch if index == len(angles) - 1 else 0.0)
-    shares = np.arange(1, _CLOSER) / _CLOSER
-    return np.mod(np.concatenate([here + shares * (before - here), here + shares * (after - here)]), pitch)
 
 
 def _errors(mesh: MeshSearch, drive: Real, side: int, ideal: float, near: Real) -> Real:

@@ -14,6 +14,7 @@ import math
 from functools import cached_property
 
 from geometry.base.angles import involute_function, tangent_length
+from geometry.base.both import both
 from geometry.base.errors import ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.base.placement import Placement3, Vector
@@ -78,20 +79,17 @@ class CrossedPair(Record, dict=True):
     @cached_property
     def base_helices(self) -> tuple[float, float]:
         """beta_b, with the sign of the hand."""
-        one, two = (base_helix_angle(g.pressure_angle, b) for g, b in zip(self.gears, self.helices, strict=True))
-        return one, two
+        return both(base_helix_angle(g.pressure_angle, b) for g, b in zip(self.gears, self.helices, strict=True))
 
     @cached_property
     def arms(self) -> tuple[float, float]:
         """R = r_b cos(beta_b) = z m_n cos(alpha_n) / 2: how far a flank moves along its normal for one rad."""
-        one, two = (g.base_radius * math.cos(b) for g, b in zip(self.gears, self.base_helices, strict=True))
-        return one, two
+        return both(g.base_radius * math.cos(b) for g, b in zip(self.gears, self.base_helices, strict=True))
 
     @property
     def twists(self) -> tuple[float, float]:
         """tan(beta) / r: how teeth turn along their axes, rad/mm."""
-        one, two = (math.tan(b) / g.reference_radius for g, b in zip(self.gears, self.helices, strict=True))
-        return one, two
+        return both(math.tan(b) / g.reference_radius for g, b in zip(self.gears, self.helices, strict=True))
 
     @property
     def base_pitch(self) -> float:
@@ -168,17 +166,15 @@ class CrossedPair(Record, dict=True):
     def working_radii(self) -> tuple[float, float]:
         """r_w of the operating pitch cylinders: from each axis to the pole."""
         lengths = self.pole, self.action.length - self.pole
-        one, two = (
+        return both(
             math.hypot(g.base_radius, at * math.cos(b))
             for g, at, b in zip(self.gears, lengths, self.base_helices, strict=True)
         )
-        return one, two
 
     @property
     def working_helices(self) -> tuple[float, float]:
         """beta_w on them, tan(beta_w) = r_w tan(beta) / r; their sum is Sigma but for a shaft angle of one's own."""
-        one, two = (math.atan(r * twist) for r, twist in zip(self.working_radii, self.twists, strict=True))
-        return one, two
+        return both(math.atan(r * twist) for r, twist in zip(self.working_radii, self.twists, strict=True))
 
     @property
     def working_pressure_angle(self) -> float:

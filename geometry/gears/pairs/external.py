@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
+from geometry.base.both import both
 from geometry.base.record import replace
 from geometry.gears.pairs.involute import InvolutePair, angle_at, common_sums, working_angle
 from geometry.gears.teeth.limits import undercut
@@ -29,8 +30,7 @@ class ExternalPair(InvolutePair[SpurGear, ToothSide], dict=True):
 
         Whether the mate's tip strikes its fillet only the contact search tells.
         """
-        one, two = ("active_flank_cut_away" if undercut(g).margin < 0 else "fillet_interference" for g in self.gears)
-        return one, two
+        return both("active_flank_cut_away" if undercut(g).margin < 0 else "fillet_interference" for g in self.gears)
 
 
 def external_pair(first: SpurGear, second: SpurGear, working_centre_distance: float | None = None) -> ExternalPair:

@@ -15,10 +15,9 @@ from functools import cached_property
 from geometry.base.angles import involute_function
 from geometry.base.record import Record, replace
 from geometry.gears.planetary.sets import PlanetarySet, sine_of
-from geometry.gears.shifts import external, internal
 from geometry.gears.shifts.external import PairState, Requirements, ShiftPair
-from geometry.gears.shifts.internal import InternalRequirements
-from geometry.gears.shifts.internal_shifts import InternalShiftPair, InternalState, interferences, internal_state
+from geometry.gears.shifts.finder import AnyShiftPair, least_margin, margins, state_of
+from geometry.gears.shifts.internal_shifts import InternalShiftPair, InternalState, interferences
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.limits import Margin
 from geometry.gears.teeth.ring import RoundedRoot
@@ -59,7 +58,7 @@ class RimMesh(Record, dict=True):
         return InternalShiftPair(self.rim, self.central, self.rack, root, helix_angle=self.helix_angle)
 
     @cached_property
-    def _pair(self) -> ShiftPair | InternalShiftPair:
+    def _pair(self) -> AnyShiftPair:
         if self.internal:
             return self._in_ring
         return ShiftPair(self.rim, self.central, self.rack, helix_angle=self.helix_angle)
@@ -82,21 +81,15 @@ class RimMesh(Record, dict=True):
 
     def state(self, rim_shift: float, central_shift: float) -> PairState | InternalState:
         """The pair, rim first, in modules."""
-        if isinstance(self._pair, InternalShiftPair):
-            return internal_state(self._pair, rim_shift, central_shift)
-        return external.state_of(self._pair, rim_shift, central_shift)
+        return state_of(self._pair, rim_shift, central_shift)
 
     def margins(self, wish: Requirements, rim_shift: float, central_shift: float) -> tuple[Margin, ...]:
         """Every condition: the rim is the first, the central wheel the second."""
-        if isinstance(self._pair, InternalShiftPair):
-            return internal.margins(self._pair, _of_ring(wish), rim_shift, central_shift)
-        return external.margins(self._pair, wish, rim_shift, central_shift)
+        return margins(self._pair, wish, rim_shift, central_shift)
 
     def least_margin(self, wish: Requirements, rim_shift: float, central_shift: float) -> float:
         """The least margin of all conditions."""
-        if isinstance(self._pair, InternalShiftPair):
-            return internal.least_margin(self._pair, _of_ring(wish), rim_shift, central_shift)
-        return external.least_margin(self._pair, wish, rim_shift, central_shift)
+        return least_margin(self._pair, wish, rim_shift, central_shift)
 
     def tips(self, rim_shift: float, central_shift: float) -> tuple[float, float]:
         """Radii, mm, that the rim's and the central wheel's teeth reach outwards: a ring's root, else tips."""
@@ -123,10 +116,6 @@ class RimMesh(Record, dict=True):
         """The most that an unshifted ring's teeth may stand inwards without involute interference, modules."""
         alpha, ring = self.rack.pressure_angle, self.central / 2
         return (ring - math.hypot(ring * math.cos(alpha), self.span / 2 * math.sin(alpha))) / self._share
-
-
-def _of_ring(wish: Requirements) -> InternalRequirements:
-    return InternalRequirements(wish.tip_thickness, wish.contact_ratio, wish.allow_undercut, wish.pole_inside)
 
 
 class Fit(Record):

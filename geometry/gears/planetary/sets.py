@@ -15,6 +15,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base.both import both
 from geometry.base.record import Record
 
 Link = Literal["first", "second", "carrier"]
@@ -111,8 +112,7 @@ class PlanetarySet(Record, dict=True):
     @property
     def distances(self) -> tuple[Fraction, Fraction]:
         """Reference centre distances of both meshes, mm; a set without shifts is coaxial where they are equal."""
-        one, two = (m * s / (2 * self.cosine) for m, s in zip(self.modules, self.spans, strict=True))
-        return one, two
+        return both(m * s / (2 * self.cosine) for m, s in zip(self.modules, self.spans, strict=True))
 
     @cached_property
     def places(self) -> int:

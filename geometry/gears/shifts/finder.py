@@ -18,8 +18,9 @@ from geometry.gears.shifts import external as blocking_contour
 from geometry.gears.shifts import internal as internal_contour
 from geometry.gears.shifts import internal_shifts
 from geometry.gears.shifts.external import PairState, Requirements, ShiftPair, usual_box
-from geometry.gears.shifts.internal import InternalRequirements
+from geometry.gears.shifts.internal import InternalRequirements, Window
 from geometry.gears.shifts.internal_shifts import InternalShiftPair, InternalState
+from geometry.gears.teeth.limits import Margin
 
 # how finely sums and shifts are looked at, in modules; between grid points the greatest margin is sought
 _STEP = 0.05
@@ -57,13 +58,25 @@ def state_of(pair: AnyShiftPair, x1: float, x2: float) -> PairState | InternalSt
     return blocking_contour.state_of(pair, x1, x2)
 
 
+def _in_ring(wish: Requirements) -> InternalRequirements:
+    """What is asked of any pair, asked of an internal one."""
+    if isinstance(wish, InternalRequirements):
+        return wish
+    return InternalRequirements(wish.tip_thickness, wish.contact_ratio, wish.allow_undercut, wish.pole_inside)
+
+
+def margins(pair: AnyShiftPair, wish: Requirements, x1: float, x2: float) -> tuple[Margin, ...]:
+    """Every requirement of a pair of either kind; an internal one may have ``InternalRequirements``."""
+    if isinstance(pair, InternalShiftPair):
+        return internal_contour.margins(pair, _in_ring(wish), x1, x2)
+    return blocking_contour.margins(pair, wish, x1, x2)
+
+
 def least_margin(pair: AnyShiftPair, wish: Requirements, x1: float, x2: float) -> float:
-    """The least margin of a pair of either kind; an internal one may have ``InternalRequirements``."""
-    if not isinstance(pair, InternalShiftPair):
-        return blocking_contour.least_margin(pair, wish, x1, x2)
-    if not isinstance(wish, InternalRequirements):
-        wish = InternalRequirements(wish.tip_thickness, wish.contact_ratio, wish.allow_undercut, wish.pole_inside)
-    return internal_contour.least_margin(pair, wish, x1, x2)
+    """The least of them."""
+    if isinstance(pair, InternalShiftPair):
+        return internal_contour.least_margin(pair, _in_ring(wish), x1, x2)
+    return blocking_contour.least_margin(pair, wish, x1, x2)
 
 
 def second_shift(pair: AnyShiftPair, shift_sum: float, x1: float) -> float:
@@ -71,37 +84,31 @@ def second_shift(pair: AnyShiftPair, shift_sum: float, x1: float) -> float:
     return shift_sum + x1 if isinstance(pair, InternalShiftPair) else shift_sum - x1
 
 
+def _window(pair: AnyShiftPair) -> Window | None:
+    """Where legal shifts lie, and which lines of one working angle are looked at; None: nowhere."""
+    if isinstance(pair, InternalShiftPair):
+        return internal_contour.window(pair)
+    box = usual_box(pair)
+    return None if box is None else Window(box, box.left + box.bottom, box.right + box.top, _step(box))
+
+
 def _first_shifts(pair: AnyShiftPair, shift_sum: float) -> tuple[float, float, float] | None:
     """Where to look for x1 on a line of one working angle: from, to, step; None: nowhere."""
-    if isinstance(pair, InternalShiftPair):
-        found = internal_contour.window(pair)
-        if found is None:
-            return None
-        box = found.box
-        low, high = max(box.left, box.bottom - shift_sum), min(box.right, box.top - shift_sum)
-    else:
-        # no shifts outside are legal
-        known = usual_box(pair)
-        if known is None:
-            return None
-        box = known
-        low, high = max(box.left, shift_sum - box.top), min(box.right, shift_sum - box.bottom)
+    if (found := _window(pair)) is None:
+        return None
+    box, way = found.box, 1 if isinstance(pair, InternalShiftPair) else -1
+    # no shifts outside are legal
+    ends = sorted(way * (x2 - shift_sum) for x2 in (box.bottom, box.top))
+    low, high = max(box.left, ends[0]), min(box.right, ends[1])
     return (low, high, _step(box)) if low < high else None
 
 
 def _sums(pair: AnyShiftPair) -> list[float]:
     """The lines of one working angle that are looked at."""
-    if isinstance(pair, InternalShiftPair):
-        found = internal_contour.window(pair)
-        if found is None:
-            return []
-        low, high, step = found.lowest, found.highest, found.step
-    else:
-        box = usual_box(pair)
-        if box is None:
-            return []
-        low, high, step = box.left + box.bottom, box.right + box.top, _step(box)
-    return [low + step * k for k in range(math.ceil((high - low) / step) + 1)]
+    if (found := _window(pair)) is None:
+        return []
+    count = math.ceil((found.highest - found.lowest) / found.step) + 1
+    return [found.lowest + found.step * k for k in range(count)]
 
 
 # what is looked for on a line asks for its legal part, one choice of shifts after another

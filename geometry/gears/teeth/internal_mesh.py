@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 
 from geometry.base.angles import involute_function, roll_minus_polar, tangent_length
+from geometry.base.both import both
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.gears.teeth.limits import Margin
@@ -28,10 +29,9 @@ class InternalMesh(Record):
 
     def _tip_involutes(self) -> tuple[float, float]:
         """inv(alpha_a) of both tips, rad; a tip inside its base circle counts as on it."""
-        first, second = (
+        return both(
             roll_minus_polar(tangent_length(a, b) / b) for a, b in zip(self.tip_radii, self.base_radii, strict=True)
         )
-        return first, second
 
     def involute_interference(self) -> Margin:
         """Where the ring's flank begins against where the pinion's involute can reach, along the line of action, mm.

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 
+from geometry.base.both import both
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record, replace
 from geometry.curves.curve import end_point, start_point
@@ -50,8 +51,7 @@ def pin_touching_at(rack: Rack, height: float, helix_angle: float = 0.0) -> floa
 
 def pin_limits(rack: Rack, helix_angle: float = 0.0) -> tuple[float, float]:
     """The least and greatest pins that touch the flank itself, from its fillet to its tip, mm."""
-    low, high = (pin_touching_at(rack, h, helix_angle) for h in flank_heights(rack))
-    return low, high
+    return both(pin_touching_at(rack, h, helix_angle) for h in flank_heights(rack))
 
 
 def over_pin(rack: Rack, pin_diameter: float, helix_angle: float = 0.0) -> OverPin:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.polynomial import Chebyshev
 from numpy.typing import ArrayLike
 
+from geometry.base.both import both
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Curve, Span
 from geometry.curves.involute import Involute
@@ -52,8 +53,7 @@ class TransverseLine(Span, Record):
 def _series(curve: TransverseLine) -> tuple[Chebyshev, Chebyshev]:
     """Of both parts of the first derivative."""
     parts = (lambda t: curve.derivative(t).real, lambda t: curve.derivative(t).imag)
-    real, imag = (Chebyshev.interpolate(part, _TERMS, list(curve.domain)) for part in parts)
-    return real, imag
+    return both(Chebyshev.interpolate(part, _TERMS, list(curve.domain)) for part in parts)
 
 
 def _transverse(line: SectionLine, parameter: float) -> Curve:
