@@ -72,7 +72,7 @@ def scene_checks(
             turns = [abs(turned) for turned in placing.train.rolled(mate.mating) if turned] if placing.train else []
             if turns and isinstance(mate.mating, Touching):
                 # contact is held against a whole pitch, whatever part of it the drive runs through
-                found["driven_pitches"] = turns[0] * mate.mating.first_teeth
+                found["driven_pitches"] = turns[0] * mate.mating.teeth[0]
     if placing.mates and (alone := [i.id for i in placing.instances if i.placed_by == "row"]):
         checks["in_a_row"] = alone
     if placing.close:

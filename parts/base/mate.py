@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from geometry.gears.pairs.external import ExternalPair
     from geometry.gears.pairs.internal import InternalPair
     from geometry.gears.pairs.rack import RackPair
-    from geometry.kinematics.mechanism import Joint
+    from geometry.kinematics.mechanism import Joint, Kind
     from parts.base.part_keys import MaterialKeys
 
 
@@ -103,12 +103,17 @@ class Mating(Joined, kw_only=True):
     """Two instances, the ``second`` placed by the ``first``; what most mates answer stands here.
 
     ``direction_deg``: from the first to the second as the scene has it. ``height``: of the second's lower face above
-    the first's, mm. ``distance``: between the axes, or from the axis to a rack's datum line, mm.
+    the first's, mm. ``distance``: between the axes, or from the axis to a rack's datum line, mm. ``rolls``: as what
+    pair both roll on each other, if they do, with so many ``teeth``; ``sense``: -1, 1, 0: as that pair has it.
     """
 
     direction_deg: float = 0.0
     height: float = 0.0
     distance: float = 0.0
+    rolls: Kind | None = None
+    # of which the first's tell too in how many steps a turn of it comes again
+    teeth: tuple[int, int] = (1, 1)
+    sense: int = 0
     # whether ``contact`` decides how the outlines of two plates stand to each other; else their solids do
     has_contact = False
     # whether ``contact`` decides for solids that are no plates too
@@ -125,16 +130,18 @@ class Mating(Joined, kw_only=True):
     lies = False
     # whether ``second_axis`` is told in the frame of the first as it is turned
     turns_axis = False
-    # how the second hangs on the first: "fixed" to it, "turning" about an axis of it; "": ``joints`` tells
+    # how the second hangs on the first: "fixed" to it, "turning" about an axis of it; "": it rolls, or ``joints`` tells
     bond = ""
 
     @property
     def joints(self) -> tuple[Joint, ...]:
         """How both move: joints of the kinematic layer between instances, their places left to the scene."""
+        from geometry.kinematics.mechanism import Fixed, Revolute, Rolling
+
+        if self.rolls is not None:
+            return (Rolling(self.rolls, self.first, self.second, self.teeth, sense=self.sense),)
         if not self.bond:
             return ()
-        from geometry.kinematics.mechanism import Fixed, Revolute
-
         return ((Fixed if self.bond == "fixed" else Revolute)(self.second, on=self.first),)
 
     @property
@@ -196,15 +203,11 @@ class Mating(Joined, kw_only=True):
 
 
 class Touching(Mating, kw_only=True):
-    """Two instances that touch. ``module``: the length that tolerances go by, mm. ``normal_backlash``: j_bn, mm.
-
-    ``first_teeth``: in how many steps a turn of the first comes again.
-    """
+    """Two instances that touch. ``module``: the length that tolerances go by, mm. ``normal_backlash``: j_bn, mm."""
 
     module: float = 1.0
     normal_backlash: float = 0.0
     has_contact: bool = True
-    first_teeth: int = 1
 
 
 class Toothed(Touching, kw_only=True):
@@ -218,15 +221,17 @@ class Toothed(Touching, kw_only=True):
         """Whether the scheme of a train shows it: gears of one ratio all round."""
         return self.pair is not None
 
-    def turned_off(self, first: Pose, second: Pose, pitch: float, arm: float) -> Standing:
+    def turned_off(
+        self, first: Pose, second: Pose, pitch: float, arm: float, backlash: float | None = None
+    ) -> Standing:
         """Centre distance, and the second's turn off the middle of the backlash, where it fits at every ``pitch``.
 
-        ``arm``: from the second's axis to the line of action at most, mm.
+        ``arm``: from the second's axis to the line of action at most, mm; ``backlash`` along that, j_bn by default, mm.
         """
         spoke = second[0] - first[0]
         direction = cmath.phase(spoke)
         _, right = self.second_pose(*first, direction)
-        play = max(self.normal_backlash, 0.0) / (2 * arm)
+        play = max(self.normal_backlash if backlash is None else backlash, 0.0) / (2 * arm)
         return Standing(direction, abs(spoke), math.remainder(second[1] - right, pitch), play, arm)
 
 

@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from geometry.gears.bevel.gear import BevelGear
     from geometry.gears.bevel.pair import BevelPair
     from geometry.gears.mesh.search import PairContact
-    from geometry.kinematics.mechanism import Joint
 
 # keys that both have alike, and those of which the second has the negative
 _ALIKE = ("module", "shaft_angle_deg", "pressure_angle_deg", "addendum_coefficient", "tip_clearance_coefficient")
@@ -45,14 +44,6 @@ class BevelMating(Touching):
     decides_solids = True
     lies = True
     asks_height = False
-
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Teeth on teeth; seen from the apex both turn in opposite senses."""
-        from geometry.kinematics.mechanism import Rolling
-
-        first, second = (gear.number_of_teeth for gear in self.pair.gears)
-        return (Rolling("bevel", self.first, self.second, (first, second), sense=-1),)
 
     def second_axis(self, direction: float) -> Vector:
         """From the second's back face to the apex."""
@@ -156,7 +147,10 @@ class BevelPairKind(MateKind[BevelPairSpec, "BevelGear", "BevelGear"]):
             distance=distances[1] * math.sin(angle),
             module=first.thing.module,
             normal_backlash=pair.normal_backlash,
-            first_teeth=first.thing.number_of_teeth,
+            # seen from the apex both turn in opposite senses
+            rolls="bevel",
+            sense=-1,
+            teeth=(first.thing.number_of_teeth, second.thing.number_of_teeth),
             pair=pair,
         )
 

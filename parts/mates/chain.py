@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from geometry.gears.chains.drive import ChainMesh
     from geometry.gears.chains.sprocket import Sprocket
     from geometry.gears.mesh.search import PairContact
-    from geometry.kinematics.mechanism import Joint
 
 # numbers of links that are tried where one is too small
 _TRIED = 4096
@@ -52,13 +51,6 @@ class ChainMating(Toothed):
     """Two sprockets of one chain."""
 
     mesh: ChainMesh
-
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Both turn the same way, as often as their teeth say."""
-        from geometry.kinematics.mechanism import Rolling
-
-        return (Rolling("internal", self.first, self.second, self.mesh.teeth),)
 
     def _second(self, rotation: float, direction: float) -> tuple[float, float]:
         """Rotation of the second in the middle of its play, and half of that, rad."""
@@ -133,7 +125,9 @@ class ChainDriveKind(MateKind[ChainDriveSpec, "Sprocket", "Sprocket"]):
             height=above,
             distance=mesh.centre_distance,
             module=one.chain.pitch / math.pi,
-            first_teeth=one.number_of_teeth,
+            # the chain turns both the same way
+            rolls="internal",
+            teeth=mesh.teeth,
             # the chain alone touches them
             has_contact=False,
             mesh=mesh,

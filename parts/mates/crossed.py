@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from geometry.gears.mesh.search import PairContact
     from geometry.gears.pairs.crossed import CrossedPair
     from geometry.gears.teeth.spur import SpurGear
-    from geometry.kinematics.mechanism import Joint
 
 # between axes that are parallel, rad
 _PARALLEL = 1e-7
@@ -53,14 +52,6 @@ class CrossedMating(Touching):
 
     lies = True
     asks_height = False
-
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Teeth on teeth: along the line of centres both turn against each other, whatever their hands."""
-        from geometry.kinematics.mechanism import Rolling
-
-        first, second = (gear.number_of_teeth for gear in self.pair.gears)
-        return (Rolling("crossed", self.first, self.second, (first, second), sense=-1),)
 
     def second_axis(self, direction: float) -> Vector:
         """Turned from the first's about the line of centres."""
@@ -191,7 +182,10 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
             distance=pair.working_centre_distance,
             module=pair.normal_module,
             normal_backlash=pair.normal_backlash,
-            first_teeth=pair.first.number_of_teeth,
+            # along the line of centres both turn against each other, whatever their hands
+            rolls="crossed",
+            sense=-1,
+            teeth=(pair.first.number_of_teeth, pair.second.number_of_teeth),
             pair=pair,
         )
 

@@ -17,7 +17,6 @@ from parts.mates.sizes import same_size
 if TYPE_CHECKING:
     from geometry.gears.mesh.search import ContactPlace, PairContact
     from geometry.gears.pins.cycloidal import CycloidalDisc
-    from geometry.kinematics.mechanism import Joint
     from geometry.solids.pin_plates import PinPlate, RoundDisc
     from geometry.solids.pin_ring import PinRing
     from geometry.solids.windows import RoundHoles
@@ -54,14 +53,6 @@ class CycloidalMating(Touching):
     ring: PinRing
     disc: CycloidalDisc
     turned_lobes: int
-
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """The disc rolls within the pins, carried by the eccentric."""
-        from geometry.kinematics.mechanism import Rolling
-
-        teeth = self.disc.number_of_pins, self.disc.number_of_lobes
-        return (Rolling("internal", self.first, self.second, teeth),)
 
     @property
     def holds(self) -> tuple[str, ...]:
@@ -164,13 +155,6 @@ class OutputMating(Touching):
     plate: PinPlate
 
     @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Parallel cranks: both turn alike, wherever the eccentric stands."""
-        from geometry.kinematics.mechanism import Rolling
-
-        return (Rolling("internal", self.first, self.second, (1, 1)),)
-
-    @property
     def gap(self) -> float:
         """Of every pin in its hole, mm, at the exact place: half of the holes' clearance."""
         return self.output.diameter / 2 - self.plate.pin_radius - self.distance
@@ -238,6 +222,9 @@ class CycloidalPair(MateKind[CycloidalPairSpec, "PinRing", "CycloidalDisc"]):
             distance=disc.eccentricity,
             module=disc.pin_diameter / 2,
             has_contact=not beside,
+            # within the pins, carried by the eccentric
+            rolls="internal",
+            teeth=(disc.number_of_pins, disc.number_of_lobes),
             ring=ring,
             disc=disc,
             turned_lobes=keys.turned_lobes,
@@ -293,6 +280,8 @@ class OutputPins(MateKind[OutputPinsSpec, "CycloidalDisc", "PinPlate"]):
             module=plate.pin_radius,
             # loose pins are other instances
             has_contact=plate.solid,
+            # parallel cranks: both turn alike, wherever the eccentric stands
+            rolls="internal",
             output=disc.output,
             plate=plate,
         )

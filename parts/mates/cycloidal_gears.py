@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from geometry.gears.cycloidal.gear import CycloidalGear
     from geometry.gears.cycloidal.pair import CycloidalPair
     from geometry.gears.mesh.search import PairContact
-    from geometry.kinematics.mechanism import Joint
 
 
 class CycloidalGearPairSpec(GearPairKeys, tag="cycloidal_gear_pair", kw_only=True):
@@ -36,14 +35,6 @@ class CycloidalGearMating(Toothed):
 
     gears: CycloidalPair
     in_scheme = True
-
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Both wheels."""
-        from geometry.kinematics.mechanism import Rolling
-
-        teeth = self.gears.first.number_of_teeth, self.gears.second.number_of_teeth
-        return (Rolling("external", self.first, self.second, teeth),)
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The second beyond the line of centres, a space where the first has a tooth."""
@@ -128,7 +119,8 @@ class CycloidalGearPair(MateKind[CycloidalGearPairSpec, "CycloidalGear", "Cycloi
             direction_deg=keys.direction_deg,
             distance=gears.centre_distance,
             module=one.module,
-            first_teeth=one.number_of_teeth,
+            rolls="external",
+            teeth=(one.number_of_teeth, two.number_of_teeth),
             normal_backlash=gears.normal_backlash,
             gears=gears,
         )

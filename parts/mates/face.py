@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from geometry.gears.face.pair import FacePair
     from geometry.gears.mesh.search import PairContact
     from geometry.gears.teeth.spur import SpurGear
-    from geometry.kinematics.mechanism import Joint
 
 # of the module
 _ROUNDING = 1e-9
@@ -48,14 +47,6 @@ class FaceMating(Touching):
     decides_solids = True
     lies = True
     asks_height = False
-
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Teeth on teeth; seen from where the axes meet both turn in opposite senses."""
-        from geometry.kinematics.mechanism import Rolling
-
-        teeth = self.pair.gear.number_of_teeth, self.pair.pinion.number_of_teeth
-        return (Rolling("bevel", self.first, self.second, teeth, sense=-1),)
 
     def second_axis(self, direction: float) -> Vector:
         """Towards the gear's axis."""
@@ -189,7 +180,10 @@ class FaceGearPairKind(MateKind[FaceGearPairSpec, "FaceGear", "SpurGear"]):
             distance=middle + width / 2,
             module=gear.module,
             normal_backlash=pair.normal_backlash,
-            first_teeth=gear.number_of_teeth,
+            # seen from where the axes meet both turn in opposite senses
+            rolls="bevel",
+            sense=-1,
+            teeth=(gear.number_of_teeth, pinion.number_of_teeth),
             pair=pair,
         )
 

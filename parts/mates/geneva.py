@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from geometry.gears.mesh.search import PairContact
     from geometry.gears.pins.geneva import GenevaDisc, GenevaWheel
     from geometry.gears.pins.geneva_driver import GenevaDriver
-    from geometry.kinematics.mechanism import Joint, Kind
 
 
 class GenevaPairSpec(MateKeys, tag="geneva_pair", kw_only=True):
@@ -31,15 +30,6 @@ class GenevaMating(Toothed):
 
     uneven = True
     only_first_drives = True
-
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Of whole turns: pins and slots are teeth."""
-        from geometry.kinematics.mechanism import Rolling
-
-        drive = self.disc.drive
-        kind: Kind = "internal" if drive.internal else "external"
-        return (Rolling(kind, self.first, self.second, (drive.number_of_pins, drive.number_of_slots)),)
 
     def partner(self, driver: str, rotation: float, direction: float) -> float:
         """The wheel's rotation, dwells included."""
@@ -85,7 +75,7 @@ class GenevaPair(MateKind[GenevaPairSpec, "GenevaDriver", "GenevaWheel"]):
         driver, wheel = first.thing, second.thing
         if driver.disc.wheel != wheel:
             raise ParameterError("first.of", None, "made_for_another_wheel")
-        above = keys.height
+        drive, above = driver.disc.drive, keys.height
         if above is None:
             width = float(getattr(second.keys, "face_width", 0.0))
             above = 0.0 if driver.piece == "disc" else driver.plate_thickness
@@ -94,9 +84,11 @@ class GenevaPair(MateKind[GenevaPairSpec, "GenevaDriver", "GenevaWheel"]):
             *self.joined(keys),
             direction_deg=keys.direction_deg,
             height=above,
-            distance=driver.disc.drive.centre_distance,
+            distance=drive.centre_distance,
             module=driver.pin_radius,
-            first_teeth=driver.disc.number_of_pins,
+            # of whole turns: pins and slots are teeth
+            rolls="internal" if drive.internal else "external",
+            teeth=(drive.number_of_pins, drive.number_of_slots),
             normal_backlash=min(wheel.slot_clearance, 2 * wheel.locking_clearance),
             # the plate alone stands beside the wheel
             has_contact=driver.piece != "plate",

@@ -75,11 +75,7 @@ class GearMating(Toothed):
 
     def _turned(self, first: Pose, second: Pose, gear: SpurGear | RingGear) -> Standing:
         """Centre distance, and the second gear's turn off the middle of its backlash."""
-        direction = cmath.phase(second[0] - first[0])
-        turn = math.remainder(second[1] - self._middle(first[1], direction), gear.pitch_angle)
-        arm = gear.base_radius
-        play = max(self.pair.normal_backlash, 0.0) / (2 * arm)
-        return Standing(direction, abs(second[0] - first[0]), turn, play, arm)
+        return self.turned_off(first, second, gear.pitch_angle, gear.base_radius, self.pair.normal_backlash)
 
     def _middle(self, rotation: float, direction: float) -> float:
         """Rotation of the second in the middle of the backlash."""
@@ -124,14 +120,6 @@ class ExternalMating(GearMating):
 
     pair: ExternalPair
 
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Against each other."""
-        from geometry.kinematics.mechanism import Rolling
-
-        teeth = self.pair.first.number_of_teeth, self.pair.second.number_of_teeth
-        return (Rolling("external", self.first, self.second, teeth),)
-
     def _middle(self, rotation: float, direction: float) -> float:
         return self.pair.second_rotation(rotation, direction)
 
@@ -161,14 +149,6 @@ class InternalMating(GearMating):
 
     pair: InternalPair
     ring_first: bool
-
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Both turn the same way."""
-        from geometry.kinematics.mechanism import Rolling
-
-        teeth = self.pair.pinion.number_of_teeth, self.pair.ring.number_of_teeth
-        return (Rolling("internal", self.first, self.second, teeth[::-1] if self.ring_first else teeth),)
 
     def _middle(self, rotation: float, direction: float) -> float:
         if self.ring_first:
@@ -217,7 +197,7 @@ class RackMating(GearMating):
 
         from geometry.kinematics.mechanism import Prismatic, Rolling
 
-        rolling = Rolling("rack", self.first, self.second, (self.first_teeth, 1), module=Fraction(str(self.module)))
+        rolling = Rolling("rack", self.first, self.second, self.teeth, module=Fraction(str(self.module)))
         return Prismatic(self.second), rolling
 
     @property
@@ -450,7 +430,8 @@ class ExternalGearPair(InvolutePair[ExternalGearPairSpec, "SpurGear", "SpurGear"
         return ExternalMating(
             **self.common(keys, first, second, pair),
             distance=pair.working_centre_distance,
-            first_teeth=first.thing.number_of_teeth,
+            rolls="external",
+            teeth=pair.teeth,
             pair=pair,
         )
 
@@ -516,7 +497,9 @@ class InternalGearPair(
         return InternalMating(
             **self.common(keys, first, second, pair),
             distance=pair.working_centre_distance,
-            first_teeth=first.thing.number_of_teeth,
+            # both turn the same way
+            rolls="internal",
+            teeth=pair.teeth[::-1] if ring_first else pair.teeth,
             pair=pair,
             ring_first=ring_first,
         )
@@ -556,7 +539,7 @@ class RackGearPair(InvolutePair[RackPairSpec, "SpurGear", "Rack", RackMating]):
         return RackMating(
             **self.common(keys, first, second, pair),
             distance=pair.distance,
-            first_teeth=first.thing.number_of_teeth,
+            teeth=(first.thing.number_of_teeth, 1),
             pair=pair,
         )
 

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from geometry.base.findings import Finding
     from geometry.gears.mesh.search import PairContact
     from geometry.gears.pins.lantern import LanternGear
-    from geometry.kinematics.mechanism import Joint
     from geometry.solids.pin_plates import PinPlate
 
 
@@ -36,14 +35,6 @@ class LanternMating(Toothed):
     def ratio(self) -> float:
         """Turns of the gear for one of the lantern."""
         return -self.gear.number_of_pins / self.gear.number_of_teeth
-
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Pins are teeth."""
-        from geometry.kinematics.mechanism import Rolling
-
-        teeth = self.gear.number_of_pins, self.gear.number_of_teeth
-        return (Rolling("external", self.first, self.second, teeth),)
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """The gear beyond the line of centres; where a pin stands on it, a space does."""
@@ -108,7 +99,9 @@ class LanternPair(MateKind[LanternPairSpec, "PinPlate", "LanternGear"]):
             height=height,
             distance=gear.centre_distance,
             module=gear.pin_diameter / 2,
-            first_teeth=gear.number_of_pins,
+            # pins are teeth
+            rolls="external",
+            teeth=(gear.number_of_pins, gear.number_of_teeth),
             # on both sides together
             normal_backlash=2 * gear.pin_clearance,
             # a single plate stands beside the gear

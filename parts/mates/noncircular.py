@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from geometry.gears.noncircular.gear import NoncircularGear
     from geometry.gears.noncircular.pair import NoncircularPair
     from geometry.gears.noncircular.pairing import Pairing
-    from geometry.kinematics.mechanism import Joint
 
 
 class NoncircularGearPairSpec(GearPairKeys, tag="noncircular_gear_pair", kw_only=True):
@@ -35,14 +34,6 @@ class NoncircularMating(Toothed):
     gears: NoncircularPair
 
     uneven = True
-
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Of whole turns: the mean of a ratio that changes."""
-        from geometry.kinematics.mechanism import Rolling
-
-        teeth = self.gears.first.number_of_teeth, self.gears.second.number_of_teeth
-        return (Rolling("external", self.first, self.second, teeth),)
 
     def partner(self, driver: str, rotation: float, direction: float) -> float:
         """By the arcs that have rolled."""
@@ -112,7 +103,9 @@ class NoncircularGearPair(MateKind[NoncircularGearPairSpec, "NoncircularGear", "
             direction_deg=keys.direction_deg,
             distance=gears.centre_distance,
             module=gears.first.module,
-            first_teeth=gears.first.number_of_teeth,
+            # of whole turns: the mean of a ratio that changes
+            rolls="external",
+            teeth=(gears.first.number_of_teeth, gears.second.number_of_teeth),
             normal_backlash=gears.normal_backlash,
             gears=gears,
         )

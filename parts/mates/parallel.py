@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from msgspec import Meta
 
 from geometry.base.errors import ParameterError
 from parts.base.mate import End, MateKeys, MateKind, Mating, Pose, Standing
 from parts.keys.base import degrees, mm
-
-if TYPE_CHECKING:
-    from geometry.kinematics.mechanism import Joint
 
 _MOST = 1e6
 _Shift = Annotated[float, mm("a coordinate of the second's axis from the first's", least=-_MOST, most=_MOST)]
@@ -41,13 +38,6 @@ class ParallelMating(Mating):
 
     asks_height = False
 
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """Both turn alike against whatever carries both."""
-        from geometry.kinematics.mechanism import Rolling
-
-        return (Rolling("parallel", self.first, self.second, (1, 1)),)
-
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
         """Beside the first, turned as it is."""
         if self.offset is None:
@@ -70,7 +60,8 @@ class Parallel(MateKind[ParallelSpec, Any, Any]):
         x, y, z = keys.offset or (0.0, 0.0, 0.0)
         offset = None if keys.offset is None else complex(x, y)
         turn = math.radians(keys.rotation_deg)
-        return ParallelMating(*self.joined(keys), height=z, offset=offset, rotation=turn)
+        # both turn alike against whatever carries both
+        return ParallelMating(*self.joined(keys), height=z, rolls="parallel", offset=offset, rotation=turn)
 
 
 PARALLEL = Parallel()

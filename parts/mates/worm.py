@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from geometry.gears.worms.field import Field
     from geometry.gears.worms.wheel import WormTeeth
     from geometry.gears.worms.worm import Worm
-    from geometry.kinematics.mechanism import Joint
     from parts.gears.worm_wheel.part import WheelThing
 
 # keys that both have alike, and how a refusal tells it
@@ -43,7 +42,7 @@ class WormMating(Touching):
     """A wheel (first) and its worm."""
 
     body: WormBody
-    teeth: WormTeeth
+    wheel: WormTeeth
     drive: WormDrive
     errors: AxisErrors
 
@@ -62,17 +61,9 @@ class WormMating(Touching):
         from geometry.gears.worms.thread import FlankLine
 
         flank = next(line for _, line in self.body.thread.lines if isinstance(line, FlankLine))
-        if self.teeth.hob.swivel or self.errors.any:
+        if self.wheel.hob.swivel or self.errors.any:
             return None
-        return Field(self.teeth, *flank.radius(flank.domain).tolist())
-
-    @property
-    def joints(self) -> tuple[Joint, ...]:
-        """The worm's starts on the wheel's teeth."""
-        from geometry.kinematics.mechanism import Rolling
-
-        teeth = self.teeth.number_of_teeth, self.worm.number_of_starts
-        return (Rolling("worm", self.first, self.second, teeth, sense=self.worm.sign),)
+        return Field(self.wheel, *flank.radius(flank.domain).tolist())
 
     def second_axis(self, direction: float) -> Vector:
         """Across the line of centres, to its right."""
@@ -83,19 +74,19 @@ class WormMating(Touching):
         """Where a thread of the worm stands in the space that faces it."""
         from geometry.gears.worms.contact import turn_for
 
-        pitch = 2 * math.pi / self.teeth.number_of_teeth
+        pitch = 2 * math.pi / self.wheel.number_of_teeth
         ahead = math.remainder(rotation + pitch / 2 - direction, pitch)
-        turn = self.worm.sign * ahead * self.drive.ratio + turn_for(self.teeth, self.errors)
+        turn = self.worm.sign * ahead * self.drive.ratio + turn_for(self.wheel, self.errors)
         return centre + cmath.rect(self.distance, direction), direction + math.pi + turn
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch, in sections across the wheel's axis."""
         from geometry.gears.worms.contact import contact_under, worm_contact
 
-        if self.errors.any or self.teeth.hob.swivel:
+        if self.errors.any or self.wheel.hob.swivel:
             # at points: the least gap is sought between places and planes
-            return contact_under(self.body.thread, self.teeth, self.errors, tolerance)
-        return worm_contact(self.worm, self.teeth, phase_off, distance_off, tolerance)
+            return contact_under(self.body.thread, self.wheel, self.errors, tolerance)
+        return worm_contact(self.worm, self.wheel, phase_off, distance_off, tolerance)
 
     def findings(self) -> tuple[Finding, ...]:
         """Whether the thread is as long as the wheel touches it, and clear of the teeth of a larger hob."""
@@ -104,7 +95,7 @@ class WormMating(Touching):
 
         field = self.field
         if field is None:
-            cleared = None if self.errors.any else clearing_thinning(self.body.thread, self.teeth)
+            cleared = None if self.errors.any else clearing_thinning(self.body.thread, self.wheel)
             return () if cleared is None else (Finding("worm_wheel_hob_overlap", *cleared),)
         slope, whole = math.tan(self.body.end_angle), self.body.length - self.body.lost
         used = field.length_used(slope)
@@ -142,9 +133,12 @@ class WormPair(MateKind[WormPairSpec, "WheelThing", "WormBody"]):
             height=first.thing.teeth.width / 2 - errors.axial,
             distance=drive.centre_distance + errors.centre_distance,
             module=worm.module,
-            first_teeth=drive.number_of_teeth,
+            # the starts of a worm are its teeth
+            rolls="worm",
+            sense=worm.sign,
+            teeth=(drive.number_of_teeth, worm.number_of_starts),
             body=second.thing,
-            teeth=first.thing.teeth,
+            wheel=first.thing.teeth,
             drive=drive,
             errors=errors,
         )

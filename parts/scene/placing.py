@@ -311,7 +311,7 @@ def _closed(mate: PlacedMate) -> PlacedMate:
     turned = first.rotation
     if isinstance(mate.mating, Toothed):
         # helical teeth are compared at one height: that of the second's lower face
-        turned += mate.mating.face.turn(mate.mating.first_teeth, second.at[2] - first.at[2])
+        turned += mate.mating.face.turn(mate.mating.teeth[0], second.at[2] - first.at[2])
     found = mate.mating.standing((first.centre, turned), (second.centre, second.rotation))
     if found is None:
         return mate

@@ -509,7 +509,7 @@ def test_a_member_of_a_linkage_stands_where_it_is_carried() -> None:
 def test_a_worm_lies_across_the_line_of_centres() -> None:
     """a = m (q + z2) / 2, its axis at the middle of the rim's width, to the right of the line."""
     (mate,) = matings(with_key(scenes()["thesis_worm_1"], "mates[1].direction_deg", 0.0))
-    assert (mate.distance, mate.height, mate.first_teeth) == (pytest.approx(5 * (10 + 128) / 2), 13.0, 128)
+    assert (mate.distance, mate.height, mate.teeth[0]) == (pytest.approx(5 * (10 + 128) / 2), 13.0, 128)
     assert mate.second_axis(0.0) == pytest.approx((0.0, -1.0, 0.0))
     assert mate.second_axis(math.pi / 2) == pytest.approx((1.0, 0.0, 0.0))
     (rolling,) = mate.joints
