@@ -14,9 +14,8 @@ from parts.drawing.wheel_views import Wheel, circle_of, levels, wheel_views
 from parts.drawing.working import AXIS, VISIBLE, Note, PartDrawing, Size, Subject, requirements
 from parts.gears.face_gear import page as face_page
 from parts.gears.face_gear.part import FaceGearSpec
-from parts.pages.data_table import DataRow, DataTable, Mated, row_of
+from parts.pages.data_table import DataRow, DataTable, Mated, rows_of
 from parts.pages.inputs import SceneKeys, given
-from parts.pages.page import Sheet
 
 # sizes of the plate by those of a disk
 _NAMES = {"tip_diameter": "outer_diameter", "face_width": "plate_thickness"}
@@ -60,16 +59,11 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     keys, gear = part.keys, part.thing
     assert isinstance(keys, FaceGearSpec)
     page = face_page.sheet(given(keys) | {"circumferential_thinning": gear.circumferential_thinning})
-    first = _rows(page, "module", "pressure_angle_deg", "addendum_coefficient", "dedendum_coefficient")
+    first = rows_of(page, ("module", "pressure_angle_deg", "addendum_coefficient", "dedendum_coefficient"))
     teeth = DataRow(N_("number of teeth of the face gear"), "z", keys.number_of_teeth)
-    control = _rows(page, "face_tooth_depth")
-    last = _rows(page, "normal_backlash", "undercut_diameter", "pointed_diameter")
-    beside = [DataRow(N_("teeth of the mate"), "z", keys.pinion_teeth), *_rows(page, "profile_shift_coefficient")]
+    control = rows_of(page, ("face_tooth_depth",))
+    last = rows_of(page, ("normal_backlash", "undercut_diameter", "pointed_diameter"))
+    beside = [DataRow(N_("teeth of the mate"), "z", keys.pinion_teeth), *rows_of(page, ("profile_shift_coefficient",))]
     drawings = dict.fromkeys(getattr(m.part.keys, "designation", None) or m.part.title or m.part.id for m in mates)
     beside += [DataRow(N_("drawing of the mate"), "", Message("{name}", {"name": name})) for name in drawings]
     return DataTable(((first[0], teeth, *first[1:]), control, (*last, *beside)))
-
-
-def _rows(page: Sheet, *names: str) -> tuple[DataRow, ...]:
-    """The steps of these names."""
-    return tuple(row_of(step) for name in names for step in page.steps() if step.name == name)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
+from geometry.base.errors import GeometryError, Nearest, ParameterError, limit
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
 from geometry.gears.face.gear import FaceGear, form_length, sized, topped
@@ -216,7 +216,8 @@ def _cured(keys: FaceGearSpec, refusal: ParameterError) -> ParameterError:
 class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
     """A face gear: its lower face at z = 0, its teeth upwards, one on +x."""
 
-    name, keys, has_outline = "face_gear", FaceGearSpec, False
+    # what is parallel to its flanks no shaper of its pinion cuts
+    name, keys, has_outline, unmoved = "face_gear", FaceGearSpec, False, "face_gear_not_moved"
     page = "parts.gears.face_gear.page"
     drawing = data_table = "parts.gears.face_gear.drawing"
 
@@ -244,7 +245,7 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
         from geometry.plane.offset_region import OffsetRegion
         from geometry.plane.profile import Label, Region, circle
 
-        _still(offset)
+        self.stays(offset)
         holes = thing.holes.profiles(0.0)
         # the circle first: it lies on the outline of the spaces
         marks = circle(thing.inner_radius, Label.BODY), seen_spaces(thing, _SEEN)
@@ -254,7 +255,7 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
         """The gear."""
         from geometry.gears.face.faces import faced_face_gear
 
-        _still(offset)
+        self.stays(offset)
         return faced_face_gear(thing)
 
     def sketch(self, keys: FaceGearSpec, thing: FaceGear) -> Sketch:
@@ -266,10 +267,6 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
     def height(self, keys: FaceGearSpec, thing: FaceGear) -> float:
         """From the lower face to the tips."""
         return thing.height
-
-    def is_plate(self, keys: FaceGearSpec, thing: FaceGear) -> bool:
-        """Never."""
-        return False
 
     def report(self, keys: FaceGearSpec, thing: FaceGear) -> Report:
         """Diameters between which teeth can be, and where its pinion is mounted."""
@@ -301,9 +298,3 @@ def face_gear_findings(gear: FaceGear) -> tuple[Finding, ...]:
 
     tip, least = float(gear.tip_thickness(gear.outer_radius)), _THIN * gear.module
     return (Finding("thin_tip", tip, least),) if tip < least else ()
-
-
-def _still(offset: float) -> None:
-    """What is parallel to its flanks no shaper of its pinion cuts."""
-    if offset != 0:
-        raise OffsetError(offset, "face_gear_not_moved")

@@ -18,7 +18,7 @@ from geometry.gears.worms.flank import InvoluteFlank
 from geometry.gears.worms.measures import BALL, over_balls, reference_chord
 from geometry.gears.worms.thread import Thread, thread_of
 from geometry.gears.worms.worm import Worm
-from parts.base.refusal import REMOVED, SceneError, meant
+from parts.base.refusal import REMOVED, SceneError
 from parts.base.texts import N_
 from parts.gears.worm.part import WormSpec, told_worm
 from parts.gears.worm_wheel.part import WORM_WHEEL, WormWheelSpec
@@ -48,7 +48,7 @@ from parts.keys.worm import (
     worm_of,
 )  # fmt: skip
 from parts.pages.force_steps import asked_torque, torque_steps
-from parts.pages.inputs import SceneKeys, checked, given, keys_of, refusal
+from parts.pages.inputs import SceneKeys, checked, chosen_part, given, keys_of, refusal
 from parts.pages.misprints import printed_for_worm
 from parts.pages.page import Sheet
 
@@ -125,14 +125,8 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     fitting = [key for key, spec in scene.parts.items() if isinstance(spec, WormSpec | WormWheelSpec)]
     mates = [mate for mate in scene.mates if mate.__struct_config__.tag == "worm_pair"]
     pairs = [tuple(scene.instances[getattr(mate, end)].part for end in ("first", "second")) for mate in mates]
-    part = table.pop("part", None)
-    if part is None and len(fitting) != 1 and (len(set(pairs)) != 1 or not set(fitting) <= {*pairs[0]}):
-        code = "choose_a_part" if fitting else "none_of_kind"
-        raise SceneError(source, "parts", None, code, None, known=fitting, kind=TOPIC)
-    if part is not None and part not in fitting:
-        code = "no_such_part" if fitting else "none_of_kind"
-        raise SceneError(source, "part", part, code, meant(part, fitting), known=fitting, kind=TOPIC)
-    chosen = part or fitting[0]
+    told = fitting[:1] if len(set(pairs)) == 1 and set(fitting) <= {*pairs[0]} else fitting
+    chosen = chosen_part(TOPIC, fitting, told, source, table)
     both = next((pair for pair in pairs if chosen in pair), (chosen,))
     off = next((given(mate) for mate, pair in zip(mates, pairs, strict=True) if pair == both), {})
     errors = {key: off[key] for key in _ERRORS if key in off}
