@@ -218,17 +218,18 @@ class _Nest:
         from shapely.affinity import rotate
 
         middle, half, about = _middle(geometry), _size(geometry) / 2, _about(geometry)
-        halves = half, _turned(half, 1)
+        halves, turns = (half, _turned(half, 1)), self.room.turns
+        if not any(self._has_room(halves[turn % 2]) for turn in turns):
+            raise DoesNotFitError(name, (2 * half.real, 2 * half.imag))
         # a shape that has room but no place on the grid stands beside it by half a cell each way at most
         tight = any(len(self._places(h, axis)) == 0 for h in halves for axis in (0, 1) if self._has_room(h))
         more = self.cell / math.sqrt(2) if tight else 0.0
         self.grown[name] = self._cover(about, half, self.room.gap + more)
         cover = self._cover(about, half, more)
-        turns = self.room.turns
         reach = np.hypot(*np.array(about.convex_hull.exterior.coords).T).max()
         if reach <= _ROUND * min(half.real, half.imag):
             # one turn is as good as another, but chords may leave room in one alone
-            turns = next(((turn,) for turn in turns if self._has_room(halves[turn % 2])), (0,))
+            turns = next((turn,) for turn in turns if self._has_room(halves[turn % 2]))
         found: dict[int, _Shape] = {}
         for turn in turns:
             size = halves[turn % 2]
@@ -238,8 +239,6 @@ class _Nest:
             if any(turned.symmetric_difference(s.geometry).area <= _SYMMETRIC * turned.area for s in found.values()):
                 continue
             found[turn] = _Shape(turned, middle * 1j**turn, size, np.rot90(cover, turn, axes=(0, 1)))
-        if not found:
-            raise DoesNotFitError(name, (2 * half.real, 2 * half.imag))
         return found
 
     def _has_room(self, half: complex) -> bool:

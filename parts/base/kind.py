@@ -34,6 +34,8 @@ K = TypeVar("K", bound="MaterialKeys")
 T = TypeVar("T")
 # offers for one key that are tried, one after another: each limit may lie beyond the one before
 _MOST_OFFERS = 4
+# parts of a limit by which further values are tried where something beside it stops it; how near that is found
+_FURTHER, _SHARE = (1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2, 3 / 4, 7 / 8, 1.0), 8e-4
 # the keys of every part of a scene, for what is made from another part's
 Others = Mapping[str, "MaterialKeys"]
 
@@ -210,9 +212,17 @@ class Kind(Generic[K, T]):
         same key is tried then.
         """
 
+        # what an offer makes is asked for again by what hangs on it
+        last: dict[object, tuple[K, T]] = {}
+
         def made(value: object) -> tuple[K, T]:
-            changed = tried(keys, told.name, value)
-            return changed, self.thing(changed, others)
+            key = repr(value)
+            if key not in last:
+                changed = tried(keys, told.name, value)
+                thing = self.thing(changed, others)
+                last.clear()
+                last[key] = changed, thing
+            return last[key]
 
         def works(value: object) -> bool:
             changed, thing = made(value)
@@ -220,6 +230,10 @@ class Kind(Generic[K, T]):
             if chamfered:
                 self.solid(changed, thing, 0.0)
             return True
+
+        def stands(value: object) -> bool:
+            fits(*made(value))
+            return works(value)
 
         def cure() -> Nearest | None:
             found = alone()
@@ -229,12 +243,22 @@ class Kind(Generic[K, T]):
                 try:
                     fits(*made(found.value))
                 except ParameterError as again:
-                    found = again.nearest if again.name == told.name else None
+                    if again.name != told.name:
+                        return beyond(found, stands, _SHARE)
+                    found = again.nearest
                 except (GeometryError, ArithmeticError, SceneError):
-                    return None
+                    return beyond(found, stands, _SHARE)
                 else:
                     return found
             return None
+
+        def beyond(found: Nearest, holds: Callable[[float], bool], share: float = 0.0) -> Nearest | None:
+            """Further from what was given than what something beside it stops: a chamfer, a hub, a mate."""
+            given, limit = told.value, found.value
+            if not isinstance(given, float) or not isinstance(limit, float):
+                return None
+            way = math.copysign(abs(limit), limit - given)
+            return nearest(holds, given, [limit + way * further for further in _FURTHER], share=share)
 
         def alone() -> Nearest | None:
             found, given = told.nearest, told.value
@@ -246,11 +270,7 @@ class Kind(Generic[K, T]):
             try:
                 works(found.value)
             except (GeometryError, ArithmeticError):
-                if not chamfered or not isinstance(given, float) or not isinstance(found.value, float):
-                    return None
-                # further from what was given, until a chamfer beside it has its room too
-                way = math.copysign(abs(found.value), found.value - given)
-                return nearest(works, given, [found.value + way * 2.0**k for k in range(-5, 0)])
+                return beyond(found, works, 0.0 if chamfered else _SHARE)
             return found
 
         told = as_typed(keys, refusal)

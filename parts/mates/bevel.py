@@ -6,6 +6,8 @@ import cmath
 import math
 from typing import TYPE_CHECKING, Annotated, Any
 
+from msgspec import Struct
+
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
@@ -122,6 +124,16 @@ class BevelPairKind(MateKind[BevelPairSpec, "BevelGear", "BevelGear"]):
     name, keys = "bevel_pair", BevelPairSpec
     joins = (("bevel_gear", "bevel_gear"),)
 
+    def check(self, keys: BevelPairSpec, first: Struct, second: Struct) -> None:
+        """The second is what the first is made for."""
+        for key, wanted in (("number_of_teeth", "mate_teeth"), ("mate_teeth", "number_of_teeth")):
+            if getattr(second, key) != getattr(first, wanted):
+                raise ParameterError(key, getattr(second, key), "not_of_its_mate", Nearest(getattr(first, wanted)))
+        for key in _ALIKE:
+            same_size(key, getattr(second, key), getattr(first, key), "not_of_its_mate")
+        for key in _OPPOSITE:
+            same_size(key, getattr(second, key), -getattr(first, key) or 0.0, "not_of_its_mate")
+
     def thinning(self, keys: BevelPairSpec, first: End[BevelGear], second: End[BevelGear]) -> tuple[float, float]:
         """Half of the backlash each."""
         if keys.normal_backlash is None:
@@ -137,7 +149,7 @@ class BevelPairKind(MateKind[BevelPairSpec, "BevelGear", "BevelGear"]):
         """Each must be what the other one is made for."""
         from geometry.gears.bevel.pair import BevelPair
 
-        _check(first, second)
+        _check_lines(first, second)
         pair, angle = BevelPair(first.thing, second.thing), first.thing.shaft_angle
         distances = first.thing.mounting_distance, second.thing.mounting_distance
         return BevelMating(
@@ -155,21 +167,8 @@ class BevelPairKind(MateKind[BevelPairSpec, "BevelGear", "BevelGear"]):
         )
 
 
-def _check(first: End[BevelGear], second: End[BevelGear]) -> None:
-    """Refuse the second's key in which it is not what the first is made for."""
-    one, other = first.keys, second.keys
-    for key, wanted in (("number_of_teeth", "mate_teeth"), ("mate_teeth", "number_of_teeth")):
-        if getattr(other, key) != getattr(one, wanted):
-            raise ParameterError(key, getattr(other, key), "not_of_its_mate", Nearest(getattr(one, wanted)))
-    for key in _ALIKE:
-        same_size(key, getattr(other, key), getattr(one, key), "not_of_its_mate")
-    for key in _OPPOSITE:
-        same_size(key, getattr(other, key), -getattr(one, key) or 0.0, "not_of_its_mate")
-    _check_lines(first, second)
-
-
 def _check_lines(first: End[BevelGear], second: End[BevelGear]) -> None:
-    """The same of tooth lines: those of both are one on the crown gear, seen from its two sides."""
+    """Refuse the second's key in which tooth lines are not the first's on the crown gear, seen from its two sides."""
     if first.thing.is_straight and second.thing.is_straight:
         return
     for key in ("spiral_angle_deg", "tooth_line"):

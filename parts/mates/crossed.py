@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec.structs import replace as changed
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 
 # between axes that are parallel, rad
 _PARALLEL = 1e-7
+# share of an angle or a distance that is one step; a contact ratio that is some
+_STEP, _TINY = 1e-3, 1e-12
 
 ShaftAngle = Annotated[
     float,
@@ -221,11 +224,16 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
             else:
                 toward = own.working_centre_distance if keys.leaves(own.normal_backlash) else own.touching_distance
 
-            def holds(value: float) -> bool:
+            def holds(value: float, ratio: float = wanted) -> bool:
                 pair = tried(key, value)
-                return pair.contact_ratio >= wanted and keys.leaves(pair.normal_backlash)
+                return pair.contact_ratio >= ratio and keys.leaves(pair.normal_backlash)
 
-            return nearest(holds, given, toward)
+            found = nearest(holds, given, toward)
+            if found is None or not isinstance(found.value, float):
+                return found
+            beyond = found.value + math.copysign(_STEP * found.value, given - found.value)
+            # where teeth that follow each other with interruptions run too, this is no limit, but what to take
+            return Nearest(found.value) if kept(partial(holds, ratio=_TINY), beyond) else found
 
         raise ParameterError(f"mate.{key}", given, code, cure)
 

@@ -7,11 +7,13 @@ import math
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from msgspec import Struct
+
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import nearest
 from parts.base.mate import End, MateKind, Pose, Touching
 from parts.keys.mate import GearPairKeys
-from parts.keys.worm import AngleError, AxialError, DistanceError
+from parts.keys.worm import AngleError, AxialError, DistanceError, quotient_of
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
@@ -118,12 +120,29 @@ class WormPair(MateKind[WormPairSpec, "WheelThing", "WormBody"]):
     name, keys = "worm_pair", WormPairSpec
     joins = (("worm_wheel", "worm"),)
 
+    def check(self, keys: WormPairSpec, first: Struct, second: Struct) -> None:
+        """The worm is the one that the wheel is for."""
+        from parts.gears.worm.part import WormSpec
+        from parts.gears.worm_wheel.part import WormWheelSpec
+
+        assert isinstance(first, WormWheelSpec)
+        assert isinstance(second, WormSpec)
+        for key in _ALIKE:
+            same_size(key, getattr(second, key), getattr(first, key), "not_of_its_mate")
+        for key in ("number_of_starts", "form", "hand"):
+            if getattr(second, key) != getattr(first, key):
+                raise ParameterError(key, getattr(second, key), "not_of_its_mate", Nearest(getattr(first, key)))
+        if not math.isclose(quotient_of(second), first.diameter_quotient, rel_tol=1e-9):
+            key, wanted = "diameter_quotient", first.diameter_quotient
+            if second.lead_angle_deg is not None:
+                key, wanted = "lead_angle_deg", math.degrees(math.atan2(first.number_of_starts, wanted))
+            raise ParameterError(key, getattr(second, key), "not_of_its_mate", Nearest(wanted))
+
     def mating(self, keys: WormPairSpec, first: End[WheelThing], second: End[WormBody]) -> WormMating:
         """The worm is the one that the wheel is for."""
         from geometry.gears.worms.contact import AxisErrors
 
         drive, worm = first.thing.drive, second.thing.thread.worm
-        _check(first, second)
         _check_room(first.thing, second.thing, first.thing.drive.centre_distance + keys.centre_distance_error)
         angle = math.radians(keys.axis_angle_error_deg)
         errors = AxisErrors(keys.centre_distance_error, angle, keys.wheel_axial_error)
@@ -142,26 +161,6 @@ class WormPair(MateKind[WormPairSpec, "WheelThing", "WormBody"]):
             drive=drive,
             errors=errors,
         )
-
-
-def _check(first: End[WheelThing], second: End[WormBody]) -> None:
-    """Refuse the worm's key in which it is not the wheel's."""
-    from parts.gears.worm.part import WormSpec
-    from parts.gears.worm_wheel.part import WormWheelSpec
-
-    wheel, own, worm = first.keys, second.keys, second.thing.thread.worm
-    assert isinstance(wheel, WormWheelSpec)
-    assert isinstance(own, WormSpec)
-    for key in _ALIKE:
-        same_size(key, getattr(own, key), getattr(wheel, key), "not_of_its_mate")
-    for key in ("number_of_starts", "form", "hand"):
-        if getattr(own, key) != getattr(wheel, key):
-            raise ParameterError(key, getattr(own, key), "not_of_its_mate", Nearest(getattr(wheel, key)))
-    if not math.isclose(worm.diameter_quotient, wheel.diameter_quotient, rel_tol=1e-9):
-        key, wanted = "diameter_quotient", wheel.diameter_quotient
-        if own.lead_angle_deg is not None:
-            key, wanted = "lead_angle_deg", math.degrees(math.atan2(wheel.number_of_starts, wheel.diameter_quotient))
-        raise ParameterError(key, getattr(own, key), "not_of_its_mate", Nearest(wanted))
 
 
 def _check_room(wheel: WheelThing, body: WormBody, distance: float) -> None:

@@ -100,6 +100,42 @@ def check_fit(
             raise refusal.renamed(key if owner == part else f"{owner}.{key}") from refusal
 
 
+def unlike(
+    part: str, specs: Mapping[str, MaterialKeys], mates: Sequence[MateKeys], part_of: PartOf, source: str
+) -> SceneError | None:
+    """The refusal of a part that cannot be made in the key in which it differs from its mate, where that is the cure.
+
+    None where its mates take its keys, or where the value that they want makes no part of it that they take.
+    """
+    keys = specs[part]
+    for number, mate in enumerate(mates, 1):
+        pair = [part_of[mate.first], part_of[mate.second]]
+        if part not in pair:
+            continue
+        # of two alike the second is told its key
+        if type(specs[pair[0]]) is type(specs[pair[1]]):
+            pair.sort(key=lambda name: name == part)
+        other = specs[pair[1 - pair.index(part)]]
+        try:
+            MATES[str(mate.__struct_config__.tag)].check(mate, specs[pair[0]], specs[pair[1]])
+        except ParameterError as refusal:
+            owner, _, key = refusal.name.rpartition(".")
+            own = part == pair[0 if owner == "first" else 1]
+            given, theirs = value_at(keys, key), refusal.nearest if own else Nearest(value_at(other, key))
+            if owner not in ("", "first") or theirs is None or None in (given, theirs.value):
+                continue
+
+            def works(value: object, key: str = key) -> None:
+                changed = {**specs, part: tried(keys, key, value)}
+                end = End(changed[part], KINDS[str(keys.__struct_config__.tag)].thing(changed[part], changed))
+                check_fit(part, {part: end}, changed, mates, part_of)
+
+            if _holds(works, theirs.value):
+                told = ParameterError(key, given, refusal.code, theirs, **refusal.numbers)
+                return placed(source, f"mates[{number}]: parts.{part}", told, unit_of(type(keys), key))
+    return None
+
+
 def pair_refused(
     refusal: ParameterError,
     ends: Ends,

@@ -536,6 +536,11 @@ def _made(scene: SceneFile, specs: dict[str, MaterialKeys], source: str) -> tupl
         try:
             gears[key] = kind.thing(spec, specs)
         except ParameterError as refusal:
+            from parts.scene.checks import unlike
+
+            part_of = {name: str(instance.part) for name, instance in scene.instances.items()}
+            if found := unlike(key, specs, scene.mates, part_of, source):
+                raise found from refusal
             fits = partial(_check_fit, scene, specs, key)
             raise kind.refused(spec, specs, refusal, source, f"parts.{key}", fits) from refusal
         except GeometryError as error:

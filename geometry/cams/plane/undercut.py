@@ -190,9 +190,9 @@ def lost_to_undercut(cam: DiskCam, grow: float = 0.0) -> float | None:
     return lost if lost > _REACH * (1.0 if cam.swings else cam.base_radius) else 0.0
 
 
-def is_uncut(cam: DiskCam) -> bool:
+def is_uncut(cam: DiskCam, grow: float = 0.0) -> bool:
     """Whether nothing is lost to undercut, without asking how much where the envelope runs back."""
-    return is_whole(cam) or lost_to_undercut(cam) is None
+    return is_whole(cam, grow) or lost_to_undercut(cam, grow) is None
 
 
 def _samples(cam: DiskCam, grow: float) -> tuple[Real, np.ndarray, Complex]:

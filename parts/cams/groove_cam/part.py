@@ -163,7 +163,7 @@ def _roller_cam(spec: GrooveCamSpec) -> DiskCam:
 
 def _check_walls(keys: GrooveCamSpec, cam: DiskCam) -> None:
     """Both walls are whole: the roller is smaller than every hollow of its path."""
-    from geometry.cams.plane.undercut import is_whole
+    from geometry.cams.plane.undercut import is_uncut
     from geometry.cams.plane.walls import lost_on
 
     lost = lost_on(cam, keys.roller_clearance)
@@ -172,7 +172,7 @@ def _check_walls(keys: GrooveCamSpec, cam: DiskCam) -> None:
 
     def whole(other: GrooveCamSpec) -> bool:
         made = _roller_cam(other)
-        return all(is_whole(made, grow) for grow in (0.0, 2 * made.radius + other.roller_clearance))
+        return all(is_uncut(made, grow) for grow in (0.0, 2 * made.radius + other.roller_clearance))
 
     if (refusal := by_impact(keys, cam.motion, whole, swings=cam.swings, both=True)) is not None:
         raise refusal

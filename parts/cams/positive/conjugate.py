@@ -148,7 +148,7 @@ def _pair(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam) -> Conjugate:
 
 def _nearest_distance(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam, key: str) -> Nearest | None:
     """The distance (mm) or angle (degrees) of the rollers nearest to the given one with which the cam is whole."""
-    from geometry.cams.plane.undercut import is_whole
+    from geometry.cams.plane.undercut import is_uncut
 
     radius = owner.follower_radius if keys.follower_radius is None else keys.follower_radius
     usual = _distance_of_base(first, first.base_radius, radius, keys.arm_length)
@@ -158,7 +158,7 @@ def _nearest_distance(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam, ke
         changed = replace(keys, **{key: value})
         cam = _pair(changed, owner, first).cam
         _checked_holes(changed, owner, first, inner_radius(cam))
-        return is_whole(cam)
+        return is_uncut(cam)
 
     return nearest(works, getattr(keys, key), end)
 
@@ -194,14 +194,14 @@ def _distance_of_base(first: DiskCam, base: float, radius: float, arm_length: fl
 
 def _check_whole(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam, pair: Conjugate) -> None:
     """No undercut; else what base circle of this cam is large enough, where none follows from the rollers."""
-    from geometry.cams.plane.undercut import is_whole, lost_to_undercut
+    from geometry.cams.plane.undercut import is_uncut, lost_to_undercut
 
     if lost_to_undercut(pair.cam) is None:
         return
     found = inner_radius(pair.cam)
 
     def works(base: float) -> bool:
-        return is_whole(_pair(replace(keys, base_circle_radius=base), owner, first).cam)
+        return is_uncut(_pair(replace(keys, base_circle_radius=base), owner, first).cam)
 
     raise UndercutError(
         "base_circle_radius", found, "undercut_second", lambda: nearest(works, found, larger_bases(found))

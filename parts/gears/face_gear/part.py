@@ -19,6 +19,7 @@ from geometry.solids.hub_holes import least_wall
 from geometry.solids.wheel import check_wheel
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
+from parts.base.schema import value_at
 from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, in_modules, mm
 from parts.keys.holes import (
     BoreTable,
@@ -46,6 +47,9 @@ _ROUND, _USUAL_PLATE, _THIN = 0.9, 2.5, 0.3
 _DEDENDA = CUTTER_ADDENDUM, 1.2, 1.15, 1.1, 1.05
 # addenda and dedenda that are tried where teeth have no width, part of the given one
 _LOWER = (0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)
+# what may be to blame for teeth that cannot be, and what takes it out of play; the least usual dedendum, modules
+_THINNED = {"circumferential_thinning": 0.0}
+_TYPED, _USUAL = {"pinion_profile_shift_coefficient": 0.0, "pressure_angle_deg": 20.0}, 1.0
 # mm: how near pictures are to the edges of tips
 _SEEN = 1e-7
 # how near to the greatest one a value is offered, modules
@@ -200,17 +204,23 @@ def _cured(keys: FaceGearSpec, refusal: ParameterError) -> ParameterError:
             return _made(changed(keys, **{key: value}))
 
         def cure() -> Nearest | None:
-            """With tips that leave something for a backlash, where there are such."""
+            """With tips that leave something for a backlash, where there are such: a value of its own, no limit."""
             search = partial(nearest, given=given, toward=ends, enough=_NEAR * keys.module)
-            return search(lambda value: not face_gear_findings(builds(value))) or search(lambda v: bool(builds(v)))
+            roomy = search(lambda value: not face_gear_findings(builds(value)))
+            return Nearest(roomy.value) if roomy else search(lambda v: bool(builds(v)))
 
         return ParameterError(key, given, refusal.code, cure, **refusal.numbers)
 
-    thinned = cured("circumferential_thinning", keys.circumferential_thinning, (0.0,))
-    if keys.circumferential_thinning and thinned.nearest is not None:
-        return thinned
     assert isinstance(refusal.value, float)
-    return cured(refusal.name, refusal.value, [refusal.value * share for share in _LOWER])
+    own, suspects = cured(refusal.name, refusal.value, [refusal.value * s for s in _LOWER]), dict(_THINNED)
+    if value_at(keys, refusal.name) is None and not (own.nearest and float(str(own.nearest.value)) >= _USUAL):
+        # nobody typed what is refused, and none that is usual works
+        suspects |= _TYPED
+    for key, harmless in suspects.items():
+        given = getattr(keys, key)
+        if given != harmless and (found := cured(key, given, (harmless,))).nearest is not None:
+            return found
+    return own
 
 
 class FaceGearKind(Kind[FaceGearSpec, FaceGear]):

@@ -144,13 +144,14 @@ def test_an_offer_keeps_what_stands_beside_it(part: dict[str, Any], key: str) ->
         ("rack_and_pinion", "rack.pressure_angle_deg", 40.0, True),
         # what is offered for another key than the wrong one, which the mate then refuses
         ("thesis_internal_pair", "ring.module", 9.0, False),
-        ("bevel_pair", "pinion.addendum_coefficient", 0.101, False),
+        # before: no more than a rounding without room; its mate has another
+        ("bevel_pair", "pinion.addendum_coefficient", 0.101, True),
         # the next mate of the part: no single key cures it
         ("idler_train", "driver.module", 60.0, False),
         # what is made of the part: a yoke of a cam whose phases make a whole turn, but no constant breadth
         ("yoke_cam", "cam.phases.1.angle_deg", 90.0, False),
-        # both gears of a pair have what each may have alone
-        ("oval_gears", "ellipse.circumferential_thinning", 1000.0, False),
+        # both gears of a pair have what each may have alone, and its mate leaves no thinning of their own
+        ("oval_gears", "ellipse.circumferential_thinning", 1000.0, True),
     ],
 )
 def test_an_offer_is_one_that_mates_and_what_is_made_of_the_part_take(
@@ -161,6 +162,59 @@ def test_an_offer_is_one_that_mates_and_what_is_made_of_the_part_take(
     refusal = refusal_of(raw)
     assert refusal is not None
     assert (refusal.nearest is not None) is offered
+    assert judged(raw, refusal) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "place", "value", "code", "offered"),
+    [
+        # before: a face too wide in 2 s, a throat, a tooth, a bore and a hub that nobody had changed
+        ("thesis_worm_1", "wheel.module", 0.5, "not_of_its_mate", 5.0),
+        ("thesis_worm_1", "wheel.module", 500.0, "not_of_its_mate", 5.0),
+        ("thesis_worm_1", "wheel.number_of_starts", 12, "not_of_its_mate", 1),
+        ("worm_set_print", "worm.diameter_quotient", 3.0, "not_of_its_mate", 10.0),
+        ("bevel_pair", "wheel.shaft_angle_deg", 170.0, "not_of_its_mate", 90.0),
+        ("spiral_bevel_pair", "wheel.number_of_teeth", 3, "not_of_its_mate", 40),
+        ("bevel_reducer", "bevel_wheel.tip_clearance_coefficient", 1.0, "not_of_its_mate", 0.2),
+    ],
+)
+def test_a_part_that_cannot_be_is_told_by_the_key_in_which_it_is_not_its_mates(
+    name: str, place: str, value: float, code: str, offered: float
+) -> None:
+    raw = put(scenes()[name], ("parts", *place.split(".")), value)
+    refusal = refusal_of(raw)
+    assert refusal is not None
+    assert (refusal.key.partition("parts.")[2], refusal.code) == (place, code)
+    assert refusal.nearest is not None
+    assert refusal.nearest.value == offered
+    assert judged(raw, refusal) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "place", "value"),
+    [
+        # before: nothing was offered where the backlash of the mate stopped the part's own limit
+        ("crossed_helical_pair", "wheel.tip_rounding", 2.0),
+        ("crossed_helical_pair", "wheel.tip_chamfer", 100.0),
+        ("face_gear_pair", "pinion.circumferential_thinning", 45.0),
+        ("face_gear_pair", "wheel.circumferential_thinning", 60.0),
+        ("external", "a.tip_diameter", 1e5),
+        # or the hub that of the bore
+        ("print_gear", "gear.bore.across_flats", 40.0),
+        # a size that nobody typed was refused
+        ("new face_gear", "gear.pinion_profile_shift_coefficient", 3.0),
+        # a quick test that proves no undercut was the limit of one which leaves some, and what runs on without gaps
+        ("conjugate", "b.roller_distance", 39.0),
+        # a value that leaves room for a backlash was told as a limit, beyond which teeth stand
+        ("new face_gear", "gear.circumferential_thinning", 20.0),
+    ],
+)
+def test_what_stands_beside_a_limit_moves_it(name: str, place: str, value: float) -> None:
+    raw = put(scenes()[name], ("parts", *place.split(".")), value)
+    refusal = refusal_of(raw)
+    assert refusal is not None
+    assert refusal.key == f"parts.{place}"
+    assert refusal.nearest is not None
     assert judged(raw, refusal) == []
 
 
