@@ -15,7 +15,7 @@ from ezdxf.document import Drawing
 from ezdxf.entities import DXFGraphic
 
 from exporters.formats.read_drawing import read_drawing
-from exporters.formats.readback import ReadError
+from parts.base.readback import ReadError
 from tests.exporters.making import part_keys, run, table, write_scene
 from tests.exporters.outside import Gear
 
