@@ -165,10 +165,8 @@ def _check_places(sheet: ReadSheet, canvas: Canvas, failures: list[str]) -> None
         # lengths are as exact as the widths of all letters together
         longest = max((run.width for run in runs if run.text == text), default=0.0)
         away, strange = _unmatched(wanted, found, sheet.rounding * max(1.0, longest / _PER_PLACE))
-        lost, more = (
-            N_("{text} does not stand at {at} mm as it should"),
-            N_("{text} stands at {at} mm where it should not"),
-        )
+        lost = N_("{text} does not stand at {at} mm as it should")
+        more = N_("{text} stands at {at} mm where it should not")
         failures += [fault(lost, text=text, at=_told(wanted[k, 0])) for k in away]
         failures += [fault(more, text=text, at=_told(found[k, 0])) for k in strange]
 
@@ -189,10 +187,8 @@ def _check_strokes(sheet: ReadSheet, canvas: Canvas, allowed: float, failures: l
             return _follows(samples[n], curves[k], allowed)
 
         away, strange = _unmatched(wanted, found, allowed, follows)
-        lost, more = (
-            N_("{layer}: no line from {start} to {end} mm"),
-            N_("{layer}: a line too many from {start} to {end} mm"),
-        )
+        lost = N_("{layer}: no line from {start} to {end} mm")
+        more = N_("{layer}: a line too many from {start} to {end} mm")
         for text, row in (*((lost, wanted[k]) for k in away), *((more, found[k]) for k in strange)):
             failures.append(fault(text, layer=layer, start=_told(row[0]), end=_told(row[2])))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,23 @@ if TYPE_CHECKING:
 
 # a file that is larger, or unpacks to more, is none of ours
 MOST_READ_BYTES = 1_000_000_000
+
+
+_Name = TypeVar("_Name")
+
+
+def closed_chains(following: dict[_Name, _Name]) -> list[list[_Name]]:
+    """The chains of what follows what in the outline of a wall, which is used up."""
+    chains = []
+    while following:
+        first, at = following.popitem()
+        chain = [first]
+        while at != first:
+            refuse_if(at not in following, "the outline of a wall is not closed")
+            chain.append(at)
+            at = following.pop(at)
+        chains.append(chain)
+    return chains
 
 
 class Loop(Record):
@@ -125,17 +142,8 @@ class ReadMesh(Record):
                 strict=True,
             )
         )
-        loops = []
-        while following:
-            first, at = following.popitem()
-            keys = [first]
-            while at != first:
-                refuse_if(at not in following, "the outline of a wall is not closed")
-                keys.append(at)
-                at = following.pop(at)
-            points = self._cut(np.array(keys), z)
-            loops.append(Loop(points, np.zeros(len(points)), ""))
-        return tuple(loops)
+        points = [self._cut(np.array(chain), z) for chain in closed_chains(following)]
+        return tuple(Loop(own, np.zeros(len(own)), "") for own in points)
 
     def _cut(self, keys: NDArray[np.int64], z: float) -> Complex:
         a, b = self.vertices[keys[:, 0]], self.vertices[keys[:, 1]]

@@ -38,7 +38,6 @@ Curves: TypeAlias = "tuple[Outline, ...]"
 Shape: TypeAlias = "Chords | Curves | SolidCurves"
 # from the strongest to the weakest
 BOUNDS = ("exact", "certified", "sampled")
-# name, name of the part, place of each instance
 # of an instance: its id, its part, its place, and the sub-assembly that it belongs to, if any
 Places = Sequence[tuple[str, str, Placement3, str | None]]
 # more edges than any receiving program opens; one file of them is some 300 MB

@@ -147,10 +147,8 @@ def _workspace(found: dict[str, Any], told: Words, names: Mapping[str, str]) -> 
     rows = ((count, ", ".join(names.get(d, d) for d in drives)) for drives, count in counts.items())
     held = [told.text(over if drives else still, pairs=pairs_counted(n), drives=drives) for n, drives in rows]
     rest = [told.text(_REST[why], pairs=pairs_counted(len(pairs))) for why, pairs in found["rest"].items() if pairs]
-    head, none = (
-        N_("solids wherever drives may stand: {held}; {poses}"),
-        N_("solids wherever drives may stand: none can meet another"),
-    )
+    head = N_("solids wherever drives may stand: {held}; {poses}")
+    none = N_("solids wherever drives may stand: none can meet another")
     lines = [told.text(head if held else none, held=", ".join(held), poses=poses)]
     lines += [told.text("cannot meet: {rest}", rest=", ".join(rest))] if rest else []
     if found["fits"]:

@@ -105,11 +105,9 @@ class Film(Record, FileJob):
 
     def late(self, seconds: float) -> list[str]:
         """What is wrong with a file that takes so many seconds for a loop."""
-        right, told = (
-            math.isclose(seconds, self.seconds, rel_tol=1e-6),
-            N_("a loop takes {seconds:g} s instead of {wanted:g} s"),
-        )
-        return unless(right or not seconds, told, seconds=seconds, wanted=self.seconds)
+        told = N_("a loop takes {seconds:g} s instead of {wanted:g} s")
+        right = not seconds or math.isclose(seconds, self.seconds, rel_tol=1e-6)
+        return unless(right, told, seconds=seconds, wanted=self.seconds)
 
     def off_place(self, worst: float, shape: float, declared: float) -> list[str]:
         """What is wrong with a file whose instances are so far off their places, and its shapes off theirs, mm."""

@@ -86,10 +86,8 @@ def _way(step: StepSpec) -> Message:
     if (x, y, z) in _WAYS:
         way = Message(_WAYS[x, y, z])
     if step.outwards is not None:
-        outwards, inwards = (
-            N_("{way}, then {length:.4g} mm outwards from its axis"),
-            N_("{way}, then {length:.4g} mm inwards to its axis"),
-        )
+        outwards = N_("{way}, then {length:.4g} mm outwards from its axis")
+        inwards = N_("{way}, then {length:.4g} mm inwards to its axis")
         way = message(outwards if step.outwards > 0 else inwards, way=way, length=abs(step.outwards))
     if step.one_hole:
         way = message("{way}, each through the hole of the first, the row turned on", way=way)

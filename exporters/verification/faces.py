@@ -51,10 +51,8 @@ def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: f
     reach = body.reach()
     failures += deviation_failures(deviation, declared, tolerance, reach)
     failures += unless(not lone, "{count} faces of the part have no triangle", count=lone)
-    bound, told = (
-        declared * float(sizes.sum()) / 2 + 1e-9 * exact,
-        N_("volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3"),
-    )
+    bound = declared * float(sizes.sum()) / 2 + 1e-9 * exact
+    told = N_("volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3")
     failures += unless(abs(volume - exact) <= bound, told, volume=volume, exact=exact)
     edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
     measured = count | {

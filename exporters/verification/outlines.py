@@ -147,10 +147,8 @@ def _check_loop(loop: Loop, profile: Profile, declared: float, known_simple: boo
     failures = unless(not np.any(starts == ends), "a contour repeats a vertex")
     exact, found = abs(profile_area(profile)), loop.size
     deviation, length = _deviation(loop, profile, declared)
-    bound, told = (
-        max(deviation, declared) * length + 1e-12 * exact,
-        N_("encloses {found:.9g} mm^2 instead of {exact:.9g} mm^2"),
-    )
+    bound = max(deviation, declared) * length + 1e-12 * exact
+    told = N_("encloses {found:.9g} mm^2 instead of {exact:.9g} mm^2")
     failures += unless(not abs(found - exact) > bound, told, found=found, exact=exact)
     shares = _shares(len(starts))
     few = shares[:: max(1, len(shares) // 4)]

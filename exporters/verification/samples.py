@@ -46,7 +46,8 @@ def inner_points(model: Model, faces: Index) -> Real:
     for patches in model.patches:
         mine = np.flatnonzero(np.isin(patches.faces, faces))
         pieces += [
-            patches.grid(nodes, nodes[_KEPT], mine[k : k + 100])[0].reshape(-1, 3) for k in range(0, len(mine), 100)
+            patches.grid(nodes, nodes[_KEPT], mine[k : k + _BLOCK])[0].reshape(-1, 3)
+            for k in range(0, len(mine), _BLOCK)
         ]
     for face in faces[model.kind[faces] != SPLINE].tolist():
         mine = np.flatnonzero(model.uses.face == face)

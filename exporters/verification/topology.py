@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from exporters.formats.readback import ReadMesh
+from exporters.formats.readback import ReadMesh, closed_chains
 from parts.base.readback import refuse_if
 from parts.base.texts import fault
 
@@ -42,14 +42,4 @@ def chains(triangles: Triangles, on_level: NDArray[np.bool_], count: int) -> lis
     edges = edges[on_level[edges].all(axis=1)]
     refuse_if(not len(edges), "a wall has no edge at one of its ends")
     refuse_if(np.bincount(edges[:, 0], minlength=count).max() > 1, "an outline touches itself in a point")
-    following = dict(zip(edges[:, 0].tolist(), edges[:, 1].tolist(), strict=True))
-    chains = []
-    while following:
-        start, vertex = following.popitem()
-        chain = [start]
-        while vertex != start:
-            chain.append(vertex)
-            refuse_if(vertex not in following, "the outline of a wall is not closed")
-            vertex = following.pop(vertex)
-        chains.append(chain)
-    return chains
+    return closed_chains(dict(zip(edges[:, 0].tolist(), edges[:, 1].tolist(), strict=True)))

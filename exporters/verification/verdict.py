@@ -54,8 +54,6 @@ def volume_failures(volume: float, exact: float, bound: float, said: str | float
     """What is wrong with a volume, mm^3: measured off by more than a bound, or told in the file as another."""
     told = N_("volume {volume:.12g} mm^3 instead of {exact:.12g} mm^3")
     failures = unless(abs(volume - exact) <= bound, told, volume=volume, exact=exact)
-    near, told = (
-        said is None or abs(float(said) - exact) <= bound,
-        N_("says that its volume is {said} mm^3 instead of {exact:.12g} mm^3"),
-    )
+    near = said is None or abs(float(said) - exact) <= bound
+    told = N_("says that its volume is {said} mm^3 instead of {exact:.12g} mm^3")
     return failures + unless(near, told, said=said, exact=exact)

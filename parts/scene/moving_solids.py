@@ -128,12 +128,12 @@ class _Space:
     def hold(self, found: MotionFound, pair: tuple[Instance, Instance], *, is_mated: bool) -> None:
         """One pair: at first what both sweep about their own axes, which needs few poses, then the solids."""
         lift = lift_between(pair, self.course)
-        if lift is not None and _pass_by((self.shapes[pair[0].part], self.shapes[pair[1].part]), lift):
+        own = (self.shapes[pair[0].part], self.shapes[pair[1].part])
+        if lift is not None and _pass_by(own, lift):
             return
         spins = [i.id in self.course.spins and self.shapes[i.part].count(0.0, math.inf) > 0 for i in pair]
         if any(spins) and not is_mated and self._sweeps_past(found, pair, (spins[0], spins[1])):
             return
-        own = (self.shapes[pair[0].part], self.shapes[pair[1].part])
         self._search(found, pair, own, _MATED_POSES if is_mated else MOST_POSES, reports=not is_mated)
 
     def _sweeps_past(self, found: MotionFound, pair: tuple[Instance, Instance], spins: tuple[bool, bool]) -> bool:

@@ -6,7 +6,6 @@ import cmath
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -37,10 +36,6 @@ from parts.base.mate import Mating, Pose, Toothed
 from parts.base.refusal import SceneError
 from parts.scene.instances import DriveSpec
 from parts.scene.standing import Instance
-
-if TYPE_CHECKING:
-    pass
-
 
 Stand = Mapping[str, Instance]
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from geometry.base.distinct import distinct
 from geometry.base.errors import ThinWallError
 from geometry.base.record import replace
-from geometry.curves.curve import Complex
+from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Contour
 
 Triangles = NDArray[np.int64]
@@ -43,8 +44,7 @@ def cap_triangles(outer: Contour, holes: Sequence[Contour]) -> tuple[Triangles, 
     """
     loops = [c.expanded()[0] for c in (outer, *holes)]
     points = np.concatenate(loops)
-    ends = np.cumsum([len(loop) for loop in loops])
-    rings = [np.arange(end - len(loop), end) for loop, end in zip(loops, ends.tolist(), strict=True)]
+    rings = numbered(loops)
     if _area(loops[0]) < 0:
         # the rim of a recess runs clockwise as a wall, but bounds the floor from outside
         rings[0], outer = rings[0][::-1], Contour(loops[0], np.zeros(len(loops[0])))
@@ -60,6 +60,12 @@ def cap_triangles(outer: Contour, holes: Sequence[Contour]) -> tuple[Triangles, 
         if np.all(doubled > 0) and np.isclose(0.5 * doubled.sum(), area, rtol=1e-9):
             return triangles, added
     raise ThinWallError("the outlines touch or cross at this tolerance; make it smaller")
+
+
+def numbered(rings: Sequence[Complex | Real]) -> list[Triangles]:
+    """The numbers of the points of rings that stand one behind the other."""
+    ends = np.cumsum([0, *map(len, rings)]).tolist()
+    return [np.arange(a, b) for a, b in pairwise(ends)]
 
 
 def _area(polygon: Complex) -> float:

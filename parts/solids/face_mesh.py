@@ -33,7 +33,7 @@ from geometry.solids.charts import (
 from geometry.solids.faced import FacedBody, Proof
 from geometry.solids.faces import Circular, Cone, Edges, Extrusion, Faces, Solid, Sphere, Spline, SplineSurface, Torus
 from geometry.solids.unrolled import Side, unrolled
-from parts.solids.caps import Triangles, grid_decimals, library_triangles
+from parts.solids.caps import Triangles, grid_decimals, library_triangles, numbered
 from parts.solids.flips import constrained, inner_cells
 from parts.solids.grids import Grid, grid_between, rows_between
 from parts.solids.spacing import Bends, bend_places, graded
@@ -331,7 +331,7 @@ class _Mesher:
         if chart.is_plane:
             # on a grid, as the vertices will stand: what machines round differently chooses no triangle
             plane = np.concatenate(rings).round(self.decimals)
-            triangles = library_triangles(plane, _numbered(rings))
+            triangles = library_triangles(plane, numbered(rings))
         else:
             size = max(float(np.abs(chart.meridian(ring.imag)[0]).max()) for ring in rings)
             u_step = _chord(size, _ALONG * self.tolerance)
@@ -418,7 +418,7 @@ class _Mesher:
             triangles, inner = grid_between(grid, max(counts[0], counts[2]), max(counts[1], counts[3]))
             low, high = points[0], points[2][:, ::-1]
             s, t = inner.T
-            at = np.stack([np.interp(s, grid.sides[0][0], np.arange(low.shape[1]))])[0].round().astype(int)
+            at = np.interp(s, grid.sides[0][0], np.arange(low.shape[1])).round().astype(int)
             inside = low[:, at] * (1 - t)[:, None] + high[:, at] * t[:, None]
             numbers = np.concatenate([ring, self._added(inside)], axis=1)
             self._keep(_oriented(numbers[:, triangles].reshape(-1, 3), flip), self.tolerance, "sampled")
@@ -647,11 +647,6 @@ def _spliced(rings: list[Complex], names: list[Triangles]) -> tuple[list[Complex
         ring = np.concatenate([ring[:at], way, ring[at:]])
         name = np.concatenate([name[:at], np.roll(names[k], -to), name[at:]])
     return [ring, *(rings[k] for k in apart)], [name, *(names[k] for k in apart)]
-
-
-def _numbered(rings: Sequence[Complex]) -> list[Triangles]:
-    ends = np.cumsum([len(ring) for ring in rings]).tolist()
-    return [np.arange(end - len(ring), end) for ring, end in zip(rings, ends, strict=True)]
 
 
 def _templates(poles: Real) -> Triangles:

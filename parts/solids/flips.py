@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 from geometry.base.errors import ThinWallError
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
-from parts.solids.caps import Triangles, library_triangles
+from parts.solids.caps import Triangles, library_triangles, numbered
 
 # how near to the bounds cells may come, and how closely these are sampled for it, in cells
 _CLEAR, _SAMPLED = 0.45, 0.2
@@ -35,14 +34,14 @@ def constrained(rings: Sequence[Complex], cells: Cells | None) -> Triangles:
     ThinWallError
         The rings touch or cross.
     """
-    sizes = np.cumsum([0, *(len(ring) for ring in rings)]).tolist()
-    numbers = [np.arange(a, b) for a, b in pairwise(sizes)]
+    numbers = numbered(rings)
     points = np.concatenate(rings)
+    size = len(points)
     found = []
     if cells is not None:
         points = np.concatenate([points, cells.points])
-        found.append(cells.triangles + sizes[-1])
-        numbers += [loop + sizes[-1] for loop in cells.loops]
+        found.append(cells.triangles + size)
+        numbers += [loop + size for loop in cells.loops]
     found.append(library_triangles(points, numbers))
     kept = np.concatenate([np.stack([n, np.roll(n, 1)], axis=1) for n in numbers[: len(rings)]])
     return _flipped(points, np.concatenate(found), kept)

@@ -8,7 +8,7 @@ import numpy as np
 
 from geometry.base.record import Record
 from geometry.curves.curve import Real
-from parts.solids.caps import Triangles
+from parts.solids.caps import Triangles, numbered
 
 # of shares that are compared; by how much of a step a row is taken to lean
 _DIGITS, _LEAN = 11, 0.1
@@ -34,11 +34,14 @@ class Grid(Record, eq=False):
         """Of the points of each side."""
         return [own[: len(names)] for own, _, names in self.sides]
 
+    def chains(self) -> list[Triangles]:
+        """The places in the ring of the points of each side, both ends among them; of a pole one."""
+        starts = np.cumsum([0, *(len(names) - 1 for _, _, names in self.sides)]).tolist()
+        return [np.arange(a, b + 1) % starts[-1] for a, b in pairwise(starts)]
+
     def collapsed(self) -> Triangles:
         """The places in the ring of poles, where u is any."""
-        counts = [len(names) - 1 for _, _, names in self.sides]
-        starts = np.cumsum([0, *counts])
-        return np.array([starts[k] % starts[-1] for k in range(4) if counts[k] == 0], dtype=np.int64)
+        return np.array([chain[0] for chain in self.chains() if len(chain) == 1], dtype=np.int64)
 
 
 def grid_between(grid: Grid, u_count: int, v_count: int) -> tuple[Triangles, Real]:
@@ -46,12 +49,10 @@ def grid_between(grid: Grid, u_count: int, v_count: int) -> tuple[Triangles, Rea
 
     ``u_count``, ``v_count``: cells along both, whose diagonals go up with u and v.
     """
-    counts = [len(names) - 1 for _, _, names in grid.sides]
-    total = sum(counts)
-    starts = np.cumsum([0, *counts]).tolist()
-    chains = [np.arange(starts[k], starts[k + 1] + 1) % total for k in range(4)]
+    bottom, right, top, left = chains = grid.chains()
+    counts = [len(chain) - 1 for chain in chains]
     shares = grid.shares()
-    bottom, right, top, left = chains
+    total = sum(counts)
     if v_count == 1 and max(counts[1], counts[3]) <= 1:
         return _zipped(bottom, shares[0], top[::-1], 1 - shares[2][::-1]), np.zeros((0, 2))
     if u_count == 1 and max(counts[0], counts[2]) <= 1:
@@ -72,12 +73,8 @@ def grid_between(grid: Grid, u_count: int, v_count: int) -> tuple[Triangles, Rea
 
 def rows_between(grid: Grid, t: Real, rows: list[Real], *, rising: bool) -> tuple[Triangles, Real]:
     """The same between the sides of the unit square over rows at ``t`` that have their own places along u each."""
-    counts = [len(names) - 1 for _, _, names in grid.sides]
-    starts = np.cumsum([0, *counts]).tolist()
-    chains = [np.arange(starts[k], starts[k + 1] + 1) % starts[-1] for k in range(4)]
-    shares = grid.shares()
-    ends = starts[-1] + np.cumsum([0, *(len(row) for row in rows)])
-    inner = [np.arange(a, b) for a, b in pairwise(ends.tolist())]
+    chains, shares = grid.chains(), grid.shares()
+    inner = [own + sum(len(chain) - 1 for chain in chains) for own in numbered(rows)]
     first, last = (np.array([own[k] for own in inner]) for k in (0, -1))
     found = [
         _zipped(chains[0], shares[0], inner[0], rows[0]),

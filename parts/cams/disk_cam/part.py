@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeVar
 
 from msgspec import Meta, Struct
@@ -238,11 +239,9 @@ def _base_within(keys: CamSpec, prime: float, prime_of: Callable[[float], float]
     """The base circle in a prime circle; refused where it is too large for a file, or no larger than the roller."""
     radius = keys.follower_radius
     if prime > MOST_LENGTH:
-        key, cure = (
-            "least_transmission_angle_deg",
-            lambda: nearest(lambda x: prime_of(x) <= MOST_LENGTH, angle, _EASIER),
-        )
-        raise ParameterError(key, angle, "prime_circle_too_large", cure, prime=prime, most=MOST_LENGTH)
+        key = "least_transmission_angle_deg"
+        angle_for = partial(nearest, lambda x: prime_of(x) <= MOST_LENGTH, angle, _EASIER)
+        raise ParameterError(key, angle, "prime_circle_too_large", angle_for, prime=prime, most=MOST_LENGTH)
     if not prime - radius > 0:
         most = limit(prime * 0.9999, radius) if prime > 0 else None
         raise ParameterError("follower_radius", radius, "fills_prime_circle", most, prime=prime)

@@ -78,10 +78,8 @@ class CamMeasures(Record):
         every = np.concatenate(heights)
         measured["lift_by_diagram"] = lift = float(every.max() - every.min()) * self.lift_scale
         # an extreme within a curve lies between its samples: of a table of points only
-        near, told = (
-            lift <= self.lift + 2 * allowed * self.lift_scale,
-            N_("the diagram of S measures {measured:.6f} instead of {lift:.6f}"),
-        )
+        near = lift <= self.lift + 2 * allowed * self.lift_scale
+        told = N_("the diagram of S measures {measured:.6f} instead of {lift:.6f}")
         failures += unless(near, told, measured=lift, lift=self.lift)
 
     def _check_radius(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:

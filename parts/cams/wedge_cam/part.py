@@ -255,10 +255,8 @@ def _check_holes(keys: WedgeCamSpec, cam: WedgeCam) -> None:
         outside = not _inside(cam, at)
         if outside or (most <= 0 and hole.diameter > most):
             place = _nearest_place(cam, hole, holes[:index], outline)
-            works, code = (
-                None if place is None else Nearest(place),
-                "hole_outside_plate" if outside else "no_room_there",
-            )
+            works = None if place is None else Nearest(place)
+            code = "hole_outside_plate" if outside else "no_room_there"
             if outside or place is not None:
                 raise ParameterError(f"{key}.x", hole.x, code, works, y=hole.y)
             raise ParameterError(f"{key}.diameter", hole.diameter, code)
