@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from geometry.base.record import replace
@@ -10,6 +11,7 @@ from parts.base.texts import N_
 from parts.chains import page as sprocket_page
 from parts.chains.sprocket import SprocketSpec, shape_of_sprocket
 from parts.drawing.disk_views import disk_drawing
+from parts.drawing.extent import reach
 from parts.drawing.wheel_views import Groove
 from parts.drawing.working import PartDrawing, Size, Subject
 from parts.pages.data_table import DataRow, DataTable, Mated, rows_of, standard_told
@@ -29,12 +31,19 @@ def part_drawing(subject: Subject) -> PartDrawing:
     shape, circles = shape_of_sprocket(keys, sprocket), ("tip_diameter", "pitch_diameter", "root_diameter")
     pitch, width, core = sprocket.chain.transverse_pitch, sprocket.face_width, sprocket.core_radius
     grooves = tuple(Groove(k * pitch + width, (k + 1) * pitch, core) for k in range(sprocket.strands - 1))
+    bevel = (sprocket.tip_radius - sprocket.bevel_radius, sprocket.bevel) if sprocket.bevel else None
     made = disk_drawing(
-        subject, shape, sprocket.holes, "zero_tooth", circles, keys.number_of_teeth, grooves=grooves
+        subject, shape, sprocket.holes, "zero_tooth", circles, keys.number_of_teeth, grooves=grooves, bevel=bevel
     )  # fmt: skip
-    if not grooves:
-        return made
     section, *others = made.views
+    if bevel is not None:
+        # the section ends where the face does
+        up = reach(subject.part.section(0.0).region.outer, math.pi / 2)
+        ends = complex(0.0, up - bevel[0]), complex(bevel[1], up)
+        extra = Size("tooth_bevel", *ends, "above"), Size("tooth_bevel.depth", *ends, "left")
+        section = replace(section, sizes=(*section.sizes, *extra))
+    if not grooves:
+        return replace(made, views=(section, *others))
     first = grooves[0]
     sizes = (
         *(replace(one, name="rows_width") if one.name == "face_width" else one for one in section.sizes),

@@ -12,7 +12,7 @@ from geometry.base.record import replace
 from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
 from parts.keys.base import MOST_LENGTH, either, mm, start
-from parts.keys.pins import check_holes, holes_of, most_of
+from parts.keys.pins import MARGIN, check_holes, holes_of, most_of
 from parts.keys.wheel import WheelKeys, WheelKind, wheel_shape
 
 if TYPE_CHECKING:
@@ -70,6 +70,9 @@ class SprocketSpec(WheelKeys, kw_only=True, tag_field="kind", tag="sprocket"):
         ]
         | None
     ) = None
+    tooth_bevel: Annotated[
+        float, mm("bevel of the teeth at both faces, along the axis at their tips; ISO 606: 0.13 p", least=0, most=1000)
+    ] = 0.0
     face_width: Annotated[float, mm("of a row of teeth; 0: by the inner width of the chain", least=0, most=10_000)] = (
         0.0
     )
@@ -93,8 +96,13 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
         form = GostForm(keys.displaced) if gost else IsoForm(keys.form)
         sprocket = checked_sprocket(Sprocket(keys.number_of_teeth, chain, form, keys.tip_diameter))
         sprocket = replace(sprocket, face_width=_face_width(keys, sprocket))
+        if keys.tooth_bevel > (most := 0.5 * sprocket.face_width * (1 - MARGIN) if keys.tooth_bevel else 0.0):
+            raise ParameterError("tooth_bevel", keys.tooth_bevel, "chamfers_meet", most_of(most, keys.tooth_bevel))
+        sprocket = replace(sprocket, bevel=keys.tooth_bevel)
+        if not _is_even(sprocket) and keys.face_chamfer:
+            raise ParameterError("face_chamfer", None, "of_plain_teeth", Nearest(None))
         if chain.strands > 1:
-            _check_rows(keys, sprocket)
+            _check_rows(sprocket)
         holes, core = holes_of(keys), sprocket.core_radius
         check_holes(keys, holes, core)
         check_wheel(shape_of_sprocket(keys, sprocket), 2 * core, holes)
@@ -119,7 +127,7 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
             return self.outline(thing, moved - depth)
 
         sections = wheel_sections(outline, thing.core_radius, thing.holes)
-        if thing.strands > 1:
+        if not _is_even(thing):
             from geometry.gears.chains.rows import rows_of_teeth
 
             sections = replace(sections, rim=partial(rows_of_teeth, thing))
@@ -131,7 +139,7 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
 
     def is_plate(self, keys: SprocketSpec, thing: Sprocket) -> bool:
         """Whether there is nothing but one section."""
-        return thing.strands == 1 and shape_of_sprocket(keys, thing).is_plate
+        return _is_even(thing) and shape_of_sprocket(keys, thing).is_plate
 
     def numbers(self, keys: SprocketSpec) -> str:
         """Teeth, and the chain."""
@@ -218,8 +226,8 @@ def _face_width(keys: SprocketSpec, sprocket: Sprocket) -> float:
     return keys.face_width
 
 
-def _check_rows(keys: SprocketSpec, sprocket: Sprocket) -> None:
-    """Rows of teeth stand apart, their chain's plates go between them, and its body has no chamfers."""
+def _check_rows(sprocket: Sprocket) -> None:
+    """Rows of teeth stand apart, and their chain's plates go between them."""
     chain = sprocket.chain
     for key in ("transverse_pitch", "plate_height"):
         if not getattr(chain, key):
@@ -229,8 +237,11 @@ def _check_rows(keys: SprocketSpec, sprocket: Sprocket) -> None:
         raise ParameterError("face_width", sprocket.face_width, "wider_than_strands", most, width=apart)
     if not sprocket.core_radius > 0:
         raise ParameterError("plate_height", chain.plate_height, "leaves_no_core")
-    if keys.face_chamfer:
-        raise ParameterError("face_chamfer", None, "of_one_strand", Nearest(None))
+
+
+def _is_even(sprocket: Sprocket) -> bool:
+    """Whether its teeth have one section from face to face."""
+    return sprocket.strands == 1 and not sprocket.bevel
 
 
 def shape_of_sprocket(keys: SprocketSpec, sprocket: Sprocket) -> WheelShape:

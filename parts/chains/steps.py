@@ -82,6 +82,14 @@ def width_steps(page: Sheet, sprocket: Sprocket) -> None:
     page.add("tooth_row_width", width, formula, _source(sprocket) if formula else "")
     if chain.strands > 1:
         page.add("rows_width", sprocket.total_width, "({n_s} - 1) * {p_t} + {b_f}", _source(sprocket))
+    if iso:
+        part = 0.06 if chain.thin else 0.13
+        page.add("tooth_side_relief", part * chain.pitch, f"{part} * {{p}}", ISO)
+        page.add("tooth_side_radius", chain.pitch, "{p}", ISO)
+    else:
+        page.add("tooth_side_radius", 1.7 * chain.roller_diameter, "1.7 * {d_r}", GOST)
+    if sprocket.bevel:
+        page.add("tooth_bevel", sprocket.bevel)
     if sprocket.plate_room:
         rest = "1.04 * {h_2} - 0.76" if iso else "1.3 * {h_2}"
         page.add("plate_room_diameter", sprocket.plate_room, f"{{p}} / tan(pi / {{z}}) - {rest}", _source(sprocket))

@@ -18,11 +18,13 @@ from parts.drawing.working import PartDrawing, Round, Subject, requirements
 def disk_drawing(
     subject: Subject, shape: WheelShape, holes: HubHoles, zero: str, circles: Sequence[str] = (), teeth: int = 0,
     grooves: tuple[Groove, ...] = (),
+    bevel: tuple[float, float] | None = None,
 ) -> PartDrawing:  # fmt: skip
     """Section, face as the files have it, bore.
 
     ``zero``: the key of the words for its direction +x; ``circles``: names of those of the part that are shown with
-    sizes; ``teeth``: how many stand about it, any of which is as good as the first; ``grooves``: turned into its rim.
+    sizes; ``teeth``: how many stand about it, any of which is as good as the first; ``grooves`` and ``bevel``: of its
+    rim.
     """
     outline = subject.part.section(0.0).region.outer
     if all(isinstance(s.curve, Arc) and s.curve.centre == 0 for s in outline.period):
@@ -36,5 +38,5 @@ def disk_drawing(
         for name in circles
     )
     tip = reach(outline, math.pi / 2), reach(outline, -math.pi / 2)
-    wheel = replace(bare, tip=tip, rounds=rounds, stands=False, grooves=grooves)
+    wheel = replace(bare, tip=tip, rounds=rounds, stands=False, grooves=grooves, bevel=bevel)
     return PartDrawing(wheel_views(wheel, subject), requirements(subject, *directions(holes, subject, zero, teeth)))

@@ -81,7 +81,8 @@ class Wheel(Record):
     ``tip`` up and down from the axis, where it is not round; ``root`` and ``pitch``: of teeth on it, None: it has none;
     ``outline``: the exact one, None: it has another at each height; ``crown``: of a worm wheel; ``rounds``: circles
     about the axis that are shown, with their sizes; ``stands``: its face is drawn with the bore upright; ``runs``: its
-    outside, which is round, is a working surface; ``grooves``: between rows of teeth.
+    outside, which is round, is a working surface; ``grooves``: between rows of teeth;
+    ``bevel``: of its outer edges, radially and along the axis, in place of chamfers.
     """
 
     shape: WheelShape
@@ -95,6 +96,7 @@ class Wheel(Record):
     stands: bool = True
     runs: bool = False
     grooves: tuple[Groove, ...] = ()
+    bevel: tuple[float, float] | None = None
 
     @property
     def turn(self) -> float:
@@ -207,11 +209,13 @@ def _half(wheel: Wheel, bore: float, outer: float, *, toothed: bool) -> list[com
             radius = shape.web.rim_diameter / 2
             points += [complex(at.web[side], radius), complex(at.rim[side] - way * cut, radius)]
             points += [complex(at.rim[side], radius + cut)]
-        last = 0.0 if toothed else cut
-        points += [complex(at.rim[side], outer - last), complex(at.rim[side] - way * last, outer)]
+        deep, wide = (0.0, 0.0) if toothed else wheel.bevel or (cut, cut)
+        points += [complex(at.rim[side], outer - deep), complex(at.rim[side] - way * wide, outer)]
         sides.append(points)
+    deep, wide = wheel.bevel or (0.0, 0.0)
     notches = [complex(z, r) for g in reversed(wheel.grooves)
-           for z, r in ((g.high, outer), (g.high, g.radius), (g.low, g.radius), (g.low, outer))]  # fmt: skip
+               for z, r in ((g.high + wide, outer), (g.high, outer - deep), (g.high, g.radius),
+                            (g.low, g.radius), (g.low, outer - deep), (g.low - wide, outer))]  # fmt: skip
     return [*sides[0], *notches, *sides[1][::-1]]
 
 

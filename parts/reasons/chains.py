@@ -17,7 +17,7 @@ REASONS = {
     "no_such_chain": N_("is no chain of ISO 606 (04C to 48B) or GOST 13568 (PR-8-4.6 to PR-63.5-354)"),
     "not_of_the_chain": N_("must be that of the first sprocket's chain"),
     "of_another_tooth_form": N_('is not for tooth_form = "{form}"'),
-    "of_one_strand": N_("is for one strand"),
+    "of_plain_teeth": N_("is for one row of teeth without tooth_bevel"),
     "sprockets_meet": N_("lets the tips of both sprockets meet"),
     "wider_than_chain": N_("does not go between the inner plates of the chain, {width} mm apart"),
     "wider_than_strands": N_("leaves no gap between the rows of teeth, {width} mm from one to the next"),

@@ -31,6 +31,8 @@ _TIP_LAND, _THIN_LAND = 0.05, 0.02
 _MARGIN = 1e-6
 # that ISO 606 gives gaps for
 _ISO_TEETH = (9, 150)
+# of the height of a flank, that a bevel leaves
+_BEVEL_ENDS = 0.05
 
 
 class Piece(NamedTuple):
@@ -144,7 +146,10 @@ def pitch_diameter(pitch: float, teeth: int) -> float:
 
 
 class Sprocket(Record):
-    """A sprocket of ``number_of_teeth`` for a chain; ``given_tip_diameter`` None: of the form. Lengths in mm."""
+    """A sprocket of ``number_of_teeth`` for a chain; ``given_tip_diameter`` None: of the form. Lengths in mm.
+
+    ``bevel``: of the teeth on both sides, along the axis at their tips; it ends where their flanks begin.
+    """
 
     number_of_teeth: int
     chain: Chain
@@ -152,6 +157,7 @@ class Sprocket(Record):
     given_tip_diameter: float | None = None
     holes: HubHoles = HubHoles()
     face_width: float = 0.0
+    bevel: float = 0.0
 
     @property
     def strands(self) -> int:
@@ -192,6 +198,12 @@ class Sprocket(Record):
     def tip_radius(self) -> float:
         """r_a, mm."""
         return limits_of(self).tip_radius
+
+    @property
+    def bevel_radius(self) -> float:
+        """Where the bevel ends at the faces: a little above the beginning of the flanks, mm."""
+        found = limits_of(self)
+        return found.start_radius + _BEVEL_ENDS * (found.tip_radius - found.start_radius)
 
     @property
     def tip_thickness(self) -> float:

@@ -6,7 +6,9 @@ import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from shapely.geometry import Point, Polygon
 
 from exporters.formats.read_dxf import read_dxf
 from geometry.base.record import replace
@@ -48,6 +50,30 @@ def test_three_rows_of_teeth_are_plates_on_a_core() -> None:
     assert not part.is_plate
 
 
+@pytest.mark.parametrize("chain", ["08B-1", "08B-2"])
+def test_bevelled_teeth_are_cut_by_cones(chain: str) -> None:
+    """At any height the teeth within the circle of the cone; the volume by slices of shapely."""
+    part = made(PLATE | {"chain": chain, "tooth_bevel": 1.6})
+    sprocket, outline = part.thing, part.section(0.0).region.outer
+    curves = [s.curve for s in outline.segments()]
+    places = np.concatenate([c.point(np.linspace(*c.domain, 120)[:-1]) for c in curves])
+    teeth = Polygon(np.column_stack((places.real, places.imag)))
+    shares, weights = np.polynomial.legendre.leggauss(9)
+    radii = sprocket.bevel_radius + (sprocket.tip_radius - sprocket.bevel_radius) * (1 + shares) / 2
+    slices = [teeth.intersection(Point(0, 0).buffer(radius, 4096)).area for radius in radii]
+    rows = sprocket.strands
+    wanted = rows * (2 * 1.6 * float(np.dot(weights, slices)) / 2 + (sprocket.face_width - 3.2) * teeth.area)
+    wanted += (rows - 1) * (13.92 - sprocket.face_width) * math.pi * sprocket.core_radius**2
+    wanted -= sprocket.total_width * math.pi * 10.0**2
+    assert body_moments(part.body(0.0)).volume == pytest.approx(wanted, rel=3e-5)
+    assert not part.is_plate
+
+
+def test_a_step_file_of_bevelled_teeth_is_read_back(tmp_path: Path) -> None:
+    keys = PLATE | {"chain": "08B-2", "number_of_teeth": 9, "bore_diameter": 8.0, "tooth_bevel": 1.6}
+    assert run("build", write_scene(tmp_path / "s.toml", {"a": keys}, [{"format": "step"}]), "--out", tmp_path) == 0
+
+
 @pytest.mark.parametrize(
     ("keys", "key", "cure"),
     [
@@ -61,6 +87,8 @@ def test_three_rows_of_teeth_are_plates_on_a_core() -> None:
         (PLATE | {"tip_diameter": 77.0}, "tip_diameter", 76.480827),
         (PLATE | {"bore_diameter": 61.0}, "bore_diameter", 60.505767),
         (PLATE | {"chain": "08B-2", "face_chamfer": 0.5}, "face_chamfer", None),
+        (PLATE | {"tooth_bevel": 4.0}, "tooth_bevel", 3.60374),
+        (PLATE | {"tooth_bevel": 1.0, "face_chamfer": 0.5}, "face_chamfer", None),
         (OWN | {"inner_width": 7.75, "strands": 2}, "transverse_pitch", None),
         (PLATE | {"chain": "06B", "number_of_teeth": 90, "tooth_form": "GOST 591", "displaced": True}, "displaced",
          False),
