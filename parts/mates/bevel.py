@@ -10,10 +10,9 @@ from msgspec import Struct
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
-from geometry.base.record import replace
-from parts.base.mate import End, LaidStanding, MateKind, Pose, Touching
-from parts.gears.thinning import shared_thinning
+from parts.base.mate import End, LaidStanding, Pose, Touching
 from parts.keys.mate import GearPairKeys, backlash
+from parts.mates.gear_pair import GearPair
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
@@ -118,7 +117,7 @@ class BevelMating(Touching):
         }
 
 
-class BevelPairKind(MateKind[BevelPairSpec, "BevelGear", "BevelGear"]):
+class BevelPairKind(GearPair[BevelPairSpec, "BevelGear", "BevelGear"]):
     """Two bevel gears made for each other."""
 
     name, keys = "bevel_pair", BevelPairSpec
@@ -134,16 +133,14 @@ class BevelPairKind(MateKind[BevelPairSpec, "BevelGear", "BevelGear"]):
         for key in _OPPOSITE:
             same_size(key, getattr(second, key), -getattr(first, key) or 0.0, "not_of_its_mate")
 
-    def thinning(self, keys: BevelPairSpec, first: End[BevelGear], second: End[BevelGear]) -> tuple[float, float]:
-        """Half of the backlash each."""
-        if keys.normal_backlash is None:
-            return 0.0, 0.0
-        gears = (first.thing, second.thing)
+    def build(self, end: End[Any]) -> BevelGear:
+        """The whole gear."""
+        gear: BevelGear = end.thing
+        return gear.checked()
 
-        def build(index: int, thinning: float) -> BevelGear:
-            return replace(gears[index], circumferential_thinning=thinning).checked()
-
-        return shared_thinning(keys.normal_backlash, gears, build, first.thing.normal_share)
+    def cosine(self, first: End[BevelGear], second: End[BevelGear]) -> float:
+        """At the outer end."""
+        return first.thing.normal_share
 
     def mating(self, keys: BevelPairSpec, first: End[BevelGear], second: End[BevelGear]) -> BevelMating:
         """Each must be what the other one is made for."""

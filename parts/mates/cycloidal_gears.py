@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Struct
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.base.record import replace
-from parts.base.mate import End, MateKind, Pose, Standing, Toothed
+from parts.base.mate import End, Pose, Standing, Toothed
 from parts.gears.cycloidal_gear.part import CycloidalGearSpec
-from parts.gears.thinning import shared_thinning
 from parts.keys.mate import GearPairKeys, backlash
+from parts.mates.gear_pair import GearPair
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
@@ -68,7 +67,7 @@ class CycloidalGearMating(Toothed):
         }
 
 
-class CycloidalGearPair(MateKind[CycloidalGearPairSpec, "CycloidalGear", "CycloidalGear"]):
+class CycloidalGearPair(GearPair[CycloidalGearPairSpec, "CycloidalGear", "CycloidalGear"]):
     """Two cycloidal gears of one module and the same two rolling circles."""
 
     name, keys = "cycloidal_gear_pair", CycloidalGearPairSpec
@@ -84,20 +83,11 @@ class CycloidalGearPair(MateKind[CycloidalGearPairSpec, "CycloidalGear", "Cycloi
                 cure = Nearest(other.number_of_teeth)
                 raise ParameterError(f"{owner}mate_teeth", own.mate_teeth, "not_of_its_mate", cure)
 
-    def thinning(
-        self, keys: CycloidalGearPairSpec, first: End[CycloidalGear], second: End[CycloidalGear]
-    ) -> tuple[float, float]:
-        """All of the backlash: there is one centre distance."""
-        if keys.normal_backlash is None:
-            return 0.0, 0.0
+    def build(self, end: End[Any]) -> object:
+        """The gear, checked to have teeth; there is one centre distance."""
         from geometry.gears.cycloidal.gear import checked_cycloidal_gear
 
-        gears = first.thing, second.thing
-
-        def build(index: int, thinning: float) -> object:
-            return checked_cycloidal_gear(replace(gears[index], circumferential_thinning=thinning))
-
-        return shared_thinning(keys.normal_backlash, gears, build, 1.0)
+        return checked_cycloidal_gear(end.thing)
 
     def mating(
         self, keys: CycloidalGearPairSpec, first: End[CycloidalGear], second: End[CycloidalGear]

@@ -10,12 +10,12 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
 from geometry.base.tolerance import CONTACT_TOLERANCE
-from parts.base.mate import End, LaidStanding, MateKind, Pose, Touching
-from parts.gears.thinning import shared_thinning
+from parts.base.mate import End, LaidStanding, Pose, Touching
 from parts.keys.base import mm
 from parts.keys.helix import helix_of
 from parts.keys.mate import GearPairKeys, backlash
 from parts.keys.wheel import shape_of
+from parts.mates.gear_pair import GearPair
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
@@ -127,7 +127,7 @@ class FaceMating(Touching):
         }
 
 
-class FaceGearPairKind(MateKind[FaceGearPairSpec, "FaceGear", "SpurGear"]):
+class FaceGearPairKind(GearPair[FaceGearPairSpec, "FaceGear", "SpurGear"]):
     """A face gear and the pinion that it is made for."""
 
     name, keys = "face_gear_pair", FaceGearPairSpec
@@ -146,19 +146,15 @@ class FaceGearPairKind(MateKind[FaceGearPairSpec, "FaceGear", "SpurGear"]):
         shift = first.pinion_profile_shift_coefficient
         same_size("profile_shift_coefficient", second.profile_shift_coefficient, shift, "not_of_its_mate")
 
-    def thinning(self, keys: FaceGearPairSpec, first: End[FaceGear], second: End[SpurGear]) -> tuple[float, float]:
-        """Half of the backlash each."""
-        if keys.normal_backlash is None:
-            return 0.0, 0.0
+    def build(self, end: End[Any]) -> object:
+        """The whole gear, or a tooth of the pinion."""
         from geometry.gears.teeth.tooth import tooth_side
 
-        def build(index: int, thinning: float) -> object:
-            if index:
-                return tooth_side(replace(second.thing, circumferential_thinning=thinning))
-            return replace(first.thing, circumferential_thinning=thinning).checked()
+        return end.thing.checked() if end.kind == "face_gear" else tooth_side(end.thing)
 
-        cosine = math.cos(second.thing.pressure_angle)
-        return shared_thinning(keys.normal_backlash, (first.thing, second.thing), build, cosine)
+    def cosine(self, first: End[FaceGear], second: End[SpurGear]) -> float:
+        """Of the pinion."""
+        return math.cos(second.thing.pressure_angle)
 
     def mating(self, keys: FaceGearPairSpec, first: End[FaceGear], second: End[SpurGear]) -> FaceMating:
         """The pinion's face over the gear's."""

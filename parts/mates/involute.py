@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
 from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
-from parts.base.mate import End, MateKind, Pose, Standing, Toothed
+from parts.base.mate import End, Pose, Standing, Toothed
 from parts.keys.base import mm
 from parts.keys.mate import InvolutePairKeys
+from parts.mates.gear_pair import GearPair
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -26,9 +27,9 @@ if TYPE_CHECKING:
     from geometry.gears.teeth.rack import Rack
     from geometry.gears.teeth.ring import RingGear
     from geometry.gears.teeth.spur import SpurGear
-    from geometry.kinematics.mechanism import Joint
+    from geometry.kinematics.mechanism import Joint, Kind
 
-    Gear = SpurGear | RingGear
+    Pair = ExternalPair | InternalPair | RackPair
 
 
 class ExternalGearPairSpec(InvolutePairKeys, tag="external_gear_pair"):
@@ -54,7 +55,7 @@ class RackPairSpec(InvolutePairKeys, tag="rack_pair", kw_only=True):
 class GearMating(Toothed):
     """Two involute gears in mesh, as they are built at last."""
 
-    pair: ExternalPair | InternalPair | RackPair
+    pair: Pair
 
     def findings(self) -> tuple[Finding, ...]:
         """Conditions of the pair that are not kept: interference, assembly, clearance, contact ratio."""
@@ -145,10 +146,14 @@ class ExternalMating(GearMating):
 
 
 class InternalMating(GearMating):
-    """A pinion in a ring; ``ring_first``: the ring is the placed one. The pair itself has the ring at its origin."""
+    """A pinion in a ring, in either order. The pair itself has the ring at its origin."""
 
     pair: InternalPair
-    ring_first: bool
+
+    @property
+    def ring_first(self) -> bool:
+        """Whether the ring is the placed one."""
+        return self.teeth[0] > self.teeth[1]
 
     def _middle(self, rotation: float, direction: float) -> float:
         if self.ring_first:
@@ -197,7 +202,7 @@ class RackMating(GearMating):
 
         from geometry.kinematics.mechanism import Prismatic, Rolling
 
-        rolling = Rolling("rack", self.first, self.second, self.teeth, module=Fraction(str(self.module)))
+        rolling = Rolling("rack", self.first, self.second, (self.teeth[0], 1), module=Fraction(str(self.module)))
         return Prismatic(self.second), rolling
 
     @property
@@ -251,46 +256,58 @@ K = TypeVar("K", bound=InvolutePairKeys)
 M = TypeVar("M", bound=GearMating)
 
 
-class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
-    """What the three have in common: helices that mesh, distance, thinning."""
+class InvolutePair(GearPair[K, A, B], Generic[K, A, B, M]):
+    """What the three have in common: helices that mesh, distance, thinning. Of a ring its keys are blamed."""
 
     meshes = True
     internal = False
 
-    def made(self, keys: K, first: End[A], second: End[B], distance: float | None) -> M:
-        """The mating at a distance, mm; None: that of the shifts.
+    # what their mating is, and as what pair they roll
+    mated: type[M]
+    rolls: Kind
+
+    def paired(self, first: End[A], second: End[B], distance: float | None) -> Pair:
+        """Both at a distance, mm; None: that of the shifts.
 
         Raises
         ------
         ParameterError
-            The gears do not mesh, or not at ``working_centre_distance``.
+            They do not mesh, or not at ``working_centre_distance``.
         """
         raise NotImplementedError
 
-    def common(self, keys: K, first: End[A], second: End[B], pair: ExternalPair | InternalPair | RackPair) -> Any:
-        """What every mating has of the keys and of the pair."""
+    def made(self, keys: K, first: End[Any], second: End[Any], distance: float | None) -> M:
+        """The mating of ``paired``."""
         from parts.keys.helix import common_face
 
-        return {
-            "kind": self.name,
-            "first": keys.first,
-            "second": keys.second,
-            "direction_deg": keys.direction_deg,
-            "module": pair.module,
-            "normal_backlash": pair.normal_backlash * self.normal_share(first, second),
-            "face": common_face(first.keys, second.keys),
-        }
+        pair = self.paired(first, second, distance)
+        return self.mated(
+            *self.joined(keys),
+            direction_deg=keys.direction_deg,
+            distance=pair.working_centre_distance,
+            rolls=self.rolls,
+            teeth=(first.thing.number_of_teeth, second.thing.number_of_teeth),
+            module=pair.module,
+            normal_backlash=pair.normal_backlash * self.normal_share(first, second),
+            pair=pair,
+            face=common_face(first.keys, second.keys),
+        )
 
-    def pressure_angle(self, first: End[A], second: End[B]) -> float:
-        """Of both, in the section in which they are, rad."""
-        raise NotImplementedError
-
-    def blames_first(self, first: End[A]) -> bool:
-        """Whether what the geometry refuses is a key of the first."""
-        return False
+    def pressure_angle(self, first: End[Any], second: End[Any]) -> float:
+        """Of the external gear, in the section in which both are, rad."""
+        gear = first if first.kind == "spur_gear" else second
+        return float(gear.thing.rack.pressure_angle)
 
     def build(self, end: End[Any]) -> object:
-        """A tooth of either, its flank and its ends; raises ``GeometryError`` where there is none."""
+        """A tooth of a gear, a ring or a rack."""
+        if end.kind == "ring_gear":
+            from geometry.gears.teeth.ring_limits import checked_ring
+
+            return checked_ring(end.thing)
+        if end.kind == "rack":
+            from geometry.gears.teeth.rack import checked_part_rack
+
+            return checked_part_rack(end.thing)
         from geometry.gears.teeth.tooth import tooth_side
 
         return tooth_side(end.thing)
@@ -316,21 +333,15 @@ class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
             if getattr(first, key) != getattr(second, key):
                 raise ParameterError(key, getattr(second, key), "not_that_of_mate", Nearest(getattr(first, key)))
 
-    def thinning(self, keys: K, first: End[A], second: End[B]) -> tuple[float, float]:
-        """What the backlash asks for beyond that of the distance."""
-        if keys.normal_backlash is None:
-            return 0.0, 0.0
-        from parts.gears.thinning import shared_thinning
+    def there(self, keys: K, first: End[A], second: End[B]) -> float | None:
+        """That of the distance."""
+        return (
+            None if keys.working_centre_distance is None else self._reaching(keys, first, second).pair.normal_backlash
+        )
 
-        ends: tuple[End[Any], End[Any]] = (first, second)
-        there = None if keys.working_centre_distance is None else self._reaching(keys, *ends).pair.normal_backlash
-        cosine = math.cos(self.pressure_angle(first, second))
-        share = self.normal_share(first, second)
-
-        def build(index: int, thinning: float) -> object:
-            return self.build(_thinned(ends[index], thinning))
-
-        return shared_thinning(keys.normal_backlash, [e.thing for e in ends], build, cosine, there, share)
+    def cosine(self, first: End[A], second: End[B]) -> float:
+        """Of both, in their section."""
+        return math.cos(self.pressure_angle(first, second))
 
     def normal_share(self, first: End[A], second: End[B]) -> float:
         """j_bn over the backlash of transverse sections: cos(beta_b)."""
@@ -393,7 +404,7 @@ class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
         """A refusal of transverse sections with the normal value that the blamed part's keys give."""
         from parts.keys.helix import helix_of
 
-        one, other, owner = (first, second, "first.") if self.blames_first(first) else (second, first, "")
+        one, other, owner = (first, second, "first.") if first.kind == "ring_gear" else (second, first, "")
         cosine, key = math.cos(helix_of(one.keys).angle), refusal.name
         if cosine == 1 or key not in ("profile_shift_coefficient", "pressure_angle_deg"):
             return refusal.renamed(owner + key)
@@ -406,34 +417,17 @@ class InvolutePair(MateKind[K, A, B], Generic[K, A, B, M]):
         return type(refusal)(owner + key, getattr(one.keys, key), refusal.code, cure, **refusal.numbers)
 
 
-def _thinned(end: End[Any], thinning: float) -> End[Any]:
-    return replace(end, thing=replace(end.thing, circumferential_thinning=thinning))
-
-
 class ExternalGearPair(InvolutePair[ExternalGearPairSpec, "SpurGear", "SpurGear", ExternalMating]):
     """Two external gears; their tips are shortened where the shifts bring them too near."""
 
-    name, keys = "external_gear_pair", ExternalGearPairSpec
+    name, keys, mated, rolls = "external_gear_pair", ExternalGearPairSpec, ExternalMating, "external"
     joins = (("spur_gear", "spur_gear"),)
 
-    def pressure_angle(self, first: End[SpurGear], second: End[SpurGear]) -> float:
-        """Of the first."""
-        return first.thing.rack.pressure_angle
-
-    def made(
-        self, keys: ExternalGearPairSpec, first: End[SpurGear], second: End[SpurGear], distance: float | None
-    ) -> ExternalMating:
-        """Both gears at a distance, mm."""
+    def paired(self, first: End[SpurGear], second: End[SpurGear], distance: float | None) -> ExternalPair:
+        """Both gears."""
         from geometry.gears.pairs.external import external_pair
 
-        pair = external_pair(first.thing, second.thing, distance)
-        return ExternalMating(
-            **self.common(keys, first, second, pair),
-            distance=pair.working_centre_distance,
-            rolls="external",
-            teeth=pair.teeth,
-            pair=pair,
-        )
+        return external_pair(first.thing, second.thing, distance)
 
     def tips(
         self, keys: ExternalGearPairSpec, first: End[SpurGear], second: End[SpurGear]
@@ -469,79 +463,29 @@ class InternalGearPair(
 ):
     """A pinion in its ring, in either order."""
 
-    name, keys = "internal_gear_pair", InternalGearPairSpec
+    name, keys, mated, rolls = "internal_gear_pair", InternalGearPairSpec, InternalMating, "internal"
     joins = (("ring_gear", "spur_gear"), ("spur_gear", "ring_gear"))
     internal = True
 
-    def pressure_angle(self, first: End[Any], second: End[Any]) -> float:
-        """Of the pinion."""
-        pinion, _ = _pinion_and_ring(first, second)
-        return pinion.rack.pressure_angle
-
-    def build(self, end: End[Any]) -> object:
-        """A tooth of the pinion or of the ring."""
-        if end.kind != "ring_gear":
-            return InvolutePair.build(self, end)
-        from geometry.gears.teeth.ring_limits import checked_ring
-
-        return checked_ring(end.thing)
-
-    def made(
-        self, keys: InternalGearPairSpec, first: End[Any], second: End[Any], distance: float | None
-    ) -> InternalMating:
-        """Both gears at a distance, mm."""
+    def paired(self, first: End[Any], second: End[Any], distance: float | None) -> InternalPair:
+        """The pinion in its ring."""
         from geometry.gears.pairs.internal import internal_pair
 
-        pinion, ring = _pinion_and_ring(first, second)
-        pair, ring_first = internal_pair(pinion, ring, distance), ring is first.thing
-        return InternalMating(
-            **self.common(keys, first, second, pair),
-            distance=pair.working_centre_distance,
-            # both turn the same way
-            rolls="internal",
-            teeth=pair.teeth[::-1] if ring_first else pair.teeth,
-            pair=pair,
-            ring_first=ring_first,
-        )
-
-    def blames_first(self, first: End[Any]) -> bool:
-        """The ring is blamed."""
-        return first.kind == "ring_gear"
-
-
-def _pinion_and_ring(first: End[Any], second: End[Any]) -> tuple[SpurGear, RingGear]:
-    return (second.thing, first.thing) if first.kind == "ring_gear" else (first.thing, second.thing)
+        pinion, ring = (second, first) if first.kind == "ring_gear" else (first, second)
+        return internal_pair(pinion.thing, ring.thing, distance)
 
 
 class RackGearPair(InvolutePair[RackPairSpec, "SpurGear", "Rack", RackMating]):
     """A gear on its rack."""
 
-    name, keys = "rack_pair", RackPairSpec
+    name, keys, mated, rolls = "rack_pair", RackPairSpec, RackMating, "rack"
     joins = (("spur_gear", "rack"),)
 
-    def pressure_angle(self, first: End[SpurGear], second: End[Rack]) -> float:
-        """Of the gear."""
-        return first.thing.rack.pressure_angle
-
-    def build(self, end: End[Any]) -> object:
-        """A tooth of the gear or of the rack."""
-        if end.kind != "rack":
-            return InvolutePair.build(self, end)
-        from geometry.gears.teeth.rack import checked_part_rack
-
-        return checked_part_rack(end.thing)
-
-    def made(self, keys: RackPairSpec, first: End[SpurGear], second: End[Rack], distance: float | None) -> RackMating:
-        """Both at a distance from axis to datum line, mm."""
+    def paired(self, first: End[SpurGear], second: End[Rack], distance: float | None) -> RackPair:
+        """The gear on its rack."""
         from geometry.gears.pairs.rack import rack_pair
 
-        pair = rack_pair(first.thing, second.thing, distance)
-        return RackMating(
-            **self.common(keys, first, second, pair),
-            distance=pair.distance,
-            teeth=(first.thing.number_of_teeth, 1),
-            pair=pair,
-        )
+        return rack_pair(first.thing, second.thing, distance)
 
 
 EXTERNAL, INTERNAL, RACK = ExternalGearPair(), InternalGearPair(), RackGearPair()

@@ -7,10 +7,9 @@ import math
 from typing import TYPE_CHECKING, Annotated, Any
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.base.record import replace
-from parts.base.mate import End, MateKind, Pose, Standing, Toothed
-from parts.gears.thinning import shared_thinning
+from parts.base.mate import End, Pose, Standing, Toothed
 from parts.keys.mate import GearPairKeys, backlash
+from parts.mates.gear_pair import GearPair
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -71,24 +70,19 @@ class NoncircularMating(Toothed):
         }
 
 
-class NoncircularGearPair(MateKind[NoncircularGearPairSpec, "NoncircularGear", "NoncircularGear"]):
+class NoncircularGearPair(GearPair[NoncircularGearPairSpec, "NoncircularGear", "NoncircularGear"]):
     """Two gears of one pair."""
 
     name, keys = "noncircular_gear_pair", NoncircularGearPairSpec
     joins = (("noncircular_gear", "noncircular_gear"),)
 
-    def thinning(
-        self, keys: NoncircularGearPairSpec, first: End[NoncircularGear], second: End[NoncircularGear]
-    ) -> tuple[float, float]:
-        """All of the backlash: there is one centre distance."""
-        if keys.normal_backlash is None:
-            return 0.0, 0.0
-        gears = first.thing, second.thing
+    def build(self, end: End[Any]) -> object:
+        """All teeth of the gear; there is one centre distance."""
+        return end.thing.outline
 
-        def build(index: int, thinning: float) -> object:
-            return replace(gears[index], circumferential_thinning=thinning).outline
-
-        return shared_thinning(keys.normal_backlash, gears, build, math.cos(gears[0].rack.pressure_angle))
+    def cosine(self, first: End[NoncircularGear], second: End[NoncircularGear]) -> float:
+        """Of the rack."""
+        return math.cos(first.thing.rack.pressure_angle)
 
     def mating(
         self, keys: NoncircularGearPairSpec, first: End[NoncircularGear], second: End[NoncircularGear]

@@ -34,6 +34,11 @@ class RackPair(Record, dict=True):
     distance: float
 
     @property
+    def working_centre_distance(self) -> float:
+        """The distance, as other pairs call it, mm."""
+        return self.distance
+
+    @property
     def gears(self) -> tuple[SpurGear]:
         """The one gear."""
         return (self.gear,)

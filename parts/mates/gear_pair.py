@@ -1,0 +1,48 @@
+"""What mates of two gears have in common: the backlash that they are asked for thins the teeth of both."""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar
+
+from geometry.base.record import replace
+from parts.base.mate import End, MateKeys, MateKind
+
+K = TypeVar("K", bound=MateKeys)
+A = TypeVar("A")
+B = TypeVar("B")
+
+
+class GearPair(MateKind[K, A, B]):
+    """Two gears whose teeth ``normal_backlash`` of the keys thins by half of it each."""
+
+    def build(self, end: End[Any]) -> object:
+        """A tooth of either, its flank and its ends; raises ``GeometryError`` where there is none."""
+        raise NotImplementedError
+
+    def cosine(self, first: End[A], second: End[B]) -> float:
+        """Which share of an arc of thinning the backlash of their section is: cos(alpha)."""
+        return 1.0
+
+    def normal_share(self, first: End[A], second: End[B]) -> float:
+        """j_bn over the backlash of their section."""
+        return 1.0
+
+    def there(self, keys: K, first: End[A], second: End[B]) -> float | None:
+        """Backlash of their section before it is asked for, mm; None: by their own thinning alone."""
+        return None
+
+    def thinning(self, keys: K, first: End[A], second: End[B]) -> tuple[float, float]:
+        """What the backlash asks for beyond what is there."""
+        wanted: float | None = getattr(keys, "normal_backlash", None)
+        if wanted is None:
+            return 0.0, 0.0
+        from parts.gears.thinning import shared_thinning
+
+        ends: tuple[End[Any], End[Any]] = (first, second)
+
+        def build(index: int, thinning: float) -> object:
+            return self.build(replace(ends[index], thing=replace(ends[index].thing, circumferential_thinning=thinning)))
+
+        there, cosine = self.there(keys, first, second), self.cosine(first, second)
+        share = self.normal_share(first, second)
+        return shared_thinning(wanted, [end.thing for end in ends], build, cosine, there, share)
