@@ -37,6 +37,7 @@ from parts.pages.cam_steps import law_text
 from parts.pages.contour_picture import STYLES
 from parts.pages.misprints import CASES
 from parts.pages.module_rules import CONDITIONS, RULES
+from parts.pages.page import UNITS
 from parts.pages.terms import TERMS
 from parts.recipes.names import NAMES
 from parts.recipes.registry import RECIPES
@@ -68,7 +69,7 @@ def extracted() -> dict[Key, str]:
         A text with two plurals.
     """
     found: dict[Key, str] = {}
-    for context, one, many in (*_marked(), *((None, text, "") for text in _kept_in_data())):
+    for context, one, many in (*_marked(), *_kept_in_data()):
         if found.setdefault((context, one), many) != many:
             raise ValueError(f"{one!r} stands with a plural and without it, or with two")
     return found
@@ -80,8 +81,14 @@ def _marked() -> Iterator[tuple[str | None, str, str]]:
         yield from told(file.read_text("utf-8")).marked
 
 
-def _kept_in_data() -> Iterator[str]:
-    """Kinds, terms, keys and tables of scenes and calculations: they need no mark."""
+def _kept_in_data() -> Iterator[tuple[str | None, str, str]]:
+    """What needs no mark; of units those that are words."""
+    yield from ((None, text, "") for text in _plain_texts())
+    yield from (("unit", text, "") for text, _ in UNITS.values() if any(map(str.isalpha, text)))
+
+
+def _plain_texts() -> Iterator[str]:
+    """Kinds, terms, keys and tables of scenes and calculations."""
     yield from (*KINDS.phrases.values(), *MATES.phrases.values(), *RECIPES.phrases.values())
     yield from (term.name for term in TERMS.values())
     yield from (one.title for recipe in NAMES.values() for one in recipe.values() if one.title)

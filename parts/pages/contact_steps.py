@@ -20,7 +20,7 @@ from parts.base.texts import message
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
-ISO = ("ISO 21771", "ISO 21771")
+ISO = "ISO 21771"
 Pair = ExternalPair | InternalPair
 
 

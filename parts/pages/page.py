@@ -12,6 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Protocol, SupportsFloat
 
 from geometry.base.record import Draft, Record, field, replace
+from parts.base.psv import rows_of
 from parts.base.texts import NC_, Text, Words, filled
 from parts.pages.symbols import symbol_text
 from parts.pages.terms import TERMS
@@ -182,14 +183,20 @@ class Sheet(Draft):
     def both(
         self,
         name: str,
-        values: tuple[Value, Value],
+        values: Sequence[Value],
         formula: str = "",
-        sources: tuple[str, str] = ("", ""),
+        sources: str | tuple[str, str] = "",
         symbol: str = "",
     ) -> None:
-        """A step for each gear; ``symbol``: one of its own, by which formulas call it too."""
-        for gear in (1, 2):
-            self.add(name, values[gear - 1], formula, sources[gear - 1], gear, symbol=symbol, key=symbol)
+        """A step for each gear, two or one; ``symbol``: one of its own, by which formulas call it too."""
+        for gear, value in enumerate(values, 1):
+            source = sources if isinstance(sources, str) else sources[gear - 1]
+            self.add(name, value, formula, source, gear, symbol=symbol, key=symbol)
+
+    def told(self, **values: Value) -> None:
+        """Steps of what no formula gives, by the names of their terms."""
+        for name, value in values.items():
+            self.add(name, value)
 
     def mark_misprint(self, printed: Printed) -> None:
         """The last step as one that its source misprints."""
@@ -227,7 +234,7 @@ def number(value: Value, unit: str, *, enclosed: bool = False) -> str:
     elif not math.isfinite(value):
         text = "∞" if value > 0 else "-∞"
     else:
-        _, decimals = _UNITS[unit]
+        _, decimals = UNITS[unit]
         text = shortest(value, decimals)
         # a small number keeps its leading digits: involutes, clearances
         if 1e-12 < abs(value) < (0.1 if not unit else 10.0 ** (2 - decimals)):
@@ -265,41 +272,13 @@ def pretty(text: str, words: Words) -> str:
     return re.sub(r"\b(arctan|tan)\b", lambda m: words.term("function", m[1]), text)
 
 
-# as printed; what stands behind the sign is a power; decimals shown, where steps have it: json has all of them
-_UNITS: dict[str, tuple[str, int]] = {
-    "": ("", 6),
-    "%": ("%", 3),
-    "deg": ("°", 5),
-    "mm": (NC_("unit", "mm"), 5),
-    "rad": (NC_("unit", "rad"), 4),
-    "rpm": (NC_("unit", "rpm"), 3),
-    "s": (NC_("unit", "s"), 6),
-    "s/mm": (NC_("unit", "s/mm"), 4),
-    "1/mm": (NC_("unit", "1/mm"), 6),
-    "mm/rad": (NC_("unit", "mm/rad"), 5),
-    "mm/rad2": (NC_("unit", "mm/rad²"), 5),
-    "deg/rad": (NC_("unit", "°/rad"), 4),
-    "deg/rad2": (NC_("unit", "°/rad²"), 4),
-    "deg/mm": (NC_("unit", "°/mm"), 4),
-    "deg/mm2": (NC_("unit", "°/mm²"), 4),
-    "rad/s": (NC_("unit", "rad/s"), 5),
-    "rad/s2": (NC_("unit", "rad/s²"), 3),
-    "mm/s": (NC_("unit", "mm/s"), 3),
-    "m/s": (NC_("unit", "m/s"), 5),
-    "m/s2": (NC_("unit", "m/s²"), 4),
-    "N": (NC_("unit", "N"), 3),
-    "N*m": (NC_("unit", "N·m"), 4),
-    "MPa": (NC_("unit", "MPa"), 4),
-    "W": (NC_("unit", "W"), 4),
-    "J": (NC_("unit", "J"), 4),
-    "kg": (NC_("unit", "kg"), 4),
-    "kg*m2": (NC_("unit", "kg·m²"), 6),
-}
+# as printed, and decimals shown
+UNITS = {unit: (text, int(decimals)) for unit, text, decimals in rows_of(__file__, "units")}
 # functions that languages write in their own way
 _FUNCTIONS = (NC_("function", "tan"), NC_("function", "arctan"))
 
 
 def unit_text(unit: str, words: Words) -> str:
     """A unit in a language."""
-    text, _ = _UNITS.get(unit, (unit, 0))
+    text, _ = UNITS.get(unit, (unit, 0))
     return words.term("unit", text) if text else ""

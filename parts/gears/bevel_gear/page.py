@@ -140,7 +140,7 @@ def _both(
     page: Sheet, pair: BevelPair, name: str, value: Callable[[BevelGear], float], formula: str = "", source: str = ""
 ) -> None:
     """A step of either gear."""
-    page.both(name, _each(pair, value), formula, (source, source))
+    page.both(name, _each(pair, value), formula, source)
 
 
 def _cones(page: Sheet, pair: BevelPair) -> None:
@@ -150,7 +150,7 @@ def _cones(page: Sheet, pair: BevelPair) -> None:
     # where the pitch cone opens wider than a right angle the arc tangent is that of its supplement
     angles = _each(pair, lambda g: math.degrees(g.pitch_angle))
     formula = "arctan(sin({Sigma}) / ({z~} / {z#} + cos({Sigma})))"
-    page.both("pitch_cone_angle_deg", angles, formula if max(angles) < 90 else "", (_GOST, _GOST))
+    page.both("pitch_cone_angle_deg", angles, formula if max(angles) < 90 else "", _GOST)
     page.add("outer_cone_distance", first.cone_distance, "{m} * {z1} / (2 * sin({delta1}))", _GOST)
     page.add("mean_cone_distance", first.cone_distance - first.face_width / 2, "{R_e} - {b} / 2")
     mean = first.module * (1 - first.face_width / 2 / first.cone_distance)

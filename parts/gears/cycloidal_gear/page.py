@@ -111,27 +111,22 @@ def _mate(keys: CycloidalGearKeys, gear: CycloidalGear) -> CycloidalGear:
 def _given(page: Sheet, gears: list[CycloidalGear]) -> None:
     page.section("Given")
     page.add("module", gears[0].module)
-    for index, gear in enumerate(gears, 1):
-        page.add("number_of_teeth", gear.number_of_teeth, gear=index)
-    for index, gear in enumerate(gears, 1):
-        page.add("addendum_coefficient", gear.addendum_coefficient, gear=index)
+    page.both("number_of_teeth", [gear.number_of_teeth for gear in gears])
+    page.both("addendum_coefficient", [gear.addendum_coefficient for gear in gears])
     page.add("dedendum_coefficient", gears[0].dedendum_coefficient, gear=1)
-    for index, gear in enumerate(gears, 1):
-        page.add("circumferential_thinning", gear.circumferential_thinning, gear=index)
+    page.both("circumferential_thinning", [gear.circumferential_thinning for gear in gears])
 
 
 def _sizes(page: Sheet, gears: list[CycloidalGear]) -> None:
     page.section("Sizes")
     page.add("pitch", gears[0].pitch, "pi * {m}", symbol="p")
-    for index, gear in enumerate(gears, 1):
-        page.add("reference_radius", gear.pitch_radius, "{m} * {z#} / 2", gear=index)
+    page.both("reference_radius", [gear.pitch_radius for gear in gears], "{m} * {z#} / 2")
     first = gears[0]
     straight = "{r1} / 2" if first.root_rolling_radius == first.pitch_radius / 2 else ""
     mates = "{r2} / 2" if len(gears) == 2 and first.tip_rolling_radius == gears[1].pitch_radius / 2 else ""
     page.add("tip_rolling_radius", first.tip_rolling_radius, mates, _SOURCE if mates else "")
     page.add("root_rolling_radius", first.root_rolling_radius, straight, _SOURCE if straight else "")
-    for index, gear in enumerate(gears, 1):
-        page.add("tip_radius", gear.tip_radius, "{r#} + {h_a#} * {m}", gear=index)
+    page.both("tip_radius", [gear.tip_radius for gear in gears], "{r#} + {h_a#} * {m}")
     page.add("root_radius", first.root_radius, "{r1} - {h_f1} * {m}", gear=1)
     page.add("reference_thickness", first.tooth_thickness, "{p} / 2 - {A1}", gear=1)
     page.add("root_fillet_radius", first.root_rounding, gear=1)

@@ -411,14 +411,10 @@ def _strength(page: Sheet, drive: WormDrive, keys: WormKeys, load: strength.Load
     width = drive.most_face_width if keys.face_width is None else keys.face_width
     share = min(width / drive.most_face_width, 1.0)
     page.add("width_share", share, "{b2} / {b2_max}" if keys.face_width and share < 1 else "")
-    for name, value in (
-        ("form_factor", load.form_factor),
-        ("width_factor", keys.width_factor),
-        ("speed_factor", keys.speed_factor),
-        ("tensile_strength", keys.tensile_strength),
-        ("bending_life_factor", keys.bending_life_factor),
-    ):
-        page.add(name, value)
+    page.told(
+        form_factor=load.form_factor, width_factor=keys.width_factor, speed_factor=keys.speed_factor,
+        tensile_strength=keys.tensile_strength, bending_life_factor=keys.bending_life_factor,
+    )  # fmt: skip
     bending = 0.16 * keys.tensile_strength * keys.bending_life_factor
     page.add("allowed_bending_stress", bending, "0.16 * {sigma_b} * {K_FL}", _THESIS)
     acting = "{Y_F} * {K_b} * {K_v} * cos({gamma}) * 1000 * {T2} / ({q} * {z2} * {sigma_FP})"

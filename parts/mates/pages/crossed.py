@@ -110,14 +110,14 @@ def _degrees(values: tuple[float, float]) -> tuple[float, float]:
 
 def _operating(page: Sheet, pair: CrossedPair, keys: CrossedKeys) -> None:
     """Cylinders, angles and distance."""
-    iso, meets = (_SOURCE, _SOURCE), keys.shaft_angle_deg is None
+    meets = keys.shaft_angle_deg is None
     page.section("Gears")
     page.add("gear_ratio", pair.ratio, "{z2} / {z1}")
     page.both("transverse_pressure_angle_deg", _degrees(_each(pair, "pressure_angle")),
-              "arctan(tan({alpha}) / cos({beta#}))", iso)  # fmt: skip
-    page.both("reference_diameter", _each(pair, "reference_radius", 2), "{m} * {z#} / cos({beta#})", iso)
-    page.both("base_diameter", _each(pair, "base_radius", 2), "{d#} * cos({alpha#})", iso)
-    page.both("base_helix_angle_deg", _degrees(pair.base_helices), "arctan(tan({beta#}) * cos({alpha#}))", iso)
+              "arctan(tan({alpha}) / cos({beta#}))", _SOURCE)  # fmt: skip
+    page.both("reference_diameter", _each(pair, "reference_radius", 2), "{m} * {z#} / cos({beta#})", _SOURCE)
+    page.both("base_diameter", _each(pair, "base_radius", 2), "{d#} * cos({alpha#})", _SOURCE)
+    page.both("base_helix_angle_deg", _degrees(pair.base_helices), "arctan(tan({beta#}) * cos({alpha#}))", _SOURCE)
     page.add("normal_base_pitch", pair.base_pitch, "pi * {m} * cos({alpha})", _SOURCE)
     page.section("Operating pitch cylinders")
     if not meets:

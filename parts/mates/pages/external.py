@@ -300,7 +300,7 @@ def _page(asked: Asked) -> Sheet:
     page.section(in_context("pair", "Limits"))
     if not asked.helix:
         rules = limits.practicum_undercut(one).limit, limits.practicum_undercut(two).limit
-        page.both("least_shift_practicum", rules, "(17 - {z#}) / 17", ("practicum (1.2)",) * 2)
+        page.both("least_shift_practicum", rules, "(17 - {z#}) / 17", "practicum (1.2)")
     limit_steps(page, pair, pair.gears, asked.helical)
     for index, (spec, gear) in enumerate(zip((keys.first, keys.second), pair.gears, strict=True), 1):
         page.notes += [finding_of(index, f) for f in rack_findings(spec, gear)]
@@ -361,10 +361,10 @@ def _thicknesses(page: Sheet, asked: Asked) -> None:
         formula, source = thickness_formula(gear), f"practicum (3.{15 + index})"
         page.add("reference_thickness", gear.reference_thickness, formula, source, index)
     values = (measurement.base_thickness(gears[0]), measurement.base_thickness(gears[1]))
-    page.both("base_thickness", values, "2 * {r_b#} * ({S#} / (2 * {r#}) + inv({alpha}))", ("ISO 21771",) * 2)
+    page.both("base_thickness", values, "2 * {r_b#} * ({S#} / (2 * {r#}) + inv({alpha}))", "ISO 21771")
     one, two = (measurement.thickness_at(g, r) for g, r in zip(gears, pair.working_radii, strict=True))
     formula = "2 * {r_w#} * ({S#} / (2 * {r#}) + inv({alpha}) - inv({alpha_w}))"
-    page.both("working_thickness", (one, two), formula, ("ISO 21771",) * 2)
+    page.both("working_thickness", (one, two), formula, "ISO 21771")
     for index, gear in enumerate(gears, 1):
         angle = math.degrees(measurement.angle_at(gear, gear.tip_radius))
         page.add("tip_pressure_angle_deg", angle, "arccos({r_b#} / {r_a#})", f"practicum (3.{17 + index})", index)

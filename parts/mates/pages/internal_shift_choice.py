@@ -291,15 +291,14 @@ def _choice(page: Sheet, module: float, wish: InternalRequirements, choice: Buil
         return
     values = state.involute, math.degrees(state.working_pressure_angle), state.working_centre_distance * module
     working_steps(page, values, internal=True, normal=helical)
-    iso = ("ISO 21771", "ISO 21771")
     if math.isfinite(state.contact_ratio):
         page.add("contact_ratio", state.contact_ratio - pair.overlap_ratio, "", "GOST 19274")
         if helical:
             page.add("total_contact_ratio", state.contact_ratio, "{eps} + {eps_beta}", "ISO 21771")
-        page.both("root_sliding", found.root_sliding, "", iso)
+        page.both("root_sliding", found.root_sliding, "", "ISO 21771")
     for name, pairs in (("tip_thickness", state.tip_thicknesses), ("bottom_clearance_at_root", state.tip_clearances)):
         if all(math.isfinite(v) for v in pairs):
-            page.both(name, (pairs[0] * module, pairs[1] * module), "", iso)
+            page.both(name, (pairs[0] * module, pairs[1] * module), "", "ISO 21771")
     _limited_tip(page, pair, found.second, number)
     _broken(page, pair, wish, choice, number)
 

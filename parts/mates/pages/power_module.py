@@ -155,18 +155,14 @@ def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
     page.name("T2_ring", "T2_II" if keys.held else "T_FII")
     own = torque / ratio
     page.add("pair_torque", own, "{T2_ring} / {u}", _GEAR)
-    constants = (
-        ("fatigue_limit_bending", keys.bending_limit), ("life_factor", 1.0), ("roughness_factor", 1.05),
-        ("size_factor", 1.0), ("gradient_factor", 0.98), ("bending_safety", 1.7), ("reversing_factor", 0.75),
+    page.told(
+        fatigue_limit_bending=keys.bending_limit, life_factor=1.0, roughness_factor=1.05, size_factor=1.0,
+        gradient_factor=0.98, bending_safety=1.7, reversing_factor=0.75,
     )  # fmt: skip
-    for name, value in constants:
-        page.add(name, value)
     allowed = keys.bending_limit / 1.7 * 1.05 * 0.98 * 0.75
     page.add("pair_allowed_bending", allowed,
              "{sigma_Flim} * {Y_N} / {S_F} * {Y_R} * {Y_X} * {Y_d} * {K_R}", _GEAR)  # fmt: skip
-    for name, value in (("module_factor", 14.0), ("pair_width_factor", 1.05), ("pair_form_factor", 3.55),
-                        ("width_ratio", 0.05)):  # fmt: skip
-        page.add(name, value)
+    page.told(module_factor=14.0, pair_width_factor=1.05, pair_form_factor=3.55, width_ratio=0.05)
     least = 14 * (own * 1.05 * 3.55 * ratio / (keys.pair_teeth[1] ** 2 * 0.05 * allowed)) ** (1 / 3)
     formula = "{K_m} * cbrt({T_11} * {K_Fb} * {Y_FS} * {u} / ({z_12}**2 * {psi_bd} * {sigma_FP1}))"
     page.add("pair_least_module", least, formula, _GEAR)
@@ -181,19 +177,19 @@ def _pair(page: Sheet, keys: PowerModuleKeys, torque: float) -> None:
     page.add("approximate_contact_ratio", rough, "1.88 - 3.2 * (1 / {z_11} - 1 / {z_12})", _GEAR)
     page.add("helix_angle_deg", 0.0)
     page.add("overlap_ratio", 0.0, "{b} * sin({beta}) / (pi * {m})", _GEAR)
-    factors = (("elasticity_factor", 190.0), ("zone_factor", 2.49), ("overlap_factor", 0.84),
-                 ("outer_load_factor", 1.0), ("pair_speed_factor", 1.01))  # fmt: skip
-    for name, value in factors:
-        page.add(name, value)
+    page.told(
+        elasticity_factor=190.0, zone_factor=2.49, overlap_factor=0.84, outer_load_factor=1.0, pair_speed_factor=1.01
+    )
     zone = math.sqrt(4 / math.sin(math.radians(40)))
     page.add("exact_zone_factor", zone, "sqrt(4 / sin(2 * 20 * pi / 180))")
     page.add("exact_overlap_factor", math.sqrt((4 - rough) / 3), "sqrt((4 - {eps_r}) / 3)")
     stress = 190 * 2.49 * 0.84 * math.sqrt(along * 1.01 * 1.05 / (keys.face_width * diameter) * (ratio - 1) / ratio)
     root = "sqrt({F_t} * {K_A} * {K_Hv} * {K_Fb} / ({b} * {d_11}) * ({u} - 1) / {u})"
     page.add("pair_contact_stress", stress, "{Z_E} * {Z_H} * {Z_eps} * " + root, _GEAR)
-    for name, value in (("contact_limit", keys.contact_limit), ("contact_safety", 1.2),
-                        ("contact_roughness_factor", 0.95), ("circumferential_speed_factor", 0.99)):  # fmt: skip
-        page.add(name, value)
+    page.told(
+        contact_limit=keys.contact_limit, contact_safety=1.2, contact_roughness_factor=0.95,
+        circumferential_speed_factor=0.99,
+    )  # fmt: skip
     bearable = keys.contact_limit / 1.2 * 0.95 * 0.99
     page.add("pair_allowed_contact", bearable, "{sigma_Hlim} / {S_H} * {Z_R} * {Z_v}", _GEAR)
     width = keys.face_width * (stress / bearable) ** 2

@@ -189,7 +189,7 @@ def _choice(page: Sheet, module: float, pair: ShiftPair, wish: Requirements, cho
     page.section("{number}. {rule}", number=number, rule=choice.name)
     shifts = found.first, found.second
     page.printed = {} if helical else printed_for_pair(pair.teeth, shifts, module, pair.rack.pressure_angle)
-    sources, symbol = (choice.source, choice.source), "x_n" if helical else ""
+    sources, symbol = choice.source, "x_n" if helical else ""
     page.both("profile_shift_coefficient", shifts, "", sources, symbol)
     if choice.printed is not None:
         page.mark_misprint(choice.printed)
@@ -204,8 +204,8 @@ def _choice(page: Sheet, module: float, pair: ShiftPair, wish: Requirements, cho
     if helical:
         page.add("total_contact_ratio", found.contact_ratio, "{eps} + {eps_beta}", "ISO 21771")
     thick = state.tip_thicknesses
-    page.both("tip_thickness", (thick[0] * module, thick[1] * module), "", ("practicum (1.3)", "practicum (1.3)"))
-    page.both("root_sliding", found.root_sliding, "", ("ISO 21771", "ISO 21771"))
+    page.both("tip_thickness", (thick[0] * module, thick[1] * module), "", "practicum (1.3)")
+    page.both("root_sliding", found.root_sliding, "", "ISO 21771")
     broken = [m for m in margins(pair, wish, found.first, found.second) if m.margin < -1e-9]
     if broken:
         names = ", ".join(f"{m.name} {m.margin:.4g}" for m in broken)
