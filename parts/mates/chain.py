@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 # numbers of links that are tried where one is too small
 _TRIED = 4096
+# links of a chain at most
+_MOST_LINKS = 10_000
 # links that are too many: two fewer go round as well
 _TOO_MANY = 2
 
@@ -33,7 +35,8 @@ class ChainDriveSpec(MateKeys, tag="chain_drive", kw_only=True):
 
     second: Annotated[str, Meta(description="instance that the chain drives, or that drives it")]
     number_of_links: (
-        Annotated[int, Meta(ge=6, le=10_000, description="links of the chain, even at best", examples=[100])] | None
+        Annotated[int, Meta(ge=6, le=_MOST_LINKS, description="links of the chain, even at best", examples=[100])]
+        | None
     ) = None
     centre_distance: (
         Annotated[
@@ -156,6 +159,9 @@ def chain_mesh(
         raise ParameterError(keys[0], None, "one_of_two_is_missing", other="centre_distance")
     if distance is not None and distance <= least * pitch:
         raise ParameterError(keys[1], distance, "sprockets_meet", limit(least * pitch * (1 + 1e-9), distance))
+    far = exact_distance(teeth, _MOST_LINKS, least)
+    if distance is not None and far is not None and distance > far * pitch:
+        raise ParameterError(keys[1], distance, "chain_too_short", limit(far * pitch, distance), links=_MOST_LINKS)
     if links is None:
         assert distance is not None
         return ChainMesh(sprockets, distance, links_for(teeth, distance / pitch, least))

@@ -57,8 +57,6 @@ PR-38.1-127 38.1 22.23 25.40 36.2 45.44 127.0
 PR-50.8-227 50.8 28.58 31.75 48.3 58.55 227.0
 PR-63.5-354 63.5 39.68 38.10 60.4 0 354.0
 """
-# the strands that sprockets are made for
-MOST_STRANDS = 3
 
 
 class Chain(Record):

@@ -36,12 +36,11 @@ _MARGIN = 1e-9
 
 
 class Strand(NamedTuple):
-    """The upper strand where it is taut: seats at its ends, counted counter-clockwise, its length and direction."""
+    """The upper strand where it is taut: seats at its ends, counted counter-clockwise, and its length."""
 
     first: int
     second: int
     length: float
-    angle: float
 
 
 class Play(NamedTuple):
@@ -87,7 +86,7 @@ class ChainDrive(Record):
             way = self.distance + cmath.rect(r2, second + ends[1] * s2) - cmath.rect(r1, first + ends[0] * s1)
             normal = cmath.phase(way) + math.pi / 2
         assert ends is not None
-        return Strand(*ends, abs(way), normal - math.pi / 2)
+        return Strand(*ends, abs(way))
 
     def above(self, first: float, second: float) -> float:
         """Links from seat 0 of the first over the upper strand to seat 0 of the second, where that is taut."""
@@ -137,7 +136,9 @@ def _hanging(start: complex, end: complex, count: int) -> Complex:
     def longer(half: float) -> float:
         return math.sin(count * half) - chord * math.sin(half)
 
-    half = bracketed_root(longer, 1e-9, math.pi / count).value
+    # of a flat arc by the series of both sines
+    flat = math.sqrt(6 * (count - chord) / count**3)
+    half = bracketed_root(longer, flat / 2, math.pi / count).value
     ways = np.exp(1j * half * (count - 1 - 2 * np.arange(count)))
     places: Complex = start + (end - start) / chord * np.cumsum(ways)
     return places[:-1]

@@ -14,7 +14,8 @@ from typing import NamedTuple
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError, PointedTipError, limit
 from geometry.base.findings import Finding
-from geometry.base.record import Record
+from geometry.base.nearest import kept, nearest
+from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.chains.chain import Chain
 from geometry.gears.teeth.offset import grown_side, toothed_region
@@ -31,6 +32,8 @@ _TIP_LAND, _THIN_LAND = 0.05, 0.02
 _MARGIN = 1e-6
 # that ISO 606 gives gaps for
 _ISO_TEETH = (9, 150)
+# of the pitch: rollers that leave teeth in every form
+_USUAL_ROLLER = 0.55
 # of the height of a flank, that a bevel leaves
 _BEVEL_ENDS = 0.05
 
@@ -307,10 +310,14 @@ def limits_of(sprocket: Sprocket) -> TipLimits:
     ParameterError
         There is no tooth between two rollers, or no tip within the limits; names the key and what works.
     """
-    flank, chain, teeth = flank_of(sprocket), sprocket.chain, sprocket.number_of_teeth
+    chain, teeth = sprocket.chain, sprocket.number_of_teeth
+    if not sprocket.gap.flank_radius > 0:
+        # 0.05 mm of GOST 591-69 are more than the smallest rollers have
+        raise _toothless(sprocket)
+    flank = flank_of(sprocket)
     start, pointed = abs(flank.start), flank.pointed_radius
     if not (sprocket.root_radius > 0 and flank.start.imag < 0 and start < pointed):
-        raise ParameterError("roller_diameter", chain.roller_diameter, "leaves_no_tooth_between_rollers")
+        raise _toothless(sprocket)
     given = sprocket.given_tip_diameter
     if given is not None and isinstance(sprocket.form, GostForm):
         return _given_tip(given, (2 * start, 2 * pointed), start, pointed)
@@ -319,21 +326,27 @@ def limits_of(sprocket: Sprocket) -> TipLimits:
         return _given_tip(given, (max(least, 2 * start), most), start, pointed)
     radius = (least + most) / 4
     if least / 2 >= pointed * (1 - _MARGIN) or radius <= start:
-        raise _pointed(sprocket)
+        raise _toothless(sprocket)
     land = _TIP_LAND * chain.pitch
     if least < most and (radius >= pointed or -2 * radius * flank.angle_at(radius) < land):
         radius = least / 2
     return TipLimits(radius, start, pointed)
 
 
-def _pointed(sprocket: Sprocket) -> ParameterError:
-    """Teeth are pointed below every tip of the form: its displacement is to blame where they are whole without."""
+def _toothless(sprocket: Sprocket) -> ParameterError:
+    """No tooth, or a pointed one at every tip of the form: its displacement is to blame where it alone cures that."""
     chain, form = sprocket.chain, sprocket.form
+
+    def fits(diameter: float) -> bool:
+        limits_of(replace(sprocket, chain=replace(chain, roller_diameter=diameter)))
+        return True
+
     if isinstance(form, GostForm) and form.displaced:
-        plain = Sprocket(sprocket.number_of_teeth, chain, GostForm())
-        if flank_of(plain).pointed_radius * (1 - _MARGIN) > form.tips(chain, plain.number_of_teeth)[0] / 2:
+        plain = replace(sprocket, form=GostForm())
+        if kept(lambda one: bool(limits_of(one)), plain):
             return ParameterError("displaced", True, "leaves_no_tooth_between_rollers", Nearest(False))
-    return ParameterError("roller_diameter", chain.roller_diameter, "leaves_no_tooth_between_rollers")
+    cure = partial(nearest, fits, chain.roller_diameter, _USUAL_ROLLER * chain.pitch, digits=6)
+    return ParameterError("roller_diameter", chain.roller_diameter, "leaves_no_tooth_between_rollers", cure)
 
 
 def _given_tip(given: float, limits: tuple[float, float], start: float, pointed: float) -> TipLimits:

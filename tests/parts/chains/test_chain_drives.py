@@ -65,6 +65,7 @@ def test_seats_of_a_second_that_stands_already_must_take_the_rollers(turn: float
         # tips of 74.3 and 159.3 mm: 2 a / p + 27.5 + 11.2 p / a = 47.1 links where they touch
         ({"number_of_links": 30}, LARGE, "mates[1].number_of_links", 48),
         ({"centre_distance": 110.0}, LARGE, "mates[1].centre_distance", None),
+        ({"centre_distance": 1e6}, LARGE, "mates[1].centre_distance", 63325.347),
         ({"number_of_links": 80, "centre_distance": 335.0}, LARGE, "mates[1].centre_distance", 330.638823),
         ({"number_of_links": 90, "centre_distance": 330.0}, LARGE, "mates[1].number_of_links", 80),
         ({"number_of_links": 80}, LARGE | {"chain": "081"}, "mates[1]: parts.b.roller_diameter", None),

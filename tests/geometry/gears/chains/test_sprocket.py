@@ -185,5 +185,14 @@ def test_refusals_name_what_works() -> None:
         checked_sprocket(Sprocket(17, Chain(12.7, 6.0), GostForm()))
     with pytest.raises(ParameterError, match="leaves_no_tooth_between_rollers"):
         checked_sprocket(Sprocket(17, Chain(12.7, 12.6), IsoForm()))
+    with pytest.raises(ParameterError) as refused:
+        checked_sprocket(Sprocket(17, Chain(12.7, 12.6), IsoForm()))
+    assert refused.value.nearest is not None
+    widest = float(str(refused.value.nearest.value))
+    checked_sprocket(Sprocket(17, Chain(12.7, widest), IsoForm()))
+    with pytest.raises(ParameterError):
+        checked_sprocket(Sprocket(17, Chain(12.7, widest + 0.01), IsoForm()))
+    with pytest.raises(ParameterError, match="leaves_no_tooth_between_rollers"):
+        checked_sprocket(Sprocket(17, Chain(0.1, 0.06), GostForm()))
     assert chain_of("08X-1") is None
     assert chain_of("081-2") is None
