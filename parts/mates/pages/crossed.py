@@ -14,15 +14,13 @@ from parts.base.texts import N_
 from parts.gears.spur_gear.part import SPUR_GEAR, SpurGearSpec
 from parts.keys.base import mm
 from parts.mates.crossed import CROSSED_HELICAL_PAIR, CrossedHelicalPairSpec, CrossedMating, ShaftAngle
-from parts.mates.pages.pair_keys import GEARS, pair_table
-from parts.mates.pairing import mated
+from parts.mates.pages.pair_keys import GEARS, mate_of, pair_mated, pair_table
 from parts.pages.force_steps import DrivenKeys, asked_torque, torque_steps
 from parts.pages.inputs import checked, refusal
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
 
 TOPIC = "gear-pair"
-_WISHES = ("working_centre_distance", "normal_backlash", "shaft_angle_deg")
 _SOURCE = "ISO 21771"
 # of the path of contact, mm: flanks end where tips do
 _WHOLE = 1e-9
@@ -72,11 +70,10 @@ def _pair(keys: CrossedKeys) -> CrossedPair:
             ends[name] = End(spec, SPUR_GEAR.thing(spec, {}))
         except ParameterError as error:
             raise refusal(TOPIC, error, name, keys) from error
-    wishes = {key: getattr(keys, key) for key in _WISHES}
-    mate = CrossedHelicalPairSpec(first="first", second="second", **wishes)
+    mate = mate_of(CrossedHelicalPairSpec, keys)
     try:
         CROSSED_HELICAL_PAIR.check(mate, keys.first, keys.second)
-        (mating,) = mated(ends, [mate], {name: name for name in GEARS})[1]
+        mating = pair_mated(mate, ends["first"], ends["second"])
     except ParameterError as error:
         owner, _, key = error.name.rpartition(".")
         if owner == "mate":

@@ -24,10 +24,9 @@ from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of,
 from parts.keys.base import mm
 from parts.keys.helix import common_face, same_helix
 from parts.mates.involute import InternalGearPairSpec, InternalMating, RackMating, RackPairSpec
-from parts.mates.pages.pair_keys import GEARS, pair_table
+from parts.mates.pages.pair_keys import mate_of, pair_mated, pair_table
 from parts.mates.pages.rack import first_radii, rack_page
 from parts.mates.pages.wishes import wish_refused
-from parts.mates.pairing import mated
 from parts.pages.contact_steps import (
     ISO,
     Helical,
@@ -45,7 +44,6 @@ from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
 
 TOPIC = "gear-pair"
-_SAME = {name: name for name in GEARS}
 
 
 class InternalKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
@@ -90,12 +88,7 @@ def internal_sheet(table: dict[str, Any]) -> Sheet:
 
 def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
     """The pair that the keys ask for; the ring's shift follows from a wanted distance where it is not given."""
-    mate = InternalGearPairSpec(
-        first="first",
-        second="second",
-        working_centre_distance=keys.working_centre_distance,
-        normal_backlash=keys.normal_backlash,
-    )
+    mate = mate_of(InternalGearPairSpec, keys)
     first, wanted = _pinion(keys), keys.working_centre_distance
     pinion, ring_keys = first.thing, keys.second
     teeth = pinion.number_of_teeth, ring_keys.number_of_teeth
@@ -105,9 +98,8 @@ def _internal_pair(keys: InternalKeys, given_shift: bool) -> InternalPair:
         shift = pinion.profile_shift_coefficient + shift_difference(pinion, transverse_ring(bare, helix), wanted)
         ring_keys = msgspec.structs.replace(ring_keys, profile_shift_coefficient=shift / math.cos(helix))
         # shifts that were found for a distance give it back but for rounding
-        mate = InternalGearPairSpec(first="first", second="second", normal_backlash=keys.normal_backlash)
-    ends: dict[str, End[Any]] = {"first": first, "second": End(ring_keys, checked_ring_gear(ring_keys))}
-    mating = mated(ends, [mate], _SAME)[1][0]
+        mate = msgspec.structs.replace(mate, working_centre_distance=None)
+    mating = pair_mated(mate, first, End(ring_keys, checked_ring_gear(ring_keys)))
     assert isinstance(mating, InternalMating)
     return mating.pair
 
@@ -121,16 +113,10 @@ def _helical(keys: InternalKeys | RackKeys) -> Helical:
 def rack_sheet(table: dict[str, Any]) -> Sheet:
     """The calculation of a gear on a rack."""
     keys: RackKeys = checked(pair_table(table, RackKeys, TOPIC), RackKeys, TOPIC)
-    mate = RackPairSpec(
-        first="first",
-        second="second",
-        working_centre_distance=keys.working_centre_distance,
-        normal_backlash=keys.normal_backlash,
-    )
     try:
         same_helix(keys.first, keys.second)
-        ends: dict[str, End[Any]] = {"first": _pinion(keys), "second": End(keys.second, checked_rack_part(keys.second))}
-        mating = mated(ends, [mate], _SAME)[1][0]
+        pinion, mate = _pinion(keys), mate_of(RackPairSpec, keys)
+        mating = pair_mated(mate, pinion, End(keys.second, checked_rack_part(keys.second)))
         assert isinstance(mating, RackMating)
         page = rack_page(mating.pair, TOPIC, _helical(keys), keys)
     except ParameterError as error:

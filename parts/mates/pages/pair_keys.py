@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 import msgspec
 from msgspec import Meta, Struct
@@ -12,13 +12,16 @@ from msgspec import Meta, Struct
 from geometry.base.errors import Nearest, ParameterError
 from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.teeth.helix import Helix
+from parts.base.mate import End, MateKeys, Mating
 from parts.base.refusal import SceneError, meant
 from parts.gears.spur_gear.part import RackTable
 from parts.keys.base import in_modules, mm
 from parts.keys.cutter import PressureAngle, RackName
 from parts.keys.helix import Double, HelixAngle
+from parts.mates.pairing import mated
 from parts.pages.inputs import PLACE, keys_of
 
+M = TypeVar("M", bound=MateKeys)
 GEARS = ("first", "second")
 # the second body of each kind of pair that it tells
 _SECOND = {"external_gear_pair": "spur_gear", "internal_gear_pair": "ring_gear", "rack_pair": "rack"}
@@ -64,6 +67,17 @@ class ChoiceKeys(Struct, forbid_unknown_fields=True, kw_only=True):
                 if (value := getattr(self, name)) != none:
                     raise ParameterError(name, value, "of_helical_gears_alone", Nearest(none))
         return CommonFace(Helix(angle, double=self.double_helical), self.module, self.face_width)
+
+
+def mate_of(kind: type[M], keys: Struct) -> M:
+    """The mate that the keys of a pair ask for."""
+    wishes = {key: getattr(keys, key) for key in keys_of(kind) if key not in GEARS and key in keys_of(type(keys))}
+    return kind(first="first", second="second", **wishes)
+
+
+def pair_mated(mate: MateKeys, first: End[Any], second: End[Any]) -> Mating:
+    """How both bodies of a pair stand to each other, as their mate wants them."""
+    return mated({"first": first, "second": second}, [mate], {name: name for name in GEARS})[1][0]
 
 
 def section_table(pair: Mapping[str, Any], table: Mapping[str, Any]) -> dict[str, Any]:
