@@ -3,25 +3,31 @@
 from __future__ import annotations
 
 import cmath
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
 
 from exporters.production.request import Request
 from geometry.base.placement import Placement3, Vector
+from geometry.base.record import replace
+from geometry.curves.curve import Curve
+from geometry.curves.line_arc import Line, arc_between
 from parts.base.mate import Touching
 from parts.drawing.assembly_sheet import AssemblyView, assembly_sheet
 from parts.drawing.assembly_views import Drawn, Shown, along_axes, cut, seen
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Expected
 from parts.drawing.extent import farthest
-from parts.drawing.working import VISIBLE, Size
+from parts.drawing.working import AXIS, VISIBLE, Size
 from parts.scene.parts_list import list_rows
 from parts.scene.placing import PlacedMate, Placing
+from parts.scene.standing import UPWARDS
 
 # what is one place, mm
 _SAME = 1e-6
+# of their pitch circle, within which pins stand on it
+_SEATED = 1e-9
 _TITLE = "A–A"
 
 
@@ -47,6 +53,7 @@ def assembly_drawings(request: Request, asked: Asked) -> list[tuple[str, Expecte
     front = seen(shown, Placement3(((x, y, 0.0), (-y, x, 0.0), (0.0, 0.0, 1.0))) @ back)
     section = seen(shown, Placement3(((x, y, 0.0), (0.0, 0.0, 1.0), (y, -x, 0.0))) @ back)
     main, across = along_axes(front), cut(section)
+    main = replace(main, strokes=(*main.strokes, *_pitch_lines(placing, set(wanted), centre, way)))
     views = [
         AssemblyView(across, (*_between(front, across, placing), *_over_all(across, across=False)), title=_TITLE),
         AssemblyView(main, (*_beside(front, placing), *_over_all(main, across=True)), marked=True),
@@ -62,6 +69,27 @@ def _line_of_centres(placing: Placing, wanted: set[str]) -> tuple[complex, compl
             return mate.first.centre, step / abs(step)
     first = next(i for i in placing.instances if i.part in wanted)
     return first.centre, 1.0
+
+
+def _pitch_lines(placing: Placing, wanted: set[str], centre: complex, way: complex) -> Iterator[tuple[str, Curve]]:
+    """The pitch lines of chains that run upright: arcs through their seated pins, and straight strands between."""
+    for mate in placing.mates:
+        if mate.first.axis != UPWARDS or not {mate.first.part, mate.second.part} <= wanted:
+            continue
+        found = mate.mating.rollers((mate.first.centre, mate.first.rotation), mate.direction)
+        if found is None:
+            continue
+        pins, ends = (found[0] - centre) / way, list[complex]()
+        for axis in ((one.centre - centre) / way for one in (mate.first, mate.second)):
+            apart = np.abs(pins - axis)
+            seated = apart <= apart.min() * (1 + _SEATED)
+            # the first of them follows one that is not, clockwise
+            start = int(np.flatnonzero(seated & ~np.roll(seated, 1))[0])
+            last = (start + int(seated.sum()) - 1) % len(pins)
+            yield AXIS, arc_between(axis, complex(pins[start]), complex(pins[last]), turns_left=False)
+            ends += [complex(pins[start]), complex(pins[last])]
+        yield AXIS, Line(ends[1], ends[2])
+        yield AXIS, Line(ends[3], ends[0])
 
 
 def _foot(mate: PlacedMate, first: complex, second: complex, axis: Vector) -> complex:

@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+import ezdxf
 import pytest
 
 from exporters.production.check import scene_checks
@@ -17,6 +18,7 @@ from tests.exporters.making import run, table, write_scene
 Keys = dict[str, Any]
 SMALL: Keys = {"kind": "sprocket", "chain": "08B-1", "number_of_teeth": 17}
 LARGE = SMALL | {"number_of_teeth": 38}
+EXPORTS = ({"format": "svg"}, {"format": "dxf", "purpose": "assembly"})
 MATE: Keys = {"kind": "chain_drive", "first": "a", "second": "b"}
 
 
@@ -82,8 +84,14 @@ def test_drives_that_cannot_be_are_refused_with_what_works(mate: Keys, two: Keys
         placed(mate | {key.rpartition(".")[2]: refused.value.nearest.value}, two=two)
 
 
-def test_the_picture_shows_every_roller(tmp_path: Path) -> None:
+def test_pictures_show_every_roller_and_drawings_the_pitch_line(tmp_path: Path) -> None:
     mate = table("[[mates]]", MATE | {"number_of_links": 80})
-    scene = write_scene(tmp_path / "s.toml", {"a": SMALL, "b": LARGE}, [{"format": "svg"}], mate)
+    mate += table("[instances.a]", {"rotation_deg": 180 / 17}) + "[instances.b]\n"
+    scene = write_scene(tmp_path / "s.toml", {"a": SMALL, "b": LARGE}, EXPORTS, mate)
     assert run("build", scene, "--out", tmp_path / "out") == 0
     assert (tmp_path / "out" / "s" / "s.preview.svg").read_text("utf-8").count("<circle") == 80
+    # a link of the first lies on the line of centres: at that stand both strands are taut, whole links of 12.7 mm long
+    drawing = ezdxf.readfile(tmp_path / "out" / "s" / "s.assembly.dxf")
+    lines = drawing.modelspace().query('LINE[layer=="CENTRE"]')
+    links = [drawing.header["$DIMLFAC"] * line.dxf.start.distance(line.dxf.end) / 12.7 for line in lines]
+    assert [n for n in links if n > 10] == pytest.approx([26.0, 26.0], abs=1e-5)
