@@ -60,7 +60,7 @@ class GenevaMating(Toothed):
             "working_centre_distance": self.distance,
             "crank_radius": drive.crank_radius,
             "step_deg": math.degrees(2 * drive.half_slot_angle),
-            "motion_share": drive.number_of_pins * drive.half_motion_angle / math.pi,
+            "motion_share": drive.motion_share,
         }
 
 

@@ -60,6 +60,11 @@ class Geneva(Record):
         return math.pi / 2 + self.sense * self.half_slot_angle
 
     @property
+    def motion_share(self) -> float:
+        """In which part of the driver's turn the wheel turns."""
+        return self.number_of_pins * self.half_motion_angle / math.pi
+
+    @property
     def dwell_angle(self) -> float:
         """How far the driver turns while the wheel stands, between two pins, rad."""
         return 2 * math.pi / self.number_of_pins - 2 * self.half_motion_angle

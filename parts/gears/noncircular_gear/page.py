@@ -109,11 +109,11 @@ def _teeth(page: Sheet, keys: NoncircularKeys, gear: NoncircularGear) -> None:
     rack = gear.rack
     drives = keys.role == "driver"
     page.section(N_("Teeth of this gear (driver)") if drives else N_("Teeth of this gear (mate)"))
-    page.add("pressure_angle_deg", math.degrees(rack.pressure_angle))
-    page.add("addendum_coefficient", rack.addendum)
-    page.add("tip_clearance_coefficient", rack.tip_clearance)
-    page.add("tip_radius_coefficient", rack.tip_radius)
-    page.add("profile_shift_coefficient", gear.profile_shift_coefficient)
+    page.told(
+        pressure_angle_deg=math.degrees(rack.pressure_angle), addendum_coefficient=rack.addendum,
+        tip_clearance_coefficient=rack.tip_clearance, tip_radius_coefficient=rack.tip_radius,
+        profile_shift_coefficient=gear.profile_shift_coefficient,
+    )  # fmt: skip
     if gear.circumferential_thinning:
         page.add("circumferential_thinning", gear.circumferential_thinning)
     page.add("tip_height", gear.tip_height, "({h_a} + {x}) * {m}")

@@ -65,15 +65,13 @@ def sheet(keys: GenevaKeys) -> Sheet:
 
 def _given(page: Sheet, wheel: GenevaWheel, drive: Geneva) -> None:
     page.section(N_("Given"))
-    page.add("number_of_slots", drive.number_of_slots)
-    page.add("number_of_pins", drive.number_of_pins)
-    page.add("working_centre_distance", drive.centre_distance)
-    page.add("pin_radius", wheel.pin_diameter / 2)
-    page.add("slot_clearance", wheel.slot_clearance)
-    page.add("end_clearance", wheel.end_clearance)
-    page.add("locking_radius", wheel.locking_radius)
-    page.add("locking_clearance", wheel.locking_clearance)
-    page.add("tip_rounding_radius", wheel.tip_rounding)
+    page.told(
+        number_of_slots=drive.number_of_slots, number_of_pins=drive.number_of_pins,
+        working_centre_distance=drive.centre_distance, pin_radius=wheel.pin_diameter / 2,
+        slot_clearance=wheel.slot_clearance, end_clearance=wheel.end_clearance,
+        locking_radius=wheel.locking_radius, locking_clearance=wheel.locking_clearance,
+        tip_rounding_radius=wheel.tip_rounding,
+    )  # fmt: skip
 
 
 def _sizes(page: Sheet, wheel: GenevaWheel) -> None:
@@ -95,7 +93,7 @@ def _time(page: Sheet, drive: Geneva) -> None:
     page.section(N_("Motion and rest"))
     page.add("half_motion_angle_deg", math.degrees(drive.half_motion_angle), f"pi / 2 {sign} {{beta}}", _ARTOBOLEVSKY)
     page.add("dwell_angle_deg", math.degrees(drive.dwell_angle), "2 * pi / {N} - 2 * {alpha_0}")
-    share = drive.number_of_pins * drive.half_motion_angle / math.pi
+    share = drive.motion_share
     page.add("motion_share", share, f"{{N}} * ({{n}} {sign} 2) / (2 * {{n}})", _ARTOBOLEVSKY)
     page.add("motion_to_dwell", share / (1 - share), "{k} / (1 - {k})")
     page.add("pin_limit", math.pi / drive.half_motion_angle, f"2 * {{n}} / ({{n}} {sign} 2)", _ARTOBOLEVSKY)
@@ -124,7 +122,7 @@ def _speed(page: Sheet, drive: Geneva, speed_rpm: float) -> None:
     omega, turn = math.pi * speed_rpm / 30, 60 / speed_rpm
     page.add("crank_speed_rpm", speed_rpm)
     page.add("angular_velocity", omega, "pi * {n_1} / 30", symbol="ω_1", key="omega")
-    share = drive.number_of_pins * drive.half_motion_angle / math.pi
+    share = drive.motion_share
     page.add("motion_time", share * turn / drive.number_of_pins, "60 * {k} / ({n_1} * {N})")
     page.add("dwell_time", (1 - share) * turn / drive.number_of_pins, "60 * (1 - {k}) / ({n_1} * {N})")
     page.add("greatest_angular_velocity", abs(float(drive.motion(0.0)[1])) * omega, "{i_w} * {omega}")
