@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, dataclass_transform
+from typing import TYPE_CHECKING, TypeVar, dataclass_transform
 
 from msgspec import Struct, field
 
@@ -12,12 +12,22 @@ if TYPE_CHECKING:
 else:
     from msgspec.structs import replace
 
-__all__ = ["Draft", "Record", "field", "replace"]
+__all__ = ["Draft", "Record", "field", "replace", "with_value"]
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
 class Record(Struct, frozen=True):
     """A frozen record with slots, compared and hashed by its fields; ``dict=True`` where it has cached properties."""
+
+
+R = TypeVar("R", bound=Record)
+
+
+def with_value(record: R, path: str, value: object) -> R:
+    """The record with another value of the field at a path (``rack.relief.depth``)."""
+    name, _, rest = path.partition(".")
+    made: R = replace(record, **{name: with_value(getattr(record, name), rest, value) if rest else value})
+    return made
 
 
 class Draft(Struct):

@@ -13,14 +13,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import ConvergenceError, ParameterError, PointedTipError, UndercutError, limit
 from geometry.base.nearest import kept, nearest
-from geometry.base.record import Record, replace
+from geometry.base.record import Record, replace, with_value
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Real
 from geometry.gears.bevel.sphere import SphericalFillet, SphericalInvolute, spatial
@@ -420,10 +420,10 @@ class BevelGear(Record, dict=True):
 
     def _changed(self, name: str, value: float) -> BevelGear:
         """The gear with another value; a cutter of the mean cone distance, as by default, follows the face."""
-        changed: dict[str, Any] = {name: value}
+        changed = with_value(self, name, value)
         if name == "face_width" and self.cutter_radius == self.mean_distance:
-            changed["cutter_radius"] = self.cone_distance - value / 2
-        return replace(self, **changed)
+            return replace(changed, cutter_radius=self.cone_distance - value / 2)
+        return changed
 
     def _cured(self, name: str, toward: float | Sequence[float], check: Callable[[BevelGear], None], code: str,
                error: type[ParameterError] = ParameterError, **numbers: float) -> ParameterError:  # fmt: skip

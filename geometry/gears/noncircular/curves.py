@@ -49,6 +49,15 @@ class RolledCurve(BoundedSpan):
         """Place, tangent direction, speed along it, its slope, and how fast the direction turns."""
         raise NotImplementedError
 
+    def tangent(self, t: ArrayLike) -> Complex:
+        _, direction, speed, _, _ = self.heading(np.asarray(t, dtype=float))
+        return np.where(speed < 0, -1.0, 1.0) * direction
+
+    def curvature(self, t: ArrayLike) -> Real:
+        _, _, speed, _, turning = self.heading(np.asarray(t, dtype=float))
+        with np.errstate(divide="ignore"):
+            return turning / np.abs(speed)
+
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         if order > 2:
             return FACTORIALS[order] * self.series(t, order)[order]
@@ -126,10 +135,6 @@ class RolledFlank(RolledCurve, Record):
     def tangent(self, t: ArrayLike) -> Complex:
         return self._sense * 1j * cmath.exp(1j * self.angle) * self.line.frame(t)[1]
 
-    def curvature(self, t: ArrayLike) -> Real:
-        with np.errstate(divide="ignore"):
-            return self.line.curvature(t) / np.abs(self.stretch(t))
-
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
         """Bounds of their moduli on each interval."""
         base = self.line.series_bound(order + 1, a, b)
@@ -190,15 +195,6 @@ class RolledFillet(RolledCurve, Record):
         place = base + (self.depth * (1j + tan) + 1j * self.tip_radius * turn) * tangent
         return place, tangent * turn, speed, change, kappa * rate - 1
 
-    def tangent(self, t: ArrayLike) -> Complex:
-        _, direction, speed, _, _ = self.heading(np.asarray(t, dtype=float))
-        return np.where(speed < 0, -1.0, 1.0) * direction
-
-    def curvature(self, t: ArrayLike) -> Real:
-        _, _, speed, _, turning = self.heading(np.asarray(t, dtype=float))
-        with np.errstate(divide="ignore"):
-            return turning / np.abs(speed)
-
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
         """Bounds of their moduli on each interval."""
         places = self._arc(a), self._arc(b)
@@ -236,14 +232,6 @@ class RolledLand(RolledCurve, Record):
         """Place, tangent direction, speed along it, its slope, and how fast the direction turns."""
         base, tangent, kappa, slope = self.line.frame_and_slope(t)
         return base - 1j * self.height * tangent, tangent, 1 + self.height * kappa, self.height * slope, kappa
-
-    def tangent(self, t: ArrayLike) -> Complex:
-        _, tangent, speed, _, _ = self.heading(np.asarray(t, dtype=float))
-        return np.where(speed < 0, -1.0, 1.0) * tangent
-
-    def curvature(self, t: ArrayLike) -> Real:
-        with np.errstate(divide="ignore"):
-            return self.line.curvature(t) / np.abs(self.stretch(t))
 
     def series_bound(self, order: int, a: Real, b: Real) -> Series:
         """Bounds of their moduli on each interval."""

@@ -13,14 +13,13 @@ from __future__ import annotations
 import math
 from functools import partial
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
-from geometry.base.record import Record, replace
+from geometry.base.record import Record, replace, with_value
 from geometry.curves.cycloid import ShortTrochoid, greatest_shortening, least_convex_radius
 from geometry.gears.teeth.tooth import ToothSide
 from geometry.plane.offset_region import OffsetRegion
@@ -216,8 +215,7 @@ def _nearest(disc: CycloidalDisc, key: str, good: float, most: float) -> Nearest
     given: float = getattr(disc, key)
 
     def whole(value: float) -> bool:
-        changed: dict[str, Any] = {key: value}
-        return value <= most and _is_whole(replace(disc, **changed))
+        return value <= most and _is_whole(with_value(disc, key, value))
 
     return nearest(whole, given, (most, good), digits=6) or _told(most, given)
 

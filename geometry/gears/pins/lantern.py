@@ -15,7 +15,6 @@ import cmath
 import math
 from collections.abc import Callable
 from functools import lru_cache, partial
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,7 +23,7 @@ from geometry.base.errors import CuspError, Nearest, ParameterError, PointedTipE
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.base.placement import Placement2
-from geometry.base.record import Record, replace
+from geometry.base.record import Record, replace, with_value
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real, end_point, start_point
 from geometry.curves.cycloid import CycloidParallel
@@ -222,7 +221,7 @@ def _too_thick(gear: LanternGear) -> ParameterError:
     """No tooth is left between two pins: the first key that alone leaves one is to blame, else the pins."""
 
     def fits(key: str, value: float) -> bool:
-        return _flank_ends(_with(gear, key, value)) is not None
+        return _flank_ends(with_value(gear, key, value)) is not None
 
     least = {"root_clearance": 0.0, "pin_clearance": 0.0, "pin_diameter": gear.pin_diameter * 1e-3}
     found = next((k for k, low in least.items() if getattr(gear, k) > low and fits(k, low)), None)
@@ -231,11 +230,6 @@ def _too_thick(gear: LanternGear) -> ParameterError:
     given: float = getattr(gear, found)
     cure = partial(nearest, partial(fits, found), given, least[found], digits=6)
     return ParameterError(found, given, "leaves_no_tooth_between_pins", cure)
-
-
-def _with(gear: LanternGear, key: str, value: float) -> LanternGear:
-    changed: dict[str, Any] = {key: value}
-    return replace(gear, **changed)
 
 
 def checked_lantern_gear(gear: LanternGear) -> LanternGear:
@@ -251,7 +245,7 @@ def checked_lantern_gear(gear: LanternGear) -> LanternGear:
 
         def fits(diameter: float) -> bool:
             """Apart, and with a tooth between them."""
-            return diameter <= room and _flank_ends(_with(gear, "pin_diameter", diameter)) is not None
+            return diameter <= room and _flank_ends(with_value(gear, "pin_diameter", diameter)) is not None
 
         def cure() -> Nearest:
             """Pins that leave a tooth; where no pins do, those that do not touch."""

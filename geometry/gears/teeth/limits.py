@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from geometry.base.errors import GeometryError, Nearest, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import Suspect, blamed, nearest
-from geometry.base.record import Record, replace
+from geometry.base.record import Record, replace, with_value
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.involute import Involute
 from geometry.gears.teeth.joints import pointed_radius
@@ -217,12 +217,31 @@ def corner_suspects(gear: G, builds: Callable[[G], bool]) -> list[Suspect]:
     """
     least = _LEAST_OFFERED * gear.module
 
-    def with_field(name: str, value: float) -> bool:
-        field: dict[str, Any] = {name: value}
-        return (value == 0 or value >= least) and builds(replace(gear, **field))
+    def holds(name: str, value: float) -> bool:
+        return (value == 0 or value >= least) and builds(with_value(gear, name, value))
 
     names = ("tip_chamfer", "tip_rounding", "circumferential_thinning")
-    return [Suspect(name, getattr(gear, name), 0.0, partial(with_field, name)) for name in names]
+    return [Suspect(name, getattr(gear, name), 0.0, partial(holds, name)) for name in names]
+
+
+def building(gear: G, builds: Callable[[G], bool], path: str) -> Callable[[float], bool]:
+    """Whether a toothed part can be built with another value of the field at a path, by that value."""
+    return lambda value: builds(with_value(gear, path, value))
+
+
+def told_of_shift(gear: G, builds: Callable[[G], bool], refusal: ParameterError) -> ParameterError | None:
+    """A refusal told of the shift, where one from -3 to 3 in steps of 0.05 works: the nearest to the refused one."""
+    name, given = "profile_shift_coefficient", gear.profile_shift_coefficient
+    works = building(gear, builds, name)
+    grid = sorted((k / 20 for k in range(-60, 61)), key=lambda v: abs(v - given))
+    found = next((v for v in grid if works(v)), None)
+    return None if found is None else refused_as(refusal, Suspect(name, given, found, works))
+
+
+def more_teeth(given: int, works: Callable[[int], bool]) -> Nearest | None:
+    """The number of teeth above a refused one that works."""
+    found = next((n for n in range(given + 1, given + 80) if works(n)), None)
+    return None if found is None else Nearest(found, "at_least")
 
 
 def refused_as(refusal: ParameterError, suspect: Suspect) -> ParameterError:
@@ -237,26 +256,19 @@ def _blamed(gear: SpurGear, helix_angle: float, refusal: ParameterError) -> Para
     def builds(changed: SpurGear) -> bool:
         return _builds(transverse_gear(changed, helix_angle))
 
-    def with_shift(shift: float) -> bool:
-        return builds(replace(gear, profile_shift_coefficient=shift))
-
-    def with_tip(diameter: float) -> bool:
-        return builds(replace(gear, given_tip_diameter=diameter))
-
     found = blamed(_suspects(gear, helix_angle, builds), refusal.name)
     if found is not None:
         return refused_as(refusal, found)
-    x = gear.profile_shift_coefficient
-    if (shift := working_shift(with_shift, x)) is not None:
-        return refused_as(refusal, Suspect("profile_shift_coefficient", x, shift, with_shift))
+    if (of_shift := told_of_shift(gear, builds, refusal)) is not None:
+        return of_shift
+    with_tip = building(gear, builds, "given_tip_diameter")
     diameter = 2 * transverse_gear(gear, helix_angle).tip_radius
     lower = next((d for k in range(1, 160) if with_tip(d := diameter * (1 - k / 200))), None)
     if lower is not None:
         return refused_as(refusal, Suspect("tip_diameter", diameter, lower, with_tip))
     z = gear.number_of_teeth
-    teeth = next((n for n in range(z + 1, z + 60) if builds(replace(gear, number_of_teeth=n))), None)
-    cure = None if teeth is None else Nearest(teeth, "at_least")
-    return UndercutError("number_of_teeth", z, refusal.code, cure, **refusal.numbers)
+    teeth = more_teeth(z, building(gear, builds, "number_of_teeth"))
+    return UndercutError("number_of_teeth", z, refusal.code, teeth, **refusal.numbers)
 
 
 def _told_of_cutter(gear: SpurGear, helix_angle: float, refusal: ParameterError) -> ParameterError:
@@ -267,36 +279,24 @@ def _told_of_cutter(gear: SpurGear, helix_angle: float, refusal: ParameterError)
     if cutter is None or refusal.name not in CUTTER_TOOTH:
         return refusal
 
-    def with_cutter(field: str, value: object) -> bool:
-        changed: dict[str, Any] = {field: value}
-        return _builds(transverse_gear(replace(gear, cutter=replace(cutter, **changed)), helix_angle))
+    def works(path: str, value: object) -> bool:
+        return _builds(transverse_gear(with_value(gear, path, value), helix_angle))
 
-    if own is not None and with_cutter(refusal.name.removeprefix("cutter."), own.value):
+    if own is not None and works(refusal.name, own.value):
         return refusal
-    z = cutter.number_of_teeth
-    more = next((n for n in range(z + 1, z + 60) if with_cutter("number_of_teeth", n)), None)
-    if more is None:
-        return refusal
-    return ParameterError("cutter.number_of_teeth", z, refusal.code, Nearest(more, "at_least"), **refusal.numbers)
+    name, z = "cutter.number_of_teeth", cutter.number_of_teeth
+    more = more_teeth(z, partial(works, name))
+    return refusal if more is None else ParameterError(name, z, refusal.code, more, **refusal.numbers)
 
 
 def _suspects(gear: SpurGear, helix_angle: float, builds: Callable[[SpurGear], bool]) -> list[Suspect]:
     """Parameters of a gear that could be changed alone, the most special first."""
     suspects = corner_suspects(gear, builds)
     if (relief := gear.rack.relief) is not None:
-
-        def with_relief(name: str, value: float) -> bool:
-            return builds(replace(gear, rack=replace(gear.rack, relief=replace(relief, **{name: value}))))
-
-        suspects.append(Suspect("relief.depth", relief.depth, 0.0, partial(with_relief, "depth")))
-        suspects.append(Suspect("relief.height", relief.height, 1e-6, partial(with_relief, "height")))
+        depth, height = (building(gear, builds, f"rack.relief.{name}") for name in ("depth", "height"))
+        suspects.append(Suspect("relief.depth", relief.depth, 0.0, depth))
+        suspects.append(Suspect("relief.height", relief.height, 1e-6, height))
     given = 2 * transverse_gear(gear, helix_angle).tip_radius
     default = 2 * transverse_gear(replace(gear, given_tip_diameter=None), helix_angle).tip_radius
-    suspects.append(Suspect("tip_diameter", given, default, lambda v: builds(replace(gear, given_tip_diameter=v))))
+    suspects.append(Suspect("tip_diameter", given, default, building(gear, builds, "given_tip_diameter")))
     return suspects
-
-
-def working_shift(works: Callable[[float], bool], given: float) -> float | None:
-    """A shift that works, the nearest to a refused one of those from -3 to 3 in steps of 0.05."""
-    grid = sorted((k / 20 for k in range(-60, 61)), key=lambda v: abs(v - given))
-    return next((v for v in grid if works(v)), None)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import partial
-from typing import Any
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.findings import Finding
@@ -16,11 +14,13 @@ from geometry.gears.teeth.cutter import CUTTER_TOOTH, PinionCutter
 from geometry.gears.teeth.limits import (
     LEAST_TIP_THICKNESS,
     Margin,
+    building,
     check_dimensions,
     corner_suspects,
     in_normal_modules,
+    more_teeth,
     refused_as,
-    working_shift,
+    told_of_shift,
 )
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.ring_made import DEFAULT_CUTTER_TEETH, check_made, generation, makes, settled_ring
@@ -146,9 +146,6 @@ def _blamed(gear: RingGear, helix_angle: float, refusal: ParameterError) -> Para
     def builds(changed: RingGear) -> bool:
         return makes(transverse_ring(changed, helix_angle))
 
-    def with_shift(shift: float) -> bool:
-        return builds(replace(gear, profile_shift_coefficient=shift))
-
     if refusal.name == "cutter.number_of_teeth" and (teeth := _cutter_teeth(gear, builds)) is not None:
         return type(refusal)(refusal.name, refusal.value, refusal.code, teeth, **refusal.numbers)
     found = blamed(_suspects(gear, helix_angle, builds), refusal.name)
@@ -157,23 +154,17 @@ def _blamed(gear: RingGear, helix_angle: float, refusal: ParameterError) -> Para
     root = gear.root
     if refusal.name in CUTTER_TOOTH and isinstance(root, PinionCutter) and (teeth := _cutter_teeth(gear, builds)):
         return ParameterError("cutter.number_of_teeth", root.number_of_teeth, refusal.code, teeth, **refusal.numbers)
-    x = gear.profile_shift_coefficient
-    if (shift := working_shift(with_shift, x)) is not None:
-        return refused_as(refusal, Suspect("profile_shift_coefficient", x, shift, with_shift))
+    if (of_shift := told_of_shift(gear, builds, refusal)) is not None:
+        return of_shift
     z = gear.number_of_teeth
-    more = next((n for n in range(z + 1, z + 80) if builds(replace(gear, number_of_teeth=n))), None)
-    if more is None:
+    if (more := more_teeth(z, building(gear, builds, "number_of_teeth"))) is None:
         return in_normal_modules(refusal, helix_angle)
-    return ParameterError("number_of_teeth", z, refusal.code, Nearest(more, "at_least"), **refusal.numbers)
+    return ParameterError("number_of_teeth", z, refusal.code, more, **refusal.numbers)
 
 
 def _suspects(gear: RingGear, helix_angle: float, builds: Callable[[RingGear], bool]) -> list[Suspect]:
     """Parameters of a ring that could be changed alone, the most special first."""
     suspects, root = corner_suspects(gear, builds), gear.root
-
-    def with_root(field: str, value: float) -> bool:
-        changed: dict[str, Any] = {field: value}
-        return builds(replace(gear, root=replace(root, **changed)))
 
     own: list[tuple[str, str, float]] = []
     if isinstance(root, RoundedRoot):
@@ -183,10 +174,10 @@ def _suspects(gear: RingGear, helix_angle: float, builds: Callable[[RingGear], b
     elif not gear.any_cutter:
         fields = (("tip_rounding", 0.0), ("profile_shift_coefficient", 0.0), ("addendum", 1.0))
         own = [(f"cutter.{field}", field, harmless) for field, harmless in fields]
-    suspects += [Suspect(name, getattr(root, f), harmless, partial(with_root, f)) for name, f, harmless in own]
-
-    def with_tip(diameter: float) -> bool:
-        return builds(replace(gear, given_tip_diameter=diameter))
+    suspects += [
+        Suspect(name, getattr(root, f), harmless, building(gear, builds, f"root.{f}")) for name, f, harmless in own
+    ]
+    with_tip = building(gear, builds, "given_tip_diameter")
 
     def with_angle(angle: float) -> bool:
         made = root if isinstance(root, RoundedRoot) else replace(root, pressure_angle=angle)
