@@ -97,10 +97,15 @@ def width_steps(page: Sheet, sprocket: Sprocket) -> None:
 
 def measured_steps(page: Sheet, sprocket: Sprocket) -> None:
     """Over pins as thick as the rollers, and between the roots."""
-    odd = sprocket.number_of_teeth % 2
-    whole = "({d_f} + {d_r}) * cos(pi / (2 * {z})) + {d_r}" if odd else "{d_f} + 2 * {d_r}"
-    page.add("sprocket_over_pins", sprocket.over_pins, whole, ISO if isinstance(sprocket.form, IsoForm) else "")
-    page.add("root_chord", sprocket.root_chord, "{M_R} - 2 * {d_r}")
+    off, form = " * cos(pi / (2 * {z}))" if sprocket.number_of_teeth % 2 else "", sprocket.form
+    chord, source = f"({{d_f}} + 2 * {{r_i}}){off} - 2 * {{r_i}}", ""
+    if isinstance(form, GostForm):
+        chord, source = f"{{d}}{off} - 2 * {{r}}", GOST
+        if off and form.displaced:
+            chord, source = f"{chord} - {{e}} * sin(pi / (2 * {{z}}))", ""
+    page.add("root_chord", sprocket.root_chord, chord if off else "{d_f}", source if off else "")
+    over, source = (f"{{d}}{off} + {{d_r}}", ISO) if isinstance(form, IsoForm) else ("{L_x} + 2 * {d_r}", "")
+    page.add("sprocket_over_pins", sprocket.over_pins, over, source)
     page.add("tip_thickness", sprocket.tip_thickness)
 
 

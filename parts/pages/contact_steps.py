@@ -230,7 +230,7 @@ def limit_steps(page: Sheet, pair: Pair | RackPair, gears: Sequence[SpurGear], h
     page.add("least_tip_thickness", least, f"{LEAST_TIP_THICKNESS} * {{m}}", "practicum (1.3)")
     found = [(f, 0) for f in helical.face.findings(pair.findings(), pair.effective_contact_ratio)]
     for index, gear in enumerate(gears, 1):
-        found += [(f, index) for f in limits.findings(gear) if f.code != "thin_rim"]
+        found += [(f, index) for f in limits.findings(gear, helical.angle) if f.code != "thin_rim"]
     page.notes += [finding_of(owner, finding) for finding, owner in found]
 
 

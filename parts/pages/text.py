@@ -14,6 +14,7 @@ _SOURCES = (
     NC_("source", "practicum"),
     NC_("source", "guidelines"),
     NC_("source", "Savvin"),
+    NC_("source", "Artobolevsky"),
     NC_("source", "thesis"),
     NC_("source", "GOST"),
     NC_("source", "table"),

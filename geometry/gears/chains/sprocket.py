@@ -215,15 +215,26 @@ class Sprocket(Record):
 
     @property
     def over_pins(self) -> float:
-        """M_R over two pins as thick as the rollers, in opposite gaps or, of odd teeth, in those nearest to it, mm."""
+        """M_R over two pins as thick as the rollers, in opposite gaps or, of odd teeth, in those nearest to it, mm.
+
+        ISO 606 has them on the pitch circle, d cos(90 deg / z) + d1; in seats of GOST 591 they lie where the chord is.
+        """
         roller = self.chain.roller_diameter
+        if isinstance(self.form, GostForm):
+            return self.root_chord + 2 * roller
         odd = math.cos(self.pitch_angle / 4) if self.number_of_teeth % 2 else 1.0
-        return 2 * (self.root_radius + roller / 2) * odd + roller
+        return 2 * self.pitch_radius * odd + roller
 
     @property
     def root_chord(self) -> float:
-        """From the bottom of a gap to that opposite or nearest to it: what callipers find, mm."""
-        return self.over_pins - 2 * self.chain.roller_diameter
+        """L_x, the least way from a seat to that opposite or nearest to it: what callipers find, mm.
+
+        (d_f + 2 r) cos(90 deg / z) - e sin(90 deg / z) - 2 r, of arcs r whose centres are e apart; d_f of even teeth.
+        """
+        off = self.pitch_angle / 4 if self.number_of_teeth % 2 else 0.0
+        radius = self.form.seating_radius(self.chain.roller_diameter)
+        apart = self.form.displacement(self.chain.pitch) if isinstance(self.form, GostForm) else 0.0
+        return 2 * ((self.root_radius + radius) * math.cos(off) - radius) - apart * math.sin(off)
 
     @property
     def plate_room(self) -> float:

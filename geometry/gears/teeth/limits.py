@@ -28,8 +28,6 @@ G = TypeVar("G", "SpurGear", "RingGear")
 LEAST_TIP_THICKNESS = 0.3
 # modules: shorter chamfers, roundings and thinnings are not offered
 _LEAST_OFFERED = 1e-6
-# practicum (1.2): xi_min = (17 - z) / 17
-PRACTICUM_LEAST_TEETH = 17
 
 
 class Margin(Record):
@@ -69,9 +67,14 @@ def undercut(gear: SpurGear) -> Margin:
     return Margin.above("undercut", gear.generating_shift_coefficient, least_shift_without_undercut(gear))
 
 
+def rule_teeth(gear: SpurGear) -> int:
+    """z_0 of the rule, 2 h_a / sin^2(alpha) rounded: 17 at 20 degrees and h_a = 1, 32 at 14.5 degrees."""
+    return max(round(2 * gear.rack.addendum / math.sin(gear.pressure_angle) ** 2), 1)
+
+
 def practicum_undercut(gear: SpurGear) -> Margin:
-    """Undercut by the practicum's rule (1.2), xi_min = (17 - z) / 17, meant for 20 degrees and h_a = 1."""
-    least = (PRACTICUM_LEAST_TEETH - gear.number_of_teeth) / PRACTICUM_LEAST_TEETH
+    """Undercut by the rule xi_min = h_a (z_0 - z) / z_0 of textbooks, (1.2) of the practicum."""
+    least = gear.rack.addendum * (rule_teeth(gear) - gear.number_of_teeth) / rule_teeth(gear)
     return Margin.above("practicum_undercut", gear.profile_shift_coefficient, least)
 
 
@@ -116,9 +119,14 @@ def margins(gear: SpurGear) -> tuple[Margin, ...]:
     return undercut(gear), practicum_undercut(gear), pointed_tip(gear), thin_tip(gear), root_below_bore(gear)
 
 
-def findings(gear: SpurGear) -> tuple[Finding, ...]:
-    """Remarks on a gear that is legal but poor: undercut, thin tip, tip circle above the rack's root."""
-    found = [Finding(m.name, m.value, m.limit) for m in (undercut(gear), thin_tip(gear)) if m.margin < 0]
+def findings(gear: SpurGear, helix_angle: float = 0.0) -> tuple[Finding, ...]:
+    """Remarks on a gear that is legal but poor: undercut, thin tip, tip circle above the rack's root.
+
+    ``gear``: the transverse section where ``helix_angle`` is not 0, rad; shifts are told in normal modules then.
+    """
+    cut, tip, cosine = undercut(gear), thin_tip(gear), math.cos(helix_angle)
+    found = [Finding(cut.name, cut.value / cosine, cut.limit / cosine)] if cut.margin < 0 else []
+    found += [Finding(tip.name, tip.value, tip.limit)] if tip.margin < 0 else []
     if gear.bore_radius > 0 and gear.root_radius - gear.bore_radius < gear.module:
         found.append(Finding("thin_rim", gear.root_radius - gear.bore_radius, gear.module))
     return tuple(found)

@@ -146,12 +146,13 @@ def _both(
 def _cones(page: Sheet, pair: BevelPair) -> None:
     first, both = pair.first, partial(_both, page, pair)
     page.section("Cones")
+    # of spiral teeth their own standard has the cones; dedendum angles of theirs are by its tables
+    gost, dedendum = (_GOST, _GOST) if first.is_straight else (_GOST_SPIRAL, "")
     page.add("gear_ratio", pair.ratio, "{z2} / {z1}")
-    # where the pitch cone opens wider than a right angle the arc tangent is that of its supplement
-    angles = _each(pair, lambda g: math.degrees(g.pitch_angle))
+    # tip cones open less than a right angle, pitch cones so too
     formula = "arctan(sin({Sigma}) / ({z~} / {z#} + cos({Sigma})))"
-    page.both("pitch_cone_angle_deg", angles, formula if max(angles) < 90 else "", _GOST)
-    page.add("outer_cone_distance", first.cone_distance, "{m} * {z1} / (2 * sin({delta1}))", _GOST)
+    both("pitch_cone_angle_deg", lambda g: math.degrees(g.pitch_angle), formula, gost)
+    page.add("outer_cone_distance", first.cone_distance, "{m} * {z1} / (2 * sin({delta1}))", gost)
     page.add("mean_cone_distance", first.cone_distance - first.face_width / 2, "{R_e} - {b} / 2")
     mean = first.module * (1 - first.face_width / 2 / first.cone_distance)
     page.add("mean_module", mean, "{m} * {R_m} / {R_e}")
@@ -160,8 +161,8 @@ def _cones(page: Sheet, pair: BevelPair) -> None:
     both("outer_addendum", lambda g: g.addendum, "({h_a} + {x#}) * {m}")
     both("outer_dedendum", lambda g: g.dedendum, "({h_a} + {c} - {x#}) * {m}")
     both("outer_depth", lambda g: g.addendum + g.dedendum, "{h_ae#} + {h_fe#}")
-    both("dedendum_angle_deg", lambda g: math.degrees(g.dedendum_angle), "arctan({h_fe#} / {R_e})", _GOST)
-    formula, source = ("arctan({h_ae#} / {R_e})", "") if first.tip_to_apex else ("{theta_f~}", _GOST)
+    both("dedendum_angle_deg", lambda g: math.degrees(g.dedendum_angle), "arctan({h_fe#} / {R_e})", dedendum)
+    formula, source = ("arctan({h_ae#} / {R_e})", "") if first.tip_to_apex else ("{theta_f~}", dedendum)
     both("addendum_angle_deg", lambda g: math.degrees(g.addendum_angle), formula, source)
     both("tip_cone_angle_deg", lambda g: math.degrees(g.tip_cone_angle), "{delta#} + {theta_a#}")
     both("outer_tip_ray_deg", lambda g: math.degrees(g.tip_angle), "{delta#} + arctan({h_ae#} / {R_e})")
@@ -169,12 +170,12 @@ def _cones(page: Sheet, pair: BevelPair) -> None:
     both("base_cone_angle_deg", lambda g: math.degrees(g.involute.base), "arcsin(sin({delta#}) * cos({alpha}))")
     both("outer_pitch_diameter", lambda g: g.module * g.number_of_teeth, "{m} * {z#}")
     both("mean_pitch_diameter", lambda g: mean * g.number_of_teeth, "{m_m} * {z#}")
-    both("outer_tip_circle", lambda g: 2 * g.outer(g.tip_angle).real, "{d_e#} + 2 * {h_ae#} * cos({delta#})", _GOST)
+    both("outer_tip_circle", lambda g: 2 * g.outer(g.tip_angle).real, "{d_e#} + 2 * {h_ae#} * cos({delta#})", gost)
     formula = "{d_ae#} - 2 * {b} * sin({delta_a#}) / cos({theta_a#})"
     both("inner_tip_circle", lambda g: 2 * g.inner(g.inner_tip_angle).real, formula)
     both("outer_root_circle", lambda g: 2 * g.outer(g.root_angle).real, "{d_e#} - 2 * {h_fe#} * cos({delta#})")
     formula = "{R_e} * cos({delta#}) - {h_ae#} * sin({delta#})"
-    both("tip_circle_to_apex", lambda g: g.outer(g.tip_angle).imag, formula, _GOST)
+    both("tip_circle_to_apex", lambda g: g.outer(g.tip_angle).imag, formula, gost)
 
 
 def _lines(page: Sheet, gear: BevelGear) -> None:
@@ -193,9 +194,9 @@ def _lines(page: Sheet, gear: BevelGear) -> None:
 
 def _teeth(page: Sheet, pair: BevelPair) -> None:
     page.section("Teeth at the outer end")
-    both = partial(_both, page, pair)
+    both, source = partial(_both, page, pair), _GOST if pair.first.is_straight else ""
     thickness = "(pi / 2 + 2 * {x#} * tan({alpha}) + {x_tau#}) * {m} - {A#}"
-    both("outer_thickness", lambda g: g.thickness, thickness, _GOST)
+    both("outer_thickness", lambda g: g.thickness, thickness, source)
     both("virtual_teeth", lambda g: g.virtual_teeth, "{z#} / cos({delta#})")
     if pair.first.is_straight:
         _outer_chords(page, pair)
@@ -209,7 +210,7 @@ def _teeth(page: Sheet, pair: BevelPair) -> None:
     least = f"{{h_a}} + {{c}} - {{R_e}} / {{m}} * tan({deepest})"
     both("least_shift_without_undercut", lambda g: g.least_shift, least)
     virtual = "{h_a} + {c} - {rho_f} * (1 - sin({alpha})) - {z_v#} * sin({alpha})**2 / 2"
-    both("virtual_least_shift", lambda g: g.virtual_least_shift, virtual, _GOST)
+    both("virtual_least_shift", lambda g: g.virtual_least_shift, virtual, source)
     first, ratio = pair.first, max(pair.ratio, 1 / pair.ratio)
     if abs(first.shaft_angle - math.pi / 2) < _RIGHT and ratio > 1:
         small = min(pair.gears, key=lambda g: g.number_of_teeth)

@@ -19,7 +19,7 @@ from geometry.gears.teeth.limits import checked_gear, practicum_undercut
 from geometry.gears.teeth.spur import SpurGear
 from parts.base.refusal import REMOVED, SceneError
 from parts.base.texts import N_
-from parts.gears.spur_gear.page import greatest_shift, least_tip_step
+from parts.gears.spur_gear.page import greatest_shift, least_tip_step, rule_formula
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear
 from parts.keys.base import in_modules, mm
 from parts.keys.cutter import PressureAngle
@@ -134,7 +134,7 @@ def _zero_wheel(page: Sheet, gear: SpurGear) -> None:
 
 def _shifted_wheel(page: Sheet, gear: SpurGear, is_given: bool, rule: float) -> None:
     page.section("3) Shifted wheel: table 1.2")
-    formula = "(17 - {z}) / 17" if not is_given and rule >= 0 else ""
+    formula = rule_formula(gear) if not is_given and rule >= 0 else ""
     page.add("profile_shift_coefficient", gear.profile_shift_coefficient, formula, _SOURCES[2], symbol="ξ")
     page.add("profile_shift", gear.profile_shift_coefficient * gear.module, "{x} * {m}", _SOURCES[2])
     formula = "0.5 * {p} + 2 * {X} * tan({alpha})"
@@ -142,7 +142,8 @@ def _shifted_wheel(page: Sheet, gear: SpurGear, is_given: bool, rule: float) -> 
     formula = "{d_b} * ({S2} / {d} + inv({alpha}))"
     page.add("base_thickness", measurement.base_thickness(gear), formula, "ISO 21771", 2)
     if rule < 0 and not is_given:
-        page.note("17 teeth and more need no shift: both wheels are the same")
+        teeth = limits.rule_teeth(gear)
+        page.note(N_("{teeth} teeth and more need no shift: both wheels are the same"), teeth=teeth)
 
 
 def _measured(page: Sheet, gear: SpurGear, index: int) -> None:

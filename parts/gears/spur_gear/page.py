@@ -242,8 +242,7 @@ def _limits(page: Sheet, gear: SpurGear, helix: float) -> None:
         formula = f"2 * {height} / sin({{alpha}})**2" if height else ""
         page.add("least_number_of_teeth", 2 * gear.rack.form_dedendum / sine, formula, "ISO 21771")
     if rack and not helix:
-        rule = limits.practicum_undercut(gear).limit
-        page.add("least_shift_practicum", rule, "(17 - {z}) / 17", "practicum (1.2)")
+        rule_step(page, gear)
     formula = f"{height} - {{z}} * sin({{alpha}})**2 / 2" if height else ""
     least = limits.least_shift_without_undercut(gear) / math.cos(helix)
     page.add("least_shift_without_undercut", least, formula, "ISO 21771", symbol="x_n,min" if helix else "")
@@ -258,6 +257,18 @@ def _limits(page: Sheet, gear: SpurGear, helix: float) -> None:
         page.note("the tooth is undercut: x < x_min")
     if limits.thin_tip(gear).margin < 0:
         page.note("the tip is thinner than 0.3 m")
+
+
+def rule_step(page: Sheet, gear: SpurGear, index: int = 0) -> None:
+    """The least shift by the rule of textbooks."""
+    least, practicums = limits.practicum_undercut(gear).limit, (limits.rule_teeth(gear), gear.rack.addendum) == (17, 1)
+    page.add("least_shift_practicum", least, rule_formula(gear), "practicum (1.2)" if practicums else "", index)
+
+
+def rule_formula(gear: SpurGear) -> str:
+    """How a page writes ``limits.practicum_undercut``."""
+    least = limits.rule_teeth(gear)
+    return ("" if gear.rack.addendum == 1 else "{h_a#} * ") + f"({least} - {{z#}}) / {least}"
 
 
 def least_tip_step(page: Sheet, module: float) -> None:

@@ -209,7 +209,8 @@ class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
 
     def report(self, keys: SpurGearSpec, thing: SpurGear) -> Report:
         """Diameters and thicknesses, what is poor."""
-        found = (*rack_findings(keys, thing), *_chamfer_finding(keys), *findings(thing))
+        helix = math.radians(keys.helix_angle_deg)
+        found = (*rack_findings(keys, thing), *_chamfer_finding(keys), *findings(thing, helix))
         quantities = tooth_quantities(keys, thing, tip_thickness(thing))
         return Report(found, circles(thing, root_form_diameter(thing)), quantities, section_finding(keys))
 

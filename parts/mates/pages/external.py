@@ -22,7 +22,14 @@ from geometry.gears.teeth.transverse import normal_share, transverse_gear
 from parts.base.refusal import REMOVED, SceneError
 from parts.base.texts import N_, in_context
 from parts.gears.ring_gear.part import RingGearSpec
-from parts.gears.spur_gear.page import addendum_formula, given_data, height_steps, root_radius_step, thickness_formula
+from parts.gears.spur_gear.page import (
+    addendum_formula,
+    given_data,
+    height_steps,
+    root_radius_step,
+    rule_step,
+    thickness_formula,
+)
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, section_of
 from parts.gears.thinning import shared_thinning
 from parts.keys.base import in_modules, mm
@@ -299,8 +306,9 @@ def _page(asked: Asked) -> Sheet:
     backlash_steps(page, pair, pair.circumferential_backlash, asked.helical, formulas)
     page.section(in_context("pair", "Limits"))
     if not asked.helix:
-        rules = limits.practicum_undercut(one).limit, limits.practicum_undercut(two).limit
-        page.both("least_shift_practicum", rules, "(17 - {z#}) / 17", "practicum (1.2)")
+        for index, gear in enumerate((one, two), 1):
+            if gear.cutter is None:
+                rule_step(page, gear, index)
     limit_steps(page, pair, pair.gears, asked.helical)
     for index, (spec, gear) in enumerate(zip((keys.first, keys.second), pair.gears, strict=True), 1):
         page.notes += [finding_of(index, f) for f in rack_findings(spec, gear)]

@@ -11,7 +11,7 @@ from msgspec import Meta
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.gears.pins.geneva import Geneva, GenevaDisc, GenevaWheel, checked_disc
-from parts.base.texts import N_, Words
+from parts.base.texts import N_, Words, in_context
 from parts.keys.base import size
 from parts.mates.pages.contour_marks import checked_picture
 from parts.mates.pages.lever_picture import paneled, together
@@ -65,9 +65,12 @@ def sheet(keys: GenevaKeys) -> Sheet:
 
 def _given(page: Sheet, wheel: GenevaWheel, drive: Geneva) -> None:
     page.section(N_("Given"))
+    page.add("number_of_slots", drive.number_of_slots)
+    page.add("number_of_pins", drive.number_of_pins, called=in_context("geneva", "number of pins"))
+    page.add("working_centre_distance", drive.centre_distance)
+    radius = in_context("geneva", "radius of a pin")
+    page.add("pin_radius", wheel.pin_diameter / 2, symbol="r_p", key="r_p", called=radius)
     page.told(
-        number_of_slots=drive.number_of_slots, number_of_pins=drive.number_of_pins,
-        working_centre_distance=drive.centre_distance, pin_radius=wheel.pin_diameter / 2,
         slot_clearance=wheel.slot_clearance, end_clearance=wheel.end_clearance,
         locking_radius=wheel.locking_radius, locking_clearance=wheel.locking_clearance,
         tip_rounding_radius=wheel.tip_rounding,
@@ -125,9 +128,11 @@ def _speed(page: Sheet, drive: Geneva, speed_rpm: float) -> None:
     share = drive.motion_share
     page.add("motion_time", share * turn / drive.number_of_pins, "60 * {k} / ({n_1} * {N})")
     page.add("dwell_time", (1 - share) * turn / drive.number_of_pins, "60 * (1 - {k}) / ({n_1} * {N})")
-    page.add("greatest_angular_velocity", abs(float(drive.motion(0.0)[1])) * omega, "{i_w} * {omega}")
+    fastest = abs(float(drive.motion(0.0)[1])) * omega
+    called = in_context("geneva", "greatest angular velocity"), in_context("geneva", "greatest angular acceleration")
+    page.add("greatest_angular_velocity", fastest, "{i_w} * {omega}", called=called[0])
     most, key = drive.greatest_acceleration, "i_e0" if drive.internal else "i_e"
-    page.add("greatest_angular_acceleration", most * omega**2, f"{{{key}}} * {{omega}}**2")
+    page.add("greatest_angular_acceleration", most * omega**2, f"{{{key}}} * {{omega}}**2", called=called[1])
 
 
 def _table(page: Sheet, drive: Geneva, rows: int) -> None:

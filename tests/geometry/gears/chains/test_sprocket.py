@@ -79,6 +79,23 @@ def test_sizes_of_a_sprocket_08b_by_hand() -> None:
     assert [form.seating_radius(8.51), IsoForm(1.0).seating_radius(8.51)] == pytest.approx([4.2976, 4.4384], abs=1e-4)
 
 
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("teeth", [11, 12])
+def test_callipers_find_the_chord_between_roots(form: IsoForm | GostForm, teeth: int) -> None:
+    """The least distance of two opposite gaps, point by point; pins pressed into seats of GOST stand that far apart."""
+    sprocket = Sprocket(teeth, named("ПР-19,05-31,8"), form)
+    side = [s.curve for s in sprocket_side(sprocket).segments if s.label is Label.ROOT_FILLET]
+    half = np.concatenate([curve.point(np.linspace(*curve.domain, 400)) for curve in side])
+    half *= cmath.rect(1.0, sprocket.pitch_angle / 2)
+    gap = np.concatenate([half, half.conj()])
+    other = gap * cmath.rect(1.0, sprocket.pitch_angle * (teeth // 2))
+    found = float(np.min(np.abs(gap[:, None] - other)))
+    assert sprocket.root_chord == pytest.approx(found, abs=1e-4)
+    assert sprocket.root_chord <= found
+    if isinstance(form, GostForm):
+        assert sprocket.over_pins == pytest.approx(found + 2 * 11.91, abs=1e-4)
+
+
 @pytest.mark.parametrize("displaced", [False, True])
 @pytest.mark.parametrize(("chain", "teeth"), [("ПР-25,4-60", 25), ("ПР-12,7-18,2", 9), ("ПР-38,1-127", 40)])
 def test_gost_gaps_have_the_centres_of_their_standard(chain: str, teeth: int, displaced: bool) -> None:

@@ -26,6 +26,7 @@ from geometry.gears.teeth.basic_rack import (
 from geometry.gears.teeth.limits import checked_gear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
+from geometry.gears.teeth.transverse import transverse_gear
 from tests import brute
 from tests.oracles import exact_gear, rack_sweep
 from tests.sampling import examples
@@ -79,6 +80,25 @@ def test_least_shift_of_the_practicum(case: dict[str, float]) -> None:
     assert limits.least_shift_without_undercut(sharp) == pytest.approx(case["xi_exact"], rel=1e-13)
     printed = PRACTICUM["rack_fillet"]["printed"] - PRACTICUM["rack_fillet"]["recomputed"]
     assert abs(limits.least_shift_without_undercut(gear) - case["xi_exact"]) <= printed
+
+
+@pytest.mark.parametrize(("degrees", "height", "teeth"), [(20, 1, 17), (20, 0.8, 14), (14.5, 1, 32), (25, 1, 11)])
+def test_least_teeth_of_textbooks(degrees: float, height: float, teeth: int) -> None:
+    """Numbers that every textbook gives of sharp racks; from them on the rule asks for no shift."""
+    gear = SpurGear(1.0, teeth, BasicRack(math.radians(degrees), height, 0.25, 0.25))
+    assert limits.rule_teeth(gear) == teeth
+    assert limits.practicum_undercut(gear).limit == 0
+    assert limits.practicum_undercut(replace(gear, number_of_teeth=teeth - 1)).limit == pytest.approx(height / teeth)
+
+
+def test_undercut_of_helical_teeth_is_told_in_normal_modules() -> None:
+    """As their key is: at the limit that is told the remark ends."""
+    normal, helix = SpurGear(2.0, 9, iso_53(), 0.1), math.radians(25)
+    (found,) = limits.findings(transverse_gear(normal, helix), helix)
+    assert found.value == pytest.approx(0.1)
+    for step, codes in ((-1e-9, ["undercut"]), (1e-9, [])):
+        section = transverse_gear(replace(normal, profile_shift_coefficient=found.limit + step), helix)
+        assert [f.code for f in limits.findings(section, helix) if f.code == "undercut"] == codes
 
 
 def test_least_number_of_teeth_and_fillet_of_the_practicum() -> None:
