@@ -42,6 +42,7 @@ from parts.pages.terms import TERMS
 from parts.recipes.names import NAMES
 from parts.recipes.registry import RECIPES
 from parts.scene.files import SCENE_FOLDER
+from parts.texts.quantities import QUANTITIES
 from tests.sources import told
 
 HOUSE = Path(parts.__file__).parents[1]
@@ -91,6 +92,7 @@ def _plain_texts() -> Iterator[str]:
     """Kinds, terms, keys and tables of scenes and calculations."""
     yield from (*KINDS.phrases.values(), *MATES.phrases.values(), *RECIPES.phrases.values())
     yield from (term.name for term in TERMS.values())
+    yield from QUANTITIES.values()
     yield from (one.title for recipe in NAMES.values() for one in recipe.values() if one.title)
     yield from (row.reason for row in (*RULES, *CONDITIONS))
     yield from (printed.why for case in CASES.values() for printed in case.values())

@@ -9,6 +9,7 @@ from msgspec import Struct
 
 from geometry.base.errors import Curable, Cure, Nearest, ParameterError, format_value
 from parts.base.lookalikes import in_latin, look_alike
+from parts.base.psv import rows_of
 from parts.base.reasons import REMEDIES, reason
 from parts.base.texts import ENGLISH, Message, Text, filled, listed, message, words
 
@@ -48,88 +49,8 @@ class SceneError(Curable, ValueError):
 REMOVED = Nearest(None)
 
 
-# words of other books for our keys and values, to which no letter leads; small letters, one "_" between words
-_SYNONYMS = {
-    "345": ("polynomial_345",),
-    "3_4_5": ("polynomial_345",),
-    "4567": ("polynomial_4567",),
-    "4_5_6_7": ("polynomial_4567",),
-    "a_w": ("working_centre_distance",),
-    "alpha": ("pressure_angle_deg",),
-    "aw": ("working_centre_distance",),
-    "b": ("face_width",),
-    "bestehorn": ("sine",),
-    "beta": ("helix_angle_deg", "spiral_angle_deg"),
-    "beta_m": ("spiral_angle_deg",),
-    "center_distance": ("centre_distance", "working_centre_distance", "oscillating"),
-    "centre_distance": ("working_centre_distance", "oscillating"),
-    "crank_slider": ("lever", "slider"),
-    "cubic": ("linearly_decreasing",),
-    "curved": ("mushroom",),
-    "cycloid": ("sine",),
-    "cycloidal": ("sine",),
-    "delta": ("unevenness",),
-    "differential": ("train",),
-    "down": ("return_",),
-    "drop": ("return_",),
-    "e": ("eccentricity", "follower_offset"),
-    "eccentricity": ("follower_offset",),
-    "epicyclic": ("planetary",),
-    "face_width": ("plate_thickness",),
-    "fall": ("return_",),
-    "flywheel": ("lever",),
-    "four_bar": ("lever", "rods"),
-    "gamma_min": ("least_transmission_angle_deg",),
-    "h": ("lift",),
-    "harmonic": ("cosine",),
-    "helical": ("spur",),
-    "helix_angle_deg": ("spiral_angle_deg",),
-    "i": ("ratio",),
-    "inclined_sine": ("sine",),
-    "internal": ("ring",),
-    "inv": ("involute",),
-    "knife": ("pointed",),
-    "knife_edge": ("pointed",),
-    "law": ("phases",),
-    "linear": ("constant_velocity", "lines"),
-    "linkage": ("lever",),
-    "m": ("module",),
-    "max_pressure_angle": ("least_transmission_angle_deg",),
-    "mechanism": ("lever",),
-    "motion": ("phases",),
-    "n": ("speed_rpm",),
-    "n1": ("speed_rpm",),
-    "omega": ("speed", "speeds"),
-    "parabolic": ("constant_acceleration",),
-    "pause": ("dwell",),
-    "q": ("diameter_quotient",),
-    "quick_return": ("lever", "stone"),
-    "r0": ("base_circle_radius",),
-    "r_0": ("base_circle_radius",),
-    "rest": ("dwell",),
-    "roller_diameter": ("follower_radius",),
-    "segments": ("phases",),
-    "shift": ("profile_shift_coefficient",),
-    "shm": ("cosine",),
-    "simple_harmonic": ("cosine",),
-    "sinusoidal": ("sine",),
-    "slider_crank": ("lever", "slider"),
-    "spherical": ("mushroom",),
-    "stroke": ("lift",),
-    "table": ("motion_table", "poles"),
-    "teeth": ("number_of_teeth",),
-    "thickness": ("face_width", "plate_thickness"),
-    "u": ("ratio",),
-    "uniform": ("constant_velocity",),
-    "up": ("rise",),
-    "width": ("face_width",),
-    "worm_gear": ("worm",),
-    "x": ("profile_shift_coefficient",),
-    "xi": ("profile_shift_coefficient",),
-    "z": ("number_of_teeth",),
-    "z1": ("number_of_starts", "first", "number_of_teeth"),
-    "z2": ("mate_teeth", "second", "number_of_teeth"),
-}
+# words of other books for our keys and values, to which no letter leads
+_SYNONYMS = {word: ours.split(", ") for word, ours in rows_of(__file__, "synonyms")}
 
 
 def meant(word: object, known: Collection[str]) -> Nearest | None:
