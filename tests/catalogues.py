@@ -29,6 +29,7 @@ import parts
 from exporters.command.new import comments_of
 from geometry.base.record import Draft, Record
 from geometry.laws.named import NAMED_LAWS
+from parts.base.reasons import SUBJECTS, sentences
 from parts.base.registry import KINDS
 from parts.base.schema import phrase_of
 from parts.base.texts import DOMAIN, LOCALE
@@ -83,7 +84,9 @@ def _marked() -> Iterator[tuple[str | None, str, str]]:
 
 
 def _kept_in_data() -> Iterator[tuple[str | None, str, str]]:
-    """What needs no mark; of units those that are words."""
+    """What needs no mark: sentences of refusals, plain texts, and of units those that are words."""
+    for text in (text for subject in SUBJECTS for text in sentences(subject).values()):
+        yield (None, text, "") if isinstance(text, str) else (None, text.msgid, text.many)
     yield from ((None, text, "") for text in _plain_texts())
     yield from (("unit", text, "") for text, _ in UNITS.values() if any(map(str.isalpha, text)))
 

@@ -12,5 +12,5 @@ def rows_in(text: str) -> list[list[str]]:
 
 
 def rows_of(module: str, table: str) -> list[list[str]]:
-    """Those of a table that lies beside a module; ``module``: its ``__file__``."""
-    return rows_in(Path(module).with_name(f"{table}.psv").read_text("utf-8"))
+    """Those of a table that lies beside a module, or on a way from there; ``module``: its ``__file__``."""
+    return rows_in((Path(module).parent / f"{table}.psv").read_text("utf-8"))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
-from importlib import import_module
 
-from parts.base.texts import N_, Text
+from parts.base.psv import rows_of
+from parts.base.texts import N_, Text, counted
 
 SUBJECTS = (
     "general", "gears", "cams", "wheels", "pins", "chains", "noncircular", "mates", "motion", "scene", "pages",
@@ -29,10 +29,12 @@ def add_reasons(table: Mapping[str, Text]) -> None:
 
 
 @cache
-def _tables() -> tuple[Mapping[str, Text], ...]:
-    return tuple(import_module(f"parts.reasons.{subject}").REASONS for subject in SUBJECTS)
+def sentences(subject: str) -> dict[str, Text]:
+    """Those of a subject by code; what is counted has its plural and the number that it follows beside it."""
+    rows = rows_of(__file__, f"../reasons/{subject}")
+    return {code: counted(one, *plural) if plural else one for code, one, *plural in rows}
 
 
 def reason(code: str) -> Text:
     """The English sentence of a code, with ``{name}`` for its numbers; a code without one is told as it is."""
-    return next((table[code] for table in (*_tables(), _MORE) if code in table), code)
+    return next((table[code] for table in (*map(sentences, SUBJECTS), _MORE) if code in table), code)

@@ -1,1 +1,1 @@
-"""The English sentences of refusals by code, a file a subject; translated by the catalogues in ``parts/locale``."""
+"""The English sentences of refusals by code, a table a subject; translated by the catalogues in ``parts/locale``."""
