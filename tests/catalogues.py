@@ -43,6 +43,8 @@ from parts.pages.terms import TERMS
 from parts.recipes.names import NAMES
 from parts.recipes.registry import RECIPES
 from parts.scene.files import SCENE_FOLDER
+from parts.texts import checks
+from parts.texts.findings import FINDINGS
 from parts.texts.quantities import QUANTITIES
 from tests.sources import told
 
@@ -84,8 +86,9 @@ def _marked() -> Iterator[tuple[str | None, str, str]]:
 
 
 def _kept_in_data() -> Iterator[tuple[str | None, str, str]]:
-    """What needs no mark: sentences of refusals, plain texts, and of units those that are words."""
-    for text in (text for subject in SUBJECTS for text in sentences(subject).values()):
+    """What needs no mark: sentences by code, plain texts, and of units those that are words."""
+    tables = (*map(sentences, SUBJECTS), FINDINGS, checks.MATES, checks.CONDITIONS)
+    for text in (text for table in tables for text in table.values()):
         yield (None, text, "") if isinstance(text, str) else (None, text.msgid, text.many)
     yield from ((None, text, "") for text in _plain_texts())
     yield from (("unit", text, "") for text, _ in UNITS.values() if any(map(str.isalpha, text)))

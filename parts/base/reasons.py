@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cache
 
-from parts.base.psv import rows_of
-from parts.base.texts import N_, Text, counted
+from parts.base.psv import sentences_of
+from parts.base.texts import N_, Text
 
 SUBJECTS = (
     "general", "gears", "cams", "wheels", "pins", "chains", "noncircular", "mates", "motion", "scene", "pages",
@@ -30,9 +30,8 @@ def add_reasons(table: Mapping[str, Text]) -> None:
 
 @cache
 def sentences(subject: str) -> dict[str, Text]:
-    """Those of a subject by code; what is counted has its plural and the number that it follows beside it."""
-    rows = rows_of(__file__, f"../reasons/{subject}")
-    return {code: counted(one, *plural) if plural else one for code, one, *plural in rows}
+    """Those of a subject by code."""
+    return sentences_of(__file__, f"../reasons/{subject}")
 
 
 def reason(code: str) -> Text:
