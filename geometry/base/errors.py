@@ -87,6 +87,11 @@ class ParameterError(Curable, GeometryError, ValueError):
         self._cure = nearest
         super().__init__(name, value, code)
 
+    @classmethod
+    def beyond(cls, name: str, value: float, code: str, last: float, /, *, digits: int = 4, **numbers: object) -> Self:
+        """The refusal of a value beyond the ``last`` one that works, which is told with ``digits`` after the point."""
+        return cls(name, value, code, limit(last, value, digits=digits), **numbers)
+
     def __str__(self) -> str:
         told = "".join(f", {name} {format_value(value)}" for name, value in self.numbers.items())
         return f"{self.name} = {format_value(self.value)}: {self.code}{told}"

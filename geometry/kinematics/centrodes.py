@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geometry.base.errors import ParameterError, limit
+from geometry.base.errors import ParameterError
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.base.series import FACTORIALS, Series, majorant_power, power, quotient, sharpened
@@ -208,6 +208,5 @@ def closing_distance(first: PolarCentrode, mate_turns: float) -> float:
     while excess(high) > 0 and high < 30:
         high += 3
     if excess(low) < 0:
-        most = limit(math.exp(excess(low)) * mate_turns, mate_turns)
-        raise ParameterError("mate_turns", mate_turns, "centres_would_meet", most)
+        raise ParameterError.beyond("mate_turns", mate_turns, "centres_would_meet", math.exp(excess(low)) * mate_turns)
     return largest * (1 + math.exp(bracketed_root(excess, low, high).value))

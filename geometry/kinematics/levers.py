@@ -215,9 +215,7 @@ def _height(slider: Slider) -> float:
 def _refuse_short(slider: Slider, heights: tuple[float, float], name: str) -> None:
     least = max(map(abs, heights))
     if slider.rod <= least:
-        raise ParameterError(
-            name, slider.rod, "rod_does_not_reach", limit(least * (1 + _ROOM), slider.rod), least=least
-        )
+        raise ParameterError.beyond(name, slider.rod, "rod_does_not_reach", least * (1 + _ROOM), least=least)
 
 
 def _refuse_apart(rods: Rods, between: tuple[float, float], name: str) -> None:

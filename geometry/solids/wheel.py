@@ -129,8 +129,7 @@ def _check_heights(shape: WheelShape) -> None:
             raise ParameterError("web.thickness", web.thickness, "thicker_than_face", limit(width, math.inf))
         play = (width - web.thickness) / 2
         if abs(web.shift) > play:
-            most = limit(math.copysign(play, web.shift), web.shift)
-            raise ParameterError("web.shift", web.shift, "web_out_of_rim", most)
+            raise ParameterError.beyond("web.shift", web.shift, "web_out_of_rim", math.copysign(play, web.shift))
 
 
 def _check_chamfers(shape: WheelShape, root_radius: float, holes: HubHoles, offset: float) -> None:
@@ -275,7 +274,7 @@ def _inset(profile: Boundary, offset: float, chamfer: float, side: str, who: str
     before = profile(offset, 0.0).period
     whole = [s.label for s in before]
     if offset > 0:
-        raise ParameterError("offset", offset, "offset_rounds_chamfered_edges", limit(0.0, offset))
+        raise ParameterError.beyond("offset", offset, "offset_rounds_chamfered_edges", 0.0)
 
     def attempt(depth: float) -> Profile | None:
         try:
@@ -359,6 +358,6 @@ def _keeps(whole: Curve, inset: Curve) -> bool:
 def _between(key: str, value: float, low: tuple[float, str], high: tuple[float, str]) -> None:
     least, most = low[0] + _LEAST_STEP, high[0] - _LEAST_STEP
     if low[0] > 0 and value < least:
-        raise ParameterError(key, value, f"within_{low[1]}", limit(least, value), diameter=low[0])
+        raise ParameterError.beyond(key, value, f"within_{low[1]}", least, diameter=low[0])
     if value > most:
-        raise ParameterError(key, value, f"reaches_{high[1]}", limit(most, value), diameter=high[0])
+        raise ParameterError.beyond(key, value, f"reaches_{high[1]}", most, diameter=high[0])

@@ -11,7 +11,7 @@ import cmath
 import itertools
 import math
 
-from geometry.base.errors import ParameterError, limit
+from geometry.base.errors import ParameterError
 from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.cams.plane.disk import FollowerKind
@@ -49,9 +49,7 @@ def pointed_stem(width: float, length: float, tip_angle: float) -> tuple[Edge, .
     """
     height = width / 2 / math.tan(tip_angle / 2)
     if not height < length:
-        raise ParameterError(
-            "stem_length", length, "tip_longer_than_stem", limit(height * (1 + 1e-6), length), height=height
-        )
+        raise ParameterError.beyond("stem_length", length, "tip_longer_than_stem", height * (1 + 1e-6), height=height)
     half = width / 2
     corners = [0j, complex(half, height), complex(half, length), complex(-half, length), complex(-half, height)]
     return rounded([(c, 0.0) for c in corners])
@@ -83,19 +81,17 @@ def plate_stem(
     diameter, thickness = plate
     half, stem = diameter / 2, width / 2
     if radius is not None and not width < 2 * radius:
-        raise ParameterError("follower_radius", radius, "narrower_than_stem", limit(width / 2 * (1 + 1e-6), radius))
+        raise ParameterError.beyond("follower_radius", radius, "narrower_than_stem", width / 2 * (1 + 1e-6))
     if not diameter >= width:
-        raise ParameterError("plate_diameter", diameter, "below_stem_width", limit(width, diameter))
+        raise ParameterError.beyond("plate_diameter", diameter, "below_stem_width", width)
     if radius is not None and not diameter < 2 * radius:
-        most = limit(2 * radius * (1 - 1e-6), diameter)
-        raise ParameterError("plate_diameter", diameter, "arc_ends_at_its_diameter", most)
+        raise ParameterError.beyond("plate_diameter", diameter, "arc_ends_at_its_diameter", 2 * radius * (1 - 1e-6))
     edge = 0.0 if radius is None else -math.sqrt((radius - half) * (radius + half))
     back = edge + thickness
     if not length > back + corner:
-        raise ParameterError("stem_length", length, "plate_takes_stem", limit((back + corner) * (1 + 1e-6), length))
+        raise ParameterError.beyond("stem_length", length, "plate_takes_stem", (back + corner) * (1 + 1e-6))
     if diameter - width < 2 * corner * (1 + 1e-9) and corner > 0:
-        most = limit((diameter - width) * 0.4999999, corner)
-        raise ParameterError("corner_radius", corner, "plate_has_no_room", most)
+        raise ParameterError.beyond("corner_radius", corner, "plate_has_no_room", (diameter - width) * 0.4999999)
     corners = [(complex(half, edge), 0.0)]
     if diameter > width:
         corners += [(complex(half, back), 0.0), (complex(stem, back), corner)]
@@ -125,8 +121,7 @@ def round_arm(length: float, pivot: float, end: float) -> tuple[Edge, ...]:
         One lies within the other.
     """
     if not length > abs(pivot - end) / 2:
-        least = limit(abs(pivot - end) / 2 * (1 + 1e-6), length)
-        raise ParameterError("arm_length", length, "end_within_the_other", least)
+        raise ParameterError.beyond("arm_length", length, "end_within_the_other", abs(pivot - end) / 2 * (1 + 1e-6))
     return belt((0j, pivot / 2), (length + 0j, end / 2))
 
 
@@ -142,8 +137,7 @@ def flat_arm(length: float, width: float, face_offset: float, boss: float, sense
     _reaches(length, boss)
     low, high = -_BOSS_IN_BAR * radius, width + _BOSS_IN_BAR * radius
     if not low <= face_offset <= high:
-        nearest = limit(low if face_offset < low else high, face_offset)
-        raise ParameterError("face_offset", face_offset, "pivot_outside_bar", nearest)
+        raise ParameterError.beyond("face_offset", face_offset, "pivot_outside_bar", low if face_offset < low else high)
     slack = TOLERANCES.relative_join * (width + boss)
     heel, toe = complex(length, far), complex(length, face_offset)
     above, below = face_offset < radius - slack, far > slack - radius
@@ -182,7 +176,7 @@ def pointed_arm(length: float, width: float, boss: float, tip: tuple[float, floa
     half = height * math.tan(angle / 2)
     if not length - half > boss / 2:
         most = (length - boss / 2) * (1 - 1e-6) / math.tan(angle / 2)
-        raise ParameterError("tip_height", height, "hook_reaches_pivot", limit(most, height))
+        raise ParameterError.beyond("tip_height", height, "hook_reaches_pivot", most)
     shoulder = complex(length - half, -height)
     front = complex(length + half, -height)
     hook = (Line(front, length + 0j), Line(length + 0j, shoulder))
@@ -200,19 +194,17 @@ def mushroom_arm(length: float, width: float, boss: float, cap: tuple[float, flo
     _reaches(length, boss)
     radius, height = cap
     if not height < radius:
-        raise ParameterError("tip_height", height, "no_cap", limit(radius * (1 - 1e-6), height))
+        raise ParameterError.beyond("tip_height", height, "no_cap", radius * (1 - 1e-6))
     half = math.sqrt((radius - height) * (radius + height))
     if not length - radius > boss / 2:
-        raise ParameterError(
-            "follower_radius", radius, "cap_reaches_pivot", limit((length - boss / 2) * (1 - 1e-6), radius)
-        )
+        raise ParameterError.beyond("follower_radius", radius, "cap_reaches_pivot", (length - boss / 2) * (1 - 1e-6))
     shoulder, front = complex(length - half, -height), complex(length + half, -height)
     return _hooked(shoulder, front, width, boss, (arc_between(length + 0j, front, shoulder, turns_left=True),), sense)
 
 
 def _reaches(length: float, boss: float) -> None:
     if not length > boss / 2:
-        raise ParameterError("arm_length", length, "ends_within_boss", limit(boss / 2 * (1 + 1e-6), length))
+        raise ParameterError.beyond("arm_length", length, "ends_within_boss", boss / 2 * (1 + 1e-6))
 
 
 def _hooked(

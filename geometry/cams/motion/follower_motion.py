@@ -259,8 +259,7 @@ def motion_of_table(angles: Sequence[float], lifts: Sequence[float], tolerance: 
     if (steps := np.diff(at)).min() <= 0:
         row = int(np.argmin(steps)) + 2
         above, given = math.degrees(at[row - 2]), math.degrees(at[row - 1])
-        least = limit(above + 1e-6, given)
-        raise ParameterError(f"{key}[{row}][1]", given, "angles_do_not_rise", least, above=above)
+        raise ParameterError.beyond(f"{key}[{row}][1]", given, "angles_do_not_rise", above + 1e-6, above=above)
     if abs(at[-1] - TURN) <= _CLOSING:
         if abs(values[-1] - values[0]) > 1e-9 * np.ptp(values):
             first, last = float(values[0]), float(values[-1])
@@ -288,4 +287,4 @@ def motion_of_table(angles: Sequence[float], lifts: Sequence[float], tolerance: 
 def _beyond_turn(key: str, at: Real, code: str) -> ParameterError:
     """The refusal of a last row that stands at one turn or beyond it."""
     given = math.degrees(at[-1])
-    return ParameterError(f"{key}[{len(at)}][1]", given, code, limit(360 * (1 - 1e-9), given))
+    return ParameterError.beyond(f"{key}[{len(at)}][1]", given, code, 360 * (1 - 1e-9))

@@ -292,21 +292,17 @@ def oscillating_cam(
     if kind is FollowerKind.FLAT:
         if not abs(base_circle_radius + face_offset) < centre_distance:
             most = math.copysign(centre_distance, base_circle_radius + face_offset) * (1 - 1e-6) - face_offset
-            raise ParameterError(
-                "base_circle_radius", base_circle_radius, "face_beyond_pivot", limit(most, base_circle_radius)
-            )
+            raise ParameterError.beyond("base_circle_radius", base_circle_radius, "face_beyond_pivot", most)
         start, low = math.asin((base_circle_radius + face_offset) / centre_distance), motion.extremes()[0]
         if not start + low > 0:
             # a face that begins farther from the line of centres does not come over it
             least = centre_distance * math.sin(1e-6 - low) - face_offset
-            raise ParameterError(
-                "base_circle_radius", base_circle_radius, "swings_beyond_centres", limit(least, base_circle_radius)
-            )
+            raise ParameterError.beyond("base_circle_radius", base_circle_radius, "swings_beyond_centres", least)
         slowest = _slowest_turning(motion, sense)
         if not slowest > 0:
             # S' goes with the lift
             most = motion.lift / (1 - slowest) * (1 - 1e-6)
-            raise ParameterError("lift", motion.lift, "flat_outruns_cam", limit(most, motion.lift, digits=9))
+            raise ParameterError.beyond("lift", motion.lift, "flat_outruns_cam", most, digits=9)
     else:
         if not arm_length > 0:
             raise ParameterError("arm_length", arm_length, "not_above_zero")

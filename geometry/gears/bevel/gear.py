@@ -18,7 +18,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geometry.base.errors import ConvergenceError, ParameterError, PointedTipError, UndercutError, limit
+from geometry.base.errors import ConvergenceError, ParameterError, PointedTipError, UndercutError
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record, replace, with_value
 from geometry.base.roots import bracketed_root
@@ -441,8 +441,9 @@ class BevelGear(Record, dict=True):
         if self.addendum < whole or self.dedendum < whole:
             low = _LEAST_HEIGHT - self.addendum_coefficient
             high = self.addendum_coefficient + self.tip_clearance_coefficient - _LEAST_HEIGHT
-            raise ParameterError("profile_shift_coefficient", shift, "bevel_shift_leaves_no_tooth",
-                                 limit(low if shift < low else high, shift))  # fmt: skip
+            raise ParameterError.beyond(
+                "profile_shift_coefficient", shift, "bevel_shift_leaves_no_tooth", low if shift < low else high
+            )
         if self.tip_cone_angle > _STEEPEST:
             more = [step * self.number_of_teeth for step in _RATIOS]
             raise self._cured("mate_teeth", more, BevelGear._check_cones, "bevel_too_flat",
@@ -539,9 +540,9 @@ class BevelGear(Record, dict=True):
     def _check_blank(self) -> None:
         rim, hub = self.blank.rim_thickness, self.blank.hub_diameter
         if rim > self.rim_room:
-            raise ParameterError("rim_thickness", rim, "bevel_rim_over_axis", limit(self.rim_room, rim))
+            raise ParameterError.beyond("rim_thickness", rim, "bevel_rim_over_axis", self.rim_room)
         if hub / 2 > (room := self.rim.real - self._wall):
-            raise ParameterError("hub_diameter", hub, "bevel_hub_over_rim", limit(2 * room, hub), rim=2 * self.rim.real)
+            raise ParameterError.beyond("hub_diameter", hub, "bevel_hub_over_rim", 2 * room, rim=2 * self.rim.real)
 
     @property
     def rim_room(self) -> float:

@@ -349,14 +349,11 @@ def checked_tips(gear: CycloidalGear) -> CycloidalGear:
     """
     if gear.tip_rolling_radius > (most := _MOST_CIRCLE * gear.pitch_radius):
         given = 2 * gear.tip_rolling_radius
-        raise ParameterError("tip_rolling_diameter", given, "circle_all_but_straight", limit(2 * most, given, digits=6))
+        raise ParameterError.beyond("tip_rolling_diameter", given, "circle_all_but_straight", 2 * most, digits=6)
     most = gear.pitch_radius / 2
     if gear.root_rolling_radius > most * (1 + _MARGIN):
-        raise ParameterError(
-            "root_rolling_diameter",
-            2 * gear.root_rolling_radius,
-            "root_flanks_undercut",
-            limit(2 * most, 2 * gear.root_rolling_radius, digits=6),
+        raise ParameterError.beyond(
+            "root_rolling_diameter", 2 * gear.root_rolling_radius, "root_flanks_undercut", 2 * most, digits=6
         )
     _check_tip(gear)
     return gear
@@ -379,7 +376,7 @@ def _check_tip(gear: CycloidalGear) -> None:
     if stands(0.0):
         raise PointedTipError("circumferential_thinning", thinning, "tooth_pointed", cure, diameter=2 * apex)
     given, most = gear.addendum_coefficient, (apex * (1 - _MARGIN) - gear.pitch_radius) / gear.module
-    raise PointedTipError("addendum_coefficient", given, "tooth_pointed", limit(most, given), diameter=2 * apex)
+    raise PointedTipError.beyond("addendum_coefficient", given, "tooth_pointed", most, diameter=2 * apex)
 
 
 def _check_root(gear: CycloidalGear) -> None:

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.angles import tangent_length
-from geometry.base.errors import ConvergenceError, ParameterError, limit
+from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real
@@ -302,31 +302,27 @@ class FaceGear(Record, dict=True):
         ParameterError
             The face begins within the undercut, or ends beyond the pointed tips.
         """
-        m = self.module
-        least, most = self.least_radius, self.tip_limit(_LEAST_TIP * m)
-        room = LEAST_FACE * m
+        m, inner, outer = self.module, 2 * self.inner_radius, 2 * self.outer_radius
+        least, most = 2 * self.least_radius, 2 * self.tip_limit(_LEAST_TIP * m)
+        room = 2 * LEAST_FACE * m
         if math.isinf(least):
             raise ParameterError("addendum_coefficient", self.addendum / m, "face_gear_no_tip")
         if most - least < room:
-            raise ParameterError("addendum_coefficient", self.addendum / m, "face_gear_no_width",
-                                 inner=2 * least, outer=2 * most)  # fmt: skip
-        if self.inner_radius < least:
+            code = "face_gear_no_width"
+            raise ParameterError("addendum_coefficient", self.addendum / m, code, inner=least, outer=most)
+        if inner < least:
             codes = {self.flank_radius: "face_gear_no_flank", self.undercut_radius: "face_gear_undercut"}
-            code = codes.get(least, "face_gear_below_base")
-            raise ParameterError("inner_diameter", 2 * self.inner_radius, code,
-                                 limit(2 * least * (1 + 1e-9), 2 * self.inner_radius), diameter=2 * least)  # fmt: skip
-        if self.inner_radius > most - room:
-            raise ParameterError("inner_diameter", 2 * self.inner_radius, "face_gear_pointed_inside",
-                                 limit(2 * (most - room), 2 * self.inner_radius), diameter=2 * most)  # fmt: skip
-        if self.outer_radius > most:
-            raise ParameterError("outer_diameter", 2 * self.outer_radius, "face_gear_pointed",
-                                 limit(2 * most, 2 * self.outer_radius), diameter=2 * most)  # fmt: skip
-        if self.outer_radius < self.inner_radius + room:
-            raise ParameterError("outer_diameter", 2 * self.outer_radius, "face_gear_narrow",
-                                 limit(2 * (self.inner_radius + room), 2 * self.outer_radius),
-                                 diameter=2 * self.inner_radius)  # fmt: skip
+            code = codes.get(self.least_radius, "face_gear_below_base")
+            raise ParameterError.beyond("inner_diameter", inner, code, least * (1 + 1e-9), diameter=least)
+        if inner > most - room:
+            code = "face_gear_pointed_inside"
+            raise ParameterError.beyond("inner_diameter", inner, code, most - room, diameter=most)
+        if outer > most:
+            raise ParameterError.beyond("outer_diameter", outer, "face_gear_pointed", most, diameter=most)
+        if outer < inner + room:
+            raise ParameterError.beyond("outer_diameter", outer, "face_gear_narrow", inner + room, diameter=inner)
         if self._folds():
-            raise ParameterError("inner_diameter", 2 * self.inner_radius, "face_gear_undercut", diameter=2 * least)
+            raise ParameterError("inner_diameter", inner, "face_gear_undercut", diameter=least)
         return self
 
     def _folds(self) -> bool:

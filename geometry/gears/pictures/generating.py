@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from geometry.base.errors import ParameterError, limit
+from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.teeth.spur import SpurGear
@@ -59,10 +59,10 @@ def rack_positions(gear: SpurGear, step: float, teeth: int) -> list[float]:
     """
     most = math.pi * gear.module / 2
     if step > most:
-        raise ParameterError("rack_step", step, "step_above_half_pitch", limit(most, step))
+        raise ParameterError.beyond("rack_step", step, "step_above_half_pitch", most)
     reach = (teeth / 2 + 1) * math.pi * gear.module
     if reach / step > _MOST_POSITIONS / 2:
-        raise ParameterError("rack_step", step, "too_many_positions", limit(2 * reach / _MOST_POSITIONS, step))
+        raise ParameterError.beyond("rack_step", step, "too_many_positions", 2 * reach / _MOST_POSITIONS)
     count = math.ceil(reach / step)
     return [k * step / gear.reference_radius for k in range(-count, count + 1)]
 

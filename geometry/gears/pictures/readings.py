@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 
-from geometry.base.errors import ParameterError, limit
+from geometry.base.errors import ParameterError
 from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Curve, end_point, start_point
@@ -37,7 +37,7 @@ def profile_readings(gear: SpurGear, radius: float) -> ProfileReadings:
             angle = -cmath.phase(_point_at(segment.curve, radius, low, high))
             return ProfileReadings(radius, 2 * radius * angle, radius * (gear.pitch_angle - 2 * angle))
     end = gear.root_radius if radius < gear.root_radius else gear.tip_radius
-    raise ParameterError("diameter", 2 * radius, "not_between_root_and_tip", limit(2 * end, 2 * radius, digits=6))
+    raise ParameterError.beyond("diameter", 2 * radius, "not_between_root_and_tip", 2 * end, digits=6)
 
 
 def _point_at(curve: Curve, radius: float, low: float, high: float) -> complex:

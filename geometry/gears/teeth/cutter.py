@@ -41,7 +41,7 @@ def cutting_angle(alpha: float, shift: float, teeth: int, own_shift: float, cutt
         name, given, lack = "profile_shift_coefficient", own_shift, -value * teeth / (2 * math.tan(alpha))
         if abs(cutter_shift) > abs(own_shift):
             name, given, lack = f"cutter.{name}", cutter_shift, math.copysign(lack, -cutter_shift)
-        raise ParameterError(name, given, "no_working_angle_with_cutter", limit(given + lack, given))
+        raise ParameterError.beyond(name, given, "no_working_angle_with_cutter", given + lack)
     return inverse_involute(value)
 
 
@@ -140,8 +140,7 @@ def checked_cutter(cutter: PinionCutter) -> PinionCutter:
     _check_numbers(cutter)
     if cutter.tip_radius <= cutter.base_radius:
         least = (cutter.base_radius - cutter.reference_radius) / cutter.module - cutter.profile_shift_coefficient
-        above = limit(least + 1e-4, cutter.addendum)
-        raise ParameterError("cutter.addendum", cutter.addendum, "cutter_tip_below_base", above)
+        raise ParameterError.beyond("cutter.addendum", cutter.addendum, "cutter_tip_below_base", least + 1e-4)
     sharp = replace(cutter, tip_rounding=0.0)
     if sharp.corner_angle < 0:
         most = _most_addendum(sharp)
@@ -149,8 +148,7 @@ def checked_cutter(cutter: PinionCutter) -> PinionCutter:
         raise ParameterError("cutter.addendum", cutter.addendum, "cutter_tooth_pointed", lower)
     largest = cutter.largest_rounding()
     if cutter.tip_rounding > largest * (1 + 1e-12):
-        cure = limit(largest, cutter.tip_rounding)
-        raise ParameterError("cutter.tip_rounding", cutter.tip_rounding, "cutter_rounding_does_not_fit", cure)
+        raise ParameterError.beyond("cutter.tip_rounding", cutter.tip_rounding, "cutter_rounding_does_not_fit", largest)
     return cutter
 
 

@@ -13,7 +13,7 @@ import math
 from typing import TypeVar
 
 from geometry.base.angles import inverse_involute, involute_function
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.gears.teeth.ring import RingGear
@@ -101,7 +101,7 @@ def thickness_at(gear: Measured, radius: float) -> float:
         The circle lies inside the base circle, where there is no involute.
     """
     if radius < gear.base_radius:
-        raise ParameterError("diameter", 2 * radius, "inside_base_circle", limit(2 * gear.base_radius, 2 * radius))
+        raise ParameterError.beyond("diameter", 2 * radius, "inside_base_circle", 2 * gear.base_radius)
     arc = -2 * radius * gear.flank().polar_angle_at_radius(radius)
     return gear.pitch_angle * radius - arc if isinstance(gear, RingGear) else arc
 
@@ -176,7 +176,7 @@ def pin_touching_at(gear: Measured, radius: float, helix_angle: float = 0.0) -> 
         No pin in front of the axis touches there: the space is wider than the angle that the tangents leave.
     """
     if radius < gear.base_radius:
-        raise ParameterError("diameter", 2 * radius, "inside_base_circle", limit(2 * gear.base_radius, 2 * radius))
+        raise ParameterError.beyond("diameter", 2 * radius, "inside_base_circle", 2 * gear.base_radius)
     cosine, sense = math.cos(_base_helix(gear, helix_angle)), gear.sign
     eta, tangent = _space_half_angle(gear), math.sqrt((radius / gear.base_radius) ** 2 - 1)
 
@@ -237,7 +237,7 @@ def over_pins(gear: Measured, pin_diameter: float, helix_angle: float = 0.0) -> 
     if not value >= 0:
         bound = _space_half_angle(gear) * 2 * gear.base_radius * cosine
         code = "pin_falls_through" if sense > 0 else "pin_beyond_base_circle"
-        raise ParameterError("pin_diameter", pin_diameter, code, limit(bound, pin_diameter))
+        raise ParameterError.beyond("pin_diameter", pin_diameter, code, bound)
     angle = inverse_involute(value)
     centre = gear.base_radius / math.cos(angle)
     tangent = math.tan(angle) - sense * pin_diameter * cosine / (2 * gear.base_radius)
@@ -262,7 +262,7 @@ def gear_with_span(gear: G, teeth: int, length: float, helix_angle: float = 0.0)
     lack = gear.sign * (full - length)
     if lack < 0:
         code = "below_nominal" if isinstance(gear, RingGear) else "above_nominal"
-        raise ParameterError("measured_span", length, code, limit(full, length))
+        raise ParameterError.beyond("measured_span", length, code, full)
     return replace(gear, circumferential_thinning=lack / normal_share(gear, helix_angle))
 
 
@@ -280,12 +280,12 @@ def gear_with_size(gear: G, pin_diameter: float, length: float, helix_angle: flo
     key, full = "measured_between_pins" if ring else "measured_over_pins", nominal(gear)
     whole = over_pins(full, pin_diameter, helix_angle).length
     if sense * length > sense * whole:
-        raise ParameterError(key, length, "below_nominal" if ring else "above_nominal", limit(whole, length))
+        raise ParameterError.beyond(key, length, "below_nominal" if ring else "above_nominal", whole)
     odd = math.cos(math.pi / (2 * gear.number_of_teeth)) if gear.number_of_teeth % 2 else 1.0
     centre = (length - sense * pin_diameter) / (2 * odd)
     if centre < gear.base_radius:
         least = 2 * odd * gear.base_radius + sense * pin_diameter
-        raise ParameterError(key, length, "pin_falls_through", limit(least, length))
+        raise ParameterError.beyond(key, length, "pin_falls_through", least)
     polar = involute_function(math.acos(gear.base_radius / centre))
     eta = pin_diameter / (2 * gear.base_radius * math.cos(_base_helix(gear, helix_angle))) - sense * polar
     return replace(gear, circumferential_thinning=2 * gear.reference_radius * (eta - _space_half_angle(full)))

@@ -359,7 +359,7 @@ def checked_part_rack(rack: Rack, helix_angle: float = 0.0) -> Rack:
     most = rack.pitch / 2 - 2 * rack.addendum * math.tan(angle)
     if most <= 0:
         height, given = math.pi / 4 / math.tan(angle) / cosine, rack.rack.addendum / cosine
-        raise ParameterError("rack.addendum", given, "rack_tooth_pointed", limit(height * _INSIDE, given))
+        raise ParameterError.beyond("rack.addendum", given, "rack_tooth_pointed", height * _INSIDE)
     _at_most(rack, "circumferential_thinning", most * _INSIDE, "thinning_leaves_no_tip")
     if math.tan(angle) < 1:
         _at_most(rack, "tip_chamfer", rack.tip_thickness / 2 / (1 - math.tan(angle)), "chamfers_overlap")
@@ -374,4 +374,4 @@ def checked_part_rack(rack: Rack, helix_angle: float = 0.0) -> Rack:
 def _at_most(rack: Rack, name: str, most: float, code: str) -> None:
     """Refuse a length above a limit, mm."""
     if (value := getattr(rack, name)) > most:
-        raise ParameterError(name, value, code, limit(most, value))
+        raise ParameterError.beyond(name, value, code, most)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
+from geometry.base.errors import Nearest, OffsetError, ParameterError
 from geometry.base.record import Record
 from geometry.plane.profile import Label, Profile, circle
 
@@ -32,17 +32,14 @@ class RackHoles(Record):
             if not 0 < getattr(self, name) < math.inf:
                 raise ParameterError(f"holes.{name}", getattr(self, name), "not_finite_above_zero", Nearest(1.0))
         if self.diameter >= body:
-            most = limit(body - _STEP, self.diameter)
-            raise ParameterError("holes.diameter", self.diameter, "hole_as_high_as_body", most)
+            raise ParameterError.beyond("holes.diameter", self.diameter, "hole_as_high_as_body", body - _STEP)
         radius = self.diameter / 2
         if self.depth <= radius:
-            raise ParameterError("holes.depth", self.depth, "holes_reach_root_line", limit(radius + _STEP, self.depth))
+            raise ParameterError.beyond("holes.depth", self.depth, "holes_reach_root_line", radius + _STEP)
         if self.depth >= body - radius:
-            most = limit(body - radius - _STEP, self.depth)
-            raise ParameterError("holes.depth", self.depth, "holes_reach_bottom", most)
+            raise ParameterError.beyond("holes.depth", self.depth, "holes_reach_bottom", body - radius - _STEP)
         if self.count > 1 and self.spacing <= self.diameter:
-            least = limit(self.diameter + _STEP, self.spacing)
-            raise ParameterError("holes.spacing", self.spacing, "holes_touch_each_other", least)
+            raise ParameterError.beyond("holes.spacing", self.spacing, "holes_touch_each_other", self.diameter + _STEP)
         if self._ends(length) <= 0:
             most = Nearest(max(1, math.ceil((length - self.diameter) / self.spacing)), "at_most")
             raise ParameterError("holes.count", self.count, "holes_reach_ends", most)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from geometry.base.both import both
-from geometry.base.errors import ParameterError, limit
+from geometry.base.errors import ParameterError
 from geometry.base.record import Record, replace
 from geometry.curves.curve import end_point, start_point
 from geometry.gears.teeth.measurement import Chord
@@ -78,9 +78,9 @@ def rack_with_size(rack: Rack, pin_diameter: float, length: float, helix_angle: 
     nominal = replace(rack, circumferential_thinning=0.0)
     whole = over_pin(nominal, pin_diameter, helix_angle).length
     if length > whole:
-        raise ParameterError("measured_over_pin", length, "above_nominal", limit(whole, length))
+        raise ParameterError.beyond("measured_over_pin", length, "above_nominal", whole)
     if length < (least := rack.body_height + pin_diameter):
-        raise ParameterError("measured_over_pin", length, "pin_falls_through", limit(least, length))
+        raise ParameterError.beyond("measured_over_pin", length, "pin_falls_through", least)
     alpha = normal_angle(rack.rack.pressure_angle, helix_angle)
     thinning = 2 * math.tan(alpha) * (whole - length) / math.cos(helix_angle)
     return replace(rack, circumferential_thinning=thinning)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.base.record import replace
@@ -100,8 +100,7 @@ def check_rim(gear: RingGear) -> None:
     _check_numbers(gear)
     least = 2 * gear.root_radius
     if gear.outer_diameter <= least:
-        near = limit(least + _LEAST_RIM, gear.outer_diameter)
-        raise ParameterError("outer_diameter", gear.outer_diameter, "leaves_no_rim", near)
+        raise ParameterError.beyond("outer_diameter", gear.outer_diameter, "leaves_no_rim", least + _LEAST_RIM)
     gear.holes.check(math.inf)
     for wall in rim_walls(gear):
         if not wall.thickness > 0:

@@ -129,7 +129,7 @@ def assemble_ring_side(curves: RingCurves, pitch_angle: float, *, blunt: bool = 
         raise ParameterError("tip_diameter", 2 * tip_radius, "involute_ends_at_base_circle", least)
     form_radius = flank.base_radius * math.hypot(1.0, flank.end_roll)
     if tip_radius >= form_radius:
-        raise ParameterError("tip_diameter", 2 * tip_radius, "leaves_no_flank", limit(2 * form_radius, 2 * tip_radius))
+        raise ParameterError.beyond("tip_diameter", 2 * tip_radius, "leaves_no_flank", 2 * form_radius)
     if -curves.land > TOLERANCES.relative_length:
         segments.append(Segment(Arc(0j, curves.root_radius, 0.0, curves.land), Label.ROOT_LAND))
     if curves.fillet is not None:
@@ -139,7 +139,7 @@ def assemble_ring_side(curves: RingCurves, pitch_angle: float, *, blunt: bool = 
         raise PointedTipError("tip_diameter", 2 * tip_radius, "ring_flanks_meet_at_root")
     if apex >= tip_radius:
         if not blunt:
-            raise PointedTipError("tip_diameter", 2 * tip_radius, "ring_tooth_pointed", limit(2 * apex, 2 * tip_radius))
+            raise PointedTipError.beyond("tip_diameter", 2 * tip_radius, "ring_tooth_pointed", 2 * apex)
         findings.append(Finding("tip_lost", apex - tip_radius, 0.0))
     pointed = apex >= tip_radius
     end = max(apex, tip_radius)
@@ -199,7 +199,7 @@ def _chamfer_line(gear: RingGear, flank: Involute) -> Line:
     height, tip = gear.tip_chamfer, gear.tip_radius
     form = flank.base_radius * math.hypot(1.0, flank.end_roll)
     if tip + height >= form:
-        raise ParameterError("tip_chamfer", height, "leaves_no_flank", limit(form - tip, height))
+        raise ParameterError.beyond("tip_chamfer", height, "leaves_no_flank", form - tip)
     foot = cmath.rect(tip + height, flank.polar_angle_at_radius(tip + height))
     direction = foot / abs(foot) * cmath.exp(-0.75j * math.pi)
     along = -(foot.conjugate() * direction).real

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.gears.teeth.joints import joint_roll
@@ -37,7 +37,7 @@ def check_shaping(gear: SpurGear) -> None:
     most = math.hypot(gear.base_radius, reach)
     if gear.tip_radius > most * (1 + 1e-12):
         tip = 2 * gear.tip_radius
-        raise ParameterError("tip_diameter", tip, "cutter_involute_ends_below_tip", limit(2 * most, tip))
+        raise ParameterError.beyond("tip_diameter", tip, "cutter_involute_ends_below_tip", 2 * most)
 
 
 def least_shift_with_cutter(gear: SpurGear) -> float:

@@ -10,7 +10,7 @@ import cmath
 import math
 from typing import NamedTuple
 
-from geometry.base.errors import ParameterError, PointedTipError, UndercutError, limit
+from geometry.base.errors import ParameterError, PointedTipError, UndercutError
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES
@@ -179,7 +179,7 @@ def _chamfer_line(gear: SpurGear, flank: Involute, relief: Involute | None) -> L
     height, tip_radius = gear.tip_chamfer, gear.tip_radius
     foot_radius = tip_radius - height
     if foot_radius <= flank.base_radius:
-        raise ParameterError("tip_chamfer", height, "leaves_no_flank", limit(tip_radius - flank.base_radius, height))
+        raise ParameterError.beyond("tip_chamfer", height, "leaves_no_flank", tip_radius - flank.base_radius)
     angles = [f.polar_angle_at_radius(foot_radius) for f in (flank, relief) if f is not None]
     foot = cmath.rect(foot_radius, max(angles))
     direction = cmath.exp(1j * (max(angles) + math.pi / 4))

@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from geometry.base.errors import ParameterError, limit
+from geometry.base.errors import ParameterError
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.gears.worms.band import CLEAR, Band
@@ -190,9 +190,7 @@ class WormBody(Record):
         """
         least = self.least_length()
         if not self.length > least:
-            raise ParameterError(
-                "thread_length", self.length, "worm_thread_too_short", limit(least * (1 + 1e-9), self.length)
-            )
+            raise ParameterError.beyond("thread_length", self.length, "worm_thread_too_short", least * (1 + 1e-9))
         return self
 
     def least_length(self) -> float:

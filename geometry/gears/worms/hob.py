@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.base.errors import ParameterError, limit
+from geometry.base.errors import ParameterError
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.gears.worms.drive import WormDrive
@@ -171,7 +171,7 @@ class Hob(Record, dict=True):
             raise ParameterError("tip_clearance_coefficient", self.worm.tip_clearance_coefficient, "hob_pointed")
         most = bracketed_root(left, 0.0, self.rounding).value / self.worm.module
         given = self.rounding / self.worm.module
-        raise ParameterError("hob_rounding_coefficient", given, "hob_rounding_too_large", limit(most, given))
+        raise ParameterError.beyond("hob_rounding_coefficient", given, "hob_rounding_too_large", most)
 
     def flank(self, radius: ArrayLike) -> Meridian:
         """The flank at radii, mm."""

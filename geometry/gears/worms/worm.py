@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.base.errors import ParameterError, limit
+from geometry.base.errors import ParameterError
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
@@ -133,12 +133,7 @@ class Worm(Record, dict=True):
         """
         if self.root_radius <= 0:
             least = 2.001 * (self.addendum_coefficient + self.tip_clearance_coefficient)
-            raise ParameterError(
-                "diameter_quotient",
-                self.diameter_quotient,
-                "worm_root_under_axis",
-                limit(least, self.diameter_quotient),
-            )
+            raise ParameterError.beyond("diameter_quotient", self.diameter_quotient, "worm_root_under_axis", least)
         if self.form_radius >= self.reference_radius:
             raise ParameterError("number_of_starts", self.number_of_starts, "worm_flank_above_reference")
         if not self.has_tip:
@@ -152,12 +147,7 @@ class Worm(Record, dict=True):
                 raise ParameterError("axial_thinning", self.thinning, "worm_pointed", cure)
             sharp = self._pointed_radius()
             most = (sharp - self.reference_radius) / self.module
-            raise ParameterError(
-                "addendum_coefficient",
-                self.addendum_coefficient,
-                "worm_pointed",
-                limit(most, self.addendum_coefficient),
-            )
+            raise ParameterError.beyond("addendum_coefficient", self.addendum_coefficient, "worm_pointed", most)
         return self
 
     def _pointed_radius(self) -> float:
