@@ -20,11 +20,13 @@ NOT_TOLD = {"no_such_place"}
 def faults(place: str, source: str) -> list[str]:
     """Codes written out in a file that are English, have no sentence or do not give it its numbers."""
     found: list[str] = []
-    if not any(f"{name}(" in source for name in REFUSE):
+    if not any(f"{name}(" in source or f"{name}.beyond(" in source for name in REFUSE):
         return found
     for call in ast.walk(ast.parse(source)):
-        at = REFUSE.get(call.func.id) if isinstance(call, ast.Call) and isinstance(call.func, ast.Name) else None
-        if at is None or not isinstance(call, ast.Call) or len(call.args) <= at:
+        if not isinstance(call, ast.Call):
+            continue
+        at = REFUSE.get(ast.unparse(call.func).removesuffix(".beyond"))
+        if at is None or len(call.args) <= at:
             continue
         code = call.args[at]
         where = f"{place}:{call.lineno}"
@@ -61,8 +63,9 @@ def test_a_fault_is_noticed() -> None:
         'SceneError(source, key, 1, f"at most {most} works")',
         'ParameterError("module", 1, "nobody_has_said_this")',
         'SceneError(source, key, 1, "not_one_of", None)',
+        'ParameterError.beyond("module", 1.0, "nobody_has_said_this", 2.0)',
     )
-    assert [len(faults("x.py", line)) for line in wrong] == [1, 1, 1, 1]
+    assert [len(faults("x.py", line)) for line in wrong] == [1, 1, 1, 1, 1]
     assert faults("x.py", 'SceneError(source, key, 1, "not_one_of", None, known=[2])') == []
     assert faults("x.py", 'SceneError(source, key, 1, "not_one_of", None, "", **numbers)') == []
 
