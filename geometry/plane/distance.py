@@ -153,7 +153,7 @@ def _interior_feet(curve: Curve, search: FootSearch | None, points: Complex, bes
         t, inside = _involute_foot(points, forward)
         t = t if forward is curve else -t
     elif isinstance(curve, Arc):
-        t, inside = _arc_foot(points, curve)
+        t, inside = arc_foot(points, curve)
     elif isinstance(curve, Line):
         t, inside = _line_foot(points, curve)
     else:
@@ -182,7 +182,8 @@ def _involute_foot(points: Complex, curve: Involute) -> tuple[Real, Flags]:
     return roll, (roll >= low) & (roll <= high) & (radius > curve.base_radius)
 
 
-def _arc_foot(points: Complex, arc: Arc) -> tuple[Real, Flags]:
+def arc_foot(points: Complex, arc: Arc) -> tuple[Real, Flags]:
+    """Angle to the foot on an arc from its start, rad, and whether it lies inside the domain."""
     sense = 1.0 if arc.sweep > 0 else -1.0
     spoke = points - arc.centre
     swept = np.mod(sense * (np.angle(spoke) - arc.start_angle), 2 * math.pi)

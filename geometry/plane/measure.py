@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from geometry.curves.curve import Complex, Curve, Real, start_point
 from geometry.curves.line_arc import Arc, Line
+from geometry.plane.distance import arc_foot
 from geometry.plane.profile import Profile
 
 _GAUSS_POINTS = 20
@@ -293,9 +294,6 @@ def _distance_to_plain(points: Complex, arc: Arc | Line) -> Real:
         # of no length it is its start
         share = np.clip(((points - arc.start) * np.conj(chord)).real / (abs(chord) ** 2 or 1.0), 0, 1)
         return np.abs(points - arc.start - share * chord)
-    sense = 1.0 if arc.sweep > 0 else -1.0
-    spoke = points - arc.centre
-    swept = np.mod(sense * (np.angle(spoke) - arc.start_angle), 2 * math.pi)
-    radial = np.abs(np.abs(spoke) - arc.radius)
+    radial = np.abs(np.abs(points - arc.centre) - arc.radius)
     ends = arc.point(np.array(arc.domain))
-    return np.where(swept <= abs(arc.sweep), radial, np.abs(points - ends[:, None]).min(0))
+    return np.where(arc_foot(points, arc)[1], radial, np.abs(points - ends[:, None]).min(0))
