@@ -17,7 +17,7 @@ from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, plain_wid
 from parts.drawing.cells import INDENT, wrapped, write_cell, write_lines
 from parts.drawing.font import MINUS
 from parts.pages.page import Sheet, Step, Table, shortest, unit_text
-from parts.pages.symbols import lowered, symbol_text
+from parts.pages.symbols import head_text, lowered, symbol_text
 from parts.pages.terms import TERMS
 
 # name, symbol, value; a row, and one of two lines, mm
@@ -28,8 +28,6 @@ _ROW, _TWO_LINES = 8.0, 13.0
 _POSITION, _FIRST, _MOST_COLUMNS = 5.0, 11.0, 8
 # how many times as wide as the rows a table of positions is beside them at most
 _WIDEST = 4
-# what a head of a page's table is called on a drawing
-_HEADS = {"phi": "φ", "theta": "θ", "psi": "ψ", "r": "R"}
 # decimals of a size and of a number without unit
 _DECIMALS = {"mm": 3, "": 4}
 # how drawings name what calculations name by their sources
@@ -241,8 +239,9 @@ def _draw_positions(canvas: Canvas, corner: complex, table: Table, told: Words, 
 
 
 def _head(name: str, told: Words) -> str:
-    letter, index, number = name.partition("_")
-    return lowered(symbol_text(f"{_HEADS.get(letter, letter)}{index}{number}", told))
+    # drawings have R for a radius
+    name = name.replace("r", "R", 1) if name.partition("_")[0] == "r" else name
+    return lowered(symbol_text(head_text(name), told))
 
 
 def position_texts(row: Sequence[float]) -> list[str]:

@@ -33,6 +33,9 @@ _INDICES = {
     "s_ш": NC_("index", "s_n"),
     "_р": NC_("index", "_y"),
 }
+_GREEK = {
+    "phi": "φ", "theta": "θ", "psi": "ψ", "nu": "ν", "rho": "ρ", "alpha": "α", "omega": "ω", "epsilon": "ε",
+}  # fmt: skip
 
 
 def symbol_text(text: str, words: Words) -> str:
@@ -41,6 +44,12 @@ def symbol_text(text: str, words: Words) -> str:
         if printed in text:
             text = text.replace(printed, words.term("index", english))
     return text
+
+
+def head_text(name: str) -> str:
+    """The head of a table's column as people read it, Greek letters for their names: programs get the names."""
+    letter, index, number = name.partition("_")
+    return f"{_GREEK.get(letter, letter)}{index}{number}"
 
 
 def lowered(text: str) -> str:

@@ -8,6 +8,7 @@ from typing import Any
 
 from parts.base.texts import Words
 from parts.pages.page import Table, shortest, unit_text
+from parts.pages.symbols import head_text
 
 # decimals of a column, and of one whose numbers are small
 _DIGITS, _MOST = 4, 8
@@ -15,7 +16,7 @@ _DIGITS, _MOST = 4, 8
 
 def _heads(table: Table, words: Words) -> list[str]:
     shown = table.heads[: table.shown]
-    return [", ".join(filter(None, (words.text(symbol), unit_text(unit, words)))) for symbol, unit in shown]
+    return [", ".join(filter(None, (words.text(head_text(symbol)), unit_text(unit, words)))) for symbol, unit in shown]
 
 
 def _rows(table: Table, words: Words) -> list[list[str]]:

@@ -50,7 +50,7 @@ def sheet(keys: DiscKeys) -> Sheet:
         hole = output.pin_diameter + 2 * keys.eccentricity + output.clearance
         page.add("output_hole_diameter", hole, "{d_o} + 2 * {e} + {c_o}")
     page.tables.append(_table(disc, keys.step))
-    page.note("the disc turns against its eccentric; psi: from the eccentric to a pin, about the pins' axis")
+    page.note("the disc turns against its eccentric; ψ: from the eccentric to a pin, about the pins' axis")
     page.note("pressure angle: between a pin's normal and the way of the touched point about the disc")
     page.notes += [finding_message(f) for f in disc_findings(disc)]
     return page

@@ -101,9 +101,9 @@ def test_json_has_the_same_columns_and_pages_have_those_that_they_had(
     for head, values in rows.items():
         assert [row[head.split(" (")[0]] for row in data] == values.tolist()
     assert main(["calc", "cam", *CAM, "step=30", "speed_rpm=60"]) == 0
-    head = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("phi"))
+    head = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("φ"))
     shown = [cell.split(",")[0] for cell in re.split(r"\s{2,}", head)]
-    assert shown == ["phi", "S", "S'", "S''", "v", "a", "nu", "rho", "x", "y"]
+    assert shown == ["φ", "S", "S'", "S''", "v", "a", "ν", "ρ", "x", "y"]
 
 
 @pytest.mark.sampled(2)
