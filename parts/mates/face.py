@@ -124,6 +124,7 @@ class FaceMating(Touching):
             "contact_ratio": self.pair.contact_ratio,
             "normal_backlash": self.pair.normal_backlash,
             "bottom_clearance_at_root": {"first": clearances[0], "second": clearances[1]},
+            **({"end_gap": self.pair.end_gap} if self.pair.gear.more_teeth else {}),
         }
 
 

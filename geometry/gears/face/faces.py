@@ -91,7 +91,7 @@ def _places(gear: FaceGear, which: int, share: Real, inwards: Real) -> Places:
 
 def _spatial(gear: FaceGear, at: Places) -> Real:
     """The same as points of the part (..., 3), mm."""
-    return np.stack([at.plane.real, at.plane.imag, gear.mounting_distance - at.depth], axis=-1)
+    return np.stack([at.plane.real, at.plane.imag, gear.shaper_height - at.depth], axis=-1)
 
 
 def _off(gear: FaceGear, at: Places, made: Real) -> Real:

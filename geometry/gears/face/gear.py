@@ -1,11 +1,15 @@
 """A face gear: the envelope of a spur shaper that rolls on it about an axis that meets its own at a right angle.
 
 Frame: the gear's axis is z, its lower face lies at z = 0, tooth 1 is centred on +x, teeth point upwards. The shaper's
-axis is parallel to x, ``mounting_distance`` above the lower face, and y + ih tells places of its section from there,
+axis is parallel to x, ``shaper_height`` above the lower face, and y + ih tells places of its section from there,
 h downwards. Turned by phi from where a tooth points straight down the shaper turns the gear by phi z_0 / z_2, so in
 the plane at x from the axis both touch where their common normal meets the pitch point, x z_0 / z_2 below the
 shaper's axis (Litvin, Gear Geometry and Applied Theory, 18.4). The plane's pressure angle alpha tells it:
 x = r_b0 z_2 / (z_0 cos alpha). The upper side of tooth 1 is described; the lower one is its mirror image.
+
+A shaper of more teeth than the pinion crowns the flanks: its axis stands as much higher as lets the common normals of
+one plane, x_c from the axis, go through one pitch point, and its shift makes its tooth there as thick as the pinion's.
+In that plane both are conjugate to the gear; beside it the gear leaves the pinion room.
 """
 
 from __future__ import annotations
@@ -18,7 +22,7 @@ from typing import TYPE_CHECKING, TypeVar, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from geometry.base.angles import tangent_length
+from geometry.base.angles import involute_function, tangent_length
 from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
@@ -76,12 +80,13 @@ class Places(Record, eq=False):
 
 
 class FaceGear(Record, dict=True):
-    """A face gear cut by ``cutter``, or by one with thicker teeth; lengths in mm.
+    """A face gear for the pinion whose teeth ``cutter`` has, cut by one with thicker teeth, or more; lengths in mm.
 
     ``circumferential_thinning``: of its teeth, along the shaper's reference circle.
     ``addendum``: of its teeth above the pitch plane, the plane that touches the pinion's reference cylinder, or, of a
     pinion with a shift, above a plane so much farther from its axis;
     ``thickness``: of the plate below the root, which ``web``, ``hub`` and ``holes`` shape within the teeth.
+    ``more_teeth``: of the shaper than of the pinion; ``contact_plane``: x_c, where they then touch.
     """
 
     cutter: PinionCutter
@@ -94,13 +99,39 @@ class FaceGear(Record, dict=True):
     holes: HubHoles = HubHoles()
     hub: Hub | None = None
     web: Web | None = None
+    more_teeth: int = 0
+    contact_plane: float = 0.0
 
     # sizes ----------------------------------------------------------------------------------------------------------
 
     @cached_property
     def shaper(self) -> PinionCutter:
         """What cuts it, thicker than standard by the thinning."""
-        return replace(self.cutter, widening=self.circumferential_thinning / 2)
+        own = replace(self.cutter, widening=self.circumferential_thinning / 2)
+        if not self.more_teeth:
+            return own
+        slope, teeth = math.tan(own.pressure_angle), own.number_of_teeth + self.more_teeth
+        bent = involute_function(self.contact_angle) - involute_function(own.pressure_angle)
+        shift = own.profile_shift_coefficient + self.more_teeth * bent / (2 * slope)
+        high = (own.tip_radius + self.axes_apart) / self.module - teeth / 2 - shift
+        return replace(own, number_of_teeth=teeth, profile_shift_coefficient=shift, addendum=high)
+
+    @property
+    def contact_angle(self) -> float:
+        """Pressure angle in the plane of contact, rad."""
+        return math.acos(self.reference_radius * math.cos(self.cutter.pressure_angle) / self.contact_plane)
+
+    @property
+    def axes_apart(self) -> float:
+        """How high the shaper's axis stands above the pinion's."""
+        return self.contact_plane * self.more_teeth / self.number_of_teeth
+
+    @property
+    def length_apart(self) -> float:
+        """How much longer the shaper's line of action in the plane of contact is, from its base circle on."""
+        if not self.more_teeth:
+            return 0.0
+        return (self.shaper.base_radius - self.cutter.base_radius) * math.tan(self.contact_angle)
 
     @property
     def module(self) -> float:
@@ -118,9 +149,15 @@ class FaceGear(Record, dict=True):
         return self.shaper.number_of_teeth / self.number_of_teeth
 
     @property
+    def ratio(self) -> float:
+        """u, turns of the pinion for one of the gear."""
+        return self.number_of_teeth / self.cutter.number_of_teeth
+
+    @property
     def tip_depth(self) -> float:
         """Of the tip plane below the shaper's axis."""
-        return self.shaper.reference_radius + self.shaper.profile_shift_coefficient * self.module - self.addendum
+        own = self.cutter
+        return own.reference_radius + own.profile_shift_coefficient * self.module - self.addendum + self.axes_apart
 
     @property
     def whole_depth(self) -> float:
@@ -134,7 +171,12 @@ class FaceGear(Record, dict=True):
 
     @property
     def mounting_distance(self) -> float:
-        """Of the pinion's axis, which is the shaper's, from the lower face."""
+        """Of the pinion's axis from the lower face."""
+        return self.thickness + self.cutter.tip_radius
+
+    @property
+    def shaper_height(self) -> float:
+        """Of the shaper's axis."""
         return self.thickness + self.shaper.tip_radius
 
     @property
@@ -342,7 +384,7 @@ def form_length(pinion: SpurGear) -> float:
 
 def _usual_inner(gear: FaceGear, form_length: float) -> float:
     """Beyond the undercut, and from where on tips meet the pinion's involute, mm."""
-    return max(gear.least_radius, gear.form_radius(form_length)) + NEAR_UNDERCUT * gear.module
+    return max(gear.least_radius, gear.form_radius(form_length + gear.length_apart)) + NEAR_UNDERCUT * gear.module
 
 
 def topped(gear: FaceGear, form_length: float = 0.0) -> FaceGear:

@@ -1,7 +1,8 @@
 """A face gear and its spur pinion: what both are together, and the gap between them over a pitch of motion.
 
 The pinion's axis stands at right angles to the gear's and meets it, ``mounting_distance`` above the lower face. Planes
-across the pinion's axis have a pressure angle each; in them both touch as the gear and its shaper do.
+across the pinion's axis have a pressure angle each; in them both touch as the gear and its shaper do. Flanks that a
+shaper of more teeth has crowned touch in the gear's plane of contact alone.
 """
 
 from __future__ import annotations
@@ -31,6 +32,10 @@ from geometry.solids.wheel import Hub
 _DRIVE_ANGLES, _PLANES, _PLACES, _TEETH, _ALONG = 24, 9, 9, 2, 129
 # how near to where both touch a plane stands, rad or mm: it tells which plane, not where they touch in it
 _NEAR = 1e-7
+
+
+# of a flank where its gap is told
+_SHARES = np.linspace(0.0, 1.0, 33)
 
 
 def _root(function: Callable[[Real, Index], Real], count: int) -> Real:
@@ -99,7 +104,10 @@ class FacePair(Record, dict=True):
         """Distances from the gear's axis at which both have teeth and touch, mm."""
         gear = self.gear
         tip = gear.side(FLANK, 1.0, np.array([gear.inner_radius, gear.outer_radius])).x
-        return np.linspace(max(float(tip[0]), self.low), min(float(tip[1]), self.high), _PLANES)
+        found = np.linspace(max(float(tip[0]), self.low), min(float(tip[1]), self.high), _PLANES)
+        if gear.more_teeth and self.low <= gear.contact_plane <= self.high:
+            found[np.abs(found - gear.contact_plane)[1:-1].argmin() + 1] = gear.contact_plane
+        return found
 
     def _angles(self, x: Real) -> Real:
         """Pressure angles in planes, rad."""
@@ -108,12 +116,15 @@ class FacePair(Record, dict=True):
     @property
     def form_reserve(self) -> float:
         """By how much the pinion's involute begins before the gear's tip asks for it, along the line of action, mm."""
-        return float(self.gear.tip_length(self._angles(self.planes)).min()) - self.form_length
+        gear, planes = self.gear, self.planes
+        if gear.more_teeth:
+            planes = np.array([gear.contact_plane])
+        return float(gear.tip_length(self._angles(planes)).min()) - gear.length_apart - self.form_length
 
     @property
     def gear_form_reserve(self) -> float:
         """By how much the gear's flank goes on below the pinion's tip, along the line of action, mm."""
-        return self.gear.shaper.form_length - self._tip_length
+        return self.gear.shaper.form_length - self.gear.length_apart - self._tip_length
 
     @property
     def _tip_length(self) -> float:
@@ -123,10 +134,38 @@ class FacePair(Record, dict=True):
     @cached_property
     def contact_ratio(self) -> float:
         """The pinion's turn from where two flanks meet first to where they part last, over its pitch."""
+        if self.gear.more_teeth:
+            return self._path / (math.pi * self.gear.module * math.cos(self.pinion.pressure_angle))
         radii = np.linspace(self.gear.inner_radius, self.gear.outer_radius, _ALONG)
         ends = [self._on(length, radii) for length in (self.form_length, self._tip_length)]
         begins, parts = (at.turn[(at.x >= self.low) & (at.x <= self.high)] for at in ends)
         return float(begins.max() - parts.min()) * self.pinion.number_of_teeth / math.tau
+
+    @property
+    def _path(self) -> float:
+        """How long both touch in the plane of contact, along the line of action, mm."""
+        gear = self.gear
+        if not self.low <= gear.contact_plane <= self.high:
+            return 0.0
+        # of the shaper's line of action
+        begins = max(self.form_length + gear.length_apart, float(gear.tip_length(np.asarray(gear.contact_angle))))
+        ends = min(self._tip_length + gear.length_apart, gear.shaper.form_length)
+        length = np.linspace(begins, ends, _ALONG)
+        radius = gear.cut_radius(gear.contact_angle, length)
+        within = length[(radius >= gear.inner_radius) & (radius <= gear.outer_radius)]
+        return float(np.ptp(within)) if len(within) else 0.0
+
+    @cached_property
+    def end_gap(self) -> float:
+        """How near flanks that drive come over a pitch where they stay farthest apart along the face, mm; 0: lines."""
+        play = self.normal_backlash / 2 / self.pinion.base_radius
+        gap, _, _ = self._feet(self._drive, -play, [(FLANK, _SHARES)])
+        return float(gap.reshape(-1, len(_SHARES), _PLANES).min(axis=(0, 1)).max())
+
+    @property
+    def _drive(self) -> Real:
+        """Angles of the pinion over a pitch, rad."""
+        return np.linspace(0.0, math.tau / self.pinion.number_of_teeth, _DRIVE_ANGLES, endpoint=False)
 
     def _on(self, length: float, radii: Real) -> Places:
         """Places of the flank at radii that stand so far along the line of action, mm, or the nearest end."""
@@ -138,7 +177,12 @@ class FacePair(Record, dict=True):
         return self.gear.side(FLANK, _root(over, len(radii)), radii)
 
     def _meeting(self, turn: Real) -> Real:
-        """Planes in which a flank of the shaper turned so far, (...), touches on cylinders, (..., radii), mm."""
+        """Planes in which a flank of the shaper turned so far, (...), touches on cylinders, (..., radii), mm.
+
+        Where flanks are crowned those in which they come nearest are all.
+        """
+        if self.gear.more_teeth:
+            return np.broadcast_to(self.planes, (*turn.shape, _PLANES))
         radii = np.linspace(self.gear.inner_radius, self.gear.outer_radius, _PLANES)
         wanted, radii = (a.ravel() for a in np.broadcast_arrays(turn[..., None], radii))
         share = _root(lambda u, which: wanted[which] - self.gear.side(FLANK, u, radii[which]).turn, len(wanted))
@@ -147,7 +191,7 @@ class FacePair(Record, dict=True):
     def contact(self, phase_off: float = 0.0, tolerance: float | None = None) -> PairContact:
         """Verdict over one pitch; the pinion is ``phase_off`` rad further round than in the middle of its backlash."""
         allowed = CONTACT_TOLERANCE * self.gear.module if tolerance is None else tolerance
-        drive = np.linspace(0.0, math.tau / self.pinion.number_of_teeth, _DRIVE_ANGLES, endpoint=False)
+        drive = self._drive
         gaps = np.stack([self._least(drive, way * phase_off, way) for way in (1, -1)])
         if (clearance := self.hub_clearance) < 0:
             gaps = np.minimum(gaps, clearance)
@@ -178,8 +222,8 @@ class FacePair(Record, dict=True):
         places = np.concatenate([np.broadcast_to(fixed, shape), meets], axis=3)
         x = np.concatenate([np.broadcast_to(self.planes[:, None], shape), meet], axis=3)
         seen = places * np.exp(1j * (middles[:, :, None, None] + off))
-        # from straight down: along y, and how deep
-        y, depth = seen.imag, seen.real
+        # from straight down: along y, and how deep below the shaper's axis
+        y, depth = seen.imag, seen.real + gear.axes_apart
         own = np.broadcast_to(turned[:, None, None, None], y.shape)
         found = np.full(y.shape, np.inf)
         near = (depth > gear.tip_depth) & (x >= self.low) & (x <= self.high)
@@ -192,7 +236,7 @@ class FacePair(Record, dict=True):
         gear = self.gear
         pitch = math.tau / gear.number_of_teeth
         aside = np.abs(azimuth - pitch * np.round(azimuth / pitch))
-        found = gear.mounting_distance - gear.thickness - depth
+        found = gear.shaper.tip_radius - depth
         beside = np.flatnonzero((radius >= gear.inner_radius) & (radius <= gear.outer_radius))
         row = radius[beside], aside[beside], depth[beside]
         joint = gear.side(FLANK, 0.0, row[0]).depth
@@ -225,7 +269,7 @@ class FacePair(Record, dict=True):
         middles = nearest[:, None] + pitch * np.arange(-_TEETH, _TEETH + 1)
         turn = azimuth + middles[:, :, None] - math.pi / gear.number_of_teeth
         x, y = radius * np.cos(turn), radius * np.sin(turn)
-        seen = (depth + 1j * y) * np.exp(-1j * (turned[:, None, None] + off))
+        seen = (depth - gear.axes_apart + 1j * y) * np.exp(-1j * (turned[:, None, None] + off))
         found, curves = np.full(seen.shape, np.inf), np.zeros(seen.shape, int)
         near = (np.abs(seen) < pinion.tip_radius + gear.module) & (x >= self.low) & (x <= self.high)
         points, _ = folded(seen[near], np.zeros(int(near.sum()), complex), pinion.pitch_angle)
@@ -236,8 +280,7 @@ class FacePair(Record, dict=True):
     @cached_property
     def tip_in_fillet(self) -> tuple[float, float]:
         """Where tips come nearest to what is no flank of the pinion: the gap, from its axis, mm; (inf, 0) nowhere."""
-        drive = np.linspace(0.0, math.tau / self.pinion.number_of_teeth, _DRIVE_ANGLES, endpoint=False)
-        gap, reach, curves = self._feet(drive, 0.0, [(FLANK, np.ones(1))])
+        gap, reach, curves = self._feet(self._drive, 0.0, [(FLANK, np.ones(1))])
         below = [k for k, s in enumerate(self.side.segments) if s.label in (Label.ROOT_FILLET, Label.ROOT_LAND)]
         gap[~np.isin(curves, below)] = np.inf
         least = int(gap.argmin())

@@ -50,5 +50,5 @@ def wall_distance(gear: FaceGear, which: int, points: Real) -> Real:
     radius = np.clip(reach, gear.inner_radius, gear.outer_radius)
     turn = np.arctan2(points[:, 1], points[:, 0])
     aside = np.abs(turn - pitch * np.round(turn / pitch))
-    off, left = side_off(gear, which, radius, aside, gear.mounting_distance - points[:, 2])
+    off, left = side_off(gear, which, radius, aside, gear.shaper_height - points[:, 2])
     return np.sqrt(off**2 + left**2 + (reach - radius) ** 2)

@@ -33,7 +33,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     else:
         # its face is circles
         others = others[1:]
-    pitch = gear.mounting_distance - gear.shaper.reference_radius
+    pitch = gear.mounting_distance - gear.cutter.reference_radius
     teeth: Loop = closed([complex(x, r) for x, r in (
         (gear.thickness, inner), (gear.height, inner), (gear.height, outer), (gear.thickness, outer))])  # fmt: skip
     strokes = [*section.strokes, *outlined(teeth), *outlined(below(teeth))]
@@ -62,7 +62,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     first = rows_of(page, ("module", "pressure_angle_deg", "addendum_coefficient", "dedendum_coefficient"))
     teeth = DataRow(N_("number of teeth of the face gear"), "z", keys.number_of_teeth)
     control = rows_of(page, ("face_tooth_depth",))
-    last = rows_of(page, ("normal_backlash", "undercut_diameter", "pointed_diameter"))
+    last = rows_of(page, ("normal_backlash", "cutter_teeth", "undercut_diameter", "pointed_diameter"))
     beside = [DataRow(N_("teeth of the mate"), "z", keys.pinion_teeth), *rows_of(page, ("profile_shift_coefficient",))]
     drawings = dict.fromkeys(getattr(m.part.keys, "designation", None) or m.part.title or m.part.id for m in mates)
     beside += [DataRow(N_("drawing of the mate"), "", Message("{name}", {"name": name})) for name in drawings]

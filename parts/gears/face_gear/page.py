@@ -21,7 +21,7 @@ TOPIC = "face-gear"
 table_from = part_of_kind("face_gear")
 _LITVIN = "Litvin, 18.4"
 # a place of a plane: twice its distance from the gear's axis
-_PLACE = "2 * sqrt({%s}**2 + ({d_b1} / 2 * sin({%s}) - {%s} * cos({%s}))**2)"
+_PLACE = "2 * sqrt({%s}**2 + ({%s} / 2 * sin({%s}) - {%s} * cos({%s}))**2)"
 
 
 class FaceKeys(FaceGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
@@ -45,10 +45,12 @@ def sheet(keys: FaceKeys) -> Sheet:
         # of another rack only its own pinion may be
         pair = FacePair(gear, pinion_of(keys), gear.inner_radius - gear.module, gear.outer_radius + gear.module)
         page.add("total_contact_ratio", pair.contact_ratio)
+        if gear.more_teeth:
+            page.add("end_gap", pair.end_gap)
     if keys.speed_rpm is not None:
         page.section(N_("Speeds"))
         page.add("gear_speed", keys.speed_rpm, gear=1, given=True)
-        page.add("gear_speed", keys.speed_rpm * gear.rolled, "{n1} / {u}", gear=2)
+        page.add("gear_speed", keys.speed_rpm / gear.ratio, "{n1} / {u}", gear=2)
     _forces(page, gear, keys)
     page.notes += [finding_message(found) for found in face_gear_findings(gear)]
     return page
@@ -62,8 +64,10 @@ def _given(page: Sheet, keys: FaceKeys, gear: FaceGear) -> None:
         page.add("profile_shift_coefficient", keys.pinion_profile_shift_coefficient, gear=1)
     page.add("pressure_angle_deg", keys.pressure_angle_deg)
     page.add("addendum_coefficient", gear.addendum / keys.module)
-    page.add("dedendum_coefficient", gear.shaper.addendum)
-    page.add("cutter_tip_rounding", gear.shaper.tip_rounding)
+    page.add("dedendum_coefficient", gear.cutter.addendum)
+    page.add("cutter_tip_rounding", gear.cutter.tip_rounding)
+    if gear.more_teeth:
+        page.add("cutter_teeth", gear.shaper.number_of_teeth)
     if keys.circumferential_thinning:
         page.add("circumferential_thinning", keys.circumferential_thinning)
     page.add("plate_thickness", gear.thickness)
@@ -72,23 +76,40 @@ def _given(page: Sheet, keys: FaceKeys, gear: FaceGear) -> None:
 def _sizes(page: Sheet, gear: FaceGear) -> None:
     shaper = gear.shaper
     page.section(N_("Pinion, shaper and teeth"))
-    page.add("gear_ratio", 1 / gear.rolled, "{z2} / {z1}")
-    diameters = 2 * shaper.reference_radius, 2 * gear.reference_radius
-    page.both("reference_diameter", diameters, "{m} * {z#}")
-    angles = math.degrees(math.atan(gear.rolled)), math.degrees(math.atan(1 / gear.rolled))
+    pinion, high = gear.cutter, ""
+    page.add("gear_ratio", gear.ratio, "{z2} / {z1}")
+    page.both("reference_diameter", (2 * pinion.reference_radius, 2 * gear.reference_radius), "{m} * {z#}")
+    angles = math.degrees(math.atan(1 / gear.ratio)), math.degrees(math.atan(gear.ratio))
     page.both("pitch_cone_angle_deg", angles, "arctan({z#} / {z~})")
-    page.add("base_diameter", 2 * shaper.base_radius, "{d1} * cos({alpha})", gear=1)
+    page.add("base_diameter", 2 * pinion.base_radius, "{d1} * cos({alpha})", gear=1)
+    if gear.more_teeth:
+        high = " + {H_0}"
+        page.add("contact_plane", gear.contact_plane)
+        page.add(
+            "contact_plane_angle_deg", math.degrees(gear.contact_angle), "arccos({d2} * cos({alpha}) / (2 * {x_c}))"
+        )
+        own = "{x1} + " if pinion.profile_shift_coefficient else ""
+        thick = "({z_0} - {z1}) * (inv({alpha_c}) - inv({alpha})) / (2 * tan({alpha}))"
+        page.add("cutter_shift", shaper.profile_shift_coefficient, own + thick)
+        page.add("shaper_base_diameter", 2 * shaper.base_radius, "{m} * {z_0} * cos({alpha})")
+        page.add("shaper_axes_apart", gear.axes_apart, "{x_c} * ({z_0} - {z1}) / {z2}")
     # a shift carries the gear's teeth along
-    root, tip = ("({h_f} + {x1})", "({h_a} - {x1})") if shaper.profile_shift_coefficient else ("{h_f}", "{h_a}")
-    page.add("shaper_tip_diameter", 2 * shaper.tip_radius, f"{{d1}} + 2 * {root} * {{m}}")
-    corner = "{d_a0} / 2 - {rho_0} * {m}"
-    page.add("shaper_form_length", shaper.form_length, f"sqrt(({corner})**2 - ({{d_b1}} / 2)**2) + {{rho_0}} * {{m}}")
-    page.add("face_tip_depth", gear.tip_depth, f"{{d1}} / 2 - {tip} * {{m}}")
+    root, tip = ("({h_f} + {x1})", "({h_a} - {x1})") if pinion.profile_shift_coefficient else ("{h_f}", "{h_a}")
+    page.add("shaper_tip_diameter", 2 * shaper.tip_radius, f"{{d1}} + 2 * {root} * {{m}}" + high.replace("{", "2 * {"))
+    corner = f"sqrt(({{d_a0}} / 2 - {{rho_0}} * {{m}})**2 - ({{{_base(gear)}}} / 2)**2)"
+    page.add("shaper_form_length", shaper.form_length, f"{corner} + {{rho_0}} * {{m}}")
+    name = "shaper_tip_depth" if gear.more_teeth else "face_tip_depth"
+    page.add(name, gear.tip_depth, f"{{d1}} / 2 - {tip} * {{m}}" + high)
     page.add("face_tooth_depth", gear.whole_depth, "({h_a} + {h_f}) * {m}")
-    page.add("pinion_axis_height", gear.mounting_distance, "{t} + {d_a0} / 2")
+    page.add("pinion_axis_height", gear.mounting_distance, "{t} + {d_a0} / 2" + high.replace("+", "-"))
     if gear.circumferential_thinning:
         backlash = gear.circumferential_thinning * math.cos(shaper.pressure_angle)
         page.add("normal_backlash", backlash, "{A} * cos({alpha})")
+
+
+def _base(gear: FaceGear) -> str:
+    """The base diameter of the shaper in formulas: that of the pinion, unless it has more teeth."""
+    return "d_b0" if gear.more_teeth else "d_b1"
 
 
 def _angle(gear: FaceGear, share: float, radius: float) -> float:
@@ -99,23 +120,23 @@ def _angle(gear: FaceGear, share: float, radius: float) -> float:
 def _limits(page: Sheet, gear: FaceGear) -> None:
     """Undercut, the base circle, pointed tips; two angles are roots of one equation each."""
     page.section(N_("Limits of the face"))
-    plane = "{d_b1} * {u} / (2 * cos({%s}))"
+    plane, base = "{d_b1} * {u} / (2 * cos({%s}))", _base(gear)
     angle = gear.undercut_angle
     # s (s - r_b tan alpha) = (x tan alpha)^2
     page.add("undercut_angle_deg", math.degrees(angle), "", _LITVIN)
     page.add("undercut_plane", float(gear.section_x(angle)), plane % "alpha_u")
-    page.add("undercut_diameter", 2 * gear.undercut_radius, _PLACE % ("x_u", "alpha_u", "s_F", "alpha_u"))
+    page.add("undercut_diameter", 2 * gear.undercut_radius, _PLACE % ("x_u", base, "alpha_u", "s_F", "alpha_u"))
     if gear.form_radius(0.0):
         page.add("base_limit_angle_deg", math.degrees(math.acos(gear.tip_depth / gear.shaper.base_radius)),
-                 "arccos(2 * {h_t} / {d_b1})")  # fmt: skip
-        limit = "{d_b1} * sqrt(({u} / cos({alpha_l}))**2 + sin({alpha_l})**2)"
+                 f"arccos(2 * {{h_t}} / {{{base}}})")  # fmt: skip
+        limit = f"sqrt(({{d_b1}} * {{u}} / cos({{alpha_l}}))**2 + ({{{base}}} * sin({{alpha_l}}))**2)"
         page.add("base_limit_diameter", 2 * gear.form_radius(0.0), limit)
     angle = _angle(gear, 1.0, gear.pointed_radius)
     page.add("pointed_angle_deg", math.degrees(angle), "", _LITVIN)
     page.add("pointed_plane", float(gear.section_x(angle)), plane % "alpha_p")
     length = float(gear.tip_length(np.asarray(angle)))
-    page.add("pointed_length", length, "({h_t} - {d_b1} / 2 * cos({alpha_p})) / sin({alpha_p})")
-    page.add("pointed_diameter", 2 * gear.pointed_radius, _PLACE % ("x_p", "alpha_p", "s_p", "alpha_p"))
+    page.add("pointed_length", length, f"({{h_t}} - {{{base}}} / 2 * cos({{alpha_p}})) / sin({{alpha_p}})")
+    page.add("pointed_diameter", 2 * gear.pointed_radius, _PLACE % ("x_p", base, "alpha_p", "s_p", "alpha_p"))
 
 
 def _face(page: Sheet, gear: FaceGear) -> None:
@@ -126,9 +147,11 @@ def _face(page: Sheet, gear: FaceGear) -> None:
     inner, outer = gear.tip_thickness([gear.inner_radius, gear.outer_radius]).tolist()
     page.add("inner_tip_thickness", inner)
     page.add("outer_tip_thickness", outer)
-    middle = (gear.inner_radius + gear.outer_radius) / 2
-    page.add("middle_plane", middle, "({D_i} + {D_e}) / 4")
-    page.add("middle_angle_deg", math.degrees(_plane_angle(gear, middle)), "arccos({d_b1} * {u} / (2 * {x_m}))")
+    if not gear.more_teeth:
+        middle = (gear.inner_radius + gear.outer_radius) / 2
+        page.add("middle_plane", middle, "({D_i} + {D_e}) / 4")
+        formula = "arccos({d_b1} * {u} / (2 * {x_m}))"
+        page.add("middle_angle_deg", math.degrees(_plane_angle(gear, middle)), formula)
 
 
 def _plane_angle(gear: FaceGear, x: float) -> float:
@@ -140,11 +163,13 @@ def _forces(page: Sheet, gear: FaceGear, keys: FaceKeys) -> None:
     torque = driving_torque(page, keys)
     if torque is None:
         return
-    page.add("gear_torque", torque / gear.rolled, "{T1} * {u}", gear=2)
-    normal = 1000 * torque / gear.shaper.base_radius
+    page.add("gear_torque", torque * gear.ratio, "{T1} * {u}", gear=2)
+    normal = 1000 * torque / gear.cutter.base_radius
     page.add("normal_force", normal, "2000 * {T1} / {d_b1}")
-    alpha = _plane_angle(gear, (gear.inner_radius + gear.outer_radius) / 2)
-    page.add("circumferential_force", normal * math.cos(alpha), "{F_n} * cos({alpha_m})")
+    name, alpha = "alpha_m", _plane_angle(gear, (gear.inner_radius + gear.outer_radius) / 2)
+    if gear.more_teeth:
+        name, alpha = "alpha_c", gear.contact_angle
+    page.add("circumferential_force", normal * math.cos(alpha), f"{{F_n}} * cos({{{name}}})")
     across = normal * math.sin(alpha)
-    page.add("radial_force", across, "{F_n} * sin({alpha_m})", gear=1)
+    page.add("radial_force", across, f"{{F_n}} * sin({{{name}}})", gear=1)
     page.add("axial_force", across, "{F_r1}", gear=2)

@@ -52,6 +52,8 @@ _THINNED = {"circumferential_thinning": 0.0}
 _TYPED, _USUAL = {"pinion_profile_shift_coefficient": 0.0, "pressure_angle_deg": 20.0}, 1.0
 # mm: how near pictures are to the edges of tips
 _SEEN = 1e-7
+# rounds after which both touch in the middle of the face
+_SETTLED = 4
 # how near to the greatest one a value is offered, modules
 _NEAR = 1e-3
 
@@ -97,6 +99,17 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
         ]
         | None
     ) = None
+    shaper_number_of_teeth: (
+        Annotated[
+            int,
+            Meta(
+                ge=3, le=10_000, examples=[22],
+                description="teeth z0 of the shaper; one to three more than the pinion's crown the flanks, which then "
+                "touch at points in the middle of the face; default: the pinion's",
+            ),
+        ]
+        | None
+    ) = None  # fmt: skip
     inner_diameter: (
         Annotated[
             float,
@@ -175,7 +188,28 @@ def _made(keys: FaceGearSpec) -> FaceGear:
     if addendum is None:
         bare = topped(bare, begins)
     inner, outer = (None if d is None else d / 2 for d in (keys.inner_diameter, keys.outer_diameter))
-    return sized(bare, inner, outer, begins).checked()
+    plain = sized(bare, inner, outer, begins).checked()
+    teeth = keys.pinion_teeth if keys.shaper_number_of_teeth is None else keys.shaper_number_of_teeth
+    more = teeth - keys.pinion_teeth
+    if more == 0:
+        return plain
+
+    def crowned(teeth: float) -> FaceGear:
+        gear = plain
+        for _ in range(_SETTLED):
+            middle = (gear.inner_radius + gear.outer_radius) / 2
+            gear = replace(gear, more_teeth=int(teeth) - keys.pinion_teeth, contact_plane=middle)
+            gear = sized(gear, inner, outer, begins)
+        return gear.checked()
+
+    if more < 0:
+        raise ParameterError("shaper_number_of_teeth", teeth, "shaper_below_pinion", Nearest(keys.pinion_teeth),
+                             teeth=keys.pinion_teeth)  # fmt: skip
+    try:
+        return crowned(teeth)
+    except ParameterError as refusal:
+        cure = partial(nearest, lambda own: bool(crowned(own)), teeth, keys.pinion_teeth + 1)
+        raise ParameterError("shaper_number_of_teeth", teeth, refusal.code, cure, **refusal.numbers) from refusal
 
 
 def pinion_of(keys: FaceGearSpec) -> SpurGear:
@@ -295,6 +329,7 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
             "inner_tip_thickness": inner,
             "outer_tip_thickness": outer,
             "pinion_axis_height": thing.mounting_distance,
+            **({"contact_plane": thing.contact_plane} if thing.more_teeth else {}),
         }
         return Report(face_gear_findings(thing), circles, quantities)
 

@@ -42,6 +42,7 @@ SHEETS = [
     ("bevel", "module=3", "number_of_teeth=16", "mate_teeth=24", "spiral_angle_deg=20", "tooth_line=straight",
      "normal_backlash=0.1", "torque=5"),
     ("face-gear", "face_gear_pair", "torque=12", "speed_rpm=300"),
+    ("face-gear", "face_gear_pair", "torque=12", "shaper_number_of_teeth=22"),
     ("face-gear", "module=1", "number_of_teeth=200", "pinion_teeth=40", "circumferential_thinning=0.1", "power=200",
      "speed_rpm=90"),
     ("gear-pair", "crossed_helical_pair", "torque=12", "speed_rpm=300", "friction_coefficient=0.1"),

@@ -22,15 +22,23 @@ from geometry.plane.distance import Verdict
 from geometry.solids.faces import SplineSurface
 from parts.gears.spur_gear.part import basic_rack_of
 
-Case = tuple[float, int, int, float, float, float, float]
-# module, teeth of the shaper and of the gear, pressure angle, tip rounding of the shaper, thinning, shift of the pinion
-CASES: tuple[Case, ...] = ((2.0, 20, 60, 20.0, 0.2, 0.05, 0.0), (1.0, 12, 36, 20.0, 0.01, 0.0, 0.3),
-                           (1.0, 40, 200, 20.0, 0.2, 0.0, 0.0), (1.5, 25, 30, 25.0, 0.1, 0.0, -0.2))  # fmt: skip
+Case = tuple[float, int, int, float, float, float, float, int]
+# module, teeth of pinion and gear, pressure angle, tip rounding of the shaper, thinning, shift of the pinion, and more
+# teeth of the shaper
+CASES: tuple[Case, ...] = ((2.0, 20, 60, 20.0, 0.2, 0.05, 0.0, 0), (1.0, 12, 36, 20.0, 0.01, 0.0, 0.3, 0),
+                           (1.0, 40, 200, 20.0, 0.2, 0.0, 0.0, 0), (1.5, 25, 30, 25.0, 0.1, 0.0, -0.2, 0),
+                           (2.0, 20, 60, 20.0, 0.2, 0.05, 0.1, 2))  # fmt: skip
 
 
-def made(m: float, z1: int, z2: int, alpha: float, rounding: float, thinning: float, shift: float = 0.0) -> FaceGear:
+def made(
+    m: float, z1: int, z2: int, alpha: float, rounding: float, thinning: float, shift: float = 0.0, more: int = 0
+) -> FaceGear:
     shaper = PinionCutter(m, z1, math.radians(alpha), shift, tip_rounding=rounding)
-    return sized(FaceGear(shaper, z2, m, 0.0, 0.0, 3 * m, thinning), None, None).checked()
+    gear = sized(FaceGear(shaper, z2, m, 0.0, 0.0, 3 * m, thinning), None, None).checked()
+    if more:
+        middle = (gear.inner_radius + gear.outer_radius) / 2
+        gear = sized(replace(gear, more_teeth=more, contact_plane=middle), None, None).checked()
+    return gear
 
 
 def inside(shaper: PinionCutter, y: Real, h: Real) -> Real:
@@ -47,13 +55,13 @@ def inside(shaper: PinionCutter, y: Real, h: Real) -> Real:
     return np.where(corner, np.minimum(found, rounding - np.abs(r * np.exp(1j * a) - centre)), found)
 
 
-def cut(gear: FaceGear, radius: Real, azimuth: Real, depth: Real) -> Real:
-    """How deep the shaper gets over places of the gear on its way, mm: by brute force."""
-    turned = np.linspace(-1.2, 1.2, 3001)
-    a = azimuth[:, None] - math.pi / gear.number_of_teeth + turned * gear.shaper.number_of_teeth / gear.number_of_teeth
+def cut(gear: FaceGear, radius: Real, azimuth: Real, depth: Real, shaper: PinionCutter | None = None) -> Real:
+    """How deep its shaper, or another one, gets over places of the gear on its way, mm: by brute force."""
+    shaper, turned = shaper or gear.shaper, np.linspace(-1.2, 1.2, 3001)
+    a = azimuth[:, None] - math.pi / gear.number_of_teeth + turned * shaper.number_of_teeth / gear.number_of_teeth
     y, h = radius[:, None] * np.sin(a), depth[:, None]
     r, own = np.hypot(y, h), np.arctan2(y, h) - turned
-    return np.asarray(inside(gear.shaper, r * np.sin(own), r * np.cos(own)).max(axis=1))
+    return np.asarray(inside(shaper, r * np.sin(own), r * np.cos(own)).max(axis=1))
 
 
 def places(gear: FaceGear, which: int) -> Places:
@@ -129,7 +137,7 @@ def pair(case: Case, **pinion: float) -> FacePair:
     return FacePair(gear, own, gear.inner_radius - 1.0, gear.outer_radius + 1.0)
 
 
-@pytest.mark.parametrize("case", [CASES[0], CASES[3]])
+@pytest.mark.parametrize("case", [CASES[0], CASES[3], CASES[4]])
 def test_pinion_and_gear_touch_all_over_a_pitch(case: Case) -> None:
     """Conjugate: turned in their ratio they stay together within 1e-8 modules; further round they clash."""
     found = pair(case, circumferential_thinning=0.02)
@@ -142,6 +150,24 @@ def test_pinion_and_gear_touch_all_over_a_pitch(case: Case) -> None:
         assert found.contact(way * (play + 1e-5)).verdict is Verdict.OVERLAP
     assert found.contact().verdict is Verdict.CLEAR
     assert found.contact().worst.gap == pytest.approx(found.normal_backlash / 2, rel=2e-3)
+
+
+def test_crowned_flanks_leave_the_pinion_room_beside_the_plane_of_contact() -> None:
+    """The pinion swept over the flanks by brute force, thick enough to drive: it touches them, cuts none, and stays off
+    the ends of the face as the pair says; a shaper of its own teeth leaves it no room.
+    """
+    for case, is_crowned in ((CASES[4], True), ((*CASES[4][:-1], 0), False)):
+        found = pair(case)
+        gear = found.gear
+        pinion = replace(gear.cutter, addendum=1.0, tip_rounding=0.0, widening=case[5] / 2)
+        shares, radii = np.meshgrid(np.linspace(0, 1, 33), np.linspace(gear.inner_radius, gear.outer_radius, 9))
+        at = gear.side(FLANK, shares.ravel(), radii.ravel())
+        # the pinion's axis lies so much lower as its root clearance is the usual one
+        lower = gear.shaper.tip_radius - (pinion.tip_radius + 0.25 * case[0])
+        gap = -cut(gear, at.radius, at.azimuth, at.depth - lower, pinion).reshape(radii.shape).max(axis=1)
+        assert gap.min() == pytest.approx(0.0, abs=3e-6)
+        assert gap.max() == pytest.approx(found.end_gap, abs=5e-5)
+        assert (gap.max() > 1e-3) == is_crowned
 
 
 def test_a_pinion_of_another_pressure_angle_clashes() -> None:

@@ -61,9 +61,10 @@ def turned(parts: Any, stand: Any, *shares: float) -> list[Any]:
     return solids
 
 
-def test_meshes_of_both_keep_half_of_the_backlash_all_over_a_pitch() -> None:
+@pytest.mark.parametrize("shaper", [14, 16])
+def test_meshes_of_both_keep_half_of_the_backlash_all_over_a_pitch(shaper: int) -> None:
     """By meshes alone, turned step by step in their ratio; beside it they clash."""
-    parts, _, stand = made(scene({}, {}, normal_backlash=0.2))
+    parts, _, stand = made(scene({"shaper_number_of_teeth": shaper}, {}, normal_backlash=0.2))
     for share in (0.0, 0.37, 0.71):
         pinion, wheel = turned(parts, stand, share, share)
         assert (pinion ^ wheel).volume() < 1e-6
@@ -165,6 +166,8 @@ def test_a_pinion_that_the_gear_is_not_for_is_refused() -> None:
         ({"tip_radius_coefficient": 1.0}, "tip_radius_coefficient"),
         ({"dedendum_coefficient": 2.0}, "dedendum_coefficient"),
         ({"addendum_coefficient": 2.5}, "addendum_coefficient"),
+        ({"shaper_number_of_teeth": 13}, "shaper_number_of_teeth"),
+        ({"shaper_number_of_teeth": 60}, "shaper_number_of_teeth"),
         ({"pinion_teeth": 5, "dedendum_coefficient": 1.25}, "dedendum_coefficient"),
         ({"pinion_teeth": 8, "pinion_profile_shift_coefficient": 0.5}, "dedendum_coefficient"),
         ({"pinion_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.0}, "addendum_coefficient"),
@@ -276,10 +279,11 @@ def test_pictures_show_the_spaces_between_tips(tmp_path: Path) -> None:
     assert main(["build", str(file), "--out", str(tmp_path), "--quiet"]) == 0
 
 
-def test_forces_of_the_calculation_balance_both_torques() -> None:
+@pytest.mark.parametrize(("more", "plane"), [((), "middle_plane"), (("shaper_number_of_teeth=22",), "contact_plane")])
+def test_forces_of_the_calculation_balance_both_torques(more: tuple[str, ...], plane: str) -> None:
     """About the gear's axis the force along it turns the gear as the ratio has it; its parts make up the normal one."""
-    values = json.loads(calculate("face-gear", ("face_gear_pair", "torque=12"), "json", "en"))["values"]
+    values = json.loads(calculate("face-gear", ("face_gear_pair", "torque=12", *more), "json", "en"))["values"]
     along, across = values["circumferential_force"], values["radial_force"]["first"]
-    assert along * values["middle_plane"] / 1000 == pytest.approx(36.0, rel=1e-9)
+    assert along * values[plane] / 1000 == pytest.approx(36.0, rel=1e-9)
     assert math.hypot(along, across) == pytest.approx(values["normal_force"], rel=1e-12)
     assert values["normal_force"] * values["base_diameter"]["first"] / 2000 == pytest.approx(12.0, rel=1e-12)
