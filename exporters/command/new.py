@@ -131,7 +131,7 @@ def _head(told: Words) -> list[str]:
         f"# {told.text('An editor of TOML completes the keys after  {command}', command=_SCHEMA_COMMAND)}",
         "",
         "[scene]",
-        *_keys(fields(SceneInfo), told),
+        *_keys(fields(SceneInfo), told, {} if told.language == ENGLISH else {"language": told.language}),
         "",
     ]
 
@@ -217,12 +217,13 @@ def plain_scene(text: str, source: str) -> str:
 
 
 def _keys(keys: Iterable[FieldInfo], told: Words, names: Mapping[str, str] | None = None) -> Iterator[str]:
-    """One line a key; keys with a default stand commented out. ``names``: keys that hold a name of the scene's."""
+    """One line a key; keys with a default stand commented out, but for ``names``: those that the scene itself gives."""
     for field in keys:
         name, meta = field.encode_name, example_of(field.type)
         marks: Mapping[str, Any] = (meta.extra if meta is not None else None) or {}
-        set_here = field.required or "start" in marks
-        value = _toml(names[name]) if names and name in names else _value(field, meta)
+        given = names is not None and name in names
+        set_here = given or field.required or "start" in marks
+        value = _toml(names[name]) if names and given else _value(field, meta)
         code, text = f"{'' if set_here else '# '}{name} = {value}", told.say(described(field.type) or "")
         yield f"{code:<44} # {text}" if text else code
         others = [(_toml(other), told.text(meant)) for other, meant in marks.get("others", ())]

@@ -192,7 +192,7 @@ _OF_ONE = ("cam", "model", "part")
 
 def _is_flat(part: Part) -> bool:
     """Whether flat files can hold a part."""
-    return part.made_by.has_outline
+    return part.made_by.has_outline or part.is_plate
 
 
 def _of_several(export: ExportSpec) -> bool:

@@ -111,6 +111,10 @@ class Layered(Kind[LayeredSpec, "Layers"]):
         """The layers."""
         return thing.body(offset)
 
+    def is_plate(self, keys: LayeredSpec, thing: Layers) -> bool:
+        """One layer is its section, extruded."""
+        return len(thing.layers) == 1
+
     def height(self, keys: LayeredSpec, thing: Layers) -> float:
         """Of all layers."""
         return thing.heights[-1]

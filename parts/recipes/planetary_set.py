@@ -28,7 +28,7 @@ from geometry.gears.teeth.helix import Hand
 from geometry.gears.teeth.transverse import transverse_angle
 from parts.base.part_keys import Density, Material
 from parts.keys.base import degrees, mm, part_mm
-from parts.keys.helix import HelixAngle
+from parts.keys.helix import Double, HelixAngle
 from parts.keys.mate import further
 from parts.recipes.making import Making, hole, made_of
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
@@ -82,6 +82,7 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     )
     helix_angle_deg: HelixAngle = 0.0
     hand: Annotated[Literal["right", "left"], Meta(description="hand of wheel 1; of the others as they mesh")] = "right"
+    double_helical: Double = False
     driver: Annotated[
         Literal["first", "second", "carrier", "none"],
         Meta(description="what is driven: wheel 1, wheel 3, the carrier, or none of them here"),
@@ -167,7 +168,7 @@ def _expanded(keys: PlanetarySetKeys) -> Expansion:
     for wheel in dict.fromkeys(made.wheels):
         making.part(wheel.id, **_wheel_keys(made, wheel))
         making.told(wheel.id, number_of_teeth=f"teeth[{wheel.item}]", module="module", face_width="face_width",
-                    helix_angle_deg="helix_angle_deg")  # fmt: skip
+                    helix_angle_deg="helix_angle_deg", double_helical="double_helical")  # fmt: skip
         if keys.shifts is not None:
             making.told(wheel.id, profile_shift_coefficient=f"shifts[{wheel.item}]")
     _add_meshes(made, making.found)
@@ -272,6 +273,8 @@ def _wheel_keys(made: _Set, wheel: _Wheel) -> Table:
     }  # fmt: skip
     if keys.helix_angle_deg:
         table |= {"helix_angle_deg": abs(keys.helix_angle_deg), "hand": wheel.hand}
+    if keys.double_helical:
+        table["double_helical"] = True
     if wheel.is_ring and keys.frame:
         screws, outside = _rim(made, wheel)
         holes = {"count": 4, "diameter": _SCREW, "start_deg": 45.0, "pitch_circle_diameter": 2 * screws}

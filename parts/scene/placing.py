@@ -212,6 +212,9 @@ class _Placed:
                 raise SceneError(self.source, place, first, "placed_later", None, mate=f"mates[{later + 1}]")
             standing = [i for i in self.stand if i in train]
             if mating.second in standing:
+                if not self._either_way(mating):
+                    early = {"second": mating.second, "first": first}
+                    raise SceneError(self.source, place, first, "placed_too_early", None, "", **early)
                 angle = math.degrees(math.remainder(math.radians(mating.direction_deg + 180), 2 * math.pi))
                 told = {"second": mating.second, "angle": angle, "first": first}
                 raise SceneError(self.source, place, first, "placed_is_the_second", None, "", **told)
@@ -219,6 +222,14 @@ class _Placed:
                 raise SceneError(self.source, place, first, "not_placed", None, standing=standing[0], first=first)
             self.free.append([first])
         self.stand[first] = Instance(first, str(self.specs[first].part), rotation=_turned(self.specs[first]))
+
+    def _either_way(self, mating: Mating) -> bool:
+        """Whether a mate also joins both the other way round: two gears, but no worm and its wheel."""
+        from parts.mates.registry import MATES
+
+        one, two = (self.parts[str(self.specs[i].part)].made_by.name for i in (mating.first, mating.second))
+        joined = {pair for mate in MATES.values() for pair in mate.joins or ()}
+        return mating.rolls is not None and {(one, two), (two, one)} <= joined
 
     def lay_out(self) -> None:
         """What no mate and no ``at`` places goes into a row to the right of all else, or to the origin."""

@@ -356,6 +356,15 @@ def new_scene(capsys: pytest.CaptureFixture[str], kind: str = "spur_gear") -> st
     return capsys.readouterr().out
 
 
+@pytest.mark.parametrize("name", ["spur_gear", "planetary_set", "idler_train"])
+def test_a_scene_to_start_from_is_told_in_the_language_in_which_it_was_asked_for(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    capsys.readouterr()
+    assert run("new", name, "--language", "uk") == 0
+    assert tomllib.loads(capsys.readouterr().out)["scene"]["language"] == "uk"
+
+
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("kind", ALONE)
 def test_the_scene_to_start_from_builds(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

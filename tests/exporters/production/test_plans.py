@@ -118,7 +118,8 @@ def test_a_format_that_the_scene_does_not_have_is_made_as_it_usually_is() -> Non
     assert (refused.value.key, refused.value.code) == ("exports", "no_exports")
 
 
-LAYERS = '[parts.ball]\nkind = "layered"\nlayers = [{ thickness = 3.0, circles = [{ diameter = 8.0 }] }]\n'
+LAYERS = '[parts.ball]\nkind = "layered"\nlayers = [{ circles = [{ diameter = 8.0 }], thickness = 3.0 }'
+LAYERS += ", { circles = [{ diameter = 6.0 }], thickness = 1.0 }]\n"
 
 
 def test_what_has_no_outline_is_left_out_of_flat_files_and_refused_where_it_is_named() -> None:

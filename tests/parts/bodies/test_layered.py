@@ -63,6 +63,20 @@ def test_its_files_are_read_back(tmp_path: Path) -> None:
     assert main(["build", str(scene), "--out", str(tmp_path), "-q"]) == 0
 
 
+def test_one_layer_is_cut_from_a_board_of_its_thickness(tmp_path: Path) -> None:
+    """A hand of a clock, a kite about a shaft: its files are read back and held against its outline."""
+    kite = {"points": [[-8, 0], [0, -12], [8, 0], [0, 90]]}
+    layer = {"thickness": 4.0, "polygons": [kite], "circles": [{"diameter": 6.0}]}
+    scene = tmp_path / "clock.toml"
+    text = f'[parts.hand]\nkind = "layered"\nlayers = [{_toml(layer)}]\n'
+    board = "[boards.plywood]\nwidth = 300.0\nheight = 200.0\nthickness = 4.0\n"
+    exports = '[[exports]]\nformat = "svg"\n[[exports]]\nformat = "dxf"\npurpose = "board"\n'
+    scene.write_text(text + board + exports, encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path), "-q"]) == 0
+    made = {file.name for file in (tmp_path / "clock").iterdir()}
+    assert {"hand.svg", "clock.board.1.dxf"} < made
+
+
 def _toml(value: Any) -> str:
     if isinstance(value, list):
         return "[" + ", ".join(_toml(item) for item in value) + "]"

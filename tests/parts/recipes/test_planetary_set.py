@@ -176,8 +176,13 @@ def test_wheels_of_a_helical_set_meet_at_one_distance_with_hands_that_mesh(
     name: str, teeth: list[int], hands: dict[str, str]
 ) -> None:
     """ISO 21771: inv(alpha_wt) = inv(alpha_t) + 2 tan(alpha_n) sum(x_n) / sum(z), and a_w cos(alpha_wt)."""
-    made = resolved(scene(scheme=name, teeth=teeth, satellites=1, helix_angle_deg=-24.0, module=1.5))["parts"]
+    keys = {"scheme": name, "teeth": teeth, "satellites": 1, "helix_angle_deg": -24.0, "module": 1.5}
+    made = resolved(scene(**keys))["parts"]
     wheels = {name: part for name, part in made.items() if "number_of_teeth" in part}
+    herringbone = resolved(scene(**keys, double_helical=True))["parts"]
+    assert {name: herringbone[name] for name in wheels} == {
+        name: part | {"double_helical": True} for name, part in wheels.items()
+    }
     assert {name: part["hand"] for name, part in wheels.items()} == hands
     assert {part["helix_angle_deg"] for part in wheels.values()} == {24.0}
     beta, normal = math.radians(24), math.radians(20)

@@ -248,6 +248,7 @@ def test_a_scene_with_instances_survives_its_report() -> None:
     assert again.instances["b1"].at == [1, 2, 3]
 
 
+FIXED = MATE.replace("external_gear_pair", "fixed").format("c", "a")
 INB = instance("x", 'part = "b"\n{}')
 DRIVE = "[[drives]]\n{}\n"
 WRONG = [
@@ -275,6 +276,7 @@ WRONG = [
     (AB + INB.format("rotation_deg = 3") + MATE.format("a", "x"), "instances.x.rotation_deg", "mates[1]"),
     (ABC + MATE.format("b", "c") + MATE.format("a", "b"), "mates[2].first", "direction_deg = 180"),
     (ABC + MATE.format("a", "b") + MATE.format("c", "b"), "mates[2].first", "swap"),
+    (ABC + MATE.format("a", "b") + FIXED, "mates[2].first", "put this mate before all others of a"),
     (ABC + GEAR.format("d", 2, 9, 0.6) + MATE.format("a", "b") + MATE.format("c", "d") + MATE.format("b", "c"),
      "mates[2].first", "mates[3]"),
     (ABC + GEAR.format("d", 2, 9, 0.6) + MATE.format("a", "b") + MATE.format("c", "d") + MATE.format("b", "d"),
@@ -291,6 +293,13 @@ WRONG = [
     (AB + '[[exports]]\nformat = "stl"\nassembly = true\n', "exports[1].assembly", '"step", "3mf"'),
     (AB + '[[exports]]\nformat = "3mf"\nassembly = 1\n', "exports[1].assembly", "true or false"),
 ]  # fmt: skip
+
+
+def test_a_mate_that_begins_too_late_works_before_the_others() -> None:
+    _, stand = placed(ABC + FIXED + "offset = [0.0, 0.0, 20.0]\n" + MATE.format("a", "b"))
+    assert {i.id: i.at for i in stand.instances} == {
+        "c": (0.0, 0.0, 0.0), "a": (0.0, 0.0, 20.0), "b": pytest.approx((45.0, 0.0, 20.0))
+    }  # fmt: skip
 
 
 @pytest.mark.parametrize(("text", "named", "remedy"), WRONG)
