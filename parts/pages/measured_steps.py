@@ -84,11 +84,12 @@ def measured_steps(page: Sheet, gear: Measured, asked: Asked) -> None:
 
 def _chords(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     """Thickness on chords, where they are on the tooth."""
-    page.section("Chords")
     chord, constant = measurement.reference_chord(gear, asked.helix), measurement.constant_chord(gear, asked.helix)
     formulas = ("", "", "", "")
     if not asked.helix:
         formulas = "{d} * sin({S} / {d})", side.chord_height, "{S} * cos({alpha})**2", side.constant_height
+    if max(chord.height, constant.height) > 0:
+        page.section("Chords")
     if chord.height > 0:
         page.add("chordal_thickness", chord.thickness, formulas[0], side.source)
         page.add("chordal_height", chord.height, formulas[1], side.source)

@@ -80,7 +80,7 @@ def _given(page: Sheet, pairing: Pairing) -> None:
         page.add("centrode_lobes", one.ratio.lobes)
         page.add("noncircular_distance", pairing.centre_distance)
         page.data["ratio_cosines"], page.data["ratio_sines"] = list(one.ratio.cosines), list(one.ratio.sines)
-        page.note("i = i_m (1 + sum a_k cos k n phi + b_k sin k n phi), r_1 = a i / (1 + i)")
+        page.note("i = i_m (1 + Σ (a_k cos k n φ + b_k sin k n φ)), r_1 = a i / (1 + i)")
 
 
 def _closure(page: Sheet, gear: NoncircularGear, pairing: Pairing, pair: CentrodePair) -> None:

@@ -671,6 +671,7 @@ def test_a_chord_beyond_the_tip_is_not_told() -> None:
     """A ring whose whole tooth stands outside its reference circle."""
     sheet = sheet_for("ring module=2 number_of_teeth=240 profile_shift_coefficient=1.5")
     assert not {s.name for s in sheet.steps()} & {"chordal_thickness", "constant_chord"}
+    assert all(section.steps for section in sheet.sections)
     assert sum("beyond the tip" in words("en").say(note) for note in sheet.notes) == 2
 
 
