@@ -48,7 +48,8 @@ class Law(Record):
     def jerk(self, before: Rates = AT_REST, after: Rates = AT_REST) -> float:
         """C_j, the greatest |s^(3)|: infinite where velocity or acceleration jumps (VDI 2143).
 
-        ``before`` and ``after``: s' and s'' of the motion that it joins at either end, in its own units.
+        ``before`` and ``after``: s' and s'' of the motion that it joins at either end, in its own units. Where the law
+        itself ends without them, a jump there is that motion's.
         """
         first, last = self.pieces[0], self.pieces[-1]
 
@@ -56,9 +57,11 @@ class Law(Record):
             return float(piece.value(at, 1)), float(piece.value(at, 2))
 
         met = [(rates(a, a.end), rates(b, b.start)) for a, b in pairwise(self.pieces)]
-        met += [(before, rates(first, first.start)), (rates(last, last.end), after)]
-        jump = max(abs(a - b) for pair in met for a, b in zip(*pair, strict=True))
-        return math.inf if jump > _SMOOTH * max(1.0, self.peak(2)[0]) else self.peak(3)[0]
+        ends = [(rates(first, first.start), before), (rates(last, last.end), after)]
+        smooth = _SMOOTH * max(1.0, self.peak(2)[0])
+        jumps = [abs(a - b) for pair in met for a, b in zip(*pair, strict=True)]
+        jumps += [abs(own - other) for pair in ends for own, other in zip(*pair, strict=True) if abs(own) > smooth]
+        return math.inf if max(jumps, default=0.0) > smooth else self.peak(3)[0]
 
     def reversed_in_time(self) -> Law:
         """The law run backwards and upside down, 1 - s(1 - u): first and last half exchanged."""

@@ -331,6 +331,14 @@ def test_a_cosine_law_has_a_jerk_where_both_of_its_phases_meet_without_a_dwell(
     assert found == [f"{math.pi**3 / 2:.6f}" if jerks else "∞"] * 2
 
 
+@pytest.mark.parametrize(("law", "jerk"), [("polynomial_4567", "52.5"), ("polynomial_345", "60")])
+def test_a_jump_is_that_of_the_law_which_has_it(law: str, jerk: str) -> None:
+    """A law that ends at rest keeps the C_j of VDI 2143 beside one that does not."""
+    phases = f'{{move="rise",angle_deg=160,law="{law}"}},{{move="return_",angle_deg=200,law="cosine"}}'
+    words = ["kind=cam", "follower=pointed", "lift=20", "base_circle_radius=40", f"phases=[{phases}]"]
+    assert re.findall(r"C_j = (\S+)", calculate("cam", words, "text", "en")) == [jerk, "∞"]
+
+
 @pytest.mark.parametrize("sense", ["against", "with"])
 def test_the_page_of_a_swinging_follower_tells_pivot_and_arm(sense: str) -> None:
     """The roller's centre, pivot and axis make a triangle: (R + r)^2 = d^2 + L^2 - 2 d L cos psi_0."""
