@@ -245,6 +245,18 @@ class Shaft(_Turned[ShaftSpec]):
         return HalfSection(pieces, (), tuple(_pockets(keys)))
 
 
+def _groove_beyond(name: str, groove: GrooveTable, place: float, room: float, length: float) -> ParameterError:
+    """The refusal of a groove that does not lie between two places of its step, by its place or its width."""
+    most, told = room - groove.width, {"least": place, "length": length}
+    if most > place:
+        end = most * (1 - 1e-6) if groove.at > place else place + 1e-6 * length
+        cure = limit(end, groove.at, digits=6)
+        return ParameterError(f"{name}.at", groove.at, "groove_beyond_step", cure, **told)
+    left = (room - groove.at) * (1 - 1e-6)
+    narrow = limit(left, groove.width, digits=6) if groove.at > place and left > 0 else None
+    return ParameterError(f"{name}.width", groove.width, "groove_beyond_step", narrow, **told)
+
+
 def _check_shaft(keys: ShaftSpec) -> None:
     """The bore leaves walls, grooves and centre holes fit.
 
@@ -267,8 +279,9 @@ def _check_shaft(keys: ShaftSpec) -> None:
             if groove.diameter >= step.diameter:
                 cure = limit(step.diameter * (1 - 1e-6), groove.diameter, digits=6)
                 raise ParameterError(f"{name}.diameter", groove.diameter, "groove_not_in_step", cure)
-            if groove.at <= place or groove.at + groove.width >= step.length - step.chamfer:
-                raise ParameterError(f"{name}.at", groove.at, "groove_beyond_step", least=place, length=step.length)
+            room = step.length - step.chamfer
+            if groove.at <= place or groove.at + groove.width >= room:
+                raise _groove_beyond(name, groove, place, room, step.length)
             place = groove.at + groove.width
     mouth = _mouth(keys)
     if (centre := keys.centre_holes) is not None and mouth <= centre.diameter:

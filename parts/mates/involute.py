@@ -16,6 +16,7 @@ from parts.base.mate import End, Pose, Standing, Toothed
 from parts.keys.base import mm
 from parts.keys.mate import InvolutePairKeys
 from parts.mates.gear_pair import GearPair
+from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -313,25 +314,27 @@ class InvolutePair(GearPair[K, A, B], Generic[K, A, B, M]):
         return tooth_side(end.thing)
 
     def check(self, keys: K, first: Any, second: Any) -> None:
-        """Helices that mesh, and one normal module: in the keys of the parts, before their transverse sections."""
+        """Helices that mesh, and one normal section: in the keys of the parts, before their transverse sections."""
         from parts.keys.helix import helix_of
 
         one, two = helix_of(first), helix_of(second)
-        if one.angle == 0 and two.angle == 0:
-            return
-        if one.angle == 0 or two.angle == 0:
+        if (one.angle == 0) is not (two.angle == 0):
             # straight teeth mesh with straight ones; the same angle would need the other hand too
             owner, bent = ("first.", first) if two.angle == 0 else ("", second)
             raise ParameterError(f"{owner}helix_angle_deg", bent.helix_angle_deg, "mate_is_straight", Nearest(0.0))
-        from geometry.gears.teeth.helix import mesh_fault
+        if one.angle:
+            from geometry.gears.teeth.helix import mesh_fault
 
-        fault = mesh_fault(one, two, internal=self.internal)
-        if fault is not None:
-            raise ParameterError(*fault)
+            fault = mesh_fault(one, two, internal=self.internal)
+            if fault is not None:
+                raise ParameterError(*fault)
         # the points of both herringbones stand half way up
-        for key in ("module", "face_width") if one.double else ("module",):
-            if getattr(first, key) != getattr(second, key):
-                raise ParameterError(key, getattr(second, key), "not_that_of_mate", Nearest(getattr(first, key)))
+        gear, mate, owner = first, second, ""
+        if first.__struct_config__.tag != "spur_gear":
+            # what a gear runs in is made for it
+            gear, mate, owner = second, first, "first."
+        for key in ("module", "pressure_angle_deg", *["face_width"] * one.double):
+            same_size(f"{owner}{key}", getattr(mate, key), getattr(gear, key), "not_that_of_mate")
 
     def there(self, keys: K, first: End[A], second: End[B]) -> float | None:
         """That of the distance."""

@@ -120,8 +120,9 @@ def unlike(
             MATES[str(mate.__struct_config__.tag)].check(mate, specs[pair[0]], specs[pair[1]])
         except ParameterError as refusal:
             owner, _, key = refusal.name.rpartition(".")
-            own = part == pair[0 if owner == "first" else 1]
-            given, theirs = value_at(keys, key), refusal.nearest if own else Nearest(value_at(other, key))
+            told, own = key, part == pair[0 if owner == "first" else 1]
+            key = key if own else str(refusal.numbers.get("of", key))
+            given, theirs = value_at(keys, key), refusal.nearest if own else Nearest(value_at(other, told))
             if owner not in ("", "first") or theirs is None or None in (given, theirs.value):
                 continue
 
@@ -131,8 +132,8 @@ def unlike(
                 check_fit(part, {part: end}, changed, mates, part_of)
 
             if _holds(works, theirs.value):
-                told = ParameterError(key, given, refusal.code, theirs, **refusal.numbers)
-                return placed(source, f"mates[{number}]: parts.{part}", told, unit_of(type(keys), key))
+                cured = ParameterError(key, given, refusal.code, theirs)
+                return placed(source, f"mates[{number}]: parts.{part}", cured, unit_of(type(keys), key))
     return None
 
 
@@ -184,6 +185,11 @@ def pair_refused(
             return turned
     told = placed(source, f"{place}: parts.{part}", refusal.renamed(key), unit_of(type(spec), key))
     told.offer(lambda: _tried(refusal, partial(works, held=[mate]), partial(works, held=mates)))
+    found = refusal.nearest
+    if owner == "second" and found is not None and found.side == "exactly" and told.nearest is None:
+        # what the first tells of its mate may be wrong
+        specs = {name: end.keys for name, end in ends.items()}
+        return unlike(part_of[mate.first], specs, mates, part_of, source) or told
     return told
 
 

@@ -142,12 +142,12 @@ def test_an_offer_keeps_what_stands_beside_it(part: dict[str, Any], key: str) ->
         # a limit of the part alone, where one of its mate lies beyond it
         ("helical pair", "b.profile_shift_coefficient", -10.0, True),
         ("rack_and_pinion", "rack.pressure_angle_deg", 40.0, True),
-        # what is offered for another key than the wrong one, which the mate then refuses
-        ("thesis_internal_pair", "ring.module", 9.0, False),
+        # before: what is offered for another key than the wrong one, which the mate then refused
+        ("thesis_internal_pair", "ring.module", 9.0, True),
         # before: no more than a rounding without room; its mate has another
         ("bevel_pair", "pinion.addendum_coefficient", 0.101, True),
-        # the next mate of the part: no single key cures it
-        ("idler_train", "driver.module", 60.0, False),
+        # before: that of the part's only mate, which the next one of that refused
+        ("idler_train", "driver.module", 60.0, True),
         # what is made of the part: a yoke of a cam whose phases make a whole turn, but no constant breadth
         ("yoke_cam", "cam.phases.1.angle_deg", 90.0, False),
         # both gears of a pair have what each may have alone, and its mate leaves no thinning of their own
@@ -176,6 +176,11 @@ def test_an_offer_is_one_that_mates_and_what_is_made_of_the_part_take(
         ("bevel_pair", "wheel.shaft_angle_deg", 170.0, "not_of_its_mate", 90.0),
         ("spiral_bevel_pair", "wheel.number_of_teeth", 3, "not_of_its_mate", 40),
         ("bevel_reducer", "bevel_wheel.tip_clearance_coefficient", 1.0, "not_of_its_mate", 0.2),
+        ("bevel_reducer", "pinion.module", 0.6, "not_that_of_mate", 2.0),
+        ("practicum_pair", "pinion.pressure_angle_deg", 44.0, "not_that_of_mate", 20.0),
+        # what the first tells of its mate: the mate was refused, which could not be so
+        ("spiral_bevel_pair", "wheel.mate_teeth", 8, "not_of_its_mate", 16),
+        ("face_gear_pair", "wheel.pinion_teeth", 3, "not_of_its_mate", 20),
     ],
 )
 def test_a_part_that_cannot_be_is_told_by_the_key_in_which_it_is_not_its_mates(
@@ -201,6 +206,9 @@ def test_a_part_that_cannot_be_is_told_by_the_key_in_which_it_is_not_its_mates(
         ("external", "a.tip_diameter", 1e5),
         # or the hub that of the bore
         ("print_gear", "gear.bore.across_flats", 40.0),
+        # a groove wider than its step was refused by its place
+        ("working_drawings", "shaft.steps.2.grooves.0.width", 110.0),
+        ("working_drawings", "shaft.steps.2.grooves.0.at", 21.5),
         # a size that nobody typed was refused
         ("new face_gear", "gear.pinion_profile_shift_coefficient", 3.0),
         # a quick test that proves no undercut was the limit of one which leaves some, and what runs on without gaps
@@ -210,10 +218,11 @@ def test_a_part_that_cannot_be_is_told_by_the_key_in_which_it_is_not_its_mates(
     ],
 )
 def test_what_stands_beside_a_limit_moves_it(name: str, place: str, value: float) -> None:
-    raw = put(scenes()[name], ("parts", *place.split(".")), value)
+    path = tuple(int(w) if w.isdigit() else w for w in ("parts", *place.split(".")))
+    raw = put(scenes()[name], path, value)
     refusal = refusal_of(raw)
     assert refusal is not None
-    assert refusal.key == f"parts.{place}"
+    assert place_of(refusal.key) == path
     assert refusal.nearest is not None
     assert judged(raw, refusal) == []
 
