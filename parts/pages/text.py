@@ -15,6 +15,8 @@ _SOURCES = (
     NC_("source", "guidelines"),
     NC_("source", "Savvin"),
     NC_("source", "Artobolevsky"),
+    NC_("source", "Dunaev, Lelikov"),
+    NC_("source", "Sheinblit"),
     NC_("source", "thesis"),
     NC_("source", "GOST"),
     NC_("source", "table"),
