@@ -62,7 +62,11 @@ HobQuotient = Annotated[
 HobThinning = Annotated[
     float, mm("by how much the hob's threads are thicker than the worm's, along its axis", least=0, most=100)
 ]
-WheelShift = Annotated[float, in_modules("profile shift of the wheel", least=-3, most=3)]
+_MOST_SHIFT = 3
+WheelShift = Annotated[float, in_modules("profile shift of the wheel", least=-_MOST_SHIFT, most=_MOST_SHIFT)]
+WheelDistance = Annotated[
+    float, mm("centre distance, in place of the profile shift", above=0, most=1e6, example=41.0)
+]  # fmt: skip
 
 
 class Threaded(Protocol):
@@ -106,6 +110,39 @@ def quotient_of(keys: Led) -> float:
         told = {"one": "lead_angle_deg", "other": "diameter_quotient"}
         raise ParameterError("diameter_quotient", given, "either_key", Nearest(None), **told)
     return wanted
+
+
+class Shifted(Protocol):
+    """Keys that tell how far a wheel stands off its worm, by its profile shift or by the distance."""
+
+    module: float
+    profile_shift_coefficient: float
+    working_centre_distance: float | None
+
+
+def shift_of(keys: Shifted, quotient: float, number_of_teeth: int) -> float:
+    """The wheel's profile shift, modules: given, or a_w / m - (q + z2) / 2.
+
+    Raises
+    ------
+    ParameterError
+        They give both, or a distance for which the wheel would be shifted too far.
+    """
+    distance, shift = keys.working_centre_distance, keys.profile_shift_coefficient
+    if distance is None:
+        return shift
+    if shift:
+        told = {"one": "working_centre_distance", "other": "profile_shift_coefficient"}
+        raise ParameterError("profile_shift_coefficient", shift, "either_key", Nearest(None), **told)
+    middle = (quotient + number_of_teeth) / 2
+    shift = distance / keys.module - middle
+    if abs(shift) > _MOST_SHIFT:
+        last = keys.module * (middle + math.copysign(_MOST_SHIFT, shift))
+        within = limit(last, distance)
+        raise ParameterError(
+            "working_centre_distance", distance, "asks_for_shift", within, shift=shift, most=_MOST_SHIFT
+        )
+    return shift
 
 
 def ways_out(

@@ -38,6 +38,7 @@ from parts.keys.worm import (
     HobThinning,
     LeadAngle,
     Starts,
+    WheelDistance,
     WheelShift,
     WormAngle,
     WormHand,
@@ -45,6 +46,7 @@ from parts.keys.worm import (
     hob_quotient,
     in_degrees,
     quotient_of,
+    shift_of,
     worm_of,
 )  # fmt: skip
 from parts.pages.force_steps import asked_torque, torque_steps
@@ -57,9 +59,15 @@ _ERRORS = ("centre_distance_error", "axis_angle_error_deg", "wheel_axial_error")
 # what a worm alone has not
 _OF_DRIVE = (
     "speed_rpm", "torque", "wheel_torque", "power", "friction_coefficient", "form_factor", "face_width",
-    "outer_diameter", "profile_shift_coefficient", "hob_rounding_coefficient", "hob_diameter_quotient",
-    "wheel_thinning", *_ERRORS,
+    "outer_diameter", "profile_shift_coefficient", "working_centre_distance", "hob_rounding_coefficient",
+    "hob_diameter_quotient", "wheel_thinning", *_ERRORS,
 )  # fmt: skip
+# keys each of which tells what the other does
+_INSTEAD = (
+    ("lead_angle_deg", "diameter_quotient"),
+    ("working_centre_distance", "profile_shift_coefficient"),
+    ("profile_shift_coefficient", "working_centre_distance"),
+)
 _GOST, _THESIS = "GOST 19650", "thesis, 2.2"
 _Factor = Annotated[float, Meta(gt=0, le=100)]
 _Life = Annotated[float, Meta(gt=0, le=10)]
@@ -76,6 +84,7 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     diameter_quotient: WormQuotient | None = None
     lead_angle_deg: LeadAngle | None = None
     profile_shift_coefficient: WheelShift = 0.0
+    working_centre_distance: WheelDistance | None = None
     form: Form = "ZI"
     pressure_angle_deg: WormAngle = 20.0
     hand: WormHand = "right"
@@ -131,9 +140,10 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     off = next((given(mate) for mate, pair in zip(mates, pairs, strict=True) if pair == both), {})
     errors = {key: off[key] for key in _ERRORS if key in off}
     own = drive_table([scene.parts[key] for key in both if key is not None])
-    if "lead_angle_deg" in table:
-        # it stands in place of the scene's
-        own.pop("diameter_quotient", None)
+    # what stands in place of the scene's
+    for key, other in _INSTEAD:
+        if key in table:
+            own.pop(other, None)
     return own | errors | table
 
 
@@ -168,6 +178,9 @@ def sheet(table: dict[str, Any]) -> Sheet:
         keys = changed(asked, diameter_quotient=quotient_of(asked), lead_angle_deg=None)
         worm = worm_of(keys, keys.fillet_coefficient, keys.axial_thinning)
         hob_quotient(keys.hob_diameter_quotient, worm.diameter_quotient)
+        if keys.number_of_teeth is not None:
+            shift = shift_of(keys, worm.diameter_quotient, keys.number_of_teeth)
+            keys = changed(keys, profile_shift_coefficient=shift, working_centre_distance=None)
     except ParameterError as error:
         raise refusal(TOPIC, in_degrees(error, asked), keys=asked) from error
     drive = keys.number_of_teeth and WormDrive(worm, keys.number_of_teeth, keys.profile_shift_coefficient)

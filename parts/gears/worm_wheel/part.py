@@ -27,11 +27,13 @@ from parts.keys.worm import (
     HobThinning,
     Quotient,
     Starts,
+    WheelDistance,
     WheelShift,
     WormAngle,
     WormHand,
     cured,
     hob_quotient,
+    shift_of,
     ways_out,
     worm_of,
 )  # fmt: skip
@@ -71,6 +73,7 @@ class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_fie
     number_of_starts: Starts = 1
     diameter_quotient: Quotient = 10.0
     profile_shift_coefficient: WheelShift = 0.0
+    working_centre_distance: WheelDistance | None = None
     form: Form = "ZI"
     pressure_angle_deg: WormAngle = 20.0
     hand: WormHand = "right"
@@ -116,7 +119,8 @@ def drive_of(keys: WormWheelSpec) -> WormDrive:
     """The worm that a wheel is for, and both together."""
     from geometry.gears.worms.drive import WormDrive
 
-    return WormDrive(worm_of(keys), keys.number_of_teeth, keys.profile_shift_coefficient)
+    shift = shift_of(keys, keys.diameter_quotient, keys.number_of_teeth)
+    return WormDrive(worm_of(keys), keys.number_of_teeth, shift)
 
 
 def _asked_teeth(keys: WormWheelSpec, drive: WormDrive) -> WormTeeth:

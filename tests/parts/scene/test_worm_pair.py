@@ -99,6 +99,29 @@ def test_a_worm_of_another_diameter_is_told_the_one_that_fits(
     assert told in said
 
 
+@pytest.mark.parametrize(
+    ("given", "code", "told"),
+    # a = (q + z2 + 2 x) m / 2 is 30 mm without a shift
+    [("working_centre_distance = 31.0", 0, "centre distance 31 mm, ratio 10: CONTACT"),
+     ("profile_shift_coefficient = 0.5", 0, "centre distance 31 mm, ratio 10: CONTACT"),
+     ("working_centre_distance = 23.0", 2, "working_centre_distance = 23.0: asks for a profile shift of -3.5 of"),
+     ("working_centre_distance = 31.0\nprofile_shift_coefficient = 0.5", 2, "profile_shift_coefficient = 0.5: give")],
+)  # fmt: skip
+def test_a_wheel_is_shifted_for_a_given_centre_distance(
+    given: str, code: int, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = _scene(tmp_path)
+    file.write_text(file.read_text().replace("face_width", f"{given}\nface_width"))
+    assert main(["check", str(file)]) == code
+    said = capsys.readouterr()
+    assert told in said.out + said.err
+    if code == 0:
+        assert main(["calc", "worm", str(file)]) == 0
+        assert "x = 0.5" in capsys.readouterr().out
+        assert main(["calc", "worm", str(file), "working_centre_distance=30.4"]) == 0
+        assert "x = 0.2" in capsys.readouterr().out
+
+
 def test_a_size_that_the_worm_cannot_have_is_told_to_the_wheel(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
