@@ -153,10 +153,10 @@ class _Text:
         return np.arange(first, first + size)
 
     def direction(self, way: Sequence[float]) -> int:
-        """A direction, to 15 digits."""
-        key = tuple(way)
+        """A direction, rounded as points a metre away are: those that are alike are one, whatever their last bits."""
+        key = tuple(round(x, self.form.digits + 3) for x in way)
         if key not in self.ways:
-            self.ways[key] = self.once(f"DIRECTION('',({','.join(real(x) for x in way)}))")
+            self.ways[key] = self.add(f"DIRECTION('',({','.join(real(x) for x in key)}))")
         return self.ways[key]
 
     def point(self, place: Sequence[float]) -> int:
