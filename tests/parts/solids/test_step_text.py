@@ -303,6 +303,14 @@ def test_names_colours_and_places_come_back(tmp_path: Path) -> None:
         assert np.abs(occurrence.place - place.matrix()).max() < 1e-12
 
 
+def test_directions_that_are_alike_but_for_their_last_bits_are_one() -> None:
+    """They hang on the processor, and so did the numbers of all entities."""
+    pin, more = StepPart("pin", made("plain")[1]), [0.0, 1e-15, -1e-15, 1e-9]
+    rows = tuple((f"pin {k}", pin, Placement3.about_z(0.3 + turn, (5.0 * k, 0.0, 0.0))) for k, turn in enumerate(more))
+    counts = [step_text(StepGroup("pins", rows[:n]), StepForm()).count("=DIRECTION(") for n in (1, 3, 4)]
+    assert counts == [counts[0], counts[0], counts[0] + 1]
+
+
 @needs_kernel
 def test_an_assembly_may_stand_in_another_twice() -> None:
     """A pair of pins in two places: one solid in the file, four for the kernel, each where it belongs."""
