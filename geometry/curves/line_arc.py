@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
@@ -109,6 +109,12 @@ class Arc(Curve, Record):
 
     def placed(self, placement: Placement2) -> Arc:
         return replace(self, centre=placement.apply(self.centre), start_angle=self.start_angle + placement.angle)
+
+    def foot(self, points: Complex) -> tuple[Real, NDArray[np.bool_]]:
+        """Parameters of the points of the whole circle that are nearest, (n,), rad, and which of them are the arc's."""
+        spoke = points - self.centre
+        swept = np.mod(self._sense * (np.angle(spoke) - self.start_angle), 2 * cmath.pi)
+        return swept, (swept <= abs(self.sweep)) & (spoke != 0)
 
     def mirrored(self) -> Arc:
         return replace(self, centre=self.centre.conjugate(), start_angle=-self.start_angle - self.sweep)

@@ -153,7 +153,7 @@ def _interior_feet(curve: Curve, search: FootSearch | None, points: Complex, bes
         t, inside = _involute_foot(points, forward)
         t = t if forward is curve else -t
     elif isinstance(curve, Arc):
-        t, inside = arc_foot(points, curve)
+        t, inside = curve.foot(points)
     elif isinstance(curve, Line):
         t, inside = _line_foot(points, curve)
     else:
@@ -180,14 +180,6 @@ def _involute_foot(points: Complex, curve: Involute) -> tuple[Real, Flags]:
     middle = (low + high) / 2
     roll = middle + np.mod(roll - middle + math.pi, 2 * math.pi) - math.pi
     return roll, (roll >= low) & (roll <= high) & (radius > curve.base_radius)
-
-
-def arc_foot(points: Complex, arc: Arc) -> tuple[Real, Flags]:
-    """Angle to the foot on an arc from its start, rad, and whether it lies inside the domain."""
-    sense = 1.0 if arc.sweep > 0 else -1.0
-    spoke = points - arc.centre
-    swept = np.mod(sense * (np.angle(spoke) - arc.start_angle), 2 * math.pi)
-    return swept, (swept <= abs(arc.sweep)) & (spoke != 0)
 
 
 def _line_foot(points: Complex, line: Line) -> tuple[Real, Flags]:

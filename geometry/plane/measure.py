@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from geometry.curves.curve import Complex, Curve, Real, start_point
 from geometry.curves.line_arc import Arc, Line
-from geometry.plane.distance import arc_foot
 from geometry.plane.profile import Profile
 
 _GAUSS_POINTS = 20
@@ -296,4 +295,4 @@ def _distance_to_plain(points: Complex, arc: Arc | Line) -> Real:
         return np.abs(points - arc.start - share * chord)
     radial = np.abs(np.abs(points - arc.centre) - arc.radius)
     ends = arc.point(np.array(arc.domain))
-    return np.where(arc_foot(points, arc)[1], radial, np.abs(points - ends[:, None]).min(0))
+    return np.where(arc.foot(points)[1], radial, np.abs(points - ends[:, None]).min(0))
