@@ -11,7 +11,7 @@ from geometry.base.errors import Curable, Cure, Nearest, ParameterError, format_
 from parts.base.lookalikes import in_latin, look_alike
 from parts.base.psv import rows_of
 from parts.base.reasons import REMEDIES, reason
-from parts.base.texts import ENGLISH, Message, Text, filled, listed, message, words
+from parts.base.texts import ENGLISH, Message, Text, counted, filled, listed, message, words
 
 
 class SceneError(Curable, ValueError):
@@ -127,11 +127,20 @@ def _remedy(nearest: Nearest, unit: str) -> Message:
     if nearest.value is None:
         return Message(REMEDIES["without"])
     if isinstance(nearest.value, int | float) and not isinstance(nearest.value, bool):
-        number = f"{nearest.value:.12g}"
-        value: Text = message("{number} {unit}", number=number, unit=Message(unit)) if unit else number
+        value = _measured(nearest.value, unit)
     else:
         value = str(nearest.value) if nearest.side == "meant" else format_value(nearest.value)
     return message(REMEDIES[nearest.side], value=value)
+
+
+def _measured(value: float, unit: str) -> Text:
+    """A number with its unit, in the form that goes with it."""
+    numbers = {"number": f"{value:.12g}", "count": value}
+    if unit == "modules":
+        return counted("{number} module", "{number} modules", by="count", **numbers)
+    if unit == "degrees":
+        return counted("{number} degree", "{number} degrees", by="count", **numbers)
+    return message("{number} {unit}", unit=Message(unit), **numbers) if unit else str(numbers["number"])
 
 
 def _told(number: object) -> object:

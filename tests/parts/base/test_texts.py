@@ -13,7 +13,9 @@ from pathlib import Path
 import pytest
 
 import parts
+from geometry.base.errors import Nearest
 from parts.base import texts
+from parts.base.refusal import SceneError, sentence
 from parts.base.texts import LOCALE, add_catalogue, counted, filled, in_context, languages, listed, message, words
 from tests.catalogues import compiled
 
@@ -60,6 +62,19 @@ def test_ukrainian_counts(count: float, told: str) -> None:
     one = "{value:.0f} edge is shorter than {limit:.3g} mm; merging it would break the tolerance"
     many = "{value:.0f} edges are shorter than {limit:.3g} mm; merging them would break the tolerance"
     assert words("uk").plural(one, many, count, value=count, limit=1.0).startswith(f"{count:.0f} відрі")
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "english", "ukrainian"),
+    [(1.0, "modules", "1 module", "1 модуль"), (2.0, "modules", "2 modules", "2 модулі"),
+     (5.0, "modules", "5 modules", "5 модулів"), (0.2, "modules", "0.2 modules", "0.2 модуля"),
+     (21.0, "degrees", "21 degrees", "21 градус"), (112.0, "degrees", "112 degrees", "112 градусів"),
+     (1.0, "degrees", "1 degree", "1 градус"), (1.5, "mm", "1.5 mm", "1.5 мм")],
+)  # fmt: skip
+def test_units_of_what_would_work_go_with_their_numbers(value: float, unit: str, english: str, ukrainian: str) -> None:
+    refusal = SceneError("s", "key", 9.0, "not_finite", lambda: Nearest(value, "at_most"), unit)
+    assert sentence(refusal, "en").endswith(f"; at most {english} works")
+    assert sentence(refusal, "uk").endswith(f"; підходить щонайбільше {ukrainian}")
 
 
 def test_english_counts() -> None:
