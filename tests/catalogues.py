@@ -50,7 +50,10 @@ from tests.sources import told
 
 HOUSE = Path(parts.__file__).parents[1]
 # built-in scenes whose comments `new --language` tells
-_SPEAKING = ("lesson_*", "*_coupon", "print_cam_set", "power_table_print")
+_SPEAKING = (
+    "lesson_*", "*_coupon", "print_*", "power_table_print", "practicum_pair", "practicum_*_cam", "bevel_*",
+    "laser_gear*", "crossed_helical_pair", "working_drawings", "idler_train", "clock_gears",
+)  # fmt: skip
 _PACKAGES = (HOUSE / "parts", HOUSE / "exporters")
 Key = tuple[str | None, str]
 _HEAD = """\

@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     from exporters.production.sheets import SheetJob
 
 
+_ON_NO_BOARD = N_("lies on none of its boards, which take flat parts of their thickness")
+
+
 class LeftOut(Record):
     """What a build does not make, and why; ``as_asked``: the command itself left it out."""
 
@@ -123,7 +126,9 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             over = ", ".join(
                 parts[p].title or p for p in asked.wanted if p not in lying and (p not in rods or export.parts)
             )
-            left_out += [LeftOut(f"{where}: {over}", N_("lies on none of its boards or beds"))] if over else []
+            if over:
+                board = export.purpose == "board"
+                left_out.append(LeftOut(f"{where}: {over}", _ON_NO_BOARD if board else N_("lies on none of its beds")))
             continue
         if export.format in OF_SCENES:
             sheets.append(_of_scene(asked))
