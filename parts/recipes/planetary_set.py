@@ -231,7 +231,9 @@ def _fitted(
     fit = fitting.fit(one)
     if fit is None:
         one_distance, other = (float(d) for d in one.distances)
-        raise ParameterError("teeth", keys.teeth, "no_shifts_fit", first=one_distance, second=other)
+        # meshes of one distance have it, and break what else a set keeps
+        code = "no_shifts_keep_all" if math.isclose(one_distance, other) else "no_shifts_fit"
+        raise ParameterError("teeth", keys.teeth, code, first=one_distance, second=other)
     return fit.distance, fit.shifts
 
 
