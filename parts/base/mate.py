@@ -247,6 +247,8 @@ class MateKind(Generic[K, A, B]):
     joins: tuple[tuple[str, str], ...] | None = None
     # whether its gears run in each other on involutes: they have a picture of meshing and a transmission error
     meshes = False
+    # whether an instance takes one mate of this kind alone, as a row of teeth takes one chain
+    alone = False
     # where it comes from outside: sentences of its own refusals by code, and how a mating of it is told
     reasons: Mapping[str, Text] = {}
     told: Text = ""

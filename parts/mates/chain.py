@@ -112,6 +112,7 @@ class ChainDriveKind(MateKind[ChainDriveSpec, "Sprocket", "Sprocket"]):
 
     name, keys = "chain_drive", ChainDriveSpec
     joins = (("sprocket", "sprocket"),)
+    alone = True
 
     def mating(self, keys: ChainDriveSpec, first: End[Sprocket], second: End[Sprocket]) -> ChainMating:
         """Both take the same chain, which goes round them."""

@@ -45,6 +45,8 @@ def joined(
         kind, place = MATES[str(mate.__struct_config__.tag)], f"mates[{number}]"
         one, two = ends[part_of[mate.first]], ends[part_of[mate.second]]
         _check_kinds(kind, mate, (one.kind, two.kind), source, place)
+        if kind.alone:
+            _check_alone(mate, mates[: number - 1], source, place)
         try:
             kind.check(mate, one.keys, two.keys)
             mated(ends, [mate], part_of)
@@ -231,6 +233,14 @@ def _check_kinds(
     if other := next((m.name for m in MATES.values() if m.joins and found in m.joins), None):
         code, told["other"] = "mate_joins_other", other
     raise SceneError(source, f"{place}.{key}", getattr(mate, key), code, **told)
+
+
+def _check_alone(mate: MateKeys, before: Sequence[MateKeys], source: str, place: str) -> None:
+    """No instance is in two mates of a kind that has its teeth alone."""
+    for key, instance in (("first", mate.first), ("second", mate.second)):
+        for number, other in enumerate(before, 1):
+            if type(other) is type(mate) and instance in (other.first, other.second):
+                raise SceneError(source, f"{place}.{key}", instance, "teeth_are_taken", other=f"mates[{number}]")
 
 
 def check_solids(parts: Mapping[str, Part], source: str) -> None:

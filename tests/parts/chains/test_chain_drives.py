@@ -84,6 +84,18 @@ def test_drives_that_cannot_be_are_refused_with_what_works(mate: Keys, two: Keys
         placed(mate | {key.rpartition(".")[2]: refused.value.nearest.value}, two=two)
 
 
+def test_a_row_of_teeth_takes_one_chain() -> None:
+    """As it was: both lay in one plane, across each other. A sprocket of its own on the same shaft takes the other."""
+    parts = {"a": {}, "b": {}, "c": {"part": "a"}, "d": {"part": "b"}}
+    chains = [MATE | {"number_of_links": 80}, MATE | {"first": "b", "second": "c", "number_of_links": 70}]
+    with pytest.raises(SceneError) as refused:
+        placed({}, two=SMALL, instances=parts, mates=chains)
+    assert (refused.value.key, refused.value.code) == ("mates[2].first", "teeth_are_taken")
+    beside = {"kind": "fixed", "first": "b", "second": "d", "offset": [0.0, 0.0, 20.0]}
+    mates = [chains[0], beside, chains[1] | {"first": "d"}]
+    assert placed({}, two=SMALL, instances=parts, mates=mates)[0].turns[0]["c"] == pytest.approx(2.0)
+
+
 def test_pictures_show_every_roller_and_drawings_the_pitch_line(tmp_path: Path) -> None:
     mate = table("[[mates]]", MATE | {"number_of_links": 80})
     mate += table("[instances.a]", {"rotation_deg": 180 / 17}) + "[instances.b]\n"
