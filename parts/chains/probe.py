@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geometry.base.record import Record
-from parts.base.readback import Probed, ReadError, outline_points
+from parts.base.readback import Probed, outline_points, refuse_if
 from parts.base.texts import unless
 
 if TYPE_CHECKING:
@@ -29,8 +29,7 @@ class RollerProbe(Record):
         """The least gap to its rollers, of all gaps at once; see ``parts.base.readback.Probe``."""
         sprocket = self.sprocket
         loops = sorted(file.section(self.height), key=lambda loop: loop.size)
-        if not loops:
-            raise ReadError("there are no teeth for a chain")
+        refuse_if(not loops, "there are no teeth for a chain")
         pitch = sprocket.pitch_angle
         points = outline_points(loops[-1]) * np.exp(-0.5j * pitch)
         points *= np.exp(-1j * pitch * np.round(np.angle(points) / pitch))
