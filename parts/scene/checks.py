@@ -61,6 +61,8 @@ def check_fit(
 ) -> None:
     """Refuse a part that what is made of it, or one of its mates, does not take; each mate is held alone.
 
+    A mate of other kinds of parts is left out: it is refused once all parts are made.
+
     ``known``: the part, and what has been made of the ``specs``.
 
     Raises
@@ -68,7 +70,7 @@ def check_fit(
     ParameterError
         Under the part's key where that is to blame, else under that of a mate or with another part's name before it.
     GeometryError, SceneError
-        Another part cannot be made, or is none that a mate joins.
+        Another part cannot be made.
     """
     ends = dict(known)
 
@@ -87,10 +89,10 @@ def check_fit(
             end_of(name)
     for mate in mates:
         pair = part_of[mate.first], part_of[mate.second]
-        if part not in pair:
+        kind = MATES[str(mate.__struct_config__.tag)]
+        if part not in pair or not _joins(kind, specs, pair):
             continue
-        kind, (one, two) = MATES[str(mate.__struct_config__.tag)], map(end_of, pair)
-        _check_kinds(kind, mate, (one.kind, two.kind), "", "")
+        one, two = map(end_of, pair)
         try:
             kind.check(mate, one.keys, two.keys)
             mated(ends, [mate], part_of)
@@ -112,14 +114,15 @@ def unlike(
     keys = specs[part]
     for number, mate in enumerate(mates, 1):
         pair = [part_of[mate.first], part_of[mate.second]]
-        if part not in pair:
+        kind = MATES[str(mate.__struct_config__.tag)]
+        if part not in pair or not _joins(kind, specs, pair):
             continue
         # of two alike the second is told its key
         if type(specs[pair[0]]) is type(specs[pair[1]]):
             pair.sort(key=lambda name: name == part)
         other = specs[pair[1 - pair.index(part)]]
         try:
-            MATES[str(mate.__struct_config__.tag)].check(mate, specs[pair[0]], specs[pair[1]])
+            kind.check(mate, specs[pair[0]], specs[pair[1]])
         except ParameterError as refusal:
             owner, _, key = refusal.name.rpartition(".")
             told, own = key, part == pair[0 if owner == "first" else 1]
@@ -217,6 +220,11 @@ def _holds(works: Callable[[Any], object], value: object) -> bool:
     except (GeometryError, ArithmeticError, SceneError):
         return False
     return True
+
+
+def _joins(kind: MateKind[Any, Any, Any], specs: Mapping[str, MaterialKeys], pair: Sequence[str]) -> bool:
+    """Whether a mate is for the kinds of two parts, in this order."""
+    return kind.joins is None or tuple(str(specs[name].__struct_config__.tag) for name in pair) in kind.joins
 
 
 def _check_kinds(

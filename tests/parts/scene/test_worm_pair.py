@@ -122,6 +122,18 @@ def test_a_wheel_is_shifted_for_a_given_centre_distance(
         assert "x = 0.2" in capsys.readouterr().out
 
 
+def test_a_wheel_that_cannot_be_made_is_told_so_though_its_mate_begins_with_the_worm(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = _scene(tmp_path)
+    text = file.read_text().replace("face_width", "working_centre_distance = 23.0\nface_width")
+    first, second = re.findall(r'^(?:first|second) = (".*")', text, re.M)
+    text = text.replace(f"first = {first}", f"first = {second}").replace(f"second = {second}", f"second = {first}")
+    file.write_text(text)
+    assert main(["check", str(file)]) == 2
+    assert "working_centre_distance = 23.0: asks for a profile shift of -3.5 of" in capsys.readouterr().err
+
+
 def test_a_size_that_the_worm_cannot_have_is_told_to_the_wheel(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
