@@ -184,6 +184,9 @@ def cured(
     if refusal.name not in ways:
         return refusal
     own, fallback = refusal.nearest, None
+    # what is cured by its absence has no better value
+    if own == Nearest(None):
+        return refusal
     limits = {} if own is None or not isinstance(own.value, int | float) else {refusal.name: own.value}
 
     @cache
