@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from pathlib import Path
 from typing import Any
 
+import ezdxf
 import numpy as np
 import pytest
 from shapely.geometry import Point, Polygon
@@ -119,3 +121,13 @@ def test_files_take_rollers_and_one_that_does_not_is_caught(tmp_path: Path) -> N
     thick = replace(sprocket, chain=replace(sprocket.chain, roller_diameter=8.52))
     (failure,) = RollerProbe(thick, 2.0).run(file, 0.0, 1e-6).failures
     assert "rollers" in failure
+    # the seat between the last tooth and the first alone stands too far out
+    document = ezdxf.readfile(built / "iso.laser.dxf")
+    outline = max(document.modelspace().query("LWPOLYLINE"), key=len)
+    rows = [(complex(x, y), bulge) for x, y, bulge in outline.get_points("xyb")]
+    angle, root = -sprocket.pitch_angle / 2, sprocket.root_radius
+    spoiled = [p * 1.01 if abs(cmath.phase(p) - angle) < 0.3 * -angle and abs(p) < root + 2 else p for p, _ in rows]
+    assert 0 < sum(p != q for (p, _), q in zip(rows, spoiled, strict=True)) < 20
+    outline.set_points([(p.real, p.imag, b) for p, (_, b) in zip(spoiled, rows, strict=True)], format="xyb")
+    document.saveas(tmp_path / "spoiled.dxf")
+    assert len(RollerProbe(sprocket, 2.0).run(read_dxf(tmp_path / "spoiled.dxf"), 0.0, 1e-6).failures) == 1
