@@ -125,7 +125,11 @@ def _library(error: BaseException | None) -> str | None:
 
 def run() -> int:
     """``main`` as a process of its own, which ends at once: to take apart what was loaded costs a tenth of a build."""
-    code = main()
+    try:
+        code = main()
+    except SystemExit as told:
+        # help, the version, or a command line that means nothing
+        code = int(told.code or DONE)
     # what other processes need at the end is told by them
     if "multiprocessing" not in sys.modules:
         with suppress(OSError):
@@ -269,7 +273,6 @@ def _parser(told: Words) -> Parser:
         prog="higherpair",
         description=told.text("Exact gears as DXF, SVG, STL, 3MF and STEP, each file read back and measured."),
         epilog=told.text("examples:") + _EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     version = told.text("show program's version number and exit")
     parser.add_argument("-V", "--version", action="version", version=f"higherpair {__version__}", help=version)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from typing import NoReturn
+from contextlib import contextmanager, suppress
+from typing import Any, NoReturn
 
 from parts.base.texts import N_, Words, counted
 
@@ -37,10 +38,20 @@ class Misused(Exception):
     """A command line that means nothing: one line for its user."""
 
 
+class _Help(argparse.RawDescriptionHelpFormatter):
+    """Help as wide as the terminal, as argparse has it, which would load all archives of ``shutil`` to ask that."""
+
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog, width=_columns() - 2)
+
+
 class Parser(argparse.ArgumentParser):
     """A parser that raises ``Misused``."""
 
     words: Words
+
+    def __init__(self, **how: Any) -> None:
+        super().__init__(formatter_class=_Help, **how)
 
     def error(self, message: str) -> NoReturn:
         """One line, and where there is more."""
@@ -66,6 +77,16 @@ def parsed(parser: Parser, arguments: Sequence[str]) -> argparse.Namespace:
         name, made_by = several
         getattr(options, name).extend(map(made_by, rest))
     return options
+
+
+def _columns() -> int:
+    """What the environment says, else the terminal, else 80."""
+    said = os.environ.get("COLUMNS", "")
+    if said.isdecimal() and int(said) > 0:
+        return int(said)
+    with suppress(OSError):
+        return os.get_terminal_size().columns or 80
+    return 80
 
 
 @contextmanager

@@ -363,7 +363,7 @@ NOT_OF_A_GEAR = ("parts.base.densities",
         (["list"], ("numpy", "msgspec", "geometry", "parts.keys", "parts.gears", "parts.mates.involute")),
         (["new", "external_gear_pair"], ("numpy", "parts.gears", "geometry.solids")),
         *((["new", mate], ("numpy",)) for mate in ("bevel_pair", "worm_pair", "crossed_helical_pair")),
-        (["--version"], ("numpy", "msgspec", "dataclasses", "inspect")),
+        (["--help"], ("numpy", "msgspec", "dataclasses", "inspect", "shutil")),
     ],
     ids=lambda value: value[0] if isinstance(value, list) else "",
 )
