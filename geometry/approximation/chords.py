@@ -16,6 +16,7 @@ import numpy as np
 from geometry.approximation.arcs import arc_error, arc_spline, summed
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record, replace
+from geometry.base.roots import halved
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.bounds import Bound
 from geometry.curves.curve import Complex, Curve, Real
@@ -238,12 +239,8 @@ def chord_error(curve: Curve, t: Real) -> float:
     if curve.knots.size:
         return arc_error(curve, t, points, np.zeros(len(chord)), _CHORD_SHARE * float(np.abs(chord).max()))[0]
     direction = chord / np.abs(chord)
-    low, high = t[:-1].copy(), t[1:].copy()
-    sign = np.sign((np.conj(direction) * curve.tangent(low)).imag)
-    for _ in range(50):
-        middle = (low + high) / 2
-        ahead = (np.conj(direction) * curve.tangent(middle)).imag * sign > 0
-        low, high = np.where(ahead, middle, low), np.where(ahead, high, middle)
+    sign = np.sign((np.conj(direction) * curve.tangent(t[:-1])).imag)
+    _, high = halved(lambda at: (np.conj(direction) * curve.tangent(at)).imag * sign > 0, t[:-1], t[1:], 50)
     height = np.abs((np.conj(direction) * (curve.point(high) - points[:-1])).imag)
     scale = float(np.max(np.abs(points)))
     return float(height.max()) + 4 * TOLERANCES.relative_rounding * scale

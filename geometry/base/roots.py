@@ -87,6 +87,15 @@ def _next_fraction(a: float, b: float, c: float, fa: float, fb: float, fc: float
     return min(1 - margin, max(margin, fraction))
 
 
+def halved(stays: Callable[[Real], NDArray[np.bool_]], low: Real, high: Real, steps: int) -> tuple[Real, Real]:
+    """Brackets (n,) halved so often about where a vectorised condition turns: it ``stays`` true at ``low``."""
+    for _ in range(steps):
+        middle = (low + high) / 2
+        same = stays(middle)
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return low, high
+
+
 def bracketed_roots(
     function: Callable[[Real], Real], low: Real, high: Real, at_low: Real, at_high: Real, *, enough: float = 0.0
 ) -> Real:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from geometry.base.roots import halved
 from geometry.curves.curve import Complex, Curve, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile
@@ -51,8 +52,5 @@ def _of_curve(curve: Curve, direction: Complex) -> tuple[Real, Complex]:
 def _climbed(curve: Curve, direction: Complex, t: Real, at: Any) -> Real:
     """Parameters of greatest height beside samples: bisection of the slope between the neighbours."""
     low, high = t[np.maximum(at - 1, 0)], t[np.minimum(at + 1, len(t) - 1)]
-    for _ in range(_STEPS):
-        middle = (low + high) / 2
-        rising = (np.conj(direction) * curve.derivative(middle)).real > 0
-        low, high = np.where(rising, middle, low), np.where(rising, high, middle)
+    low, high = halved(lambda at: (np.conj(direction) * curve.derivative(at)).real > 0, low, high, _STEPS)
     return np.asarray((low + high) / 2)

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import Record
+from geometry.base.roots import halved
 from geometry.base.series import About, Series, conjugate, derived, product, quotient, sharpened
 from geometry.cams.motion.follower_motion import FollowerMotion
 from geometry.cams.plane.disk import DiskCam, FollowerKind, check_radius
@@ -248,10 +249,7 @@ class LinkageCam(DiskCam):
         first = np.where(under.any(axis=-1), under.argmax(axis=-1), 0)[..., None]
         below = np.take_along_axis(lift, first, axis=-1)
         above = np.take_along_axis(lift, np.maximum(first - 1, 0), axis=-1)
-        for _ in range(_BISECTIONS):
-            middle = (above + below) / 2
-            inside = gap(middle) <= 0
-            above, below = np.where(inside, above, middle), np.where(inside, middle, below)
+        above, _ = halved(lambda lift: ~(gap(lift) <= 0), above, below, _BISECTIONS)
         return (top - above)[..., 0]
 
 

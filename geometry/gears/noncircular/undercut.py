@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.errors import UndercutError
+from geometry.base.roots import halved
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex, Real
 from geometry.gears.noncircular.curves import RolledFillet
@@ -100,11 +101,7 @@ def flank_starts(flanks: Flanks) -> tuple[Real, Real, int]:
 
 def _turning(part: Flanks, low: Real, high: Real) -> Real:
     """Where flanks turn back: between a place that does and one nearer to the tip that does not."""
-    for _ in range(_BISECTIONS):
-        middle = (low + high) / 2
-        back = part.stretch(middle) <= 0
-        low, high = np.where(back, middle, low), np.where(back, high, middle)
-    return high
+    return halved(lambda s: part.stretch(s) <= 0, low, high, _BISECTIONS)[1]
 
 
 def _crossings(part: Flanks, joint: Real, turning: Real, limit: Real) -> tuple[Real, Real]:

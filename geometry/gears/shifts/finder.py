@@ -11,6 +11,7 @@ from collections.abc import Callable
 from functools import lru_cache, partial
 from itertools import pairwise
 
+from geometry.base.nearest import last_that_holds
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.curves.implicit import Box
@@ -250,10 +251,7 @@ def _best(
 
 
 def _last_inside(function: Callable[[float], float], inside: float, outside: float) -> float:
-    for _ in range(_HALVINGS):
-        middle = (inside + outside) / 2
-        inside, outside = (middle, outside) if function(middle) > -math.inf else (inside, middle)
-    return inside
+    return last_that_holds(lambda x: function(x) > -math.inf, outside, inside, _HALVINGS)
 
 
 def _golden(function: Callable[[float], float], low: float, high: float, sections: int = _SECTIONS) -> float:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from geometry.base.errors import GeometryError, ParameterError
+from geometry.base.nearest import last_that_holds
 from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.base.tolerance import TOLERANCES
@@ -191,7 +192,4 @@ def _deepest_tip(gear: RingGear, shallowest: float) -> float | None:
     good, bad = shallowest, gear.default_tip_radius
     if bad >= good or not _clears(gear, good):
         return None
-    for _ in range(40):
-        middle = (good + bad) / 2
-        good, bad = (middle, bad) if _clears(gear, middle) else (good, middle)
-    return good
+    return last_that_holds(partial(_clears, gear), bad, good, 40)

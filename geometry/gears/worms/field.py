@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.record import Record
-from geometry.base.roots import bracketed_roots
+from geometry.base.roots import bracketed_roots, halved
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import WormTeeth
 
@@ -72,10 +72,7 @@ class Field(Record):
         inside = reached(heights, slides[:, None])
         which, at = np.nonzero(inside[:, 1:] != inside[:, :-1])
         low, high, was = heights[at], heights[at + 1], inside[which, at]
-        for _ in range(_HALVINGS):
-            middle = (low + high) / 2
-            same = reached(middle, slides[which]) == was
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        low, _ = halved(lambda middle: reached(middle, slides[which]) == was, low, high, _HALVINGS)
         found = []
         for k in range(len(slides)):
             ends = [-half] * bool(inside[k, 0]) + low[which == k].tolist() + [half] * bool(inside[k, -1])
@@ -89,10 +86,8 @@ class Field(Record):
         there = np.greater(*self.edges(heights))
         at = np.flatnonzero(there[1:] != there[:-1])
         low, high, was = heights[at], heights[at + 1], there[at]
-        for _ in range(_HALVINGS * bool(at.size)):
-            middle = (low + high) / 2
-            same = np.greater(*self.edges(middle)) == was
-            low, high = np.where(same, middle, low), np.where(same, high, middle)
+        if at.size:
+            low, _ = halved(lambda middle: np.greater(*self.edges(middle)) == was, low, high, _HALVINGS)
         ends = sorted({*ends, *low.tolist()})
         there = np.greater(*self.edges(np.array([(a + b) / 2 for a, b in pairwise(ends)])))
         return [span for span, is_there in zip(pairwise(ends), there.tolist(), strict=True) if is_there]
