@@ -71,14 +71,16 @@ class Piece(Record):
         """Whether it sweeps nothing."""
         return self.centre is None and self.start.real == self.end.real == 0
 
-    def points(self) -> Complex:
-        """Along it, (k,)."""
+    def points(self, chord: float = 0.0) -> Complex:
+        """Along it, (k,); ``chord``: what chords leave of an arc at most, mm, 0: in so many steps for all."""
         if self.centre is None:
             return np.array([self.start, self.end])
         sweep = np.angle((self.end - self.centre) / (self.start - self.centre))
         way = 1 if self.convex else -1
-        whole = way * (float(sweep) * way % (2 * math.pi))
-        found = self.centre + (self.start - self.centre) * np.exp(1j * whole * np.linspace(0, 1, _SAMPLES))
+        whole, count = way * (float(sweep) * way % (2 * math.pi)), _SAMPLES
+        if chord:
+            count = math.ceil(abs(whole) / math.acos(max(1 - chord / self.radius, 0.0)) / 2) + 2
+        found = self.centre + (self.start - self.centre) * np.exp(1j * whole * np.linspace(0, 1, count))
         found[-1] = self.end
         return np.asarray(found)
 

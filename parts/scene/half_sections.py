@@ -22,7 +22,7 @@ from geometry.curves.curve import Complex, Real
 from geometry.gears.bevel.gear import BevelGear
 from geometry.gears.worms.body import WormBody
 from geometry.solids.body import Body
-from geometry.solids.turned import HalfSection, Hole, Piece
+from geometry.solids.turned import HalfSection, Hole
 from parts.base.part import Part
 from parts.gears.worm_wheel.part import WheelThing
 from parts.scene.standing import UPWARDS, Instance
@@ -435,18 +435,7 @@ def _pairs(points: Complex) -> Real:
 
 def _outline(section: HalfSection) -> Complex:
     """Half a section by chords, counter-clockwise, r + iz."""
-    return np.concatenate([_chords(piece)[:-1] for piece in section.pieces])
-
-
-def _chords(piece: Piece) -> Complex:
-    """Along a piece, so near that chords leave as little of an arc as they may."""
-    if piece.centre is None:
-        return np.array([piece.start, piece.end])
-    sweep = float(np.angle((piece.end - piece.centre) / (piece.start - piece.centre)))
-    sweep = sweep % math.tau if piece.convex else sweep % math.tau - math.tau
-    count = math.ceil(abs(sweep) / math.acos(max(1 - _CHORD / piece.radius, 0.0)) / 2) + 1
-    found = piece.centre + (piece.start - piece.centre) * np.exp(1j * sweep * np.linspace(0.0, 1.0, count + 1))
-    found[-1] = piece.end
+    found = np.concatenate([piece.points(_CHORD)[:-1] for piece in section.pieces])
     # what ends on the axis lies on it
     return np.maximum(found.real, 0.0) + 1j * found.imag
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from enum import StrEnum
 from functools import cached_property, lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -222,20 +223,23 @@ def follower_motion(phases: Sequence[Phase]) -> FollowerMotion:
     scale = max((abs(p.lift) for p in phases), default=0.0)
     if not abs(total) <= 1e-12 * max(scale, 1e-300) and total != 0:
         raise ParameterError("phases", total, "does_not_come_back")
-    pieces: list[LawPiece] = []
+    return FollowerMotion(tuple(pieces_of(phases, (TURN, 0.0))), tuple(phases))
+
+
+def pieces_of(phases: Sequence[Phase], last: tuple[float, float] | None = None) -> Iterator[LawPiece]:
+    """The laws of phases one behind the other, from 0 on; ``last``: where the last one ends, and S there."""
     at, s = 0.0, 0.0
     for index, phase in enumerate(phases):
-        last = index == len(phases) - 1
-        end = TURN if last else at + phase.angle
-        after = 0.0 if last else s + phase.lift
+        end, after = at + phase.angle, s + phase.lift
+        if last is not None and index == len(phases) - 1:
+            end, after = last
         if phase.law is None:
-            pieces.append(LawPiece(at, end, (s,)))
+            yield LawPiece(at, end, (s,))
         else:
             placed = [p.placed(at, end - at, s, after - s) for p in phase.law.pieces]
             edges = [at, *(p.start for p in placed[1:]), end]
-            pieces += [p.spanning(edges[k], edges[k + 1]) for k, p in enumerate(placed)]
+            yield from (p.spanning(*span) for p, span in zip(placed, pairwise(edges), strict=True))
         at, s = end, after
-    return FollowerMotion(tuple(pieces), tuple(phases))
 
 
 def motion_of_table(angles: Sequence[float], lifts: Sequence[float], tolerance: float = 0.0) -> FollowerMotion:

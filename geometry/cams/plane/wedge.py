@@ -21,7 +21,7 @@ from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.nearest import last_that_holds
 from geometry.base.record import Record
 from geometry.base.series import Series, derived, exponential, taylor
-from geometry.cams.motion.follower_motion import Phase, PieceMotion
+from geometry.cams.motion.follower_motion import Phase, PieceMotion, pieces_of
 from geometry.cams.plane.curves import CentreEnvelope, Lift
 from geometry.cams.plane.disk import FollowerKind
 from geometry.curves.curve import Complex, Curve, Real, Reversed, end_point, start_point, vertex_sign
@@ -150,20 +150,10 @@ def wedge_motion(phases: Sequence[Phase]) -> WedgeMotion:
     """
     if not phases:
         raise ParameterError("phases", 0, "no_phases")
-    pieces: list[LawPiece] = []
-    at, s = 0.0, 0.0
     for index, phase in enumerate(phases):
         if not phase.angle > 0:
             raise ParameterError(f"phases[{index + 1}].travel", phase.angle, "not_above_zero")
-        end, after = at + phase.angle, s + phase.lift
-        if phase.law is None:
-            pieces.append(LawPiece(at, end, (s,)))
-        else:
-            placed = [p.placed(at, phase.angle, s, after - s) for p in phase.law.pieces]
-            edges = [at, *(p.start for p in placed[1:]), end]
-            pieces += [p.spanning(edges[k], edges[k + 1]) for k, p in enumerate(placed)]
-        at, s = end, after
-    return WedgeMotion(tuple(pieces))
+    return WedgeMotion(tuple(pieces_of(phases)))
 
 
 class WedgeCam(Record):

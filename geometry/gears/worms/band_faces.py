@@ -250,42 +250,29 @@ class BandFaces(WormRings):
         # a short band has no column on an even step
         levels = {k: first + k for k in range(count + 1)} if count else {}
 
-        def level(number: int) -> float:
-            return (number - count / 2) * self.step
+        def angle_of(number: int) -> float:
+            return self.band.turned + (number - count / 2) * self.step
 
-        below = {k: feet[c] for k, c in levels.items()}
-        over = {k - self.between: heads[c] for k, c in levels.items()}
+        nodes = ({k: feet[c] for k, c in levels.items()}, {k - self.between: heads[c] for k, c in levels.items()})
         pitch, margin = math.tau / n, _REST * self.step / 2
-        circles: dict[int, list[tuple[int, Index]]] = {-1: [], 1: []}
-        lines: list[tuple[Index, Index]] = []
-        for number in range(-self.between - self.between, count + self.between + 1):
-            angle = level(number)
-            foot, head = below.get(number), over.get(number)
-            on = {-1: -end - pitch + margin < angle < -end - margin, 1: end - pitch + margin < angle < end - margin}
-            if foot is None and head is not None and on[-1]:
-                foot = self.on_circle(radius, self.band.turned + angle, -height)
-                circles[-1].append((number, foot))
-            elif head is None and foot is not None and on[1]:
-                head = self.on_circle(radius, self.band.turned + angle, height)
-                circles[1].append((number, head))
-            if foot is not None and head is not None:
-                lines.append((foot, head))
+        room = [(at - pitch + margin + self.band.turned, at - margin + self.band.turned) for at in (-end, end)]
+        on_low, on_high, lines = self.uprights(sorted({*nodes[0], *nodes[1]}), nodes, angle_of, room, radius, height)
         # where the bands end: upright lines to the circles, both of one band, taken with the band above too
         ends = {s: self.on_circle(radius, self.band.turned + s * end, s * height) for s in (-1, 1)}
         low_corner, high_corner = lower.corners[0][corner], upper.corners[-1][corner]
         uprights = {-1: self.add_edges(ends[-1], low_corner, Straight(UP)),
                     1: self.add_edges(high_corner, ends[1], Straight(UP))}  # fmt: skip
-        nodes = [ends[-1][above], *(x for _, x in circles[-1]), ends[-1]]
-        bottom, _ = self.arcs(radius, -height, nodes)
-        bottom_nodes = [*nodes, low_corner, *feet]
+        low_nodes = [ends[-1][above], *on_low, ends[-1]]
+        bottom, _ = self.arcs(radius, -height, low_nodes)
+        bottom_nodes = [*low_nodes, low_corner, *feet]
         own_bottom = len(bottom)
         bottom += [(uprights[-1], True), (axial[0], True), *((edge, True) for edge in up_edges), (uprights[1], True)]
         bottom_nodes += [ends[1]]
-        nodes = [ends[1][above], *(x for _, x in circles[1]), ends[1]]
-        arcs, _ = self.arcs(radius, height, nodes)
+        high_nodes = [ends[1][above], *on_high, ends[1]]
+        arcs, _ = self.arcs(radius, height, high_nodes)
         top: list[Use] = [(uprights[-1][above], True), *((edge, True) for edge in down_edges),
                           (axial[1][above], True), (uprights[1][above], True), *arcs]  # fmt: skip
-        top_nodes = [ends[-1][above], *heads, upper.corners[-1][corner][above], *nodes]
+        top_nodes = [ends[-1][above], *heads, upper.corners[-1][corner][above], *high_nodes]
         for s, own in ((-1, bottom[:own_bottom]), (1, arcs)):
             self.rims[s] = [(np.array([edge[j]]), way) for j in range(n) for edge, way in own]
         edges = [self.add_edges(foot, head, Straight(UP)) for foot, head in lines]

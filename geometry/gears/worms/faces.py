@@ -269,46 +269,29 @@ class CutThreads(WormRings):
         # the thread above is the one before, so many steps on
         above = np.roll(np.arange(n), 1)
         root = np.array([self.joints[0]])
-        ends = {
-            (side, end): float(self._end(end, side, root)[0]) - (math.tau / n if side < 0 else 0.0)
-            for side in (1, -1) for end in (-1, 1)
-        }  # fmt: skip
         below_nodes = {number: upper.corners[0][:, c] for c, number in enumerate(upper.levels) if self._inner(upper, c)}
         above_nodes = {
             number - self.between: lower.corners[0][above, c]
             for c, number in enumerate(lower.levels) if self._inner(lower, c)
         }  # fmt: skip
         margin = _REST * self.step / 2
+        room = [
+            (float(self._end(end, -1, root)[0]) - math.tau / n + margin, float(self._end(end, 1, root)[0]) - margin)
+            for end in (-1, 1)
+        ]
         numbers = range(
             min(*below_nodes, *above_nodes, 0) - self.between, max(*below_nodes, *above_nodes) + self.between
         )
-        # nodes on the circles at both ends, where lines stand on them
-        circles: dict[int, list[tuple[int, Index]]] = {-1: [], 1: []}
-        lines: list[tuple[Index, Index]] = []
-        for number in numbers:
-            angle = self.level(number)
-            foot, head = below_nodes.get(number), above_nodes.get(number)
-            on = {
-                -1: ends[-1, -1] + margin < angle < ends[1, -1] - margin,
-                1: ends[-1, 1] + margin < angle < ends[1, 1] - margin,
-            }
-            if foot is None and on[-1] and (head is not None or on[1]):
-                foot = self.on_circle(radius, angle, -half)
-                circles[-1].append((number, foot))
-            if head is None and on[1] and foot is not None:
-                head = self.on_circle(radius, angle, half)
-                circles[1].append((number, head))
-            if foot is not None and head is not None:
-                lines.append((foot, head))
+        on_low, on_high, lines = self.uprights(numbers, (below_nodes, above_nodes), self.level, room, radius, half)
         # both ways from the lower end of the side above to the upper end of the side below
         start, stop = lower.corners[0][above, 0], upper.corners[0][:, -1]
-        bottom, bottom_nodes = self.arcs(radius, -half, [start, *(x for _, x in circles[-1]), upper.corners[0][:, 0]])
-        top, top_nodes = self.arcs(radius, half, [lower.corners[0][above, -1], *(x for _, x in circles[1]), stop])
+        bottom, bottom_nodes = self.arcs(radius, -half, [start, *on_low, upper.corners[0][:, 0]])
+        top, top_nodes = self.arcs(radius, half, [lower.corners[0][above, -1], *on_high, stop])
         bottom += [(e, True) for e in upper.helices[0].T]
         bottom_nodes += [upper.corners[0][:, c] for c in range(1, len(upper.levels))]
         top = [(e, True) for e in lower.helices[0][above].T] + top
         top_nodes = [lower.corners[0][above, c] for c in range(len(lower.levels) - 1)] + top_nodes
-        self.space_arcs = {-1: bottom[: len(circles[-1]) + 1], 1: top[len(lower.levels) - 1 :]}
+        self.space_arcs = {-1: bottom[: len(on_low) + 1], 1: top[len(lower.levels) - 1 :]}
         edges: Index | tuple[()] = ()
         if lines:
             # of a short thread there are none

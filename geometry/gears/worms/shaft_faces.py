@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -68,6 +68,29 @@ class WormRings(RingBuilder):
         """New vertices at an angle of thread 0 of a right-hand worm, rad, on all threads, (n,)."""
         turned = self.worm.sign * (angle + math.tau * self.starts / len(self.starts))
         return self.add_vertices(self.add_points(radius * np.exp(1j * turned), z))
+
+    def uprights(
+        self, numbers: Iterable[int], nodes: tuple[dict[int, Index], dict[int, Index]],
+        angle_of: Callable[[int], float], room: Sequence[tuple[float, float]], radius: float, half: float,
+    ) -> tuple[list[Index], list[Index], list[tuple[Index, Index]]]:  # fmt: skip
+        """New nodes on the circles at -half and half, and the ends of upright lines, from the left on.
+
+        ``nodes``: those of the lower and the upper chain by the ``numbers`` of their steps; where a chain has none, a
+        line ends on its circle, if its angle has ``room`` there.
+        """
+        low, high, lines = list[Index](), list[Index](), list[tuple[Index, Index]]()
+        for number in numbers:
+            (foot, head), angle = (own.get(number) for own in nodes), angle_of(number)
+            free = [least < angle < most for least, most in room]
+            if foot is None and free[0] and (head is not None or free[1]):
+                foot = self.on_circle(radius, angle, -half)
+                low.append(foot)
+            if head is None and free[1] and foot is not None:
+                head = self.on_circle(radius, angle, half)
+                high.append(head)
+            if foot is not None and head is not None:
+                lines.append((foot, head))
+        return low, high, lines
 
     def arc(self, radius: float, z: float, start: Index, end: Index) -> Use:
         """Arcs about the axis towards growing angles of a right-hand worm."""
