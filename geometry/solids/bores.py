@@ -35,8 +35,8 @@ class Bore(Protocol):
         """Greatest distance of the bore from the axis, mm; an offset d < 0 adds -d to it."""
 
     @property
-    def size(self) -> tuple[str, float]:
-        """The name and the value, mm, of what makes the bore larger."""
+    def size(self) -> tuple[str, object]:
+        """The name and the value, mm or a designation, of what makes the bore larger."""
 
     def check(self) -> None:
         """Refuse a bore that cannot exist: ParameterError with the key's name below ``bore``."""

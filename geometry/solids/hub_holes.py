@@ -37,7 +37,7 @@ class Wall(NamedTuple):
 
     thickness: float
     key: str
-    value: float
+    value: object
     code: str
     numbers: Mapping[str, float] = MappingProxyType({})
 

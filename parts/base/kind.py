@@ -156,6 +156,10 @@ class Kind(Generic[K, T]):
             case _:
                 raise TypeError(type(keys))
 
+    def middle(self, keys: K, thing: T) -> float:
+        """A height at which its bore is whole, mm: the middle of a face, else of all of it."""
+        return (getattr(keys, "face_width", 0.0) or self.height(keys, thing)) / 2
+
     def is_plate(self, keys: K, thing: T) -> bool:
         """Whether the solid is its section, extruded."""
         return self.has_outline and not self.unmoved

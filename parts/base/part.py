@@ -184,8 +184,10 @@ class Part(Record, dict=True):
 
     @cached_property
     def probes(self) -> tuple[Probe, ...]:
-        """What every file of it must also do."""
-        return self.made_by.probes(self.keys, self.thing)
+        """What every file of it must also do, as its kind says and the shape of its bore."""
+        own = self.made_by.probes(self.keys, self.thing)
+        of_bore = getattr(getattr(self.keys, "bore", None), "probes", None)
+        return own if of_bore is None else (*own, *of_bore(self.made_by.middle(self.keys, self.thing)))
 
     def to_trimesh(self, tolerance: float = 0.01, offset: float = 0.0) -> trimesh.Trimesh:
         """A ``trimesh.Trimesh`` within ``tolerance`` mm of the exact solid."""

@@ -6,6 +6,7 @@ import math
 
 from geometry.solids.bores import KeywayBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
+from geometry.solids.splines import InvoluteJoint, SplineBore
 from parts.drawing.places import apart, circled
 from parts.drawing.working import Subject
 
@@ -14,7 +15,7 @@ _SAME = 1e-9
 # of a bore where no key turns it
 _USUAL = math.pi / 2
 # words for what stands in the very direction
-_ALONG = {"keyway_at": "keyway_along", "flat_at": "flat_along", "axis_at": "axis_along"}
+_ALONG = {"keyway_at": "keyway_along", "flat_at": "flat_along", "spline_at": "spline_along", "axis_at": "axis_along"}
 
 
 def directions(
@@ -26,6 +27,8 @@ def directions(
     of which is as good as the first; ``all_circled``: the views tell no hole by its distances from their axes.
     """
     bore, found = holes.bore, list[str]()
+    if isinstance(bore, SplineBore) and isinstance(joint := bore.joint, InvoluteJoint):
+        found.append(involute_data(joint, subject))
 
     def tell(key: str, angle: float, count: int, start: str, **sizes: object) -> None:
         step = math.tau / max(count, 1)
@@ -39,15 +42,16 @@ def directions(
 
     begin, start = 0.0, zero
     if bore is not None and not isinstance(bore, RoundBore):
-        turn, is_keyway = bore.angle, isinstance(bore, KeywayBore)
+        turn = bore.angle
+        kind = "keyway" if isinstance(bore, KeywayBore) else "spline" if isinstance(bore, SplineBore) else "flat"
         if zero and (not teeth or abs(turn - _USUAL) > _SAME):
-            tell("keyway_at" if is_keyway else "flat_at", turn, teeth, zero)
+            tell(f"{kind}_at", turn, teeth, zero)
         if teeth or not zero:
-            begin, start = turn, "zero_keyway" if is_keyway else "zero_flat"
+            begin, start = turn, f"zero_{kind}"
     if not start and groups:
         begin, start = groups[0].start, "zero_group"
     # the axes of a view stand about its bore as they are drawn
-    if alone and start not in ("", "zero_x", "zero_keyway", "zero_flat"):
+    if alone and start not in ("", "zero_x", "zero_keyway", "zero_flat", "zero_spline"):
         tell("axis_at", -begin, teeth if start == zero else groups[0].count, start)
     for group in groups if start else ():
         if _turned(group.start - begin, group.count):
@@ -66,3 +70,15 @@ def _turned(angle: float, count: int) -> bool:
     """Whether the first of so many stands off the direction in which they would without a word."""
     step = math.tau / count
     return min(angle % step, step - angle % step) > _SAME
+
+
+def involute_data(joint: InvoluteJoint, subject: Subject) -> str:
+    """What an involute spline is made by."""
+    return subject.words(
+        "involute_spline",
+        name=subject.words(f"spline_{joint.standard}", name=joint.name),
+        module=subject.say(joint.module),
+        teeth=joint.teeth,
+        angle=subject.say(math.degrees(joint.pressure_angle)),
+        thickness=subject.say(joint.thickness),
+    )

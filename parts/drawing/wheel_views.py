@@ -18,6 +18,7 @@ from geometry.plane.profile import Profile
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.keyways import depth_deviation
+from geometry.solids.splines import SplineBore, StraightJoint
 from geometry.solids.wheel import WheelShape
 from geometry.solids.windows import RoundHoles
 from parts.drawing.extent import crossings, reach
@@ -155,6 +156,9 @@ def bore_radii(bore: Bore | None) -> tuple[float, float]:
             return bore.flat_distance, bore.diameter / 2 if bore.flats == 1 else bore.flat_distance
         case PolygonBore():
             return bore.across_flats / 2, bore.across_flats / 2
+        case SplineBore():
+            inner = bore.form.inner + bore.clearance
+            return bore.reach, inner if bore.joint.teeth % 2 else bore.reach
         case _:
             return bore.reach, bore.reach
 
@@ -168,7 +172,8 @@ def bore_cut(bore: Bore | None, low: float, high: float, turn: float) -> tuple[t
 
     Edges run from ``low`` to ``high``; one is seen where no wall stands before it.
     """
-    if bore is None or isinstance(bore, RoundBore) or abs(bore.angle + turn - _UP) < _NONE:
+    upright = bore is None or isinstance(bore, RoundBore) or abs(bore.angle + turn - _UP) < _NONE
+    if bore is None or (upright and not isinstance(bore, SplineBore)):
         return bore_radii(bore), [*keyway_edges(bore, low, high)]
     profile = bore.profile().placed(Placement2(turn))
     curves = [segment.curve for segment in profile.segments()]
@@ -509,6 +514,8 @@ def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View
             if corner:
                 centre = complex(half - corner, up - corner)
                 rounds.append(_corner(centre, corner, (45.0, 30.0, 60.0)))
+    elif isinstance(bore, SplineBore):
+        return _spline_view(bore, strokes, subject, others)
     else:
         sizes.append(Size("bore.across_flats", -1j * down, 1j * up, "right", "", wishes.bore))
         rounded = max((curve for _, curve in strokes if isinstance(curve, Arc)), key=_leftmost, default=None)
@@ -516,13 +523,39 @@ def bore_view(bore: Bore, subject: Subject, others: float | None = None) -> View
             way = math.degrees(cmath.phase(rounded.centre))
             angles = tuple(way + turn for turn in (0.0, 15.0, -15.0, 30.0, -30.0))
             rounds.append(_corner(rounded.centre, rounded.radius, angles))
-    name, off = subject.letter(), 0.0 if others is None else math.remainder(angle - others, math.tau)
-    if abs(off) > _NONE:
-        name += f" {TURNED} {subject.say(abs(math.degrees(off)))}°"
+    name = _bore_title(angle, subject, others)
     # axes end at its walls: words of sizes stand close to them
     half = bore.diameter / 2 if isinstance(bore, KeywayBore | FlatBore) else bore.reach
     axes = Line(complex(-half), complex(half)), Line(-1j * down, 1j * up)
     return View(tuple(strokes), (), axes, tuple(sizes), tuple(rounds), (), name, _LEAST_BORE)
+
+
+def _bore_title(angle: float, subject: Subject, others: float | None) -> str:
+    """The letter of a view that is turned by an angle, rad, and by how much more than those beside it."""
+    off = 0.0 if others is None else math.remainder(angle - others, math.tau)
+    turned = f" {TURNED} {subject.say(abs(math.degrees(off)))}°" if abs(off) > _NONE else ""
+    return subject.letter() + turned
+
+
+def _spline_view(bore: SplineBore, strokes: list[Stroke], subject: Subject, others: float | None) -> View:
+    """Slots with both diameters, the width of straight ones, and the designation on a leader (GOST 2.409)."""
+    joint, form, play = bore.joint, bore.form, bore.clearance
+    straight = joint if isinstance(joint, StraightJoint) else None
+    step, fit = 360 / joint.teeth, subject.wishes.bore
+    # a diameter is told where its circle is: at the slots, or between them
+    places = [90 + step * k for k in range(1, joint.teeth)]
+    inner, outer = (fit if straight and straight.centring == name else "" for name in ("inner", "outer"))
+    rounds = (
+        Round("bore.outer_diameter", 0j, form.outer + play, after=outer, angles=tuple(places)),
+        Round("bore.inner_diameter", 0j, form.inner + play, after=inner, angles=tuple(p + step / 2 for p in places)),
+    )
+    side = form.flank.shifted(play).at((form.inner + form.outer) / 2 + play).conjugate() * 1j
+    width = Size("bore.width", complex(-side.real, side.imag), side, "above", "", subject.wishes.keyway)
+    note = Note(side, subject.words(f"spline_{joint.standard}", name=joint.name))
+    up, down = bore_radii(bore)
+    axes = Line(complex(-up), complex(up)), Line(-1j * down, 1j * up)
+    title = _bore_title(_UP - bore.angle, subject, others)
+    return View(tuple(strokes), (), axes, (width,) if straight else (), rounds, (note,), title, _LEAST_BORE)
 
 
 def _corner(centre: complex, radius: float, angles: tuple[float, ...]) -> Round:

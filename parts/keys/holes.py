@@ -16,6 +16,7 @@ from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, Round
 from geometry.solids.hub_holes import HubHoles
 from parts.base.schema import replaced, value_at
 from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, BoreDiameter, MadeKeys, degrees, either, part_mm
+from parts.keys.splines import InvoluteSplineTable, StraightSplineTable
 
 K = TypeVar("K", bound=Struct)
 # part of the room for a bore that it takes at most
@@ -114,7 +115,18 @@ class SquareTable(PolygonTable, tag="square"):
     corners = 4
 
 
-BoreTable = RoundBoreTable | KeywayTable | FlatBoreTable | DoubleFlatBoreTable | HexagonTable | SquareTable
+BoreTable = (
+    RoundBoreTable
+    | KeywayTable
+    | FlatBoreTable
+    | DoubleFlatBoreTable
+    | HexagonTable
+    | SquareTable
+    | StraightSplineTable
+    | InvoluteSplineTable
+)
+# the key of each that makes it larger
+_SIZES = ("diameter", "across_flats", "outer_diameter")
 
 
 class HolesTable(Struct, forbid_unknown_fields=True):
@@ -252,7 +264,9 @@ def wide_bore(
             return most if kept(alone, widest) else nearest(alone, widest, (widest * s for s in _SHARES if s < 1))
 
         return ParameterError("bore_diameter", keys.bore_diameter, code, cure)
-    name = "diameter" if "diameter" in bore.__struct_fields__ else "across_flats"
+    name = next((key for key in _SIZES if getattr(bore, key, None) is not None), "")
+    if not name:
+        return ParameterError(*bore.bore().size, code)
     given: float = getattr(bore, name)
 
     def fits(size: float) -> bool:

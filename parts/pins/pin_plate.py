@@ -93,6 +93,10 @@ class _Plate(Kind[K, "PinPlate"]):
 
     drawing = "parts.pins.drawings"
 
+    def middle(self, keys: K, thing: PinPlate) -> float:
+        """Half of the plate."""
+        return thing.thickness / 2
+
     def section(self, keys: K, thing: PinPlate, offset: float) -> OffsetRegion:
         """The plate with holes for its pins."""
         return moved_region(thing.region, offset)

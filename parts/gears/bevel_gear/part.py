@@ -238,6 +238,10 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
         """From the back face to the inner tip circle."""
         return thing.height
 
+    def middle(self, keys: BevelGearSpec, thing: BevelGear) -> float:
+        """Within its hub."""
+        return thing.blank.hub_length / 3
+
     def report(self, keys: BevelGearSpec, thing: BevelGear) -> Report:
         """Diameters of the outer end, cones, and where it is mounted."""
         circles = {

@@ -312,6 +312,10 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
         """From the lower face to the tips."""
         return thing.height
 
+    def middle(self, keys: FaceGearSpec, thing: FaceGear) -> float:
+        """Half of the plate."""
+        return thing.thickness / 2
+
     def report(self, keys: FaceGearSpec, thing: FaceGear) -> Report:
         """Diameters between which teeth can be, and where its pinion is mounted."""
         inner, outer = thing.tip_thickness([thing.inner_radius, thing.outer_radius]).tolist()

@@ -242,6 +242,10 @@ class WormKind(Kind[WormSpec, "WormBody"]):
         low, high = thing.ends()
         return high - low
 
+    def middle(self, keys: WormSpec, thing: WormBody) -> float:
+        """The middle of the thread."""
+        return 0.0
+
     def report(self, keys: WormSpec, thing: WormBody) -> Report:
         """Diameters, angles, and what is measured."""
         from geometry.gears.worms.measures import BALL, over_balls, reference_chord

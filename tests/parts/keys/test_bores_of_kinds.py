@@ -27,6 +27,10 @@ WRONG: dict[str, tuple[Raw, str, str, float]] = {
         {"shape": "hexagon", "across_flats": 6.0, "corner_radius": 5.0}, "corner_radius", "roundings_leave_no_side",
         3.0,
     ),
+    "slots too wide": (
+        {"shape": "spline", "teeth": 6, "inner_diameter": 6.0, "outer_diameter": 8.0, "width": 9.0}, "width",
+        "spline_sides_meet", 3.0,
+    ),
 }  # fmt: skip
 TAKING = [kind for kind in KINDS if "bore" in KINDS[kind].keys.__struct_fields__]
 CAMS = [

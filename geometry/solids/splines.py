@@ -1,0 +1,352 @@
+"""Splined shafts and bores: straight and involute sides between two circles, with exact parallel curves of either sign.
+
+The slots of a hub are the teeth of a shaft, so one form is both: teeth about the axis, tooth 1 on +x, which a bore runs
+round clockwise. A form moved d mm outwards keeps the fixed point of each corner, as all bores do (``bores.py``).
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from functools import cached_property
+from typing import Literal, Protocol
+
+from geometry.base.angles import involute_function, roll_minus_polar
+from geometry.base.errors import OffsetError, ParameterError
+from geometry.base.nearest import last_that_holds
+from geometry.base.placement import Placement2
+from geometry.base.record import Record, replace
+from geometry.base.roots import bracketed_root
+from geometry.curves.curve import Curve, end_point, start_point
+from geometry.curves.involute import Involute
+from geometry.curves.line_arc import Arc, Line, arc_between
+from geometry.plane.profile import Label, Profile, Segment
+from geometry.solids.bores import widened_corner
+
+Centring = Literal["inner", "outer", "sides"]
+Root = Literal["flat", "fillet"]
+_LETTERS: dict[Centring, str] = {"inner": "d", "outer": "D", "sides": "b"}
+_DIAGONAL = cmath.rect(1.0, math.pi / 4)
+# halvings of a reach, to the last digit of a limit
+_STEPS = 52
+# rad: lands narrower than this are none
+_NONE = 1e-9
+
+
+class Flank(Protocol):
+    """The upper side of tooth 1, whose material is below it."""
+
+    def shifted(self, distance: float) -> Flank:
+        """Its parallel curve, ``distance`` mm out of the tooth."""
+
+    def at(self, radius: float) -> complex:
+        """Its point at a distance from the axis, mm; OffsetError where it has none."""
+
+    def foot(self, point: complex, distance: float) -> complex:
+        """Of a point of its parallel curve ``distance`` mm out of the tooth the one of its own."""
+
+    def inwards(self, start: complex, end: complex) -> Curve:
+        """It between two of its points, towards the axis."""
+
+
+class StraightFlank(Record):
+    """A side parallel to the middle of its tooth, ``half`` mm beside it."""
+
+    half: float
+
+    def shifted(self, distance: float) -> StraightFlank:
+        """See Flank."""
+        return StraightFlank(self.half + distance)
+
+    def at(self, radius: float) -> complex:
+        """See Flank."""
+        if not radius > abs(self.half):
+            raise OffsetError(radius, "spline_sides_meet")
+        return complex(math.sqrt((radius - self.half) * (radius + self.half)), self.half)
+
+    def foot(self, point: complex, distance: float) -> complex:
+        """See Flank."""
+        return point - 1j * distance
+
+    def inwards(self, start: complex, end: complex) -> Line:
+        """See Flank."""
+        return Line(start, end)
+
+
+class InvoluteFlank(Record):
+    """An involute of the circle of ``base_radius`` mm; ``base_half_angle``: half of the tooth there, rad."""
+
+    base_radius: float
+    base_half_angle: float
+
+    def shifted(self, distance: float) -> InvoluteFlank:
+        """See Flank: the involute, turned."""
+        return replace(self, base_half_angle=self.base_half_angle + distance / self.base_radius)
+
+    def _roll(self, radius: float) -> float:
+        return math.sqrt(max((radius / self.base_radius - 1) * (radius / self.base_radius + 1), 0.0))
+
+    def at(self, radius: float) -> complex:
+        """See Flank."""
+        if radius < self.base_radius:
+            raise OffsetError(radius, "spline_below_base_circle")
+        return cmath.rect(radius, self.base_half_angle - roll_minus_polar(self._roll(radius)))
+
+    def foot(self, point: complex, distance: float) -> complex:
+        """See Flank: both lie on one tangent of the base circle."""
+        roll = self._roll(abs(point)) - distance / self.base_radius
+        if roll < 0:
+            raise OffsetError(distance, "spline_below_base_circle")
+        return self.at(self.base_radius * math.hypot(1.0, roll))
+
+    def inwards(self, start: complex, end: complex) -> Involute:
+        """See Flank."""
+        return Involute(self.base_radius, self.base_half_angle, -self._roll(abs(start)), -self._roll(abs(end)))
+
+
+class SplineForm(Record):
+    """The teeth of a shaft, or the slots of a hub, between the radii ``inner`` and ``outer``; mm.
+
+    Roundings of the corners between a side and both circles, or chamfers: the legs of those at 45 degrees to a straight
+    side.
+    """
+
+    teeth: int
+    flank: Flank
+    inner: float
+    outer: float
+    root_rounding: float = 0.0
+    crest_rounding: float = 0.0
+    root_chamfer: float = 0.0
+    crest_chamfer: float = 0.0
+
+    def widened(self, depth: float) -> SplineForm:
+        """The form ``depth`` mm larger on all sides, sharp corners kept.
+
+        The line of a chamfer at the root moves by sqrt(2) of that, so that it keeps its length all but for the circle's
+        bend, and sweeps a plane.
+        """
+        crest, leg = widened_corner(self.crest_rounding, depth), self.root_chamfer
+        flank, inner, outer = self.flank.shifted(depth), self.inner + depth, self.outer + depth
+        if leg:
+            leg += self.flank.at(self.inner).real + depth - flank.at(inner).real
+        return replace(self, flank=flank, inner=inner, outer=outer, crest_rounding=crest, root_chamfer=leg)
+
+    def outline(self, distance: float = 0.0) -> Profile:
+        """The counter-clockwise boundary, moved ``distance`` mm outwards.
+
+        Raises
+        ------
+        OffsetError
+            No side, tooth or space is left.
+        """
+        if not self.inner + distance > 0:
+            raise OffsetError(distance, "spline_sides_meet")
+        half, turn = math.pi / self.teeth, Placement2(2 * math.pi / self.teeth)
+        flank = self.flank.shifted(distance)
+        crest, start = self._crest(distance)
+        root, bottom = self._root(distance)
+        low = cmath.phase(start_point(crest[0]) if crest else start)
+        high = cmath.phase(end_point(root[-1]) if root else bottom)
+        if abs(bottom) >= abs(start) or low < -_NONE or high > half + _NONE:
+            raise OffsetError(distance, "spline_sides_meet")
+        side = [Segment(curve, Label.TIP_BREAK) for curve in crest]
+        side.append(Segment(flank.inwards(start, bottom), Label.FLANK))
+        side += [Segment(curve, Label.ROOT_FILLET) for curve in root]
+        land = [Segment(Arc(0j, self.outer + distance, -low, 2 * low), Label.TIP_LAND)] if low > _NONE else []
+        bed = [Segment(Arc(0j, self.inner + distance, high, 2 * (half - high)), Label.ROOT_LAND)]
+        back = [Segment(s.curve.mirrored().placed(turn), s.label) for s in reversed(side)]
+        return Profile((*land, *side, *(bed if half - high > _NONE else ()), *back), self.teeth)
+
+    def _crest(self, distance: float) -> tuple[list[Curve], complex]:
+        """What lies between the outer circle and the upper side of tooth 1, and where that begins."""
+        outer, radius = self.outer + distance, self.crest_rounding + distance
+        if self.crest_chamfer:
+            pieces, start = self._chamfer(distance, self.outer, -self.crest_chamfer)
+            return [piece.reversed() for piece in reversed(pieces)], start
+        if radius <= 0:
+            return [], self.flank.shifted(distance).at(outer)
+        centre = self.flank.shifted(-self.crest_rounding).at(self.outer - self.crest_rounding)
+        start = self.flank.shifted(distance).foot(centre, -radius)
+        return [arc_between(centre, centre * outer / abs(centre), start, True)], start
+
+    def _root(self, distance: float) -> tuple[list[Curve], complex]:
+        """What lies between the upper side of tooth 1 and the inner circle, and where that side ends."""
+        inner, radius = self.inner + distance, self.root_rounding - distance
+        if self.root_chamfer:
+            return self._chamfer(distance, self.inner, self.root_chamfer)
+        if radius <= 0:
+            return [], self.flank.shifted(distance).at(inner)
+        centre = self.flank.shifted(self.root_rounding).at(self.inner + self.root_rounding)
+        bottom = self.flank.shifted(distance).foot(centre, radius)
+        return [arc_between(centre, bottom, centre * inner / abs(centre), False)], bottom
+
+    def _chamfer(self, distance: float, circle: float, leg: float) -> tuple[list[Curve], complex]:
+        """From the upper side, ``leg`` mm beyond its corner with a circle, at 45 degrees to it, and where that begins.
+
+        Its ends are convex at the crest, concave at the root: there an arc stands about each of them once the form has
+        grown, or shrunk.
+        """
+        near = self.flank.at(circle) + leg
+        along = (near / _DIAGONAL).real
+        if near.real <= 0 or along >= circle:
+            raise OffsetError(distance, "spline_sides_meet")
+        far = _DIAGONAL * complex(along, -math.sqrt((circle - along) * (circle + along)))
+        shift, turn = distance * _DIAGONAL, cmath.phase(far) - math.pi / 4
+        if distance * leg < 0:
+            begin = 0.0 if distance > 0 else -math.pi
+            first = Arc(near, abs(distance), begin + math.pi / 2, -math.pi / 4)
+            last = Arc(far, abs(distance), begin + math.pi / 4, turn)
+            return [first, Line(near + shift, far + shift), last], near + 1j * distance
+        along, circle = along + distance, circle + distance
+        height = near.imag + distance
+        near = _DIAGONAL * complex(along, height * math.sqrt(2) - along)
+        if along >= circle:
+            raise OffsetError(distance, "spline_sides_meet")
+        if leg * (abs(near) - circle) <= 0:
+            return [], self.flank.shifted(distance).at(circle)
+        return [Line(near, _DIAGONAL * complex(along, -math.sqrt((circle - along) * (circle + along))))], near
+
+
+class StraightJoint(Record):
+    """z x d x D with teeth ``width`` (b) wide; ``root``: d1, the inner diameter of a shaft that does not centre there.
+
+    ``chamfer`` (c x 45 degrees): at the tips of the shaft and where the slots of the hub open; ``rounding`` (r): at its
+    root.
+    """
+
+    teeth: int
+    inner: float
+    outer: float
+    width: float
+    root: float
+    chamfer: float = 0.0
+    rounding: float = 0.0
+    centring: Centring = "inner"
+    standard: str = ""
+
+    @property
+    def sizes(self) -> tuple[float, float, float, float]:
+        """z, d, D and b."""
+        return self.teeth, self.inner, self.outer, self.width
+
+    @property
+    def name(self) -> str:
+        """Its designation, with the teeth's width where no standard has it."""
+        sizes = "×".join(f"{size:g}" for size in self.sizes[: 3 if self.standard else 4])
+        return f"{_LETTERS[self.centring]}-{sizes}" if self.standard else sizes
+
+    def shaft(self) -> SplineForm:
+        """Its teeth: form 3 of GOST 1139, its root at d, where that centres, else form 2, its root at d1."""
+        inner = self.inner if self.centring == "inner" else self.root
+        flank = StraightFlank(self.width / 2)
+        return SplineForm(self.teeth, flank, inner / 2, self.outer / 2, self.rounding, crest_chamfer=self.chamfer)
+
+    def hub(self) -> SplineForm:
+        """Its slots."""
+        flank = StraightFlank(self.width / 2)
+        return SplineForm(self.teeth, flank, self.inner / 2, self.outer / 2, root_chamfer=self.chamfer)
+
+
+class InvoluteJoint(Record):
+    """Teeth ``thickness`` mm thick on the reference circle m z, the slots of the hub as wide.
+
+    ``shaft_diameters`` and ``hub_diameters``: of the inner and the outer circle; ``roundings``: of the corners at the
+    root and the tips of the shaft and at the bottom of the hub's slots; inf: one arc from side to side.
+    """
+
+    module: float
+    teeth: int
+    pressure_angle: float
+    thickness: float
+    shaft_diameters: tuple[float, float]
+    hub_diameters: tuple[float, float]
+    roundings: tuple[float, float, float]
+    standard: str
+    name: str
+
+    def _flank(self) -> InvoluteFlank:
+        reference = self.module * self.teeth / 2
+        half = self.thickness / (2 * reference) + involute_function(self.pressure_angle)
+        return InvoluteFlank(reference * math.cos(self.pressure_angle), half)
+
+    def _form(self, diameters: tuple[float, float], root: float, crest: float) -> SplineForm:
+        flank, (inner, outer) = self._flank(), (diameter / 2 for diameter in diameters)
+        if math.isinf(root):
+            root = _full(flank, inner, math.pi / self.teeth, 1)
+        if math.isinf(crest):
+            crest = _full(flank, outer, 0.0, -1)
+        return SplineForm(self.teeth, flank, inner, outer, root, crest)
+
+    def shaft(self) -> SplineForm:
+        """Its teeth."""
+        return self._form(self.shaft_diameters, *self.roundings[:2])
+
+    def hub(self) -> SplineForm:
+        """Its slots."""
+        return self._form(self.hub_diameters, 0.0, self.roundings[2])
+
+
+def _full(flank: InvoluteFlank, radius: float, middle: float, way: int) -> float:
+    """Radius of the arc that touches both sides, and a circle in the middle of a space (``way`` 1) or a tooth, mm."""
+
+    def beside(rounding: float) -> float:
+        centre = flank.shifted(way * rounding).at(radius + way * rounding)
+        return cmath.phase(centre) - middle
+
+    room = radius - flank.base_radius
+    ends = (max(-room, 0.0), radius) if way > 0 else (0.0, room)
+    return bracketed_root(beside, *ends).value
+
+
+class SplineBore(Record, dict=True):
+    """The slots of a hub; mm, rad.
+
+    ``size``: the key and the value that make it larger; ``clearance``: how far every surface stands off that of the
+    shaft, along its normal; ``angle``: direction of the middle of the first slot; ``depth``: that of a chamfer there.
+    """
+
+    joint: StraightJoint | InvoluteJoint
+    size: tuple[str, object]
+    clearance: float = 0.0
+    angle: float = 0.0
+    depth: float = 0.0
+
+    @cached_property
+    def form(self) -> SplineForm:
+        """Its slots, without the clearance."""
+        return self.joint.hub().widened(self.depth)
+
+    @property
+    def reach(self) -> float:
+        """See Bore."""
+        return self.form.outer + self.clearance
+
+    def check(self) -> None:
+        """See Bore."""
+        for clearance, blamed in ((0.0, self.size), (self.clearance, ("bore.clearance", self.clearance))):
+            try:
+                self.form.outline(clearance)
+                self.joint.shaft().outline(-clearance)
+            except OffsetError as refusal:
+                raise ParameterError(*blamed, refusal.reason) from refusal
+
+    def widened(self, depth: float) -> SplineBore:
+        """Its slots with a chamfer."""
+        return replace(self, depth=self.depth + depth)
+
+    def profile(self, offset: float = 0.0) -> Profile:
+        """See Bore."""
+
+        def outline(by: float) -> Profile:
+            return self.form.outline(self.clearance - by)
+
+        if not math.isfinite(offset):
+            raise OffsetError(offset, "not_finite")
+        try:
+            made = outline(offset)
+        except OffsetError as refusal:
+            beyond = math.copysign(min(abs(offset), self.reach), offset)
+            raise OffsetError(offset, refusal.reason, last_that_holds(outline, beyond, steps=_STEPS)) from refusal
+        turned = made.placed(Placement2(self.angle))
+        return Profile(tuple(Segment(s.curve.reversed(), s.label) for s in reversed(tuple(turned.segments()))))

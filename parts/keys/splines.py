@@ -1,0 +1,191 @@
+"""Keys of splines, the same for a bore and for a step of a shaft: by designation, or of your own sizes."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import replace
+from parts.keys.base import degrees, either, part_mm
+
+if TYPE_CHECKING:
+    from geometry.solids.splines import Centring, InvoluteJoint, SplineBore, StraightJoint
+    from parts.base.readback import Probe
+
+_OWN = ("teeth", "inner_diameter", "outer_diameter", "width")
+# a number with or without a fit after it, and a fit or a class of tolerance alone
+_FIT = r"[A-Za-z]{1,2}\d{1,2}"
+_NUMBER = re.compile(rf"(\d+(?:\.\d+)?)(?:{_FIT}(?:/{_FIT})?)?")
+_FITS = re.compile(rf"{_FIT}(?:/{_FIT})?|\d{{1,2}}[A-Za-z](?:/\d{{1,2}}[A-Za-z])?")
+# what stands before z x d x D and d_B x m x z: the surface that centres, shaft (W) or hub (N)
+_PREFIX = re.compile(r"(?:[dDb]-|[WN])?")
+_ISO = re.compile(r"(\d+)zx(\d+(?:\.\d+)?)mx(30|37\.5|45)([PR])(?:x\d+[A-Za-z]+)?")
+_EXAMPLES = {"GOST 6033": "50x2", "DIN 5480": "50x2x24", "ISO 4156": "24z x 2m x 30R"}
+# below that no involute reaches the roots; above it no shaft has so many
+_LEAST_TEETH, _MOST_TEETH = 6, 200
+_CENTRING: dict[str, Centring] = {"D": "outer", "b": "sides"}
+Clearance = Annotated[float, part_mm("how far every surface stands off that of the mate, along its normal", least=0)]
+Direction = Annotated[float, degrees("direction of the first slot or tooth", least=-360, most=360)]
+Standard = Literal["GOST 6033", "DIN 5480", "ISO 4156"]
+
+
+def _plain(size: str) -> str:
+    """A designation without blanks, its x Latin whether it was that, Cyrillic or a sign, its decimal marks points."""
+    return re.sub("[xX\u0445\u0425\u00d7*]", "x", "".join(size.split())).replace(",", ".")
+
+
+def _numbers(size: str) -> list[float] | None:
+    """The numbers of a designation, without its fits; None: it is none."""
+    parts = [part for part in _PREFIX.sub("", _plain(size), 1).split("x") if not _FITS.fullmatch(part)]
+    found = [_NUMBER.fullmatch(part) for part in parts]
+    return None if None in found else [float(match[1]) for match in found if match]
+
+
+class _SplineTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
+    """What both sorts of splines do."""
+
+    def bore(self) -> SplineBore:
+        """The slots of its hub; ParameterError with the key below ``bore``."""
+        raise NotImplementedError
+
+    def probes(self, height: float) -> tuple[Probe, ...]:
+        """What files of a part with such a bore must do where they are cut, mm."""
+        from parts.keys.spline_probe import SplineProbe
+
+        return (SplineProbe(self.bore(), height),)
+
+
+class StraightSplineTable(_SplineTable, tag="spline"):
+    """Straight-sided spline by GOST 1139 or ISO 14, or of your own sizes."""
+
+    size: (
+        Annotated[
+            str,
+            Meta(
+                description="designation z x d x D, with d-, D- or b- before it where that centres; or give the sizes",
+                examples=["6x23x26"],
+            ),
+        ]
+        | None
+    ) = None
+    teeth: Annotated[int, Meta(ge=2, le=200, description="number of teeth z", examples=[6])] | None = None
+    inner_diameter: Annotated[float, part_mm("between the teeth, d", above=0, example=23.0)] | None = None
+    outer_diameter: Annotated[float, part_mm("over the teeth, D", above=0, example=26.0)] | None = None
+    width: Annotated[float, part_mm("width of a tooth, b", above=0, example=6.0)] | None = None
+    chamfer: (
+        Annotated[float, part_mm("of the tips of a shaft and the mouths of slots; default: the standard's", least=0,
+                                 example=0.3)]
+        | None
+    ) = None  # fmt: skip
+    root_rounding: (
+        Annotated[float, part_mm("at the root of a shaft; default: the standard's", least=0, example=0.2)] | None
+    ) = None
+    clearance: Clearance = 0.0
+    angle_deg: Direction = 90.0
+
+    def joint(self) -> StraightJoint:
+        """The joint of the designation, or of the sizes.
+
+        Raises
+        ------
+        ParameterError
+            No such joint, one that is told twice, or a size that is missing; the key below ``bore``.
+        """
+        from geometry.solids.spline_standards import STRAIGHT_JOINTS
+        from geometry.solids.splines import StraightJoint
+
+        given = self.teeth, self.inner_diameter, self.outer_diameter, self.width
+        for key, value in zip(_OWN, given, strict=True):
+            if self.size is None and value is None:
+                raise ParameterError(f"bore.{key}", None, "one_of_two_is_missing", other="size")
+            if self.size is not None and value is not None:
+                raise either(f"bore.{key}", value, "bore.size")
+        if self.size is None:
+            teeth, inner, outer, width = (value or 0 for value in given)
+            found = StraightJoint(int(teeth), inner, outer, width, inner)
+        else:
+            numbers = _numbers(self.size) or []
+            like = [j for j in STRAIGHT_JOINTS if numbers in ([j.teeth, j.inner, j.outer], [*j.sizes])]
+            if not like:
+                meant = min(
+                    STRAIGHT_JOINTS, key=lambda j: sum(abs(a - b) for a, b in zip(j.sizes, numbers, strict=False))
+                )
+                cure = Nearest(meant.name.replace("×", "x"), "meant") if len(numbers) > 2 else None
+                raise ParameterError("bore.size", self.size, "no_such_spline", cure, example="6x23x26")
+            found = replace(like[0], centring=_CENTRING.get(_plain(self.size)[0], "inner"))
+        chamfer = found.chamfer if self.chamfer is None else self.chamfer
+        rounding = found.rounding if self.root_rounding is None else self.root_rounding
+        return replace(found, chamfer=chamfer, rounding=rounding)
+
+    def bore(self) -> SplineBore:
+        """Its slots; refuses as ``joint`` does."""
+        size = ("bore.size", self.size) if self.size else ("bore.outer_diameter", self.outer_diameter)
+        return _bored(self, size)
+
+
+class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
+    """Involute spline by GOST 6033, DIN 5480 or ISO 4156."""
+
+    size: Annotated[
+        str,
+        Meta(
+            description="D x m of GOST 6033, d_B x m x z of DIN 5480, or 24z x 2m x 30R (P: flat root) of ISO 4156",
+            examples=["50x2"],
+        ),
+    ]
+    standard: Standard = "GOST 6033"
+    centring: Annotated[Literal["sides", "outer"], Meta(description="GOST 6033: what centres")] = "sides"
+    root: Annotated[Literal["flat", "fillet"], Meta(description="GOST 6033: bottom of the spaces")] = "flat"
+    clearance: Clearance = 0.0
+    angle_deg: Direction = 90.0
+
+    def joint(self) -> InvoluteJoint:
+        """The joint of the designation.
+
+        Raises
+        ------
+        ParameterError
+            None has it, or a key is that of another standard; the key below ``bore``.
+        """
+        from geometry.solids import spline_standards as standards
+
+        gost = self.standard == "GOST 6033"
+        for key, value, usual in (("centring", self.centring, "sides"), ("root", self.root, "flat")):
+            if value != usual and not gost:
+                raise ParameterError(f"bore.{key}", value, "of_another_spline", Nearest(usual), standard=self.standard)
+        if self.centring == "outer" and self.root == "fillet":
+            raise ParameterError("bore.root", self.root, "centred_by_flat_roots", Nearest("flat"))
+        refusal = ParameterError("bore.size", self.size, "no_such_spline", None, example=_EXAMPLES[self.standard])
+        if self.standard == "ISO 4156":
+            iso = _ISO.fullmatch(_plain(self.size))
+            root: Literal["flat", "fillet"] = "fillet" if iso and iso[4] == "R" else "flat"
+            if iso is None or (float(iso[3]), root) not in standards.ISO_4156 or not int(iso[1]) >= _LEAST_TEETH:
+                raise refusal
+            return standards.iso_4156(int(iso[1]), float(iso[2]), float(iso[3]), root)
+        numbers = _numbers(self.size) or []
+        if len(numbers) != (2 if gost else 3) or not min(numbers) > 0 or numbers[0] / numbers[1] > _MOST_TEETH:
+            raise refusal
+        teeth = [z for z in standards.teeth_of(numbers[0], numbers[1]) if gost or z == numbers[2]]
+        if not teeth or teeth[0] < _LEAST_TEETH:
+            raise refusal
+        if gost:
+            outer = self.centring == "outer"
+            return standards.gost_6033(numbers[0], numbers[1], teeth[0], outer=outer, root=self.root)
+        return standards.din_5480(numbers[0], numbers[1], teeth[0])
+
+    def bore(self) -> SplineBore:
+        """Its slots; refuses as ``joint`` does."""
+        return _bored(self, ("bore.size", self.size))
+
+
+def _bored(table: StraightSplineTable | InvoluteSplineTable, size: tuple[str, object]) -> SplineBore:
+    from geometry.solids.splines import SplineBore
+
+    return SplineBore(table.joint(), size, table.clearance, math.radians(table.angle_deg))
+
+
+SplineTable = StraightSplineTable | InvoluteSplineTable
