@@ -33,19 +33,23 @@ from parts.base.reasons import SUBJECTS, sentences
 from parts.base.registry import KINDS
 from parts.base.schema import phrase_of
 from parts.base.texts import DOMAIN, LOCALE
+from parts.mates.pages.planetary import FAULTS
 from parts.mates.registry import MATES
 from parts.pages.cam_steps import law_text
 from parts.pages.contour_picture import STYLES
 from parts.pages.misprints import CASES
 from parts.pages.module_rules import CONDITIONS, RULES
 from parts.pages.page import UNITS
+from parts.pages.symbols import INDICES
 from parts.pages.terms import TERMS
 from parts.recipes.names import NAMES
 from parts.recipes.registry import RECIPES
 from parts.scene.files import SCENE_FOLDER
+from parts.scene.toml_errors import SENTENCES
 from parts.texts import checks
 from parts.texts.findings import FINDINGS
 from parts.texts.quantities import QUANTITIES
+from parts.texts.sheets import SHEETS
 from tests.sources import told
 
 HOUSE = Path(parts.__file__).parents[1]
@@ -90,16 +94,18 @@ def _marked() -> Iterator[tuple[str | None, str, str]]:
 
 def _kept_in_data() -> Iterator[tuple[str | None, str, str]]:
     """What needs no mark: sentences by code, plain texts, and of units those that are words."""
-    tables = (*map(sentences, SUBJECTS), FINDINGS, checks.MATES, checks.CONDITIONS)
+    tables = (*map(sentences, SUBJECTS), FINDINGS, checks.MATES, checks.CONDITIONS, SHEETS, FAULTS)
     for text in (text for table in tables for text in table.values()):
-        yield (None, text, "") if isinstance(text, str) else (None, text.msgid, text.many)
+        yield (None, text, "") if isinstance(text, str) else (text.context or None, text.msgid, text.many)
     yield from ((None, text, "") for text in _plain_texts())
+    yield from (("index", text, "") for text in INDICES.values())
     yield from (("unit", text, "") for text, _ in UNITS.values() if any(map(str.isalpha, text)))
 
 
 def _plain_texts() -> Iterator[str]:
     """Kinds, terms, keys and tables of scenes and calculations."""
     yield from (*KINDS.phrases.values(), *MATES.phrases.values(), *RECIPES.phrases.values())
+    yield from SENTENCES
     yield from (term.name for term in TERMS.values())
     yield from QUANTITIES.values()
     yield from (one.title for recipe in NAMES.values() for one in recipe.values() if one.title)

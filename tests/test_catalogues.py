@@ -19,6 +19,7 @@ from typing import Any
 import pytest
 from babel.messages.catalog import Message
 
+from parts.base.psv import rows_of
 from parts.base.texts import LOCALE, words
 from tests import catalogues
 from tests.catalogues import HOUSE, catalogue_files, compiled, extracted, names_typed, read, untranslated, updated
@@ -29,7 +30,6 @@ FILES = pytest.mark.parametrize("file", catalogue_files(), ids=lambda f: f.parts
 CYRILLIC = re.compile("[\u0400-\u04ff]")
 # where Ukrainian letters stand in the code, and why
 CYRILLIC_PLACES = {
-    "parts/pages/symbols.py": "their indices",
     "parts/pages/contact_steps.py": "the practicum's tables Д.1, Е.1",
     "parts/mates/pages/external.py": "the practicum's table А.1",
     "parts/gears/spur_gear/involute_page.py": "the practicum's tables Д.1, Е.1",
@@ -351,8 +351,12 @@ def test_ukrainian_stands_in_the_catalogue_and_not_in_the_code() -> None:
             name, key, symbol, unit, english = line.split("|")
             assert not CYRILLIC.search(name + key + unit + english)
             assert len(symbol) < 12
+    for index, english in rows_of(str(HOUSE / "parts/pages/symbols.py"), "indices"):
+        assert not CYRILLIC.search(english)
+        assert len(index) < 8
     # and materials stand as users write them in scenes of any language
-    tables = [file for file in (HOUSE / "parts").rglob("*.psv") if file.name not in ("terms.psv", "densities.psv")]
+    own = ("terms.psv", "densities.psv", "indices.psv")
+    tables = [file for file in (HOUSE / "parts").rglob("*.psv") if file.name not in own]
     assert not any(CYRILLIC.search(file.read_text("utf-8")) for file in tables)
     assert cyrillic_in('a = "ok"\nb = "ні"') == [2]
 

@@ -1,6 +1,6 @@
 """What a kind of part has to say, in one place: keys, exact thing, solid, report, probes, page, sheet, drawing.
 
-A kind is an instance of a subclass, registered by one entry of ``parts/base/registry.py`` (or by ``add_kind``).
+A kind is an instance of a subclass, registered by one row of ``parts/base/kinds.psv`` (or by ``add_kind``).
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from importlib import import_module
 from typing import Generic, TypeVar
 
@@ -37,11 +37,11 @@ class Registry(Mapping[str, E], Generic[E]):
 
 
 class Index(Registry[E], Generic[E]):
-    """A registry that says what each entry is before that is loaded: for each name its place and a phrase."""
+    """A registry that says what each entry is before that is loaded: rows of its name, its place and a phrase."""
 
-    def __init__(self, entries: Mapping[str, tuple[str, str]]) -> None:
-        super().__init__({name: home for name, (home, _) in entries.items()})
-        self.phrases = {name: phrase for name, (_, phrase) in entries.items()}
+    def __init__(self, rows: Sequence[Sequence[str]]) -> None:
+        super().__init__({name: home for name, home, _ in rows})
+        self.phrases = {name: phrase for name, _, phrase in rows}
 
     def add(self, name: str, entry: E, phrase: str) -> None:
         """One more entry, from outside, and what it is."""

@@ -1,6 +1,6 @@
 """What a kind of mate has to say, in one place: keys, what it joins, what it wants of both parts, how they then stand.
 
-A kind is an instance of a subclass, registered by one entry of ``parts/mates/registry.py`` (or by ``add_mate``).
+A kind is an instance of a subclass, registered by one row of ``parts/mates/kinds.psv`` (or by ``add_mate``).
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from parts.base.texts import Text, counted
+from parts.base.texts import Text, counted, in_context
 
 
 def rows_in(text: str) -> list[list[str]]:
@@ -19,5 +19,16 @@ def rows_of(module: str, table: str) -> list[list[str]]:
 
 
 def sentences_of(module: str, table: str) -> dict[str, Text]:
-    """Sentences by code; what is counted has its plural and the number that it follows beside it."""
-    return {code: counted(one, *plural) if plural else one for code, one, *plural in rows_of(module, table)}
+    """Sentences by code; beside one which of an English word's meanings it has, or its plural and what it counts."""
+    return {code: _sentence(*cells) for code, *cells in rows_of(module, table)}
+
+
+def _sentence(text: str, *more: str) -> Text:
+    match more:
+        case ():
+            return text
+        case (context,):
+            return in_context(context, text)
+        case (plural, number):
+            return counted(text, plural, number)
+    raise ValueError(f"too many cells: {text}")

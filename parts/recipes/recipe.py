@@ -1,6 +1,6 @@
 """What a kind of assembly has to say: its keys, and the plain tables of a scene that they become.
 
-A recipe is a ``Recipe``, registered by one entry of ``parts/recipes/registry.py``.
+A recipe is a ``Recipe``, registered by one row of ``parts/recipes/kinds.psv``.
 """
 
 from __future__ import annotations

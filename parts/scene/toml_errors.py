@@ -6,33 +6,11 @@ import re
 from typing import Any
 
 from parts.base.lookalikes import look_alike
-from parts.base.texts import N_, Text, filled, message
+from parts.base.psv import rows_of
+from parts.base.texts import Text, filled, message
 
-# every sentence of tomllib (Python 3.11 to 3.14); one that is not here is told in English
-_SENTENCES = (
-    N_("Cannot declare {what} twice"),
-    N_("Cannot mutate immutable namespace {what}"),
-    N_("Cannot overwrite a value"),
-    N_("Cannot redefine namespace {what}"),
-    N_("Duplicate inline table key {what}"),
-    N_("Escaped character is not a Unicode scalar value"),
-    N_("Expected '=' after a key in a key/value pair"),
-    N_("Expected ']' at the end of a table declaration"),
-    N_("Expected ']]' at the end of an array declaration"),
-    N_("Expected newline or end of document after a statement"),
-    N_("Expected {what}"),
-    N_("Found invalid character {what}"),
-    N_("Illegal character {what}"),
-    N_("Invalid date or datetime"),
-    N_("Invalid hex value"),
-    N_("Invalid initial character for a key part"),
-    N_("Invalid statement"),
-    N_("Invalid value"),
-    N_("Unclosed array"),
-    N_("Unclosed inline table"),
-    N_("Unescaped '\\' in a string"),
-    N_("Unterminated string"),
-)
+# those of tomllib; one that is not here is told in English
+SENTENCES = tuple(sentence for (sentence,) in rows_of(__file__, "toml_errors"))
 
 
 # a key whose words have no quotes, and one whose quotes are not closed
@@ -63,7 +41,7 @@ def _told(why: str) -> Text:
     found = re.fullmatch(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", why, re.DOTALL)
     if found is None:
         return why
-    for text in _SENTENCES:
+    for text in SENTENCES:
         if given := re.fullmatch(re.escape(text).replace(r"\{what\}", "(.+)"), found[1], re.DOTALL):
             said = filled(text, what=_as_typed(given[1])) if given.groups() else filled(text)
             if found[2]:

@@ -25,7 +25,8 @@ from geometry.gears.planetary.sets import (
 )
 from geometry.gears.shifts.external import Requirements
 from geometry.gears.shifts.internal_shifts import InternalState
-from parts.base.texts import N_, Message, listed, message
+from parts.base.psv import sentences_of
+from parts.base.texts import N_, Message, filled, listed, message
 from parts.gears.spur_gear.part import RackTable, basic_rack_of
 from parts.keys.base import degrees, in_modules, mm
 from parts.keys.cutter import RackName
@@ -50,20 +51,7 @@ _MOST_TEETH_OFF = 3
 
 
 # what a mesh may not keep
-_FAULTS = {
-    "working_angle": N_("no working pressure angle"),
-    "undercut": N_("undercut"),
-    "active_flank": N_("fillet interference"),
-    "tip_thickness": N_("thin tip"),
-    "contact_ratio": N_("small contact ratio"),
-    "involute_interference": N_("involute interference"),
-    "trochoid_interference": N_("tip (trochoid) interference"),
-    "tip_above_base": N_("ring tips within the base circle"),
-    "fillet_interference": N_("fillet interference"),
-    "tip_clearance": N_("small bottom clearance"),
-    "rounded_root": N_("the rounding fills the space"),
-    "neighbours": N_("the tips of neighbours overlap"),
-}
+FAULTS = sentences_of(__file__, "planetary_faults")
 
 
 class PlanetaryKeys(Struct, forbid_unknown_fields=True):
@@ -116,9 +104,9 @@ def _fault(name: str) -> Message:
     """A condition that is not kept, in words: the rim is the first of a mesh."""
     condition, _, who = name.rpartition("_")
     if who not in ("first", "second"):
-        return Message(_FAULTS[name])
+        return filled(FAULTS[name])
     owner = N_("{fault} of the satellite") if who == "first" else N_("{fault} of the central wheel")
-    return message(owner, fault=Message(_FAULTS[condition]))
+    return message(owner, fault=filled(FAULTS[condition]))
 
 
 def _exact(value: float) -> Fraction:
