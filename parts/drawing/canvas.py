@@ -23,6 +23,7 @@ from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Carried, Complex, Curve
 from geometry.curves.line_arc import Arc, Line
+from parts.base.psv import rows_of
 from parts.base.texts import words
 from parts.drawing.font import letter_widths
 from parts.keys.sheet import Scale, scale_value
@@ -60,59 +61,9 @@ class Style(Record):
     colour: str
 
 
-_DASH_DOT = (12.0, 1.75, 0.5, 1.75)
-_DASHED = (4.0, 1.5)
-STYLES: dict[str, Style] = {
-    "FRAME": Style(0.5, (), 7, "#000000"),
-    "TABLE": Style(0.25, (), 7, "#000000"),
-    "RACK": Style(0.18, (), 8, "#808080"),
-    "OUTLINE": Style(0.5, (), 7, "#000000"),
-    "ACTIVE_FLANK": Style(1.0, (), 1, "#c00000"),
-    "TOOTH_START": Style(0.25, _DASHED, 5, "#2040c0"),
-    "TOOTH_END": Style(0.25, _DASHED, 6, "#a000a0"),
-    "CENTRE": Style(0.25, _DASH_DOT, 7, "#404040"),
-    "CIRCLE_TIP": Style(0.25, (), 7, "#303030"),
-    "CIRCLE_WORKING": Style(0.35, _DASH_DOT, 3, "#007020"),
-    "CIRCLE_REFERENCE": Style(0.25, _DASH_DOT, 4, "#007890"),
-    "CIRCLE_BASE": Style(0.25, (), 30, "#c06000"),
-    "CIRCLE_ROOT": Style(0.25, (), 8, "#606060"),
-    "TANGENT": Style(0.25, (), 8, "#606060"),
-    "LINE_OF_ACTION": Style(0.35, (), 1, "#c00000"),
-    "ACTIVE_LINE": Style(0.7, (), 1, "#c00000"),
-    "ARC_OF_ACTION": Style(0.7, (), 5, "#2040c0"),
-    "WORKING_PITCH": Style(0.7, (), 3, "#007020"),
-    "DISK": Style(0.5, (), 7, "#000000"),
-    "HATCH": Style(0.25, (), 8, "#909090"),
-    "CONSTRUCTION": Style(0.13, (), 8, "#a0a0a0"),
-    "ORDINATE": Style(0.13, (), 8, "#a0a0a0"),
-    "AXIS": Style(0.35, (), 7, "#000000"),
-    "PHASE": Style(0.25, _DASH_DOT, 8, "#606060"),
-    "SCHEME": Style(0.7, (), 7, "#000000"),
-    "VELOCITY": Style(0.6, (), 5, "#2040c0"),
-    "ANGULAR_VELOCITY": Style(0.6, (), 1, "#c00000"),
-    "DIAGRAM_BEND": Style(0.6, (), 1, "#c00000"),
-    "DIAGRAM_RATE": Style(0.6, (), 3, "#007020"),
-    "DIAGRAM_LIFT": Style(0.6, (), 5, "#2040c0"),
-    "GRAPHICAL": Style(0.18, (), 6, "#a000a0"),
-    "JOINT_DIAGRAM": Style(0.6, (), 5, "#2040c0"),
-    "GAMMA_TANGENT": Style(0.35, (), 1, "#c00000"),
-    "RETURN_TANGENT": Style(0.25, _DASHED, 1, "#c00000"),
-    "OFFSET_AXIS": Style(0.25, _DASH_DOT, 4, "#007890"),
-    "CIRCLE_PRIME": Style(0.25, (), 30, "#c06000"),
-    "CIRCLE_OFFSET": Style(0.25, (), 4, "#007890"),
-    "CIRCLE_FAR": Style(0.18, _DASHED, 8, "#606060"),
-    "CIRCLE_PIVOT": Style(0.25, _DASH_DOT, 4, "#007890"),
-    "FOLLOWER": Style(0.25, (), 3, "#007020"),
-    "ROLLER": Style(0.25, (), 3, "#007020"),
-    "PITCH_CURVE": Style(0.35, _DASH_DOT, 5, "#2040c0"),
-    "CAM": Style(0.9, (), 7, "#000000"),
-    "CUT": Style(0.25, (), 7, "#000000"),
-    "REGISTER": Style(0.18, (), 8, "#808080"),
-    "CENTRE_MARK": Style(0.18, (), 8, "#808080"),
-    "DIMENSION": Style(0.25, (), 8, "#505050"),
-    "THIN": Style(0.25, (), 7, "#000000"),
-    "HIDDEN": Style(0.25, _DASHED, 7, "#404040"),
-    "TEXT": Style(0.25, (), 7, "#000000"),
+STYLES = {
+    layer: Style(float(width), tuple(map(float, dashes.split())), int(aci), colour)
+    for layer, width, dashes, aci, colour in rows_of(__file__, "styles")
 }
 
 

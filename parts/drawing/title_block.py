@@ -10,7 +10,8 @@ from functools import partial
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import Record
-from parts.base.texts import Text, in_context, words
+from parts.base.psv import sentences_of
+from parts.base.texts import words
 from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, text_of, text_width
 from parts.drawing.cells import INDENT, fits_cell, fits_line, letters_held, write_cell, write_lines
 from parts.keys.title import TitleBlockTable
@@ -108,29 +109,7 @@ FORM_2A = Form(
     {"sheet": (175, 0, 185, 8)},
 )
 TITLE_BLOCK = FORM_1.size
-_LABELS: dict[str, Text] = {
-    "change": in_context("title block", "Rev."),
-    "change_sheet": in_context("title block, changes", "Sheet"),
-    "document": in_context("title block", "Document"),
-    "signature": in_context("title block", "Sign."),
-    "date": in_context("title block", "Date"),
-    "drawn": in_context("title block", "Drawn"),
-    "checked": in_context("title block", "Checked"),
-    "technical_check": in_context("title block", "Tech."),
-    "standards_check": in_context("title block", "Norms"),
-    "approved": in_context("title block", "Approved"),
-    "letter": in_context("title block", "Stage"),
-    "mass": in_context("title block", "Mass"),
-    "scale": in_context("title block", "Scale"),
-    "sheet": in_context("title block", "Sheet"),
-    "sheets": in_context("title block", "Sheets"),
-    "original": in_context("title block", "Orig. no."),
-    "signed": in_context("title block", "Sign., date"),
-    "replaces": in_context("title block", "Repl. no."),
-    "duplicate": in_context("title block", "Dupl. no."),
-    "reference": in_context("title block", "Ref. no."),
-    "first_use": in_context("title block", "First used in"),
-}
+LABELS = sentences_of(__file__, "labels")
 # columns on the left of the frame: width of the names and of all; from below, and from the top: name, height; mm
 _NAME, _COLUMNS = 5.0, 12.0
 _FROM_BELOW = (("original", 25), ("signed", 35), ("replaces", 25), ("duplicate", 25), ("signed", 35))
@@ -194,7 +173,7 @@ def draw_title_block(canvas: Canvas, block: TitleBlock, language: str, form: For
             canvas.line(layer, corner + complex(x, a), corner + complex(x, b))
     labels = form.labels
     for key, cell in labels.items():
-        told = words(language).say(_LABELS[key])
+        told = words(language).say(LABELS[key])
         write_cell(canvas, told, _at(corner, cell), SMALL_TEXT, middle=key not in _ROLES)
     for role, name in block.people:
         if name and role in labels:
@@ -241,7 +220,7 @@ def _columns(canvas: Canvas, language: str) -> None:
             low = min(y, y + way * height)
             y += way * height
             canvas.line("FRAME", complex(left, y), complex(frame.left, y))
-            text, room = words(language).say(_LABELS[key]), height - 2 * INDENT
+            text, room = words(language).say(LABELS[key]), height - 2 * INDENT
             long = min(text_width(text, SMALL_TEXT), room)
             at = complex(left + (_NAME + SMALL_TEXT) / 2, low + (height - long) / 2)
             canvas.write_rising(text, at, SMALL_TEXT, room)
@@ -254,7 +233,7 @@ def _count(canvas: Canvas, corner: complex, block: TitleBlock, form: Form, langu
     for key, cell in form.counts.items():
         number = "" if key == "sheet" and block.sheets == 1 else str(getattr(block, key))
         named = key not in form.labels
-        text = f"{words(language).say(_LABELS[key])} {number}".strip() if named else number
+        text = f"{words(language).say(LABELS[key])} {number}".strip() if named else number
         write_cell(canvas, text, _at(corner, cell), SMALL_TEXT, middle=not named)
 
 

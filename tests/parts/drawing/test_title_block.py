@@ -172,10 +172,10 @@ def test_words_of_blocks_and_legends_fit_their_cells_hardly_squeezed(language: s
     """Viewers that do not narrow letters show what overruns its cell."""
     from parts.base.texts import words
     from parts.drawing.canvas import HEIGHTS, plain_width, text_of
-    from parts.drawing.title_block import _LABELS
+    from parts.drawing.title_block import LABELS
     from parts.texts.sheets import sheet_words
 
-    cells = [(words(language).say(text), 15.4) for key, text in _LABELS.items() if key != "document"]
+    cells = [(words(language).say(text), 15.4) for key, text in LABELS.items() if key != "document"]
     legends = ("cam", "pitch_curve", "graphical", "return_tangent", "scale_velocity", "scale_1", "scale_2", "pole_2")
     cells += [(sheet_words(language, key), 59.0) for key in legends]
     for text, room in cells:
