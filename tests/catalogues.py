@@ -59,6 +59,26 @@ _SPEAKING = (
     "lesson_*", "*_coupon", "print_*", "power_table_print", "practicum_pair", "practicum_*_cam", "bevel_*",
     "laser_gear*", "crossed_helical_pair", "working_drawings", "idler_train", "clock_gears",
 )  # fmt: skip
+# argparse asks gettext for these, which would look for the terminal's language in the system's catalogues
+_ARGPARSE = (
+    "usage: ",
+    "positional arguments",
+    "options",
+    "show this help message and exit",
+    "show program's version number and exit",
+    "unrecognized arguments: %s",
+    "ambiguous option: %(option)s could match %(matches)s",
+    "argument %(argument_name)s: %(message)s",
+    "invalid choice: %(value)r (choose from %(choices)s)",
+    "expected one argument",
+    "expected at most one argument",
+    "expected at least one argument",
+    "invalid %(type)s value: %(value)r",
+    "the following arguments are required: %s",
+    "one of the arguments %s is required",
+    "not allowed with argument %s",
+    "ignored explicit argument %r",
+)
 _PACKAGES = (HOUSE / "parts", HOUSE / "exporters")
 Key = tuple[str | None, str]
 _HEAD = """\
@@ -98,7 +118,8 @@ def _kept_in_data() -> Iterator[tuple[str | None, str, str]]:
     tables = (*map(sentences, SUBJECTS), FINDINGS, checks.MATES, checks.CONDITIONS, SHEETS, LABELS, FAULTS)
     for text in (text for table in tables for text in table.values()):
         yield (None, text, "") if isinstance(text, str) else (text.context or None, text.msgid, text.many)
-    yield from ((None, text, "") for text in _plain_texts())
+    yield from ((None, text, "") for text in (*_plain_texts(), *_ARGPARSE))
+    yield None, "expected %s argument", "expected %s arguments"
     yield from (("index", text, "") for text in INDICES.values())
     yield from (("unit", text, "") for text, _ in UNITS.values() if any(map(str.isalpha, text)))
 

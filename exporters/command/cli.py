@@ -15,8 +15,9 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Any, NoReturn, TextIO, TypeVar
 
-from exporters import __version__
+from exporters import __version__, documents
 from exporters.command.parser import WRONG_INPUT, Misused, Parser, parsed, speaking
+from parts.base.psv import rows_of
 from parts.base.texts import ENGLISH, N_, NC_, Words, languages, words
 
 if TYPE_CHECKING:
@@ -37,10 +38,6 @@ _SHOWN = (
     NC_("command line", "SCENE | KEY=VALUE"), NC_("command line", "KIND"), NC_("command line", "ID"),
     NC_("command line", "L"),
 )  # fmt: skip
-# the topics of calc: to import them would cost more than all else of the command line
-_TOPICS = """spur ring rack tmm42 gear-pair shift-choice involute bevel face-gear worm train planetary cam cycloidal
-cycloidal-gear lantern geneva sprocket chain noncircular lever
-power-table power-module"""
 _EXAMPLES = """
   higherpair build practicum_pair
   higherpair new spur_gear --out my_gear.toml
@@ -354,7 +351,8 @@ def _parser(told: Words) -> Parser:
     command("list", told.text("list kinds of parts and built-in scenes"), _list, as_json)
 
     calc = command("calc", told.text("print a textbook calculation, step by step"), _calc, page)
-    *topics, last = _TOPICS.split()
+    # to import what makes them would cost more than all else of the command line
+    *topics, last = (topic for topic, *_ in rows_of(documents.__file__, "topics"))
     known = told.text("{topics} or {last}", topics=", ".join(topics), last=last)
     calc.add_argument("topic", metavar=shown("TOPIC"), help=known)
     asked = told.text("a scene, or keys as in scenes")

@@ -12,6 +12,7 @@ from msgspec import Struct
 
 from exporters.documents.render import FORMATS, render
 from geometry.base.errors import Nearest
+from parts.base.psv import rows_of
 from parts.base.refusal import SceneError, meant
 from parts.base.registry import KINDS
 from parts.base.schema import as_written, plain_numbers
@@ -20,33 +21,8 @@ from parts.base.texts import words as told
 from parts.pages.inputs import PLACE, table_of
 from parts.pages.page import Picture, Sheet
 
-# where each has sheet(table), table_from(scene, source, table) where a scene may give it, OTHER_KINDS where it has
-# pages of several; and the name of its keys
-TOPICS = {
-    "spur": ("parts.gears.spur_gear.page", "SpurKeys"),
-    "ring": ("parts.gears.ring_gear.page", "RingKeys"),
-    "rack": ("parts.gears.rack.page", "RackKeys"),
-    "tmm42": ("parts.gears.spur_gear.device_page", "Tmm42Keys"),
-    "gear-pair": ("parts.mates.pages.external", "PairKeys"),
-    "shift-choice": ("parts.mates.pages.shift_choice", "ShiftChoiceKeys"),
-    "involute": ("parts.gears.spur_gear.involute_page", "InvoluteKeys"),
-    "bevel": ("parts.gears.bevel_gear.page", "BevelKeys"),
-    "face-gear": ("parts.gears.face_gear.page", "FaceKeys"),
-    "worm": ("parts.gears.worm.page", "WormKeys"),
-    "train": ("parts.scene.train_page", "TrainKeys"),
-    "planetary": ("parts.mates.pages.planetary", "PlanetaryKeys"),
-    "cam": ("parts.cams.disk_cam.page", "CamKeys"),
-    "cycloidal": ("parts.pins.cycloidal_page", "DiscKeys"),
-    "cycloidal-gear": ("parts.gears.cycloidal_gear.page", "CycloidalGearKeys"),
-    "lantern": ("parts.pins.lantern_page", "LanternKeys"),
-    "sprocket": ("parts.chains.page", "SprocketKeys"),
-    "chain": ("parts.mates.pages.chain", "ChainKeys"),
-    "geneva": ("parts.mates.pages.geneva", "GenevaKeys"),
-    "noncircular": ("parts.gears.noncircular_gear.page", "NoncircularKeys"),
-    "lever": ("parts.mates.pages.levers", "LeverKeys"),
-    "power-table": ("parts.mates.pages.power_table", "PowerTableKeys"),
-    "power-module": ("parts.mates.pages.power_module", "PowerModuleKeys"),
-}
+# the module of each, and the name of its keys there
+TOPICS = {topic: (module, keys) for topic, module, keys in rows_of(__file__, "topics")}
 
 
 def keys_of_topic(topic: str) -> tuple[type[Struct], Sequence[tuple[str, str]]]:
