@@ -12,12 +12,13 @@ from collections.abc import Iterator
 from functools import cache, lru_cache
 from itertools import chain
 from pathlib import Path
-from typing import BinaryIO, TypeVar
+from typing import BinaryIO, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.record import Record
+from parts.base.psv import rows_of
 from parts.base.readback import ReadError, refuse_if
 
 Index = NDArray[np.int64]
@@ -39,104 +40,26 @@ _ATOMS = {
     "m": rb"(?:POSITIVE_RATIO|VOLUME|AREA)_MEASURE\(%b\)" % _FLOAT, "I": _LIST % (rb"\d{1,5}", rb"\d{1,5}"),
     "F": _LIST % (_FLOAT, _FLOAT), "M": rb"\((\([#\d,]+\)(?:,\([#\d,]+\))*)\)",
 }  # fmt: skip
-# the geometry and topology of ISO 10303-42 that is read: those of fixed length, and those with lists
-_FIXED = {
-    "CARTESIAN_POINT": "s,(f,f,f)", "DIRECTION": "s,(f,f,f)", "VECTOR": "s,r,p", "AXIS2_PLACEMENT_3D": "s,r,r,r",
-    "LINE": "s,r,r", "CIRCLE": "s,r,p", "PLANE": "s,r", "CYLINDRICAL_SURFACE": "s,r,p", "CONICAL_SURFACE": "s,r,p,p",
-    "TOROIDAL_SURFACE": "s,r,p,p", "SPHERICAL_SURFACE": "s,r,p", "SURFACE_OF_LINEAR_EXTRUSION": "s,r,r",
-    "VERTEX_POINT": "s,r", "EDGE_CURVE": "s,r,r,r,b", "ORIENTED_EDGE": "s,*,*,r,b",
-    "FACE_BOUND": "s,r,b", "FACE_OUTER_BOUND": "s,r,b", "MANIFOLD_SOLID_BREP": "s,r",
-}  # fmt: skip
-_LISTED = {
-    "EDGE_LOOP": "s,R", "CLOSED_SHELL": "s,R", "ADVANCED_FACE": "s,R,r,b",
-    "B_SPLINE_CURVE_WITH_KNOTS": "s,i,R,w,b,n,I,F,w", "B_SPLINE_SURFACE_WITH_KNOTS": "s,i,i,M,w,n,n,n,I,I,F,F,w",
-}  # fmt: skip
-# what stands around it (products, places, units, colours), and after > the kinds that it refers to: the last ones one
-# by one, any before them as the first
+
+
+class _Around(NamedTuple):
+    """What is known of a kind that stands around the geometry, as its table has it."""
+
+    arguments: str
+    referred: str
+    users: str
+    words: str
+
+
+_GEOMETRY = dict(rows_of(__file__, "part21_geometry"))
+# those with lists; the others are of fixed length
+_LISTED = {kind for kind, arguments in _GEOMETRY.items() if set("RIFM") & {*arguments}}
+_AROUND = {kind: _Around(*cells) for kind, *cells in rows_of(__file__, "part21_around")}
+# those that are several kinds at once, by the name they have here
+_COMPLEX = [kind for kind in _AROUND if kind.islower()]
 MILLIMETRE, CENTIMETRE, GRAM, CONTEXT, PLACED = "mm", "cm", "g", "context", "placed"
 PART, ASSEMBLY = "ADVANCED_BREP_SHAPE_REPRESENTATION", "SHAPE_REPRESENTATION"
-_COLOUR = "COLOUR_RGB/DRAUGHTING_PRE_DEFINED_COLOUR"
-_ITEMS = {
-    "APPLICATION_CONTEXT": "S",
-    "APPLICATION_PROTOCOL_DEFINITION": "S,S,2000,r > APPLICATION_CONTEXT",
-    "PRODUCT_CONTEXT": "S,r,S > APPLICATION_CONTEXT",
-    "PRODUCT": "S,S,S,R > PRODUCT_CONTEXT",
-    "PRODUCT_RELATED_PRODUCT_CATEGORY": "S,$,R > PRODUCT",
-    "PRODUCT_DEFINITION_FORMATION": "S,S,r > PRODUCT",
-    "PRODUCT_DEFINITION": "S,S,r,r > PRODUCT_DEFINITION_FORMATION PRODUCT_DEFINITION_CONTEXT",
-    "PRODUCT_DEFINITION_CONTEXT": "S,r,S > APPLICATION_CONTEXT",
-    "PRODUCT_DEFINITION_SHAPE": "S,S,r > PRODUCT_DEFINITION/NEXT_ASSEMBLY_USAGE_OCCURRENCE",
-    "SHAPE_DEFINITION_REPRESENTATION": f"r,r > PRODUCT_DEFINITION_SHAPE {PART}/{ASSEMBLY}",
-    PART: f"S,R,r > AXIS2_PLACEMENT_3D/MANIFOLD_SOLID_BREP {CONTEXT}",
-    ASSEMBLY: f"S,R,r > AXIS2_PLACEMENT_3D {CONTEXT}",
-    "NEXT_ASSEMBLY_USAGE_OCCURRENCE": "S,S,S,r,r,$ > PRODUCT_DEFINITION",
-    "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION": f"r,r > {PLACED} PRODUCT_DEFINITION_SHAPE",
-    "ITEM_DEFINED_TRANSFORMATION": "S,S,r,r > AXIS2_PLACEMENT_3D",
-    "UNCERTAINTY_MEASURE_WITH_UNIT": f"LENGTH_MEASURE(p),r,S,S > {MILLIMETRE}",
-    "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION": f"S,R,r > STYLED_ITEM {CONTEXT}",
-    "STYLED_ITEM": "S,R,r > PRESENTATION_STYLE_ASSIGNMENT MANIFOLD_SOLID_BREP",
-    "PRESENTATION_STYLE_ASSIGNMENT": "R > SURFACE_STYLE_USAGE/CURVE_STYLE",
-    "SURFACE_STYLE_USAGE": ".BOTH.,r > SURFACE_SIDE_STYLE",
-    "SURFACE_SIDE_STYLE": "S,R > SURFACE_STYLE_FILL_AREA",
-    "SURFACE_STYLE_FILL_AREA": "r > FILL_AREA_STYLE",
-    "FILL_AREA_STYLE": "S,R > FILL_AREA_STYLE_COLOUR",
-    "FILL_AREA_STYLE_COLOUR": f"S,r > {_COLOUR}",
-    "COLOUR_RGB": "S,p,p,p",
-    "DRAUGHTING_PRE_DEFINED_COLOUR": "S",
-    "CURVE_STYLE": f"S,r,POSITIVE_LENGTH_MEASURE(p),r > DRAUGHTING_PRE_DEFINED_CURVE_FONT {_COLOUR}",
-    "DRAUGHTING_PRE_DEFINED_CURVE_FONT": "S",
-    "PROPERTY_DEFINITION": "S,S,r > PRODUCT_DEFINITION/PRODUCT_DEFINITION_SHAPE",
-    "REPRESENTATION": f"S,R,r > DESCRIPTIVE_REPRESENTATION_ITEM/MEASURE_REPRESENTATION_ITEM {CONTEXT}",
-    "PROPERTY_DEFINITION_REPRESENTATION": "r,r > PROPERTY_DEFINITION REPRESENTATION",
-    "DESCRIPTIVE_REPRESENTATION_ITEM": "S,S",
-    "MEASURE_REPRESENTATION_ITEM": "S,m,r > DERIVED_UNIT",
-    "DERIVED_UNIT": "R > DERIVED_UNIT_ELEMENT",
-    "DERIVED_UNIT_ELEMENT": f"r,f > {MILLIMETRE}/{CENTIMETRE}/{GRAM}",
-}
-# entities of several kinds at once, by the name they have here
-_COMPLEX = {
-    MILLIMETRE: "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))",
-    "rad": "(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))",
-    "sr": "(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())",
-    GRAM: "(MASS_UNIT()NAMED_UNIT(*)SI_UNIT($,.GRAM.))",
-    CENTIMETRE: "(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.CENTI.,.METRE.))",
-    CONTEXT: "(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT(R)GLOBAL_UNIT_ASSIGNED_CONTEXT(R)"
-    f"REPRESENTATION_CONTEXT(S,S)) > UNCERTAINTY_MEASURE_WITH_UNIT {MILLIMETRE} rad sr",
-    PLACED: "(REPRESENTATION_RELATIONSHIP(S,S,r,r)REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(r)"
-    f"SHAPE_REPRESENTATION_RELATIONSHIP()) > {PART}/{ASSEMBLY} {ASSEMBLY} ITEM_DEFINED_TRANSFORMATION",
-}
-# what is referred to just once by all entities of another kind
-_ONCE = {
-    "PRODUCT": ("PRODUCT_RELATED_PRODUCT_CATEGORY", "PRODUCT_DEFINITION_FORMATION"),
-    "PRODUCT_DEFINITION_FORMATION": ("PRODUCT_DEFINITION",),
-    "PRODUCT_DEFINITION": ("PRODUCT_DEFINITION_SHAPE",),
-    "NEXT_ASSEMBLY_USAGE_OCCURRENCE": ("PRODUCT_DEFINITION_SHAPE",),
-    PART: ("SHAPE_DEFINITION_REPRESENTATION",),
-    ASSEMBLY: ("SHAPE_DEFINITION_REPRESENTATION",),
-    "STYLED_ITEM": ("MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION",),
-    "PROPERTY_DEFINITION": ("PROPERTY_DEFINITION_REPRESENTATION",),
-    "REPRESENTATION": ("PROPERTY_DEFINITION_REPRESENTATION",),
-    PLACED: ("CONTEXT_DEPENDENT_SHAPE_REPRESENTATION",),
-}
-_USERS = {user for users in _ONCE.values() for user in users}
-# the words in them that are always the same; None: any, which the part that is expected decides on
-_WORDED: dict[str, tuple[tuple[str | None, ...], ...]] = {
-    "APPLICATION_CONTEXT": (("core data for automotive mechanical design processes",),),
-    "APPLICATION_PROTOCOL_DEFINITION": (("international standard", "automotive_design"),),
-    "PRODUCT_CONTEXT": (("", "mechanical"),),
-    "PRODUCT_RELATED_PRODUCT_CATEGORY": (("part",),),
-    "PRODUCT_DEFINITION": (("design", ""),),
-    "PRODUCT_DEFINITION_CONTEXT": (("part definition", "design"),),
-    "PRODUCT_DEFINITION_SHAPE": (("", ""), ("Placement", "Placement of an item")),
-    "NEXT_ASSEMBLY_USAGE_OCCURRENCE": ((None, None, ""),),
-    "UNCERTAINTY_MEASURE_WITH_UNIT": (("distance_accuracy_value", "confusion accuracy"),),
-    "STYLED_ITEM": (("color",),),
-    "DRAUGHTING_PRE_DEFINED_CURVE_FONT": (("continuous",),),
-    CONTEXT: ((None, "3D Context with UNIT and UNCERTAINTY"),),
-} | dict.fromkeys(
-    ("PRODUCT", "DRAUGHTING_PRE_DEFINED_COLOUR", "PROPERTY_DEFINITION", "REPRESENTATION",
-     "DESCRIPTIVE_REPRESENTATION_ITEM", "MEASURE_REPRESENTATION_ITEM"), ()
-)  # fmt: skip
+_USERS = {user for around in _AROUND.values() for user in around.users.split()}
 # blanks and comments
 _GAP = rb"(?:\s|/\*(?:[^*]|\*(?!/))*+\*/)*+"
 _BEGIN = re.compile(rb"%bISO-10303-21;%bHEADER;(.*?)ENDSEC;%bDATA;\s*" % (_GAP, _GAP, _GAP), re.DOTALL)
@@ -206,7 +129,7 @@ class Entities(Record, eq=False):
         """The entities of a kind of fixed length."""
         if kind in self.fixed:
             return self.fixed[kind]
-        return Table(np.zeros(0, np.int64), np.zeros((0, sum(_FIXED[kind].count(c) for c in "rfpib"))))
+        return Table(np.zeros(0, np.int64), np.zeros((0, sum(_GEOMETRY[kind].count(c) for c in "rfpib"))))
 
     def listed_of(self, kind: str) -> list[Row]:
         """What varies in the entities of a kind with lists."""
@@ -227,11 +150,11 @@ def read_part21(file: Path) -> Entities:
         for piece in _pieces(source):
             text, strings = _without_strings(piece)
             for kind, statements in _by_kind(text).items():
-                if kind in _FIXED:
-                    tables[kind].append(_table(_matched(kind, statements)))
-                elif kind in _LISTED:
+                if kind in _LISTED:
                     rows = _matched(kind, statements)
                     lists[kind].append(Listed(np.array([int(row[0]) for row in rows]), [row[1:] for row in rows]))
+                elif kind in _GEOMETRY:
+                    tables[kind].append(_table(_matched(kind, statements)))
                 elif kind:
                     items.update((int(row[0]), _item(kind, row[1], strings)) for row in _matched(kind, statements))
                 else:
@@ -275,9 +198,7 @@ def _check_references(items: dict[int, Item], fixed: dict[str, Table]) -> None:
     uses = defaultdict[tuple[int, str], int](int)
     for number, item in items.items():
         kind, references, strings = item.kind, item.references, item.strings
-        said = _WORDED.get(kind)
-        wrong = any(strings) if said is None else said and strings not in said
-        if wrong and not any(_says(strings, words) for words in said or ()):
+        if not _may_say(kind, strings):
             raise ReadError(f"#{number} of the STEP file says {' and '.join(strings)}, which no {kind} does")
         allowed = _referred(kind)
         first = len(references) - len(allowed)
@@ -288,20 +209,24 @@ def _check_references(items: dict[int, Item], fixed: dict[str, Table]) -> None:
             for reference in references:
                 uses[reference, kind] += 1
     for number, item in items.items():
-        for user in _ONCE.get(item.kind, ()):
+        for user in _AROUND[item.kind].users.split():
             if (count := uses[number, user]) != 1:
                 raise ReadError(f"#{number} of the STEP file is that of {count} {user} instead of 1")
 
 
-def _says(strings: tuple[str, ...], words: tuple[str | None, ...]) -> bool:
-    return all(known in (None, word) for known, word in zip(words, strings, strict=True))
+@lru_cache
+def _may_say(kind: str, strings: tuple[str, ...]) -> bool:
+    words = _AROUND[kind].words
+    if words in ("", "*"):
+        return bool(words) or not any(strings)
+    known = ([word.strip() for word in one.split(",")] for one in words.split(";"))
+    return any(all(word in ("*", said) for word, said in zip(one, strings, strict=True)) for one in known)
 
 
 @cache
 def _referred(kind: str) -> tuple[tuple[str, ...], ...]:
     """Which kinds each of the last references of a kind may lead to, and those before them like the first of these."""
-    _, _, told = {**_ITEMS, **_COMPLEX}[kind].partition(" > ")
-    return tuple(tuple(word.split("/")) for word in told.split())
+    return tuple(tuple(word.split("/")) for word in _AROUND[kind].referred.split())
 
 
 def _header(held: bytes) -> tuple[re.Match[bytes], int]:
@@ -372,7 +297,7 @@ def _by_kind(text: bytes) -> dict[str, list[bytes]]:
 
 def _shape(text: str) -> bytes:
     """The expression of arguments, with what varies in groups."""
-    words = re.findall(r"[A-Z_]{2,}|.", text.partition(" > ")[0])
+    words = re.findall(r"[A-Z_]{2,}|.", text)
     found = (_ATOMS.get(word) or re.escape(word.encode()) for word in words)
     return b"".join(found)
 
@@ -380,10 +305,10 @@ def _shape(text: str) -> bytes:
 @cache
 def _pattern(kind: str) -> re.Pattern[bytes]:
     """What a statement of a kind looks like: its id and what varies in it in groups, or first all its arguments."""
-    if kind in _ITEMS:
-        arguments = rb"(%b)" % _shape(_ITEMS[kind])
-    elif kind in _FIXED or kind in _LISTED:
-        arguments = _shape({**_FIXED, **_LISTED}[kind])
+    if kind in _GEOMETRY:
+        arguments = _shape(_GEOMETRY[kind])
+    elif kind in _AROUND and kind not in _COMPLEX:
+        arguments = rb"(%b)" % _shape(_AROUND[kind].arguments)
     else:
         raise ReadError(f"the STEP file holds {kind[:_SHOWN]}, which is not known: it may change what is seen")
     return re.compile(rb";#(\d{1,15})=%b\(%b\)(?=;)" % (kind.encode(), arguments))
@@ -391,7 +316,7 @@ def _pattern(kind: str) -> re.Pattern[bytes]:
 
 @cache
 def _complexes() -> dict[str, re.Pattern[bytes]]:
-    return {name: re.compile(rb"#(\d{1,15})=(%b)" % _shape(text)) for name, text in _COMPLEX.items()}
+    return {name: re.compile(rb"#(\d{1,15})=(%b)" % _shape(_AROUND[name].arguments)) for name in _COMPLEX}
 
 
 def _matched(kind: str, statements: list[bytes]) -> list[Row]:
