@@ -22,7 +22,8 @@ class Track(Record):
     """How an instance moves over one loop: places (mm) and angles (rad, counter-clockwise) at even times, the last one
     that of the first again; a single one where it does not move so.
 
-    ``forms``: in place of outlines the corners (t, n) of one that changes, at even times too.
+    ``forms``: in place of outlines the corners (t, n) of one that changes, at even times too. ``seconds``: of a loop of
+    its own.
     """
 
     name: str
@@ -31,6 +32,7 @@ class Track(Record):
     places: Complex
     angles: Real
     forms: Complex | None = None
+    seconds: float | None = None
 
 
 def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Sequence[float], seconds: float) -> None:
@@ -53,7 +55,7 @@ def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Seque
             f'<g id="{track.name}"{_moved("translate", places, seconds)}',
             f"<g{_moved('rotate', angles, seconds)}",
             f'<path d="{data[0]}" style="fill:{track.colour};fill-opacity:0.85;fill-rule:evenodd;stroke:#202830;'
-            f'stroke-width:{stroke}"{_changed(data, seconds)}',
+            f'stroke-width:{stroke}"{_changed(data, track.seconds or seconds)}',
             "</g></g>",
         ]
     save(file, lines)

@@ -34,12 +34,14 @@ class ReadTrack(Record):
     """An instance: values (k,) of its place (mm, y up) and of its turn (rad) at even times, its outlines.
 
     ``forms``: the corners (k, n) of an only one that changes, at even times; ``loops`` has it as it begins.
+    ``seconds``: for its loop (0: it does not move).
     """
 
     places: Complex
     angles: Complex
     loops: tuple[Loop, ...]
     forms: Complex | None = None
+    seconds: float = 0.0
 
     def pose(self, share: Real) -> tuple[Complex, Real]:
         """Place and turn at shares of the loop: SMIL goes straight from value to value."""
@@ -50,15 +52,8 @@ class ReadTrack(Record):
         return None if self.forms is None else np.stack([_between(one, share) for one in self.forms.T], axis=1)
 
 
-class ReadMotion(Record):
-    """All instances, and how long a loop takes, seconds (0: nothing moves)."""
-
-    tracks: dict[str, ReadTrack]
-    seconds: float
-
-
-def read_motion(file: Path) -> ReadMotion:
-    """Read an animated SVG.
+def read_motion(file: Path) -> dict[str, ReadTrack]:
+    """Read an animated SVG: all that it shows.
 
     Raises
     ------
@@ -75,7 +70,6 @@ def read_motion(file: Path) -> ReadMotion:
         tag = element.tag.removeprefix(_SVG)
         if tag not in _KNOWN or set(element.keys()) - _KNOWN[tag]:
             raise ReadError(f"holds <{tag}> {sorted(element.keys())}, which a motion does not")
-    durations: set[str] = set()
     tracks = {}
     for outer in root.findall(f"{_SVG}g"):
         inner = outer.find(f"{_SVG}g")
@@ -83,13 +77,15 @@ def read_motion(file: Path) -> ReadMotion:
         name = outer.get("id", "")
         if inner is None or path is None or name in tracks or not re.fullmatch(_STYLE, path.get("style", "")):
             raise ReadError(f"instance {name} is not one outline within two groups")
+        durations = set[str]()
         loops = tuple(svg_path(part, "") for part in re.findall(r"M[^M]*", path.get("d", "")))
         forms = _forms(path, durations) if len(path) else None
         places, angles = _values(outer, "translate", durations), _values(inner, "rotate", durations)
-        tracks[name] = ReadTrack(places.conj(), np.asarray(-np.radians(angles.real) + 0j), loops, forms)
-    refuse_if(len(durations) > 1, "instances take unlike times for their loop")
-    seconds = float(durations.pop().removesuffix("s")) if durations else 0.0
-    return ReadMotion(tracks, seconds)
+        refuse_if(len(durations) > 1, "an instance takes unlike times for its loop")
+        seconds = float(durations.pop().removesuffix("s")) if durations else 0.0
+        turns = np.asarray(-np.radians(angles.real) + 0j)
+        tracks[name] = ReadTrack(places.conj(), turns, loops, forms, seconds)
+    return tracks
 
 
 def _values(group: Element, kind: str, durations: set[str]) -> Complex:

@@ -17,6 +17,7 @@ from geometry.curves.curve import Real
 from parts.base.part import Part
 from parts.base.texts import N_, unless
 from parts.scene.load import ExportSpec
+from parts.scene.placing import PlacedMate
 from parts.scene.relative_path import Course, common_period, course_of
 from parts.scene.shapes import Shape
 from parts.scene.standing import Instance
@@ -43,6 +44,7 @@ class Film(Record, FileJob):
     turns: float
     path: str
     place: str
+    mates: tuple[PlacedMate, ...] = ()
     # of the file: what stands for a name that is not given, and the rest
     ending: ClassVar[tuple[str, str]]
 
@@ -141,7 +143,8 @@ def film(made: type[Film], asked: Request) -> Film:
     turns = float(loop) * (drive.turns if drive.travel is None else drive.travel)
     unnamed, ending = made.ending
     path = asked.scene.name + (f".{export.name}" if export.name else unnamed) + ending
-    return made(export, asked.title, used, instances, course, loop, closes, turns, path, asked.where)
+    mates = tuple(mate for mate in asked.placing.mates if {mate.first.part, mate.second.part} <= used.keys())
+    return made(export, asked.title, used, instances, course, loop, closes, turns, path, asked.where, mates)
 
 
 def _loop(course: Course, instances: Sequence[Instance], parts: dict[str, Part]) -> tuple[Fraction, bool]:

@@ -16,6 +16,7 @@ from exporters.formats.readback import Loop
 from exporters.formats.svg import fill
 from exporters.production.film import SHARE, TIMES, Film
 from exporters.production.jobs import Made
+from exporters.production.moving_chain import MovingChain, moving_chains
 from exporters.production.seen_above import is_round, seen_lying
 from exporters.production.turning_silhouette import Ends, ends_of, thinned
 from exporters.verification.outlines import verify_loops
@@ -35,6 +36,8 @@ from parts.scene.standing import Instance
 _ROUNDING = 2e-6
 # of a direction that stays; mm: what chords of silhouettes leave at most; poses of what changes at most
 _LEVEL, _CHORD, _MOST_FORMS = 1e-9, 1e-3, 1920
+# of chains
+_CHAIN = "#7f8c99"
 
 
 class MotionJob(Film, dict=True):
@@ -60,6 +63,16 @@ class MotionJob(Film, dict=True):
     def _chord(self) -> float:
         """What chords of silhouettes may leave, mm."""
         return min(_CHORD, SHARE * self.tolerance / 4)
+
+    @cached_property
+    def _shown(self) -> list[Instance]:
+        """The instances, the lowest first."""
+        return sorted(self.instances, key=lambda i: i.at[2])
+
+    @cached_property
+    def _chains(self) -> tuple[MovingChain, ...]:
+        """The chains that run in it."""
+        return tuple(moving_chains(self.mates, self.course, float(self.loop)))
 
     def _forms(self, instance: Instance) -> tuple[Complex, float]:
         """Outlines of what changes at even shares of the loop, and how far they are off, mm."""
@@ -125,7 +138,7 @@ class MotionJob(Film, dict=True):
             look: tuple(approximate_profile(p, SHARE * self.tolerance, arcs=True) for p in profiles)
             for look, profiles in self._profiles.items()
         }
-        for index, instance in enumerate(sorted(self.instances, key=lambda i: i.at[2])):
+        for index, instance in enumerate(self._shown):
             part = self.parts[instance.part]
             places, angles, off = self.ways(instance, self._reach(instance))
             turned = even_values(angles + 0j).real
@@ -140,6 +153,9 @@ class MotionJob(Film, dict=True):
             if instance.is_over:
                 own = tuple(replace(o, geometry=_over(o.geometry)) for o in own)
             made.append(Track(instance.id, own, colour, even_values(places), turned))
+        for chain in self._chains:
+            seconds = self.seconds / abs(chain.pitches)
+            made.append(Track(chain.name, (), _CHAIN, np.zeros(1, complex), np.zeros(1), chain.forms, seconds))
         return made, worst + max((x.max_error for row in outlines.values() for x in row), default=0.0)
 
     def _reach(self, instance: Instance) -> float:
@@ -151,7 +167,7 @@ class MotionJob(Film, dict=True):
         """Write it; counts of what is in it."""
         tracks, _ = self.tracks
         spans = []
-        for track, instance in zip(tracks, sorted(self.instances, key=lambda i: i.at[2]), strict=True):
+        for track, instance in zip(tracks, self._shown, strict=False):
             places, angles = self.poses(instance, np.linspace(0, 1, 721))
             if not (instance.is_upright or track.forms is not None):
                 # its origin may be far from its middle
@@ -163,10 +179,14 @@ class MotionJob(Film, dict=True):
             reach = max(float(np.abs(one).max()) for one in seen) * 1.03
             spans.append([places.real.min() - reach, places.imag.min() - reach, -places.real.max() - reach,
                           -places.imag.max() - reach])  # fmt: skip
+        for track in tracks[len(self._shown) :]:
+            assert track.forms is not None
+            x, y = track.forms.real, track.forms.imag
+            spans.append([x.min(), y.min(), -x.max(), -y.max()])
         left, low, right, high = np.min(spans, axis=0).tolist()
         write_motion_svg(file, self.title, tracks, (left, low, -right, -high), self.seconds)
         values = sum(len(t.places) + len(t.angles) for t in tracks)
-        return {"instances": len(tracks), "values": values}
+        return {"instances": len(self._shown), "values": values}
 
     def declared(self, made: Made) -> tuple[float, str]:
         """The worst outline and the worst way together, mm; ways are sampled."""
@@ -178,13 +198,16 @@ class MotionJob(Film, dict=True):
             found = read_motion(file)
         except ReadError as error:
             return Verdict({}, (str(error),))
-        if list(found.tracks) != [i.id for i in sorted(self.instances, key=lambda i: i.at[2])]:
-            return Verdict({}, (fault("holds {tracks}", tracks=", ".join(found.tracks)),))
-        failures = self.late(found.seconds)
+        if list(found) != [*(i.id for i in self._shown), *(chain.name for chain in self._chains)]:
+            return Verdict({}, (fault("holds {tracks}", tracks=", ".join(found)),))
+        told = {found[i.id].seconds for i in self.instances} - {0.0}
+        failures = unless(len(told) <= 1, "instances take unlike times for their loop")
+        seconds = max(told, default=0.0)
+        failures += self.late(seconds)
         worst, outline = 0.0, 0.0
         for look, profiles in self._profiles.items():
             lying = [i for i in self.instances if self._look(i) == look and i.id not in self._changing]
-            same = [_loops(found.tracks[i.id], i) for i in lying]
+            same = [_loops(found[i.id], i) for i in lying]
             verdict = verify_loops(same[0], profiles, [""] * len(profiles), declared, self.tolerance)
             failures += [fault_of(lying[0].part, text) for text in verdict.failures]
             outline = max(outline, verdict.measured.get("max_deviation", 0.0))
@@ -192,7 +215,7 @@ class MotionJob(Film, dict=True):
             failures += unless(equal, "{part}: its instances differ", part=lying[0].part)
         for instance in self.instances:
             reach = self._reach(instance)
-            track = found.tracks[instance.id]
+            track = found[instance.id]
             # every value that the file has, too
             values = [np.linspace(0, 1, len(way)) for way in (track.places, track.angles)]
             times = np.unique(np.concatenate([TIMES, *values]))
@@ -204,10 +227,16 @@ class MotionJob(Film, dict=True):
             failures += unless(alike, "{part}: its outline is that of another", part=instance.part)
             if changing is not None and forms is not None:
                 outline = max(outline, changing.off_outlines(self.frames(instance, TIMES)[0], forms))
+        for chain in self._chains:
+            track = found[chain.name]
+            failures += self.late(track.seconds * abs(chain.pitches))
+            # a picture, held at the stands that it has
+            forms = np.zeros(0, complex) if track.forms is None else track.forms
+            well = forms.shape == chain.forms.shape and float(np.abs(forms - chain.forms).max()) <= 10.0**-CORNERS
+            well = well and float(np.abs(np.concatenate([track.places, track.angles])).max()) == 0.0
+            failures += unless(well, "{part}: its outline is that of another", part=chain.name)
         failures += self.off_place(worst, outline, declared)
-        return Verdict(
-            {"max_deviation": outline, "pose_deviation": worst, "loop_seconds": found.seconds}, tuple(failures)
-        )
+        return Verdict({"max_deviation": outline, "pose_deviation": worst, "loop_seconds": seconds}, tuple(failures))
 
 
 def _over(contour: Contour) -> Contour:

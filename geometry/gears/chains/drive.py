@@ -245,7 +245,7 @@ class ChainMesh(Record):
         return second, self.drive.pins(first, second, play.whole, self.links) * self.pitch
 
     def contact(self, tolerance: float | None = None) -> PairContact:
-        """The gaps of all rollers to the teeth of both over one pitch; its sides are the first's and the second's."""
+        """The gaps of all rollers to the teeth of the first and of the second at phases of one pitch."""
         radius = self.sprockets[0].chain.roller_diameter / 2
         outlines = [gear_outline(sprocket_side(sprocket)) for sprocket in self.sprockets]
         step, gaps = self.drive.steps[0], np.empty((2, _PHASES))

@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from exporters.formats.read_motion import read_motion
 from exporters.production.build import build
 from exporters.production.plan import Plan, plan_build
 from parts.base.refusal import SceneError
@@ -197,3 +198,39 @@ def test_an_uneven_turn_is_as_near_as_is_declared(rocker: tuple[Path, Plan, floa
     off = exact - (angles[:-1] + angles[1:]) / 2
     off = np.abs(np.angle(np.exp(1j * off))).max() * reach
     assert declared / 20 < off <= declared <= 0.05
+
+
+@pytest.mark.parametrize("turns", [38.0, -38.0])
+def test_a_chain_runs_on_with_its_sprockets(tmp_path: Path, turns: float) -> None:
+    """Pins one pitch apart throughout; those on the first sprocket lie on its pitch circle and turn as it does."""
+    kept = resolved(load_scene("chain_drive")) | {
+        "drives": [{"instance": "pinion", "turns": turns}],
+        "exports": [{"format": "motion"}],
+        "checks": {},
+    }
+    kept["mates"] = kept["mates"][:1]
+    assert build(plan_build(scene_from_resolved(kept, "m"), "m", [], []), tmp_path).well
+    (file,) = tmp_path.glob("*.motion.svg")
+    track = read_motion(file)["chain.pinion.wheel"]
+    assert track.forms is not None
+    # outer corners one way round, inner ones the other, two a link; the seam twice
+    count = (track.forms.shape[1] - 2) // 4
+    outer, inner = track.forms[:, : 2 * count : 2], track.forms[:, : 2 * count + 1 : -1][:, ::2]
+    pins = (outer + inner) / 2
+    assert pins.shape[1] == 80
+    assert np.abs(pins - np.roll(pins, 1, axis=1)) == pytest.approx(12.7, abs=0.01)
+    radius = 12.7 / 2 / math.sin(math.pi / 17)
+    for k in range(len(pins) - 1):
+        (seated,) = np.nonzero(np.abs(pins[k].real + radius) < 0.4 * radius)
+        assert len(seated) >= 3
+        assert np.abs(pins[k : k + 2, seated]) == pytest.approx(radius, abs=2e-4)
+        step = np.angle(pins[k + 1, seated] / pins[k, seated])
+        assert step == pytest.approx(math.copysign(2 * math.pi / 17 / (len(pins) - 1), turns), abs=1e-5)
+    # in the time of a pitch; another one is seen
+    assert track.seconds * 17 * 20 == pytest.approx(60.0)
+    text = file.read_text(encoding="utf-8")
+    for old, new in (('dur="0.17', 'dur="0.18'), (r'(values="M[^;]*;M)[-\d.]+', r"\g<1>1.5")):
+        spoiled = re.sub(old, new, text, count=1)
+        assert spoiled != text
+        file.write_text(spoiled, encoding="utf-8")
+        assert run("verify", str(file)) == 1
