@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import json
 import re
+from collections.abc import Callable
 from typing import Any
 
 from parts.base.texts import N_, Words, words
@@ -134,14 +135,16 @@ def _subscripts(text: str) -> str:
 
 
 def _json(sheet: Sheet, told: Words) -> str:
-    values: dict[str, Any] = {}
+    every: dict[str, Any] = {}
     steps = []
     for section in sheet.sections:
         for step in section.steps:
-            _keep(values, step)
+            _keep(every, step)
             steps.append({"section": told.say(section.title), **_json_step(step, told)})
     notes = [told.say(note) for note in sheet.notes]
-    data = {"topic": sheet.topic, "values": values, "steps": steps, "notes": notes, **sheet.data}
+    values = {name: _each(found, lambda row: row[0]) for name, found in every.items()}
+    again = {name: _each(found, list) for name, found in every.items() if _repeats(found)}
+    data = {"topic": sheet.topic, "values": values, "repeated": again, "steps": steps, "notes": notes, **sheet.data}
     data |= {table.name: table_data(table) for table in sheet.tables}
     return json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
 
@@ -151,12 +154,21 @@ def _csv(sheet: Sheet, told: Words) -> str:
     return "\n".join(map(csv_table, sheet.tables))
 
 
-def _keep(values: dict[str, Any], step: Step) -> None:
-    """The value under its name, and under first or second where it belongs to a gear; the first one stays."""
+def _keep(every: dict[str, Any], step: Step) -> None:
+    """The value beside others of its name, and under first or second where it belongs to a gear."""
     if step.gear:
-        values.setdefault(step.name, {}).setdefault(_GEARS[step.gear], _finite(step.value))
+        every.setdefault(step.name, {}).setdefault(_GEARS[step.gear], []).append(_finite(step.value))
     else:
-        values.setdefault(step.name, _finite(step.value))
+        every.setdefault(step.name, []).append(_finite(step.value))
+
+
+def _each(found: Any, told: Callable[[list[object]], object]) -> object:
+    """What is told of the values of a name, of each gear's where they are its."""
+    return {gear: told(row) for gear, row in found.items()} if isinstance(found, dict) else told(found)
+
+
+def _repeats(found: Any) -> bool:
+    return any(len(row) > 1 for row in (found.values() if isinstance(found, dict) else [found]))
 
 
 def _json_step(step: Step, told: Words) -> dict[str, Any]:

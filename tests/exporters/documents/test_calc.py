@@ -201,6 +201,21 @@ def test_the_misprinted_inequality_and_left_side_are_named() -> None:
     assert "(3.4) prints alpha_w" in calculate("gear-pair", ["practicum_pair"], "text", None)
 
 
+@pytest.mark.parametrize("words", ["lever code=1071", "gear-pair practicum_pair"])
+def test_every_step_is_reached_by_its_name(words: str) -> None:
+    """One by one off the page: the next one of each name."""
+    data = values_of(words)
+    taken: dict[tuple[str, str | None], int] = {}
+    for step in data["steps"]:
+        key = step["name"], step.get("gear")
+        place = taken.setdefault(key, 0)
+        rows = data["repeated"].get(key[0], data["values"][key[0]])
+        row = rows if key[1] is None else rows[key[1]]
+        assert (row[place] if isinstance(row, list) else row) == step["value"]
+        taken[key] += 1
+    assert {name for (name, _), count in taken.items() if count > 1} == set(data["repeated"])
+
+
 def evaluated(step: Step, spoilt: float = 0.0) -> float:
     """A printed formula worked out with all digits; angles go in as radians. ``spoilt`` changes its first input."""
     names = {
