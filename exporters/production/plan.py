@@ -114,8 +114,15 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             left_out.append(LeftOut(where, why))
             continue
         asked = Request(scene, placing, parts, export, where, source)
+        if export.purpose == "model":
+            bodies = [p for p in asked.wanted if not _is_flat(parts[p])]
+            if bodies and export.parts:
+                raise asked.refused("parts", bodies[0], "no_flat_outline")
+            left_out += [_no_outline(where, p) for p in bodies]
+            if bodies:
+                asked = replace(asked, export=with_keys(export, parts=[p for p in parts if p not in bodies]))
         if on_sheet(export.format, export.purpose):
-            sheets += _sheets(replace(asked, export=_of_cams(export, parts, only_parts)), taken)
+            sheets += _sheets(replace(asked, export=_of_cams(asked.export, parts, only_parts)), taken)
             continue
         if export.is_laid:
             laid = _laid(asked, layouts)
@@ -141,7 +148,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             if only_parts and part_id not in only_parts:
                 continue
             if not (export.parts or file_kind(export.format, export.purpose).is_solid or _is_flat(parts[part_id])):
-                left_out.append(LeftOut(where, message(N_("{part} has no flat outline"), part=part_id)))
+                left_out.append(_no_outline(where, part_id))
                 continue
             path = "" if export.assembly else _file_name(part_id, export, [e for _, e in exports])
             _take(path, where, taken, source)
@@ -198,6 +205,11 @@ _OF_ONE = ("cam", "model", "part")
 def _is_flat(part: Part) -> bool:
     """Whether flat files can hold a part."""
     return part.made_by.has_outline or part.is_plate
+
+
+def _no_outline(where: str, part: str) -> LeftOut:
+    """A part that flat files cannot hold."""
+    return LeftOut(where, message(N_("{part} has no flat outline"), part=part))
 
 
 def _of_several(export: ExportSpec) -> bool:

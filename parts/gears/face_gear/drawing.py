@@ -62,7 +62,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     first = rows_of(page, ("module", "pressure_angle_deg", "addendum_coefficient", "dedendum_coefficient"))
     teeth = DataRow(N_("number of teeth of the face gear"), "z", keys.number_of_teeth)
     control = rows_of(page, ("face_tooth_depth",))
-    last = rows_of(page, ("normal_backlash", "cutter_teeth", "undercut_diameter", "pointed_diameter"))
+    last = rows_of(page, ("circumferential_thinning", "cutter_teeth", "undercut_diameter", "pointed_diameter"))
     beside = [DataRow(N_("teeth of the mate"), "z", keys.pinion_teeth), *rows_of(page, ("profile_shift_coefficient",))]
     drawings = dict.fromkeys(getattr(m.part.keys, "designation", None) or m.part.title or m.part.id for m in mates)
     beside += [DataRow(N_("drawing of the mate"), "", Message("{name}", {"name": name})) for name in drawings]

@@ -13,15 +13,18 @@ from geometry.gears.chains.sprocket import checked_sprocket
 from parts.base.texts import N_
 from parts.chains.sprocket import SPROCKET, SprocketSpec
 from parts.chains.steps import chain_steps, circle_steps
-from parts.keys.base import mm
+from parts.keys.base import mm, size
 from parts.mates.chain import ChainDriveSpec, chain_mesh
-from parts.pages.force_steps import Power, Speed, Torque, driving_torque
+from parts.pages.force_steps import driving_torque
 from parts.pages.inputs import SceneKeys, calculation, chosen_part, given
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
 
 TOPIC = "chain"
 _SHIGLEY, _DUNAEV, _SHEINBLIT = "Shigley", "Dunaev, Lelikov", "Sheinblit"
+_SPEED = "speed of the driving sprocket: adds the speeds of the chain and how unevenly it runs"
+_TORQUE = "torque on the driving sprocket: adds the pull of the chain and the load of the shafts"
+_POWER = "power that the driving sprocket takes in, by its speed: in place of its torque"
 # textbooks: the shaft's load by the force of a drive that lies, and how much nearer it is mounted for the slack strand
 _LOAD, _MOUNTED = 1.15, 0.995
 
@@ -34,9 +37,9 @@ class ChainKeys(SprocketSpec, kw_only=True, tag=False, forbid_unknown_fields=Tru
         None
     )
     centre_distance: Annotated[float, mm("centre distance", above=0, most=1e6, example=458.0)] | None = None
-    speed_rpm: Speed = None
-    torque: Torque = None
-    power: Power = None
+    speed_rpm: Annotated[float, size("rpm", _SPEED, above=0, most=1e6)] | None = None
+    torque: Annotated[float, size("N*m", _TORQUE, above=0, most=1e9)] | None = None
+    power: Annotated[float, size("W", _POWER, above=0, most=1e9)] | None = None
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:

@@ -92,6 +92,16 @@ def test_a_bevel_rack_is_that_of_the_standard_where_it_has_it(module: float, mor
     assert ("fillet radius of the basic rack, in modules" in names) is not standard
 
 
+def test_a_face_gear_tells_how_its_own_teeth_are_thinned_and_no_backlash_of_half_the_pair() -> None:
+    """Both gears give half of 0.1 mm: the table had 0.05 mm as if it were the backlash to be measured."""
+    _, table, _ = tables("face_gear_pair")["wheel"]
+    rows = {words("en").say(row.name): row.value for part in table.parts for row in part}
+    assert "normal backlash" not in rows
+    thinning = rows["thinning of the tooth, arc"]
+    assert isinstance(thinning, float)
+    assert 2 * thinning * math.cos(math.radians(20)) == pytest.approx(0.1, abs=1e-12)
+
+
 def named(step: dict[str, Any]) -> tuple[str, str]:
     """Name and symbol of a step, on the page of a pair those of its first gear without the gear's number."""
     own = step.get("gear") == "first"
