@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
 from heapq import merge
 from itertools import islice, pairwise, product
+from operator import attrgetter
 
 import numpy as np
 
@@ -70,6 +72,8 @@ _GRAZING = 0.2
 # how many rows farther away another point of the same surface seems
 _OTHER = 1.0
 _DIMENSION = "DIMENSION"
+# the ways out of a view to the dimension lines on its sides
+_OUTWARD: dict[Side, complex] = {"left": -1.0, "right": 1.0, "above": 1j, "below": -1j}
 # for which the arc of an angle stands where it is asked for room
 _CHORDS = 8
 
@@ -95,6 +99,9 @@ class Laid(Record):
 
 # what stands on a leader or a shelf
 _Led = Round | Slant | Angle | Note
+_Span = tuple[float, float]
+# between which points a dimension is, through where its line goes, its angle
+_Told = tuple[tuple[complex, complex], complex, float]
 
 
 class _NoRoomError(Exception):
@@ -135,7 +142,7 @@ def _filled(
         tried.append(order)
         made = _Layout(view, scale, language, free, own=own)
         try:
-            made.fill(first, order, view.title)
+            made.fill([*first, *order], view.title)
             return made
         except _NoRoomError as refusal:
             owner = refusal.owner
@@ -167,27 +174,27 @@ class _Layout:
             start, end = self.paper.point(axis.start), self.paper.point(axis.end)
             beyond = _AXIS * (end - start) / abs(end - start)
             self._stroke(AXIS, Line(start - beyond, end + beyond), "edge")
-        self.rows: dict[str, list[list[tuple[float, float]]]] = {}
+        self.rows: dict[str, list[list[_Span]]] = {}
         for cut in view.cuts:
             self._cut(cut, view.sizes)
 
-    def fill(self, first: Sequence[Note], order: Sequence[Size | _Led], title: str) -> None:
+    def fill(self, order: Sequence[Size | _Led], title: str) -> None:
         """Add all words with their lines, in this order."""
-        for note in first:
-            self._note(note)
         for k, one in enumerate(order):
-            if isinstance(one, Size):
-                # where extension lines will run past its words
-                later = (other for other in order[k + 1 :] if isinstance(other, Size) and other.side == one.side)
-                ends = [p for other in later for p in (other.start, other.end)]
-                if not any(self._size(one, coming) for coming in (ends, ())):
-                    raise _NoRoomError(one)
-            elif isinstance(one, Round):
-                self._round(one)
-            elif isinstance(one, Note):
-                self._note(one)
-            elif not self._put(self._slants(one) if isinstance(one, Slant) else self._angles(one)):
-                raise _NoRoomError(one)
+            match one:
+                case Size():
+                    # where extension lines will run past its words
+                    later = (other for other in order[k + 1 :] if isinstance(other, Size) and other.side == one.side)
+                    coming = [self.paper.point(p) for other in later for p in (other.start, other.end)]
+                    self._put(one, self._sizes(one, coming), self._sizes(one, ()))
+                case Slant():
+                    self._put(one, self._slants(one))
+                case Angle():
+                    self._put(one, self._angles(one))
+                case Round():
+                    self._put(one, self._radii(one) if one.is_radius else self._diameters(one))
+                case Note():
+                    self._put(one, merge(self._on_axis(one), self._notes(one), key=attrgetter("cost")))
         if title:
             box = self.extent()
             words, sign, more = (part.strip() for part in title.partition(TURNED))
@@ -254,10 +261,22 @@ class _Layout:
             self._stroke(VISIBLE, mark, "edge")
             self._drawn(lines, text)
 
-    def _put(self, places: Iterable[_Place]) -> bool:
-        """Put words into the best of places, which rise in their least cost; whether one of them is free."""
-        best, least, coming = None, (math.inf, math.inf), iter(places)
-        while some := [*islice(coming, _AT_ONCE)]:
+    def _put(self, one: Size | _Led, *ways: Iterator[_Place]) -> None:
+        """Draw it in the best place of the first of some ways that has one which is free."""
+        best = next(filter(None, map(self._best, ways)), None)
+        if best is None:
+            raise _NoRoomError(one)
+        drawn = self._drawn(best.drawn, best.text)
+        if best.told and not isinstance(one, Note):
+            self._dimension(one, best.told, best.text, *drawn)
+        if best.row is not None:
+            best.row.append(best.reach)
+        self.ink.note(best.lines)
+
+    def _best(self, places: Iterator[_Place]) -> _Place | None:
+        """The best of places that are free; they rise in their least cost."""
+        best, least = None, (math.inf, math.inf)
+        while some := [*islice(places, _AT_ONCE)]:
             for place, more in zip(some, self.ink.costs([place.lines for place in some]), strict=True):
                 # of two that cost as much the nearer one
                 total = place.cost + more, place.cost
@@ -265,83 +284,63 @@ class _Layout:
                     best, least = place, total
             if some[-1].least > least[0]:
                 break
-        if best is not None:
-            best.put(best)
-            self.ink.note(best.lines)
-        return best is not None
+        return best
 
-    def _size(self, size: Size, coming: Sequence[complex]) -> bool:
-        """A linear dimension: in the nearest row of its side in which its words are free; whether there is one.
+    def _sizes(self, size: Size, coming: Sequence[complex]) -> Iterator[_Place]:
+        """Where a linear dimension may stand, in the rows of its side.
 
         ``coming``: places from which extension lines will run to the same side.
         """
         edge = {
             "left": self.body.left, "right": self.body.right, "above": self.body.high, "below": self.body.low
         }[size.side]  # fmt: skip
-        upright, out = _sense(size.side)
-        along = 1j if upright else 1.0
-        points = self.paper.point(size.start), self.paper.point(size.end)
-        low, high = sorted(_along(p, along) for p in points)
-        wide = text_width(self._words(size))
-        rows = self.rows.setdefault(size.side, [])
-        rows += [[] for _ in range(_ROWS - len(rows))]
-        past = [_along(self.paper.point(p), along) for p in coming]
-
+        out, ends = _OUTWARD[size.side], (self.paper.point(size.start), self.paper.point(size.end))
         first = _FIRST + self.free.get(size.side, 0.0)
-        levels = [edge + (out.real + out.imag) * (first + _STEP * index) for index in range(len(rows))]
-        known = self.ink.costs([_bare(points, size.side, level) for level in levels])
+        levels = [
+            _Level(out, ends, edge + (out.real + out.imag) * (first + _STEP * index), float(index), row)
+            for index, row in enumerate(self.rows.setdefault(size.side, [[] for _ in range(_ROWS)]))
+        ]
+        return self._linears(size, levels, coming)
 
-        def places() -> Iterator[_Place]:
-            for index in sorted(range(len(rows)), key=lambda k: k + known[k]):
-                row, level = rows[index], levels[index]
-                for begin in _begins(low, high, wide, self._middle(upright=upright)):
-                    reach = min(low, begin), max(high, begin + wide)
-                    # chains share their ends
-                    if any(_meet(reach, taken) for taken in row):
-                        continue
-                    if any(begin - 2 * FREE < place < begin + wide + 2 * FREE for place in past):
-                        continue
-                    made = self._linear(size, points, size.side, level, begin, float(index))
+    def _diameters(self, one: Round) -> Iterator[_Place]:
+        """Where a diameter may stand, between lines beside its circle.
 
-                    def put(place: _Place, made: _Place = made, row: list[tuple[float, float]] = row,
-                            reach: tuple[float, float] = reach) -> None:  # fmt: skip
-                        made.put(place)
-                        row.append(reach)
+        It is linear to programs, as a radius is: some turn what stands on a leader, and others read it as 0.
+        """
+        centre, radius = self.paper.point(one.centre), self.paper.scale * one.radius
+        levels = []
+        for reach, out in product(_REACHES, (1j, 1.0, -1j, -1.0)):
+            half = radius * (1j if out.real else 1.0)
+            top = centre + (radius + reach) * out
+            at = top.real if out.real else top.imag
+            levels.append(_Level(out, (centre - half, centre + half), at, reach / _STEP, []))
+        return self._linears(one, levels, ())
 
-                    yield replace(made, known=known[index], put=put)
-
-        return self._put(places())
-
-    def _middle(self, *, upright: bool) -> float:
-        """Of the view, mm."""
-        return self.body.middle.imag if upright else self.body.middle.real
+    def _linears(self, one: Size | Round, levels: Sequence[_Level], coming: Sequence[complex]) -> Iterator[_Place]:
+        """Where a dimension may stand at these levels, its words along its line."""
+        known, words = self.ink.costs([level.lines(level.span) for level in levels]), self._words(one)
+        wide = text_width(words)
+        for k in sorted(range(len(levels)), key=lambda k: levels[k].cost + known[k]):
+            level, (low, high) = levels[k], levels[k].span
+            past = [_along(p, level.out) for p in coming]
+            for begin in _begins(low, high, wide, _along(self.body.middle, level.out)):
+                reach = min(low, begin), max(high, begin + wide)
+                # chains share their ends
+                if any(_meet(reach, taken) for taken in level.row):
+                    continue
+                if any(begin - 2 * FREE < place < begin + wide + 2 * FREE for place in past):
+                    continue
+                # words stand above their line, those of an upright one on its left
+                if level.is_upright:
+                    text = rising_text(words, complex(level.at - _GAP, begin))
+                else:
+                    text = text_of(words, complex(begin, level.at + _GAP))
+                lines = level.lines((begin, begin + wide))
+                yield _Place(lines, level.arrows, text, level.cost, level.told, known[k], level.row, reach)
 
     def _words(self, one: Size | Slant | Round) -> str:
         """All that is written of a dimension."""
         return one.before + number_text(one.value, self.language) + one.after + one.places
-
-    def _linear(
-        self, one: Size | Round, ends: tuple[complex, complex], side: Side, level: float, begin: float, cost: float
-    ) -> _Place:
-        """A dimension whose line stands at a level on a side of its ends."""
-        upright, out = _sense(side)
-        # along the dimension line, and away from the view
-        along, words = 1j if upright else 1.0, self._words(one)
-        points = sorted(ends, key=lambda p: _along(p, along))
-        low, high = (_along(p, along) for p in points)
-        lines = _dimension_lines(points, along, level, (low, high), (begin, begin + text_width(words)), out)
-        # words stand above their line, those of an upright one on its left
-        at = complex(level - _GAP, begin) if upright else complex(begin, level + _GAP)
-        text = (rising_text if upright else text_of)(words, at)
-
-        def put(place: _Place) -> None:
-            # programs that take every size as aligned read the same number of points beside each other
-            beside = max(points, key=lambda p: (p * out.conjugate()).real)
-            first, second = (_at(along, beside.real if upright else beside.imag, place) for place in (low, high))
-            line, angle = _at(along, level, high), 90.0 if upright else 0.0
-            self._dimension(one, (first, second), line, angle, place.all_lines, text)
-
-        return _Place(lines, _ends_of(low, high, along, level), text, cost, put)
 
     def _template(self, one: Size | Slant | Round) -> str:
         """The words of a dimension as programs keep them; the font that they draw it in has no minus."""
@@ -349,19 +348,24 @@ class _Layout:
         return one.before.replace("Ø", "%%c") + number + one.after.replace(MINUS, "-") + one.places
 
     def _dimension(
-        self, one: Size | Slant | Round, points: tuple[complex, complex], line: complex, angle: float,
-        lines: Sequence[Line], text: Text,
-    ) -> None:  # fmt: skip
-        """Draw a dimension, and note what programs need to know of it."""
-        drawn, scale = self._drawn(lines, text), self.paper.scale
-        # LibreCAD moves words that are longer than their dimension along it, by half of both: they begin so much before
-        apart, length = one.value * scale, sum(run.width for run in text.runs) * _WIDER
-        middle = text.box.middle
-        if is_beside := length > apart:
-            middle -= ((length + apart) / 2 + _LIBRE_GAP) * cmath.rect(1.0, math.radians(angle))
-        template, mark = self._template(one), self._mark()
-        made = Dimension(one.name, one.value, scale, points, line, angle, template, mark, middle, is_beside, *drawn)
-        self.canvas.dimensions.append(made)
+        self, one: Size | Slant | Round | Angle, told: _Told, text: Text, strokes: range, texts: range
+    ) -> None:
+        """Note what programs need to know of a dimension."""
+        (points, line, angle), scale = told, self.paper.scale
+        middle, is_beside, vertex = text.box.middle, False, None
+        if isinstance(one, Angle):
+            name, template, vertex = "angle", one.words.replace("°", "%%d"), self.paper.point(one.at)
+        else:
+            name, template = one.name, self._template(one)
+            # LibreCAD moves words that are longer than their dimension along it, by half of both: they begin so much
+            # before
+            apart, length = one.value * scale, sum(run.width for run in text.runs) * _WIDER
+            if is_beside := length > apart:
+                middle -= ((length + apart) / 2 + _LIBRE_GAP) * cmath.rect(1.0, math.radians(angle))
+        mark = decimal("0.0", self.language)[1]
+        self.canvas.dimensions.append(Dimension(
+            name, one.value, scale, points, line, angle, template, mark, middle, is_beside, strokes, texts, vertex
+        ))  # fmt: skip
 
     def _drawn(self, lines: Iterable[CadCurve], text: Text) -> tuple[range, range]:
         """Draw lines and words of one size or note; which strokes and texts of the canvas they are."""
@@ -371,16 +375,15 @@ class _Layout:
         self._write(text)
         return range(first, len(self.canvas.strokes)), range(count, count + 1)
 
-    def _mark(self) -> str:
-        """The decimal mark."""
-        return decimal("0.0", self.language)[1]
-
     def _slants(self, one: Slant) -> Iterator[_Place]:
         """Where a size along a slope may stand: its words on a shelf beyond either end of its line."""
         start, end = self.paper.point(one.start), self.paper.point(one.end)
         way = one.way if ((end - start) * one.way.conjugate()).real > 0 else -one.way
         long = ((end - start) * way.conjugate()).real
         levels = [((p - start) * one.out.conjugate()).real for p in (start, end)]
+        # programs that take every size as aligned read the same number of points beside each other
+        ends = start + max(levels) * one.out, start + max(levels) * one.out + long * way
+        turn = math.degrees(cmath.phase(way if way.real > 0 else -way))
         for index, more in product(range(_ROWS), _FARTHER):
             level = max(levels) + _FIRST + _STEP / 2 * index
             feet = [start + level * one.out, start + level * one.out + long * way]
@@ -392,17 +395,10 @@ class _Layout:
                 elbow = foot + sense * (ARROW + 2.0 + more) * way
                 shelf, text = _shelved(elbow, self._words(one), sense * way)
                 cost = index / 2 + more / _STEP + _OTHER * sum(map(self.ink.beside, (elbow, *feet)))
-
-                def put(place: _Place, line: complex = feet[0]) -> None:
-                    # programs that take every size as aligned read the same number of points beside each other
-                    turn = math.degrees(cmath.phase(way if way.real > 0 else -way))
-                    ends = start + max(levels) * one.out, start + max(levels) * one.out + long * way
-                    self._dimension(one, ends, line, turn, place.all_lines, place.text)
-
                 lines: dict[Role, Sequence[Line]] = {
                     "extension": edges, "dimension": [Line(other - sense * out * way, elbow)], "leader": shelf
                 }  # fmt: skip
-                yield _Place(lines, arrows, text, cost, put)
+                yield _Place(lines, arrows, text, cost, (ends, feet[0], turn))
 
     def _angles(self, one: Angle) -> Iterator[_Place]:
         """Where an angle may stand: its arc nearer or farther, its words on a shelf from its middle or its end."""
@@ -429,87 +425,40 @@ class _Layout:
             foot = at + radius * middle if within else places[0]
             shelf, text = _shelved(foot + far * way, one.words, middle if within else one.first)
 
-            def put(place: _Place, arc: Arc = arc, ends: Sequence[complex] = ends) -> None:
-                straight = [line for role, lines in place.lines.items() if role != "dimension" for line in lines]
-                drawn = self._drawn([*straight, arc, *place.arrows], place.text)
-                points = (ends[0], ends[1]) if sweep > 0 else (ends[1], ends[0])
-                self.canvas.dimensions.append(Dimension(
-                    "angle", math.degrees(abs(sweep)), self.paper.scale, points, at + arc.radius * middle, 0.0,
-                    one.words.replace("°", "%%d"), self._mark(), place.text.box.middle, False, *drawn, at,
-                ))  # fmt: skip
-
+            points = (ends[0], ends[1]) if sweep > 0 else (ends[1], ends[0])
             lines: dict[Role, Sequence[Line]] = {
                 "extension": edges, "dimension": [Line(a, b) for a, b in pairwise(places)],
                 "leader": [Line(foot, foot + far * way), *shelf],
             }  # fmt: skip
-            yield _Place(lines, arrows, text, (radius + far) / _STEP + _OTHER * (not within), put)
+            cost, told = (radius + far) / _STEP + _OTHER * (not within), (points, at + arc.radius * middle, 0.0)
+            yield _Place(lines, arrows, text, cost, told, arc=arc)
 
-    def _round(self, one: Round) -> None:
-        """A radius on a leader whose shelf carries the words; a diameter between lines beside its circle.
+    def _radii(self, one: Round) -> Iterator[_Place]:
+        """Where a radius may stand, on a leader whose shelf carries the words: to each arc, from both of its sides."""
+        arcs = ((one.centre, one.angles, 0.0), *((*arc, _OTHER) for arc in one.also))
+        ways = (
+            self._leaders(one, self.paper.point(at), angles, more, inward=inward)
+            for inward in (False, True)
+            for at, angles, more in arcs
+        )
+        return merge(*ways, key=attrgetter("cost"))
 
-        Both are linear to programs, of which some turn what stands on a leader, and others read it as 0.
-        """
-        centre, radius = self.paper.point(one.centre), self.paper.scale * one.radius
-        if one.is_radius:
-            arcs = ((one.centre, one.angles, 0.0), *((*arc, _OTHER) for arc in one.also))
-            ways = (
-                self._radii(one, self.paper.point(at), radius, angles, more, inward=inward)
-                for inward in (False, True)
-                for at, angles, more in arcs
-            )
-            if not self._put(merge(*ways, key=_cost_of)):
-                raise _NoRoomError(one)
-            return
-        sides: tuple[Side, ...] = ("above", "right", "below", "left")
-
-        bare: list[tuple[float, Side, tuple[complex, complex], float]] = []
-        for reach, side in product(_REACHES, sides):
-            upright, out = _sense(side)
-            along = 1j if upright else 1.0
-            level = _along(centre + (radius + reach) * out, 1.0 if upright else 1j)
-            bare.append((reach / _STEP, side, (centre - radius * along, centre + radius * along), level))
-        known = self.ink.costs([_bare(ends, side, level) for _, side, ends, level in bare])
-        wide = text_width(self._words(one))
-
-        def places() -> Iterator[_Place]:
-            for k in sorted(range(len(bare)), key=lambda k: bare[k][0] + known[k]):
-                cost, side, ends, level = bare[k]
-                upright, _ = _sense(side)
-                low, high = (_along(p, 1j if upright else 1.0) for p in ends)
-                for begin in _begins(low, high, wide, self._middle(upright=upright)):
-                    yield replace(self._linear(one, ends, side, level, begin, cost), known=known[k])
-
-        if not self._put(places()):
-            raise _NoRoomError(one)
-
-    def _radii(
-        self, one: Round, centre: complex, radius: float, angles: Sequence[float], more: float, *, inward: bool
+    def _leaders(
+        self, one: Round, centre: complex, angles: Sequence[float], more: float, *, inward: bool
     ) -> Iterator[_Place]:
-        """Where a radius may stand on a leader to an arc, to its centre or away from it; ``more``: its own cost."""
+        """Of a radius to an arc, to its centre or away from it; ``more``: its own cost."""
         for reach, angle in product(_REACHES, angles):
             way = cmath.rect(1.0, math.radians(angle))
             out = -way if inward else way
-            tip = centre + radius * way
+            tip = centre + self.paper.scale * one.radius * way
             elbow = tip + reach * out
             shelf, text = _shelved(elbow, self._words(one), out)
-
-            def put(place: _Place, way: complex = way, tip: complex = tip) -> None:
-                turn = math.degrees(cmath.phase(way if way.real > 0 else -way))
-                self._dimension(one, (centre, tip), tip, turn, place.all_lines, place.text)
-
+            turn = math.degrees(cmath.phase(way if way.real > 0 else -way))
             cost = reach / _STEP + _PREFERRED * (inward != one.inward) + more
-            yield _Place({"leader": [Line(tip, elbow), *shelf]}, _arrow(tip, out), text, cost, put)
+            lines: dict[Role, Sequence[Line]] = {"leader": [Line(tip, elbow), *shelf]}
+            yield _Place(lines, _arrow(tip, out), text, cost, ((centre, tip), tip, turn))
 
-    def _note(self, note: Note) -> None:
-        """Words on a leader, or the sign of a surface."""
-
-        def put(place: _Place) -> None:
-            self._drawn(place.all_lines, place.text)
-
-        if not self._put(merge(self._on_axis(note, put), self._notes(note, put), key=_cost_of)):
-            raise _NoRoomError(note)
-
-    def _on_axis(self, note: Note, put: Callable[[_Place], None]) -> Iterator[_Place]:
+    def _on_axis(self, note: Note) -> Iterator[_Place]:
         """Where an arrow that looks along an axis, or a sign on the extension of a pitch line, may stand."""
         tip = self.paper.point(note.at)
         back = -note.looks
@@ -518,18 +467,18 @@ class _Layout:
             # the letter stands above an arrow that is level, on the right of one that is upright
             beside = complex(2 * ARROW, _ABOVE) if back == 1 else complex(_ABOVE, ARROW)
             text = text_of(note.text, foot + beside, TITLE_TEXT)
-            yield _Place({"leader": [Line(foot, foot + _LOOK * back)]}, _arrow(foot, back), text, k / 2, put)
+            yield _Place({"leader": [Line(foot, foot + _LOOK * back)]}, _arrow(foot, back), text, k / 2)
         for reach in _REACHES if note.goes_on else ():
             lines, text = rough_sign(tip + reach, note.text)
             along = Line(tip + _AXIS, tip + reach + _SHORT * _SLOPE)
-            yield _Place({"leader": [along, *lines]}, [], text, reach / _STEP - _PREFERRED, put)
+            yield _Place({"leader": [along, *lines]}, [], text, reach / _STEP - _PREFERRED)
 
-    def _notes(self, note: Note, put: Callable[[_Place], None]) -> Iterator[_Place]:
+    def _notes(self, note: Note) -> Iterator[_Place]:
         """Where it may stand, on a leader or beside its circle."""
         if note.looks:
             return
         if note.about is not None:
-            yield from self._beside(note, self.paper.scale * note.about, put)
+            yield from self._beside(note, self.paper.scale * note.about)
             return
         middle = self.body.middle
         spots = [(note.at, note.free, 0.0), *((at, free, _OTHER) for at, free in note.also)]
@@ -550,30 +499,90 @@ class _Layout:
                     lines.append(Line(elbow, elbow + side * (off + 1.0)))
                 else:
                     lines, text = _shelved(elbow, note.text, way, TITLE_TEXT if note.is_letter else TEXT_HEIGHT)
-                yield _Place({"leader": [Line(tip, elbow), *lines]}, _arrow(tip, way), text, cost, put)
+                yield _Place({"leader": [Line(tip, elbow), *lines]}, _arrow(tip, way), text, cost)
 
-    def _beside(self, note: Note, radius: float, put: Callable[[_Place], None]) -> Iterator[_Place]:
+    def _beside(self, note: Note, radius: float) -> Iterator[_Place]:
         """Where a word may stand beside a circle."""
         middle, wide = self.paper.point(note.at), text_width(note.text)
         for far, turn in product(_NEARBY, _AROUND):
             way = cmath.rect(1.0, math.radians(turn))
             near = middle + (radius + far) * way
             corner = near - complex(wide * (1 - way.real) / 2, TEXT_HEIGHT * (1 - way.imag) / 2)
-            yield _Place({}, [], text_of(note.text, corner), far / _STEP, put)
+            yield _Place({}, [], text_of(note.text, corner), far / _STEP)
+
+
+class _Level(Record, dict=True):
+    """Where a dimension line may stand: ``out`` from its two ends, at a place across it; its cost in rows.
+
+    ``row``: what is taken along it, where others stand at the same level.
+    """
+
+    out: complex
+    ends: tuple[complex, complex]
+    at: float
+    cost: float
+    row: list[_Span]
+
+    @property
+    def is_upright(self) -> bool:
+        """Whether the line is."""
+        return self.out.real != 0
+
+    @cached_property
+    def points(self) -> list[complex]:
+        """Its ends, the lower or left one first."""
+        return sorted(self.ends, key=lambda p: _along(p, self.out))
+
+    @cached_property
+    def span(self) -> _Span:
+        """Where both are along the line."""
+        low, high = (_along(p, self.out) for p in self.points)
+        return low, high
+
+    def on(self, place: float, at: float) -> complex:
+        """A place along the line at a level."""
+        return complex(at, place) if self.is_upright else complex(place, at)
+
+    def lines(self, words: _Span) -> dict[Role, list[Line]]:
+        """Extension lines, and the dimension line as far as words reach."""
+        low, high = self.span
+        feet = zip(self.points, (self.on(place, self.at) for place in self.span), strict=True)
+        lines = [Line(point, foot + _BEYOND * self.out) for point, foot in feet if abs(point - foot) > 1e-9]
+        start, end = self.span if _is_inside(low, high) else (low - ARROW - 2.0, high + ARROW + 2.0)
+        line = Line(self.on(min(start, words[0]), self.at), self.on(max(end, words[1]), self.at))
+        return {"extension": lines, "dimension": [line]}
+
+    @property
+    def arrows(self) -> list[Line]:
+        """Both, within where there is room."""
+        way = (1.0 if _is_inside(*self.span) else -1.0) * (1j if self.is_upright else 1.0)
+        first, second = (self.on(place, self.at) for place in self.span)
+        return [*_arrow(first, way), *_arrow(second, -way)]
+
+    @property
+    def told(self) -> _Told:
+        """What programs know of it: those that take every size as aligned read the same with points at one level."""
+        beside = max(self.points, key=lambda p: (p * self.out.conjugate()).real)
+        first, second = (self.on(place, beside.real if self.is_upright else beside.imag) for place in self.span)
+        return (first, second), self.on(self.span[1], self.at), 90.0 if self.is_upright else 0.0
 
 
 class _Place(Record):
-    """A place for words: lines by what they are, arrows, words, what it costs in rows, what puts them there.
+    """A place for words: lines by what they are, arrows, words, what it costs in rows.
 
-    ``known``: what its lines cost at least, in rows.
+    ``told``: what programs know of a dimension. ``known``: what its lines cost at least, in rows. ``row``: where it
+    will take ``reach`` along its line. ``arc``: its line as it is drawn.
     """
 
     lines: Mapping[Role, Sequence[Line]]
     arrows: Sequence[Line]
     text: Text
     cost: float
-    put: Callable[[_Place], None]
+    told: _Told | None = None
     known: float = 0.0
+    row: list[_Span] | None = None
+    reach: _Span = (0.0, 0.0)
+    arc: Arc | None = None
 
     @property
     def least(self) -> float:
@@ -582,32 +591,27 @@ class _Place(Record):
 
     @property
     def all_lines(self) -> list[Line]:
-        """In the order in which they are drawn."""
+        """Straight ones, in the order in which they are drawn."""
         return [*(line for lines in self.lines.values() for line in lines), *self.arrows]
 
+    @property
+    def drawn(self) -> Sequence[CadCurve]:
+        """All that is drawn."""
+        if self.arc is None:
+            return self.all_lines
+        return [*self.lines["extension"], *self.lines["leader"], self.arc, *self.arrows]
 
-def _cost_of(place: _Place) -> float:
-    return place.cost
 
-
-def _meet(one: tuple[float, float], two: tuple[float, float]) -> bool:
+def _meet(one: _Span, two: _Span) -> bool:
     """Whether dimension lines of one row overlap or are too near, but for those that end in one place."""
     if min(abs(one[0] - two[1]), abs(two[0] - one[1])) < 1e-6:
         return False
     return one[0] - 1 < two[1] and two[0] < one[1] + 1
 
 
-def _sense(side: Side) -> tuple[bool, complex]:
-    """Whether dimension lines of a side are upright, and the way to them from the view."""
-    return side in ("left", "right"), {"left": -1.0, "right": 1.0, "above": 1j, "below": -1j}[side]
-
-
-def _along(point: complex, way: complex) -> float:
-    return point.imag if way == 1j else point.real
-
-
-def _at(along: complex, level: float, place: float) -> complex:
-    return complex(level, place) if along == 1j else complex(place, level)
+def _along(point: complex, out: complex) -> float:
+    """Where it is along a dimension line that stands that way out."""
+    return point.imag if out.real else point.real
 
 
 def _begins(low: float, high: float, wide: float, middle: float) -> Iterator[float]:
@@ -620,38 +624,9 @@ def _begins(low: float, high: float, wide: float, middle: float) -> Iterator[flo
         yield from beyond if low + high >= 2 * middle - 1e-9 else beyond[::-1]
 
 
-def _bare(ends: tuple[complex, complex], side: Side, level: float) -> dict[Role, list[Line]]:
-    """Lines of a dimension that are the same wherever its words stand along it."""
-    upright, out = _sense(side)
-    along = 1j if upright else 1.0
-    points = sorted(ends, key=lambda p: _along(p, along))
-    low, high = (_along(p, along) for p in points)
-    return _dimension_lines(points, along, level, (low, high), (low, high), out)
-
-
-def _dimension_lines(
-    points: Sequence[complex], along: complex, level: float, ends: tuple[float, float], words: tuple[float, float],
-    out: complex,
-) -> dict[Role, list[Line]]:  # fmt: skip
-    """Extension lines, and the dimension line as far as its words reach."""
-    (low, high), feet = ends, [_at(along, level, place) for place in ends]
-    lines = [
-        Line(point, foot + _BEYOND * out) for point, foot in zip(points, feet, strict=True) if abs(point - foot) > 1e-9
-    ]
-    start, end = ends if _is_inside(low, high) else (low - ARROW - 2.0, high + ARROW + 2.0)
-    line = Line(_at(along, level, min(start, words[0])), _at(along, level, max(end, words[1])))
-    return {"extension": lines, "dimension": [line]}
-
-
 def _is_inside(low: float, high: float) -> bool:
     """Whether arrows have room within a dimension line."""
     return high - low >= 2 * ARROW + 1.0
-
-
-def _ends_of(low: float, high: float, along: complex, level: float) -> list[Line]:
-    """Both arrows of a dimension line, within where there is room."""
-    way = along if _is_inside(low, high) else -along
-    return [*_arrow(_at(along, level, low), way), *_arrow(_at(along, level, high), -way)]
 
 
 def _arrow(tip: complex, way: complex) -> list[Line]:

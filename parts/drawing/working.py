@@ -83,6 +83,11 @@ class Angle(Record):
     words: str
     reaches: tuple[float, float] = (0.0, 0.0)
 
+    @property
+    def value(self) -> float:
+        """The number, degrees."""
+        return math.degrees(abs(cmath.phase(self.second / self.first)))
+
 
 class Round(Record):
     """The diameter, or the radius where ``is_radius``, of a circle or arc, on a leader; ``angles``: where it may stand.
