@@ -125,7 +125,7 @@ class BevelPairKind(GearPair[BevelPairSpec, "BevelGear", "BevelGear"]):
 
     def check(self, keys: BevelPairSpec, first: Struct, second: Struct) -> None:
         """The second is what the first is made for."""
-        for key, wanted in (("number_of_teeth", "mate_teeth"), ("mate_teeth", "number_of_teeth")):
+        for key, wanted in (("number_of_teeth", "mate_number_of_teeth"), ("mate_number_of_teeth", "number_of_teeth")):
             if getattr(second, key) != getattr(first, wanted):
                 raise ParameterError(key, getattr(second, key), "not_of_its_mate", Nearest(getattr(first, wanted)))
         for key in _ALIKE:

@@ -79,9 +79,9 @@ class CycloidalGearPair(GearPair[CycloidalGearPairSpec, "CycloidalGear", "Cycloi
         assert isinstance(second, CycloidalGearSpec)
         for own, other, owner in ((first, second, "first."), (second, first, "")):
             of_teeth = own.tip_rolling_diameter is None and other.root_rolling_diameter is None
-            if of_teeth and own.module == other.module and own.mate_teeth != other.number_of_teeth:
+            if of_teeth and own.module == other.module and own.mate_number_of_teeth != other.number_of_teeth:
                 cure = Nearest(other.number_of_teeth)
-                raise ParameterError(f"{owner}mate_teeth", own.mate_teeth, "not_of_its_mate", cure)
+                raise ParameterError(f"{owner}mate_number_of_teeth", own.mate_number_of_teeth, "not_of_its_mate", cure)
 
     def build(self, end: End[Any]) -> object:
         """The gear, checked to have teeth; there is one centre distance."""

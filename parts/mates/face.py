@@ -139,9 +139,9 @@ class FaceGearPairKind(GearPair[FaceGearPairSpec, "FaceGear", "SpurGear"]):
         helix = helix_of(second)
         if helix.angle:
             raise ParameterError("helix_angle_deg", second.helix_angle_deg, "not_of_its_mate", Nearest(0.0))
-        if second.number_of_teeth != first.pinion_teeth:
+        if second.number_of_teeth != first.pinion_number_of_teeth:
             raise ParameterError("number_of_teeth", second.number_of_teeth, "not_of_its_mate",
-                                 Nearest(first.pinion_teeth), of="pinion_teeth")  # fmt: skip
+                                 Nearest(first.pinion_number_of_teeth), of="pinion_number_of_teeth")  # fmt: skip
         for key in ("module", "pressure_angle_deg"):
             same_size(key, getattr(second, key), getattr(first, key), "not_of_its_mate")
         shift = first.pinion_profile_shift_coefficient

@@ -58,7 +58,7 @@ class Blank(Record):
 
 
 class BevelGear(Record, dict=True):
-    """A bevel gear for a mate of ``mate_teeth`` at the shaft angle; mm at the outer end, rad.
+    """A bevel gear for a mate of ``mate_number_of_teeth`` at the shaft angle; mm at the outer end, rad.
 
     ``pressure_angle``, like all of the tooth, is that of the section on a sphere, so of the transverse one.
 
@@ -70,7 +70,7 @@ class BevelGear(Record, dict=True):
 
     module: float
     number_of_teeth: int
-    mate_teeth: int
+    mate_number_of_teeth: int
     face_width: float
     blank: Blank
     shaft_angle: float = math.pi / 2
@@ -151,7 +151,7 @@ class BevelGear(Record, dict=True):
     @property
     def pitch_angle(self) -> float:
         """delta: tan delta = sin Sigma / (u + cos Sigma)."""
-        ratio = self.mate_teeth / self.number_of_teeth
+        ratio = self.mate_number_of_teeth / self.number_of_teeth
         return math.atan2(math.sin(self.shaft_angle), ratio + math.cos(self.shaft_angle))
 
     @property
@@ -446,7 +446,7 @@ class BevelGear(Record, dict=True):
             )
         if self.tip_cone_angle > _STEEPEST:
             more = [step * self.number_of_teeth for step in _RATIOS]
-            raise self._cured("mate_teeth", more, BevelGear._check_cones, "bevel_too_flat",
+            raise self._cured("mate_number_of_teeth", more, BevelGear._check_cones, "bevel_too_flat",
                               most=math.degrees(_STEEPEST))  # fmt: skip
         if self.root_angle <= 0 or self.rim_room <= self._wall:
             raise self._cured("number_of_teeth", 10 * self.number_of_teeth, BevelGear._check_cones, "bevel_no_root")

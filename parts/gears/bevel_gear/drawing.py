@@ -179,5 +179,5 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
         "shaft_angle_deg", "mean_module", "mean_normal_module", "outer_cone_distance", "mean_cone_distance",
         "mean_pitch_diameter", "face_width", "root_cone_angle_deg", "outer_depth",
     )  # fmt: skip
-    beside = mate_rows(mates) or [DataRow(N_("teeth of the mate"), "z", keys.mate_teeth)]
+    beside = mate_rows(mates) or [DataRow(N_("teeth of the mate"), "z", keys.mate_number_of_teeth)]
     return DataTable((first, control, (*last, *beside)))

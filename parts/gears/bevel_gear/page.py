@@ -78,7 +78,7 @@ def _pair(keys: BevelKeys) -> BevelPair:
         raise _by_backlash(error, keys) from error
     own = 0.0 if keys.normal_backlash is None else thinning
     second = replace(
-        first, number_of_teeth=first.mate_teeth, mate_teeth=first.number_of_teeth,
+        first, number_of_teeth=first.mate_number_of_teeth, mate_number_of_teeth=first.number_of_teeth,
         profile_shift_coefficient=-first.profile_shift_coefficient,
         thickness_coefficient=-first.thickness_coefficient, circumferential_thinning=own, hand=first.opposite().hand,
         blank=replace(first.blank, hub_diameter=0.0, hub_length=0.0, holes=HubHoles()),
@@ -93,7 +93,7 @@ def _pair(keys: BevelKeys) -> BevelPair:
             nearest = error.nearest
             cure = None if nearest is None else replace(nearest, side="exactly").scaled(-1.0)
             raise ParameterError(error.name, getattr(keys, error.name), error.code, cure, **error.numbers) from error
-        swapped = {"number_of_teeth": "mate_teeth", "mate_teeth": "number_of_teeth"}
+        swapped = {"number_of_teeth": "mate_number_of_teeth", "mate_number_of_teeth": "number_of_teeth"}
         raise _by_backlash(error.renamed(swapped.get(error.name, error.name)), keys) from error
 
 
@@ -112,7 +112,7 @@ def _normal_share(keys: BevelKeys) -> float:
 def _given(page: Sheet, pair: BevelPair) -> None:
     page.section("Given")
     first, both = pair.first, partial(_both, page, pair)
-    page.both("number_of_teeth", (first.number_of_teeth, first.mate_teeth))
+    page.both("number_of_teeth", (first.number_of_teeth, first.mate_number_of_teeth))
     page.add("outer_module", first.module)
     page.add("shaft_angle_deg", math.degrees(first.shaft_angle))
     if first.is_straight:

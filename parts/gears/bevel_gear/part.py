@@ -56,7 +56,7 @@ class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_
 
     module: OuterModule
     number_of_teeth: Teeth
-    mate_teeth: MateTeeth
+    mate_number_of_teeth: MateTeeth
     face_width: (
         Annotated[float, mm("length of the teeth b along the pitch cone; default: the lesser of 0.3 R_e and 10 m",
                             least=0.01, most=10_000, example=12.0)]
@@ -127,7 +127,7 @@ class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_
 def bevel_gear(keys: BevelGearSpec, blank: Blank) -> BevelGear:
     """The gear of its keys, not yet checked."""
     gear = BevelGear(
-        keys.module, keys.number_of_teeth, keys.mate_teeth, 0.0, blank,
+        keys.module, keys.number_of_teeth, keys.mate_number_of_teeth, 0.0, blank,
         math.radians(keys.shaft_angle_deg), math.radians(keys.pressure_angle_deg), keys.addendum_coefficient,
         keys.tip_clearance_coefficient, keys.tip_radius_coefficient, keys.profile_shift_coefficient,
         keys.thickness_coefficient, keys.circumferential_thinning, keys.tip_cone == "apex",

@@ -34,7 +34,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
 def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTable:
     """The table, as the scene's mates have left the teeth; ``mates``: what meshes with it."""
     # of a mate that stands nowhere nothing is asked
-    keys = {key: value for key, value in given(part.keys).items() if key != "mate_teeth"}
+    keys = {key: value for key, value in given(part.keys).items() if key != "mate_number_of_teeth"}
     keys |= {"tip_rolling_diameter": 2 * part.thing.tip_rolling_radius, "rows": _ROWS}
     page = cycloidal_gear_page.sheet(keys | {"circumferential_thinning": part.thing.circumferential_thinning})
     begins = DataRow(N_("x of the points"), "x", N_("through the middle of a tooth"))

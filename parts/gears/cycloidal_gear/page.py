@@ -67,7 +67,7 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
             if "circumferential_thinning" not in table:
                 found["circumferential_thinning"] = thinned[0]
             tips = {
-                "mate_teeth": other.number_of_teeth,
+                "mate_number_of_teeth": other.number_of_teeth,
                 "mate_addendum_coefficient": other.addendum_coefficient,
                 "mate_circumferential_thinning": thinned[1],
             }
@@ -80,7 +80,7 @@ def sheet(keys: CycloidalGearKeys) -> Sheet:
     """The calculation of a gear, and of its contact where the mate's teeth are told."""
     gear = CYCLOIDAL_GEAR.thing(keys, {})
     page = Sheet(TOPIC, N_("Cycloidal gear"))
-    gears = [gear] if keys.mate_teeth is None else [gear, _mate(keys, gear)]
+    gears = [gear] if keys.mate_number_of_teeth is None else [gear, _mate(keys, gear)]
     _given(page, gears)
     _sizes(page, gears)
     _limits(page, gear)
@@ -93,13 +93,15 @@ def sheet(keys: CycloidalGearKeys) -> Sheet:
 
 def _mate(keys: CycloidalGearKeys, gear: CycloidalGear) -> CycloidalGear:
     """The mate, drawn by the same circles; of it the tips alone count."""
-    assert keys.mate_teeth is not None
+    assert keys.mate_number_of_teeth is not None
     own = keys.mate_addendum_coefficient
     height = gear.addendum_coefficient if own is None else own
     circles = gear.root_rolling_radius, gear.tip_rolling_radius
     try:
         thinning = keys.mate_circumferential_thinning
-        mate = CycloidalGear(keys.mate_teeth, gear.module, *circles, height, circumferential_thinning=thinning)
+        mate = CycloidalGear(
+            keys.mate_number_of_teeth, gear.module, *circles, height, circumferential_thinning=thinning
+        )
         return checked_tips(mate)
     except ParameterError as error:
         if error.code == "root_flanks_undercut":

@@ -24,7 +24,7 @@ class CycloidalGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="cycloida
 
     module: Annotated[float, mm("module m", least=0.01, most=1000, example=2.0)]
     number_of_teeth: Annotated[int, Meta(ge=4, le=2000, description="number of teeth z", examples=[60])]
-    mate_teeth: (
+    mate_number_of_teeth: (
         Annotated[
             int,
             Meta(ge=4, le=2000, description="of the mate, whose straight root flanks its tips touch"),
@@ -75,13 +75,13 @@ class CycloidalGearKind(WheelKind[CycloidalGearSpec, "CycloidalGear"]):
         from geometry.gears.cycloidal.gear import CycloidalGear, checked_cycloidal_gear
 
         tip, root = keys.tip_rolling_diameter, keys.root_rolling_diameter
-        if tip is None and keys.mate_teeth is None:
-            raise ParameterError("mate_teeth", None, "one_of_two_is_missing", other="tip_rolling_diameter")
+        if tip is None and keys.mate_number_of_teeth is None:
+            raise ParameterError("mate_number_of_teeth", None, "one_of_two_is_missing", other="tip_rolling_diameter")
         gear = checked_cycloidal_gear(
             CycloidalGear(
                 keys.number_of_teeth,
                 keys.module,
-                keys.module * (keys.mate_teeth or 0) / 4 if tip is None else tip / 2,
+                keys.module * (keys.mate_number_of_teeth or 0) / 4 if tip is None else tip / 2,
                 keys.module * keys.number_of_teeth / 4 if root is None else root / 2,
                 keys.addendum_coefficient,
                 keys.dedendum_coefficient,

@@ -63,7 +63,10 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     teeth = DataRow(N_("number of teeth of the face gear"), "z", keys.number_of_teeth)
     control = rows_of(page, ("face_tooth_depth",))
     last = rows_of(page, ("circumferential_thinning", "cutter_teeth", "undercut_diameter", "pointed_diameter"))
-    beside = [DataRow(N_("teeth of the mate"), "z", keys.pinion_teeth), *rows_of(page, ("profile_shift_coefficient",))]
+    beside = [
+        DataRow(N_("teeth of the mate"), "z", keys.pinion_number_of_teeth),
+        *rows_of(page, ("profile_shift_coefficient",)),
+    ]
     drawings = dict.fromkeys(getattr(m.part.keys, "designation", None) or m.part.title or m.part.id for m in mates)
     beside += [DataRow(N_("drawing of the mate"), "", Message("{name}", {"name": name})) for name in drawings]
     return DataTable(((first[0], teeth, *first[1:]), control, (*last, *beside)))

@@ -58,7 +58,7 @@ def sheet(keys: FaceKeys) -> Sheet:
 
 def _given(page: Sheet, keys: FaceKeys, gear: FaceGear) -> None:
     page.section(N_("Given"))
-    page.both("number_of_teeth", (keys.pinion_teeth, keys.number_of_teeth))
+    page.both("number_of_teeth", (keys.pinion_number_of_teeth, keys.number_of_teeth))
     page.add("module", keys.module)
     if keys.pinion_profile_shift_coefficient:
         page.add("profile_shift_coefficient", keys.pinion_profile_shift_coefficient, gear=1)

@@ -67,7 +67,7 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
 
     module: Module
     number_of_teeth: Teeth
-    pinion_teeth: PinionTeeth
+    pinion_number_of_teeth: PinionTeeth
     pressure_angle_deg: Annotated[float, degrees("pressure angle of the pinion", least=10, most=35)] = 20.0
     pinion_profile_shift_coefficient: Annotated[
         float, in_modules("profile shift x1 of its pinion, with which its own teeth go along", least=-2, most=3)
@@ -150,7 +150,7 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
 
 # keys of the shaper as its owner has them
 _SHAPER_KEYS = {
-    "cutter.addendum": "dedendum_coefficient", "cutter.number_of_teeth": "pinion_teeth",
+    "cutter.addendum": "dedendum_coefficient", "cutter.number_of_teeth": "pinion_number_of_teeth",
     "cutter.profile_shift_coefficient": "pinion_profile_shift_coefficient",
 }  # fmt: skip
 
@@ -159,7 +159,7 @@ def shaper_of(keys: FaceGearSpec) -> PinionCutter:
     """The shaper, checked to exist."""
     alpha, rounding = math.radians(keys.pressure_angle_deg), keys.tip_radius_coefficient
     shift = keys.pinion_profile_shift_coefficient
-    sharp = PinionCutter(keys.module, keys.pinion_teeth, alpha, shift, CUTTER_ADDENDUM, 0.0)
+    sharp = PinionCutter(keys.module, keys.pinion_number_of_teeth, alpha, shift, CUTTER_ADDENDUM, 0.0)
 
     def cut(dedendum: float) -> PinionCutter:
         shaper = replace(sharp, addendum=dedendum)
@@ -189,8 +189,8 @@ def _made(keys: FaceGearSpec) -> FaceGear:
         bare = topped(bare, begins)
     inner, outer = (None if d is None else d / 2 for d in (keys.inner_diameter, keys.outer_diameter))
     plain = sized(bare, inner, outer, begins).checked()
-    teeth = keys.pinion_teeth if keys.shaper_number_of_teeth is None else keys.shaper_number_of_teeth
-    more = teeth - keys.pinion_teeth
+    teeth = keys.pinion_number_of_teeth if keys.shaper_number_of_teeth is None else keys.shaper_number_of_teeth
+    more = teeth - keys.pinion_number_of_teeth
     if more == 0:
         return plain
 
@@ -198,17 +198,18 @@ def _made(keys: FaceGearSpec) -> FaceGear:
         gear = plain
         for _ in range(_SETTLED):
             middle = (gear.inner_radius + gear.outer_radius) / 2
-            gear = replace(gear, more_teeth=int(teeth) - keys.pinion_teeth, contact_plane=middle)
+            gear = replace(gear, more_teeth=int(teeth) - keys.pinion_number_of_teeth, contact_plane=middle)
             gear = sized(gear, inner, outer, begins)
         return gear.checked()
 
     if more < 0:
-        raise ParameterError("shaper_number_of_teeth", teeth, "shaper_below_pinion", Nearest(keys.pinion_teeth),
-                             teeth=keys.pinion_teeth)  # fmt: skip
+        raise ParameterError("shaper_number_of_teeth", teeth, "shaper_below_pinion",
+         Nearest(keys.pinion_number_of_teeth),
+                             teeth=keys.pinion_number_of_teeth)  # fmt: skip
     try:
         return crowned(teeth)
     except ParameterError as refusal:
-        cure = partial(nearest, lambda own: bool(crowned(own)), teeth, keys.pinion_teeth + 1)
+        cure = partial(nearest, lambda own: bool(crowned(own)), teeth, keys.pinion_number_of_teeth + 1)
         raise ParameterError("shaper_number_of_teeth", teeth, refusal.code, cure, **refusal.numbers) from refusal
 
 
@@ -218,7 +219,7 @@ def pinion_of(keys: FaceGearSpec) -> SpurGear:
     from parts.gears.spur_gear.part import basic_rack_of
 
     rack = basic_rack_of("ISO 53 A", math.radians(keys.pressure_angle_deg))
-    return SpurGear(keys.module, keys.pinion_teeth, rack, keys.pinion_profile_shift_coefficient)
+    return SpurGear(keys.module, keys.pinion_number_of_teeth, rack, keys.pinion_profile_shift_coefficient)
 
 
 def _form_length(keys: FaceGearSpec) -> float:

@@ -32,7 +32,9 @@ _LOAD, _MOUNTED = 1.15, 0.995
 class ChainKeys(SprocketSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the driving sprocket, the teeth of the other one, the chain's length and what it carries."""
 
-    mate_teeth: Annotated[int, Meta(ge=6, le=200, description="number of teeth of the driven sprocket", examples=[38])]
+    mate_number_of_teeth: Annotated[
+        int, Meta(ge=6, le=200, description="number of teeth of the driven sprocket", examples=[38])
+    ]
     number_of_links: Annotated[int, Meta(ge=6, le=10_000, description="links of the chain", examples=[100])] | None = (
         None
     )
@@ -53,14 +55,14 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
     assert isinstance(second, SprocketSpec)
     asked = {key: getattr(mate, key) for key in ("number_of_links", "centre_distance")}
     own = given(first) | {key: value for key, value in asked.items() if value is not None}
-    return own | {"mate_teeth": second.number_of_teeth} | table
+    return own | {"mate_number_of_teeth": second.number_of_teeth} | table
 
 
 @calculation(TOPIC, ChainKeys)
 def sheet(keys: ChainKeys) -> Sheet:
     """The calculation of a chain drive."""
     one = SPROCKET.thing(keys, {})
-    two = checked_sprocket(replace(one, number_of_teeth=keys.mate_teeth, given_tip_diameter=None))
+    two = checked_sprocket(replace(one, number_of_teeth=keys.mate_number_of_teeth, given_tip_diameter=None))
     mesh = chain_mesh((one, two), keys.number_of_links, keys.centre_distance, "")
     page = Sheet(TOPIC, N_("Chain drive"))
     page.section(N_("Given"))

@@ -25,7 +25,7 @@ DISC = ("number_of_lobes=9", "pin_circle_diameter=90", "pin_diameter=9", "eccent
         "pin_circle_shift=0.2")  # fmt: skip
 LANTERN = ("number_of_teeth=24", "number_of_pins=8", "pin_circle_diameter=60", "pin_diameter=8", "pin_clearance=0.05",
            "root_clearance=0.2")  # fmt: skip
-CLOCK = ("cycloidal-gear", "module=2", "number_of_teeth=60", "mate_teeth=8")
+CLOCK = ("cycloidal-gear", "module=2", "number_of_teeth=60", "mate_number_of_teeth=8")
 OVAL = ("centrode=oval", "axis_ratio=1.4", "number_of_teeth=42", "module=2", "step=15")
 ELLIPSE = ("centrode=focal_ellipse", "eccentricity=0.4", "number_of_teeth=35", "module=2", "step=15")
 RATIO = ("centrode=ratio", "number_of_teeth=24", "mate_number_of_teeth=48", "centre_distance=120",
@@ -35,7 +35,8 @@ SHEETS = [("cycloidal", *DISC), ("cycloidal", "cycloidal_reducer"), ("cycloidal"
           ("geneva", "geneva_drive", "part=wheel", "speed_rpm=75", "number_of_pins=2"),
           ("geneva", "geneva_drive", "part=ring", "speed_rpm=75"),
           ("cycloidal-gear", "module=2", "number_of_teeth=30", "tip_rolling_diameter=10", "root_rolling_diameter=10",
-           "mate_teeth=20", "mate_addendum_coefficient=0.8", "circumferential_thinning=0.05", "root_rounding=0.3"),
+           "mate_number_of_teeth=20", "mate_addendum_coefficient=0.8", "circumferential_thinning=0.05",
+            "root_rounding=0.3"),
           ("noncircular", *OVAL), ("noncircular", *ELLIPSE), ("noncircular", *RATIO),
           ("noncircular", *RATIO[:1], "role=mate", "number_of_teeth=48", "mate_number_of_teeth=24", *RATIO[3:]),
           ("cam", "groove_cam"), ("cam", "wedge_cam"), ("cam", "barrel_cam", "part=barrel"),
@@ -266,7 +267,7 @@ def test_of_a_mate_the_tips_alone_are_asked() -> None:
     """Roots as deep and teeth as thin as a wheel of 60 can have, and a pinion of 8 cannot."""
     plain, deep = (calculated(*CLOCK, *more)["values"] for more in ((), ("dedendum_coefficient=5",)))
     assert deep["approach_contact_ratio"] == plain["approach_contact_ratio"]
-    thin = calculated(*CLOCK[:2], "number_of_teeth=8", "mate_teeth=60", "addendum_coefficient=0.5",
+    thin = calculated(*CLOCK[:2], "number_of_teeth=8", "mate_number_of_teeth=60", "addendum_coefficient=0.5",
                       "circumferential_thinning=1.8", "mate_addendum_coefficient=1.3")  # fmt: skip
     assert thin["values"]["approach_contact_ratio"] > 0
 
@@ -287,7 +288,10 @@ def test_the_rule_for_equal_ovals_is_told() -> None:
         (("lantern", "number_of_teeth=12"), "number_of_pins"),
         (("lantern", "practicum_pair", "part=wheel"), "the scene has no lantern_gear"),
         ((*CLOCK, "mate_addendum_coefficient=4"), "mate_addendum_coefficient = 4.0: the tooth is pointed"),
-        ((*CLOCK[:3], "tip_rolling_diameter=30", "mate_teeth=10"), "gear.tip_rolling_diameter = 30.0: is more than"),
+        (
+            (*CLOCK[:3], "tip_rolling_diameter=30", "mate_number_of_teeth=10"),
+            "gear.tip_rolling_diameter = 30.0: is more than",
+        ),
         (("noncircular", "oval_gears"), "oval, ellipse; add part=ID"),
         (("noncircular", *OVAL[:1], "axis_ratio=3", *OVAL[2:]), "works"),
         (("noncircular", *OVAL, "stp=3"), "did you mean step"),

@@ -48,9 +48,11 @@ PARTS: dict[str, dict[str, Any]] = {
              "shaft_above": [{"diameter": 25.0, "length": 20.0, "chamfer": 1.0}]},
     "wheel": {"kind": "worm_wheel", "module": 4.0, "number_of_teeth": 30, "face_width": 30.0, "outer_diameter": 136.0,
               "bore_diameter": 25.0},
-    "bevel": {"kind": "bevel_gear", "module": 3.0, "number_of_teeth": 20, "mate_teeth": 40, "hub_diameter": 34.0,
+    "bevel": {"kind": "bevel_gear", "module": 3.0, "number_of_teeth": 20, "mate_number_of_teeth": 40,
+     "hub_diameter": 34.0,
               "profile_shift_coefficient": 0.3, "hub_length": 12.0, "bore": {"shape": "keyway", "diameter": 16.0}},
-    "face": {"kind": "face_gear", "module": 2.0, "number_of_teeth": 60, "pinion_teeth": 20, "inner_diameter": 122.0,
+    "face": {"kind": "face_gear", "module": 2.0, "number_of_teeth": 60, "pinion_number_of_teeth": 20,
+     "inner_diameter": 122.0,
              "outer_diameter": 130.0, "plate_thickness": 6.0, "bore_diameter": 25.0,
              "hub": {"diameter": 40.0, "below": 8.0, "above": 4.0},
              "holes": {"count": 6, "diameter": 12.0, "pitch_circle_diameter": 80.0}},
@@ -74,7 +76,8 @@ PARTS["disc"] = {
     "eccentricity": 3.0, "bore_diameter": 20.0, "face_width": 8.0,
     "output_holes": {"count": 6, "pin_diameter": 6.0, "pitch_circle_diameter": 56.0},
 }  # fmt: skip
-PARTS["clock"] = {"kind": "cycloidal_gear", "module": 2.0, "number_of_teeth": 30, "mate_teeth": 8, "bore_diameter": 8.0,
+PARTS["clock"] = {"kind": "cycloidal_gear", "module": 2.0, "number_of_teeth": 30, "mate_number_of_teeth": 8,
+ "bore_diameter": 8.0,
                   "face_width": 5.0}  # fmt: skip
 PARTS["geneva"] = {"kind": "geneva_wheel", "number_of_slots": 4, "centre_distance": 80.0, "pin_diameter": 8.0,
                    "slot_clearance": 0.5, "locking_diameter": 84.0, "locking_clearance": 0.5, "end_clearance": 1.0,
@@ -664,7 +667,8 @@ def test_cones_of_a_bevel_gear_stand_on_its_picture(teeth: int, mate: int, shaft
 
     ezdxf measures each by the two lines of its dimension.
     """
-    gear = {"kind": "bevel_gear", "module": 3.0, "number_of_teeth": teeth, "mate_teeth": mate, "bore_diameter": 8.0,
+    gear = {"kind": "bevel_gear", "module": 3.0, "number_of_teeth": teeth, "mate_number_of_teeth": mate,
+     "bore_diameter": 8.0,
             "shaft_angle_deg": shaft}  # fmt: skip
     document = ezdxf.readfile(drawn(tmp_path, gear))
     space = document.modelspace()
@@ -698,7 +702,8 @@ def test_cones_of_a_bevel_gear_stand_on_its_picture(teeth: int, mate: int, shaft
 
 def test_the_line_of_a_face_width_ends_beside_no_other_line(tmp_path: Path) -> None:
     """Its shelf began half a millimetre beside the line of the mounting distance: shapely, by the file alone."""
-    gear = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 30, "mate_teeth": 20, "bore_diameter": 10.0,
+    gear = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 30, "mate_number_of_teeth": 20,
+     "bore_diameter": 10.0,
             "hub_diameter": 24.0, "hub_length": 8.0}  # fmt: skip
     document = ezdxf.readfile(drawn(tmp_path, gear))
     lines: dict[bool, list[shapely.LineString]] = {True: [], False: []}

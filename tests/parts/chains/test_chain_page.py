@@ -19,7 +19,7 @@ def values(*words: str) -> dict[str, Any]:
     return found
 
 
-DRIVE = ("chain=08B-1", "number_of_teeth=17", "mate_teeth=38")
+DRIVE = ("chain=08B-1", "number_of_teeth=17", "mate_number_of_teeth=38")
 
 
 def test_speeds_and_forces_are_those_of_the_pins() -> None:
@@ -41,7 +41,8 @@ def test_speeds_and_forces_are_those_of_the_pins() -> None:
 
 def test_links_of_a_distance_are_those_of_textbooks() -> None:
     """Jindal, Machine Design, example 30-1: 17 and 51 teeth, p = 9.52 mm, 300 mm apart: 98 links by its formula."""
-    found = values("pitch=9.52", "roller_diameter=6.35", "face_width=5", "number_of_teeth=17", "mate_teeth=51",
+    found = values("pitch=9.52", "roller_diameter=6.35", "face_width=5", "number_of_teeth=17",
+     "mate_number_of_teeth=51",
                    "centre_distance=300")  # fmt: skip
     assert found["textbook_links"] == pytest.approx(2 * 300 / 9.52 + 34 + (34 / (2 * math.pi)) ** 2 * 9.52 / 300)
     assert found["number_of_links"] == 98

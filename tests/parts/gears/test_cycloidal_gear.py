@@ -19,8 +19,8 @@ from parts.base.refusal import SceneError
 from parts.gears.cycloidal_gear.drawing import data_table
 from parts.scene.load import load_scene, make_parts, scene_from_dict
 
-WHEEL: dict[str, Any] = {"kind": "cycloidal_gear", "module": 2.0, "number_of_teeth": 60, "mate_teeth": 8}
-PINION: dict[str, Any] = WHEEL | {"number_of_teeth": 8, "mate_teeth": 60}
+WHEEL: dict[str, Any] = {"kind": "cycloidal_gear", "module": 2.0, "number_of_teeth": 60, "mate_number_of_teeth": 8}
+PINION: dict[str, Any] = WHEEL | {"number_of_teeth": 8, "mate_number_of_teeth": 60}
 PAIR: dict[str, Any] = {"kind": "cycloidal_gear_pair", "first": "wheel", "second": "pinion"}
 
 
@@ -55,9 +55,9 @@ def test_backlash_thins_both_and_a_drive_goes_through() -> None:
     ("wheel", "pinion", "key", "code", "value"),
     [
         ({}, {"module": 2.5}, "mates[1]: parts.pinion.module", "not_that_of_mate", 2.0),
-        ({}, {"mate_teeth": 50}, "mates[1]: parts.pinion.mate_teeth", "not_of_its_mate", 60),
-        ({"mate_teeth": 9}, {}, "mates[1]: parts.wheel.mate_teeth", "not_of_its_mate", 8),
-        ({}, {"number_of_teeth": 9}, "mates[1]: parts.wheel.mate_teeth", "not_of_its_mate", 9),
+        ({}, {"mate_number_of_teeth": 50}, "mates[1]: parts.pinion.mate_number_of_teeth", "not_of_its_mate", 60),
+        ({"mate_number_of_teeth": 9}, {}, "mates[1]: parts.wheel.mate_number_of_teeth", "not_of_its_mate", 8),
+        ({}, {"number_of_teeth": 9}, "mates[1]: parts.wheel.mate_number_of_teeth", "not_of_its_mate", 9),
         (
             {},
             {"tip_rolling_diameter": 50.0},
@@ -96,8 +96,8 @@ def test_gears_that_are_no_pair_are_told_the_mate_s_circle(
 
 
 def test_what_is_missing_is_named() -> None:
-    found = refused(scene_of({"mate_teeth": None}))
-    assert (found.key, found.code) == ("parts.wheel.mate_teeth", "one_of_two_is_missing")
+    found = refused(scene_of({"mate_number_of_teeth": None}))
+    assert (found.key, found.code) == ("parts.wheel.mate_number_of_teeth", "one_of_two_is_missing")
 
 
 @pytest.mark.parametrize("backlash", [3.0, 6.5])

@@ -21,7 +21,7 @@ from parts.scene.load import scene_from_dict
 from tests.parts.gears.bevel.test_bevel_differential import differential, frames, meshes, rigid, stood
 from tests.parts.gears.bevel.test_bevel_films import svg_pose
 
-BEVEL: dict[str, Any] = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 20, "mate_teeth": 30}
+BEVEL: dict[str, Any] = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 20, "mate_number_of_teeth": 30}
 CAM: dict[str, Any] = {"kind": "cam", "follower": "flat", "lift": 12.0, "base_circle_radius": 20.0, "face_width": 5.0,
                        "phases": [{"move": "rise", "angle_deg": 150.0, "law": "polynomial_345"},
                                   {"move": "return_", "angle_deg": 210.0, "law": "polynomial_345"}]}  # fmt: skip
@@ -34,7 +34,7 @@ FOLLOWS: dict[str, Any] = {"kind": "cam_follower", "first": "cam", "second": "ta
 def on_a_bevel_shaft(**post: Any) -> dict[str, Any]:
     """A cam on the lying shaft that a bevel pair of ratio 1.5 turns, and a post."""
     return {
-        "parts": {"one": BEVEL, "two": {**BEVEL, "number_of_teeth": 30, "mate_teeth": 20}, "cam": CAM,
+        "parts": {"one": BEVEL, "two": {**BEVEL, "number_of_teeth": 30, "mate_number_of_teeth": 20}, "cam": CAM,
                   "tappet": TAPPET, "post": POST},
         "instances": {**{key: {"part": key} for key in ("one", "two", "cam", "tappet")},
                       "post": {"part": "post", **post}},

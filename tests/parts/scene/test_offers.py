@@ -179,8 +179,8 @@ def test_an_offer_is_one_that_mates_and_what_is_made_of_the_part_take(
         ("bevel_reducer", "pinion.module", 0.6, "not_that_of_mate", 2.0),
         ("practicum_pair", "pinion.pressure_angle_deg", 44.0, "not_that_of_mate", 20.0),
         # what the first tells of its mate: the mate was refused, which could not be so
-        ("spiral_bevel_pair", "wheel.mate_teeth", 8, "not_of_its_mate", 16),
-        ("face_gear_pair", "wheel.pinion_teeth", 3, "not_of_its_mate", 20),
+        ("spiral_bevel_pair", "wheel.mate_number_of_teeth", 8, "not_of_its_mate", 16),
+        ("face_gear_pair", "wheel.pinion_number_of_teeth", 3, "not_of_its_mate", 20),
     ],
 )
 def test_a_part_that_cannot_be_is_told_by_the_key_in_which_it_is_not_its_mates(

@@ -53,8 +53,8 @@ def refusal(text: str | bytes) -> SceneError:
 WRONG_KEYS: dict[str, tuple[Keys, Keys, str, str, str]] = {
     "unknown key": ({"modul": "2"}, {}, "parts.gear.modul", "2", "did you mean module"),
     "unknown key beside the one that is most like it": (
-        {"kind": '"bevel_gear"', "mate_number_of_teeth": "40"}, {}, "parts.gear.mate_number_of_teeth", "40",
-        "did you mean mate_teeth"),
+        {"kind": '"bevel_gear"', "mate_teeth": "40"}, {}, "parts.gear.mate_teeth", "40",
+        "did you mean mate_number_of_teeth"),
     "unknown export key": ({}, {"tolerence": "1"}, "exports[1].tolerence", "1", "did you mean tolerance"),
     "unknown key in a table": ({"tip_relief": "{ dept = 1 }"}, {}, "tip_relief.dept", "1", "depth_coefficient"),
     "text for a number": ({"module": '"two"'}, {}, "parts.gear.module", '"two"', "a number"),

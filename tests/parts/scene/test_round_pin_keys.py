@@ -91,7 +91,7 @@ ANY = st.one_of(
         "cycloidal_gear",
         module=numbers(0.2, 5),
         number_of_teeth=st.integers(4, 80),
-        mate_teeth=optional(st.integers(4, 80)),
+        mate_number_of_teeth=optional(st.integers(4, 80)),
         tip_rolling_diameter=optional(sizes),
         root_rolling_diameter=optional(sizes),
         addendum_coefficient=optional(numbers(0.1, 3)),

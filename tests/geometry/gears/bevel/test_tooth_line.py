@@ -35,7 +35,7 @@ def pair(name: str, thinning: float = 0.0) -> BevelPair:
     first = BevelGear(2.0, 20, 31, 11.0, Blank(1.5), math.radians(80), section, profile_shift_coefficient=0.2,
                       circumferential_thinning=thinning, tip_to_apex=apex, spiral_angle=math.radians(spiral),
                       cutter_radius=cutter, hand="left")  # fmt: skip
-    second = replace(first, number_of_teeth=31, mate_teeth=20, profile_shift_coefficient=-0.2, hand="right")
+    second = replace(first, number_of_teeth=31, mate_number_of_teeth=20, profile_shift_coefficient=-0.2, hand="right")
     return BevelPair(first.checked(), second.checked())
 
 

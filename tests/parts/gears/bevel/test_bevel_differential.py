@@ -19,9 +19,9 @@ from parts.scene.placing import Placing, place
 from parts.scene.standing import Instance
 from parts.solids.mesh import body_mesh, mesh_outlines
 
-SIDE: dict[str, Any] = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 18, "mate_teeth": 12,
+SIDE: dict[str, Any] = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 18, "mate_number_of_teeth": 12,
                         "bore_diameter": 8.0}  # fmt: skip
-SATELLITE: dict[str, Any] = {**SIDE, "number_of_teeth": 12, "mate_teeth": 18, "bore_diameter": 5.0}
+SATELLITE: dict[str, Any] = {**SIDE, "number_of_teeth": 12, "mate_number_of_teeth": 18, "bore_diameter": 5.0}
 RING: dict[str, Any] = {"kind": "plate", "width": 80.0, "height": 80.0, "corner_radius": 40.0, "face_width": 4.0,
                         "holes": [{"at": [0.0, 0.0], "diameter": 60.0}]}  # fmt: skip
 

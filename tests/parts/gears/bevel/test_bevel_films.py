@@ -129,7 +129,7 @@ def test_what_lies_is_seen_from_above_in_the_picture(built: Path) -> None:
     assert path is not None
     corners = np.array([[float(x) for x in pair.split(",")] for pair in re.findall(r"-?[\d.e-]+,-?[\d.e-]+", path[1])])
     gear = load_scene("bevel_differential").parts["satellite"]
-    delta = math.atan2(gear.number_of_teeth, gear.mate_teeth)
+    delta = math.atan2(gear.number_of_teeth, gear.mate_number_of_teeth)
     widest = gear.module * gear.number_of_teeth / 2 + gear.module * math.cos(delta)
     assert np.abs(corners[:, 1]).max() == pytest.approx(widest, abs=0.02)
 

@@ -22,11 +22,13 @@ from tests.exporters.making import read_report, write_scene
 from tests.exporters.spoil import Records, change_stl, corner_shifted, triangle_flipped
 
 PINION: dict[str, Any] = {
-    "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 12, "mate_teeth": 18, "profile_shift_coefficient": 0.2,
+    "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 12, "mate_number_of_teeth": 18,
+     "profile_shift_coefficient": 0.2,
     "hub_diameter": 16.0, "hub_length": 4.0, "bore_diameter": 6.0,
 }  # fmt: skip
 WHEEL: dict[str, Any] = {
-    "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 18, "mate_teeth": 12, "profile_shift_coefficient": -0.2,
+    "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 18, "mate_number_of_teeth": 12,
+     "profile_shift_coefficient": -0.2,
     "bore": {"shape": "hexagon", "across_flats": 8.0},
 }  # fmt: skip
 
@@ -131,7 +133,7 @@ def test_satellites_close_a_differential_where_their_number_divides_the_teeth_of
     """The condition of assembly of a planetary set, whose wheels turn against each other when the carrier is held."""
     raw = differential()
     wheel = {**WHEEL, "number_of_teeth": teeth}
-    raw["parts"] = {"pinion": {**PINION, "mate_teeth": teeth}, "wheel": wheel}
+    raw["parts"] = {"pinion": {**PINION, "mate_number_of_teeth": teeth}, "wheel": wheel}
     raw["instances"] = {
         "sun": {"part": "wheel"},
         "satellite": {"part": "pinion", "count": 3},
@@ -220,9 +222,11 @@ def test_faces_much_wider_than_usual_are_written_and_read_back(tmp_path: Path, k
 def test_a_gear_of_thirty_metres_is_drawn_too() -> None:
     """A rounding of 1 mm beside cones of 31 m, and heavy undercut: splines within 3e-8 mm have room for both."""
     sizes: list[dict[str, Any]] = [
-        {"number_of_teeth": 60, "mate_teeth": 13, "pressure_angle_deg": 14.5, "profile_shift_coefficient": -0.2,
+        {"number_of_teeth": 60, "mate_number_of_teeth": 13, "pressure_angle_deg": 14.5,
+         "profile_shift_coefficient": -0.2,
          "tip_radius_coefficient": 0.001},
-        {"number_of_teeth": 17, "mate_teeth": 60, "pressure_angle_deg": 10.0, "tip_clearance_coefficient": 0.0},
+        {"number_of_teeth": 17, "mate_number_of_teeth": 60, "pressure_angle_deg": 10.0,
+         "tip_clearance_coefficient": 0.0},
     ]  # fmt: skip
     for keys in sizes:
         raw = {"parts": {"g": {"kind": "bevel_gear", "module": 1000.0, **keys}}}
@@ -231,7 +235,7 @@ def test_a_gear_of_thirty_metres_is_drawn_too() -> None:
 
 
 HOLED: dict[str, Any] = {
-    "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 50, "mate_teeth": 20, "rim_thickness": 4.0,
+    "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 50, "mate_number_of_teeth": 20, "rim_thickness": 4.0,
     "hub_diameter": 30.0, "hub_length": 6.0, "bore_diameter": 10.0,
     "holes": {"count": 4, "diameter": 8.0, "pitch_circle_diameter": 44.0},
 }  # fmt: skip
@@ -267,7 +271,7 @@ def test_holes_that_have_no_room_are_refused_with_some_that_have(circle: float, 
 @pytest.mark.parametrize(
     ("pinion", "wheel", "key", "told"),
     [
-        ({}, {"number_of_teeth": 19}, "parts.pinion.mate_teeth", "19"),
+        ({}, {"number_of_teeth": 19}, "parts.pinion.mate_number_of_teeth", "19"),
         ({}, {"module": 2.5}, "parts.pinion.module", "2.5"),
         ({}, {"profile_shift_coefficient": 0.1}, "parts.pinion.profile_shift_coefficient", "-0.1"),
         ({"shaft_angle_deg": 80.0}, {}, "parts.pinion.shaft_angle_deg", "90"),
@@ -313,7 +317,8 @@ def test_a_bevel_gear_that_is_offset_or_cut_flat_is_refused(tmp_path: Path, caps
 
 def test_the_page_tells_what_textbooks_tell() -> None:
     """Dunaev, Lelikov, and GOST 19624 by hand: m 2.5, z 20/50, x 0.3 at a right angle, b 20."""
-    words = ["module=2.5", "number_of_teeth=20", "mate_teeth=50", "profile_shift_coefficient=0.3", "face_width=20",
+    words = ["module=2.5", "number_of_teeth=20", "mate_number_of_teeth=50", "profile_shift_coefficient=0.3",
+     "face_width=20",
              "torque=30"]  # fmt: skip
     told = json.loads(calculate("bevel", words, "json", "en"))["values"]
     distance = 2.5 / 2 * math.hypot(20, 50)
@@ -368,7 +373,7 @@ KHK: dict[str, tuple[list[str], dict[str, list[float]], list[float]]] = {
 @pytest.mark.parametrize("system", KHK)
 def test_worked_examples_of_khk(system: str) -> None:
     keys, expected, inner = KHK[system]
-    words = ["module=3", "number_of_teeth=20", "mate_teeth=40", "face_width=22", *keys]
+    words = ["module=3", "number_of_teeth=20", "mate_number_of_teeth=40", "face_width=22", *keys]
     told = json.loads(calculate("bevel", words, "json", "en"))["values"]
     for name, value in expected.items():
         assert list(told[name].values()) == pytest.approx(value, abs=6e-5), name
@@ -376,7 +381,7 @@ def test_worked_examples_of_khk(system: str) -> None:
                              (word.split("=") for word in words)}  # fmt: skip
     for teeth, mate, way, diameter in ((20, 40, 1, inner[0]), (40, 20, -1, inner[1])):
         shift = way * given.get("profile_shift_coefficient", 0.0)
-        own = {"number_of_teeth": teeth, "mate_teeth": mate, "profile_shift_coefficient": shift}
+        own = {"number_of_teeth": teeth, "mate_number_of_teeth": mate, "profile_shift_coefficient": shift}
         raw = {"parts": {"gear": given | own | {"kind": "bevel_gear"}}}
         gear = make_parts(scene_from_dict(raw, "s", "s"), "s")[0]["gear"]
         solid = gear.body(0.0).within(1e-6).geometry
@@ -388,7 +393,13 @@ def test_worked_examples_of_khk(system: str) -> None:
 
 def test_what_is_measured_on_a_tooth() -> None:
     """The printed constants of GOST 19624-74 at 20 degrees, and the exact tooth cut half way along its face."""
-    words = ["module=2.5", "number_of_teeth=20", "mate_teeth=50", "profile_shift_coefficient=0.3", "face_width=20"]
+    words = [
+        "module=2.5",
+        "number_of_teeth=20",
+        "mate_number_of_teeth=50",
+        "profile_shift_coefficient=0.3",
+        "face_width=20",
+    ]
     told = json.loads(calculate("bevel", words, "json", "en"))["values"]
     thickness, high = (list(told[name].values()) for name in ("outer_thickness", "outer_addendum"))
     assert list(told["outer_constant_chord"].values()) == pytest.approx([0.8830 * s for s in thickness], rel=1e-4)
@@ -397,7 +408,7 @@ def test_what_is_measured_on_a_tooth() -> None:
     teeth = list(told["virtual_teeth"].values())
     assert list(told["virtual_least_shift"].values()) == pytest.approx([1.068 - 0.0585 * z for z in teeth], abs=3e-3)
     keys = {key: float(value) for key, value in (word.split("=") for word in words)}
-    keys |= {"number_of_teeth": 20, "mate_teeth": 50}
+    keys |= {"number_of_teeth": 20, "mate_number_of_teeth": 50}
     raw = {"parts": {"gear": {"kind": "bevel_gear"} | keys}}
     gear = make_parts(scene_from_dict(raw, "s", "s"), "s")[0]["gear"].thing
     # where the exact flank crosses the pitch cone: shares between fillet and tip, half way along
@@ -419,14 +430,14 @@ def test_what_is_measured_on_a_tooth() -> None:
 )
 def test_the_usual_shift_is_that_of_the_textbook_table(teeth: int, mate: int, shift: float) -> None:
     """Dunaev, Lelikov: shifts of straight bevel pinions at a right angle."""
-    words = ["module=2", f"number_of_teeth={teeth}", f"mate_teeth={mate}"]
+    words = ["module=2", f"number_of_teeth={teeth}", f"mate_number_of_teeth={mate}"]
     told = json.loads(calculate("bevel", words, "json", "en"))["values"]["usual_shift"]
     assert told == pytest.approx(shift, abs=0.0075)
 
 
 def test_sliding_is_the_cross_product_of_both_turnings_with_the_place() -> None:
     """At the outer tips on the line of action, alpha off the tangent plane of both pitch cones."""
-    words = ["module=2.5", "number_of_teeth=20", "mate_teeth=30", "shaft_angle_deg=75", "speed_rpm=300"]
+    words = ["module=2.5", "number_of_teeth=20", "mate_number_of_teeth=30", "shaft_angle_deg=75", "speed_rpm=300"]
     told = json.loads(calculate("bevel", words, "json", "en"))["values"]
     sigma, alpha = math.radians(75), math.radians(20)
     one, two = (math.radians(angle) for angle in told["pitch_cone_angle_deg"].values())
@@ -451,7 +462,7 @@ def test_sliding_is_the_cross_product_of_both_turnings_with_the_place() -> None:
 
 
 def test_a_backlash_that_leaves_no_tooth_is_refused_by_its_own_key() -> None:
-    words = ["module=2", "number_of_teeth=20", "mate_teeth=40"]
+    words = ["module=2", "number_of_teeth=20", "mate_number_of_teeth=40"]
     with pytest.raises(SceneError, match=r"normal_backlash = 9.0: .*; at most ") as caught:
         calculate("bevel", [*words, "normal_backlash=9"], "text", "en")
     assert caught.value.nearest is not None
@@ -463,7 +474,10 @@ def test_the_page_of_a_scene_and_its_refusals() -> None:
     # the mate's shift is the negative of the one that is given
     with pytest.raises(SceneError, match="profile_shift_coefficient"):
         calculate(
-            "bevel", ["module=2", "number_of_teeth=40", "mate_teeth=8", "profile_shift_coefficient=-0.9"], "text", "en"
+            "bevel",
+            ["module=2", "number_of_teeth=40", "mate_number_of_teeth=8", "profile_shift_coefficient=-0.9"],
+            "text",
+            "en",
         )
     assert load_scene("bevel_pair").parts["pinion"].__struct_config__.tag == "bevel_gear"
 

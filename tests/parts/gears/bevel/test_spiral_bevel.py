@@ -26,10 +26,11 @@ from parts.solids.mesh import body_mesh, mesh_outlines
 from tests.exporters.making import write_scene
 
 PINION: dict[str, Any] = {
-    "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 13, "mate_teeth": 20, "profile_shift_coefficient": 0.2,
+    "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 13, "mate_number_of_teeth": 20,
+     "profile_shift_coefficient": 0.2,
     "addendum_coefficient": 0.9, "spiral_angle_deg": 30.0, "hand": "left", "bore_diameter": 4.0,
 }  # fmt: skip
-WHEEL = PINION | {"number_of_teeth": 20, "mate_teeth": 13, "profile_shift_coefficient": -0.2, "hand": "right"}
+WHEEL = PINION | {"number_of_teeth": 20, "mate_number_of_teeth": 13, "profile_shift_coefficient": -0.2, "hand": "right"}
 KINDS: dict[str, dict[str, Any]] = {
     "spiral": {}, "zerol": {"spiral_angle_deg": 0.0, "cutter_radius": 15.0}, "skew": {"tooth_line": "straight"},
 }  # fmt: skip
@@ -120,13 +121,13 @@ def test_what_does_not_fit_is_refused_by_its_key(pinion: dict[str, Any], wheel: 
 @pytest.mark.parametrize("hand", ["right", "left"])
 def test_forces_are_those_along_the_normal_of_the_exact_flank(hand: str) -> None:
     """Of the driver, whose torque they balance, where its flank crosses the mean pitch circle; and of the mate."""
-    words = ["module=3", "number_of_teeth=20", "mate_teeth=30", "shaft_angle_deg=75", "spiral_angle_deg=35",
+    words = ["module=3", "number_of_teeth=20", "mate_number_of_teeth=30", "shaft_angle_deg=75", "spiral_angle_deg=35",
              f"hand={hand}", "face_width=15", "addendum_coefficient=0.85", "torque=30"]  # fmt: skip
     told = json.loads(calculate("bevel", words, "json", "en"))["values"]
     keys: dict[str, Any] = {
         word.partition("=")[0]: float(word.partition("=")[2]) for word in words if "hand" not in word
     }
-    keys |= {"kind": "bevel_gear", "hand": hand, "number_of_teeth": 20, "mate_teeth": 30}
+    keys |= {"kind": "bevel_gear", "hand": hand, "number_of_teeth": 20, "mate_number_of_teeth": 30}
     del keys["torque"]
     gear = make_parts(scene_from_dict({"parts": {"g": keys}}, "s", "s"), "s")[0]["g"].thing
     sigma = math.radians(75)
@@ -153,9 +154,10 @@ def test_forces_are_those_along_the_normal_of_the_exact_flank(hand: str) -> None
 
 def test_the_normal_chord_is_the_way_across_the_exact_tooth() -> None:
     """The shortest from pitch line to pitch line with its middle on the mean circle: arcs and taper bend it little."""
-    words = ["module=3", "number_of_teeth=20", "mate_teeth=40", "spiral_angle_deg=35", "face_width=20"]
+    words = ["module=3", "number_of_teeth=20", "mate_number_of_teeth=40", "spiral_angle_deg=35", "face_width=20"]
     told = json.loads(calculate("bevel", words, "json", "en"))["values"]
-    keys = {"kind": "bevel_gear", "module": 3.0, "number_of_teeth": 20, "mate_teeth": 40, "spiral_angle_deg": 35.0,
+    keys = {"kind": "bevel_gear", "module": 3.0, "number_of_teeth": 20, "mate_number_of_teeth": 40,
+     "spiral_angle_deg": 35.0,
             "face_width": 20.0}  # fmt: skip
     gear = make_parts(scene_from_dict({"parts": {"g": keys}}, "s", "s"), "s")[0]["g"].thing
     size = gear.mean_distance + np.linspace(-3.0, 3.0, 2001)
@@ -171,7 +173,7 @@ def test_the_normal_chord_is_the_way_across_the_exact_tooth() -> None:
 def test_the_worked_example_of_khk() -> None:
     """KHK, Gear Technical Reference, spiral bevel gears of the Gleason system: m 3, z 20/40, b 20, beta_m 35."""
     words = [
-        "module=3", "number_of_teeth=20", "mate_teeth=40", "face_width=20", "spiral_angle_deg=35",
+        "module=3", "number_of_teeth=20", "mate_number_of_teeth=40", "face_width=20", "spiral_angle_deg=35",
         "addendum_coefficient=0.85", "tip_clearance_coefficient=0.188", "profile_shift_coefficient=0.2925",
     ]  # fmt: skip
     told = json.loads(calculate("bevel", words, "json", "en"))["values"]
@@ -189,7 +191,13 @@ def test_the_worked_example_of_khk() -> None:
 
 def test_the_usual_shift_of_leaning_teeth_is_told_in_the_outer_module() -> None:
     """Dunaev, Lelikov: d_ae1 = d_e1 + 1.64 (1 + x_n1) m_te cos d1, x_n1 = 2 (1 - 1 / u^2) sqrt(cos^3 beta / z1)."""
-    words = ["module=3", "number_of_teeth=20", "mate_teeth=50", "spiral_angle_deg=35", "addendum_coefficient=0.82"]
+    words = [
+        "module=3",
+        "number_of_teeth=20",
+        "mate_number_of_teeth=50",
+        "spiral_angle_deg=35",
+        "addendum_coefficient=0.82",
+    ]
     shift = json.loads(calculate("bevel", words, "json", "en"))["values"]["usual_shift"]
     told = json.loads(calculate("bevel", [*words, f"profile_shift_coefficient={shift}"], "json", "en"))["values"]
     own = 2 * (1 - 0.4**2) * math.sqrt(math.cos(math.radians(35.0)) ** 3 / 20)
@@ -208,7 +216,7 @@ def test_the_usual_shift_of_leaning_teeth_is_told_in_the_outer_module() -> None:
 )
 def test_faces_too_wide_lead_to_the_nearest_value_that_works(keys: dict[str, Any], name: str) -> None:
     """A cutter that is not told has the mean cone distance of the face that is offered."""
-    raw = {"module": 3.0, "number_of_teeth": 16, "mate_teeth": 24, "spiral_angle_deg": 35.0} | keys
+    raw = {"module": 3.0, "number_of_teeth": 16, "mate_number_of_teeth": 24, "spiral_angle_deg": 35.0} | keys
 
     def made(**more: Any) -> None:
         BEVEL_GEAR.thing(msgspec.convert(raw | more | {"kind": "bevel_gear"}, BevelGearSpec), {})

@@ -21,7 +21,7 @@ from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import place
 from parts.solids.mesh import body_mesh, mesh_outlines
 
-GEAR: dict[str, Any] = {"kind": "face_gear", "module": 2.0, "number_of_teeth": 21, "pinion_teeth": 14}
+GEAR: dict[str, Any] = {"kind": "face_gear", "module": 2.0, "number_of_teeth": 21, "pinion_number_of_teeth": 14}
 PINION: dict[str, Any] = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 14, "face_width": 9.0}
 HUB: dict[str, Any] = {"diameter": 18.0, "below": 4.0, "above": 2.0}
 HOLES: dict[str, Any] = {"count": 5, "diameter": 5.0, "pitch_circle_diameter": 27.0}
@@ -91,7 +91,7 @@ PAIR = """
 kind = "face_gear"
 module = 2.0
 number_of_teeth = 21
-pinion_teeth = 14
+pinion_number_of_teeth = 14
 bore = {{ shape = "keyway", diameter = 10.0 }}
 hub = {{ diameter = 18.0, below = 4.0, above = 2.0 }}
 holes = {{ count = 5, diameter = 5.0, pitch_circle_diameter = 27.0 }}
@@ -168,10 +168,12 @@ def test_a_pinion_that_the_gear_is_not_for_is_refused() -> None:
         ({"addendum_coefficient": 2.5}, "addendum_coefficient"),
         ({"shaper_number_of_teeth": 13}, "shaper_number_of_teeth"),
         ({"shaper_number_of_teeth": 60}, "shaper_number_of_teeth"),
-        ({"pinion_teeth": 5, "dedendum_coefficient": 1.25}, "dedendum_coefficient"),
-        ({"pinion_teeth": 8, "pinion_profile_shift_coefficient": 0.5}, "dedendum_coefficient"),
-        ({"pinion_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.0}, "addendum_coefficient"),
-        ({"pinion_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.5}, "addendum_coefficient"),
+        ({"pinion_number_of_teeth": 5, "dedendum_coefficient": 1.25}, "dedendum_coefficient"),
+        ({"pinion_number_of_teeth": 8, "pinion_profile_shift_coefficient": 0.5}, "dedendum_coefficient"),
+        ({"pinion_number_of_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.0},
+         "addendum_coefficient"),
+        ({"pinion_number_of_teeth": 3, "dedendum_coefficient": 0.9, "addendum_coefficient": 1.5},
+         "addendum_coefficient"),
         ({"bore_diameter": 70.0}, "bore_diameter"), ({"hub": HUB | {"diameter": 60.0}}, "hub.diameter"),
         ({"holes": HOLES | {"pitch_circle_diameter": 40.0}}, "holes.pitch_circle_diameter"),
         ({"hub": HUB, "holes": HOLES | {"pitch_circle_diameter": 22.0}}, "hub.diameter"),
@@ -197,7 +199,9 @@ def test_what_cannot_be_is_refused_with_a_value_that_builds(keys: dict[str, Any]
 def test_pinions_of_few_teeth_mesh_by_default(teeth: int, others: int) -> None:
     """Undercut begins their involute late: the gear's teeth are low enough to be wide, and to be thinned, beyond it."""
     few = {"number_of_teeth": teeth}
-    parts, (mating,), _ = made(scene({"number_of_teeth": others, "pinion_teeth": teeth}, few, normal_backlash=0.4))
+    parts, (mating,), _ = made(
+        scene({"number_of_teeth": others, "pinion_number_of_teeth": teeth}, few, normal_backlash=0.4)
+    )
     gear = parts["wheel"].thing
     assert gear.face_width >= 2.0
     assert mating.contact(0.0, 0.0, None).verdict.name == "CLEAR"
@@ -214,7 +218,7 @@ def test_an_offer_leaves_tips_that_a_backlash_may_thin() -> None:
 @pytest.mark.parametrize(("addendum", "codes"), [(1.1, []), (1.24, ["contact_below_flank_second"])])
 def test_tips_in_the_pinions_fillet_are_told(addendum: float, codes: list[str]) -> None:
     """Of tips off the pinion's root and on its involute whose corners cut into its fillet: so do the meshes."""
-    gear = {"pinion_teeth": 20, "number_of_teeth": 60, "addendum_coefficient": addendum}
+    gear = {"pinion_number_of_teeth": 20, "number_of_teeth": 60, "addendum_coefficient": addendum}
     parts, (mating,), stand = made(scene(gear, {"number_of_teeth": 20}, normal_backlash=0.1))
     assert mating.contact(0.0, 0.0, None).verdict.name == ("OVERLAP" if codes else "CLEAR")
     found = mating.findings()
