@@ -8,25 +8,30 @@ from __future__ import annotations
 
 import cmath
 import math
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Literal, Protocol
 
-from geometry.base.angles import involute_function, roll_minus_polar
+import numpy as np
+
+from geometry.base.angles import inverse_involute, involute_function, roll_minus_polar
 from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.nearest import last_that_holds
 from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
-from geometry.curves.curve import Curve, end_point, start_point
+from geometry.curves.curve import Curve, Real, Reversed, end_point, start_point
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line, arc_between
 from geometry.plane.profile import Label, Profile, Segment
 from geometry.solids.bores import widened_corner
+from geometry.solids.measured import Measured
 
 Centring = Literal["inner", "outer", "sides"]
 Root = Literal["flat", "fillet"]
 _LETTERS: dict[Centring, str] = {"inner": "d", "outer": "D", "sides": "b"}
 _DIAGONAL = cmath.rect(1.0, math.pi / 4)
+# mm, of the diameters of pins
+_PIN_STEP = 0.05
 # halvings of a reach, to the last digit of a limit
 _STEPS = 52
 # rad: lands narrower than this are none
@@ -248,6 +253,20 @@ class StraightJoint(Record):
         return SplineForm(self.teeth, flank, self.inner / 2, self.outer / 2, root_chamfer=self.chamfer)
 
 
+class SplineMeasures(Record):
+    """What is measured on involute teeth, or in the space of a hub's slots, mm.
+
+    ``thickness`` on the reference circle, ``over_pins`` (between them in a hub) two of ``pin_diameter``, ``span`` over
+    ``teeth_spanned``, 0 in a hub.
+    """
+
+    thickness: float
+    pin_diameter: float
+    over_pins: float
+    teeth_spanned: int = 0
+    span: float = 0.0
+
+
 class InvoluteJoint(Record):
     """Teeth ``thickness`` mm thick on the reference circle m z, the slots of the hub as wide.
 
@@ -269,6 +288,40 @@ class InvoluteJoint(Record):
         reference = self.module * self.teeth / 2
         half = self.thickness / (2 * reference) + involute_function(self.pressure_angle)
         return InvoluteFlank(reference * math.cos(self.pressure_angle), half)
+
+    def measured(self, play: float, *, is_shaft: bool, pin_diameter: float = 0.0) -> SplineMeasures:
+        """What a calliper reads on sides that stand ``play`` mm outside of the nominal ones.
+
+        Pins by default touch them in the middle of their contact, all but for a step of 0.05 mm. They stand at
+        inv(alpha_M) = psi_b - pi / z + D / d_b on a shaft, psi_b - D / d_b in a hub (ISO 4156-1); W is as on gears.
+
+        Raises
+        ------
+        ParameterError
+            ``pin_diameter``: such a pin touches no involute.
+        """
+        flank, angle, way = self._flank().shifted(play), math.pi / self.teeth, 1 if is_shaft else -1
+        base, begins = flank.base_radius, flank.base_half_angle - (angle if is_shaft else 0.0)
+        middle = math.acos(min(4 * base / (self.hub_diameters[0] + self.shaft_diameters[1]), 1.0))
+
+        def beside(pin: float) -> float:
+            return begins + way * pin / 2 / base - roll_minus_polar(math.tan(middle) + way * pin / 2 / base)
+
+        if not pin_diameter:
+            best = bracketed_root(beside, 0.0, 2 * base * (1.0 if is_shaft else math.tan(middle))).value
+            pin_diameter = max(1, round(best / _PIN_STEP)) / round(1 / _PIN_STEP)
+        involute = begins + way * pin_diameter / 2 / base
+        if not involute > 0:
+            raise ParameterError("pin_diameter", pin_diameter, "pin_touches_no_side")
+        centre = base / math.cos(inverse_involute(involute))
+        over = 2 * centre * (math.cos(angle / 2) if self.teeth % 2 else 1.0) + way * pin_diameter
+        thickness = self.thickness + 2 * play / math.cos(self.pressure_angle)
+        if not is_shaft:
+            return SplineMeasures(thickness, pin_diameter, over)
+        # faces touch the sides in the middle of their contact, too
+        spanned = max(1, round((math.tan(middle) - flank.base_half_angle) / angle + 1))
+        span = 2 * base * (angle * (spanned - 1) + flank.base_half_angle)
+        return SplineMeasures(thickness, pin_diameter, over, spanned, span)
 
     def _form(self, diameters: tuple[float, float], root: float, crest: float) -> SplineForm:
         flank, (inner, outer) = self._flank(), (diameter / 2 for diameter in diameters)
@@ -297,6 +350,29 @@ def _full(flank: InvoluteFlank, radius: float, middle: float, way: int) -> float
     room = radius - flank.base_radius
     ends = (max(-room, 0.0), radius) if way > 0 else (0.0, room)
     return bracketed_root(beside, *ends).value
+
+
+def involute_walls(*outlines: Profile) -> tuple[Measured, ...]:
+    """The upright walls over the involutes of outlines about the axis, those of each hand as one; exact normals."""
+    found: dict[tuple[float, bool], list[float]] = {}
+    for segment in (segment for outline in outlines for segment in outline.segments()):
+        curve = segment.curve.original if isinstance(segment.curve, Reversed) else segment.curve
+        if isinstance(curve, Involute):
+            found.setdefault((curve.base_radius, curve.start_roll < 0), []).append(curve.base_angle)
+    return tuple(
+        Measured("spline", partial(_to_involutes, base, upper, np.array(angles)), len(angles))
+        for (base, upper), angles in found.items()
+    )
+
+
+def _to_involutes(base: float, upper: bool, angles: Real, points: Real) -> Real:
+    """How far points (n, 3) lie from the nearest of the involutes that leave a circle at some angles, mm."""
+    places = points[:, 0] + 1j * points[:, 1]
+    roll = np.sqrt(np.maximum((np.abs(places) / base) ** 2 - 1, 0.0))
+    gained = roll - np.arctan(roll)
+    leaves = np.angle(places) + (gained if upper else -gained)
+    apart = (leaves[:, None] - angles + np.pi) % (2 * np.pi) - np.pi
+    return base * np.abs(apart).min(axis=1) + np.maximum(base - np.abs(places), 0.0)
 
 
 class SplineBore(Record, dict=True):

@@ -8,15 +8,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache, partial
 
 import numpy as np
 
+from geometry.approximation.outline import spline_outline
 from geometry.approximation.tensor import clamped, greville
 from geometry.base.errors import ParameterError, limit
+from geometry.base.placement import Placement2
 from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.bspline import basis_matrix
 from geometry.curves.curve import Complex, Real
-from geometry.solids.faced import FacedSolid
+from geometry.plane.profile import Profile
+from geometry.solids.faced import FacedBody, FacedSolid, exact_body
 from geometry.solids.faces import (
     Circular,
     Cone,
@@ -26,14 +30,14 @@ from geometry.solids.faces import (
     Index,
     Loop,
     Plane,
-    SolidBuilder,
     Sphere,
     Spline,
     Straight,
     Torus,
 )  # fmt: skip
+from geometry.solids.rings import UP, Ring, RingBuilder
+from geometry.solids.splines import SplineForm, involute_walls
 
-UP = np.array([[0.0, 0.0, 1.0]])
 # what is one place, part of the size; samples of an arc where boundaries are held against each other
 _SAME, _SAMPLES = 1e-9, 33
 # of the curve in which a round end of a pocket meets its shaft: degree, pieces, part of the radius that is near enough
@@ -106,12 +110,50 @@ class Pocket(Record):
     round_ends: bool = True
 
 
+class Splined(Record):
+    """Teeth in place of a cylinder from ``low`` to ``high``, ``clearance`` within their form, mm.
+
+    ``angle``: of the middle of a tooth, rad.
+    """
+
+    low: float
+    high: float
+    form: SplineForm
+    clearance: float = 0.0
+    angle: float = 0.0
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Of the circles at their roots and tips, mm."""
+        return self.form.inner - self.clearance, self.form.outer - self.clearance
+
+    def outline(self, offset: float = 0.0) -> Profile:
+        """Their counter-clockwise boundary, moved ``offset`` mm outwards; OffsetError where none is left."""
+        return self.form.outline(offset - self.clearance).placed(Placement2(self.angle))
+
+
 class HalfSection(Record):
     """The pieces of a half section, and what is cut out of the turned solid."""
 
     pieces: tuple[Piece, ...]
     holes: tuple[Hole, ...] = ()
     pockets: tuple[Pocket, ...] = ()
+    splines: tuple[Splined, ...] = ()
+
+    @property
+    def is_round(self) -> bool:
+        """Whether all of it but its holes is turned."""
+        return not (self.pockets or self.splines)
+
+    def seen_spline(self) -> Splined | None:
+        """The spline that is seen along the axis, all else being within its roots."""
+        places = np.concatenate([p.points() for p in self.pieces])
+        for spline in self.splines:
+            inner, outer = spline.radii
+            own = (places.real == outer) & (spline.low <= places.imag) & (places.imag <= spline.high)
+            if (places[~own].real <= inner).all():
+                return spline
+        return None
 
     def radii(self) -> tuple[float, float]:
         """Nearest to the axis, and farthest from it, mm."""
@@ -128,7 +170,7 @@ class HalfSection(Record):
         """Whether it is a sphere."""
         first, *others = [piece for piece in self.pieces if not piece.on_axis]
         return (
-            first.centre is not None and abs(first.centre.real) < _SAME and not (self.holes or self.pockets)
+            first.centre is not None and abs(first.centre.real) < _SAME and self.is_round and not self.holes
             and all(p.centre is not None and abs(p.centre - first.centre) + abs(p.radius - first.radius) < _SAME
                     for p in others)
         )  # fmt: skip
@@ -273,21 +315,31 @@ def _rim(half: float, radius: float) -> tuple[Real, Real, float]:
     return knots, np.asarray(poles, dtype=float), error
 
 
-def turned_solid(section: HalfSection, seam: float = 0.0) -> FacedSolid:
-    """The faces of a half section; ``seam``: the angle at which its surfaces are cut open, rad.
+def turned_solid(section: HalfSection, seam: float = 0.0, tolerance: float = 1e-6) -> FacedSolid:
+    """The faces of a half section, involutes within a tolerance, mm; ``seam``: where its surfaces are cut open, rad.
 
     Raises
     ------
     ParameterError
         ``holes``: one of them does not run from a plane face to another one within the material.
     """
-    made = _Turned(section, seam)
+    made = _Turned(section, seam, tolerance)
+    for spline in section.splines:
+        made.teeth(spline)
     for piece in section.pieces:
         made.piece(piece)
     for hole in section.holes:
         made.hole(hole)
     made.close()
     return FacedSolid(made.solid(), made.error, "sampled" if made.error else "exact")
+
+
+def turned_body(section: HalfSection, seam: float = 0.0) -> FacedBody:
+    """The body of a half section; what sides of teeth are no planes are splines for every tolerance."""
+    walls = tuple(wall for spline in section.splines for wall in involute_walls(spline.outline()))
+    if not walls:
+        return exact_body(turned_solid(section, seam))
+    return FacedBody(lru_cache(maxsize=2)(partial(turned_solid, section, seam)), walls)
 
 
 class _Level(Draft):
@@ -299,12 +351,13 @@ class _Level(Draft):
     loops: list[Loop] = field(default_factory=list)
 
 
-class _Turned(SolidBuilder):
+class _Turned(RingBuilder):
     """Builds a turned solid."""
 
-    def __init__(self, section: HalfSection, seam: float) -> None:
+    def __init__(self, section: HalfSection, seam: float, tolerance: float) -> None:
         super().__init__()
-        self.section, self.error = section, 0.0
+        self.section, self.error, self.tolerance = section, 0.0, tolerance
+        self.rings: dict[complex, Ring] = {}
         self.ahead = np.array([[math.cos(seam), math.sin(seam), 0.0]])
         self.sideways = np.cross(self.ahead, UP)
         self.known: dict[complex, tuple[Index, Index | None]] = {}
@@ -328,15 +381,27 @@ class _Turned(SolidBuilder):
             self.known[at] = vertex, circle
         return self.known[at]
 
+    def teeth(self, spline: Splined) -> None:
+        """The walls of a spline between its rings."""
+        outline = spline_outline(spline.outline(), self.tolerance, degree=_DEGREE, continuity=_DEGREE - 1)
+        self.error = max(self.error, outline.max_error)
+        low, high = (self.ring(outline, z) for z in (spline.low, spline.high))
+        self.swept(low, high, UP)
+        radius = spline.radii[1]
+        self.rings |= {complex(radius, spline.low): low, complex(radius, spline.high): high}
+
     def piece(self, piece: Piece) -> None:
         """What a piece of the section sweeps."""
-        if piece.on_axis:
+        if piece.on_axis or (piece.start in self.rings and piece.end in self.rings):
             return
         if piece.centre is None and piece.start.imag == piece.end.imag:
             up = piece.end.real < piece.start.real
             inner, outer = sorted((piece.start.real, piece.end.real))
             level = _Level(piece.start.imag, (inner, outer), up)
             for at, is_outer in ((piece.start, up), (piece.end, not up)):
+                if at in self.rings:
+                    level.loops.insert(0 if is_outer else 1, self.rings[at].loop(forwards=is_outer == up))
+                    continue
                 circle = self.corner(at)[1] if at.real else None
                 if circle is not None:
                     level.loops.insert(0 if is_outer else 1, (circle[:, None], np.array([is_outer == up])))

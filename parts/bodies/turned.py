@@ -10,20 +10,24 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 from msgspec import Meta, Struct, field
 
-from geometry.base.errors import OffsetError, ParameterError, limit
+from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, either, mm, part_mm
 from parts.keys.holes import HolesTable, check_bore
+from parts.keys.splines import SplineTable
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.faced import FacedBody
     from geometry.solids.sketch import Sketch
-    from geometry.solids.turned import Corner, HalfSection, Pocket
+    from geometry.solids.turned import Corner, HalfSection, Pocket, Splined
+    from parts.base.readback import Probe
 
 # of a centre hole: half the angle of its cone, and of its tip; its mouth and depth in diameters, where none is given
 _CONE, _TIP, _MOUTH, _DEPTH = math.radians(30), math.radians(60), 2.12, 1.0
+# mm: what is one diameter
+_SAME = 1e-6
 _Chamfer = Annotated[float, part_mm("both legs of the chamfer of its outer edges", least=0)]
 _Fillet = Annotated[float, part_mm("rounding where it meets what is thicker", least=0)]
 _Radii = "above 0 bulges out of the material, below 0 into it; 0: a line"
@@ -98,6 +102,7 @@ class StepTable(Struct, forbid_unknown_fields=True, kw_only=True):
     keyways: Annotated[list[ShaftKeywayTable], Meta(max_length=100, examples=[[{"at": 4.0, "length": 12.0}]])] = field(
         default_factory=list
     )
+    spline: SplineTable | None = None
 
 
 class CentreHolesTable(Struct, forbid_unknown_fields=True):
@@ -139,11 +144,12 @@ class _Turned(Kind[K, "HalfSection"]):
     unmoved = "turned_as_it_is"
 
     def section(self, keys: K, thing: HalfSection, offset: float) -> OffsetRegion:
-        """Its greatest circle with all that goes through."""
+        """Its greatest circle, or its spline, with all that goes through."""
         from geometry.plane.profile import Label, Region, circle
         from parts.keys.pins import moved_region
 
         inner, outer = thing.radii()
+        spline = thing.seen_spline()
         through = [(0j, inner)] * (inner > 0) + [(hole.centre, hole.radius) for hole in thing.holes]
 
         def build(by: float) -> Region:
@@ -155,17 +161,16 @@ class _Turned(Kind[K, "HalfSection"]):
             holes = tuple(
                 circle(radius - by, Label.HOLE if at else Label.BORE, hole=True, centre=at) for at, radius in through
             )
-            return Region(circle(outer + by, Label.BODY), holes)
+            return Region(circle(outer + by, Label.BODY) if spline is None else spline.outline(by), holes)
 
         return moved_region(build, offset)
 
     def solid(self, keys: K, thing: HalfSection, offset: float) -> FacedBody:
         """Its faces, all of them exact."""
-        from geometry.solids.faced import exact_body
-        from geometry.solids.turned import turned_solid
+        from geometry.solids.turned import turned_body
 
         self.stays(offset)
-        return exact_body(turned_solid(thing, _seam(thing.pockets)))
+        return turned_body(thing, _seam(thing.pockets))
 
     def sketch(self, keys: K, thing: HalfSection) -> Sketch:
         """It without its pockets; a shaft is not hatched along its axis."""
@@ -177,6 +182,19 @@ class _Turned(Kind[K, "HalfSection"]):
         """From its lowest to its highest place."""
         low, high = thing.heights()
         return high - low
+
+    def probes(self, keys: K, thing: HalfSection) -> tuple[Probe, ...]:
+        """The hub, put on every spline."""
+        if not isinstance(keys, ShaftSpec) or not thing.splines:
+            return ()
+        from parts.keys.spline_probe import SplineProbe
+
+        splined = [(k, step.spline.bore()) for k, step in enumerate(keys.steps, 1) if step.spline]
+        seen = thing.seen_spline()
+        return tuple(
+            SplineProbe(bore, (s.low + s.high) / 2, True, s == seen, "spline" if len(splined) == 1 else f"spline_{k}")
+            for (k, bore), s in zip(splined, thing.splines, strict=True)
+        )
 
     def report(self, keys: K, thing: HalfSection) -> Report:
         """Its sizes."""
@@ -235,6 +253,7 @@ class Shaft(_Turned[ShaftSpec]):
         from geometry.solids.turned import HalfSection, half_section
 
         _check_shaft(keys)
+        splines = tuple(_splines(keys))
         corners, owners = zip(*_outline(keys), strict=True)
         try:
             pieces = half_section(corners)
@@ -242,7 +261,7 @@ class Shaft(_Turned[ShaftSpec]):
             place = re.match(r"points\[(\d+)\]", refusal.name)
             number = int(place[1]) if place else 1
             raise refusal.renamed(owners[number - 1]) from refusal
-        return HalfSection(pieces, (), tuple(_pockets(keys)))
+        return HalfSection(pieces, (), tuple(_pockets(keys)), splines)
 
 
 def _groove_beyond(name: str, groove: GrooveTable, place: float, room: float, length: float) -> ParameterError:
@@ -297,6 +316,51 @@ def _check_shaft(keys: ShaftSpec) -> None:
             raise ParameterError("centre_holes.mouth", mouth, "leaves_no_wall", most)
 
 
+def _radius(step: StepTable) -> float:
+    """Of its outside, mm: a spline stands its clearance off."""
+    return step.diameter / 2 - (step.spline.clearance if step.spline else 0.0)
+
+
+def _splines(keys: ShaftSpec) -> Iterator[Splined]:
+    """The splines of all steps.
+
+    Raises
+    ------
+    ParameterError
+        The step is not as thick as its teeth, has something beside them, or a neighbour ends amid them.
+    """
+    from geometry.solids.turned import Splined
+
+    inside = max(keys.bore_diameter, _mouth(keys)) / 2
+    steps, z = keys.steps, 0.0
+    for k, step in enumerate(steps):
+        name, z = f"steps[{k + 1}]", z + step.length
+        if step.spline is None:
+            continue
+        made = step.spline.checked(f"{name}.spline")
+        form = made.joint.shaft()
+        if abs(2 * form.outer - step.diameter) > _SAME:
+            cure = Nearest(round(2 * form.outer, 9))
+            raise ParameterError(f"{name}.diameter", step.diameter, "not_over_spline", cure)
+        for key, none in (("chamfer", 0.0), ("fillet", 0.0), ("grooves", []), ("keyways", [])):
+            if getattr(step, key):
+                raise ParameterError(f"{name}.{key}", getattr(step, key) or None, "beside_spline", Nearest(none))
+        root = form.inner - made.clearance
+        if inside >= root:
+            key = "bore_diameter" if keys.bore_diameter else "centre_holes.mouth"
+            raise ParameterError(key, 2 * inside, "leaves_no_wall", limit(2 * root * (1 - 1e-6), 2 * inside, digits=6))
+        for other in (k - 1, k + 1):
+            if 0 <= other < len(steps):
+                beside, own = steps[other], f"steps[{other + 1}]"
+                told = {"root": 2 * root, "tip": 2 * _radius(step)}
+                if beside.spline is None and _radius(beside) + beside.fillet < root:
+                    continue
+                if beside.spline is None and _radius(beside) - beside.chamfer > _radius(step):
+                    continue
+                raise ParameterError(f"{own}.diameter", beside.diameter, "ends_amid_spline", **told)
+        yield Splined(z - step.length, z, form, made.clearance, made.angle)
+
+
 def _mouth(keys: ShaftSpec) -> float:
     centre = keys.centre_holes
     return 0.0 if centre is None else centre.mouth or _MOUTH * centre.diameter
@@ -310,7 +374,7 @@ def _outline(keys: ShaftSpec) -> Iterator[tuple[Corner, str]]:
     yield from ((Corner(at), "centre_holes.diameter") for at in low)
     z, steps, before = 0.0, keys.steps, keys.bore_diameter / 2
     for k, step in enumerate(steps):
-        radius, own = step.diameter / 2, f"steps[{k + 1}]"
+        radius, own = _radius(step), f"steps[{k + 1}]"
         if radius > before:
             if k:
                 last = steps[k - 1]

@@ -15,10 +15,11 @@ from geometry.curves.curve import Curve, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.keyways import depth_deviation
-from geometry.solids.turned import HalfSection, Hole, Piece, Pocket
+from geometry.solids.splines import SplineBore
+from geometry.solids.turned import HalfSection, Hole, Piece, Pocket, Splined
 from parts.bodies.details import detailed
-from parts.bodies.turned import TurnedSpec
-from parts.drawing.directions import directions
+from parts.bodies.turned import ShaftSpec, TurnedSpec
+from parts.drawing.directions import directions, involute_data
 from parts.drawing.font import MINUS
 from parts.drawing.places import apart
 from parts.drawing.revolved import Loop, below, closed, outer_of, outlined, seen_circles, seen_edges
@@ -26,6 +27,7 @@ from parts.drawing.turned_sizes import Fits, SectionCorner, bores, listed_corner
 from parts.drawing.wheel_views import (
     apart_sizes,
     axis_cross,
+    bar,
     bore_note,
     circle_of,
     circle_size,
@@ -33,6 +35,7 @@ from parts.drawing.wheel_views import (
     hole_round,
     level,
     section_sides,
+    spline_sizes,
 )
 from parts.drawing.working import (
     AXIS,
@@ -58,6 +61,8 @@ _LEAST_SECTION = 20.0
 # parts of a section's largest size: what is drawn too small in it, and how large its half is at most where that is
 # enlarged; how far the circle about it reaches; how large the least of it is on paper then, and the whole at most, mm
 _LEAST_DRAWN, _SHARE, _AROUND, _LEAST_ENLARGED, _MOST_ENLARGED = 1 / 60, 1 / 4, 1.15, 5.0, 60.0
+# points along a side of a tooth for its hatching
+_ALONG = 9
 # part of a centre hole's size up to which the shaft about it is shown
 _ABOUT = 1.5
 
@@ -80,8 +85,12 @@ def part_drawing(subject: Subject) -> PartDrawing:
         found.append(centre)
     if half.pockets:
         found += _keyways(half, found[0].cuts, subject)
+    bores = [step.spline.bore() for step in keys.steps if step.spline] if isinstance(keys, ShaftSpec) else []
+    for cut, spline, bore in zip(found[0].cuts[len(_planes(half)) :], half.splines, bores, strict=True):
+        found.append(_spline_section(half, spline, bore, f"{cut.letter}-{cut.letter}", subject))
     square = [c.letter for c in found[0].cuts if not all(p.round_ends for p in _crossed(half, c.at))]
     more = [subject.words("square_keyways", letter=letter) for letter in square]
+    more += [line for bore in bores for line in involute_data(bore, subject, is_shaft=True)]
     return PartDrawing(tuple(found), requirements(subject, *more, *directions(holes, subject, "")))
 
 
@@ -164,8 +173,15 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
                 strokes += [(VISIBLE, wall if way > 0 else wall.mirrored()) for wall in (near, far)]
             axes.append(level((low, high), way * radius))
         sizes.append(circle_size("holes", centres, low))
+    for spline in half.splines:
+        # teeth are not cut along their shaft (GOST 2.409)
+        for way in (1, -1):
+            root, _, around = bar((spline.low, spline.high), *(way * radius for radius in spline.radii))
+            strokes.append((VISIBLE if cut else THIN, root))
+            drilled.append(around)
     hatched = (tuple(upper), below(lower), *map(tuple, drilled)) if cut else ()
-    cuts = tuple(Cut(at, subject.letter(k)) for k, at in enumerate(_planes(half)))
+    planes = [*_planes(half), *((spline.low + spline.high) / 2 for spline in half.splines)]
+    cuts = tuple(Cut(at, subject.letter(k)) for k, at in enumerate(planes))
     # the first two tell from where on and which way round corners are counted
     numbers = (Note(corner.at, str(k)) for k, corner in enumerate(listed[:2], 1))
     rough = (*_rough(bores(loop, lambda curve: curve not in inner), loop, subject), *_rough_seats(loop, subject))
@@ -398,6 +414,23 @@ def _keyways(half: HalfSection, cuts: Sequence[Cut], subject: Subject) -> Iterat
                 title += f" {TURNED} {angle}°"
             yield _keyway(half, here, seen, turn, title, subject)
             told += seen
+
+
+def _spline_section(half: HalfSection, spline: Splined, bore: SplineBore, title: str, subject: Subject) -> View:
+    """A section through teeth, the first of them upright."""
+    turn = Placement2(math.pi / 2)
+    curves = [s.curve.placed(turn) for s in spline.form.outline(-spline.clearance).segments()]
+    loop = list[Line | Arc]()
+    for curve in curves:
+        points = curve.point(np.linspace(*curve.domain, _ALONG)).tolist()
+        loop += [curve] if isinstance(curve, Line | Arc) else [Line(a, b) for a, b in pairwise(points)]
+    inner = half.radii()[0]
+    hole = [circle_of(inner)] if inner > 0 else list[Arc]()
+    sizes, rounds, note = spline_sizes(bore, subject, is_shaft=True)
+    return View(
+        tuple((VISIBLE, curve) for curve in (*curves, *hole)), (tuple(loop), *((c,) for c in hole)),
+        axis_cross(spline.radii[1]), sizes, rounds, (note,), title, _LEAST_SECTION,
+    )  # fmt: skip
 
 
 def _upright(way: complex) -> bool:

@@ -27,8 +27,8 @@ def directions(
     of which is as good as the first; ``all_circled``: the views tell no hole by its distances from their axes.
     """
     bore, found = holes.bore, list[str]()
-    if isinstance(bore, SplineBore) and isinstance(joint := bore.joint, InvoluteJoint):
-        found.append(involute_data(joint, subject))
+    if isinstance(bore, SplineBore):
+        found += involute_data(bore, subject, is_shaft=False)
 
     def tell(key: str, angle: float, count: int, start: str, **sizes: object) -> None:
         step = math.tau / max(count, 1)
@@ -72,13 +72,19 @@ def _turned(angle: float, count: int) -> bool:
     return min(angle % step, step - angle % step) > _SAME
 
 
-def involute_data(joint: InvoluteJoint, subject: Subject) -> str:
-    """What an involute spline is made by."""
-    return subject.words(
-        "involute_spline",
+def involute_data(bore: SplineBore, subject: Subject, *, is_shaft: bool) -> tuple[str, ...]:
+    """What an involute spline is made by; nothing of a straight one."""
+    if not isinstance(joint := bore.joint, InvoluteJoint):
+        return ()
+    measured = joint.measured(-bore.clearance if is_shaft else bore.clearance, is_shaft=is_shaft)
+    line = subject.words(
+        "involute_shaft" if is_shaft else "involute_hub",
         name=subject.words(f"spline_{joint.standard}", name=joint.name),
         module=subject.say(joint.module),
         teeth=joint.teeth,
         angle=subject.say(math.degrees(joint.pressure_angle)),
-        thickness=subject.say(joint.thickness),
+        thickness=subject.say(measured.thickness),
+        pin=subject.say(measured.pin_diameter),
+        size=subject.say(measured.over_pins),
     )
+    return (line,)

@@ -538,24 +538,33 @@ def _bore_title(angle: float, subject: Subject, others: float | None) -> str:
 
 
 def _spline_view(bore: SplineBore, strokes: list[Stroke], subject: Subject, others: float | None) -> View:
-    """Slots with both diameters, the width of straight ones, and the designation on a leader (GOST 2.409)."""
-    joint, form, play = bore.joint, bore.form, bore.clearance
-    straight = joint if isinstance(joint, StraightJoint) else None
-    step, fit = 360 / joint.teeth, subject.wishes.bore
-    # a diameter is told where its circle is: at the slots, or between them
-    places = [90 + step * k for k in range(1, joint.teeth)]
-    inner, outer = (fit if straight and straight.centring == name else "" for name in ("inner", "outer"))
-    rounds = (
-        Round("bore.outer_diameter", 0j, form.outer + play, after=outer, angles=tuple(places)),
-        Round("bore.inner_diameter", 0j, form.inner + play, after=inner, angles=tuple(p + step / 2 for p in places)),
-    )
-    side = form.flank.shifted(play).at((form.inner + form.outer) / 2 + play).conjugate() * 1j
-    width = Size("bore.width", complex(-side.real, side.imag), side, "above", "", subject.wishes.keyway)
-    note = Note(side, subject.words(f"spline_{joint.standard}", name=joint.name))
+    """Slots, upright, with what tells them."""
+    sizes, rounds, note = spline_sizes(bore, subject, is_shaft=False)
     up, down = bore_radii(bore)
     axes = Line(complex(-up), complex(up)), Line(-1j * down, 1j * up)
     title = _bore_title(_UP - bore.angle, subject, others)
-    return View(tuple(strokes), (), axes, (width,) if straight else (), rounds, (note,), title, _LEAST_BORE)
+    return View(tuple(strokes), (), axes, sizes, rounds, (note,), title, _LEAST_BORE)
+
+
+def spline_sizes(
+    bore: SplineBore, subject: Subject, *, is_shaft: bool
+) -> tuple[tuple[Size, ...], tuple[Round, ...], Note]:
+    """Of upright slots, or of the teeth of their shaft: width of straight ones, diameters, designation (GOST 2.409)."""
+    joint, wishes = bore.joint, subject.wishes
+    form, play = (joint.shaft(), -bore.clearance) if is_shaft else (bore.form, bore.clearance)
+    straight = joint if isinstance(joint, StraightJoint) else None
+    # a diameter is told where its circle is: at the teeth, or between them
+    step, fit = 360 / joint.teeth, wishes.shaft if is_shaft else wishes.bore
+    places = [90 + step * k for k in range(1, joint.teeth)]
+    inner, outer = (fit if straight and straight.centring == name else "" for name in ("inner", "outer"))
+    rounds = (
+        Round("spline.outer_diameter", 0j, form.outer + play, after=outer, angles=tuple(places)),
+        Round("spline.inner_diameter", 0j, form.inner + play, after=inner, angles=tuple(p + step / 2 for p in places)),
+    )
+    side = form.flank.shifted(play).at((form.inner + form.outer) / 2 + play).conjugate() * 1j
+    width = Size("spline.width", complex(-side.real, side.imag), side, "above")
+    note = Note(side, subject.words(f"spline_{joint.standard}", name=joint.name))
+    return (width,) if straight else (), rounds, note
 
 
 def _corner(centre: complex, radius: float, angles: tuple[float, ...]) -> Round:

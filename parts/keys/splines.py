@@ -10,7 +10,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
-from parts.keys.base import degrees, either, part_mm
+from parts.keys.base import degrees, part_mm
 
 if TYPE_CHECKING:
     from geometry.solids.splines import Centring, InvoluteJoint, SplineBore, StraightJoint
@@ -51,6 +51,15 @@ class _SplineTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
     def bore(self) -> SplineBore:
         """The slots of its hub; ParameterError with the key below ``bore``."""
         raise NotImplementedError
+
+    def checked(self, place: str) -> SplineBore:
+        """What its shaft goes into, checked; ParameterError with the key below a ``place``."""
+        try:
+            made = self.bore()
+            made.check()
+        except ParameterError as refusal:
+            raise refusal.renamed(f"{place}.{refusal.name.removeprefix('bore.')}") from refusal
+        return made
 
     def probes(self, height: float) -> tuple[Probe, ...]:
         """What files of a part with such a bore must do where they are cut, mm."""
@@ -103,7 +112,7 @@ class StraightSplineTable(_SplineTable, tag="spline"):
             if self.size is None and value is None:
                 raise ParameterError(f"bore.{key}", None, "one_of_two_is_missing", other="size")
             if self.size is not None and value is not None:
-                raise either(f"bore.{key}", value, "bore.size")
+                raise ParameterError(f"bore.{key}", value, "either_key", one="size", other=key)
         if self.size is None:
             teeth, inner, outer, width = (value or 0 for value in given)
             found = StraightJoint(int(teeth), inner, outer, width, inner)

@@ -198,7 +198,7 @@ class Sectioned:
                     return beside
                 return _Region(shapely.difference(beside.some, shapely.box(0.0, low, free, high)), None, False)
             some = shapely.make_valid(shapely.Polygon(_pairs(self.half)))
-            if not isinstance(self.thing, HalfSection) or self.thing.pockets:
+            if not isinstance(self.thing, HalfSection) or not self.thing.is_round:
                 return _Region(some, None, False)
             bored = [shapely.box(abs(h.centre) - h.radius, low, abs(h.centre) + h.radius, high) for h in self.holes]
             return _Region(some, shapely.difference(some, shapely.union_all(bored)), True)
@@ -216,7 +216,7 @@ class Sectioned:
         least = np.where(beside, near - outer, np.where(about, inner - far, 0.0))
         (a, b), (c, d) = least, outer + far
         rows = np.array([[a, z0], [c, z0], [d, z1], [b, z1], [a, z0]]).transpose(2, 0, 1)
-        exact = isinstance(self.thing, HalfSection) and not (self.thing.holes or self.thing.pockets)
+        exact = isinstance(self.thing, HalfSection) and self.thing.is_round and not self.thing.holes
         return _Region(shapely.union_all(shapely.polygons(rows)), None, exact and bool((beside | about).all()))
 
 

@@ -1,7 +1,9 @@
-"""Files of splined bores: the shaft goes in with the clearance that was told, and what is not so is caught."""
+"""Files of splined bores and shafts: their mate has the clearance that was told, and what is not so is caught."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +11,11 @@ import pytest
 
 from exporters.formats.read_dxf import read_dxf
 from geometry.base.record import replace
+from geometry.plane.measure import profile_area
+from parts.base.refusal import SceneError
 from parts.keys.spline_probe import SplineProbe
 from parts.keys.splines import InvoluteSplineTable, StraightSplineTable
+from parts.scene.load import make_parts, scene_from_dict
 from tests.exporters.making import read_report, run, write_scene
 
 TABLES: dict[str, StraightSplineTable | InvoluteSplineTable] = {
@@ -24,6 +29,15 @@ BORES: dict[str, dict[str, Any]] = {
 EXPORTS = ({"format": "dxf"}, {"format": "dxf", "name": "cut", "kerf": 0.2}, {"format": "svg"}, {"format": "stl"})
 
 
+SHAFTS: dict[str, dict[str, Any]] = {
+    "straight": {"steps": [{"diameter": 21.0, "length": 4.0, "chamfer": 1.0},
+                           {"diameter": 26.0, "length": 20.0, "spline": BORES["straight"]},
+                           {"diameter": 30.0, "length": 5.0, "chamfer": 0.5}], "centre_holes": {"diameter": 3.0}},
+    "involute": {"steps": [{"diameter": 19.8, "length": 12.0, "spline": BORES["involute"]},
+                           {"diameter": 15.0, "length": 8.0, "fillet": 1.0}], "bore_diameter": 10.0},
+}  # fmt: skip
+
+
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of the files of both, one with a chamfer."""
@@ -32,6 +46,63 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     parts = {name: roller | {"bore": bore, "face_chamfer": 0.5} for name, bore in BORES.items()}
     assert run("build", write_scene(root / "s.toml", parts, EXPORTS), "--out", root / "out") == 0
     return root / "out" / "s"
+
+
+def test_shafts_have_the_clearance_and_the_volume_of_their_sections(tmp_path: Path) -> None:
+    """STEP, whose cylinders are true, STL, and the outline of the one whose spline is seen along the axis."""
+    exports = ({"format": "step"}, {"format": "stl"}, {"format": "dxf"})
+    scene = write_scene(tmp_path / "s.toml", {n: {"kind": "shaft"} | s for n, s in SHAFTS.items()}, exports)
+    assert run("build", scene, "--out", tmp_path / "out") == 0
+    for entry in read_report(tmp_path / "out" / "s")["files"]:
+        name, is_flat = entry["part"], entry["format"] == "dxf"
+        assert ("spline_gap" in entry["measured"]) == (not is_flat or name == "involute")
+        if "spline_gap" in entry["measured"]:
+            off = entry["max_error"] + 1e-6
+            assert entry["measured"]["spline_gap"] == pytest.approx(TABLES[name].clearance, abs=off)
+        if entry["format"] == "step":
+            bore = TABLES[name].bore()
+            area = profile_area(bore.joint.shaft().outline(-bore.clearance))
+            assert entry["measured"]["volume"] == pytest.approx(AROUND[name](area), rel=1e-9)
+
+
+def frustum(low: float, high: float, length: float) -> float:
+    return math.pi / 3 * length * (low * low + low * high + high * high)
+
+
+def centre_hole() -> float:
+    """Cone of 60 degrees from 2.12 diameters, pilot one diameter deep, tip of 120 degrees."""
+    mouth, pilot = 3.18, 1.5
+    return (
+        frustum(mouth, pilot, (mouth - pilot) / math.tan(math.pi / 6))
+        + 3.0 * math.pi * pilot**2
+        + frustum(pilot, 0.0, pilot / math.tan(math.pi / 3))
+    )
+
+
+AROUND: dict[str, Callable[[float], float]] = {
+    "straight": lambda area: 20.0 * area + frustum(9.5, 10.5, 1.0) + 3.0 * math.pi * 10.5**2
+    + 2 * frustum(14.5, 15.0, 0.5) + 4.0 * math.pi * 15.0**2 - 2 * centre_hole(),
+    # the fillet is a square turned about the axis less a quarter of a circle (Pappus)
+    "involute": lambda area: 12.0 * (area - 25 * math.pi) + 8.0 * math.pi * (7.5**2 - 25)
+    + math.tau * (8.0 - (math.pi / 4) * (8.5 - 4 / 3 / math.pi)),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("changes", "key", "code", "cure"),
+    [({1: {"diameter": 25.0}}, "steps[2].diameter", "not_over_spline", 26.0),
+     ({1: {"chamfer": 1.0}}, "steps[2].chamfer", "beside_spline", 0.0),
+     ({0: {"diameter": 24.0}}, "steps[1].diameter", "ends_amid_spline", None),
+     ({1: {"spline": {"shape": "spline", "size": "6x23x27"}}}, "steps[2].spline.size", "no_such_spline", "d-6x23x26"),
+     ({1: {"spline": {"shape": "spline", "teeth": 6}}}, "steps[2].spline.inner_diameter", "one_of_two_is_missing",
+      None)],
+)  # fmt: skip
+def test_what_no_shaft_has_is_refused(changes: dict[int, Any], key: str, code: str, cure: object) -> None:
+    steps = [step | changes.get(k, {}) for k, step in enumerate(SHAFTS["straight"]["steps"])]
+    with pytest.raises(SceneError) as caught:
+        make_parts(scene_from_dict({"parts": {"a": {"kind": "shaft", "steps": steps}}}, "t", "t"), "t")
+    assert (caught.value.key, caught.value.code) == (f"parts.a.{key}", code)
+    assert (caught.value.nearest and caught.value.nearest.value) == cure
 
 
 def test_the_shaft_has_the_clearance_that_was_asked_for(built: Path) -> None:

@@ -24,6 +24,7 @@ from geometry.solids.faces import Circular, Index, Loop, Solid, Spline, Straight
 from geometry.solids.measured import Measured
 from geometry.solids.rings import UP, RingBuilder
 from geometry.solids.rings import Ring as Edging
+from geometry.solids.splines import involute_walls
 
 # with fewer poles the edges leave the walls by more than solids allow; what a STEP file asks for serves all else too
 _FINEST = 0.95e-6
@@ -48,10 +49,11 @@ def barrel_faces(body: BarrelBody) -> FacedBody:
             sides[UPPER if np.sum(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) < 0 else LOWER].append(corners)
         return wall_height(cam, {side: np.concatenate(own) for side, own in sides.items() if own}, slack).bound
 
+    own = () if body.bore is None else involute_walls(body.bore)
     tracks = [face for face in body.faces() if isinstance(face, Track)]
     return FacedBody(
         lambda tolerance: within(min(tolerance, _FINEST)),
-        tuple(Measured("wall", partial(face.distance, cam)) for face in tracks),
+        (*(Measured("wall", partial(face.distance, cam)) for face in tracks), *own),
         lambda: barrel_moments(body),
         proof,
     )

@@ -28,6 +28,7 @@ from geometry.solids.faced import FacedBody, FacedSolid
 from geometry.solids.faces import Circular, Cone, Frame, Index, Straight, Use, turned_over
 from geometry.solids.measured import Measured
 from geometry.solids.rings import AHEAD, UP
+from geometry.solids.splines import involute_walls
 from geometry.solids.toothed import ToothedFaces, ToothWall
 
 # spans across a tooth and along it at most: tooth lines bend most where they come near the apex
@@ -46,6 +47,7 @@ def faced_bevel(gear: BevelGear) -> FacedBody:
         Measured(f"{name} {way:+d}", partial(wall_distance, gear, name, way), gear.number_of_teeth)
         for name in _SIDES for way in (1, -1)
     )  # fmt: skip
+    walls += involute_walls(*gear.blank.holes.profiles())
     made = lru_cache(maxsize=2)(partial(bevel_solid, gear))
     ends = 0.0, gear.height, max(gear.outer(gear.tip_angle).real, gear.rim.real)
     return FacedBody(lambda tolerance: made(min(tolerance, _TARGET)), walls, own_ends=ends)

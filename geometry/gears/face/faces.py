@@ -27,6 +27,7 @@ from geometry.solids.faced import FacedBody, FacedSolid
 from geometry.solids.faces import Circular, Index, Plane, Straight, Use, turned_over
 from geometry.solids.measured import Measured
 from geometry.solids.rings import UP
+from geometry.solids.splines import involute_walls
 from geometry.solids.toothed import ToothedFaces, ToothWall
 
 # degrees across a side and along it, where it is nearly straight; spans one way at most, samples of each, and what is
@@ -47,6 +48,7 @@ def faced_face_gear(gear: FaceGear) -> FacedBody:
         Measured(name, partial(wall_distance, gear, which), gear.number_of_teeth)
         for name, which in zip(("fillet", "flank"), SIDES, strict=True)
     )
+    walls += involute_walls(*gear.core.profiles)
     made = lru_cache(maxsize=2)(partial(face_gear_solid, gear))
     low, *_, high = gear.core.levels()
     ends = low, max(high, gear.height), gear.outer_radius

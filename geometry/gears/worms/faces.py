@@ -27,6 +27,7 @@ from geometry.solids import faces as kinds
 from geometry.solids.faced import FacedBody, FacedSolid, Measured
 from geometry.solids.faces import Frame, Index, Spline, Straight, Use, turned_over
 from geometry.solids.rings import AHEAD, UP
+from geometry.solids.splines import involute_walls
 
 # steps of the polar angle: one start has so many a turn; more starts have one or two from thread to thread
 _STEPS = 4
@@ -42,6 +43,8 @@ def faced_worm(body: WormBody) -> FacedBody:
     band = body.band
     if band is not None and band.run_out:
         walls += [Measured("run-out", Lifted(band, end).distance) for end in (-1, 1)]
+    if body.bore is not None:
+        walls += involute_walls(body.bore)
     made = lru_cache(maxsize=2)(partial(worm_solid, body))
     radii = [r for above in (False, True) for _, r in body.outline(above=above)]
     ends = *body.ends(), max(thread.worm.tip_radius, *radii)

@@ -11,7 +11,7 @@ import cmath
 import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from functools import lru_cache, partial
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -23,17 +23,16 @@ from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline, basis_matrix
 from geometry.curves.curve import Complex, Real
-from geometry.curves.line_arc import Arc, Line
+from geometry.curves.line_arc import Arc
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import NEAR_WIDTH, NoTooth, WormTeeth
 from geometry.gears.worms.wheel_measures import FILLET, FLANK, WormWheel
-from geometry.plane.measure import distance_to_profile
-from geometry.plane.profile import Profile
 from geometry.solids.body_faces import BodyFaces, body_outlines
 from geometry.solids.faced import FacedBody, FacedSolid
 from geometry.solids.faces import Cylinder, Frame, Solid, SplineSurface, Surface, Torus
 from geometry.solids.measured import Measured
 from geometry.solids.rings import AHEAD, UP, Ring
+from geometry.solids.splines import involute_walls
 
 _DEGREE = 7
 # what is added to sampled errors; the kernel joins curves and surfaces within 1e-7 mm: edges are kept below that, mm
@@ -407,13 +406,7 @@ def wheel_body(wheel: WormWheel) -> FacedBody:
     walls = [Measured("flank", wheel.from_sides, wheel.teeth.number_of_teeth)]
     if wheel.teeth.hob.swivel:
         walls.append(Measured("root", wheel.from_root, 0))
-    for profile in wheel.core.profiles:
-        if not all(isinstance(segment.curve, Arc | Line) for segment in profile.period):
-            walls.append(Measured("wall", partial(_from_wall, profile)))
+    walls += involute_walls(*wheel.core.profiles)
     levels = wheel.core.levels()
     ends = levels[0], levels[-1], wheel.teeth.reach()
     return FacedBody(within, tuple(walls), wheel.moments, own_ends=ends)
-
-
-def _from_wall(profile: Profile, points: Real) -> Real:
-    return np.asarray(distance_to_profile(points[:, 0] + 1j * points[:, 1], profile, trusted=np.inf))

@@ -11,7 +11,10 @@ import shapely
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
-from geometry.plane.measure import profile_area
+from geometry.gears.teeth.basic_rack import BasicRack
+from geometry.gears.teeth.measurement import over_pins, span
+from geometry.gears.teeth.spur import SpurGear
+from geometry.plane.measure import distance_to_profile, profile_area
 from geometry.plane.profile import Profile
 from geometry.solids.spline_standards import STRAIGHT_JOINTS, din_5480, gost_6033, iso_4156, teeth_of
 from geometry.solids.splines import InvoluteJoint, SplineBore, StraightJoint
@@ -118,6 +121,28 @@ def test_areas_by_quadrature(name: str) -> None:
 
     slots = float(mpmath.quad(lambda r: 2 * r * half_angle(r), [form.inner, form.outer]))
     assert profile_area(form.outline()) == pytest.approx(math.pi * form.inner**2 + joint.teeth * slots, rel=1e-12)
+
+
+@pytest.mark.parametrize("play", [0.0, 0.03, -0.04])
+@pytest.mark.parametrize("name", [name for name, joint in JOINTS.items() if isinstance(joint, InvoluteJoint)])
+def test_pins_touch_the_sides_they_are_measured_on(name: str, play: float) -> None:
+    """By brute force on the outline itself; M of a shaft, and W, are those of the gear with its teeth."""
+    joint = JOINTS[name]
+    assert isinstance(joint, InvoluteJoint)
+    for is_shaft, form in ((True, joint.shaft()), (False, joint.hub())):
+        found, way = joint.measured(play, is_shaft=is_shaft), 1 if is_shaft else -1
+        half_turn = math.cos(math.pi / 2 / joint.teeth) if joint.teeth % 2 else 1.0
+        centre = (found.over_pins - way * found.pin_diameter) / 2 / half_turn
+        turn = math.pi / joint.teeth if is_shaft else 0.0
+        near = distance_to_profile(np.array([centre * np.exp(1j * turn)]), form.outline(play))
+        assert near == pytest.approx([found.pin_diameter / 2], rel=1e-12)
+    teeth = joint.measured(play, is_shaft=True)
+    slack = math.pi / 2 * joint.module - joint.thickness - 2 * play / math.cos(joint.pressure_angle)
+    shift = -slack / 2 / math.tan(joint.pressure_angle) / joint.module
+    gear = SpurGear(joint.module, joint.teeth, BasicRack(joint.pressure_angle, 0.4, 0.3, 0.1), shift)
+    assert teeth.thickness == pytest.approx(gear.reference_thickness)
+    assert teeth.over_pins == pytest.approx(over_pins(gear, teeth.pin_diameter).length, rel=1e-12)
+    assert teeth.span == pytest.approx(span(gear, teeth.teeth_spanned).length, rel=1e-12)
 
 
 @pytest.mark.parametrize(
