@@ -700,6 +700,13 @@ class WormTeeth(Record, dict=True):
         """Heights at which undercut begins on the lower side, mm."""
         return self._undercut_from(_SETTLED)
 
+    @property
+    def undercut_width(self) -> float:
+        """On how much of the face width the lower side is undercut, and the upper side as much, mm."""
+        half, held = self.width / 2, self._looked[2] > 0
+        ends = [*([-half] if held[0] else []), *self.undercut_ends, *([half] if held[-1] else [])]
+        return math.fsum(high - low for low, high in zip(ends[::2], ends[1::2], strict=True))
+
     def _undercut_from(self, settled: float) -> tuple[float, ...]:
         """The same known that well, part of the width."""
         return self._turns(lambda z: self._search(z)[2] > 0, self._levels, self._looked[2] > 0, settled)

@@ -318,7 +318,7 @@ WORM_WHEEL = WormWheelKind()
 
 
 def _findings(teeth: WormTeeth, asked: float | None) -> tuple[Finding, ...]:
-    """Where the throat ends below the outside that is asked for, and where teeth have no tip or no flank."""
+    """Where the throat ends below the outside that is asked for, where teeth are undercut, have no tip or no flank."""
     import numpy as np
 
     from geometry.base.findings import Finding
@@ -334,6 +334,8 @@ def _findings(teeth: WormTeeth, asked: float | None) -> tuple[Finding, ...]:
         heights = np.linspace(low, high, _SEEN)
         less = teeth.tip_radius(heights) - teeth.top(heights)
         found.append(Finding("worm_wheel_ridge", max(low, 0.0), float(less.max())))
+    if teeth.undercut_width:
+        found.append(Finding("worm_wheel_undercut", teeth.undercut_width, teeth.width))
     if teeth.flank_ends:
         found.append(Finding("worm_wheel_no_flank", min(map(abs, teeth.flank_ends)), teeth.width / 2))
     return tuple(found)

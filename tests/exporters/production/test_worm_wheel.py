@@ -227,6 +227,22 @@ def test_an_outside_that_the_throat_does_not_reach_is_told_with_what_it_reaches(
         })  # fmt: skip
 
 
+def test_undercut_is_told_where_a_rack_in_the_mid_plane_would_leave_it() -> None:
+    """The axial section of a ZA worm is a straight rack, the hob's rounded tip its corner: x_min in closed form."""
+    sine, teeth = math.sin(math.radians(20)), 31
+    least = 1.2 - 0.2 * (1 - sine) - teeth * sine**2 / 2
+    told = []
+    # beside the mid plane undercut begins a little sooner
+    for shift in (least - 0.5, least - 1e-3, least + 0.1):
+        keys = {"kind": "worm_wheel", "module": 2.0, "form": "ZA", "number_of_teeth": teeth, "face_width": 12.0}
+        scene = {"parts": {"wheel": {**keys, "profile_shift_coefficient": shift}}}
+        made = make_parts(scene_from_dict(scene, "s", "s"), "s")[0]["wheel"]
+        told.append([(f.value, f.limit) for f in made.findings if f.code == "worm_wheel_undercut"])
+    (((most, _),), ((some, width),), none) = told
+    assert 0 < some < most < width == 12.0
+    assert none == []
+
+
 def test_a_rounding_that_cures_nothing_is_not_blamed() -> None:
     # before: without a value that works
     keys = {"kind": "worm_wheel", "module": 2.0, "form": "ZN1", "number_of_starts": 6, "diameter_quotient": 4.41}
