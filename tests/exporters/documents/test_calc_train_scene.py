@@ -87,7 +87,9 @@ def test_what_nothing_moves_is_named_by_number(tmp_path: Path) -> None:
     assert "H, 2, 3" in str(caught.value)
 
 
-BEVEL = '[parts.{}]\nkind = "bevel_gear"\nmodule = 2.0\nnumber_of_teeth = {}\nmate_teeth = {}\nface_width = 6.0\n'
+BEVEL = (
+    '[parts.{}]\nkind = "bevel_gear"\nmodule = 2.0\nnumber_of_teeth = {}\nmate_number_of_teeth = {}\nface_width = 6.0\n'
+)
 # an axle: the pinion turns the crown, which carries the satellites
 AXLE = (
     "".join(BEVEL.format(*one) for one in (("side", 16, 10), ("sat", 10, 16), ("crown", 41, 11), ("pinion", 11, 41)))

@@ -147,7 +147,7 @@ def test_a_name_that_has_no_place_stands_aside_with_a_line_to_what_it_names() ->
 def test_a_bevel_gear_that_lies_has_its_teeth_in_the_picture(tmp_path: Path) -> None:
     """Its area is that of all triangles of its own STL seen from the side, by shapely; its hub is no part of a hull."""
     gear = (
-        'kind = "bevel_gear"\nmodule = 3.0\nnumber_of_teeth = {}\nmate_teeth = {}\nhub_diameter = 14.0\n'
+        'kind = "bevel_gear"\nmodule = 3.0\nnumber_of_teeth = {}\nmate_number_of_teeth = {}\nhub_diameter = 14.0\n'
         "hub_length = 9.0\nbore_diameter = 5.0\n"
     )
     scene = tmp_path / "pair.toml"

@@ -13,11 +13,11 @@ from tests.sampling import some_of
 
 # the wheel of a grinder's head, and the pinion of an axle: their hulls and cones meet in slivers
 WHEEL = (
-    '[parts.one]\nkind = "bevel_gear"\nmodule = 1.5\nnumber_of_teeth = 37\nmate_teeth = 14\n'
+    '[parts.one]\nkind = "bevel_gear"\nmodule = 1.5\nnumber_of_teeth = 37\nmate_number_of_teeth = 14\n'
     "profile_shift_coefficient = -0.35\nhub_diameter = 20.0\nhub_length = 6.0\nbore_diameter = 8.0\n"
 )
 PINION = (
-    '[parts.one]\nkind = "bevel_gear"\nmodule = 2.5\nnumber_of_teeth = 11\nmate_teeth = 41\n'
+    '[parts.one]\nkind = "bevel_gear"\nmodule = 2.5\nnumber_of_teeth = 11\nmate_number_of_teeth = 41\n'
     "profile_shift_coefficient = 0.4\nbore_diameter = 8.0\n"
 )
 STEPS = (

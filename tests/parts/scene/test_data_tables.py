@@ -85,7 +85,9 @@ def calculated(topic: str, address: str, key: str, part: Any) -> dict[str, Any]:
 )
 def test_a_bevel_rack_is_that_of_the_standard_where_it_has_it(module: float, more: str, standard: bool) -> None:
     """GOST 13754-81 is for modules from 1 mm on; else its numbers stand there."""
-    part = f'[parts.a]\nkind = "bevel_gear"\nmodule = {module}\nnumber_of_teeth = 20\nmate_teeth = 30\n{more}\n'
+    part = (
+        f'[parts.a]\nkind = "bevel_gear"\nmodule = {module}\nnumber_of_teeth = 20\nmate_number_of_teeth = 30\n{more}\n'
+    )
     ((_, table, _),) = tables(f"m{module}{more}", f'{part}[[exports]]\nformat = "dxf"\npurpose = "part"\n').values()
     names = {words("en").say(row.name) for rows in table.parts for row in rows}
     assert ("basic rack" in names) is standard
