@@ -5,109 +5,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import Record
-from parts.base.psv import sentences_of
+from parts.base.psv import rows_of, sentences_of
 from parts.base.texts import words
-from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, text_of, text_width
+from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, text_of, text_width
 from parts.drawing.cells import INDENT, fits_cell, fits_line, letters_held, write_cell, write_lines
 from parts.keys.title import TitleBlockTable
 
 # left, low, right, high, mm from the lower left corner of a form
-_Cell = tuple[float, float, float, float]
-_Line = tuple[float, float, float]
-# heights of capitals of designation, name and the rest, mm
-_LARGE, _MIDDLE = 7.0, 5.0
+_Cell = Sequence[float]
+# height of a designation that stands turned, mm
+_LARGE = 7.0
 # names of people and dates are narrowed to this part of their width in their narrow cells
 _PEOPLE = 0.5
-# who signs a drawing, from the top row down; the fourth row is free
-_ROLES = ("drawn", "checked", "technical_check", "", "standards_check", "approved")
-
-
-# the head of the table of changes: its columns, mm
-_CHANGES = (("change", 0, 7), ("change_sheet", 7, 17), ("document", 17, 40), ("signature", 40, 55), ("date", 55, 65))
+# who signs a drawing, from the top row down
+_ROLES = ("drawn", "checked", "technical_check", "standards_check", "approved")
 
 
 class Form(Record):
-    """A form of GOST 2.104, mm: its size, lines (where, from, to), the words in all such blocks, what each cell holds.
+    """A form of GOST 2.104, as its table has it: lines by their layers, and cells by what is written there."""
 
-    ``head``: where the head of the table of changes begins; below it who ``signs``, from the top row down, a row may
-    be free. ``counts``: cells of the sheet's number and of how many there are, beside their names or below them.
-    """
-
-    size: tuple[float, float]
-    thick_rows: tuple[_Line, ...]
-    thin_rows: tuple[_Line, ...]
-    thick_columns: tuple[_Line, ...]
-    thin_columns: tuple[_Line, ...]
-    head: float
-    signs: tuple[str, ...]
-    names: dict[str, _Cell]
-    entries: tuple[tuple[str, _Cell, float], ...]
-    counts: dict[str, _Cell]
+    lines: list[tuple[str, _Cell]]
+    words: Mapping[str, _Cell]
+    entries: Mapping[str, _Cell]
+    counts: Mapping[str, _Cell]
 
     @property
-    def labels(self) -> dict[str, _Cell]:
-        """The cells of all words that stand in such blocks."""
-        head: dict[str, _Cell] = {key: (left, self.head, right, self.head + 5) for key, left, right in _CHANGES}
-        rows = ((role, self.head - 5 * k) for k, role in enumerate(self.signs, 1) if role)
-        return head | {role: (0, low, 17, low + 5) for role, low in rows} | self.names
+    def size(self) -> tuple[float, float]:
+        """Width and height, mm."""
+        return max(cell[2] for _, cell in self.lines), max(cell[3] for _, cell in self.lines)
+
+
+def _form(name: str) -> Form:
+    rows = [
+        (what, key, [*map(float, cell.split())]) for form, what, key, cell in rows_of(__file__, "forms") if form == name
+    ]
+    cells = ({key: cell for what, key, cell in rows if what == one} for one in ("word", "entry", "count"))
+    return Form([(layer, ends) for what, layer, ends in rows if what == "line"], *cells)
 
 
 # of a drawing, of the first sheet of a text, of its others
-FORM_1 = Form(
-    (185.0, 55.0),
-    ((55, 0, 185), (40, 65, 185), (35, 0, 65), (35, 135, 185), (30, 0, 65), (20, 135, 185), (15, 65, 185), (0, 0, 185)),
-    tuple((y, 0, 65) for y in (50, 45, 40, 25, 20, 15, 10, 5)),
-    (
-        (0, 0, 55), (7, 30, 55), (17, 0, 55), (40, 0, 55), (55, 0, 55), (65, 0, 55), (135, 0, 40), (150, 20, 40),
-        (155, 15, 20), (167, 20, 40), (185, 0, 55),
-    ),
-    ((140, 20, 35), (145, 20, 35)),
-    30,
-    _ROLES,
-    {"letter": (135, 35, 150, 40), "mass": (150, 35, 167, 40), "scale": (167, 35, 185, 40)},
-    (
-        ("designation", (65, 40, 185, 55), _LARGE), ("name", (65, 15, 135, 40), _MIDDLE),
-        ("material", (65, 0, 135, 15), _MIDDLE), ("letter", (135, 20, 140, 35), TEXT_HEIGHT),
-        ("mass", (150, 20, 167, 35), TEXT_HEIGHT), ("scale", (167, 20, 185, 35), TEXT_HEIGHT),
-        ("organisation", (135, 0, 185, 15), _MIDDLE),
-    ),
-    {"sheet": (135, 15, 155, 20), "sheets": (155, 15, 185, 20)},
-)  # fmt: skip
-FORM_2 = Form(
-    (185.0, 40.0),
-    ((40, 0, 185), (30, 0, 65), (25, 0, 185), (20, 135, 185), (15, 135, 185), (0, 0, 185)),
-    tuple((y, 0, 65) for y in (35, 20, 15, 10, 5)),
-    (
-        (0, 0, 40), (7, 25, 40), (17, 0, 40), (40, 0, 40), (55, 0, 40), (65, 0, 40), (135, 0, 25), (150, 15, 25),
-        (165, 15, 25), (185, 0, 40),
-    ),
-    ((140, 15, 20), (145, 15, 20)),
-    25,
-    ("drawn", "checked", "", "standards_check", "approved"),
-    {"letter": (135, 20, 150, 25), "sheet": (150, 20, 165, 25), "sheets": (165, 20, 185, 25)},
-    (
-        ("designation", (65, 25, 185, 40), _LARGE), ("name", (65, 0, 135, 25), _MIDDLE),
-        ("letter", (135, 15, 140, 20), SMALL_TEXT), ("organisation", (135, 0, 185, 15), _MIDDLE),
-    ),
-    {"sheet": (150, 15, 165, 20), "sheets": (165, 15, 185, 20)},
-)  # fmt: skip
-FORM_2A = Form(
-    (185.0, 15.0),
-    ((15, 0, 185), (8, 175, 185), (5, 0, 65), (0, 0, 185)),
-    ((10, 0, 65),),
-    ((0, 0, 15), (7, 0, 15), (17, 0, 15), (40, 0, 15), (55, 0, 15), (65, 0, 15), (175, 0, 15), (185, 0, 15)),
-    (),
-    0,
-    (),
-    {"sheet": (175, 8, 185, 15)},
-    (("designation", (65, 0, 175, 15), _LARGE),),
-    {"sheet": (175, 0, 185, 8)},
-)
+FORM_1, FORM_2, FORM_2A = map(_form, ("1", "2", "2a"))
 TITLE_BLOCK = FORM_1.size
 LABELS = sentences_of(__file__, "labels")
 # columns on the left of the frame: width of the names and of all; from below, and from the top: name, height; mm
@@ -136,7 +78,7 @@ class TitleBlock(Record):
 
 def title_block_of(table: TitleBlockTable, scale: str, sheet: int = 1, sheets: int = 1) -> TitleBlock:
     """The block that a scene asks for."""
-    people = tuple((role, getattr(table, role)) for role in _ROLES if role)
+    people = tuple((role, getattr(table, role)) for role in _ROLES)
     own = {key: getattr(table, key) for key in table.__struct_fields__ if key not in _ROLES}
     return TitleBlock(scale=scale, sheet=sheet, sheets=sheets, people=people, **own)
 
@@ -150,7 +92,7 @@ def check_held(block: TitleBlock, form: Form, *, turned: bool) -> None:
         With the cell's key and the number of letters that fit.
     """
     checks: list[tuple[str, str, Callable[[str], bool]]] = [
-        (key, getattr(block, key), partial(fits_cell, cell=_at(0j, cell))) for key, cell, _ in form.entries
+        (key, getattr(block, key), partial(fits_cell, cell=_at(0j, cell))) for key, (*cell, _) in form.entries.items()
     ]
     if turned:
         checks.append(("designation", block.designation, partial(fits_line, width=_TURNED[0] - 2 * INDENT)))
@@ -165,23 +107,18 @@ def draw_title_block(canvas: Canvas, block: TitleBlock, language: str, form: For
     """Draw a title block into the lower right corner of the canvas's frame; the room that it takes, mm."""
     width, height = form.size
     corner = complex(canvas.frame.right - width, canvas.frame.low)
-    for layer, rows in (("FRAME", form.thick_rows), ("TABLE", form.thin_rows)):
-        for y, a, b in rows:
-            canvas.line(layer, corner + complex(a, y), corner + complex(b, y))
-    for layer, columns in (("FRAME", form.thick_columns), ("TABLE", form.thin_columns)):
-        for x, a, b in columns:
-            canvas.line(layer, corner + complex(x, a), corner + complex(x, b))
-    labels = form.labels
-    for key, cell in labels.items():
+    for layer, (left, low, right, high) in form.lines:
+        canvas.line(layer, corner + complex(left, low), corner + complex(right, high))
+    for key, cell in form.words.items():
         told = words(language).say(LABELS[key])
         write_cell(canvas, told, _at(corner, cell), SMALL_TEXT, middle=key not in _ROLES)
     for role, name in block.people:
-        if name and role in labels:
-            _, low, _, high = labels[role]
+        if name and role in form.words:
+            _, low, _, high = form.words[role]
             write_cell(canvas, name, _at(corner, (17, low, 40, high)), SMALL_TEXT, middle=False)
             if block.date:
                 write_cell(canvas, block.date, _at(corner, (55, low, 65, high)), SMALL_TEXT)
-    for key, cell, size in form.entries:
+    for key, (*cell, size) in form.entries.items():
         write_lines(canvas, getattr(block, key), _at(corner, cell), size)
     _count(canvas, corner, block, form, language)
     _columns(canvas, language)
@@ -232,7 +169,7 @@ def _count(canvas: Canvas, corner: complex, block: TitleBlock, form: Form, langu
     """Number of the sheet, left out where there is one only (GOST 2.104), and how many there are."""
     for key, cell in form.counts.items():
         number = "" if key == "sheet" and block.sheets == 1 else str(getattr(block, key))
-        named = key not in form.labels
+        named = key not in form.words
         text = f"{words(language).say(LABELS[key])} {number}".strip() if named else number
         write_cell(canvas, text, _at(corner, cell), SMALL_TEXT, middle=not named)
 
