@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import importlib
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
@@ -12,13 +13,14 @@ from msgspec import Struct
 
 from exporters.documents.render import FORMATS, render
 from geometry.base.errors import Nearest
+from parts.base.kind import MOST_OFFERS
 from parts.base.psv import rows_of
 from parts.base.refusal import SceneError, meant
 from parts.base.registry import KINDS
 from parts.base.schema import as_written, plain_numbers
 from parts.base.texts import Words, languages
 from parts.base.texts import words as told
-from parts.pages.inputs import PLACE, table_of
+from parts.pages.inputs import GEARS, PLACE, table_of
 from parts.pages.page import Picture, Sheet
 
 # the module of each, and the name of its keys there
@@ -85,8 +87,49 @@ def sheet_of(topic: str, words: Sequence[str], language: str | None = None) -> t
     if len(addresses) > 1:
         raise SceneError(PLACE, addresses[1], None, "one_scene_only", None, other=addresses[0])
     typed = table_of([word for word in words if word not in addresses])
+
+    def made(table: Mapping[str, Any]) -> tuple[Sheet, str]:
+        return _sheet_of(topic, addresses, plain_numbers(table, PLACE, topic), language)
+
     with as_written({topic: typed}):
-        return _sheet_of(topic, addresses, plain_numbers(typed, PLACE, ""), language)
+        try:
+            return made(typed)
+        except SceneError as refusal:
+            raise _as_typed(refusal, topic, typed, made) from refusal
+
+
+def _as_typed(
+    refusal: SceneError, topic: str, typed: Mapping[str, Any], made: Callable[[Mapping[str, Any]], object]
+) -> SceneError:
+    """A refusal in the key as it was typed, maybe once for both bodies of a pair; what it offers has been tried."""
+    head, *path = refusal.key.split(".")
+    if head != topic or any("[" in step for step in path):
+        return refusal
+    if path[0] in GEARS and len(path) > 1 and path[1] in typed and path[1] not in typed.get(path[0], {}):
+        del path[0]
+
+    def cure() -> Nearest | None:
+        found = refusal.nearest
+        for _ in range(MOST_OFFERS):
+            if found is None or found.side == "meant":
+                return found
+            changed = owner = deepcopy(dict(typed))
+            for step in path[:-1]:
+                owner = owner.setdefault(step, {})
+            owner[path[-1]] = found.value
+            if found.value is None:
+                del owner[path[-1]]
+            try:
+                made(changed)
+            except SceneError as again:
+                found = again.nearest if again.key == refusal.key else None
+            else:
+                return found
+        return None
+
+    told = refusal.at(".".join((topic, *path)))
+    told.offer(cure)
+    return told
 
 
 def _sheet_of(topic: str, addresses: Sequence[str], table: dict[str, Any], language: str | None) -> tuple[Sheet, str]:

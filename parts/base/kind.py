@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 K = TypeVar("K", bound="MaterialKeys")
 T = TypeVar("T")
 # offers for one key that are tried, one after another: each limit may lie beyond the one before
-_MOST_OFFERS = 4
+MOST_OFFERS = 4
 # parts of a limit by which further values are tried where something beside it stops it; how near that is found
 _FURTHER, _SHARE = (1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2, 3 / 4, 7 / 8, 1.0), 8e-4
 # the keys of every part of a scene, for what is made from another part's
@@ -241,7 +241,7 @@ class Kind(Generic[K, T]):
 
         def cure() -> Nearest | None:
             found = alone()
-            for _ in range(_MOST_OFFERS):
+            for _ in range(MOST_OFFERS):
                 if found is None:
                     return None
                 try:

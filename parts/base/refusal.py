@@ -49,6 +49,8 @@ class SceneError(Curable, ValueError):
 REMOVED = Nearest(None)
 
 
+# so many of a list are told, of one that is longer than that
+_FEW, _LONG = 8, 10
 # words of other books for our keys and values, to which no letter leads
 _SYNONYMS = {word: ours.split(", ") for word, ours in rows_of(__file__, "synonyms")}
 
@@ -63,7 +65,10 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
         # letters lead such a word astray
         match = [name for name in _SYNONYMS[plain] if name in known]
     else:
-        match = [] if word is None else difflib.get_close_matches(word, list(known), 1, 0.5)
+        # among many words some have half of its letters by chance
+        match = (
+            [] if word is None else difflib.get_close_matches(word, list(known), 1, 0.6 if len(known) > _LONG else 0.5)
+        )
     if not match and word is not None:
         match = [name for name in known if name.lower() == word.lower()]
     return Nearest(match[0], "meant") if match else None
@@ -85,23 +90,31 @@ def sentence(refusal: SceneError, language: str = ENGLISH) -> str:
     return "".join(c if c.isprintable() else "?" for c in line)
 
 
-# refusals of what `higherpair list` has, and how much of that they tell themselves
+# refusals of what `higherpair list` has
 _LISTED = ("a_folder", "no_scene", "no_such_scene", "unknown_kind", "unknown_mate", "missing_kind", "unknown_material")
-_FEW = 8
 
 
 def _nearest_few(refusal: SceneError) -> Message | None:
-    """Of a long list of kinds or scenes those that are most like what was given, and where the rest stands."""
+    """Of a long list of what is known those that are most like what was given, and where the rest stands."""
     import difflib
 
     known = refusal.numbers.get("known")
-    if refusal.code not in _LISTED or not isinstance(known, list | tuple) or len(known) <= _FEW:
+    if not isinstance(known, list | tuple) or len(known) <= _LONG:
         return None
-    word = str(refusal.value or (refusal.source if refusal.code == "no_such_scene" else ""))
-    few = sorted(known, key=lambda name: -difflib.SequenceMatcher(None, word.lower(), name.lower()).ratio())[:_FEW]
-    return message(
-        "{few} and {more} more, see `{command}`", few=_told(few), more=len(known) - _FEW, command="higherpair list"
-    )
+    given = refusal.key.rpartition(".")[2] if refusal.code in ("unknown_key", "unknown_table") else refusal.value
+    word = str(given or (refusal.source if refusal.code == "no_such_scene" else "")).lower()
+
+    def likeness(name: object) -> float:
+        return difflib.SequenceMatcher(None, word, str(name).lower()).ratio()
+
+    told = sorted((name for name in known if likeness(name) >= 0.6), key=likeness, reverse=True) or known
+    few = {"few": _told(told[:_FEW]), "more": len(known) - len(told[:_FEW])}
+    see = "higherpair list" if refusal.code in _LISTED else refusal.numbers.get("see", "")
+    if refusal.source == "calc" and refusal.code == "unknown_key":
+        see = f"higherpair calc {refusal.key.partition('.')[0]} --keys"
+    if not see:
+        return message("{few} and {more} more", **few)
+    return message("{few} and {more} more, see `{command}`", command=see, **few)
 
 
 def explained(refusal: SceneError) -> Message:
@@ -127,20 +140,24 @@ def _remedy(nearest: Nearest, unit: str) -> Message:
     if nearest.value is None:
         return Message(REMEDIES["without"])
     if isinstance(nearest.value, int | float) and not isinstance(nearest.value, bool):
-        value = _measured(nearest.value, unit)
-    else:
-        value = str(nearest.value) if nearest.side == "meant" else format_value(nearest.value)
+        return message(REMEDIES[nearest.side], value=in_unit(f"{nearest.value:.12g}", nearest.value, unit))
+    value = str(nearest.value) if nearest.side == "meant" else format_value(nearest.value)
     return message(REMEDIES[nearest.side], value=value)
 
 
-def _measured(value: float, unit: str) -> Text:
-    """A number with its unit, in the form that goes with it."""
-    numbers = {"number": f"{value:.12g}", "count": value}
-    if unit == "modules":
-        return counted("{number} module", "{number} modules", by="count", **numbers)
-    if unit == "degrees":
-        return counted("{number} degree", "{number} degrees", by="count", **numbers)
-    return message("{number} {unit}", unit=Message(unit), **numbers) if unit else str(numbers["number"])
+# units that are words, which follow the number before them
+_COUNTED = {
+    "modules": counted("{number} module", "{number} modules", by="count"),
+    "degrees": counted("{number} degree", "{number} degrees", by="count"),
+    "turns": counted("{number} turn", "{number} turns", by="count"),
+}
+
+
+def in_unit(number: Text, count: object, unit: str) -> Message:
+    """A number, or a range that ends with it, with its unit in the form that goes with the ``count``."""
+    if unit in _COUNTED:
+        return filled(_COUNTED[unit], number=number, count=count)
+    return message("{number} {unit}", number=number, unit=Message(unit)) if unit else filled(number)
 
 
 def _told(number: object) -> object:

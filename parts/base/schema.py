@@ -14,8 +14,8 @@ from typing import Annotated, Any, Literal, TypeVar, Union, get_args, get_origin
 import msgspec
 from msgspec import Meta, Struct
 
-from geometry.base.errors import ParameterError, format_value
-from parts.base.refusal import SceneError, meant
+from geometry.base.errors import Nearest, ParameterError, format_value
+from parts.base.refusal import SceneError, in_unit, meant
 from parts.base.texts import N_, Message, counted, listed, message
 
 S = TypeVar("S", bound=Struct)
@@ -81,8 +81,18 @@ def kind_of(
     kind = table.get("kind")
     if isinstance(kind, str) and kind in known:
         return kind
-    code = "missing_kind" if kind is None else code
+    if kind is None:
+        _check_misspelt("kind", table, source, place)
+        code = "missing_kind"
     raise SceneError(source, f"{place}.kind", kind, code, meant(kind, known), known=list(known))
+
+
+def _check_misspelt(name: str, table: Mapping[str, Any], source: str, place: str) -> None:
+    """Refuse a key that is a missing one which tells tables apart, misspelt: msgspec looks for that one first."""
+    import difflib
+
+    for key in difflib.get_close_matches(name, table, 1, 0.7):
+        raise SceneError(source, f"{place}.{key}", table[key], "unknown_key", Nearest(name, "meant"), known=[name])
 
 
 def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str, place: str) -> SceneError:
@@ -98,9 +108,11 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         around = _lookup(table, keys)
         # hardly a key that stands there already
         like = meant(name, [key for key in known if key not in around]) or meant(name, known)
-        return SceneError(source, f"{where}.{name}", around[name], "unknown_key", like, known=known)
+        see = f"higherpair new {owner.__struct_config__.tag}" if tag == "kind" else ""
+        return SceneError(source, f"{where}.{name}", around[name], "unknown_key", like, known=known, see=see)
     if missing := re.search(r"missing required field `(.*?)`", message):
         name = missing.group(1)
+        _check_misspelt(name, _lookup(table, keys), source, where)
         what = _tags_of(kind, [*keys, name], table) or described_key(_owner(kind, keys, table), name)
         return SceneError(source, f"{where}.{name}", None, "missing_key" if what else "missing", None, what=what)
     allowed, words = _tags_of(kind, keys, table), _tag_words_of(kind, keys, table)
@@ -312,7 +324,7 @@ def _span(meta: Meta, kind: object) -> Message | None:
     unit = meta.extra.get("unit", "") if meta.extra else ""
     if not ends:
         return Message(unit) if unit else None
-    return message("{range} {unit}", range=listed(ends), unit=Message(unit)) if unit else listed(ends)
+    return in_unit(listed(ends), ends[-1].numbers.get("limit", 0), unit)
 
 
 def own_first(kind: type[Struct]) -> list[msgspec.structs.FieldInfo]:

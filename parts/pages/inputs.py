@@ -19,6 +19,8 @@ from parts.pages.page import Sheet
 K = TypeVar("K", bound=Struct)
 # whose keys they are in refusals
 PLACE = "calc"
+# the bodies of a pair, before whose keys these stand
+GEARS = ("first", "second")
 
 
 class Placed(Protocol):

@@ -54,7 +54,7 @@ def _expanded(keys: GearPairModelKeys) -> Expansion:
             label=f"z {teeth} m {keys.module:g}",
         )  # fmt: skip
         making.told(wheel, number_of_teeth=f"teeth[{number}]", profile_shift_coefficient=f"shifts[{number}]",
-                    module="module", face_width="plate_thickness")  # fmt: skip
+                    face_width="plate_thickness")  # fmt: skip
     beside = max(_BESIDE, keys.axle_diameter / 2 + _WALL)
     making.part(
         "frame", kind="plate", face_width=thick, corner_radius=_CORNER, width=2 * beside, height=2 * beside,
@@ -67,7 +67,6 @@ def _expanded(keys: GearPairModelKeys) -> Expansion:
         making.put("coaxial", wheel, f"axle_{number}", "axle", height=-thick)
     making.told("frame", face_width="plate_thickness")
     making.told("axle", diameter="axle_diameter")
-    making.found.origins["mates[1].normal_backlash"] = "normal_backlash"
     making.name_all()
     return making.found
 

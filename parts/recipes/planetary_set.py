@@ -42,8 +42,9 @@ _WHEELS = {
     "two_internal": ("ring", "satellite", "second_satellite", "second_ring"),
     "david": ("sun", "satellite", "second_satellite", "second_sun"),
 }
-# mm: a ring's rim beyond its teeth where screws go through it, the screws, the base beyond the ring, a crank's handle
-_RIM, _SCREW, _MARGIN, _HANDLE = 14.0, 4.0, 12.0, 25.0
+# mm: a ring's rim beyond its teeth where screws go through it, the screws, the base beyond the ring, a crank's handle,
+# the engraved mark of a carrier
+_RIM, _SCREW, _MARGIN, _HANDLE, _MARK = 14.0, 4.0, 12.0, 25.0, 1.0
 _MOST_TURNS = 10_000
 
 
@@ -56,7 +57,7 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     ] = "james"
     teeth: Annotated[
         list[Annotated[int, Meta(ge=3, le=10_000)]],
-        Meta(description="z1, z2, z3, or with two rims z1, z2, z2', z3", examples=[[24, 24, 72]]),
+        Meta(description="numbers of teeth z1, z2, z3, or with two rims z1, z2, z2', z3", examples=[[24, 24, 72]]),
     ]
     satellites: Annotated[int, Meta(ge=1, le=1000, description="number of satellites")] = 3
     spacing: Annotated[
@@ -167,8 +168,8 @@ def _expanded(keys: PlanetarySetKeys) -> Expansion:
     making = Making("planetary_set", keys.plate_thickness, made_of(keys.material, keys.density))
     for wheel in dict.fromkeys(made.wheels):
         making.part(wheel.id, **_wheel_keys(made, wheel))
-        making.told(wheel.id, number_of_teeth=f"teeth[{wheel.item}]", module="module", face_width="face_width",
-                    helix_angle_deg="helix_angle_deg", double_helical="double_helical")  # fmt: skip
+        module = "module" if wheel.module == keys.module else "second_module"
+        making.told(wheel.id, number_of_teeth=f"teeth[{wheel.item}]", module=module, helix_angle_deg="helix_angle_deg")
         if keys.shifts is not None:
             making.told(wheel.id, profile_shift_coefficient=f"shifts[{wheel.item}]")
     _add_meshes(made, making.found)
@@ -386,8 +387,11 @@ def _add_carrier(made: _Set, making: Making) -> None:
     )  # fmt: skip
     if not made.equal:
         found.parts["carrier"]["directions_deg"] = [360 * float(p) for p in made.places]
-    if keys.frame:
-        mark = {"start": [0.5 * made.distance, 0.0], "end": [0.75 * made.distance, 0.0], "width": 1.0}
+    # between the shaft and a pin, where there is room
+    start = max(0.5 * made.distance, (keys.shaft_diameter + keys.clearance) / 2 + _MARK)
+    end = min(0.75 * made.distance, made.distance - keys.pin_diameter / 2 - _MARK)
+    if keys.frame and start < end:
+        mark = {"start": [start, 0.0], "end": [end, 0.0], "width": _MARK}
         found.parts["carrier"]["engraved"] = [mark]
     making.pin("pin", keys.pin_diameter, inside + 2 * thick)
     making.put("coaxial", first.id, "carrier", height=bottom - first.height, rotation_deg=keys.direction_deg)

@@ -221,7 +221,7 @@ class _Making(Making):
         self.drive(self.keys, disk_2="turns_of_disk", ring="turns_of_ring")
         self._order()
         self.name_all()
-        self.told("ring", "pinion", number_of_teeth="teeth", module="module", face_width="face_width")
+        self.told("ring", "pinion", number_of_teeth="teeth")
         self.told("worm", thread_length="worm_length")
         self.told("worm", "worm_wheel_25", "worm_wheel_23", module="worm_module", diameter_quotient="worm_quotient")
         self.told("worm_wheel_25", "worm_wheel_23", number_of_teeth="worm_teeth", face_width="worm_wheel_width")

@@ -148,7 +148,7 @@ class _Making(Making):
         self.drive(keys, disk_2="turns_of_disk", ring="turns_of_ring")
         self.name_all()
         self.told("platform", width="platform_size")
-        self.told("ring", "pinion", number_of_teeth="teeth", module="module")
+        self.told("ring", "pinion", number_of_teeth="teeth")
         return self.found
 
     def _disks(self) -> None:

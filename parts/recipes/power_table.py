@@ -203,7 +203,7 @@ class _Making(Making):
         (self._worms if self.keys.drive == "worms" else self._hand_cranks)()
         self._order()
         self.drive(self.keys, disk_2="turns_of_disk", ring="turns_of_ring")
-        self.told("ring", "pinion", number_of_teeth="teeth", module="module")
+        self.told("ring", "pinion", number_of_teeth="teeth")
         self.told("pinion", bore_diameter="axle_diameter")
         self.told("platform", width="platform_size")
         self.told("disk_worm_wheel", "ring_worm_wheel", module="worm_module", number_of_teeth="worm_wheel_teeth",
@@ -282,7 +282,6 @@ class _Making(Making):
         )  # fmt: skip
         self.put("carried", "disk_2", "pinion", offset=place(arm, self.pinion - self.disk))
         self.mate("internal_gear_pair", "ring", "pinion", normal_backlash=keys.normal_backlash)
-        self.found.origins[f"mates[{len(self.found.mates)}].normal_backlash"] = "normal_backlash"
         bores = [hole(0j, shaft + keys.clearance), hole(second, axle)]
         self.plate("hub", 2 * sizes.hub, bores)
         for k in (1, 2):

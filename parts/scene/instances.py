@@ -260,7 +260,7 @@ def check_instance(name: str, instances: dict[str, InstanceSpec], source: str, p
         return
     own = [key for key, spec in instances.items() if spec.part == name]
     if own:
-        raise SceneError(source, place, name, "stands_as", Nearest(own[0]), known=own)
+        raise SceneError(source, place, name, "stands_as", Nearest(own[0], "meant"), known=own)
     if not instances:
         raise SceneError(source, place, name, "no_instances")
     raise SceneError(source, place, name, "no_such_instance", meant(name, instances), known=list(instances))

@@ -85,7 +85,7 @@ def in_one(raw: dict[str, Any], table: object, source: str, place: str, chosen: 
             if other not in languages():
                 known = languages()
                 raise SceneError(
-                    source, f"{place}.{key}.{other}", told[other], "not_one_of", meant(other, known), known=known
+                    source, f"{place}.{key}.{other}", told[other], "unknown_key", meant(other, known), known=known
                 )
         if key in chosen:
             _check_all(told, key, source, f"{place}.{key}")

@@ -8,7 +8,7 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import kept, nearest
 from parts.base.refusal import SceneError, placed
 from parts.base.schema import converted, kind_of, tried, unit_of
-from parts.recipes.recipe import Expansion, Recipe, Table
+from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 from parts.scene.language import in_one
 
 # keys of tables that hold the id of an instance or a part
@@ -76,7 +76,16 @@ def _made(table: dict[str, Any], source: str, place: str) -> tuple[str, Expansio
         made = recipe.expanded(keys)
     except ParameterError as refusal:
         raise placed(source, place, _made_good(recipe, keys, refusal), unit_of(recipe.keys, refusal.name)) from refusal
+    made.origins = _handed_on(keys, made) | made.origins
     return "" if keys.name is None else f"{keys.name}_", made
+
+
+def _handed_on(keys: RecipeKeys, made: Expansion) -> dict[str, str]:
+    """The places in an assembly's tables that hold a key of its own as it was given, under its own name."""
+    rows = [(f"{name}.{key}", row) for name in ("parts", "instances") for key, row in getattr(made, name).items()]
+    rows += [(f"{name}[{k}]", row) for name in ("mates", "drives") for k, row in enumerate(getattr(made, name), 1)]
+    own = {key: getattr(keys, key) for key in keys.__struct_fields__}
+    return {f"{at}.{key}": key for at, row in rows for key, value in row.items() if key in own and own[key] == value}
 
 
 def _made_good(recipe: Recipe[Any], keys: Any, refusal: ParameterError) -> ParameterError:

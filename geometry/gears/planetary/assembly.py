@@ -8,7 +8,7 @@ from typing import Literal
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record, replace
-from geometry.gears.planetary.sets import PlanetarySet, Scheme
+from geometry.gears.planetary.sets import SCHEMES, PlanetarySet, Scheme
 
 # by how much teeth are changed for a set that can be assembled, and how many of these are tried
 _NEARBY, _TRIED = 4, 10
@@ -26,7 +26,8 @@ def given_set(
     """
     wanted = 4 if scheme.double else 3
     if len(teeth) != wanted:
-        raise ParameterError("teeth", list(teeth), "wheels_of_scheme", wheels=wanted)
+        name = next(name for name, known in SCHEMES.items() if known == scheme)
+        raise ParameterError("teeth", list(teeth), "wheels_of_scheme", wheels=wanted, scheme=name)
     z1, z2, *rest = teeth
     one = PlanetarySet(scheme, (z1, z2, rest[0] if scheme.double else z2, rest[-1]), modules, cosine)
     for span, ring, rim in zip(one.spans, (z1, one.teeth[3]), one.teeth[1:3], strict=True):

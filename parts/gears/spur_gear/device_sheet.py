@@ -7,7 +7,7 @@ import math
 import re
 from functools import partial
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement2
 from geometry.base.record import replace
 from geometry.curves.curve import Curve
@@ -106,12 +106,12 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
 def _check(gears: list[SpurGear]) -> None:
     first = gears[0]
     if len(gears) > 2:
-        raise ParameterError("parts", len(gears), "disk_holds_two_wheels", Nearest(2, "at_most"))
+        raise ParameterError("parts", None, "disk_holds_two_wheels", count=len(gears))
     for gear in gears:
         if (gear.module, gear.number_of_teeth) != (first.module, first.number_of_teeth):
-            told = f"module {gear.module:g}, {gear.number_of_teeth} teeth"
-            teeth = first.number_of_teeth
-            raise ParameterError("parts", told, "one_disk_one_size", module=first.module, teeth=teeth)
+            sizes = {"module": first.module, "teeth": first.number_of_teeth}
+            other = {"other_module": gear.module, "other_teeth": gear.number_of_teeth}
+            raise ParameterError("parts", None, "one_disk_one_size", **sizes, **other)
 
 
 def _radius(gear: SpurGear, name: str) -> float:

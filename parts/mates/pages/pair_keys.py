@@ -19,10 +19,9 @@ from parts.keys.base import in_modules, mm
 from parts.keys.cutter import PressureAngle, RackName
 from parts.keys.helix import Double, HelixAngle
 from parts.mates.pairing import mated
-from parts.pages.inputs import PLACE, keys_of
+from parts.pages.inputs import GEARS, PLACE, keys_of
 
 M = TypeVar("M", bound=MateKeys)
-GEARS = ("first", "second")
 # the second body of each kind of pair that it tells
 _SECOND = {"external_gear_pair": "spur_gear", "internal_gear_pair": "ring_gear", "rack_pair": "rack"}
 

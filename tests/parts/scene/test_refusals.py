@@ -13,7 +13,7 @@ import pytest
 from exporters.command.cli import main
 from exporters.production.build import build
 from exporters.production.plan import plan_build
-from parts.base.refusal import SceneError
+from parts.base.refusal import SceneError, sentence
 from parts.scene.language import language_of
 from parts.scene.load import load_scene, scene_from_dict, scene_from_toml
 
@@ -496,3 +496,57 @@ def test_a_number_in_quotes_with_a_comma_is_told_how_to_write_it() -> None:
         scene_from_toml(b'[parts.a]\nkind = "spur_gear"\nmodule = "2,5"\nnumber_of_teeth = 20\n', "s.toml", "s")
     assert (caught.value.key, caught.value.code) == ("parts.a.module", "comma_in_number")
     assert "2.5" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("keys", "place"),
+    [
+        ({"turns": 0.0}, "turns"),
+        ({"material": "no such"}, "material"),
+        ({"normal_backlash": 30.0}, "normal_backlash"),
+        (
+            {
+                "scheme": "david",
+                "teeth": [100, 101, 100, 99],
+                "identical": False,
+                "shifts": [0.3] * 4,
+                "working_centre_distance": 200.0,
+            },
+            "working_centre_distance",
+        ),
+    ],
+)
+def test_a_key_that_an_assembly_hands_on_is_told_where_it_was_typed(keys: dict[str, Any], place: str) -> None:
+    table = {"kind": "planetary_set", "teeth": [24, 24, 72], "module": 2.0, **keys}
+    with pytest.raises(SceneError) as refused:
+        plan_build(scene_from_dict({"assemblies": [table], "exports": [{"format": "svg"}]}, "t", "t"), "t", [], [])
+    assert refused.value.key == f"assemblies[1].{place}"
+
+
+@pytest.mark.parametrize(
+    ("part", "key", "told"),
+    [
+        ({"kind": None, "knd": '"spur_gear"'}, "parts.gear.knd", "did you mean kind?"),
+        ({"bore": '{ shpe = "round", diameter = 5.0 }'}, "parts.gear.bore.shpe", "did you mean shape?"),
+        ({"label": '{ ku = "x" }'}, "parts.gear.label.ku", "known keys: en, uk; did you mean uk?"),
+    ],
+)
+def test_a_misspelt_key_is_told_as_it_was_typed(part: Keys, key: str, told: str) -> None:
+    found = refusal(scene_text(part))
+    assert (found.key, found.code) == (key, "unknown_key")
+    assert told in str(found)
+
+
+def test_of_a_long_list_what_is_like_the_word_is_told() -> None:
+    few = str(refusal(scene_text({"modul": "2"})))
+    assert re.search(r"known keys: module and \d+ more, see `higherpair new spur_gear`; did you mean module\?$", few)
+    # no word of it is like this one
+    assert "did you mean" not in str(refusal(scene_text({"material": '"nonsense"'})))
+
+
+def test_a_range_has_its_unit_in_the_form_of_its_last_number() -> None:
+    assert str(refusal(scene_text({"tip_relief": "{ depth_coefficient = 5.0 }"}))).endswith("modules")
+    told = {"kind": '"bevel_gear"', "mate_teeth": "40", "tip_clearance_coefficient": "9.0"}
+    found = refusal(scene_text(told))
+    assert str(found).endswith("at most 1 module")
+    assert sentence(found, "uk").endswith("щонайбільше 1 модуль")
