@@ -546,7 +546,7 @@ def test_of_a_long_list_what_is_like_the_word_is_told() -> None:
 
 def test_a_range_has_its_unit_in_the_form_of_its_last_number() -> None:
     assert str(refusal(scene_text({"tip_relief": "{ depth_coefficient = 5.0 }"}))).endswith("modules")
-    told = {"kind": '"bevel_gear"', "mate_teeth": "40", "tip_clearance_coefficient": "9.0"}
+    told = {"kind": '"bevel_gear"', "mate_number_of_teeth": "40", "tip_clearance_coefficient": "9.0"}
     found = refusal(scene_text(told))
     assert str(found).endswith("at most 1 module")
     assert sentence(found, "uk").endswith("щонайбільше 1 модуль")
