@@ -238,10 +238,11 @@ def _feet(points: Complex, curve: Travelled, samples: Real, start: NDArrayInt, *
         square = (np.conj(first) * first).real
         slope = square + sum((np.conj(gap) * x).real for x in second)
         with np.errstate(divide="ignore", invalid="ignore"):
-            step = np.nan_to_num((np.conj(gap) * first).real / np.where(slope > 0, slope, square))
+            step = (np.conj(gap) * first).real / np.where(slope > 0, slope, square)
         # in a cusp at an end, where an involute begins, every point would have its foot: half a sample inwards
         step = np.where(square > 0, step, np.where(at > (low + high) / 2, reach / 2, -reach / 2))
-        following = np.clip(at - np.clip(step, -reach, reach), low, high)
+        # what ``np.clip`` does, at half the cost
+        following = np.minimum(np.maximum(at - np.minimum(np.maximum(step, -reach), reach), low), high)
         # a foot that stays, or goes to and fro by a rounding, is where it will be after all steps, or one before
         swings = following == before[rows]
         t[rows] = np.where(swings, at if left % 2 else following, following)

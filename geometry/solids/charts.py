@@ -146,7 +146,8 @@ class Chart(Record, eq=False):
 
     def flat(self, points: Real) -> tuple[Real, Real]:
         """u and v of points (..., 3) on it; angles within half a turn of 0."""
-        x, y, z = np.moveaxis((points - self.origin) @ self.axes.T, -1, 0)
+        own = (points - self.origin) @ self.axes.T
+        x, y, z = own[..., 0], own[..., 1], own[..., 2]
         if self.is_plane:
             return x, y
         if isinstance(self.surface, Torus | Sphere):
@@ -169,14 +170,16 @@ class Chart(Record, eq=False):
         return self.with_normal(u, v)[0]
 
     def with_normal(self, u: Real, v: Real) -> tuple[Real, Real]:
-        """Points (..., 3), and the cross products of their derivatives by u and v."""
+        """Points (..., 3), and the cross products of their derivatives by u and v, whose shapes go together."""
         if self.is_plane:
-            local = np.stack([u, v, np.zeros_like(u)], axis=-1)
+            local = np.stack(np.broadcast_arrays(u, v, 0.0), axis=-1)
             return self.origin + local @ self.axes, np.broadcast_to(self.axes[2], local.shape)
         size, height, size_step, height_step = self.meridian(v)
         c, s = np.cos(u), np.sin(u)
-        local = np.stack([size * c, size * s, height], axis=-1)
-        normal = np.stack([size * c * height_step, size * s * height_step, -size * size_step], axis=-1)
+        across, upwards = size * c, size * s
+        local, normal = np.empty((2, *across.shape, 3))
+        local[..., 0], local[..., 1], local[..., 2] = across, upwards, height
+        normal[..., 0], normal[..., 1], normal[..., 2] = across * height_step, upwards * height_step, -size * size_step
         return self.origin + local @ self.axes, normal @ self.axes
 
     def turned(self, other: Chart, points: Real, angle: float) -> Real:

@@ -180,6 +180,7 @@ def words(language: str) -> Words:
     return Words(language, catalogues[0] if catalogues else None)
 
 
+@cache
 def languages() -> tuple[str, ...]:
     """English, and each language whose folder lies beside the others."""
     return ENGLISH, *sorted(p.name for p in LOCALE.iterdir() if (p / "LC_MESSAGES" / f"{DOMAIN}.mo").is_file())

@@ -132,18 +132,16 @@ class Ink(Draft):
 def _held(boxes: Real, lines: Complex) -> np.ndarray:
     """Which of boxes, (m, 4), holds a piece of which line; ends of lines: (2, n) (Liang and Barsky)."""
     start, way = lines[0], lines[1] - lines[0]
-    first, last = np.zeros((len(boxes), len(way))), np.ones((len(boxes), len(way)))
-    for at, step, least, most in (
-        (start.real, way.real, boxes[:, 0:1], boxes[:, 2:3]),
-        (start.imag, way.imag, boxes[:, 1:2], boxes[:, 3:4]),
-    ):
-        flat = np.abs(step) < 1e-12
-        safe = np.where(flat, 1.0, step)
-        one, two = (least - at) / safe, (most - at) / safe
-        inside = (at > least) & (at < most)
-        first = np.maximum(first, np.where(flat, np.where(inside, 0.0, 2.0), np.minimum(one, two)))
-        last = np.minimum(last, np.where(flat, 1.0, np.maximum(one, two)))
-    return np.asarray(last > first)
+    # across and upwards at once, (2, m, n)
+    at, step = (np.array([x.real, x.imag])[:, None] for x in (start, way))
+    least, most = boxes.T[:2, :, None], boxes.T[2:, :, None]
+    flat = np.abs(step) < 1e-12
+    safe = np.where(flat, 1.0, step)
+    one, two = (least - at) / safe, (most - at) / safe
+    inside = (at > least) & (at < most)
+    first = np.where(flat, np.where(inside, 0.0, 2.0), np.minimum(one, two)).max(axis=0)
+    last = np.where(flat, 1.0, np.maximum(one, two)).min(axis=0)
+    return np.minimum(last, 1.0) > np.maximum(first, 0.0)
 
 
 def _costs(lines: Complex, others: Complex) -> Real:
