@@ -875,11 +875,16 @@ def test_specific_pressure_is_that_of_the_textbooks(
     [
         ("gear-pair", "ring_gear", "internal_gear_pair"),
         ("gear-pair", "rack", "rack_pair"),
-        ("shift-choice", "ring_gear", "internal_gear_pair"),
+        # as in test_calc_internal_shifts, so that one search serves both
+        (
+            "shift-choice second.cutter.number_of_teeth=25 working_centre_distance=40.5",
+            "ring_gear",
+            "internal_gear_pair",
+        ),
     ],
 )
 def test_a_pair_is_what_its_second_gear_makes_it(topic: str, second: str, kind: str) -> None:
-    words = f"{topic} first.number_of_teeth=24 second.number_of_teeth=60 module=3"
+    words = f"{topic} first.number_of_teeth=20 second.number_of_teeth=60 module=2"
     assert values_of(f"{words} second.kind={second}") == values_of(f"{words} kind={kind}")
 
 

@@ -475,6 +475,7 @@ def test_a_scene_tells_the_helix_and_the_face_of_its_ring(tmp_path: Path, monkey
     file = tmp_path / "helical.toml"
     file.write_text(helical.replace("[[mates]]", "helix_angle_deg = -12.0\nface_width = 25.0\n[[mates]]"), "utf-8")
     monkeypatch.setattr(internal_shift_choice, "window", lambda pair: None)
+    monkeypatch.setattr(internal_shift_choice, "_found_choices", lambda *given: [])
     told = {step.name: step.value for step in sheet_of("shift-choice", [str(file)])[0].steps()}
     assert told["helix_angle_deg"] == pytest.approx(12.0)
     assert told["face_width"] == 25.0

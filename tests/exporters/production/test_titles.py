@@ -18,15 +18,15 @@ from parts.scene.load import load_scene
 SCENE = """
 [parts.pinion]
 kind = "spur_gear"
-module = 2.0
-number_of_teeth = 17
+module = 3.0
+number_of_teeth = 12
 profile_shift_coefficient = 0.1
 title = "Шестерня «Ґ» 小歯車"
 label = true
 [parts.wheel]
 kind = "spur_gear"
-module = 2.0
-number_of_teeth = 30
+module = 3.0
+number_of_teeth = 20
 title = "Колесо"
 label = true
 [[mates]]
@@ -143,7 +143,7 @@ def test_pictures_and_sheets_show_them(folder: Path) -> None:
 
 def test_engraved_is_what_there_are_letters_for(folder: Path) -> None:
     strokes = {name: (folder / f"{name}.svg").read_text().count('id="engrave"') for name in ("pinion", "wheel")}
-    # "z 17 m 2 x 0.1" alone, where "Колесо z 30 m 2" has its title
+    # "z 12 m 3 x 0.1" alone, where "Колесо z 20 m 3" has its title
     assert strokes["pinion"] < strokes["wheel"]
 
 

@@ -161,12 +161,13 @@ def test_the_total_contact_ratio_is_counted_off_a_pitch_of_turning(name: str) ->
     spheres = np.linspace(first.inner_distance, first.cone_distance, 400)
     rolled = float(first.involute.arc(first.pitch_angle)), float(second.involute.arc(second.pitch_angle))
     tips = [g.involute.arc(g.tip_angle_at(spheres)) for g in both.gears]
+    spun = first.spin(spheres)
     counts = []
     for way in (-1, 1):
         touching, steps = 0, 1000
         for k in range(steps):
             for tooth in range(-5, 6):
-                arc = rolled[0] + base * (pitch * (k / steps + tooth) + way * first.spin(spheres))
+                arc = rolled[0] + base * (pitch * (k / steps + tooth) + way * spun)
                 other = sum(rolled) - arc
                 met = (first.joint[1] <= arc) & (arc <= tips[0]) & (second.joint[1] <= other) & (other <= tips[1])
                 touching += bool(met.any())

@@ -128,7 +128,8 @@ def swept(disc: GenevaDisc, turns: int = 49) -> tuple[float, float]:
         there = affinity.translate(affinity.rotate(body, slot, (0, 0), use_radians=True), drive.centre_distance, 0)
         for part in parts:
             here = affinity.rotate(part, rotation, (0, 0), use_radians=True)
-            area, apart = max(area, here.intersection(there).area), min(apart, here.distance(there))
+            off = here.distance(there)
+            area, apart = max(area, 0.0 if off else here.intersection(there).area), min(apart, off)
     return area, apart
 
 

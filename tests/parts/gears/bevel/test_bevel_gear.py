@@ -235,7 +235,7 @@ def test_a_gear_of_thirty_metres_is_drawn_too() -> None:
 
 
 HOLED: dict[str, Any] = {
-    "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 50, "mate_number_of_teeth": 20, "rim_thickness": 4.0,
+    "kind": "bevel_gear", "module": 4.0, "number_of_teeth": 25, "mate_number_of_teeth": 10, "rim_thickness": 4.0,
     "hub_diameter": 30.0, "hub_length": 6.0, "bore_diameter": 10.0,
     "holes": {"count": 4, "diameter": 8.0, "pitch_circle_diameter": 44.0},
 }  # fmt: skip
