@@ -10,8 +10,9 @@ from msgspec import Meta, Struct, field
 from geometry.base.errors import GeometryError, ParameterError, limit
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
+from parts.base.texts import N_
 from parts.bodies.plate import Slots
-from parts.keys.base import MOST_LENGTH, mm, part_mm
+from parts.keys.base import MOST_LENGTH, mm, part_mm, start
 
 if TYPE_CHECKING:
     from geometry.curves.line_arc import Arc
@@ -69,6 +70,18 @@ _BOX = [
     {"thickness": 8.0, "circles": [{"diameter": 30.0}, {"diameter": 20.0}]},
 ]
 
+_HAND = [
+    {
+        "thickness": 3.0,
+        "outlines": [{"points": [
+            {"x": 4.0, "y": 0.0}, {"x": 1.0, "y": 60.0, "arc": 1.0}, {"x": -1.0, "y": 60.0},
+            {"x": -4.0, "y": 0.0, "arc": 4.0},
+        ]}],
+        "slots": [{"start": [0.0, 10.0], "end": [0.0, 25.0], "width": 2.0}],
+        "circles": [{"diameter": 3.0}],
+    },
+]  # fmt: skip
+
 
 class LayeredSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="layered"):
     """Keys of ``layered``."""
@@ -79,8 +92,8 @@ class LayeredSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="layered"):
             min_length=1,
             max_length=100,
             description="from the lowest upwards; contours of neighbours are the same, apart, or within each other",
-            examples=[_BOX],
         ),
+        start(_BOX, (_HAND, N_("the hand of a clock: flat, of lines and arcs, for the laser"))),
     ]
 
 
@@ -172,27 +185,29 @@ def _outline(points: list[OutlinePoint], place: str) -> Contour:
     from geometry.solids.layers import Contour
 
     corners = [complex(p.x, p.y) for p in points]
-    ways = list(zip(corners, [*corners[1:], corners[0]], [p.arc for p in points], strict=True))
+    ways = [
+        (a, b, p.arc, k) for k, (a, b, p) in enumerate(zip(corners, [*corners[1:], corners[0]], points, strict=True), 1)
+    ]
     # the polygon of the corners tells which way it runs; of two corners it is counter-clockwise
-    area = math.fsum((a.conjugate() * b).imag / 2 for a, b, _ in ways)
+    area = math.fsum((a.conjugate() * b).imag / 2 for a, b, *_ in ways)
     if area < 0:
-        ways = [(b, a, radius) for a, b, radius in reversed(ways)]
+        ways = [(b, a, radius, number) for a, b, radius, number in reversed(ways)]
     edges: list[Line | Arc] = []
     enclosed = abs(area)
-    for number, (start, end, radius) in enumerate(ways, 1):
-        chord = abs(end - start)
+    for begin, end, radius, number in ways:
+        chord = abs(end - begin)
         if chord == 0:
             raise ParameterError(f"{place}.points", len(points), "outline_of_nothing")
         if radius == 0:
-            edges.append(Line(start, end))
+            edges.append(Line(begin, end))
             continue
         rest = radius**2 - chord**2 / 4
         if rest < -1e-12 * radius**2:
             least = limit(math.copysign(chord / 2 * (1 + 1e-9), radius), radius, digits=6)
             raise ParameterError(f"{place}.points[{number}].arc", radius, "arc_shorter_than_chord", least)
         side = 1j * math.copysign(math.sqrt(max(rest, 0.0)), radius)
-        centre = (start + end) / 2 + side * (end - start) / chord
-        arc = arc_between(centre, start, end, radius > 0)
+        centre = (begin + end) / 2 + side * (end - begin) / chord
+        arc = arc_between(centre, begin, end, radius > 0)
         edges.append(arc)
         enclosed += radius**2 / 2 * (arc.sweep - math.sin(arc.sweep))
     if enclosed <= 0:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from exporters.command.cli import main
+from exporters.command.new import new_scene
 from parts.base.refusal import SceneError
-from parts.scene.load import make_parts, scene_from_dict
+from parts.scene.load import make_parts, scene_from_dict, scene_from_toml
 
 Keys = dict[str, Any]
 SQUARE = {"points": [[-30, -20], [30, -20], [30, 20], [-30, 20]]}
@@ -53,6 +55,17 @@ def test_a_volume_is_that_of_its_layers() -> None:
     mesh = part.to_trimesh(0.001)
     assert mesh.is_watertight
     assert mesh.volume == pytest.approx(wanted, rel=2e-4)
+
+
+def test_the_hand_that_new_shows_is_a_flat_part_of_lines_and_arcs() -> None:
+    """A trapezium with half a disk at each end, less a slot and a hole; what an outline takes was not shown."""
+    text = new_scene("layered")
+    (shown,) = re.findall(r"^# (layers = .*?)  # \.\.\. or this", text, re.MULTILINE)
+    used = re.sub(r"^layers = .*$", shown, text, flags=re.MULTILINE)
+    part = make_parts(scene_from_toml(used.encode(), "t", "t"), "t")[0]["gear"]
+    area = 60 * (8 + 2) / 2 + (disk(8) + disk(2)) / 2 - (15 * 2 + disk(2)) - disk(3)
+    assert part.made_by.moments(part.body(0.0)).volume == pytest.approx(3 * area, rel=1e-12)
+    assert part.is_plate
 
 
 def test_its_files_are_read_back(tmp_path: Path) -> None:
@@ -98,6 +111,9 @@ def _toml(value: Any) -> str:
         ([{"thickness": 1}], "no contour"),
         ([{"thickness": 1, "outlines": [{"points": [{"x": 0, "y": 0}, {"x": 9, "y": 0}]}]}], "encloses nothing"),
         ([{"thickness": 1, "outlines": [{"points": [{"x": 0, "y": 0, "arc": 4}, {"x": 9, "y": 0}]}]}], "not reach"),
+        # told clockwise: points[3] was blamed
+        ([{"thickness": 1, "outlines": [{"points": [{"x": 0, "y": 0, "arc": 4}, {"x": 0, "y": 9}, {"x": 9, "y": 9}]}]}],
+         r"points\[1\]\.arc"),
     ],
 )  # fmt: skip
 def test_what_is_no_body_is_refused(layers: list[Keys], word: str) -> None:
