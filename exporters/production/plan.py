@@ -114,14 +114,13 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             left_out.append(LeftOut(where, why))
             continue
         asked = Request(scene, placing, parts, export, where, source)
-        if export.purpose == "model":
-            bodies = [p for p in asked.wanted if not _is_flat(parts[p])]
+        if on_sheet(export.format, export.purpose):
+            bodies = [p for p in asked.wanted if export.purpose == "model" and not _is_flat(parts[p])]
             if bodies and export.parts:
                 raise asked.refused("parts", bodies[0], "no_flat_outline")
             left_out += [_no_outline(where, p) for p in bodies]
             if bodies:
                 asked = replace(asked, export=with_keys(export, parts=[p for p in parts if p not in bodies]))
-        if on_sheet(export.format, export.purpose):
             sheets += _sheets(replace(asked, export=_of_cams(asked.export, parts, only_parts)), taken)
             continue
         if export.is_laid:

@@ -27,6 +27,7 @@ NAMES = {
     "list": 'format = "csv"', "dxf of a": 'format = "dxf"\nparts = ["a"]', "named": 'format = "dxf"\nname = "own"',
     "only a": 'format = "stl"\nparts = ["a"]', "svg": 'format = "svg"', "rounded": 'format = "stl"\noffset = 0.1',
     "balls": 'format = "svg"\nparts = ["ball"]', "model": 'format = "pdf"',
+    "step ball": 'format = "step"\nparts = ["ball"]',
     "paper balls": 'format = "pdf"\nparts = ["ball", "a"]',
 }  # fmt: skip
 
@@ -129,6 +130,9 @@ def test_what_has_no_outline_is_left_out_of_flat_files_and_refused_where_it_is_n
     made = plan("model", text=PARTS + PAIR + LAYERS)
     assert left(made) == [("exports[1]", "ball has no flat outline", False)]
     assert [file.export.parts for file in made.files] == [[*ABS]]
+    # the purpose of STEP is called model too
+    assert paths(plan("step ball", text=PARTS + PAIR + LAYERS)) == ["ball.step"]
+    assert left(plan("step", text=PARTS + PAIR + LAYERS)) == []
     for named in ("balls", "paper balls"):
         with pytest.raises(SceneError) as refused:
             plan(named, text=PARTS + PAIR + LAYERS)
