@@ -236,6 +236,11 @@ class StraightJoint(Record):
         return self.teeth, self.inner, self.outer, self.width
 
     @property
+    def hub_reach(self) -> float:
+        """How far from the axis its slots go, mm."""
+        return self.outer / 2
+
+    @property
     def name(self) -> str:
         """Its designation, with the teeth's width where no standard has it."""
         sizes = "×".join(f"{size:g}" for size in self.sizes[: 3 if self.standard else 4])
@@ -283,6 +288,11 @@ class InvoluteJoint(Record):
     roundings: tuple[float, float, float]
     standard: str
     name: str
+
+    @property
+    def hub_reach(self) -> float:
+        """How far from the axis the slots of its hub go, mm."""
+        return self.hub_diameters[1] / 2
 
     def _flank(self) -> InvoluteFlank:
         reference = self.module * self.teeth / 2
@@ -390,19 +400,19 @@ class SplineBore(Record, dict=True):
 
     @cached_property
     def form(self) -> SplineForm:
-        """Its slots, without the clearance."""
-        return self.joint.hub().widened(self.depth)
+        """Its slots, sharp corners kept."""
+        return self.joint.hub().widened(self.clearance + self.depth)
 
     @property
     def reach(self) -> float:
         """See Bore."""
-        return self.form.outer + self.clearance
+        return self.joint.hub_reach + self.clearance + self.depth
 
     def check(self) -> None:
         """See Bore."""
         for clearance, blamed in ((0.0, self.size), (self.clearance, ("bore.clearance", self.clearance))):
             try:
-                self.form.outline(clearance)
+                self.joint.hub().widened(clearance).outline()
                 self.joint.shaft().outline(-clearance)
             except OffsetError as refusal:
                 raise ParameterError(*blamed, refusal.reason) from refusal
@@ -415,7 +425,7 @@ class SplineBore(Record, dict=True):
         """See Bore."""
 
         def outline(by: float) -> Profile:
-            return self.form.outline(self.clearance - by)
+            return self.form.outline(-by)
 
         if not math.isfinite(offset):
             raise OffsetError(offset, "not_finite")

@@ -157,8 +157,7 @@ def bore_radii(bore: Bore | None) -> tuple[float, float]:
         case PolygonBore():
             return bore.across_flats / 2, bore.across_flats / 2
         case SplineBore():
-            inner = bore.form.inner + bore.clearance
-            return bore.reach, inner if bore.joint.teeth % 2 else bore.reach
+            return bore.reach, bore.form.inner if bore.joint.teeth % 2 else bore.reach
         case _:
             return bore.reach, bore.reach
 
@@ -551,7 +550,7 @@ def spline_sizes(
 ) -> tuple[tuple[Size, ...], tuple[Round, ...], Note]:
     """Of upright slots, or of the teeth of their shaft: width of straight ones, diameters, designation (GOST 2.409)."""
     joint, wishes = bore.joint, subject.wishes
-    form, play = (joint.shaft(), -bore.clearance) if is_shaft else (bore.form, bore.clearance)
+    form, play = (joint.shaft(), -bore.clearance) if is_shaft else (bore.form, 0.0)
     straight = joint if isinstance(joint, StraightJoint) else None
     # a diameter is told where its circle is: at the teeth, or between them
     step, fit = 360 / joint.teeth, wishes.shaft if is_shaft else wishes.bore

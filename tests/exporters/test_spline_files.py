@@ -26,7 +26,8 @@ BORES: dict[str, dict[str, Any]] = {
     "straight": {"shape": "spline", "size": "D-6\u044523\u044526H7/f7", "clearance": 0.2, "angle_deg": 40.0},
     "involute": {"shape": "involute_spline", "size": "20x1x9H", "clearance": 0.15},
 }
-EXPORTS = ({"format": "dxf"}, {"format": "dxf", "name": "cut", "kerf": 0.2}, {"format": "svg"}, {"format": "stl"})
+EXPORTS = ({"format": "dxf"}, {"format": "dxf", "name": "cut", "kerf": 0.2}, {"format": "svg"}, {"format": "stl"},
+           {"format": "step"})  # fmt: skip
 
 
 SHAFTS: dict[str, dict[str, Any]] = {
@@ -107,7 +108,7 @@ def test_what_no_shaft_has_is_refused(changes: dict[int, Any], key: str, code: s
 
 def test_the_shaft_has_the_clearance_that_was_asked_for(built: Path) -> None:
     files = read_report(built)["files"]
-    assert len(files) == 8
+    assert len(files) == 10
     for entry in files:
         wanted, off = TABLES[entry["part"]].clearance - entry["offset"], entry["max_error"] + 1e-6
         assert entry["measured"]["spline_gap"] == pytest.approx(wanted, abs=off)

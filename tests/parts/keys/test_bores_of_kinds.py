@@ -14,6 +14,7 @@ from parts.base.registry import KINDS
 from parts.scene.load import make_parts, scene_from_dict
 
 Raw = dict[str, Any]
+MEET = 3 * (math.cos(math.pi / 6) + math.sin(math.pi / 6)) - 0.3
 # what is wrong, the key of it, its code, and the limit by hand: a flat on the circle, a keyway as wide as it
 WRONG: dict[str, tuple[Raw, str, str, float]] = {
     "flat outside": ({"shape": "D", "diameter": 8.0, "flat": 9.0}, "flat", "flat_outside_bore", 8.0),
@@ -28,8 +29,9 @@ WRONG: dict[str, tuple[Raw, str, str, float]] = {
         3.0,
     ),
     "slots too wide": (
-        {"shape": "spline", "teeth": 6, "inner_diameter": 6.0, "outer_diameter": 8.0, "width": 9.0}, "width",
-        "spline_sides_meet", 3.0,
+        {"shape": "spline", "teeth": 6, "inner_diameter": 6.0, "outer_diameter": 8.0, "width": 9.0, "chamfer": 0.3},
+        # its half h is where chamfers meet between two slots: 3 (cos 30 + sin 30) - h = 0.3 + sqrt(9 - h^2)
+        "width", "spline_sides_meet", MEET - math.sqrt(18 - MEET**2),
     ),
 }  # fmt: skip
 TAKING = [kind for kind in KINDS if "bore" in KINDS[kind].keys.__struct_fields__]
