@@ -18,7 +18,7 @@ from geometry.base.record import replace
 from geometry.curves.curve import Complex
 from parts.base.readback import ReadError, refuse_if
 from parts.drawing.canvas import FRAME, STYLES
-from parts.drawing.readback import PER_CURVE, ReadDimension, ReadSheet, ReadText, base_line
+from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText, base_line
 
 if TYPE_CHECKING:
     from exporters.formats.read_drawing import DrawnSpline
@@ -74,7 +74,7 @@ def _read_dxf(file: Path) -> ReadSheet:
         if (colour, lengths, weight) != (style.aci, list(style.dashes), round(100 * style.width)):
             raise ReadError(f"layer {name} looks otherwise than it should")
     sheet, share = ReadSheet(), np.linspace(0, 1, PER_CURVE)
-    sheet.dimensions = [ReadDimension(one.value, one.text) for one in dimensions(document)]
+    sheet.dimensions = dimensions(document)
     # a drawing is as large as its frame is
     most = document.header.get("$EXTMAX", (0.0, 0.0))
     sheet.width, sheet.height = most[0] + FRAME, most[1] + FRAME

@@ -11,12 +11,11 @@ import numpy as np
 
 from exporters.drawings.read import read_sheets
 from exporters.drawings.sheets import sheet_rounding
-from exporters.verification.verdict import Verdict
+from exporters.verification.verdict import Verdict, of_readable
 from geometry.approximation.outline import CadCurve
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import distance_to_curve, distance_to_curves
-from parts.base.readback import ReadError
 from parts.base.texts import N_, fault, unless
 from parts.drawing.canvas import Box, Canvas, Run
 from parts.drawing.expected import Expected, Meshing
@@ -32,12 +31,10 @@ _PER_PLACE = 20.0
 _SHUT = 1e-4
 
 
+@of_readable
 def verify_sheets(file: Path, pages: Sequence[Expected], tolerance: float) -> Verdict:
     """Measure a file; ``tolerance`` in mm on paper bounds every deviation beside the rounding of the file's numbers."""
-    try:
-        sheets = read_sheets(file, [page.canvas.layers for page in pages])
-    except ReadError as error:
-        return Verdict({}, (str(error),))
+    sheets = read_sheets(file, [page.canvas.layers for page in pages])
     measured: dict[str, float] = {}
     failures: list[str] = []
     for sheet, expected in zip(sheets, pages, strict=True):

@@ -19,6 +19,7 @@ from geometry.base.distinct import distinct
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from parts.base.readback import ReadError, refuse_if
+from parts.drawing.readback import ReadDimension
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -130,13 +131,6 @@ class DrawnText(Record):
     height: float
 
 
-class DrawnDimension(Record):
-    """A dimension: its number by its own points and the scale of its style, mm, or degrees, and its words."""
-
-    value: float
-    text: str
-
-
 DrawnCurve = DrawnLine | DrawnArc | DrawnSpline
 
 
@@ -218,7 +212,7 @@ def _block_of(document: Drawing, entity: Dimension) -> BlockLayout:
     return document.blocks.get(entity.dxf.geometry)
 
 
-def dimensions(document: Drawing) -> list[DrawnDimension]:
+def dimensions(document: Drawing) -> list[ReadDimension]:
     """The dimensions of a drawing, each measured by its own points."""
     found = []
     for entity in _dimensions_in(document):
@@ -234,11 +228,11 @@ def dimensions(document: Drawing) -> list[DrawnDimension]:
         ends = (point for line in _block_of(document, entity).query("LINE") for point in (line.dxf.start, line.dxf.end))
         if min((entity.dxf.defpoint.distance(end) for end in ends), default=math.inf) > _SAME:
             raise ReadError(f"a DIMENSION of {value:g} mm is told elsewhere than it is drawn")
-        found.append(DrawnDimension(value, entity.dxf.text))
+        found.append(ReadDimension(value, entity.dxf.text))
     return found
 
 
-def _angle(document: Drawing, entity: Dimension) -> DrawnDimension:
+def _angle(document: Drawing, entity: Dimension) -> ReadDimension:
     """An angle between two lines from one place, in degrees by its own points, with its arc."""
     dxf = entity.dxf
     at, other, on_arc = (_plane(place) for place in (dxf.defpoint2, dxf.defpoint4, dxf.defpoint5))
@@ -251,7 +245,7 @@ def _angle(document: Drawing, entity: Dimension) -> DrawnDimension:
     arcs = (one.dxf for one in _block_of(document, entity).query("ARC"))
     if not any(abs(_plane(a.center) - at) <= _SAME and abs(a.radius - abs(middle)) <= _SAME for a in arcs):
         raise ReadError(f"a DIMENSION of {turn:g} degrees is told elsewhere than it is drawn")
-    return DrawnDimension(turn, dxf.text)
+    return ReadDimension(turn, dxf.text)
 
 
 def _check_plain(entity: DXFGraphic, *, dashes: bool) -> None:

@@ -20,14 +20,13 @@ from exporters.production.moving_chain import MovingChain, moving_chains
 from exporters.production.seen_above import is_round, seen_lying
 from exporters.production.turning_silhouette import Ends, ends_of, thinned
 from exporters.verification.outlines import verify_loops
-from exporters.verification.verdict import Verdict
+from exporters.verification.verdict import Verdict, of_readable
 from geometry.approximation.chords import approximate_profile
 from geometry.base.placement import Placement3
 from geometry.base.record import replace
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Contour
 from geometry.plane.profile import Profile
-from parts.base.readback import ReadError
 from parts.base.texts import fault, fault_of, unless
 from parts.scene.relative_path import Course
 from parts.scene.standing import Instance
@@ -192,12 +191,10 @@ class MotionJob(Film, dict=True):
         """The worst outline and the worst way together, mm; ways are sampled."""
         return self.tracks[1] + _ROUNDING, "sampled"
 
+    @of_readable
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back: outlines, and where they stand at many times, against exact poses."""
-        try:
-            found = read_motion(file)
-        except ReadError as error:
-            return Verdict({}, (str(error),))
+        found = read_motion(file)
         if list(found) != [*(i.id for i in self._shown), *(chain.name for chain in self._chains)]:
             return Verdict({}, (fault("holds {tracks}", tracks=", ".join(found)),))
         told = {found[i.id].seconds for i in self.instances} - {0.0}

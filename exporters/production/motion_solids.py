@@ -14,11 +14,10 @@ from exporters.formats.svg import fill
 from exporters.production.film import MOST_VALUES, SHARE, TIMES, Film
 from exporters.production.jobs import Job, Made
 from exporters.verification.judge import held
-from exporters.verification.verdict import Verdict
+from exporters.verification.verdict import Verdict, of_readable
 from geometry.base.placement import Placement3
 from geometry.base.record import replace
 from geometry.curves.curve import Real
-from parts.base.readback import ReadError
 from parts.base.texts import fault, fault_of, unless
 from parts.scene.formats import file_kind
 from parts.scene.standing import Instance
@@ -105,12 +104,10 @@ class SolidFilm(Film):
         """The worst solid and the worst way together, mm; ways are sampled."""
         return max(m.declared(made)[0] for m in self.members) + self.tracks()[1], "sampled"
 
+    @of_readable
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back: every solid, and where instances stand at many times, against exact ones."""
-        try:
-            found = read_glb(file)
-        except (ReadError, OSError) as error:
-            return Verdict({}, (str(error),))
+        found = read_glb(file)
         if list(found.tracks) != [i.id for i in self.instances] or list(found.solids) != list(self.parts):
             held_of = fault(
                 "holds {tracks} of {solids}", tracks=", ".join(found.tracks), solids=", ".join(found.solids)

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from exporters.formats.read_assembly import ReadAssembly
 from exporters.formats.reading import ASSEMBLY_READERS
 from exporters.verification.judge import held, probed, said_failures, same_shade
-from exporters.verification.verdict import Verdict
+from exporters.verification.verdict import Verdict, of_readable
 from geometry.base.record import Record
 from parts.base.part import Part
-from parts.base.readback import ReadBack, ReadError
+from parts.base.readback import ReadBack
 from parts.base.texts import N_, fault, fault_of, unless
 from parts.scene.formats import FileKind
 from parts.scene.standing import Instance
@@ -41,6 +41,7 @@ def expected_of(title: str, parts: dict[str, Part], offset: float, instances: It
     return ExpectedAssembly(title, parts, offset, places)
 
 
+@of_readable
 def verify_assembly(
     file: Path, kind: FileKind, expected: ExpectedAssembly, declared: float, tolerance: float
 ) -> Verdict:
@@ -53,10 +54,7 @@ def verify_assembly(
         more = {f"{part.id}.{k}": v for k, v in said.measured.items() if k not in verdict.measured}
         return Verdict(verdict.measured | more, (*said.failures, *said_failures(found, kind, part)))
 
-    try:
-        return _verdict(ASSEMBLY_READERS[kind.name](file), expected, check)
-    except (ReadError, OSError) as error:
-        return Verdict({}, (str(error),))
+    return _verdict(ASSEMBLY_READERS[kind.name](file), expected, check)
 
 
 def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[ReadBack, Part], Verdict]) -> Verdict:

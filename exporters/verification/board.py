@@ -17,13 +17,12 @@ import numpy as np
 from exporters.formats.readback import Loop, ReadOutlines
 from exporters.formats.reading import READERS
 from exporters.verification.outlines import stroke_failures, verify_loops
-from exporters.verification.verdict import Verdict
+from exporters.verification.verdict import Verdict, of_readable
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import edge_box, edge_points
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
-from parts.base.readback import ReadError
 from parts.base.texts import N_, fault, fault_of, unless
 from parts.keys.boards import BoardSpec
 from parts.scene.formats import FileKind
@@ -82,18 +81,16 @@ class ExpectedBoard(Record):
         return self.parts[piece.part].cut(self.offset, self.board.gap).region
 
 
+@of_readable
 def verify_board(file: Path, kind: FileKind, expected: ExpectedBoard, declared: float, tolerance: float) -> Verdict:
     """Read a board's file back and hold it against what it must be, within a declared error, mm."""
-    try:
-        found = READERS[kind.name](file)
-        assert isinstance(found, ReadOutlines)
-        board = expected.board
-        # an SVG is read about its middle
-        corner = 0j if kind.format == "dxf" else complex(board.width, board.height) / 2
-        loops = [Loop(x.vertices + corner, x.bulges, x.layer.upper()) for x in found.loops]
-        return _verdict(loops, [stroke + corner for stroke in found.strokes], expected, declared, tolerance)
-    except (ReadError, OSError) as error:
-        return Verdict({}, (str(error),))
+    found = READERS[kind.name](file)
+    assert isinstance(found, ReadOutlines)
+    board = expected.board
+    # an SVG is read about its middle
+    corner = 0j if kind.format == "dxf" else complex(board.width, board.height) / 2
+    loops = [Loop(x.vertices + corner, x.bulges, x.layer.upper()) for x in found.loops]
+    return _verdict(loops, [stroke + corner for stroke in found.strokes], expected, declared, tolerance)
 
 
 def _verdict(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias, cast
 import numpy as np
 
 from exporters.formats.reading import READERS
-from exporters.verification.verdict import Verdict
+from exporters.verification.verdict import Verdict, of_readable
 from geometry.base.findings import Finding
 from geometry.base.record import replace
 from parts.base.part import Part
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 Exact: TypeAlias = "Region | Body | Faced"
 
 
+@of_readable
 def verify_part(
     file: Path,
     kind: FileKind,
@@ -49,16 +50,13 @@ def verify_part(
     """
     flat = part.cut if kind.form is Form.ARCS else part.section
     exact = part.body(offset) if kind.is_solid else flat(offset).region
-    try:
-        found = READERS[kind.name](file)
-        verdict = held(found, kind, exact, declared, tolerance, part.id)
-        if kind.form is Form.SPLINES:
-            verdict = _with_paths(cast("ReadDrawing", found), pitch_curve, declared, tolerance, verdict)
-        if found.names() is not None and not same_shade(found.colour, part.colour):
-            raise ReadError(f"{part.id} is coloured {found.colour} instead of {part.colour}")
-        verdict = replace(verdict, failures=(*verdict.failures, *said_failures(found, kind, part)))
-    except (ReadError, OSError) as error:
-        return Verdict({}, (str(error),))
+    found = READERS[kind.name](file)
+    verdict = held(found, kind, exact, declared, tolerance, part.id)
+    if kind.form is Form.SPLINES:
+        verdict = _with_paths(cast("ReadDrawing", found), pitch_curve, declared, tolerance, verdict)
+    if found.names() is not None and not same_shade(found.colour, part.colour):
+        raise ReadError(f"{part.id} is coloured {found.colour} instead of {part.colour}")
+    verdict = replace(verdict, failures=(*verdict.failures, *said_failures(found, kind, part)))
     if also is not None and not verdict.failures:
         try:
             also(file)
@@ -67,14 +65,12 @@ def verify_part(
     return probed(found, part, offset, declared, verdict)
 
 
+@of_readable
 def verify_file(
     file: Path, kind: FileKind, exact: Exact, declared: float, tolerance: float, name: str | None = None
 ) -> Verdict:
     """Read a file back and hold it against an exact section or, for STL, 3MF and STEP, an exact solid; see ``held``."""
-    try:
-        return held(READERS[kind.name](file), kind, exact, declared, tolerance, name)
-    except (ReadError, OSError) as error:
-        return Verdict({}, (str(error),))
+    return held(READERS[kind.name](file), kind, exact, declared, tolerance, name)
 
 
 def held(

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import wraps
+from typing import ParamSpec
 
 from geometry.base.findings import Finding
 from geometry.base.record import Record
+from parts.base.readback import ReadError
 from parts.base.texts import N_, unless
 
 # rounding of the measurement itself, as a part of the section's size
@@ -20,6 +23,22 @@ class Verdict(Record):
     measured: dict[str, float]
     failures: tuple[str, ...]
     findings: tuple[Finding, ...] = ()
+
+
+P = ParamSpec("P")
+
+
+def of_readable(verify: Callable[P, Verdict]) -> Callable[P, Verdict]:
+    """What holds a file to account; of one that cannot be read its verdict is why."""
+
+    @wraps(verify)
+    def held(*told: P.args, **named: P.kwargs) -> Verdict:
+        try:
+            return verify(*told, **named)
+        except (ReadError, OSError) as error:
+            return Verdict({}, (str(error),))
+
+    return held
 
 
 def judges(measured: Mapping[str, float]) -> list[str]:

@@ -46,7 +46,7 @@ def base_line(way: complex) -> complex:
 
 
 class ReadDimension(Record):
-    """A dimension: its number by its own points and its scale, mm, or degrees, and its words."""
+    """A dimension: its number by its own points and the scale of its style, mm, or degrees, and its words."""
 
     value: float
     text: str

@@ -443,7 +443,7 @@ def apart_sizes(holes: HubHoles, turn: float, outer: float) -> tuple[Size, ...]:
     return tuple(place_sizes((c for group in apart(holes) for c in _turned(group, turn)), complex(-outer, -outer)))
 
 
-def _turned(group: RoundHoles, turn: float = 0.0) -> list[complex]:
+def _turned(group: RoundHoles, turn: float) -> list[complex]:
     """The centres of holes in a view that is turned."""
     return [centre * cmath.exp(1j * turn) for centre in group.centres()]
 
@@ -579,24 +579,20 @@ def ring_section(width: float, radii: tuple[float, float, float], holes: HubHole
     solid = closed([complex(0, begins), complex(width, begins), complex(width, outer), complex(0, outer)])
     loop = closed([complex(0, seen), complex(width, seen), complex(width, outer), complex(0, outer)])
     strokes: list[Stroke] = []
-    axes, hatched = [Line(0j, complex(width))], [solid, below(solid)]
+    hatched: list[Loop] = [solid, below(solid)]
+    axes = [Line(0j, complex(width))]
     for way in (1, -1):
         side = loop if way > 0 else below(loop)
         strokes += [*outlined(side), (VISIBLE, level((0.0, width), way * begins))]
         strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=True)]
-        for group in (g for g in circled(holes) if way in section_sides(_turned(g))):
-            middle, half = group.pitch_circle_diameter / 2, group.diameter / 2
-            *walls, around = bar((0.0, width), way * (middle - half), way * (middle + half))
-            strokes += [(VISIBLE, wall) for wall in walls]
-            axes.append(level((0.0, width), way * middle))
-            hatched.append(around)
+        cut_holes(holes, 0.0, way, (0.0, width), (strokes, hatched, axes))
     wishes = subject.wishes
     sizes = [
         Size("outer_diameter", complex(0, -outer), complex(0, outer), "left", "Ø", wishes.tip),
         Size("face_width", complex(0, -outer), complex(width, -outer), "below", "", wishes.width),
     ]
     sizes += circle_sizes(holes, 0.0, 0.0)
-    return View(tuple(strokes), tuple(hatched), tuple(axes), tuple(sizes))
+    return View(tuple(strokes), tuple(map(tuple, hatched)), tuple(axes), tuple(sizes))
 
 
 def ring_face(outer: float, holes: HubHoles, subject: Subject) -> View:

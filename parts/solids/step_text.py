@@ -47,6 +47,11 @@ _TAIL = "ENDSEC;\nEND-ISO-10303-21;\n"
 # coordinates are rounded to this part of the tolerance or finer, and to 9 decimals at least: so files made with
 # other versions of numpy, whose last bits differ, are equal to 1e-9 mm
 _SHARE, _LEAST_DECIMALS = 0.01, 9
+# what surfaces are called, and which of their sizes are told
+_ELEMENTARY = {
+    Plane: ("PLANE",), Cylinder: ("CYLINDRICAL_SURFACE", "radius"), Cone: ("CONICAL_SURFACE", "radius", "slant"),
+    Torus: ("TOROIDAL_SURFACE", "radius", "tube"), Sphere: ("SPHERICAL_SURFACE", "radius"),
+}  # fmt: skip
 # references on one line
 _PER_LINE = 16
 
@@ -360,18 +365,9 @@ class _Shell:
                 f".F.,.F.,.F.,({u_times}),({v_times}),({u}),({v}),.UNSPECIFIED.)",
                 *poles.reshape(len(poles), -1).T,
             )
-        if isinstance(surface, Plane):
-            word = "PLANE('',#{place})"
-        elif isinstance(surface, Cylinder):
-            word = f"CYLINDRICAL_SURFACE('',#{{place}},{real(surface.radius)})"
-        elif isinstance(surface, Cone):
-            word = f"CONICAL_SURFACE('',#{{place}},{real(surface.radius)},{real(surface.slant)})"
-        elif isinstance(surface, Torus):
-            word = f"TOROIDAL_SURFACE('',#{{place}},{real(surface.radius)},{real(surface.tube)})"
-        else:
-            assert isinstance(surface, Sphere)
-            word = f"SPHERICAL_SURFACE('',#{{place}},{real(surface.radius)})"
-        words = [word.replace("{place}", str(place)) for place in self._frames(surface.frame)]
+        name, *sizes = _ELEMENTARY[type(surface)]
+        told = "".join(f",{real(getattr(surface, size))}" for size in sizes)
+        words = [f"{name}('',#{place}{told})" for place in self._frames(surface.frame)]
         if text.form.shared:
             return _spread(np.array([text.once(w) for w in words]), (size,))
         return np.array([text.add(w) for w in (words * size)[:size]])
