@@ -69,6 +69,8 @@ _ROWS = tuple(
         (440, 500, 100, 50, 31.0, 19.5, 2.0, 2.5),
     )
 )
+# key width b up to, least chamfer of a key; mm (DIN 6885-1 and GOST 23360-78 alike)
+_CHAMFERS = ((4, 0.16), (8, 0.25), (18, 0.4), (32, 0.6), (50, 1.0), (70, 1.6), (100, 2.5))
 KEYWAY_TABLES: dict[str, tuple[KeywayRow, ...]] = {"DIN 6885": _ROWS, "GOST 23360": _ROWS}
 
 
@@ -87,6 +89,11 @@ def keyway_row(standard: str, diameter: float) -> KeywayRow:
         numbers = {"standard": standard, "least": least, "most": most}
         raise ParameterError("bore.diameter", diameter, "no_key_for_shaft", near, **numbers)
     return next(row for row in rows if diameter <= row.to)
+
+
+def key_chamfer(width: float) -> float:
+    """The least chamfer that the standards give the edges of a key so wide, mm; 0 of a wider one than they have."""
+    return next((chamfer for most, chamfer in _CHAMFERS if width <= most), 0.0)
 
 
 def depth_deviation(diameter: float, width: float, depth: float, *, in_shaft: bool) -> float | None:

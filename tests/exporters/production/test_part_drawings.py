@@ -85,6 +85,7 @@ PARTS["geneva"] = {"kind": "geneva_wheel", "number_of_slots": 4, "centre_distanc
 PARTS["geneva ring"] = {key: value for key, value in PARTS["geneva"].items() if key != "bore_diameter"} | {
     "internal": True, "tip_rounding": 1.0, "outer_diameter": 320.0,
 }  # fmt: skip
+PARTS["key"] = {"kind": "key", "shaft_diameter": 30.0, "length": 32.0}
 PARTS["sprocket"] = {"kind": "sprocket", "chain": "08B-2", "number_of_teeth": 12, "bore_diameter": 14.0,
                      "hub": {"diameter": 30.0, "above": 8.0}}  # fmt: skip
 PARTS |= {
@@ -154,6 +155,8 @@ SIZES: dict[str, list[float]] = {
     # the cone of a centre hole opens to 2.12 d at 60 degrees, its tip is that of a drill of 120 degrees
     "shaft": [20, 30, 30, 70, 1, 20, 5, 6, 16.5, 2, 4.24, *(np.cumsum([1.12 * math.sqrt(3), 2, 1 / math.sqrt(3)]))],
     "groove": [160, 12, 6, 12],
+    # l, b and the radius of both ends
+    "key": [32, 8, 4],
     # a centrode as long as its pitches, of a/b = 1.2: r = 2 a b / (a + b - (a - b) cos 2 phi)
     "oval": [10, 10, 2 * (oval_axis(18, 2.0, 1.2) + 2.0), 2 * (oval_axis(18, 2.0, 1.2) / 1.2 - 2.5)],
     # R - r + e and R - r - e; holes of pin + 2 e
