@@ -480,44 +480,36 @@ class _Turned(RingBuilder):
         # counter-clockwise as seen from outside, where across points to the right: the lower right one first
         side, z = half * np.array([1.0, 1.0, -1.0, -1.0]), np.array([ends[0], ends[1], ends[1], ends[0]])
         floor, rim = (self.add_vertices(at(side, height, z)) for height in (pocket.floor, lift))
-        low_edges: list[Index] = []
-        high_edges: list[Index] = []
         ups = self.add_edges(floor, rim, Straight(out))
-        for k in range(4):
-            after = (k + 1) % 4
-            way = UP if k == 0 else -UP if k == 2 else (-across if k == 1 else across)
-            if k in (0, 2):
-                shapes: tuple[Straight | Circular | Spline, Straight | Circular | Spline] = Straight(way), Straight(way)
-            elif pocket.round_ends:
-                middle = at(np.zeros(1), pocket.floor, np.array([ends[k == 1]]))
-                zero = across if k == 1 else -across
+        edges: tuple[list[Index], list[Index]] = ([], [])
+        ways = UP, -across, -UP, across
+        for k, way in enumerate(ways):
+            after, is_end, end = (k + 1) % 4, k in (1, 3), ends[k == 1]
+            # each side looks where the next one goes
+            normal = ways[after]
+            below: Straight | Circular = Straight(way)
+            above: Straight | Circular | Spline = Straight(way)
+            wall: Plane | Cylinder = Plane(Frame(self.vertex_point(floor[k]), normal, across if is_end else UP))
+            if is_end and pocket.round_ends:
+                middle = at(np.zeros(1), pocket.floor, np.array([end]))
                 knots, rounded, error = _rim(half, radius)
                 self.error = max(self.error, error)
                 way_out = 1.0 if k == 1 else -1.0
-                inner = at(way_out * rounded[1:-1, 0], rounded[1:-1, 2], ends[k == 1] + way_out * rounded[1:-1, 1])
+                inner = at(way_out * rounded[1:-1, 0], rounded[1:-1, 2], end + way_out * rounded[1:-1, 1])
                 poles = np.concatenate([self.vertex_point(rim[k]), inner, self.vertex_point(rim[after])])
-                shapes = Circular(Frame(middle, out, zero), half), Spline(_DEGREE, knots, poles[None])
-            else:
-                centre = self.on_axis(ends[k == 1])
-                shapes = Straight(way), Circular(Frame(centre, -UP if k == 1 else UP, out), radius)
-            for found, corners, shape in ((low_edges, floor, shapes[0]), (high_edges, rim, shapes[1])):
+                below, above = Circular(Frame(middle, out, -way), half), Spline(_DEGREE, knots, poles[None])
+                wall = Cylinder(Frame(middle, out, across), half)
+            elif is_end:
+                above = Circular(Frame(self.on_axis(end), normal, out), radius)
+            for found, corners, shape in zip(edges, (floor, rim), (below, above), strict=True):
                 found.append(self.add_edges(corners[k : k + 1], corners[after : after + 1], shape))
-        for k in range(4):
-            after = (k + 1) % 4
-            loop = np.stack([low_edges[k], ups[k : k + 1], high_edges[k], ups[after : after + 1]], axis=1)
+            loop = np.stack([edges[0][k], ups[k : k + 1], edges[1][k], ups[after : after + 1]], axis=1)
             # seen from within the pocket the edge of its floor runs backwards
             walls = loop, np.array([False, True, True, False])
-            if k in (0, 2) or not pocket.round_ends:
-                normal = {0: -across, 1: -UP, 2: across, 3: UP}[k]
-                corner = self.vertex_point(floor[k])
-                zero = UP if k in (0, 2) else across
-                self.faces.append(Faces(Plane(Frame(corner, normal, zero)), (walls,)))
-            else:
-                middle = at(np.zeros(1), pocket.floor, np.array([ends[k == 1]]))
-                self.faces.append(Faces(Cylinder(Frame(middle, out, across), half), (walls,), along=False))
+            self.faces.append(Faces(wall, (walls,), along=isinstance(wall, Plane)))
         corner = self.vertex_point(floor[0])
-        self.faces.append(Faces(Plane(Frame(corner, out, UP)), ((np.stack(low_edges, axis=1), np.ones(4, bool)),)))
-        return np.stack(high_edges, axis=1)[:, ::-1], np.zeros(4, bool)
+        self.faces.append(Faces(Plane(Frame(corner, out, UP)), ((np.stack(edges[0], axis=1), np.ones(4, bool)),)))
+        return np.stack(edges[1], axis=1)[:, ::-1], np.zeros(4, bool)
 
     def vertex_point(self, vertex: int) -> Index:
         """The point of a vertex."""

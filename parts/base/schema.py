@@ -399,15 +399,16 @@ def tried(keys: S, path: str, value: object) -> S:
     """
     changed = replaced(keys, path, value)
     try:
-        return msgspec.convert(_without_none(msgspec.to_builtins(changed)), type(keys))
+        return msgspec.convert(without_none(msgspec.to_builtins(changed)), type(keys))
     except msgspec.ValidationError as error:
         raise ParameterError(path, value, "not_allowed", allowed=str(error)) from error
 
 
-def _without_none(held: object) -> Any:
+def without_none(held: object) -> Any:
+    """What JSON would have, but its nulls."""
     if isinstance(held, dict):
-        return {key: _without_none(value) for key, value in held.items() if value is not None}
-    return [_without_none(value) for value in held] if isinstance(held, list | tuple) else held
+        return {key: without_none(value) for key, value in held.items() if value is not None}
+    return [without_none(value) for value in held] if isinstance(held, list | tuple) else held
 
 
 def _replaced(held: object, steps: list[str | int], value: object, path: str) -> Any:

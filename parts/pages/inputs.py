@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
+from fractions import Fraction
 from functools import partial, wraps
 from typing import Any, Protocol, TypeVar
 
@@ -78,6 +79,11 @@ def toml_value(text: str) -> Any:
 def keys_of(kind: type[Struct]) -> list[str]:
     """The keys of a struct as typed."""
     return [f.encode_name for f in msgspec.structs.fields(kind)]
+
+
+def exact(value: float) -> Fraction:
+    """The decimal number that was typed."""
+    return Fraction(str(value))
 
 
 def given(spec: Struct) -> dict[str, Any]:

@@ -20,7 +20,7 @@ from parts.base.materials import check_material
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.registry import KINDS
-from parts.base.schema import as_written, converted, kind_of, plain_numbers, value_at
+from parts.base.schema import as_written, converted, kind_of, plain_numbers, value_at, without_none
 from parts.base.texts import ENGLISH, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid
@@ -591,13 +591,6 @@ def resolved(scene: SceneFile) -> dict[str, Any]:
 def scene_from_resolved(data: dict[str, Any], source: str) -> SceneFile:
     """A scene from what a report has kept."""
     known = ("scene", "parts", "instances", "mates", "drives", "steps", "exports", "checks", *PURPOSES_LAID)
-    tables: dict[str, Any] = {key: data[key] for key in known if key in data}
-    tables["exports"] = [{k: v for k, v in e.items() if v is not None} for e in tables.get("exports", [])]
-    for name in ("parts", "instances", *PURPOSES_LAID):
-        tables[name] = {k: _without_none(v) for k, v in tables.get(name, {}).items()}
+    tables = without_none({key: data[key] for key in known if key in data})
     # copies about an axis leave what is nearly 0, which is kept as it was made
     return _validated(plain_numbers(tables, source, "", 0.0), source, str(data.get("name", "scene")))
-
-
-def _without_none(table: object) -> Any:
-    return {k: _without_none(v) for k, v in table.items() if v is not None} if isinstance(table, dict) else table

@@ -31,7 +31,7 @@ from parts.gears.spur_gear.part import RackTable, basic_rack_of
 from parts.keys.base import degrees, in_modules, mm
 from parts.keys.cutter import RackName
 from parts.keys.helix import HelixAngle
-from parts.pages.inputs import calculation
+from parts.pages.inputs import calculation, exact
 from parts.pages.page import Sheet
 
 TOPIC = "planetary"
@@ -109,11 +109,6 @@ def _fault(name: str) -> Message:
     return message(owner, fault=filled(FAULTS[condition]))
 
 
-def _exact(value: float) -> Fraction:
-    """The decimal number that was typed."""
-    return Fraction(str(value))
-
-
 class _Page:
     """The sheet of one wish."""
 
@@ -130,7 +125,7 @@ class _Page:
         # those of the scheme, by their place among all
         self.wheels = {k: wheel for k, wheel in enumerate(_WHEELS) if self.scheme.double or wheel != "2'"}
         self.meshes = "1-2", f"{self.rim}-3"
-        self.modules = _exact(keys.module), _exact(keys.second_module or keys.module)
+        self.modules = exact(keys.module), exact(keys.second_module or keys.module)
         rack = basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg))
         self.helix = math.radians(abs(keys.helix_angle_deg))
         self.cosine = Fraction(math.cos(self.helix))
@@ -185,7 +180,7 @@ class _Page:
             raise ParameterError(
                 "least_teeth", keys.least_teeth, "above_most_teeth", Nearest(keys.most_teeth, "at_most")
             )
-        ratio = _exact(keys.ratio)
+        ratio = exact(keys.ratio)
         wish = Search(
             self.scheme,
             (ratio, ratio),
@@ -195,8 +190,8 @@ class _Page:
             (keys.least_teeth, keys.most_teeth),
             keys.teeth_off,
             self.modules,
-            _exact(keys.least_gap),
-            None if keys.largest_diameter is None else _exact(keys.largest_diameter),
+            exact(keys.least_gap),
+            None if keys.largest_diameter is None else exact(keys.largest_diameter),
             keys.identical,
             self.cosine,
         )
@@ -211,7 +206,7 @@ class _Page:
             ratios = [r for one in sets if (r := ratio_of(one.carried_ratio, self.driver, self.driven)) is not None]
             return Nearest(float(min(ratios, key=lambda r: abs(r - ratio)))) if ratios else None
 
-        sets = within(_exact(keys.ratio_tolerance_percent))
+        sets = within(exact(keys.ratio_tolerance_percent))
         if not sets:
             raise ParameterError("ratio", keys.ratio, "no_planetary_set", cure)
         return sets
@@ -225,7 +220,7 @@ class _Page:
 
     def _assembled(self, one: PlanetarySet) -> tuple[Fraction, ...]:
         """Where the satellites of a given set stand; refused where they do not fit."""
-        wish = Satellites(self.keys.satellites, self.keys.spacing, self.keys.identical, _exact(self.keys.least_gap))
+        wish = Satellites(self.keys.satellites, self.keys.spacing, self.keys.identical, exact(self.keys.least_gap))
         places = wish.places(one)
         self.fitting = replace(self.fitting, apart=least_angle(places))
         return places
@@ -246,11 +241,11 @@ class _Page:
             ratio = ratio_of(one.carried_ratio, self.driver, self.driven)
             assert ratio is not None
             assert self.keys.ratio is not None
-            off = float(100 * (ratio / _exact(self.keys.ratio) - 1))
+            off = float(100 * (ratio / exact(self.keys.ratio) - 1))
             nan = math.nan
             shifts = (nan,) * 4 if fit is None else fit.shifts
             sizes = (float(one.diameter), nan, nan) if fit is None else (fit.diameter, fit.distance, fit.gap)
-            most = float(one.most_satellites(_exact(self.keys.least_gap)))
+            most = float(one.most_satellites(exact(self.keys.least_gap)))
             teeth, x = (tuple(float(own[k]) for k in self.wheels) for own in (one.teeth, shifts))
             rows.append((*teeth, float(ratio), off, *sizes, most, *x))
         z, x_of = ([(f"{letter}_{wheel}", "") for wheel in self.wheels.values()] for letter in "zx")
@@ -322,7 +317,7 @@ class _Page:
         page.add("rim_tip_diameter", float(one.rim_reach))
         chord = float(2 * one.distances[0] * sine_of(apart))
         page.add("neighbour_distance", chord, "2 * {a_12} * sin({theta_s} / 2)")
-        page.add("most_satellites", one.most_satellites(_exact(keys.least_gap)))
+        page.add("most_satellites", one.most_satellites(exact(keys.least_gap)))
 
     def _modules(self) -> None:
         """Of each mesh, ``{m}`` and ``{m_2}`` in formulas; of helical teeth the normal and the transverse."""

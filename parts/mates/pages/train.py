@@ -21,7 +21,7 @@ from parts.base.texts import N_, Message, Text, listed, message
 from parts.keys.base import mm
 from parts.mates.pages.train_cases import CASES, Case
 from parts.mates.pages.train_model import ACROSS, Leg, Mesh, Stage, Train, central_ways, parsed, satellites, stages
-from parts.pages.inputs import PLACE, checked, refusal
+from parts.pages.inputs import PLACE, checked, exact, refusal
 from parts.pages.misprints import printed_for
 from parts.pages.page import Printed, Sheet
 
@@ -83,10 +83,6 @@ def sheet(table: dict[str, Any]) -> Sheet:
         raise refusal(TOPIC, error, keys=keys) from error
 
 
-def _exact(value: float) -> Fraction:
-    return Fraction(str(value))
-
-
 def _teeth(ends: Leg | Stage, ratio: Fraction) -> str:
     """The formula of a ratio by the teeth of the last wheel and the first."""
     return f"{'-' if ratio < 0 else ''}{{z_{ends.end}}} / {{z_{ends.start}}}"
@@ -110,9 +106,9 @@ class _Page:
         for name in keys.speeds.keys() & keys.speeds_rpm.keys():
             rpm = keys.speeds_rpm[name]
             raise ParameterError(f"speeds_rpm.{name}", rpm, "other_is_given", REMOVED, other=f"speeds.{name}")
-        self.speeds = {name: _exact(w) for name, w in {**case.speeds, **keys.speeds}.items()}
+        self.speeds = {name: exact(w) for name, w in {**case.speeds, **keys.speeds}.items()}
         # ratios of them stay exact
-        self.speeds |= {name: _exact(n) * _RPM for name, n in keys.speeds_rpm.items()}
+        self.speeds |= {name: exact(n) * _RPM for name, n in keys.speeds_rpm.items()}
         # which instance of a scene a name stands for
         self.instances = names
         self.keys, self.open, self.module = keys, case.open, keys.module or case.module
@@ -282,7 +278,7 @@ class _Page:
             page.note("signs of bevel, worm and crossed pairs tell of turns about axes as they are laid")
 
     def _module(self, mesh: Mesh) -> Fraction | None:
-        return mesh.module or (None if self.module is None else _exact(self.module))
+        return mesh.module or (None if self.module is None else exact(self.module))
 
     def _span(self, mesh: Mesh) -> int:
         """Teeth of both wheels together, or their difference."""
@@ -539,13 +535,13 @@ class _Page:
         """Torques, mesh forces, power and efficiency, and whether it can be driven back."""
         page, train = self.page, self.train
         page.section("Torques and power")
-        efficiency = _exact(self.keys.mesh_efficiency)
+        efficiency = exact(self.keys.mesh_efficiency)
         page.add("mesh_efficiency", self.keys.mesh_efficiency)
         mechanism = train.mechanism()
         speeds = {train.bodies[n]: w for n, w in self.speeds.items()} or dict.fromkeys(self.drives, Fraction(1))
         self.speeds = self.speeds or {self.inputs[0]: Fraction(1)}
         driven = train.bodies[self.driven]
-        loads = {train.bodies[name]: _exact(t) for name, t in self.keys.torques.items()}
+        loads = {train.bodies[name]: exact(t) for name, t in self.keys.torques.items()}
         if not loads:
             way = self._speed(driven)
             loads = {driven: Fraction(-1 if way > 0 else 1)}
