@@ -161,12 +161,12 @@ def stress_table(rows: list[Row], files: list[Path], told: Words) -> None:
 
 
 def _show(title: str, columns: _Columns[T], items: Sequence[T], told: Words, remarks: list[str]) -> None:
-    """One table and the lines below it. rich is loaded for a terminal only: it costs as much as a build."""
+    """A table, where it has rows, and the lines below it. rich is loaded for a terminal only: it costs a build's time."""
     header = [told.text(head) for head, _ in columns]
     rows = [[cell(item) for _, cell in columns] for item in items]
-    if sys.stdout.isatty():
+    if rows and sys.stdout.isatty():
         _show_rich(title, header, rows)
-    else:
+    elif rows:
         sys.stdout.write("".join(f"{line}\n" for line in [*filter(None, [_printable(title)]), *_plain(header, rows)]))
     sys.stdout.write("".join(line + "\n" for line in remarks))
 

@@ -67,7 +67,8 @@ def plan_build(scene: SceneFile, source: str, only_parts: list[str], only_format
     SceneError
         An unknown part or format, two exports into one file, or an outline that does not survive its offset.
     """
-    with in_keys_of_file(scene.origins):
+    typed = {f"--format {name}.format": "--format" for name in only_formats}
+    with in_keys_of_file({**scene.origins, **typed}):
         return _planned(scene, source, only_parts, only_formats)
 
 

@@ -50,6 +50,15 @@ def test_errors_and_orders_are_told_in_columns(capsys: pytest.CaptureFixture[str
     assert rows[-2:] == ["p.svg", "q.svg"]
 
 
+def test_a_table_of_nothing_is_not_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    """Of a disk, which has no curve to come near, a heading of orders stood over nothing."""
+    converge_tables(RUNGS, [], [Path("p.svg")], words("en"))
+    lines = told(capsys)
+    assert "orders of convergence" not in lines
+    assert not any(line.startswith("curve") for line in lines)
+    assert lines[-1] == "p.svg"
+
+
 def checked(file: str, **changes: Any) -> Any:
     verdict = SimpleNamespace(measured={"max_deviation": 1.23456e-3}, failures=())
     return SimpleNamespace(**{"file": Path(file), "verdict": verdict, "same_bytes": True, "declared": 2e-3,

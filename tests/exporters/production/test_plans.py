@@ -154,6 +154,13 @@ def test_parts_and_formats_that_are_not_known_are_refused_with_what_is_meant(
     assert (given and given.value) == works or works is None
 
 
+def test_a_format_that_the_scene_cannot_have_is_refused_as_it_was_typed() -> None:
+    """Before: ``--format glb.format``, which nobody wrote."""
+    with pytest.raises(SceneError) as refused:
+        plan(formats=["glb"], text=BALL)
+    assert (refused.value.key, refused.value.value, refused.value.code) == ("--format", "glb", "shows_what_moves")
+
+
 def test_an_offset_of_a_turned_part_is_refused_in_its_export() -> None:
     with pytest.raises(SceneError) as refused:
         plan("rounded", text=BALL)
