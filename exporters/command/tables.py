@@ -161,7 +161,7 @@ def stress_table(rows: list[Row], files: list[Path], told: Words) -> None:
 
 
 def _show(title: str, columns: _Columns[T], items: Sequence[T], told: Words, remarks: list[str]) -> None:
-    """A table, where it has rows, and the lines below it. rich is loaded for a terminal only: it costs a build's time."""
+    """A table, where it has rows, and the lines below it. rich is loaded for a terminal only: it costs a build."""
     header = [told.text(head) for head, _ in columns]
     rows = [[cell(item) for _, cell in columns] for item in items]
     if rows and sys.stdout.isatty():
