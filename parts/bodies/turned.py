@@ -13,7 +13,8 @@ from msgspec import Meta, Struct, field
 from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
-from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, either, mm, part_mm
+from parts.base.texts import N_
+from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, either, mm, part_mm, start
 from parts.keys.holes import HolesTable, check_bore
 from parts.keys.splines import SplineTable
 
@@ -50,6 +51,8 @@ _RING = [
     {"r": 10.0, "z": 8.0},
 ]
 
+_BALL = [{"r": 0.0, "z": 0.0, "arc": 5.0}, {"r": 0.0, "z": 10.0}]
+
 
 class TurnedSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="turned"):
     """Keys of ``turned``."""
@@ -60,8 +63,8 @@ class TurnedSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="turned"):
             min_length=2,
             max_length=1000,
             description="the corners of half the section, one after the other; the last one is joined to the first",
-            examples=[_RING],
         ),
+        start(_RING, (_BALL, N_("a ball: half a circle, by the radius of its arc"))),
     ]
     holes: HolesTable | list[HolesTable] | None = None
 
@@ -119,6 +122,15 @@ class CentreHolesTable(Struct, forbid_unknown_fields=True):
     ) = None
 
 
+_STEPS = [{"diameter": 12.0, "length": 20.0, "chamfer": 0.5}, {"diameter": 20.0, "length": 30.0}]
+
+_WHOLE = [
+    {"diameter": 17.0, "length": 22.0, "chamfer": 1.0, "fillet": 0.8, "keyways": [{"at": 3.0, "length": 16.0}]},
+    {"diameter": 25.0, "length": 15.0, "grooves": [{"at": 6.0, "width": 1.3, "diameter": 23.9}]},
+    {"diameter": 20.0, "length": 30.0, "spline": {"shape": "spline", "size": "6x16x20"}},
+]
+
+
 class ShaftSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="shaft"):
     """Keys of ``shaft``."""
 
@@ -128,8 +140,8 @@ class ShaftSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="shaft"):
             min_length=1,
             max_length=200,
             description="from the lower end upwards",
-            examples=[[{"diameter": 12.0, "length": 20.0, "chamfer": 0.5}, {"diameter": 20.0, "length": 30.0}]],
         ),
+        start(_STEPS, (_WHOLE, N_("keyways, a fillet, a groove for a ring, a spline"))),
     ]
     bore_diameter: BoreDiameter = 0.0
     centre_holes: CentreHolesTable | None = None

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from exporters.command.new import new_scene
 from exporters.formats.read_step import read_step
 from exporters.formats.readback import ReadMesh
 from exporters.verification.faces import verify_faced_mesh, verify_faced_solid
 from geometry.base.errors import ParameterError
 from geometry.solids.faced import FacedBody
 from parts.base.refusal import SceneError
+from parts.bodies.turned import StepTable
 from parts.scene.interference import solid_overlaps
 from parts.scene.load import make_parts, scene_from_dict, scene_from_toml
 from parts.scene.placing import place
@@ -282,3 +285,29 @@ def test_a_keyway_takes_away_what_lies_where_it_is_told(ends: str, angle: float)
     assert where[2] == pytest.approx(25.0 + 6.0 + 11.0, abs=1e-9)
     assert math.atan2(where[1], where[0]) == pytest.approx(math.radians(angle), abs=1e-9)
     assert 12.5 < math.hypot(where[0], where[1]) < 13.5
+
+
+def shown(kind: str, key: str) -> tuple[str, float, float]:
+    """What ``new`` shows a key to be as well; the volume and the top of the part that has it."""
+    text = new_scene(kind)
+    (row,) = re.findall(rf"^# ({key} = .*?)  # \.\.\. or this", text, re.MULTILINE)
+    scene = scene_from_toml(re.sub(rf"^{key} = .*$", row, text, flags=re.MULTILINE).encode(), "t", "t")
+    mesh = make_parts(scene, "t")[0]["gear"].to_trimesh(0.005)
+    assert mesh.is_watertight
+    return row, mesh.volume, mesh.bounds[1][2]
+
+
+def test_new_shows_a_ball_and_all_that_a_step_of_a_shaft_may_have() -> None:
+    """Grooves, keyways and splines stood in the schema alone, as arcs of a half section did."""
+    _, ball, _ = shown("turned", "points")
+    assert ball == pytest.approx(4 / 3 * math.pi * 125, rel=3e-3)
+    steps, shaft, top = shown("shaft", "steps")
+    assert set(StepTable.__struct_fields__) <= set(re.findall(r"(\w+) = ", steps))
+    assert top == pytest.approx(67.0, abs=1e-9)
+    # cylinders less the chamfer, the keyway of 5 x 3, the groove, and what is beside six teeth 4 wide
+    strips = [2 * math.sqrt(r * r - 4) + r * r * math.asin(2 / r) for r in (8, 10)]
+    gaps = math.pi * (100 - 64) - 6 * (strips[1] - strips[0])
+    taken = (
+        math.pi * 17 * 0.5 + 3 * (16 * 5 - (4 - math.pi) * 2.5**2) + math.pi / 4 * (25**2 - 23.9**2) * 1.3 + 30 * gaps
+    )
+    assert shaft == pytest.approx(math.pi / 4 * (17**2 * 22 + 25**2 * 15 + 20**2 * 30) - taken, rel=2e-3)
