@@ -529,7 +529,7 @@ def _bored(scene: SceneFile, source: str) -> tuple[dict[str, Part], list[Mating]
 
 def _made(scene: SceneFile, specs: dict[str, MaterialKeys], source: str) -> tuple[dict[str, Part], list[Mating]]:
     """The parts of these keys, and the mates."""
-    gears = {}
+    gears, part_of = {}, {key: str(spec.part) for key, spec in scene.instances.items()}
     # what is made from another part's keys looks for it in the scene
     for key, spec in sorted(specs.items(), key=lambda item: "of" in item[1].__struct_fields__):
         kind = KINDS[str(spec.__struct_config__.tag)]
@@ -538,7 +538,6 @@ def _made(scene: SceneFile, specs: dict[str, MaterialKeys], source: str) -> tupl
         except ParameterError as refusal:
             from parts.scene.checks import unlike
 
-            part_of = {name: str(instance.part) for name, instance in scene.instances.items()}
             if found := unlike(key, specs, scene.mates, part_of, source):
                 raise found from refusal
             fits = partial(_check_fit, scene, specs, key)
@@ -549,7 +548,6 @@ def _made(scene: SceneFile, specs: dict[str, MaterialKeys], source: str) -> tupl
     if scene.mates:
         from parts.scene.checks import joined
 
-        part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
         gears, matings = joined(specs, gears, scene.mates, part_of, source)
     language = scene.scene.language
     parts = {
