@@ -83,7 +83,7 @@ def _swept(law: str = '"sine"', move: str = "return_", more: str = "") -> str:
         (_swept('"sinus"'), ("[1].law", '"cosine"', "did you mean sine?")),
         (_swept(move="return"), ("[2].move", '"dwell"', "did you mean return_?")),
         (_swept(more=", lawn = 1"), ("[2].lawn", "move, angle_deg, law, share")),
-        (_swept("{ diagramm = [] }"), ("law.diagramm", "did you mean diagram?", "conditions, poles")),
+        (_swept("{ diagramm = [] }"), ("law.diagramm", "did you mean diagram?", "diagram and 12 more")),
         (_swept('{ diagram = [{ shape = "sine", width = 1.0 }] }'), ("[1].shape", "did you mean half_sine?")),
         (_swept('{ diagram = [{ shape = "linear", peak = 1.0 }] }'), ("[1].peak", "shape, width, first, last")),
         (_swept("3"), ("[1].law = 3", "must be a table or text in quotes")),
@@ -155,7 +155,7 @@ def test_every_law_that_new_shows_makes_a_cam(kind: str) -> None:
 def test_every_bore_that_new_shows_fits_a_roller() -> None:
     text = new_scene("roller").split("[[exports]]")[0]
     shown = re.findall(r"^# ((?:bore|hub) = .*?\})  ?#", text.replace("} #", "}  #"), re.MULTILINE)
-    assert len(shown) == 7
+    assert len(shown) == 9
     for line in shown:
         used = text + line + '\n[[exports]]\nformat = "svg"\n'
         make_parts(scene_from_toml(used.encode(), "scene", "scene"), "scene")
