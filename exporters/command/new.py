@@ -301,6 +301,8 @@ def _mate_of(kind: str) -> tuple[str, tuple[str, str] | None]:
     """The first kind of mate that joins a kind of part, that with what it is made from before the others, and both its
     kinds; else the one that joins anything.
     """
+    if (shown := KINDS[kind].mate_shown) is not None:
+        return shown, None
     found = [(mate.name, places) for mate in MATES.values() for places in mate.joins or () if kind in places]
     source = (KINDS[kind].made_from or {}).get("kind")
     return next((one for one in found if source in one[1]), found[0] if found else ("fixed", None))

@@ -97,6 +97,8 @@ class Kind(Generic[K, T]):
     # what ``new`` shows: keys of the part that its key ``of`` names; the purpose of a sheet that shows one part of it
     made_from: Mapping[str, object] | None = None
     sheet_shown: tuple[str, str] | None = None
+    # the mate that it shows; None: the first that joins the kind
+    mate_shown: str | None = None
 
     def thing(self, keys: K, others: Others) -> T:
         """The exact thing, checked to exist.

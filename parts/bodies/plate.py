@@ -201,6 +201,8 @@ class Plate(Flat[PlateSpec]):
     """A rectangular plate with holes and slots."""
 
     name, keys = "plate", PlateSpec
+    # linkages have plates among others
+    mate_shown = "fixed"
 
     def thing(self, keys: PlateSpec, others: Others) -> PlateOutline:
         """The outline, checked: holes that keep their walls, else the side that is long enough for those of axles."""

@@ -14,6 +14,7 @@ import jsonschema
 import pytest
 
 from exporters.command.cli import main
+from exporters.command.new import new_scene
 from exporters.documents.topics import TOPICS
 from parts.base.registry import KINDS
 from parts.mates.registry import MATES
@@ -301,3 +302,10 @@ def test_a_wrong_flag_is_told_in_the_language_that_is_asked_for(
 ) -> None:
     assert run("list", "--language", language, "--bogus") == 2
     assert word in capsys.readouterr().err.lower()
+
+
+def test_a_plate_is_shown_with_what_it_is_fixed_to() -> None:
+    """The first mate that joins plates is that of a linkage's members."""
+    shown = new_scene("plate")
+    assert '## kind = "fixed"' in shown
+    assert "linkage" not in shown
