@@ -256,8 +256,7 @@ def _told(at: complex) -> str:
 
 def _box(text: ReadText) -> Box:
     far = text.at + text.way * complex(text.width, text.height)
-    xs, ys = sorted((text.at.real, far.real)), sorted((text.at.imag, far.imag))
-    return Box(xs[0], ys[0], xs[1], ys[1])
+    return Box.of((text.at, far))
 
 
 def _check_frame(sheet: ReadSheet, frame: Box, failures: list[str]) -> None:

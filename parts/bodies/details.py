@@ -9,8 +9,9 @@ from itertools import pairwise
 import numpy as np
 
 from geometry.base.placement import Placement2
-from geometry.base.record import Record, replace
+from geometry.base.record import replace
 from geometry.curves.line_arc import Line, arc_between
+from parts.drawing.canvas import Box
 from parts.drawing.wheel_views import circle_of
 from parts.drawing.working import HIDDEN, THIN, VISIBLE, Note, Side, Size, Stroke, View
 from parts.texts.sheets import view_letter
@@ -35,7 +36,7 @@ def detailed(view: View, ends: tuple[float, float], language: str) -> Iterator[V
         letter = view_letter(language, len(view.cuts) + len(found))
         is_whole = window.low <= -window.high
         sizes = [*_sizes(view.sizes, places, ends, across=is_whole)]
-        rounds = [one for one in view.rounds if window.holds(one.centre)]
+        rounds = [one for one in view.rounds if _holds(window, one.centre)]
         least = min(_MOST, _LEAST * max(window.wide, window.tall) / min(b - a for a, b in pairwise(places)))
         # an upper half stands beside the axis
         down = Placement2(0.0, 0j if is_whole else -0.5j * (window.low + window.high))
@@ -45,8 +46,7 @@ def detailed(view: View, ends: tuple[float, float], language: str) -> Iterator[V
             tuple(_placed(new, down) for _, new in sizes),
             tuple(replace(one, centre=complex(down.apply(one.centre))) for one in rounds), title=letter, least=least,
         ))  # fmt: skip
-        middle = complex(window.left + window.right, window.low + window.high) / 2
-        about = circle_of(max(abs(complex(window.wide, window.tall)) / 2, _CIRCLE * size), middle)
+        about = circle_of(max(abs(complex(window.wide, window.tall)) / 2, _CIRCLE * size), window.middle)
         told = [old for old, _ in sizes]
         view = replace(
             view, strokes=(*view.strokes, (THIN, about)), sizes=tuple(s for s in view.sizes if s not in told),
@@ -57,25 +57,9 @@ def detailed(view: View, ends: tuple[float, float], language: str) -> Iterator[V
     yield from found
 
 
-class _Window(Record):
-    """What a detail shows of a view, mm; ``low`` below the axis: all that is there across it."""
-
-    left: float
-    right: float
-    low: float
-    high: float
-
-    @property
-    def wide(self) -> float:
-        return self.right - self.left
-
-    @property
-    def tall(self) -> float:
-        return self.high - self.low
-
-    def holds(self, point: complex) -> bool:
-        """Whether a point lies within, or above."""
-        return self.left < point.real < self.right and self.low < point.imag
+def _holds(window: Box, point: complex) -> bool:
+    """Whether a point lies within, or above."""
+    return window.left < point.real < window.right and window.low < point.imag
 
 
 def _placed(size: Size, by: Placement2) -> Size:
@@ -104,8 +88,11 @@ def _small(sizes: Sequence[Size], most: float) -> Iterator[list[float]]:
         yield run
 
 
-def _window(strokes: Sequence[Stroke], places: Sequence[float], ends: tuple[float, float]) -> _Window:
-    """Some length on both sides of places; all across the axis, of what is thick the surface alone."""
+def _window(strokes: Sequence[Stroke], places: Sequence[float], ends: tuple[float, float]) -> Box:
+    """What a detail shows: some length on both sides of places; across the axis all, its lower side below that.
+
+    Of what is thick the surface alone.
+    """
     span = places[-1] - places[0]
     left, right = max(places[0] - _BESIDE * span, ends[0]), min(places[-1] + _BESIDE * span, ends[1])
     heights = list[float]()
@@ -115,32 +102,27 @@ def _window(strokes: Sequence[Stroke], places: Sequence[float], ends: tuple[floa
             heights += [y for y in (points.imag.min(), points.imag.max()) if y > _NONE]
     low, high = min(heights), max(heights)
     if 2 * high <= _THICK * (right - left):
-        return _Window(left, right, -high, high)
-    return _Window(left, right, low - max(_BESIDE * span, high - low), high)
+        return Box(left, -high, right, high)
+    return Box(left, low - max(_BESIDE * span, high - low), right, high)
 
 
-def _clipped(strokes: Sequence[Stroke], window: _Window) -> Iterator[Stroke]:
+def _clipped(strokes: Sequence[Stroke], window: Box) -> Iterator[Stroke]:
     """What of lines lies in a window; arcs whose ends do whole."""
     for layer, curve in strokes:
         if layer not in (VISIBLE, HIDDEN):
             continue
         if not isinstance(curve, Line):
-            if window.holds(complex(curve.point(sum(curve.domain) / 2))):
+            if _holds(window, complex(curve.point(sum(curve.domain) / 2))):
                 yield layer, curve
             continue
-        way, (first, last) = curve.end - curve.start, (0.0, 1.0)
-        for at, step, low, high in ((curve.start.real, way.real, window.left, window.right),
-                                    (curve.start.imag, way.imag, window.low, window.high)):  # fmt: skip
-            if abs(step) < _NONE:
-                last = last if low - _NONE <= at <= high + _NONE else -1.0
-                continue
-            one, two = sorted(((low - at) / step, (high - at) / step))
-            first, last = max(first, one), min(last, two)
+        way = curve.end - curve.start
+        first, last = window.span(curve.start, way)
+        first, last = max(first, 0.0), min(last, 1.0)
         if (last - first) * abs(way) > _NONE:
             yield layer, Line(curve.start + first * way, curve.start + last * way)
 
 
-def _breaks(pieces: Sequence[Stroke], window: _Window, ends: tuple[float, float]) -> Iterator[Stroke]:
+def _breaks(pieces: Sequence[Stroke], window: Box, ends: tuple[float, float]) -> Iterator[Stroke]:
     """The wavy lines at which a detail is broken off, as high as it is there, and below."""
     tops = dict[float, float]()
     for x in (window.left, window.right):

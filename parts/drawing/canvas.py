@@ -43,6 +43,8 @@ FRAME_LEFT, FRAME = 20.0, 5.0
 SCALES = tuple(map(scale_value, get_args(Scale)))
 # steps of the scales of diagrams; GOST 2.319 leaves them to the drawer, who takes round ones
 _STEPS, _ROUNDING = (1.0, 2.0, 2.5, 4.0, 5.0), 1e-9
+# what is no way along an axis, mm
+_FLAT = 1e-9
 # words whose lengths are kept
 _WORDS = 4096
 _INDEX = re.compile(r"_\{([^}]*)\}")
@@ -100,6 +102,12 @@ class Box(Record):
     high: float
 
     @staticmethod
+    def of(points: Iterable[complex]) -> Box:
+        """The least that holds some points."""
+        xs, ys = zip(*((p.real, p.imag) for p in points), strict=True)
+        return Box(min(xs), min(ys), max(xs), max(ys))
+
+    @staticmethod
     def about(boxes: Iterable[Box]) -> Box:
         """The least that holds some."""
         left, low, right, high = zip(*((b.left, b.low, b.right, b.high) for b in boxes), strict=True)
@@ -143,6 +151,20 @@ class Box(Record):
         return (
             self.left >= other.left and self.right <= other.right and self.low >= other.low and self.high <= other.high
         )
+
+    def span(self, start: complex, way: complex) -> tuple[float, float]:
+        """Where a line lies in it, parts of its ``way`` from the start; the end stands first where it lies nowhere."""
+        first, last = -math.inf, math.inf
+        for at, step, low, high in (
+            (start.real, way.real, self.left, self.right),
+            (start.imag, way.imag, self.low, self.high),
+        ):
+            if abs(step) > _FLAT:
+                one, two = sorted(((low - at) / step, (high - at) / step))
+                first, last = max(first, one), min(last, two)
+            elif not low - _FLAT <= at <= high + _FLAT:
+                last = -math.inf
+        return first, last
 
     def holds(self, points: Complex) -> int:
         """How many points lie in it."""
@@ -202,10 +224,7 @@ def rising_text(
     """A line of text turned to be read from the right or as its ``way`` is, from the beginning of its base line."""
     made = text_of(text, 0j, height, most)
     runs = tuple(replace(run, at=at + way * run.at, way=way) for run in made.runs)
-    box = made.box
-    first, last = at + way * complex(box.left, box.low), at + way * complex(box.right, box.high)
-    xs, ys = sorted((first.real, last.real)), sorted((first.imag, last.imag))
-    return Text(made.text, runs, Box(xs[0], ys[0], xs[1], ys[1]))
+    return Text(made.text, runs, Box.of(at + way * corner for corner in made.box.corners[::2]))
 
 
 @lru_cache(_WORDS)

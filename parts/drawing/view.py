@@ -124,9 +124,7 @@ def _window(picture: MeshingPicture, module: float, depth: int) -> Box:
         points += [p for p in picture.tangent_points if p is not None]
     if depth >= 2:
         points += [b.centre for b in picture.bodies if b.centre is not None]
-    xs, ys = [p.real for p in points], [p.imag for p in points]
-    pad = 0.6 * module
-    return Box(min(xs) - pad, min(ys) - pad, max(xs) + pad, max(ys) + pad)
+    return Box.of(points).grown(0.6 * module)
 
 
 def ends_of(curve: Curve) -> tuple[complex, complex]:

@@ -182,16 +182,7 @@ def angle_text(picture: CamPicture) -> str:
 
 def _clipped(point: complex, way: complex, box: Box) -> tuple[complex, complex]:
     """The part of a line within a box; both ends the point itself where there is none."""
-    low, high = -math.inf, math.inf
-    for at, step, least, most in (
-        (point.real, way.real, box.left, box.right),
-        (point.imag, way.imag, box.low, box.high),
-    ):
-        if step:
-            a, b = sorted(((least - at) / step, (most - at) / step))
-            low, high = max(low, a), min(high, b)
-        elif not least <= at <= most:
-            return point, point
+    low, high = box.span(point, way)
     return (point + low * way, point + high * way) if low < high else (point, point)
 
 

@@ -96,6 +96,4 @@ def numbered(picture: CamPicture, places: Sequence[complex]) -> list[tuple[str, 
 
 def faces_box(picture: CamPicture) -> Box:
     """What of the faces must be seen, model mm."""
-    points = [p for pair in faces(picture) for p in pair]
-    xs, ys = [p.real for p in points], [p.imag for p in points]
-    return Box(min(xs), min(ys), max(xs), max(ys))
+    return Box.of(p for pair in faces(picture) for p in pair)

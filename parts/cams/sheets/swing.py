@@ -84,15 +84,13 @@ def swing_window(picture: CamPicture, swing: Swing) -> Box:
     """What must be seen, model mm."""
     points = [0j, swing.pivot, swing.lowest, swing.least]
     if picture.cam.is_flat:
-        box = faces_box(picture)
-        points += [complex(box.left, box.low), complex(box.right, box.high)]
+        points += faces_box(picture).corners
     else:
         points += [foot for foot, _ in swing.planes]
     for curve in _curves(picture, Paper(1.0, 0j)):
         points += curve.point(np.linspace(*curve.domain, 33)).tolist()
-    xs, ys = [p.real for p in points], [p.imag for p in points]
-    pad = 0.12 * max(max(xs) - min(xs), max(ys) - min(ys))
-    return Box(min(xs) - pad, min(ys) - pad, max(xs) + pad, max(ys) + pad)
+    box = Box.of(points)
+    return box.grown(0.12 * max(box.wide, box.tall))
 
 
 def _curves(picture: CamPicture, paper: Paper) -> list[ArmCurve]:
