@@ -10,6 +10,7 @@ import signal
 import sys
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from types import FrameType
@@ -264,8 +265,8 @@ def _interrupted() -> int:
     return INTERRUPTED
 
 
+@cache
 def _parser(told: Words) -> Parser:
-    Parser.words = told
     parser = Parser(
         prog="higherpair",
         description=told.text("Exact gears as DXF, SVG, STL, 3MF and STEP, each file read back and measured."),

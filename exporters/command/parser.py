@@ -74,6 +74,7 @@ def speaking(words: Words) -> Iterator[None]:
     own = vars(argparse)
     before = {name: own[name] for name in ("_", "ngettext")}
     own.update(_=words.text, ngettext=words.plural)
+    Parser.words = words
     try:
         yield
     finally:

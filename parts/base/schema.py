@@ -136,7 +136,7 @@ def _with_form(
     """What a key may hold, and how long it may be or what a word of it looks like where ``said`` is about that."""
     if allowed is None or not keys:
         return allowed
-    field = next((f for f in msgspec.structs.fields(_owner(kind, keys[:-1], table)) if f.encode_name == keys[-1]), None)
+    field = next((f for f in fields_of(_owner(kind, keys[:-1], table)) if f.encode_name == keys[-1]), None)
     if pair := re.match(r"Expected `array` of length (\d+)", said):
         span = counted("exactly {n} number", "exactly {n} numbers", "n", n=int(pair.group(1)))
         told = next((m.description for m in _metas(field.type) if m.description), "") if field is not None else ""
@@ -330,7 +330,7 @@ def _span(meta: Meta, kind: object) -> Message | None:
 def own_first(kind: type[Struct]) -> list[msgspec.structs.FieldInfo]:
     """The keys of a table: those that it needs, its own, and what it shares with more and more others."""
     names = [name for one in kind.__mro__ for name in get_annotations(one)]
-    return sorted(msgspec.structs.fields(kind), key=lambda field: (not field.required, names.index(field.name)))
+    return sorted(fields_of(kind), key=lambda field: (not field.required, names.index(field.name)))
 
 
 def is_open(field: msgspec.structs.FieldInfo) -> bool:
@@ -358,7 +358,7 @@ def untold(kind: type[Struct], named: Collection[str] = (), place: str = "") -> 
     """
     if not kind.__doc__:
         yield f"{place or 'the table of its keys'} has no docstring"
-    for field in msgspec.structs.fields(kind):
+    for field in fields_of(kind):
         name, tables = f"{place}.{field.encode_name}".lstrip("."), tables_of(field)
         if field.required and not tables and field.encode_name not in named and example_of(field.type) is None:
             yield f"{name} has neither default nor example"
@@ -450,9 +450,15 @@ def unit_of(kind: type[Struct], path: str) -> str:
 
 
 @lru_cache(maxsize=256)
+def fields_of(kind: type[Struct]) -> tuple[msgspec.structs.FieldInfo, ...]:
+    """The keys of a table: msgspec resolves the annotations anew whenever it is asked."""
+    return msgspec.structs.fields(kind)
+
+
+@lru_cache(maxsize=256)
 def _types_of(kind: type[Struct]) -> dict[str, object]:
-    """What stands at each key: msgspec resolves the annotations anew whenever it is asked."""
-    return {f.encode_name: f.type for f in msgspec.structs.fields(kind)}
+    """What stands at each key."""
+    return {f.encode_name: f.type for f in fields_of(kind)}
 
 
 def _unit(kind: object) -> str:

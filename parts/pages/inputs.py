@@ -13,7 +13,7 @@ from msgspec import Struct
 
 from geometry.base.errors import ParameterError
 from parts.base.refusal import REMOVED, SceneError, explained, meant, placed
-from parts.base.schema import converted, unit_of
+from parts.base.schema import converted, fields_of, unit_of
 from parts.base.texts import Message
 from parts.pages.page import Sheet
 
@@ -78,7 +78,7 @@ def toml_value(text: str) -> Any:
 
 def keys_of(kind: type[Struct]) -> list[str]:
     """The keys of a struct as typed."""
-    return [f.encode_name for f in msgspec.structs.fields(kind)]
+    return [f.encode_name for f in fields_of(kind)]
 
 
 def exact(value: float) -> Fraction:

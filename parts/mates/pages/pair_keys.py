@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, TypeVar
 
-import msgspec
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
@@ -14,6 +13,7 @@ from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.teeth.helix import Helix
 from parts.base.mate import End, MateKeys, Mating
 from parts.base.refusal import SceneError, meant
+from parts.base.schema import fields_of
 from parts.gears.spur_gear.part import RackTable
 from parts.keys.base import in_modules, mm
 from parts.keys.cutter import PressureAngle, RackName
@@ -113,7 +113,7 @@ def kind_of_pair(table: Mapping[str, Any], topic: str, known: Sequence[str]) -> 
 def merged(under: Mapping[str, Any], over: Mapping[str, Any], pair: type[Struct]) -> dict[str, Any]:
     """Tables laid over each other; a key of the bodies without first. or second. goes to every one that has it."""
     result = {key: dict(value) if isinstance(value, dict) else value for key, value in under.items()}
-    owners = {field.name: keys_of(field.type) for field in msgspec.structs.fields(pair) if field.name in GEARS}
+    owners = {field.name: keys_of(field.type) for field in fields_of(pair) if field.name in GEARS}
     for key, value in over.items():
         having = [name for name, known in owners.items() if key in known]
         if key in GEARS and isinstance(value, dict):
@@ -136,7 +136,7 @@ def pair_table(table: Mapping[str, Any], pair: type[Struct], topic: str) -> dict
     SceneError
         A key that neither has, or a body of which nothing is told.
     """
-    made, bodies = merged({}, table, pair), [f.type for f in msgspec.structs.fields(pair) if f.name in GEARS]
+    made, bodies = merged({}, table, pair), [f.type for f in fields_of(pair) if f.name in GEARS]
     known = list(dict.fromkeys([*keys_of(pair), *(key for kind in bodies for key in keys_of(kind)), "kind"]))
     for key in made:
         if key not in keys_of(pair):
