@@ -329,7 +329,7 @@ def test_rows_without_a_symbol_have_a_dash() -> None:
 
 def test_a_mate_is_called_in_every_language_as_its_own_drawing_is() -> None:
     # before: "worm" is a word of the catalogue too, and stood there in its translation
-    table = tables("worm_set_print")["wheel"][1]
+    table = tables("thesis_worm_1")["wheel"][1]
     (cell,) = (row for group in table.parts for row in group if row.name == "drawing of the mate")
     assert value_text(cell, words("uk")) == "worm"
 
