@@ -20,6 +20,7 @@ from geometry.base.errors import GeometryError
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation, Contour
 from geometry.plane.profile import Profile, Region
+from geometry.solids.turned import HalfSection
 from parts.base.part import Part
 from parts.base.texts import words
 from parts.scene.standing import UPWARDS, Instance
@@ -60,7 +61,11 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
     caption = [
         line for row in (part.title or part.id, *rows, *remarks) for line in wrap(told.decimal(row), _CAPTION_LETTERS)
     ]
-    lines = [head(middle, extra_width=text * 24, extra_height=max(0.0, text * 1.7 * (len(caption) + 1) - 2 * middle))]
+    # what is turned is known by its axial section, which lies below the view along its axis
+    half = part.thing.chords(reach / 1000) if isinstance(part.thing, HalfSection) else np.zeros(0, complex)
+    across, length = (2 * float(half.real.max()), float(np.ptp(half.imag))) if len(half) else (0.0, 0.0)
+    low = max(2 * middle, text * 1.7 * (len(caption) + 1))
+    lines = [head(middle, max(text * 24, length - 2 * reach), low - 2 * middle + across * 1.08)]
     lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
     cut, plain = part.cut(0.0).region, part.section(0.0).region
     tags = [approximate_profile(p, reach / 1000, arcs=True) for p in cut.apart[len(plain.apart) :]]
@@ -81,6 +86,8 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
         line = f"fill:none;stroke:{colour};stroke-width:{reach / 600:.4g};stroke-dasharray:{dash}"
         lines.append(f'<circle cx="{number(middle)}" cy="{number(middle)}" r="{number(diameter / 2)}" style="{line}"/>')
     lines += _cross(middle, reach)
+    if len(half):
+        lines += _axial(half, complex(middle - reach, low + across / 2), shade, reach)
     lines += _caption(caption, 2 * middle + text, text)
     file = folder / f"{part.id}.preview.svg"
     save(file, lines)
@@ -279,6 +286,18 @@ def _placed(contour: Contour, instance: Instance, place: complex) -> Contour:
 
 
 _CIRCLE_COLOURS = {"reference_diameter": "#c03020", "base_diameter": "#2060c0", "root_form_diameter": "#209050"}
+
+
+def _axial(half: Complex, at: complex, shade: str, reach: float) -> list[str]:
+    """The axial section of what is turned, by half of it; ``at``: the lower end of its axis, which lies."""
+    along, width = half.imag - half.imag.min(), f"stroke-width:{reach / 400:.4g}"
+    sides = [along + 1j * side * half.real for side in (1, -1)]
+    data = " ".join(path_data(Contour(points, np.zeros(len(points))), at) for points in sides)
+    ends = number(at.real), number(at.real + float(along.max())), number(at.imag)
+    return [
+        f'<path d="{data}" style="fill:{shade};stroke:#202830;{width}"/>',
+        f'<line x1="{ends[0]}" y1="{ends[2]}" x2="{ends[1]}" y2="{ends[2]}" style="stroke:#c03020;{width}"/>',
+    ]
 
 
 def _cross(middle: float, reach: float) -> list[str]:

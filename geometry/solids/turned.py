@@ -145,6 +145,12 @@ class HalfSection(Record):
         """Whether all of it but its holes is turned."""
         return not (self.pockets or self.splines)
 
+    def chords(self, chord: float) -> Complex:
+        """The half section by chords at most so many mm off its arcs, counter-clockwise, r + iz."""
+        found = np.concatenate([piece.points(chord)[:-1] for piece in self.pieces])
+        # what ends on the axis lies on it
+        return np.maximum(found.real, 0.0) + 1j * found.imag
+
     def seen_spline(self) -> Splined | None:
         """The spline that is seen along the axis, all else being within its roots."""
         places = np.concatenate([p.points() for p in self.pieces])

@@ -88,7 +88,7 @@ class Sectioned:
         self.half: Complex | None = None
         self.holes: tuple[Hole, ...] = ()
         if isinstance(self.thing, HalfSection):
-            self.half, self.holes = _outline(self.thing), self.thing.holes
+            self.half, self.holes = self.thing.chords(_CHORD), self.thing.holes
         elif isinstance(self.thing, WormBody):
             self.half = _worm_outline(self.thing)
         elif isinstance(self.thing, BevelGear):
@@ -431,13 +431,6 @@ def _raised(region: BaseGeometry, lift: float) -> BaseGeometry:
 
 def _pairs(points: Complex) -> Real:
     return np.column_stack([points.real, points.imag])
-
-
-def _outline(section: HalfSection) -> Complex:
-    """Half a section by chords, counter-clockwise, r + iz."""
-    found = np.concatenate([piece.points(_CHORD)[:-1] for piece in section.pieces])
-    # what ends on the axis lies on it
-    return np.maximum(found.real, 0.0) + 1j * found.imag
 
 
 def _worm_outline(worm: WormBody) -> Complex:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import shapely
 
+from exporters.command.cli import main
 from exporters.production.plan import plan_build
 from exporters.production.preview import outlines_of, part_preview, scene_preview
 from geometry.curves.line_arc import Line
@@ -158,3 +159,22 @@ def test_a_part_s_own_picture_has_its_remarks_its_name_and_nothing_over_its_edge
     assert told[0][0] == "Block"
     assert width > 2 * middle
     assert height >= max(2 * middle, told[-1][2])
+
+
+def test_what_is_turned_shows_its_axial_section_below_the_view_along_its_axis(tmp_path: Path) -> None:
+    """A shaft of two steps was a circle: its section is as long and as thick, each step where it is."""
+    table = (
+        '[parts.a]\nkind = "shaft"\nsteps = [{ diameter = 12.0, length = 70.0 }, { diameter = 20.0, length = 30.0 }]\n'
+    )
+    scene = tmp_path / "turned.toml"
+    scene.write_text(table + '[[exports]]\nformat = "svg"\n', encoding="utf-8")
+    assert main(["build", str(scene), "--out", str(tmp_path), "-q"]) == 0
+    shown = (tmp_path / "turned" / "a.preview.svg").read_text(encoding="utf-8")
+    paths = [np.array(re.findall(r"[ML]([-\d.]+),([-\d.]+)", d), float) for d in re.findall(r' d="([^"]+)"', shown)]
+    (places,) = [p for p in paths if len(p) > 8]
+    middle = (places[:, 1].min() + places[:, 1].max()) / 2
+    ends = {(round(x - places[:, 0].min(), 3), round(abs(y - middle), 3)) for x, y in places.tolist()}
+    assert ends == {(x, r) for x, radii in ((0, (0, 6)), (70, (6, 10)), (100, (0, 10))) for r in radii}
+    wide, high = (float(v) for v in re.findall(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', shown)[0])
+    assert places[:, 0].max() < wide
+    assert places[:, 1].max() < high
