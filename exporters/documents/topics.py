@@ -103,7 +103,8 @@ def _as_typed(
 ) -> SceneError:
     """A refusal in the key as it was typed, maybe once for both bodies of a pair; what it offers has been tried."""
     head, *path = refusal.key.split(".")
-    if head != topic or any("[" in step for step in path):
+    # of elements, and of two keys at once, nothing else was typed
+    if head != topic or not all(step.isidentifier() for step in path):
         return refusal
     if path[0] in GEARS and len(path) > 1 and path[1] in typed and path[1] not in typed.get(path[0], {}):
         del path[0]
