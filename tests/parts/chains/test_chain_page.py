@@ -37,6 +37,9 @@ def test_speeds_and_forces_are_those_of_the_pins() -> None:
     assert found["gear_speed"]["second"] == pytest.approx(300 * 17 / 38)
     assert found["chain_force"] * radius / 1000 * omega == pytest.approx(1500.0, rel=1e-12)
     assert found["chain_safety"] == pytest.approx(17_800 / found["chain_force"])
+    # Dunaev, Lelikov: a drive that lies loads its shafts by 1.15 of the force; Sheinblit: mounted 0.5 % nearer
+    assert found["chain_shaft_load"] == pytest.approx(1.15 * found["chain_force"])
+    assert found["mounting_chain_distance"] == pytest.approx(0.995 * found["exact_chain_distance"])
 
 
 def test_links_of_a_distance_are_those_of_textbooks() -> None:

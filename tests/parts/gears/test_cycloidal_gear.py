@@ -168,13 +168,23 @@ def test_a_thin_rim_is_told_and_one_that_an_offset_closes_refused() -> None:
     assert caught.value.nearest.value == pytest.approx(-0.25, abs=1e-5)
 
 
-@pytest.mark.parametrize(("teeth", "most"), [(60, 60_000.0), (30, 30_000.0)])
-def test_a_circle_that_is_all_but_a_line_is_refused(teeth: int, most: float) -> None:
-    wheel = WHEEL | {"number_of_teeth": teeth, "tip_rolling_diameter": most * 1.01}
+@pytest.mark.parametrize(
+    ("teeth", "key", "most", "code"),
+    [
+        (60, "tip_rolling_diameter", 60_000.0, "circle_all_but_straight"),
+        (30, "tip_rolling_diameter", 30_000.0, "circle_all_but_straight"),
+        # half the pitch circle draws radial flanks, a larger one leads them under the tooth
+        (60, "root_rolling_diameter", 60.0, "root_flanks_undercut"),
+        (30, "root_rolling_diameter", 30.0, "root_flanks_undercut"),
+    ],
+)
+def test_circles_too_large_are_refused_with_the_largest(teeth: int, key: str, most: float, code: str) -> None:
+    wheel = WHEEL | {"number_of_teeth": teeth, key: most * 1.01}
     found = refused(scene_from_dict({"parts": {"wheel": wheel}}, "t", "t"))
-    assert (found.key, found.code) == ("parts.wheel.tip_rolling_diameter", "circle_all_but_straight")
+    assert (found.key, found.code) == (f"parts.wheel.{key}", code)
     assert found.nearest is not None
     assert found.nearest.value == most
+    make_parts(scene_from_dict({"parts": {"wheel": wheel | {key: most}}}, "t", "t"), "t")
 
 
 @pytest.mark.parametrize("off", [-0.8, -0.6, 0.0, 0.6, 0.8])

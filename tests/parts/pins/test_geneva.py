@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 
 from exporters.production.check import scene_checks
+from geometry.curves.line_arc import Arc
 from geometry.solids.mass import body_moments
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict
 from parts.scene.placing import Placing, place
+from tests.parts.drawing.test_sections import drawing_of
 
 Keys = dict[str, Any]
 WHEEL: Keys = {"kind": "geneva_wheel", "number_of_slots": 6, "centre_distance": 60.0, "pin_diameter": 5.0}
@@ -81,9 +83,15 @@ def test_pieces_make_the_whole() -> None:
     whole, plate, disc = (body_moments(made[name].body(0.0)).volume for name in ("whole", "plate", "disc"))
     pin = math.pi * 2.5**2
     assert whole == pytest.approx(plate + 3.0 * pin + disc + 4.0 * pin, rel=1e-9)
-    longer = DRIVER | own | {"pin_length": 6.0}
-    made, _ = make_parts(scene_from_dict({"parts": {"wheel": WHEEL, "longer": longer}}, "t", "t"), "t")
-    assert body_moments(made["longer"].body(0.0)).volume == pytest.approx(whole + 2.0 * pin, rel=1e-9)
+    for length in (6.0, 1.0):
+        other = DRIVER | own | {"pin_length": length}
+        made, _ = make_parts(scene_from_dict({"parts": {"wheel": WHEEL, "other": other}}, "t", "t"), "t")
+        assert body_moments(made["other"].body(0.0)).volume == pytest.approx(whole + (length - 4.0) * pin, rel=1e-9)
+
+
+def test_plates_hold_pins_thinner_than_their_walls() -> None:
+    parts = {"wheel": WHEEL | {"pin_diameter": 0.06}, "driver": UNBORED}
+    make_parts(scene_from_dict({"parts": parts}, "t", "t"), "t")
 
 
 REFUSED: dict[str, tuple[Keys, Keys, str, str]] = {
@@ -162,3 +170,14 @@ def test_a_driver_is_for_one_wheel() -> None:
     with pytest.raises(SceneError) as refused:
         make_parts(made, "t")
     assert (refused.value.key, refused.value.code) == ("mates[1]: parts.driver.of", "made_for_another_wheel")
+
+
+@pytest.mark.parametrize("keys", [WHEEL, RING], ids=["external", "internal"])
+def test_a_drawing_counts_the_arcs_that_the_outline_has(keys: Keys) -> None:
+    rounded = keys | {"tip_rounding": 0.4}
+    made, _ = make_parts(scene_from_dict({"parts": {"wheel": rounded}}, "t", "t"), "t")
+    arcs = [edge for edge in made["wheel"].thing.outline() if isinstance(edge, Arc)]
+    told = {one.name: one for one in drawing_of(rounded).views[-1].rounds}
+    for one in (told["tip_rounding"], told["locking_arc"]):
+        centres = {f"{arc.centre:.6f}" for arc in arcs if math.isclose(arc.radius, one.radius)}
+        assert one.places == f" ({len(centres)} places)"

@@ -74,6 +74,9 @@ def test_sizes_of_a_sprocket_08b_by_hand() -> None:
     assert face_width(named("16B-1"), form) == pytest.approx(0.95 * 17.02)
     assert face_width(named("08B-2"), form) == pytest.approx(0.91 * 7.75)
     assert face_width(named("16B-3"), form) == pytest.approx(0.93 * 17.02)
+    # GOST 591-69
+    assert face_width(chain, GostForm()) == pytest.approx(0.93 * 7.75 - 0.15)
+    assert face_width(named("08B-2"), GostForm()) == pytest.approx(0.90 * 7.75 - 0.15)
     assert sprocket.plate_room == pytest.approx(12.7 / math.tan(math.pi / 17) - 1.04 * 11.81 - 0.76)
     assert [form.flank_radius(8.51, 17), IsoForm(1.0).flank_radius(8.51, 17)] == pytest.approx([19.4028, 31.9295])
     assert [form.seating_radius(8.51), IsoForm(1.0).seating_radius(8.51)] == pytest.approx([4.2976, 4.4384], abs=1e-4)

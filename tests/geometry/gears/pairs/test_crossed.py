@@ -145,6 +145,22 @@ def test_sliding_and_efficiency_at_the_pole_are_those_of_textbooks(name: str) ->
     assert pair.efficiency(f, back=True) == pytest.approx(worth, rel=1e-12)
 
 
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("friction", [0.0, 0.12])
+def test_forces_at_the_pole_are_those_of_the_normal_and_of_friction_and_pass_on_the_power(
+    name: str, friction: float
+) -> None:
+    pair = crossed_pair(_bare(CASES[name]))
+    told = pair.forces(friction)
+    for forces in told:
+        # friction lies in the plane that both pitch cylinders touch
+        assert forces.radial == pytest.approx(math.sin(pair.working_pressure_angle), rel=1e-12)
+        whole = math.hypot(forces.circumferential, forces.radial, forces.axial)
+        assert whole == pytest.approx(math.hypot(1.0, friction), rel=1e-12)
+    powers = [f.circumferential * r / z for f, r, z in zip(told, pair.working_radii, CASES[name][1], strict=True)]
+    assert powers[1] / powers[0] == pytest.approx(pair.efficiency(friction), rel=1e-12)
+
+
 def test_a_gear_that_cannot_drive_gives_nothing_however_rough_the_flanks_are() -> None:
     """Power left of what goes in, by the forces along both tooth lines: none from cos(alpha_n) / tan(beta_2) on."""
     pair = crossed_pair(_bare((2.0, (20, 20), (-55.0, 60.0), (0.0, 0.0), (20.0, 20.0))))

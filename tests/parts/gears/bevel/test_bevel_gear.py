@@ -324,7 +324,7 @@ def test_the_page_tells_what_textbooks_tell() -> None:
     distance = 2.5 / 2 * math.hypot(20, 50)
     small = math.atan(20 / 50)
     expected = {
-        "outer_cone_distance": distance, "mean_cone_distance": distance - 10,
+        "outer_cone_distance": distance, "mean_cone_distance": distance - 10, "inner_cone_distance": distance - 20,
         "outer_pitch_diameter": [50.0, 125.0], "outer_addendum": [3.25, 1.75], "outer_dedendum": [2.25, 3.75],
         "pitch_cone_angle_deg": [math.degrees(small), 90 - math.degrees(small)],
         "outer_tip_circle": [50 + 6.5 * math.cos(small), 125 + 3.5 * math.sin(small)],
@@ -341,6 +341,26 @@ def test_the_page_tells_what_textbooks_tell() -> None:
     # what pushes one aside pushes the other along
     assert radial == pytest.approx(axial[::-1], rel=1e-12)
     assert math.hypot(along, radial[0], axial[0]) == pytest.approx(told["normal_force"], rel=1e-12)
+
+
+@pytest.mark.parametrize(("teeth", "shift"), [(20, 0.0), (20, 0.3), (12, 0.6), (14, 0.7)])
+def test_thin_tips_are_told_where_those_of_the_virtual_spur_gear_are_thin(teeth: int, shift: float) -> None:
+    """Tips of less than 0.3 m; those of Tredgold's gear are within a twentieth of a module of the true ones."""
+    gear = {"module": 2.0, "number_of_teeth": teeth, "mate_number_of_teeth": 40, "profile_shift_coefficient": shift}
+    parts, _ = make_parts(
+        scene_from_dict({"parts": {"p": PINION | gear | {"hub_diameter": 0.0, "hub_length": 0.0}}}, "s", "s"), "s"
+    )
+    virtual = teeth / math.cos(math.atan(teeth / 40))
+
+    def involute(angle: float) -> float:
+        return math.tan(angle) - angle
+
+    alpha = math.radians(20)
+    tip = math.acos(math.cos(alpha) * virtual / (virtual + 2 + 2 * shift))
+    half = (math.pi / 2 + 2 * shift * math.tan(alpha)) / virtual + involute(alpha) - involute(tip)
+    land = (virtual + 2 + 2 * shift) * half
+    assert abs(land - 0.3) > 0.05
+    assert ("thin_tip" in [found.code for found in parts["p"].findings]) == (land < 0.3)
 
 
 # KHK, Gear Technical Reference, calculation of straight bevel gears: m 3, z 20/40, b 22 at a right angle; what the page
