@@ -148,10 +148,15 @@ def _in_keys(keys: CarrierPlateSpec, refusal: ParameterError) -> ParameterError:
     given = float(str(value_at(keys, name)))
     ends = (0.0,) if name == "seat_clearance" else [given * share for share in _SHARES]
     cure = partial(nearest, partial(_works, keys, name), given, ends)
+    # a round end that was typed may be to blame as well
+    boss = refusal.name.replace("pin_diameter", "boss_diameter").replace("s.diameter", "s.boss_diameter")
+    typed = value_at(keys, boss) if boss != refusal.name else None
+    if typed is not None and kept(partial(_works, keys, boss), None):
+        return ParameterError(name, given, "no_wall_in_boss", cure, key=boss.rpartition(".")[2], boss=typed)
     return ParameterError(name, given, refusal.code, cure, **refusal.numbers)
 
 
-def _works(keys: CarrierPlateSpec, name: str, value: float) -> bool:
+def _works(keys: CarrierPlateSpec, name: str, value: float | None) -> bool:
     changed = replaced(keys, name, value)
     edges, holes, _ = _drawn(changed)
     return outline_with_marks(edges, changed, holes)[0].exists()

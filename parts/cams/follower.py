@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 from msgspec import Meta, field
 from msgspec.structs import replace
 
-from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
+from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.plane.offset_region import OffsetRegion
@@ -97,9 +97,11 @@ def _stem_edges(keys: FollowerSpec) -> tuple[Edge, ...]:
         return shape.pointed_stem(width, length, math.radians(keys.tip_angle_deg))
     if keys.end == "roller":
         if not length > width / 2:
-            raise ParameterError(
-                "stem_length", length, "shorter_than_half_width", limit(width / 2 * (1 + 1e-6), length)
-            )
+            if length == FollowerSpec(keys.end).stem_length:
+                raise ParameterError.beyond(
+                    "stem_width", width, "wider_than_twice_length", 2 * length * (1 - 1e-6), length=length
+                )
+            raise ParameterError.beyond("stem_length", length, "shorter_than_half_width", width / 2 * (1 + 1e-6))
         return shape.roller_stem(width, length)
     radius = keys.follower_radius if keys.end == "mushroom" else None
     return shape.plate_stem(width, length, (keys.plate_diameter, keys.plate_thickness), radius, keys.corner_radius)

@@ -365,7 +365,9 @@ def _scene_of(raw: dict[str, Any], source: str, name: str, origins: dict[str, st
     places: dict[str, str] = {}
     for number, table in enumerate(raw.get("mates", []), 1):
         place = f"mates[{number}]"
-        for mate in members(_mate_spec(table, instances, groups, source, place), groups, source, place):
+        with _of_a_part(parts, instances, table):
+            spec = _mate_spec(table, instances, groups, source, place)
+        for mate in members(spec, groups, source, place):
             if mate in mates:
                 raise SceneError(source, place, None, "listed_twice")
             mates.append(mate)
@@ -396,6 +398,24 @@ def _laid(
         found[name] = converted(table, kind, source, f"{key}.{name}")
         check_laid(found[name], parts, instances, source, f"{key}.{name}")
     return found
+
+
+@contextmanager
+def _of_a_part(
+    parts: Mapping[str, MaterialKeys], instances: Mapping[str, InstanceSpec], mate: Mapping[str, Any]
+) -> Iterator[None]:
+    """A key that a mate has not, but a part that it joins, is told to belong there."""
+    try:
+        yield
+    except SceneError as refusal:
+        key = refusal.key.rpartition(".")[2]
+        names = (str(mate.get(end)) for end in ("first", "second"))
+        ends = [instances[name].part for name in names if name in instances]
+        owner = next((str(end) for end in ends if key in parts[str(end)].__struct_fields__), None)
+        if refusal.code != "unknown_key" or owner is None:
+            raise
+        told = {"place": f"parts.{owner}"}
+        raise SceneError(refusal.source, refusal.key, refusal.value, "key_of_a_part", None, "", **told) from refusal
 
 
 def _mate_spec(

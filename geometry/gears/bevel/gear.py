@@ -34,6 +34,8 @@ from geometry.solids.wheel import Hub, WheelShape, wheel_body, wheel_sections
 _STEEPEST = math.radians(89.5)
 # what is no length, part of the module
 _NOTHING = 1e-6
+# what is in no tooth's way, where that is not 0
+_HARMLESS = {"pressure_angle": math.radians(20.0)}
 # least addendum and dedendum, in modules
 _LEAST_HEIGHT = 0.05
 # where a shift that works is sought, from the given one on; and teeth of the mate, in those of the gear
@@ -434,7 +436,8 @@ class BevelGear(Record, dict=True):
             check(self._changed(name, value))
             return True
 
-        return error(name, given, code, lambda: nearest(holds, given, toward), **numbers)
+        digits = 9 if name.endswith("_angle") else 4
+        return error(name, given, code, lambda: nearest(holds, given, toward, digits=digits), **numbers)
 
     def _check_cones(self) -> None:
         shift, whole = self.profile_shift_coefficient, self.module * _LEAST_HEIGHT
@@ -456,16 +459,23 @@ class BevelGear(Record, dict=True):
             raise self._cured("circumferential_thinning", 0.0, BevelGear._check_tooth, "thinning_leaves_no_tip")
         if self._is_pointed():
             name = self._without(lambda gear: not gear._is_pointed(), "circumferential_thinning",
-                                 "thickness_coefficient", "profile_shift_coefficient")  # fmt: skip
+                                 "thickness_coefficient", "profile_shift_coefficient", *self._steep())  # fmt: skip
             ways = {"profile_shift_coefficient": self._shifted(-1), "addendum_coefficient": self._lower_addenda()}
-            raise self._cured(name, ways.get(name, [0.0]), BevelGear._check_tooth, "bevel_pointed", PointedTipError)
+            raise self._cured(
+                name,
+                ways.get(name, [_HARMLESS.get(name, 0.0)]),
+                BevelGear._check_tooth,
+                "bevel_pointed",
+                PointedTipError,
+            )
         if self._is_crown_pointed():
             # a shift makes the crown's tooth as much thicker as it makes it longer
             name = self._without(lambda gear: not gear._is_crown_pointed(), "thickness_coefficient",
-                                 "tip_radius_coefficient")  # fmt: skip
+                                 *self._steep(), "tip_radius_coefficient")  # fmt: skip
             ways = {"addendum_coefficient": self._lower_addenda()}
-            code = "bevel_rounding_too_large" if name == "tip_radius_coefficient" else "bevel_crown_pointed"
-            raise self._cured(name, ways.get(name, [0.0]), BevelGear._check_tooth, code)
+            codes = {"tip_radius_coefficient": "bevel_rounding_too_large", "pressure_angle": "bevel_crown_too_narrow"}
+            code = codes.get(name, "bevel_crown_pointed")
+            raise self._cured(name, ways.get(name, [_HARMLESS.get(name, 0.0)]), BevelGear._check_tooth, code)
         if self.fillet.depth >= self.pressure_angle:
             # spherical involutes of a crown gear end so far from its pitch plane
             raise self._cured("profile_shift_coefficient", self._shifted(1), BevelGear._check_whole_tooth,
@@ -483,8 +493,20 @@ class BevelGear(Record, dict=True):
         return self.fillet.aside <= _NOTHING * self.module / self.cone_distance
 
     def _without(self, holds: Callable[[BevelGear], bool], *names: str) -> str:
-        """The first of the parameters to blame: with 0 in its place a check holds; of none, the addendum."""
-        return next((name for name in names if holds(self._changed(name, 0.0))), "addendum_coefficient")
+        """The first of the parameters to blame: with what is harmless in its place neither gear nor crown gear is
+        pointed, or else a check holds; of none, the addendum."""
+        harmless = {name: self._changed(name, _HARMLESS.get(name, 0.0)) for name in names}
+
+        def whole(gear: BevelGear) -> bool:
+            return not (gear._is_pointed() or gear._is_crown_pointed())
+
+        found = (name for check in (whole, holds) for name in names if check(harmless[name]))
+        return next(found, "addendum_coefficient")
+
+    def _steep(self) -> tuple[str, ...]:
+        """The pressure angle, where it is what differs from the usual crown gear's tooth and not its height."""
+        usual = self.addendum_coefficient == 1 and self.tip_radius_coefficient <= 0.2 and not self.spiral_angle
+        return ("pressure_angle",) if usual and self.pressure_angle > _HARMLESS["pressure_angle"] else ()
 
     def _lower_addenda(self) -> list[float]:
         """Addenda among which one that works is sought."""

@@ -13,6 +13,7 @@ from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.base.record import Record, replace, with_value
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.involute import Involute
+from geometry.gears.teeth.basic_rack import ISO_53_ANGLE
 from geometry.gears.teeth.joints import pointed_radius
 from geometry.gears.teeth.shaping import check_shaping, least_shift_with_cutter
 from geometry.gears.teeth.spur import SpurGear
@@ -281,7 +282,7 @@ def _blamed(gear: SpurGear, helix_angle: float, refusal: ParameterError) -> Para
 
 def _told_of_cutter(gear: SpurGear, helix_angle: float, refusal: ParameterError) -> ParameterError:
     """The refusal of a cutter's tooth; where its own cure leaves another fault, told of the cutter's teeth."""
-    from geometry.gears.teeth.cutter import CUTTER_TOOTH
+    from geometry.gears.teeth.cutter import CUTTER_ADDENDUM, CUTTER_TOOTH
 
     cutter, own = gear.cutter, refusal.nearest
     if cutter is None or refusal.name not in CUTTER_TOOTH:
@@ -290,6 +291,14 @@ def _told_of_cutter(gear: SpurGear, helix_angle: float, refusal: ParameterError)
     def works(path: str, value: object) -> bool:
         return _builds(transverse_gear(with_value(gear, path, value), helix_angle))
 
+    def works_at(angle: float) -> bool:
+        cut = with_value(gear, "cutter.pressure_angle", angle)
+        return _builds(transverse_gear(with_value(cut, "rack.pressure_angle", angle), helix_angle))
+
+    angle = Suspect("pressure_angle", gear.pressure_angle, ISO_53_ANGLE, works_at, digits=9)
+    if cutter.addendum == CUTTER_ADDENDUM and angle.value > angle.harmless and blamed([angle], angle.name):
+        # the usual height is not to blame
+        return refused_as(refusal, angle)
     if own is not None and works(refusal.name, own.value):
         return refusal
     name, z = "cutter.number_of_teeth", cutter.number_of_teeth

@@ -72,6 +72,10 @@ CASES: list[tuple[str, dict[str, Any], str, str]] = [
     ("swinging mushroom", {"parts.p.plate_diameter": 30.0}, "parts.p.plate_diameter", "for_faces_only"),
     ("mushroom stem", {"parts.p.follower_radius": GONE}, "parts.p.follower_radius", "mushroom_without_radius"),
     ("new follower", {"parts.p.stem_length": 3.0}, "parts.gear.stem_length", "shorter_than_half_width"),
+    # what was left out is not to blame
+    ("new follower", {"parts.p.stem_width": 170.0}, "parts.gear.stem_width", "wider_than_twice_length"),
+    ("cut gear", {"parts.p.pressure_angle_deg": 30.0}, "parts.p.pressure_angle_deg", "cutter_tooth_pointed"),
+    ("new carrier_plate", {"parts.p.boss_diameter": 1.0}, "parts.gear.pin_diameter", "no_wall_in_boss"),
     ("flat arm", {"parts.p.pin_diameter": 3.0}, "parts.p.pin_diameter", "for_other_ends"),
     ("table", {"parts.p.phases": [{"move": "rise", "angle_deg": 360.0, "law": "sine"}]}, "parts.p.phases",
      "phases_or_table"),
@@ -119,6 +123,8 @@ SCENES: list[tuple[Raw, str, str]] = [
     ({"exports": [{"format": "svg", "purpose": "board"}]}, "exports[1].purpose", "no_boards"),
     ({"mates": [{"kind": "parallel", "first": "p", "second": "p"}]}, "mates[1].second", "mate_in_itself"),
     ({"mates": [{"kind": "parallel", "first": "p", "second": "q"}]}, "mates[1].second", "no_such_instance"),
+    ({"parts": {"p": SPUR, "q": SPUR}, "mates": [{"kind": "parallel", "first": "p", "second": "q", "module": 2.0}]},
+     "mates[1].module", "key_of_a_part"),
 ]  # fmt: skip
 # words of calc, the key and the code
 WORDS: list[tuple[str, str, str]] = [
