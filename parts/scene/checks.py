@@ -235,10 +235,14 @@ def _check_kinds(
         return
     index = 0 if all(first != found[0] for first, _ in kind.joins) else 1
     key = ("first", "second")[index]
-    pairs = [message("{first} and {second}", first=a, second=b) for a, b in kind.joins]
+    # of many those that one of both is for
+    near = [pair for pair in kind.joins if pair[0] == found[0] or pair[1] == found[1]] or kind.joins
+    pairs = [message("{first} and {second}", first=a, second=b) for a, b in near]
     told: dict[str, Any] = {"found": found[index], "mate": kind.name, "joins": pairs}
     code = "mate_joins"
-    if other := next((m.name for m in MATES.values() if m.joins and found in m.joins), None):
+    if found[::-1] in kind.joins:
+        code = "mate_joins_swapped"
+    elif other := next((m.name for m in MATES.values() if m.joins and found in m.joins), None):
         code, told["other"] = "mate_joins_other", other
     raise SceneError(source, f"{place}.{key}", getattr(mate, key), code, **told)
 

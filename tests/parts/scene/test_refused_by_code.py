@@ -125,6 +125,8 @@ SCENES: list[tuple[Raw, str, str]] = [
     ({"mates": [{"kind": "parallel", "first": "p", "second": "q"}]}, "mates[1].second", "no_such_instance"),
     ({"parts": {"p": SPUR, "q": SPUR}, "mates": [{"kind": "parallel", "first": "p", "second": "q", "module": 2.0}]},
      "mates[1].module", "key_of_a_part"),
+    ({"parts": {"p": {"kind": "rack", "module": 2.0, "number_of_teeth": 9}, "q": SPUR}, "mates": [{"kind": "rack_pair",
+      "first": "p", "second": "q"}]}, "mates[1].first", "mate_joins_swapped"),
 ]  # fmt: skip
 # words of calc, the key and the code
 WORDS: list[tuple[str, str, str]] = [
