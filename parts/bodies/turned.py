@@ -6,6 +6,7 @@ import cmath
 import math
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 from msgspec import Meta, Struct, field
@@ -297,6 +298,7 @@ def _check_shaft(keys: ShaftSpec) -> None:
         One does not.
     """
     check_bore(keys.bore_diameter)
+    z, whole = 0.0, sum(step.length for step in keys.steps)
     if keys.bore_diameter and keys.centre_holes is not None:
         raise either("bore_diameter", keys.bore_diameter, "centre_holes", 0.0)
     for k, step in enumerate(keys.steps, 1):
@@ -314,6 +316,11 @@ def _check_shaft(keys: ShaftSpec) -> None:
             if groove.at <= place or groove.at + groove.width >= room:
                 raise _groove_beyond(name, groove, place, room, step.length)
             place = groove.at + groove.width
+            inside = 2 * _inside(keys, min(z + groove.at, whole - z - place))
+            if groove.diameter <= inside:
+                cure = limit(inside * (1 + 1e-6), groove.diameter, digits=6)
+                raise ParameterError(f"{name}.diameter", groove.diameter, "groove_into_centre_hole", cure)
+        z += step.length
     mouth = _mouth(keys)
     if (centre := keys.centre_holes) is not None and mouth <= centre.diameter:
         cure = limit(centre.diameter * (1 + 1e-6), mouth, digits=6)
@@ -404,6 +411,14 @@ def _outline(keys: ShaftSpec) -> Iterator[tuple[Corner, str]]:
         z, before = z + step.length, radius
     yield Corner(complex(before, z), chamfer=steps[-1].chamfer), f"steps[{len(steps)}].chamfer"
     yield from ((Corner(complex(at.real, z - at.imag)), "centre_holes.diameter") for at in low[::-1])
+
+
+def _inside(keys: ShaftSpec, depth: float) -> float:
+    """Radius of a centre hole so deep below its end face, mm."""
+    for inner, outer in pairwise(_end(keys)):
+        if outer.imag <= depth <= inner.imag and inner.imag > outer.imag:
+            return inner.real + (outer.real - inner.real) * (inner.imag - depth) / (inner.imag - outer.imag)
+    return 0.0
 
 
 def _end(keys: ShaftSpec) -> Iterator[complex]:

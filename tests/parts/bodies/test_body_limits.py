@@ -45,6 +45,11 @@ LIMITS: list[tuple[dict[str, Any], str, str, float, str, dict[str, float]]] = [
     (steps(step(28.0, 25.0), step(20.0, 40.0)), "bore_diameter", "leaves_no_wall", 20.0, "at_most", {}),
     (GROOVED, "bore_diameter", "leaves_no_wall", 16.0, "at_most", {}),
     (GROOVED, f"{GR}.diameter", "groove_not_in_step", 20.0, "at_most", {}),
+    # amid the pilot of a centre hole, and amid its cone of 60 degrees
+    (GROOVED | {"centre_holes": {"diameter": 2.0, "depth": 20.0}}, f"{GR}.diameter", "groove_into_centre_hole", 2.0,
+     "at_least", {}),
+    (GROOVED | {"centre_holes": {"diameter": 2.0, "mouth": 15.0}}, f"{GR}.diameter", "groove_into_centre_hole",
+     15.0 - 20.0 * math.tan(math.pi / 6), "at_least", {}),
     # the cone of a centre hole is wider than its pilot and leaves a rim of both end faces
     (CENTRED, "centre_holes.mouth", "mouth_within_pilot", 2.0, "at_least", {"diameter": 2.0}),
     (CENTRED, "centre_holes.mouth", "leaves_no_wall", 18.0, "at_most", {}),
