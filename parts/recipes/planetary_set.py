@@ -420,7 +420,7 @@ def _add_frame(made: _Set, making: Making) -> None:
     thick, gap = keys.plate_thickness, keys.axial_gap
     screws, outside = _rim(made, ring)
     floor, top = made.low - 2 * gap - thick, made.high + 2 * gap + thick
-    half, arm = outside + _MARGIN, round(max(0.8 * made.distance, 3 * keys.shaft_diameter), 1)
+    half, arm = outside + _MARGIN, round(max(0.8 * made.distance, 3 * keys.shaft_diameter, 3 * keys.pin_diameter), 1)
     feet = [cmath.rect(screws, math.radians(45 + 90 * k)) for k in range(4)]
     making.plate(
         "base", 2 * half, [hole(0j, keys.shaft_diameter + keys.clearance), *(hole(at, _SCREW) for at in feet)],

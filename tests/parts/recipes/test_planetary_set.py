@@ -385,3 +385,13 @@ def test_new_prints_a_set_that_builds(tmp_path: Path, capsys: Any) -> None:
     assert resolved(load_scene(str(tmp_path / "a.toml"))) | {"name": ""} == resolved(
         load_scene(str(tmp_path / "b.toml"))
     ) | {"name": ""}
+
+
+@pytest.mark.parametrize("pin", [18.0, 36.0])
+def test_pins_may_be_as_thick_as_the_satellites_let_them(pin: float) -> None:
+    # before: the carrier's mark ran into their seats, the crank was too short for its handle: keys that nobody types
+    keys = {"teeth": [20, 30, 80], "satellites": 4, "module": 1.5, "shaft_diameter": 6.0, "frame": True}
+    parts, _ = make_parts(scene(**keys, pin_diameter=pin), "t")
+    # the holes of shaft and handle stand apart
+    assert parts["crank"].keys.arm_length > (6.0 + pin) / 2
+    assert refusal(**keys, pin_diameter=42.0).key == "assemblies[1].pin_diameter"
