@@ -58,7 +58,7 @@ class _SplineTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
             made = self.bore()
             made.check()
         except ParameterError as refusal:
-            raise refusal.renamed(f"{place}.{refusal.name.removeprefix('bore.')}") from refusal
+            raise refusal.renamed(".".join(filter(None, (place, refusal.name.removeprefix("bore."))))) from refusal
         return made
 
     def probes(self, height: float) -> tuple[Probe, ...]:

@@ -1,0 +1,44 @@
+"""``higherpair calc spline``: sizes of a straight-sided spline, and the bearing stress on its sides."""
+
+from __future__ import annotations
+
+from geometry.solids.splines import SplineBore
+from parts.base.texts import N_
+from parts.bodies.spline_steps import Length, LoadShare, Torque, bearing_steps
+from parts.keys.splines import StraightSplineTable
+from parts.pages.inputs import calculation
+from parts.pages.page import Sheet
+
+TOPIC = "spline"
+
+
+class SplineKeys(StraightSplineTable, kw_only=True, tag=False, forbid_unknown_fields=True):
+    """Keys of the spline, and its load."""
+
+    torque: Torque = None
+    length: Length = None
+    load_share: LoadShare = 0.75
+
+
+@calculation(TOPIC, SplineKeys)
+def sheet(keys: SplineKeys) -> Sheet:
+    """The calculation of a straight-sided spline."""
+    bore: SplineBore = keys.checked("")
+    joint = keys.joint()
+    page = Sheet(TOPIC, N_("Straight-sided spline"))
+    page.section("Given")
+    page.add("spline_designation", joint.name)
+    page.add("number_of_teeth", joint.teeth)
+    page.add("spline_inner_diameter", joint.inner)
+    page.add("spline_outer_diameter", joint.outer)
+    page.add("spline_width", joint.width)
+    page.add("spline_chamfer", joint.chamfer)
+    page.section("Sizes")
+    shaft = joint.shaft()
+    page.add("spline_root_diameter", 2 * shaft.inner)
+    page.add("spline_rounding", joint.rounding)
+    page.add("spline_mean_diameter", (joint.outer + joint.inner) / 2, "({D} + {d}) / 2")
+    page.add("spline_height", (joint.outer - joint.inner) / 2 - 2 * joint.chamfer, "({D} - {d}) / 2 - 2 * {c}")
+    page.add("spline_clearance", bore.clearance)
+    bearing_steps(page, keys.torque, keys.length, keys.load_share)
+    return page
