@@ -53,6 +53,29 @@ def test_published_cases(case: dict[str, Any]) -> None:
     assert ("misprint" in step) == ("misprint" in case)
 
 
+def test_a_crossed_pair_at_a_right_angle_by_hand() -> None:
+    """KHK's screw gears, m 3, z 13 / 26, both helices of 45 degrees: what leads one around pushes the other along."""
+    found = values_of(
+        "gear-pair kind=crossed_helical_pair module=3 first.number_of_teeth=13 second.number_of_teeth=26 "
+        "helix_angle_deg=45 face_width=40 speed_rpm=300 torque=12 friction_coefficient=0.1"
+    )["values"]
+    alpha, root = math.radians(20), math.sqrt(2)
+    radii = 19.5 * root, 39 * root
+    transverse = math.atan(math.tan(alpha) * root)
+    base = math.cos(math.asin(math.cos(alpha) / root))
+    reach = [math.sqrt((r + 3) ** 2 - (r * math.cos(transverse)) ** 2) - r * math.sin(transverse) for r in radii]
+    assert found["contact_ratio"] == pytest.approx(sum(reach) / base / (3 * math.pi * math.cos(alpha)))
+    assert list(found["working_speed"].values()) == pytest.approx([10 * math.pi * radii[0]] * 2)
+    assert found["crossed_sliding_speed"] == pytest.approx(10 * math.pi * radii[0] * root)
+    worth = (math.cos(alpha) - 0.1) / (math.cos(alpha) + 0.1)
+    assert found["gear_torque"]["second"] == pytest.approx(24 * worth)
+    around = 12_000 / radii[0]
+    assert list(found["circumferential_force"].values()) == pytest.approx([around, around * worth])
+    assert list(found["axial_force"].values()) == pytest.approx([around * worth, around])
+    normal = around * root / (math.cos(alpha) + 0.1)
+    assert [found["normal_force"], found["radial_force"]] == pytest.approx([normal, normal * math.sin(alpha)])
+
+
 @pytest.mark.parametrize("kind", ["external_gear_pair", "internal_gear_pair", "rack_pair"])
 def test_a_hand_that_is_turned_by_the_sign_of_the_angle_changes_no_number(kind: str) -> None:
     pair = (
