@@ -118,7 +118,9 @@ def test_a_topic_tells_every_key_that_its_refusals_know(capsys: pytest.CaptureFi
         told |= {name, "kind", *re.findall(r"(?m)^(?:# )?(\w+) = ", said(capsys, "new", kind).partition("[parts")[2])}
     told |= set(re.findall(r"(?m)^(\w+)\.\w+ = ", shown))
     assert run("calc", topic, "nothing=1") == 2
-    known = re.search(r"known keys: ([\w, ]+?)(?: and (\d+) more, see .*)?$", capsys.readouterr().err.strip())
+    known = re.search(
+        r"known keys: ([\w, ]+?)(?: and (\d+) more, see .*)?(?:; did you mean .*)?$", capsys.readouterr().err.strip()
+    )
     assert known
     first = set(known[1].split(", "))
     assert first <= told
