@@ -297,7 +297,9 @@ def test_wrong_keys_are_refused_in_one_line(pinion: dict[str, Any], wheel: dict[
 
 def test_a_mounting_distance_sets_the_hub_or_the_rim() -> None:
     for keys, mounted in ((PINION | {"hub_length": 0.0, "mounting_distance": 30.0}, 30.0),
-                          (WHEEL | {"mounting_distance": 17.0}, 17.0)):  # fmt: skip
+                          (WHEEL | {"mounting_distance": 17.0}, 17.0),
+                          # a dedendum of 1.4 m and the rim down the back cone, from where the pitch cone ends
+                          (WHEEL | {"rim_thickness": 5.0}, 12 + (2.8 + 5.0) * 3 / math.sqrt(13))):  # fmt: skip
         part = make_parts(scene_from_dict({"parts": {"p": keys}}, "s", "s"), "s")[0]["p"]
         low, high = part.body(0.0).levels()
         tip = part.thing.inner(part.thing.inner_tip_angle)
