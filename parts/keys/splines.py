@@ -10,6 +10,7 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
+from parts.base.lookalikes import in_latin
 from parts.keys.base import degrees, part_mm
 
 if TYPE_CHECKING:
@@ -18,12 +19,19 @@ if TYPE_CHECKING:
 
 _OWN = ("teeth", "inner_diameter", "outer_diameter", "width")
 # a number with or without a fit after it, and a fit or a class of tolerance alone
-_FIT = r"[A-Za-z]{1,2}\d{1,2}"
+_FIT = r"[A-WYZa-wyz]{1,2}\d{1,2}"
 _NUMBER = re.compile(rf"(\d+(?:\.\d+)?)(?:{_FIT}(?:/{_FIT})?)?")
-_FITS = re.compile(rf"{_FIT}(?:/{_FIT})?|\d{{1,2}}[A-Za-z](?:/\d{{1,2}}[A-Za-z])?")
+_CLASS = r"\d{1,2}[A-Za-z]"
+_FITS = re.compile(rf"{_FIT}(?:/{_FIT})?|{_CLASS}(?:/?{_CLASS})?")
+# GOST 6033 has the fit of the outer diameter beside it, before the module, where that centres
+_OUTER = re.compile(rf"\d+(?:\.\d+)?x?{_FIT}(?:/{_FIT})?x\d")
 # what stands before z x d x D and d_B x m x z: the surface that centres, shaft (W) or hub (N)
-_PREFIX = re.compile(r"(?:[dDb]-|[WN])?")
-_ISO = re.compile(r"(\d+)zx(\d+(?:\.\d+)?)mx(30|37\.5|45)([PR])(?:x\d+[A-Za-z]+)?")
+_PREFIX = re.compile(r"(?:[dDb]-?|[WN])?")
+_ISO = re.compile(
+    rf"(?:INT|EXT|INT/EXT)?(\d+)zx(\d+(?:\.\d+)?)mx(30|37\.5|45)([PR])(?:x{_CLASS}(?:/{_CLASS})?)?", re.IGNORECASE
+)
+# signs of multiplication, decimal commas, minus and dashes
+_SIGNS = str.maketrans("X\u00d7*,\u2212\u2013\u2014", "xxx.---")
 _EXAMPLES = {"GOST 6033": "50x2", "DIN 5480": "50x2x24", "ISO 4156": "24z x 2m x 30R"}
 # below that no involute reaches the roots; above it no shaft has so many
 _LEAST_TEETH, _MOST_TEETH = 6, 200
@@ -33,14 +41,19 @@ Direction = Annotated[float, degrees("direction of the first slot or tooth", lea
 Standard = Literal["GOST 6033", "DIN 5480", "ISO 4156"]
 
 
-def _plain(size: str) -> str:
-    """A designation without blanks, its x Latin whether it was that, Cyrillic or a sign, its decimal marks points."""
-    return re.sub("[xX\u0445\u0425\u00d7*]", "x", "".join(size.split())).replace(",", ".")
+def _plain(size: str, *standards: str) -> str:
+    """A designation without blanks and without the name of its standard before or after it.
+
+    Cyrillic letters become the Latin ones that look like them, signs between sizes x, decimal marks points.
+    """
+    plain = in_latin("".join(size.split())).translate(_SIGNS).replace("\u0413OCT", "GOST")
+    named = "|".join(standard.replace(" ", "") for standard in standards)
+    return re.sub(rf"^(?:{named})-?|(?:{named})(?:-\d+)?$", "", plain)
 
 
-def _numbers(size: str) -> list[float] | None:
-    """The numbers of a designation, without its fits; None: it is none."""
-    parts = [part for part in _PREFIX.sub("", _plain(size), 1).split("x") if not _FITS.fullmatch(part)]
+def _numbers(plain: str) -> list[float] | None:
+    """The numbers of a plain designation, without its fits; None: it is none."""
+    parts = [part for part in _PREFIX.sub("", plain, 1).split("x") if not _FITS.fullmatch(part)]
     found = [_NUMBER.fullmatch(part) for part in parts]
     return None if None in found else [float(match[1]) for match in found if match]
 
@@ -117,7 +130,8 @@ class StraightSplineTable(_SplineTable, tag="spline"):
             teeth, inner, outer, width = (value or 0 for value in given)
             found = StraightJoint(int(teeth), inner, outer, width, inner)
         else:
-            numbers = _numbers(self.size) or []
+            plain = _plain(self.size, "GOST 1139", "ISO 14")
+            numbers = _numbers(plain) or []
             like = [j for j in STRAIGHT_JOINTS if numbers in ([j.teeth, j.inner, j.outer], [*j.sizes])]
             if not like:
                 meant = min(
@@ -125,7 +139,7 @@ class StraightSplineTable(_SplineTable, tag="spline"):
                 )
                 cure = Nearest(meant.name.replace("×", "x"), "meant") if len(numbers) > 2 else None
                 raise ParameterError("bore.size", self.size, "no_such_spline", cure, example="6x23x26")
-            found = replace(like[0], centring=_CENTRING.get(_plain(self.size)[0], "inner"))
+            found = replace(like[0], centring=_CENTRING.get(plain[0], "inner"))
         chamfer = found.chamfer if self.chamfer is None else self.chamfer
         rounding = found.rounding if self.root_rounding is None else self.root_rounding
         return replace(found, chamfer=chamfer, rounding=rounding)
@@ -166,23 +180,29 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
         for key, value, usual in (("centring", self.centring, "sides"), ("root", self.root, "flat")):
             if value != usual and not gost:
                 raise ParameterError(f"bore.{key}", value, "of_another_spline", Nearest(usual), standard=self.standard)
-        if self.centring == "outer" and self.root == "fillet":
+        plain = _plain(self.size, self.standard)
+        outer = gost and (self.centring == "outer" or _OUTER.match(plain) is not None)
+        if outer and self.root == "fillet":
             raise ParameterError("bore.root", self.root, "centred_by_flat_roots", Nearest("flat"))
         refusal = ParameterError("bore.size", self.size, "no_such_spline", None, example=_EXAMPLES[self.standard])
         if self.standard == "ISO 4156":
-            iso = _ISO.fullmatch(_plain(self.size))
-            root: Literal["flat", "fillet"] = "fillet" if iso and iso[4] == "R" else "flat"
-            if iso is None or (float(iso[3]), root) not in standards.ISO_4156 or not int(iso[1]) >= _LEAST_TEETH:
+            iso = _ISO.fullmatch(plain)
+            root: Literal["flat", "fillet"] = "fillet" if iso and iso[4] in "Rr" else "flat"
+            if iso is None or (float(iso[3]), root) not in standards.ISO_4156 or not float(iso[2]) > 0:
+                raise refusal
+            if not _LEAST_TEETH <= int(iso[1]) <= _MOST_TEETH:
                 raise refusal
             return standards.iso_4156(int(iso[1]), float(iso[2]), float(iso[3]), root)
-        numbers = _numbers(self.size) or []
+        numbers = _numbers(plain) or []
+        if not gost and len(numbers) == 4 and numbers[2] == 30:
+            # the pressure angle, which DIN 5480 had before z until 2006
+            del numbers[2]
         if len(numbers) != (2 if gost else 3) or not min(numbers) > 0 or numbers[0] / numbers[1] > _MOST_TEETH:
             raise refusal
         teeth = [z for z in standards.teeth_of(numbers[0], numbers[1]) if gost or z == numbers[2]]
         if not teeth or teeth[0] < _LEAST_TEETH:
             raise refusal
         if gost:
-            outer = self.centring == "outer"
             return standards.gost_6033(numbers[0], numbers[1], teeth[0], outer=outer, root=self.root)
         return standards.din_5480(numbers[0], numbers[1], teeth[0])
 

@@ -1,0 +1,65 @@
+"""Spline designations as drawings have them, after the examples of GOST 1139, GOST 6033, DIN 5480 and ISO 4156."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from geometry.base.errors import ParameterError
+from parts.keys.splines import InvoluteSplineTable, StraightSplineTable
+
+CYRILLIC = "d-8\u00d736\u041d7/\u04358\u00d740\u041d12/\u043011\u00d77D9/f8 \u0413\u041e\u0421\u0422 1139-80"
+DIN: dict[str, Any] = {"standard": "DIN 5480"}
+ISO: dict[str, Any] = {"standard": "ISO 4156"}
+
+
+@pytest.mark.parametrize(
+    ("size", "joint"),
+    [
+        ("d-8x36H7/e8x40H12/a11x7D9/f8", ("inner", 8, 36.0, 40.0, 7.0)),
+        ("D-8x36x40H8/h7x7F10/h9 GOST 1139-80", ("outer", 8, 36.0, 40.0, 7.0)),
+        ("b \u2013 8 \u00d7 36 \u00d7 40H12/a11 \u00d7 7D9/f8", ("sides", 8, 36.0, 40.0, 7.0)),
+        (CYRILLIC, ("inner", 8, 36.0, 40.0, 7.0)),
+        ("ISO 14 - 6 x 23 x 26", ("inner", 6, 23.0, 26.0, 6.0)),
+    ],
+)
+def test_straight_splines_are_read_from_their_drawings(size: str, joint: tuple[object, ...]) -> None:
+    made = StraightSplineTable(size).joint()
+    assert (made.centring, *made.sizes) == joint
+
+
+@pytest.mark.parametrize(
+    ("size", "keys", "name", "rounded"),
+    [
+        ("50x2x9H/9g GOST 6033-80", {}, "50\u00d72", False),
+        ("50\u04452\u04459\u041d/9g \u0413\u041e\u0421\u0422 6033-80", {}, "50\u00d72", False),
+        # the fit beside D: the outer diameter centres, the tips have a rounding
+        ("50xH7/h6x2 GOST 6033-80", {}, "50\u00d72", True),
+        ("DIN 5480 - N 120 x 3 x 38 x 9H", DIN, "120\u00d73\u00d738", False),
+        ("W 120 x 3 x 30 x 38 x 9H 8f", DIN, "120\u00d73\u00d738", False),
+        ("INT/EXT 24z x 2,5m x 30R x 5H/5f", ISO, "24z\u00d72.5m\u00d730R", False),
+        ("EXT 24Z X 2.5M X 30P X 5f ISO 4156", ISO, "24z\u00d72.5m\u00d730P", False),
+    ],
+)
+def test_involute_splines_are_read_from_their_drawings(
+    size: str, keys: dict[str, Any], name: str, rounded: bool
+) -> None:
+    made = InvoluteSplineTable(size, **keys).joint()
+    assert (made.name, made.roundings[1] > 0) == (name, rounded)
+
+
+@pytest.mark.parametrize(
+    ("size", "keys"),
+    [("i50x2xH7/g6", {}), ("50x2 DIN 5480", {}), ("24z x 0m x 30P", ISO), ("201z x 2m x 30P", ISO)],
+)
+def test_no_other_splines_are_read(size: str, keys: dict[str, Any]) -> None:
+    with pytest.raises(ParameterError) as caught:
+        InvoluteSplineTable(size, **keys).joint()
+    assert caught.value.code == "no_such_spline"
+
+
+def test_round_roots_do_not_centre_by_the_fit_of_the_outer_diameter() -> None:
+    with pytest.raises(ParameterError) as caught:
+        InvoluteSplineTable("50xH7/h6x2", root="fillet").joint()
+    assert caught.value.code == "centred_by_flat_roots"
