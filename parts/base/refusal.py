@@ -6,6 +6,7 @@ import re
 from collections.abc import Collection
 
 from msgspec import Struct
+from msgspec.structs import fields
 
 from geometry.base.errors import Curable, Cure, Nearest, ParameterError, format_value
 from parts.base.lookalikes import in_latin, look_alike
@@ -177,6 +178,8 @@ def _shown(value: object) -> str:
 
 def _typed(value: object) -> str:
     """A value as TOML has it on one line."""
+    if isinstance(value, Struct):
+        value = {f.name: item for f in fields(value) if (item := getattr(value, f.name)) != f.default}
     if isinstance(value, dict):
         return f"{{ {', '.join(f'{key} = {_typed(item)}' for key, item in value.items())} }}"
     return f"[{', '.join(map(_typed, value))}]" if isinstance(value, list) else format_value(value)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -104,6 +105,13 @@ def test_what_no_shaft_has_is_refused(changes: dict[int, Any], key: str, code: s
         make_parts(scene_from_dict({"parts": {"a": {"kind": "shaft", "steps": steps}}}, "t", "t"), "t")
     assert (caught.value.key, caught.value.code) == (f"parts.a.{key}", code)
     assert (caught.value.nearest and caught.value.nearest.value) == cure
+
+
+def test_what_a_splined_step_cannot_have_is_told_as_it_was_typed() -> None:
+    steps = [dict(step) for step in SHAFTS["straight"]["steps"]]
+    steps[1]["keyways"] = [{"at": 3.0, "length": 10.0}]
+    with pytest.raises(SceneError, match=re.escape("keyways = [{ at = 3.0, length = 10.0 }]: must be")):
+        make_parts(scene_from_dict({"parts": {"a": {"kind": "shaft", "steps": steps}}}, "t", "t"), "t")
 
 
 def test_the_shaft_has_the_clearance_that_was_asked_for(built: Path) -> None:
