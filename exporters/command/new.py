@@ -220,7 +220,7 @@ def _keys(keys: Iterable[FieldInfo], told: Words, names: Mapping[str, str] | Non
     """One line a key; keys with a default stand commented out, but for ``names``: those that the scene itself gives."""
     for field in keys:
         name, meta = field.encode_name, example_of(field.type)
-        marks: Mapping[str, Any] = (meta.extra if meta is not None else None) or {}
+        marks = _marks(meta)
         given = names is not None and name in names
         set_here = given or field.required or "start" in marks
         value = _toml(names[name]) if names and given else _value(field, meta)
@@ -232,9 +232,13 @@ def _keys(keys: Iterable[FieldInfo], told: Words, names: Mapping[str, str] | Non
         yield from (f"# {name} = {v}  # {told.text('... or this: {what}', what=meant)}" for v, meant in others)
 
 
+def _marks(meta: Meta | None) -> Mapping[str, Any]:
+    return (meta.extra if meta is not None else None) or {}
+
+
 def _value(field: FieldInfo, meta: Meta | None) -> str:
     """What stands at a key as TOML: what a scene starts from, its default, an example, or the first of its tables."""
-    if meta is not None and meta.examples and (is_open(field) or "start" in (meta.extra or {})):
+    if meta is not None and meta.examples and (is_open(field) or "start" in _marks(meta)):
         return _toml(meta.examples[-1])
     tables = tables_of(field)
     return _toml(field.default) if not is_open(field) else _table(tables[0]) if tables else "…"
@@ -255,7 +259,8 @@ def _table(table: type[Struct]) -> str:
     """A table of a kind, in one line."""
     config = table.__struct_config__
     tag = [f'{config.tag_field} = "{config.tag}"'] if config.tag_field else []
-    inner = (f"{f.encode_name} = {_value(f, example_of(f.type))}" for f in fields(table))
+    shown = [(f, meta) for f in fields(table) if not _marks(meta := example_of(f.type)).get("aside")]
+    inner = (f"{f.encode_name} = {_value(f, meta)}" for f, meta in shown)
     return "{ " + ", ".join([*tag, *inner]) + " }"
 
 

@@ -26,15 +26,18 @@ def size(
     below: float | None = None,
     most: float | None = None,
     example: object = None,
+    aside: bool = False,
 ) -> Meta:
     """A key with a unit and a range; ``example``: for a scene to start from, of a key without a default.
 
+    ``aside``: it may stand in place of others, so that ``new`` leaves it out of a table.
     A length above 0 is at least ``LEAST_LENGTH``.
     """
     if unit == "mm" and above == 0:
         above, least = None, LEAST_LENGTH
     ends: dict[str, Any] = {"gt": above, "ge": least, "lt": below, "le": most}
-    return Meta(**ends, description=text, examples=None if example is None else [example], extra={"unit": unit})
+    marks = {"unit": unit, "aside": aside}
+    return Meta(**ends, description=text, examples=None if example is None else [example], extra=marks)
 
 
 mm, degrees, in_modules = partial(size, "mm"), partial(size, "degrees"), partial(size, "modules")

@@ -82,22 +82,24 @@ class _SplineTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
 
 
 class StraightSplineTable(_SplineTable, tag="spline"):
-    """Straight-sided spline by GOST 1139 or ISO 14, or of your own sizes."""
+    """Straight-sided spline by GOST 1139 or ISO 14, or by teeth, inner_diameter, outer_diameter and width."""
 
     size: (
         Annotated[
             str,
             Meta(
                 description="designation z x d x D, with d-, D- or b- before it where that centres; or give the sizes",
-                examples=["6x23x26"],
+                examples=["6x11x14"],
             ),
         ]
         | None
     ) = None
-    teeth: Annotated[int, Meta(ge=2, le=200, description="number of teeth z", examples=[6])] | None = None
-    inner_diameter: Annotated[float, part_mm("between the teeth, d", above=0, example=23.0)] | None = None
-    outer_diameter: Annotated[float, part_mm("over the teeth, D", above=0, example=26.0)] | None = None
-    width: Annotated[float, part_mm("width of a tooth, b", above=0, example=6.0)] | None = None
+    teeth: (
+        Annotated[int, Meta(ge=2, le=200, description="number of teeth z", examples=[6], extra={"aside": True})] | None
+    ) = None
+    inner_diameter: Annotated[float, part_mm("between the teeth, d", above=0, example=11.0, aside=True)] | None = None
+    outer_diameter: Annotated[float, part_mm("over the teeth, D", above=0, example=14.0, aside=True)] | None = None
+    width: Annotated[float, part_mm("width of a tooth, b", above=0, example=3.0, aside=True)] | None = None
     chamfer: (
         Annotated[float, part_mm("of the tips of a shaft and the mouths of slots; default: the standard's", least=0,
                                  example=0.3)]
@@ -157,7 +159,7 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
         str,
         Meta(
             description="D x m of GOST 6033, d_B x m x z of DIN 5480, or 24z x 2m x 30R (P: flat root) of ISO 4156",
-            examples=["50x2"],
+            examples=["8x0.5"],
         ),
     ]
     standard: Standard = "GOST 6033"

@@ -301,7 +301,7 @@ def scene_with(export: dict[str, Any], parts: dict[str, Any] | None = None, *, m
         ({"purpose": "laser"}, "purpose"),
         ({"rack_step": 4.0}, "rack_step"),
         ({"purpose": "generating", "mate": 1}, "mate"),
-        ({"purpose": "generating"}, "one disk"),
+        ({"purpose": "generating"}, "both wheels of a disk"),
         ({"purpose": "generating", "parts": ["one"], "rack_step": 0.01}, "rack_step"),
     ],
 )

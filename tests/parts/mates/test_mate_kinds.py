@@ -159,7 +159,7 @@ def test_a_wanted_centre_distance_is_kept_and_one_too_small_is_refused() -> None
     [
         ("external_gear_pair", "ring", "sun", "first", "internal_gear_pair"),
         ("internal_gear_pair", "sun", "wheel", "second", "external_gear_pair"),
-        ("rack_pair", "rack", "sun", "first", "spur_gear and rack"),
+        ("rack_pair", "rack", "sun", "first", "swap first and second"),
         ("external_gear_pair", "sun", "rack", "second", "rack_pair"),
     ],
 )
