@@ -361,9 +361,9 @@ def _splines(keys: ShaftSpec) -> Iterator[Splined]:
         if abs(2 * form.outer - step.diameter) > _SAME:
             cure = Nearest(round(2 * form.outer, 9))
             raise ParameterError(f"{name}.diameter", step.diameter, "not_over_spline", cure)
-        for key, none in (("chamfer", 0.0), ("fillet", 0.0), ("grooves", []), ("keyways", [])):
-            if getattr(step, key):
-                raise ParameterError(f"{name}.{key}", getattr(step, key) or None, "beside_spline", Nearest(none))
+        for key in ("chamfer", "fillet", "grooves", "keyways"):
+            if given := getattr(step, key):
+                raise ParameterError(f"{name}.{key}", given, "beside_spline", Nearest(None))
         root = form.inner - made.clearance
         if inside >= root:
             key = "bore_diameter" if keys.bore_diameter else "centre_holes.mouth"

@@ -93,7 +93,7 @@ AROUND: dict[str, Callable[[float], float]] = {
 @pytest.mark.parametrize(
     ("changes", "key", "code", "cure"),
     [({1: {"diameter": 25.0}}, "steps[2].diameter", "not_over_spline", 26.0),
-     ({1: {"chamfer": 1.0}}, "steps[2].chamfer", "beside_spline", 0.0),
+     ({1: {"chamfer": 1.0}}, "steps[2].chamfer", "beside_spline", None),
      ({0: {"diameter": 24.0}}, "steps[1].diameter", "ends_amid_spline", None),
      ({1: {"spline": {"shape": "spline", "size": "6x23x27"}}}, "steps[2].spline.size", "no_such_spline", "d-6x23x26"),
      ({1: {"spline": {"shape": "spline", "teeth": 6}}}, "steps[2].spline.inner_diameter", "one_of_two_is_missing",

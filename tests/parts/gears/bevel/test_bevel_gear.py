@@ -347,7 +347,7 @@ def test_the_page_tells_what_textbooks_tell() -> None:
 
 @pytest.mark.parametrize(("teeth", "shift"), [(20, 0.0), (20, 0.3), (12, 0.6), (14, 0.7)])
 def test_thin_tips_are_told_where_those_of_the_virtual_spur_gear_are_thin(teeth: int, shift: float) -> None:
-    """Tips of less than 0.3 m; those of Tredgold's gear are within a twentieth of a module of the true ones."""
+    """Tips of less than 0.3 m, by Tredgold's gear where its tips are 0.05 m and more off that limit."""
     gear = {"module": 2.0, "number_of_teeth": teeth, "mate_number_of_teeth": 40, "profile_shift_coefficient": shift}
     parts, _ = make_parts(
         scene_from_dict({"parts": {"p": PINION | gear | {"hub_diameter": 0.0, "hub_length": 0.0}}}, "s", "s"), "s"
