@@ -576,8 +576,7 @@ def _converge(options: argparse.Namespace) -> int:
     told = words(scene.scene.language)
     with staging_folder(folder) as staging:
         rungs, found = ladder(plan, staging), orders(plan)
-        write_csv(staging / "converge.csv", rungs, found)
-        names = ["converge.csv", *write_pictures(staging, rungs, found, told)]
+        names = [*write_csv(staging, rungs, found), *write_pictures(staging, rungs, found, told)]
         with alone_in(folder):
             move_into(folder, staging, names)
     converge_tables(rungs, found, [folder / name for name in names], told)

@@ -145,18 +145,20 @@ def _order(
     return Order(part, label, method, theory, observed, tuple(counts), tuple(errors))
 
 
-def write_csv(file: Path, rungs: list[Rung], found: list[Order]) -> None:
-    """Both tables as one CSV: files first, then curves."""
-    with file.open("w", encoding="utf-8", newline="") as stream:
-        rows = csv.writer(stream, lineterminator="\n")
-        errors = "tolerance_mm", "declared_mm", "measured_mm"
-        rows.writerow(["file", "format", *errors, "edges", "bytes", "s", "spread_s"])
-        rows.writerows(map(astuple, rungs))
-        rows.writerow([])
-        rows.writerow(["part", "curve", "method", "order_of_method", "observed_order", "pieces", "error_mm"])
+def write_csv(folder: Path, rungs: list[Rung], found: list[Order]) -> list[str]:
+    """A table beside each picture: of the files and, where there are any, of the curves."""
+    heads = "file,format,tolerance_mm,declared_mm,measured_mm,edges,bytes,s,spread_s"
+    tables: dict[str, list[tuple[object, ...]]] = {"time": [tuple(heads.split(",")), *map(astuple, rungs)]}
+    if found:
+        heads = "part,curve,method,order_of_method,observed_order,pieces,error_mm"
+        tables["pieces"] = [tuple(heads.split(","))]
         for o in found:
-            for count, error in zip(o.counts, o.errors, strict=True):
-                rows.writerow([o.part, o.curve, o.method, o.theory, o.observed, count, error])
+            same = o.part, o.curve, o.method, o.theory, o.observed
+            tables["pieces"] += [(*same, *point) for point in zip(o.counts, o.errors, strict=True)]
+    for name, rows in tables.items():
+        with (folder / f"converge.{name}.csv").open("w", encoding="utf-8", newline="") as stream:
+            csv.writer(stream, lineterminator="\n").writerows(rows)
+    return [f"converge.{name}.csv" for name in tables]
 
 
 def write_pictures(folder: Path, rungs: list[Rung], found: list[Order], told: Words) -> list[str]:
