@@ -333,6 +333,32 @@ def _check_shaft(keys: ShaftSpec) -> None:
         if mouth >= step.diameter - 2 * step.chamfer:
             most = limit((step.diameter - 2 * step.chamfer) * (1 - 1e-6), mouth, digits=6)
             raise ParameterError("centre_holes.mouth", mouth, "leaves_no_wall", most)
+    if centre is not None:
+        _check_centre_holes(keys, centre, mouth, whole)
+
+
+def _check_centre_holes(keys: ShaftSpec, centre: CentreHolesTable, mouth: float, whole: float) -> None:
+    """Holes that stay within every step and do not meet, or a ParameterError."""
+    z, slope = 0.0, math.tan(_CONE)
+    for step in keys.steps:
+        z += step.length
+        # where a step ends nearer to an end face a hole is widest in it
+        for depth in (whole - z, z - step.length):
+            most = step.diameter + 2 * slope * depth
+            if 2 * _inside(keys, depth) >= step.diameter:
+                cure = limit(most * (1 - 1e-6), mouth, digits=6) if most > centre.diameter < step.diameter else None
+                raise ParameterError("centre_holes.mouth", mouth, "leaves_no_wall", cure)
+    beyond = next(_end(keys)).imag - whole / 2
+    if beyond < 0:
+        return
+    depth = _DEPTH * centre.diameter if centre.depth is None else centre.depth
+    for key, value, most, least in (
+        ("depth", depth, depth - beyond, 0.0), ("mouth", mouth, mouth - 2 * slope * beyond, centre.diameter),
+    ):  # fmt: skip
+        if most > least:
+            cure = limit(most - 1e-6, value, digits=6)
+            raise ParameterError(f"centre_holes.{key}", value, "centre_holes_meet", cure)
+    raise ParameterError("centre_holes.diameter", centre.diameter, "centre_holes_meet")
 
 
 def _radius(step: StepTable) -> float:

@@ -55,6 +55,13 @@ LIMITS: list[tuple[dict[str, Any], str, str, float, str, dict[str, float]]] = [
     (CENTRED, "centre_holes.mouth", "leaves_no_wall", 18.0, "at_most", {}),
     (steps(step(28.0, 25.0), step(20.0, 40.0, chamfer=3.0), centre_holes={"diameter": 2.0}), "centre_holes.mouth",
      "leaves_no_wall", 14.0, "at_most", {}),
+    # holes of both ends meet by their tips of 120 degrees; a neck is thicker than the cone where it begins
+    (steps(step(24.0, 10.0), centre_holes={"diameter": 3.0, "mouth": 6.0}), "centre_holes.depth", "centre_holes_meet",
+     5.0 - 1.5 * math.sqrt(3) - 1.5 / math.sqrt(3), "at_most", {}),
+    (steps(step(24.0, 30.0), centre_holes={"diameter": 6.0, "depth": 0.0}), "centre_holes.mouth",
+     "centre_holes_meet", 6.0 + 2 * (15.0 - 3 / math.sqrt(3)) / math.sqrt(3), "at_most", {}),
+    (steps(step(24.0, 3.0), step(10.0, 40.0), step(24.0, 5.0), centre_holes={"diameter": 2.0}), "centre_holes.mouth",
+     "leaves_no_wall", 10.0 + 6.0 / math.sqrt(3), "at_most", {}),
     (SHAFT, "steps[1].chamfer", "chamfer_leaves_nothing_of_step", 10.0, "at_most", {}),
     (SHAFT | {"bore_diameter": 6.0}, "steps[1].chamfer", "chamfer_leaves_nothing_of_step", 7.0, "at_most", {}),
     (SHAFT | {"bore_diameter": 6.0}, "steps[3].chamfer", "chamfer_leaves_nothing_of_step", 9.0, "at_most", {}),
