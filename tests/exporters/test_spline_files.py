@@ -128,7 +128,7 @@ def test_another_shaft_is_caught(built: Path, name: str) -> None:
     bore, file = TABLES[name].bore(), read_dxf(built / f"{name}.laser.dxf")
     (good,) = TABLES[name].probes(3.0)
     assert good.run(file, 0.0, 5e-3).failures == ()
-    thick = {"width": 6.02} if name == "straight" else {"thickness": bore.joint.thickness + 0.02}  # type: ignore[union-attr]
+    thick = {"width": 6.02} if name == "straight" else {"thickness": bore.joint.thickness + 0.02}
     for other in (
         replace(bore, angle=bore.angle + 0.0017),
         replace(bore, clearance=bore.clearance + 0.006),

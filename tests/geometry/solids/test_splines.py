@@ -90,7 +90,7 @@ def test_relations_of_gost_6033() -> None:
 )  # fmt: skip
 def test_diameters_of_iso_4156(angle: float, root: str, sizes: tuple[float, ...]) -> None:
     """D_ie, D_ee, D_ii, D_ei of 24z x 2.5m from m (z + k), k as Inventor's help lists it; D_ii by mpmath from D_Fe."""
-    joint = iso_4156(24, 2.5, angle, root)  # type: ignore[arg-type]
+    joint = iso_4156(24, 2.5, angle, root)
     assert (*joint.shaft_diameters, *joint.hub_diameters) == pytest.approx(sizes, abs=5e-3)
 
 
