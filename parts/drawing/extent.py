@@ -51,7 +51,10 @@ def crossings(profile: Profile, start: complex, way: complex) -> list[float]:
         above = seen.imag >= 0
         ends.append((above[0], above[-1], float(seen[0].real)))
         for k in np.flatnonzero(above[:-1] != above[1:]):
-            at = bracketed_root(partial(_off, curve, start, way), float(t[k]), float(t[k + 1])).value
+            # an end that all but lies on the line may be off it to the other side where it is asked for alone
+            sides = float(seen[k].imag), float(seen[k + 1].imag)
+            off = partial(_off, curve, start, way)
+            at = bracketed_root(off, float(t[k]), float(t[k + 1]), at_ends=sides).value
             found.append(((complex(curve.point(at)) - start) / way).real)
     # where segments meet on the line itself rounding puts their ends on one side or on both
     found += [at for (_, before, _), (after, _, at) in zip(ends[-1:] + ends[:-1], ends, strict=True) if before != after]
