@@ -15,6 +15,7 @@ from parts.base.links import owner_of
 from parts.keys.base import MOST_LENGTH, mm
 from parts.keys.holes import HoledKeys
 from parts.keys.pins import MARGIN, check_holes, holes_of, least_of, most_of, moved_region
+from parts.keys.splines import InvoluteSplineTable
 from parts.pins.geneva_wheel import GENEVA_WHEEL, GenevaWheelSpec
 
 if TYPE_CHECKING:
@@ -150,6 +151,9 @@ def _check(keys: GenevaDriverSpec, driver: GenevaDriver) -> None:
     bored = driver.piece == "whole" or (driver.piece == "disc" and driver.has_bored_disc)
     if not bored and driver.piece == "disc" and driver.holes.bore is not None:
         raise ParameterError("bore_diameter", keys.bore_diameter or None, "not_of_this_piece", Nearest(None))
+    # its layers are bounded by lines and arcs
+    if driver.piece == "whole" and isinstance(keys.bore, InvoluteSplineTable):
+        raise ParameterError("bore.shape", "involute_spline", "not_of_this_piece")
     room = abs(disc.apex) - least_wall(disc.wheel.locking_radius) * (1 + MARGIN)
     if bored and driver.holes.bore_reach > room:
         cure = most_of(2 * room, keys.bore_diameter) if keys.bore_diameter else None

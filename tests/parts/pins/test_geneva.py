@@ -181,3 +181,11 @@ def test_a_drawing_counts_the_arcs_that_the_outline_has(keys: Keys) -> None:
     for one in (told["tip_rounding"], told["locking_arc"]):
         centres = {f"{arc.centre:.6f}" for arc in arcs if math.isclose(arc.radius, one.radius)}
         assert one.places == f" ({len(centres)} places)"
+
+
+def test_a_driver_of_one_piece_has_no_bore_of_involutes() -> None:
+    """Its layers are bounded by lines and arcs: the file was refused after it was written."""
+    bore = {"bore": {"shape": "involute_spline", "size": "8x0.5"}}
+    with pytest.raises(SceneError) as caught:
+        make_parts(scene_from_dict({"parts": {"wheel": WHEEL, "other": UNBORED | bore}}, "t", "t"), "t")
+    assert (caught.value.key, caught.value.code) == ("parts.other.bore.shape", "not_of_this_piece")
