@@ -8,7 +8,7 @@ from typing import Annotated
 from geometry.base.angles import inverse_involute, involute_function
 from geometry.solids.splines import InvoluteJoint
 from parts.base.texts import N_
-from parts.bodies.spline_steps import Length, LoadShare, Torque, bearing_steps
+from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps
 from parts.keys.base import mm
 from parts.keys.splines import InvoluteSplineTable
 from parts.pages.inputs import calculation
@@ -60,11 +60,12 @@ def sheet(keys: InvoluteSplineKeys) -> Sheet:
     page.add("hub_root_diameter", joint.hub_diameters[1])
     page.add("spline_clearance", keys.clearance)
     tip, inner = joint.shaft_diameters[1], joint.hub_diameters[0]
-    page.add("spline_mean_diameter", (tip + inner) / 2, "({d_a} + {D_a}) / 2")
-    page.add("spline_height", (tip - inner) / 2, "({d_a} - {D_a}) / 2")
+    sides = Sides(joint.teeth, (tip + inner) / 2, (tip - inner) / 2)
+    page.add("spline_mean_diameter", sides.mean_diameter, "({d_a} + {D_a}) / 2")
+    page.add("spline_height", sides.height, "({d_a} - {D_a}) / 2")
     for is_shaft in (True, False):
         _measured_steps(page, joint, keys, is_shaft=is_shaft)
-    bearing_steps(page, keys.torque, keys.length, keys.load_share)
+    bearing_steps(page, sides, keys.torque, keys.length, keys.load_share)
     return page
 
 

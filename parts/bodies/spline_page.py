@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geometry.solids.splines import SplineBore
 from parts.base.texts import N_
-from parts.bodies.spline_steps import Length, LoadShare, Torque, bearing_steps
+from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps
 from parts.keys.splines import StraightSplineTable
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
@@ -37,8 +37,10 @@ def sheet(keys: SplineKeys) -> Sheet:
     shaft = joint.shaft()
     page.add("spline_root_diameter", 2 * shaft.inner)
     page.add("spline_rounding", joint.rounding)
-    page.add("spline_mean_diameter", (joint.outer + joint.inner) / 2, "({D} + {d}) / 2")
-    page.add("spline_height", (joint.outer - joint.inner) / 2 - 2 * joint.chamfer, "({D} - {d}) / 2 - 2 * {c}")
+    height = (joint.outer - joint.inner) / 2 - 2 * joint.chamfer
+    sides = Sides(joint.teeth, (joint.outer + joint.inner) / 2, height)
+    page.add("spline_mean_diameter", sides.mean_diameter, "({D} + {d}) / 2")
+    page.add("spline_height", sides.height, "({D} - {d}) / 2 - 2 * {c}")
     page.add("spline_clearance", bore.clearance)
-    bearing_steps(page, keys.torque, keys.length, keys.load_share)
+    bearing_steps(page, sides, keys.torque, keys.length, keys.load_share)
     return page

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 from msgspec import Meta
 
@@ -15,8 +15,16 @@ Length = Annotated[float, mm("length on which hub and shaft meet", above=0, most
 LoadShare = Annotated[float, Meta(gt=0, le=1, description="part of the sides that carries; 0.7 to 0.8 in textbooks")]
 
 
-def bearing_steps(page: Sheet, torque: float | None, length: float | None, load_share: float) -> None:
-    """sigma = 2 T / (psi z d_m h l), of the height and mean diameter that the page knows.
+class Sides(NamedTuple):
+    """What carries: number of teeth, mean diameter and height of the sides, mm."""
+
+    teeth: int
+    mean_diameter: float
+    height: float
+
+
+def bearing_steps(page: Sheet, sides: Sides, torque: float | None, length: float | None, load_share: float) -> None:
+    """sigma = 2 T / (psi z d_m h l), with the mean diameter and the height that the page has told.
 
     Raises
     ------
@@ -32,6 +40,5 @@ def bearing_steps(page: Sheet, torque: float | None, length: float | None, load_
     page.add("spline_torque", torque, given=True)
     page.add("spline_length", length, given=True)
     page.add("load_share", load_share, given=True)
-    z, mean, height = (float(str(page.value_of(key).value)) for key in ("z", "d_m", "h"))
-    stress = 2000 * torque / (load_share * z * mean * height * length)
+    stress = 2000 * torque / (load_share * sides.teeth * sides.mean_diameter * sides.height * length)
     page.add("spline_bearing_stress", stress, "2000 * {T} / ({psi} * {z} * {d_m} * {h} * {l})")

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import ezdxf
 import pytest
 
 from exporters.formats.read_dxf import read_dxf
@@ -136,3 +138,25 @@ def test_another_shaft_is_caught(built: Path, name: str) -> None:
     ):
         (failure,) = SplineProbe(other, 3.0).run(file, 0.0, 5e-3).failures
         assert "clearance" in failure
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_the_last_slot_alone_is_caught(built: Path, tmp_path: Path, name: str) -> None:
+    """The one slot before the first stands 0.05 mm beside its place."""
+    bore = TABLES[name].bore()
+    (probe,) = TABLES[name].probes(3.0)
+    document = ezdxf.readfile(built / f"{name}.laser.dxf")
+    rows = document.modelspace().query("LWPOLYLINE")
+    outline = min(rows, key=lambda row: max(math.hypot(x, y) for x, y in row.get_points("xy")))
+    pitch, points = math.tau / bore.joint.teeth, outline.get_points("xyb")
+    last = cmath.rect(1.0, bore.angle - pitch)
+    turn, spoiled = cmath.rect(1.0, 0.05 / bore.reach), list[tuple[float, float, float]]()
+    for x, y, bulge in points:
+        place = complex(x, y)
+        place *= turn if abs(cmath.phase(place / last)) < pitch / 2 and abs(place) > bore.reach - 0.4 else 1.0
+        spoiled.append((place.real, place.imag, bulge))
+    assert 0 < sum(new != tuple(old) for new, old in zip(spoiled, points, strict=True)) < 20
+    outline.set_points(spoiled, format="xyb")
+    document.saveas(tmp_path / "spoiled.dxf")
+    (failure,) = probe.run(read_dxf(tmp_path / "spoiled.dxf"), 0.0, 5e-3).failures
+    assert "clearance" in failure

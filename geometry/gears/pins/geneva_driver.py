@@ -131,5 +131,7 @@ def _round(radius: float, centre: complex = 0j) -> Contour:
 
 def _outline(hole: Profile) -> Contour:
     """A clockwise hole of lines and arcs as a contour."""
-    edges = (segment.curve.reversed() for segment in reversed(tuple(hole.segments())))
-    return Contour(tuple(edge for edge in edges if isinstance(edge, Line | Arc)))
+    edges = tuple(segment.curve.reversed() for segment in reversed(tuple(hole.segments())))
+    made = tuple(edge for edge in edges if isinstance(edge, Line | Arc))
+    assert len(made) == len(edges)
+    return Contour(made)
