@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from geometry.gears.chains.chain import Chain
-from geometry.gears.chains.sprocket import GostForm, IsoForm, Sprocket, face_width, height_coefficient
+from geometry.gears.chains.sprocket import GostForm, IsoForm, Sprocket, face_width, has_lowered_tip, height_coefficient
 from parts.pages.page import Sheet
 
 ISO, GOST = "ISO 606", "GOST 591-69"
@@ -39,7 +39,7 @@ def circle_steps(page: Sheet, sprocket: Sprocket, gear: int = 0) -> None:
         if not gear or gear == 1:
             page.add("pitch_to_roller", sprocket.chain.pitch / sprocket.chain.roller_diameter, "{p} / {d_r}", GOST)
             page.add("tooth_height_coefficient", height_coefficient(sprocket.chain), "", GOST)
-        formula = "{p} * ({K} + 1 / tan(pi / {z#}))"
+        formula = "" if has_lowered_tip(sprocket) else "{p} * ({K} + 1 / tan(pi / {z#}))"
     page.add("chain_tip_diameter", 2 * sprocket.tip_radius, formula, GOST if formula else "", gear)
     if not gear or gear == 1:
         page.add("gap_radius", form.seating_radius(sprocket.chain.roller_diameter), "0.5025 * {d_r} + 0.05", GOST)

@@ -12,10 +12,11 @@ import math
 from functools import lru_cache, partial
 from typing import NamedTuple
 
-from geometry.base.errors import Nearest, OffsetError, ParameterError, PointedTipError, limit
+from geometry.base.errors import OffsetError, ParameterError, PointedTipError, limit
 from geometry.base.findings import Finding
-from geometry.base.nearest import kept, nearest
+from geometry.base.nearest import nearest
 from geometry.base.record import Record, replace
+from geometry.base.roots import bracketed_root
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.chains.chain import Chain
 from geometry.gears.teeth.offset import grown_side, toothed_region
@@ -27,6 +28,7 @@ from geometry.solids.hub_holes import HubHoles
 # K of GOST 591-69 by the pitch over the roller diameter: up to which it holds, beginning above the least
 _LEAST_RATIO = 1.4
 _HEIGHTS = ((1.5, 0.480), (1.6, 0.532), (1.7, 0.555), (1.8, 0.575), (2.0, 0.565))
+_RATIO_DIGITS = 9
 # of the pitch: tips by default are so thick where the limits of the tip diameter let them; thinner ones are told
 _TIP_LAND, _THIN_LAND = 0.05, 0.02
 _MARGIN = 1e-6
@@ -133,7 +135,8 @@ def height_coefficient(chain: Chain) -> float:
     ParameterError
         The standard has none for such a chain.
     """
-    ratio, roller = chain.pitch / chain.roller_diameter, chain.roller_diameter
+    # 9.525 over 6.35 is 1.5, which its last digit is not
+    ratio, roller = round(chain.pitch / chain.roller_diameter, _RATIO_DIGITS), chain.roller_diameter
     if ratio > _HEIGHTS[-1][0]:
         least = limit(chain.pitch / _HEIGHTS[-1][0], roller, digits=6)
         raise ParameterError("roller_diameter", roller, "no_height_of_tooth", least)
@@ -211,7 +214,7 @@ class Sprocket(Record):
     @property
     def tip_thickness(self) -> float:
         """Width of the tip land, mm (arc)."""
-        return -2 * self.tip_radius * flank_of(self).angle_at(self.tip_radius)
+        return flank_of(self).land_at(self.tip_radius)
 
     @property
     def over_pins(self) -> float:
@@ -267,6 +270,10 @@ class Flank(NamedTuple):
         far = abs(self.centre)
         share = (far**2 + radius**2 - self.radius**2) / (2 * far * radius)
         return cmath.phase(self.centre) - math.acos(min(1.0, max(-1.0, share)))
+
+    def land_at(self, radius: float) -> float:
+        """Thickness of the tooth on a circle about the axis, mm (arc)."""
+        return -2 * radius * self.angle_at(radius)
 
 
 def _walked(sprocket: Sprocket, inset: float) -> tuple[list[Segment], Flank]:
@@ -335,27 +342,35 @@ def limits_of(sprocket: Sprocket) -> TipLimits:
     least, most = sprocket.form.tips(chain, teeth)
     if given is not None:
         return _given_tip(given, (max(least, 2 * start), most), start, pointed)
-    radius = (least + most) / 4
-    if least / 2 >= pointed * (1 - _MARGIN) or radius <= start:
+    radius, highest = (least + most) / 4, pointed * (1 - _MARGIN)
+    if isinstance(sprocket.form, GostForm) and radius >= highest:
+        # displaced seats of many teeth leave none of the standard's height
+        radius = _tip_of_land(flank, _THIN_LAND * chain.pitch)
+    elif least / 2 >= highest:
         raise _toothless(sprocket)
-    land = _TIP_LAND * chain.pitch
-    if least < most and (radius >= pointed or -2 * radius * flank.angle_at(radius) < land):
+    if radius <= start:
+        raise _toothless(sprocket)
+    if least < most and (radius >= pointed or flank.land_at(radius) < _TIP_LAND * chain.pitch):
         radius = least / 2
     return TipLimits(radius, start, pointed)
 
 
+def _tip_of_land(flank: Flank, land: float) -> float:
+    """Radius at which teeth are so thick, mm; where they begin, if they are thinner there."""
+    start, pointed = abs(flank.start), flank.pointed_radius
+    if flank.land_at(start) <= land:
+        return start
+    return bracketed_root(lambda radius: flank.land_at(radius) - land, start, pointed).value
+
+
 def _toothless(sprocket: Sprocket) -> ParameterError:
-    """No tooth, or a pointed one at every tip of the form: its displacement is to blame where it alone cures that."""
-    chain, form = sprocket.chain, sprocket.form
+    """No tooth, or a pointed one at every tip of the form."""
+    chain = sprocket.chain
 
     def fits(diameter: float) -> bool:
         limits_of(replace(sprocket, chain=replace(chain, roller_diameter=diameter)))
         return True
 
-    if isinstance(form, GostForm) and form.displaced:
-        plain = replace(sprocket, form=GostForm())
-        if kept(lambda one: bool(limits_of(one)), plain):
-            return ParameterError("displaced", True, "leaves_no_tooth_between_rollers", Nearest(False))
     cure = partial(nearest, fits, chain.roller_diameter, _USUAL_ROLLER * chain.pitch, digits=6)
     return ParameterError("roller_diameter", chain.roller_diameter, "leaves_no_tooth_between_rollers", cure)
 
@@ -428,12 +443,22 @@ def checked_sprocket(sprocket: Sprocket) -> Sprocket:
     return sprocket
 
 
+def has_lowered_tip(sprocket: Sprocket) -> bool:
+    """Whether its teeth would be pointed at the tip diameter of its standard, and are lower by default."""
+    least = sprocket.form.tips(sprocket.chain, sprocket.number_of_teeth)[0]
+    return sprocket.given_tip_diameter is None and 2 * sprocket.tip_radius < least * (1 - 1e-12)
+
+
 def sprocket_findings(sprocket: Sprocket) -> tuple[Finding, ...]:
-    """Teeth that are thin at their tips, and numbers of them that ISO 606 has no gaps for."""
+    """Thin teeth, those that are lower than by their standard, and numbers of them that ISO 606 has no gaps for."""
     land = _THIN_LAND * sprocket.chain.pitch
     thin = sprocket.tip_thickness
     found = [Finding("thin_sprocket_tip", thin, land)] if thin < land * (1 - _MARGIN) else []
     teeth, (least, most) = sprocket.number_of_teeth, _ISO_TEETH
+    if has_lowered_tip(sprocket):
+        found.append(
+            Finding("lowered_sprocket_tip", 2 * sprocket.tip_radius, sprocket.form.tips(sprocket.chain, teeth)[0])
+        )
     if isinstance(sprocket.form, IsoForm):
         found += [Finding("few_sprocket_teeth", teeth, least)] if teeth < least else []
         found += [Finding("many_sprocket_teeth", teeth, most)] if teeth > most else []

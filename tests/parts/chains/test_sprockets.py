@@ -92,10 +92,8 @@ def test_a_step_file_of_bevelled_teeth_is_read_back(tmp_path: Path) -> None:
         (PLATE | {"tooth_bevel": 4.0}, "tooth_bevel", 3.60374),
         (PLATE | {"tooth_bevel": 1.0, "face_chamfer": 0.5}, "face_chamfer", None),
         (OWN | {"inner_width": 7.75, "strands": 2}, "transverse_pitch", None),
-        (PLATE | {"chain": "06B", "number_of_teeth": 90, "tooth_form": "GOST 591", "displaced": True}, "displaced",
-         False),
     ],
-)  # fmt: skip
+)
 def test_bad_keys_are_refused_with_what_works(keys: Keys, key: str, cure: object) -> None:
     with pytest.raises(SceneError) as refused:
         made(keys)

@@ -13,11 +13,22 @@ from hypothesis import given
 from hypothesis import strategies as st
 from shapely.geometry import Point, Polygon
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import ParameterError, PointedTipError
+from geometry.base.findings import Finding
+from geometry.base.record import replace
 from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc
 from geometry.gears.chains.chain import Chain, chain_of, chains
-from geometry.gears.chains.sprocket import GostForm, IsoForm, Sprocket, checked_sprocket, face_width, sprocket_side
+from geometry.gears.chains.sprocket import (
+    GostForm,
+    IsoForm,
+    Sprocket,
+    checked_sprocket,
+    face_width,
+    flank_of,
+    sprocket_findings,
+    sprocket_side,
+)
 from geometry.plane.profile import Label, Profile
 from tests.sampling import examples
 
@@ -100,7 +111,9 @@ def test_callipers_find_the_chord_between_roots(form: IsoForm | GostForm, teeth:
 
 
 @pytest.mark.parametrize("displaced", [False, True])
-@pytest.mark.parametrize(("chain", "teeth"), [("ПР-25,4-60", 25), ("ПР-12,7-18,2", 9), ("ПР-38,1-127", 40)])
+@pytest.mark.parametrize(
+    ("chain", "teeth"), [("ПР-25,4-60", 25), ("ПР-12,7-18,2", 9), ("ПР-38,1-127", 40), ("ПР-9,525-9,1", 60)]
+)
 def test_gost_gaps_have_the_centres_of_their_standard(chain: str, teeth: int, displaced: bool) -> None:
     """Centres O, O1, O2 by the coordinates that GOST 591-69 gives, x across the gap and y outwards from O."""
     found = named(chain)
@@ -116,8 +129,8 @@ def test_gost_gaps_have_the_centres_of_their_standard(chain: str, teeth: int, di
     assert [arc.centre for arc in arcs] == pytest.approx(wanted, abs=1e-9 * sprocket.tip_radius)
     assert [arc.radius for arc in arcs[:2]] == pytest.approx([radius, 0.8 * size + radius])
     assert arcs[1].sweep == pytest.approx(-beta)
-    # D_e = t (K + cot(180 deg / z)), K by the pitch over the roller: 0.532 of 1.6, 0.480 of 1.49, 0.575 of 1.71
-    height = {"ПР-25,4-60": 0.532, "ПР-12,7-18,2": 0.480, "ПР-38,1-127": 0.575}[chain]
+    # D_e = t (K + cot(180 deg / z)), K by the pitch over the roller: 0.532 of 1.6, 0.480 of 1.49 and 1.5, 0.575 of 1.71
+    height = {"ПР-25,4-60": 0.532, "ПР-12,7-18,2": 0.480, "ПР-38,1-127": 0.575, "ПР-9,525-9,1": 0.480}[chain]
     assert 2 * sprocket.tip_radius == pytest.approx(found.pitch * (height + 1 / math.tan(math.pi / teeth)))
 
 
@@ -164,21 +177,10 @@ def test_a_roller_that_leaves_along_its_involute_cuts_no_tooth(form: IsoForm | G
     form=st.sampled_from(FORMS),
     offset=st.sampled_from((-0.1, -0.01, 0.01, 0.1)),
 )
-def test_every_sprocket_of_the_table_is_an_outline_or_says_why_not(
+def test_every_sprocket_of_the_table_is_an_outline(
     teeth: int, name: str, form: IsoForm | GostForm, offset: float
 ) -> None:
-    sprocket = Sprocket(teeth, named(name), form)
-    try:
-        checked_sprocket(sprocket)
-    except ParameterError as refusal:
-        found = refusal
-    else:
-        found = None
-    if found is not None:
-        # teeth of the least pitches to a roller are pointed with displaced seats
-        assert found.name == "displaced"
-        assert found.nearest is not None
-        return
+    sprocket = checked_sprocket(Sprocket(teeth, named(name), form))
     side = sprocket_side(sprocket, offset)
     plain = Polygon([(p.real, p.imag) for p in points(side.profile(), 12)])
     whole = Polygon([(p.real, p.imag) for p in points(sprocket_side(sprocket).profile(), 12)])
@@ -190,6 +192,26 @@ def test_every_sprocket_of_the_table_is_an_outline_or_says_why_not(
         apart = [whole.exterior.distance(Point(place)) for place in around]
         assert max(apart) == pytest.approx(abs(offset), abs=0.01 * sprocket.chain.pitch)
     assert (plain.area - whole.area) * offset > 0
+
+
+@pytest.mark.parametrize(
+    ("chain", "teeth", "height"), [(named("08A"), 190, 0.555), (Chain(12.7, 12.7 / 1.41), 60, 0.480)]
+)
+def test_displaced_teeth_that_would_be_pointed_are_lower_than_their_standard(
+    chain: Chain, teeth: int, height: float
+) -> None:
+    """The tip circle runs through a fiftieth of a pitch of each, that of D_e of GOST 591-69 through none."""
+    sprocket = checked_sprocket(Sprocket(teeth, chain, GostForm(displaced=True)))
+    standard = chain.pitch * (height + 1 / math.tan(math.pi / teeth))
+    (finding,) = sprocket_findings(sprocket)
+    assert finding == Finding("lowered_sprocket_tip", 2 * sprocket.tip_radius, pytest.approx(standard))
+    flank = flank_of(sprocket)
+    for radius, land in ((sprocket.tip_radius, 0.02 * chain.pitch), (standard / 2, 0.0)):
+        half = radius * np.exp(-1j * sprocket.pitch_angle * np.linspace(0.0, 0.5, 20001))
+        inside = np.abs(half - flank.centre) < flank.radius
+        assert 2 * float(np.sum(inside)) * abs(half[1] - half[0]) == pytest.approx(land, abs=2e-4 * chain.pitch)
+    with pytest.raises(PointedTipError):
+        checked_sprocket(replace(sprocket, given_tip_diameter=standard))
 
 
 def test_refusals_name_what_works() -> None:
