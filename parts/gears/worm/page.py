@@ -18,7 +18,7 @@ from geometry.gears.worms.flank import InvoluteFlank
 from geometry.gears.worms.measures import BALL, over_balls, reference_chord
 from geometry.gears.worms.thread import Thread, thread_of
 from geometry.gears.worms.worm import Worm
-from parts.base.refusal import REMOVED, SceneError
+from parts.base.refusal import REMOVED, SceneError, explained
 from parts.base.texts import N_
 from parts.gears.worm.part import WormSpec, told_worm
 from parts.gears.worm_wheel.part import WORM_WHEEL, WormWheelSpec
@@ -53,6 +53,7 @@ from parts.pages.force_steps import asked_torque, torque_steps
 from parts.pages.inputs import SceneKeys, checked, chosen_part, given, keys_of, refusal
 from parts.pages.misprints import printed_for_worm
 from parts.pages.page import Sheet
+from parts.texts.findings import finding_message
 
 TOPIC = "worm"
 _ERRORS = ("centre_distance_error", "axis_angle_error_deg", "wheel_axial_error")
@@ -212,6 +213,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
         if torque is not None and keys.form_factor is not None:
             load = strength.Load(1e3 * torque, keys.form_factor, keys.width_factor, keys.speed_factor)
             _strength(page, drive, keys, load)
+        _wheel_remarks(page, keys)
     return page
 
 
@@ -330,14 +332,29 @@ def _lengths(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:
             page.note("the wheel's outer diameter is more than {limit:.5g} mm", limit=most)
 
 
+def _wheel_keys(keys: WormKeys) -> WormWheelSpec:
+    """The part that these keys tell; its hob is the worm without its thinning, and thicker by that of the wheel."""
+    shared = {key: getattr(keys, key) for key in WormWheelSpec.__struct_fields__ if key in WormKeys.__struct_fields__}
+    return WormWheelSpec(**shared | {"axial_thinning": keys.wheel_thinning})
+
+
+def _wheel_remarks(page: Sheet, keys: WormKeys) -> None:
+    """What the wheel's teeth had better not have, or why there are none."""
+    spec = _wheel_keys(keys)
+    try:
+        found = WORM_WHEEL.report(spec, WORM_WHEEL.thing(spec, {})).findings
+    except ParameterError as error:
+        why = explained(refusal(TOPIC, error, keys=spec))
+        page.note("such a wheel cannot be made, {key} = {value}: {why}", key=error.name, value=error.value, why=why)
+    else:
+        page.notes += [finding_message(finding) for finding in found]
+
+
 def _off_places(page: Sheet, drive: WormDrive, keys: WormKeys, errors: AxisErrors) -> None:
     """The contact of the exact surfaces where the axes stand off their places."""
-    # the hob is the worm without its thinning, and thicker by that of the wheel
-    shared = {key: getattr(keys, key) for key in WormWheelSpec.__struct_fields__ if key in WormKeys.__struct_fields__}
-    spec = WormWheelSpec(**shared | {"axial_thinning": keys.wheel_thinning})
     try:
         thread = thread_of(drive.worm, keys.tip_rounding)
-        found = contact_under(thread, WORM_WHEEL.thing(spec, {}).teeth, errors, None)
+        found = contact_under(thread, WORM_WHEEL.thing(_wheel_keys(keys), {}).teeth, errors, None)
     except ParameterError as error:
         raise refusal(TOPIC, error, keys=keys) from error
     page.section("Axes off their places")

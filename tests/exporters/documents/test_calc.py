@@ -23,6 +23,7 @@ from parts.pages.page import KEYS, Sheet, Step
 from parts.pages.terms import TERMS
 from parts.scene.files import built_in_scenes
 from parts.scene.load import load_scene, make_parts, scene_from_dict
+from parts.texts.findings import finding_text
 from tests.exporters.command.test_cli import complaint
 from tests.exporters.making import run
 
@@ -765,6 +766,19 @@ def test_a_worm_is_told_by_its_lead_angle_as_in_scenes(capsys: pytest.CaptureFix
         ("hob_diameter_quotient=9.5", "worm.hob_diameter_quotient = 9.5: must not be less than the worm's"),
     ):
         assert said in complaint(capsys, "calc", *f"{words} {key}".split())
+
+
+def test_a_worm_drive_says_of_its_wheel_what_the_part_is_told() -> None:
+    # before: a page of an undercut wheel, and of one that no hob leaves, held its peace
+    wheel = {"module": 2.0, "number_of_teeth": 17, "diameter_quotient": 8.0}
+    words = [f"{key}={value}" for key, value in wheel.items()]
+    made = make_parts(scene_from_dict({"parts": {"wheel": {"kind": "worm_wheel", **wheel}}}, "s", "s"), "s")[0]["wheel"]
+    (told,) = (finding_text("en", f) for f in made.findings if f.code == "worm_wheel_undercut")
+    assert f"note: {told}" in calculate("worm", words, "text", "en")
+    assert "undercut" not in calculate("worm", [*words, "profile_shift_coefficient=0.5"], "text", "en")
+    wide = calculate("worm", ["module=2", "number_of_teeth=30", "face_width=30"], "text", "en")
+    assert "note: such a wheel cannot be made, face_width = 30.0: " in wide
+    assert "at most 21.6" in wide
 
 
 def test_a_worm_drive_that_locks_itself_says_so() -> None:
