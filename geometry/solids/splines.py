@@ -241,6 +241,11 @@ class StraightJoint(Record):
         return self.outer / 2
 
     @property
+    def reference_radius(self) -> float:
+        """None, 0."""
+        return 0.0
+
+    @property
     def name(self) -> str:
         """Its designation, with the teeth's width where no standard has it."""
         sizes = "×".join(f"{size:g}" for size in self.sizes[: 3 if self.standard else 4])
@@ -294,8 +299,13 @@ class InvoluteJoint(Record):
         """How far from the axis the slots of its hub go, mm."""
         return self.hub_diameters[1] / 2
 
+    @property
+    def reference_radius(self) -> float:
+        """m z / 2, mm."""
+        return self.module * self.teeth / 2
+
     def _flank(self) -> InvoluteFlank:
-        reference = self.module * self.teeth / 2
+        reference = self.reference_radius
         half = self.thickness / (2 * reference) + involute_function(self.pressure_angle)
         return InvoluteFlank(reference * math.cos(self.pressure_angle), half)
 

@@ -34,6 +34,7 @@ from parts.drawing.wheel_views import (
     hole_axes,
     hole_round,
     level,
+    pitch_circle,
     section_sides,
     spline_sizes,
 )
@@ -85,13 +86,19 @@ def part_drawing(subject: Subject) -> PartDrawing:
         found.append(centre)
     if half.pockets:
         found += _keyways(half, found[0].cuts, subject)
-    bores = [step.spline.bore() for step in keys.steps if step.spline] if isinstance(keys, ShaftSpec) else []
+    bores = _spline_bores(subject)
     for cut, spline, bore in zip(found[0].cuts[len(_planes(half)) :], half.splines, bores, strict=True):
         found.append(_spline_section(half, spline, bore, f"{cut.letter}-{cut.letter}", subject))
     square = [c.letter for c in found[0].cuts if not all(p.round_ends for p in _crossed(half, c.at))]
     more = [subject.words("square_keyways", letter=letter) for letter in square]
     more += [line for bore in bores for line in involute_data(bore, subject, is_shaft=True)]
     return PartDrawing(tuple(found), requirements(subject, *more, *directions(holes, subject, "")))
+
+
+def _spline_bores(subject: Subject) -> list[SplineBore]:
+    """What the splines of a shaft go into."""
+    keys = subject.part.keys
+    return [step.spline.bore() for step in keys.steps if step.spline] if isinstance(keys, ShaftSpec) else []
 
 
 def _is_cut(half: HalfSection, loop: Loop, *, is_shaft: bool) -> bool:
@@ -173,12 +180,14 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
                 strokes += [(VISIBLE, wall if way > 0 else wall.mirrored()) for wall in (near, far)]
             axes.append(level((low, high), way * radius))
         sizes.append(circle_size("holes", centres, low))
-    for spline in half.splines:
+    for spline, bore in zip(half.splines, _spline_bores(subject), strict=True):
         # teeth are not cut along their shaft (GOST 2.409)
         for way in (1, -1):
             root, _, around = bar((spline.low, spline.high), *(way * radius for radius in spline.radii))
             strokes.append((VISIBLE if cut else THIN, root))
             drilled.append(around)
+            if pitch := bore.joint.reference_radius:
+                axes.append(level((spline.low, spline.high), way * pitch))
     hatched = (tuple(upper), below(lower), *map(tuple, drilled)) if cut else ()
     planes = [*_planes(half), *((spline.low + spline.high) / 2 for spline in half.splines)]
     cuts = tuple(Cut(at, subject.letter(k)) for k, at in enumerate(planes))
@@ -427,8 +436,9 @@ def _spline_section(half: HalfSection, spline: Splined, bore: SplineBore, title:
     inner = half.radii()[0]
     hole = [circle_of(inner)] if inner > 0 else list[Arc]()
     sizes, rounds, note = spline_sizes(bore, subject, is_shaft=True)
+    strokes = [(VISIBLE, curve) for curve in (*curves, *hole)] + pitch_circle(bore.joint.reference_radius)
     return View(
-        tuple((VISIBLE, curve) for curve in (*curves, *hole)), (tuple(loop), *((c,) for c in hole)),
+        tuple(strokes), (tuple(loop), *((c,) for c in hole)),
         axis_cross(spline.radii[1]), sizes, rounds, (note,), title, _LEAST_SECTION,
     )  # fmt: skip
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
@@ -157,7 +158,8 @@ def bore_radii(bore: Bore | None) -> tuple[float, float]:
         case PolygonBore():
             return bore.across_flats / 2, bore.across_flats / 2
         case SplineBore():
-            return bore.reach, bore.form.inner if bore.joint.teeth % 2 else bore.reach
+            # teeth stand in the plane of the section, uncut (GOST 2.409)
+            return bore.form.inner, bore.form.inner
         case _:
             return bore.reach, bore.reach
 
@@ -171,8 +173,8 @@ def bore_cut(bore: Bore | None, low: float, high: float, turn: float) -> tuple[t
 
     Edges run from ``low`` to ``high``; one is seen where no wall stands before it.
     """
-    upright = bore is None or isinstance(bore, RoundBore) or abs(bore.angle + turn - _UP) < _NONE
-    if bore is None or (upright and not isinstance(bore, SplineBore)):
+    upright = bore is None or isinstance(bore, RoundBore | SplineBore) or abs(bore.angle + turn - _UP) < _NONE
+    if bore is None or upright:
         return bore_radii(bore), [*keyway_edges(bore, low, high)]
     profile = bore.profile().placed(Placement2(turn))
     curves = [segment.curve for segment in profile.segments()]
@@ -195,15 +197,46 @@ def keyway_edges(bore: Bore | None, low: float, high: float) -> Iterator[Line]:
         yield from (level((low, high), way * rim) for way in (1, -1)[: bore.keys])
 
 
+class SplineCut(NamedTuple):
+    """Of splines in a section: their teeth, which are not hatched, their roots, the lines of their reference circle."""
+
+    teeth: tuple[Loop, ...] = ()
+    roots: tuple[Line, ...] = ()
+    axes: tuple[Line, ...] = ()
+
+
+def spline_cut(bore: Bore | None, low: float, high: float, chamfers: tuple[float, float] = (0.0, 0.0)) -> SplineCut:
+    """What a section from ``low`` to ``high`` has of a bore's splines; legs of ``chamfers`` at both ends, mm."""
+    if not isinstance(bore, SplineBore):
+        return SplineCut()
+    under, over = chamfers
+    tips, roots = (
+        [complex(low, r + under), complex(low + under, r), complex(high - over, r), complex(high, r + over)]
+        for r in (bore.form.inner, bore.reach)
+    )
+    tooth, root = closed([*tips, *roots[::-1]]), closed(roots)[:-1]
+    axes = tuple(level((low, high), way * _beside_tips(bore)) for way in (1, -1) if _beside_tips(bore))
+    return SplineCut((tooth, below(tooth)), (*root, *(line.mirrored() for line in root)), axes)
+
+
+def _bore_chamfers(shape: WheelShape, at: _Levels) -> tuple[float, float]:
+    """Legs of the chamfers at the lower and the upper end of a bore: none where a recessed web ends it."""
+    below, above = (
+        cut if at.hub[side] != at.web[side] or at.web[side] == at.rim[side] else 0.0
+        for side, cut in ((0, shape.chamfer_below), (1, shape.chamfer_above))
+    )
+    return below, above
+
+
 def _half(wheel: Wheel, bore: float, outer: float, *, toothed: bool) -> list[complex]:
     """Corners of half a section, x + iy = height + i radius, from the bore upwards on the upper face and back."""
     shape, at = wheel.shape, levels(wheel.shape)
-    sides = []
+    sides, chamfers = [], _bore_chamfers(shape, at)
     for side, cut in ((1, shape.chamfer_above), (0, shape.chamfer_below)):
         way = 1 if side else -1
         stepped, recessed = at.hub[side] != at.web[side], at.web[side] != at.rim[side]
         points: list[complex] = []
-        inner = cut if bore and (stepped or not recessed) else 0.0
+        inner = chamfers[side] if bore else 0.0
         points += [complex(at.hub[side] - way * inner, bore), complex(at.hub[side], bore + inner)]
         if stepped and shape.hub is not None:
             radius = shape.hub.diameter / 2
@@ -251,6 +284,9 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
     hatched: list[Loop] = []
     axes = [Line(complex(min(at.hub[0], 0.0)), complex(max(at.hub[1], shape.face_width)))]
     bores, edges = bore_cut(holes.bore, *at.hub, wheel.turn)
+    spline = spline_cut(holes.bore, *at.hub, _bore_chamfers(shape, at))
+    hatched += spline.teeth
+    axes += spline.axes
     for bore, tip, way in zip(bores, wheel.tip, (1, -1), strict=True):
 
         def placed(loop: Loop, way: int = way) -> Loop:
@@ -263,7 +299,7 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
         if wheel.pitch is not None:
             axes.append(level(at.rim, way * wheel.pitch))
         cut_holes(holes, wheel.turn, way, at.web, (strokes, hatched, axes))
-    strokes += [(VISIBLE, edge) for edge in edges]
+    strokes += [(VISIBLE, edge) for edge in (*edges, *spline.roots)]
     sizes, notes = tuple(_section_sizes(wheel, subject)), _section_notes(wheel, subject, at, -bores[1])
     return View(tuple(strokes), tuple(map(tuple, hatched)), tuple(axes), sizes, tuple(_crown_rounds(wheel)), notes)
 
@@ -420,7 +456,11 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
     if wheel.outline is not None:
         marks = subject.part.section(0.0).region.marks
         strokes += [(THIN, s.curve.placed(placement)) for mark in marks for s in mark.segments()]
-    for profile in wheel.holes.profiles():
+    holes = wheel.holes
+    if isinstance(holes.bore, SplineBore):
+        strokes += _spline_circles(holes.bore)
+        holes = replace(holes, bore=None)
+    for profile in holes.profiles():
         strokes += [(VISIBLE, s.curve.placed(placement)) for s in profile.segments()]
     strokes += [(AXIS, circle_of(group.pitch_circle_diameter / 2)) for group in circled(wheel.holes)]
     axes = (*axis_cross(tip), *hole_axes(wheel.holes, turn))
@@ -539,10 +579,28 @@ def _bore_title(angle: float, subject: Subject, others: float | None) -> str:
 def _spline_view(bore: SplineBore, strokes: list[Stroke], subject: Subject, others: float | None) -> View:
     """Slots, upright, with what tells them."""
     sizes, rounds, note = spline_sizes(bore, subject, is_shaft=False)
-    up, down = bore_radii(bore)
-    axes = Line(complex(-up), complex(up)), Line(-1j * down, 1j * up)
+    strokes += pitch_circle(bore.joint.reference_radius)
     title = _bore_title(_UP - bore.angle, subject, others)
-    return View(tuple(strokes), (), axes, sizes, rounds, (note,), title, _LEAST_BORE)
+    return View(tuple(strokes), (), axis_cross(bore.reach), sizes, rounds, (note,), title, _LEAST_BORE)
+
+
+def pitch_circle(radius: float) -> list[Stroke]:
+    """The reference circle of involute splines; nothing of straight ones."""
+    return [(AXIS, circle_of(radius))] if radius else []
+
+
+def _beside_tips(bore: SplineBore) -> float:
+    """Radius of the reference circle, 0 where there is none, or where their tips are drawn over it."""
+    return pitch if abs((pitch := bore.joint.reference_radius) - bore.form.inner) > _NEAR else 0.0
+
+
+def _spline_circles(bore: SplineBore) -> list[Stroke]:
+    """Splines seen along their axis: their tips, the roots thin, the reference circle (GOST 2.409)."""
+    return [
+        (VISIBLE, circle_of(bore.form.inner)),
+        (THIN, circle_of(bore.reach)),
+        *pitch_circle(_beside_tips(bore)),
+    ]
 
 
 def spline_sizes(

@@ -33,6 +33,7 @@ from parts.drawing.wheel_views import (
     ring_face,
     ring_section,
     seen_along,
+    spline_cut,
     wheel_views,
 )
 from parts.drawing.working import (
@@ -306,7 +307,7 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
     if made is not None:
         up, down = bore_radii(made)
         strokes += [(HIDDEN, level((low, high), y)) for y in (-down, up)]
-        strokes += [(HIDDEN, edge) for edge in keyway_edges(made, low, high)]
+        strokes += [(HIDDEN, edge) for edge in (*keyway_edges(made, low, high), *spline_cut(made, low, high).roots)]
         if isinstance(made, RoundBore):
             sizes.append(Size("bore_diameter", complex(high, -down), complex(high, up), "right", "Ø", wishes.bore))
     rough = [Note(complex(top / 2, worm.tip_radius), subject.rough(wishes.flank_roughness), is_rough=True)]

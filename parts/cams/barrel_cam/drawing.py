@@ -20,9 +20,9 @@ from geometry.solids.hub_holes import HubHoles
 from parts.cams.barrel_cam.part import BarrelCamSpec
 from parts.drawing.directions import directions
 from parts.drawing.extent import farthest
-from parts.drawing.revolved import below, closed, outlined, seen_edges
+from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
 from parts.drawing.shown import shown_pieces
-from parts.drawing.wheel_views import bore_cut, bore_view, seen_along
+from parts.drawing.wheel_views import bore_cut, bore_view, seen_along, spline_cut
 from parts.drawing.working import VISIBLE, Note, PartDrawing, Side, Size, Stroke, Subject, View, requirements
 from parts.keys.holes import bore_of, hub_holes
 
@@ -59,9 +59,10 @@ def _ends(body: BarrelBody) -> tuple[float, float]:
 def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
     """The axial section; of a groove the edges behind it are left to the development."""
     strokes: list[Stroke] = []
-    hatched, sizes = [], list[Size]()
+    hatched, sizes = list[Loop](), list[Size]()
     low, high = _ends(body)
     walls, bore_edges = bore_cut(holes.bore, low, high, _TURNED)
+    spline = spline_cut(holes.bore, low, high)
     for way, polar, bore in zip((1, -1), (0.0, math.pi), walls, strict=True):
         whole, cut = closed([*_outline(body, bore)]), closed([*_outline(body, bore, polar)])
         side = cut if way > 0 else below(cut)
@@ -70,7 +71,8 @@ def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
         edges = (e for e in seen_edges(whole, cut=True) if body.cam.is_groove or e.start.real < body.length - _SAME)
         strokes += [(VISIBLE, e if way > 0 else e.mirrored()) for e in edges]
         hatched.append(side)
-    strokes += [(VISIBLE, edge) for edge in (*bore_edges, *_track_edges(body))]
+    strokes += [(VISIBLE, edge) for edge in (*bore_edges, *spline.roots, *_track_edges(body))]
+    hatched += spline.teeth
     cam, wishes = body.cam, subject.wishes
     outer, inner, length = cam.outer, cam.inner, body.length
 
@@ -99,10 +101,10 @@ def _section(body: BarrelBody, holes: HubHoles, subject: Subject) -> View:
     middle = (outer + inner) / 2
     at = complex(_wall(cam, LOWER, middle, 0.0), middle)
     rough = Note(at, subject.rough(wishes.flank_roughness), is_rough=True)
-    axes = (Line(complex(min(low, 0.0)), complex(max(high, length))),)
+    axes = (Line(complex(min(low, 0.0)), complex(max(high, length))), *spline.axes)
     return View(
         tuple(strokes),
-        tuple(hatched),
+        tuple(map(tuple, hatched)),
         axes,
         tuple(size for size in sizes if size.value),
         notes=(rough, Note(-1j * outer, "z = 0", free=-1 - 1j)),

@@ -24,6 +24,7 @@ from parts.drawing.wheel_views import (
     face_view,
     keyway_edges,
     seen_along,
+    spline_cut,
 )
 from parts.drawing.working import (
     AXIS,
@@ -78,7 +79,10 @@ def part_drawing(subject: Subject) -> PartDrawing:
         strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in edges]
         hatched.append(tuple(roots))
         cut_holes(holes, wheel.turn, way, (low, high), (strokes, hatched, axes))
-    strokes += [(VISIBLE, edge) for edge in keyway_edges(holes.bore, 0.0, high)]
+    spline = spline_cut(holes.bore, 0.0, high)
+    strokes += [(VISIBLE, edge) for edge in (*keyway_edges(holes.bore, 0.0, high), *spline.roots)]
+    hatched += spline.teeth
+    axes += spline.axes
     wishes = subject.wishes
     is_round = holes.bore is None or isinstance(holes.bore, RoundBore)
     fits = Fits("", wishes.bore, wishes.tip)
