@@ -117,10 +117,14 @@ def check_pair(
 
     ``second_turn`` (rad) and ``centre_shift`` (mm): how far the pair stands off the exact one; ``tolerance`` in mm.
     """
-    found = _contact(mating, second_turn, centre_shift, tolerance)
+    found, told = _contact(mating, second_turn, centre_shift, tolerance), pair_quantities(mating)
+    findings = [
+        {"code": f.code, "value": f.value, "limit": f.limit, "text": finding_text(language, f)}
+        for f in mating.findings()
+    ]
     if found is None:
-        return pair_quantities(mating)
-    worst, told = found.worst, pair_quantities(mating)
+        return told | ({"findings": findings} if findings else {})
+    worst = found.worst
     if "roller_clearance" in told:
         # a groove holds its roller from both sides
         told["walls"] = {k: [min(g), max(g)] for k, g in zip(("inner", "outer"), found.side_gaps, strict=True)}
@@ -133,10 +137,7 @@ def check_pair(
         **_where(mating, worst.drive_angle),
         "point": [worst.point.real, worst.point.imag],
         "labels": [label.value for label in worst.labels],
-        "findings": [
-            {"code": f.code, "value": f.value, "limit": f.limit, "text": finding_text(language, f)}
-            for f in mating.findings()
-        ],
+        "findings": findings,
     }
 
 

@@ -19,12 +19,13 @@ def disk_drawing(
     subject: Subject, shape: WheelShape, holes: HubHoles, zero: str, circles: Sequence[str] = (), teeth: int = 0,
     grooves: tuple[Groove, ...] = (),
     bevel: tuple[float, float] | None = None,
+    rim: float | None = None,
 ) -> PartDrawing:  # fmt: skip
     """Section, face as the files have it, bore.
 
     ``zero``: the key of the words for its direction +x; ``circles``: names of those of the part that are shown with
     sizes; ``teeth``: how many stand about it, any of which is as good as the first; ``grooves`` and ``bevel``: of its
-    rim.
+    rim; ``rim``: how far it reaches where that is more than the outline, mm.
     """
     outline = subject.part.section(0.0).region.outer
     if all(isinstance(s.curve, Arc) and s.curve.centre == 0 for s in outline.period):
@@ -37,6 +38,6 @@ def disk_drawing(
         Round(name.removesuffix("_diameter"), 0j, subject.part.circles[name] / 2, angles=(-60.0, -120.0, -30.0, 210.0))
         for name in circles
     )
-    tip = reach(outline, math.pi / 2), reach(outline, -math.pi / 2)
+    tip = (reach(outline, math.pi / 2), reach(outline, -math.pi / 2)) if rim is None else (rim, rim)
     wheel = replace(bare, tip=tip, rounds=rounds, stands=False, grooves=grooves, bevel=bevel)
     return PartDrawing(wheel_views(wheel, subject), requirements(subject, *directions(holes, subject, zero, teeth)))

@@ -132,6 +132,12 @@ SHEETS = [
     ("sprocket", "chain_drive", "part=printed_pinion"),
     ("chain", "chain_drive", "part=pinion", "speed_rpm=300", "power=1500"),
     ("chain", "chain_drive", "part=printed_pinion", "torque=20"),
+    ("pulley", "belt=T5", "number_of_teeth=20", "clearance=0.05"),
+    ("pulley", "belt_drive", "part=wheel"),
+    ("pulley", "belt=AT5", "number_of_teeth=30", "outer_diameter=46.5"),
+    ("belt", "belt_drive", "speed_rpm=600", "torque=0.4"),
+    ("belt", "belt=5M", "number_of_teeth=20", "mate_number_of_teeth=40", "centre_distance=180", "speed_rpm=1450",
+     "power=500"),
     ("noncircular", "oval_gears", "part=oval"),
     ("power-table", "x=50", "y=-80", "orientation=thesis"),
     ("power-table", "arms=[72,50]", "x=-30", "y=40"),
@@ -246,7 +252,7 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
 def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
     sheet = sheet_for(" ".join(words))
     checked = [step for step in sheet.steps() if step.formula]
-    assert len(checked) >= {"cam": 4, "planetary": 4, "involute": 0, "spline": 3}.get(words[0], 8)
+    assert len(checked) >= {"cam": 4, "pulley": 2, "planetary": 4, "involute": 0, "spline": 3}.get(words[0], 8)
     for step in checked:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
 

@@ -88,6 +88,9 @@ PARTS["geneva ring"] = {key: value for key, value in PARTS["geneva"].items() if 
 PARTS["key"] = {"kind": "key", "shaft_diameter": 30.0, "length": 32.0}
 PARTS["sprocket"] = {"kind": "sprocket", "chain": "08B-2", "number_of_teeth": 12, "bore_diameter": 14.0,
                      "hub": {"diameter": 30.0, "above": 8.0}}  # fmt: skip
+PARTS["pulley"] = {"kind": "timing_pulley", "belt": "T5", "number_of_teeth": 18, "bore_diameter": 8.0,
+                   "flanges": {"diameter": 34.0, "thickness": 1.5},
+                   "hub": {"diameter": 20.0, "above": 6.0}}  # fmt: skip
 PARTS |= {
     "pin": {"kind": "pin", "diameter": 8.0, "length": 60.0},
     "eccentric": {"kind": "eccentric", "diameter": 32.0, "eccentricity": 4.0, "bore_diameter": 10.0},
@@ -194,6 +197,8 @@ SIZES: dict[str, list[float]] = {
         21.92 + 0.91 * 7.75,
         12.7 / math.tan(math.pi / 12) - 1.04 * 11.81 - 0.76,
     ],
+    # p z / pi, 0.83 less, 2.5 more deep; teeth of 10 between flanges of 1.5, hub and bore
+    "pulley": [8, 20, 90 / math.pi, 90 / math.pi - 0.83, 90 / math.pi - 3.33, 10, 13, 19, 34],
     "plate": [120, 80, 8, 15, 105, 60, 15, 50, 6, 20],
     "pin": [8, 60],
     "eccentric": [10, 10, 4, 32],

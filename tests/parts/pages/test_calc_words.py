@@ -24,6 +24,7 @@ SHEETS = {
     "lantern": ("lantern", ["lantern_pair"]),
     "geneva": ("geneva", ["geneva_drive", "part=ring"]),
     "chain": ("chain", ["chain_drive", "part=printed_pinion", "speed_rpm=300", "torque=5"]),
+    "belt": ("belt", ["belt_drive", "speed_rpm=300", "torque=0.5"]),
     "cycloidal": ("cycloidal", ["cycloidal_reducer"]),
     "barrel": ("cam", ["barrel_cam", "part=barrel"]),
     "wedge": ("cam", ["wedge_cam"]),

@@ -1,0 +1,1 @@
+"""The part kind of timing belts: pulleys."""

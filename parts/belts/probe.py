@@ -1,0 +1,46 @@
+"""What the files of a timing pulley must also do: leave room for a tooth of the belt in every groove."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geometry.base.record import Record
+from parts.base.readback import Probed, outline_points, refuse_if
+from parts.base.texts import unless
+
+if TYPE_CHECKING:
+    from geometry.gears.belts.pulley import Pulley
+    from parts.base.readback import ReadBack
+
+_ROUNDING = 1e-12
+
+
+class GrooveProbe(Record):
+    """The thickest pin that has room in the middle of every groove; ``height``: where a solid is cut, mm."""
+
+    pulley: Pulley
+    height: float
+    name: str = ""
+    needs_whole: bool = False
+
+    def run(self, file: ReadBack, offset: float, declared: float) -> Probed:
+        """The least gap to its pins, of all grooves at once; see ``parts.base.readback.Probe``."""
+        from geometry.gears.belts.pulley import pulley_side
+        from geometry.gears.mesh.search import gear_outline
+
+        pulley, loops = self.pulley, sorted(file.section(self.height), key=lambda loop: loop.size)
+        refuse_if(not loops, "there are no teeth for a belt")
+        pitch = pulley.pitch_angle
+        # seen from tooth 1 its groove is half a pitch below
+        centre = (pulley.outer_radius - pulley.depth / 2) * np.exp(-0.5j * pitch)
+        radius = abs(float(gear_outline(pulley_side(pulley)).feet(np.array([centre])).distance[0]))
+        points = outline_points(loops[-1])
+        points *= np.exp(-1j * pitch * np.round((np.angle(points) + pitch / 2) / pitch))
+        gap = float(np.abs(points - centre).min()) - radius
+        allowed = declared + offset + _ROUNDING * pulley.pitch_radius
+        return Probed(
+            {"pin_gap": gap},
+            tuple(unless(gap >= -allowed, "the gap between pins and grooves is {gap:.6g} mm", gap=gap)),
+        )

@@ -1,0 +1,201 @@
+"""The part kind ``timing_pulley``: a wheel for a timing belt, with the grooves of the belt's standard."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from typing import TYPE_CHECKING, Annotated
+
+from msgspec import Meta, Struct
+
+from geometry.base.errors import Nearest, ParameterError
+from geometry.base.record import replace
+from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
+from parts.base.kind import Others, Report
+from parts.keys.base import MOST_LENGTH, degrees, mm, part_mm, start
+from parts.keys.pins import check_holes, holes_of
+from parts.keys.wheel import WheelKeys, WheelKind, wheel_shape
+
+if TYPE_CHECKING:
+    from geometry.gears.belts.belt import Belt
+    from geometry.gears.belts.pulley import Pulley
+    from geometry.plane.offset_region import OffsetRegion
+    from geometry.plane.profile import Profile
+    from geometry.solids.body import Body
+    from parts.base.readback import Probe
+
+
+class BeltTable(Struct, forbid_unknown_fields=True):
+    """A belt of your own, its grooves with straight flanks."""
+
+    pitch: Annotated[float, mm("pitch", above=0, most=1000, example=5.0)]
+    line_offset: Annotated[
+        float, mm("pitch line of the belt over the outer circle of the pulley", least=0, most=100, example=0.5)
+    ]
+    groove_depth: Annotated[float, mm("depth of the grooves", above=0, most=1000, example=1.95)]
+    groove_width: Annotated[
+        float, mm("their width between the corners on the outer circle", above=0, most=1000, example=3.32)
+    ]
+    groove_angle_deg: Annotated[float, degrees("angle between their flanks", least=1, most=120)] = 50.0
+    root_radius: Annotated[float, mm("their root radius at most", least=0, most=1000, example=0.4)] = 0.0
+    tip_radius: Annotated[float, mm("rounding of the tips", least=0, most=1000, example=0.6)] = 0.0
+
+
+class FlangesTable(Struct, forbid_unknown_fields=True):
+    """Discs at the faces that keep the belt on."""
+
+    diameter: Annotated[float, part_mm("their diameter", above=0, example=42.0)]
+    thickness: Annotated[float, mm("thickness of each", least=0.01, most=1000)] = 1.0
+    below: Annotated[bool, Meta(description="one at the lower face")] = True
+    above: Annotated[bool, Meta(description="one at the upper face")] = True
+
+
+class TimingPulleySpec(WheelKeys, kw_only=True, tag_field="kind", tag="timing_pulley"):
+    """Keys of ``timing_pulley``."""
+
+    number_of_teeth: Annotated[int, Meta(ge=6, le=500, description="number of teeth z", examples=[20])]
+    belt: (
+        Annotated[str, Meta(description="designation of the belt: MXL to XXH, T2.5 to T20, AT5, 5M (HTD), GT2"),
+                  start("T5")]
+        | BeltTable
+    )  # fmt: skip
+    outer_diameter: (
+        Annotated[
+            float,
+            mm("outer diameter; default: that of the belt's pitch line", above=0, most=2 * MOST_LENGTH, example=31.0),
+        ]
+        | None
+    ) = None
+    clearance: Annotated[
+        float, mm("how far the walls of the grooves stand off those of the standard, for printing", least=0, most=100)
+    ] = 0.0
+    flanges: FlangesTable | None = None
+    face_width: Annotated[float, mm("width of the teeth between the flanges", least=0.01, most=10_000)] = 10.0
+
+
+class TimingPulleyKind(WheelKind[TimingPulleySpec, "Pulley"]):
+    """A pulley for a timing belt."""
+
+    name, keys = "timing_pulley", TimingPulleySpec
+    drawing = data_table = "parts.belts.drawing"
+
+    def thing(self, keys: TimingPulleySpec, others: Others) -> Pulley:
+        """The pulley, checked to have lands between its grooves, and holes within them."""
+        from geometry.gears.belts.pulley import Flanges, Pulley, check_flanges, checked_pulley
+
+        table, flanges = keys.flanges, None
+        if table is not None:
+            if not (table.below or table.above):
+                raise ParameterError("flanges.above", False, "flanges_at_no_face", Nearest(True))
+            if keys.face_chamfer:
+                raise ParameterError("face_chamfer", None, "of_no_flanges", Nearest(None))
+            flanges = Flanges(table.diameter, table.thickness, table.below, table.above)
+        pulley = checked_pulley(
+            Pulley(keys.number_of_teeth, belt_of_keys(keys), keys.clearance, keys.outer_diameter)
+        )  # fmt: skip
+        pulley = replace(pulley, toothed_width=keys.face_width, flanges=flanges)
+        check_flanges(pulley)
+        holes = holes_of(keys)
+        check_holes(keys, holes, pulley.root_radius)
+        check_wheel(shape_of_pulley(keys, pulley), 2 * _face_radius(keys, pulley), holes)
+        return replace(pulley, holes=holes)
+
+    def section(self, keys: TimingPulleySpec, thing: Pulley, offset: float) -> OffsetRegion:
+        """The exact section of the teeth, moved."""
+        from geometry.gears.belts.pulley import pulley_region
+
+        return pulley_region(thing, offset)
+
+    def outline(self, thing: Pulley, offset: float) -> Profile:
+        """Of its teeth."""
+        from geometry.gears.belts.pulley import pulley_side
+
+        return pulley_side(thing, offset).profile()
+
+    def solid(self, keys: TimingPulleySpec, thing: Pulley, offset: float) -> Body:
+        """The pulley with its flanges, web, hub and chamfers."""
+
+        def outline(moved: float, depth: float) -> Profile:
+            return self.outline(thing, moved - depth)
+
+        sections = wheel_sections(outline, _face_radius(keys, thing), thing.holes)
+        if thing.flanges is not None:
+            from geometry.gears.belts.flanges import flanged_teeth
+
+            sections = replace(sections, rim=partial(flanged_teeth, thing))
+        return wheel_body(shape_of_pulley(keys, thing), sections, offset)
+
+    def height(self, keys: TimingPulleySpec, thing: Pulley) -> float:
+        """Width of teeth and flanges, mm."""
+        return thing.total_width
+
+    def is_plate(self, keys: TimingPulleySpec, thing: Pulley) -> bool:
+        """Whether there is nothing but one section."""
+        return thing.flanges is None and shape_of_pulley(keys, thing).is_plate
+
+    def numbers(self, keys: TimingPulleySpec) -> str:
+        """Teeth, and the belt."""
+        belt = keys.belt if isinstance(keys.belt, str) else f"p\u00a0{keys.belt.pitch:.6g}"
+        return f"{super().numbers(keys)} {belt}"
+
+    def report(self, keys: TimingPulleySpec, thing: Pulley) -> Report:
+        """Diameters, grooves and lands, and what is poor."""
+        from geometry.gears.belts.pulley import pulley_findings
+
+        circles = {
+            "outer_diameter": 2 * thing.outer_radius,
+            "pitch_diameter": 2 * thing.pitch_radius,
+            "root_diameter": 2 * thing.root_radius,
+        }
+        quantities = {
+            "pitch": thing.belt.pitch,
+            "pitch_line_offset": thing.pitch_radius - thing.outer_radius,
+            "pulley_groove_depth": thing.depth,
+            "land_width": thing.land,
+        }
+        return Report(pulley_findings(thing), circles, quantities)
+
+    def probes(self, keys: TimingPulleySpec, thing: Pulley) -> tuple[Probe, ...]:
+        """A pin fits every groove as it fits the exact one."""
+        from parts.belts.probe import GrooveProbe
+
+        return (GrooveProbe(thing, thing.middle),)
+
+
+TIMING_PULLEY = TimingPulleyKind()
+
+
+def belt_of_keys(keys: TimingPulleySpec) -> Belt:
+    """The belt of the keys, by its designation or by its sizes.
+
+    Raises
+    ------
+    ParameterError
+        No such belt.
+    """
+    from geometry.gears.belts.belt import Belt, StraightGroove, belt_of, like_belt
+
+    own = keys.belt
+    if isinstance(own, BeltTable):
+        half = math.radians(own.groove_angle_deg / 2)
+        groove = StraightGroove(own.groove_width, own.groove_depth, half, own.root_radius, own.tip_radius)
+        return Belt(own.pitch, own.line_offset, groove)
+    found = belt_of(own)
+    if found is None:
+        like = like_belt(own)
+        raise ParameterError("belt", own, "no_such_belt", Nearest(like, "meant") if like else None)
+    return found
+
+
+def shape_of_pulley(keys: TimingPulleySpec, pulley: Pulley) -> WheelShape:
+    """Width of teeth and flanges, web, hub and chamfers."""
+    return wheel_shape(pulley.total_width, keys.web, keys.hub, keys.face_chamfer)
+
+
+def _face_radius(keys: TimingPulleySpec, pulley: Pulley) -> float:
+    """Within which web and hub stand, mm: of the roots, or of the flanges where these are at every face with a hub."""
+    flanges, hub = pulley.flanges, keys.hub
+    if flanges is None or hub is None or keys.web is not None:
+        return pulley.root_radius
+    stands = (flanges.below or not hub.below) and (flanges.above or not hub.above)
+    return flanges.diameter / 2 if stands else pulley.root_radius

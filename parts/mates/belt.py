@@ -1,0 +1,163 @@
+"""The mate ``belt_drive``: two pulleys and the timing belt about them."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import TYPE_CHECKING, Annotated, Any
+
+from msgspec import Meta
+
+from geometry.base.errors import Nearest, ParameterError, limit
+from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Toothed
+from parts.keys.base import mm
+from parts.keys.mate import Direction, height
+
+if TYPE_CHECKING:
+    from geometry.base.findings import Finding
+    from geometry.curves.curve import Complex
+    from geometry.gears.belts.drive import BeltMesh
+    from geometry.gears.belts.pulley import Pulley
+
+# teeth of a belt at most
+_MOST_TEETH = 10_000
+# of a pitch, by which a belt may be too short
+_ROUNDING = 1e-9
+# half the width of the belt in pictures, in pitches
+_DRAWN = 0.15
+
+
+class BeltDriveSpec(MateKeys, tag="belt_drive", kw_only=True):
+    """Keys of ``belt_drive``."""
+
+    second: Annotated[str, Meta(description="instance that the belt drives, or that drives it")]
+    number_of_belt_teeth: (
+        Annotated[int, Meta(ge=6, le=_MOST_TEETH, description="teeth of the belt", examples=[100])] | None
+    ) = None
+    centre_distance: (
+        Annotated[
+            float,
+            mm("centre distance; default: that at which a belt of number_of_belt_teeth is taut", above=0, most=1e6,
+               example=150.0),
+        ]
+        | None
+    ) = None  # fmt: skip
+    direction_deg: Direction = 0.0
+    height: Annotated[float, height("second above the first; default: teeth face each other")] | None = None
+
+
+class BeltMating(Toothed):
+    """Two pulleys of one belt."""
+
+    mesh: BeltMesh
+
+    def _groove(self, rotation: float, direction: float) -> float:
+        """Phase of the first's groove that is nearest to the side away from the second, rad."""
+        step = self.mesh.pulleys[0].pitch_angle
+        return math.pi + math.remainder(rotation - direction + step / 2 - math.pi, step)
+
+    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+        """Beyond the line of centres, where its grooves take the belt's teeth."""
+        phase = self.mesh.drive.second_phase(self._groove(rotation, direction), self.mesh.pitch)
+        turned = direction + phase - self.mesh.pulleys[1].pitch_angle / 2
+        return centre + cmath.rect(self.distance, direction), turned
+
+    def standing(self, first: Pose, second: Pose) -> Standing:
+        """Centre distance, and the second's turn off where its grooves take the belt's teeth."""
+        pulley = self.mesh.pulleys[1]
+        return self.turned_off(first, second, pulley.pitch_angle, pulley.pitch_radius)
+
+    def rollers(self, first: Pose, direction: float) -> tuple[Complex, float]:
+        """Places of the belt's teeth on its pitch line."""
+        phase = self._groove(first[1], direction)
+        places = self.mesh.drive.teeth(phase, self.mesh.pitch, self.mesh.belt_teeth)
+        return first[0] + places * cmath.rect(1.0, direction), _DRAWN * self.mesh.pitch
+
+    def findings(self) -> tuple[Finding, ...]:
+        """A belt that is not taut, few teeth in mesh."""
+        return self.mesh.findings()
+
+    def quantities(self) -> dict[str, Any]:
+        """Teeth and length of the belt, distance, ratio, wrap, teeth in mesh, what the belt is longer than taut, mm."""
+        mesh = self.mesh
+        return {
+            "number_of_belt_teeth": mesh.belt_teeth,
+            "belt_length": mesh.belt_teeth * mesh.pitch,
+            "working_centre_distance": self.distance,
+            "gear_ratio": self.teeth[1] / self.teeth[0],
+            "wrap_deg": math.degrees(mesh.drive.wrap),
+            "teeth_in_mesh": mesh.in_mesh,
+            "belt_slack": max(mesh.slack, 0.0),
+            "rim_gap": mesh.rim_gap,
+        }
+
+
+class BeltDriveKind(MateKind[BeltDriveSpec, "Pulley", "Pulley"]):
+    """Two pulleys of one belt."""
+
+    name, keys = "belt_drive", BeltDriveSpec
+    joins = (("timing_pulley", "timing_pulley"),)
+    alone = True
+
+    def mating(self, keys: BeltDriveSpec, first: End[Pulley], second: End[Pulley]) -> BeltMating:
+        """Both take the same belt, which goes round them."""
+        one, two = first.thing, second.thing
+        if two.belt != one.belt:
+            raise ParameterError("belt", getattr(second.keys, "belt", None), "not_of_the_belt")
+        mesh = belt_mesh((one, two), keys.number_of_belt_teeth, keys.centre_distance)
+        above = one.middle - two.middle if keys.height is None else keys.height
+        return BeltMating(
+            *self.joined(keys),
+            direction_deg=keys.direction_deg,
+            height=above,
+            distance=mesh.centre_distance,
+            module=one.belt.pitch / math.pi,
+            # the belt turns both the same way
+            rolls="internal",
+            teeth=(one.number_of_teeth, two.number_of_teeth),
+            # the belt alone touches them
+            has_contact=False,
+            mesh=mesh,
+        )
+
+
+BELT_DRIVE = BeltDriveKind()
+
+
+def belt_mesh(
+    pulleys: tuple[Pulley, Pulley], teeth: int | None, distance: float | None, prefix: str = "mate."
+) -> BeltMesh:
+    """The drive of two pulleys by the belt's teeth, its centre distance (mm), or both; ``prefix``: of their keys.
+
+    Raises
+    ------
+    ParameterError
+        None of both is given, the pulleys meet, the belt is too short or too long; names the key and what works.
+    """
+    from geometry.gears.belts.drive import BeltDrive, BeltMesh, exact_distance
+
+    pitch, radii = pulleys[0].belt.pitch, (pulleys[0].pitch_radius, pulleys[1].pitch_radius)
+    # nearer, the rims of both meet
+    least = max(sum(p.reach for p in pulleys), abs(radii[0] - radii[1])) * (1 + _ROUNDING)
+    keys = f"{prefix}number_of_belt_teeth", f"{prefix}centre_distance"
+    if teeth is None and distance is None:
+        raise ParameterError(keys[0], None, "one_of_two_is_missing", other="centre_distance")
+    if distance is not None and distance < least:
+        raise ParameterError(keys[1], distance, "pulleys_meet", limit(least, distance))
+    if teeth is not None:
+        found = exact_distance(radii, teeth * pitch, least)
+        if found is None:
+            fewest = math.ceil(BeltDrive(radii, least).length / pitch)
+            raise ParameterError(keys[0], teeth, "belt_too_short_for_pulleys", Nearest(fewest, "at_least"))
+        if distance is None:
+            return BeltMesh(pulleys, found, teeth)
+    else:
+        teeth, found = _MOST_TEETH, exact_distance(radii, _MOST_TEETH * pitch, least)
+    assert distance is not None
+    if found is not None and distance > found * (1 + _ROUNDING):
+        most = limit(found, distance, digits=6)
+        raise ParameterError(keys[1], distance, "belt_too_short", most, teeth=teeth)
+    fitting = math.ceil(BeltDrive(radii, distance).length / pitch - _ROUNDING)
+    if fitting < teeth < _MOST_TEETH:
+        raise ParameterError(keys[0], teeth, "belt_too_long", Nearest(fitting), teeth=fitting)
+    return BeltMesh(pulleys, distance, fitting)

@@ -1,0 +1,109 @@
+"""``higherpair calc belt``: pulleys, belt length and centre distance, speeds and forces of a timing belt drive."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+from msgspec import Meta
+
+from geometry.base.record import replace
+from geometry.gears.belts.drive import BeltMesh, textbook_distance
+from geometry.gears.belts.pulley import checked_pulley
+from parts.base.texts import N_
+from parts.belts.pulley import TIMING_PULLEY, TimingPulleySpec
+from parts.belts.steps import belt_steps, circle_steps
+from parts.keys.base import mm, size
+from parts.mates.belt import BeltDriveSpec, belt_mesh
+from parts.pages.force_steps import driving_torque
+from parts.pages.inputs import SceneKeys, calculation, chosen_part, given
+from parts.pages.page import Sheet
+from parts.texts.findings import finding_message
+
+TOPIC = "belt"
+_SPEED = "speed of the driving pulley: adds the speed of the belt"
+_TORQUE = "torque on the driving pulley: adds the pull of the belt"
+_POWER = "power that the driving pulley takes in, by its speed: in place of its torque"
+
+
+class BeltKeys(TimingPulleySpec, kw_only=True, tag=False, forbid_unknown_fields=True):
+    """Keys of the driving pulley, the teeth of the other one, the belt's length and what it carries."""
+
+    mate_number_of_teeth: Annotated[
+        int, Meta(ge=6, le=500, description="number of teeth of the driven pulley", examples=[40])
+    ]
+    number_of_belt_teeth: (
+        Annotated[int, Meta(ge=6, le=10_000, description="teeth of the belt", examples=[100])] | None
+    ) = None  # fmt: skip
+    centre_distance: Annotated[float, mm("centre distance", above=0, most=1e6, example=150.0)] | None = None
+    speed_rpm: Annotated[float, size("rpm", _SPEED, above=0, most=1e6)] | None = None
+    torque: Annotated[float, size("N*m", _TORQUE, above=0, most=1e9)] | None = None
+    power: Annotated[float, size("W", _POWER, above=0, most=1e9)] | None = None
+
+
+def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+    """The keys of the first pulley of a scene's one belt drive, or of that of the pulley that ``part`` names."""
+    ends: dict[str, BeltDriveSpec] = {}
+    for one in scene.mates:
+        if isinstance(one, BeltDriveSpec):
+            ends.setdefault(str(scene.instances[one.first].part), one)
+    mate = ends[chosen_part("timing_pulley", [*ends], [*ends], source, table)]
+    first, second = (scene.parts[str(scene.instances[key].part)] for key in (mate.first, mate.second))
+    assert isinstance(second, TimingPulleySpec)
+    asked = {key: getattr(mate, key) for key in ("number_of_belt_teeth", "centre_distance")}
+    own = given(first) | {key: value for key, value in asked.items() if value is not None}
+    return own | {"mate_number_of_teeth": second.number_of_teeth} | table
+
+
+@calculation(TOPIC, BeltKeys)
+def sheet(keys: BeltKeys) -> Sheet:
+    """The calculation of a timing belt drive."""
+    one = TIMING_PULLEY.thing(keys, {})
+    two = checked_pulley(replace(one, number_of_teeth=keys.mate_number_of_teeth, given_outer_diameter=None))
+    mesh = belt_mesh((one, two), keys.number_of_belt_teeth, keys.centre_distance, "")
+    page = Sheet(TOPIC, N_("Timing belt drive"))
+    page.section("Given")
+    page.both("number_of_teeth", (one.number_of_teeth, two.number_of_teeth))
+    belt_steps(page, one.belt)
+    page.section(N_("Pulleys"))
+    page.add("gear_ratio", two.number_of_teeth / one.number_of_teeth, "{z2} / {z1}")
+    for gear, pulley in ((1, one), (2, two)):
+        circle_steps(page, pulley, gear)
+    _length(page, mesh, keys.centre_distance)
+    if keys.speed_rpm is not None:
+        page.section(N_("Speeds"))
+        page.add("gear_speed", keys.speed_rpm, gear=1, given=True)
+        page.add("gear_speed", keys.speed_rpm * one.number_of_teeth / two.number_of_teeth, "{n1} * {z1} / {z2}", gear=2)
+        speed = one.number_of_teeth * keys.speed_rpm * mesh.pitch / 60_000
+        page.add("belt_speed", speed, "{z1} * {n1} * {p} / 60000")
+    torque = driving_torque(page, keys)
+    if torque is not None:
+        force = 1000 * torque / one.pitch_radius
+        page.add("belt_force", force, "2000 * {T1} / {d1}")
+        page.add("force_on_tooth", force / mesh.in_mesh, "{F_t} / {z_m}")
+    page.notes += [finding_message(found) for found in mesh.findings()]
+    return page
+
+
+def _length(page: Sheet, mesh: BeltMesh, distance: float | None) -> None:
+    """Teeth and length of the belt, and its centre distance, of textbooks and exact."""
+    page.section(N_("Belt and centre distance"))
+    if distance is not None:
+        page.add("belt_distance", distance, given=True)
+    page.add("number_of_belt_teeth", mesh.belt_teeth)
+    length = mesh.belt_teeth * mesh.pitch
+    page.add("belt_length", length, "{z_b} * {p}")
+    drive = mesh.drive
+    near = textbook_distance(drive.radii, length)
+    if near is not None:
+        free = "(2 * {L_b} - pi * ({d1} + {d2}))"
+        page.add("textbook_belt_distance", near, f"({free} + sqrt({free}**2 - 8 * ({{d2}} - {{d1}})**2)) / 8")
+    exact = belt_mesh(mesh.pulleys, mesh.belt_teeth, None, "").centre_distance
+    page.add("exact_belt_distance", exact)
+    if distance is not None:
+        page.add("belt_slack", max(mesh.slack, 0.0))
+    nearest = "{a}" if distance is not None else "{a_0}"
+    wrap = f"pi - 2 * arcsin(abs({{d2}} - {{d1}}) / (2 * {nearest}))"
+    page.add("belt_wrap_deg", math.degrees(drive.wrap), wrap)
+    least = "{z1}" if mesh.pulleys[0].number_of_teeth <= mesh.pulleys[1].number_of_teeth else "{z2}"
+    page.add("teeth_in_mesh", mesh.in_mesh, f"{least} * {{alpha_1}} / (2 * pi)")

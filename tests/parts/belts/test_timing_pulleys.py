@@ -1,0 +1,168 @@
+"""Timing pulleys and belt drives in scenes: solids with flanges, files with every groove, drives, refusals."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import pytest
+
+from exporters.formats.read_dxf import read_dxf
+from exporters.production.check import scene_checks
+from geometry.plane.measure import profile_area
+from geometry.solids.mass import body_moments
+from parts.base.part import Part
+from parts.base.refusal import SceneError
+from parts.belts.probe import GrooveProbe
+from parts.scene.load import make_parts, scene_from_dict
+from parts.scene.placing import Placing, place
+from tests.exporters.making import read_report, run, write_scene
+
+Keys = dict[str, Any]
+PLATE: Keys = {"kind": "timing_pulley", "belt": "GT2", "number_of_teeth": 20, "bore_diameter": 5.0, "face_width": 7.0}
+LARGE = PLATE | {"number_of_teeth": 60}
+OWN: Keys = {"pitch": 5.0, "line_offset": 0.5, "groove_depth": 1.95, "groove_width": 3.32}
+MATE: Keys = {"kind": "belt_drive", "first": "a", "second": "b"}
+
+
+def made(keys: Keys) -> Part:
+    """The part of its keys."""
+    return make_parts(scene_from_dict({"parts": {"a": keys}}, "t", "t"), "t")[0]["a"]
+
+
+def placed(mate: Keys, one: Keys = PLATE, two: Keys = LARGE, **more: Any) -> tuple[Placing, dict[str, Any]]:
+    """Where both stand, and what the checks say of them."""
+    tables = {
+        "parts": {"a": one, "b": two}, "mates": [MATE | mate], "drives": [{"instance": "a", "turns": 3.0}], **more,
+    }  # fmt: skip
+    scene = scene_from_dict(tables, "t", "t")
+    parts, matings = make_parts(scene, "t")
+    placing = place(scene.instances, scene.drives, parts, matings, "t")
+    return placing, scene_checks(placing, parts, scene.drives, "en", contact=True)
+
+
+def test_a_belt_of_its_own_is_that_of_the_table() -> None:
+    own = made(PLATE | {"belt": OWN | {"root_radius": 0.4, "tip_radius": 0.6}, "number_of_teeth": 30}).thing
+    named = made(PLATE | {"belt": "T5", "number_of_teeth": 30, "outer_diameter": 2 * own.outer_radius}).thing
+    assert own.belt.groove == named.belt.groove
+    assert own.land == pytest.approx(named.land, rel=1e-12)
+    assert own.outer_radius == pytest.approx(75 / math.pi - 0.5)
+
+
+@pytest.mark.parametrize("faces", [(True, True), (True, False), (False, True)])
+def test_flanges_are_discs_beside_the_teeth(faces: tuple[bool, bool]) -> None:
+    flanges = {"diameter": 16.0, "thickness": 1.5, "below": faces[0], "above": faces[1]}
+    hub = {"diameter": 10.0 if not faces[1] else 12.0, "above": 6.0}
+    part = made(PLATE | {"flanges": flanges, "hub": hub})
+    teeth, discs = profile_area(part.section(0.0).region.outer), sum(faces)
+    wanted = 7.0 * teeth + discs * 1.5 * math.pi * 8.0**2 + 6.0 * math.pi * hub["diameter"] ** 2 / 4
+    wanted -= (13.0 + discs * 1.5) * math.pi * 2.5**2
+    assert body_moments(part.body(0.0)).volume == pytest.approx(wanted, rel=1e-12)
+    assert part.face_width == pytest.approx(7.0 + discs * 1.5)
+    assert not part.is_plate
+
+
+def test_files_have_every_groove_and_one_that_is_filled_is_caught(tmp_path: Path) -> None:
+    parts = {"gt": PLATE, "t": PLATE | {"belt": "T5", "flanges": {"diameter": 40.0}}}
+    exports = ({"format": "dxf"}, {"format": "dxf", "name": "cut", "kerf": 0.2}, {"format": "stl"}, {"format": "step"})
+    assert run("build", write_scene(tmp_path / "s.toml", parts, exports), "--out", tmp_path / "out") == 0
+    built = tmp_path / "out" / "s"
+    for entry in read_report(built)["files"]:
+        if entry["format"] != "step":
+            assert entry["measured"]["pin_gap"] == pytest.approx(-entry["offset"], abs=entry["max_error"] + 1e-6)
+    pulley = made(PLATE).thing
+    assert GrooveProbe(pulley, 3.0).run(read_dxf(built / "gt.laser.dxf"), 0.0, 1e-6).failures == ()
+    # the groove between the last tooth and the first alone is filled a little
+    document = ezdxf.readfile(built / "gt.laser.dxf")
+    outline = max(document.modelspace().query("LWPOLYLINE"), key=len)
+    rows = [(complex(x, y), bulge) for x, y, bulge in outline.get_points("xyb")]
+    angle = -pulley.pitch_angle / 2
+    spoiled = [
+        p * (1 + 0.05 / abs(p))
+        if abs(cmath.phase(p) - angle) < 0.4 * -angle and abs(p) < pulley.outer_radius - 0.3
+        else p
+        for p, _ in rows
+    ]
+    assert 0 < sum(p != q for (p, _), q in zip(rows, spoiled, strict=True)) < 20
+    outline.set_points([(p.real, p.imag, b) for p, (_, b) in zip(spoiled, rows, strict=True)], format="xyb")
+    document.saveas(tmp_path / "spoiled.dxf")
+    (failure,) = GrooveProbe(pulley, 3.0).run(read_dxf(tmp_path / "spoiled.dxf"), 0.0, 1e-6).failures
+    assert "grooves" in failure
+
+
+def test_both_pulleys_turn_the_same_way_by_their_teeth() -> None:
+    placing, checks = placed({"number_of_belt_teeth": 100, "direction_deg": 20.0})
+    assert placing.turns[0] == pytest.approx({"a": 3.0, "b": 1.0})
+    (mate,) = checks["mates"]
+    assert mate["belt_length"] == 200.0
+    assert "findings" not in mate
+    distance = mate["working_centre_distance"]
+    # L = 2 a cos(g) + pi (r1 + r2) + 2 g (r2 - r1), sin(g) = (r2 - r1) / a
+    one, two = 20 / math.pi, 60 / math.pi
+    slope = math.asin((two - one) / distance)
+    assert 2 * distance * math.cos(slope) + math.pi * (one + two) + 2 * slope * (two - one) == pytest.approx(200.0)
+    loose = placed({"centre_distance": distance - 0.2})[1]["mates"][0]
+    assert loose["number_of_belt_teeth"] == 100
+    assert loose["belt_slack"] == pytest.approx(0.4 * math.cos(slope), rel=0.01)
+    assert len(loose["findings"]) == 1
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-3])
+def test_a_second_pulley_that_stands_already_must_take_the_belt(off: float) -> None:
+    there = placed({"number_of_belt_teeth": 100}, instances={"a": {"rotation_deg": 7.0}, "b": {}})[0]
+    other = next(i for i in there.instances if i.id == "b")
+    standing = {"at": [*other.at], "rotation_deg": math.degrees(other.rotation + off)}
+    again = placed({"number_of_belt_teeth": 100}, instances={"a": {"rotation_deg": 7.0}, "b": standing})[1]
+    assert all(condition["met"] for condition in again["mates"][0]["conditions"]) == (off == 0.0)
+
+
+@pytest.mark.parametrize(
+    ("keys", "key", "cure"),
+    [
+        (PLATE | {"belt": "T7"}, "belt", None),
+        (PLATE | {"number_of_teeth": 6, "belt": "T2.5", "bore_diameter": 0.5}, "number_of_teeth", 10),
+        (PLATE | {"clearance": 0.3}, "clearance", 0.2012),
+        (PLATE | {"flanges": {"diameter": 12.0}}, "flanges.diameter", 12.2245),
+        (PLATE | {"flanges": {"diameter": 16.0, "below": False, "above": False}}, "flanges.above", True),
+        (PLATE | {"flanges": {"diameter": 16.0}, "face_chamfer": 0.3}, "face_chamfer", None),
+        (PLATE | {"belt": OWN | {"groove_width": 7.0}}, "belt.groove_width", 4.823),
+        (PLATE | {"bore_diameter": 11.0}, "bore_diameter", None),
+        (PLATE | {"hub": {"diameter": 12.0, "above": 5.0}}, "hub.diameter", 10.6743),
+    ],
+)
+def test_bad_keys_are_refused_with_what_works(keys: Keys, key: str, cure: object) -> None:
+    with pytest.raises(SceneError) as refused:
+        made(keys)
+    assert refused.value.key == f"parts.a.{key}"
+    nearest = refused.value.nearest
+    if cure is not None:
+        assert nearest is not None
+        assert nearest.value == (pytest.approx(cure) if isinstance(cure, float) else cure)
+        outer, _, inner = key.partition(".")
+        made(keys | {outer: keys[outer] | {inner: nearest.value} if inner else nearest.value})
+
+
+@pytest.mark.parametrize(
+    ("mate", "two", "key", "cure"),
+    [
+        ({}, LARGE, "mates[1].number_of_belt_teeth", None),
+        # L = 2 a cos(g) + pi (r1 + r2) + 2 g (r2 - r1) is 136.56 mm where the rims meet, a = 24.957 mm
+        ({"number_of_belt_teeth": 45}, LARGE, "mates[1].number_of_belt_teeth", 69),
+        ({"centre_distance": 20.0}, LARGE, "mates[1].centre_distance", None),
+        ({"number_of_belt_teeth": 100, "centre_distance": 60.0}, LARGE, "mates[1].centre_distance", 58.611527),
+        ({"number_of_belt_teeth": 110, "centre_distance": 58.0}, LARGE, "mates[1].number_of_belt_teeth", 100),
+        ({"centre_distance": 1e6}, LARGE, "mates[1].centre_distance", None),
+        ({"number_of_belt_teeth": 100}, LARGE | {"belt": "MXL"}, "mates[1]: parts.b.belt", None),
+    ],
+)
+def test_drives_that_cannot_be_are_refused_with_what_works(mate: Keys, two: Keys, key: str, cure: float | None) -> None:
+    with pytest.raises(SceneError) as refused:
+        placed(mate, two=two)
+    assert refused.value.key == key
+    if cure is not None:
+        assert refused.value.nearest is not None
+        assert refused.value.nearest.value == pytest.approx(cure)
+        placed(mate | {key.rpartition(".")[2]: refused.value.nearest.value}, two=two)
