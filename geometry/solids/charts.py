@@ -33,6 +33,9 @@ from geometry.solids.faces import (
     Torus,
 )  # fmt: skip
 
+# of a unit vector the first part greater than this tells the sign: the greatest is 0.57 at least, no usual angle has it
+_LEAST_PART = 0.1
+
 TURN = 2 * np.pi
 
 
@@ -206,7 +209,8 @@ class Chart(Record, eq=False):
         """By which surfaces of a solid that are one are told."""
         axis, s = self.axes[2], self.surface
         origin = self.origin
-        side = np.sign(axis[np.argmax(np.abs(axis))])
+        # of two parts of an axis that are as great digits alone would choose
+        side = np.sign(axis[np.argmax(np.abs(axis) > _LEAST_PART)])
         if isinstance(s, Plane):
             return ("plane", *_digits(axis * side), *_digits(origin @ axis * side))
         if isinstance(s, Cylinder):

@@ -342,7 +342,9 @@ def turned_solid(section: HalfSection, seam: float = 0.0, tolerance: float = 1e-
 
 def turned_body(section: HalfSection, seam: float = 0.0) -> FacedBody:
     """The body of a half section; what sides of teeth are no planes are splines for every tolerance."""
-    walls = tuple(wall for spline in section.splines for wall in involute_walls(spline.outline()))
+    # one surface is one wall, however often it stands on the shaft
+    once = {(spline.form, spline.clearance, spline.angle): spline for spline in section.splines}.values()
+    walls = tuple(wall for spline in once for wall in involute_walls(spline.outline()))
     if not walls:
         return exact_body(turned_solid(section, seam))
     return FacedBody(lru_cache(maxsize=2)(partial(turned_solid, section, seam)), walls)
@@ -398,7 +400,8 @@ class _Turned(RingBuilder):
 
     def piece(self, piece: Piece) -> None:
         """What a piece of the section sweeps."""
-        if piece.on_axis or (piece.start in self.rings and piece.end in self.rings):
+        is_ring = piece.start in self.rings and piece.end in self.rings
+        if piece.on_axis or (is_ring and piece.start.real == piece.end.real):
             return
         if piece.centre is None and piece.start.imag == piece.end.imag:
             up = piece.end.real < piece.start.real

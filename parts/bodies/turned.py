@@ -398,9 +398,10 @@ def _splines(keys: ShaftSpec) -> Iterator[Splined]:
             if 0 <= other < len(steps):
                 beside, own = steps[other], f"steps[{other + 1}]"
                 told = {"root": 2 * root, "tip": 2 * _radius(step)}
-                if beside.spline is None and _radius(beside) + beside.fillet < root:
+                # of splines of both the larger one has the smaller one within its roots, as its own turn tells
+                if _radius(beside) + beside.fillet < root:
                     continue
-                if beside.spline is None and _radius(beside) - beside.chamfer > _radius(step):
+                if _radius(beside) - beside.chamfer > _radius(step):
                     continue
                 raise ParameterError(f"{own}.diameter", beside.diameter, "ends_amid_spline", **told)
         yield Splined(z - step.length, z, form, made.clearance, made.angle)

@@ -69,6 +69,38 @@ def test_shafts_have_the_clearance_and_the_volume_of_their_sections(tmp_path: Pa
             assert entry["measured"]["volume"] == pytest.approx(AROUND[name](area), rel=1e-9)
 
 
+# rows of steps, each diameter, length and spline: of eight and of sixteen teeth, whose sides stand at 45 degrees too;
+# side by side, the smaller one within the roots of the larger; the same involutes twice
+ROWS: dict[str, list[tuple[float, float, str]]] = {
+    "eight": [(36.0, 12.0, "d-8x32x36")],
+    "sixteen": [(60.0, 12.0, "d-16x52x60")],
+    "side_by_side": [(19.8, 9.0, "20x1"), (36.0, 12.0, "d-8x32x36"), (26.0, 10.0, "D-6x23x26"), (19.8, 8.0, "20x1")],
+    "twice": [(19.8, 9.0, "20x1"), (15.0, 5.0, ""), (19.8, 7.0, "20x1")],
+}
+
+
+def test_shafts_of_several_splines_and_of_any_number_of_teeth_are_whole(tmp_path: Path) -> None:
+    """Every plane, cylinder and involute is found in the STEP, whose volume is that of all sections."""
+    parts: dict[str, dict[str, Any]] = {}
+    wanted = dict.fromkeys(ROWS, 0.0)
+    for name, row in ROWS.items():
+        steps = []
+        for diameter, length, size in row:
+            shape = "spline" if "-" in size else "involute_spline"
+            steps.append(
+                {"diameter": diameter, "length": length} | ({"spline": {"shape": shape, "size": size}} if size else {})
+            )
+            table = StraightSplineTable(size) if "-" in size else InvoluteSplineTable(size) if size else None
+            area = profile_area(table.bore().joint.shaft().outline()) if table else math.pi / 4 * diameter**2
+            wanted[name] += length * area
+        parts[name] = {"kind": "shaft", "steps": steps}
+    scene = write_scene(tmp_path / "s.toml", parts, ({"format": "step"}, {"format": "stl"}))
+    assert run("build", scene, "--out", tmp_path / "out") == 0
+    for entry in read_report(tmp_path / "out" / "s")["files"]:
+        near = 1e-9 if entry["format"] == "step" else 2e-3
+        assert entry["measured"]["volume"] == pytest.approx(wanted[entry["part"]], rel=near)
+
+
 def frustum(low: float, high: float, length: float) -> float:
     return math.pi / 3 * length * (low * low + low * high + high * high)
 
@@ -97,6 +129,9 @@ AROUND: dict[str, Callable[[float], float]] = {
     [({1: {"diameter": 25.0}}, "steps[2].diameter", "not_over_spline", 26.0),
      ({1: {"chamfer": 1.0}}, "steps[2].chamfer", "beside_spline", None),
      ({0: {"diameter": 24.0}}, "steps[1].diameter", "ends_amid_spline", None),
+     # tips of 25 mm beside roots of 23 mm
+     ({0: {"diameter": 25.0, "chamfer": 0.0, "spline": {"shape": "spline", "size": "6x21x25"}}}, "steps[1].diameter",
+      "ends_amid_spline", None),
      ({1: {"spline": {"shape": "spline", "size": "6x23x27"}}}, "steps[2].spline.size", "no_such_spline", "d-6x23x26"),
      ({1: {"spline": {"shape": "spline", "teeth": 6}}}, "steps[2].spline.inner_diameter", "one_of_two_is_missing",
       None)],
