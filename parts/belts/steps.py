@@ -25,17 +25,19 @@ def circle_steps(page: Sheet, pulley: Pulley, gear: int = 0) -> None:
 def groove_steps(page: Sheet, pulley: Pulley) -> None:
     """A groove, and the land between two."""
     groove = pulley.belt.groove_of(pulley.number_of_teeth)
-    if pulley.clearance:
-        page.add("groove_clearance", pulley.clearance)
+    walls = pulley.clearance
+    if walls:
+        page.add("groove_clearance", walls)
     page.add("pulley_groove_depth", pulley.depth)
     page.add("pulley_root_diameter", 2 * pulley.root_radius, "{d_a} - 2 * {h_g}")
     if isinstance(groove, ArcGroove):
-        page.add("groove_floor_radius", groove.floor_radius)
-        page.add("groove_flank_radius", groove.flank_radius)
+        page.add("groove_floor_radius", groove.floor_radius + walls)
+        page.add("groove_flank_radius", groove.flank_radius + walls)
         page.add("flank_centre_offset", groove.flank_offset)
     else:
-        page.add("groove_floor_width" if groove.at_floor else "groove_corner_width", groove.width)
+        width = groove.width_of(pulley.outer_radius, walls)
+        page.add("groove_floor_width" if groove.at_floor else "groove_corner_width", width)
         page.add("groove_angle_deg", math.degrees(2 * groove.half_angle))
-        page.add("greatest_root_radius", groove.root_radius)
+        page.add("greatest_root_radius", groove.root_radius + walls)
     page.add("groove_tip_radius", groove.tip_radius)
     page.add("land_width", pulley.land)

@@ -83,6 +83,16 @@ class StraightGroove(Record):
         radius = outer - self.depth if self.at_floor else math.sqrt((outer - half) * (outer + half))
         return complex(radius, half) + moved * 1j * way, way
 
+    def width_of(self, outer: float, walls: float) -> float:
+        """At the floor, or between the corners, with its walls moved into the material, mm."""
+        place, way = self._flank(outer, walls)
+        if self.at_floor:
+            end: float | None = (outer - self.depth - walls - place.real) / way.real
+        else:
+            end = _rounded_tip(place, way, outer, 0.0)
+        assert end is not None
+        return 2 * (place + end * way).imag
+
     def _fillet(self, outer: float) -> float:
         """The root radius, mm."""
         place, way = self._flank(outer, 0.0)

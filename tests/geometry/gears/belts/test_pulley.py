@@ -101,6 +101,26 @@ def test_arcs_of_gt_grooves_touch_each_other() -> None:
     assert abs(tip.centre) == pytest.approx(land.radius - 0.15)
 
 
+@pytest.mark.parametrize("name", ["T5", "XL", "AT10", "8M"])
+def test_a_clearance_widens_a_groove_on_its_own_circle(name: str) -> None:
+    """The flanks stand off by it: at the floor by what is left of that there, between corners by fixed points."""
+    belt, clear = named(name), 0.05
+    groove = belt.groove_of(30)
+    assert isinstance(groove, StraightGroove)
+    outer = Pulley(30, belt).outer_radius
+    assert groove.width_of(outer, 0.0) == pytest.approx(groove.width, rel=1e-12)
+    slope, half = math.tan(groove.half_angle), groove.width / 2
+    height = outer - groove.depth if groove.at_floor else math.sqrt(outer**2 - half**2)
+    wide = half + clear / math.cos(groove.half_angle)
+    if groove.at_floor:
+        found = wide - clear * slope
+    else:
+        found = wide
+        for _ in range(60):
+            found = wide + slope * (math.sqrt(outer**2 - found**2) - height)
+    assert groove.width_of(outer, clear) == pytest.approx(2 * found, rel=1e-12)
+
+
 @pytest.mark.parametrize("name", belts())
 @pytest.mark.parametrize("share", [-0.02, -0.1, 0.03])
 def test_offset_grooves_are_parallel(name: str, share: float) -> None:
