@@ -18,7 +18,7 @@ from geometry.base.record import Record
 from parts.solids.mesh import Mesh
 
 if TYPE_CHECKING:
-    from lib3mf.Lib3MF import BaseMaterialGroup, BuildItem, Color, MeshObject, Model
+    from lib3mf.Lib3MF import BaseMaterialGroup, BuildItem, Color, MeshObject, Model, Transform
 
 # decimals written for each coordinate: more than a float32 holds at any size that is printed
 _DECIMALS = 9
@@ -39,7 +39,7 @@ def write_3mf(file: Path, part: MeshPart) -> dict[str, int]:
     """Write one part as one build item."""
     model, name = _model(), part.name
     item = _add_object(model, model.AddBaseMaterialGroup(), part, _uuid(name, "object"))
-    _add_item(model, item, _uuid(name, "item"))
+    _add_item(model, item, _home(), _uuid(name, "item"))
     file.write_bytes(_package(model, _uuid(name, "build")))
     return {"triangles": len(part.mesh.triangles), "vertices": len(part.mesh.vertices)}
 
@@ -55,8 +55,9 @@ def write_3mf_assembly(
     model.GetMetaDataGroup().AddMetaData("", "Title", name, "xs:string", True)
     materials = model.AddBaseMaterialGroup()
     objects = {p.name: _add_object(model, materials, p, _uuid(f"{name}/{p.name}", "object")) for p in parts}
+    home = _home()
     for occurrence, part, _ in occurrences:
-        _add_item(model, objects[part], _uuid(f"{name}/{occurrence}", "item")).SetPartNumber(occurrence)
+        _add_item(model, objects[part], home, _uuid(f"{name}/{occurrence}", "item")).SetPartNumber(occurrence)
     package = _package(model, _uuid(name, "build"))
     file.write_bytes(_with_places(package, {occurrence: place for occurrence, _, place in occurrences}))
     meshes = [p.mesh for p in parts]
@@ -96,10 +97,15 @@ def _add_object(model: Model, materials: BaseMaterialGroup, part: MeshPart, iden
     return item
 
 
-def _add_item(model: Model, item: MeshObject, identity: str) -> BuildItem:
+def _home() -> Transform:
+    """No move; the library is loaded anew by each call of ``get_wrapper``."""
     import lib3mf
 
-    build = model.AddBuildItem(item, lib3mf.get_wrapper().GetIdentityTransform())
+    return lib3mf.get_wrapper().GetIdentityTransform()
+
+
+def _add_item(model: Model, item: MeshObject, home: Transform, identity: str) -> BuildItem:
+    build = model.AddBuildItem(item, home)
     build.SetUUID(identity)
     return build
 

@@ -202,8 +202,7 @@ class Sectioned:
                 return _Region(some, None, False)
             bored = [shapely.box(abs(h.centre) - h.radius, low, abs(h.centre) + h.radius, high) for h in self.holes]
             return _Region(some, shapely.difference(some, shapely.union_all(bored)), True)
-        near, far = self._radii(at)
-        low, high = self._levels.T
+        low, high, near, far = _joined(np.column_stack([self._levels, *self._radii(at)])).T
         return _Region(shapely.union_all(shapely.box(near, low, far, high)), None, not self.teeth)
 
     def _going(self, near: float, far: float) -> _Region:
@@ -427,6 +426,17 @@ def _raised(region: BaseGeometry, lift: float) -> BaseGeometry:
     import shapely
 
     return shapely.transform(region, lambda rz: rz + np.array([0.0, lift])) if lift else region
+
+
+def _joined(rings: Real) -> Real:
+    """Rings, rows z0, z1, inner and outer radius: those of one layer that meet are one, as most pieces of it do."""
+    found: list[list[float]] = []
+    for z0, z1, inner, outer in sorted(rings.tolist()):
+        if found and found[-1][:2] == [z0, z1] and inner <= found[-1][3]:
+            found[-1][3] = max(found[-1][3], outer)
+        else:
+            found.append([z0, z1, inner, outer])
+    return np.array(found)
 
 
 def _pairs(points: Complex) -> Real:

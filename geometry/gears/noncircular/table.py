@@ -34,7 +34,10 @@ class CurveTable:
         self.is_fillet = np.array([isinstance(c, RolledFillet) for c in plain])
         self.is_land = np.array([isinstance(c, RolledLand) for c in plain])
         self.place = sign * np.array([_place(c) for c in plain])
-        self.angle = sign * np.array([c.angle if isinstance(c, RolledFlank) else 0.0 for c in plain])
+        angle = sign * np.array([c.angle if isinstance(c, RolledFlank) else 0.0 for c in plain])
+        self.sense, self.sine, self.cosine = -np.sign(angle), np.sin(angle), np.cos(angle)
+        self.lean = np.exp(1j * angle)
+        self.flank_turn = self.sense * 1j * self.lean
         self.height = np.array([c.height if isinstance(c, RolledLand) else 0.0 for c in plain])
         self.cut = outline.cut
         self.low, self.high = np.array([c.domain for c in curves]).T
@@ -59,21 +62,20 @@ class CurveTable:
         """Points of curves, their directions, speeds along them and how fast those turn."""
         fillet, land = self.is_fillet[index], self.is_land[index]
         u = np.where(fillet, t, 0.0)
-        tan, secant = np.tan(u), 1 / np.cos(u)
+        tan, secant, unwound = np.tan(u), 1 / np.cos(u), np.exp(-1j * u)
         depth, radius = self.cut.depth, self.cut.radius
-        place, angle, height = self.place[index], self.angle[index], self.height[index]
+        place = self.place[index]
         s = np.where(fillet, place - depth * tan, t)
         base, tangent, kappa = self.line.frame(s)
-        cosine, arm = np.cos(angle), place - s
-        flank_arm = arm * cosine * np.exp(1j * angle)
-        fillet_arm = depth * (1j + tan) + 1j * radius * np.exp(-1j * u)
-        offset = np.where(fillet, fillet_arm, np.where(land, -1j * height, flank_arm))
-        sense = -np.sign(angle)
-        turn = np.where(fillet, np.exp(-1j * u), np.where(land, 1.0, sense * 1j * np.exp(1j * angle)))
+        cosine, arm = self.cosine[index], place - s
+        fillet_arm = depth * (1j + tan) + 1j * radius * unwound
+        land_arm = -1j * self.height[index]
+        offset = np.where(fillet, fillet_arm, np.where(land, land_arm, arm * cosine * self.lean[index]))
+        turn = np.where(fillet, unwound, np.where(land, 1.0, self.flank_turn[index]))
         rate = -depth * secant**2
         fillet_speed = radius * (1 - kappa * rate) + kappa * depth**2 * secant**3
-        flank_speed = sense * (arm * kappa * cosine - np.sin(angle))
-        speed = np.where(fillet, fillet_speed, np.where(land, 1 + height * kappa, flank_speed))
+        flank_speed = self.sense[index] * (arm * kappa * cosine - self.sine[index])
+        speed = np.where(fillet, fillet_speed, np.where(land, 1 + self.height[index] * kappa, flank_speed))
         return base + offset * tangent, turn * tangent, speed, np.where(fillet, kappa * rate - 1, kappa)
 
     def distance(self, index: Indices, points: Complex) -> tuple[Real, Complex]:
