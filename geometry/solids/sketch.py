@@ -33,10 +33,14 @@ _EDGE = 0.1
 
 
 class Ring(Record, dict=True):
-    """A closed boundary in the plane; ``root``: radius to which the section of teeth is hatched, mm."""
+    """A closed boundary in the plane; ``root``: radius to which the section of teeth is hatched, mm.
+
+    ``spokes``: of a window the radii between which there are spokes beside it, mm.
+    """
 
     curves: tuple[Curve, ...]
     root: float | None = None
+    spokes: tuple[float, float] | None = None
 
     @cached_property
     def circle(self) -> tuple[complex, float] | None:
@@ -136,6 +140,11 @@ class Layer(Record, dict=True):
     lower: tuple[Ring, ...]
     upper: tuple[Ring, ...]
 
+    @property
+    def spokes(self) -> tuple[float, ...]:
+        """Radii between which there are spokes, which no section along them cuts (GOST 2.305), mm."""
+        return next((ring.spokes for ring in self.lower if ring.spokes), ())
+
     @cached_property
     def at_high(self) -> _Boundaries:
         """Where there is material at its upper end."""
@@ -233,6 +242,11 @@ def sketch_of_body(body: Body, teeth: Teeth | None = None) -> Sketch:
             ((centre, radius),) = circles
             if all(isinstance(c, Arc) for c in curves):
                 return round_ring(radius, centre=centre)
+        window = (s.curve for s in profile.segments() if s.label is Label.WINDOW)
+        # where spokes begin and end
+        match sorted(curve.radius for curve in window if isinstance(curve, Arc)):
+            case [hub, rim]:
+                return Ring(curves, None, (hub, rim))
         return Ring(curves)
 
     layers, creases = [], []
@@ -331,14 +345,18 @@ def _faces(below: list[float], above: list[float], *, bends: bool) -> Iterator[t
 
 
 def hatched(layers: Sequence[Layer], cuts: Cuts) -> Iterator[tuple[Line, ...]]:
-    """The material that a plane along the axis cuts, as closed loops s + iz, teeth as far as their roots.
+    """The material that a plane along the axis cuts, as closed loops s + iz, teeth as far as their roots, no spokes.
 
     Layers that lie on each other make one loop, for hatching to run through.
     """
     # of each loop that grows: places of its left and its right side
     growing: list[tuple[list[complex], list[complex]]] = []
     for layer in layers:
-        solid = [tuple(ring.filled() for ring in side if ring.root != NOTHING) for side in (layer.lower, layer.upper)]
+        between = tuple(map(round_ring, layer.spokes))
+        solid = [
+            (*(ring.filled() for ring in side if ring.root != NOTHING and not ring.spokes), *between)
+            for side in (layer.lower, layer.upper)
+        ]
         first, last = map(cuts, solid)
         if len(first) != len(last) or len(first) % 2:
             continue

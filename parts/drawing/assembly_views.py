@@ -19,7 +19,7 @@ from geometry.base.record import Record
 from geometry.curves.curve import Complex, Curve, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import distance_to_curve
-from geometry.solids.sketch import Ring, Sketch, crossing, hatched, reaching, round_ring, stacked
+from geometry.solids.sketch import Layer, Ring, Sketch, crossing, hatched, reaching, round_ring, stacked
 from parts.drawing.shown import SAMPLES, shown_pieces
 from parts.drawing.working import AXIS, VISIBLE
 
@@ -388,13 +388,15 @@ def _cut_along(one: Shown) -> Iterator[Cut]:
     for line in stacked(layers, cuts, one.sketch.creases if whole else ()):
         yield (VISIBLE, Line(one.laid(line.start), one.laid(line.end))), None
     for layer in layers:
-        if any(ring.root is not None for ring in layer.lower):
-            ends = [cuts(tuple(round_ring(r.root) for r in side if r.root is not None))
-                    for side in (layer.lower, layer.upper)]  # fmt: skip
-            for a, b in zip(*ends, strict=False):
-                yield (VISIBLE, Line(one.laid(complex(a, layer.low)), one.laid(complex(b, layer.high)))), None
+        for a, b in zip(*(cuts(_hatched_to(side, layer)) for side in (layer.lower, layer.upper)), strict=False):
+            yield (VISIBLE, Line(one.laid(complex(a, layer.low)), one.laid(complex(b, layer.high)))), None
     for loop in hatched(layers, cuts):
         yield None, tuple(Line(one.laid(k.start), one.laid(k.end)) for k in loop)
+
+
+def _hatched_to(side: Sequence[Ring], layer: Layer) -> tuple[Ring, ...]:
+    """The roots of teeth in an end of a layer, and where spokes begin and end."""
+    return tuple(map(round_ring, (*(ring.root for ring in side if ring.root is not None), *layer.spokes)))
 
 
 def _is_whole(sketch: Sketch) -> bool:

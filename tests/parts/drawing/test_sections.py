@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from geometry.base.placement import Placement3
+from geometry.curves.line_arc import Line
 from parts.drawing.assembly_views import Shown, cut, seen
 from parts.drawing.dimensioning import laid
 from parts.drawing.hatching import hatching
@@ -219,3 +220,28 @@ def test_a_bolt_in_an_assembly_is_not_cut_but_what_is_wider_than_long_is(length:
     sketch = parts["p"].made_by.sketch(parts["p"].keys, parts["p"].thing)
     assert sketch is not None
     assert bool(cut([seen([Shown("p", "p", sketch, Placement3())], SIDE)[0]]).hatched) == hatched
+
+
+@pytest.mark.parametrize("start", [0.0, 10.0, 36.0])
+def test_spokes_in_an_assembly_are_not_hatched_along_their_length_and_are_across_it(start: float) -> None:
+    """A plane along a spoke, one through its side, one through a window: rim and hub ring alone are hatched."""
+    spokes = {"count": 5, "width": 10.0, "inner_diameter": 60.0, "outer_diameter": 95.0, "start_deg": start}
+    wheel = {"kind": "spur_gear", "module": 3.0, "number_of_teeth": 40, "face_width": 8.0, "bore_diameter": 32.0,
+             "spokes": spokes}  # fmt: skip
+    parts, _ = make_parts(scene_from_dict({"parts": {"p": wheel}, "exports": [{"format": "svg"}]}, "t", "t"), "t")
+    sketch = parts["p"].made_by.sketch(parts["p"].keys, parts["p"].thing)
+    assert sketch is not None
+    shown = Shown("p", "p", sketch, Placement3())
+    along = cut([seen([shown], SIDE)[0]])
+    (loops,) = along.hatched
+    root = 3 * 40 / 2 - 1.25 * 3
+    spans = sorted(tuple(sorted({round(line.start.real, 6) for line in loop})) for loop in loops)
+    assert spans == [(-root, -47.5), (-30.0, -16.0), (16.0, 30.0), (47.5, root)]
+    # both ends of a spoke are lines
+    upright = {round(c.start.real, 6) for _, c in along.strokes
+               if isinstance(c, Line) and abs(c.start.real - c.end.real) < 1e-9}  # fmt: skip
+    assert {-47.5, -30.0, 30.0, 47.5} <= upright
+    across = cut([seen([shown], Placement3(translation=(0.0, 0.0, -4.0)))[0]])
+    lines = [line.point(np.array(line.domain)) for line in hatching(across.hatched[0], 1.0)]
+    spoke = 39.0 * np.exp(1j * math.radians(start))
+    assert min(abs((a + (b - a) * t) - spoke) for a, b in lines for t in np.linspace(0, 1, 200)) < 1.0
