@@ -236,7 +236,8 @@ def _check_whole_turn(phases: list[PhaseTable]) -> None:
         index = angles.index(min(angles))
     fitting = round(angles[index] + 360 - whole, 9)
     works = Nearest(fitting) if fitting > 0 else None
-    raise ParameterError(f"phases[{index + 1}].angle_deg", angles[index], "phases_not_a_turn", works, whole=whole)
+    key, off = f"phases[{index + 1}].angle_deg", round(abs(whole - 360), 9)
+    raise ParameterError(key, angles[index], "phases_not_a_turn", works, whole=whole, off=off)
 
 
 def _check_return(phases: list[PhaseTable]) -> None:

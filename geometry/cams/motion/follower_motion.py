@@ -218,7 +218,7 @@ def follower_motion(phases: Sequence[Phase]) -> FollowerMotion:
     whole = math.fsum(p.angle for p in phases)
     if not abs(whole - TURN) <= _CLOSING:
         given = round(math.degrees(whole), 9)
-        raise ParameterError("phases", given, "phases_not_a_turn", whole=given)
+        raise ParameterError("phases", given, "phases_not_a_turn", whole=given, off=round(abs(given - 360), 9))
     total = math.fsum(p.lift for p in phases)
     scale = max((abs(p.lift) for p in phases), default=0.0)
     if not abs(total) <= 1e-12 * max(scale, 1e-300) and total != 0:

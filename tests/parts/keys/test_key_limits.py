@@ -46,6 +46,8 @@ def phases(*rows: tuple[Any, ...]) -> Raw:
         ((120.0, 15.0, 120.0, 60.0), 4, 105.0),
         # too much of it: a short phase is none to blame
         ((160.0, 60.0, 170.0, 2.0), 3, 138.0),
+        # by so little that six digits show 360
+        ((120.0, 60.0, 120.0, 59.99999), 4, 60.0),
     ],
 )
 def test_angles_that_are_no_turn_are_told_what_fits(angles: tuple[float, ...], blamed: int, fits: float) -> None:
@@ -56,6 +58,7 @@ def test_angles_that_are_no_turn_are_told_what_fits(angles: tuple[float, ...], b
     key = f"{PLACE}[{blamed}].angle_deg"
     assert (refusal.key, refusal.code, refusal.value) == (key, "phases_not_a_turn", angles[blamed - 1])
     assert refusal.numbers["whole"] == pytest.approx(sum(angles))
+    assert refusal.numbers["off"] == pytest.approx(abs(sum(angles) - 360), abs=1e-9)
     assert refusal.nearest is not None
     assert (refusal.nearest.value, refusal.nearest.side) == (pytest.approx(fits, abs=1e-9), "exactly")
     assert refused(with_key(raw, key, refusal.nearest.value)) is None

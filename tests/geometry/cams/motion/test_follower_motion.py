@@ -105,7 +105,7 @@ def test_phases_that_do_not_close_are_refused(phases: list[Phase]) -> None:
 def test_the_refusal_tells_what_the_phases_make() -> None:
     with pytest.raises(ParameterError) as caught:
         follower_motion([rise(D(90), 10, sine()), return_(D(90), 10, sine())])
-    assert (caught.value.code, caught.value.numbers) == ("phases_not_a_turn", {"whole": 180.0})
+    assert (caught.value.code, caught.value.numbers) == ("phases_not_a_turn", {"whole": 180.0, "off": 180.0})
 
 
 def test_tables() -> None:
