@@ -269,7 +269,9 @@ def _interrupted() -> int:
 def _parser(told: Words) -> Parser:
     parser = Parser(
         prog="higherpair",
-        description=told.text("Exact gears as DXF, SVG, STL, 3MF and STEP, each file read back and measured."),
+        description=told.text(
+            "Exact gears, cams and mechanisms as DXF, SVG, STL, 3MF and STEP, each file read back and measured."
+        ),
         epilog=told.text("examples:") + _EXAMPLES,
     )
     version = told.text("show program's version number and exit")

@@ -51,6 +51,9 @@ _TEXT_ROUNDINGS = 2
 _ROUNDINGS = 3.0
 # coordinates have 16 digits at most
 _DIGITS = 2e-15
+# a coordinate is moved by half of its last decimal: a place by sqrt(1/2) of one, the section of a slant of 45 degrees
+# by half of one more, for its height
+_STEP_PLACE = 1.21
 # STEP's directions and radii have 15 digits
 _STEP_ROUNDING = 1e-12
 
@@ -209,8 +212,7 @@ def _mesh_rounding(content: Content) -> float:
 def _step_rounding(content: Content) -> float:
     from parts.solids.step_text import decimals
 
-    # a coordinate is moved by half of its last decimal, all three by less than one
-    return 10.0 ** -decimals(content.tolerance) + _STEP_ROUNDING * content.body.section_reach()
+    return _STEP_PLACE * 10.0 ** -decimals(content.tolerance) + _STEP_ROUNDING * content.body.section_reach()
 
 
 def write_outlines(

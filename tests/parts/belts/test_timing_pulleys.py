@@ -93,6 +93,13 @@ def test_files_have_every_groove_and_one_that_is_filled_is_caught(tmp_path: Path
     assert "grooves" in failure
 
 
+def test_step_files_of_chamfered_pulleys_keep_within_their_digits(tmp_path: Path) -> None:
+    """Heights and places are rounded both: a slant of 45 degrees moves by more than one last decimal of its places."""
+    own = {"belt": "T5", "number_of_teeth": 19, "clearance": 0.106, "face_width": 10.0, "face_chamfer": 0.1}
+    scene = write_scene(tmp_path / "s.toml", {"a": PLATE | own}, [{"format": "step"}])
+    assert run("build", scene, "--out", tmp_path) == 0
+
+
 def test_both_pulleys_turn_the_same_way_by_their_teeth() -> None:
     placing, checks = placed({"number_of_belt_teeth": 100, "direction_deg": 20.0})
     assert placing.turns[0] == pytest.approx({"a": 3.0, "b": 1.0})
