@@ -107,6 +107,16 @@ def lacking(room: Room, wide: float, high: float) -> Literal["width", "height"]:
     return min(grown, key=lambda one: one[0], default=(0.0, "width"))[1]
 
 
+def least_side(room: Room, side: Literal["width", "height"], wide: float, high: float) -> float:
+    """The least width or height of a room, its other side kept, that holds a box, mm; infinite where none does."""
+    inner, sizes = room.inner, [_turned(complex(wide, high), turn) for turn in room.turns]
+    if side == "width":
+        needed = [size.real for size in sizes if size.imag <= inner.imag]
+    else:
+        needed = [size.imag for size in sizes if size.real <= inner.real]
+    return min(needed, default=math.inf) + 2 * room.margin
+
+
 def nest(shapes: Mapping[str, tuple[BaseGeometry, int]], room: Room) -> list[Laid]:
     """Lay so many pieces of each shape (polygons, mm) on boards; in the order of the boards.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -11,13 +12,14 @@ import numpy as np
 from msgspec.structs import replace as with_keys
 
 from exporters.boards.cuts import in_order
-from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, lacking, nest
+from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, lacking, least_side, nest
 from exporters.formats.registry import strokes_of, write_outlines
 from exporters.production.jobs import Job, Made, PartsJob, several
 from exporters.production.request import Request
 from exporters.verification.board import BoardPiece, ExpectedBoard, verify_board
 from exporters.verification.verdict import Verdict
 from geometry.approximation.chords import approximate_profile
+from geometry.base.errors import Nearest, rounded
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
 from geometry.plane.contour import Approximation, Contour
@@ -38,6 +40,7 @@ if TYPE_CHECKING:
 _CHORDS, _DECIMALS = 0.02, 4
 # of numbers on a board: what is turned and moved keeps the digits of the part's own file
 _FILE_DECIMALS = 12
+_MORE = 1 + 1e-12
 
 
 class BoardJob(Record, PartsJob):
@@ -159,11 +162,18 @@ def _laid_out(
     try:
         laid = nest(shapes, room)
     except DoesNotFitError as refusal:
-        size = [round(x, 3) for x in refusal.size]
-        side = lacking(room, *refusal.size)
+        side, part, size = lacking(room, *refusal.size), refusal.shape, refusal.size
+        boxes = {p: (box[2] - box[0], box[3] - box[1]) for p, box in ((p, s.bounds) for p, (s, _) in shapes.items())}
+        needs = {p: least_side(room, side, *box) for p, box in boxes.items()}
+        offer = None
+        if math.isfinite(most := max(needs.values())):
+            part = max(needs, key=lambda p: needs[p])
+            size = boxes[part]
+            # margins that are taken off again may round the last digit down
+            offer = Nearest(rounded(most * _MORE, up=True), "at_least")
         raise SceneError(
-            source, f"{place}.{side}", getattr(board, side), "too_small_for_part", None, "mm",
-            part=refusal.shape, width=size[0], height=size[1], margin=board.margin,
+            source, f"{place}.{side}", getattr(board, side), "too_small_for_part", offer, "mm",
+            part=part, width=round(size[0], 3), height=round(size[1], 3), margin=board.margin,
         ) from refusal  # fmt: skip
     return [replace(one, at=complex(round(one.at.real, _DECIMALS), round(one.at.imag, _DECIMALS))) for one in laid]
 

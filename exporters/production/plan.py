@@ -103,6 +103,8 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     unused = [f"parts.{p}" for p in parts if p not in used | rods]
     unused += [f"{key}.{n}" for key, word in PURPOSES_LAID.items() for n in getattr(scene, key) if word not in purposes]
     left_out += [LeftOut(what, N_("no export asks for it"), as_asked=bool(only_formats)) for what in unused]
+    # exports of flat files that leave a solid out
+    flat: list[str] = []
     jobs: list[Job] = []
     assemblies: list[AssemblyJob | BoardJob] = []
     sheets: list[SheetJob | Film | ListJob] = []
@@ -120,6 +122,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             if bodies and export.parts:
                 raise asked.refused("parts", bodies[0], "no_flat_outline")
             left_out += [_no_outline(where, p) for p in bodies]
+            flat += [where] * len(bodies)
             if bodies:
                 asked = replace(asked, export=with_keys(export, parts=[p for p in parts if p not in bodies]))
             sheets += _sheets(replace(asked, export=_of_cams(asked.export, parts, only_parts)), taken)
@@ -149,6 +152,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
                 continue
             if not (export.parts or file_kind(export.format, export.purpose).is_solid or _is_flat(parts[part_id])):
                 left_out.append(_no_outline(where, part_id))
+                flat.append(where)
                 continue
             path = "" if export.assembly else _file_name(part_id, export, [e for _, e in exports])
             _take(path, where, taken, source)
@@ -163,6 +167,9 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             _take(path, where, taken, source)
             stand = tuple(i for i in placing.instances if i.part in asked.wanted)
             assemblies.append(AssemblyJob(assembly_name(scene.name), export, tuple(made), stand, path, where))
+    if flat and not (jobs or assemblies or sheets):
+        key = "--format" if only_formats else f"{flat[0]}.format"
+        raise SceneError(source, key, ", ".join(dict.fromkeys(e.format for _, e in exports)), "nothing_flat")
     return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out), tuple(sheets))
 
 

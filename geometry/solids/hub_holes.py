@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import itertools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -143,7 +143,7 @@ class HubHoles(Record):
         if self.spokes is not None:
             self.spokes.check("spokes")
         least = least_wall(root_radius)
-        for wall in (*self._rims(root_radius), *self._walls_between()):
+        for wall in itertools.chain(self._rims(root_radius), self._walls_between()):
             # a round bore may leave as thin a rim as it likes
             plain = wall.code == "bore_reaches_root_circle" and isinstance(self.bore, RoundBore)
             if not wall.thickness > (0.0 if plain else least):
@@ -177,29 +177,27 @@ class HubHoles(Record):
             walls.append(Wall(root_radius - spokes.reach, *blamed, "windows_reach_root_circle", root))
         return walls
 
-    def _walls_between(self) -> list[Wall]:
-        """What is left between holes."""
-        walls = []
+    def _walls_between(self) -> Iterator[Wall]:
+        """What is left between holes, one by one: of many groups the first that meet are enough."""
         groups = self.groups()
         for key, group in groups:
             here = f"{key}.diameter", group.diameter
-            walls.append(Wall(group.wall_between(), *here, "holes_touch_each_other"))
+            yield Wall(group.wall_between(), *here, "holes_touch_each_other")
             if self.bore is not None:
-                walls.append(Wall(_wall(group, group.centres(), self.bore.profile()), *here, "holes_touch_bore"))
+                yield Wall(_wall(group, group.centres(), self.bore.profile()), *here, "holes_touch_bore")
             if (spokes := self.spokes) is not None:
                 # of all windows the one in whose sector a centre stands is nearest to it
                 folded = [spokes.folded(c) for c in group.centres()]
-                walls.append(Wall(_wall(group, folded, spokes.profiles()[0]), *here, "holes_touch_window"))
-        for (_, first), (key, second) in itertools.combinations(groups, 2):
-            gap = np.abs(np.array(first.centres())[:, None] - np.array(second.centres())).min()
-            thickness = float(gap) - (first.diameter + second.diameter) / 2
-            walls.append(Wall(thickness, f"{key}.diameter", second.diameter, "holes_touch_another_group"))
+                yield Wall(_wall(group, folded, spokes.profiles()[0]), *here, "holes_touch_window")
+        placed = [(key, group, np.array(group.centres())) for key, group in groups]
+        for (_, first, theirs), (key, second, own) in itertools.combinations(placed, 2):
+            thickness = float(np.abs(theirs[:, None] - own).min()) - (first.diameter + second.diameter) / 2
+            yield Wall(thickness, f"{key}.diameter", second.diameter, "holes_touch_another_group")
         if (spokes := self.spokes) is not None:
-            walls.append(Wall(spokes.width, "spokes.width", spokes.width, "leaves_no_spoke"))
+            yield Wall(spokes.width, "spokes.width", spokes.width, "leaves_no_spoke")
             if self.bore is not None:
                 hub = spokes.inner_diameter / 2 - self.bore.reach
-                walls.append(Wall(hub, "spokes.inner_diameter", spokes.inner_diameter, "windows_touch_bore"))
-        return walls
+                yield Wall(hub, "spokes.inner_diameter", spokes.inner_diameter, "windows_touch_bore")
 
 
 def _wall(group: RoundHoles, centres: list[complex], other: Profile) -> float:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from contextlib import suppress
 from functools import cached_property, partial
 from typing import Literal, Protocol
 
@@ -395,6 +396,21 @@ def _to_involutes(base: float, upper: bool, angles: Real, points: Real) -> Real:
     return base * np.abs(apart).min(axis=1) + np.maximum(base - np.abs(places), 0.0)
 
 
+def _check_outlines(joint: StraightJoint | InvoluteJoint, clearance: float) -> None:
+    """Refuse a joint whose hub or shaft has no outline, each within its clearance, mm: an OffsetError."""
+    joint.hub().widened(clearance).outline()
+    joint.shaft().outline(-clearance)
+
+
+def _of_root(joint: StraightJoint | InvoluteJoint, blamed: tuple[str, object], clearance: float) -> tuple[str, object]:
+    """The rounding at the root, with its value, where a joint has an outline without it; else what is blamed."""
+    if isinstance(joint, StraightJoint) and joint.rounding > 0:
+        with suppress(OffsetError):
+            _check_outlines(replace(joint, rounding=0.0), clearance)
+            return "bore.root_rounding", joint.rounding
+    return blamed
+
+
 class SplineBore(Record, dict=True):
     """The slots of a hub; mm, rad.
 
@@ -422,10 +438,9 @@ class SplineBore(Record, dict=True):
         """See Bore."""
         for clearance, blamed in ((0.0, self.size), (self.clearance, ("bore.clearance", self.clearance))):
             try:
-                self.joint.hub().widened(clearance).outline()
-                self.joint.shaft().outline(-clearance)
+                _check_outlines(self.joint, clearance)
             except OffsetError as refusal:
-                raise ParameterError(*blamed, refusal.reason) from refusal
+                raise ParameterError(*_of_root(self.joint, blamed, clearance), refusal.reason) from refusal
 
     def widened(self, depth: float) -> SplineBore:
         """Its slots with a chamfer."""

@@ -87,11 +87,11 @@ def kind_of(
     raise SceneError(source, f"{place}.kind", kind, code, meant(kind, known), known=list(known))
 
 
-def _check_misspelt(name: str, table: Mapping[str, Any], source: str, place: str) -> None:
-    """Refuse a key that is a missing one which tells tables apart, misspelt: msgspec looks for that one first."""
+def _check_misspelt(name: str, table: Mapping[str, Any], source: str, place: str, known: Collection[str] = ()) -> None:
+    """Refuse a key that is none of those ``known`` but a missing one, misspelt: msgspec looks for that one first."""
     import difflib
 
-    for key in difflib.get_close_matches(name, table, 1, 0.7):
+    for key in difflib.get_close_matches(name, [key for key in table if key not in known], 1, 0.7):
         raise SceneError(source, f"{place}.{key}", table[key], "unknown_key", Nearest(name, "meant"), known=[name])
 
 
@@ -112,8 +112,11 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         return SceneError(source, f"{where}.{name}", around[name], "unknown_key", like, known=known, see=see)
     if missing := re.search(r"missing required field `(.*?)`", message):
         name = missing.group(1)
-        _check_misspelt(name, _lookup(table, keys), source, where)
-        what = _tags_of(kind, [*keys, name], table) or described_key(_owner(kind, keys, table), name)
+        owner = _owner(kind, keys, table)
+        _check_misspelt(
+            name, _lookup(table, keys), source, where, [f.encode_name for f in msgspec.structs.fields(owner)]
+        )
+        what = _tags_of(kind, [*keys, name], table) or described_key(owner, name)
         return SceneError(source, f"{where}.{name}", None, "missing_key" if what else "missing", None, what=what)
     allowed, words = _tags_of(kind, keys, table), _tag_words_of(kind, keys, table)
     if allowed is None and (named := [i for i, k in enumerate(keys) if not k.isdigit()]):

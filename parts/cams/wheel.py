@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Literal, TypeVar
 
-from geometry.base.errors import Nearest, OffsetError, ParameterError
+from geometry.base.errors import OffsetError
 from geometry.base.findings import Finding
 from geometry.base.nearest import moved
 from geometry.plane.offset_region import OffsetRegion
@@ -15,7 +15,7 @@ from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sec
 from parts.base.kind import Kind
 from parts.base.part_keys import MaterialKeys
 from parts.base.schema import replaced
-from parts.keys.holes import check_holes, check_shape, wide_bore
+from parts.keys.holes import check_holes, check_shape, wide_bore, wide_holes
 from parts.keys.timing_mark import TimingMarkTable, with_timing_mark
 from parts.keys.wheel import HubbedKeys, shape_of
 
@@ -64,7 +64,7 @@ def check_disk(keys: DiskKeys, cam: DiskCam, within: Within = "base_circle") -> 
 
         raise wide_bore(keys, inside, wall, beside)
     if holes.reach > inside:
-        raise ParameterError("holes", 2 * holes.reach, beyond, Nearest(None), inside=inside)
+        raise wide_holes(keys, type(keys).hub_holes, inside, beyond, lambda k: bool(check_disk(k, cam, within).number))
     check_holes(keys, type(keys).hub_holes, inside)
     marked = with_timing_mark(holes, keys.timing_mark, cam, inside)
     check_wheel(shape_of(keys), 2 * inside, marked)

@@ -276,6 +276,23 @@ def wide_bore(
     return ParameterError(f"bore.{name}", given, code, lambda: nearest(fits, given, (given * s for s in _SHARES)))
 
 
+def wide_holes(
+    keys: K, holes_of: Callable[[K], HubHoles], inside: float, code: str, beside: Callable[[K], bool]
+) -> ParameterError:
+    """A refusal of the group of holes that reaches farthest, beyond ``inside`` mm, with a size that stays within.
+
+    ``beside`` judges keys whose holes do that, together with what else stands there: a mark, a hub.
+    """
+
+    def fits(changed: K) -> bool:
+        found = holes_of(changed)
+        return found.reach < inside and found.fits(math.inf) and kept(beside, changed)
+
+    key, group = max(holes_of(keys).groups(), key=lambda g: g[1].reach)
+    beyond = ParameterError(f"{key}.pitch_circle_diameter", group.pitch_circle_diameter, code, inside=inside)
+    return with_remedy(beyond, keys, fits)
+
+
 def with_remedy(refusal: ParameterError, keys: K, fits: Callable[[K], bool]) -> ParameterError:
     """A refusal of ``bore``, ``holes`` or ``spokes`` told of the key of its table that alone can cure it.
 

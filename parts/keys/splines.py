@@ -7,8 +7,10 @@ import re
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct
+from msgspec.structs import replace as changed
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import Cure, Nearest, ParameterError
+from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from parts.base.lookalikes import in_latin
 from parts.keys.base import degrees, part_mm
@@ -18,6 +20,8 @@ if TYPE_CHECKING:
     from parts.base.readback import Probe
 
 _OWN = ("teeth", "inner_diameter", "outer_diameter", "width")
+# sizes that nothing else of a splined step follows
+_SMALL = ("chamfer", "root_rounding")
 # a number with or without a fit after it, and a fit or a class of tolerance alone
 _FIT = r"[A-WYZa-wyz]{1,2}\d{1,2}"
 _NUMBER = re.compile(rf"(\d+(?:\.\d+)?)(?:{_FIT}(?:/{_FIT})?)?")
@@ -71,8 +75,19 @@ class _SplineTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
             made = self.bore()
             made.check()
         except ParameterError as refusal:
-            raise refusal.renamed(".".join(filter(None, (place, refusal.name.removeprefix("bore."))))) from refusal
+            key = refusal.name.removeprefix("bore.")
+            told = refusal if key not in _SMALL else ParameterError(key, refusal.value, refusal.code, self._less(key))
+            raise told.renamed(".".join(filter(None, (place, key)))) from refusal
         return made
+
+    def _less(self, key: str) -> Cure:
+        """How to find the greatest of a size that leaves an outline."""
+
+        def fits(value: float) -> bool:
+            changed(self, **{key: value}).bore().check()
+            return True
+
+        return lambda: nearest(fits, getattr(self, key), 0.0)
 
     def probes(self, height: float) -> tuple[Probe, ...]:
         """What files of a part with such a bore must do where they are cut, mm."""
@@ -187,6 +202,8 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
         if outer and self.root == "fillet":
             raise ParameterError("bore.root", self.root, "centred_by_flat_roots", Nearest("flat"))
         refusal = ParameterError("bore.size", self.size, "no_such_spline", None, example=_EXAMPLES[self.standard])
+        if gost and plain[:1] in ("i", "I"):
+            raise ParameterError("bore.size", self.size, "spline_centred_inside")
         if self.standard == "ISO 4156":
             iso = _ISO.fullmatch(plain)
             root: Literal["flat", "fillet"] = "fillet" if iso and iso[4] in "Rr" else "flat"

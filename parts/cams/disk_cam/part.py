@@ -213,9 +213,11 @@ def _fitted(keys: CamSpec, refusal: ParameterError) -> ParameterError:
 
 def _least_base(keys: CamSpec, motion: FollowerMotion) -> float:
     """The base circle by the textbook's condition: r_0 + rho of a flat face, r_0 - r of a roller."""
+    from geometry.cams.plane.disk import FollowerKind, check_radius
     from geometry.cams.plane.synthesis import convex_roller_base_radius, flat_base_radius, roller_prime_radius
 
     angle, radius = keys.least_transmission_angle_deg, keys.follower_radius
+    check_radius(FollowerKind(keys.follower), radius)
     spare = 1.0 if keys.least_curvature_radius else 1 + _SPARE
     if angle is None:
         raise ParameterError("base_circle_radius", None, "base_circle_missing")

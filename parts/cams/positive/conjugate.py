@@ -30,6 +30,7 @@ from parts.keys.holes import (
     check_shape,
     hub_holes,
     wide_bore,
+    wide_holes,
 )
 from parts.keys.timing_mark import TimingMarkTable, with_timing_mark
 from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, wheel_shape
@@ -226,7 +227,10 @@ def _checked_holes(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam, insid
             raise ParameterError("bore_diameter", None, "no_wall_to_base_circle", most)
         raise wide_bore(replace(keys, bore_diameter=keys.bore_diameter or 0.0), inside, "no_wall_to_base_circle")
     if not holes.reach < inside:
-        raise ParameterError("holes", 2 * holes.reach, "holes_beyond_base_circle", Nearest(None), inside=inside)
+        raise wide_holes(
+            keys, lambda k: _holes_of(k, owner), inside, "holes_beyond_base_circle",
+            lambda k: bool(_checked_holes(k, owner, first, inside).number),
+        )  # fmt: skip
     check_holes(keys, lambda changed: _holes_of(changed, owner), inside)
     return with_timing_mark(holes, keys.timing_mark, first, inside)
 

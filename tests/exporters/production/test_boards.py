@@ -491,3 +491,27 @@ def test_the_way_between_cuts_goes_to_the_nearest_that_is_left() -> None:
         left.remove(wanted[-1])
         at = points[wanted[-1]]
     assert (way, end) == (wanted, at)
+
+
+def test_a_board_that_is_too_small_is_told_how_large_it_must_be(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The greater of two discs decides, not the first one: 60 mm, margins of 5 mm; one step less is refused again."""
+    text = "".join(f'[parts.{name}]\nkind = "roller"\ndiameter = {d}\nface_width = 3.0\n'
+                   for name, d in (("small", 30.0), ("large", 60.0)))  # fmt: skip
+    text += '[[exports]]\nformat = "svg"\npurpose = "board"\n[boards.b]\nwidth = 300.0\nthickness = 3.0\n'
+    file = tmp_path / "s.toml"
+
+    def refusal(height: float) -> str:
+        file.write_text(f"{text}height = {height!r}\n")
+        code = main(["build", str(file), "--out", str(tmp_path / "out"), "--no-verify"])
+        said = capsys.readouterr().err
+        assert (code == 2) == bool(said)
+        return said
+
+    said = refusal(20.0)
+    assert "boards.b.height = 20.0: the part large needs 60" in said
+    least = float(re.findall(r"at least ([\d.]+) mm works", said)[0])
+    assert 70 <= least < 70.2
+    assert "boards.b.height" in refusal(least - 1e-4)
+    assert refusal(least) == ""

@@ -130,8 +130,9 @@ def test_extreme_wheels_are_files_within_their_bound_the_steepest_by_what_it_is_
 
 
 def test_a_wheel_has_no_flat_outline(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert _built(tmp_path, "", "--format", "svg", "--no-verify") == 0
-    assert not (tmp_path / "out" / "wheel" / "wheel.svg").exists()
+    assert _built(tmp_path, "", "--format", "svg", "--no-verify") == 2
+    assert '--format = "svg": no part that is asked for has a flat outline' in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.sampled(1)

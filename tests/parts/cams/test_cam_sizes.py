@@ -208,7 +208,7 @@ CAM_REFUSED: list[tuple[Raw, str, object, str, object]] = [
      "", ...),
     (scene_of(cam()), "plate_diameter", 30.0, "for_faces_only", None),
     (scene_of(cam()), "holes", {"count": 4, "diameter": 10.0, "pitch_circle_diameter": 70.1},
-     "holes_beyond_base_circle", None),
+     "holes_beyond_base_circle", "at_most"),
 ]  # fmt: skip
 
 
@@ -224,8 +224,12 @@ def test_keys_that_a_cam_lacks_or_has_too_many_are_told(
     if key == "holes":
         found = refused(with_key(raw, "parts.p.holes", value))
         assert found is not None
-        assert (found.key, found.code, found.value) == ("parts.p.holes", code, pytest.approx(80.1))
+        assert (found.key, found.code, found.value) == ("parts.p.holes.pitch_circle_diameter", code, 70.1)
         assert found.numbers["inside"] == pytest.approx(40.0)
+        # the hole's radius inside of the base circle
+        assert found.nearest is not None
+        assert found.nearest.side == works
+        assert found.nearest.value == pytest.approx(70.0, abs=2e-4)
         assert refused(with_key(raw, "parts.p.holes", {**value, "pitch_circle_diameter": 69.9})) is None  # type: ignore[dict-item]
         return
     check_refused(raw, f"parts.p.{key}", value, code, works)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from pathlib import Path
+from time import process_time
 from typing import Any
 
 import ezdxf
@@ -268,3 +269,14 @@ def test_any_tables_give_a_section_or_one_line(keys: dict[str, Any], offset: flo
         return
     holes = plan.jobs[0].section.region.holes
     assert all(profile_area(hole) < 0 for hole in holes)
+
+
+def test_many_groups_of_holes_that_meet_are_refused_at_once() -> None:
+    """Half a million pairs of them were looked at for each trial, minutes long, where the first two meet."""
+    hole = {"count": 3, "diameter": 1.0, "pitch_circle_diameter": 20.0}
+    part = {"kind": "spur_gear", "module": 2.0, "number_of_teeth": 23, "holes": [hole] * 1000}
+    began = process_time()
+    with pytest.raises(SceneError) as refused:
+        make_parts(scene_from_dict({"parts": {"p": part}}, "s", "s"), "s")
+    assert refused.value.code == "holes_touch_another_group"
+    assert process_time() - began < 10

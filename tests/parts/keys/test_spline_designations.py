@@ -51,12 +51,36 @@ def test_involute_splines_are_read_from_their_drawings(
 
 @pytest.mark.parametrize(
     ("size", "keys"),
-    [("i50x2xH7/g6", {}), ("50x2 DIN 5480", {}), ("24z x 0m x 30P", ISO), ("201z x 2m x 30P", ISO)],
+    [("50x2 DIN 5480", {}), ("24z x 0m x 30P", ISO), ("201z x 2m x 30P", ISO)],
 )
 def test_no_other_splines_are_read(size: str, keys: dict[str, Any]) -> None:
     with pytest.raises(ParameterError) as caught:
         InvoluteSplineTable(size, **keys).joint()
     assert caught.value.code == "no_such_spline"
+
+
+def test_centring_on_the_inner_diameter_is_told_as_such() -> None:
+    with pytest.raises(ParameterError) as caught:
+        InvoluteSplineTable("i 50x2xH7/g6").joint()
+    assert caught.value.code == "spline_centred_inside"
+
+
+@pytest.mark.parametrize(
+    "size", [{"size": "6x23x26"}, {"teeth": 6, "inner_diameter": 23.0, "outer_diameter": 26.0, "width": 6.0}]
+)
+def test_a_rounding_without_room_is_blamed_itself(size: dict[str, Any]) -> None:
+    """Before: the outer diameter where sizes were told, and on a shaft no limit."""
+    with pytest.raises(ParameterError) as caught:
+        StraightSplineTable(root_rounding=5.0, **size).checked("spline")
+    assert (caught.value.name, caught.value.value) == ("spline.root_rounding", 5.0)
+    limit = caught.value.nearest
+    assert limit is not None
+    assert limit.side == "at_most"
+    most = limit.value
+    assert isinstance(most, float)
+    StraightSplineTable(root_rounding=most, **size).checked("spline")
+    with pytest.raises(ParameterError):
+        StraightSplineTable(root_rounding=most + 2e-4, **size).checked("spline")
 
 
 def test_round_roots_do_not_centre_by_the_fit_of_the_outer_diameter() -> None:

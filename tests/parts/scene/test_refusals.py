@@ -537,6 +537,20 @@ def test_a_misspelt_key_is_told_as_it_was_typed(part: Keys, key: str, told: str)
     assert told in str(found)
 
 
+@pytest.mark.parametrize(
+    ("part", "key"),
+    [
+        # before: pin_diameter, which is there and known, was told to be no key and to mean pin_circle_diameter
+        ({"kind": '"output_plate"', "number_of_pins": 6, "pin_diameter": 6.0, "module": None, "number_of_teeth": None},
+         "parts.gear.pin_circle_diameter"),
+        ({"spokes": "{ count = 5, inner_diameter = 10.0, width = 2.0 }"}, "parts.gear.spokes.outer_diameter"),
+    ],
+)  # fmt: skip
+def test_a_missing_key_is_not_taken_for_one_like_it(part: Keys, key: str) -> None:
+    found = refusal(scene_text(part))
+    assert (found.key, found.value, found.code) == (key, None, "missing_key")
+
+
 def test_of_a_long_list_what_is_like_the_word_is_told() -> None:
     few = str(refusal(scene_text({"modul": "2"})))
     assert re.search(r"known keys: module and \d+ more, see `higherpair new spur_gear`; did you mean module\?$", few)

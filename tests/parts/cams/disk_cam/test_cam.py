@@ -309,7 +309,7 @@ WRONG: dict[str, tuple[dict[str, Any], str, str]] = {
     "offset to the other side": (ROLLER | {"follower_offset": -50.0}, "follower_offset", "offset_beyond_prime_circle"),
     "bore beyond": (ROLLER | {"bore_diameter": 70.5}, "bore_diameter", "no_wall_to_base_circle"),
     "holes beyond": (ROLLER | {"holes": {"count": 4, "diameter": 10.0, "pitch_circle_diameter": 64.0}},
-                     "holes", "holes_beyond_base_circle"),
+                     "holes.pitch_circle_diameter", "holes_beyond_base_circle"),
     "small plate": (CAMS["flat"] | {"follower_offset": 4.0, "plate_diameter": 30.0}, "plate_diameter",
                     "contact_over_edge"),
     "plate of a roller": (ROLLER | {"plate_diameter": 30.0}, "plate_diameter", "for_faces_only"),

@@ -312,7 +312,12 @@ def test_a_bevel_gear_that_is_offset_or_cut_flat_is_refused(tmp_path: Path, caps
     assert "exports[1].offset = 0.1" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
     file = write_scene(tmp_path / "s.toml", {"pinion": PINION}, [{"format": "dxf"}])
-    assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 0
+    assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 2
+    assert 'exports[1].format = "dxf": no part that is asked for has a flat outline' in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
+    # beside a file that can be made it is left out
+    file = write_scene(tmp_path / "s.toml", {"pinion": PINION}, [{"format": "dxf"}, {"format": "stl"}])
+    assert main(["build", str(file), "--out", str(tmp_path / "out"), "--no-verify"]) == 0
     assert "pinion has no flat outline" in capsys.readouterr().out
     assert not list((tmp_path / "out").rglob("*.dxf"))
 
