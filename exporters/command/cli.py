@@ -61,11 +61,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         for stop in _stops():
             previous[stop] = signal.signal(stop, _stop)
+        return _ended(options)
+    except KeyboardInterrupt:
+        return _interrupted()
+    finally:
+        for stop, handler in previous.items():
+            signal.signal(stop, handler)
+        sys.unraisablehook = told_lost
+
+
+def _ended(options: argparse.Namespace) -> int:
+    """The exit code of a command; a refusal is told here, as the search for what would work may be stopped too."""
+    try:
         code = options.run(options)
         sys.stdout.flush()
         return code
-    except KeyboardInterrupt:
-        return _interrupted()
     except BrokenPipeError:
         # whoever read the output has left: nothing more can be said to it
         sys.stdout = _nowhere()
@@ -82,10 +92,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
             raise
         print(f"higherpair: {sentence(error, _language(options))}", file=sys.stderr)
         return WRONG_INPUT
-    finally:
-        for stop, handler in previous.items():
-            signal.signal(stop, handler)
-        sys.unraisablehook = told_lost
 
 
 def _outside(error: OSError | MemoryError | ImportError, options: argparse.Namespace) -> str | None:

@@ -110,6 +110,24 @@ def test_a_stop_between_imports_is_told_at_once(
     assert "nothing half-written is left" in said.err
 
 
+def test_a_stop_while_a_refusal_looks_for_what_works_is_told_too(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    refused = ["calc", "spur", "module=0", "number_of_teeth=23"]
+    assert main(refused) == 2
+    capsys.readouterr()
+
+    def stop(*_: object) -> str:
+        signal.raise_signal(signal.SIGINT)
+        raise AssertionError
+
+    monkeypatch.setattr("parts.base.refusal.sentence", stop)
+    assert main(refused) == 130
+    said = capsys.readouterr()
+    assert (said.out, said.err.count("\n")) == ("", 1)
+    assert "nothing half-written is left" in said.err
+
+
 class Terminal:
     """Standard output that is a terminal."""
 
