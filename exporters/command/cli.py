@@ -348,7 +348,7 @@ def _parser(told: Words) -> Parser:
 
     meaning = told.text("measure error against run time, over a ladder of tolerances")
     converge = command("converge", meaning, _converge)
-    converge.add_argument("scene", help=scene)
+    converge.add_argument("scene", metavar=shown("SCENE"), help=scene)
     converge.add_argument("--out", help=results, **out)
     converge.add_argument("--part", metavar=shown("ID"), help=told.text("only this part"), **repeated)
     converge.add_argument("--format", metavar="F", help=told.text("only this format"), **repeated)
