@@ -15,7 +15,7 @@ from geometry.gears.pairs.sliding import active_line
 from geometry.gears.teeth import limits
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
 from geometry.gears.teeth.spur import SpurGear
-from geometry.gears.teeth.transverse import normal_share, transverse_angle
+from geometry.gears.teeth.transverse import base_helix_angle, helix_angle_at, normal_share, transverse_angle
 from parts.base.texts import message
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_of
@@ -85,6 +85,13 @@ def meshing_steps(page: Sheet, pair: Pair, helical: Helical, wanted: str) -> Non
     # of the pair in transverse modules, told in normal ones like the shifts
     value = pair.centre_distance_coefficient / math.cos(helical.angle)
     page.add("centre_distance_coefficient", value, "({a_w} - {a}) / {m_n}", "ISO 21771")
+    if helical.angle:
+        across = math.sin(angle) * math.cos(base_helix_angle(alpha, helical.angle))
+        formula = "arcsin(sin({alpha_w}) * cos({beta_b}))"
+        page.add("normal_working_pressure_angle_deg", math.degrees(math.asin(across)), formula, ISO)
+        working = helix_angle_at(helical.angle, math.cos(alpha) / math.cos(angle))
+        formula = "arctan(tan({beta}) * cos({alpha}) / cos({alpha_w}))"
+        page.add("working_helix_angle_deg", math.degrees(working), formula, ISO)
 
 
 def contact_steps(page: Sheet, pair: Pair, helical: Helical) -> None:

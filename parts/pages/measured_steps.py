@@ -220,6 +220,9 @@ def _pins(page: Sheet, gear: Measured, asked: Asked, side: _Side) -> None:
     even = gear.number_of_teeth % 2 == 0
     formula = f"{{d_D}} {side.out} {{D}}" if even else f"{{d_D}} * cos(pi / (2 * {{z}})) {side.out} {{D}}"
     page.add(size, found.length, formula, ISO)
+    if helix and not even and side.out == "+":
+        # half an axial pitch apart along the axis, which two pins are free to be and two balls in one plane are not
+        page.add("over_opposite_pins", found.centre_diameter + pin, "{d_D} + {D}", ISO)
     if gear.circumferential_thinning:
         page.add(f"{size}_nominal", measurement.over_pins(measurement.nominal(gear), pin, helix).length)
     if asked.kerf:
@@ -251,4 +254,4 @@ def _same_with_pins(gear: Measured, *, even: bool) -> Text:
         return N_("M holds for balls in one transverse plane; pins do not fit the hollow spaces of a helical ring")
     if even:
         return N_("the number of teeth is even: pins of the ball's diameter give the same M")
-    return N_("the number of teeth is odd: M holds for balls in one transverse plane, not for pins in helical spaces")
+    return N_("the number of teeth is odd: M holds for balls in one transverse plane, M_p for pins in helical spaces")

@@ -28,9 +28,14 @@ def normal_angle(transverse_pressure_angle: float, helix_angle: float) -> float:
     return math.atan(math.tan(transverse_pressure_angle) * math.cos(helix_angle))
 
 
+def helix_angle_at(helix_angle: float, share: float) -> float:
+    """beta_y = atan(tan(beta) r_y / r) on a cylinder ``share`` times as wide as the reference one, rad; ISO 21771."""
+    return math.atan(math.tan(helix_angle) * share)
+
+
 def base_helix_angle(transverse_pressure_angle: float, helix_angle: float) -> float:
     """beta_b = atan(tan(beta) cos(alpha_t)), rad; ISO 21771."""
-    return math.atan(math.tan(helix_angle) * math.cos(transverse_pressure_angle))
+    return helix_angle_at(helix_angle, math.cos(transverse_pressure_angle))
 
 
 def normal_share(transverse_pressure_angle: float, helix_angle: float) -> float:

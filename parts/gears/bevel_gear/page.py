@@ -176,6 +176,8 @@ def _cones(page: Sheet, pair: BevelPair) -> None:
     both("outer_root_circle", lambda g: 2 * g.outer(g.root_angle).real, "{d_e#} - 2 * {h_fe#} * cos({delta#})")
     formula = "{R_e} * cos({delta#}) - {h_ae#} * sin({delta#})"
     both("tip_circle_to_apex", lambda g: g.outer(g.tip_angle).imag, formula, gost)
+    formula = "{b} * cos({delta_a#}) / cos({theta_a#})"
+    both("axial_face_width", lambda g: (g.outer(g.tip_angle) - g.inner(g.inner_tip_angle)).imag, formula, "KHK")
 
 
 def _lines(page: Sheet, gear: BevelGear) -> None:

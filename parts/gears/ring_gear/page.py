@@ -19,6 +19,7 @@ from parts.gears.spur_gear.page import (
     height_steps,
     helix_steps,
     least_tip_step,
+    normal_tip_step,
     section_data,
     shift_data,
     thickness_steps,
@@ -56,7 +57,7 @@ def sheet(keys: RingKeys) -> Sheet:
     helix = math.radians(keys.helix_angle_deg)
     _given(page, ring, keys, helix)
     _dimensions(page, ring, keys)
-    _thicknesses(page, ring, keys.diameter)
+    _thicknesses(page, ring, helix, keys.diameter)
     _limits(page, ring, keys)
     measured = keys.measured_span, keys.measured_between_pins
     asked = Asked(helix, keys.face_width, keys.spaces_spanned, keys.pin_diameter, keys.kerf, *measured)
@@ -104,7 +105,7 @@ def _dimensions(page: Sheet, ring: RingGear, keys: RingKeys) -> None:
     height_steps(page, heights, ("({d} - {d_a}) / 2", "({d_f} - {d}) / 2"))
 
 
-def _thicknesses(page: Sheet, ring: RingGear, diameter: float | None) -> None:
+def _thicknesses(page: Sheet, ring: RingGear, helix: float, diameter: float | None) -> None:
     """Tooth and space on the reference, base and tip circles, and on one that is asked for."""
     page.section("Tooth thickness")
     page.add("profile_shift", ring.profile_shift_coefficient * ring.module, "{x} * {m}", _ISO)
@@ -118,6 +119,7 @@ def _thicknesses(page: Sheet, ring: RingGear, diameter: float | None) -> None:
     page.add("tip_pressure_angle_deg", angle, "arccos({d_b} / {d_a})", _ISO)
     formula = "{d_a} * ({S} / {d} - inv({alpha}) + inv({alpha_a}))"
     page.add("tip_thickness", ring_limits.tip_thickness(ring), formula, _ISO)
+    normal_tip_step(page, ring, ring_limits.tip_thickness(ring), helix)
     thickness_steps(page, ring, diameter, "{d_y} * ({S} / {d} - inv({alpha}) + inv({alpha_y}))")
 
 

@@ -13,7 +13,7 @@ from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
-from geometry.gears.teeth.transverse import base_helix_angle, transverse_angle
+from geometry.gears.teeth.transverse import base_helix_angle, helix_angle_at, transverse_angle
 from parts.base.texts import N_
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, rack_findings, section_of
 from parts.keys.base import mm
@@ -50,7 +50,7 @@ def sheet(keys: SpurKeys) -> Sheet:
     page.section("Given")
     given_data(page, normal, gear, helix)
     dimensions(page, gear, helix)
-    _thicknesses(page, gear, keys.diameter)
+    _thicknesses(page, gear, helix, keys.diameter)
     _limits(page, gear, helix)
     measured = keys.measured_span, keys.measured_over_pins
     asked = Asked(helix, keys.face_width, keys.teeth_spanned, keys.pin_diameter, keys.kerf, *measured)
@@ -193,6 +193,16 @@ def generated_root(page: Sheet, gear: SpurGear | RingGear, source: str, out: str
     page.add("root_diameter", 2 * gear.root_radius, formula, source)
 
 
+def normal_tip_step(
+    page: Sheet, gear: SpurGear | RingGear, thickness: float, helix: float, index: int = 0, radius: str = "d"
+) -> None:
+    """S_an of helical teeth after their transverse S_a; ``radius``: r or d, which the page has of tip and reference."""
+    if helix:
+        across = helix_angle_at(helix, gear.tip_radius / gear.reference_radius)
+        formula = f"{{S_a#}} * cos(arctan({{{radius}_a#}} * tan({{beta}}) / {{{radius}#}}))"
+        page.add("normal_tip_thickness", thickness * math.cos(across), formula, "ISO 21771", index)
+
+
 def thickness_steps(page: Sheet, gear: SpurGear | RingGear, diameter: float | None, formula: str) -> None:
     """Pressure angle and thickness on a circle that is asked for."""
     if diameter is not None:
@@ -220,7 +230,7 @@ def height_steps(page: Sheet, heights: tuple[float, float], formulas: tuple[str,
     page.add("tooth_depth", sum(heights), "{H_a#} + {H_f#}", _LESSON, index)
 
 
-def _thicknesses(page: Sheet, gear: SpurGear, diameter: float | None) -> None:
+def _thicknesses(page: Sheet, gear: SpurGear, helix: float, diameter: float | None) -> None:
     page.section("Tooth thickness")
     page.add("profile_shift", gear.profile_shift_coefficient * gear.module, "{x} * {m}", "practicum (1.1)")
     page.add("reference_thickness", gear.reference_thickness, thickness_formula(gear), "practicum (3.16)")
@@ -230,6 +240,7 @@ def _thicknesses(page: Sheet, gear: SpurGear, diameter: float | None) -> None:
     page.add("tip_pressure_angle_deg", angle, "arccos({d_b} / {d_a})", "practicum (3.18)")
     formula = "{d_a} * ({S} / {d} + inv({alpha}) - inv({alpha_a}))" if gear.rack.relief is None else ""
     page.add("tip_thickness", limits.tip_thickness(gear), formula, "ISO 21771")
+    normal_tip_step(page, gear, limits.tip_thickness(gear), helix)
     thickness_steps(page, gear, diameter, "{d_y} * ({S} / {d} + inv({alpha}) - inv({alpha_y}))")
 
 

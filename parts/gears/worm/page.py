@@ -275,6 +275,7 @@ def _wheel(page: Sheet, drive: WormDrive) -> None:
     """Diameters of the wheel, and how wide and long both may be."""
     starts = drive.worm.number_of_starts
     page.add("throat_diameter", 2 * drive.tip_radius, "{d2} + 2 * ({h_a} + {x}) * {m}", _GOST)
+    page.add("throat_radius", drive.throat_radius, "{a_w} - {d_a2} / 2", _GOST)
     page.add("wheel_root_diameter", 2 * drive.root_radius, "{d_a2} - 2 * {h1}", _GOST)
     page.add("most_outer_diameter", drive.most_outer_diameter, "{d_a2} + 6 * {m} / ({z1} + 2)", _GOST)
     number, of_starts, of_teeth = drive.least_worm_length_terms

@@ -26,6 +26,7 @@ from parts.gears.spur_gear.page import (
     addendum_formula,
     given_data,
     height_steps,
+    normal_tip_step,
     root_radius_step,
     rule_step,
     thickness_formula,
@@ -380,6 +381,7 @@ def _thicknesses(page: Sheet, asked: Asked) -> None:
         formula = "2 * {r_a#} * ({S#} / (2 * {r#}) + inv({alpha}) - inv({alpha_a#}))"
         formula = formula if gear.rack.relief is None else ""
         page.add("tip_thickness", limits.tip_thickness(gear), formula, "ISO 21771", index)
+        normal_tip_step(page, gear, limits.tip_thickness(gear), asked.helix, index, "r")
 
 
 # the kinds of pairs that have a sheet: their keys, and what makes it of a table of them

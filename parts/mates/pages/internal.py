@@ -19,7 +19,7 @@ from parts.base.refusal import SceneError
 from parts.base.texts import N_
 from parts.gears.rack.part import RackSpec, checked_rack_part
 from parts.gears.ring_gear.part import RingGearSpec, checked_ring_gear
-from parts.gears.spur_gear.page import given_data, shift_data
+from parts.gears.spur_gear.page import given_data, normal_tip_step, shift_data
 from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, rack_findings, rounding_finding
 from parts.keys.base import mm
 from parts.keys.helix import common_face, same_helix
@@ -160,7 +160,7 @@ def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> 
     heading(page, helical, N_("Radii"))
     _internal_radii(page, pair, keys, helical)
     heading(page, helical, N_("Pitch and tooth thickness"))
-    _internal_sizes(page, pair)
+    _internal_sizes(page, pair, helical.angle)
     heading(page, helical, N_("Contact ratio"))
     contact_steps(page, pair, helical)
     sliding_steps(page, pair, helical, keys.speed_rpm)
@@ -186,7 +186,7 @@ def _internal_radii(page: Sheet, pair: InternalPair, keys: InternalKeys, helical
     page.add("root_radius", ring.root_radius, "", "ISO 21771", 2)
 
 
-def _internal_sizes(page: Sheet, pair: InternalPair) -> None:
+def _internal_sizes(page: Sheet, pair: InternalPair, helix: float) -> None:
     """Pitch, thicknesses, angles at the tips."""
     pinion, ring = pair.pinion, pair.ring
     gears: tuple[Any, Any] = (pinion, ring)
@@ -202,8 +202,10 @@ def _internal_sizes(page: Sheet, pair: InternalPair) -> None:
     formula = "2 * {r_a1} * ({S1} / (2 * {r1}) + inv({alpha}) - inv({alpha_a1}))"
     usual = pinion.rack.relief is None and forms[0]
     page.add("tip_thickness", limits.tip_thickness(pinion), formula if usual else "", "ISO 21771", 1)
+    normal_tip_step(page, pinion, limits.tip_thickness(pinion), helix, 1, "r")
     formula = "2 * {r_a2} * ({S2} / (2 * {r2}) - inv({alpha}) + inv({alpha_a2}))"
     page.add("tip_thickness", ring_limits.tip_thickness(ring), formula if forms[1] else "", "ISO 21771", 2)
+    normal_tip_step(page, ring, ring_limits.tip_thickness(ring), helix, 2, "r")
 
 
 def _internal_limits(page: Sheet, pair: InternalPair, helical: Helical) -> None:

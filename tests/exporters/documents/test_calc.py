@@ -571,11 +571,13 @@ def test_helical_gears_are_measured_over_balls_and_told_when_pins_do(teeth: int)
     sheet = sheet_for(f"spur module=2 number_of_teeth={teeth} helix_angle_deg=20")
     names = {s.name for s in sheet.steps()}
     assert "over_balls" in names
-    assert not any("pin" in name.split("_") or "pins" in name for name in names)
+    assert {name for name in names if {"pin", "pins"} & set(name.split("_"))} == (
+        {"over_opposite_pins"} if teeth % 2 else set()
+    )
     assert "Over balls" in [s.title for s in sheet.sections]
     notes = " ".join(words("en").say(note) for note in sheet.notes)
     assert ("same M" in notes) == (teeth % 2 == 0)
-    assert ("not for pins" in notes) == (teeth % 2 == 1)
+    assert ("M_p for pins" in notes) == (teeth % 2 == 1)
     straight = {s.name for s in sheet_for(f"spur module=2 number_of_teeth={teeth}").steps()}
     assert "over_pins" in straight
     assert "over_balls" not in straight
