@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Any
+from typing import Annotated
 
 from msgspec import Meta
 
@@ -15,8 +15,9 @@ from parts.chains.sprocket import SPROCKET, SprocketSpec
 from parts.chains.steps import chain_steps, circle_steps
 from parts.keys.base import mm, size
 from parts.mates.chain import ChainDriveSpec, chain_mesh
+from parts.mates.pages.drive_keys import drive_of_kind
 from parts.pages.force_steps import driving_torque
-from parts.pages.inputs import SceneKeys, calculation, chosen_part, given
+from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
 
@@ -44,18 +45,7 @@ class ChainKeys(SprocketSpec, kw_only=True, tag=False, forbid_unknown_fields=Tru
     power: Annotated[float, size("W", _POWER, above=0, most=1e9)] | None = None
 
 
-def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
-    """The keys of the first sprocket of a scene's one chain drive, or of that of the sprocket that ``part`` names."""
-    ends: dict[str, ChainDriveSpec] = {}
-    for one in scene.mates:
-        if isinstance(one, ChainDriveSpec):
-            ends.setdefault(str(scene.instances[one.first].part), one)
-    mate = ends[chosen_part("sprocket", [*ends], [*ends], source, table)]
-    first, second = (scene.parts[str(scene.instances[key].part)] for key in (mate.first, mate.second))
-    assert isinstance(second, SprocketSpec)
-    asked = {key: getattr(mate, key) for key in ("number_of_links", "centre_distance")}
-    own = given(first) | {key: value for key, value in asked.items() if value is not None}
-    return own | {"mate_number_of_teeth": second.number_of_teeth} | table
+table_from = drive_of_kind("sprocket", ChainDriveSpec, "number_of_links", "centre_distance")
 
 
 @calculation(TOPIC, ChainKeys)

@@ -1,0 +1,31 @@
+"""How a scene gives a page its drive: two wheels of one kind, and what is about them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from parts.base.mate import MateKeys
+from parts.pages.inputs import SceneKeys, chosen_part, given
+
+# how a page takes its keys from a scene, its source and what was asked besides
+TableFrom = Callable[[SceneKeys, str, dict[str, Any]], dict[str, Any]]
+
+
+def drive_of_kind(kind: str, mate: type[MateKeys], *lengths: str) -> TableFrom:
+    """The keys of the first wheel (of this ``kind``) of a scene's one such mate, or of that which ``part`` names.
+
+    With them go the teeth of the other wheel, and those of the mate's ``lengths`` that are given.
+    """
+
+    def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
+        ends: dict[str, MateKeys] = {}
+        for one in scene.mates:
+            if isinstance(one, mate):
+                ends.setdefault(str(scene.instances[one.first].part), one)
+        found = ends[chosen_part(kind, [*ends], [*ends], source, table)]
+        first, second = (given(scene.parts[str(scene.instances[key].part)]) for key in (found.first, found.second))
+        asked = {key: value for key in lengths if (value := getattr(found, key)) is not None}
+        return first | asked | {"mate_number_of_teeth": second["number_of_teeth"]} | table
+
+    return table_from
