@@ -135,7 +135,7 @@ def converge_tables(rungs: list[Rung], found: list[Order], files: list[Path], to
 
     of_orders: _Columns[Order] = (
         (N_("curve"), lambda o: f"{o.part} {o.curve}"),
-        (N_("method"), lambda o: o.method),
+        (N_("method"), lambda o: told.text(o.method)),
         (N_("order of the method"), lambda o: f"{o.theory:g}"),
         (N_("observed order"), lambda o: "-" if o.observed is None else f"{o.observed:.3f}"),
         (N_("pieces"), pieces),

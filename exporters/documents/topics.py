@@ -83,6 +83,12 @@ def _write_picture(picture: Picture, file: Path, words: Words) -> None:
 
 def sheet_of(topic: str, words: Sequence[str], language: str | None = None) -> tuple[Sheet, str]:
     """The sheet of a topic and the language of its scene, which is told in another where one is asked for."""
+    signs = (k for k, word in enumerate(words) if word.startswith("=") or (word.endswith("=") and k + 1 < len(words)))
+    if (apart := next(signs, None)) is not None:
+        # key = value, of which the shell makes three words
+        raise SceneError(
+            PLACE, " ".join(words[max(apart - words[apart].startswith("="), 0) : apart + 2]), None, "write_key_value"
+        )
     addresses = [word for word in words if "=" not in word or os.path.isfile(word)]
     if len(addresses) > 1:
         raise SceneError(PLACE, addresses[1], None, "one_scene_only", None, other=addresses[0])

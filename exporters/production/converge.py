@@ -24,7 +24,7 @@ from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.base.record import Record
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
-from parts.base.texts import Words
+from parts.base.texts import N_, Words
 
 # making and measuring a rung may take this long, s; the next one would take longer
 _MOST_SECONDS = 15.0
@@ -70,10 +70,10 @@ def _bare_spline(curve: Curve, count: int, degree: int) -> float:
 
 
 METHODS: dict[str, tuple[float, Callable[[Curve, int], float]]] = {
-    "chords": (2.0, lambda curve, count: chords_of(curve, count)[1]),
-    "arcs": (3.0, lambda curve, count: arc_spline_of(curve, count).max_error),
-    "cubic splines": (4.0, lambda curve, count: _bare_spline(curve, count, 3)),
-    "degree 7 splines": (8.0, lambda curve, count: _bare_spline(curve, count, 7)),
+    N_("chords"): (2.0, lambda curve, count: chords_of(curve, count)[1]),
+    N_("arcs"): (3.0, lambda curve, count: arc_spline_of(curve, count).max_error),
+    N_("cubic splines"): (4.0, lambda curve, count: _bare_spline(curve, count, 3)),
+    N_("degree 7 splines"): (8.0, lambda curve, count: _bare_spline(curve, count, 7)),
 }
 
 
@@ -169,7 +169,8 @@ def write_pictures(folder: Path, rungs: list[Rung], found: list[Order], told: Wo
     axes = told.text("time to write, s"), told.text("error, mm")
     write_loglog(folder / names[0], told.text("measured error against run time"), axes, runs)
     curves: list[Series] = [
-        (f"{o.part} {o.curve} {o.method}{_order_text(o)}", [float(c) for c in o.counts], list(o.errors)) for o in found
+        (f"{o.part} {o.curve} {told.text(o.method)}{_order_text(o)}", [float(c) for c in o.counts], list(o.errors))
+        for o in found
     ]
     if not curves:
         return names[:1]

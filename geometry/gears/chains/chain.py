@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from difflib import get_close_matches
+from fractions import Fraction
 from functools import cache
 
 from geometry.base.record import Record, replace
@@ -57,6 +58,10 @@ PR-38.1-127 38.1 22.23 25.40 36.2 45.44 127.0
 PR-50.8-227 50.8 28.58 31.75 48.3 58.55 227.0
 PR-63.5-354 63.5 39.68 38.10 60.4 0 354.0
 """
+
+
+# a cross as it is typed, Cyrillic or the sign of multiplication; inches and spaces beside it
+_CROSS = str.maketrans("\u0425\u00d7", "XX", ' "\u2033')
 
 
 class Chain(Record):
@@ -115,6 +120,12 @@ def like_chain(designation: str) -> str | None:
     """The designation in the table that is most like another one; None: none is."""
     if (one := _plain(designation).partition("-")[0]) in chains():
         return one
+    if inches := re.fullmatch(r"(\d+(?:/[1-9]\d*)?)X(\d+/[1-9]\d*)", _plain(designation).translate(_CROSS)):
+        # as bicycles and motorcycles name them, 1/2x1/8: pitch and width, of series B and 081 to 085
+        pitch, width = (25.4 * float(Fraction(side)) for side in inches.groups())
+        same = [(n, c) for n, c in chains().items() if n[-1] != "A" and abs(c.pitch - pitch) < 1e-6]
+        if same:
+            return min(same, key=lambda one: abs(one[1].inner_width - width))[0]
     names = [*chains(), *(f"{name}-{k}" for name in chains() if not name.startswith("PR") for k in (1, 2, 3))]
     names = [name for name in names if chain_of(name) is not None]
     found = get_close_matches(_plain(designation), names, 1, 0.5)

@@ -50,7 +50,7 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
     """
     _check(gears)
     language = asked.language
-    rows = [*_rows(tables, language), Row(sheet_words(language, "scale"), "", "1:1")]
+    rows = [*_rows(tables, language), Row(sheet_words(language, "scale"), "", "1:1", answers=0)]
     disk = max(g.tip_radius for g in gears)
 
     def greatest(beside: list[Row], sheet: Canvas) -> float:
@@ -85,9 +85,11 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
     for index, gear in enumerate(gears):
         turn = math.pi / 2 + math.pi * index
         place = Placement2(turn)
-        curves["RACK"] += [c.placed(place) for row in rack_contours(gear, disk, step, TEETH) for c in row]
-        curves["OUTLINE"] += _teeth(gear, place)
-        for name in _CIRCLES:
+        if not asked.by_hand:
+            curves["RACK"] += [c.placed(place) for row in rack_contours(gear, disk, step, TEETH) for c in row]
+            curves["OUTLINE"] += _teeth(gear, place)
+        # what students calculate they draw themselves
+        for name in ("reference",) if asked.by_hand else _CIRCLES:
             layer, radius = f"CIRCLE_{name.upper()}", _radius(gear, name)
             whole = len(gears) == 1
             arc = Arc(0j, radius, 0.0 if whole else turn - 1.5, 2 * math.pi if whole else 3.0)
@@ -99,7 +101,7 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
     _, table = _areas(pages[-1], rows)
     corner = complex(pages[-1].frame.right - table.size[0], pages[-1].content.low)
     table.draw(pages[-1], corner + 1j * max(0.0, pages[-1].content.high - _TITLE - table.size[1] - corner.imag) * alone)
-    _label(canvas, paper, room, gears, names, language)
+    _label(canvas, paper, room, gears, names, asked)
     return [Expected(canvas, paper, tuple(circles), curves), *(Expected(page, paper, ()) for page in pages[1:])]
 
 
@@ -171,7 +173,7 @@ def _label(
     room: Box,
     gears: list[SpurGear],
     names: list[tuple[SpurGear, int, str, float, float]],
-    language: str,
+    asked: Asked,
 ) -> None:
     labels = Labeller(canvas, room)
     labels.name("O", paper.origin, prefer=1 + 1j)
@@ -180,16 +182,16 @@ def _label(
         way = 1j if index == 0 else -1j
         # on its own side of the axis
         labels.name(
-            sheet_words(language, key), paper.origin + 0.35 * paper.scale * gear.root_radius * way, prefer=1 + 0j
+            sheet_words(asked.language, key), paper.origin + 0.35 * paper.scale * gear.root_radius * way, prefer=1 + 0j
         )
         form, side = root_form_diameter(gear) / 2, tooth_side(gear)
-        if undercut(gear).margin < 0 and form - gear.base_radius > _SEEN_UNDERCUT * gear.module:
+        if not asked.by_hand and undercut(gear).margin < 0 and form - gear.base_radius > _SEEN_UNDERCUT * gear.module:
             at = next(
                 complex(s.curve.point(t)) for s in side.segments for t in s.curve.domain
                 if abs(abs(complex(s.curve.point(t))) - form) < 1e-9 * form
             )  # fmt: skip
             point = paper.point(at * cmath.exp(1j * (math.pi / 2 + math.pi * index)))
-            labels.name(sheet_words(language, "undercut"), point, prefer=point - paper.origin - 30)
+            labels.name(sheet_words(asked.language, "undercut"), point, prefer=point - paper.origin - 30)
     for _, index, name, radius, turn in names:
         suffix = str(index + 1) if len(gears) > 1 and name in ("tip", "root") else ""
         if index and not suffix:

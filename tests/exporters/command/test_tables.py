@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from exporters.command.tables import _show_rich, converge_tables, verify_table
-from exporters.production.converge import Order, Rung
+from exporters.production.converge import METHODS, Order, Rung
 from parts.base.texts import words
 
 NAMES = ["a.svg", "b" * 13 + ".svg", "c" * 14 + ".svg"]
@@ -97,6 +97,13 @@ def test_what_was_verified_is_told_with_its_faults(capsys: pytest.CaptureFixture
         ["p", "0.00123", "-", "-", "as reported", "ok"],
     ]
     assert rows[3:] == ["FAILED: b: is wrong", "FAILED: b: is short"]
+
+
+def test_methods_are_told_in_the_language(capsys: pytest.CaptureFixture[str]) -> None:
+    converge_tables([], [Order("g", "flank", name, 2.0, None, (16,), (1e-3,)) for name in METHODS], [], words("uk"))
+    lines = "\n".join(told(capsys))
+    assert "сплайни 7-го степеня" in lines
+    assert not any(name in lines for name in METHODS)
 
 
 def test_a_terminal_has_the_same_table_drawn(

@@ -436,6 +436,8 @@ def refused(topic: str, *arguments: str) -> SceneError:
         (("spur", "practicum_pair", "part=pinon"), "part", "no_such_part", "pinion"),
         (("spur", "no_such_scene"), "", "no_such_scene", None),
         (("spur", "practicum_pair", "laser_gear"), "laser_gear", "one_scene_only", None),
+        (("spur", "module", "=", "2", "number_of_teeth=23"), "module = 2", "write_key_value", None),
+        (("spur", "number_of_teeth=23", "module=", "2"), "module= 2", "write_key_value", None),
         (("power-table", "power_table_laser"), "TOPIC", "keys_not_a_scene", None),
         (("tmm42", "module=10", "reference_diameter=101"), "tmm42.reference_diameter", "no_whole_modules", 100.0),
         (("tmm42", "module=10"), "tmm42.reference_diameter", "give_it_or", None),

@@ -148,6 +148,16 @@ TRAIN = """
 kind = "planetary_set"
 teeth = [24, 24, 72]
 """
+DISK = """
+[defaults]
+module = 8.0
+number_of_teeth = 9
+[parts.zero]
+kind = "spur_gear"
+[parts.shifted]
+kind = "spur_gear"
+profile_shift_coefficient = 0.47
+"""
 ARM = """
 [parts.cam]
 kind = "cam"
@@ -181,8 +191,10 @@ phases = [
          {"OUTLINE", "ACTIVE_FLANK", "TOOTH_START", "CIRCLE_BASE", "CIRCLE_WORKING", "ARC_OF_ACTION"},
          {"CENTRE", "TANGENT"}, "m"),
         ("train", TRAIN, {"VELOCITY", "ANGULAR_VELOCITY"}, {"SCHEME", "AXIS", "CENTRE"}, "W"),
+        ("generating", DISK, {"OUTLINE", "RACK", "CIRCLE_BASE", "CIRCLE_ROOT", "CIRCLE_TIP"},
+         {"DISK", "CENTRE", "CIRCLE_REFERENCE"}, "72 mm"),
     ],
-    ids=["base given", "angle given", "flat", "arm", "meshing", "train"],
+    ids=["base given", "angle given", "flat", "arm", "meshing", "train", "generating"],
 )  # fmt: skip
 def test_students_draw_the_pictures_themselves(
     purpose: str, scene: str, drawn: set[str], given: set[str], row: str, tmp_path: Path
@@ -200,6 +212,8 @@ def test_students_draw_the_pictures_themselves(
         words[name] = ["".join(t.itertext()) for g in groups for t in g.findall(f"{SVG}text")]
         assert faults(sheet) == []
         assert row in words[name]
+    # scales are given
+    assert {w for w in words["teacher"] if re.fullmatch(r"[\d.]+:[\d.]+", w)} <= set(words["students"])
     has = {name: {layer for layer, paths in found.items() if paths} for name, found in lines.items()}
     # the table has one sample of each line
     assert {layer for layer in drawn & has["students"] if len(lines["students"][layer]) > 1} == set()

@@ -81,6 +81,11 @@ def test_a_step_file_of_bevelled_teeth_is_read_back(tmp_path: Path) -> None:
     [
         (PLATE | {"chain": "08C"}, "chain", "08B"),
         (PLATE | {"chain": "081-2"}, "chain", "081"),
+        # as bicycles and motorcycles name them: pitch and inner width in inches
+        (PLATE | {"chain": "1/2x1/8"}, "chain", "081"),
+        (PLATE | {"chain": '1/2" \u0445 3/16"'}, "chain", "083"),
+        (PLATE | {"chain": "1/2 x 5/16"}, "chain", "08B"),
+        (PLATE | {"chain": "5/8\u00d73/8"}, "chain", "10B"),
         (PLATE | {"pitch": 12.7}, "pitch", None),
         (OWN, "inner_width", None),
         (PLATE | {"face_width": 8.0}, "face_width", 7.749992),
