@@ -10,7 +10,6 @@ import sys
 import tomllib
 from pathlib import Path
 
-import jsonschema
 import pytest
 
 from exporters.command.cli import main
@@ -37,6 +36,8 @@ def said(capsys: pytest.CaptureFixture[str], *arguments: object) -> str:
 def test_the_schema_takes_every_built_in_scene_and_every_new_one_and_no_wrong_one(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
+    import jsonschema
+
     text = said(capsys, "schema")
     judge = jsonschema.Draft202012Validator(json.loads(text))
     # an editor shows descriptions as they stand

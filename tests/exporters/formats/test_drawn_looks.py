@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from ezdxf.document import Drawing
 from ezdxf.enums import TextEntityAlignment
-from scipy.interpolate import BSpline
 
 from exporters.formats.read_drawing import DrawnArc, DrawnLine, DrawnSpline, dimensions, drawn, look_of
 from parts.base.readback import ReadError
@@ -71,6 +70,8 @@ def test_lines_and_arcs_are_at_their_shares() -> None:
 
 
 def test_splines_are_those_of_scipy_span_by_span() -> None:
+    from scipy.interpolate import BSpline
+
     *_, spline = drawn(document(), "sheet")[0]
     poles = np.array([0, 1 + 3j, 4 + 3j, 6, 9 + 1j])
     # order 4, uniform within: one inner knot, whatever the scale of the knots

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from trimesh.transformations import quaternion_from_matrix, quaternion_matrix, quaternion_slerp, rotation_matrix
 
 from exporters.formats.glb import SolidTrack, write_glb
 from exporters.formats.read_glb import read_glb
@@ -23,7 +23,8 @@ SECONDS = 4.0
 
 def turn(angle: float, axis: tuple[float, float, float] = (0.0, 0.0, 1.0)) -> np.ndarray:
     """A quaternion x y z w."""
-    return np.roll(quaternion_from_matrix(rotation_matrix(angle, axis)), -1)
+
+    return np.array([*(math.sin(angle / 2) * x for x in axis), math.cos(angle / 2)])
 
 
 PLACES = np.array([[0.0, 0, 0], [4, 0, 0], [4, 6, 0], [0, 6, 2], [1, 2, 3]])
@@ -58,6 +59,8 @@ def packed(scene: dict[str, Any], blob: bytes) -> bytes:
 
 def test_solids_stand_between_their_values_as_gltf_says(film: bytes, tmp_path: Path) -> None:
     """Places linear, turns by trimesh's slerp over the shorter way; before and behind the film as at its ends."""
+    from trimesh.transformations import quaternion_matrix, quaternion_slerp
+
     (tmp_path / "f.glb").write_bytes(film)
     found = read_glb(tmp_path / "f.glb")
     assert found.seconds == SECONDS

@@ -8,7 +8,6 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from scipy.interpolate import BSpline
 
 from exporters.formats.read_curves import Curves, Frames, Knots, Patches, lobatto, spans_of
 from exporters.formats.read_solid import EXTRUSION, PLANE, ROUND, SPHERE, TORUS
@@ -39,6 +38,8 @@ def test_the_rule_of_gauss_and_lobatto_is_exact_up_to_degree_21() -> None:
 @pytest.mark.parametrize(("degree", "knots"), [(3, KNOTS), (2, OTHERS), (1, (0.0, 0.0, 0.5, 2.0, 2.0))])
 def test_splines_are_those_of_scipy(degree: int, knots: tuple[float, ...]) -> None:
     """Points and derivatives by the share of every span, from its own side at a knot."""
+    from scipy.interpolate import BSpline
+
     rng = np.random.default_rng(1)
     poles = rng.normal(size=(len(knots) - degree - 1, 3))
     own, breaks = Knots(degree, knots), np.unique(knots)
@@ -80,6 +81,8 @@ def rotation(seed: int) -> np.ndarray:
 
 def test_lines_arcs_and_splines_are_cut_into_their_spans() -> None:
     """One of each kind, a spline run against its knots too; slopes by differences of the points."""
+    from scipy.interpolate import BSpline
+
     axes, origin = rotation(3), np.array([4.0, -2.0, 7.0])
     frames = Frames(origin[None], axes[None])
     sweep, first, radius = -2.2, 0.7, 3.5

@@ -12,7 +12,6 @@ import ezdxf
 import numpy as np
 import pytest
 from ezdxf.document import Drawing
-from scipy.spatial import cKDTree
 
 from tests.exporters.making import read_report, run, write_scene
 from tests.offered import cam, scenes
@@ -46,6 +45,8 @@ def points_of(file: Path, layer: str = LAYER) -> np.ndarray:
 
 def farthest(points: np.ndarray, others: np.ndarray) -> float:
     """Greatest distance of points from others that are dense."""
+    from scipy.spatial import cKDTree
+
     tree = cKDTree(np.stack([others.real, others.imag], axis=1))
     return float(tree.query(np.stack([points.real, points.imag], axis=1))[0].max())
 
@@ -58,6 +59,8 @@ def sine(u: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("kind", ["cam", "groove_cam"])
 def test_the_centre_of_a_roller_runs_along_it(tmp_path: Path, kind: str) -> None:
     """e + i (s_0 + S) in the frame of a cam that turns: s_0^2 = (R_b + r)^2 - e^2; both ways."""
+    from scipy.spatial import cKDTree
+
     lift, base, radius, aside = 20.0, 30.0, 8.0, 5.0
     move = {"move": "rise", "angle_deg": 180.0, "law": "sine"}
     keys = cam(lift=lift, base_circle_radius=base, follower_radius=radius, follower_offset=aside,
@@ -84,6 +87,8 @@ def test_the_centre_of_a_roller_runs_along_it(tmp_path: Path, kind: str) -> None
 @pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", ["swinging roller", "mushroom"])
 def test_other_round_followers_have_one_too(tmp_path: Path, name: str) -> None:
+    from scipy.spatial import cKDTree
+
     keys = copy.deepcopy(scenes()[name]["parts"]["p"])
     assert built(tmp_path, {"p": keys}, COARSE, verified=False) == 0
     file = tmp_path / "s" / "p.dxf"

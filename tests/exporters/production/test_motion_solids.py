@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import trimesh
 
 from exporters.formats.read_glb import read_glb
 from exporters.production.build import build
@@ -59,6 +58,8 @@ def numbers(scene: dict[str, Any], blob: bytes, accessor: int) -> np.ndarray:
 
 def at(file: Path, name: str, share: float) -> np.ndarray:
     """(4, 4) of an instance, mm: matrices between values by the half-way rule, which only even turns obey."""
+    import trimesh
+
     scene, blob = opened(file)
     number = next(k for k, node in enumerate(scene["nodes"]) if node["name"] == name)
     node = scene["nodes"][number]
@@ -91,6 +92,8 @@ def at(file: Path, name: str, share: float) -> np.ndarray:
 
 def test_satellites_turn_and_stand_in_space_as_the_formula_says(tmp_path: Path) -> None:
     """40/40/120: in four turns of the sun the carrier makes one, a satellite turns by -2."""
+    import trimesh
+
     plan = planned(TURNED)
     assert build(plan, tmp_path).well
     file = tmp_path / "s.glb"
@@ -119,6 +122,8 @@ def test_bounds_stand_beside_places_and_times_as_gltf_asks(tmp_path: Path) -> No
 
 
 def test_another_reader_finds_closed_solids_in_metres(tmp_path: Path) -> None:
+    import trimesh
+
     plan = planned(TURNED)
     build(plan, tmp_path)
     scene = trimesh.load(tmp_path / "s.glb")

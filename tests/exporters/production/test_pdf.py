@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import subprocess
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,7 @@ from parts.drawing.tiles import clipped
 from parts.scene.load import scene_from_dict
 
 pdfium = pytest.importorskip("pypdfium2")
-pytest.importorskip("fpdf")
+pytestmark = pytest.mark.skipif(find_spec("fpdf") is None, reason="fpdf2 is an extra")
 raw = pdfium.raw
 MM = 25.4 / 72
 GEAR = {"kind": "spur_gear", "module": 10.0, "number_of_teeth": 21, "bore_diameter": 50.0}

@@ -9,12 +9,11 @@ import math
 import re
 import zipfile
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 import shapely
-import trimesh
 
 from exporters.command.cli import main
 from exporters.production import plates
@@ -24,6 +23,9 @@ from parts.base.refusal import SceneError
 from parts.keys.boards import BedSpec
 from parts.scene.load import scene_from_toml
 from tests.exporters.production.test_boards import contours, pieces_of, polygon
+
+if TYPE_CHECKING:
+    import trimesh
 
 BED = """
 [parts.ring]
@@ -56,6 +58,8 @@ def scene(folder: Path, *, width: float = 60.0, length: float = 5.0, more: str =
 
 def meshes(file: Path) -> dict[str, trimesh.Trimesh]:
     """Every item of a 3MF in its place, read from its text alone."""
+    import trimesh
+
     text = zipfile.ZipFile(file).read("3D/3dmodel.model").decode()
     objects = {}
     for number, body in re.findall(r'<object id="(\d+)"[^>]*>(.*?)</object>', text, re.S):
@@ -173,6 +177,8 @@ def test_the_kerf_coupon_tells_the_kerf(tmp_path: Path) -> None:
 
 @pytest.mark.heavy
 def test_the_fit_coupon_has_its_fits(tmp_path: Path) -> None:
+    import trimesh
+
     assert main(["build", "fit_coupon", "--out", str(tmp_path), "--quiet", "--no-verify"]) == 0
     (file,) = (tmp_path / "fit_coupon").glob("*.plate.*.3mf")
     found = meshes(file)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -12,29 +13,32 @@ from exporters.verification.kernel import judged_by_kernel
 from exporters.verification.verdict import Verdict
 from parts.scene.load import make_parts, scene_from_toml
 
-pytest.importorskip("OCP", reason="the CAD kernel is an extra")
-from OCP.BRep import BRep_Builder
-from OCP.BRepPrimAPI import BRepPrimAPI_MakeCylinder
-from OCP.gp import gp_Pnt
-from OCP.ShapeFix import ShapeFix_ShapeTolerance
-from OCP.TopAbs import TopAbs_VERTEX
-from OCP.TopExp import TopExp_Explorer
-from OCP.TopoDS import TopoDS
+pytestmark = pytest.mark.skipif(find_spec("OCP") is None, reason="the CAD kernel is an extra")
 
 PIN = b'[parts.pin]\nkind = "pin"\ndiameter = 10.0\nlength = 20.0\n'
 
 
 def cylinder(height: float = 20.0) -> Any:
+    from OCP.BRepPrimAPI import BRepPrimAPI_MakeCylinder
+
     return BRepPrimAPI_MakeCylinder(5.0, height).Solid()
 
 
 def joined_within(apart: float) -> Any:
+    from OCP.ShapeFix import ShapeFix_ShapeTolerance
+
     made = cylinder()
     ShapeFix_ShapeTolerance().SetTolerance(made, apart)
     return made
 
 
 def with_a_vertex_off_its_edges() -> Any:
+    from OCP.BRep import BRep_Builder
+    from OCP.gp import gp_Pnt
+    from OCP.TopAbs import TopAbs_VERTEX
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
     made = cylinder()
     vertex = TopoDS.Vertex_s(TopExp_Explorer(made, TopAbs_VERTEX).Current())
     BRep_Builder().UpdateVertex(vertex, gp_Pnt(5.0, 1.0, 0.0), 1e-7)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import ezdxf
 import ezdxf.path
@@ -15,10 +15,12 @@ import manifold3d
 import numpy as np
 import pytest
 import shapely
-import trimesh
 
 from exporters.command.cli import main
 from parts.scene.load import load_scene
+
+if TYPE_CHECKING:
+    import trimesh
 
 TOLERANCE = 0.02
 _HEAD = '[[assemblies]]\nkind = "{kind}"\n'
@@ -97,6 +99,8 @@ class Files:
             walk(whole.Value(k), TopLoc_Location(), called(whole.Value(k)))
 
     def mesh(self, part: str) -> trimesh.Trimesh:
+        import trimesh
+
         found: Any = trimesh.load(self.folder / f"{part}.stl")
         assert found.is_watertight, part
         return found
@@ -200,7 +204,12 @@ def _longer(by: float) -> Callable[[trimesh.Trimesh], Any]:
 
 
 def _turned(angle: float) -> Callable[[trimesh.Trimesh], Any]:
-    return lambda mesh: mesh.apply_transform(trimesh.transformations.rotation_matrix(angle, [0, 0, 1]))
+    def turn(mesh: trimesh.Trimesh) -> None:
+        from trimesh.transformations import rotation_matrix
+
+        mesh.apply_transform(rotation_matrix(angle, [0, 0, 1]))
+
+    return turn
 
 
 def _wider(by: float) -> Callable[[trimesh.Trimesh], Any]:

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 from geometry.base.errors import ParameterError
 from geometry.kinematics.flywheel import Cycle, mertsalov, travelled
@@ -39,6 +38,8 @@ def test_energy_of_half_a_sine_is_known() -> None:
 @pytest.mark.parametrize(("unevenness", "mass", "near"), [(0.05, 0.0, 2e-3), (0.01, 8.0, 2e-2), (0.04, 8.0, 8e-2)])
 def test_the_machine_runs_as_evenly_as_asked(unevenness: float, mass: float, near: float) -> None:
     """The equation of motion with that flywheel: right without masses of links, with them to first order."""
+    from scipy.integrate import solve_ivp
+
     wheel = mertsalov(pumped(mass), SPEED, unevenness)
 
     def rate(phi: float, square: np.ndarray) -> np.ndarray:

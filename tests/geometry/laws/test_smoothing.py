@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import mpmath as mp
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.interpolate import CubicSpline
 
 from geometry.base.errors import ParameterError
 from geometry.cams.motion.follower_motion import motion_of_table
 from geometry.laws.smoothing import smoothed
 from tests.sampling import examples
 
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
+
 TURN = 2 * math.pi
 
 
 def closed(places: np.ndarray, values: np.ndarray) -> CubicSpline:
     """The periodic cubic spline through points."""
+    from scipy.interpolate import CubicSpline
+
     return CubicSpline(np.append(places, TURN), np.append(values, values[0]), bc_type="periodic")
 
 

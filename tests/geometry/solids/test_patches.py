@@ -7,8 +7,6 @@ from itertools import product
 
 import numpy as np
 import pytest
-from scipy.interpolate import BSpline as Scipy
-from scipy.optimize import minimize
 
 from geometry.curves.curve import Real
 from geometry.solids.area import surface_area
@@ -57,6 +55,8 @@ def bent(u: Way, v: Way, pull: float = 0.5, rows: int = 1) -> Patch:
 
 def scipy_point(made: Patch, row: int, shares: Real, orders: tuple[int, int] = (0, 0)) -> Real:
     """Places or derivatives by shares (k, 2), by scipy: first along u, then along v."""
+    from scipy.interpolate import BSpline as Scipy
+
     s = made.surface
     (a, b), (c, d) = ((x[0], x[-1]) for x in (s.u_knots, s.v_knots))
     found = []
@@ -129,6 +129,8 @@ def test_distances_from_a_rectangle_are_those_of_pythagoras(u: Way, v: Way) -> N
 @pytest.mark.parametrize(("u", "v"), [(CUBIC, QUADRATIC), (QUADRATIC, CUBIC)])
 def test_distances_from_a_bent_sheet_are_the_least_that_are_found(u: Way, v: Way) -> None:
     """Over its middle, its edges and corners: by the best of a net, brought on within the sheet by scipy."""
+    from scipy.optimize import minimize
+
     made, rng = bent(u, v, 0.1), np.random.default_rng(2)
     shares = np.linspace(0, 1, 41)
     net = made.at(shares, shares)[0]

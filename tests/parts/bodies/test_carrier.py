@@ -10,7 +10,6 @@ import ezdxf
 import numpy as np
 import pytest
 import shapely
-import trimesh
 from manifold3d import Manifold, Mesh
 from shapely import affinity
 
@@ -112,6 +111,8 @@ STROKES = {"0": 6, "1": 2, "4": 4, "8": 7}
 
 def test_marks_are_engraved_and_not_cut(tmp_path: Path) -> None:
     """On +x, at tooth 1, of a ring at space 1; the solid lacks their pockets and nothing else."""
+    import trimesh
+
     (tmp_path / "s.toml").write_text(WHEELS)
     assert main(["build", "-q", str(tmp_path / "s.toml"), "--out", str(tmp_path), "--no-verify"]) == 0
     for name, text, depth in (("gear", "40", 0.5), ("ring", "81", 0.4), ("pointer", "", 0.4)):

@@ -6,11 +6,10 @@ import pytest
 
 from parts.drawing.font import CAPITAL, FONT, letter_widths, missing_letters
 
-fonts = pytest.importorskip("fontTools.ttLib")
-
 
 def test_every_letter_goes_on_as_another_reader_says() -> None:
     """All of the plane of two bytes: advances by the height of a capital H, as its outline has it."""
+    fonts = pytest.importorskip("fontTools.ttLib")
     font = fonts.TTFont(FONT)
     table = next(t.cmap for t in font["cmap"].tables if t.format == 4)
     size, advances = font["head"].unitsPerEm, font["hmtx"]

@@ -9,7 +9,6 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from scipy.optimize import minimize
 
 from geometry.base.placement import Placement2
 from geometry.curves.bspline import BSpline
@@ -156,6 +155,8 @@ def test_the_nearest_place_of_a_box() -> None:
 @pytest.mark.parametrize("wanted", [[1.0, 1.1, 1.2, 8.0], [0.0, 5.0, 9.9, 10.0], [4.0, 4.0, 4.0], [-5.0, 20.0], [3.0]])
 def test_places_are_spread_by_least_squares(wanted: list[float]) -> None:
     """Against a solver of quadratic programs: at least a step apart, within their limits."""
+    from scipy.optimize import minimize
+
     step, low, high = 2.0, 0.0, 10.0
     found = spread(wanted, step, low, high)
     cons = [{"type": "ineq", "fun": lambda x, k=k: x[k + 1] - x[k] - step} for k in range(len(wanted) - 1)]

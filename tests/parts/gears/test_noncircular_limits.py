@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 import pytest
-from scipy.special import ellipe
 
 from parts.gears.data_tables import data_table
 from parts.scene.load import make_parts, scene_from_dict
@@ -103,6 +102,8 @@ def test_a_mate_closes_on_whole_lobes_of_the_driver() -> None:
 
 def test_a_bore_leaves_a_rim_to_the_roots() -> None:
     """The least radius of an ellipse about its focus is a (1 - e), perimeter 4 a E(e) = pi m z; less 1.25 modules."""
+    from scipy.special import ellipe
+
     e = math.sqrt(1 - 1 / 1.2**2)
     a = math.pi * 2 * 30 / (4 * ellipe(e * e))
     part = make_parts(scene_from_dict(scene_of(ELLIPSE), "s", "s"), "s")[0]["p"]
@@ -128,6 +129,8 @@ def test_a_bore_leaves_a_rim_to_the_roots() -> None:
 @pytest.mark.parametrize("role", ["driver", "mate"])
 def test_the_table_of_a_gear_follows_its_own_angle(role: str) -> None:
     """About its focus an ellipse has r = p / (1 - e cos phi), its like r_2 = 2 a - r_1, with i = r_1 / r_2."""
+    from scipy.special import ellipe
+
     keys = ELLIPSE | {"role": role}
     part = make_parts(scene_from_dict(scene_of(keys), "s", "s"), "s")[0]["p"]
     table = data_table(part, scene_from_dict(scene_of(keys), "s", "s"), [])

@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from scipy.optimize import brentq
 from shapely import affinity
 
 from exporters.command.cli import main
@@ -176,6 +175,8 @@ def test_wheels_of_a_helical_set_meet_at_one_distance_with_hands_that_mesh(
     name: str, teeth: list[int], hands: dict[str, str]
 ) -> None:
     """ISO 21771: inv(alpha_wt) = inv(alpha_t) + 2 tan(alpha_n) sum(x_n) / sum(z), and a_w cos(alpha_wt)."""
+    from scipy.optimize import brentq
+
     keys = {"scheme": name, "teeth": teeth, "satellites": 1, "helix_angle_deg": -24.0, "module": 1.5}
     made = resolved(scene(**keys))["parts"]
     wheels = {name: part for name, part in made.items() if "number_of_teeth" in part}
@@ -326,6 +327,8 @@ def test_teeth_spacing_and_number_that_are_offered_for_satellites_that_do_not_go
 
 def distance_of(teeth: int, total: float, beta: float = 0.0) -> float:
     """inv a_wt = inv a_t + 2 tan a_n x / z, a = m_n z cos a_t / (2 cos beta cos a_wt), m_n = 1; z and x with signs."""
+    from scipy.optimize import brentq
+
     normal = math.radians(20)
     angle = math.atan(math.tan(normal) / math.cos(beta))
     value = math.tan(angle) - angle + 2 * math.tan(normal) * total / teeth

@@ -6,7 +6,6 @@ import json
 import tomllib
 from pathlib import Path
 
-import jsonschema
 import pytest
 
 from exporters.command.cli import main
@@ -95,6 +94,8 @@ SET = '[defaults]\nmaterial = "PLA"\nmodule = 1.5\n[[assemblies]]\nkind = "plane
 
 
 def test_a_short_scene_is_the_long_one() -> None:
+    import jsonschema
+
     short, long = (resolved(scene_from_toml(text.encode(), "s", "s")) for text in (SHORT, LONG))
     assert short == long
     assert jsonschema.Draft202012Validator(json.loads(scene_schema())).is_valid(tomllib.loads(SHORT))

@@ -10,7 +10,6 @@ from pathlib import Path
 import mpmath
 import numpy as np
 import pytest
-from scipy.optimize import brentq
 
 from exporters.command.cli import main
 from exporters.production.check import scene_checks
@@ -75,6 +74,8 @@ def test_refusals_name_a_value_that_works(keys: str, key: str, pattern: str) -> 
 
 def test_a_mate_of_a_convex_driver_that_is_hollow_is_told_the_greatest_eccentricity() -> None:
     """Three lobes in four: r^2 + 2 r'^2 - r r'' >= 0 of the mate's polar radius; no value was offered."""
+    from scipy.optimize import brentq
+
     keys = 'centrode = "oval"\nlobes = 3\neccentricity = {}\nmodule = 2.0\nrole = "mate"\nnumber_of_teeth = 44\n'
     keys += "mate_number_of_teeth = 33"
     with pytest.raises(SceneError, match=r"eccentricity = 0.1.*at most ([\d.]+) works") as refused:

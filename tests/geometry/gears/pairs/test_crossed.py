@@ -6,8 +6,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy.optimize import minimize
-from scipy.spatial import cKDTree
 
 from geometry.base.errors import ParameterError
 from geometry.base.placement import Placement3
@@ -66,6 +64,8 @@ def _flank(gear: SpurGear, beta: float, roll: float, z: float, turned: float, si
 
 def _least_gap(pair: CrossedPair, side: int) -> float:
     """The least distance of two flanks that face each other where they are well within their path, mm."""
+    from scipy.optimize import minimize
+
     angle, along = pair.shaft_angle, 0.3 * pair.path[0] + 0.7 * pair.path[1]
     axis = (0.0, math.sin(angle), math.cos(angle))
     laid = np.array(Placement3.towards(axis, 0.0).rotation)
@@ -240,6 +240,8 @@ def test_the_line_of_centres_of_placements() -> None:
 @pytest.mark.parametrize("own", [0, 1])
 def test_places_beside_a_tips_edge_are_as_deep_as_the_nearest_of_flank_and_tip_in_space(own: int) -> None:
     """Against a cloud of points of the gear's screw surfaces; in the section the tip cylinder may be nearer."""
+    from scipy.spatial import cKDTree
+
     pair = crossed_pair(_bare(CASES["obtuse"]))
     teeth, gear, side = _Teeth(pair, own, 1), pair.gears[own], pair.sides[own]
     flank = next(s.curve for s in side.segments if s.label is Label.FLANK)

@@ -11,8 +11,6 @@ import ezdxf
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
-from scipy.spatial import cKDTree
 
 from exporters.command.cli import main
 from geometry.approximation.splines import spline_of_spans
@@ -71,6 +69,8 @@ def drawn(file: Path) -> tuple[NDArray[np.complex128], int]:
 
 def exact(follower: str, rows: list[tuple[float, float]], count: int) -> NDArray[np.complex128]:
     """The cam of SciPy's periodic cubic spline, point by point."""
+    from scipy.interpolate import CubicSpline
+
     angle = np.append(np.radians([a for a, _ in rows]), 2 * np.pi)
     spline = CubicSpline(angle, [*(s for _, s in rows), rows[0][1]], bc_type="periodic")
     t = np.linspace(0, 2 * np.pi, count)
@@ -85,6 +85,8 @@ def exact(follower: str, rows: list[tuple[float, float]], count: int) -> NDArray
 
 def farthest(points: NDArray[np.complex128], line: NDArray[np.complex128]) -> float:
     """Greatest distance of points from a dense polyline: to the two edges beside the nearest corner."""
+    from scipy.spatial import cKDTree
+
     tree = cKDTree(np.stack([line.real, line.imag], axis=1))
     near = tree.query(np.stack([points.real, points.imag], axis=1))[1]
     best = np.full(len(points), np.inf)
