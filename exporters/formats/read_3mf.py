@@ -147,9 +147,9 @@ def _mesh(item: ElementTree.Element, colour: str | None = None) -> ReadMesh:
     try:
         corners = [[float(v.get(k, "")) for k in "xyz"] for v in item.iter(f"{_CORE}vertex")]
         rows = [[int(t.get(k, "")) for k in ("v1", "v2", "v3")] for t in item.iter(f"{_CORE}triangle")]
-    except ValueError as error:
+        vertices, triangles = np.array(corners).reshape(-1, 3), np.array(rows, dtype=np.int64).reshape(-1, 3)
+    except (ValueError, OverflowError) as error:
         raise ReadError(f"a broken number in the 3MF: {error}") from error
-    vertices, triangles = np.array(corners).reshape(-1, 3), np.array(rows, dtype=np.int64).reshape(-1, 3)
     if not len(triangles) or triangles.min() < 0 or triangles.max() >= len(vertices):
         raise ReadError("a 3MF triangle names a vertex that is not there")
     # an object that has a part number is called by it, and its name is what people read
