@@ -20,7 +20,7 @@ from parts.base.materials import check_material
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.registry import KINDS
-from parts.base.schema import as_written, converted, kind_of, plain_numbers, value_at, without_none
+from parts.base.schema import as_written, converted, plain_numbers, value_at, without_none
 from parts.base.texts import ENGLISH, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid
@@ -38,6 +38,7 @@ from parts.scene.instances import (
     instance_specs,
     members,
 )
+from parts.scene.kinds import mate_kind, part_kind
 from parts.scene.language import in_language
 from parts.scene.steps import StepSpec, step_specs
 
@@ -423,7 +424,7 @@ def _mate_spec(
 ) -> MateKeys:
     from parts.mates.registry import MATES
 
-    kind = kind_of(table, MATES, source, place, "unknown_mate")
+    kind = mate_kind(table, source, place)
     mate: MateKeys = converted(table, MATES[kind].keys, source, place)
     for key in ("first", "second"):
         if getattr(mate, key) not in groups:
@@ -439,7 +440,7 @@ def _part_spec(key: str, table: dict[str, Any], source: str) -> MaterialKeys:
         raise SceneError(source, place, None, "device_name", Nearest(f"{key}_1"))
     if not re.fullmatch(IDENTIFIER, key):
         raise SceneError(source, place, None, "not_a_name", Nearest("part_1"))
-    kind = kind_of(table, KINDS, source, place)
+    kind = part_kind(table, source, place)
     try:
         spec: MaterialKeys = KINDS[kind].gathered(
             converted(table, KINDS[kind].keys, source, place), Path(source).parent

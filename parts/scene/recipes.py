@@ -7,8 +7,9 @@ from typing import Any
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import kept, nearest
 from parts.base.refusal import SceneError, placed
-from parts.base.schema import converted, kind_of, tried, unit_of
+from parts.base.schema import converted, tried, unit_of
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
+from parts.scene.kinds import assembly_kind
 from parts.scene.language import in_one
 
 # keys of tables that hold the id of an instance or a part
@@ -70,7 +71,7 @@ def _made(table: dict[str, Any], source: str, place: str) -> tuple[str, Expansio
     """What begins the ids of one assembly, and its tables."""
     from parts.recipes.registry import RECIPES
 
-    recipe = RECIPES[kind_of(table, RECIPES, source, place)]
+    recipe = RECIPES[assembly_kind(table, source, place)]
     keys = converted(table, recipe.keys, source, place)
     try:
         made = recipe.expanded(keys)

@@ -564,3 +564,17 @@ def test_a_range_has_its_unit_in_the_form_of_its_last_number() -> None:
     found = refusal(scene_text(told))
     assert str(found).endswith("at most 1 module")
     assert sentence(found, "uk").endswith("щонайбільше 1 модуль")
+
+
+@pytest.mark.parametrize(
+    ("tables", "key", "where"),
+    [
+        ({"parts": {"a": {"kind": "planetary_set"}}}, "parts.a.kind", "[[assemblies]]"),
+        ({"parts": {"a": {"kind": "chain_drive"}}}, "parts.a.kind", "[[mates]]"),
+        ({"assemblies": [{"kind": "spur_gear"}]}, "assemblies[1].kind", "[parts.NAME]"),
+    ],
+)
+def test_a_kind_of_other_tables_is_told_where_it_belongs(tables: dict[str, Any], key: str, where: str) -> None:
+    with pytest.raises(SceneError, match=re.escape(f"belongs in a table {where}")) as refused:
+        scene_from_dict(tables, "t", "t")
+    assert refused.value.key == key
