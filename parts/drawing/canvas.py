@@ -6,6 +6,7 @@ SVG states its length. Sizes and line types follow GOST 2.303 and 2.304.
 
 from __future__ import annotations
 
+import cmath
 import math
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -325,6 +326,11 @@ class Canvas(Draft):
     def line(self, layer: str, start: complex, end: complex) -> None:
         """A straight line."""
         self.strokes.append(Stroke(layer, Line(start, end)))
+
+    def arrow(self, layer: str, tip: complex, way: complex, length: float = 3.0, half: float = 12.0) -> None:
+        """The open head of an arrow that points a ``way`` (of length 1), its sides ``half`` degrees from it."""
+        for side in (1, -1):
+            self.line(layer, tip, tip - length * way * cmath.exp(1j * side * math.radians(half)))
 
     def arc(self, layer: str, arc: Arc) -> None:
         """An arc or a full circle."""

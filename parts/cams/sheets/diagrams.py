@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from itertools import pairwise
 
@@ -114,10 +113,10 @@ def _axes(
     low, high = reach
     right = zero + width + 9.0
     canvas.line("AXIS", zero, right)
-    arrow(canvas, "AXIS", right, 1.0)
+    canvas.arrow("AXIS", right, 1.0)
     top = zero + 1j * (high + 6.0)
     canvas.line("AXIS", zero + 1j * min(low - 2.0, 0.0), top)
-    arrow(canvas, "AXIS", top, 1j)
+    canvas.arrow("AXIS", top, 1j)
     unit = ("deg" if picture.swings else "mm") + ("", "/rad", "/rad2")[order]
     name = ("ψ" if picture.swings else "S") + "'" * order
     # on the left, where no line of a phase runs
@@ -135,12 +134,6 @@ def _axes(
         text = picture.say(k * step, digits)
         canvas.write(text, at + complex(1.8, -SMALL_TEXT / 2), SMALL_TEXT)
     canvas.line("AXIS", zero + width + 1j * min(low, 0.0), zero + width + 1j * high)
-
-
-def arrow(canvas: Canvas, layer: str, tip: complex, way: complex, length: float = 3.0, half: float = 12.0) -> None:
-    """The head of an arrow that points a ``way`` (of length 1), its sides ``half`` degrees from it."""
-    for side in (1, -1):
-        canvas.line(layer, tip, tip - length * way * cmath.exp(1j * side * math.radians(half)))
 
 
 def _ordinates(canvas: Canvas, drawn: Drawn, picture: CamPicture, zero: complex, scales: Scales, order: int) -> None:
@@ -230,7 +223,7 @@ def _phases(
         y = low + 2.0
         canvas.line("DIMENSION", complex(at, y), complex(at + length, y))
         for tip, way in ((complex(at, y), -1.0), (complex(at + length, y), 1.0)):
-            arrow(canvas, "DIMENSION", tip, way, 2.5)
+            canvas.arrow("DIMENSION", tip, way, 2.5)
         symbol = sheet_words(picture.language, f"phase_{kind}")
         symbol += str(number) if counts[kind] > 1 else ""
         angle = words(picture.language).decimal(f"{math.degrees(phase.angle):.6g}°")

@@ -13,7 +13,7 @@ from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.motion.guides import Translating
 from geometry.cams.plane.synthesis import AxisRegion, axis_region, flat_base_radius
 from geometry.curves.line_arc import Arc
-from parts.cams.sheets.diagrams import Drawn, arrow
+from parts.cams.sheets.diagrams import Drawn
 from parts.cams.sheets.picture import CamPicture
 from parts.cams.sheets.rocker import numbered
 from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper
@@ -96,7 +96,7 @@ def draw_joint(canvas: Canvas, picture: CamPicture, joint: Joint, paper: Paper, 
     canvas.line("AXIS", to(1j * window.low), to(1j * window.high))
     canvas.line("AXIS", to(complex(window.left, 0)), to(complex(window.right, 0)))
     for tip, way in ((to(1j * window.high), 1j), (to(complex(window.right, 0)), 1.0)):
-        arrow(canvas, "AXIS", tip, way)
+        canvas.arrow("AXIS", tip, way)
     if asked.by_hand:
         return drawn
     for piece in picture.cam.motion.pieces:

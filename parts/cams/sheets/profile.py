@@ -13,7 +13,7 @@ from geometry.cams.plane.disk import FollowerKind
 from geometry.cams.plane.shape import cam_shape, whole_profile
 from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc
-from parts.cams.sheets.diagrams import Drawn, arrow
+from parts.cams.sheets.diagrams import Drawn
 from parts.cams.sheets.links import draw_links, frame_ray, linkage_cam_of, links_reach, name_links, pivots
 from parts.cams.sheets.picture import CamPicture, thinned
 from parts.drawing.canvas import SCALES, SMALL_TEXT, Box, Canvas, Paper, Stroke, draw, fitted, text_width
@@ -205,7 +205,7 @@ def _turning(canvas: Canvas, paper: Paper, reach: Reach) -> None:
     radius = 0.45 * paper.scale * reach.base
     arc = Arc(paper.point(0j), radius, math.radians(200), math.radians(60))
     canvas.arc("DIMENSION", arc)
-    arrow(canvas, "DIMENSION", complex(arc.point(arc.sweep)), complex(arc.tangent(arc.sweep)), half=14.0)
+    canvas.arrow("DIMENSION", complex(arc.point(arc.sweep)), complex(arc.tangent(arc.sweep)), half=14.0)
 
 
 def number_positions(canvas: Canvas, picture: CamPicture, paper: Paper) -> None:

@@ -72,8 +72,11 @@ class Choice(Record):
     printed: Printed | None = None
 
 
-def show_choices(page: Sheet, contour: BlockingContour, choices: Sequence[Choice], picture: str | None) -> None:
+def show_choices(page: Sheet, contour: BlockingContour | None, choices: Sequence[Choice], picture: str | None) -> None:
     """Put the contour with its choices on a sheet, as a picture and for json; ``picture``: the file to write."""
+    if contour is None:
+        page.note("no shifts give a pair that turns")
+        return
     page.picture = ContourPicture(contour, tuple((c.name, (c.found.first, c.found.second)) for c in choices))
     page.plain_picture = page.picture.letters()
     page.data["blocking_contour"] = [

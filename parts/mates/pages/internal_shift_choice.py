@@ -176,10 +176,7 @@ def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequir
     for number, choice in enumerate(choices, 1):
         _choice(page, keys.module, wish, choice, number)
     found = window(pair)
-    if found is None:
-        page.note("no shifts give a pair that turns")
-        return page
-    contour = internal_contour(pair, wish, found.box, _TOLERANCE)
+    contour = None if found is None else internal_contour(pair, wish, found.box, _TOLERANCE)
     show_choices(page, contour, choices, keys.picture)
     return page
 

@@ -114,10 +114,7 @@ def _page(keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair, wish: Require
     for number, choice in enumerate(choices, 1):
         _choice(page, keys.module, pair, wish, choice, number)
     box = usual_box(pair)
-    if box is None:
-        page.note("no shifts give a pair that turns")
-        return page
-    contour = blocking_contour(pair, wish, box)
+    contour = None if box is None else blocking_contour(pair, wish, box)
     show_choices(page, contour, choices, keys.picture)
     return page
 

@@ -256,8 +256,8 @@ def _dimensions(canvas: Canvas, picture: MeshingPicture, view: View) -> dict[str
         for a, b in ((mark.start, start), (mark.end, end)):
             canvas.line("DIMENSION", view.paper.point(a), view.paper.point(b))
         canvas.line("DIMENSION", view.paper.point(start), view.paper.point(end))
-        _arrow(canvas, view.paper.point(start), -1)
-        _arrow(canvas, view.paper.point(end), 1)
+        canvas.arrow("DIMENSION", view.paper.point(start), -1)
+        canvas.arrow("DIMENSION", view.paper.point(end), 1)
         found["pitch"] = view.paper.point((start + end) / 2)
         return found
     outside = picture.kind == "internal"
@@ -276,14 +276,8 @@ def _dimension_arc(canvas: Canvas, view: View, arc: Arc, radius: float) -> compl
     for t, sense in ((0.0, -1), (arc.sweep, 1)):
         inner, outer = complex(shown.point(t)), complex(arc.point(t))
         canvas.line("DIMENSION", view.paper.point(outer), view.paper.point(inner))
-        _arrow(canvas, view.paper.point(inner), sense * complex(shown.tangent(t)))
+        canvas.arrow("DIMENSION", view.paper.point(inner), sense * complex(shown.tangent(t)))
     return view.paper.point(complex(shown.point(arc.sweep / 2)))
-
-
-def _arrow(canvas: Canvas, tip: complex, way: complex) -> None:
-    """An open arrow head of 3 mm that points along ``way``."""
-    for side in (1, -1):
-        canvas.line("DIMENSION", tip, tip - 3.0 * way * cmath.exp(1j * side * math.radians(12)))
 
 
 def _names(
