@@ -12,6 +12,7 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
 from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
+from parts.base.lookalikes import in_latin
 from parts.keys.base import MOST_LENGTH, degrees, mm, part_mm, start
 from parts.keys.pins import check_holes, holes_of
 from parts.keys.wheel import WheelKeys, WheelKind, wheel_shape
@@ -180,9 +181,11 @@ def belt_of_keys(keys: TimingPulleySpec) -> Belt:
         half = math.radians(own.groove_angle_deg / 2)
         groove = StraightGroove(own.groove_width, own.groove_depth, half, own.root_radius, own.tip_radius)
         return Belt(own.pitch, own.line_offset, groove)
-    found = belt_of(own)
+    # of letters of both alphabets that look the same the Latin ones are meant
+    name = in_latin(own.upper())
+    found = belt_of(name)
     if found is None:
-        like = like_belt(own)
+        like = like_belt(name)
         raise ParameterError("belt", own, "no_such_belt", Nearest(like, "meant") if like else None)
     return found
 

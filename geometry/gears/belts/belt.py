@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from difflib import get_close_matches
 from functools import cache
 from typing import NamedTuple
@@ -50,8 +51,11 @@ _ARCS = """
 3GT 3 0.381 1.14 0.85 1.52 0.61 0.25 10
 5GT 5 0.5715 1.93 1.44 2.57 1.03 0.416 12
 """
-# as people call them
-_OTHER_NAMES = {"GT2": "2GT", "GT3": "3GT", "GT5": "5GT", "2MGT": "2GT", "3MGT": "3GT", "5MGT": "5GT"}
+# as people write them: the pitch before or after the name; GT2 with a pitch behind it is the series of its maker
+_PITCH_NAMES = (
+    (re.compile(r"HTD(\d+)M{0,2}|(\d+)M{0,2}HTD"), "M"),
+    (re.compile(r"GT[23](\d)MM?R?|(\d)MM?GT[23]?|GT(\d)"), "GT"),
+)
 # of the way along the flank that the root fillet may take, beside the tip rounding
 _FILLET_SHARE = 0.9
 
@@ -226,17 +230,21 @@ def belts() -> dict[str, Belt]:
 
 
 def belt_of(designation: str) -> Belt | None:
-    """The belt of a designation as people write it: T5, HTD 5M, GT2, 2MGT; None: there is none."""
+    """The belt of a designation as people write it: T5, HTD 5M, GT2, GT2-2M, 2MGT; None: there is none."""
     return belts().get(_plain(designation))
 
 
 def _plain(designation: str) -> str:
     """As the table has it."""
-    name = designation.upper().replace(",", ".").replace("HTD", "").replace("-", "").replace(" ", "")
-    return _OTHER_NAMES.get(name, name)
+    name = re.sub(r"[\s_-]|POWERGRIP", "", designation.upper().replace(",", "."))
+    for pattern, letters in _PITCH_NAMES:
+        if found := pattern.fullmatch(name):
+            return next(pitch for pitch in found.groups() if pitch) + letters
+    return name
 
 
 def like_belt(designation: str) -> str | None:
-    """The designation in the table that is most like another one; None: none is."""
-    found = get_close_matches(_plain(designation), [*belts(), *_OTHER_NAMES], 1, 0.5)
-    return found[0] if found else None
+    """The designation in the table that begins another one, else is most like it; None: none is."""
+    begins = (_plain(designation[:end]) for end in range(len(designation), 0, -1))
+    found = get_close_matches(_plain(designation), belts(), 1, 0.5)
+    return next((name for name in begins if name in belts()), found[0] if found else None)

@@ -12,6 +12,7 @@ import pytest
 
 from exporters.formats.read_dxf import read_dxf
 from exporters.production.check import scene_checks
+from geometry.gears.belts.belt import belt_of
 from geometry.plane.measure import profile_area
 from geometry.solids.mass import body_moments
 from parts.base.part import Part
@@ -50,6 +51,11 @@ def test_a_belt_of_its_own_is_that_of_the_table() -> None:
     assert own.belt.groove == named.belt.groove
     assert own.land == pytest.approx(named.land, rel=1e-12)
     assert own.outer_radius == pytest.approx(75 / math.pi - 0.5)
+
+
+def test_letters_of_a_belt_may_be_cyrillic() -> None:
+    """AT10 as it comes off a Ukrainian keyboard."""
+    assert made(PLATE | {"belt": "\u0430\u0442 10"}).thing.belt is belt_of("AT10")
 
 
 @pytest.mark.parametrize("faces", [(True, True), (True, False), (False, True)])

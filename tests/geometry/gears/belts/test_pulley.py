@@ -164,9 +164,18 @@ def test_few_teeth_and_wide_walls_are_refused_with_what_works() -> None:
 
 
 @pytest.mark.parametrize(
-    ("typed", "name"), [("HTD 5M", "5M"), ("htd-8m", "8M"), ("2MGT", "2GT"), ("gt2", "2GT"), ("T2,5", "T2.5")]
-)
+    ("typed", "name"),
+    [
+        ("HTD 5M", "5M"), ("htd-8m", "8M"), ("HTD3", "3M"), ("5mm HTD", "5M"), ("2MGT", "2GT"), ("gt2", "2GT"),
+        ("GT2-2M", "2GT"), ("GT2 3mm", "3GT"), ("PowerGrip GT3-5MR", "5GT"), ("2mm GT2", "2GT"), ("T2,5", "T2.5"),
+        ("AT-10", "AT10"),
+    ],
+)  # fmt: skip
 def test_belts_are_named_as_people_write_them(typed: str, name: str) -> None:
     assert named(typed) is belts()[name]
-    assert belt_of("T3") is None
-    assert like_belt("T50") == "T5"
+
+
+@pytest.mark.parametrize(("typed", "like"), [("T50", "T5"), ("GT2 6mm", "2GT"), ("T5 10", "T5"), ("HTD 3M 9mm", "3M")])
+def test_of_a_belt_with_its_width_the_belt_is_offered(typed: str, like: str) -> None:
+    assert belt_of(typed) is None
+    assert like_belt(typed) == like
