@@ -39,8 +39,11 @@ def part_drawing(subject: Subject) -> PartDrawing:
         Size("toothed_width", complex(low, pulley.outer_radius), complex(high, pulley.outer_radius), "above"),
         Size("flanges.diameter", complex(edge, -radius), complex(edge, radius), "left", "Ø"),
     )
+    # the sign of the teeth stands on them, not on the flanges
+    teeth = complex((low + high) / 2, pulley.outer_radius)
+    notes = tuple(replace(note, at=teeth) if note.at.imag == radius else note for note in section.notes)
     seen = replace(face, strokes=(*face.strokes, (VISIBLE, circle_of(radius))))
-    return replace(made, views=(replace(section, sizes=sizes), seen, *others))
+    return replace(made, views=(replace(section, sizes=sizes, notes=notes), seen, *others))
 
 
 def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTable:

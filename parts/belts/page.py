@@ -27,7 +27,7 @@ def sheet(keys: PulleyKeys) -> Sheet:
     belt_steps(page, pulley.belt)
     page.section("Sizes")
     circle_steps(page, pulley)
-    page.section(N_("Groove"))
+    page.section(N_("Grooves"))
     groove_steps(page, pulley)
     page.notes += [finding_message(f) for f in TIMING_PULLEY.report(keys, pulley).findings]
     return page

@@ -247,12 +247,15 @@ def _half(wheel: Wheel, bore: float, outer: float, *, toothed: bool) -> list[com
             points += [complex(at.web[side], radius), complex(at.rim[side] - way * cut, radius)]
             points += [complex(at.rim[side], radius + cut)]
         deep, wide = (0.0, 0.0) if toothed else wheel.bevel or (cut, cut)
-        points += [complex(at.rim[side], outer - deep), complex(at.rim[side] - way * wide, outer)]
+        # of a groove that runs out at this face
+        top = next((g.radius for g in wheel.grooves if (g.low, g.high)[side] == at.rim[side]), outer)
+        points += [complex(at.rim[side], top - deep), complex(at.rim[side] - way * wide, top)]
         sides.append(points)
     deep, wide = wheel.bevel or (0.0, 0.0)
     notches = [complex(z, r) for g in reversed(wheel.grooves)
                for z, r in ((g.high + wide, outer), (g.high, outer - deep), (g.high, g.radius),
-                            (g.low, g.radius), (g.low, outer - deep), (g.low - wide, outer))]  # fmt: skip
+                            (g.low, g.radius), (g.low, outer - deep), (g.low - wide, outer))
+               if at.rim[0] < z < at.rim[1]]  # fmt: skip
     return [*sides[0], *notches, *sides[1][::-1]]
 
 

@@ -103,7 +103,8 @@ class BeltDriveKind(MateKind[BeltDriveSpec, "Pulley", "Pulley"]):
         """Both take the same belt, which goes round them."""
         one, two = first.thing, second.thing
         if two.belt != one.belt:
-            raise ParameterError("belt", getattr(second.keys, "belt", None), "not_of_the_belt")
+            named, own = (getattr(end.keys, "belt", None) for end in (first, second))
+            raise ParameterError("belt", own, "not_of_the_belt", Nearest(named) if isinstance(named, str) else None)
         mesh = belt_mesh((one, two), keys.number_of_belt_teeth, keys.centre_distance)
         above = one.middle - two.middle if keys.height is None else keys.height
         return BeltMating(

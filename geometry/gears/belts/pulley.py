@@ -25,6 +25,8 @@ from geometry.solids.hub_holes import HubHoles
 # teeth up to which one is sought that leaves lands
 _MOST_TEETH = 500
 _MARGIN = 1e-6
+# of a pitch, by which an outer diameter may differ: half a turn of belt is off its grooves by pi / 2 of that
+_OFF_PITCH = 0.1
 
 
 class Flanges(Record):
@@ -214,6 +216,11 @@ def check_flanges(pulley: Pulley) -> None:
 
 
 def pulley_findings(pulley: Pulley) -> tuple[Finding, ...]:
-    """Fewer teeth than the belt is bent over at least."""
-    teeth, least = pulley.number_of_teeth, pulley.belt.least_teeth
-    return (Finding("few_pulley_teeth", teeth, least),) if teeth < least else ()
+    """Fewer teeth than the belt is bent over at least; an outer diameter far from that of its pitch."""
+    found, teeth, least = [], pulley.number_of_teeth, pulley.belt.least_teeth
+    if teeth < least:
+        found.append(Finding("few_pulley_teeth", teeth, least))
+    outer, own = 2 * pulley.outer_radius, 2 * replace(pulley, given_outer_diameter=None).outer_radius
+    if abs(outer - own) > _OFF_PITCH * pulley.belt.pitch:
+        found.append(Finding("off_pitch_diameter", outer, own))
+    return tuple(found)

@@ -179,3 +179,10 @@ def test_drives_that_cannot_be_are_refused_with_what_works(mate: Keys, two: Keys
         assert refused.value.nearest is not None
         assert refused.value.nearest.value == pytest.approx(cure)
         placed(mate | {key.rpartition(".")[2]: refused.value.nearest.value}, two=two)
+
+
+def test_to_a_pulley_of_another_belt_that_of_the_first_is_offered() -> None:
+    with pytest.raises(SceneError) as refused:
+        placed({"number_of_belt_teeth": 100}, two=LARGE | {"belt": "MXL"})
+    assert refused.value.nearest is not None
+    assert refused.value.nearest.value == "GT2"

@@ -245,3 +245,15 @@ def test_spokes_in_an_assembly_are_not_hatched_along_their_length_and_are_across
     lines = [line.point(np.array(line.domain)) for line in hatching(across.hatched[0], 1.0)]
     spoke = 39.0 * np.exp(1j * math.radians(start))
     assert min(abs((a + (b - a) * t) - spoke) for a, b in lines for t in np.linspace(0, 1, 200)) < 1.0
+
+
+@pytest.mark.parametrize("below", [True, False])
+def test_the_section_of_a_pulley_with_one_flange_reaches_its_diameter_there_alone(below: bool) -> None:
+    """As it was: a line ran up to it at the other face too. The sign of roughness stands on the teeth."""
+    pulley = {"kind": "timing_pulley", "belt": "T5", "number_of_teeth": 18, "face_width": 10.0, "bore_diameter": 8.0,
+              "flanges": {"diameter": 34.0, "thickness": 1.5, "below": below, "above": not below}}  # fmt: skip
+    view, outer = drawing_of(pulley).views[0], 5.0 * 18 / math.pi - 2 * 0.415
+    ends = np.concatenate([curve.point(np.array(curve.domain)) for _, curve in view.strokes])
+    high = ends.real[np.abs(ends.imag) > outer / 2 + 1e-6]
+    assert set(np.round(high, 9)) == ({0.0, 1.5} if below else {10.0, 11.5})
+    assert next(note.at.imag for note in view.notes if note.is_rough) == pytest.approx(outer / 2)

@@ -164,6 +164,15 @@ def test_few_teeth_and_wide_walls_are_refused_with_what_works() -> None:
 
 
 @pytest.mark.parametrize(
+    ("diameter", "found"), [(12.4, []), (12.45, ["off_pitch_diameter"]), (40.0, ["off_pitch_diameter"])]
+)
+def test_an_outer_diameter_far_from_that_of_the_pitch_is_told(diameter: float, found: list[str]) -> None:
+    """GT2 of 20 teeth has 12.2244 mm; a tenth of the pitch may be given for the printer."""
+    pulley = checked_pulley(Pulley(20, named("GT2"), given_outer_diameter=diameter))
+    assert [f.code for f in pulley_findings(pulley)] == found
+
+
+@pytest.mark.parametrize(
     ("typed", "name"),
     [
         ("HTD 5M", "5M"), ("htd-8m", "8M"), ("HTD3", "3M"), ("5mm HTD", "5M"), ("2MGT", "2GT"), ("gt2", "2GT"),
