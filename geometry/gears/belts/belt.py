@@ -109,7 +109,7 @@ class StraightGroove(Record):
 
     def half(self, outer: float, walls: float = 0.0, inset: float = 0.0) -> Half | None:
         """With its walls moved into the material, the outer circle by ``inset``, mm; None: there is none."""
-        if not (0 < self.depth < outer and 0 < self.width / 2 < outer):
+        if not self.width / 2 < outer:
             return None
         (place, way), floor = self._flank(outer, walls), outer - self.depth - walls
         foot, radius = (floor - place.real) / way.real, self._fillet(outer) + walls
@@ -146,8 +146,6 @@ class ArcGroove(Record):
     def half(self, outer: float, walls: float = 0.0, inset: float = 0.0) -> Half | None:
         """With its walls moved into the material, the outer circle by ``inset``, mm; None: there is none."""
         floor, rise = outer - self.depth + self.floor_radius, self.flank_radius - self.floor_radius
-        if not (0 < self.depth < outer and rise > self.flank_offset):
-            return None
         centre = complex(floor + math.sqrt((rise - self.flank_offset) * (rise + self.flank_offset)), -self.flank_offset)
         radius, rounding = self.flank_radius + walls, max(self.tip_radius - inset, 0.0)
         tip = _crossing(outer - inset - rounding, centre, radius + rounding)

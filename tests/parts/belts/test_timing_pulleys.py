@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import json
 import math
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 import ezdxf
 import pytest
 
+from exporters.documents.topics import calculate
 from exporters.formats.read_dxf import read_dxf
 from exporters.production.check import scene_checks
 from geometry.gears.belts.belt import belt_of
@@ -58,17 +60,36 @@ def test_letters_of_a_belt_may_be_cyrillic() -> None:
     assert made(PLATE | {"belt": "\u0430\u0442 10"}).thing.belt is belt_of("AT10")
 
 
+@pytest.mark.parametrize("offset", [0.0, -0.1])
 @pytest.mark.parametrize("faces", [(True, True), (True, False), (False, True)])
-def test_flanges_are_discs_beside_the_teeth(faces: tuple[bool, bool]) -> None:
+def test_flanges_are_discs_beside_the_teeth(faces: tuple[bool, bool], offset: float) -> None:
+    """Walls move with the offset, faces stay."""
     flanges = {"diameter": 16.0, "thickness": 1.5, "below": faces[0], "above": faces[1]}
     hub = {"diameter": 10.0 if not faces[1] else 12.0, "above": 6.0}
     part = made(PLATE | {"flanges": flanges, "hub": hub})
-    teeth, discs = profile_area(part.section(0.0).region.outer), sum(faces)
-    wanted = 7.0 * teeth + discs * 1.5 * math.pi * 8.0**2 + 6.0 * math.pi * hub["diameter"] ** 2 / 4
-    wanted -= (13.0 + discs * 1.5) * math.pi * 2.5**2
-    assert body_moments(part.body(0.0)).volume == pytest.approx(wanted, rel=1e-12)
+    teeth, discs = profile_area(part.section(offset).region.outer), sum(faces)
+    wanted = 7.0 * teeth + discs * 1.5 * math.pi * (8.0 + offset) ** 2
+    wanted += 6.0 * math.pi * (hub["diameter"] / 2 + offset) ** 2 - (13.0 + discs * 1.5) * math.pi * (2.5 - offset) ** 2
+    assert body_moments(part.body(offset)).volume == pytest.approx(wanted, rel=1e-12)
     assert part.face_width == pytest.approx(7.0 + discs * 1.5)
     assert not part.is_plate
+    assert not made(PLATE | {"flanges": flanges}).is_plate
+    assert made(PLATE).is_plate
+
+
+def test_a_page_has_the_groove_with_its_clearance() -> None:
+    """Its walls stand off by it: every radius of the groove is greater by it, that of the tip stays."""
+
+    def values(*words: str) -> dict[str, Any]:
+        found: dict[str, Any] = json.loads(calculate("pulley", [*words, "clearance=0.05"], "json", "en"))["values"]
+        return found
+
+    found = values("belt=T5", "number_of_teeth=30")
+    names = "greatest_root_radius", "pulley_groove_depth", "groove_tip_radius", "groove_angle_deg"
+    assert [found[name] for name in names] == pytest.approx([0.45, 2.0, 0.6, 50.0])
+    found = values("belt=GT2", "number_of_teeth=20")
+    names = "groove_floor_radius", "groove_flank_radius", "flank_centre_offset", "groove_tip_radius"
+    assert [found[name] for name in names] == pytest.approx([0.605, 1.05, 0.40, 0.15])
 
 
 def test_files_have_every_groove_and_one_that_is_filled_is_caught(tmp_path: Path) -> None:
@@ -123,6 +144,17 @@ def test_both_pulleys_turn_the_same_way_by_their_teeth() -> None:
     assert len(loose["findings"]) == 1
 
 
+def test_teeth_between_flanges_face_each_other_and_flanges_keep_apart() -> None:
+    """Middles of 7 mm of teeth on a flange of 1.5 mm, and of 10 mm; tips stand off by half of both flanges."""
+    one, two = PLATE | {"flanges": {"diameter": 16.0, "thickness": 1.5}}, LARGE | {"face_width": 10.0}
+    placing, checks = placed({"number_of_belt_teeth": 100}, one, two)
+    assert next(i for i in placing.instances if i.id == "b").at[2] == pytest.approx(1.5 + 3.5 - 5.0)
+    (mate,) = checks["mates"]
+    wide = mate["working_centre_distance"] - 8.0 - (60 / math.pi - 0.254)
+    assert mate["rim_gap"] == pytest.approx(wide)
+    assert mate["gear_ratio"] == pytest.approx(3.0)
+
+
 @pytest.mark.parametrize("off", [0.0, 1e-3])
 def test_a_second_pulley_that_stands_already_must_take_the_belt(off: float) -> None:
     there = placed({"number_of_belt_teeth": 100}, instances={"a": {"rotation_deg": 7.0}, "b": {}})[0]
@@ -144,8 +176,13 @@ def test_a_second_pulley_that_stands_already_must_take_the_belt(off: float) -> N
         (PLATE | {"belt": OWN | {"groove_width": 7.0}}, "belt.groove_width", 4.823),
         (PLATE | {"bore_diameter": 11.0}, "bore_diameter", None),
         (PLATE | {"hub": {"diameter": 12.0, "above": 5.0}}, "hub.diameter", 10.6743),
+        # the flange is at the other face
+        (PLATE | {"flanges": {"diameter": 16.0, "above": False}, "hub": {"diameter": 12.0, "above": 5.0}},
+         "hub.diameter", 10.6743),
+        (PLATE | {"flanges": {"diameter": 16.0, "below": False}, "hub": {"diameter": 12.0, "below": 5.0}},
+         "hub.diameter", 10.6743),
     ],
-)
+)  # fmt: skip
 def test_bad_keys_are_refused_with_what_works(keys: Keys, key: str, cure: object) -> None:
     with pytest.raises(SceneError) as refused:
         made(keys)

@@ -65,8 +65,14 @@ def test_loose_belts_and_few_teeth_in_mesh_are_told() -> None:
     taut = exact_distance((one.pitch_radius, two.pitch_radius), 500.0, 60.0)
     assert taut is not None
     assert [f.code for f in BeltMesh((one, two), taut, 100).findings()] == ["few_belt_teeth_in_mesh"]
+    # half of twelve are enough
+    assert BeltMesh((one, one), 5.0 * (50 - 12) / 2, 50).findings() == ()
     loose = BeltMesh((two, two), 60.0, 100)
     assert loose.slack == pytest.approx(500 - 120 - 360)
     assert [f.code for f in loose.findings()] == ["belt_hangs_loose"]
+    # a fiftieth of a millimetre too
+    assert [f.code for f in BeltMesh((two, two), 69.99, 100).findings()] == ["belt_hangs_loose"]
+    assert BeltMesh((two, two), 70.0, 100).findings() == ()
     assert exact_distance((one.pitch_radius, two.pitch_radius), 200.0, 70.0) is None
     assert textbook_distance((one.pitch_radius, two.pitch_radius), 200.0) is None
+    assert textbook_distance((10.0, 10.0), 30.0) is None

@@ -9,18 +9,38 @@ import pytest
 import shapely
 from shapely.geometry import Polygon
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.record import replace
 from geometry.curves.curve import Complex
 from geometry.gears.belts.belt import ArcGroove, Belt, StraightGroove, belt_of, belts, like_belt
 from geometry.gears.belts.pulley import Pulley, checked_pulley, pulley_findings, pulley_region, pulley_side
 from geometry.plane.profile import Label, Profile
+from geometry.solids.bores import RoundBore
+from geometry.solids.hub_holes import HubHoles
 
 # outer diameters of makers: T5 (10T5 to 20T5 of an aluminium series by DIN 7721), AT5 (a Japanese catalogue)
 MAKERS = {
     "T5": {10: 15.05, 12: 18.25, 14: 21.45, 15: 23.05, 16: 24.60, 18: 27.80, 19: 29.40, 20: 31.00},
     "AT5": {15: 22.65, 16: 24.2, 18: 27.4, 20: 30.6, 22: 33.85, 24: 37.0, 25: 38.6, 26: 40.2, 28: 43.35},
 }
+# inches of RMA IP-24: pitch, pitch line over the outer circle, width and depth of grooves, radii of root and tip
+INCHES = {
+    "MXL": (0.080, 0.010, 0.033, 0.027, 0.010, 0.005),
+    "XL": (0.200, 0.010, 0.052, 0.065, 0.016, 0.025),
+    "L": (0.375, 0.015, 0.120, 0.105, 0.047, 0.046),
+    "H": (0.500, 0.027, 0.165, 0.120, 0.063, 0.063),
+    "XH": (0.875, 0.055, 0.311, 0.281, 0.078, 0.094),
+    "XXH": (1.250, 0.060, 0.479, 0.406, 0.156, 0.125),
+}
+# width and depth of grooves of DIN 7721-2, up to 20 teeth and of more
+DIN = {
+    "T2.5": ((1.75, 0.75), (1.83, 1.00)),
+    "T5": ((2.96, 1.25), (3.32, 1.95)),
+    "T10": ((6.02, 2.60), (6.57, 3.40)),
+    "T20": ((11.65, 5.20), (12.60, 6.00)),
+}
+# inches of makers' handbooks, pitch line over the outer circle
+LINES = {"3M": 0.015, "5M": 0.0225, "8M": 0.027, "14M": 0.055, "2GT": 0.010, "3GT": 0.015, "5GT": 0.0225}
 
 
 def named(designation: str) -> Belt:
@@ -55,6 +75,81 @@ def test_circles_of_pulleys_by_hand() -> None:
     assert (2 * pulley.pitch_radius, 2 * pulley.outer_radius) == pytest.approx((12.732, 12.224), abs=5e-4)
     pulley = Pulley(10, named("XL"))
     assert (2 * pulley.pitch_radius, 2 * pulley.outer_radius) == pytest.approx((0.637 * 25.4, 0.617 * 25.4), abs=0.01)
+
+
+@pytest.mark.parametrize("name", INCHES)
+def test_grooves_of_inch_pitches_are_those_of_the_inch_standard(name: str) -> None:
+    """Which ISO 5294 rounds to hundredths of a millimetre."""
+    belt = named(name)
+    groove = belt.groove
+    assert isinstance(groove, StraightGroove)
+    found = belt.pitch, belt.line_offset, groove.width, groove.depth, groove.root_radius, groove.tip_radius
+    assert found == pytest.approx([25.4 * x for x in INCHES[name]], abs=0.0052)
+
+
+@pytest.mark.parametrize("name", DIN)
+def test_grooves_of_few_teeth_are_narrower_and_flatter(name: str) -> None:
+    belt = named(name)
+    for teeth, wanted in zip((20, 21), DIN[name], strict=True):
+        groove = belt.groove_of(teeth)
+        assert isinstance(groove, StraightGroove)
+        assert (groove.width, groove.depth) == wanted
+
+
+@pytest.mark.parametrize("name", LINES)
+def test_pitch_lines_of_metric_pitches_are_whole_inches_over_the_outer_circle(name: str) -> None:
+    assert named(name).line_offset == pytest.approx(25.4 * LINES[name], abs=6e-4)
+
+
+def test_an_outline_that_has_no_flanks_left_is_refused() -> None:
+    """Wide lands are left: a fillet takes all of a flank, the outer circle meets the floor's arc."""
+    shallow = Belt(10.0, 0.5, StraightGroove(4.0, 0.5, math.radians(25), 1.0, 0.0))
+    for pulley, offset in ((Pulley(20, shallow), -0.2), (Pulley(20, named("GT2"), given_outer_diameter=100.0), -0.9)):
+        assert pulley_side(checked_pulley(pulley), offset / 10)
+        with pytest.raises(OffsetError):
+            pulley_side(pulley, offset)
+
+
+def test_an_offset_that_leaves_no_land_is_refused() -> None:
+    """Walls and the outer circle of GT2 move: two roundings meet between 0.35 and 0.4 mm of 20 teeth."""
+    pulley = Pulley(20, named("GT2"))
+    with pytest.raises(OffsetError):
+        pulley_side(pulley, -0.4)
+    assert pulley_side(pulley, -0.15)
+
+
+def test_an_offset_that_leaves_no_rim_is_refused() -> None:
+    """Grooves go in by it and the bore out: 0.06 mm between them are less than twice 0.04 mm."""
+    pulley = Pulley(20, named("GT2"))
+    thin = replace(pulley, holes=HubHoles(RoundBore(2 * pulley.root_radius - 0.12)))
+    with pytest.raises(OffsetError) as refused:
+        pulley_side(thin, -0.04)
+    assert refused.value.reason == "leaves_no_rim"
+    assert pulley_side(thin, -0.02)
+
+
+def test_sharp_corners_have_no_curve_and_lands_are_what_widths_leave() -> None:
+    """Of each pitch angle twice the arcsine of b / d is a groove's."""
+    pulley = checked_pulley(Pulley(17, Belt(5.0, 0.5, StraightGroove(3.0, 1.5, math.radians(25), 0.3, 0.0))))
+    outer = 17 * 5.0 / (2 * math.pi) - 0.5
+    assert pulley.land == pytest.approx(outer * (2 * math.pi / 17 - 2 * math.asin(1.5 / outer)), rel=1e-12)
+    curves = [s.curve for s in pulley_side(pulley).segments]
+    assert min(abs(complex(c.point(c.domain[1]) - c.point(c.domain[0]))) for c in curves) > 0.1
+
+
+@pytest.mark.parametrize("teeth", [20, 300])
+def test_a_groove_whose_flanks_meet_above_its_floor_is_refused(teeth: int) -> None:
+    """As wide works as flanks that meet there leave: b / 2 = (sqrt(r^2 - b^2 / 4) - r + h) tan(phi)."""
+    narrow = Belt(5.0, 0.5, StraightGroove(1.0, 2.0, math.radians(25), 0.3, 0.0))
+    with pytest.raises(ParameterError) as refused:
+        checked_pulley(Pulley(teeth, narrow))
+    assert refused.value.name == "belt.groove_width"
+    nearest, half, outer = refused.value.nearest, 0.0, 5.0 * teeth / (2 * math.pi) - 0.5
+    for _ in range(60):
+        half = (math.sqrt(outer**2 - half**2) - outer + 2.0) * math.tan(math.radians(25))
+    assert nearest is not None
+    # told with five digits
+    assert 0 < nearest.value - 2 * half < 1.01e-4
 
 
 @pytest.mark.parametrize("name", belts())
@@ -143,6 +238,7 @@ def test_few_teeth_and_wide_walls_are_refused_with_what_works() -> None:
     belt = named("T2.5")
     for pulley, key in (
         (Pulley(6, belt), "number_of_teeth"),
+        (Pulley(9, belt), "number_of_teeth"),
         (Pulley(20, named("GT2"), clearance=0.3), "clearance"),
         (Pulley(20, named("GT2"), given_outer_diameter=7.0), "outer_diameter"),
     ):
@@ -151,6 +247,7 @@ def test_few_teeth_and_wide_walls_are_refused_with_what_works() -> None:
         assert refused.value.name == key
         nearest = refused.value.nearest
         assert nearest is not None
+        assert key != "number_of_teeth" or nearest.value == 10
         field = {"outer_diameter": "given_outer_diameter"}.get(key, key)
         checked_pulley(replace(pulley, **{field: nearest.value}))
     wide = Belt(5.0, 0.5, StraightGroove(7.0, 2.0, math.radians(25), 0.0, 0.0))
@@ -160,7 +257,8 @@ def test_few_teeth_and_wide_walls_are_refused_with_what_works() -> None:
     nearest = refused.value.nearest
     assert nearest is not None
     checked_pulley(Pulley(20, replace(wide, groove=replace(wide.groove, width=nearest.value))))
-    assert [f.code for f in pulley_findings(Pulley(12, named("8M")))] == ["few_pulley_teeth"]
+    assert [f.code for f in pulley_findings(Pulley(21, named("8M")))] == ["few_pulley_teeth"]
+    assert pulley_findings(Pulley(22, named("8M"))) == ()
 
 
 @pytest.mark.parametrize(
@@ -184,7 +282,9 @@ def test_belts_are_named_as_people_write_them(typed: str, name: str) -> None:
     assert named(typed) is belts()[name]
 
 
-@pytest.mark.parametrize(("typed", "like"), [("T50", "T5"), ("GT2 6mm", "2GT"), ("T5 10", "T5"), ("HTD 3M 9mm", "3M")])
-def test_of_a_belt_with_its_width_the_belt_is_offered(typed: str, like: str) -> None:
+@pytest.mark.parametrize(
+    ("typed", "like"), [("T50", "T5"), ("GT2 6mm", "2GT"), ("T5 10", "T5"), ("HTD 3M 9mm", "3M"), ("V", None)]
+)
+def test_of_a_belt_with_its_width_the_belt_is_offered(typed: str, like: str | None) -> None:
     assert belt_of(typed) is None
     assert like_belt(typed) == like
