@@ -155,6 +155,40 @@ def test_teeth_between_flanges_face_each_other_and_flanges_keep_apart() -> None:
     assert mate["gear_ratio"] == pytest.approx(3.0)
 
 
+@pytest.mark.parametrize(("turn", "direction"), [(0.0, 20.0), (7.0, 20.0), (100.0, -75.0)])
+def test_teeth_of_a_placed_belt_stand_in_grooves_of_both(turn: float, direction: float) -> None:
+    """Grooves are half a pitch beside tooth 1, which each pulley has at its turn."""
+    mate = {"number_of_belt_teeth": 100, "direction_deg": direction}
+    (placing, _) = placed(mate, instances={"a": {"rotation_deg": turn}, "b": {}})
+    (joined,) = placing.mates
+    poses = [(complex(*i.at[:2]), i.rotation) for i in (joined.first, joined.second)]
+    places, _ = joined.mating.rollers(poses[0], math.radians(direction))
+    for (centre, rotation), z in zip(poses, (20, 60), strict=True):
+        seated = [p - centre for p in places if abs(abs(p - centre) - z / math.pi) < 1e-9]
+        assert len(seated) > 0.35 * z
+        shares = [(cmath.phase(p) - rotation) * z / (2 * math.pi) - 0.5 for p in seated]
+        assert max(abs(x - round(x)) for x in shares) < 1e-6
+
+
+def test_the_page_of_a_drive_takes_its_pulleys_from_the_scene() -> None:
+    """The scene has 20 and 60 teeth; what is asked besides goes first. An outer diameter is the first one's alone."""
+
+    def values(*words: str) -> dict[str, Any]:
+        found: dict[str, Any] = json.loads(calculate("belt", list(words), "json", "en"))["values"]
+        return found
+
+    assert values("belt_drive")["number_of_teeth"] == {"first": 20, "second": 60}
+    assert values("belt_drive", "mate_number_of_teeth=30")["number_of_teeth"] == {"first": 20, "second": 30}
+    own = "belt=T5", "number_of_teeth=20", "mate_number_of_teeth=40"
+    found = values(*own, "outer_diameter=31.2", "number_of_belt_teeth=100")
+    assert found["pulley_outer_diameter"]["first"] == 31.2
+    assert found["pulley_outer_diameter"]["second"] == pytest.approx(200 / math.pi - 0.83)
+    taut = found["exact_belt_distance"]
+    assert values(*own, "number_of_belt_teeth=100", f"centre_distance={taut!r}")["belt_slack"] == pytest.approx(
+        0, abs=1e-9
+    )
+
+
 @pytest.mark.parametrize("off", [0.0, 1e-3])
 def test_a_second_pulley_that_stands_already_must_take_the_belt(off: float) -> None:
     there = placed({"number_of_belt_teeth": 100}, instances={"a": {"rotation_deg": 7.0}, "b": {}})[0]
@@ -204,6 +238,7 @@ def test_bad_keys_are_refused_with_what_works(keys: Keys, key: str, cure: object
         ({"centre_distance": 20.0}, LARGE, "mates[1].centre_distance", None),
         ({"number_of_belt_teeth": 100, "centre_distance": 60.0}, LARGE, "mates[1].centre_distance", 58.611527),
         ({"number_of_belt_teeth": 110, "centre_distance": 58.0}, LARGE, "mates[1].number_of_belt_teeth", 100),
+        ({"number_of_belt_teeth": 101, "centre_distance": 58.0}, LARGE, "mates[1].number_of_belt_teeth", 100),
         ({"centre_distance": 1e6}, LARGE, "mates[1].centre_distance", None),
         ({"number_of_belt_teeth": 100}, LARGE | {"belt": "MXL"}, "mates[1]: parts.b.belt", None),
     ],

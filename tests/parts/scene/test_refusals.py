@@ -578,3 +578,10 @@ def test_a_kind_of_other_tables_is_told_where_it_belongs(tables: dict[str, Any],
     with pytest.raises(SceneError, match=re.escape(f"belongs in a table {where}")) as refused:
         scene_from_dict(tables, "t", "t")
     assert refused.value.key == key
+
+
+@pytest.mark.parametrize("kind", [["chain_drive"], {"chain_drive": 1}, 3])
+def test_a_kind_that_is_no_text_is_unknown(kind: object) -> None:
+    with pytest.raises(SceneError, match="unknown kind") as refused:
+        scene_from_dict({"parts": {"a": {"kind": kind}}}, "t", "t")
+    assert refused.value.key == "parts.a.kind"
