@@ -292,8 +292,10 @@ def _inset(profile: Boundary, offset: float, chamfer: float, side: str, who: str
     raise ParameterError(f"face_chamfer.{side}", chamfer, f"chamfer_leaves_nothing_of_{who}", cure)
 
 
-def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles) -> None:
+def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles, edge: str = "root_circle") -> None:
     """Refuse a shape whose diameters do not fit between bore, holes and root circle; chamfers the body refuses.
+
+    ``edge``: what ends the faces in place of the root circle, as the codes of refusals have it.
 
     Raises
     ------
@@ -303,7 +305,7 @@ def check_wheel(shape: WheelShape, root_diameter: float, holes: HubHoles) -> Non
     web, hub = shape.web, shape.hub
     inner, outer = (2 * r for r in holes.beside_bore())
     if hub is not None:
-        _between("hub.diameter", hub.diameter, (2 * holes.bore_reach, "bore"), (root_diameter, "root_circle"))
+        _between("hub.diameter", hub.diameter, (2 * holes.bore_reach, "bore"), (root_diameter, edge))
         _between("hub.diameter", hub.diameter, (0.0, ""), (inner, "holes"))
     if web is not None:
         core = (hub.diameter, "hub") if hub else (2 * holes.bore_reach, "bore")

@@ -98,7 +98,9 @@ class TimingPulleyKind(WheelKind[TimingPulleySpec, "Pulley"]):
         check_flanges(pulley)
         holes = holes_of(keys)
         check_holes(keys, holes, pulley.root_radius)
-        check_wheel(shape_of_pulley(keys, pulley), 2 * _face_radius(keys, pulley), holes)
+        radius = _face_radius(keys, pulley)
+        edge = "root_circle" if radius == pulley.root_radius else "flanges"
+        check_wheel(shape_of_pulley(keys, pulley), 2 * radius, holes, edge)
         return replace(pulley, holes=holes)
 
     def section(self, keys: TimingPulleySpec, thing: Pulley, offset: float) -> OffsetRegion:
