@@ -210,15 +210,12 @@ def test_a_second_pulley_that_stands_already_must_take_the_belt(off: float) -> N
         (PLATE | {"belt": OWN | {"groove_width": 7.0}}, "belt.groove_width", 4.823),
         (PLATE | {"bore_diameter": 11.0}, "bore_diameter", None),
         (PLATE | {"hub": {"diameter": 12.0, "above": 5.0}}, "hub.diameter", 10.6743),
-<<<<<<< HEAD
         # the flange is at the other face
         (PLATE | {"flanges": {"diameter": 16.0, "above": False}, "hub": {"diameter": 12.0, "above": 5.0}},
          "hub.diameter", 10.6743),
         (PLATE | {"flanges": {"diameter": 16.0, "below": False}, "hub": {"diameter": 12.0, "below": 5.0}},
          "hub.diameter", 10.6743),
-=======
         (PLATE | {"flanges": {"diameter": 16.0}, "hub": {"diameter": 16.0, "above": 5.0}}, "hub.diameter", 15.95),
->>>>>>> ba75c6a1 (A hub that is as wide as the flanges of its pulley is told of these: they were called the root circle)
     ],
 )  # fmt: skip
 def test_bad_keys_are_refused_with_what_works(keys: Keys, key: str, cure: object) -> None:
