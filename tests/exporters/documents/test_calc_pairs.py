@@ -76,6 +76,17 @@ def test_a_crossed_pair_at_a_right_angle_by_hand() -> None:
     assert [found["normal_force"], found["radial_force"]] == pytest.approx([normal, normal * math.sin(alpha)])
 
 
+def test_the_path_of_a_crossed_pair_has_its_formula_where_whole_flanks_meet() -> None:
+    """A chamfered tip ends before its tip circle."""
+    words = (
+        "gear-pair kind=crossed_helical_pair module=3 first.number_of_teeth=13 second.number_of_teeth=26 "
+        "helix_angle_deg=45 face_width=40"
+    )
+    for more, has in (("", True), (" first.tip_chamfer=0.3", False)):
+        step = next(s for s in values_of(words + more)["steps"] if s["name"] == "crossed_path")
+        assert bool(step["formula"]) == has
+
+
 @pytest.mark.parametrize("kind", ["external_gear_pair", "internal_gear_pair", "rack_pair"])
 def test_a_hand_that_is_turned_by_the_sign_of_the_angle_changes_no_number(kind: str) -> None:
     pair = (

@@ -145,10 +145,10 @@ def test_both_pulleys_turn_the_same_way_by_their_teeth() -> None:
 
 
 def test_teeth_between_flanges_face_each_other_and_flanges_keep_apart() -> None:
-    """Middles of 7 mm of teeth on a flange of 1.5 mm, and of 10 mm; tips stand off by half of both flanges."""
-    one, two = PLATE | {"flanges": {"diameter": 16.0, "thickness": 1.5}}, LARGE | {"face_width": 10.0}
+    """Middles of 7 mm of teeth on a flange of 1.5 mm, and of 8 mm; tips stand off by half of both flanges."""
+    one, two = PLATE | {"flanges": {"diameter": 16.0, "thickness": 1.5}}, LARGE | {"face_width": 8.0}
     placing, checks = placed({"number_of_belt_teeth": 100}, one, two)
-    assert next(i for i in placing.instances if i.id == "b").at[2] == pytest.approx(1.5 + 3.5 - 5.0)
+    assert next(i for i in placing.instances if i.id == "b").at[2] == pytest.approx(1.5 + 3.5 - 4.0)
     (mate,) = checks["mates"]
     wide = mate["working_centre_distance"] - 8.0 - (60 / math.pi - 0.254)
     assert mate["rim_gap"] == pytest.approx(wide)
@@ -259,3 +259,15 @@ def test_to_a_pulley_of_another_belt_that_of_the_first_is_offered() -> None:
         placed({"number_of_belt_teeth": 100}, two=LARGE | {"belt": "MXL"})
     assert refused.value.nearest is not None
     assert refused.value.nearest.value == "GT2"
+
+
+def test_one_pitch_circle_within_the_other_is_refused() -> None:
+    """Outer diameters far too small let rims be apart there: radii of 5 mm by 10 and 100 teeth differ by 71.62 mm."""
+    belt = {"pitch": 5.0, "line_offset": 0.5, "groove_depth": 0.5, "groove_width": 1.0}
+    one = PLATE | {"belt": belt, "number_of_teeth": 10, "bore_diameter": 3.0}
+    two = one | {"number_of_teeth": 100, "outer_diameter": 40.0}
+    with pytest.raises(SceneError) as refused:
+        placed({"centre_distance": 50.0}, one, two)
+    assert refused.value.key == "mates[1].centre_distance"
+    assert refused.value.nearest is not None
+    assert refused.value.nearest.value == pytest.approx(90 * 5.0 / (2 * math.pi), rel=1e-4)

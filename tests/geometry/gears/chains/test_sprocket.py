@@ -214,6 +214,12 @@ def test_displaced_teeth_that_would_be_pointed_are_lower_than_their_standard(
         checked_sprocket(replace(sprocket, given_tip_diameter=standard))
 
 
+def test_a_tip_diameter_that_is_given_lower_than_that_of_the_standard_is_not_told() -> None:
+    sprocket = Sprocket(20, named("08B-1"), GostForm())
+    lower = replace(sprocket, given_tip_diameter=2 * sprocket.tip_radius - 0.5)
+    assert sprocket_findings(checked_sprocket(lower)) == ()
+
+
 def test_refusals_name_what_works() -> None:
     chain = named("08B-1")
     for wrong, cured in ((80.0, 76.4808), (70.0, 72.1105)):
