@@ -83,7 +83,11 @@ def _write_picture(picture: Picture, file: Path, words: Words) -> None:
 
 def sheet_of(topic: str, words: Sequence[str], language: str | None = None) -> tuple[Sheet, str]:
     """The sheet of a topic and the language of its scene, which is told in another where one is asked for."""
-    signs = (k for k, word in enumerate(words) if word.startswith("=") or (word.endswith("=") and k + 1 < len(words)))
+    # an empty value ends a word as well, where another key follows
+    signs = (
+        k for k, word in enumerate(words)
+        if word.startswith("=") or (word.endswith("=") and k + 1 < len(words) and "=" not in words[k + 1])
+    )  # fmt: skip
     if (apart := next(signs, None)) is not None:
         # key = value, of which the shell makes three words
         raise SceneError(

@@ -145,20 +145,18 @@ def belt_mesh(
         raise ParameterError(keys[0], None, "one_of_two_is_missing", other="centre_distance")
     if distance is not None and distance < least:
         raise ParameterError(keys[1], distance, "pulleys_meet", limit(least, distance))
-    if teeth is not None:
-        found = exact_distance(radii, teeth * pitch, least)
-        if found is None:
-            fewest = math.ceil(BeltDrive(radii, least).length / pitch)
-            raise ParameterError(keys[0], teeth, "belt_too_short_for_pulleys", Nearest(fewest, "at_least"))
-        if distance is None:
-            return BeltMesh(pulleys, found, teeth)
-    else:
-        teeth, found = _MOST_TEETH, exact_distance(radii, _MOST_TEETH * pitch, least)
-    assert distance is not None
-    if found is not None and distance > found * (1 + _ROUNDING):
-        most = limit(found, distance, digits=6)
-        raise ParameterError(keys[1], distance, "belt_too_short", most, teeth=teeth)
+    most = _MOST_TEETH if teeth is None else teeth
+    found = exact_distance(radii, most * pitch, least)
+    if found is None:
+        fewest = math.ceil(BeltDrive(radii, least).length / pitch)
+        raise ParameterError(keys[0], teeth, "belt_too_short_for_pulleys", Nearest(fewest, "at_least"))
+    if distance is None:
+        return BeltMesh(pulleys, found, most)
+    if distance > found * (1 + _ROUNDING):
+        raise ParameterError(
+            keys[1], distance, "belt_too_short", limit(found, distance, digits=6), teeth=most
+        )  # fmt: skip
     fitting = math.ceil(BeltDrive(radii, distance).length / pitch - _ROUNDING)
-    if fitting < teeth < _MOST_TEETH:
+    if teeth is not None and fitting < teeth:
         raise ParameterError(keys[0], teeth, "belt_too_long", Nearest(fitting), teeth=fitting)
     return BeltMesh(pulleys, distance, fitting)

@@ -241,6 +241,7 @@ def test_bad_keys_are_refused_with_what_works(keys: Keys, key: str, cure: object
         ({"number_of_belt_teeth": 110, "centre_distance": 58.0}, LARGE, "mates[1].number_of_belt_teeth", 100),
         ({"number_of_belt_teeth": 101, "centre_distance": 58.0}, LARGE, "mates[1].number_of_belt_teeth", 100),
         ({"centre_distance": 1e6}, LARGE, "mates[1].centre_distance", None),
+        ({"number_of_belt_teeth": 10_000, "centre_distance": 58.0}, LARGE, "mates[1].number_of_belt_teeth", 100),
         ({"number_of_belt_teeth": 100}, LARGE | {"belt": "MXL"}, "mates[1]: parts.b.belt", None),
     ],
 )
