@@ -26,6 +26,8 @@ _RODS = (("O1", "A"), ("A", "B"), ("O3", "B"), ("O3", "C"), ("C", "D"), ("O5", "
 _PAPER, _STEPS = 120.0, (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)
 # names of a panel may stand in the room about it, below its title
 _FIELD = (complex(-_EDGE, -8.0), complex(_SIDE + _EDGE, _SIDE + _EDGE / 2))
+# of more positions than these the links would be one grey field
+_SHOWN = 24
 # of a path and a diagram every such point is drawn
 _EVERY = 10
 
@@ -78,7 +80,8 @@ class Run(Record, eq=False):
 class LeverPicture(Record, eq=False):
     """``points`` in the first position, their ``paths`` over a turn, mm, ``fixed`` pivots; ``blocks``: points of links
     that slide, and the directions of their guides; ``diagram``: angle (deg), travel (mm), velocity (m/s) and
-    acceleration (m/s^2) of the output; ``forces``: plans of forces under their titles.
+    acceleration (m/s^2) of the output; ``forces``: plans of forces under their titles;
+    ``positions``: how many equidistant ones of the crank are shown together, the first of them bold.
     """
 
     points: Mapping[str, complex]
@@ -90,6 +93,7 @@ class LeverPicture(Record, eq=False):
     diagram: tuple[Real, Real, Real, Real]
     run: Run | None = None
     forces: tuple[tuple[Text, Plan], ...] = ()
+    positions: int = 1
 
     def svg(self, words: Words) -> str:
         """The picture in a language."""
@@ -108,6 +112,8 @@ class LeverPicture(Record, eq=False):
                 (N_("Gained energy, J; KK_1 is the height of ΔT_m"), list(together(run.angle, energies, words))),
             ]
         panels += [(title, list(_plan(plan))) for title, plan in self.forces]
+        if 1 < self.positions <= _SHOWN:
+            panels.append((N_("Positions of the crank over one turn"), list(self._positions())))
         return paneled(panels, words)
 
     def _scheme(self) -> Iterator[str]:
@@ -118,9 +124,7 @@ class LeverPicture(Record, eq=False):
             spots = np.append(path[::_EVERY], path[0])
             lines += _seen(view, spots)
             yield view.line(spots, _PATH, 1.0)
-        for one, two in _RODS:
-            if one not in known or two not in known or ("A" in self.blocks and (one, two) == ("A", "B")):
-                continue
+        for one, two in self._rods(known):
             ends = np.array([known[one], known[two]])
             lines += _seen(view, ends)
             yield view.line(ends, _LINK, 3.0)
@@ -140,6 +144,24 @@ class LeverPicture(Record, eq=False):
             style = f"fill:none;stroke:{_LINK};stroke-width:2"
             place = f"translate({x:.2f} {y:.2f}) rotate({turn:.3f})"
             yield f'<rect x="-9" y="-6" width="18" height="12" transform="{place}" style="{style}"/>'
+
+    def _rods(self, known: Mapping[str, complex]) -> list[tuple[str, str]]:
+        rods = (rod for rod in _RODS if {*rod} <= {*known})
+        return [rod for rod in rods if not ("A" in self.blocks and rod == ("A", "B"))]
+
+    def _positions(self) -> Iterator[str]:
+        """Every position with its number beyond A, the first one last, over the others."""
+        view = _View(np.concatenate([np.array([*self.fixed.values()]), *self.paths.values()]))
+        for path in self.paths.values():
+            yield view.line(np.append(path[::_EVERY], path[0]), _PATH, 1.0)
+        for number in reversed(range(self.positions)):
+            moved = {name: complex(path[number * len(path) // self.positions]) for name, path in self.paths.items()}
+            places = {**self.fixed, **moved}
+            for one, two in self._rods(places):
+                yield view.line(np.array([places[one], places[two]]), _LINK, 0.5 if number else 2.5)
+            (x0, y0), (x, y) = view.at(places["O1"]), view.at(places["A"])
+            share = 11 / math.hypot(x - x0, y - y0)
+            yield written(x + share * (x - x0), y + share * (y - y0) + 4, str(number), INK, 13, "middle")
 
     def _diagrams(self, words: Words) -> Iterator[str]:
         angle, *curves = self.diagram

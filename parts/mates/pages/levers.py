@@ -440,7 +440,9 @@ class _Page:
         if self._slides:
             blocks[self._output] = self.way
         points = {name: complex(place) for name, place in shown[0].items()}
-        self.page.picture = LeverPicture(points, shown[1], fixed, blocks, *plans, self._diagram(), run, tuple(forces))
+        self.page.picture = LeverPicture(
+            points, shown[1], fixed, blocks, *plans, self._diagram(), run, tuple(forces), self.keys.positions
+        )
 
     def _diagram(self) -> tuple[Real, Real, Real, Real]:
         """Angle (deg), travel (mm), velocity and acceleration of the output along its way."""

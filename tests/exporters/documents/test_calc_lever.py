@@ -247,6 +247,32 @@ def test_the_picture_shows_scheme_plans_and_diagrams(tmp_path: Path) -> None:
     assert np.allclose(np.array(sizes) / sizes[0], np.array(sorted([300, 1080, 270, 756])) / 270, rtol=1e-3)
 
 
+@pytest.mark.parametrize("count", [12, 8])
+def test_the_scheme_shows_every_position_by_its_number(count: int, tmp_path: Path) -> None:
+    file = tmp_path / "lever.svg"
+    own = ["crank_length=100", "speed=10", "first=rods", "frame_length=260", "coupler_length=270", "lever_length=210"]
+    calculate("lever", [*own, "start_angle_deg=15", f"positions={count}", f"picture={file}"], "text", "en")
+    found = [*ET.parse(file).iter()]
+    assert {str(n) for n in range(count)} <= {e.text for e in found if e.tag.endswith("}text")}
+
+    def drawn(width: str) -> np.ndarray:
+        marks = (e for e in found if e.tag.endswith("polyline") and e.attrib["style"].endswith(f"width:{width}"))
+        pairs = ([complex(*map(float, p.split(","))).conjugate() for p in e.attrib["points"].split()] for e in marks)
+        return np.array([*pairs])
+
+    bold, thin = drawn("2.5"), drawn("0.5").reshape(count - 1, 3, 2)[::-1]
+    pivot, scale = bold[0, 0], abs(bold[0, 1] - bold[0, 0]) / 100
+    cranks, levers = (thin[:, 0, 1] - pivot) / scale, (thin[:, 2] - pivot) / scale
+    assert np.allclose(cranks, 100 * np.exp(1j * np.radians(15 + 360 / count * np.arange(1, count))), atol=0.05)
+    # of the triangle of diagonal, coupler and lever by the cosine rule
+    frame = levers[:, 0]
+    assert np.allclose(abs(frame), 260, atol=0.05)
+    diagonal = cranks - frame
+    corner = np.arccos((abs(diagonal) ** 2 + 210**2 - 270**2) / (2 * abs(diagonal) * 210))
+    ways = [frame + 210 * diagonal / abs(diagonal) * np.exp(sign * 1j * corner) for sign in (1, -1)]
+    assert any(np.allclose(levers[:, 1], way, atol=0.1) for way in ways)
+
+
 @pytest.mark.parametrize(
     ("keys", "key", "code", "nearest"),
     [
