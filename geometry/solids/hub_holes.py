@@ -7,7 +7,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 import numpy as np
 
@@ -232,3 +232,15 @@ def _seen_turn(curve: Curve, point: complex) -> float:
         if abs(point - curve.centre) < curve.radius and sense * beyond < 0:
             total += sense * 2 * math.pi
     return total
+
+
+class Holed(Protocol):
+    """A wheel that exists: what lies within its roots, mm."""
+
+    @property
+    def root_radius(self) -> float:
+        """Of the largest circle within its outline, mm."""
+
+    @property
+    def holes(self) -> HubHoles:
+        """Bore and holes."""

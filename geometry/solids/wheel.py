@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     # a flat section asks for the shape of a wheel, not for its solid
     from geometry.solids.body import Body, BodyBuilder, Twist
 
+# writes teeth into a body moved by an offset, mm: its lower and upper loop
+Rim = Callable[["BodyBuilder", float], tuple[int, int]]
 # of a short piece, at least this share stays
 _KEPT_SHARE = 0.1
 # diameters of steps differ by this much at least, mm: thinner ones are mistakes of the keyboard
@@ -82,7 +84,7 @@ class WheelSections(Record):
     bore: Boundary | None
     holes: tuple[Boundary, ...] = ()
     # the walls of what is not one outline from face to face, moved; gives the loops at both faces
-    rim: Callable[[BodyBuilder, float], tuple[int, int]] | None = None
+    rim: Rim | None = None
 
 
 def wheel_sections(outline: Boundary, root_radius: float, holes: HubHoles) -> WheelSections:

@@ -8,7 +8,7 @@ from geometry.base.record import replace
 from parts.base.part import Part
 from parts.base.texts import N_
 from parts.belts import page as pulley_page
-from parts.belts.pulley import TimingPulleySpec, shape_of_pulley
+from parts.belts.pulley import TIMING_PULLEY, TimingPulleySpec
 from parts.drawing.disk_views import disk_drawing
 from parts.drawing.wheel_views import Groove, circle_of
 from parts.drawing.working import VISIBLE, PartDrawing, Size, Subject
@@ -23,7 +23,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     """Section with the flanges, the exact face, the bore."""
     keys, pulley = subject.part.keys, subject.part.thing
     assert isinstance(keys, TimingPulleySpec)
-    shape, circles = shape_of_pulley(keys, pulley), ("outer_diameter", "pitch_diameter", "root_diameter")
+    shape, circles = TIMING_PULLEY.shape(keys, pulley), ("outer_diameter", "pitch_diameter", "root_diameter")
     flanges, low, high = pulley.flanges, pulley.low, pulley.low + pulley.toothed_width
     if flanges is None:
         return disk_drawing(subject, shape, pulley.holes, "zero_tooth", circles, keys.number_of_teeth)

@@ -10,19 +10,17 @@ from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
-from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
+from geometry.solids.wheel import Rim, check_wheel
 from parts.base.kind import Others, Report
 from parts.base.lookalikes import in_latin
 from parts.keys.base import MOST_LENGTH, degrees, mm, part_mm, start
 from parts.keys.pins import check_holes, holes_of
-from parts.keys.wheel import WheelKeys, WheelKind, wheel_shape
+from parts.keys.wheel import WheelKeys, WheelKind
 
 if TYPE_CHECKING:
     from geometry.gears.belts.belt import Belt
     from geometry.gears.belts.pulley import Pulley
-    from geometry.plane.offset_region import OffsetRegion
-    from geometry.plane.profile import Profile
-    from geometry.solids.body import Body
+    from geometry.gears.teeth.tooth import ToothSide
     from parts.base.readback import Probe
 
 
@@ -98,43 +96,36 @@ class TimingPulleyKind(WheelKind[TimingPulleySpec, "Pulley"]):
         check_flanges(pulley)
         holes = holes_of(keys)
         check_holes(keys, holes, pulley.root_radius)
-        radius = _face_radius(keys, pulley)
+        radius = self.core(keys, pulley)
         edge = "root_circle" if radius == pulley.root_radius else "flanges"
-        check_wheel(shape_of_pulley(keys, pulley), 2 * radius, holes, edge)
+        check_wheel(self.shape(keys, pulley), 2 * radius, holes, edge)
         return replace(pulley, holes=holes)
 
-    def section(self, keys: TimingPulleySpec, thing: Pulley, offset: float) -> OffsetRegion:
-        """The exact section of the teeth, moved."""
-        from geometry.gears.belts.pulley import pulley_region
-
-        return pulley_region(thing, offset)
-
-    def outline(self, thing: Pulley, offset: float) -> Profile:
+    def side(self, thing: Pulley, offset: float) -> ToothSide:
         """Of its teeth."""
         from geometry.gears.belts.pulley import pulley_side
 
-        return pulley_side(thing, offset).profile()
+        return pulley_side(thing, offset)
 
-    def solid(self, keys: TimingPulleySpec, thing: Pulley, offset: float) -> Body:
-        """The pulley with its flanges, web, hub and chamfers."""
+    def core(self, keys: TimingPulleySpec, thing: Pulley) -> float:
+        """Of the roots, or of the flanges where these are at every face with a hub, mm."""
+        flanges, hub = thing.flanges, keys.hub
+        if flanges is None or hub is None or keys.web is not None:
+            return thing.root_radius
+        stands = (flanges.below or not hub.below) and (flanges.above or not hub.above)
+        return flanges.diameter / 2 if stands else thing.root_radius
 
-        def outline(moved: float, depth: float) -> Profile:
-            return self.outline(thing, moved - depth)
+    def rim(self, thing: Pulley) -> Rim | None:
+        """Teeth between flanges."""
+        if thing.flanges is None:
+            return None
+        from geometry.gears.belts.flanges import flanged_teeth
 
-        sections = wheel_sections(outline, _face_radius(keys, thing), thing.holes)
-        if thing.flanges is not None:
-            from geometry.gears.belts.flanges import flanged_teeth
-
-            sections = replace(sections, rim=partial(flanged_teeth, thing))
-        return wheel_body(shape_of_pulley(keys, thing), sections, offset)
+        return partial(flanged_teeth, thing)
 
     def height(self, keys: TimingPulleySpec, thing: Pulley) -> float:
         """Width of teeth and flanges, mm."""
         return thing.total_width
-
-    def is_plate(self, keys: TimingPulleySpec, thing: Pulley) -> bool:
-        """Whether there is nothing but one section."""
-        return thing.flanges is None and shape_of_pulley(keys, thing).is_plate
 
     def numbers(self, keys: TimingPulleySpec) -> str:
         """Teeth, and the belt."""
@@ -190,17 +181,3 @@ def belt_of_keys(keys: TimingPulleySpec) -> Belt:
         like = like_belt(name)
         raise ParameterError("belt", own, "no_such_belt", Nearest(like, "meant") if like else None)
     return found
-
-
-def shape_of_pulley(keys: TimingPulleySpec, pulley: Pulley) -> WheelShape:
-    """Width of teeth and flanges, web, hub and chamfers."""
-    return wheel_shape(pulley.total_width, keys.web, keys.hub, keys.face_chamfer)
-
-
-def _face_radius(keys: TimingPulleySpec, pulley: Pulley) -> float:
-    """Within which web and hub stand, mm: of the roots, or of the flanges where these are at every face with a hub."""
-    flanges, hub = pulley.flanges, keys.hub
-    if flanges is None or hub is None or keys.web is not None:
-        return pulley.root_radius
-    stands = (flanges.below or not hub.below) and (flanges.above or not hub.above)
-    return flanges.diameter / 2 if stands else pulley.root_radius

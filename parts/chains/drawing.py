@@ -9,7 +9,7 @@ from geometry.base.record import replace
 from parts.base.part import Part
 from parts.base.texts import N_
 from parts.chains import page as sprocket_page
-from parts.chains.sprocket import SprocketSpec, shape_of_sprocket
+from parts.chains.sprocket import SPROCKET, SprocketSpec
 from parts.drawing.disk_views import disk_drawing
 from parts.drawing.extent import reach
 from parts.drawing.wheel_views import Groove
@@ -28,7 +28,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     """Section with the rows of teeth, the exact face, the bore."""
     keys, sprocket = subject.part.keys, subject.part.thing
     assert isinstance(keys, SprocketSpec)
-    shape, circles = shape_of_sprocket(keys, sprocket), ("tip_diameter", "pitch_diameter", "root_diameter")
+    shape, circles = SPROCKET.shape(keys, sprocket), ("tip_diameter", "pitch_diameter", "root_diameter")
     pitch, width, core = sprocket.chain.transverse_pitch, sprocket.face_width, sprocket.core_radius
     grooves = tuple(Groove(k * pitch + width, (k + 1) * pitch, core) for k in range(sprocket.strands - 1))
     bevel = (sprocket.tip_radius - sprocket.bevel_radius, sprocket.bevel) if sprocket.bevel else None

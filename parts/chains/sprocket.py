@@ -9,18 +9,16 @@ from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
-from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sections
+from geometry.solids.wheel import Rim, check_wheel
 from parts.base.kind import Others, Report
 from parts.keys.base import MOST_LENGTH, either, mm, start
 from parts.keys.pins import MARGIN, check_holes, holes_of, most_of
-from parts.keys.wheel import WheelKeys, WheelKind, wheel_shape
+from parts.keys.wheel import WheelKeys, WheelKind
 
 if TYPE_CHECKING:
     from geometry.gears.chains.chain import Chain
     from geometry.gears.chains.sprocket import Sprocket
-    from geometry.plane.offset_region import OffsetRegion
-    from geometry.plane.profile import Profile
-    from geometry.solids.body import Body
+    from geometry.gears.teeth.tooth import ToothSide
     from parts.base.readback import Probe
 
 # sizes of a chain that is told by its designation or by these
@@ -99,47 +97,36 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
         if keys.tooth_bevel > (most := 0.5 * sprocket.face_width * (1 - MARGIN) if keys.tooth_bevel else 0.0):
             raise ParameterError("tooth_bevel", keys.tooth_bevel, "chamfers_meet", most_of(most, keys.tooth_bevel))
         sprocket = replace(sprocket, bevel=keys.tooth_bevel)
-        if not _is_even(sprocket) and keys.face_chamfer:
+        if self.rim(sprocket) is not None and keys.face_chamfer:
             raise ParameterError("face_chamfer", None, "of_plain_teeth", Nearest(None))
         if chain.strands > 1:
             _check_rows(sprocket)
         holes, core = holes_of(keys), sprocket.core_radius
         check_holes(keys, holes, core)
-        check_wheel(shape_of_sprocket(keys, sprocket), 2 * core, holes)
+        check_wheel(self.shape(keys, sprocket), 2 * core, holes)
         return replace(sprocket, holes=holes)
 
-    def section(self, keys: SprocketSpec, thing: Sprocket, offset: float) -> OffsetRegion:
-        """The exact section of the teeth, moved."""
-        from geometry.gears.chains.sprocket import sprocket_region
-
-        return sprocket_region(thing, offset)
-
-    def outline(self, thing: Sprocket, offset: float) -> Profile:
+    def side(self, thing: Sprocket, offset: float) -> ToothSide:
         """Of its teeth."""
         from geometry.gears.chains.sprocket import sprocket_side
 
-        return sprocket_side(thing, offset).profile()
+        return sprocket_side(thing, offset)
 
-    def solid(self, keys: SprocketSpec, thing: Sprocket, offset: float) -> Body:
-        """The sprocket with its rows of teeth, web, hub and chamfers."""
+    def core(self, keys: SprocketSpec, thing: Sprocket) -> float:
+        """Of the round body within all teeth, mm."""
+        return thing.core_radius
 
-        def outline(moved: float, depth: float) -> Profile:
-            return self.outline(thing, moved - depth)
+    def rim(self, thing: Sprocket) -> Rim | None:
+        """Rows of teeth, or bevelled ones."""
+        if thing.strands == 1 and not thing.bevel:
+            return None
+        from geometry.gears.chains.rows import rows_of_teeth
 
-        sections = wheel_sections(outline, thing.core_radius, thing.holes)
-        if not _is_even(thing):
-            from geometry.gears.chains.rows import rows_of_teeth
-
-            sections = replace(sections, rim=partial(rows_of_teeth, thing))
-        return wheel_body(shape_of_sprocket(keys, thing), sections, offset)
+        return partial(rows_of_teeth, thing)
 
     def height(self, keys: SprocketSpec, thing: Sprocket) -> float:
         """Width of all rows, mm."""
         return thing.total_width
-
-    def is_plate(self, keys: SprocketSpec, thing: Sprocket) -> bool:
-        """Whether there is nothing but one section."""
-        return _is_even(thing) and shape_of_sprocket(keys, thing).is_plate
 
     def numbers(self, keys: SprocketSpec) -> str:
         """Teeth, and the chain."""
@@ -237,13 +224,3 @@ def _check_rows(sprocket: Sprocket) -> None:
         raise ParameterError("face_width", sprocket.face_width, "wider_than_strands", most, width=apart)
     if not sprocket.core_radius > 0:
         raise ParameterError("plate_height", chain.plate_height, "leaves_no_core")
-
-
-def _is_even(sprocket: Sprocket) -> bool:
-    """Whether its teeth have one section from face to face."""
-    return sprocket.strands == 1 and not sprocket.bevel
-
-
-def shape_of_sprocket(keys: SprocketSpec, sprocket: Sprocket) -> WheelShape:
-    """Width of all rows, web, hub and chamfers."""
-    return wheel_shape(sprocket.total_width, keys.web, keys.hub, keys.face_chamfer)

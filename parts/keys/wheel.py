@@ -6,13 +6,16 @@ from typing import TYPE_CHECKING, Annotated, Protocol, TypeVar
 
 from msgspec import Struct
 
-from geometry.solids.hub_holes import HubHoles
-from geometry.solids.wheel import Hub, Web, WheelShape, wheel_body, wheel_sections
+from geometry.base.record import replace
+from geometry.solids.hub_holes import Holed, HubHoles
+from geometry.solids.wheel import Hub, Rim, Web, WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind
 from parts.keys.base import mm, part_mm
 from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes
 
 if TYPE_CHECKING:
+    from geometry.gears.teeth.tooth import ToothSide
+    from geometry.plane.offset_region import OffsetRegion
     from geometry.plane.profile import Profile
     from geometry.solids.body import Body
 
@@ -89,27 +92,37 @@ def wheel_shape(
 
 
 K = TypeVar("K", bound=HubbedKeys)
-T = TypeVar("T", bound="Holed")
-
-
-class Holed(Protocol):
-    """A wheel that exists: what lies within its roots, mm."""
-
-    @property
-    def root_radius(self) -> float:
-        """Of the largest circle within its outline, mm."""
-
-    @property
-    def holes(self) -> HubHoles:
-        """Bore and holes."""
+T = TypeVar("T", bound=Holed)
 
 
 class WheelKind(Kind[K, T]):
     """A kind of wheel: its section with web, hub and chamfers."""
 
+    def side(self, thing: T, offset: float) -> ToothSide:
+        """The lower side of tooth 1 moved ``offset`` mm out of the material, where every tooth has the same."""
+        raise NotImplementedError
+
+    def section(self, keys: K, thing: T, offset: float) -> OffsetRegion:
+        """The exact section, moved."""
+        from geometry.gears.teeth.offset import toothed_region
+
+        return toothed_region(self.side, thing, offset)
+
     def outline(self, thing: T, offset: float) -> Profile:
         """The outer boundary moved ``offset`` mm out of the material."""
-        raise NotImplementedError
+        return self.side(thing, offset).profile()
+
+    def shape(self, keys: K, thing: T) -> WheelShape:
+        """Thickness, web, hub and chamfers."""
+        return wheel_shape(self.height(keys, thing), getattr(keys, "web", None), keys.hub, keys.face_chamfer)
+
+    def core(self, keys: K, thing: T) -> float:
+        """Radius within which web and hub stand, mm."""
+        return thing.root_radius
+
+    def rim(self, thing: T) -> Rim | None:
+        """Teeth that are no one section from face to face; None: they are."""
+        return None
 
     def solid(self, keys: K, thing: T, offset: float) -> Body:
         """The wheel with its web, hub and chamfers."""
@@ -117,8 +130,9 @@ class WheelKind(Kind[K, T]):
         def outline(moved: float, depth: float) -> Profile:
             return self.outline(thing, moved - depth)
 
-        return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
+        sections = wheel_sections(outline, self.core(keys, thing), thing.holes)
+        return wheel_body(self.shape(keys, thing), replace(sections, rim=self.rim(thing)), offset)
 
     def is_plate(self, keys: K, thing: T) -> bool:
         """Whether there is nothing but the section."""
-        return shape_of(keys).is_plate
+        return self.rim(thing) is None and self.shape(keys, thing).is_plate

@@ -14,8 +14,7 @@ from parts.keys.wheel import WheelKeys, WheelKind
 
 if TYPE_CHECKING:
     from geometry.gears.pins.lantern import LanternGear
-    from geometry.plane.offset_region import OffsetRegion
-    from geometry.plane.profile import Profile
+    from geometry.gears.teeth.tooth import ToothSide
 
 
 class LanternGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="lantern_gear"):
@@ -67,17 +66,11 @@ class LanternGearKind(WheelKind[LanternGearSpec, "LanternGear"]):
         )
         return replace(gear, holes=wheel_holes(keys, gear.root_radius), face_width=keys.face_width)
 
-    def section(self, keys: LanternGearSpec, thing: LanternGear, offset: float) -> OffsetRegion:
-        """The exact section, moved."""
-        from geometry.gears.pins.lantern import lantern_region
-
-        return lantern_region(thing, offset)
-
-    def outline(self, thing: LanternGear, offset: float) -> Profile:
+    def side(self, thing: LanternGear, offset: float) -> ToothSide:
         """Of its teeth."""
         from geometry.gears.pins.lantern import lantern_side
 
-        return lantern_side(thing, offset).profile()
+        return lantern_side(thing, offset)
 
     def report(self, keys: LanternGearSpec, thing: LanternGear) -> Report:
         """Diameters, pitch and what is poor."""

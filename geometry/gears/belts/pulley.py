@@ -16,9 +16,8 @@ from geometry.base.placement import Placement2
 from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc
 from geometry.gears.belts.belt import Belt, Half, StraightGroove
-from geometry.gears.teeth.offset import grown_side, toothed_region
+from geometry.gears.teeth.offset import grown_side
 from geometry.gears.teeth.tooth import ToothSide
-from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Segment
 from geometry.solids.hub_holes import HubHoles
 
@@ -144,17 +143,6 @@ def pulley_side(pulley: Pulley, offset: float = 0.0) -> ToothSide:
     angle = half.land - pulley.pitch_angle / 2
     segments.append(Segment(Arc(0j, pulley.outer_radius + offset, angle, -angle), Label.TIP_LAND))
     return ToothSide(tuple(segments), pulley.pitch_angle)
-
-
-def pulley_region(pulley: Pulley, offset: float = 0.0) -> OffsetRegion:
-    """The exact section of the teeth; ``offset`` > 0 moves every boundary out of the material, mm.
-
-    Raises
-    ------
-    OffsetError
-        Names the nearest offset that works.
-    """
-    return toothed_region(partial(pulley_side, pulley), pulley.root_radius, pulley.holes, offset)
 
 
 def checked_pulley(pulley: Pulley) -> Pulley:

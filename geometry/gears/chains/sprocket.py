@@ -19,9 +19,8 @@ from geometry.base.record import Record, replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.chains.chain import Chain
-from geometry.gears.teeth.offset import grown_side, toothed_region
+from geometry.gears.teeth.offset import grown_side
 from geometry.gears.teeth.tooth import ToothSide
-from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Segment
 from geometry.solids.hub_holes import HubHoles
 
@@ -418,17 +417,6 @@ def sprocket_side(sprocket: Sprocket, offset: float = 0.0, tip_radius: float | N
     if angle < 0:
         segments.append(Segment(Arc(0j, tip, angle, -angle), Label.TIP_LAND))
     return ToothSide(tuple(segments), sprocket.pitch_angle, findings)
-
-
-def sprocket_region(sprocket: Sprocket, offset: float = 0.0) -> OffsetRegion:
-    """The exact section of the teeth; ``offset`` > 0 moves every boundary out of the material, mm.
-
-    Raises
-    ------
-    OffsetError
-        Names the nearest offset that works.
-    """
-    return toothed_region(partial(sprocket_side, sprocket), sprocket.root_radius, sprocket.holes, offset)
 
 
 def checked_sprocket(sprocket: Sprocket) -> Sprocket:

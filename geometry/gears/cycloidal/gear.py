@@ -34,9 +34,7 @@ from geometry.curves.cycloid import CycloidParallel
 from geometry.curves.intersect import crossing_circle
 from geometry.curves.line_arc import Arc, Line, arc_between
 from geometry.gears.teeth.moved_segments import corner_arc
-from geometry.gears.teeth.offset import toothed_region
 from geometry.gears.teeth.tooth import ToothSide
-from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Segment
 from geometry.solids.hub_holes import HubHoles
 
@@ -314,17 +312,6 @@ def _tip(
     angle = cmath.phase(complex(flank.point(roll)))
     land = Segment(Arc(0j, radius, angle, -angle), Label.TIP_LAND)
     return (Segment(flank.trimmed(begins, roll), Label.FLANK), land), ()
-
-
-def cycloidal_region(gear: CycloidalGear, offset: float = 0.0) -> OffsetRegion:
-    """The exact section of the gear; ``offset`` > 0 moves every boundary out of the material, mm.
-
-    Raises
-    ------
-    OffsetError
-        Names the nearest offset that works.
-    """
-    return toothed_region(partial(cycloidal_side, gear), gear.root_radius, gear.holes, offset)
 
 
 def checked_cycloidal_gear(gear: CycloidalGear) -> CycloidalGear:

@@ -28,9 +28,8 @@ from geometry.base.roots import bracketed_root
 from geometry.curves.curve import Complex, Real, end_point, start_point
 from geometry.curves.cycloid import CycloidParallel
 from geometry.curves.line_arc import Arc
-from geometry.gears.teeth.offset import grown_side, toothed_region
+from geometry.gears.teeth.offset import grown_side
 from geometry.gears.teeth.tooth import ToothSide
-from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Segment
 from geometry.solids.hub_holes import HubHoles
 
@@ -287,17 +286,6 @@ def lantern_side(gear: LanternGear, offset: float = 0.0) -> ToothSide:
     land = Arc(0j, abs(end_point(flank)), angle, -angle)
     segments = (Segment(root, Label.ROOT_FILLET), Segment(flank, Label.FLANK), Segment(land, Label.TIP_LAND))
     return ToothSide(segments, gear.pitch_angle)
-
-
-def lantern_region(gear: LanternGear, offset: float = 0.0) -> OffsetRegion:
-    """The exact section of the gear; ``offset`` > 0 moves every boundary out of the material, mm.
-
-    Raises
-    ------
-    OffsetError
-        Names the nearest offset that works.
-    """
-    return toothed_region(partial(lantern_side, gear), gear.root_radius, gear.holes, offset)
 
 
 def lantern_findings(gear: LanternGear) -> tuple[Finding, ...]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable
+from typing import TypeVar
 
 import numpy as np
 
@@ -25,10 +26,11 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import SideCurves, ToothSide, assemble_side, tooth_side
 from geometry.plane.offset_region import OffsetRegion, moved_teeth
 from geometry.plane.profile import Label, Profile, Region, Segment
-from geometry.solids.hub_holes import HubHoles
+from geometry.solids.hub_holes import Holed
 
 # share of a tip rounding's radius that is left at the edge of the deepest face chamfer
 KEPT_ROUNDING = 0.25
+W = TypeVar("W", bound=Holed)
 
 
 def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:
@@ -48,10 +50,8 @@ def gear_region(gear: SpurGear, offset: float = 0.0) -> OffsetRegion:
     return moved_teeth(section, offset)
 
 
-def toothed_region(
-    side: Callable[[float], ToothSide], root_radius: float, holes: HubHoles, offset: float
-) -> OffsetRegion:
-    """The section of a wheel by its moved ``side``; ``offset`` > 0 moves every boundary out of the material, mm.
+def toothed_region(side: Callable[[W, float], ToothSide], wheel: W, offset: float = 0.0) -> OffsetRegion:
+    """The exact section of a wheel by its moved ``side``; ``offset`` > 0 moves every boundary out of the material, mm.
 
     Raises
     ------
@@ -60,9 +60,10 @@ def toothed_region(
     """
 
     def section(by: float) -> OffsetRegion:
-        if holes.number and root_radius + by <= holes.reach - by:
+        holes = wheel.holes
+        if holes.number and wheel.root_radius + by <= holes.reach - by:
             raise OffsetError(by, "leaves_no_rim")
-        made = side(by)
+        made = side(wheel, by)
         return OffsetRegion(Region(made.profile(), holes.profiles(by)), by, made.findings)
 
     return moved_teeth(section, offset)

@@ -15,8 +15,7 @@ from parts.keys.wheel import WheelKeys, WheelKind
 
 if TYPE_CHECKING:
     from geometry.gears.cycloidal.gear import CycloidalGear
-    from geometry.plane.offset_region import OffsetRegion
-    from geometry.plane.profile import Profile
+    from geometry.gears.teeth.tooth import ToothSide
 
 
 class CycloidalGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="cycloidal_gear"):
@@ -91,17 +90,11 @@ class CycloidalGearKind(WheelKind[CycloidalGearSpec, "CycloidalGear"]):
         )
         return replace(gear, holes=wheel_holes(keys, gear.root_radius))
 
-    def section(self, keys: CycloidalGearSpec, thing: CycloidalGear, offset: float) -> OffsetRegion:
-        """The exact section, moved."""
-        from geometry.gears.cycloidal.gear import cycloidal_region
-
-        return cycloidal_region(thing, offset)
-
-    def outline(self, thing: CycloidalGear, offset: float) -> Profile:
+    def side(self, thing: CycloidalGear, offset: float) -> ToothSide:
         """Of its teeth."""
         from geometry.gears.cycloidal.gear import cycloidal_side
 
-        return cycloidal_side(thing, offset).profile()
+        return cycloidal_side(thing, offset)
 
     def report(self, keys: CycloidalGearSpec, thing: CycloidalGear) -> Report:
         """Diameters, thicknesses and what is poor."""

@@ -14,7 +14,8 @@ from exporters.production.build import build
 from exporters.production.check import scene_checks
 from exporters.production.plan import plan_build
 from geometry.base.errors import OffsetError
-from geometry.gears.cycloidal.gear import cycloidal_findings, cycloidal_region
+from geometry.gears.cycloidal.gear import cycloidal_findings, cycloidal_side
+from geometry.gears.teeth.offset import toothed_region
 from parts.base.refusal import SceneError
 from parts.gears.cycloidal_gear.drawing import data_table
 from parts.scene.load import load_scene, make_parts, scene_from_dict
@@ -160,9 +161,9 @@ def test_a_thin_rim_is_told_and_one_that_an_offset_closes_refused() -> None:
     scene = scene_from_dict({"parts": {"wheel": WHEEL | {"bore_diameter": 114.0}}}, "t", "t")
     bored = make_parts(scene, "t")[0]["wheel"].thing
     for offset in (-0.24, 0.3):
-        cycloidal_region(bored, offset)
+        toothed_region(cycloidal_side, bored, offset)
     with pytest.raises(OffsetError) as caught:
-        cycloidal_region(bored, -0.26)
+        toothed_region(cycloidal_side, bored, -0.26)
     assert caught.value.reason == "leaves_no_rim"
     assert caught.value.nearest is not None
     assert caught.value.nearest.value == pytest.approx(-0.25, abs=1e-5)

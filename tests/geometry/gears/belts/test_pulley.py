@@ -13,7 +13,8 @@ from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.record import replace
 from geometry.curves.curve import Complex
 from geometry.gears.belts.belt import ArcGroove, Belt, StraightGroove, belt_of, belts, like_belt
-from geometry.gears.belts.pulley import Pulley, checked_pulley, pulley_findings, pulley_region, pulley_side
+from geometry.gears.belts.pulley import Pulley, checked_pulley, pulley_findings, pulley_side
+from geometry.gears.teeth.offset import toothed_region
 from geometry.plane.profile import Label, Profile
 from geometry.solids.bores import RoundBore
 from geometry.solids.hub_holes import HubHoles
@@ -222,7 +223,7 @@ def test_offset_grooves_are_parallel(name: str, share: float) -> None:
     """Every point stands off the exact outline by the offset, but for corners where a tip rounding is used up."""
     belt = named(name)
     pulley, offset = checked_pulley(Pulley(belt.least_teeth + 11, belt)), share * belt.pitch
-    moved = points(pulley_region(pulley, offset).region.outer, 24)
+    moved = points(toothed_region(pulley_side, pulley, offset).region.outer, 24)
     exact = polygon(pulley_side(pulley).profile(), 160)
     near = moved[np.abs(np.angle(moved)) < 1.5 * pulley.pitch_angle]
     found = shapely.distance(shapely.points(near.real, near.imag), exact.exterior)

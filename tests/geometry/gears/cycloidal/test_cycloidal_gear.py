@@ -18,11 +18,11 @@ from geometry.gears.cycloidal.gear import (
     CycloidalGear,
     checked_cycloidal_gear,
     cycloidal_findings,
-    cycloidal_region,
     cycloidal_side,
 )
 from geometry.gears.cycloidal.pair import CycloidalMesh, CycloidalPair
 from geometry.gears.mesh.search import least_gaps
+from geometry.gears.teeth.offset import toothed_region
 from geometry.plane.distance import Boundary, Verdict
 from geometry.plane.profile import Label
 from tests.sampling import examples
@@ -65,7 +65,7 @@ EVERY_PAIR = pytest.mark.parametrize("gears", PAIRS.values(), ids=PAIRS.keys())
 
 def polygon(gear: CycloidalGear, offset: float, samples: int = 60) -> shapely.Polygon:
     """The outline by dense points."""
-    curves = [s.curve for s in cycloidal_region(gear, offset).region.outer.segments()]
+    curves = [s.curve for s in toothed_region(cycloidal_side, gear, offset).region.outer.segments()]
     points = np.concatenate([c.point(np.linspace(*c.domain, samples))[:-1] for c in curves])
     return shapely.Polygon(np.column_stack([points.real, points.imag]))
 
@@ -272,7 +272,7 @@ def test_a_flank_that_a_parallel_has_eaten_is_told() -> None:
     """Tips of 2 um on curved roots: the parallels of both flanks cross beyond them."""
     gear = drawn(20, 14.0, 2.0, addendum_coefficient=0.001, dedendum_coefficient=0.56)
     with pytest.raises(OffsetError) as caught:
-        cycloidal_region(gear, 0.6)
+        toothed_region(cycloidal_side, gear, 0.6)
     assert caught.value.reason == "leaves_no_flank"
     most = caught.value.nearest_offset
     exact, thick = polygon(gear, most), polygon(gear, 0.0).buffer(most, quad_segs=48)
@@ -284,12 +284,12 @@ def test_offsets_end_where_spaces_close_and_teeth_vanish() -> None:
     gear = clockwork(60, 8)
     for offset, code in ((1.6, "closes_tooth_spaces"), (-1.9, "leaves_no_tooth")):
         with pytest.raises(OffsetError) as caught:
-            cycloidal_region(gear, offset)
+            toothed_region(cycloidal_side, gear, offset)
         assert caught.value.reason == code
         limit = caught.value.nearest
         assert limit is not None
         assert isinstance(limit.value, float)
-        cycloidal_region(gear, limit.value)
+        toothed_region(cycloidal_side, gear, limit.value)
         assert 0 < limit.value / offset < 1
         if offset > 0:
             # straight flanks, half of a space of 6 degrees apart: a circle between them about the root's middle
@@ -300,4 +300,7 @@ def test_offsets_end_where_spaces_close_and_teeth_vanish() -> None:
                 cycloidal_side(gear, most * (1 + 1e-6))
     # pointed before it vanishes
     high = clockwork(60, 8, addendum_coefficient=1.3)
-    assert [[f.code for f in cycloidal_region(high, by).findings] for by in (-0.5, -0.8)] == [[], ["tip_lost"]]
+    assert [[f.code for f in toothed_region(cycloidal_side, high, by).findings] for by in (-0.5, -0.8)] == [
+        [],
+        ["tip_lost"],
+    ]

@@ -19,10 +19,10 @@ from geometry.gears.pins.lantern import (
     LanternMotion,
     checked_lantern_gear,
     lantern_findings,
-    lantern_region,
     lantern_side,
     limits_of,
 )
+from geometry.gears.teeth.offset import toothed_region
 from geometry.plane.distance import Boundary, Verdict
 from geometry.plane.measure import profile_area
 from geometry.plane.profile import Label
@@ -163,7 +163,7 @@ def test_any_gear_is_built_or_refused_with_what_works(gear: LanternGear) -> None
             gear = replace(gear, **changed)
     else:
         pytest.fail(f"{gear}: every remedy was refused")
-    area = profile_area(lantern_region(made).region.outer)
+    area = profile_area(toothed_region(lantern_side, made).region.outer)
     assert math.pi * made.root_radius**2 < area < math.pi * made.tip_radius**2
     found = contact(made)
     assert found.verdict in (Verdict.CONTACT, Verdict.CLEAR)
@@ -172,12 +172,12 @@ def test_any_gear_is_built_or_refused_with_what_works(gear: LanternGear) -> None
 
 @EVERY
 def test_offsets_are_parallel_and_end_where_they_are_told(gear: LanternGear) -> None:
-    boundary = Boundary(tuple(s.curve for s in lantern_region(gear).region.outer.segments()), closed=True)
+    boundary = Boundary(tuple(s.curve for s in toothed_region(lantern_side, gear).region.outer.segments()), closed=True)
     for offset in (0.2, -0.2):
-        moved = lantern_region(gear, offset).region.outer
+        moved = toothed_region(lantern_side, gear, offset).region.outer
         points = np.concatenate([s.curve.point(np.linspace(*s.curve.domain, 7)) for s in moved.period])
         assert np.allclose(boundary.feet(points).distance, offset, rtol=0, atol=1e-10 * gear.pitch_radius)
     for offset in (50.0, -50.0):
         with pytest.raises(OffsetError) as caught:
-            lantern_region(gear, offset)
-        assert lantern_region(gear, caught.value.nearest_offset)
+            toothed_region(lantern_side, gear, offset)
+        assert toothed_region(lantern_side, gear, caught.value.nearest_offset)

@@ -11,7 +11,8 @@ import pytest
 from geometry.base.errors import OffsetError, ParameterError, PointedTipError
 from geometry.base.record import replace
 from geometry.gears.pins.cycloidal import CycloidalDisc, checked_disc, disc_findings, disc_region
-from geometry.gears.pins.lantern import LanternGear, checked_lantern_gear, lantern_region, limits_of
+from geometry.gears.pins.lantern import LanternGear, checked_lantern_gear, lantern_side, limits_of
+from geometry.gears.teeth.offset import toothed_region
 from geometry.solids.bores import RoundBore
 from geometry.solids.hub_holes import HubHoles
 
@@ -194,9 +195,9 @@ def test_a_rim_is_left_about_the_holes() -> None:
     """The bottom of the spaces is 31.5: of a bore of 60 a rim of 1.5, which an offset takes from both sides."""
     bored = replace(GEAR, holes=HubHoles(RoundBore(60.0)))
     assert bored.root_radius == 31.5
-    assert lantern_region(bored, -0.7499)
+    assert toothed_region(lantern_side, bored, -0.7499)
     with pytest.raises(OffsetError) as told:
-        lantern_region(bored, -0.7501)
+        toothed_region(lantern_side, bored, -0.7501)
     assert told.value.reason == "leaves_no_rim"
     assert told.value.nearest_offset == pytest.approx(-0.75, abs=1e-5)
-    assert lantern_region(bored, told.value.nearest_offset)
+    assert toothed_region(lantern_side, bored, told.value.nearest_offset)
