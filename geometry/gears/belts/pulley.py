@@ -155,19 +155,19 @@ def checked_pulley(pulley: Pulley) -> Pulley:
     """
     if _has_lands(pulley):
         return pulley
-    plain = replace(pulley, clearance=0.0, given_outer_diameter=None)
-    given = pulley.given_outer_diameter
+    tight, given = replace(pulley, clearance=0.0), pulley.given_outer_diameter
+    plain, own = (replace(one, given_outer_diameter=None) for one in (tight, pulley))
 
     def of_clearance(clearance: float) -> Pulley:
         return replace(pulley, clearance=clearance)
 
     def of_diameter(diameter: float) -> Pulley:
-        return replace(pulley, given_outer_diameter=diameter)
+        return replace(pulley if _has_lands(own) else tight, given_outer_diameter=diameter)
 
-    if pulley.clearance and _has_lands(of_clearance(0.0)):
+    if _has_lands(tight):
         raise _without_lands("clearance", pulley.clearance, of_clearance, 0.0)
-    if given is not None and _has_lands(of_diameter(own := 2 * plain.outer_radius)):
-        raise _without_lands("outer_diameter", given, of_diameter, own)
+    if given is not None and _has_lands(plain):
+        raise _without_lands("outer_diameter", given, of_diameter, 2 * plain.outer_radius)
     more = range(pulley.number_of_teeth + 1, _MOST_TEETH)
     teeth = next((z for z in more if _has_lands(replace(plain, number_of_teeth=z))), None)
     if teeth is not None:

@@ -242,6 +242,8 @@ def test_few_teeth_and_wide_walls_are_refused_with_what_works() -> None:
         (Pulley(9, belt), "number_of_teeth"),
         (Pulley(20, named("GT2"), clearance=0.3), "clearance"),
         (Pulley(20, named("GT2"), given_outer_diameter=7.0), "outer_diameter"),
+        # the clearance is none too much of the diameter that works
+        (Pulley(20, named("GT2"), clearance=0.01, given_outer_diameter=5.0), "outer_diameter"),
     ):
         with pytest.raises(ParameterError) as refused:
             checked_pulley(pulley)
@@ -251,6 +253,13 @@ def test_few_teeth_and_wide_walls_are_refused_with_what_works() -> None:
         assert key != "number_of_teeth" or nearest.value == 10
         field = {"outer_diameter": "given_outer_diameter"}.get(key, key)
         checked_pulley(replace(pulley, **{field: nearest.value}))
+    # both too much, of as many teeth as there may be: one is told, and what works without the other
+    with pytest.raises(ParameterError) as refused:
+        checked_pulley(Pulley(500, named("GT2"), clearance=0.3, given_outer_diameter=5.0))
+    assert refused.value.name == "outer_diameter"
+    nearest = refused.value.nearest
+    assert nearest is not None
+    checked_pulley(Pulley(500, named("GT2"), given_outer_diameter=nearest.value))
     wide = Belt(5.0, 0.5, StraightGroove(7.0, 2.0, math.radians(25), 0.0, 0.0))
     with pytest.raises(ParameterError) as refused:
         checked_pulley(Pulley(20, wide))
