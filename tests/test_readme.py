@@ -61,6 +61,23 @@ def words_of_the_code() -> frozenset[str]:
     return frozenset(found | set(re.findall(r"\w+", (ROOT / "pyproject.toml").read_text("utf-8"))))
 
 
+def lost_links(page: str) -> list[str]:
+    """Links into the page itself that lead nowhere: a heading's anchor is its words, small, with dashes."""
+    headings = re.findall(r"^##+ (.+)$", re.sub(r"```.*?```", "", page, flags=re.DOTALL), re.MULTILINE)
+    anchors = {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+    return [link for link in re.findall(r"\]\(#([^)]+)\)", page) if link not in anchors]
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_links_within_a_page_lead_somewhere(name: str) -> None:
+    assert not lost_links(PAGES[name])
+
+
+def test_a_link_that_leads_nowhere_is_found() -> None:
+    page = README.replace("### Cams\n", "### Cams and more\n")
+    assert lost_links(page) == ["cams"]
+
+
 def unknown(page: str) -> list[str]:
     """Places that are not on disk, names that the code does not have, commands that there are not, of a page."""
     text = re.sub(r"\\\\|out/\w[\w./]*|<!--.*?-->", " ", page)
