@@ -106,7 +106,10 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     offset: Annotated[
         float, mm("moves every outline: positive out of the material, negative into it", least=-10, most=10)
     ] = 0.0
-    curves: Annotated[Literal["arcs", "lines"], Meta(description="dxf, svg: arcs, or straight lines only")] = "arcs"
+    curves: Annotated[
+        Literal["arcs", "lines"],
+        Meta(description='dxf, svg: arcs, or straight lines only; purpose = "drawing" has true splines'),
+    ] = "arcs"
     dxf_version: Annotated[Literal["R2000", "R12"], Meta(description="dxf only")] = "R2000"
     name: Annotated[Identifier, Meta(examples=["laser"])] | None = None
     parts: (

@@ -20,6 +20,9 @@ _BARE = re.compile(rf"([\w-]+)\s*=\s*((?:[{_TYPOGRAPHIC}]|[^\W\d_])[^#,\]}}\"']*
 _BARE_LIST = re.compile(r"\s*([\w.-]+)\s*=\s*(-?[\d.]+(?:\s*[,;]\s*-?[\d.]+)+)\s*(?:#.*)?")
 _UNIT = re.compile(r"\s*([\w.-]+)\s*=\s*(-?\d+(?:\.\d+)?)\s*[^\W\d_]+\.?\s*(?:#.*)?")
 _NOT_LATIN = re.compile(r"\s*(\w*[^\W\x00-\x7f]\w*)\s*=")
+# the header of a table, and what a name in it is made of
+_TABLE = re.compile(r"\s*\[\[?([^\[\]\"'#]+)\]\]?\s*(?:#.*)?")
+_NAME = re.compile(r"\s*[A-Za-z0-9_-]*\s*")
 # yes and no as people say them; code points, since the code itself has no Cyrillic
 _YES = ("yes", bytes.fromhex("0442 0430 043a").decode("utf-16-be"))
 _NO = ("no", bytes.fromhex("043d 0456").decode("utf-16-be"))
@@ -61,6 +64,8 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return None
     number, column = int(at[1]), int(at[2]) - 1
     line = text.split("\n")[number - 1]
+    if why.startswith("Cannot overwrite a value") and (found := re.match(r"\s*([\w.-]+)\s*=", line)):
+        return "key_twice", {"line": number, "key": found[1]}
     if why.startswith(("Invalid hex value", "Unescaped")):
         return "backslash", {"line": number}
     if found := re.search(r"=\s*(-?\d+),(\d+)\s*(#.*)?$", line):
@@ -79,6 +84,9 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return "number_with_unit", {"line": number, "key": found[1], "value": found[2]}
     if (found := _NOT_LATIN.match(line)) and found.end(1) > column and look_alike(found[1]) is None:
         return "key_not_latin", {"line": number, "key": found[1]}
+    if (found := _TABLE.fullmatch(line)) and look_alike(found[1]) is None:
+        wrong = next((name.strip() for name in found[1].split(".") if not _NAME.fullmatch(name)), None)
+        return None if wrong is None else ("name_not_latin", {"line": number, "name": wrong})
     if found := _OPEN.fullmatch(line.rstrip()):
         return "quote_not_closed", {"line": number, "key": found[1]}
     return None
