@@ -71,12 +71,12 @@ def din_5480(diameter: float, module: float, teeth: int) -> InvoluteJoint:
     return _by_diameter(module, teeth, diameter, False, "flat", 0.16, "DIN 5480", f"{diameter:g}×{module:g}×{teeth}")
 
 
-# h_s, and by how many modules D_ee, D_ie and D_ei differ from m z, for flat and fillet roots; rho of a flat one
+# in modules h_s, by how much D_ee, D_ie and D_ei differ from m z, rho
 ISO_4156: dict[tuple[float, Root], tuple[float, float, float, float]] = {
     (30.0, "flat"): (0.6, 1.0, 1.5, 0.2),
-    (30.0, "fillet"): (0.6, 1.0, 1.8, math.inf),
-    (37.5, "fillet"): (0.55, 0.9, 1.4, math.inf),
-    (45.0, "fillet"): (0.5, 0.8, 1.2, math.inf),
+    (30.0, "fillet"): (0.6, 1.0, 1.8, 0.4),
+    (37.5, "fillet"): (0.55, 0.9, 1.4, 0.3),
+    (45.0, "fillet"): (0.5, 0.8, 1.2, 0.25),
 }
 
 
@@ -85,9 +85,9 @@ def iso_4156(teeth: int, module: float, angle: float, root: Root) -> InvoluteJoi
     height, tip, bed, rho = ISO_4156[angle, root]
     alpha, reference = math.radians(angle), module * teeth
     base, along = reference * math.cos(alpha), reference * math.sin(alpha) - 2 * height * module / math.sin(alpha)
-    form = math.hypot(base, along)
-    shaft, hub = (reference - bed * module, reference + tip * module), (form + 0.2 * module, reference + bed * module)
+    form, clear = math.hypot(base, along), 0.1 * module
+    shaft, hub = (reference - bed * module, reference + tip * module), (form + 2 * clear, reference + bed * module)
     rounding, name = rho * module, f"{teeth}z×{module:g}m×{angle:g}{'R' if root == 'fillet' else 'P'}"
     return InvoluteJoint(
-        module, teeth, alpha, module * math.pi / 2, shaft, hub, (rounding, 0.0, rounding), "ISO 4156", name
+        module, teeth, alpha, module * math.pi / 2, shaft, hub, (rounding, 0.0, rounding), "ISO 4156", name, clear
     )

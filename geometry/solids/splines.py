@@ -14,7 +14,7 @@ from typing import Literal, Protocol
 
 import numpy as np
 
-from geometry.base.angles import inverse_involute, involute_function, roll_minus_polar
+from geometry.base.angles import inverse_involute, involute_function, roll_minus_polar, tangent_length
 from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.nearest import last_that_holds
 from geometry.base.placement import Placement2
@@ -51,7 +51,7 @@ class Flank(Protocol):
     def foot(self, point: complex, distance: float) -> complex:
         """Of a point of its parallel curve ``distance`` mm out of the tooth the one of its own."""
 
-    def inwards(self, start: complex, end: complex) -> Curve:
+    def inwards(self, start: complex, end: complex) -> tuple[Curve, ...]:
         """It between two of its points, towards the axis."""
 
 
@@ -74,40 +74,77 @@ class StraightFlank(Record):
         """See Flank."""
         return point - 1j * distance
 
-    def inwards(self, start: complex, end: complex) -> Line:
+    def inwards(self, start: complex, end: complex) -> tuple[Line, ...]:
         """See Flank."""
-        return Line(start, end)
+        return (Line(start, end),)
 
 
-class InvoluteFlank(Record):
-    """An involute of the circle of ``base_radius`` mm; ``base_half_angle``: half of the tooth there, rad."""
+class InvoluteFlank(Record, dict=True):
+    """An involute of the circle of ``base_radius`` mm, and towards the axis the radius along which it leaves it.
+
+    ``base_half_angle``: half of the tooth on that circle, rad. Parallel curves are the same involute, turned, and a
+    line ``moved`` mm beside that radius.
+    """
 
     base_radius: float
     base_half_angle: float
+    moved: float = 0.0
 
     def shifted(self, distance: float) -> InvoluteFlank:
-        """See Flank: the involute, turned."""
-        return replace(self, base_half_angle=self.base_half_angle + distance / self.base_radius)
+        """See Flank."""
+        turned = self.base_half_angle + distance / self.base_radius
+        return InvoluteFlank(self.base_radius, turned, self.moved + distance)
 
     def _roll(self, radius: float) -> float:
-        return math.sqrt(max((radius / self.base_radius - 1) * (radius / self.base_radius + 1), 0.0))
+        return tangent_length(radius, self.base_radius) / self.base_radius
+
+    def _rolled(self, roll: float) -> complex:
+        return cmath.rect(self.base_radius * math.hypot(1.0, roll), self.base_half_angle - roll_minus_polar(roll))
+
+    @property
+    def _line_direction(self) -> complex:
+        return cmath.rect(1.0, self.base_half_angle - self.moved / self.base_radius)
+
+    @cached_property
+    def joint_roll(self) -> float:
+        """Where the line ends: it touches the involute out of the tooth, and cuts it within."""
+        off = self.moved / self.base_radius
+        if off >= 0:
+            return off
+        # below the involute's point that far from the line there is only line
+        return bracketed_root(
+            lambda roll: math.hypot(1.0, roll) * math.sin(off - roll_minus_polar(roll)) - off, 0.0, -off
+        ).value
 
     def at(self, radius: float) -> complex:
         """See Flank."""
-        if radius < self.base_radius:
-            raise OffsetError(radius, "spline_below_base_circle")
-        return cmath.rect(radius, self.base_half_angle - roll_minus_polar(self._roll(radius)))
+        roll = self._roll(radius)
+        if radius >= self.base_radius and roll >= self.joint_roll:
+            return self._rolled(roll)
+        if not radius > abs(self.moved):
+            raise OffsetError(radius, "spline_sides_meet")
+        return self._line_direction * complex(math.sqrt((radius - self.moved) * (radius + self.moved)), self.moved)
 
     def foot(self, point: complex, distance: float) -> complex:
-        """See Flank: both lie on one tangent of the base circle."""
-        roll = self._roll(abs(point)) - distance / self.base_radius
-        if roll < 0:
-            raise OffsetError(distance, "spline_below_base_circle")
-        return self.at(self.base_radius * math.hypot(1.0, roll))
+        """See Flank: both lie on one tangent of the base circle, or on one normal of the line."""
+        roll = self._roll(abs(point))
+        if abs(point) >= self.base_radius and roll >= self.shifted(distance).joint_roll:
+            return self._rolled(max(roll - distance / self.base_radius, 0.0))
+        return point - 1j * distance * self._line_direction
 
-    def inwards(self, start: complex, end: complex) -> Involute:
+    def inwards(self, start: complex, end: complex) -> tuple[Curve, ...]:
         """See Flank."""
-        return Involute(self.base_radius, self.base_half_angle, -self._roll(abs(start)), -self._roll(abs(end)))
+        first, last, joint = self._roll(abs(start)), self._roll(abs(end)), self.joint_roll
+        if last >= joint and abs(end) >= self.base_radius:
+            return (Involute(self.base_radius, self.base_half_angle, -first, -last),)
+        if first <= joint:
+            return (Line(start, end),)
+        return Involute(self.base_radius, self.base_half_angle, -first, -joint), Line(self._rolled(joint), end)
+
+    def rounding(self, radius: float, circle: float) -> float:
+        """Radius of the arc that leaves it there and touches a circle about the axis, within or beyond, mm."""
+        along = tangent_length(radius, self.base_radius)
+        return (radius - circle) * (radius + circle) / (2 * (circle - along)) if circle > along else math.inf
 
 
 class SplineForm(Record):
@@ -125,6 +162,11 @@ class SplineForm(Record):
     crest_rounding: float = 0.0
     root_chamfer: float = 0.0
     crest_chamfer: float = 0.0
+
+    @property
+    def side_diameters(self) -> tuple[float, float]:
+        """Between which its sides lie, without roundings and chamfers, mm."""
+        return 2 * abs(self._root(0.0)[1]), 2 * abs(self._crest(0.0)[1])
 
     def widened(self, depth: float) -> SplineForm:
         """The form ``depth`` mm larger on all sides, sharp corners kept.
@@ -157,7 +199,7 @@ class SplineForm(Record):
         if abs(bottom) >= abs(start) or low < -_NONE or high > half + _NONE:
             raise OffsetError(distance, "spline_sides_meet")
         side = [Segment(curve, Label.TIP_BREAK) for curve in crest]
-        side.append(Segment(flank.inwards(start, bottom), Label.FLANK))
+        side += [Segment(curve, Label.FLANK) for curve in flank.inwards(start, bottom)]
         side += [Segment(curve, Label.ROOT_FILLET) for curve in root]
         land = [Segment(Arc(0j, self.outer + distance, -low, 2 * low), Label.TIP_LAND)] if low > _NONE else []
         bed = [Segment(Arc(0j, self.inner + distance, high, 2 * (half - high)), Label.ROOT_LAND)]
@@ -282,7 +324,8 @@ class InvoluteJoint(Record):
     """Teeth ``thickness`` mm thick on the reference circle m z, the slots of the hub as wide.
 
     ``shaft_diameters`` and ``hub_diameters``: of the inner and the outer circle; ``roundings``: of the corners at the
-    root and the tips of the shaft and at the bottom of the hub's slots; inf: one arc from side to side.
+    root and the tips of the shaft and at the bottom of the hub's slots; inf: one arc from side to side; less where it
+    would reach beyond a form diameter. Those lie ``form_clearance`` (c_F) mm beyond the tips of the mate.
     """
 
     module: float
@@ -294,11 +337,17 @@ class InvoluteJoint(Record):
     roundings: tuple[float, float, float]
     standard: str
     name: str
+    form_clearance: float = 0.0
 
     @property
     def hub_reach(self) -> float:
         """How far from the axis the slots of its hub go, mm."""
         return self.hub_diameters[1] / 2
+
+    @property
+    def form_diameters(self) -> tuple[float, float]:
+        """From which to which the sides of shaft and hub are true at least: D_Fe and D_Fi of ISO 4156-1, mm."""
+        return self.hub_diameters[0] - 2 * self.form_clearance, self.shaft_diameters[1] + 2 * self.form_clearance
 
     @property
     def reference_radius(self) -> float:
@@ -346,10 +395,13 @@ class InvoluteJoint(Record):
 
     def _form(self, diameters: tuple[float, float], root: float, crest: float) -> SplineForm:
         flank, (inner, outer) = self._flank(), (diameter / 2 for diameter in diameters)
-        if math.isinf(root):
-            root = _full(flank, inner, math.pi / self.teeth, 1)
-        if math.isinf(crest):
-            crest = _full(flank, outer, 0.0, -1)
+        low, high = (diameter / 2 for diameter in self.form_diameters)
+        if root:
+            root = min(root, _full(flank, inner, math.pi / self.teeth, 1), flank.rounding(low, inner))
+        if crest:
+            # tips of a shaft that centres there are as round as the bottom of the slots
+            reach = -flank.rounding(high, outer) if high < outer else math.inf
+            crest = min(crest, _full(flank, outer, 0.0, -1), reach)
         return SplineForm(self.teeth, flank, inner, outer, root, crest)
 
     def shaft(self) -> SplineForm:
@@ -362,15 +414,19 @@ class InvoluteJoint(Record):
 
 
 def _full(flank: InvoluteFlank, radius: float, middle: float, way: int) -> float:
-    """Radius of the arc that touches both sides, and a circle in the middle of a space (``way`` 1) or a tooth, mm."""
+    """Radius of the arc that touches both sides, and a circle in the middle of a space (``way`` 1) or a tooth, mm.
+
+    inf: none does in a wide tooth.
+    """
 
     def beside(rounding: float) -> float:
         centre = flank.shifted(way * rounding).at(radius + way * rounding)
-        return cmath.phase(centre) - middle
+        return way * (cmath.phase(centre) - middle)
 
-    room = radius - flank.base_radius
-    ends = (max(-room, 0.0), radius) if way > 0 else (0.0, room)
-    return bracketed_root(beside, *ends).value
+    most = radius if way > 0 else radius - flank.base_radius
+    if beside(0.0) >= 0:
+        raise OffsetError(0.0, "spline_sides_meet")
+    return bracketed_root(beside, 0.0, most).value if beside(most) >= 0 else math.inf
 
 
 def involute_walls(*outlines: Profile) -> tuple[Measured, ...]:

@@ -58,6 +58,7 @@ def sheet(keys: InvoluteSplineKeys) -> Sheet:
     page.add("shaft_root_diameter", joint.shaft_diameters[0])
     page.add("hub_tip_diameter", joint.hub_diameters[0])
     page.add("hub_root_diameter", joint.hub_diameters[1])
+    _form_steps(page, joint)
     page.add("spline_clearance", keys.clearance)
     tip, inner = joint.shaft_diameters[1], joint.hub_diameters[0]
     sides = Sides(joint.teeth, (tip + inner) / 2, (tip - inner) / 2)
@@ -67,6 +68,20 @@ def sheet(keys: InvoluteSplineKeys) -> Sheet:
         _measured_steps(page, joint, keys, is_shaft=is_shaft)
     bearing_steps(page, sides, keys.torque, keys.length, keys.load_share)
     return page
+
+
+def _form_steps(page: Sheet, joint: InvoluteJoint) -> None:
+    """Where the sides must be true, by ISO 4156, and where they are."""
+    if joint.form_clearance:
+        page.add("spline_form_clearance", joint.form_clearance, "0.1 * {m}", joint.standard)
+        low, high = joint.form_diameters
+        page.add("shaft_form_diameter", low, "{D_a} - 2 * {c_F}", joint.standard)
+        page.add("hub_form_diameter", high, "{d_a} + 2 * {c_F}", joint.standard)
+    shaft, hub = joint.shaft(), joint.hub()
+    page.add("shaft_rounding", shaft.root_rounding)
+    page.add("hub_rounding", hub.crest_rounding)
+    page.add("shaft_side_diameter", shaft.side_diameters[0])
+    page.add("hub_side_diameter", hub.side_diameters[1])
 
 
 def _measured_steps(page: Sheet, joint: InvoluteJoint, keys: InvoluteSplineKeys, *, is_shaft: bool) -> None:

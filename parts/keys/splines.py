@@ -37,7 +37,7 @@ _ISO = re.compile(
 # signs of multiplication, decimal commas, minus and dashes
 _SIGNS = str.maketrans("X\u00d7*,\u2212\u2013\u2014", "xxx.---")
 _EXAMPLES = {"GOST 6033": "50x2", "DIN 5480": "50x2x24", "ISO 4156": "24z x 2m x 30R"}
-# below that no involute reaches the roots; above it no shaft has so many
+# what the standards have, and a shaft
 _LEAST_TEETH, _MOST_TEETH = 6, 200
 _CENTRING: dict[str, Centring] = {"D": "outer", "b": "sides"}
 Clearance = Annotated[float, part_mm("how far every surface stands off that of the mate, along its normal", least=0)]

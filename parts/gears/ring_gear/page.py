@@ -29,6 +29,7 @@ from parts.keys.base import mm
 from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.measured_steps import Asked, measured_steps
 from parts.pages.page import Sheet
+from parts.pages.roll_steps import gear_rolls
 from parts.texts.findings import finding_of
 
 TOPIC = "ring"
@@ -58,6 +59,7 @@ def sheet(keys: RingKeys) -> Sheet:
     _given(page, ring, keys, helix)
     _dimensions(page, ring, keys)
     _thicknesses(page, ring, helix, keys.diameter)
+    gear_rolls(page, ring)
     _limits(page, ring, keys)
     measured = keys.measured_span, keys.measured_between_pins
     asked = Asked(helix, keys.face_width, keys.spaces_spanned, keys.pin_diameter, keys.kerf, *measured)

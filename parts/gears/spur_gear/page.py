@@ -20,6 +20,7 @@ from parts.keys.base import mm
 from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.measured_steps import Asked, measured_steps
 from parts.pages.page import Sheet
+from parts.pages.roll_steps import gear_rolls
 from parts.texts.findings import finding_message
 
 TOPIC = "spur"
@@ -51,6 +52,7 @@ def sheet(keys: SpurKeys) -> Sheet:
     given_data(page, normal, gear, helix)
     dimensions(page, gear, helix)
     _thicknesses(page, gear, helix, keys.diameter)
+    gear_rolls(page, gear)
     _limits(page, gear, helix)
     measured = keys.measured_span, keys.measured_over_pins
     asked = Asked(helix, keys.face_width, keys.teeth_spanned, keys.pin_diameter, keys.kerf, *measured)

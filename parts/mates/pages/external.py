@@ -52,6 +52,7 @@ from parts.pages.force_steps import DrivenKeys, force_steps
 from parts.pages.inputs import SceneKeys, checked, given, keys_of, refusal
 from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Sheet
+from parts.pages.roll_steps import pair_rolls
 from parts.texts.findings import finding_of
 
 TOPIC = "gear-pair"
@@ -301,6 +302,7 @@ def _page(asked: Asked) -> Sheet:
             raise ParameterError(name, measured[name], "needs_other", REMOVED, other=other)
     if keys.measured_arc_of_action is not None and keys.measured_working_pitch is not None:
         measured_steps(page, pair, keys.measured_arc_of_action, keys.measured_working_pitch)
+    pair_rolls(page, pair)
     sliding_steps(page, pair, asked.helical, keys.speed_rpm)
     force_steps(page, pair, asked.helical, keys)
     formulas = "{p_w} - {S_w1} - {S_w2}", "{a_w} - {r_f#} - {r_a~}"

@@ -41,6 +41,7 @@ from parts.pages.force_steps import DrivenKeys, force_steps
 from parts.pages.inputs import checked, keys_of, refusal
 from parts.pages.misprints import printed_for
 from parts.pages.page import Sheet
+from parts.pages.roll_steps import pair_rolls
 from parts.texts.findings import finding_of
 
 TOPIC = "gear-pair"
@@ -163,6 +164,7 @@ def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> 
     _internal_sizes(page, pair, helical.angle)
     heading(page, helical, N_("Contact ratio"))
     contact_steps(page, pair, helical)
+    pair_rolls(page, pair)
     sliding_steps(page, pair, helical, keys.speed_rpm)
     force_steps(page, pair, helical, keys)
     backlash_steps(page, pair, pair.circumferential_backlash, helical)

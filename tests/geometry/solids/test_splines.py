@@ -11,13 +11,14 @@ import shapely
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
+from geometry.curves.line_arc import Line
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.measurement import over_pins, span
 from geometry.gears.teeth.spur import SpurGear
 from geometry.plane.measure import distance_to_profile, profile_area
-from geometry.plane.profile import Profile
+from geometry.plane.profile import Label, Profile
 from geometry.solids.spline_standards import STRAIGHT_JOINTS, din_5480, gost_6033, iso_4156, teeth_of
-from geometry.solids.splines import InvoluteJoint, SplineBore, StraightJoint
+from geometry.solids.splines import InvoluteJoint, Root, SplineBore, StraightJoint
 from tests import brute
 
 # z x d x D x b, f and r of GOST 1139-80, light, medium and heavy series, as a list for broaches has them; the light and
@@ -42,6 +43,11 @@ JOINTS: dict[str, StraightJoint | InvoluteJoint] = {
     "ISO 4156, 30P": iso_4156(24, 2.5, 30.0, "flat"),
     "ISO 4156, 37.5R": iso_4156(12, 1.0, 37.5, "fillet"),
     "ISO 4156, 45R": iso_4156(40, 0.5, 45.0, "fillet"),
+    # sides that go on below the base circle, and roundings that would reach the tips of the mate
+    "ISO 4156, 6 teeth": iso_4156(6, 2.0, 30.0, "flat"),
+    "DIN 5480, 6 teeth": din_5480(14.0, 2.0, 6),
+    "DIN 5480, 8 teeth": din_5480(90.0, 10.0, 8),
+    "round roots, 9 teeth": gost_6033(90.0 + 10.0, 10.0, 9, outer=False, root="fillet"),
 }
 
 
@@ -92,6 +98,41 @@ def test_diameters_of_iso_4156(angle: float, root: str, sizes: tuple[float, ...]
     """D_ie, D_ee, D_ii, D_ei of 24z x 2.5m from m (z + k), k as Inventor's help lists it; D_ii by mpmath from D_Fe."""
     joint = iso_4156(24, 2.5, angle, root)
     assert (*joint.shaft_diameters, *joint.hub_diameters) == pytest.approx(sizes, abs=5e-3)
+
+
+@pytest.mark.parametrize("size", [(30.0, "flat"), (30.0, "fillet"), (37.5, "fillet"), (45.0, "fillet")])
+def test_sides_of_iso_4156_reach_its_form_diameters(size: tuple[float, Root]) -> None:
+    """D_Fe by h_s, and D_Fi = m (z + 1, 0.9, 0.8) + 2 c_F, c_F = 0.1 m. Before, one arc filled roots of 37.5 and 45."""
+    alpha, (height, tip) = mpmath.radians(size[0]), {30: (0.6, 1.0), 37.5: (0.55, 0.9), 45: (0.5, 0.8)}[size[0]]
+    for teeth in (6, 7, 8, 9, 12, 30, 100, 200):
+        joint = iso_4156(teeth, 1.0, *size)
+        along = teeth / 2 * mpmath.sin(alpha) - height / mpmath.sin(alpha)
+        least, most = 2 * mpmath.hypot(teeth / 2 * mpmath.cos(alpha), along), teeth + tip + 0.2
+        assert joint.form_diameters == pytest.approx((float(least), most), rel=1e-12)
+        shaft, hub = joint.shaft(), joint.hub()
+        assert shaft.side_diameters[0] <= least
+        assert hub.side_diameters[1] >= most
+        # roots are as round as in the standard; in the narrow slots of few teeth one arc goes from side to side
+        rho = 0.2 if size[1] == "flat" else {30.0: 0.4, 37.5: 0.3, 45.0: 0.25}[size[0]]
+        assert shaft.root_rounding == rho
+        assert hub.crest_rounding == rho or (0.85 * rho < hub.crest_rounding < rho and teeth < 11)
+
+
+@pytest.mark.parametrize("distance", [-0.25, -0.02, 0.02, 0.25])
+@pytest.mark.parametrize("name", ["ISO 4156, 6 teeth", "DIN 5480, 6 teeth"])
+def test_sides_below_the_base_circle_have_parallels(name: str, distance: float) -> None:
+    joint, lines = JOINTS[name], list[Line]()
+    for form in (joint.shaft(), joint.hub()):
+        whole, moved = polygon(form.outline()), polygon(form.outline(distance))
+        assert moved.is_valid
+        assert moved.symmetric_difference(whole.buffer(distance, quad_segs=90)).area < 3e-4 * moved.length
+        flanks = (s.curve for s in form.outline(distance).segments() if s.label is Label.FLANK)
+        lines += [curve for curve in flanks if isinstance(curve, Line)]
+    assert lines
+    # beside the radius that the side was, by as much as it has moved
+    for line in lines:
+        start, along = line.point(np.array([0.0]))[0], line.tangent(np.array([0.0]))[0]
+        assert abs((start * along.conjugate()).imag) == pytest.approx(abs(distance), rel=1e-9)
 
 
 @pytest.mark.parametrize("name", JOINTS)
@@ -149,7 +190,7 @@ def test_pins_touch_the_sides_they_are_measured_on(name: str, play: float) -> No
     ("joint", "clearance", "key"),
     [(StraightJoint(6, 23.0, 26.0, 12.1, 23.0), 0.0, "bore.size"),
      (StraightJoint(6, 26.0, 23.0, 6.0, 26.0), 0.0, "bore.size"),
-     (din_5480(14.0, 2.0, 6), 0.0, "bore.size"),
+     (replace(din_5480(30.0, 2.0, 14), thickness=9.0), 0.0, "bore.size"),
      (STRAIGHT_JOINTS[0], 3.2, "bore.clearance")],
 )  # fmt: skip
 def test_what_is_no_spline_is_refused(joint: StraightJoint | InvoluteJoint, clearance: float, key: str) -> None:
