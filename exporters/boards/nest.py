@@ -1,7 +1,7 @@
 """Pieces laid on as few boards as a fixed number of steps finds: no clock, no chance, the same layout every time.
 
 On a grid, the places at which two pieces come too near to each other are one table for each pair of shapes (the raster
-of the no-fit polygon, a correlation of both covers, holes included). Each board has a map of taken places for every
+of the no-fit polygon, the sum of both covers, holes included). Each board has a map of taken places for every
 shape and turn; a piece that is laid stamps its tables into them, eight places to a byte, so that the next free place is
 found at once: pieces fall into holes and between others. Covers are never too small, so the gap is kept; what they
 waste is taken back by sliding the pieces together, by exact distances.
@@ -39,6 +39,8 @@ _SAME, _SYMMETRIC = 1e-6, 0.002
 _WORK = 1e10
 # more boards than this are copies of the first ones, as long as there are pieces for them
 _FEW_BOARDS = 8.0
+# pairs of runs of two covers, for each cell of their table, up to which the table is made of them
+_PAIRS = 4
 # layouts that are tried for each piece at most
 _TRIALS = 10
 _NOTHING = (math.inf, math.inf, math.inf)
@@ -221,7 +223,6 @@ class _Nest:
         self.turned = {name: self._turns(name, geometry) for name, (geometry, _) in shapes.items()}
         self.tables: dict[tuple[str, int, str, int], _Table] = {}
         self.empty = {(name, turn): self._empty(one) for name, x in self.turned.items() for turn, one in x.items()}
-        self.spectra: dict[tuple[str, int, int, int], NDArray[np.complex128]] = {}
 
     def _turns(self, name: str, geometry: BaseGeometry) -> dict[int, _Shape]:
         """A shape in all turns in which it fits."""
@@ -293,23 +294,12 @@ class _Nest:
         if (name, turn, other, turned) not in self.tables:
             first = self.grown[name]
             second = np.rot90(self.turned[other][turned].cover, -turn, axes=(0, 1))
-            size = [a + b - 1 for a, b in zip(first.shape, second.shape, strict=True)]
-            fast = _fast(size[0]), _fast(size[1])
-            spectrum = self._spectrum(name, -1, first, fast)
-            spectrum = spectrum * self._spectrum(other, (turned - turn) % 4, second[::-1, ::-1], fast)
-            near = np.fft.irfft2(spectrum, fast)[: size[0], : size[1]] >= 0.5
+            near = _sums(first, second[::-1, ::-1])
             for quarter in range(4):
                 self.tables[name, quarter, other, (turned - turn + quarter) % 4] = _Table(
                     np.ascontiguousarray(np.rot90(near, quarter, axes=(0, 1)))
                 )
         return self.tables[name, turn, other, turned]
-
-    def _spectrum(self, name: str, turn: int, cover: Flags, size: tuple[int, int]) -> NDArray[np.complex128]:
-        """The transform of a cover, padded to a size; turn -1: of the grown one."""
-        key = (name, turn, *size)
-        if key not in self.spectra:
-            self.spectra[key] = np.fft.rfft2(cover, size)
-        return self.spectra[key]
 
     def laid(self) -> list[Laid]:
         """The better of two searches, from the best order and from the worst: each exchanges two pieces at a time."""
@@ -469,6 +459,29 @@ def _without(order: Sequence[str], counts: Mapping[str, int]) -> list[str]:
         else:
             left.append(name)
     return left
+
+
+def _sums(first: Flags, second: Flags) -> Flags:
+    """Cells that are a cell of one cover and one of another, added."""
+    size = first.shape[0] + second.shape[0] - 1, first.shape[1] + second.shape[1] - 1
+    cells = math.prod(size)
+    (begin, end), (start, stop) = (_runs(cover, size[1]) for cover in (first, second))
+    if len(begin) * len(start) > _PAIRS * cells:
+        # of covers full of holes a transform is the shorter way
+        fast = _fast(size[0]), _fast(size[1])
+        spectrum = np.fft.rfft2(first, fast) * np.fft.rfft2(second, fast)
+        return np.fft.irfft2(spectrum, fast)[: size[0], : size[1]] >= 0.5
+    # a run and a run are a run: how many have begun before a cell, less those that have ended
+    over = np.bincount(np.add.outer(begin, start).ravel(), minlength=cells + 1)
+    over -= np.bincount(np.add.outer(end, stop - 1).ravel(), minlength=cells + 1)
+    return (np.cumsum(over)[:cells] > 0).reshape(size)
+
+
+def _runs(cover: Flags, width: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Where runs of taken cells along y begin, and where they have ended, in rows of a width one after the other."""
+    steps = np.diff(np.pad(cover, ((0, 0), (1, 1))).view(np.int8), axis=1)
+    begin, end = (np.nonzero(steps == side) for side in (1, -1))
+    return begin[0] * width + begin[1], end[0] * width + end[1]
 
 
 def _fast(count: int) -> int:

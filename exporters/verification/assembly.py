@@ -46,15 +46,22 @@ def verify_assembly(
     file: Path, kind: FileKind, expected: ExpectedAssembly, declared: float, tolerance: float
 ) -> Verdict:
     """Read an assembly file back and hold it against what it must be; see ``exporters.verification.judge``."""
+    return judged(ASSEMBLY_READERS[kind.name](file), kind, expected, declared, tolerance)
 
-    def check(found: ReadBack, part: Part) -> Verdict:
+
+def judged(
+    found: ReadAssembly, kind: FileKind, expected: ExpectedAssembly, declared: float, tolerance: float
+) -> Verdict:
+    """What was read of an assembly file against what it must be."""
+
+    def check(shape: ReadBack, part: Part) -> Verdict:
         exact = part.body(expected.offset)
-        verdict = held(found, kind, exact, declared, tolerance)
-        said = probed(found, part, expected.offset, declared, verdict)
+        verdict = held(shape, kind, exact, declared, tolerance)
+        said = probed(shape, part, expected.offset, declared, verdict)
         more = {f"{part.id}.{k}": v for k, v in said.measured.items() if k not in verdict.measured}
-        return Verdict(verdict.measured | more, (*said.failures, *said_failures(found, kind, part)))
+        return Verdict(verdict.measured | more, (*said.failures, *said_failures(shape, kind, part)))
 
-    return _verdict(ASSEMBLY_READERS[kind.name](file), expected, check)
+    return _verdict(found, expected, check)
 
 
 def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[ReadBack, Part], Verdict]) -> Verdict:

@@ -6,9 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+from exporters.formats.read_assembly import ReadAssembly
 from exporters.formats.reading import ASSEMBLY_READERS
-from exporters.verification.assembly import ExpectedAssembly, verify_assembly
-from exporters.verification.verdict import Verdict
+from exporters.verification.assembly import ExpectedAssembly, judged
+from exporters.verification.verdict import Verdict, of_readable
 from geometry.base.record import Record, replace
 from parts.base.texts import N_, unless
 from parts.keys.boards import BedSpec
@@ -22,17 +23,18 @@ class ExpectedPlate(Record):
     pieces: ExpectedAssembly
 
 
+@of_readable
 def verify_plate(file: Path, kind: FileKind, expected: ExpectedPlate, declared: float, tolerance: float) -> Verdict:
     """Read a plate back and hold it against what it must be, within a declared error, mm."""
-    verdict = verify_assembly(file, kind, expected.pieces, declared, tolerance)
-    return verdict if verdict.failures else _on_bed(file, kind, expected.bed, declared, verdict)
+    found = ASSEMBLY_READERS[kind.name](file)
+    verdict = judged(found, kind, expected.pieces, declared, tolerance)
+    return verdict if verdict.failures else _on_bed(found, expected.bed, declared, verdict)
 
 
-def _on_bed(file: Path, kind: FileKind, bed: BedSpec, declared: float, verdict: Verdict) -> Verdict:
+def _on_bed(found: ReadAssembly, bed: BedSpec, declared: float, verdict: Verdict) -> Verdict:
     """Where the file's own vertices stand, each within the declared error, mm."""
     import shapely
 
-    found = ASSEMBLY_READERS[kind.name](file)
     hulls, failures = [], list[str]()
     reach = np.array([bed.width, bed.depth, bed.height])
     edge = np.array([bed.margin, bed.margin, 0.0])
@@ -44,7 +46,8 @@ def _on_bed(file: Path, kind: FileKind, bed: BedSpec, declared: float, verdict: 
         least, most = np.minimum(least, low), np.maximum(most, high)
         beside = np.any(low < edge - declared) or np.any(high > reach - edge + declared)
         failures += unless(not beside, "{name} does not lie on the bed", name=name)
-        hulls.append(shapely.MultiPoint(np.unique(corners[:, :2], axis=0)).convex_hull)
+        plane = np.unique(corners[:, 0] + 1j * corners[:, 1])
+        hulls.append(shapely.MultiPoint(np.column_stack([plane.real, plane.imag])).convex_hull)
     measured = {"least_margin": float(min(least[:2].min(), (reach - most)[:2].min())), "height": float(most[2])}
     one, two = shapely.STRtree(hulls).query(np.array(hulls, dtype=object), predicate="dwithin", distance=bed.gap + 1.0)
     for a, b in zip(one.tolist(), two.tolist(), strict=True):

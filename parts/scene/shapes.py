@@ -16,7 +16,7 @@ from geometry.plane.profile import Profile
 from geometry.solids.body import Body
 from parts.base.part import Part
 from parts.scene.half_sections import Sectioned
-from parts.scene.interference import common_volume, inner_solid
+from parts.scene.interference import inner_solid
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -127,15 +127,17 @@ class Shape:
 
     @cached_property
     def bore(self) -> float:
-        """Radius about the axis that is free of it, mm; a chord lies a little nearer than its ends."""
-        import manifold3d
-
-        vertices = np.asarray(self.solid.to_mesh().vert_properties)
-        radius = float(np.hypot(vertices[:, 0], vertices[:, 1]).min()) * (1 - _MARGIN)
-        if radius <= _SAME:
-            return 0.0
-        core = manifold3d.Manifold.cylinder(self.high - self.low + 2.0, radius, radius, 64)
-        return 0.0 if common_volume((self.solid, core.translate([0.0, 0.0, self.low - 1.0]))) else radius
+        """Radius about the axis that is free of it, mm: where no triangle, seen along the axis, comes nearer."""
+        mesh = self.solid.to_mesh()
+        vertices = np.asarray(mesh.vert_properties, dtype=float)
+        points = vertices[:, 0] + 1j * vertices[:, 1]
+        starts = points[np.asarray(mesh.tri_verts)]
+        chords = np.roll(starts, -1, axis=1) - starts
+        along, across = (np.conj(chords) * -starts).real, (np.conj(chords) * -starts).imag
+        share = np.clip(along / np.maximum(np.abs(chords) ** 2, 1e-300), 0.0, 1.0)
+        around = np.all(across >= 0, axis=1) | np.all(across <= 0, axis=1)
+        nearest = 0.0 if around.any() else float(np.abs(starts + share * chords).min())
+        return nearest * (1 - _MARGIN) if nearest > _SAME else 0.0
 
 
 class SweptShape(Shape):

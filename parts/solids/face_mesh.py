@@ -654,8 +654,10 @@ def _templates(poles: Real) -> Triangles:
     steps = [np.diff(poles, axis=1), np.diff(poles, axis=2), poles[:, 1:, 1:] - poles[:, :-1, :-1]]
     lengths = np.concatenate([np.linalg.norm(s, axis=-1).reshape(len(poles), -1) for s in steps], axis=1)
     scale = _ALIKE * max(float(np.abs(poles).max()), 1e-300)
-    _, first = np.unique(np.round(lengths / scale / 100), axis=0, return_index=True)
-    return np.sort(first)
+    first: dict[bytes, int] = {}
+    for k, row in enumerate(np.round(lengths / scale / 100)):
+        first.setdefault(row.tobytes(), k)
+    return np.array([*first.values()])
 
 
 def _parted(grid: Grid, table: Real, points: Real, triangles: Triangles) -> tuple[Real, Real, Triangles]:

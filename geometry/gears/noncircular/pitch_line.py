@@ -42,6 +42,8 @@ _ROUNDING_TAIL = 1e-11
 _PARAMETER, _ANGLE, _X, _Y, _DIRECTION, _CURVATURE, _SLOPE = range(7)
 _NEWTON_STEPS = 6
 _ORDERS = np.arange(float(_NODES))
+# of fewer places than these cosines are found sooner than a recurrence
+_MANY = 200
 # pieces of a panel on which derivatives are bounded, and up to which order
 _PIECES, _MOST_ORDER = 4, 6
 
@@ -146,8 +148,7 @@ class PitchLine(Record, eq=False, dict=True):
         panel = np.minimum(table.edges.searchsorted(rest, side="right") - 1, len(table.edges) - 2)
         low, high = table.edges[panel], table.edges[panel + 1]
         x = np.maximum(np.minimum(2 * (rest - low) / (high - low) - 1, 1.0), -1.0)
-        polynomials = np.cos(np.arccos(x)[..., None] * _ORDERS)
-        return np.matmul(table.values[panel, first:last], polynomials[..., None])[..., 0], before
+        return np.matmul(table.values[panel, first:last], _polynomials(x)[..., None])[..., 0], before
 
     def _parameters(self, s: Real) -> tuple[Real, Real]:
         """Parameter t and angle Theta at arc lengths."""
@@ -247,6 +248,18 @@ class PitchLine(Record, eq=False, dict=True):
         if order:
             found[1] = np.ones(np.shape(low))
         return [np.where((least > 0) & np.isfinite(x), x, math.inf) for x in found]
+
+
+def _polynomials(x: Real) -> Real:
+    """Chebyshev polynomials T_0 to T_15 at places in [-1, 1], on the last axis: many by T_k+1 = 2 x T_k - T_k-1."""
+    if x.size < _MANY:
+        return np.asarray(np.cos(np.arccos(x)[..., None] * _ORDERS))
+    found = np.empty((_NODES, *x.shape))
+    found[0], found[1], twice = 1.0, x, 2 * x
+    for k in range(2, _NODES):
+        np.multiply(twice, found[k - 1], out=found[k])
+        found[k] -= found[k - 2]
+    return np.moveaxis(found, 0, -1)
 
 
 def _piece_at(edges: Real, s: Real) -> NDArray[np.int64]:

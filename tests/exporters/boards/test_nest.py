@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 
+import numpy as np
 import pytest
 import shapely
 from shapely.affinity import rotate, scale, translate
 
+from exporters.boards import nest as nest_module
 from exporters.boards.nest import HALVES, QUARTERS, DoesNotFitError, Laid, Room, lacking, largest_scale, nest
 
 Shapes = dict[str, tuple[shapely.Geometry, int]]
@@ -123,3 +125,16 @@ def test_what_is_all_but_round_is_turned_where_its_chords_leave_no_room_otherwis
 ])  # fmt: skip
 def test_the_side_that_lacks_least_is_named(box: tuple[float, float], room: Room, side: str) -> None:
     assert lacking(room, *box) == side
+
+
+@pytest.mark.parametrize("pairs", [0, 1e9])
+def test_tables_hold_every_sum_of_two_cells(monkeypatch: pytest.MonkeyPatch, pairs: float) -> None:
+    """By a transform and by runs: of covers full of holes, against all pairs of their cells."""
+    monkeypatch.setattr(nest_module, "_PAIRS", pairs)
+    chance = np.random.default_rng(7)
+    for share in (0.01, 0.3, 0.97):
+        first, second = chance.random((9, 23)) < share, chance.random((14, 6)) < share
+        wanted = np.zeros((22, 28), dtype=bool)
+        for x, y in np.argwhere(first):
+            wanted[x : x + 14, y : y + 6] |= second
+        assert (nest_module._sums(first, second) == wanted).all()
