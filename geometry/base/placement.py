@@ -74,6 +74,11 @@ class Placement3(Record):
         x, y, z = (row[2] for row in self.rotation)
         return x, y, z
 
+    @property
+    def turn(self) -> float:
+        """The angle of frame b's x in frame a, seen along z, rad."""
+        return math.atan2(self.rotation[1][0], self.rotation[0][0])
+
     def matrix(self) -> NDArray[np.float64]:
         """(3, 4): rotation and translation side by side."""
         return np.column_stack([np.array(self.rotation), np.array(self.translation)])

@@ -19,7 +19,7 @@ from parts.bodies.patterns import Repeated, repeated
 from parts.bodies.plate import SlotTable
 from parts.bodies.plate_drawing import diameters, radii
 from parts.drawing.places import place_sizes, spans
-from parts.drawing.revolved import closed
+from parts.drawing.revolved import block
 from parts.drawing.wheel_views import circle_of
 from parts.drawing.working import AXIS, VISIBLE, Cut, Note, PartDrawing, Round, Size, Subject, View, requirements
 from parts.texts.sheets import sheet_words
@@ -285,8 +285,7 @@ def _section(layers: Layers, plane: float | None, title: str, cuts: Sequence[Cut
             one, two = (_behind(own, x, y + way * _BESIDE * size) for way in (-1, 1))
             if not (one.is_cut or two.is_cut) and _parted(one, two, size):
                 lines.append(Line(complex(bottom, y), complex(top, y)))
-    bars = [closed([complex(low, a), complex(high, a), complex(high, b), complex(low, b)])
-            for row, (low, high) in zip(spans, pairwise(heights), strict=True) for a, b in row]  # fmt: skip
+    bars = [block(*ends, *span) for row, ends in zip(spans, pairwise(heights), strict=True) for span in row]
     told = range(1, len(heights)) if len(pieces) <= _FEW else (len(pieces),)
     feet = [min([*ys] or [p.end.imag for p in row]) for ys, row in zip(levels, pieces, strict=True)]
     sizes = [Size(f"height.{k}", complex(0.0, feet[0]), complex(heights[k], feet[k - 1]), "below") for k in told]

@@ -341,6 +341,12 @@ class Canvas(Draft):
         for start, end in pairwise([*box.corners, box.corners[0]]):
             self.line(layer, start, end)
 
+    def head(self, title: str, margin: float) -> None:
+        """The frame, and a title under its upper side, so far from both ends."""
+        frame = self.frame
+        self.box("FRAME", frame)
+        self.write(title, complex(frame.left + margin, frame.high - 9.0), TITLE_TEXT, frame.wide - 2 * margin)
+
     def squares(self, area: Box) -> None:
         """Squared paper, from the lower left corner."""
         for k in range(int(area.wide / SQUARE + 1e-9) + 1):

@@ -284,7 +284,7 @@ def _reading(at: complex) -> tuple[float, float]:
 def _free_places(boxes: Sequence[Box], frame: Box, taken: Sequence[Box], tried: int) -> list[complex]:
     """Shifts of rectangles, so many tried each way, that keep them in the frame and off others; the middle first."""
     whole = Box.about(boxes)
-    right, high = frame.right - frame.left - whole.right + whole.left, frame.high - frame.low - whole.high + whole.low
+    right, high = frame.wide - whole.wide, frame.tall - whole.tall
     if min(right, high) < 0:
         return []
     share = np.linspace(0.0, 1.0, tried + 1)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sized
+
 import numpy as np
 
 from geometry.base.record import Draft, Record, field
 from geometry.curves.curve import Complex
+from parts.base.texts import fault
 
 # samples of each curve, or of each smooth span of it
 PER_CURVE = 13
@@ -76,3 +79,8 @@ class ReadSheet(Draft):
         """An arc with its samples; angles in rad."""
         self.arcs.append(ReadArc(layer, centre, radius, abs(sweep)))
         self.samples.append((layer, centre + radius * np.exp(1j * (first + sweep * np.linspace(0, 1, PER_CURVE)))))
+
+
+def lines_missing(layer: str, found: Sized, wanted: Sized) -> str:
+    """The fault of a layer that has not the lines that it should have."""
+    return fault("{layer}: {count} lines instead of {wanted}", layer=layer, count=len(found), wanted=len(wanted))

@@ -12,6 +12,7 @@ import numpy as np
 
 from geometry.curves.curve import Complex, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
+from parts.drawing.canvas import Box
 from parts.drawing.working import VISIBLE, Stroke
 
 Loop = Sequence[Line | Arc]
@@ -25,6 +26,11 @@ def closed(points: Sequence[complex]) -> tuple[Line, ...]:
     """A closed chain of lines, without those of no length."""
     ring = [p for p, q in pairwise([*points, points[0]]) if abs(p - q) > 1e-9]
     return tuple(Line(a, b) for a, b in pairwise([*ring, ring[0]]))
+
+
+def block(low: float, high: float, near: float, far: float) -> tuple[Line, ...]:
+    """A rectangle of a section: from z to z, between two distances from the axis, mm."""
+    return closed(Box(low, near, high, far).corners)
 
 
 def below(loop: Loop) -> tuple[Line | Arc, ...]:

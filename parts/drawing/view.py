@@ -102,7 +102,7 @@ def _most(picture: MeshingPicture, window: Box, canvas: Canvas, rows: Sequence[R
 
 
 def _beyond(picture: MeshingPicture, window: Box) -> tuple[list[int], list[int]]:
-    middle = (window.low + window.high) / 2
+    middle = window.middle.imag
     axes = [(b.centre.imag, k) for k, b in enumerate(picture.bodies) if b.centre is not None]
     axes.sort(key=lambda pair: abs(pair[0] - middle))
     return [k for y, k in axes if y < window.low], [k for y, k in axes if y > window.high]
@@ -136,4 +136,4 @@ def ends_of(curve: Curve) -> tuple[complex, complex]:
 def is_up(body: Body, window: Box) -> bool:
     """Whether the mesh lies above the body's axis."""
     assert body.centre is not None
-    return body.centre.imag < (window.low + window.high) / 2 or body.centre == 0
+    return body.centre.imag < window.middle.imag or body.centre == 0

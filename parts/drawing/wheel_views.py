@@ -24,7 +24,7 @@ from geometry.solids.wheel import WheelShape
 from geometry.solids.windows import RoundHoles
 from parts.drawing.extent import crossings, reach
 from parts.drawing.places import apart, circled, place_sizes
-from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
+from parts.drawing.revolved import Loop, below, block, closed, outlined, seen_edges
 from parts.drawing.working import (
     AXIS,
     THIN,
@@ -131,8 +131,7 @@ def level(ends: tuple[float, float], height: float) -> Line:
 
 def bar(ends: tuple[float, float], near: float, far: float) -> tuple[Line, Line, tuple[Line, ...]]:
     """What is drilled along a section: both walls, and the loop about it, which is not hatched."""
-    walls = level(ends, near), level(ends, far)
-    return *walls, closed([walls[0].start, walls[0].end, walls[1].end, walls[1].start])
+    return level(ends, near), level(ends, far), block(*ends, near, far)
 
 
 def circle_of(radius: float, centre: complex = 0j) -> Arc:
@@ -637,8 +636,8 @@ def ring_section(width: float, radii: tuple[float, float, float], holes: HubHole
     ``radii``: of the edge that is seen inside, of where the material of the plane begins, of the outside, mm.
     """
     seen, begins, outer = radii
-    solid = closed([complex(0, begins), complex(width, begins), complex(width, outer), complex(0, outer)])
-    loop = closed([complex(0, seen), complex(width, seen), complex(width, outer), complex(0, outer)])
+    solid = block(0.0, width, begins, outer)
+    loop = block(0.0, width, seen, outer)
     strokes: list[Stroke] = []
     hatched: list[Loop] = [solid, below(solid)]
     axes = [Line(0j, complex(width))]

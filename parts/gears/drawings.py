@@ -17,7 +17,7 @@ from geometry.gears.teeth.spur import SpurGear
 from geometry.solids.bores import RoundBore
 from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing
-from parts.drawing.revolved import below, closed, outlined, seen_edges
+from parts.drawing.revolved import below, block, closed, outlined, seen_edges
 from parts.drawing.turned_sizes import Fits, turned_sizes
 from parts.drawing.wheel_views import (
     Crown,
@@ -218,8 +218,8 @@ def _rack(keys: RackSpec, rack: Rack, subject: Subject) -> tuple[View, ...]:
             strokes += [(seen, Line(a, b)) for a, b in pairwise(corners)]
     front = View(tuple(strokes), (), axes, tuple(sizes), tuple(rounds), tuple(notes), cuts=(cut,))
     width = keys.face_width
-    whole = closed([complex(0, foot), complex(width, foot), complex(width, tip), complex(0, tip)])
-    solid = closed([complex(0, foot), complex(width, foot), complex(width, root), complex(0, root)])
+    whole = block(0.0, width, foot, tip)
+    solid = block(0.0, width, foot, root)
     section = View(
         (*((VISIBLE, line) for line in whole), (VISIBLE, Line(complex(0, root), complex(width, root)))),
         (solid,),

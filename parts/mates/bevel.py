@@ -8,12 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Struct
 
-from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from parts.base.mate import End, LaidStanding, Pose, Touching
 from parts.keys.mate import GearPairKeys, backlash
 from parts.mates.gear_pair import GearPair
-from parts.mates.sizes import same_size
+from parts.mates.sizes import same_size, same_sizes
 
 if TYPE_CHECKING:
     from geometry.base.placement import Placement3, Vector
@@ -72,11 +71,10 @@ class BevelMating(Touching):
         direction = cmath.phase(complex(-x, -y))
         _, right = self.second_pose(0j, 0.0, direction)
         off = Placement3.towards(self.second_axis(direction), right).inverse() @ seen
-        turned = math.atan2(off.rotation[1][0], off.rotation[0][0])
         arm = other.cone_distance * math.sin(other.involute.base)
         return LaidStanding(
             float(np.linalg.norm(apex)), math.atan2(math.hypot(x, y), z), one.shaft_angle,
-            math.remainder(turned, math.tau / other.number_of_teeth), self.normal_backlash / 2 / arm, arm,
+            math.remainder(off.turn, math.tau / other.number_of_teeth), self.normal_backlash / 2 / arm, arm,
             other.cone_distance,
         )  # fmt: skip
 
@@ -126,10 +124,8 @@ class BevelPairKind(GearPair[BevelPairSpec, "BevelGear", "BevelGear"]):
     def check(self, keys: BevelPairSpec, first: Struct, second: Struct) -> None:
         """The second is what the first is made for."""
         for key, wanted in (("number_of_teeth", "mate_number_of_teeth"), ("mate_number_of_teeth", "number_of_teeth")):
-            if getattr(second, key) != getattr(first, wanted):
-                raise ParameterError(key, getattr(second, key), "not_of_its_mate", Nearest(getattr(first, wanted)))
-        for key in _ALIKE:
-            same_size(key, getattr(second, key), getattr(first, key), "not_of_its_mate")
+            same_size(key, getattr(second, key), getattr(first, wanted), "not_of_its_mate")
+        same_sizes(_ALIKE, second, first, "not_of_its_mate")
         for key in _OPPOSITE:
             same_size(key, getattr(second, key), -getattr(first, key) or 0.0, "not_of_its_mate")
 
@@ -168,14 +164,10 @@ def _check_lines(first: End[BevelGear], second: End[BevelGear]) -> None:
     """Refuse the second's key in which tooth lines are not the first's on the crown gear, seen from its two sides."""
     if first.thing.is_straight and second.thing.is_straight:
         return
-    for key in ("spiral_angle_deg", "tooth_line"):
-        if (own := getattr(second.keys, key)) != (wanted := getattr(first.keys, key)):
-            raise ParameterError(key, own, "not_of_its_mate", Nearest(wanted))
+    same_sizes(("spiral_angle_deg", "tooth_line"), second.keys, first.keys, "not_of_its_mate")
     # the mean cone distance is that of the face
-    for key in ("face_width", "cutter_radius"):
-        same_size(key, getattr(second.thing, key), getattr(first.thing, key), "not_of_its_mate")
-    if second.thing.hand == first.thing.hand:
-        raise ParameterError("hand", second.thing.hand, "not_of_its_mate", Nearest(first.thing.opposite().hand))
+    same_sizes(("face_width", "cutter_radius"), second.thing, first.thing, "not_of_its_mate")
+    same_size("hand", second.thing.hand, first.thing.opposite().hand, "not_of_its_mate")
 
 
 BEVEL_PAIR = BevelPairKind()

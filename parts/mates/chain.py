@@ -13,7 +13,7 @@ from geometry.base.errors import Nearest, ParameterError, limit
 from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Toothed
 from parts.keys.base import mm
 from parts.keys.mate import Direction, height
-from parts.mates.sizes import same_size
+from parts.mates.sizes import same_size, same_sizes
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -117,10 +117,8 @@ class ChainDriveKind(MateKind[ChainDriveSpec, "Sprocket", "Sprocket"]):
     def mating(self, keys: ChainDriveSpec, first: End[Sprocket], second: End[Sprocket]) -> ChainMating:
         """Both take the same chain, which goes round them."""
         one, two = first.thing, second.thing
-        for key in ("pitch", "roller_diameter"):
-            same_size(key, getattr(two.chain, key), getattr(one.chain, key), "not_of_the_chain")
-        if two.strands != one.strands:
-            raise ParameterError("strands", two.strands, "not_of_the_chain", Nearest(one.strands))
+        same_sizes(("pitch", "roller_diameter"), two.chain, one.chain, "not_of_the_chain")
+        same_size("strands", two.strands, one.strands, "not_of_the_chain")
         mesh = chain_mesh((one, two), keys.number_of_links, keys.centre_distance)
         above = (one.face_width - two.face_width) / 2 if keys.height is None else keys.height
         return ChainMating(

@@ -17,7 +17,7 @@ from parts.gears.thinning import shared_thinning
 from parts.keys.base import MadeKeys, degrees
 from parts.keys.helix import helix_of
 from parts.keys.mate import InvolutePairKeys
-from parts.mates.sizes import same_size
+from parts.mates.sizes import same_sizes
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -89,11 +89,10 @@ class CrossedMating(Touching):
         # about the line of centres, the way that the hands have it
         side = (complex(x, y) * cmath.rect(1.0, -direction)).imag * math.copysign(1.0, pair.shaft_angle)
         off = Placement3.towards(seen.z, pair.second_rotation(0.0, direction)).inverse() @ seen
-        turned = math.atan2(off.rotation[1][0], off.rotation[0][0])
         arm = pair.arms[1]
         return LaidStanding(
             abs(offset), math.atan2(side, z), abs(pair.shaft_angle),
-            math.remainder(turned, pair.second.pitch_angle), self.normal_backlash / 2 / arm, arm,
+            math.remainder(off.turn, pair.second.pitch_angle), self.normal_backlash / 2 / arm, arm,
             max(*pair.face_widths), "centre_distance", pair.working_centre_distance,
         )  # fmt: skip
 
@@ -136,8 +135,7 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
         for owner, helix in (("first.", one), ("", two)):
             if helix.double:
                 raise ParameterError(f"{owner}double_helical", True, "no_herringbone_on_crossed_axes", Nearest(False))
-        for key in ("module", "pressure_angle_deg"):
-            same_size(key, getattr(second, key), getattr(first, key), "not_that_of_mate")
+        same_sizes(("module", "pressure_angle_deg"), second, first, "not_that_of_mate")
         if abs(one.signed_angle + two.signed_angle) < _PARALLEL:
             if one.angle == 0:
                 raise ParameterError("helix_angle_deg", second.helix_angle_deg, "axes_would_be_parallel", Nearest(45.0))

@@ -268,8 +268,7 @@ class OutputPins(MateKind[OutputPinsSpec, "CycloidalDisc", "PinPlate"]):
         disc, plate = first.thing, second.thing
         if disc.output is None:
             raise ParameterError("mate.first", keys.first, "no_output_holes")
-        if plate.pins.count != disc.output.count:
-            raise ParameterError("number_of_pins", plate.pins.count, "not_of_the_holes", Nearest(disc.output.count))
+        same_size("number_of_pins", plate.pins.count, disc.output.count, "not_of_the_holes")
         circles = plate.pins.pitch_circle_diameter, disc.output.pitch_circle_diameter
         same_size("pin_circle_diameter", *circles, "not_of_the_holes")
         return OutputMating(

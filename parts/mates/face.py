@@ -16,7 +16,7 @@ from parts.keys.helix import helix_of
 from parts.keys.mate import GearPairKeys, backlash
 from parts.keys.wheel import shape_of
 from parts.mates.gear_pair import GearPair
-from parts.mates.sizes import same_size
+from parts.mates.sizes import same_size, same_sizes
 
 if TYPE_CHECKING:
     from geometry.base.placement import Placement3, Vector
@@ -72,10 +72,9 @@ class FaceMating(Touching):
         direction = cmath.phase(complex(-x, -y))
         _, right = self.second_pose(0j, 0.0, direction)
         off = Placement3.towards(self.second_axis(direction), right).inverse() @ seen
-        turned = math.atan2(off.rotation[1][0], off.rotation[0][0])
         arm = pinion.base_radius
         return LaidStanding(
-            apart, math.atan2(math.hypot(x, y), z), math.pi / 2, math.remainder(turned, pinion.pitch_angle),
+            apart, math.atan2(math.hypot(x, y), z), math.pi / 2, math.remainder(off.turn, pinion.pitch_angle),
             self.normal_backlash / 2 / arm, arm, self.pair.gear.outer_radius,
         )  # fmt: skip
 
@@ -142,8 +141,7 @@ class FaceGearPairKind(GearPair[FaceGearPairSpec, "FaceGear", "SpurGear"]):
         if second.number_of_teeth != first.pinion_number_of_teeth:
             raise ParameterError("number_of_teeth", second.number_of_teeth, "not_of_its_mate",
                                  Nearest(first.pinion_number_of_teeth), of="pinion_number_of_teeth")  # fmt: skip
-        for key in ("module", "pressure_angle_deg"):
-            same_size(key, getattr(second, key), getattr(first, key), "not_of_its_mate")
+        same_sizes(("module", "pressure_angle_deg"), second, first, "not_of_its_mate")
         shift = first.pinion_profile_shift_coefficient
         same_size("profile_shift_coefficient", second.profile_shift_coefficient, shift, "not_of_its_mate")
 

@@ -6,7 +6,7 @@ import cmath
 import math
 from typing import TYPE_CHECKING, Annotated, Any
 
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.errors import ParameterError, limit
 from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Toothed
 from parts.keys.mate import Direction, height
 from parts.mates.sizes import same_size
@@ -79,9 +79,7 @@ class LanternPair(MateKind[LanternPairSpec, "PinPlate", "LanternGear"]):
     def mating(self, keys: LanternPairSpec, first: End[PinPlate], second: End[LanternGear]) -> LanternMating:
         """The gear is for these pins, and goes between the plates."""
         lantern, gear = first.thing, second.thing
-        if gear.number_of_pins != lantern.pins.count:
-            pins = Nearest(lantern.pins.count)
-            raise ParameterError("number_of_pins", gear.number_of_pins, "not_of_the_lantern", pins)
+        same_size("number_of_pins", gear.number_of_pins, lantern.pins.count, "not_of_the_lantern")
         circles = gear.pin_circle_diameter, lantern.pins.pitch_circle_diameter
         same_size("pin_circle_diameter", *circles, "not_of_the_lantern")
         same_size("pin_diameter", gear.pin_diameter, lantern.pins.diameter, "not_of_the_lantern")

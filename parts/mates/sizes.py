@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
+
 from geometry.base.errors import Nearest, ParameterError
 
 # sizes that must be equal in two parts: they are typed, not calculated
@@ -10,10 +13,16 @@ _SAME = 1e-9
 _SAME_AS_CAM = 1e-6
 
 
-def same_size(key: str, own: float, other: float, code: str) -> None:
-    """Refuse a size of the second part that is not the first one's; ``code``: whose it must be."""
-    if abs(own - other) > _SAME * max(abs(own), abs(other)):
+def same_size(key: str, own: float | str, other: float | str, code: str) -> None:
+    """Refuse a size, or a word, of the second part that is not the first one's; ``code``: whose it must be."""
+    if own != other and (isinstance(own, str) or isinstance(other, str) or not math.isclose(own, other, rel_tol=_SAME)):
         raise ParameterError(key, own, code, Nearest(other))
+
+
+def same_sizes(keys: Iterable[str], second: object, first: object, code: str) -> None:
+    """Refuse sizes of the second part that are not those of the first."""
+    for key in keys:
+        same_size(key, getattr(second, key), getattr(first, key), code)
 
 
 def same_as_cam(key: str, value: float, wanted: float, code: str = "cam_has_another") -> None:

@@ -14,7 +14,7 @@ from geometry.base.nearest import nearest
 from parts.base.mate import End, MateKind, Pose, Touching
 from parts.keys.mate import GearPairKeys
 from parts.keys.worm import AngleError, AxialError, DistanceError, quotient_of
-from parts.mates.sizes import same_size
+from parts.mates.sizes import same_sizes
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from geometry.gears.worms.worm import Worm
     from parts.gears.worm_wheel.part import WheelThing
 
-# keys that both have alike, and how a refusal tells it
-_ALIKE = ("module", "pressure_angle_deg", "addendum_coefficient")
+# keys that both have alike
+_ALIKE = ("module", "pressure_angle_deg", "addendum_coefficient", "number_of_starts", "form", "hand")
 
 
 class WormPairSpec(GearPairKeys, tag="worm_pair", kw_only=True):
@@ -127,11 +127,7 @@ class WormPair(MateKind[WormPairSpec, "WheelThing", "WormBody"]):
 
         assert isinstance(first, WormWheelSpec)
         assert isinstance(second, WormSpec)
-        for key in _ALIKE:
-            same_size(key, getattr(second, key), getattr(first, key), "not_of_its_mate")
-        for key in ("number_of_starts", "form", "hand"):
-            if getattr(second, key) != getattr(first, key):
-                raise ParameterError(key, getattr(second, key), "not_of_its_mate", Nearest(getattr(first, key)))
+        same_sizes(_ALIKE, second, first, "not_of_its_mate")
         if not math.isclose(quotient_of(second), first.diameter_quotient, rel_tol=1e-9):
             key, wanted = "diameter_quotient", first.diameter_quotient
             if second.lead_angle_deg is not None:

@@ -14,7 +14,7 @@ from geometry.solids.pin_ring import PinRing
 from geometry.solids.wheel import WheelShape
 from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing
-from parts.drawing.revolved import below, closed, outlined
+from parts.drawing.revolved import below, block, outlined
 from parts.drawing.wheel_views import (
     Wheel,
     axis_cross,
@@ -73,11 +73,6 @@ def _told(views: tuple[View, ...], holes: HubHoles, subject: Subject) -> PartDra
     return PartDrawing(views, requirements(subject, *directions(holes, subject, "")))
 
 
-def _bar(low: float, high: float, near: float, far: float) -> tuple[Line, ...]:
-    """A rectangle of a section: from z to z, between two distances from the axis, mm."""
-    return closed([complex(low, near), complex(high, near), complex(high, far), complex(low, far)])
-
-
 def _plates(made: PinPlate, subject: Subject) -> tuple[View, ...]:
     """A plate with holes for its pins, or with pins that are of one piece with it; of a lantern both plates."""
     own = () if made.solid else (made.seats,)
@@ -87,7 +82,7 @@ def _plates(made: PinPlate, subject: Subject) -> tuple[View, ...]:
     if not made.solid:
         return section, face, *others
     circle, radius, end = made.pins.pitch_circle_diameter / 2, made.pin_radius, thick + made.length
-    pin = _bar(thick, end, circle - radius, circle + radius)
+    pin = block(thick, end, circle - radius, circle + radius)
     pins = [pin, below(pin)]
     sizes = [
         *section.sizes,
@@ -178,7 +173,7 @@ def _pin(keys: PinSpec, disc: RoundDisc, subject: Subject) -> tuple[View, ...]:
     radius, length = disc.radius, keys.length
     if disc.holes.bore is not None:
         return wheel_views(Wheel(WheelShape(length), disc.holes, (radius, radius), None, runs=True), subject)[:1]
-    side = _bar(0.0, length, 0.0, radius)
+    side = block(0.0, length, 0.0, radius)
     strokes = [*outlined(side), *outlined(below(side))]
     wishes = subject.wishes
     sizes = (

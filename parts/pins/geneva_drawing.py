@@ -13,7 +13,7 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
 from parts.drawing.directions import directions
 from parts.drawing.disk_views import disk_drawing
-from parts.drawing.revolved import below, closed
+from parts.drawing.revolved import below, block
 from parts.drawing.wheel_views import Wheel, circle_of, ring_face, ring_section, wheel_views
 from parts.drawing.working import (
     AXIS,
@@ -153,10 +153,10 @@ def _with_disc(section: View, driver: GenevaDriver) -> View:
     crank, pin = disc.drive.crank_radius, driver.pin_radius
     core = driver.holes.bore_reach if driver.has_bored_disc else 0.0
     radius, apex = disc.wheel.locking_radius, disc.apex
-    pins = [_bar(low, ends[1], crank - pin, crank + pin)]
+    pins = [block(low, ends[1], crank - pin, crank + pin)]
     # across of pin 1 stands another one where their number is even
-    upper = [_bar(low, ends[0], core, apex)] if apex > 0 else []
-    lower = [_bar(low, ends[0], core, radius)] if apex > 0 else [_bar(low, ends[0], -apex, radius)]
+    upper = [block(low, ends[0], core, apex)] if apex > 0 else []
+    lower = [block(low, ends[0], core, radius)] if apex > 0 else [block(low, ends[0], -apex, radius)]
     if disc.number_of_pins % 2 == 0:
         lower = [*upper, *pins]
     bars = [*upper, *pins, *(below(bar) for bar in lower)]
@@ -172,8 +172,3 @@ def _with_disc(section: View, driver: GenevaDriver) -> View:
         axes=tuple(axes),
         sizes=(*section.sizes, *sizes),
     )
-
-
-def _bar(low: float, high: float, near: float, far: float) -> tuple[Line, ...]:
-    """A rectangle of a section: from z to z, between two distances from the axis, mm."""
-    return closed([complex(low, near), complex(high, near), complex(high, far), complex(low, far)])

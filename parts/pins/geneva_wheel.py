@@ -12,11 +12,10 @@ from geometry.base.errors import Nearest, OffsetError, ParameterError
 from geometry.base.nearest import kept, moved, nearest
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
-from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
 from parts.keys.base import MOST_LENGTH, either, mm, part_mm, start
-from parts.keys.pins import MARGIN, check_holes, holes_of, least_of, moved_region
-from parts.keys.wheel import WheelKeys, WheelKind, shape_of
+from parts.keys.pins import MARGIN, holes_of, least_of, moved_region, wheel_holes
+from parts.keys.wheel import WheelKeys, WheelKind
 
 if TYPE_CHECKING:
     from geometry.gears.pins.geneva import GenevaWheel
@@ -98,26 +97,23 @@ class GenevaWheelKind(WheelKind[GenevaWheelSpec, "GenevaWheel"]):
             return _ring(keys, wheel)
         if keys.outer_diameter is not None:
             raise ParameterError("outer_diameter", keys.outer_diameter, "only_of_internal", Nearest(None))
-        holes = holes_of(keys)
-        check_holes(keys, holes, wheel.root_radius)
-        check_wheel(shape_of(keys), 2 * wheel.root_radius, holes)
-        return replace(wheel, holes=holes)
+        return replace(wheel, holes=wheel_holes(keys, wheel.root_radius))
+
+    def outline(self, thing: GenevaWheel, offset: float) -> Profile:
+        """Tips, slots and arcs, moved."""
+        return moved(thing.profile, offset)
 
     def section(self, keys: GenevaWheelSpec, thing: GenevaWheel, offset: float) -> OffsetRegion:
         """The exact section, moved."""
         return moved_region(lambda by: _region(thing, by), offset)
 
     def solid(self, keys: GenevaWheelSpec, thing: GenevaWheel, offset: float) -> Body:
-        """The wheel with its web, hub and chamfers, or the ring."""
+        """The wheel with its web, hub and chamfers, or the ring, which has none."""
         from geometry.solids.body import plate
 
         if keys.internal:
             return plate(self.section(keys, thing, offset).region, 0.0, keys.face_width)
-
-        def outline(offset: float, depth: float) -> Profile:
-            return moved(thing.profile, offset - depth)
-
-        return wheel_body(shape_of(keys), wheel_sections(outline, thing.root_radius, thing.holes), offset)
+        return super().solid(keys, thing, offset)
 
     def probes(self, keys: GenevaWheelSpec, thing: GenevaWheel) -> tuple[Probe, ...]:
         """The pin goes through its slots, the disc into its arcs."""

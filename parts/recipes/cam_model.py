@@ -32,7 +32,7 @@ from parts.keys.cam import (
 )
 from parts.keys.law import with_own_laws
 from parts.keys.timing_mark import PLACES
-from parts.recipes.making import Making, hole, made_of, place
+from parts.recipes.making import Making, hole, place
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 
 # mm: slack of the slot at each end; frame below the cam, about its axle and above the pins; wall about holes; of a flat
@@ -93,7 +93,7 @@ class _Making(Making):
     """The tables as they grow; the axle is at 0, the cam's lower face at height 0."""
 
     def __init__(self, keys: CamModelKeys) -> None:
-        super().__init__("cam_model", keys.plate_thickness, made_of(keys.material, keys.density))
+        super().__init__("cam_model", keys.plate_thickness, keys)
         self.keys, self.rolls = keys, keys.follower == "roller"
         given = {key: getattr(keys, key) for key in _CAM_KEYS}
         self.given = {key: value for key, value in given.items() if value is not None}

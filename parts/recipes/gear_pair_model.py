@@ -12,7 +12,7 @@ from msgspec import Meta
 
 from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
-from parts.recipes.making import Making, made_of
+from parts.recipes.making import Making
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 
 # mm: of the frame about its axles, and at least beyond the hole of one; its corners
@@ -44,7 +44,7 @@ def _expanded(keys: GearPairModelKeys) -> Expansion:
     """The tables of one model: the pinion at the origin; the frame comes under both axles, wherever they stand."""
     thick, making = (
         keys.plate_thickness,
-        Making("gear_pair_model", keys.plate_thickness, made_of(keys.material, keys.density)),
+        Making("gear_pair_model", keys.plate_thickness, keys),
     )
     # named by what students are given
     for number, (wheel, teeth, shift) in enumerate(zip(_WHEELS, keys.teeth, keys.shifts, strict=True), 1):

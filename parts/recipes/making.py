@@ -24,11 +24,6 @@ WAYS: Mapping[str, tuple[float, float, float]] = {
 _CORNER = 10.0
 
 
-def made_of(material: str | None, density: float | None) -> Table:
-    """The keys of every part of an assembly that say what it is made of."""
-    return {key: value for key, value in {"material": material, "density": density}.items() if value is not None}
-
-
 def refused_by(
     keys: K,
     names: Sequence[str],
@@ -55,11 +50,12 @@ def refused_by(
 
 
 class Making:
-    """An expansion that grows; ``recipe``: whose names its parts have."""
+    """An expansion that grows; ``recipe``: whose names its parts have, ``keys``: that may say what all are made of."""
 
-    def __init__(self, recipe: str, thickness: float, material: Table) -> None:
-        self.found, self.names = Expansion(), NAMES[recipe]
-        self.thickness, self.material = thickness, material
+    def __init__(self, recipe: str, thickness: float, keys: RecipeKeys) -> None:
+        self.found, self.names, self.thickness = Expansion(), NAMES[recipe], thickness
+        given = {key: getattr(keys, key, None) for key in ("material", "density")}
+        self.material = {key: value for key, value in given.items() if value is not None}
 
     def part(self, name: str, colour: str = "", /, **keys: object) -> None:
         """A part of the material."""

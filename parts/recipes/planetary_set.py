@@ -30,7 +30,7 @@ from parts.base.part_keys import Density, Material
 from parts.keys.base import degrees, mm, part_mm
 from parts.keys.helix import Double, HelixAngle
 from parts.keys.mate import further
-from parts.recipes.making import Making, hole, made_of
+from parts.recipes.making import Making, hole
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 # what meshes keep where their shifts are chosen: tip thickness, modules, and contact ratio
@@ -165,7 +165,7 @@ class _Set(Record):
 def _expanded(keys: PlanetarySetKeys) -> Expansion:
     """Wheels, carrier, pins, and with a frame what a model needs to be turned and counted."""
     made = _settled(keys)
-    making = Making("planetary_set", keys.plate_thickness, made_of(keys.material, keys.density))
+    making = Making("planetary_set", keys.plate_thickness, keys)
     for wheel in dict.fromkeys(made.wheels):
         making.part(wheel.id, **_wheel_keys(made, wheel))
         module = "module" if wheel.module == keys.module else "second_module"

@@ -201,7 +201,7 @@ class _Making(Making):
 
     def __init__(self, keys: PowerModuleKeys) -> None:
         self.keys, self.s = keys, checked_sizes(keys)
-        super().__init__("power_module", keys.disk_thickness, {})
+        super().__init__("power_module", keys.disk_thickness, keys)
         self.within = ""
         # cranks, no wheels; idlers between the wheels
         self.cranks, self.idlers = keys.orientation == "cranks", keys.orientation == "idlers"

@@ -22,7 +22,7 @@ from msgspec import Meta
 from geometry.base.errors import ParameterError, limit
 from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
-from parts.recipes.making import Making, hole, made_of, place, refused_by
+from parts.recipes.making import Making, hole, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Turns
 
 # mm: walls between holes, boss of a crank about its pin, rim beyond the ring's teeth, the idler's link about its axles,
@@ -133,8 +133,7 @@ class _Making(Making):
 
     def __init__(self, sizes: _Sizes) -> None:
         self.sizes, self.keys = sizes, sizes.keys
-        material = made_of(self.keys.material, self.keys.density)
-        super().__init__("power_module_kinematics", self.keys.wheel_width, material)
+        super().__init__("power_module_kinematics", self.keys.wheel_width, self.keys)
         self.gears = -self.keys.axial_gap - self.keys.face_width
         # planes behind the pinion, the nearest first
         pitch = self.keys.axial_gap + self.keys.wheel_width

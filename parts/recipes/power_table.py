@@ -20,7 +20,7 @@ from msgspec import Meta
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
-from parts.recipes.making import Making, front, hole, made_of, place, refused_by
+from parts.recipes.making import Making, front, hole, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
 # modules: what a ring's root is beyond its reference circle at most, with its clearance; a rim beyond that, mm
@@ -176,7 +176,7 @@ class _Making(Making):
     def __init__(self, sizes: _Sizes) -> None:
         self.sizes, self.keys = sizes, sizes.keys
         thick, gap = self.keys.plate_thickness, self.keys.axial_gap
-        super().__init__("power_table", thick, made_of(self.keys.material, self.keys.density))
+        super().__init__("power_table", thick, self.keys)
         self.back = thick + gap
         # half of a thin plate is left under a mark
         self.mark = {"depth": thick / 2} if thick < 2 * _MARK else {}

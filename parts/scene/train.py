@@ -337,7 +337,7 @@ def _pose_in(plane: Placement3, frame: Placement3) -> Pose:
     """Origin and angle of a frame in the x, y plane of another one."""
     seen = plane.inverse() @ frame
     x, y, _ = seen.translation
-    return complex(x, y), math.atan2(seen.rotation[1][0], seen.rotation[0][0])
+    return complex(x, y), seen.turn
 
 
 def driven_train(

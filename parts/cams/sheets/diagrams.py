@@ -57,7 +57,7 @@ class Drawn(Draft):
 
 def heights_of(area: Box) -> float:
     """How high each diagram may be in an area."""
-    return (area.high - area.low - BELOW - 3 * _GAP) / 3
+    return (area.tall - BELOW - 3 * _GAP) / 3
 
 
 def draw_diagrams(canvas: Canvas, picture: CamPicture, area: Box, scales: Scales, asked: Asked) -> Drawn:

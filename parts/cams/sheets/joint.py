@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.cams.motion.diagrams import joint_diagram
 from geometry.cams.motion.follower_motion import PhaseKind
 from geometry.cams.motion.guides import Translating
@@ -76,15 +76,12 @@ def joint_window(picture: CamPicture, joint: Joint) -> Box:
 
 def joint_paper(window: Box, area: Box) -> tuple[Paper, Box]:
     """The largest standard scale, and the window widened to the area, model mm."""
-    room = min(
-        (area.right - area.left) / (window.right - window.left), (area.high - area.low) / (window.high - window.low)
-    )
+    room = min(area.wide / window.wide, area.tall / window.tall)
     scale = next((s for s in SCALES if s <= room), room)
-    middle = complex(window.left + window.right, window.low + window.high) / 2
-    origin = complex(area.left + area.right, area.low + area.high) / 2 - scale * middle
-    wide = (area.right - area.left) / scale / 2
-    spread = min(wide, 0.75 * (window.right - window.left))
-    return Paper(scale, origin), Box(middle.real - spread, window.low, middle.real + spread, window.high)
+    middle = window.middle
+    spread = min(area.wide / scale / 2, 0.75 * window.wide)
+    seen = replace(window, left=middle.real - spread, right=middle.real + spread)
+    return Paper(scale, area.middle - scale * middle), seen
 
 
 def draw_joint(canvas: Canvas, picture: CamPicture, joint: Joint, paper: Paper, window: Box, asked: Asked) -> Drawn:

@@ -77,7 +77,7 @@ def _face_ends(picture: CamPicture, angle: float, scale: float) -> tuple[float, 
 
 def profile_paper(picture: CamPicture, area: Box) -> Paper:
     """The largest standard scale at which the construction and its numbers fit."""
-    room = min(area.right - area.left, area.high - area.low) / 2 - _number_room(picture)
+    room = min(area.wide, area.tall) / 2 - _number_room(picture)
     far = reach_of(picture, 1.0).far
     start = next((k for k, s in enumerate(SCALES) if s * far <= room), len(SCALES) - 1)
     scale = next((s for s in SCALES[start:] if reach_of(picture, s).whole * s <= room), SCALES[-1])

@@ -19,7 +19,7 @@ from parts.cams.sheets.profile import (
 )
 from parts.cams.sheets.swing import draw_swing, name_swing, swing_of, swing_window
 from parts.cams.sheets.tables import ROW, WIDTH, Grid, characteristics, draw_grid, graphical_grid, legend, scale_rows
-from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, TITLE_TEXT, Box, Canvas, Paper, scale_text
+from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text
 from parts.drawing.choice import Asked, blank, sheet_for
 from parts.drawing.expected import Circle, Expected
 from parts.drawing.labels import Labeller
@@ -89,7 +89,7 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) 
     has_joint = joint is not None or swing is not None
     layout, paper = _layout(picture, tall, asked, has_joint=has_joint)
     pages = [layout.diagrams.page, layout.profile.page][: 1 if layout.tables else 2]
-    scales = scales_of(picture, layout.diagrams.area.right - layout.diagrams.area.left - LEFT - RIGHT,
+    scales = scales_of(picture, layout.diagrams.area.wide - LEFT - RIGHT,
                        heights_of(layout.diagrams.area))  # fmt: skip
     page = layout.diagrams.page
     page.drawn.append(draw_diagrams(page.canvas, picture, layout.diagrams.area, scales, asked))
@@ -112,12 +112,7 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) 
     grids = [g for g in (first, scale_rows(picture, scales, scale, paper.scale), lines, graphical, places) if g]
     pages += _flow(grids, layout, asked)
     for number, one in enumerate(pages, 1):
-        frame = one.canvas.frame
-        one.canvas.box("FRAME", frame)
-        title = f"{_title(picture)}: {name}" + (f" ({number}/{len(pages)})" if len(pages) > 1 else "")
-        one.canvas.write(
-            title, complex(frame.left + 6.0, frame.high - 9.0), TITLE_TEXT, frame.right - frame.left - 12.0
-        )
+        one.canvas.head(f"{_title(picture)}: {name}" + (f" ({number}/{len(pages)})" if len(pages) > 1 else ""), 6.0)
     if not asked.by_hand:
         number_positions(layout.profile.page.canvas, picture, paper)
     labels = Labeller(layout.profile.page.canvas, layout.profile.area.grown(2.0))
@@ -161,7 +156,7 @@ def _layout(picture: CamPicture, tables: float, asked: Asked, *, has_joint: bool
 
     around = _TITLE + _MARGIN + INSCRIPTION[1]
     contents = {name: blank(name, upright=False).content for name in _TURNS}
-    whole = [name for name, content in contents.items() if tables <= content.high - content.low - around]
+    whole = [name for name, content in contents.items() if tables <= content.tall - around]
 
     def layout_on(sheet: Canvas) -> _Layout:
         make = _areas if sheet.paper in whole else _pages
@@ -209,7 +204,7 @@ def _split(page: _Page, area: Box, picture: CamPicture, *, has_joint: bool) -> t
         top -= _CAPTION
     if has_joint:
         room = top - _LEAST_JOINT - _MARGIN - _CAPTION - area.low
-        top = area.low + profile_side(picture, min(room, area.right - area.left))
+        top = area.low + profile_side(picture, min(room, area.wide))
     joint = Box(area.left, top + _CAPTION + _MARGIN, area.right, area.high - _CAPTION)
     return _Place(page, joint), _Place(page, Box(area.left, area.low, area.right, top))
 
@@ -223,12 +218,12 @@ def _flow(grids: list[Grid], layout: _Layout, asked: Asked) -> list[_Page]:
     if not columns:
         pages.append(_Page(blank(paper, upright=True, band=asked.band)))
         columns = _columns(pages[-1])
-        grids = [grid.on_page(columns[0].area.right - columns[0].area.left, by_hand=asked.by_hand) for grid in grids]
+        grids = [grid.on_page(columns[0].area.wide, by_hand=asked.by_hand) for grid in grids]
     while grids:
         grid = grids[0]
         rows = len(grid.rows) if at is None else int((top - at.area.low) / grid.row + 1e-9)
         # a table goes on where it would not fit a column of its own
-        if at is None or (rows < len(grid.rows) and (rows < _LEAST_ROWS or grid.height <= at.area.high - at.area.low)):
+        if at is None or (rows < len(grid.rows) and (rows < _LEAST_ROWS or grid.height <= at.area.tall)):
             if not columns:
                 pages.append(_Page(blank(paper, upright=True, band=asked.band)))
                 columns = _columns(pages[-1])
@@ -245,7 +240,7 @@ def _flow(grids: list[Grid], layout: _Layout, asked: Asked) -> list[_Page]:
 def _columns(page: _Page) -> list[_Place]:
     """Columns of a page of tables."""
     content = page.canvas.content
-    count = int((content.right - content.left - 2 * _MARGIN) / (WIDTH + _MARGIN))
+    count = int((content.wide - 2 * _MARGIN) / (WIDTH + _MARGIN))
     low, high, left = content.low + _MARGIN, content.high - _TITLE, content.left + _MARGIN
     step = (content.right - left) / count
     return [_Place(page, Box(left + k * step, low, left + (k + 1) * step - _MARGIN, high)) for k in range(count)]
@@ -255,10 +250,10 @@ def _captions(picture: CamPicture, layout: _Layout, profile: Paper) -> None:
     language, canvas = picture.language, layout.profile.page.canvas
     area, joint = layout.profile.area, layout.joint.page.joint
     if linkage_cam_of(picture) is not None:
-        at, most = complex(area.left + 2.0, area.high + _CAPTION + 3.0), area.right - area.left - 4.0
+        at, most = complex(area.left + 2.0, area.high + _CAPTION + 3.0), area.wide - 4.0
         canvas.write(sheet_words(language, "no_joint"), at, SMALL_TEXT, most)
     for key, box, place in (("cam_profile", area, profile), ("cam_joint", layout.joint.area, joint)):
         if place is None:
             continue
         text = f"{sheet_words(language, key)}, M {scale_text(place.scale, language)}"
-        canvas.write(text, complex(box.left + 2.0, box.high + 3.0), TEXT_HEIGHT, box.right - box.left - 4.0)
+        canvas.write(text, complex(box.left + 2.0, box.high + 3.0), TEXT_HEIGHT, box.wide - 4.0)

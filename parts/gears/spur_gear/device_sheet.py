@@ -17,7 +17,7 @@ from geometry.gears.teeth.limits import root_form_diameter, undercut
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.tooth import tooth_side
 from parts.base.texts import words
-from parts.drawing.canvas import SMALL_TEXT, TITLE_TEXT, Box, Canvas, Paper, draw, fitted, scale_text
+from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, Paper, draw, fitted, scale_text
 from parts.drawing.choice import Asked, blank, sheet_for
 from parts.drawing.expected import Circle, Expected
 from parts.drawing.labels import Labeller
@@ -72,10 +72,7 @@ def generating_sheet(gears: list[SpurGear], step: float, tables: Sheet, asked: A
     pages = [canvas, blank(canvas.paper, upright=canvas.height > canvas.width, band=asked.band)] if alone else [canvas]
     paper = Paper(scale, room.middle)
     for number, page in enumerate(pages, 1):
-        page.box("FRAME", page.frame)
-        title = sheet_words(language, "generating") + (f" ({number}/{len(pages)})" if alone else "")
-        left = page.frame.left + _MARGIN
-        page.write(title, complex(left, page.frame.high - 9.0), TITLE_TEXT, page.frame.right - _MARGIN - left)
+        page.head(sheet_words(language, "generating") + (f" ({number}/{len(pages)})" if alone else ""), _MARGIN)
     canvas.arc("DISK", _circle(paper, Arc(0j, disk, 0.0, 2 * math.pi)))
     for way in (1, 1j):
         canvas.line("CENTRE", paper.point(-1.04 * disk * way), paper.point(1.04 * disk * way))

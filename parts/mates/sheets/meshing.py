@@ -12,7 +12,7 @@ from itertools import pairwise
 from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.pictures.meshing import CIRCLES, Body, MeshingPicture
-from parts.drawing.canvas import SQUARE, TITLE_TEXT, Box, Canvas, Paper, Stroke, decimal, draw, fitted, scale_text
+from parts.drawing.canvas import SQUARE, Box, Canvas, Paper, Stroke, decimal, draw, fitted, scale_text
 from parts.drawing.choice import Asked
 from parts.drawing.labels import Labeller
 from parts.drawing.table import Row, Table
@@ -51,7 +51,7 @@ def meshing_canvas(picture: MeshingPicture, module: float, facts: Facts, asked: 
     # what no sheet may show stands in the table
     most = [Row(sheet_words(language, "off_sheet"), "r_{b1}", "1000.000")] * 2
     canvas, view = layout(picture, module, [*facts.rows, *most, Row(sheet_words(language, "scale"), "", "0:0")], asked)
-    canvas.box("FRAME", canvas.frame)
+    canvas.head(facts.title, GAP)
     ends: list[Ends] = []
     dimensions: dict[str, complex] = {}
     if asked.by_hand:
@@ -63,8 +63,6 @@ def meshing_canvas(picture: MeshingPicture, module: float, facts: Facts, asked: 
         canvas.arc("ARC_OF_ACTION", _arc(view.paper, picture.arc_of_action))
         canvas.strokes += [_stroke("WORKING_PITCH", view.paper, picture.pitch)]
         dimensions = _dimensions(canvas, picture, view)
-    content = canvas.content.grown(-GAP)
-    canvas.write(facts.title, complex(content.left, canvas.frame.high - 9.0), TITLE_TEXT, content.right - content.left)
     rows = list(facts.rows)
     for index, body in enumerate(picture.bodies, 1):
         # what a picture of large gears leaves out
@@ -221,15 +219,8 @@ def _lineends_of(picture: MeshingPicture) -> tuple[float, float]:
 def _clipped(picture: MeshingPicture, window: Box) -> tuple[float, float]:
     """The part of the line of action between N1 and N2 (and the active line) that the window holds."""
     low, high = _lineends_of(picture)
-    start, way = picture.tangent_points[0], picture.direction
-    for at, step, least, most in (
-        (start.real, way.real, window.left, window.right),
-        (start.imag, way.imag, window.low, window.high),
-    ):
-        if abs(step) > 1e-12:
-            ends = sorted(((least - at) / step, (most - at) / step))
-            low, high = max(low, ends[0]), min(high, ends[1])
-    return low, high
+    first, last = window.span(picture.tangent_points[0], picture.direction)
+    return max(low, first), min(high, last)
 
 
 def _marks(picture: MeshingPicture) -> list[complex]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from geometry.base.record import Record
-from parts.drawing.canvas import TITLE_TEXT, Box, Canvas, Paper, decimal, scale_text
+from geometry.base.record import Record, replace
+from parts.drawing.canvas import Box, Canvas, Paper, decimal, scale_text
 from parts.drawing.choice import Asked, sheet_for
 from parts.drawing.expected import Expected
 from parts.drawing.labels import Labeller
@@ -62,18 +62,15 @@ def train_sheet(title: str, train: TrainPicture, told: list[str], asked: Asked) 
 
     def greatest(sheet: Canvas) -> float:
         areas = areas_on(sheet)
-        if min(areas.plan.right - areas.plan.left - _PLAN, areas.angles.right - areas.angles.left - _ANGLES,
-               areas.angles.high - areas.angles.low - _ANGLES) < 0:  # fmt: skip
+        if areas.plan.wide < _PLAN or min(areas.angles.wide, areas.angles.tall) < _ANGLES:
             return 0.0
-        return max(areas.scheme.high - areas.scheme.low - _BACKS, 0.0) / (high - low)
+        return max(areas.scheme.tall - _BACKS, 0.0) / (high - low)
 
     smallest = min(2 * train.radius(k) for k in range(len(train.rims)))
     canvas, scale = sheet_for(asked, greatest, _LEAST_WHEEL / smallest)
     areas = areas_on(canvas)
-    base = (areas.scheme.low + areas.scheme.high) / 2 - scale * (high + low) / 2
-    canvas.box("FRAME", canvas.frame)
-    heading, left = f"{sheet_words(language, 'train')}: {title}", canvas.frame.left + _GAP
-    canvas.write(heading, complex(left, canvas.frame.high - 9.0), TITLE_TEXT, canvas.frame.right - _GAP - left)
+    base = areas.scheme.middle.imag - scale * (high + low) / 2
+    canvas.head(f"{sheet_words(language, 'train')}: {title}", _GAP)
     scheme = Scheme(canvas, train, lambda h: base + scale * h, areas.scheme.left)
     scheme.draw()
     plans = plans_of(train, scheme.y, scale, areas.plan.grown(-_GAP), areas.angles.grown(-_GAP))
@@ -86,8 +83,7 @@ def train_sheet(title: str, train: TrainPicture, told: list[str], asked: Asked) 
     ]
     table = Table(tuple(rows), canvas.letters)
     table.draw(canvas, complex(canvas.content.right - table.size[0], canvas.content.low))
-    content = canvas.content
-    labels = Labeller(canvas, Box(content.left, content.low, content.right, content.high - _TITLE))
+    labels = Labeller(canvas, replace(canvas.content, high=canvas.content.high - _TITLE))
     for mark, at in scheme.marks.items():
         teeth = {rim.name: rim.teeth for rim in train.rims}.get(mark)
         labels.name(mark if teeth is None else f"{mark} (z = {teeth})", at, prefer=1 + 0.3j)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from geometry.base.record import Record
-from parts.base.texts import N_, fault, unless
+from parts.base.texts import N_, unless
 from parts.drawing.canvas import Box, Canvas, standard_scale
 from parts.drawing.labels import Labeller
-from parts.drawing.readback import ReadLine, ReadSheet
+from parts.drawing.readback import ReadLine, ReadSheet, lines_missing
 from parts.mates.sheets.train_picture import TrainPicture
 
 # a link that turns less than this share of the fastest is a point on the pole line, which no divider measures, and so
@@ -57,12 +57,12 @@ def plans_of(train: TrainPicture, y: Callable[[float], float], scale: float, pla
     """The plans of a train in the areas that they have on paper; ``scale``: of the heights."""
     speeds = [train.velocity(k, h) for k in range(len(train.links)) for h in train.heights(k)]
     low, high = min(*speeds, 0.0), max(*speeds, 0.0)
-    velocity = standard_scale((high - low) / (plan.right - plan.left))
+    velocity = standard_scale((high - low) / plan.wide)
     line = (plan.left + plan.right - (low + high) / velocity) / 2
     rates = [float(link.rate) for link in train.links]
     least, most = min(*rates, 0.0), max(*rates, 0.0)
     # rays are parallel to the lines of the links: the pole's distance follows from the scale
-    needed = max((most - least) / (angles.right - angles.left), velocity * scale / (angles.high - angles.low))
+    needed = max((most - least) / angles.wide, velocity * scale / angles.tall)
     angular = standard_scale(needed)
     foot = complex((angles.left + angles.right - (least + most) / angular) / 2, angles.high)
     return Plans(train, y, line, velocity, angular, foot - 1j * velocity * scale / angular, foot)
@@ -133,11 +133,7 @@ class PlanMeasures(Record):
         for layer, wanted in (("VELOCITY", self.plans.spans()), ("ANGULAR_VELOCITY", self.plans.rays())):
             found = [x for x in sheet.lines if x.layer == layer]
             if len(found) != len(wanted):
-                failures.append(
-                    fault(
-                        "{layer}: {count} lines instead of {wanted}", layer=layer, count=len(found), wanted=len(wanted)
-                    )
-                )
+                failures.append(lines_missing(layer, found, wanted))
                 continue
             off = max(max(abs(x.start - a), abs(x.end - b)) for x, (_, a, b) in zip(found, wanted, strict=True))
             measured[f"{layer.lower()}_deviation"] = off

@@ -14,12 +14,12 @@ from geometry.base.record import Record, replace
 from geometry.curves.bspline import BSpline, basis_matrix
 from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.field import Field
-from parts.base.texts import fault, unless
-from parts.drawing.canvas import TITLE_TEXT, Box, Canvas, Paper, Stroke, decimal, scale_text
+from parts.base.texts import unless
+from parts.drawing.canvas import Box, Canvas, Paper, Stroke, decimal, scale_text
 from parts.drawing.choice import Asked, sheet_for
 from parts.drawing.expected import Expected
 from parts.drawing.labels import Labeller
-from parts.drawing.readback import ReadSheet
+from parts.drawing.readback import ReadSheet, lines_missing
 from parts.drawing.table import Row, Table
 from parts.mates.worm import WormMating
 from parts.texts.sheets import sheet_words
@@ -98,11 +98,7 @@ class WormMeasures(Record):
             wanted = [curve for curve in self.curves if curve.layer == layer]
             found = [points for name, points in sheet.samples if name == layer]
             if len(found) < len(wanted):
-                failures.append(
-                    fault(
-                        "{layer}: {count} lines instead of {wanted}", layer=layer, count=len(found), wanted=len(wanted)
-                    )
-                )
+                failures.append(lines_missing(layer, found, wanted))
                 continue
             # files keep the order of drawing within a layer
             for points, curve in zip(found, wanted, strict=False):
@@ -142,20 +138,17 @@ def worm_sheet(mating: WormMating, field: Field, title: str, asked: Asked) -> Ex
 
     def greatest(sheet: Canvas) -> float:
         box = room(sheet)
-        across, up = box.right - box.left, box.high - box.low - 3 * _LEGEND
+        across, up = box.wide, box.tall - 3 * _LEGEND
         return max(min(across / wide, (across - 2 * _GAP) / (2 * teeth.width), up / (2 * worm.tip_radius + depth)), 0.0)
 
     canvas, scale = sheet_for(asked, greatest, _LEAST_TOOTH / depth)
     box = room(canvas)
-    middle, spare = (box.left + box.right) / 2, teeth.width * scale / 2 + _GAP
+    middle, spare = box.middle.real, teeth.width * scale / 2 + _GAP
     # room that is left over goes between, above and below
-    spread = (box.high - box.low - scale * (2 * worm.tip_radius + depth)) / 3
+    spread = (box.tall - scale * (2 * worm.tip_radius + depth)) / 3
     flanks = [Paper(scale, complex(middle + way * spare, box.low + spread - scale * root)) for way in (-1, 1)]
     along = Paper(scale, complex(middle, box.high - spread - scale * worm.tip_radius))
-    canvas.box("FRAME", canvas.frame)
-    left = canvas.frame.left + _GAP
-    heading = f"{sheet_words(language, 'worm')}: {title}"
-    canvas.write(heading, complex(left, canvas.frame.high - 9.0), TITLE_TEXT, canvas.frame.right - _GAP - left)
+    canvas.head(f"{sheet_words(language, 'worm')}: {title}", _GAP)
     curves = _curves(field, flanks, along, math.pi * worm.module)
     made: dict[int, BSpline] = {}
     for curve in curves:
@@ -171,7 +164,7 @@ def worm_sheet(mating: WormMating, field: Field, title: str, asked: Asked) -> Ex
     _draw_worm(canvas, mating, along)
     table = Table((*rows, _scale(scale, language)), canvas.letters)
     table.draw(canvas, complex(canvas.content.right - table.size[0], canvas.content.low))
-    labels = Labeller(canvas, Box(box.left, box.low, box.right, box.high))
+    labels = Labeller(canvas, box)
     half = field.length_used() / 2
     high = along.point(1j * worm.tip_radius) + 0.6j * _LEGEND
     for x in (-half, half):
