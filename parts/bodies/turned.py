@@ -16,7 +16,8 @@ from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
 from parts.base.texts import N_
 from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, either, mm, part_mm, start
-from parts.keys.holes import HolesTable, check_bore
+from parts.keys.holes import HolesTable, check_bore, hub_holes
+from parts.keys.pins import least_of, most_of, moved_region
 from parts.keys.splines import SplineTable
 
 if TYPE_CHECKING:
@@ -159,7 +160,6 @@ class _Turned(Kind[K, "HalfSection"]):
     def section(self, keys: K, thing: HalfSection, offset: float) -> OffsetRegion:
         """Its greatest circle, or its spline, with all that goes through."""
         from geometry.plane.profile import Label, Region, circle
-        from parts.keys.pins import moved_region
 
         inner, outer = thing.radii()
         spline = thing.seen_spline()
@@ -239,13 +239,8 @@ class Turned(_Turned[TurnedSpec]):
             if p.chamfer and p.fillet:
                 raise either(f"points[{k}].chamfer", p.chamfer, "fillet", 0.0)
         pieces = half_section([Corner(complex(p.r, p.z), p.arc, p.chamfer, p.fillet) for p in keys.points])
-        groups = [keys.holes] if isinstance(keys.holes, HolesTable) else keys.holes or []
-        holes = []
-        for group in groups:
-            first, radius = math.radians(group.start_deg), group.pitch_circle_diameter / 2
-            for k in range(group.count):
-                turn = first + math.tau * k / group.count
-                holes.append(Hole(complex(radius * math.cos(turn), radius * math.sin(turn)), group.diameter / 2))
+        groups = hub_holes(None, keys.holes, None).round_holes
+        holes = [Hole(centre, group.diameter / 2) for group in groups for centre in group.centres()]
         for k, hole in enumerate(holes):
             if any(abs(hole.centre - other.centre) <= hole.radius + other.radius for other in holes[:k]):
                 raise ParameterError("holes", None, "hole_reaches_edge")
@@ -304,13 +299,13 @@ def _check_shaft(keys: ShaftSpec) -> None:
     for k, step in enumerate(keys.steps, 1):
         least = min([step.diameter, *(g.diameter for g in step.grooves)])
         if keys.bore_diameter >= least:
-            cure = limit(least * (1 - 1e-6), keys.bore_diameter, digits=6)
-            raise ParameterError("bore_diameter", keys.bore_diameter, "leaves_no_wall", cure)
+            most = most_of(least, keys.bore_diameter)
+            raise ParameterError("bore_diameter", keys.bore_diameter, "leaves_no_wall", most)
         place = step.chamfer
         for number, groove in sorted(enumerate(step.grooves, 1), key=lambda pair: pair[1].at):
             name = f"steps[{k}].grooves[{number}]"
             if groove.diameter >= step.diameter:
-                cure = limit(step.diameter * (1 - 1e-6), groove.diameter, digits=6)
+                cure = most_of(step.diameter, groove.diameter)
                 raise ParameterError(f"{name}.diameter", groove.diameter, "groove_not_in_step", cure)
             room = step.length - step.chamfer
             if groove.at <= place or groove.at + groove.width >= room:
@@ -318,20 +313,20 @@ def _check_shaft(keys: ShaftSpec) -> None:
             place = groove.at + groove.width
             inside = 2 * _inside(keys, min(z + groove.at, whole - z - place))
             if groove.diameter <= inside:
-                cure = limit(inside * (1 + 1e-6), groove.diameter, digits=6)
+                cure = least_of(inside, groove.diameter)
                 raise ParameterError(f"{name}.diameter", groove.diameter, "groove_into_centre_hole", cure)
         z += step.length
     mouth = _mouth(keys)
     if (centre := keys.centre_holes) is not None and mouth <= centre.diameter:
-        cure = limit(centre.diameter * (1 + 1e-6), mouth, digits=6)
+        cure = least_of(centre.diameter, mouth)
         raise ParameterError("centre_holes.mouth", mouth, "mouth_within_pilot", cure, diameter=centre.diameter)
     for k in (1, len(keys.steps)):
         step = keys.steps[k - 1]
         if step.chamfer >= (room := (step.diameter - keys.bore_diameter) / 2):
-            most = limit(room * (1 - 1e-6), step.chamfer, digits=6)
+            most = most_of(room, step.chamfer)
             raise ParameterError(f"steps[{k}].chamfer", step.chamfer, "chamfer_leaves_nothing_of_step", most)
         if mouth >= step.diameter - 2 * step.chamfer:
-            most = limit((step.diameter - 2 * step.chamfer) * (1 - 1e-6), mouth, digits=6)
+            most = most_of(step.diameter - 2 * step.chamfer, mouth)
             raise ParameterError("centre_holes.mouth", mouth, "leaves_no_wall", most)
     if centre is not None:
         _check_centre_holes(keys, centre, mouth, whole)
@@ -346,7 +341,7 @@ def _check_centre_holes(keys: ShaftSpec, centre: CentreHolesTable, mouth: float,
         for depth in (whole - z, z - step.length):
             most = step.diameter + 2 * slope * depth
             if 2 * _inside(keys, depth) >= step.diameter:
-                cure = limit(most * (1 - 1e-6), mouth, digits=6) if most > centre.diameter < step.diameter else None
+                cure = most_of(most, mouth) if most > centre.diameter < step.diameter else None
                 raise ParameterError("centre_holes.mouth", mouth, "leaves_no_wall", cure)
     beyond = next(_end(keys)).imag - whole / 2
     if beyond < 0:
@@ -393,7 +388,7 @@ def _splines(keys: ShaftSpec) -> Iterator[Splined]:
         root = form.inner - made.clearance
         if inside >= root:
             key = "bore_diameter" if keys.bore_diameter else "centre_holes.mouth"
-            raise ParameterError(key, 2 * inside, "leaves_no_wall", limit(2 * root * (1 - 1e-6), 2 * inside, digits=6))
+            raise ParameterError(key, 2 * inside, "leaves_no_wall", most_of(2 * root, 2 * inside))
         for other in (k - 1, k + 1):
             if 0 <= other < len(steps):
                 beside, own = steps[other], f"steps[{other + 1}]"

@@ -22,7 +22,7 @@ from parts.bodies.turned import ShaftSpec, TurnedSpec
 from parts.drawing.directions import directions, involute_data
 from parts.drawing.font import MINUS
 from parts.drawing.places import apart
-from parts.drawing.revolved import Loop, below, closed, outer_of, outlined, seen_circles, seen_edges
+from parts.drawing.revolved import Loop, below, block, closed, outer_of, outlined, seen_circles, seen_edges
 from parts.drawing.turned_sizes import Fits, SectionCorner, bores, listed_corners, seats, turned_sizes
 from parts.drawing.wheel_views import (
     apart_sizes,
@@ -380,9 +380,7 @@ def _slot(pocket: Pocket) -> tuple[Line | Arc, ...]:
     """A keyway as it is seen from above."""
     half = pocket.width / 2
     if not pocket.round_ends:
-        corners = [complex(x, y) for x, y in ((pocket.low, -half), (pocket.high, -half), (pocket.high, half),
-                                              (pocket.low, half))]  # fmt: skip
-        return closed(corners)
+        return block(pocket.low, pocket.high, -half, half)
     low, high = complex(pocket.low + half), complex(pocket.high - half)
     return (
         Line(low - 1j * half, high - 1j * half),

@@ -12,7 +12,6 @@ import numpy as np
 
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
-from geometry.curves.curve import Complex
 from geometry.curves.line_arc import Arc, Line
 from parts.drawing.assembly_views import Drawn
 from parts.drawing.canvas import SCALES, TITLE_TEXT, Box, Canvas, Paper, Stroke, Text, text_of, text_width
@@ -22,7 +21,7 @@ from parts.drawing.expected import Expected
 from parts.drawing.hatching import hatching
 from parts.drawing.ink import Ink
 from parts.drawing.labels import spread
-from parts.drawing.part_sheet import PartMeasures
+from parts.drawing.part_sheet import PartMeasures, extent, points_of
 from parts.drawing.parts_list import ListRow, draw_list, list_size
 from parts.drawing.title_block import TITLE_BLOCK, turned_box
 from parts.drawing.working import Side, Size, View
@@ -90,11 +89,11 @@ def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked
         found = _laid(views, rows, scale, asked)
         return () if found is None else found
 
-    extents = [_extent(view.drawn) for view in views]
+    extents = [extent(view.drawn.strokes) for view in views]
 
     def greatest(canvas: Canvas) -> float:
         """The greatest scale at which both views stand in a field."""
-        most = max(canvas.width, canvas.height) / max(max(extent) for extent in extents)
+        most = max(canvas.width, canvas.height) / max(map(max, extents))
         for scale in (s for s in SCALES if s <= most):
             # bare views are held against the fields before they are laid out
             bare = [Box(0.0, 0.0, scale * wide, scale * tall) for wide, tall in extents]
@@ -103,7 +102,7 @@ def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked
                     return scale
         return 0.0
 
-    canvas, scale = sheet_for(asked, greatest, min(_ENLARGED, _LEAST / max(max(extent) for extent in extents)))
+    canvas, scale = sheet_for(asked, greatest, min(_ENLARGED, _LEAST / max(map(max, extents))))
     made = views_at(scale)
     canvas.box("FRAME", canvas.frame)
     corner = complex(canvas.frame.right - TITLE_BLOCK[0], canvas.frame.low + tall)
@@ -118,16 +117,6 @@ def assembly_sheet(views: Sequence[AssemblyView], rows: Sequence[ListRow], asked
     hidden = tuple(Finding("position_not_shown", row.position, 0.0) for row in rows if row.position not in shown)
     measures = PartMeasures(canvas, tuple(outlines))
     return Expected(canvas, Paper(scale, shifts[0]), (), measures=measures, findings=hidden)
-
-
-def _extent(drawn: Drawn) -> tuple[float, float]:
-    """Width and height, model mm."""
-    points = _points(drawn)
-    return float(np.ptp(points.real)), float(np.ptp(points.imag))
-
-
-def _points(drawn: Drawn) -> Complex:
-    return np.concatenate([c.point(np.linspace(*c.domain, 33)) for _, c in drawn.strokes])
 
 
 def _places(views: Sequence[Laid], field: Box) -> list[complex] | None:
@@ -200,7 +189,7 @@ def _hatch(canvas: Canvas, drawn: Drawn, scale: float) -> None:
 
 def _ends(drawn: Drawn, scale: float) -> tuple[float, float]:
     """Where the marks of the section's plane begin on the left and on the right, model mm."""
-    points = _points(drawn)
+    points = points_of(drawn.strokes)
     return float(points.real.min()) - _OUT / scale, float(points.real.max()) + _OUT / scale
 
 
@@ -306,7 +295,7 @@ def _numbered(view: AssemblyView, share: Mapping[int, tuple[complex, ...]], scal
 
 def _body(view: AssemblyView, scale: float) -> Box:
     """The view alone with the marks of its section, mm on paper."""
-    points = scale * _points(view.drawn)
+    points = scale * points_of(view.drawn.strokes)
     off = _OUT + _MARK if view.marked else 0.0
     return Box(points.real.min() - off, points.imag.min(), points.real.max() + off, points.imag.max())
 

@@ -7,9 +7,10 @@ or in its plane; teeth are circles (GOST 2.402).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from itertools import pairwise
+from typing import TypeVar
 
 import numpy as np
 
@@ -27,6 +28,7 @@ from parts.drawing.working import AXIS, VISIBLE
 _PARALLEL, _SAME, _DIGITS = 1e-9, 1e-6, 6
 # places that are tried for a leader's end, across a part
 _GRID, _FEW, _ENOUGH = 17, 12, 48
+T = TypeVar("T")
 Stroke = tuple[str, Curve]
 Spot = tuple[complex, float]
 
@@ -42,8 +44,7 @@ class Shown(Record):
     @property
     def axis(self) -> tuple[float, float, float]:
         """Its axis in the view."""
-        (_, _, x), (_, _, y), (_, _, z) = self.place.rotation
-        return x, y, z
+        return self.place.z
 
     @property
     def centre(self) -> complex:
@@ -74,9 +75,8 @@ class Shown(Record):
 
     def faced(self) -> tuple[Sketch, Placement2]:
         """The sketch of one that stands, its upper side to the viewer, and how its plane lies in the view's."""
-        (x, _, _), (y, _, _), _ = self.place.rotation
         sketch = self.sketch if self.axis[2] > 0 else self.sketch.turned_over()
-        return sketch, Placement2(math.atan2(y, x), self.centre)
+        return sketch, Placement2(self.place.turn, self.centre)
 
     @property
     def along(self) -> complex:
@@ -134,7 +134,7 @@ def along_axes(shown: Sequence[Shown]) -> Drawn:
             if other is not cover:
                 found = found[~other.hides(found, cover.top(found))]
         spots[one.part] = (*spots.get(one.part, ()), *_farthest(found, lines.room(found, one.centre, cover.reach[0])))
-    return Drawn(_once(strokes), (), _once_each(axes), spots)
+    return Drawn(_once(strokes, _stroke_place), (), _once(axes, _place), spots)
 
 
 class _Cover(Record, dict=True):
@@ -348,23 +348,19 @@ def cut(shown: Sequence[Shown]) -> Drawn:
     lines = _Lines(strokes)
     spots = {part: _farthest(*_within(loops, lines)) for part, loops in filled.items()}
     hatched = tuple(tuple(loops) for loops in hatches.values() if loops)
-    return Drawn(_once(strokes), hatched, _once_each(axes), spots)
+    return Drawn(_once(strokes, _stroke_place), hatched, _once(axes, _place), spots)
 
 
-def _once(strokes: Sequence[Stroke]) -> tuple[Stroke, ...]:
+def _once(lines: Sequence[T], place: Callable[[T], object]) -> tuple[T, ...]:
     """Lines without those that lie on one another: edges of several heights or parts are one line of the view."""
-    found: dict[tuple[object, ...], Stroke] = {}
-    for layer, curve in strokes:
-        found.setdefault((layer, *_place(curve)), (layer, curve))
+    found: dict[object, T] = {}
+    for line in lines:
+        found.setdefault(place(line), line)
     return tuple(found.values())
 
 
-def _once_each(axes: Sequence[Line]) -> tuple[Line, ...]:
-    """The same of axes."""
-    found: dict[tuple[object, ...], Line] = {}
-    for axis in axes:
-        found.setdefault(_place(axis), axis)
-    return tuple(found.values())
+def _stroke_place(stroke: Stroke) -> tuple[object, ...]:
+    return stroke[0], *_place(stroke[1])
 
 
 def _place(curve: Curve) -> tuple[object, ...]:

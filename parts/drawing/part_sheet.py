@@ -10,7 +10,7 @@ from itertools import product
 import numpy as np
 
 from geometry.base.record import Record, replace
-from geometry.curves.curve import Curve
+from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_curve
 from parts.base.texts import N_, fault, unless
@@ -21,7 +21,7 @@ from parts.drawing.dimensioning import Laid, laid, moved, rough_sign
 from parts.drawing.expected import Expected
 from parts.drawing.readback import ReadSheet
 from parts.drawing.title_block import TITLE_BLOCK, turned_box
-from parts.drawing.working import PartDrawing, View, number_text
+from parts.drawing.working import PartDrawing, Stroke, View, number_text
 from parts.texts.sheets import sheet_words
 
 # from line to line of requirements; room for the sign of roughness; mm
@@ -178,10 +178,8 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
     forms: Sequence[Block | None] = data or [None]
     corners = [_Corner(tuple(lines), block, sign, has_signs) for block in forms]
     row = sorted(drawing.views, key=lambda view: not view.from_right)
-    size = _extent(drawing.views[0])
-
-    extent = max(size)
-    needed = _LEAST_SMALL / extent if extent < _LEAST_SMALL else min(1.0, _LEAST / extent)
+    size = extent(drawing.views[0].strokes)
+    needed = _LEAST_SMALL / max(size) if max(size) < _LEAST_SMALL else min(1.0, _LEAST / max(size))
     least = next((s for s in reversed(SCALES) if s >= needed), SCALES[0])
 
     @cache
@@ -222,9 +220,14 @@ def part_sheet(drawing: PartDrawing, data: Sequence[Block], roughness: float, as
     return Expected(canvas, Paper(scale, shifts[0]), (), measures=PartMeasures(canvas, tuple(outlines)))
 
 
-def _extent(view: View) -> tuple[float, float]:
-    """Width and height of a view, model mm."""
-    points = np.concatenate([c.point(np.linspace(*c.domain, 33)) for _, c in view.strokes])
+def points_of(strokes: Sequence[Stroke]) -> Complex:
+    """Points all along the lines of a view."""
+    return np.concatenate([c.point(np.linspace(*c.domain, 33)) for _, c in strokes])
+
+
+def extent(strokes: Sequence[Stroke]) -> tuple[float, float]:
+    """Width and height of what they show, model mm."""
+    points = points_of(strokes)
     return float(np.ptp(points.real)) or 1.0, float(np.ptp(points.imag)) or 1.0
 
 
@@ -232,7 +235,7 @@ def _laid(view: View, scale: float, asked: Asked) -> Laid | None:
     """A view, of its own scale where it would be too small, or where its letters find room at a larger one only;
     its title tells that.
     """
-    needed = max(scale, view.least / max(_extent(view))) if view.least else scale
+    needed = max(scale, view.least / max(extent(view.strokes))) if view.least else scale
     own = next((s for s in reversed(SCALES) if s >= needed), SCALES[0])
     larger = [s for s in reversed(SCALES) if own < s <= _LARGER * own] if view.title else []
     for one in (own, *larger):

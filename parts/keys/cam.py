@@ -158,6 +158,11 @@ def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
     return follower_motion(with_joins(made, closed=True))
 
 
+def stroke_quantity(lift: float, *, swings: bool) -> dict[str, float]:
+    """A follower's travel, mm or rad, under its key."""
+    return {"swing_deg": math.degrees(lift)} if swings else {"lift": lift}
+
+
 def table_quantities(motion: FollowerMotion, *, swings: bool) -> dict[str, float]:
     """How far a smoothed motion leaves the rows of its table, mm or degrees; nothing of another one."""
     if motion.left_rows is None:

@@ -67,7 +67,7 @@ class BevelMating(Touching):
         one, other = self.pair.gears
         seen = first.inverse() @ second
         apex = seen.apply(np.array([0.0, 0.0, other.mounting_distance])) - np.array([0.0, 0.0, one.mounting_distance])
-        x, y, z = (row[2] for row in seen.rotation)
+        x, y, z = seen.z
         direction = cmath.phase(complex(-x, -y))
         _, right = self.second_pose(0j, 0.0, direction)
         off = Placement3.towards(self.second_axis(direction), right).inverse() @ seen

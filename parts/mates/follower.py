@@ -36,6 +36,11 @@ class CamFollowerSpec(MateKeys, tag="cam_follower", kw_only=True):
     height: Annotated[float, height("how far the follower's lower face stands above the cam's", 10_000)] = 0.0
 
 
+def travelled(travel: float, *, swings: bool) -> dict[str, Any]:
+    """How far a follower moves, mm, or rad of one that swings."""
+    return {"travel": math.degrees(travel) if swings else travel, "unit": "deg" if swings else "mm"}
+
+
 class CamFollowerMating(Touching):
     """A disk cam and its follower, or the roller of it; in a groove it stands at the inner wall."""
 
@@ -79,10 +84,8 @@ class CamFollowerMating(Touching):
 
     def quantities(self) -> dict[str, Any]:
         """How far the follower moves, and its play in a groove, mm."""
-        low, high = self.cam.motion.extremes()
-        travel = math.degrees(high - low) if self.cam.swings else high - low
         play = {} if self.groove is None else {"roller_clearance": self.groove.clearance}
-        return {"travel": travel, "unit": "deg" if self.cam.swings else "mm", **play}
+        return travelled(self.cam.motion.lift, swings=self.cam.swings) | play
 
 
 class LinkageFollowerMating(CamFollowerMating):
@@ -102,13 +105,6 @@ class LinkageFollowerMating(CamFollowerMating):
         off = (second[0] - place) * abs(way) / way
         lean = 0.0 if self.end.outline is None else math.remainder(second[1] - turned, 2 * math.pi) * self.module
         return Standing(direction, self.distance + math.hypot(off.imag, lean), off.real, 0.0, slides=True)
-
-    def quantities(self) -> dict[str, Any]:
-        """How far the driven member moves."""
-        travel = self.cam.motion.lift
-        if self.cam.swings:
-            return {"travel": math.degrees(travel), "unit": "deg"}
-        return {"travel": travel, "unit": "mm"}
 
 
 class CamFollower(MateKind[CamFollowerSpec, "DiskCam | GrooveDisk", "FollowerEnd"]):

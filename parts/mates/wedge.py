@@ -13,7 +13,7 @@ from geometry.base.record import replace
 from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Touching
 from parts.keys.base import mm
 from parts.keys.mate import height
-from parts.mates.follower import FOLLOWERS, check_end, check_mount, check_plate, check_sense, touches
+from parts.mates.follower import FOLLOWERS, check_end, check_mount, check_plate, check_sense, touches, travelled
 from parts.mates.sizes import same_as_cam
 
 if TYPE_CHECKING:
@@ -96,10 +96,8 @@ class WedgeMating(Touching):
         """How far the follower moves, and where the plate stands, mm."""
         from geometry.cams.plane.wedge import Swinging
 
-        low, high = self.cam.motion.extremes()
         swings = isinstance(self.cam.mount, Swinging)
-        moved = math.degrees(high - low) if swings else high - low
-        return {"travel": moved, "unit": "deg" if swings else "mm", "plate_travel": self.travel}
+        return travelled(self.cam.motion.lift, swings=swings) | {"plate_travel": self.travel}
 
 
 class WedgeFollower(MateKind[WedgeFollowerSpec, "WedgeCam", "FollowerEnd"]):

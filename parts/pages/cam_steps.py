@@ -111,6 +111,10 @@ class Phases(Record):
         """The phase's angle in degrees, or its travel in mm."""
         return phase.angle if self.slides else as_typed(math.degrees(phase.angle))
 
+    def stroke(self, lift: float) -> float:
+        """A lift or swing, in mm or degrees."""
+        return as_typed(math.degrees(lift) if self.swings else lift)
+
     def data(self) -> list[dict[str, object]]:
         """For json."""
         key = "travel" if self.slides else "angle_deg"
@@ -136,10 +140,7 @@ def as_typed(value: float) -> float:
 
 def phase_steps(page: Sheet, phases: Phases) -> None:
     """Lift or swing, and the angle or travel of every phase."""
-    if phases.swings:
-        page.add("swing_deg", as_typed(math.degrees(phases.lift)))
-    else:
-        page.add("lift", as_typed(phases.lift))
+    page.add("swing_deg" if phases.swings else "lift", phases.stroke(phases.lift))
     if phases.left_rows is not None:
         unit = math.degrees(1.0) if phases.swings else 1.0
         page.add("table_deviation_deg" if phases.swings else "table_deviation", phases.left_rows * unit)
@@ -167,10 +168,7 @@ def coefficient_steps(page: Sheet, phases: Phases) -> None:
         law, h = phase.law.name, abs(phase.lift)
         page.section(titles[name], law=law_text(law))
         page.add(phases.term(name), phases.size(phase), key="phi")
-        if phases.swings:
-            page.add("swing_of_phase_deg", as_typed(math.degrees(h)))
-        else:
-            page.add("lift_of_phase", as_typed(h))
+        page.add("swing_of_phase_deg" if phases.swings else "lift_of_phase", phases.stroke(h))
         speed, bend = (max(map(abs, phase.law.peak(order))) for order in (1, 2))
         page.add("velocity_coefficient", speed)
         page.add("acceleration_coefficient", bend)

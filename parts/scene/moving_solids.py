@@ -129,7 +129,7 @@ class _Space:
         """One pair: at first what both sweep about their own axes, which needs few poses, then the solids."""
         lift = lift_between(pair, self.course)
         own = (self.shapes[pair[0].part], self.shapes[pair[1].part])
-        if lift is not None and _pass_by(own, lift):
+        if lift is not None and pass_by(own, lift):
             return
         spins = [i.id in self.course.spins and self.shapes[i.part].count(0.0, math.inf) > 0 for i in pair]
         if any(spins) and not is_mated and self._sweeps_past(found, pair, (spins[0], spins[1])):
@@ -214,7 +214,7 @@ def hold(
     """Hold one pair, unless one alike was clear."""
     one, two = pair
     lift = two.at[2] - one.at[2]
-    if _pass_by(shapes, lift):
+    if pass_by(shapes, lift):
         return
     path = path_of(pair, shapes, course)
     if path is None:
@@ -243,7 +243,7 @@ def hold(
         found.uncovered.append(replace(uncovered, first=one.id, second=two.id))
 
 
-def _pass_by(shapes: tuple[Shape, Shape], lift: float) -> bool:
+def pass_by(shapes: tuple[Shape, Shape], lift: float) -> bool:
     """Whether the second, so far above the first, has no height in common with it, mm; rounding is none."""
     return min(shapes[0].high, shapes[1].high + lift) - max(shapes[0].low, shapes[1].low + lift) <= _NO_HEIGHT
 

@@ -280,10 +280,10 @@ def _frame(here: Instance) -> Placement3:
 def _placed_so(instance: Instance, found: Placement3) -> Instance:
     """An instance whose frame stands so."""
     # rounding of what is straight would turn it another way
-    way = [0.0 if abs(row[2]) < _STRAIGHT else row[2] for row in found.rotation]
+    way = [0.0 if abs(share) < _STRAIGHT else share for share in found.z]
     x, y, z = (value / math.hypot(*way) for value in way)
-    (cosine, *_), (sine, *_), _ = (Placement3.towards((x, y, z), 0.0).inverse() @ found).rotation
-    return replace(instance, at=found.translation, rotation=math.atan2(sine, cosine), axis=(x, y, z))
+    turn = (Placement3.towards((x, y, z), 0.0).inverse() @ found).turn
+    return replace(instance, at=found.translation, rotation=turn, axis=(x, y, z))
 
 
 def seen_from(first: Instance, second: Instance) -> tuple[Instance, Instance]:
@@ -347,7 +347,7 @@ def _lean(mating: Mating, first: Instance, second: Instance) -> Condition | None
     if second.axis == wanted == UPWARDS:
         return None
     seen = Placement3.towards(wanted, 0.0).inverse() @ second.scene_from_part
-    x, y, z = (row[2] for row in seen.rotation)
+    x, y, z = seen.z
     angle, allowed = math.degrees(math.atan2(math.hypot(x, y), z)), math.degrees(_SAME_AXIS)
     return Condition("shaft_angle", angle, 0.0, allowed, angle <= allowed)
 

@@ -26,7 +26,7 @@ from geometry.kinematics.mechanism import FRAME, Fixed, Group, Prismatic, Revolu
 from geometry.kinematics.moving import Drive
 from parts.scene.half_sections import Sections
 from parts.scene.interference import common_volume
-from parts.scene.moving_solids import Clear, Meeting, MotionFound, Uncovered, hold
+from parts.scene.moving_solids import Clear, Meeting, MotionFound, Uncovered, hold, pass_by
 from parts.scene.placing import Placing
 from parts.scene.relative_path import Course, common_period, course_of
 from parts.scene.shapes import LyingShape, Shape, free_between
@@ -105,7 +105,7 @@ def workspace_found(
         if {one, two} <= lying.keys() and sections.between(placed[one], placed[two]) is not None:
             found.rest["round"].append((one, two))
             continue
-        if not _at_one_height(pair, (made[one], made[two])):
+        if pass_by((made[one], made[two]), pair[1].at[2] - pair[0].at[2]):
             found.rest["height"].append((one, two))
             continue
         seen = _Seen(pair, (waves[one], waves[two]), (made[one], made[two]))
@@ -134,16 +134,11 @@ def never_meeting(placing: Placing, shapes: Mapping[str, Shape], contact: set[fr
         ends, made = [i.id for i in pair], (shapes[pair[0].part], shapes[pair[1].part])
         if bodies(ends[0]) == bodies(ends[1]) or all(slabs[i.part] for i in pair) or frozenset(ends) in contact:
             continue
-        if _at_one_height(pair, made):
+        if not pass_by(made, pair[1].at[2] - pair[0].at[2]):
             seen = _Seen(pair, (waves[ends[0]], waves[ends[1]]), made)
             if seen.moves and _why_not(seen, done, sections, is_mated=False) is not None:
                 found.add(frozenset(ends))
     return found
-
-
-def _at_one_height(pair: tuple[Instance, Instance], shapes: tuple[Shape, Shape]) -> bool:
-    (one, two), lift = shapes, pair[1].at[2] - pair[0].at[2]
-    return one.high > two.low + lift and two.high + lift > one.low
 
 
 def uneven(train: Train, key: str) -> bool:

@@ -102,6 +102,12 @@ class PieceMotion:
         found = [p.value(p.extremes(order), order) for p in self.pieces]
         return float(min(v.min() for v in found)), float(max(v.max() for v in found))
 
+    @property
+    def lift(self) -> float:
+        """H: greatest minus least S."""
+        low, high = self.extremes()
+        return high - low
+
     def joints(self) -> tuple[Joint, ...]:
         """Every joint of two pieces; the first stands between the last piece and the first."""
         return _joints(self.pieces)
@@ -148,12 +154,6 @@ class FollowerMotion(PieceMotion, Record, dict=True):
         """Least and greatest S^(order) (finite parts)."""
         values = self.stack.at(*self.stack.extremes(order), order)
         return float(values.min()), float(values.max())
-
-    @property
-    def lift(self) -> float:
-        """H: greatest minus least S."""
-        low, high = self.extremes()
-        return high - low
 
     def moving_pieces(self, kind: PhaseKind | None = None) -> list[LawPiece]:
         """Pieces that are no dwell; those of rises or returns only where ``kind`` says so (by the sign of S')."""

@@ -91,6 +91,6 @@ def yoke_breadth(cam: DiskCam) -> float:
         raise ParameterError("follower_offset", cam.mount.offset, "yoke_without_offset", Nearest(0.0))
     error = breadth_error(cam.motion)
     low, high = cam.motion.extremes()
-    if not error <= _BREADTH * (high - low):
-        raise ParameterError("motion", high - low, "breadth_not_constant", error=error)
+    if not error <= _BREADTH * cam.motion.lift:
+        raise ParameterError("motion", cam.motion.lift, "breadth_not_constant", error=error)
     return 2 * cam.mount.start_height + low + high

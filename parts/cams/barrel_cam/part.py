@@ -28,7 +28,15 @@ from parts.cams.barrel_cam.roller import (
 )
 from parts.cams.disk_cam.part import impact_findings
 from parts.keys.barrel import BarrelCamSpec, SwingingTable
-from parts.keys.cam import LAW_AT_REST, USUAL_PRESSURE_ANGLE, check_stroke, motion_of, rough_law, table_quantities
+from parts.keys.cam import (
+    LAW_AT_REST,
+    USUAL_PRESSURE_ANGLE,
+    check_stroke,
+    motion_of,
+    rough_law,
+    stroke_quantity,
+    table_quantities,
+)
 from parts.keys.holes import bore_of, check_shape, hub_holes, wide_bore
 
 if TYPE_CHECKING:
@@ -281,14 +289,12 @@ def _quantities(keys: BarrelCamSpec, body: BarrelBody) -> dict[str, float]:
         found["cone_angle_deg"] = math.degrees(2 * math.atan(cam.taper))
         found["roller_floor_diameter"] = keys.roller_diameter - 2 * cam.taper * (cam.outer - cam.inner)
     found["roller_sliding"] = cam_sliding(cam)
+    found |= stroke_quantity(cam.motion.lift, swings=isinstance(cam.guide, SwingGuide))
     if isinstance(cam.guide, SwingGuide):
-        found["swing_deg"] = math.degrees(cam.motion.lift)
         found["arm_length"] = cam.guide.arm_length
         found["pivot_offset"] = cam.guide.pivot_offset
         found["pivot_height"] = cam.guide.pivot_height
         found["start_inclination_deg"] = math.degrees(cam.guide.start_angle)
-    else:
-        found["lift"] = cam.motion.lift
     found |= table_quantities(cam.motion, swings=isinstance(cam.guide, SwingGuide))
     found["start_height"] = float(cam.place(0.0, 0)[0].imag)
     for kind in (PhaseKind.RISE, PhaseKind.RETURN):

@@ -36,6 +36,7 @@ from parts.keys.cam import (
     check_stroke,
     motion_of,
     stroke_key,
+    stroke_quantity,
     table_quantities,
     turn,
 )
@@ -224,8 +225,7 @@ def _quantities(keys: LinkageCamSpec, cam: LinkageCam) -> dict[str, float]:
     """Named results: sizes in mm, angles in degrees."""
     from geometry.cams.plane.synthesis import least_convex_radius
 
-    travel = math.degrees(cam.motion.lift) if cam.swings else cam.motion.lift
-    found = {"swing_deg" if cam.swings else "lift": travel} | table_quantities(cam.motion, swings=cam.swings)
+    found = stroke_quantity(cam.motion.lift, swings=cam.swings) | table_quantities(cam.motion, swings=cam.swings)
     if cam.radius > 0:
         found["follower_radius"] = cam.radius
     found |= pressure_angles(cam)

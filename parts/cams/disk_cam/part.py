@@ -40,6 +40,7 @@ from parts.keys.cam import (
     check_stroke,
     motion_of,
     rough_law,
+    stroke_quantity,
     table_quantities,
     turn,
 )
@@ -455,11 +456,8 @@ def cam_quantities(spec: CamSpec, cam: DiskCam) -> dict[str, float]:
     """Named results of a cam: sizes in mm, angles in degrees."""
     from geometry.cams.plane.synthesis import least_convex_radius
 
-    found: dict[str, float] = {}
-    if spec.oscillating is None:
-        found["lift"] = cam.motion.lift
-    else:
-        found["swing_deg"] = math.degrees(cam.motion.lift)
+    found = stroke_quantity(cam.motion.lift, swings=cam.swings)
+    if cam.swings:
         found["start_angle_deg"] = math.degrees(cam.swing.start_angle)
     found |= table_quantities(cam.motion, swings=cam.swings)
     if cam.radius > 0:

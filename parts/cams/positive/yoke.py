@@ -210,14 +210,13 @@ class Yoke(Kind[YokeFrameSpec, YokeFrame]):
             breadth = yoke_breadth(cam)
         except ParameterError as refusal:
             raise ParameterError("of", keys.of, refusal.code, **refusal.numbers) from refusal
-        low, high = cam.motion.extremes()
         # the upper face or roller follows S, the lower one stands a breadth below it
         middle = cam.slide.start_height - (breadth / 2)
         # the cam turns through every direction: all of it must pass beside
         reach = path_reach(cam) - cam.radius if not cam.is_flat else _flat_reach(cam)
         thickness = keys.thickness or owner.face_width
         frame = YokeFrame(cam, breadth + keys.clearance, middle, reach + keys.side_clearance, thickness, keys.clearance)
-        return _with_stem(keys, frame if cam.is_flat else _with_pins(keys, frame, high - low))
+        return _with_stem(keys, frame if cam.is_flat else _with_pins(keys, frame, cam.motion.lift))
 
     def section(self, keys: YokeFrameSpec, thing: YokeFrame, offset: float) -> OffsetRegion:
         """Frame with its window, or plate with pin holes and slot."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -22,6 +22,11 @@ _PLANES = 91
 _ONE = 0.7
 
 
+def from_pivot(pivot: complex, arm: complex, sense: int) -> Callable[[complex], complex]:
+    """From the pivot's frame, whose x axis is the lowest ``arm`` and whose axis of the cam stands above."""
+    return lambda point: pivot + arm * (point if sense > 0 else point.conjugate())
+
+
 def rocker_region(
     picture: CamPicture,
 ) -> tuple[complex, complex, float, tuple[tuple[complex, complex], ...]] | None:
@@ -33,12 +38,8 @@ def rocker_region(
         best = rocker_base(cam.motion, mount.centre_distance, mount.sense, mount.face_offset, radius)
     except GeometryError:
         return None
-    pivot, direction = complex(mount.centre_distance), cmath.exp(1j * (math.pi - mount.sense * mount.start_angle))
-
-    def placed(point: complex) -> complex:
-        """From the pivot's frame, whose x axis is the lowest arm and whose axis of the cam stands above."""
-        return pivot + direction * (point if mount.sense > 0 else point.conjugate())
-
+    pivot = complex(mount.centre_distance)
+    placed = from_pivot(pivot, cmath.exp(1j * (math.pi - mount.sense * mount.start_angle)), mount.sense)
     planes = []
     for piece in cam.motion.pieces:
         # where it rests one position tells of all

@@ -122,8 +122,7 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) 
         name_joint(labels, picture, joint, page.joint, window, by_hand=asked.by_hand)
     elif swing is not None and page.joint is not None:
         name_swing(labels, picture, swing, page.joint, by_hand=asked.by_hand)
-    low, high = picture.cam.motion.extremes(0)
-    lift = scales.lift, (high - low) * picture.unit
+    lift = scales.lift, picture.cam.motion.lift * picture.unit
     # what students draw cannot be measured yet
     return [
         Expected(one.canvas, paper, tuple(one.circles), one.curves,

@@ -18,7 +18,7 @@ from geometry.curves.line_arc import Arc
 from parts.cams.sheets.diagrams import Drawn
 from parts.cams.sheets.joint import angle_text, name_asked
 from parts.cams.sheets.picture import CamPicture
-from parts.cams.sheets.rocker import draw_faces, faces_box, name_numbers, name_rocker, rocker_region
+from parts.cams.sheets.rocker import draw_faces, faces_box, from_pivot, name_numbers, name_rocker, rocker_region
 from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, Paper
 from parts.drawing.choice import Asked
 from parts.drawing.labels import Labeller
@@ -61,12 +61,7 @@ def swing_of(picture: CamPicture) -> Swing | None:
     except GeometryError:
         return None
     pivot, lowest = complex(mount.centre_distance, 0.0), complex(cam.reference_point(0.0))
-    direction = (lowest - pivot) / abs(lowest - pivot)
-
-    def placed(point: complex) -> complex:
-        """From the pivot's frame, whose x axis is the lowest arm and whose axis of the cam stands above."""
-        return pivot + direction * (point if mount.sense > 0 else point.conjugate())
-
+    placed = from_pivot(pivot, (lowest - pivot) / abs(lowest - pivot), mount.sense)
     planes = []
     for piece in cam.motion.moving_pieces():
         t = np.linspace(*piece.domain, _PLANES)
@@ -150,9 +145,7 @@ def _arms(picture: CamPicture) -> list[tuple[complex, complex]]:
 
 def _border(swing: Swing, window: Box) -> list[tuple[complex, complex]]:
     """Edges of the admissible region within the window, the region on their left."""
-    corners = [complex(window.left, window.low), complex(window.right, window.low), complex(window.right, window.high),
-               complex(window.left, window.high)]  # fmt: skip
-    polygon = corners
+    polygon = [*window.corners]
     for foot, normal in swing.planes:
         slack = [((p - foot) * normal.conjugate()).real for p in polygon]
         kept: list[complex] = []
@@ -170,7 +163,7 @@ def _border(swing: Swing, window: Box) -> list[tuple[complex, complex]]:
         middle = (a + b) / 2
         inner = min(middle.real - window.left, window.right - middle.real, middle.imag - window.low,
                     window.high - middle.imag)  # fmt: skip
-        if abs(b - a) > 1e-9 * abs(window.right - window.left) and inner > 1e-9:
+        if abs(b - a) > 1e-9 * window.wide and inner > 1e-9:
             edges.append((a, b))
     return edges
 

@@ -17,7 +17,16 @@ from geometry.plane.profile import Label, Profile, Region, circle
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
 from parts.keys.base import MOST_LENGTH, MadeKeys, part_mm, start
-from parts.keys.cam import LAW_AT_REST, USUAL_PRESSURE_ANGLE, Swing, check_dwell, check_stroke, rough_law, stroke_key
+from parts.keys.cam import (
+    LAW_AT_REST,
+    USUAL_PRESSURE_ANGLE,
+    Swing,
+    check_dwell,
+    check_stroke,
+    rough_law,
+    stroke_key,
+    stroke_quantity,
+)
 from parts.keys.law import LawTable, PhaseLaw, law_of, with_own_laws
 
 if TYPE_CHECKING:
@@ -326,8 +335,7 @@ def wedge_quantities(keys: WedgeCamSpec, cam: WedgeCam) -> dict[str, float]:
 
     from geometry.cams.plane.wedge import sharpest_crest
 
-    low, high = cam.motion.extremes()
-    found = {"swing_deg": math.degrees(high - low)} if keys.oscillating else {"lift": high - low}
+    found = stroke_quantity(cam.motion.lift, swings=keys.oscillating is not None)
     found["travel"] = cam.motion.travel
     if cam.radius > 0:
         found["follower_radius"] = cam.radius
@@ -347,7 +355,6 @@ def _greatest_pressure_angle(cam: WedgeCam) -> float:
 def wedge_findings(keys: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
     """Impacts where the velocity or the acceleration jumps, and a steep pressure angle."""
     found, pieces, swings = [], cam.motion.pieces, keys.oscillating is not None
-    low, high = cam.motion.extremes()
     for order, name in ((1, "rigid"), (2, "soft")):
         # the follower rests before and after the travel
         sides = [(float(p.value(p.start, order)), float(p.value(p.end, order))) for p in pieces]
@@ -356,7 +363,7 @@ def wedge_findings(keys: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
         places = [*(p.start for p in pieces), cam.motion.travel]
         jumps = [(abs(b - a), at) for a, b, at in zip(ends, starts, places, strict=True)]
         size, at = max(jumps)
-        if size > _JUMP * (high - low) / cam.motion.travel**order:
+        if size > _JUMP * cam.motion.lift / cam.motion.travel**order:
             code, unit = ("wedge_swung", math.degrees(1.0)) if swings else ("wedge", 1.0)
             found.append(Finding(f"{code}_{name}_impact", size * unit, at))
             break
