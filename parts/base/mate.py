@@ -92,22 +92,22 @@ class End(Record, Generic[A]):
 
 
 class Joined(Record):
-    """Which mate it is, and the two instances, the ``second`` placed by the ``first``."""
+    """Which mate it is, and the two instances; ``direction_deg``: from the first to the second as the scene has it."""
 
     kind: str
     first: str
     second: str
+    direction_deg: float
 
 
 class Mating(Joined, kw_only=True):
     """Two instances, the ``second`` placed by the ``first``; what most mates answer stands here.
 
-    ``direction_deg``: from the first to the second as the scene has it. ``height``: of the second's lower face above
-    the first's, mm. ``distance``: between the axes, or from the axis to a rack's datum line, mm. ``rolls``: as what
-    pair both roll on each other, if they do, with so many ``teeth``; ``sense``: -1, 1, 0: as that pair has it.
+    ``height``: of the second's lower face above the first's, mm. ``distance``: between the axes, or from the axis to a
+    rack's datum line, mm. ``rolls``: as what pair both roll on each other, if they do, with so many ``teeth``;
+    ``sense``: -1, 1, 0: as that pair has it.
     """
 
-    direction_deg: float = 0.0
     height: float = 0.0
     distance: float = 0.0
     rolls: Kind | None = None
@@ -264,9 +264,9 @@ class MateKind(Generic[K, A, B]):
         """Tip radius (mm) that it wants of each after thinning; the smallest wins, None: as it is."""
         return None, None
 
-    def joined(self, keys: K) -> tuple[str, str, str]:
-        """What a mating of it begins with: its name and both instances."""
-        return self.name, keys.first, keys.second
+    def joined(self, keys: K) -> tuple[str, str, str, float]:
+        """What a mating of it begins with: its name, both instances, and their direction, where its keys have one."""
+        return self.name, keys.first, keys.second, getattr(keys, "direction_deg", 0.0)
 
     def mating(self, keys: K, first: End[A], second: End[B]) -> Mating:
         """How both stand to each other, with the parts as they are built at last."""

@@ -109,7 +109,6 @@ class BeltDriveKind(MateKind[BeltDriveSpec, "Pulley", "Pulley"]):
         above = one.middle - two.middle if keys.height is None else keys.height
         return BeltMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=above,
             distance=mesh.centre_distance,
             module=one.belt.pitch / math.pi,

@@ -147,7 +147,6 @@ class BevelPairKind(GearPair[BevelPairSpec, "BevelGear", "BevelGear"]):
         distances = first.thing.mounting_distance, second.thing.mounting_distance
         return BevelMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=distances[0] - distances[1] * math.cos(angle),
             distance=distances[1] * math.sin(angle),
             module=first.thing.module,

@@ -123,7 +123,6 @@ class ChainDriveKind(MateKind[ChainDriveSpec, "Sprocket", "Sprocket"]):
         above = (one.face_width - two.face_width) / 2 if keys.height is None else keys.height
         return ChainMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=above,
             distance=mesh.centre_distance,
             module=one.chain.pitch / math.pi,

@@ -178,7 +178,6 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
         angle = pair.shaft_angle
         return CrossedMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=pair.feet[0] - pair.feet[1] * math.cos(angle),
             distance=pair.working_centre_distance,
             module=pair.normal_module,

@@ -217,7 +217,6 @@ class CycloidalPair(MateKind[CycloidalPairSpec, "PinRing", "CycloidalDisc"]):
         beside = ring.pins == "holes"
         return CycloidalMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=(ring.face_width if beside else 0.0) if keys.height is None else keys.height,
             distance=disc.eccentricity,
             module=disc.pin_diameter / 2,
@@ -273,7 +272,6 @@ class OutputPins(MateKind[OutputPinsSpec, "CycloidalDisc", "PinPlate"]):
         same_size("pin_circle_diameter", *circles, "not_of_the_holes")
         return OutputMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=-plate.thickness if keys.height is None else keys.height,
             distance=disc.eccentricity,
             module=plate.pin_radius,

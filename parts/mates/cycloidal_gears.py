@@ -106,7 +106,6 @@ class CycloidalGearPair(GearPair[CycloidalGearPairSpec, "CycloidalGear", "Cycloi
         gears = CycloidalPair(one, two)
         return CycloidalGearMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             distance=gears.centre_distance,
             module=one.module,
             rolls="external",

@@ -170,7 +170,6 @@ class FaceGearPairKind(GearPair[FaceGearPairSpec, "FaceGear", "SpurGear"]):
         pair = FacePair(gear, pinion, middle - width / 2, middle + width / 2, hub)
         return FaceMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=gear.mounting_distance,
             distance=middle + width / 2,
             module=gear.module,

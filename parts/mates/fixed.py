@@ -165,7 +165,7 @@ class Fixed(MateKind[FixedSpec, Any, Any]):
 
 def _fixed(name: str, keys: MateKeys, offset: complex, height: float, rotation: float = 0.0) -> FixedMating:
     return FixedMating(
-        name, keys.first, keys.second, height=height, distance=abs(offset), offset=offset, rotation=rotation
+        name, keys.first, keys.second, 0.0, height=height, distance=abs(offset), offset=offset, rotation=rotation
     )
 
 

@@ -131,7 +131,6 @@ class CamFollower(MateKind[CamFollowerSpec, "DiskCam | GrooveDisk", "FollowerEnd
         _check_reach(cam, end)
         return (LinkageFollowerMating if carried else CamFollowerMating)(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=keys.height,
             distance=distance,
             module=lowest,

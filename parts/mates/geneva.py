@@ -82,7 +82,6 @@ class GenevaPair(MateKind[GenevaPairSpec, "GenevaDriver", "GenevaWheel"]):
             above += max(driver.width - width, 0.0) / 2 if driver.piece != "plate" else 0.0
         return GenevaMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=above,
             distance=drive.centre_distance,
             module=driver.pin_radius,

@@ -284,7 +284,6 @@ class InvolutePair(GearPair[K, A, B], Generic[K, A, B, M]):
         pair = self.paired(first, second, distance)
         return self.mated(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             distance=pair.working_centre_distance,
             rolls=self.rolls,
             teeth=(first.thing.number_of_teeth, second.thing.number_of_teeth),

@@ -93,7 +93,6 @@ class LanternPair(MateKind[LanternPairSpec, "PinPlate", "LanternGear"]):
                 height += (lantern.length - gear.face_width) / 2
         return LanternMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=height,
             distance=gear.centre_distance,
             module=gear.pin_diameter / 2,

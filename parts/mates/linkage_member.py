@@ -83,7 +83,6 @@ class LinkageMember(MateKind[LinkageMemberSpec, "LinkageCam", Any]):
             same_as_cam("arm_length", second.thing.arm_length, length, "linkage_has_another")
         return LinkageMemberMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=keys.height,
             distance=abs(_pose(cam, keys.member, 0.0)[0]),
             # the distance of the lowest reference point from the axis

@@ -94,7 +94,6 @@ class NoncircularGearPair(GearPair[NoncircularGearPairSpec, "NoncircularGear", "
         gears = NoncircularPair(first.thing, second.thing)
         return NoncircularMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             distance=gears.centre_distance,
             module=gears.first.module,
             # of whole turns: the mean of a ratio that changes

@@ -142,7 +142,6 @@ class CamYoke(MateKind[CamYokeSpec, "DiskCam", "YokeFrame"]):
             raise ParameterError("of", None, "made_from_another_cam")
         return YokeMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=keys.height,
             module=_lowest(cam),
             normal_backlash=frame.play,

@@ -122,7 +122,9 @@ class WedgeFollower(MateKind[WedgeFollowerSpec, "WedgeCam", "FollowerEnd"]):
         if end.reach is not None and end.arm_length is None:
             check_plate(end, _least_plate(cam))
         return WedgeMating(
-            *self.joined(keys),
+            self.name,
+            keys.first,
+            keys.second,
             direction_deg=90.0,
             height=keys.height,
             # to the pivot; a stem and a roller have none

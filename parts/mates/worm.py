@@ -144,7 +144,6 @@ class WormPair(MateKind[WormPairSpec, "WheelThing", "WormBody"]):
         errors = AxisErrors(keys.centre_distance_error, angle, keys.wheel_axial_error)
         return WormMating(
             *self.joined(keys),
-            direction_deg=keys.direction_deg,
             height=first.thing.teeth.width / 2 - errors.axial,
             distance=drive.centre_distance + errors.centre_distance,
             module=worm.module,
