@@ -31,8 +31,9 @@ _SETTLED, _ENOUGH, _MOST = 1e-12, 1e-9, 4
 _ROUNDING = 2e-14
 # a tube is far wider than what a face has of it is off the axis, by this
 _FAR = 3.0
-# integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz
-_TERMS = 10
+# integrals of 1, x, y, z, and of xx, yy, xy, zz, xz, yz, told by both factors; their parts of what flows through
+_SQUARES = [0, 1, 0, 2, 0, 1], [0, 1, 1, 2, 2, 2]
+_PARTS = np.repeat([3.0, 4.0, 5.0], [1, 3, 6])
 
 
 def face_moments(solid: Solid) -> Moments:
@@ -120,43 +121,44 @@ def _samples(solid: Solid, edges: Edges, pieces: int) -> _Samples:
     return _Samples(points, steps, np.concatenate([[0.0], weights, [0.0]]), not isinstance(curve, Circular | Spline))
 
 
-def _terms(points: Real, normals: Real) -> Real:
-    """Of points and normals (..., 3) whose sizes are those of the surface elements: the integrands (..., 10)."""
+def _integrals(points: Real, normals: Real, weights: Real) -> Real:
+    """Over points and normals (..., 3), whose sizes are those of the surface elements, with weights (...): the ten."""
     (x, y, z), (a, b, c) = ((p[..., 0], p[..., 1], p[..., 2]) for p in (points, normals))
-    f = x * a + y * b + z * c
-    third, fourth, fifth = f / 3, f / 4, f / 5
-    found = np.empty((*f.shape, _TERMS))
-    parts = third, x * fourth, y * fourth, z * fourth, x * x * fifth, y * y * fifth, x * y * fifth
-    # quicker than a stack of all
-    for k, part in enumerate((*parts, z * z * fifth, x * z * fifth, y * z * fifth)):
-        found[..., k] = part
-    return found
+    flux = ((x * a + y * b + z * c) * weights).ravel()
+    places = np.array([x.ravel(), y.ravel(), z.ravel()])
+    first = places * flux
+    one, other = _SQUARES
+    # pairwise sums: a product of matrices rounds as the processor likes
+    sums = np.add.reduce(np.concatenate([flux[None], first, first[one] * places[other]]), axis=1)
+    return sums / _PARTS
 
 
 def _charted(chart: Chart, loops: list[list[_Run]], *, along: bool) -> Real:
-    total = np.zeros(_TERMS)
     across, weights = gauss_rule(_ACROSS if chart.is_bent else _FLAT)
-    base = _base(chart, loops)
-    for runs in loops:
-        for side in unrolled(chart, [run.points for run in runs], along=along):
+    base, inner = _base(chart, loops), slice(1, -1)
+    sides, runs, poles = [], [], []
+    for loop in loops:
+        for side in unrolled(chart, [run.points for run in loop], along=along):
             if side.run is None:
                 count = max(1, math.ceil(abs(side.u[-1] - side.u[0]) / _PIECE))
                 shares, steps = panels(np.linspace(0, 1, count + 1), _NODES)
-                u, v = side.u[0] + (side.u[-1] - side.u[0]) * shares, np.full(len(shares), side.v[0])
-                step = steps * (side.u[-1] - side.u[0])
+                length = side.u[-1] - side.u[0]
+                poles.append((side.u[0] + length * shares, np.full(len(shares), side.v[0]), steps * length))
             else:
-                run = runs[side.run]
-                u, v, inner = side.u, side.v, slice(1, -1)
-                x, y, _ = ((run.points - chart.origin) @ chart.axes.T).T
-                dx, dy, _ = (run.steps @ chart.axes.T).T
-                rate = dx[inner] if chart.is_plane else (x * dy - y * dx)[inner] / (x * x + y * y)[inner]
-                u, v, step = u[inner], v[inner], rate * run.weights[inner]
-            if not np.any(step):
-                continue
-            heights = base + (v[:, None] - base) * (1 + across) / 2
-            terms = _terms(*chart.with_normal(u[:, None], heights))
-            total -= np.einsum("kqt,q,k->t", terms, weights / 2, step * (v - base))
-    return total
+                run = loop[side.run]
+                sides.append((side.u[inner], side.v[inner]))
+                runs.append((run.points[inner], run.steps[inner], run.weights[inner]))
+    (u, v), (points, steps, shares) = (map(np.concatenate, zip(*rows, strict=True)) for rows in (sides, runs))
+    dx, dy, _ = (steps @ chart.axes.T).T
+    if not chart.is_plane:
+        x, y, _ = ((points - chart.origin) @ chart.axes.T).T
+        dx = (x * dy - y * dx) / (x * x + y * y)
+    u, v, step = map(np.concatenate, zip((u, v, dx * shares), *poles, strict=True))
+    # along a meridian nothing is swept
+    swept = step != 0
+    u, v, step = u[swept], v[swept], step[swept]
+    heights = base + (v[:, None] - base) * (1 + across) / 2
+    return -_integrals(*chart.with_normal(u[:, None], heights), (step * (v - base))[:, None] * (weights / 2))
 
 
 def _base(chart: Chart, loops: list[list[_Run]]) -> float:
@@ -180,7 +182,7 @@ def _ruled(runs: list[_Run]) -> Real:
     points = (1 - t) * low.points + t * high.points[::-1]
     steps = (1 - t) * low.steps - t * high.steps[::-1]
     normals = np.cross(steps, high.points[::-1] - low.points)
-    return np.einsum("tkf,t,k->f", _terms(points, normals), weights / 2, low.weights)
+    return _integrals(points, normals, (weights / 2)[:, None] * low.weights)
 
 
 def _patches(solid: Solid, surface: SplineSurface, *, along: bool) -> Real:
@@ -190,9 +192,9 @@ def _patches(solid: Solid, surface: SplineSurface, *, along: bool) -> Real:
         for degree, knots in zip(surface.degrees, (surface.u_knots, surface.v_knots), strict=True)
     ]
     (u, u_weights), (v, v_weights) = rules
-    total, block = np.zeros(_TERMS), max(1, _AT_ONCE // (len(u) * len(v)))
+    total, block = np.zeros(len(_PARTS)), max(1, _AT_ONCE // (len(u) * len(v)))
     for start in range(0, len(patch.poles), block):
         own = patch.rows(slice(start, start + block))
         normals = np.cross(own.at(u, v, (1, 0)), own.at(u, v, (0, 1)))
-        total += np.einsum("nijt,i,j->t", _terms(own.at(u, v), normals), u_weights, v_weights)
+        total += _integrals(own.at(u, v), normals, u_weights[:, None] * v_weights)
     return total if along else -total
