@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from geometry.base.errors import GeometryError, ParameterError
@@ -189,3 +190,19 @@ def exact_parameters(gear: SpurGear) -> GearParameters:
         relief_depth=tool.relief_depth,
         relief_height=tool.relief_height,
     )
+
+
+def distance_to_polygon(polygon: shapely.Polygon, points: np.ndarray) -> Real:
+    """From each shapely point to the boundary, edge by edge: a tree of edges finds them a hundred times sooner."""
+    edges = [np.stack([at[:-1], at[1:]], axis=1) for ring in (polygon.exterior, *polygon.interiors)
+             for at in [shapely.get_coordinates(ring)]]  # fmt: skip
+    tree = shapely.STRtree(shapely.linestrings(np.concatenate(edges)))
+    (places, _), far = tree.query_nearest(points, return_distance=True, all_matches=False)
+    assert (places == np.arange(len(points))).all()
+    return far
+
+
+def hausdorff(one: shapely.Polygon, two: shapely.Polygon) -> float:
+    """The farthest that a corner of the boundary of one is from that of the other, as shapely's own has it."""
+    pairs = ((one, two), (two, one))
+    return max(float(distance_to_polygon(a, shapely.points(shapely.get_coordinates(b))).max()) for a, b in pairs)

@@ -13,6 +13,7 @@ import msgspec
 
 from exporters.command.new import new_scene
 from parts.base.registry import KINDS
+from parts.base.schema import fields_of
 from parts.mates.registry import MATES
 from parts.scene.files import built_in_scenes
 
@@ -176,7 +177,7 @@ def _keys(raw: Raw) -> list[Place]:
         table = at(raw, owner)
         found += list(_leaves(table, owner))
         spec = KINDS[table["kind"]].keys if owner[0] == "parts" else MATES[table["kind"]].keys
-        found += [(*owner, f.encode_name) for f in msgspec.structs.fields(spec) if f.encode_name not in table]
+        found += [(*owner, key) for key in spec.__struct_encode_fields__ if key not in table]
     return [p for p in found if p[-1] not in ("material", "colour", "title", "kind")]
 
 
@@ -184,7 +185,7 @@ def _limits(raw: Raw, place: Place) -> list[float]:
     """The ends of a key's range, and beyond them."""
     owner = at(raw, place[:2])
     spec = KINDS[owner["kind"]].keys if place[0] == "parts" else MATES[owner["kind"]].keys
-    field = next((f for f in msgspec.structs.fields(spec) if f.encode_name == place[2]), None)
+    field = next((f for f in fields_of(spec) if f.encode_name == place[2]), None)
     ends: list[float] = []
     stack = [field.type] if field is not None and len(place) == 3 else []
     while stack:

@@ -13,10 +13,10 @@ from textwrap import wrap
 from typing import Any
 
 from msgspec import Meta, Struct
-from msgspec.structs import FieldInfo, fields
+from msgspec.structs import FieldInfo
 
 from parts.base.registry import KINDS
-from parts.base.schema import described, example_of, is_open, own_first, phrase_of, tables_of
+from parts.base.schema import described, example_of, fields_of, is_open, own_first, phrase_of, tables_of
 from parts.base.texts import ENGLISH, N_, Words, words
 from parts.keys.sheet import SHEET_KEYS
 from parts.mates.registry import MATES
@@ -89,7 +89,7 @@ def new_scene(kind: str, language: str = ENGLISH) -> str:
         *_keys(own_first(KINDS[kind].keys), told, {"of": _SOURCE}),
         "",
         "[[exports]]",
-        *_keys([f for f in fields(ExportSpec) if f.encode_name not in SHEET_KEYS], told, {"format": formats[0]}),
+        *_keys([f for f in fields_of(ExportSpec) if f.encode_name not in SHEET_KEYS], told, {"format": formats[0]}),
         *(line for one in formats[1:] for line in ("", "[[exports]]", f'format = "{one}"')),
         *_several(kind, told),
     ]
@@ -131,7 +131,7 @@ def _head(told: Words) -> list[str]:
         f"# {told.text('An editor of TOML completes the keys after  {command}', command=_SCHEMA_COMMAND)}",
         "",
         "[scene]",
-        *_keys(fields(SceneInfo), told, {} if told.language == ENGLISH else {"language": told.language}),
+        *_keys(fields_of(SceneInfo), told, {} if told.language == ENGLISH else {"language": told.language}),
         "",
     ]
 
@@ -139,6 +139,7 @@ def _head(told: Words) -> list[str]:
 def new_mate(kind: str, language: str = ENGLISH) -> str:
     """The table of a kind of mate, to be put into a scene."""
     told, mate = words(language), MATES[kind]
+    keys: type[Struct] = mate.keys
     who = told.text("any two instances")
     if mate.joins is not None:
         pairs = (told.text("{first} and {second}", first=a, second=b) for a, b in mate.joins)
@@ -152,7 +153,7 @@ def new_mate(kind: str, language: str = ENGLISH) -> str:
         *whole,
         "[[mates]]",
         f'kind = "{kind}"',
-        *_keys(fields(mate.keys), told, {"first": _OWN, "second": _OTHER}),
+        *_keys(fields_of(keys), told, {"first": _OWN, "second": _OTHER}),
     ]
     return "\n".join(lines) + "\n"
 
@@ -184,9 +185,9 @@ def topic_keys(topic: str, keys: type[Struct], others: Iterable[tuple[str, str]]
     ``others``: keys that choose another kind of part, and that kind.
     """
     told = words(language)
-    tables = {f.encode_name: f.type for f in fields(keys) if isinstance(f.type, type) and issubclass(f.type, Struct)}
+    tables = {f.encode_name: f.type for f in fields_of(keys) if isinstance(f.type, type) and issubclass(f.type, Struct)}
     parts = {name: str(tag) for name, table in tables.items() if (tag := table.__struct_config__.tag) in KINDS}
-    inner = {name: _keys(fields(table), told) for name, table in tables.items() if name not in parts}
+    inner = {name: _keys(fields_of(table), told) for name, table in tables.items() if name not in parts}
     typed = N_("Each is typed as key=value, without blanks. Lines that begin with # show defaults or examples.")
     lines = [
         f"# {told.text('Keys of {command}.', command=f'higherpair calc {topic}')}",
@@ -259,7 +260,7 @@ def _table(table: type[Struct]) -> str:
     """A table of a kind, in one line."""
     config = table.__struct_config__
     tag = [f'{config.tag_field} = "{config.tag}"'] if config.tag_field else []
-    shown = [(f, meta) for f in fields(table) if not _marks(meta := example_of(f.type)).get("aside")]
+    shown = [(f, meta) for f in fields_of(table) if not _marks(meta := example_of(f.type)).get("aside")]
     inner = (f"{f.encode_name} = {_value(f, meta)}" for f, meta in shown)
     return "{ " + ", ".join([*tag, *inner]) + " }"
 
@@ -274,7 +275,8 @@ def _several(kind: str, told: Words) -> list[str]:
     if places is not None:
         part = told.text('{part} of kind "{kind}"', part=part, kind=places[1 - own])
     toothed = MATES[mate].meshes
-    turned = next((f.default for f in fields(MATES[mate].keys) if f.encode_name == "direction_deg"), None)
+    keys: type[Struct] = MATES[mate].keys
+    turned = next((f.default for f in fields_of(keys) if f.encode_name == "direction_deg"), None)
     comments = {name: told.text(text) for name, text in _COMMENTS.items()}
     may = N_("With a second part, {part}, the two can be joined and written as one assembly; remove both #:")
     if toothed:

@@ -113,9 +113,7 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     if missing := re.search(r"missing required field `(.*?)`", message):
         name = missing.group(1)
         owner = _owner(kind, keys, table)
-        _check_misspelt(
-            name, _lookup(table, keys), source, where, [f.encode_name for f in msgspec.structs.fields(owner)]
-        )
+        _check_misspelt(name, _lookup(table, keys), source, where, owner.__struct_encode_fields__)
         what = _tags_of(kind, [*keys, name], table) or described_key(owner, name)
         return SceneError(source, f"{where}.{name}", None, "missing_key" if what else "missing", None, what=what)
     allowed, words = _tags_of(kind, keys, table), _tag_words_of(kind, keys, table)

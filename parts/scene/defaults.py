@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from msgspec import Struct
-from msgspec.structs import fields
 
 from parts.base.refusal import SceneError, meant
 from parts.base.registry import KINDS
@@ -109,7 +108,7 @@ def default_names(export_keys: type[Struct]) -> list[str]:
 
 
 def _names(keys: type[Struct]) -> set[str]:
-    return {f.encode_name for f in fields(keys)} - _OWN
+    return set(keys.__struct_encode_fields__) - _OWN
 
 
 def _keys_of(name: str, table: Table, export_keys: type[Struct]) -> type[Struct] | None:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from functools import cached_property, partial
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -287,7 +287,50 @@ def checked_wheel(wheel: GenevaWheel) -> GenevaWheel:
     return wheel
 
 
-class GenevaDisc(Record, dict=True):
+@lru_cache(maxsize=64)
+def _swept_apex(wheel: GenevaWheel) -> float:
+    """Of the disc of a driver: the same for any relief and any number of pins.
+
+    All circles through both ends of the arcs make one family: of each place that the wheel comes to within the disc
+    the one through it counts, and the least of all is sought.
+    """
+    angle = wheel.drive.half_motion_angle
+    shares, turns = np.linspace(0, 1, _SHARES), np.linspace(-angle, angle, _TURNS)
+    found = wheel.locking_radius
+    for curve in _near_mouth(wheel):
+        low, high = curve.domain
+        centre, span = (0.5, 0.0), (0.5, angle)
+        for _ in range(_ROUNDS):
+            u = np.clip(centre[0] + span[0] * (2 * shares - 1), 0, 1)
+            t = np.clip(centre[1] + span[1] * turns / angle, -angle, angle)
+            apexes = _apexes(wheel, np.asarray(curve.point(low + (high - low) * u))[:, None], t)
+            row, column = np.unravel_index(int(np.argmin(apexes)), apexes.shape)
+            centre = float(u[row]), float(t[column])
+            span = 4 * span[0] / _SHARES, 4 * span[1] / _TURNS
+            found = min(found, float(apexes[row, column]))
+    return found
+
+
+def _apexes(wheel: GenevaWheel, places: Complex, alpha: Real) -> Real:
+    """Of places on the wheel (n, 1), at turns of the driver (m,); the disc's radius where they stay outside."""
+    drive, radius = wheel.drive, wheel.locking_radius
+    turned = math.pi + drive.sense * drive.motion(alpha)[0]
+    middle = -drive.sense * drive.centre_distance
+    if drive.internal:
+        # pin 1 points away from the wheel's axis
+        turned = turned - math.pi
+    seen = (middle + places * np.exp(1j * turned)) * np.exp(-1j * alpha)
+    chord = radius * math.cos(drive.half_motion_angle)
+    within = radius**2 - np.abs(seen) ** 2
+    off = chord - seen.real
+    # the circle |x|^2 - s^2 - 2 d (x - chord) = 0 through the place; it crosses the axis between disc and place
+    with np.errstate(divide="ignore", invalid="ignore"):
+        double = within / off
+        apex = double / 2 - np.sign(off) * np.sqrt(np.maximum(double**2 / 4 - double * chord + radius**2, 0.0))
+    return np.where(within > _ROUNDING * radius**2, np.where(off == 0, chord, apex), radius)
+
+
+class GenevaDisc(Record):
     """The locking disc of a driver and the circles of its pins, mm; ``number_of_pins``: even ones.
 
     Between two locking arcs a circle through their ends relieves it: the one that passes whatever the ``wheel`` sweeps
@@ -303,47 +346,13 @@ class GenevaDisc(Record, dict=True):
         """The law with all pins."""
         return replace(self.wheel.drive, number_of_pins=self.number_of_pins)
 
-    @cached_property
+    @property
     def swept_apex(self) -> float:
         """Where the shallowest relief that the wheel leaves alone crosses the line to its pin, mm from the axis.
 
-        All circles through both ends of the arcs make one family: of each place that the wheel comes to within the disc
-        the one through it counts, and the least of all is sought. Negative in an internal drive, whose disc is a
-        piece beyond the axis.
+        Negative in an internal drive, whose disc is a piece beyond the axis.
         """
-        angle = self.drive.half_motion_angle
-        shares, turns = np.linspace(0, 1, _SHARES), np.linspace(-angle, angle, _TURNS)
-        found = self.wheel.locking_radius
-        for curve in _near_mouth(self.wheel):
-            low, high = curve.domain
-            centre, span = (0.5, 0.0), (0.5, angle)
-            for _ in range(_ROUNDS):
-                u = np.clip(centre[0] + span[0] * (2 * shares - 1), 0, 1)
-                t = np.clip(centre[1] + span[1] * turns / angle, -angle, angle)
-                apexes = self._apexes(np.asarray(curve.point(low + (high - low) * u))[:, None], t)
-                row, column = np.unravel_index(int(np.argmin(apexes)), apexes.shape)
-                centre = float(u[row]), float(t[column])
-                span = 4 * span[0] / _SHARES, 4 * span[1] / _TURNS
-                found = min(found, float(apexes[row, column]))
-        return found
-
-    def _apexes(self, places: Complex, alpha: Real) -> Real:
-        """Of places on the wheel (n, 1), at turns of the driver (m,); the disc's radius where they stay outside."""
-        drive, radius = self.drive, self.wheel.locking_radius
-        turned = math.pi + drive.sense * drive.motion(alpha)[0]
-        middle = -drive.sense * drive.centre_distance
-        if drive.internal:
-            # pin 1 points away from the wheel's axis
-            turned = turned - math.pi
-        seen = (middle + places * np.exp(1j * turned)) * np.exp(-1j * alpha)
-        chord = radius * math.cos(drive.half_motion_angle)
-        within = radius**2 - np.abs(seen) ** 2
-        off = chord - seen.real
-        # the circle |x|^2 - s^2 - 2 d (x - chord) = 0 through the place; it crosses the axis between disc and place
-        with np.errstate(divide="ignore", invalid="ignore"):
-            double = within / off
-            apex = double / 2 - np.sign(off) * np.sqrt(np.maximum(double**2 / 4 - double * chord + radius**2, 0.0))
-        return np.where(within > _ROUNDING * radius**2, np.where(off == 0, chord, apex), radius)
+        return _swept_apex(self.wheel)
 
     def room(self, core: float = 0.0) -> float:
         """The most of ``relief_clearance``, mm: to the axis, or to a bore that reaches so far (``core``) and fits."""

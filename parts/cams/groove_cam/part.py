@@ -6,7 +6,7 @@ import math
 from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
-from msgspec.structs import fields, replace
+from msgspec.structs import replace
 
 from geometry.base.errors import OffsetError, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
@@ -143,7 +143,7 @@ class GrooveDisk(Record):
 
 def _as_cam(spec: GrooveCamSpec) -> CamSpec:
     """The keys that a groove cam shares with a disk cam."""
-    shared = {f.name for f in fields(CamSpec)} & {f.name for f in fields(GrooveCamSpec)}
+    shared = {*CamSpec.__struct_fields__} & {*GrooveCamSpec.__struct_fields__}
     return CamSpec(follower="roller", **{name: getattr(spec, name) for name in shared})
 
 

@@ -175,9 +175,9 @@ def test_offsets_against_shapely(name: str, sign: int) -> None:
     rings = [shapely.Polygon([(z.real, z.imag) for z in few_points(p) - middle]) for p in (nominal, moved)]
     assert all(ring.is_valid for ring in rings)
     expected = rings[0].buffer(-d, quad_segs=64)
-    assert expected.hausdorff_distance(rings[1]) <= 0.01 * abs(d)
+    assert brute.hausdorff(expected, rings[1]) <= 0.01 * abs(d)
     # negative control: 3 % more of an offset is seen at the same measure
-    assert rings[0].buffer(-1.03 * d, quad_segs=64).hausdorff_distance(rings[1]) > 0.01 * abs(d)
+    assert brute.hausdorff(rings[0].buffer(-1.03 * d, quad_segs=64), rings[1]) > 0.01 * abs(d)
 
 
 @pytest.mark.parametrize("name", MAKERS)

@@ -14,6 +14,7 @@ import pytest
 
 from parts.base.refusal import SceneError
 from parts.base.registry import KINDS
+from parts.base.schema import fields_of
 from parts.base.texts import words
 from parts.drawing.working import Subject
 from parts.keys.working import WorkingTable
@@ -63,7 +64,7 @@ def bases() -> dict[str, tuple[Raw, str]]:
 
 
 def _fields(spec: type[msgspec.Struct]) -> dict[str, Any]:
-    return {f.encode_name: f for f in msgspec.structs.fields(spec)}
+    return {f.encode_name: f for f in fields_of(spec)}
 
 
 def _inner(kind: Any, wanted: Any) -> Iterator[Any]:

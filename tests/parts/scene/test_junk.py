@@ -7,7 +7,6 @@ import datetime
 import json
 from typing import Any
 
-import msgspec
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -28,7 +27,7 @@ PATIENCE = datetime.timedelta(seconds=60)
 
 def keys_of(*owners: Any) -> list[str]:
     """All keys that a user may write."""
-    return ["kind", *(f.encode_name for owner in owners for f in msgspec.structs.fields(owner))]
+    return ["kind", *(key for owner in owners for key in owner.__struct_encode_fields__)]
 
 
 PART_KEYS = keys_of(SpurGearSpec, RackTable, ReliefTable)

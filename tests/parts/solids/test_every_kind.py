@@ -16,6 +16,7 @@ from parts.base.part import Part
 from parts.gears.worm_wheel.part import WormWheelKind
 from parts.scene.load import make_parts, scene_from_dict
 from parts.solids.mesh import Mesh, body_mesh, mesh_outlines
+from tests import brute
 from tests.exporters.production.test_dimensioned import PARTS as TURNED
 from tests.exporters.production.test_part_drawings import PARTS as DRAWN
 from tests.offered import scenes
@@ -98,16 +99,6 @@ def outline(part: Part, offset: float) -> shapely.Polygon:
     return shapely.Polygon([(p.real, p.imag) for p in outer], [[(p.real, p.imag) for p in hole] for hole in holes])
 
 
-def distance_to(polygon: shapely.Polygon, points: np.ndarray) -> np.ndarray:
-    """From each point to the boundary, edge by edge: a tree of edges finds them a hundred times sooner."""
-    edges = [np.stack([at[:-1], at[1:]], axis=1) for ring in (polygon.exterior, *polygon.interiors)
-             for at in [shapely.get_coordinates(ring)]]  # fmt: skip
-    tree = shapely.STRtree(shapely.linestrings(np.concatenate(edges)))
-    (places, _), far = tree.query_nearest(points, return_distance=True, all_matches=False)
-    assert (places == np.arange(len(points))).all()
-    return far
-
-
 @pytest.mark.sampled(20)
 @pytest.mark.parametrize(
     # of a barrel the jackets are developed, which takes as long as all others together
@@ -129,7 +120,7 @@ def test_every_boundary_of_a_section_moves_by_the_offset(name: str, offset: floa
         judged += 1
         assert len(plain.interiors) == len(moved.interiors)
         points = shapely.points(shapely.get_coordinates(moved))
-        away = distance_to(plain, points)
+        away = brute.distance_to_polygon(plain, points)
         shapely.prepare(plain)
         inside = shapely.contains(plain, points)
         assert (inside == (offset < 0)).all()
@@ -156,4 +147,4 @@ def test_a_lost_triangle_and_an_outline_that_stays_are_seen() -> None:
     tooth = math.pi * 2.0 / 2 * 4.5 * part.face_width
     assert tooth > 1.5 * NEAR * integrals(mesh)[3]
     still = shapely.points(shapely.get_coordinates(outline(part, 0.0)))
-    assert distance_to(outline(part, 0.0), still).max() < 1e-9
+    assert brute.distance_to_polygon(outline(part, 0.0), still).max() < 1e-9

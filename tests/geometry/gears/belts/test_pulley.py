@@ -18,6 +18,7 @@ from geometry.gears.teeth.offset import toothed_region
 from geometry.plane.profile import Label, Profile
 from geometry.solids.bores import RoundBore
 from geometry.solids.hub_holes import HubHoles
+from tests import brute
 
 # outer diameters of makers: T5 (10T5 to 20T5 of an aluminium series by DIN 7721), AT5 (a Japanese catalogue)
 MAKERS = {
@@ -224,14 +225,9 @@ def test_offset_grooves_are_parallel(name: str, share: float) -> None:
     belt = named(name)
     pulley, offset = checked_pulley(Pulley(belt.least_teeth + 11, belt)), share * belt.pitch
     moved = points(toothed_region(pulley_side, pulley, offset).region.outer, 24)
-    outline = points(pulley_side(pulley).profile(), 160)
-    exact = Polygon(np.column_stack((outline.real, outline.imag)))
+    exact = polygon(pulley_side(pulley).profile(), 160)
     near = moved[np.abs(np.angle(moved)) < 1.5 * pulley.pitch_angle]
-    # of the outline two pitches to both sides, begun beyond them: what is nearest is not farther
-    beside = np.roll(outline, -int(np.argmin(outline.real)))
-    beside = beside[np.abs(np.angle(beside)) < 2 * pulley.pitch_angle]
-    beside_near = shapely.LineString(np.column_stack((beside.real, beside.imag)))
-    found = shapely.distance(shapely.points(near.real, near.imag), beside_near)
+    found = brute.distance_to_polygon(exact, shapely.points(near.real, near.imag))
     assert found.min() == pytest.approx(abs(offset), abs=2e-4 * belt.pitch)
     corner = -offset > belt.groove_of(pulley.number_of_teeth).tip_radius
     assert corner or found.max() == pytest.approx(abs(offset), abs=2e-4 * belt.pitch)
