@@ -54,7 +54,7 @@ def exact_point(curve: Curve) -> ExactPoint:
     if isinstance(curve, OffsetCurve):
         return lambda t: _parallel(exact_point(curve.base), curve.distance, t)
     if isinstance(curve, Reversed):
-        return lambda t: exact_point(curve.original)(-t)
+        return lambda t: exact_point(curve.base)(-t)
     if isinstance(curve, Mirrored):
         return lambda t: MP.conj(exact_point(curve.base)(-t))
     if isinstance(curve, Carried):
@@ -207,7 +207,7 @@ def check_derivative_bound(curve: Curve) -> None:
 def _plain(curve: Curve) -> Curve:
     """What is reversed, mirrored or carried."""
     while isinstance(curve, Reversed | Mirrored | Carried):
-        curve = curve.original if isinstance(curve, Reversed) else curve.base
+        curve = curve.base
     return curve
 
 

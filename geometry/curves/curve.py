@@ -149,112 +149,109 @@ class SeriesSpan(Span):
         return [FACTORIALS[k] * x for k, x in enumerate(self.series(t, order))]
 
 
-class Reversed(Curve, Record):
-    """A curve travelled backwards: parameter t runs as -t of the original."""
+class Image(Curve):
+    """What ``base`` becomes as it is carried, mirrored or travelled backwards; t is ``way`` times the base's parameter.
 
-    original: Curve
+    ``bends``: -1 where left and right of the base change places.
+    """
+
+    __slots__ = ()
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+    base: Curve
+    way: ClassVar[int] = -1
+    bends: ClassVar[int] = 1
+
+    def _points(self, points: Complex) -> Complex:
+        """Where points of the base come to."""
+        return points
+
+    def _vectors(self, vectors: Complex) -> Complex:
+        """Where directions of the base come to."""
+        return self._points(vectors)
+
+    def _at(self, t: ArrayLike) -> ArrayLike:
+        return t if self.way > 0 else -np.asarray(t, dtype=float)
+
+    def _between(self, a: float, b: float) -> tuple[float, float]:
+        return (a, b) if self.way > 0 else (-b, -a)
 
     @property
     def domain(self) -> tuple[float, float]:
-        a, b = self.original.domain
-        return -b, -a
+        return self._between(*self.base.domain)
 
     def point(self, t: ArrayLike) -> Complex:
-        return self.original.point(-np.asarray(t, dtype=float))
+        return self._points(self.base.point(self._at(t)))
 
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
-        return (-1) ** order * self.original.derivative(-np.asarray(t, dtype=float), order)
+        found = self._vectors(self.base.derivative(self._at(t), order))
+        return found if self.way > 0 else (-1) ** order * found
 
     def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
-        found = self.original.derivatives(-np.asarray(t, dtype=float), order)
-        return [(-1) ** k * x for k, x in enumerate(found)]
+        point, *others = self.base.derivatives(self._at(t), order)
+        return [self._points(point), *(self.way**k * self._vectors(x) for k, x in enumerate(others, 1))]
 
     def tangent(self, t: ArrayLike) -> Complex:
-        return -self.original.tangent(-np.asarray(t, dtype=float))
+        found = self._vectors(self.base.tangent(self._at(t)))
+        return found if self.way > 0 else -found
 
     def curvature(self, t: ArrayLike) -> Real:
-        return -self.original.curvature(-np.asarray(t, dtype=float))
+        return self.bends * self.base.curvature(self._at(t))
 
     def derivative_bound(self, order: int, a: float, b: float) -> float | None:
-        return self.original.derivative_bound(order, -b, -a)
+        return self.base.derivative_bound(order, *self._between(a, b))
 
     def derivative_bounds(self, edges: Real, orders: Sequence[int]) -> Real:
-        return self.original.derivative_bounds(-edges[::-1], orders)[:, ::-1]
+        return self.base.derivative_bounds((self.way * edges)[:: self.way], orders)[:, :: self.way]
 
     @property
     def knots(self) -> Real:
-        return -self.original.knots[::-1]
-
-    def joined(self, after: Curve) -> Curve | None:
-        whole = after.original.joined(self.original) if isinstance(after, Reversed) else None
-        return None if whole is None else Reversed(whole)
+        return (self.way * self.base.knots)[:: self.way]
 
     def parts(self) -> tuple[Curve, ...]:
-        return tuple(Reversed(x) for x in reversed(self.original.parts()))
+        return tuple(replace(self, base=x) for x in self.base.parts()[:: self.way])
 
-    def offset(self, distance: float) -> Curve:
+    def offset(self, distance: float) -> Self:
         try:
-            return Reversed(self.original.offset(-distance))
+            return replace(self, base=self.base.offset(self.bends * distance))
         except CuspError as cusp:
-            raise CuspError(-cusp.t, distance) from None
+            raise CuspError(self.way * cusp.t, distance) from None
 
-    def trimmed(self, a: float, b: float) -> Curve:
-        return Reversed(self.original.trimmed(-b, -a))
+    def trimmed(self, a: float, b: float) -> Self:
+        return replace(self, base=self.base.trimmed(*self._between(a, b)))
+
+
+class Reversed(Image, Record):
+    """A curve travelled backwards."""
+
+    base: Curve
+    bends = -1
+
+    def joined(self, after: Curve) -> Curve | None:
+        whole = after.base.joined(self.base) if isinstance(after, Reversed) else None
+        return None if whole is None else Reversed(whole)
 
     def reversed(self) -> Curve:
-        return self.original
+        return self.base
 
     def placed(self, placement: Placement2) -> Curve:
-        return Reversed(self.original.placed(placement))
+        return Reversed(self.base.placed(placement))
 
     def mirrored(self) -> Curve:
-        return Reversed(self.original.mirrored())
+        return Reversed(self.base.mirrored())
 
 
-class Carried(Curve, Record):
+class Carried(Image, Record):
     """``base`` turned and moved by ``placement``; parameter, speed and curvature are its own."""
 
     base: Curve
     placement: Placement2
+    way = 1
 
-    @property
-    def domain(self) -> tuple[float, float]:
-        return self.base.domain
+    def _points(self, points: Complex) -> Complex:
+        return self.placement.apply(points)
 
-    @property
-    def knots(self) -> Real:
-        return self.base.knots
-
-    def parts(self) -> tuple[Curve, ...]:
-        return tuple(Carried(x, self.placement) for x in self.base.parts())
-
-    def point(self, t: ArrayLike) -> Complex:
-        return self.placement.apply(self.base.point(t))
-
-    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
-        return cmath.exp(1j * self.placement.angle) * self.base.derivative(t, order)
-
-    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
-        point, *others = self.base.derivatives(t, order)
-        return [self.placement.apply(point), *(cmath.exp(1j * self.placement.angle) * x for x in others)]
-
-    def tangent(self, t: ArrayLike) -> Complex:
-        return cmath.exp(1j * self.placement.angle) * self.base.tangent(t)
-
-    def curvature(self, t: ArrayLike) -> Real:
-        return self.base.curvature(t)
-
-    def derivative_bound(self, order: int, a: float, b: float) -> float | None:
-        return self.base.derivative_bound(order, a, b)
-
-    def derivative_bounds(self, edges: Real, orders: Sequence[int]) -> Real:
-        return self.base.derivative_bounds(edges, orders)
-
-    def offset(self, distance: float) -> Curve:
-        return Carried(self.base.offset(distance), self.placement)
-
-    def trimmed(self, a: float, b: float) -> Curve:
-        return Carried(self.base.trimmed(a, b), self.placement)
+    def _vectors(self, vectors: Complex) -> Complex:
+        return cmath.exp(1j * self.placement.angle) * vectors
 
     def placed(self, placement: Placement2) -> Curve:
         return Carried(self.base, placement @ self.placement)
@@ -263,54 +260,13 @@ class Carried(Curve, Record):
         return Carried(self.base.mirrored(), self.placement.mirrored())
 
 
-class Mirrored(Curve, Record):
-    """Mirror image of ``base`` in the x axis, travelled the other way: parameter t runs as -t of the base."""
+class Mirrored(Image, Record):
+    """Mirror image of ``base`` in the x axis, travelled the other way: its curvature stays, for both turn the sign."""
 
     base: Curve
 
-    @property
-    def domain(self) -> tuple[float, float]:
-        low, high = self.base.domain
-        return -high, -low
-
-    @property
-    def knots(self) -> Real:
-        return -self.base.knots[::-1]
-
-    def parts(self) -> tuple[Curve, ...]:
-        return tuple(Mirrored(x) for x in reversed(self.base.parts()))
-
-    def point(self, t: ArrayLike) -> Complex:
-        return np.conj(self.base.point(-np.asarray(t, dtype=float)))
-
-    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
-        return (-1) ** order * np.conj(self.base.derivative(-np.asarray(t, dtype=float), order))
-
-    def derivatives(self, t: ArrayLike, order: int) -> list[Complex]:
-        found = self.base.derivatives(-np.asarray(t, dtype=float), order)
-        return [(-1) ** k * np.conj(x) for k, x in enumerate(found)]
-
-    def tangent(self, t: ArrayLike) -> Complex:
-        return -np.conj(self.base.tangent(-np.asarray(t, dtype=float)))
-
-    def curvature(self, t: ArrayLike) -> Real:
-        # mirroring and travelling back both turn the sign
-        return self.base.curvature(-np.asarray(t, dtype=float))
-
-    def derivative_bound(self, order: int, a: float, b: float) -> float | None:
-        return self.base.derivative_bound(order, -b, -a)
-
-    def derivative_bounds(self, edges: Real, orders: Sequence[int]) -> Real:
-        return self.base.derivative_bounds(-edges[::-1], orders)[:, ::-1]
-
-    def offset(self, distance: float) -> Curve:
-        try:
-            return Mirrored(self.base.offset(distance))
-        except CuspError as cusp:
-            raise CuspError(-cusp.t, distance) from None
-
-    def trimmed(self, a: float, b: float) -> Curve:
-        return Mirrored(self.base.trimmed(-b, -a))
+    def _points(self, points: Complex) -> Complex:
+        return np.conj(points)
 
     def mirrored(self) -> Curve:
         return self.base
@@ -346,25 +302,11 @@ class OffsetCurve(Curve, Record):
         return np.where(self._stretch(t) < 0, -1.0, 1.0) * self.base.tangent(t)
 
     def checked(self) -> OffsetCurve:
-        """This curve, or CuspError where it turns back: at the least stretch near 257 samples, refined."""
-        t = np.linspace(*self.domain, _CUSP_SAMPLES)
-        stretch = self._stretch(t)
-        lowest = int(np.argmin(stretch))
-        low, high = float(t[max(lowest - 1, 0)]), float(t[min(lowest + 1, len(t) - 1)])
-        for _ in range(80):
-            third = (high - low) / 3
-            left, right = low + third, high - third
-            low, high = (low, right) if self._stretch(left) < self._stretch(right) else (left, high)
-        least = min(((low + high) / 2, float(t[lowest])), key=lambda place: float(self._stretch(place)))
-        if float(self._stretch(least)) > 0:
-            return self
-        places = np.sort(np.append(t, least))
-        turned = self._stretch(places) <= 0
-        changes = np.flatnonzero(turned[1:] != turned[:-1])
-        if not changes.size:
-            raise CuspError(float(t[0]), self.distance)
-        low, high = places[changes[0]], places[changes[0] + 1]
-        raise CuspError(bracketed_root(lambda s: float(self._stretch(s)), float(low), float(high)).value, self.distance)
+        """This curve, or CuspError where it turns back."""
+        cusp = first_turning(self._stretch, np.ones_like, self.domain)
+        if cusp is not None:
+            raise CuspError(cusp, self.distance)
+        return self
 
     def offset(self, distance: float) -> OffsetCurve:
         try:
@@ -423,6 +365,12 @@ def start_point(curve: Curve) -> complex:
 def end_point(curve: Curve) -> complex:
     """Last point of a curve."""
     return complex(curve.point(curve.domain[1]))
+
+
+def at_shares(curve: Curve, shares: Real) -> Real:
+    """Parameters at shares of a curve's domain."""
+    low, high = curve.domain
+    return low + (high - low) * shares
 
 
 def curvature_from_derivatives(first: Complex, second: Complex) -> Real:

@@ -11,12 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.record import Record
-from geometry.base.roots import bracketed_root
 from geometry.base.series import FACTORIALS, Series, exponential, majorant_power, power, product
 from geometry.curves.curve import Complex, Real
 from geometry.curves.fillet import Fillet
-
-_CUSP_SAMPLES = 257
 
 
 class CutterFillet(Fillet, Record):
@@ -141,22 +138,6 @@ class CutterFillet(Fillet, Record):
         speed = [weight * y + rho * ratio * x for x, y in zip(rate, rolling, strict=True)]
         speed[0] += rho
         return float(product(exponential(phase[:order]), speed)[order - 1] * FACTORIALS[order - 1])
-
-    def cusp(self) -> float | None:
-        """The first parameter in the domain, by size, at which the speed is not positive; else None.
-
-        The speed over 1 - k th' is sampled at 257 places and refined: both parts are smooth and monotone in |u|.
-        """
-        low, high = sorted((abs(self.start), abs(self.end)))
-        low = 0.0 if self.start < 0 < self.end else low
-        places = np.linspace(low, high, _CUSP_SAMPLES)
-        bad = np.flatnonzero(self.speed(places) <= 0)
-        if not bad.size:
-            return None
-        if bad[0] == 0:
-            return low
-        first = int(bad[0])
-        return bracketed_root(lambda u: float(self.speed(u)), float(places[first - 1]), float(places[first])).value
 
 
 def _integral(rate: Series, constant: float | Real) -> Series:

@@ -11,12 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.record import Record
-from geometry.base.roots import bracketed_root
 from geometry.base.series import FACTORIALS, Series, derived, exponential, power, product
 from geometry.curves.curve import Complex, Real
 from geometry.curves.fillet import Fillet
-
-_CUSP_SAMPLES = 257
 
 
 class EllipticFillet(Fillet, Record):
@@ -136,22 +133,6 @@ class EllipticFillet(Fillet, Record):
             phase[1] += 1
         value = product(exponential(phase), self._speed_series(shift, normal, bend)[:order])[order - 1]
         return float(value * FACTORIALS[order - 1])
-
-    def cusp(self) -> float | None:
-        """The first parameter in the domain, by size, at which the speed is not positive; else None."""
-        u = np.linspace(self.start, self.end, _CUSP_SAMPLES)
-        if self.start < 0 < self.end:
-            u = np.sort(np.append(u, 0.0))
-        u = u[np.argsort(np.abs(u), kind="stable")]
-        stopped = np.flatnonzero(self.speed(u) <= 0)
-        if not stopped.size:
-            return None
-        first = int(stopped[0])
-        place = float(u[first])
-        before = [x for x in u[:first].tolist() if x * place >= 0]
-        if not before:
-            return place
-        return bracketed_root(lambda x: float(self.speed(x)), before[-1], place).value
 
 
 def _joined(support: Series, secant: Series, sine: Series, depth: float, sign: float) -> tuple[Series, Series, Series]:

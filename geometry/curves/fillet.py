@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from geometry.base.errors import CuspError
 from geometry.base.placement import Placement2
 from geometry.base.record import replace
-from geometry.curves.curve import Complex, Real, Span
+from geometry.curves.curve import Complex, Real, Span, first_turning
 
 
 class TurnedSpan(Span):
@@ -62,7 +62,8 @@ class Fillet(TurnedSpan):
 
     def cusp(self) -> float | None:
         """The first parameter in the domain, by size, at which the speed is not positive; else None."""
-        raise NotImplementedError
+        low, high = sorted((abs(self.start), abs(self.end)))
+        return first_turning(self.speed, np.ones_like, (0.0 if self.start < 0 < self.end else low, high))
 
     def curvature(self, t: ArrayLike) -> Real:
         with np.errstate(divide="ignore"):

@@ -144,7 +144,7 @@ class Boundary(Record, dict=True):
 
 def _forward(curve: Curve) -> Curve:
     """An involute that is travelled backwards, as on a ring's flank, as itself; any other curve as it is."""
-    return curve.original if isinstance(curve, Reversed) and isinstance(curve.original, Involute) else curve
+    return curve.base if isinstance(curve, Reversed) and isinstance(curve.base, Involute) else curve
 
 
 def _interior_feet(curve: Curve, search: FootSearch | None, points: Complex, best: Real) -> tuple[Indices, Real]:

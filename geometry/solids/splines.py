@@ -433,7 +433,7 @@ def involute_walls(*outlines: Profile) -> tuple[Measured, ...]:
     """The upright walls over the involutes of outlines about the axis, those of each hand as one; exact normals."""
     found: dict[tuple[float, bool], list[float]] = {}
     for segment in (segment for outline in outlines for segment in outline.segments()):
-        curve = segment.curve.original if isinstance(segment.curve, Reversed) else segment.curve
+        curve = segment.curve.base if isinstance(segment.curve, Reversed) else segment.curve
         if isinstance(curve, Involute):
             found.setdefault((curve.base_radius, curve.start_roll < 0), []).append(curve.base_angle)
     return tuple(

@@ -8,7 +8,7 @@ Derivation: DERIVATIONS.md, section 8.
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Protocol
+from typing import Protocol, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -79,6 +79,18 @@ class CamSpan(BoundedSpan):
 
     __slots__ = ()
     lift: Lift
+    distance: float
+
+    def stretch(self, t: ArrayLike) -> Real:
+        """Of the sign of the curve's speed: it changes where the curve turns back."""
+        raise NotImplementedError
+
+    def offset(self, distance: float) -> Self:
+        moved = replace(self, distance=self.distance + distance)
+        cusp = first_turning(moved.stretch, self.stretch, self.domain)
+        if cusp is not None:
+            raise CuspError(cusp, distance)
+        return moved
 
     def vertex_function(self, t: ArrayLike) -> Real:
         """Changes its sign where the curvature is greatest or least."""
@@ -201,13 +213,6 @@ class CentreEnvelope(CamSpan, Record):
             centre = [x + y for x, y in zip(centre, unit, strict=False)]
         return self._in_cam(centre[: order + 1], None)
 
-    def offset(self, distance: float) -> CentreEnvelope:
-        moved = replace(self, distance=self.distance + distance)
-        cusp = first_turning(moved.stretch, self.stretch, self.domain)
-        if cusp is not None:
-            raise CuspError(cusp, distance)
-        return moved
-
 
 class FaceEnvelope(CamSpan, Record):
     """Envelope of a flat face in the cam's frame, over the cam angle t.
@@ -250,7 +255,7 @@ class FaceEnvelope(CamSpan, Record):
         turned = product(height, rate)
         return [turned[k] + (k + 1) * arm[k + 1] for k in range(order + 1)], angle
 
-    def speed(self, t: ArrayLike) -> Real:
+    def stretch(self, t: ArrayLike) -> Real:
         """v, mm/rad: negative where the cam is whole, its modulus then the radius of curvature times |phi'|."""
         return self._speed(t, 0)[0][0]
 
@@ -288,11 +293,3 @@ class FaceEnvelope(CamSpan, Record):
         normal = exponential([0.0 * rate[0], *(rate[k - 1] / k for k in range(1, order))])
         found = product(speed, normal)
         return [0.0 * least, *(np.where(least > 0, found[k] / (k + 1), np.inf) for k in range(order))]
-
-    def offset(self, distance: float) -> FaceEnvelope:
-        moved = replace(self, distance=self.distance + distance)
-        # both are negative where the cam is whole
-        cusp = first_turning(moved.speed, self.speed, self.domain)
-        if cusp is not None:
-            raise CuspError(cusp, distance)
-        return moved

@@ -142,7 +142,7 @@ class DiskCam(Record):
         at = np.asarray(angle, dtype=float)
         if self.is_flat:
             whole = FaceEnvelope(self.motion, self.mount, 0.0, TURN)
-            return whole.speed(at) / whole.support(at, 1)[1][1]
+            return whole.stretch(at) / whole.support(at, 1)[1][1]
         with np.errstate(divide="ignore"):
             return -1 / CentreEnvelope(self.motion, self.mount, 0.0, TURN).pitch_curvature(at)
 

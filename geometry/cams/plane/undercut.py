@@ -103,7 +103,7 @@ def least_stretch(curve: CentreEnvelope | FaceEnvelope, t: Real) -> float:
 
 def _forward(curve: CentreEnvelope | FaceEnvelope) -> Callable[[Real], Real]:
     if isinstance(curve, FaceEnvelope):
-        return lambda t: -curve.speed(t)
+        return lambda t: -curve.stretch(t)
     return curve.stretch
 
 

@@ -225,7 +225,7 @@ def _active(side: ToothSide | RingSide, ends: tuple[float, float]) -> Curves:
     curves = []
     for curve in (s.curve for s in side.segments if s.label in (Label.FLANK, Label.RELIEF)):
         # a ring's flank is travelled inwards
-        curve = curve.original if isinstance(curve, Reversed) else curve
+        curve = curve.base if isinstance(curve, Reversed) else curve
         if not isinstance(curve, Involute):
             continue
         begin, stop = curve.domain

@@ -75,7 +75,7 @@ def test_every_class_is_among_the_examples() -> None:
     fillets = {TrochoidFillet, EllipticFillet, CutterFillet}
     carriers = {Reversed, Mirrored, Carried}
     assert kinds == {Line, Arc, EllipticArc, Involute, Trochoid, OffsetCurve} | carriers | fillets
-    assert {type(c.original) for c in EXAMPLES.values() if isinstance(c, Reversed)} == kinds - carriers
+    assert {type(c.base) for c in EXAMPLES.values() if isinstance(c, Reversed)} == kinds - carriers
     assert all(isinstance(c, Curve) for c in EXAMPLES.values())
 
 
