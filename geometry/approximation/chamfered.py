@@ -19,8 +19,8 @@ from geometry.approximation.splines import samples_of, spline_on_knots
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import replace
 from geometry.curves.bounds import Bound
-from geometry.curves.bspline import BSpline, basis, distance_bound, feet
-from geometry.curves.curve import Complex, Curve, Real, end_point, start_point
+from geometry.curves.bspline import BSpline, basis_matrix, distance_bound, feet
+from geometry.curves.curve import Complex, Curve, Real, at_shares, end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile
 
@@ -130,7 +130,7 @@ def _strays(nodes: list[Curve], tests: list[Curve]) -> float:
     made = weights @ bezier_poles(samples).T
     worst = 0.0
     for curve, points in zip(tests, made, strict=True):
-        t = _parameters(curve, np.linspace(0, 1, _ROUGH_SAMPLES))
+        t = at_shares(curve, np.linspace(0, 1, _ROUGH_SAMPLES))
         gaps = points - curve.point(t)
         worst = max(worst, _off(gaps, curve, t))
         if isinstance(curve, Arc):
@@ -139,13 +139,8 @@ def _strays(nodes: list[Curve], tests: list[Curve]) -> float:
     return worst
 
 
-def _parameters(curve: Curve, shares: Real) -> Real:
-    low, high = curve.domain
-    return low + (high - low) * shares
-
-
 def _spread(curve: Curve, shares: Real) -> Complex:
-    return np.asarray(curve.point(_parameters(curve, shares)))
+    return np.asarray(curve.point(at_shares(curve, shares)))
 
 
 def _end_of(whole: Profile, outline: Outline, sections: Sections, tolerance: float) -> Outline:
@@ -181,9 +176,7 @@ def _spline_rows(
     """
     x = samples_of(base)
     foot = _shares_of_feet(base, whole, x)
-    first, values = basis(base.degree, base.knots, x)
-    matrix = np.zeros((len(x), len(base.poles)))
-    np.put_along_axis(matrix, first[:, None] + np.arange(base.degree + 1), values, axis=1)
+    matrix = basis_matrix(base.degree, base.knots, x)
     own = _spread(whole, foot)
     moved = np.array([_spread(c, foot) - own for c in nodes]).T
     ends = np.array([[start_point(c), end_point(c)] for c in nodes]).T - base.poles[[0, -1], None]
@@ -195,13 +188,13 @@ def _spline_rows(
     padded, shares = np.pad(x, 1), np.pad(foot, 1)
     (padded[0], padded[-1]), shares[-1] = base.domain, 1.0
     if len(nodes) == 2:
-        error, bound = distance_bound(nodes[-1], fits[-1], padded, _parameters(nodes[-1], shares))
+        error, bound = distance_bound(nodes[-1], fits[-1], padded, at_shares(nodes[-1], shares))
     else:
         error, bound = 0.0, "sampled"
     at = _dense(base)
     for curve, poles in zip([*nodes[1:], *tests], [*rows[1:], *between], strict=True):
         points, guess = BSpline(base.degree, base.knots, poles).point(at), np.interp(at, padded, shares)
-        foot_of = feet(curve, points, _parameters(curve, guess))
+        foot_of = feet(curve, points, at_shares(curve, guess))
         error = max(error, _SAMPLED * _off(points - curve.point(foot_of), curve, foot_of))
     return rows, error, bound == "certified"
 
@@ -226,5 +219,5 @@ def _shares_of_feet(spline: BSpline, curve: Curve, x: Real) -> Real:
     shares = np.linspace(0, 1, 16 * len(x))
     points = spline.point(x)
     near = np.abs(points[:, None] - _spread(curve, shares)).argmin(axis=1)
-    found = (feet(curve, points, _parameters(curve, shares[near])) - low) / (high - low)
+    found = (feet(curve, points, at_shares(curve, shares[near])) - low) / (high - low)
     return np.asarray(np.maximum.accumulate(found))

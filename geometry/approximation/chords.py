@@ -19,7 +19,7 @@ from geometry.base.record import Record, replace
 from geometry.base.roots import halved
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.bounds import Bound
-from geometry.curves.curve import Complex, Curve, Real
+from geometry.curves.curve import Complex, Curve, Real, at_shares
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.contour import Approximation, Contour
 from geometry.plane.merge import merge_short_edges
@@ -105,7 +105,9 @@ def approximate_together(
     shares = []
     for curves in zip(*([s.curve for s in p.period] for p in profiles), strict=True):
         shares.append(_shared_chords(curves, tolerance - slack))
-    made = [[c.curve.point(_spread(c.curve, t)) for c, (t, _) in zip(p.period, shares, strict=True)] for p in profiles]
+    made = [
+        [s.curve.point(at_shares(s.curve, t)) for s, (t, _) in zip(p.period, shares, strict=True)] for p in profiles
+    ]
     vertices = np.array([np.concatenate([points[:-1] for points in pieces]) for pieces in made])
     error = max(e for _, e in shares)
     ends = np.append(vertices[:, 1:], vertices[:, :1] * np.exp(1j * profiles[0].pitch_angle), axis=1)
@@ -132,18 +134,13 @@ def _shared_chords(curves: Sequence[Curve], tolerance: float) -> tuple[Real, flo
     shares = (counts[finest] - low) / (high - low)
     shares[[0, -1]] = 0.0, 1.0
     while len(shares) <= _MAX_CHORDS:
-        error = max(0.0 if isinstance(c, Line) else chord_error(c, _spread(c, shares)) for c in curves)
-        error += _twist(np.array([c.point(_spread(c, shares)) for c in curves]))
+        error = max(0.0 if isinstance(c, Line) else chord_error(c, at_shares(c, shares)) for c in curves)
+        error += _twist(np.array([c.point(at_shares(c, shares)) for c in curves]))
         if error <= tolerance:
             return shares, error
         finer = np.linspace(0, len(shares) - 1, math.ceil(1.2 * len(shares)) + 1)
         shares = np.interp(finer, np.arange(len(shares)), shares)
     raise ConvergenceError("chords for the tolerance", tolerance, _MAX_CHORDS)
-
-
-def _spread(curve: Curve, shares: Real) -> Real:
-    low, high = curve.domain
-    return low + (high - low) * shares
 
 
 def _twist(points: Complex) -> float:

@@ -17,6 +17,7 @@ from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc
 from geometry.gears.belts.belt import Belt, Half, StraightGroove
 from geometry.gears.teeth.offset import grown_side
+from geometry.gears.teeth.round_teeth import RoundTeeth
 from geometry.gears.teeth.tooth import ToothSide
 from geometry.plane.profile import Label, Segment
 from geometry.solids.hub_holes import HubHoles
@@ -47,25 +48,19 @@ class Flanges(Record):
         return self.thickness * (self.below + self.above)
 
 
-class Pulley(Record):
+class Pulley(RoundTeeth):
     """A pulley of ``number_of_teeth`` for a belt; lengths in mm.
 
     ``given_outer_diameter`` None: by the belt's pitch line. ``clearance``: how far the walls of the grooves stand off
     those of the belt's standard. ``toothed_width``: of the teeth between the flanges.
     """
 
-    number_of_teeth: int
     belt: Belt
     clearance: float = 0.0
     given_outer_diameter: float | None = None
     holes: HubHoles = HubHoles()
     toothed_width: float = 0.0
     flanges: Flanges | None = None
-
-    @property
-    def pitch_angle(self) -> float:
-        """Angle from tooth to tooth, rad."""
-        return 2 * math.pi / self.number_of_teeth
 
     @property
     def pitch_radius(self) -> float:

@@ -20,6 +20,7 @@ from geometry.base.roots import bracketed_root
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.chains.chain import Chain
 from geometry.gears.teeth.offset import grown_side
+from geometry.gears.teeth.round_teeth import RoundTeeth
 from geometry.gears.teeth.tooth import ToothSide
 from geometry.plane.profile import Label, Segment
 from geometry.solids.hub_holes import HubHoles
@@ -150,13 +151,12 @@ def pitch_diameter(pitch: float, teeth: int) -> float:
     return pitch / math.sin(math.pi / teeth)
 
 
-class Sprocket(Record):
+class Sprocket(RoundTeeth):
     """A sprocket of ``number_of_teeth`` for a chain; ``given_tip_diameter`` None: of the form. Lengths in mm.
 
     ``bevel``: of the teeth on both sides, along the axis at their tips; it ends where their flanks begin.
     """
 
-    number_of_teeth: int
     chain: Chain
     form: IsoForm | GostForm
     given_tip_diameter: float | None = None
@@ -178,11 +178,6 @@ class Sprocket(Record):
     def core_radius(self) -> float:
         """Of the round body within all teeth, mm: of the roots, of several strands that between the rows."""
         return self.root_radius if self.strands == 1 else min(self.plate_room / 2, self.root_radius)
-
-    @property
-    def pitch_angle(self) -> float:
-        """Angle from tooth to tooth, rad."""
-        return 2 * math.pi / self.number_of_teeth
 
     @property
     def pitch_radius(self) -> float:

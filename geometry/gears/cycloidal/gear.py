@@ -34,6 +34,7 @@ from geometry.curves.cycloid import CycloidParallel
 from geometry.curves.intersect import crossing_circle
 from geometry.curves.line_arc import Arc, Line, arc_between
 from geometry.gears.teeth.moved_segments import corner_arc
+from geometry.gears.teeth.round_teeth import RoundTeeth
 from geometry.gears.teeth.tooth import ToothSide
 from geometry.plane.profile import Label, Segment
 from geometry.solids.hub_holes import HubHoles
@@ -49,7 +50,7 @@ _MOST_CIRCLE = 500.0
 _ROUNDING, _THIN_TIP, _THIN_RIM = 0.2, 0.3, 1.0
 
 
-class CycloidalGear(Record):
+class CycloidalGear(RoundTeeth):
     """A gear of ``number_of_teeth``; lengths in mm, heights in modules.
 
     ``tip_rolling_radius``: of the circle that rolls outside and draws the flanks of the tips, ``root_rolling_radius``:
@@ -57,7 +58,6 @@ class CycloidalGear(Record):
     the module, half the depth of the roots and the full round of the space.
     """
 
-    number_of_teeth: int
     module: float
     tip_rolling_radius: float
     root_rolling_radius: float
@@ -66,11 +66,6 @@ class CycloidalGear(Record):
     circumferential_thinning: float = 0.0
     given_root_rounding: float | None = None
     holes: HubHoles = _NO_HOLES
-
-    @property
-    def pitch_angle(self) -> float:
-        """Angle from tooth to tooth, rad."""
-        return 2 * math.pi / self.number_of_teeth
 
     @property
     def pitch_radius(self) -> float:

@@ -282,15 +282,14 @@ class InvolutePair(Record, Generic[G, S], dict=True):
         mm. With little clearance a sharp tip may still strike a fillet beside the flanks: the contact search tells.
         """
         starts, forms, names = self._start_tangents(), self._form_tangents(), self._start_limits()
-        ratio, backlash, (one, two) = self.effective_contact_ratio, self.normal_backlash, self.roles
-        clearances = self.tip_clearances
+        clearances, (one, two) = self.tip_clearances, self.roles
         return (
-            Margin(f"{names[0]}_{one}", starts[0], forms[0], starts[0] - forms[0]),
+            Margin.above(f"{names[0]}_{one}", starts[0], forms[0]),
             Margin(f"{names[1]}_{two}", starts[1], forms[1], self.sign * (starts[1] - forms[1])),
-            Margin("contact_ratio", ratio, 1.0, ratio - 1.0),
-            Margin(f"tip_clearance_{one}", clearances[0], 0.0, clearances[0]),
-            Margin(f"tip_clearance_{two}", clearances[1], 0.0, clearances[1]),
-            Margin("normal_backlash", backlash, 0.0, backlash),
+            Margin.above("contact_ratio", self.effective_contact_ratio, 1.0),
+            Margin.above(f"tip_clearance_{one}", clearances[0], 0.0),
+            Margin.above(f"tip_clearance_{two}", clearances[1], 0.0),
+            Margin.above("normal_backlash", self.normal_backlash, 0.0),
         )
 
     def _start_limits(self) -> tuple[str, str]:

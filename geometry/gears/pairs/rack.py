@@ -122,25 +122,20 @@ class RackPair(Record, dict=True):
         """At which both would have no backlash, mm."""
         return self.distance - self.normal_backlash / (2 * math.sin(self.rack.rack.pressure_angle))
 
-    def rack_position(self, rotation: float, *, contact: int = 0) -> float:
-        """y of the space's centre line that faces the tooth at ``rotation`` (rad), mm; the rack moves by r per radian.
-
-        ``contact`` = +1 or -1 moves the rack to +y or -y by half of the backlash: its flanks then touch.
-        """
-        slack = self.normal_backlash / (2 * math.cos(self.rack.rack.pressure_angle))
-        return self.gear.reference_radius * rotation + contact * slack
+    def rack_position(self, rotation: float) -> float:
+        """y, mm, of the space's centre line that faces a tooth at ``rotation``, rad: the rack moves by r per radian."""
+        return self.gear.reference_radius * rotation
 
     def margins(self) -> tuple[Margin, ...]:
         """The pair's limits, each with its margin (>= 0 where kept); mm along the line of action or of clearance."""
         gear, rack = self._gear_tangents(), self._rack_tangents()
-        clearances, ratio, backlash = self.tip_clearances, self.effective_contact_ratio, self.normal_backlash
         return (
-            Margin("fillet_interference_gear", rack[0], gear[0], rack[0] - gear[0]),
-            Margin("fillet_interference_rack", gear[1], rack[1], rack[1] - gear[1]),
-            Margin("contact_ratio", ratio, 1.0, ratio - 1.0),
-            Margin("tip_clearance_gear", clearances[0], 0.0, clearances[0]),
-            Margin("tip_clearance_rack", clearances[1], 0.0, clearances[1]),
-            Margin("normal_backlash", backlash, 0.0, backlash),
+            Margin.above("fillet_interference_gear", rack[0], gear[0]),
+            Margin.below("fillet_interference_rack", gear[1], rack[1]),
+            Margin.above("contact_ratio", self.effective_contact_ratio, 1.0),
+            Margin.above("tip_clearance_gear", self.tip_clearances[0], 0.0),
+            Margin.above("tip_clearance_rack", self.tip_clearances[1], 0.0),
+            Margin.above("normal_backlash", self.normal_backlash, 0.0),
         )
 
     def findings(self) -> tuple[Finding, ...]:

@@ -29,6 +29,7 @@ from geometry.curves.curve import Complex, Real, end_point, start_point
 from geometry.curves.cycloid import CycloidParallel
 from geometry.curves.line_arc import Arc
 from geometry.gears.teeth.offset import grown_side
+from geometry.gears.teeth.round_teeth import RoundTeeth
 from geometry.gears.teeth.tooth import ToothSide
 from geometry.plane.profile import Label, Segment
 from geometry.solids.hub_holes import HubHoles
@@ -44,14 +45,13 @@ _LEAST_FLANK = 0.01
 _LEAST_NECK = 0.005
 
 
-class LanternGear(Record):
+class LanternGear(RoundTeeth):
     """A gear of ``number_of_teeth`` for a lantern of ``number_of_pins`` pins; lengths in mm.
 
     ``pin_clearance`` is the gap between a flank and its pin along the normal, ``root_clearance`` what the root arc's
     radius is more than that. ``given_tip_diameter`` None: a tip land of a tenth of the pitch.
     """
 
-    number_of_teeth: int
     number_of_pins: int
     pin_circle_diameter: float
     pin_diameter: float
@@ -60,11 +60,6 @@ class LanternGear(Record):
     given_tip_diameter: float | None = None
     holes: HubHoles = _NO_HOLES
     face_width: float = 0.0
-
-    @property
-    def pitch_angle(self) -> float:
-        """Angle from tooth to tooth, rad."""
-        return 2 * math.pi / self.number_of_teeth
 
     @property
     def lantern_radius(self) -> float:

@@ -21,6 +21,7 @@ from geometry.curves.intersect import first_above
 from geometry.curves.line_arc import Arc, Line, arc_between
 from geometry.gears.teeth.basic_rack import BasicRack, checked_rack
 from geometry.gears.teeth.limits import check_dimensions
+from geometry.gears.teeth.moved_segments import kept_from
 from geometry.gears.teeth.rack_fillet import root_fillet
 from geometry.gears.teeth.rack_holes import RackHoles
 from geometry.gears.teeth.transverse import transverse_rack
@@ -325,11 +326,7 @@ def _cut_at(chain: list[Segment], limit: float) -> list[Segment]:
         found = first_above([s.curve for s in pieces], partial(below, sign))
         if found is None:
             raise OffsetError(-limit, "leaves_no_tooth")
-        index, at = found
-        curve = pieces[index].curve
-        kept = pieces[index + 1 :]
-        if at < curve.domain[1]:
-            kept = [Segment(curve.trimmed(at, curve.domain[1]), pieces[index].label), *kept]
+        kept = kept_from(pieces, found)
         chain = kept if sign > 0 else [Segment(s.curve.reversed(), s.label) for s in reversed(kept)]
     return chain
 

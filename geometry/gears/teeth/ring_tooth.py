@@ -22,24 +22,13 @@ from geometry.curves.line_arc import Arc, Line, arc_between
 from geometry.gears.teeth.cutter import CUTTER_ROUNDING, PinionCutter, full_round
 from geometry.gears.teeth.ring import RingGear, RoundedRoot
 from geometry.gears.teeth.side import Side
-from geometry.plane.profile import Label, Profile, Segment
+from geometry.plane.profile import Label, Segment
 
 
 class RingSide(Side):
     """Segments of the lower side of space 1, space centre to tooth centre, clockwise."""
 
-    def profile(self) -> Profile:
-        """The closed hole: mirrored upper side, lower side, both lands made whole, placed z times clockwise."""
-        side = list(self.segments)
-        root = side.pop(0) if side[0].label is Label.ROOT_LAND else None
-        tip = side.pop() if side[-1].label is Label.TIP_LAND else None
-        period = [Segment(s.curve.mirrored(), s.label) for s in reversed(side)]
-        if root is not None:
-            period.append(Segment(_whole_land(root.curve, 0.0), Label.ROOT_LAND))
-        period += side
-        if tip is not None:
-            period.append(Segment(_whole_land(tip.curve, -self.pitch_angle / 2), Label.TIP_LAND))
-        return Profile(tuple(period), round(2 * math.pi / self.pitch_angle), clockwise=True)
+    clockwise = True
 
 
 class RingCurves(Record):
@@ -235,9 +224,3 @@ def _chamfered(
         turn = cmath.exp(1j * half_pitch)
         corner = foot - direction * (foot * turn).imag / (direction * turn).imag
     return foot_roll, [Segment(Line(foot, corner), Label.TIP_BREAK)], corner
-
-
-def _whole_land(land: object, middle: float) -> Arc:
-    """A half land about the axis made whole: as long on either side of the polar angle ``middle``."""
-    assert isinstance(land, Arc)
-    return Arc(0j, land.radius, middle + abs(land.sweep), -2 * abs(land.sweep))

@@ -14,7 +14,7 @@ from geometry.base.errors import ParameterError, PointedTipError, UndercutError
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
 from geometry.base.tolerance import TOLERANCES
-from geometry.curves.curve import Curve, end_point, start_point
+from geometry.curves.curve import end_point, start_point
 from geometry.curves.intersect import crossing_line, height_over_line
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line, arc_between
@@ -28,24 +28,11 @@ from geometry.gears.teeth.joints import (
 )
 from geometry.gears.teeth.side import Side
 from geometry.gears.teeth.spur import SpurGear
-from geometry.plane.profile import Label, Profile, Segment
+from geometry.plane.profile import Label, Segment
 
 
 class ToothSide(Side):
     """Segments of the lower tooth side, space centre to tooth centre."""
-
-    def profile(self) -> Profile:
-        """The closed outline: lower side, mirrored upper side, both lands made whole, placed z times."""
-        side = list(self.segments)
-        root = side.pop(0) if side[0].label is Label.ROOT_LAND else None
-        tip = side.pop() if side[-1].label is Label.TIP_LAND else None
-        period = list(side)
-        if tip is not None:
-            period.append(Segment(_both_halves(tip.curve, 0.0), Label.TIP_LAND))
-        period += [Segment(s.curve.mirrored(), s.label) for s in reversed(side)]
-        if root is not None:
-            period.append(Segment(_both_halves(root.curve, self.pitch_angle / 2), Label.ROOT_LAND))
-        return Profile(tuple(period), round(2 * math.pi / self.pitch_angle))
 
 
 class FlankPiece(NamedTuple):
@@ -233,9 +220,3 @@ def _rounded(pieces: list[FlankPiece], tip_radius: float, radius: float) -> tupl
 def _turned(flank: Involute, distance: float) -> Involute:
     """The base curve of an involute moved ``distance`` into the tooth; its domain is set by trimming."""
     return replace(flank, base_angle=flank.base_angle + distance / flank.base_radius)
-
-
-def _both_halves(land: Curve, middle: float) -> Arc:
-    """A half land about the axis made whole: as long on either side of the polar angle ``middle``."""
-    low, high = land.domain
-    return Arc(0j, abs(start_point(land)), middle - (high - low), 2 * (high - low))

@@ -165,7 +165,7 @@ def test_contact_with_backlash() -> None:
     assert backlash == pytest.approx(0.1 * math.cos(ALPHA), rel=1e-13)
     found = RackMesh(pair).contact()
     assert np.abs(np.array(found.side_gaps) - backlash / 2).max() <= 1e-8
-    slack = pair.rack_position(0.0, contact=1)
+    slack = backlash / (2 * math.cos(ALPHA))
     assert RackMesh(pair, rack_shift=slack).contact().verdict is Verdict.CONTACT
     assert RackMesh(pair, rack_shift=-slack).contact().verdict is Verdict.CONTACT
     assert RackMesh(pair, rack_shift=slack + 2e-6).contact().verdict is Verdict.OVERLAP
