@@ -37,6 +37,8 @@ _PIN_STEP = 0.05
 _STEPS = 52
 # rad: lands narrower than this are none
 _NONE = 1e-9
+# mm: 0.2 * 1.5 - 0.3 is no radius
+_SHARP = 1e-12
 
 
 class Flank(Protocol):
@@ -212,7 +214,7 @@ class SplineForm(Record):
         if self.crest_chamfer:
             pieces, start = self._chamfer(distance, self.outer, -self.crest_chamfer)
             return [piece.reversed() for piece in reversed(pieces)], start
-        if radius <= 0:
+        if radius <= _SHARP:
             return [], self.flank.shifted(distance).at(outer)
         centre = self.flank.shifted(-self.crest_rounding).at(self.outer - self.crest_rounding)
         start = self.flank.shifted(distance).foot(centre, -radius)
@@ -223,7 +225,7 @@ class SplineForm(Record):
         inner, radius = self.inner + distance, self.root_rounding - distance
         if self.root_chamfer:
             return self._chamfer(distance, self.inner, self.root_chamfer)
-        if radius <= 0:
+        if radius <= _SHARP:
             return [], self.flank.shifted(distance).at(inner)
         centre = self.flank.shifted(self.root_rounding).at(self.inner + self.root_rounding)
         bottom = self.flank.shifted(distance).foot(centre, radius)

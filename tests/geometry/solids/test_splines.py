@@ -147,6 +147,15 @@ def test_a_shaft_goes_into_its_hub_and_does_not_turn_there(name: str) -> None:
     assert shapely.affinity.rotate(shaft, 0.2, (0, 0)).difference(hub.buffer(1e-3)).area > 1e-3
 
 
+def test_a_rounding_that_an_offset_uses_up_is_a_corner() -> None:
+    """0.2 * 1.5 - 0.3 is 5e-17: an arc of no spoke was drawn about it, which ended in a division by zero."""
+    form = iso_4156(20, 1.5, 30.0, "flat").hub()
+    assert 0 < form.crest_rounding - 0.3 < 1e-15
+    lost, nearly = (polygon(form.outline(distance)) for distance in (-0.3, -0.3 + 1e-9))
+    assert lost.symmetric_difference(nearly).area < 1e-6
+    assert len([s for s in form.outline(-0.3).segments() if s.label is Label.TIP_BREAK]) == 0
+
+
 @pytest.mark.parametrize("name", ["own", "GOST 6033", "ISO 4156, 37.5R"])
 def test_areas_by_quadrature(name: str) -> None:
     """Shells about the axis, with sharp corners."""
