@@ -259,7 +259,11 @@ def _check_body(job: Job, source: str) -> None:
         _ = job.body
     except ParameterError as refusal:
         if refusal.name == "offset":
-            raise placed(source, job.place, refusal, "mm") from refusal
+            why = filled(reason(refusal.code), **refusal.numbers)
+            raise SceneError(
+                source, f"{job.place}.offset", refusal.value, "of_part", refusal.nearest, "mm",
+                part=job.part.id, why=why,
+            ) from refusal  # fmt: skip
         from parts.scene.checks import solid_refused
 
         raise solid_refused(job.part, refusal, source) from refusal

@@ -165,6 +165,8 @@ def test_an_offset_of_a_turned_part_is_refused_in_its_export() -> None:
     with pytest.raises(SceneError) as refused:
         plan("rounded", text=BALL)
     assert (refused.value.key, refused.value.value) == ("exports[1].offset", 0.1)
+    # of many parts on a plate it says which one
+    assert "ball: is not for a turned solid" in str(refused.value)
     assert paths(plan("stl", text=BALL)) == ["ball.stl"]
 
 
