@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exporters.formats.svg import number, path_data, save
+from exporters.formats.svg import number, page_head, path_data, save
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Approximation
@@ -38,13 +38,8 @@ class Track(Record):
 def write_motion_svg(file: Path, title: str, tracks: Sequence[Track], box: Sequence[float], seconds: float) -> None:
     """Write tracks, the lowest first; ``box``: left, low, right, high of all of it, mm."""
     left, low, right, high = box
-    width, height = number(right - left), number(high - low)
     stroke = number((right - left) / 900)
-    lines = [
-        '<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" version="1.1" '
-        f'width="{width}mm" height="{height}mm" viewBox="{number(left)} {number(-high)} {width} {height}">',
-        f"<title>{escape(title)}</title>",
-    ]
+    lines = [page_head(right - left, high - low, left, -high), f"<title>{escape(title)}</title>"]
     for track in tracks:
         places = [f"{number(z.real, _PLACE)},{number(-z.imag, _PLACE)}" for z in track.places.tolist()]
         angles = [number(-math.degrees(a), _ANGLE) for a in track.angles.tolist()]

@@ -66,12 +66,12 @@ def head(middle: float, extra_width: float = 0.0, extra_height: float = 0.0) -> 
     return page_head(2 * middle + extra_width, 2 * middle + extra_height)
 
 
-def page_head(wide: float, high: float) -> str:
-    """The opening of a picture so many mm wide and high."""
+def page_head(wide: float, high: float, left: float = 0.0, top: float = 0.0) -> str:
+    """The opening of a picture so many mm wide and high, whose upper left corner stands at (left, top)."""
     width, height = number(wide), number(high)
     return (
         '<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" version="1.1" '
-        f'width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}">'
+        f'width="{width}mm" height="{height}mm" viewBox="{number(left)} {number(top)} {width} {height}">'
     )
 
 

@@ -67,10 +67,7 @@ def profile_length(profile: Profile) -> float:
 
 def _quadrature(curve: Curve) -> tuple[Real, Real]:
     """Nodes and weights over a curve's domain."""
-    x, weights = gauss_rule(_GAUSS_POINTS)
-    edges = panel_edges(curve, _GAUSS_PANELS)
-    half = np.diff(edges)[:, None] / 2
-    return (edges[:-1, None] + edges[1:, None]) / 2 + half * x, weights * half
+    return panels(panel_edges(curve, _GAUSS_PANELS), _GAUSS_POINTS)
 
 
 def panel_edges(curve: Curve, count: int) -> Real:

@@ -19,6 +19,7 @@ from geometry.base.errors import UndercutError
 from geometry.base.record import Record
 from geometry.curves.implicit import Box, level_lines
 from geometry.gears.pairs.sliding import specific_sliding
+from geometry.gears.shifts.racked_teeth import RackedTeeth
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.joints import fillet_flank_joint
 from geometry.gears.teeth.limits import Margin, least_shift_without_undercut
@@ -32,28 +33,15 @@ CONTACT_RATIOS = (1.0, 1.1, 1.2)
 _NAN = math.nan
 
 
-class ShiftPair(Record):
+class ShiftPair(RackedTeeth):
     """Two numbers of teeth and one rack, for any shifts.
 
     Of helical teeth the rack is that of the transverse section, in transverse modules; ``helix_angle`` in rad.
     """
 
-    first_teeth: int
-    second_teeth: int
-    rack: BasicRack
     shortened_tips: bool = True
     helix_angle: float = 0.0
     overlap_ratio: float = 0.0
-
-    @property
-    def gear_ratio(self) -> float:
-        """u = z2 / z1."""
-        return self.second_teeth / self.first_teeth
-
-    @property
-    def teeth(self) -> tuple[int, int]:
-        """z1, z2."""
-        return self.first_teeth, self.second_teeth
 
 
 class PairState(Record):

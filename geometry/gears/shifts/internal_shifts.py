@@ -15,7 +15,7 @@ from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.errors import ConvergenceError, ParameterError
 from geometry.base.record import Record, replace
 from geometry.gears.pairs.sliding import specific_sliding
-from geometry.gears.teeth.basic_rack import BasicRack
+from geometry.gears.shifts.racked_teeth import RackedTeeth
 from geometry.gears.teeth.cutter import PinionCutter
 from geometry.gears.teeth.internal_mesh import InternalMesh
 from geometry.gears.teeth.joints import fillet_flank_joint
@@ -31,16 +31,13 @@ _NAN = math.nan
 CUTTING = ("involute_interference", "trochoid_interference", "radial_assembly")
 
 
-class InternalShiftPair(Record):
+class InternalShiftPair(RackedTeeth):
     """Numbers of teeth, the pinion's rack or cutter, the ring's cutter or rounded root (module 1), for any shifts.
 
     ``least_tip_diameter``: the ring's tip is no deeper than that, modules, as ``RingGear`` has it. Of helical teeth
     rack, root and cutter are those of the transverse section, in transverse modules; ``helix_angle`` in rad.
     """
 
-    first_teeth: int
-    second_teeth: int
-    rack: BasicRack
     root: PinionCutter | RoundedRoot
     ring_addendum: float = 1.0
     plain_tip: bool = False
@@ -52,16 +49,6 @@ class InternalShiftPair(Record):
     def __hash__(self) -> int:
         # what all caches are asked by: cheap rather than fine
         return self.first_teeth << 16 ^ self.second_teeth
-
-    @property
-    def gear_ratio(self) -> float:
-        """u = z2 / z1."""
-        return self.second_teeth / self.first_teeth
-
-    @property
-    def teeth(self) -> tuple[int, int]:
-        """z1, z2."""
-        return self.first_teeth, self.second_teeth
 
     @property
     def share(self) -> float:
