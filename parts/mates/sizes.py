@@ -13,9 +13,13 @@ _SAME = 1e-9
 _SAME_AS_CAM = 1e-6
 
 
-def same_size(key: str, own: float | str, other: float | str, code: str) -> None:
-    """Refuse a size, or a word, of the second part that is not the first one's; ``code``: whose it must be."""
-    if own != other and (isinstance(own, str) or isinstance(other, str) or not math.isclose(own, other, rel_tol=_SAME)):
+def same_size(key: str, own: float | str | None, other: float | str | None, code: str) -> None:
+    """Refuse a size, or a word, of the second part that is not the first one's, or is said of one; ``code``: whose."""
+    if own == other:
+        return
+    if not (
+        isinstance(own, int | float) and isinstance(other, int | float) and math.isclose(own, other, rel_tol=_SAME)
+    ):
         raise ParameterError(key, own, code, Nearest(other))
 
 
