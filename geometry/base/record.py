@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeVar, dataclass_transform
+from typing import TYPE_CHECKING, TypeVar, cast, dataclass_transform
 
 from msgspec import Struct, field
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     # mypy checks the changes of a dataclass only
     from dataclasses import replace
 else:
     from msgspec.structs import replace
 
-__all__ = ["Draft", "Record", "field", "replace", "with_value"]
+__all__ = ["Draft", "Record", "field", "kept", "replace", "with_value"]
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
@@ -21,6 +23,15 @@ class Record(Struct, frozen=True):
 
 
 R = TypeVar("R", bound=Record)
+T = TypeVar("T")
+
+
+def kept(record: Record, name: str, make: Callable[[], T]) -> T:
+    """What rooms above a record (``dict=True``) make of it, made once and kept with it like a cached property."""
+    held = vars(record)
+    if name not in held:
+        held[name] = make()
+    return cast("T", held[name])
 
 
 def with_value(record: R, path: str, value: object) -> R:

@@ -10,6 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geometry.base.record import kept
 from geometry.curves.curve import Complex, Curve, Real, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile
@@ -47,6 +48,10 @@ def profile_area(profile: Profile) -> float:
     digits. Gauss quadrature of 20 points on 4 panels a segment, or between its knots: exact to rounding for these
     analytic integrands.
     """
+    return kept(profile, "area", lambda: _area(profile))
+
+
+def _area(profile: Profile) -> float:
     total = 0.0
     pole = start_point(profile.period[0].curve) if profile.count == 1 else 0j
     for segment in profile.period:

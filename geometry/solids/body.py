@@ -78,7 +78,7 @@ class Cap(Record):
     up: bool
 
 
-class Body(Record):
+class Body(Record, dict=True):
     """A solid. Every profile runs with the material of its wall on the left; loops are distinct."""
 
     profiles: tuple[Profile, ...]

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from geometry.base.record import replace
+from geometry.base.record import kept, replace
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex
 from geometry.plane.measure import distance_to_profile
@@ -89,12 +89,17 @@ def even_shares(count: int, opens: float | None = None) -> tuple[float, ...]:
 
 def level_shares(body: Body, tolerance: float) -> tuple[float, ...]:
     """Where all chamfers are cut, so that lines between the cuts bow by a share of the tolerance, mm."""
-    chamfers = list(body.chamfers())
-    if not chamfers:
+    most, opens = kept(body, "bow", lambda: _worst(body))
+    if most is None:
         return (1.0,)
-    most = max(chamfer_bow(body, *chamfer) for chamfer in chamfers)
+    return even_shares(max(1, math.ceil(math.sqrt(most / (_BOW_SHARE * tolerance)))), opens)
+
+
+def _worst(body: Body) -> tuple[float | None, float | None]:
+    """How far lines across any chamfer bow, mm, and the least share at which an edge opens; None: there is none."""
+    chamfers = list(body.chamfers())
     opens = [found for chamfer in chamfers if (found := opening(body, *chamfer)) is not None]
-    return even_shares(max(1, math.ceil(math.sqrt(most / (_BOW_SHARE * tolerance)))), min(opens, default=None))
+    return max((chamfer_bow(body, *chamfer) for chamfer in chamfers), default=None), min(opens, default=None)
 
 
 def chamfer_bow(body: Body, wall: Wall, whole: int, end: int) -> float:
