@@ -705,10 +705,16 @@ def _schema(options: argparse.Namespace) -> int:
 def _calc(options: argparse.Namespace) -> int:
     from exporters.command.new import topic_keys
     from exporters.documents.topics import calculate, keys_of_topic
+    from parts.base.readback import ReadError
 
     _check_free(options)
     if options.keys:
         _page(topic_keys(options.topic, *keys_of_topic(options.topic), options.language or ENGLISH), options)
         return DONE
-    _page(calculate(options.topic, options.words, options.format, options.language), options)
+    try:
+        text = calculate(options.topic, options.words, options.format, options.language)
+    except ReadError as error:
+        print(f"higherpair: {error}", file=sys.stderr)
+        return FAILED
+    _page(text, options)
     return DONE

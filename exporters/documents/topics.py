@@ -7,15 +7,16 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
 from exporters.documents.render import FORMATS, render
-from geometry.base.errors import Nearest
+from geometry.base.errors import Nearest, ParameterError
 from parts.base.kind import MOST_OFFERS
 from parts.base.psv import rows_of
-from parts.base.refusal import SceneError, meant
+from parts.base.readback import ReadError
+from parts.base.refusal import SceneError, meant, placed
 from parts.base.registry import KINDS
 from parts.base.schema import as_written, plain_numbers
 from parts.base.texts import Words, languages
@@ -23,6 +24,11 @@ from parts.base.texts import words as told
 from parts.pages.inputs import GEARS, PLACE, table_of
 from parts.pages.page import Picture, Sheet
 
+if TYPE_CHECKING:
+    from parts.drawing.expected import Expected
+
+# what is measured off sheets may be off by this, mm on paper
+_PAPER_TOLERANCE = 0.001
 # the module of each, and the name of its keys there
 TOPICS = {topic: (module, keys) for topic, module, keys in rows_of(__file__, "topics")}
 
@@ -56,6 +62,8 @@ def calculate(topic: str, words: Sequence[str], form: str, language: str | None)
     language = language or spoken
     if sheet.picture_file is not None and sheet.picture is not None:
         _write_picture(sheet.picture, Path(sheet.picture_file), told(language))
+    if sheet.paper_file is not None and sheet.paper is not None:
+        _write_paper(sheet.paper(language), Path(sheet.paper_file), told(language).say(sheet.title), topic)
     if form == "csv" and not sheet.tables:
         raise SceneError(PLACE, "--format", form, "no_tables", Nearest("json"))
     return render(sheet, form, language)
@@ -79,6 +87,39 @@ def _write_picture(picture: Picture, file: Path, words: Words) -> None:
         write_contour_dxf(file, picture.contour, picture.shown(words), words)
     else:
         file.write_text(picture.svg(words), encoding="utf-8", newline="\n")
+
+
+def _write_paper(pages: Sequence[Expected], file: Path, title: str, topic: str) -> None:
+    """Write sheets, several of them into a PDF, else into files with their numbers; each is read back and measured.
+
+    Raises
+    ------
+    SceneError
+        What writes PDF is not installed.
+    ReadError
+        A file is not what it should be; it is not left there.
+    """
+    from exporters.drawings.sheets import write_sheets
+    from exporters.drawings.verify import verify_sheets
+
+    if file.suffix.lower() == ".pdf":
+        from exporters.drawings.pdf import check_pdf
+
+        try:
+            check_pdf(_PAPER_TOLERANCE)
+        except ParameterError as error:
+            raise placed(PLACE, topic, error.renamed("sheet")) from error
+        parts = [(file, pages)]
+    else:
+        parts = [
+            (file if k == 0 else file.with_suffix(f".{k + 1}{file.suffix}"), [page]) for k, page in enumerate(pages)
+        ]
+    for name, shown in parts:
+        write_sheets(name, [page.canvas for page in shown], title)
+        verdict = verify_sheets(name, shown, _PAPER_TOLERANCE)
+        if verdict.failures:
+            name.unlink()
+            raise ReadError(f"{name}: {'; '.join(map(str, verdict.failures))}")
 
 
 def sheet_of(topic: str, words: Sequence[str], language: str | None = None) -> tuple[Sheet, str]:

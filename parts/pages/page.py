@@ -8,14 +8,17 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Protocol, SupportsFloat
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Protocol, SupportsFloat
 
 from geometry.base.record import Draft, Record, field, replace
 from parts.base.psv import rows_of
 from parts.base.texts import NC_, Text, Words, filled
 from parts.pages.symbols import symbol_text
 from parts.pages.terms import TERMS
+
+if TYPE_CHECKING:
+    from parts.drawing.expected import Expected
 
 Value = float | int | str
 _SUPERSCRIPTS = {"2": "²", "3": "³", "4": "⁴"}
@@ -118,6 +121,9 @@ class Sheet(Draft):
     plain_picture: str = ""
     tables: list[Table] = field(default_factory=list)
     picture_file: str | None = None
+    # sheets on paper, made in a language, and the file that is asked for
+    paper: Callable[[str], Sequence[Expected]] | None = None
+    paper_file: str | None = None
     data: dict[str, Any] = field(default_factory=dict)
     # each is told once, at the first such step
     printed: Misprints = field(default_factory=dict)

@@ -25,8 +25,8 @@ from parts.pages.page import Printed, Sheet
 ENDINGS = (".svg", ".dxf")
 
 
-def checked_picture(topic: str, name: str | None, endings: tuple[str, ...] = ENDINGS) -> None:
-    """Refuse a picture file that would be no picture.
+def checked_picture(topic: str, name: str | None, endings: tuple[str, ...] = ENDINGS, key: str = "picture") -> None:
+    """Refuse the file of a ``key`` that would be no picture, or no sheet.
 
     Raises
     ------
@@ -38,10 +38,10 @@ def checked_picture(topic: str, name: str | None, endings: tuple[str, ...] = END
     file = Path(name)
     if file.suffix.lower() not in endings:
         stem = file.with_suffix("") if file.suffix else file
-        works = Nearest(stem.with_name(f"{stem.name or 'contour'}.svg").as_posix())
-        raise SceneError(PLACE, f"{topic}.picture", name, "picture_ends_in", works, known=endings)
+        works = Nearest(stem.with_name(f"{stem.name or 'contour'}{endings[0]}").as_posix())
+        raise SceneError(PLACE, f"{topic}.{key}", name, f"{key}_ends_in", works, known=endings)
     if not file.parent.is_dir():
-        raise SceneError(PLACE, f"{topic}.picture", name, "no_such_folder", Nearest(file.name))
+        raise SceneError(PLACE, f"{topic}.{key}", name, "no_such_folder", Nearest(file.name))
 
 
 def show_given(page: Sheet, keys: ChoiceKeys, pair: AnyShiftPair, rack: BasicRack) -> str:

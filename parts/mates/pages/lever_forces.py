@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +33,7 @@ from geometry.kinematics.kinetostatics import (
 from geometry.kinematics.levers import Levers, Moved, Rods, Slider, Stone
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
-from parts.mates.pages.lever_keys import LeverKeys
+from parts.mates.pages.lever_keys import LeverKeys, room_of
 from parts.mates.pages.lever_picture import Plan, Vector, plan_of
 from parts.pages.page import Sheet
 
@@ -58,6 +58,18 @@ class Loaded(Record, eq=False):
     def held(self) -> Mask:
         """Whether each position is one in which the groups hold their loads."""
         return np.asarray(self.found.bite >= _DEAD)
+
+
+class LeverForce(Record):
+    """What acts on Zhukovsky's lever: a force (N) with the velocity of its point (m/s), a couple (N m) with the
+    angular velocity of its link (1/s).
+    """
+
+    name: str
+    velocity: complex
+    force: complex
+    couple: float = 0.0
+    turning: float = 0.0
 
 
 class Forces:
@@ -202,6 +214,13 @@ class ForcePage:
         self._over_a_turn()
         self._notes()
 
+    def lever(self) -> Iterator[LeverForce]:
+        """What acts on Zhukovsky's lever in the first position."""
+        for name, one in self.one.acting.items():
+            frame = self.one.moving[one.link]
+            speed, rate = complex(frame.point(one.at)[1]) / 1000, float(frame.turning()[0])
+            yield LeverForce(name, speed, complex(one.force), float(one.couple) / 1000, rate)
+
     def _given(self) -> None:
         page, keys = self.page, self.keys
         page.section("Forces given")
@@ -340,7 +359,7 @@ class ForcePage:
             Vector(name, complex(start), complex(start + force))
             for (name, force), start in zip(chain, spots, strict=False)
         )
-        plan = plan_of((*vectors, *across), self.keys.force_scale)
+        plan = plan_of((*vectors, *across), self.keys.force_scale, room_of(self.keys))
         told = message("{plan}, {scale:g} N for 1 mm", plan=title, scale=plan.scale)
         self.page.tables.append(plan.table(f"force_plan_{key}", told, "N"))
         self.plans.append((title, plan))

@@ -13,6 +13,9 @@ from geometry.kinematics.levers import Levers, Rods, Slider, Stone
 from parts.base.refusal import REMOVED
 from parts.base.schema import described_key
 from parts.keys.base import degrees, mm, size
+from parts.keys.sheet import PaperName
+from parts.keys.title import TitleBlockKey
+from parts.mates.pages.lever_picture import LARGE_ROOM, ROOM
 
 _MOST = 1e5
 _CODE = "last four digits of a record-book number: chooses assignment and rows"
@@ -32,6 +35,12 @@ _FORCE = "useful resistance on the slider, against its motion"
 _MOMENT = "moment of the useful resistance on the lever or rocker that is the output, against its motion"
 _WAYS = "along which way of its guide the slider is resisted; forward of a rocker is counter-clockwise"
 _TOOTHED = "pitch radius of the wheel on the crank's shaft by which it is driven; none: by a coupling, a moment alone"
+_SHEET = (
+    "DXF, SVG or PDF file of the coursework's sheet to write: scheme in all positions, plans, diagrams, forces and "
+    "Zhukovsky's lever, each to its scale"
+)
+_DRAWN = "length of the crank on the drawing; default: 30 mm, on a sheet what gives a round scale"
+_SECOND = "number of another position whose plans the sheet has too"
 _Mass = Annotated[float, Meta(ge=0, le=1e9, extra={"unit": "kg"})]
 _Inertia = Annotated[float, Meta(ge=0, le=1e9, extra={"unit": "kg*m2"})]
 _Place = Annotated[float, Meta(ge=-_MOST, le=_MOST, extra={"unit": "mm"})]
@@ -91,11 +100,20 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     ] = -90.0
     unevenness: Annotated[float, Meta(gt=0, le=0.5, description="delta: gives the flywheel")] | None = None
     positions: Annotated[int, Meta(ge=2, le=720, description="positions of the crank in the table")] = 12
-    drawn_crank: Annotated[float, mm("length of the crank on the drawing", above=0, most=1000)] = 30.0
+    drawn_crank: Annotated[float, mm(_DRAWN, above=0, most=1000)] | None = None
     velocity_scale: Annotated[float, Meta(gt=0, le=1e6, description="m/s for 1 mm of the plan")] | None = None
     acceleration_scale: Annotated[float, Meta(gt=0, le=1e9, description="m/s2 for 1 mm of the plan")] | None = None
     force_scale: Annotated[float, Meta(gt=0, le=1e12, description="N for 1 mm of the plans of forces")] | None = None
     picture: Annotated[str, Meta(description="SVG file of scheme, plans and diagrams to write")] | None = None
+    sheet: Annotated[str, Meta(description=_SHEET)] | None = None
+    paper: Annotated[PaperName, Meta(description="size of the sheet's paper")] = "A1"
+    title_block: TitleBlockKey = True
+    second_position: Annotated[int, Meta(ge=1, le=719, description=_SECOND)] | None = None
+
+
+def room_of(keys: LeverKeys) -> float:
+    """Room of the longest vector of a plan, mm."""
+    return LARGE_ROOM if keys.sheet is not None and keys.paper in ("A1", "A0") else ROOM
 
 
 def levers_of(keys: LeverKeys) -> Levers:

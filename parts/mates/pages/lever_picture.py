@@ -22,12 +22,12 @@ _LINK, _PATH, _AXIS = "#1f4e8c", "#9fb0c0", "#c8ccd0"
 _COLOURS = ("#c03020", "#2060c0", "#209050", "#a06000", "#8030a0", "#008090", "#606060", "#d06090")
 # which points are joined by links
 _RODS = (("O1", "A"), ("A", "B"), ("O3", "B"), ("O3", "C"), ("C", "D"), ("O5", "D"))
-# scales of plans: a plan's longest vector stays within this on paper, mm
-_PAPER, _STEPS = 120.0, (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)
+# scales of plans: a plan's longest vector stays within this on paper, on large sheets within the second, mm
+ROOM, LARGE_ROOM, _STEPS = 120.0, 170.0, (1.0, 2.0, 2.5, 4.0, 5.0, 10.0)
 # names of a panel may stand in the room about it, below its title
 _FIELD = (complex(-_EDGE, -8.0), complex(_SIDE + _EDGE, _SIDE + _EDGE / 2))
 # of more positions than these the links would be one grey field
-_SHOWN = 24
+SHOWN = 24
 # of a path and a diagram every such point is drawn
 _EVERY = 10
 
@@ -54,11 +54,11 @@ class Plan(Record):
         return table_of(name, title, heads, rows)
 
 
-def plan_of(vectors: Iterable[Vector], scale: float | None) -> Plan:
-    """A plan; without a scale at the finest of the usual ones at which its longest vector has room."""
+def plan_of(vectors: Iterable[Vector], scale: float | None, room: float = ROOM) -> Plan:
+    """A plan; without a scale at the finest of the usual ones at which its longest vector has ``room``, mm."""
     found = tuple(vectors)
     if scale is None:
-        most = max(abs(v.end - v.start) for v in found) / _PAPER
+        most = max(abs(v.end - v.start) for v in found) / room
         decade = 10.0 ** math.floor(math.log10(most)) if most > 0 else 1.0
         scale = next(step * decade for step in _STEPS if step * decade >= most * (1 - 1e-12))
     return Plan(found, scale)
@@ -112,7 +112,7 @@ class LeverPicture(Record, eq=False):
                 (N_("Gained energy, J; KK_1 is the height of ΔT_m"), list(together(run.angle, energies, words))),
             ]
         panels += [(title, list(_plan(plan))) for title, plan in self.forces]
-        if 1 < self.positions <= _SHOWN:
+        if 1 < self.positions <= SHOWN:
             panels.append((N_("Positions of the crank over one turn"), list(self._positions())))
         return paneled(panels, words)
 
@@ -124,7 +124,7 @@ class LeverPicture(Record, eq=False):
             spots = np.append(path[::_EVERY], path[0])
             lines += _seen(view, spots)
             yield view.line(spots, _PATH, 1.0)
-        for one, two in self._rods(known):
+        for one, two in self.rods(known):
             ends = np.array([known[one], known[two]])
             lines += _seen(view, ends)
             yield view.line(ends, _LINK, 3.0)
@@ -135,7 +135,11 @@ class LeverPicture(Record, eq=False):
             yield circle(x, y, 4, f"fill:{fill};stroke:{_LINK};stroke-width:2", "g")
             radius = 10.0 if name in self.blocks else 5.0
             # no other name stands on a joint
-            lines += [(complex(x - 5, y), complex(x + 5, y)), (complex(x, y - 5), complex(x, y + 5))]
+            half = 9.0 if name in self.blocks else 5.0
+            lines += [(complex(x, y) - way, complex(x, y) + way) for way in (half, half * 1j)]
+            if name in self.blocks:
+                corners = [complex(x, y) + half * (1 + 1j) * 1j**k for k in range(5)]
+                lines += pairwise(corners)
             names.append(beside_point(name, complex(x, y), radius))
         yield from _named(names, lines, (INK,))
         for name, way in self.blocks.items():
@@ -145,9 +149,15 @@ class LeverPicture(Record, eq=False):
             place = f"translate({x:.2f} {y:.2f}) rotate({turn:.3f})"
             yield f'<rect x="-9" y="-6" width="18" height="12" transform="{place}" style="{style}"/>'
 
-    def _rods(self, known: Mapping[str, complex]) -> list[tuple[str, str]]:
+    def rods(self, known: Mapping[str, complex]) -> list[tuple[str, str]]:
+        """Which of the points that are known are joined by links."""
         rods = (rod for rod in _RODS if {*rod} <= {*known})
         return [rod for rod in rods if not ("A" in self.blocks and rod == ("A", "B"))]
+
+    def at(self, number: int) -> dict[str, complex]:
+        """Where all points are in a position, mm."""
+        moved = {name: complex(path[number * len(path) // self.positions]) for name, path in self.paths.items()}
+        return {**self.fixed, **moved}
 
     def _positions(self) -> Iterator[str]:
         """Every position with its number beyond A, the first one last, over the others."""
@@ -155,9 +165,8 @@ class LeverPicture(Record, eq=False):
         for path in self.paths.values():
             yield view.line(np.append(path[::_EVERY], path[0]), _PATH, 1.0)
         for number in reversed(range(self.positions)):
-            moved = {name: complex(path[number * len(path) // self.positions]) for name, path in self.paths.items()}
-            places = {**self.fixed, **moved}
-            for one, two in self._rods(places):
+            places = self.at(number)
+            for one, two in self.rods(places):
                 yield view.line(np.array([places[one], places[two]]), _LINK, 0.5 if number else 2.5)
             (x0, y0), (x, y) = view.at(places["O1"]), view.at(places["A"])
             share = 11 / math.hypot(x - x0, y - y0)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.roots import bracketed_roots
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.flywheel import Cycle, mertsalov, travelled
@@ -18,15 +18,19 @@ from geometry.kinematics.kinetostatics import frames, reduced_inertia
 from geometry.kinematics.levers import Moved, Rods, Slider, Stone, swing
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
+from parts.keys.title import TitleBlockTable
 from parts.mates.pages.contour_marks import checked_picture
-from parts.mates.pages.lever_forces import ForcePage, Forces, asked, weighs
-from parts.mates.pages.lever_keys import NAMES, LeverKeys, levers_of
+from parts.mates.pages.lever_forces import ForcePage, Forces, LeverForce, asked, weighs
+from parts.mates.pages.lever_keys import NAMES, LeverKeys, levers_of, room_of
 from parts.mates.pages.lever_picture import LeverPicture, Plan, Run, Vector, plan_of
 from parts.mates.pages.lever_tasks import EXAMPLE, MACHINES, assigned, rows_of_code
 from parts.pages.inputs import checked, refusal
 from parts.pages.misprints import printed_for
 from parts.pages.page import Sheet
 from parts.pages.terms import TERMS
+
+if TYPE_CHECKING:
+    from parts.drawing.expected import Expected
 
 TOPIC = "lever"
 _GUIDELINES, _MERTSALOV = "guidelines, 3.4", "guidelines, 2.2.5"
@@ -36,14 +40,19 @@ _FINE = 3600
 # lengths that are told as they are drawn too
 _DRAWN = ("first_rod_length", "frame_length", "lever_length", "lever_arm_length", "second_rod_length",
           "second_rocker_length")  # fmt: skip
+# length of the crank on a drawing, mm; shares of a sheet that the scheme takes, along and across
+_DRAWN_CRANK, _SHARE = 30.0, 0.5 + 0.5j
 # keys that choose the others
 _CHOICE = ("code", "assignment", "variant")
+# keys of the sheet alone
+_OF_SHEET = ("sheet", "paper", "title_block", "second_position")
 
 
 def sheet(table: dict[str, Any]) -> Sheet:
     """The page of one mechanism."""
     keys: LeverKeys = checked(table, LeverKeys, TOPIC)
     checked_picture(TOPIC, keys.picture, (".svg",))
+    checked_picture(TOPIC, keys.sheet, (".dxf", ".svg", ".pdf"), "sheet")
     try:
         chosen, number = _chosen(keys, table)
         if number is not None:
@@ -60,7 +69,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
 
 def _is_example(table: Mapping[str, Any]) -> bool:
     digits = "".join(filter(str.isdigit, str(table.get("code", ""))))
-    return digits == EXAMPLE["code"] and set(table) <= {"code", "picture", "positions"}
+    return digits == EXAMPLE["code"] and set(table) <= {"code", "picture", "positions", *_OF_SHEET}
 
 
 def _chosen(keys: LeverKeys, table: Mapping[str, Any]) -> tuple[dict[str, Any], int | None]:
@@ -96,6 +105,14 @@ def _refuse_idle(keys: LeverKeys, table: Mapping[str, Any]) -> None:
         "drive_angle_deg": keys.drive_radius is not None, "centres": asked(keys),
         "centre_offsets": asked(keys),
     }  # fmt: skip
+    for name in _OF_SHEET[1:]:
+        if name in table and keys.sheet is None:
+            raise ParameterError(name, table[name], "needs_other", REMOVED, other="sheet")
+    if keys.second_position is not None and keys.second_position >= keys.positions:
+        works = Nearest(keys.positions - 1, "at_most")
+        raise ParameterError(
+            "second_position", keys.second_position, "no_such_position", works, last=keys.positions - 1
+        )
     for name, used in taken.items():
         if name in table and not used:
             raise ParameterError(name, table[name], "of_no_link", REMOVED)
@@ -116,6 +133,7 @@ class _Page:
         printed = printed_for("lever example") if is_example else {}
         self.page = Sheet(TOPIC, N_("Lever mechanism"), picture_file=keys.picture, printed=printed)
         self.forces = Forces(keys, self.levers) if asked(keys) else None
+        self.lever: tuple[LeverForce, ...] = ()
         self.start, self.way = math.radians(keys.start_angle_deg), cmath.exp(1j * math.radians(keys.guide_angle_deg))
         try:
             self.at = self.levers.moved(self.start)
@@ -124,6 +142,17 @@ class _Page:
             self.turn = self.levers.moved(self.start + 2 * math.pi * np.arange(self.fine) / self.fine)
         except ParameterError as error:
             raise error.renamed(NAMES.get(error.name, error.name)) from error
+        self.drawn = keys.drawn_crank or (_DRAWN_CRANK if keys.sheet is None else self._round_crank())
+
+    def _round_crank(self) -> float:
+        """The crank on a sheet, mm, so that the scheme has a round scale and its share of the paper."""
+        from parts.drawing.canvas import standard_scale
+        from parts.drawing.choice import PAPERS
+
+        spots = np.concatenate([np.zeros(1), *map(self.turn.place, self.turn.points)])
+        tall, wide = PAPERS[self.keys.paper]
+        needed = max(np.ptp(spots.real) / (_SHARE.real * wide), np.ptp(spots.imag) / (_SHARE.imag * tall))
+        return self.levers.crank / (1000 * standard_scale(float(needed) / 1000))
 
     def made(self) -> Sheet:
         """The whole page."""
@@ -137,6 +166,8 @@ class _Page:
         forces = self._forces()
         run = self._flywheel()
         self._picture(plans, run, forces)
+        if self.keys.sheet is not None:
+            self._sheet(self.keys.sheet)
         self._notes()
         return self.page
 
@@ -166,7 +197,7 @@ class _Page:
         for name, value in lengths:
             if value is not None:
                 page.add(name, value, given=True)
-        scale = self.levers.crank / keys.drawn_crank
+        scale = self.levers.crank / self.drawn
         heads = ((N_("length"), ""), (N_("real"), "mm"), (N_("on the drawing"), "mm"))
         named = [("l_AO1", self.levers.crank)]
         named += [(TERMS[name].symbol, value) for name, value in lengths if value is not None and name in _DRAWN]
@@ -354,6 +385,7 @@ class _Page:
             return []
         part = ForcePage(self.page, self.forces, self.start, self.keys.positions, self.fine)
         part.add()
+        self.lever = tuple(part.lever())
         return part.plans
 
     def _flywheel(self) -> Run | None:
@@ -412,10 +444,16 @@ class _Page:
         place, ahead, change = (np.append(x, x[0]) for x in found)
         return place if self._slides else np.unwrap(place), ahead, change
 
+    def _plans_at(self, at: Moved) -> tuple[Plan, Plan]:
+        """Plans of velocities and of accelerations in a position."""
+        return (
+            plan_of(self._velocity_vectors(at), self.keys.velocity_scale, room_of(self.keys)),
+            plan_of(self._acceleration_vectors(at), self.keys.acceleration_scale, room_of(self.keys)),
+        )
+
     def _plans(self) -> tuple[Plan, Plan]:
         """Plans of velocities and of accelerations, as tables too."""
-        speeds = plan_of(self._velocity_vectors(), self.keys.velocity_scale)
-        changes = plan_of(self._acceleration_vectors(), self.keys.acceleration_scale)
+        speeds, changes = self._plans_at(self.at)
         for key, title, unit, plan in (
             ("velocity_plan", N_("Plan of velocities, {scale:g} m/s for 1 mm"), "m/s", speeds),
             ("acceleration_plan", N_("Plan of accelerations, {scale:g} m/s² for 1 mm"), "m/s2", changes),
@@ -429,13 +467,7 @@ class _Page:
             fixed["O3"] = self.levers.first.pivot
         if isinstance(self.levers.second, Rods):
             fixed["O5"] = self.levers.second.pivot
-        share = self.keys.mass_point if "2" in self.at.links else None
-        shown = []
-        for at in (self.at, self.turn):
-            places = {name: at.place(name) for name in at.points}
-            if share is not None:
-                places["S2"] = (1 - share) * places["A"] + share * places["B"]
-            shown.append(places)
+        shown = [{name: at.place(name) for name in at.points} | self._centres(at) for at in (self.at, self.turn)]
         blocks = {"A": complex(self.at.links["3"][0])} if self.at.reach is not None else {}
         if self._slides:
             blocks[self._output] = self.way
@@ -443,6 +475,59 @@ class _Page:
         self.page.picture = LeverPicture(
             points, shown[1], fixed, blocks, *plans, self._diagram(), run, tuple(forces), self.keys.positions
         )
+
+    def _centres(self, at: Moved) -> dict[str, Complex]:
+        """Centres of mass of the rods, as far as they are told."""
+        told = (
+            {}
+            if self.forces is None
+            else {body.link: body.centre for name, body in self.forces.named if name.isdigit()}
+        )
+        if self.keys.mass_point is not None and not isinstance(self.levers.first, Stone):
+            told["2"] = complex(self.keys.mass_point * self.levers.first.rod)
+        moving = frames(self.levers, at)
+        return {
+            f"S{link}": moving[link].point(told[link])[0] for link in ("2", "4") if link in at.links and link in told
+        }
+
+    def _sheet(self, file: str) -> None:
+        """The sheets for coursework, drawn when their language is known."""
+        from parts.mates.sheets.lever_sheet import LeverDrawing
+
+        keys, picture = self.keys, self.page.picture
+        assert isinstance(picture, LeverPicture)
+        second = None
+        if keys.second_position is not None:
+            angle = self.start + 2 * math.pi * keys.second_position / keys.positions
+            second = (keys.second_position, *self._plans_at(self.levers.moved(angle)))
+        block = keys.title_block if isinstance(keys.title_block, TitleBlockTable) else TitleBlockTable()
+        given = {name: value for name in ("velocity_scale", "acceleration_scale", "force_scale")
+                 if (value := getattr(keys, name)) is not None}  # fmt: skip
+        title: Text = N_("Kinematic study of the mechanism")
+        if self.number is not None:
+            title = message(N_("Kinematic study of the mechanism: {machine}"), machine=message(MACHINES[self.number]))
+        drawing = LeverDrawing(
+            title, picture, self.drawn, self.levers.crank / self.drawn, self._output, self._series(), second,
+            self.lever, keys.speed, given, keys.paper, block if keys.title_block else None,
+        )  # fmt: skip
+
+        def pages(language: str) -> list[Expected]:
+            try:
+                return drawing.pages(language)
+            except ParameterError as error:
+                own = error.name in TitleBlockTable.__struct_fields__
+                raise refusal(TOPIC, error, "title_block" if own else "", keys) from error
+
+        self.page.paper_file, self.page.paper = file, pages
+
+    def _series(self) -> tuple[tuple[str, str, Real], ...]:
+        """Travel, velocity and acceleration of the output over the turn, along its guide or about its pivot."""
+        if self._slides:
+            _, *found = self._diagram()
+            return tuple(zip(("S", "V", "a"), ("mm", "m/s", "m/s2"), found, strict=True))
+        place, *rates = (values[:-1] for values in self._travelled())
+        found = [np.degrees(place - place.min()), *rates]
+        return tuple(zip(("ψ", "ω", "ε"), ("deg", "rad/s", "rad/s2"), found, strict=True))
 
     def _diagram(self) -> tuple[Real, Real, Real, Real]:
         """Angle (deg), travel (mm), velocity and acceleration of the output along its way."""
@@ -452,8 +537,7 @@ class _Page:
         speed, change = (self._along(x / 1000) for x in (turn.velocity(name), turn.acceleration(name)))
         return angles, travel - travel.min(), speed, change
 
-    def _velocity_vectors(self) -> list[Vector]:
-        at = self.at
+    def _velocity_vectors(self, at: Moved) -> list[Vector]:
         ends = {name: complex(at.velocity(name)) / 1000 for name in at.points}
         found = [Vector("pa", 0j, ends["A"])]
         if at.reach is not None:
@@ -467,8 +551,7 @@ class _Page:
             found.append(Vector("cd", ends["C"], ends["D"]))
         return found
 
-    def _acceleration_vectors(self) -> list[Vector]:
-        at = self.at
+    def _acceleration_vectors(self, at: Moved) -> list[Vector]:
         ends = {name: complex(at.acceleration(name)) / 1000 for name in at.points}
         found = [Vector("πa", 0j, ends["A"])]
         if self.levers.change:
