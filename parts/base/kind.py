@@ -76,6 +76,11 @@ class Report(Record):
     flat_findings: tuple[Finding, ...] = ()
 
 
+def diameters(thing: object, *names: str) -> dict[str, float]:
+    """The circles of a thing by the names of its radii, tip or root, mm."""
+    return {f"{name}_diameter": 2 * getattr(thing, f"{name}_radius") for name in names}
+
+
 class Kind(Generic[K, T]):
     """A kind of part. ``K``: its keys (a msgspec struct, tagged with the kind's name), ``T``: its exact thing."""
 

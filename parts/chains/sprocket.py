@@ -10,7 +10,7 @@ from msgspec import Meta
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import replace
 from geometry.solids.wheel import Rim, check_wheel
-from parts.base.kind import Others, Report
+from parts.base.kind import Others, Report, diameters
 from parts.keys.base import MOST_LENGTH, either, mm, start
 from parts.keys.pins import MARGIN, check_holes, holes_of, most_of
 from parts.keys.wheel import WheelKeys, WheelKind
@@ -138,11 +138,7 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
         from geometry.base.findings import Finding
         from geometry.gears.chains.sprocket import sprocket_findings
 
-        circles = {
-            "tip_diameter": 2 * thing.tip_radius,
-            "pitch_diameter": 2 * thing.pitch_radius,
-            "root_diameter": 2 * thing.root_radius,
-        }
+        circles = diameters(thing, "tip", "pitch", "root")
         quantities = {
             "pitch": thing.chain.pitch,
             "roller_diameter": thing.chain.roller_diameter,

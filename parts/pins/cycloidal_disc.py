@@ -15,7 +15,7 @@ from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.wheel import check_wheel
 from geometry.solids.windows import RoundHoles
-from parts.base.kind import Others, Report
+from parts.base.kind import Others, Report, diameters
 from parts.keys.base import mm, part_mm
 from parts.keys.holes import Direction
 from parts.keys.pins import MARGIN, LobeCount, PinCircle, PinDiameter, check_holes, holes_of, most_of
@@ -110,11 +110,7 @@ class CycloidalDiscKind(WheelKind[CycloidalDiscSpec, "CycloidalDisc"]):
         """Diameters, reduction and radii of curvature."""
         from geometry.gears.pins.cycloidal import disc_findings
 
-        circles = {
-            "tip_diameter": 2 * thing.tip_radius,
-            "root_diameter": 2 * thing.root_radius,
-            "pin_circle_diameter": thing.pin_circle_diameter,
-        }
+        circles = diameters(thing, "tip", "root") | {"pin_circle_diameter": thing.pin_circle_diameter}
         quantities = {
             "reduction": float(thing.number_of_lobes),
             "number_of_pins": float(thing.number_of_pins),

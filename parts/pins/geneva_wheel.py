@@ -12,7 +12,7 @@ from geometry.base.errors import Nearest, OffsetError, ParameterError
 from geometry.base.nearest import kept, moved, nearest
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
-from parts.base.kind import Others, Report
+from parts.base.kind import Others, Report, diameters
 from parts.keys.base import MOST_LENGTH, either, mm, part_mm, start
 from parts.keys.pins import MARGIN, holes_of, least_of, moved_region, wheel_holes
 from parts.keys.wheel import WheelKeys, WheelKind
@@ -124,7 +124,7 @@ class GenevaWheelKind(WheelKind[GenevaWheelSpec, "GenevaWheel"]):
     def report(self, keys: GenevaWheelSpec, thing: GenevaWheel) -> Report:
         """Its sizes."""
         drive = thing.drive
-        circles = {"tip_diameter": 2 * thing.tip_radius, "root_diameter": 2 * thing.root_radius}
+        circles = diameters(thing, "tip", "root")
         quantities = {
             "centre_distance_of_pair": drive.centre_distance,
             "crank_radius": drive.crank_radius,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 
 from geometry.base.record import replace
-from parts.base.kind import Others, Report
+from parts.base.kind import Others, Report, diameters
 from parts.keys.base import MOST_LENGTH, mm, part_mm
 from parts.keys.pins import PinDiameter, wheel_holes
 from parts.keys.wheel import WheelKeys, WheelKind
@@ -77,11 +77,7 @@ class LanternGearKind(WheelKind[LanternGearSpec, "LanternGear"]):
         from geometry.gears.pins.lantern import lantern_findings, limits_of
 
         found = limits_of(thing)
-        circles = {
-            "tip_diameter": 2 * thing.tip_radius,
-            "pitch_diameter": 2 * thing.pitch_radius,
-            "root_diameter": 2 * thing.root_radius,
-        }
+        circles = diameters(thing, "tip", "pitch", "root")
         quantities = {
             "pitch": thing.pitch,
             "tip_tooth_thickness": thing.tip_thickness,

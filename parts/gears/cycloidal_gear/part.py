@@ -8,7 +8,7 @@ from msgspec import Meta
 
 from geometry.base.errors import ParameterError
 from geometry.base.record import replace
-from parts.base.kind import Others, Report
+from parts.base.kind import Others, Report, diameters
 from parts.keys.base import in_modules, mm, part_mm, start
 from parts.keys.pins import wheel_holes
 from parts.keys.wheel import WheelKeys, WheelKind
@@ -100,11 +100,7 @@ class CycloidalGearKind(WheelKind[CycloidalGearSpec, "CycloidalGear"]):
         """Diameters, thicknesses and what is poor."""
         from geometry.gears.cycloidal.gear import cycloidal_findings
 
-        circles = {
-            "tip_diameter": 2 * thing.tip_radius,
-            "pitch_diameter": 2 * thing.pitch_radius,
-            "root_diameter": 2 * thing.root_radius,
-        }
+        circles = diameters(thing, "tip", "pitch", "root")
         quantities = {
             "pitch": thing.pitch,
             "tooth_thickness": thing.tooth_thickness,

@@ -11,7 +11,7 @@ from msgspec.structs import replace as changed
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.solids.hub_holes import HubHoles, least_wall
-from parts.base.kind import Kind, Others, Report
+from parts.base.kind import Kind, Others, Report, diameters
 from parts.base.part_keys import MaterialKeys
 from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import BoreDiameter, degrees, mm
@@ -251,13 +251,8 @@ class WormKind(Kind[WormSpec, "WormBody"]):
         from geometry.gears.worms.measures import BALL, over_balls, reference_chord
 
         thread, worm = thing.thread, thing.thread.worm
-        circles = {
-            "tip_diameter": 2 * worm.tip_radius,
-            "reference_diameter": 2 * worm.reference_radius,
-            "root_diameter": 2 * worm.root_radius,
-            "root_form_diameter": 2
-            * dict(thread.lines)["flank"].point(dict(thread.lines)["flank"].domain[0]).real.item(),
-        }
+        circles, flank = diameters(worm, "tip", "reference", "root"), dict(thread.lines)["flank"]
+        circles["root_form_diameter"] = 2 * flank.point(flank.domain[0]).real.item()
         if worm.form == "ZI":
             circles["base_diameter"] = 2 * worm.flank.least_radius
         chord, balls = reference_chord(thread), over_balls(thread, BALL * worm.module)
