@@ -131,7 +131,7 @@ class Kind(Generic[K, T]):
 
     def stays(self, offset: float) -> None:
         """Refuse an offset of what is made as it is alone."""
-        if offset:
+        if offset and self.unmoved:
             raise OffsetError(offset, self.unmoved)
 
     def sketch(self, keys: K, thing: T) -> Sketch | None:

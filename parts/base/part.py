@@ -110,7 +110,11 @@ class Part(Record, dict=True):
     @cached_property
     def body(self) -> Callable[[float], Body | FacedBody]:
         """The exact solid, every boundary moved so many mm out of the material."""
-        return lru_cache(maxsize=2)(lambda offset: self.made_by.solid(self.keys, self.thing, offset))
+        return lru_cache(maxsize=2)(self._body)
+
+    def _body(self, offset: float) -> Body | FacedBody:
+        self.made_by.stays(offset)
+        return self.made_by.solid(self.keys, self.thing, offset)
 
     @cached_property
     def pitch_curve(self) -> Profile | None:

@@ -96,7 +96,6 @@ class StepPart(Kind[StepPartSpec, "FacedBody"]):
 
     def solid(self, keys: StepPartSpec, thing: FacedBody, offset: float) -> FacedBody:
         """As it is."""
-        self.stays(offset)
         return thing
 
     def height(self, keys: StepPartSpec, thing: FacedBody) -> float:

@@ -182,7 +182,6 @@ class _Turned(Kind[K, "HalfSection"]):
         """Its faces, all of them exact."""
         from geometry.solids.turned import turned_body
 
-        self.stays(offset)
         return turned_body(thing, _seam(thing.pockets))
 
     def sketch(self, keys: K, thing: HalfSection) -> Sketch:

@@ -225,7 +225,6 @@ class BevelGearKind(Kind[BevelGearSpec, BevelGear]):
         """The gear."""
         from geometry.gears.bevel.faces import faced_bevel
 
-        self.stays(offset)
         return faced_bevel(thing)
 
     def sketch(self, keys: BevelGearSpec, thing: BevelGear) -> Sketch:

@@ -300,7 +300,6 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
         """The gear."""
         from geometry.gears.face.faces import faced_face_gear
 
-        self.stays(offset)
         return faced_face_gear(thing)
 
     def sketch(self, keys: FaceGearSpec, thing: FaceGear) -> Sketch:

@@ -228,7 +228,6 @@ class WormKind(Kind[WormSpec, "WormBody"]):
         """The worm."""
         from geometry.gears.worms.faces import faced_worm
 
-        self.stays(offset)
         return faced_worm(thing)
 
     def sketch(self, keys: WormSpec, thing: WormBody) -> Sketch:

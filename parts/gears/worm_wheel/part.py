@@ -268,7 +268,6 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         """The teeth about their core."""
         from geometry.gears.worms.wheel_faces import wheel_body
 
-        self.stays(offset)
         return wheel_body(thing.wheel)
 
     def sketch(self, keys: WormWheelSpec, thing: WheelThing) -> Sketch:
