@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from typing import Annotated
+from typing import Annotated, Protocol, TypeVar
 
 from msgspec import Meta
 
@@ -15,6 +15,8 @@ from geometry.plane.profile import Region
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.wheel import check_wheel
 from geometry.solids.windows import RoundHoles
+from parts.base.kind import Kind
+from parts.base.part_keys import MaterialKeys
 from parts.keys.base import part_mm
 from parts.keys.holes import BoredKeys, with_remedy
 from parts.keys.wheel import HubbedKeys, shape_of
@@ -96,6 +98,27 @@ def _renamed(refusal: ParameterError, holes: HubHoles, own: int) -> ParameterErr
     if number < 1 and holes.bore is not None:
         return ParameterError(*holes.bore.size, "bore_reaches_pins")
     return refusal.renamed(f"holes.{key}" if len(holes.round_holes) - own == 1 else f"holes[{number}].{key}")
+
+
+class Sectioned(Protocol):
+    """What knows its own section."""
+
+    def region(self, offset: float) -> Region:
+        """Moved ``offset`` mm out of the material."""
+
+
+K = TypeVar("K", bound=MaterialKeys)
+T = TypeVar("T", bound=Sectioned)
+
+
+class RoundPinKind(Kind[K, T]):
+    """A kind with round pins, or that is one: its thing knows the section."""
+
+    drawing = "parts.pins.drawings"
+
+    def section(self, keys: K, thing: T, offset: float) -> OffsetRegion:
+        """That of the thing, moved."""
+        return moved_region(thing.region, offset)
 
 
 def moved_region(build: Callable[[float], Region], offset: float) -> OffsetRegion:

@@ -10,17 +10,16 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
-from parts.base.kind import Kind, Others, Report
+from parts.base.kind import Others, Report
 from parts.base.links import owner_of
 from parts.keys.base import MOST_LENGTH, mm
 from parts.keys.holes import HoledKeys
-from parts.keys.pins import MARGIN, check_holes, holes_of, least_of, most_of, moved_region
+from parts.keys.pins import MARGIN, RoundPinKind, check_holes, holes_of, least_of, most_of
 from parts.keys.splines import InvoluteSplineTable
 from parts.pins.geneva_wheel import GENEVA_WHEEL, GenevaWheelSpec
 
 if TYPE_CHECKING:
     from geometry.gears.pins.geneva_driver import GenevaDriver
-    from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
 
 # of the pin's diameter, where no key tells it
@@ -63,7 +62,7 @@ class GenevaDriverSpec(HoledKeys, kw_only=True, tag_field="kind", tag="geneva_dr
     seat_clearance: Annotated[float, mm("radius of a hole for a pin beyond the pin's", least=-10, most=100)] = 0.0
 
 
-class GenevaDriverKind(Kind[GenevaDriverSpec, "GenevaDriver"]):
+class GenevaDriverKind(RoundPinKind[GenevaDriverSpec, "GenevaDriver"]):
     """A crank with its locking disc."""
 
     name, keys, made_from = "geneva_driver", GenevaDriverSpec, _GENEVA_WHEEL
@@ -96,10 +95,6 @@ class GenevaDriverKind(Kind[GenevaDriverSpec, "GenevaDriver"]):
         )
         _check(keys, driver)
         return driver
-
-    def section(self, keys: GenevaDriverSpec, thing: GenevaDriver, offset: float) -> OffsetRegion:
-        """The disc, or the plate with holes for its pins."""
-        return moved_region(thing.region, offset)
 
     def solid(self, keys: GenevaDriverSpec, thing: GenevaDriver, offset: float) -> Body:
         """The piece, or all of it."""

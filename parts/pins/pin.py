@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, TypeVar
+from typing import TYPE_CHECKING, Annotated
 
 from geometry.base.errors import ParameterError, limit
 from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
-from parts.base.kind import Kind, Others, Report, Stock
+from parts.base.kind import Others, Report, Stock
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import BoreDiameter, mm, part_mm
 from parts.keys.holes import BoredKeys, check_bore
-from parts.keys.pins import check_holes, holes_of, most_of, moved_region
+from parts.keys.pins import RoundPinKind, check_holes, holes_of, most_of
 
 if TYPE_CHECKING:
-    from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.pin_plates import RoundDisc
     from geometry.solids.sketch import Sketch
 
@@ -34,20 +33,7 @@ class EccentricSpec(BoredKeys, kw_only=True, tag_field="kind", tag="eccentric"):
     eccentricity: Annotated[float, part_mm("from the axis to the disc's centre", least=0, example=2.5)]
 
 
-K = TypeVar("K", PinSpec, EccentricSpec)
-
-
-class _Round(Kind[K, "RoundDisc"]):
-    """A round disc."""
-
-    drawing = "parts.pins.drawings"
-
-    def section(self, keys: K, thing: RoundDisc, offset: float) -> OffsetRegion:
-        """The disc moved."""
-        return moved_region(thing.region, offset)
-
-
-class Pin(_Round[PinSpec]):
+class Pin(RoundPinKind[PinSpec, "RoundDisc"]):
     """A pin."""
 
     name, keys = "pin", PinSpec
@@ -83,7 +69,7 @@ class Pin(_Round[PinSpec]):
         return Report(quantities={"diameter": keys.diameter})
 
 
-class Eccentric(_Round[EccentricSpec]):
+class Eccentric(RoundPinKind[EccentricSpec, "RoundDisc"]):
     """An eccentric."""
 
     name, keys = "eccentric", EccentricSpec

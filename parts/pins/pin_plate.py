@@ -13,22 +13,21 @@ from geometry.base.findings import Finding
 from geometry.base.nearest import nearest
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.windows import RoundHoles
-from parts.base.kind import Kind, Others, Report
+from parts.base.kind import Others, Report
 from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, mm, part_mm
 from parts.keys.holes import Direction, HoledKeys
 from parts.keys.pins import (
     MARGIN,
     PinCircle,
     PinDiameter,
+    RoundPinKind,
     check_holes,
     holes_of,
     least_of,
     most_of,
-    moved_region,
 )
 
 if TYPE_CHECKING:
-    from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.body import Body
     from geometry.solids.pin_plates import PinPlate
 
@@ -88,18 +87,12 @@ class LanternWheelSpec(PinPlateKeys, kw_only=True, tag_field="kind", tag="lanter
 K = TypeVar("K", bound=PinPlateKeys)
 
 
-class _Plate(Kind[K, "PinPlate"]):
+class _Plate(RoundPinKind[K, "PinPlate"]):
     """A plate with pins."""
-
-    drawing = "parts.pins.drawings"
 
     def middle(self, keys: K, thing: PinPlate) -> float:
         """Half of the plate."""
         return thing.thickness / 2
-
-    def section(self, keys: K, thing: PinPlate, offset: float) -> OffsetRegion:
-        """The plate with holes for its pins."""
-        return moved_region(thing.region, offset)
 
     def is_plate(self, keys: K, thing: PinPlate) -> bool:
         """Whether the pins are loose."""

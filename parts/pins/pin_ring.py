@@ -9,14 +9,13 @@ from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.solids.hub_holes import least_wall
-from parts.base.kind import Kind, Others, Report
+from parts.base.kind import Others, Report
 from parts.gears.ring_gear.part import RimHolesTable
 from parts.keys.base import MOST_LENGTH, MadeKeys, mm, part_mm
 from parts.keys.holes import hub_holes, with_remedy
-from parts.keys.pins import MARGIN, PinCircle, PinCount, PinDiameter, least_of, most_of, moved_region
+from parts.keys.pins import MARGIN, PinCircle, PinCount, PinDiameter, RoundPinKind, least_of, most_of
 
 if TYPE_CHECKING:
-    from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.pin_ring import PinRing
 
 
@@ -53,19 +52,14 @@ class PinRingSpec(MadeKeys, kw_only=True, tag_field="kind", tag="pin_ring"):
     holes: RimHolesTable | list[RimHolesTable] | None = None
 
 
-class PinRingKind(Kind[PinRingSpec, "PinRing"]):
+class PinRingKind(RoundPinKind[PinRingSpec, "PinRing"]):
     """A ring with its pins."""
 
     name, keys = "pin_ring", PinRingSpec
-    drawing = "parts.pins.drawings"
 
     def thing(self, keys: PinRingSpec, others: Others) -> PinRing:
         """The ring, checked to hold its pins and to leave a rim."""
         return _checked(keys)
-
-    def section(self, keys: PinRingSpec, thing: PinRing, offset: float) -> OffsetRegion:
-        """The ring moved."""
-        return moved_region(thing.region, offset)
 
     def report(self, keys: PinRingSpec, thing: PinRing) -> Report:
         """Its pins and its inside."""
