@@ -133,12 +133,11 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
                 _take(one.path, where, taken, source)
             assemblies += laid
             lying = {m.part.id for one in laid for m in one.members}
-            over = ", ".join(
-                parts[p].title or p for p in asked.wanted if p not in lying and (p not in rods or export.parts)
-            )
-            if over:
-                board = export.purpose == "board"
-                left_out.append(LeftOut(f"{where}: {over}", _ON_NO_BOARD if board else N_("lies on none of its beds")))
+            over = [parts[p] for p in asked.wanted if p not in lying and (p not in rods or export.parts)]
+            on_none = _ON_NO_BOARD if export.purpose == "board" else N_("lies on none of its beds")
+            for bought, why in ((False, on_none), (True, N_("is bought by its standard"))):
+                if names := ", ".join(part.title or part.id for part in over if part.is_bought == bought):
+                    left_out.append(LeftOut(f"{where}: {names}", why))
             continue
         if export.format in OF_SCENES:
             sheets.append(_of_scene(asked))

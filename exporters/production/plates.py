@@ -81,7 +81,8 @@ def plate_jobs(asked: Request, job_of: Callable[[Part], Job]) -> list[PlateJob]:
     scene, export = asked.scene, asked.export
     for name, bed in scene.beds.items():
         place = f"beds.{name}"
-        wanted = [p for p in bed.parts or asked.parts if p in asked.wanted]
+        made = [p for p, part in asked.parts.items() if export.parts or not part.is_bought]
+        wanted = [p for p in bed.parts or made if p in asked.wanted]
         counts = pieces_of(bed, wanted, scene.instances, asked.source, place)
         jobs = {p: job_of(asked.parts[p]) for p in counts}
         feet = {p: _footprint(job) for p, job in jobs.items()}

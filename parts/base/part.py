@@ -175,6 +175,11 @@ class Part(Record, dict=True):
         return self.made_by.stock(self.keys)
 
     @property
+    def is_bought(self) -> bool:
+        """Whether a standard tells it, by which it is bought."""
+        return self.keys.standard is not None
+
+    @property
     def density(self) -> float | None:
         """g/cm^3; None where the material is not known."""
         return self.keys.density or density_of(self.material)

@@ -43,7 +43,12 @@ Designation = (
 Standard = (
     Annotated[
         str,
-        Meta(pattern=r"\S", max_length=60, description="standard by which it is bought", examples=["GOST 7805-70"]),
+        Meta(
+            pattern=r"\S",
+            max_length=60,
+            description="standard by which it is bought; boards and beds take it only where they name it",
+            examples=["GOST 7805-70"],
+        ),
     ]
     | None
 )

@@ -43,10 +43,10 @@ def pieces_of(
 
 
 def cut_from(spec: BoardSpec, key: str, part: Part) -> bool:
-    """Whether a board is what a part is cut from: it names the part, or the part is flat and as thick."""
+    """Whether a board is what a part is cut from: it names the part, or the part is flat, as thick, and not bought."""
     if spec.parts is not None:
         return key in spec.parts
-    return part.is_plate and abs(part.face_width - spec.thickness) <= _SAME_THICKNESS
+    return part.is_plate and not part.is_bought and abs(part.face_width - spec.thickness) <= _SAME_THICKNESS
 
 
 def parts_of_board(spec: BoardSpec, parts: Mapping[str, Part], source: str, place: str) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -106,6 +107,22 @@ def test_boards_and_beds_that_nothing_asks_for_and_parts_that_lie_on_none_are_to
         ("exports[1]: Slab", "lies on none of its boards, which take flat parts of their thickness", False),
     ]
     assert left(plan("plate", "dxf", text=text))[1:] == [("exports[1]: a, Slab", "lies on none of its beds", False)]
+
+
+def test_what_is_bought_lies_on_no_board_and_no_bed_unless_they_name_it() -> None:
+    """A bearing by its standard is not to be printed, however it lies in the scene."""
+    bought = PARTS.replace("[parts.b]\n", '[parts.b]\nstandard = "ISO 15"\n') + PAIR
+    assert bought != PARTS + PAIR
+
+    def lying(text: str, export: str) -> set[str]:
+        return {member.part.id for job in plan(export, text=text).assemblies for member in job.members}
+
+    for export, laid in (("board", BOARD), ("plate", BED)):
+        where = re.sub("parts = .*\n", "", laid)
+        assert "b" in lying(PARTS + PAIR + where, export)
+        assert "b" not in lying(bought + where, export)
+        assert ("exports[1]: b", "is bought by its standard", False) in left(plan(export, text=bought + where))
+        assert "b" in lying(bought + where + 'parts = ["b"]\n', export)
 
 
 def test_a_format_that_the_scene_does_not_have_is_made_as_it_usually_is() -> None:
