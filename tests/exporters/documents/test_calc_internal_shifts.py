@@ -308,7 +308,7 @@ def test_other_endings_are_refused_with_one_that_works(name: str) -> None:
 @pytest.mark.parametrize("kind", [GIVEN, "first.number_of_teeth=13 second.number_of_teeth=21"])
 def test_both_kinds_of_pairs_refuse_a_text_file(kind: str) -> None:
     told = refused("shift-choice", *kind.split(), "picture=contour.txt")
-    assert (told.code, told.nearest) == ("picture_ends_in", Nearest("contour.svg"))
+    assert (told.code, told.nearest) == ("file_ends_in", Nearest("contour.svg"))
 
 
 def test_a_scene_gives_pair_cutter_and_shifts(tmp_path: Path) -> None:

@@ -184,7 +184,7 @@ def test_what_fits_no_sheet_is_refused_by_its_key_with_what_works(tmp_path: Path
 @pytest.mark.parametrize(
     ("keys", "key", "code"),
     [
-        (("sheet=lever.txt",), "lever.sheet", "sheet_ends_in"),
+        (("sheet=lever.txt",), "lever.sheet", "file_ends_in"),
         (("sheet=nowhere/lever.dxf",), "lever.sheet", "no_such_folder"),
         (("paper=A2",), "lever.paper", "needs_other"),
         (("second_position=12", "sheet=lever.dxf"), "lever.second_position", "no_such_position"),

@@ -150,7 +150,7 @@ WORDS: list[tuple[str, str, str]] = [
     ("power-table path=[]", "power-table.path", "no_path"),
     ("power-table path=[[1,2,1,2,0]]", "power-table.path", "piece_is_a_point"),
     ("power-table path=[[50,80,60,90,0]] x=3", "power-table.x", "either_of"),
-    ("power-table x=10 y=80 picture=a.png", "power-table.picture", "picture_ends_in"),
+    ("power-table x=10 y=80 picture=a.png", "power-table.picture", "file_ends_in"),
     ("train teeth=[20,40] meshes=1-2 driver=1 driven=1", "train.driven", "driven_is_driver"),
     ("train teeth=[20,40] meshes=1+2", "train.meshes", "write_mesh"),
     ("train teeth=[20,40] meshes=1-3", "train.meshes", "no_such_wheel"),
