@@ -84,6 +84,11 @@ def exact_distance(radii: tuple[float, float], length: float, least: float) -> f
     return bracketed_root(lambda distance: BeltDrive(radii, distance).length - length, least, least + length).value
 
 
+def textbook_length(radii: tuple[float, float], distance: float) -> float:
+    """L = 2 a + pi (d1 + d2) / 2 + (d2 - d1)^2 / 4 a."""
+    return 2 * distance + math.pi * sum(radii) + (radii[1] - radii[0]) ** 2 / distance
+
+
 def textbook_distance(radii: tuple[float, float], length: float) -> float | None:
     """a = (b + sqrt(b^2 - 8 (d2 - d1)^2)) / 8 with b = 2 L - pi (d1 + d2); None: there is none."""
     free, apart = 2 * (length - math.pi * sum(radii)), 2 * (radii[1] - radii[0])

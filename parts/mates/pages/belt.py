@@ -8,7 +8,7 @@ from typing import Annotated
 from msgspec import Meta
 
 from geometry.base.record import replace
-from geometry.gears.belts.drive import BeltMesh, textbook_distance
+from geometry.gears.belts.drive import BeltMesh, textbook_distance, textbook_length
 from geometry.gears.belts.pulley import checked_pulley
 from parts.base.texts import N_
 from parts.belts.pulley import TIMING_PULLEY, TimingPulleySpec
@@ -78,12 +78,14 @@ def sheet(keys: BeltKeys) -> Sheet:
 def _length(page: Sheet, mesh: BeltMesh, distance: float | None) -> None:
     """Teeth and length of the belt, and its centre distance, of textbooks and exact."""
     page.section(N_("Belt and centre distance"))
+    drive = mesh.drive
     if distance is not None:
         page.add("belt_distance", distance, given=True)
+        formula = "2 * {a} + pi / 2 * ({d1} + {d2}) + ({d2} - {d1})**2 / (4 * {a})"
+        page.add("textbook_belt_length", textbook_length(drive.radii, distance), formula)
     page.add("number_of_belt_teeth", mesh.belt_teeth)
     length = mesh.belt_teeth * mesh.pitch
     page.add("belt_length", length, "{z_b} * {p}")
-    drive = mesh.drive
     near = textbook_distance(drive.radii, length)
     if near is not None:
         free = "(2 * {L_b} - pi * ({d1} + {d2}))"

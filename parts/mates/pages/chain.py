@@ -22,7 +22,7 @@ from parts.pages.page import Sheet
 from parts.texts.findings import finding_message
 
 TOPIC = "chain"
-_SHIGLEY, _DUNAEV, _SHEINBLIT = "Shigley", "Dunaev, Lelikov", "Sheinblit"
+_SHIGLEY, _BHANDARI, _DUNAEV, _SHEINBLIT = "Shigley", "Bhandari", "Dunaev, Lelikov", "Sheinblit"
 _SPEED = "speed of the driving sprocket: adds the speeds of the chain and how unevenly it runs"
 _TORQUE = "torque on the driving sprocket: adds the pull of the chain and the load of the shafts"
 _POWER = "power that the driving sprocket takes in, by its speed: in place of its torque"
@@ -116,8 +116,9 @@ def _speeds(page: Sheet, mesh: ChainMesh, speed: float) -> None:
 
 def _forces(page: Sheet, mesh: ChainMesh, torque: float) -> None:
     """In the chain, on the shafts, and how often it is carried by the chain."""
-    chain, force = mesh.sprockets[0].chain, 2000 * torque / (2 * mesh.sprockets[0].pitch_radius)
-    page.add("chain_force", force, "2000 * {T1} / {d1}")
+    # the mean: work of a turn by the chain it moves, as textbooks divide the power by the mean speed
+    chain, force = mesh.sprockets[0].chain, 2000 * math.pi * torque / (mesh.teeth[0] * mesh.pitch)
+    page.add("chain_force", force, "2000 * pi * {T1} / ({z1} * {p})", _BHANDARI)
     page.add("chain_shaft_load", _LOAD * force, f"{_LOAD} * {{F_t}}", _DUNAEV)
     if chain.breaking_load:
         page.add("chain_breaking_load", 1000 * chain.breaking_load * chain.strands)
