@@ -466,6 +466,10 @@ def _catalogue(options: argparse.Namespace) -> int:
         counts = {"ok": verdicts[OK], "refused": verdicts[REFUSED], "failed": verdicts[BAD]}
         text = N_("{file}: {ok} ok, {refused} refused, {failed} failed")
         print(words(scene.scene.language).text(text, file=folder / "catalogue.csv", **counts))
+    if verdicts[REFUSED] == total:
+        from parts.base.refusal import SceneError
+
+        raise SceneError(options.scene, "--vary", ", ".join(options.vary), "every_row_refused", file="catalogue.csv")
     return FAILED if verdicts[BAD] else DONE
 
 

@@ -105,6 +105,8 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     left_out += [LeftOut(what, N_("no export asks for it"), as_asked=bool(only_formats)) for what in unused]
     # exports of flat files that leave a solid out
     flat: list[str] = []
+    # and those that show several parts where one alone is asked for
+    of_several: list[str] = []
     jobs: list[Job] = []
     assemblies: list[AssemblyJob | BoardJob] = []
     sheets: list[SheetJob | Film | ListJob] = []
@@ -115,6 +117,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             alone = N_("an assembly of all its parts was not asked for")
             why = alone if export.assembly else N_("a sheet of several parts was not asked for")
             left_out.append(LeftOut(where, why))
+            of_several.append(export.format)
             continue
         asked = Request(scene, placing, parts, export, where, source)
         if on_sheet(export.format, export.purpose):
@@ -169,6 +172,8 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
     if flat and not (jobs or assemblies or sheets):
         key = "--format" if only_formats else f"{flat[0]}.format"
         raise SceneError(source, key, ", ".join(dict.fromkeys(e.format for _, e in exports)), "nothing_flat")
+    if only_formats and of_several and not (jobs or assemblies or sheets):
+        raise SceneError(source, "--format", ", ".join(dict.fromkeys(of_several)), "nothing_of_part_alone")
     return Plan(source, scene, parts, placing, tuple(jobs), tuple(assemblies), tuple(left_out), tuple(sheets))
 
 

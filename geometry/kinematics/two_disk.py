@@ -90,8 +90,11 @@ class TwoDisk(Record):
             at = complex(point[index])
             way = at / abs(at) if at else 1j
             near = way * min(max(abs(at), least), most)
+            # by six digits, on the side of what is in reach
+            inwards = math.floor if abs(at) > most else math.ceil
+            near_to = [math.copysign(inwards(round(abs(v) * 1e6, 3)) / 1e6, v) for v in (near.real, near.imag)]
             raise ParameterError(
-                "x, y", [at.real, at.imag], "out_of_reach", Nearest([near.real, near.imag]),
+                "x, y", [at.real, at.imag], "out_of_reach", Nearest(near_to),
                 least=least, most=most, distance=abs(at),
             )  # fmt: skip
 

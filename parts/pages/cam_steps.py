@@ -305,7 +305,7 @@ def cutter_centres(cam: DiskCam, angle: Real, cutter_diameter: float) -> Complex
     """
     most = 2 * (least_hollow_radius(cam).value + cam.radius)
     if cutter_diameter > most:
-        raise ParameterError("cutter_diameter", cutter_diameter, "cutter_above_hollow", Nearest(most), most=most)
+        raise ParameterError("cutter_diameter", cutter_diameter, "cutter_above_hollow", Nearest(most, "at_most"))
     return np.asarray((cam.contact(angle) + cutter_diameter / 2 * cam.normal(angle)) * np.exp(-1j * angle))
 
 

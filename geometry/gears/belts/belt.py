@@ -241,8 +241,14 @@ def _plain(designation: str) -> str:
     return name
 
 
+def _pitch_told(name: str) -> str:
+    """What of a plain designation tells the pitch: its number, or all its letters where it has none."""
+    return re.sub(r"[^\d.]", "", name) or "".join(sorted(name))
+
+
 def like_belt(designation: str) -> str | None:
-    """The designation in the table that begins another one, else is most like it; None: none is."""
+    """The designation in the table that begins another one, else of that pitch is most like it; None: none is."""
     begins = (_plain(designation[:end]) for end in range(len(designation), 0, -1))
-    found = get_close_matches(_plain(designation), belts(), 1, 0.5)
+    alike = [name for name in belts() if _pitch_told(name) == _pitch_told(_plain(designation))]
+    found = get_close_matches(_plain(designation), alike, 1, 0.5)
     return next((name for name in begins if name in belts()), found[0] if found else None)

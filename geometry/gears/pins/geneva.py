@@ -199,7 +199,7 @@ class GenevaWheel(Record):
         """Between the middle of a slot and the corner of its tip at the locking arc, about the axis, rad."""
         a, tip, arc = self.drive.centre_distance, self.tip_radius, self.arc_radius
         cosine = (a * a + tip * tip - arc * arc) / (2 * a * tip)
-        return self.drive.half_slot_angle - math.acos(min(cosine, 1.0))
+        return self.drive.half_slot_angle - math.acos(max(min(cosine, 1.0), -1.0))
 
     @property
     def land_angle(self) -> float:

@@ -279,6 +279,16 @@ def test_a_long_value_of_a_calculation_is_no_file_name(capsys: pytest.CaptureFix
     assert "module" in capsys.readouterr().err
 
 
+def test_a_film_of_one_part_is_not_left_out_in_silence(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    only = ("--part", "wheel", "--format", "motion", "--out", tmp_path / "o")
+    assert run("build", "geneva_drive", *only) == 2
+    told = capsys.readouterr().err
+    assert (
+        told == 'higherpair: geneva_drive: --format = "motion": makes no file of a part alone here; leave --part out\n'
+    )
+    assert not (tmp_path / "o").exists()
+
+
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("words", [("calc", "spur"), ("build",), ("check",), ("verify",)])
 @pytest.mark.parametrize("length", [251, 255, 256])

@@ -367,7 +367,8 @@ def refused(topic: str, *arguments: str) -> SceneError:
         (("spur", "module=2", "number_of_teeth=two"), "spur.number_of_teeth", "wrong_type_of", None),
         (("spur", "module=2", "module=3"), "module", "given_twice", None),
         (("spur", "module=2", "number_of_teeth=20", "--format", "pdf"), "--format", "not_one_of", None),
-        (("spur", "module=2", "number_of_teeth=20", "--language", "de"), "--language", "not_one_of", "en"),
+        (("spur", "module=2", "number_of_teeth=20", "--language", "de"), "--language", "not_one_of", None),
+        (("spur", "module=2", "number_of_teeth=20", "--language", "eng"), "--language", "not_one_of", "en"),
         (
             ("spur", "module=2", "number_of_teeth=20", "profile_shift_coefficient=3"),
             "spur.profile_shift_coefficient",

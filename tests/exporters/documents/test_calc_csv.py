@@ -131,6 +131,7 @@ def test_what_has_no_tables_and_a_cutter_that_does_not_fit_are_refused(capsys: p
     for scene in ("practicum_roller_cam",):
         told = complaint(capsys, "calc", "cam", scene, "cutter_diameter=900", "--format", "csv")
         assert re.search(r"cutter_diameter = 900.*hollow.*works", told)
+        assert told.count("at most") == 1
 
 
 def test_a_step_without_a_source_has_no_brackets() -> None:

@@ -93,6 +93,18 @@ def test_the_table_has_a_row_for_each_file_and_each_refusal(plain: Path) -> None
             assert row["why"].startswith("parts.g.bore_diameter: ")
 
 
+def test_a_catalogue_of_refusals_alone_is_wrong_input(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scene = scene_in(tmp_path)
+    assert (
+        run("catalogue", scene, "--vary", "g.number_of_teeth=7", "--vary", "g.module=1", "--out", tmp_path / "o") == 2
+    )
+    told = capsys.readouterr()
+    assert "0 ok, 1 refused" in told.out
+    assert told.err.count("\n") == 1
+    assert "--vary = " in told.err
+    assert (tmp_path / "o" / "s" / "catalogue.csv").is_file()
+
+
 def test_two_processes_make_the_same_bytes(plain: Path, tmp_path: Path) -> None:
     catalogued(scene_in(tmp_path), tmp_path / "o", "--jobs", "2")
     assert contents(tmp_path / "o" / "s") == contents(plain)

@@ -102,6 +102,7 @@ REFUSED: dict[str, tuple[Keys, Keys, str, str]] = {
     "disc that the tips cut": (WHEEL | {"number_of_slots": 12, "locking_diameter": 13.0},
                                UNBORED, "locking_diameter", "tips_leave_no_disc"),
     "wide disc": (WHEEL | {"locking_diameter": 56.0}, DRIVER, "locking_diameter", "leaves_no_tip"),
+    "disc about the wheel": (WHEEL | {"locking_diameter": 1000.0}, DRIVER, "locking_diameter", "leaves_no_tip"),
     "wide bore": (WHEEL | {"bore_diameter": 56.0}, DRIVER, "bore_diameter", "leaves_no_wall_about_bore"),
     "thin pin": (WHEEL | {"pin_diameter": 0.016}, DRIVER, "pin_diameter", "leaves_no_tip"),
     "round tips": (WHEEL | {"tip_rounding": 9.0}, UNBORED, "tip_rounding", "leaves_no_tip"),

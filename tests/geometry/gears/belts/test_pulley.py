@@ -294,7 +294,21 @@ def test_belts_are_named_as_people_write_them(typed: str, name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("typed", "like"), [("T50", "T5"), ("GT2 6mm", "2GT"), ("T5 10", "T5"), ("HTD 3M 9mm", "3M"), ("V", None)]
+    ("typed", "like"),
+    [
+        ("T50", "T5"),
+        ("GT2 6mm", "2GT"),
+        ("T5 10", "T5"),
+        ("HTD 3M 9mm", "3M"),
+        ("V", None),
+        ("MLX", "MXL"),
+        ("S8M", "8M"),
+        ("R8M", "8M"),
+        ("AT20", "T20"),
+        ("XXL", None),
+        ("AT3", None),
+        ("S4.5M", None),
+    ],
 )
 def test_of_a_belt_with_its_width_the_belt_is_offered(typed: str, like: str | None) -> None:
     assert belt_of(typed) is None
