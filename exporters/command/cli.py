@@ -39,6 +39,11 @@ _SHOWN = (
     NC_("command line", "SCENE | KEY=VALUE"), NC_("command line", "KIND"), NC_("command line", "ID"),
     NC_("command line", "L"),
 )  # fmt: skip
+# what a system says of a disk most often
+_OF_SYSTEM = (
+    N_("No such file or directory"), N_("Permission denied"), N_("Is a directory"), N_("Not a directory"),
+    N_("No space left on device"), N_("Read-only file system"), N_("File name too long"), N_("File exists"),
+)  # fmt: skip
 _EXAMPLES = """
   higherpair build practicum_pair
   higherpair new spur_gear --out my_gear.toml
@@ -107,7 +112,7 @@ def _outside(error: OSError | MemoryError | ImportError, options: argparse.Names
         )
     if isinstance(error, MemoryError) or error.errno == errno.ENOMEM:
         return told.text("the memory does not suffice; a larger tolerance or fewer parts need less")
-    why = error.strerror or str(error)
+    why = told.text(error.strerror or str(error))
     why = f"{error.filename}: {why}" if error.filename else why
     if "out" in options:
         return told.text("{why}; choose another place with --out", why=why)

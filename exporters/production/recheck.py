@@ -18,7 +18,7 @@ from exporters.verification.verdict import Verdict, judges
 from geometry.base.errors import GeometryError
 from geometry.base.record import Record
 from parts.base.refusal import SceneError
-from parts.base.texts import fault
+from parts.base.texts import Message, fault
 from parts.keys.sheet import on_sheet
 from parts.scene.formats import OF_SCENES, Form, file_kind
 from parts.scene.load import SceneFile, make_parts, scene_from_resolved
@@ -63,7 +63,7 @@ def recheck(file: Path) -> Recheck:
     try:
         return _rechecked(file)
     except OSError as error:
-        raise SceneError(str(file), "", None, "unreadable", None, why=error.strerror or str(error)) from error
+        raise SceneError(str(file), "", None, "unreadable", None, why=Message(error.strerror or str(error))) from error
 
 
 def _rechecked(file: Path) -> Recheck:

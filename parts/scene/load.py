@@ -21,7 +21,7 @@ from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.registry import KINDS
 from parts.base.schema import as_written, converted, plain_numbers, value_at, without_none
-from parts.base.texts import ENGLISH, languages
+from parts.base.texts import ENGLISH, Message, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
 from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid
 from parts.keys.sheet import CamSpeed, CellsKey, Intervals, MateNumber, PaperKey, RackStep, ScaleKey, check_sheet_keys
@@ -234,7 +234,7 @@ def load_scene(address: str, language: str | None = None) -> SceneFile:
         known = [*built_in, *([f"{address}.toml"] if os.path.isfile(f"{address}.toml") else [])]
         raise SceneError(address, "", None, "no_such_scene", meant(address, known), known=list(built_in)) from None
     except OSError as error:
-        raise SceneError(address, "", None, "unreadable", None, why=error.strerror or str(error)) from None
+        raise SceneError(address, "", None, "unreadable", None, why=Message(error.strerror or str(error))) from None
     except ValueError as error:
         raise SceneError(repr(address), "", None, "not_a_path", None, why=str(error)) from None
     if folder:

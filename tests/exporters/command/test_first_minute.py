@@ -102,6 +102,8 @@ def test_no_page_is_written_over_a_file(
     missing = tmp_path / "none" / "a.toml"
     assert run(*command, "--out", missing) == 2
     assert f"{missing}: No such file" in capsys.readouterr().err
+    assert run(*command, "--language", "uk", "--out", missing) == 2
+    assert f"{missing}: немає такого файлу чи теки; " in capsys.readouterr().err
     assert {p.name for p in tmp_path.iterdir()} == {"mine.toml", "link.md"}
 
 
