@@ -116,11 +116,15 @@ class PointedTipError(ParameterError):
 
 
 class OffsetError(ParameterError):
-    """An offset that no outline survives, mm, with the one nearest to it that works, or 0 where ``moved`` seeks it."""
+    """An offset that no outline survives, mm, with the one nearest to it that works, or 0 where ``moved`` seeks it.
 
-    def __init__(self, offset: float, reason: str, nearest: float = 0.0) -> None:
+    ``alone``: no other one does.
+    """
+
+    def __init__(self, offset: float, reason: str, nearest: float = 0.0, *, alone: bool = False) -> None:
         self.reason, self.nearest_offset = reason, nearest
-        super().__init__("offset", offset, reason, lambda: limit(nearest, offset, digits=6))
+        cure = Nearest(nearest) if alone else lambda: limit(nearest, offset, digits=6)
+        super().__init__("offset", offset, reason, cure)
 
 
 class CuspError(GeometryError):

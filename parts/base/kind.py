@@ -132,7 +132,7 @@ class Kind(Generic[K, T]):
     def stays(self, offset: float) -> None:
         """Refuse an offset of what is made as it is alone."""
         if offset and self.unmoved:
-            raise OffsetError(offset, self.unmoved)
+            raise OffsetError(offset, self.unmoved, alone=True)
 
     def sketch(self, keys: K, thing: T) -> Sketch | None:
         """What assembly drawings show of it; None: they cannot."""

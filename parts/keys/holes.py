@@ -263,17 +263,18 @@ def wide_bore(
             most = limit(widest, math.inf)
             return most if kept(alone, widest) else nearest(alone, widest, (widest * s for s in _SHARES if s < 1))
 
-        return ParameterError("bore_diameter", keys.bore_diameter, code, cure)
+        return ParameterError("bore_diameter", keys.bore_diameter, code, cure, inside=inside)
     name = next((key for key in _SIZES if getattr(bore, key, None) is not None), "")
     if not name:
-        return ParameterError(*bore.bore().size, code)
+        return ParameterError(*bore.bore().size, code, inside=inside)
     given: float = getattr(bore, name)
 
     def fits(size: float) -> bool:
         reach = hub_holes(replace(bore, **{name: size}), None, None).bore_reach
         return reach < inside and beside(f"bore.{name}", size)
 
-    return ParameterError(f"bore.{name}", given, code, lambda: nearest(fits, given, (given * s for s in _SHARES)))
+    cured = partial(nearest, fits, given, [given * s for s in _SHARES])
+    return ParameterError(f"bore.{name}", given, code, cured, inside=inside)
 
 
 def wide_holes(

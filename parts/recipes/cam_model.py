@@ -125,7 +125,7 @@ class _Making(Making):
         if solid - bore < _LEAST_MARK:
             axle = 2 * (solid - _LEAST_MARK) - keys.clearance
             cure = limit(axle, keys.axle_diameter) if axle >= _LEAST_AXLE else Nearest(None)
-            raise ParameterError("axle_diameter", keys.axle_diameter, "no_wall_to_base_circle", cure)
+            raise ParameterError("axle_diameter", keys.axle_diameter, "no_wall_to_base_circle", cure, inside=inside)
         return min(_MARK, max(math.floor(10 * (inside - bore) / 3) / 10, _LEAST_MARK))
 
     def all(self) -> Expansion:

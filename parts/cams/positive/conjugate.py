@@ -224,7 +224,7 @@ def _checked_holes(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam, insid
     if not holes.bore_reach < inside:
         if keys.bore is None and keys.bore_diameter is None:
             most = Nearest(rounded(2 * inside * 0.9999, up=False), "at_most")
-            raise ParameterError("bore_diameter", None, "no_wall_to_base_circle", most)
+            raise ParameterError("bore_diameter", None, "no_wall_to_base_circle", most, inside=inside)
         raise wide_bore(replace(keys, bore_diameter=keys.bore_diameter or 0.0), inside, "no_wall_to_base_circle")
     if not holes.reach < inside:
         raise wide_holes(
