@@ -12,6 +12,7 @@ from parts.gears.spur_gear.page import addendum_formula, given_data, root_radius
 from parts.pages.contact_steps import ISO, Helical, backlash_steps, heading, limit_steps, overlap_steps, speed_steps
 from parts.pages.force_steps import DrivenKeys, force_steps
 from parts.pages.page import Sheet
+from parts.pages.roll_steps import rack_rolls
 
 
 def first_radii(page: Sheet, gear: SpurGear, helical: Helical) -> None:
@@ -74,6 +75,7 @@ def _rack_contact(page: Sheet, pair: RackPair, helical: Helical, keys: DrivenKey
     factors = (pole - low) / gear.reference_radius, (high - pole) / gear.reference_radius
     page.add("sliding_factor_at_start", factors[0], "{g_f} / {r1}", "ISO 21771")
     page.add("sliding_factor_at_end", factors[1], "{g_a} / {r1}", "ISO 21771")
+    rack_rolls(page, pair)
     if keys.speed_rpm is not None:
         speed_steps(page, pair, helical, high - low, factors, keys.speed_rpm)
     force_steps(page, pair, helical, keys)

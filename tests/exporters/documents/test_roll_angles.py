@@ -73,6 +73,33 @@ def test_one_pair_is_in_contact_between_b_and_d(page: str) -> None:
         assert values[f"single_contact_{name}_diameter"]["second"] == pytest.approx(2 * apart, rel=1e-9)
 
 
+def test_roll_angles_on_a_rack() -> None:
+    """Contact begins at the rack's tip line and ends at the pinion's tips."""
+    values: dict[str, Any] = values_of("gear-pair rack_and_pinion")["values"]
+    base, pitch_radius, alpha = values["base_radius"]["first"], values["reference_radius"]["first"], math.radians(20)
+
+    def of(name: str) -> float:
+        return float(values[f"{name}_diameter"]["first"]) / 2
+
+    along = (values["rack_distance"] - 2 - pitch_radius) / math.sin(alpha)
+    start = abs(pitch_radius + along * cmath.rect(1, math.pi / 2 - alpha))
+    assert of("start_of_active_profile") == pytest.approx(start, abs=1e-4)
+    assert of("active_tip") == of("tip_form") == pytest.approx(values["tip_radius"]["first"], rel=1e-12)
+    base_pitch = 2 * math.pi * base / 18
+    lengths = {n: math.sqrt(of(n) ** 2 - base**2) for n in ("start_of_active_profile", "active_tip")}
+    inner, outer = lengths["active_tip"] - base_pitch, lengths["start_of_active_profile"] + base_pitch
+    assert of("single_contact_start") == pytest.approx(abs(base + 1j * inner), rel=1e-9)
+    assert of("single_contact_end") == pytest.approx(abs(base + 1j * outer), rel=1e-9)
+    for name, radius in (
+        ("root_form", of("root_form")), ("start", of("start_of_active_profile")), ("end", of("active_tip")),
+        ("tip_form", of("tip_form")), ("single_contact_start", of("single_contact_start")),
+        ("single_contact_end", of("single_contact_end")),
+    ):  # fmt: skip
+        found = values[f"roll_angle_at_{name}_deg"]["first"]
+        assert found == pytest.approx(unwound(base, radius), rel=1e-9), name
+    assert values["roll_angle_at_pitch_point_deg"] == pytest.approx(unwound(base, pitch_radius), rel=1e-9)
+
+
 def test_no_contact_is_single_where_two_pairs_always_share() -> None:
     """A contact ratio above 2."""
     keys = "module=2 first.number_of_teeth=60 second.number_of_teeth=80 pressure_angle_deg=14.5"
