@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import importlib
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from copy import deepcopy
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -77,27 +78,39 @@ def _home(topic: str) -> str:
     return home
 
 
+@contextmanager
+def _beside(file: Path) -> Iterator[Path]:
+    """A folder whose files come to stand beside a file once all are made; where one fails, what was there stays."""
+    from tempfile import TemporaryDirectory
+
+    with TemporaryDirectory(prefix=".higherpair-", dir=file.parent) as folder:
+        yield Path(folder)
+        for made in sorted(Path(folder).iterdir()):
+            os.replace(made, file.parent / made.name)
+
+
 def _write_picture(picture: Picture, file: Path, words: Words) -> None:
     """Write a picture as the ending of its file says."""
     from parts.pages.contour_picture import ContourPicture
 
-    if file.suffix.lower() == ".dxf" and isinstance(picture, ContourPicture):
-        from exporters.documents.contour_dxf import write_contour_dxf
+    with _beside(file) as folder:
+        if file.suffix.lower() == ".dxf" and isinstance(picture, ContourPicture):
+            from exporters.documents.contour_dxf import write_contour_dxf
 
-        write_contour_dxf(file, picture.contour, picture.shown(words), words)
-    else:
-        file.write_text(picture.svg(words), encoding="utf-8", newline="\n")
+            write_contour_dxf(folder / file.name, picture.contour, picture.shown(words), words)
+        else:
+            (folder / file.name).write_text(picture.svg(words), encoding="utf-8", newline="\n")
 
 
 def _write_paper(pages: Sequence[Expected], file: Path, title: str, topic: str) -> None:
-    """Write sheets, several of them into a PDF, else into files with their numbers; each is read back and measured.
+    """Write sheets, all into one PDF, else into files with their numbers; each is read back and measured.
 
     Raises
     ------
     SceneError
         What writes PDF is not installed.
     ReadError
-        A file is not what it should be; it is not left there.
+        A file is not what it should be; none is left there.
     """
     from exporters.drawings.sheets import write_sheets
     from exporters.drawings.verify import verify_sheets
@@ -114,12 +127,12 @@ def _write_paper(pages: Sequence[Expected], file: Path, title: str, topic: str) 
         parts = [
             (file if k == 0 else file.with_suffix(f".{k + 1}{file.suffix}"), [page]) for k, page in enumerate(pages)
         ]
-    for name, shown in parts:
-        write_sheets(name, [page.canvas for page in shown], title)
-        verdict = verify_sheets(name, shown, _PAPER_TOLERANCE)
-        if verdict.failures:
-            name.unlink()
-            raise ReadError(f"{name}: {'; '.join(map(str, verdict.failures))}")
+    with _beside(file) as folder:
+        for name, shown in parts:
+            write_sheets(folder / name.name, [page.canvas for page in shown], title)
+            verdict = verify_sheets(folder / name.name, shown, _PAPER_TOLERANCE)
+            if verdict.failures:
+                raise ReadError(f"{name}: {'; '.join(map(str, verdict.failures))}")
 
 
 def sheet_of(topic: str, words: Sequence[str], language: str | None = None) -> tuple[Sheet, str]:

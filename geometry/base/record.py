@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 else:
     from msgspec.structs import replace
 
-__all__ = ["Draft", "Record", "field", "kept", "replace", "with_value"]
+__all__ = ["Draft", "Record", "field", "made_once", "replace", "with_value"]
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
@@ -26,7 +26,7 @@ R = TypeVar("R", bound=Record)
 T = TypeVar("T")
 
 
-def kept(record: Record, name: str, make: Callable[[], T]) -> T:
+def made_once(record: Record, name: str, make: Callable[[], T]) -> T:
     """What rooms above a record (``dict=True``) make of it, made once and kept with it like a cached property."""
     held = vars(record)
     if name not in held:

@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from geometry.base.record import kept
+from geometry.base.record import made_once
 from geometry.curves.curve import Complex, Curve, Real, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.profile import Profile
@@ -48,7 +48,7 @@ def profile_area(profile: Profile) -> float:
     digits. Gauss quadrature of 20 points on 4 panels a segment, or between its knots: exact to rounding for these
     analytic integrands.
     """
-    return kept(profile, "area", lambda: _area(profile))
+    return made_once(profile, "area", lambda: _area(profile))
 
 
 def _area(profile: Profile) -> float:

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from geometry.base.record import kept, replace
+from geometry.base.record import made_once, replace
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex
 from geometry.plane.measure import distance_to_profile
@@ -89,7 +89,7 @@ def even_shares(count: int, opens: float | None = None) -> tuple[float, ...]:
 
 def level_shares(body: Body, tolerance: float) -> tuple[float, ...]:
     """Where all chamfers are cut, so that lines between the cuts bow by a share of the tolerance, mm."""
-    most, opens = kept(body, "bow", lambda: _worst(body))
+    most, opens = made_once(body, "bow", lambda: _worst(body))
     if most is None:
         return (1.0,)
     return even_shares(max(1, math.ceil(math.sqrt(most / (_BOW_SHARE * tolerance)))), opens)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from geometry.base.record import Record, kept
+from geometry.base.record import Record, made_once
 from geometry.curves.curve import Complex, Real
 from geometry.plane.measure import gauss_rule, panel_edges, profile_length
 from geometry.plane.profile import Profile
@@ -35,7 +35,7 @@ class Moments(Record):
 
 def body_moments(body: Body) -> Moments:
     """Moments of a body: each wall carries its signed sections from its lower to its upper loop."""
-    return kept(body, "moments", lambda: _moments(body))
+    return made_once(body, "moments", lambda: _moments(body))
 
 
 def _moments(body: Body) -> Moments:

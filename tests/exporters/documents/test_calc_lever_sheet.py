@@ -203,7 +203,7 @@ def test_words_that_the_title_block_does_not_hold_are_refused(tmp_path: Path) ->
 def test_a_sheet_that_is_not_what_it_should_be_is_not_left(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Negative control: a writer that loses a line is caught, and the file is gone."""
+    """Negative control: a writer that loses a line is caught; what stood there stays."""
     from exporters.drawings import sheets
 
     def lose(file: Path, canvas: Any) -> dict[str, int]:
@@ -217,6 +217,9 @@ def test_a_sheet_that_is_not_what_it_should_be_is_not_left(
 
     monkeypatch.setattr(sheets, "write_sheet_dxf", lose)
     file = tmp_path / "lever.dxf"
+    file.write_text("mine", "utf-8")
     assert main(["calc", "lever", "code=1071", f"sheet={file.as_posix()}"]) == 1
-    assert "no line from" in capsys.readouterr().err
-    assert not file.exists()
+    told = capsys.readouterr().err
+    assert "no line from" in told
+    assert file.as_posix() in told
+    assert [one.read_text("utf-8") for one in tmp_path.iterdir()] == ["mine"]
