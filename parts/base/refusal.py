@@ -66,9 +66,10 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
         # letters lead such a word astray
         match = [name for name in _SYNONYMS[plain] if name in known]
     else:
-        # among many words some have half of its letters by chance, and so has one of two letters
-        least = 0.6 if len(known) > _LONG or len(plain) < 3 else 0.5
-        match = [] if word is None else difflib.get_close_matches(word, list(known), 1, least)
+        # among many words some have half of its letters by chance, and so has one of two letters that ends in one
+        least = 0.6 if len(known) > _LONG else 0.5
+        near = [name for name in known if len(plain) > 2 or name[:1] == plain[:1] or sorted(name) == sorted(plain)]
+        match = [] if word is None else difflib.get_close_matches(word, near, 1, least)
     if not match and word is not None:
         match = [name for name in known if name.lower() == word.lower()]
     return Nearest(match[0], "meant") if match else None

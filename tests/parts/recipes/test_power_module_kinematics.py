@@ -149,9 +149,12 @@ def test_names_of_the_parts_list_stand_in_step_files(tmp_path: Path) -> None:
     scene = tmp_path / "named.toml"
     keys = 'orientation = "thesis"'
     text = SCENE.read_text(encoding="utf-8").replace('orientation = "cranks"', keys)
-    text = text.replace("[scene]", '[scene]\nlanguage = "uk"')
+    text = text.replace("[scene]", '[scene]\nlanguage = "uk"') + '\n[[exports]]\nformat = "step"\nname = "alone"\n'
     scene.write_text(text, encoding="utf-8")
     assert main(["build", str(scene), "--format", "step", "--part", "central_wheel", "--out", str(tmp_path), "-q"]) == 0
+    (file,) = tmp_path.rglob("*.step")
+    name = next(item["name_uk"] for item in items if item["name_en"] == "Central gear wheel")
+    assert "".join(f"{ord(letter):04X}" for letter in name.split()[0]) in file.read_text("ascii")
 
 
 @pytest.mark.sampled(4)
