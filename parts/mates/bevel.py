@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Struct
 
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from parts.base.mate import End, LaidStanding, Pose, Touching
 from parts.keys.mate import GearPairKeys, backlash
@@ -163,7 +164,10 @@ def _check_lines(first: End[BevelGear], second: End[BevelGear]) -> None:
     """Refuse the second's key in which tooth lines are not the first's on the crown gear, seen from its two sides."""
     if first.thing.is_straight and second.thing.is_straight:
         return
-    same_sizes(("spiral_angle_deg", "tooth_line"), second.keys, first.keys, "not_of_its_mate")
+    # the crown gear of both is one: its tooth lines are the same, not nearly
+    for key in ("spiral_angle_deg", "tooth_line"):
+        if (own := getattr(second.keys, key)) != (wanted := getattr(first.keys, key)):
+            raise ParameterError(key, own, "not_of_its_mate", Nearest(wanted))
     # the mean cone distance is that of the face
     same_sizes(("face_width", "cutter_radius"), second.thing, first.thing, "not_of_its_mate")
     same_size("hand", second.thing.hand, first.thing.opposite().hand, "not_of_its_mate")
