@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 import numpy as np
 from msgspec import Meta
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import ParameterError, limit
 from geometry.base.record import Record, replace
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion, Phase, PhaseKind
 from geometry.cams.plane.disk import DiskCam, FollowerKind
@@ -305,7 +305,7 @@ def cutter_centres(cam: DiskCam, angle: Real, cutter_diameter: float) -> Complex
     """
     most = 2 * (least_hollow_radius(cam).value + cam.radius)
     if cutter_diameter > most:
-        raise ParameterError("cutter_diameter", cutter_diameter, "cutter_above_hollow", Nearest(most, "at_most"))
+        raise ParameterError("cutter_diameter", cutter_diameter, "cutter_above_hollow", limit(most, cutter_diameter))
     return np.asarray((cam.contact(angle) + cutter_diameter / 2 * cam.normal(angle)) * np.exp(-1j * angle))
 
 

@@ -130,7 +130,13 @@ def test_what_has_no_tables_and_a_cutter_that_does_not_fit_are_refused(capsys: p
     assert "no tables" in complaint(capsys, "calc", "gear-pair", "practicum_pair", "--format", "csv")
     for scene in ("practicum_roller_cam",):
         told = complaint(capsys, "calc", "cam", scene, "cutter_diameter=900", "--format", "csv")
-        assert re.search(r"cutter_diameter = 900.*hollow.*works", told)
+        offered = re.search(r"cutter_diameter = 900.*hollow.*at most ([\d.]+) mm works", told)
+        assert offered is not None, told
+        # what is told is accepted, and a ten thousandth more is not
+        assert main(["calc", "cam", scene, f"cutter_diameter={offered[1]}", "--format", "csv"]) == 0
+        capsys.readouterr()
+        beyond = f"cutter_diameter={float(offered[1]) + 2e-4:.4f}"
+        assert "hollow" in complaint(capsys, "calc", "cam", scene, beyond, "--format", "csv")
         assert told.count("at most") == 1
 
 
