@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -102,6 +103,29 @@ def check_fit(
                 raise
             owner, key = (pair[0], key) if owner == "first" else (pair[1], refusal.name)
             raise refusal.renamed(key if owner == part else f"{owner}.{key}") from refusal
+
+
+def beside_mates(
+    part: str, specs: Mapping[str, MaterialKeys], mates: Sequence[MateKeys], part_of: PartOf
+) -> object | None:
+    """A gear that alone is pointed, with the tip that its external mates leave it; None where it is pointed still."""
+    from geometry.gears.pairs.external import tip_beside
+    from parts.gears.spur_gear.part import SpurGearSpec, bare_section
+    from parts.mates.involute import ExternalGearPairSpec
+
+    keys, tips = specs[part], list[float]()
+    for mate in mates:
+        pair = part_of[mate.first], part_of[mate.second]
+        other = specs[pair[pair[0] == part]]
+        if part not in pair or not isinstance(mate, ExternalGearPairSpec):
+            continue
+        if isinstance(keys, SpurGearSpec) and isinstance(other, SpurGearSpec):
+            with suppress(ParameterError):
+                tips.append(tip_beside(bare_section(keys), bare_section(other), mate.working_centre_distance))
+    try:
+        return KINDS["spur_gear"].thing(tried(keys, "tip_diameter", min(tips)), specs) if tips else None
+    except ParameterError:
+        return None
 
 
 def unlike(

@@ -56,6 +56,17 @@ def external_pair(first: SpurGear, second: SpurGear, working_centre_distance: fl
     return ExternalPair(_shortened(first, shortening), _shortened(second, shortening), distance, angle, shortening)
 
 
+def tip_beside(gear: SpurGear, mate: SpurGear, working_centre_distance: float | None = None) -> float:
+    """Tip diameter that a gear keeps beside its mate, mm; neither needs to exist alone, where it may be pointed.
+
+    Raises
+    ------
+    ParameterError
+        As ``external_pair``.
+    """
+    return 2 * external_pair(gear, mate, working_centre_distance).first.tip_radius
+
+
 def _shortened(gear: SpurGear, shortening: float) -> SpurGear:
     """The gear with its tip radius by (3.11); a given tip diameter stays, a tip is never lengthened."""
     if gear.given_tip_diameter is not None or shortening <= 0:

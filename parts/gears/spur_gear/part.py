@@ -152,6 +152,11 @@ def _whole(keys: SpurGearSpec, refusal: ParameterError) -> ParameterError:
 
 
 @told_in_keys
+def bare_section(keys: SpurGearSpec) -> SpurGear:
+    """The transverse section of a part's gear, not checked to exist."""
+    return transverse_gear(gear_of(keys), helix_of(keys).angle)
+
+
 def section_of(normal: SpurGear, helix: float) -> SpurGear:
     """The transverse section of a gear in normal data, checked to exist; ``helix`` in rad.
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import Nearest, ParameterError, PointedTipError
 from geometry.base.record import Record, replace
 from geometry.gears.pairs.common_face import CommonFace
-from geometry.gears.pairs.external import ExternalPair, external_pair
+from geometry.gears.pairs.external import ExternalPair, external_pair, tip_beside
 from geometry.gears.pairs.side_clearance import guaranteed_normal_backlash, normal_from_circumferential
 from geometry.gears.shifts.choice import shifts_for_distance
 from geometry.gears.shifts.tables import TableShift, guidelines, kudryavtsev
@@ -208,9 +209,9 @@ def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
     if keys.tip_shortening_coefficient is not None:
         first, second = (_shortened(g, keys.tip_shortening_coefficient, helix) for g in normal)
         normal = first, second
-    gears = [_section_of(keys, name, g) for name, g in zip(GEARS, normal, strict=True)]
     # shifts that were found for a distance give it back but for rounding
     distance = None if follow else keys.working_centre_distance
+    gears = [_section_of(keys, index, normal, beside=not follow) for index in range(2)]
     pair = external_pair(gears[0], gears[1], distance)
     width = min(keys.first.face_width, keys.second.face_width)
     face = CommonFace(Helix(helix, double=keys.first.double_helical), normal[0].module, width)
@@ -218,12 +219,21 @@ def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
     return Asked(pair, normal, face, wanted, keys.tip_shortening_coefficient, keys, follow)
 
 
-def _section_of(keys: PairKeys, name: str, normal: SpurGear) -> SpurGear:
-    """The transverse section of one gear of the pair, refused under its own name if it cannot exist."""
+def _section_of(keys: PairKeys, index: int, normal: tuple[SpurGear, SpurGear], *, beside: bool) -> SpurGear:
+    """The transverse section of one gear of the pair, refused under its own name if it cannot exist.
+
+    ``beside``: one that is pointed alone has the tip that its mate leaves it.
+    """
+    helix = helix_of(keys.first).angle
     try:
-        return section_of(normal, helix_of(keys.first).angle)
+        return section_of(normal[index], helix)
     except ParameterError as error:
-        raise refusal(TOPIC, error, name, keys) from error
+        if beside and isinstance(error, PointedTipError):
+            one, two = (transverse_gear(normal[i], helix) for i in (index, 1 - index))
+            with suppress(ParameterError):
+                tip = tip_beside(one, two, keys.working_centre_distance)
+                return section_of(replace(normal[index], given_tip_diameter=tip), helix)
+        raise refusal(TOPIC, error, GEARS[index], keys) from error
 
 
 def _shortened(gear: SpurGear, coefficient: float, helix: float) -> SpurGear:
@@ -242,9 +252,9 @@ def _thinned(keys: PairKeys, normal: tuple[SpurGear, SpurGear], helix: float) ->
         return normal
     if len(asked) > 1:
         raise ParameterError(asked[0], getattr(keys, asked[0]), "other_is_given", REMOVED, other=asked[1])
-    for name, gear in zip(GEARS, normal, strict=True):
+    for index in range(2):
         # what no backlash is to blame for
-        _section_of(keys, name, gear)
+        _section_of(keys, index, normal, beside=True)
     gears = [transverse_gear(g, helix) for g in normal]
     bare = external_pair(gears[0], gears[1], keys.working_centre_distance if _has_distance(keys, gears) else None)
     alpha = gears[0].rack.pressure_angle
@@ -257,7 +267,8 @@ def _thinned(keys: PairKeys, normal: tuple[SpurGear, SpurGear], helix: float) ->
         wanted = guaranteed_normal_backlash(str(keys.side_clearance_class), bare.working_centre_distance)
 
     def build(index: int, thinning: float) -> SpurGear:
-        return section_of(replace(normal[index], circumferential_thinning=thinning), helix)
+        tip = 2 * bare.gears[index].tip_radius
+        return section_of(replace(normal[index], circumferential_thinning=thinning, given_tip_diameter=tip), helix)
 
     try:
         asked_of = shared_thinning(wanted, normal, build, math.cos(alpha), bare.normal_backlash, share)

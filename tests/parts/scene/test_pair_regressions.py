@@ -56,6 +56,27 @@ def test_a_wall_that_is_too_thin_to_mesh_is_no_traceback() -> None:
     assert "solids" not in checked(raw)
 
 
+@pytest.mark.parametrize("backlash", [0.0, 0.1])
+@pytest.mark.parametrize(("teeth", "shifts", "tip"), [((21, 45), (1.27, 0.566), 125.205979334607904),
+                                                      ((22, 80), (1.31, 0.891), 130.596340419711772)])  # fmt: skip
+def test_a_gear_that_is_pointed_alone_is_made_with_the_tip_that_its_mate_leaves_it(
+    teeth: tuple[int, int], shifts: tuple[float, float], tip: float, backlash: float
+) -> None:
+    # tables Б.1 and Г.1 of the practicum with the misprint 0.991 mended; m 10, tips at 40 digits by (3.3) to (3.12)
+    wheel = {"kind": "spur_gear", "module": 10.0, "number_of_teeth": teeth[1], "profile_shift_coefficient": shifts[1]}
+    pinion = {"module": 10.0, "number_of_teeth": teeth[0], "profile_shift_coefficient": shifts[0]}
+    raw = pair("external_gear_pair", wheel, {"normal_backlash": backlash}, **pinion)
+    parts, _ = make_parts(scene_from_dict(raw, "t", "t"), "t")
+    assert parts["p"].thing.tip_radius == pytest.approx(tip, rel=1e-14)
+    assert parts["p"].section(0.0).region.outer.reach() == pytest.approx(tip, rel=1e-12)
+    # alone, far from its mate, or beside a mate that leaves it its tip, it is refused
+    far = pair("external_gear_pair", wheel, {"working_centre_distance": 10.0 * sum(teeth)}, **pinion)
+    low = pair("external_gear_pair", {**wheel, "profile_shift_coefficient": -shifts[0]}, **pinion)
+    for refused in ({"parts": {"p": raw["parts"]["p"]}}, far, low):
+        with pytest.raises(SceneError, match="pointed"):
+            make_parts(scene_from_dict(refused, "t", "t"), "t")
+
+
 def offered(raw: dict[str, Any]) -> float:
     with pytest.raises(SceneError) as refusal:
         checked(raw)
