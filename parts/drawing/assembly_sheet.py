@@ -184,7 +184,7 @@ def _hatch(canvas: Canvas, drawn: Drawn, scale: float) -> None:
     for number, loops in enumerate(drawn.hatched):
         placed = [[paper.scaled(c) for c in loop] for loop in loops]
         for line in hatching(placed, _HATCH + _WIDER * (number // 2), falls=number % 2 == 1):
-            canvas.strokes.append(Stroke("HATCH", line))
+            canvas.add("HATCH", line)
 
 
 def _ends(drawn: Drawn, scale: float) -> tuple[float, float]:
@@ -285,7 +285,7 @@ def _numbered(view: AssemblyView, share: Mapping[int, tuple[complex, ...]], scal
     canvas = one.canvas
     for leader in leaders:
         for line in leader.lines():
-            canvas.strokes.append(Stroke("THIN", line))
+            canvas.add("THIN", line)
         canvas.strokes += [Stroke("THIN", Arc(leader.spot, r, 0.0, 2 * math.pi)) for r in (_DOT, _DOT / 2)]
         canvas.texts.append(leader.words)
     ends = [line.end for leader in leaders for line in leader.lines()]

@@ -46,6 +46,8 @@ SCALES = tuple(map(scale_value, get_args(Scale)))
 _STEPS, _ROUNDING = (1.0, 2.0, 2.5, 4.0, 5.0), 1e-9
 # what is no way along an axis, mm
 _FLAT = 1e-9
+# decimals of the points of a curve, mm, by which it is told from others
+_PLACES = 6
 # words whose lengths are kept
 _WORDS = 4096
 _INDEX = re.compile(r"_\{([^}]*)\}")
@@ -294,6 +296,7 @@ class Canvas(Draft):
     columns: float = 0.0
     foot: float = 0.0
     margins: tuple[float, float] = (FRAME_LEFT, FRAME)
+    _drawn: set[tuple[str, frozenset[complex]]] = field(default_factory=set)
 
     @property
     def layers(self) -> list[str]:
@@ -325,7 +328,16 @@ class Canvas(Draft):
 
     def line(self, layer: str, start: complex, end: complex) -> None:
         """A straight line."""
-        self.strokes.append(Stroke(layer, Line(start, end)))
+        self.add(layer, Line(start, end))
+
+    def add(self, layer: str, curve: CadCurve) -> bool:
+        """A curve, unless it stands on its layer already: a side that two tables share, say; whether it did not."""
+        points = np.round(curve.point(np.linspace(*curve.domain, 5)), _PLACES)
+        place = layer, frozenset(points.tolist())
+        if new := place not in self._drawn:
+            self._drawn.add(place)
+            self.strokes.append(Stroke(layer, curve))
+        return new
 
     def arrow(self, layer: str, tip: complex, way: complex, length: float = 3.0, half: float = 12.0) -> None:
         """The open head of an arrow that points a ``way`` (of length 1), its sides ``half`` degrees from it."""
@@ -334,7 +346,7 @@ class Canvas(Draft):
 
     def arc(self, layer: str, arc: Arc) -> None:
         """An arc or a full circle."""
-        self.strokes.append(Stroke(layer, arc))
+        self.add(layer, arc)
 
     def box(self, layer: str, box: Box) -> None:
         """Four lines."""
@@ -407,7 +419,8 @@ def fitted(canvas: Canvas, curves: Sequence[Curve], scale: float, tolerance: flo
 
 def draw(canvas: Canvas, layer: str, curves: Sequence[CadCurve], paper: Paper) -> None:
     """Curves in model mm on a layer."""
-    canvas.strokes += [Stroke(layer, paper.scaled(curve)) for curve in curves]
+    for curve in curves:
+        canvas.add(layer, paper.scaled(curve))
 
 
 class Paper(Record):

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from geometry.approximation.outline import CadCurve
 from geometry.base.record import Draft, field
 from geometry.cams.motion.diagrams import diagram, hermite_spline
 from geometry.cams.motion.follower_motion import FollowerMotion
@@ -14,7 +15,7 @@ from geometry.curves.curve import Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.base.texts import words
 from parts.cams.sheets.picture import CamPicture, Scales, thinned
-from parts.drawing.canvas import SMALL_TEXT, SQUARE, TEXT_HEIGHT, Box, Canvas, Stroke, standard_scale, text_width
+from parts.drawing.canvas import SMALL_TEXT, SQUARE, TEXT_HEIGHT, Box, Canvas, standard_scale, text_width
 from parts.drawing.choice import Asked
 from parts.pages.page import unit_text
 from parts.texts.sheets import sheet_words
@@ -40,14 +41,15 @@ class Drawn(Draft):
     lines: Exact = field(default_factory=list)
 
     def add(self, canvas: Canvas, layer: str, curve: Curve, tolerance: float) -> None:
-        """Draw an exact curve that is given on paper."""
-        self.curves.setdefault(layer, []).append(curve)
+        """Draw an exact curve that is given on paper, once where rise and return have the same."""
+        shown: CadCurve
         if isinstance(curve, Line | Arc):
-            canvas.strokes.append(Stroke(layer, curve))
-            return
-        spline, error = hermite_spline(curve, tolerance)
-        canvas.max_error = max(canvas.max_error, error)
-        canvas.strokes.append(Stroke(layer, spline))
+            shown = curve
+        else:
+            shown, error = hermite_spline(curve, tolerance)
+            canvas.max_error = max(canvas.max_error, error)
+        if canvas.add(layer, shown):
+            self.curves.setdefault(layer, []).append(curve)
 
     def line(self, canvas: Canvas, layer: str, start: complex, end: complex) -> None:
         """Draw a straight line that is checked."""

@@ -16,7 +16,7 @@ from geometry.curves.line_arc import Arc
 from parts.cams.sheets.diagrams import Drawn
 from parts.cams.sheets.links import draw_links, frame_ray, linkage_cam_of, links_reach, name_links, pivots
 from parts.cams.sheets.picture import CamPicture, thinned
-from parts.drawing.canvas import SCALES, SMALL_TEXT, Box, Canvas, Paper, Stroke, draw, fitted, text_width
+from parts.drawing.canvas import SCALES, SMALL_TEXT, Box, Canvas, Paper, draw, fitted, text_width
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Circle
 from parts.drawing.labels import Labeller
@@ -197,7 +197,7 @@ def _marks(canvas: Canvas, picture: CamPicture, paper: Paper) -> None:
         # the shorter way round
         sweep = -position.angle if position.angle <= math.pi else _TURN - position.angle
         if abs(sweep) > 1e-9:
-            canvas.strokes.append(Stroke("CONSTRUCTION", Arc(centre, radius, phase, sweep)))
+            canvas.add("CONSTRUCTION", Arc(centre, radius, phase, sweep))
 
 
 def _turning(canvas: Canvas, paper: Paper, reach: Reach) -> None:

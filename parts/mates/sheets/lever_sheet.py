@@ -18,7 +18,7 @@ from geometry.curves.bspline import BSpline
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc
 from parts.base.texts import N_, Text, Words, message, words
-from parts.drawing.canvas import SMALL_TEXT, Canvas, Paper, Stroke, standard_scale, text_width
+from parts.drawing.canvas import SMALL_TEXT, Canvas, Paper, scale_text, standard_scale, text_width
 from parts.drawing.expected import Expected
 from parts.drawing.labels import Labeller
 from parts.drawing.pieces import Piece, laid, reach, titled
@@ -89,11 +89,12 @@ class LeverDrawing(Record, eq=False):
         return [self._finished(canvas, k + 1, len(canvases), told) for k, canvas in enumerate(canvases)]
 
     def _finished(self, canvas: Canvas, number: int, count: int, told: Words) -> Expected:
-        """The frame, and the title block where one is asked for."""
+        """The frame, and the title block where one is asked for, with the scale of the scheme."""
         canvas.box("FRAME", canvas.frame)
         if self.block is not None:
             given = changed(self.block, name=self.block.name or told.say(self.title))
-            block = title_block_of(given, "", number, count)
+            scale = "" if number > 1 else scale_text(1 / self.scale, told.language)
+            block = title_block_of(given, scale, number, count)
             check_held(block, FORM_1, turned=False)
             draw_title_block(canvas, block, told.language)
         return Expected(canvas, Paper(1.0, 0j), ())
@@ -175,10 +176,10 @@ class LeverDrawing(Record, eq=False):
             if abs(force) > _POINT:
                 foot = tip - force * (force.conjugate() * tip).real / abs(force) ** 2
                 arm = (foot.conjugate() * force).imag / abs(force)
-                if abs(foot) > _SAME:
+                # of a force across its velocity the arm is drawn already
+                if abs(foot) > _SAME and abs(foot - tip) > _SAME:
                     canvas.line("CONSTRUCTION", 0j, foot)
-                    if abs(foot - tip) > _SAME:
-                        canvas.line("CONSTRUCTION", tip, foot)
+                    canvas.line("CONSTRUCTION", tip, foot)
                 _vector(canvas, "FORCE", tip, tip + force)
                 if abs(force) > _SAME:
                     named.append((symbol, tip + force * 0.7))
@@ -269,7 +270,7 @@ def _path(canvas: Canvas, path: Complex, pivots: Iterable[complex]) -> None:
     # by the neighbours on both sides: their errors are far below a rounding of the file
     slopes = (8 * (np.roll(path, -1) - np.roll(path, 1)) - (np.roll(path, -2) - np.roll(path, 2))) / 12 * step
     spots, ways = (np.append(x[::step], x[0]) for x in (path, slopes))
-    canvas.strokes.append(Stroke("PATH", _spline(spots, ways[:-1], ways[1:])))
+    canvas.add("PATH", _spline(spots, ways[:-1], ways[1:]))
 
 
 def _spline(spots: Complex, out: Complex, into: Complex) -> BSpline:
@@ -349,7 +350,7 @@ def _diagrams(title: str, angle: Real, graphs: Sequence[Sequence[_Series]], posi
         canvas.arrow("AXIS", complex(0, top + 7), 1j)
         symbol, unit = "".join(curves[0][0].split("_")[0]), curves[0][1]
         canvas.write(f"{symbol}, {unit_text(unit, told)}", complex(2.5, top + 4.5), SMALL_TEXT)
-        canvas.write("φ_{1}", axis + complex(_TURN + 4, 2.0), SMALL_TEXT)
+        named.append(("φ_{1}", axis + _TURN + 5, 1j))
         heads.append(_scaled(symbol, scale, unit, told))
         step = standard_scale(max(high - low, 1e-12) / _TICKS)
         for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1):
@@ -358,7 +359,7 @@ def _diagrams(title: str, angle: Real, graphs: Sequence[Sequence[_Series]], posi
             canvas.write(text, at - complex(2.0 + text_width(text, SMALL_TEXT), SMALL_TEXT / 2), SMALL_TEXT)
         for layer, (name, _, _), values in zip(_LAYERS, curves, closed, strict=False):
             spots = (steps + 1j * (zero + values / scale))[::_EVERY]
-            canvas.strokes.append(Stroke(layer, _spline(spots, np.diff(spots), np.diff(spots))))
+            canvas.add(layer, _spline(spots, np.diff(spots), np.diff(spots)))
             if len(curves) > 1:
                 # where it lies farthest from the others
                 others = np.min([np.abs(values - other) for other in closed if other is not values], axis=0)
@@ -374,7 +375,7 @@ def _diagrams(title: str, angle: Real, graphs: Sequence[Sequence[_Series]], posi
                 x = k * _TURN / positions - text_width(text, SMALL_TEXT) / 2
                 canvas.write(text, complex(x, foot - 5.0), SMALL_TEXT)
         top = foot - _BETWEEN
-    labels = Labeller(canvas, reach(canvas))
+    labels = Labeller(canvas, reach(canvas).grown(_ABOUT))
     for name, at, side in named:
         labels.name(name, at, prefer=side)
     return titled(canvas, title, ", ".join(heads))

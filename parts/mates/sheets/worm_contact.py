@@ -15,7 +15,7 @@ from geometry.curves.bspline import BSpline, basis_matrix
 from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.field import Field
 from parts.base.texts import unless
-from parts.drawing.canvas import Box, Canvas, Paper, Stroke, decimal, scale_text
+from parts.drawing.canvas import Box, Canvas, Paper, decimal, scale_text
 from parts.drawing.choice import Asked, sheet_for
 from parts.drawing.expected import Expected
 from parts.drawing.labels import Labeller
@@ -159,7 +159,7 @@ def worm_sheet(mating: WormMating, field: Field, title: str, asked: Asked) -> Ex
             canvas.max_error, canvas.sampled = max(canvas.max_error, off * scale), True
         fit = made[key]
         seen = replace(fit, poles=curve.points(greville(3, fit.knots), fit.poles))
-        canvas.strokes.append(Stroke(curve.layer, curve.paper.scaled(seen)))
+        canvas.add(curve.layer, curve.paper.scaled(seen))
     _draw_sides(canvas, field, flanks, along)
     _draw_worm(canvas, mating, along)
     table = Table((*rows, _scale(scale, language)), canvas.letters)

@@ -1,9 +1,13 @@
-"""Every word of every sheet of every scene stands clear: of other words and of all lines, by boxes, off the files."""
+"""Every word of every sheet of every scene stands clear, by boxes, off the files: of other words and of all lines.
+
+No line is drawn twice.
+"""
 
 from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -81,15 +85,25 @@ def points_of(data: str) -> np.ndarray:
     return np.concatenate(rows)
 
 
+def twice(chains: list[tuple[str, np.ndarray]]) -> list[str]:
+    """Lines that stand twice on their layer; two sizes may end on one line."""
+    places = Counter(
+        (layer, frozenset(np.round(chain[np.linspace(0, len(chain) - 1, 5).astype(int)], 3).tolist()))
+        for layer, chain in chains if layer != "DIMENSION"
+    )  # fmt: skip
+    return [f"{layer} twice: {sorted(ends, key=abs)}" for (layer, ends), count in places.items() if count > 1]
+
+
 def faults(file: Path) -> list[str]:
-    """Words over words and words over lines."""
+    """Words over words and words over lines, and lines that are drawn twice."""
     boxes, chains = drawn(file)
     areas = shapely.box(*np.array([box[1:] for box in boxes]).T)
     one, other = shapely.STRtree(areas).query(areas, "intersects")
     found = [f"{boxes[k][0]} over {boxes[n][0]}" for k, n in zip(one, other, strict=True) if n < k]
     lines = [shapely.LineString(np.column_stack((chain.real, chain.imag))) for _, chain in chains]
     through, under = shapely.STRtree(areas).query(lines, "intersects")
-    return found + [f"{boxes[n][0]} over {chains[k][0]}" for k, n in zip(through, under, strict=True)]
+    over = [f"{boxes[n][0]} over {chains[k][0]}" for k, n in zip(through, under, strict=True)]
+    return found + over + twice(chains)
 
 
 def sheets_of(name: str, language: str, **export: Any) -> Any:
@@ -131,6 +145,18 @@ def test_a_word_that_is_moved_onto_a_line_is_seen(tmp_path: Path) -> None:
     moved = re.sub(r'<text x="[\d.]+" y="[\d.]+"([^>]*>P<)', rf'<text x="{x}" y="{y}"\1', text)
     file.write_text(moved, encoding="utf-8")
     assert {"T over P", "P over T"} & set(faults(file))
+
+
+def test_a_line_that_is_written_once_more_is_seen(tmp_path: Path) -> None:
+    """The negative control: as it stands, and the other way round."""
+    (job,) = sheets_of("practicum_pair", "en")
+    file = tmp_path / job.path
+    job.write({}, file)
+    text = file.read_text(encoding="utf-8")
+    path, start, end = re.findall(rf'(<path d="M({NUMBER},{NUMBER}) L({NUMBER},{NUMBER})"/>)', text)[0]
+    for more in (path, f'<path d="M{end} L{start}"/>'):
+        file.write_text(text.replace(path, path + more, 1), encoding="utf-8")
+        assert [fault.partition(":")[0] for fault in faults(file)] == ["FRAME twice"]
 
 
 @pytest.mark.sampled(1)
