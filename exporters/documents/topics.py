@@ -152,18 +152,19 @@ def sheet_of(topic: str, words: Sequence[str], language: str | None = None) -> t
         raise SceneError(PLACE, addresses[1], None, "one_scene_only", None, other=addresses[0])
     typed = table_of([word for word in words if word not in addresses])
 
-    def made(table: Mapping[str, Any]) -> tuple[Sheet, str]:
-        return _sheet_of(topic, addresses, plain_numbers(table, PLACE, topic), language)
+    def begun(table: Mapping[str, Any]) -> tuple[Callable[[], Sheet], str]:
+        return _begun(topic, addresses, plain_numbers(table, PLACE, topic), language)
 
     with as_written({topic: typed}):
         try:
-            return made(typed)
+            finish, spoken = begun(typed)
+            return finish(), spoken
         except SceneError as refusal:
-            raise _as_typed(refusal, topic, typed, made) from refusal
+            raise _as_typed(refusal, topic, typed, begun) from refusal
 
 
 def _as_typed(
-    refusal: SceneError, topic: str, typed: Mapping[str, Any], made: Callable[[Mapping[str, Any]], object]
+    refusal: SceneError, topic: str, typed: Mapping[str, Any], begun: Callable[[Mapping[str, Any]], object]
 ) -> SceneError:
     """A refusal in the key as it was typed, maybe once for both bodies of a pair; what it offers has been tried."""
     head, *path = refusal.key.split(".")
@@ -185,7 +186,7 @@ def _as_typed(
             if found.value is None:
                 del owner[path[-1]]
             try:
-                made(changed)
+                begun(changed)
             except SceneError as again:
                 found = again.nearest if again.key == refusal.key else None
             else:
@@ -197,18 +198,29 @@ def _as_typed(
     return told
 
 
-def _sheet_of(topic: str, addresses: Sequence[str], table: dict[str, Any], language: str | None) -> tuple[Sheet, str]:
+def _begun(
+    topic: str, addresses: Sequence[str], table: dict[str, Any], language: str | None
+) -> tuple[Callable[[], Sheet], str]:
+    """What finishes the sheet, which is refused before where it can be, and the language of its scene."""
     if topic == "power-table" and isinstance(file := table.get("path"), str):
         from exporters.formats.read_path import read_path
 
         table["path"] = read_path(Path(file), f"{topic}.path")
     module = importlib.import_module(_home(topic))
+
+    def of(keys: dict[str, Any]) -> Callable[[], Sheet]:
+        if (start := getattr(module, "begun", None)) is not None:
+            finish: Callable[[], Sheet] = start(keys)
+            return finish
+        sheet: Sheet = module.sheet(keys)
+        return lambda: sheet
+
     if not addresses:
-        return module.sheet(table), "en"
+        return of(table), "en"
     from parts.scene.load import load_scene
 
     scene = load_scene(addresses[0], language)
     table_from = getattr(module, "table_from", None)
     if table_from is None:
         raise SceneError(addresses[0], "TOPIC", topic, "keys_not_a_scene")
-    return module.sheet(table_from(scene, addresses[0], table)), scene.scene.language
+    return of(table_from(scene, addresses[0], table)), scene.scene.language

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
@@ -96,8 +98,8 @@ def table_from(pair: dict[str, Any], table: dict[str, Any]) -> dict[str, Any]:
     return {"kind": KIND, **known, **table}
 
 
-def internal_sheet(table: dict[str, Any]) -> Sheet:
-    """The choices and the contour of a pinion in a ring."""
+def internal_begun(table: dict[str, Any]) -> Callable[[], Sheet]:
+    """The choices and the contour of a pinion in a ring; refused, where they are, before anything is sought."""
     keys: InternalShiftKeys = checked(table, InternalShiftKeys, TOPIC)
     checked_picture(TOPIC, keys.picture)
     teeth = keys.first.number_of_teeth, keys.second.number_of_teeth
@@ -106,8 +108,30 @@ def internal_sheet(table: dict[str, Any]) -> Sheet:
         raise SceneError(PLACE, f"{TOPIC}.second.number_of_teeth", teeth[1], "not_above_pinion_teeth", works)
     pair = shift_pair(keys)
     wish = InternalRequirements(*keys.kept, keys.least_tip_clearance, keys.radial_assembly)
+    with refusals(keys):
+        page = Sheet(TOPIC, N_("Choice of profile shifts, internal pair"))
+        wanted = _wanted_difference(keys, pair)
+        _given(page, keys, pair, wish)
+        own = _own_choices(keys, pair, wish)
+
+    def finished() -> Sheet:
+        with refusals(keys):
+            choices = [*own, *_found_choices(page, keys, pair, wish, wanted)]
+            for number, choice in enumerate(choices, 1):
+                _choice(page, keys.module, wish, choice, number)
+            found = window(pair)
+            contour = None if found is None else internal_contour(pair, wish, found.box, _TOLERANCE)
+            show_choices(page, contour, choices, keys.picture)
+        return page
+
+    return finished
+
+
+@contextmanager
+def refusals(keys: ChoiceKeys) -> Iterator[None]:
+    """What geometry refuses is told by the keys of the topic."""
     try:
-        return _page(keys, pair, wish)
+        yield
     except ParameterError as error:
         raise refusal(TOPIC, in_keys(error), keys=keys) from error
 
@@ -168,19 +192,6 @@ def _as_built(keys: InternalShiftKeys, pair: InternalShiftPair, shift: float) ->
     return replace(pair, root=ring.root, least_tip_diameter=ring.least_tip_diameter)
 
 
-def _page(keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> Sheet:
-    page = Sheet(TOPIC, N_("Choice of profile shifts, internal pair"))
-    wanted = _wanted_difference(keys, pair)
-    _given(page, keys, pair, wish)
-    choices = [*_own_choices(keys, pair, wish), *_found_choices(page, keys, pair, wish, wanted)]
-    for number, choice in enumerate(choices, 1):
-        _choice(page, keys.module, wish, choice, number)
-    found = window(pair)
-    contour = None if found is None else internal_contour(pair, wish, found.box, _TOLERANCE)
-    show_choices(page, contour, choices, keys.picture)
-    return page
-
-
 def _given(page: Sheet, keys: InternalShiftKeys, pair: InternalShiftPair, wish: InternalRequirements) -> None:
     rack = basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg))
     formula = show_given(page, keys, pair, rack).replace("{h_a}", "{h_a1}").replace("#", "1")
@@ -209,7 +220,7 @@ def _own_choices(keys: InternalShiftKeys, pair: InternalShiftPair, wish: Interna
 
 
 def _wanted_difference(keys: InternalShiftKeys, pair: InternalShiftPair) -> float | None:
-    """x2 - x1 that a wanted centre distance asks for; refused before anything is sought."""
+    """x2 - x1 that a wanted centre distance asks for."""
     if keys.working_centre_distance is None:
         return None
     module = keys.module / pair.share

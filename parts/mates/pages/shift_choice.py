@@ -6,6 +6,7 @@ Of helical pairs the shifts are normal ones and the contour is that of the trans
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
@@ -29,13 +30,13 @@ from geometry.gears.teeth.transverse import transverse_gear, transverse_rack
 from parts.base.refusal import SceneError
 from parts.base.texts import N_, message
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of
-from parts.keys.helix import in_keys
 from parts.mates.pages import external as gear_pair
 from parts.mates.pages import internal_shift_choice
 from parts.mates.pages.contour_marks import Choice, checked_picture, show_choices, show_given
+from parts.mates.pages.internal_shift_choice import refusals
 from parts.mates.pages.pair_keys import GEARS, ChoiceKeys, kind_of_pair, section_table
 from parts.pages.contact_steps import working_steps
-from parts.pages.inputs import SceneKeys, checked, refusal, told
+from parts.pages.inputs import SceneKeys, checked, told
 from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Printed, Sheet
 
@@ -73,19 +74,36 @@ def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str
 
 def sheet(table: dict[str, Any]) -> Sheet:
     """The choices and the contour, by the kind of pair."""
+    return begun(table)()
+
+
+def begun(table: dict[str, Any]) -> Callable[[], Sheet]:
+    """The same, refused where it is before anything is sought, which takes a hundred times as long."""
     kind, table = kind_of_pair(table, TOPIC, _KINDS)
     if kind == internal_shift_choice.KIND:
-        return internal_shift_choice.internal_sheet(table)
+        return internal_shift_choice.internal_begun(table)
     keys: ShiftChoiceKeys = checked(table, ShiftChoiceKeys, TOPIC)
     checked_picture(TOPIC, keys.picture)
-    try:
+    wish = Requirements(*keys.kept)
+    with refusals(keys):
         z, angle, basic = keys.first.number_of_teeth, keys.pressure_angle_deg, keys.basic_rack
         spec = SpurGearSpec(module=keys.module, number_of_teeth=z, pressure_angle_deg=angle, basic_rack=basic)
-        gear = gear_of(spec)
-        pair = _pair(keys, gear.rack)
-        return _page(keys, gear.rack, pair, Requirements(*keys.kept))
-    except ParameterError as error:
-        raise refusal(TOPIC, in_keys(error), keys=keys) from error
+        rack = gear_of(spec).rack
+        pair = _pair(keys, rack)
+        wanted = _wanted_sum(keys, rack, pair)
+        page, tables = _started(keys, rack, pair, wish)
+
+    def finished() -> Sheet:
+        with refusals(keys):
+            choices = [*tables, *_found_choices(page, keys, pair, wish, wanted)]
+            for number, choice in enumerate(choices, 1):
+                _choice(page, keys.module, pair, wish, choice, number)
+            box = usual_box(pair)
+            contour = None if box is None else blocking_contour(pair, wish, box)
+            show_choices(page, contour, choices, keys.picture)
+        return page
+
+    return finished
 
 
 def _pair(keys: ShiftChoiceKeys, rack: BasicRack) -> ShiftPair:
@@ -96,7 +114,16 @@ def _pair(keys: ShiftChoiceKeys, rack: BasicRack) -> ShiftPair:
     return ShiftPair(*teeth, section, keys.shortened_tips, angle, face.overlap_ratio if angle else 0.0)
 
 
-def _page(keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair, wish: Requirements) -> Sheet:
+def _wanted_sum(keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair) -> float | None:
+    """x1 + x2 that a wanted centre distance asks for."""
+    if keys.working_centre_distance is None:
+        return None
+    one, two = (transverse_gear(SpurGear(keys.module, z, rack), pair.helix_angle) for z in pair.teeth)
+    return shift_sum_for_distance(one, two, keys.working_centre_distance) / math.cos(pair.helix_angle)
+
+
+def _started(keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair, wish: Requirements) -> tuple[Sheet, list[Choice]]:
+    """The page as far as nothing is sought, and the choices of tables."""
     page = Sheet(TOPIC, N_("Choice of profile shifts"))
     formula = show_given(page, keys, pair, rack)
     page.add("required_contact_ratio", wish.contact_ratio, "", "practicum 1")
@@ -105,18 +132,10 @@ def _page(keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair, wish: Require
     for index in (1, 2):
         least = least_shift(pair, index - 1)
         page.add("least_shift_without_undercut", least, formula, "ISO 21771", index, symbol=symbol)
-    tables = []
     if pair.helix_angle:
         page.note("the tables and the recommendations of GOST 16532 are left out: they are of spur gears")
-    else:
-        tables = _table_choices(page, pair, wish)
-    choices = [*tables, *_found_choices(page, keys, rack, pair, wish)]
-    for number, choice in enumerate(choices, 1):
-        _choice(page, keys.module, pair, wish, choice, number)
-    box = usual_box(pair)
-    contour = None if box is None else blocking_contour(pair, wish, box)
-    show_choices(page, contour, choices, keys.picture)
-    return page
+        return page, []
+    return page, _table_choices(page, pair, wish)
 
 
 def _table_choices(page: Sheet, pair: ShiftPair, wish: Requirements) -> list[Choice]:
@@ -152,16 +171,14 @@ def _mending(shifts: shift_tables.TableShift) -> Printed | None:
 
 
 def _found_choices(
-    page: Sheet, keys: ShiftChoiceKeys, rack: BasicRack, pair: ShiftPair, wish: Requirements
+    page: Sheet, keys: ShiftChoiceKeys, pair: ShiftPair, wish: Requirements, total: float | None
 ) -> list[Choice]:
     """What the finder proposes inside the contour."""
     proposals = [
         (message("least wear: equal sliding"), least_wear(pair, wish)),
         (message("greatest contact ratio"), greatest_contact_ratio(pair, wish)),
     ]
-    if keys.working_centre_distance is not None:
-        one, two = (transverse_gear(SpurGear(keys.module, z, rack), pair.helix_angle) for z in pair.teeth)
-        total = shift_sum_for_distance(one, two, keys.working_centre_distance) / math.cos(pair.helix_angle)
+    if total is not None:
         found = for_sum(pair, wish, total)
         proposals.append((message("a_w = {distance:g} mm", distance=keys.working_centre_distance), found))
         if found is None:
