@@ -35,6 +35,7 @@ def rows(data: dict[str, Any], table: str) -> list[list[Any]]:
     return [list(row.values()) for row in data[table]]
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("assignment", range(1, 11))
 def test_every_assignment_holds_its_loads_all_round(assignment: int) -> None:
     """12 positions of a row of it: finite, in balance by powers, plans closed, both methods of one moment."""

@@ -213,6 +213,7 @@ def paths(made: Any) -> list[str]:
     return [job.path for job in (*made.jobs, *made.assemblies, *made.sheets)]
 
 
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("name", EXPORTS)
 def test_two_exports_into_one_file_are_refused(name: str) -> None:
     """Twice the same name, and names that differ in capitals only, as some disks hold them to be one."""

@@ -118,6 +118,7 @@ def test_sides_of_iso_4156_reach_its_form_diameters(size: tuple[float, Root]) ->
         assert hub.crest_rounding == rho or (0.85 * rho < hub.crest_rounding < rho and teeth < 11)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("distance", [-0.25, -0.02, 0.02, 0.25])
 @pytest.mark.parametrize("name", ["ISO 4156, 6 teeth", "DIN 5480, 6 teeth"])
 def test_sides_below_the_base_circle_have_parallels(name: str, distance: float) -> None:

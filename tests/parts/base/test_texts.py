@@ -186,7 +186,7 @@ def test_the_scene_says_in_which_language_its_command_is_misused(tmp_path: Path)
 def test_a_third_language_is_one_po(tmp_path: Path) -> None:
     """A copy of the house with one file more: its scenes, its command and its calculations speak that language."""
     for package in ("geometry", "parts", "exporters"):
-        shutil.copytree(HOUSE / package, tmp_path / package, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(HOUSE / package, tmp_path / package)
     body = 'msgid "External gear"\nmsgstr "Koło zębate"\n\nmsgid "options"\nmsgstr "opcje"\n\n'
     catalogue(tmp_path / "parts" / "locale", "pl", "higherpair", body)
     code = "from exporters.command.cli import main\nmain({!r})"

@@ -47,6 +47,7 @@ def scene(pinion: dict[str, Any], wheel: dict[str, Any], **mate: Any) -> dict[st
     }
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("kind", KINDS)
 def test_meshes_of_both_keep_half_of_the_backlash_all_over_a_pitch(kind: str) -> None:
     """By meshes alone, turned step by step in their ratio; beside it they clash."""
