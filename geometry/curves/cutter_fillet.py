@@ -93,6 +93,12 @@ class CutterFillet(Fillet, Record):
         turn = self.angle + self._ratio * self._parts(u)[2] - u
         return np.where(self.speed(u) < 0, 1.0, -1.0) * self._sense * 1j * np.exp(1j * turn)
 
+    def slopes(self, points: Complex, t: Real) -> tuple[Real, Real]:
+        """Re(conj(tangent) (p - e)) along growing u, and its derivative: the tangent turns at -(1 - k th')."""
+        speed = self.speed(t)
+        gap = np.conj(self.tangent(t)) * (points - self.point(t)) * np.where(speed < 0, -1.0, 1.0)
+        return gap.real, -self.turning(t) * gap.imag - speed
+
     def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
         """Taylor arithmetic on e' = -s i exp(i (angle + k th - u)) speed(u)."""
         u = np.asarray(t, dtype=float)

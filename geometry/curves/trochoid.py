@@ -1,4 +1,4 @@
-"""What a rounded rack tip leaves: the path of its rounding centre, and the root fillet."""
+"""What a rounded rack tip leaves: the root fillet in the gear's frame."""
 
 from __future__ import annotations
 
@@ -11,21 +11,105 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.record import Record
+from geometry.base.series import FACTORIALS, Series, derived, exponential, power, product
 from geometry.curves.curve import Complex, Real
 from geometry.curves.fillet import Fillet
 
-_BINOMIALS = ((1,), (1, 1), (1, 2, 1), (1, 3, 3, 1), (1, 4, 6, 4, 1))
+
+class RackFillet(Fillet):
+    """Envelope of a rack's rounded tip of support function p(u) in the gear's frame.
+
+    ``u`` is the angle of the contact normal on the rounding, rad: 0 at the rack's tip line, pi/2 - alpha at its
+    straight flank; negative values give the mirror image. With n = D sec u + p - p' tan u and s = D tan u - p' sec u
+
+        e(u) = centre + exp(i (angle - s/r)) (r - n exp(-i u)),    speed (s'/r) n + p + p''.
+
+    D = ``depth`` is how far the rounding's centre lies inside the pitch line: at D = 0 the rack-position form is 0/0,
+    this one is an arc, and beyond (D < 0) no sign flips.
+    """
+
+    __slots__ = ()
+    pitch_radius: float
+    depth: float
+
+    def _parts(self, u: Any, secant: Series, tangent: Series, *, bound: bool) -> tuple[Series, Series, Series]:
+        """Series of s, n and the rounding's radius of curvature p + p'', or bounds of them up to the angle u."""
+        raise NotImplementedError
+
+    def _rolled(self, u: Any, lib: ModuleType = np) -> tuple[Any, Any, Any, Any]:
+        """s, n, s' and p + p'' in closed form."""
+        raise NotImplementedError
+
+    def normal_length(self, u: float) -> float:
+        """n: distance of the contact point from the pitch point, mm."""
+        return float(self._rolled(u, math)[1])
+
+    def _point(self, u: Any, lib: ModuleType, exp: Callable[[Any], Any]) -> Any:
+        shift, normal, _, _ = self._rolled(u, lib)
+        return self.centre + exp(1j * (self.angle - shift / self.pitch_radius)) * (
+            self.pitch_radius - normal * exp(-1j * u)
+        )
+
+    def speed(self, t: ArrayLike) -> Real:
+        """de/du along the tangent, mm/rad; negative where the curve runs back."""
+        return self._moving(np.asarray(t, dtype=float))[1]
+
+    def tangent(self, t: ArrayLike) -> Complex:
+        direction, speed = self._moving(np.asarray(t, dtype=float))
+        return np.where(speed < 0, -direction, direction)
+
+    def _moving(self, u: Real) -> tuple[Complex, Real]:
+        """Direction of growing u where the speed is positive, and the speed."""
+        shift, normal, rate, bend = self._rolled(u)
+        direction = 1j * np.exp(1j * (self.angle - shift / self.pitch_radius - u))
+        return direction, np.asarray(rate / self.pitch_radius * normal + bend)
+
+    def turning(self, t: ArrayLike) -> Real:
+        """1 + s'/r: how fast the tangent turns to the right, rad/rad."""
+        return np.asarray(1 + self._rolled(np.asarray(t, dtype=float))[2] / self.pitch_radius)
+
+    def slopes(self, points: Complex, t: Real) -> tuple[Real, Real]:
+        """Re(conj(tangent) (p - e)) along growing u, and its derivative: normals pass through the pitch point.
+
+        |p| sin(arg p - angle + u + s/r) - r sin u.
+        """
+        shift, _, rate, _ = self._rolled(t)
+        turned = (points - self.centre) * np.exp(1j * (t + shift / self.pitch_radius - self.angle))
+        change = turned.real * (1 + rate / self.pitch_radius) - self.pitch_radius * np.cos(t)
+        return turned.imag - self.pitch_radius * np.sin(t), change
+
+    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
+        """Taylor arithmetic on e' = i exp(i (angle - s/r - u)) speed(u)."""
+        u = np.asarray(t, dtype=float)
+        if order == 1:
+            direction, speed = self._moving(u)
+            return np.asarray(direction * speed)
+        shift, normal, bend = self._parts(u, *_secant_and_tangent(u, order), bound=False)
+        phase = [-1j * x / self.pitch_radius for x in shift[:order]]
+        phase[0], phase[1] = phase[0] - 1j * u, phase[1] - 1j
+        value = product(exponential(phase), self._speed_series(shift, normal, bend)[:order])[order - 1]
+        return np.asarray(1j * np.exp(1j * self.angle) * value * FACTORIALS[order - 1])
+
+    def _speed_series(self, shift: Series, normal: Series, bend: Series) -> Series:
+        rolling = product([x / self.pitch_radius for x in derived(shift)], normal)
+        return [a + b for a, b in zip(rolling, bend, strict=False)]
+
+    def derivative_bound(self, order: int, a: float, b: float) -> float:
+        """Majorants of every series in ``derivative``; secant and tangent are greatest where u is farthest from 0."""
+        far = max(abs(a), abs(b))
+        shift, normal, bend = self._parts(far, *_secant_and_tangent(far, order, math), bound=True)
+        phase = [0.0, *(x / self.pitch_radius for x in shift[1:order])]
+        if order > 1:
+            phase[1] += 1
+        value = product(exponential(phase), self._speed_series(shift, normal, bend)[:order])[order - 1]
+        return float(value * FACTORIALS[order - 1])
 
 
-class TrochoidFillet(Fillet, Record):
-    """Envelope of a rack's rounded tip in the gear's frame: the root fillet.
+class TrochoidFillet(RackFillet, Record):
+    """The fillet of a circular rounding, p = rho: n = D sec u + rho, s = D tan u.
 
-    e(u) = centre + exp(i (angle - q tan u)) (r - D + i D tan u - rho exp(-i u)), q = D/r.
-    ``u`` is the angle of the contact normal on the rounding, rad: 0 at the rack's tip line, pi/2 - alpha
-    at its straight flank; negative values give the mirror image. D = ``depth`` is how far the rounding
-    centre lies inside the pitch line: at D = 0 the rack-position form is 0/0, this one is an arc, and
-    beyond (D < 0) no sign flips. Speed rho (1 + q sec^2 u) + D^2/r sec^3 u, turning rate -(1 + q sec^2 u).
-    A left offset d has rho + d: a fillet stays a fillet. Derivation: DERIVATIONS.md, section 2.
+    Speed rho (1 + q sec^2 u) + D^2/r sec^3 u, q = D/r, turning rate -(1 + q sec^2 u). A left offset d has rho + d: a
+    fillet stays a fillet. Derivation: DERIVATIONS.md, section 2.
     """
 
     pitch_radius: float
@@ -36,47 +120,15 @@ class TrochoidFillet(Fillet, Record):
     end: float
     centre: complex = 0j
 
-    def _point(self, u: Any, lib: ModuleType, exp: Callable[[Any], Any]) -> Any:
-        shift = self.depth * lib.tan(u)
-        arm = self.pitch_radius - self.depth + 1j * shift - self.tip_radius * exp(-1j * u)
-        return self.centre + exp(1j * (self.angle - shift / self.pitch_radius)) * arm
+    def _parts(self, u: Any, secant: Series, tangent: Series, *, bound: bool) -> tuple[Series, Series, Series]:
+        depth, rho = (abs(self.depth), abs(self.tip_radius)) if bound else (self.depth, self.tip_radius)
+        normal = [depth * x for x in secant]
+        normal[0] = normal[0] + rho
+        return [depth * x for x in tangent], normal, [rho, *[0.0] * (len(secant) - 1)]
 
-    def derivative(self, t: ArrayLike, order: int = 1) -> Complex:
-        """Leibniz' rule on e' = i exp(i (angle - q tan u - u)) speed(u)."""
-        u = np.asarray(t, dtype=float)
-        q = self.depth / self.pitch_radius
-        tan = _tangent_derivatives(np.tan(u), order)
-        phase = [-1j * (q * d + (u if k == 0 else float(k == 1))) for k, d in enumerate(tan)]
-        turn = _exponential_derivatives(phase, order - 1)
-        speed = _speed_derivatives(self.tip_radius, self.tip_radius * q, self.depth * q, tan)
-        total = sum(b * turn[k] * speed[order - 1 - k] for k, b in enumerate(_BINOMIALS[order - 1]))
-        return 1j * np.exp(1j * self.angle) * total
-
-    def speed(self, t: ArrayLike) -> Real:
-        """de/du along the tangent, mm/rad; negative where the curve runs back."""
-        secant = 1 / np.cos(np.asarray(t, dtype=float))
-        q = self.depth / self.pitch_radius
-        return self.tip_radius * (1 + q * secant**2) + self.depth * q * secant**3
-
-    def tangent(self, t: ArrayLike) -> Complex:
-        u = np.asarray(t, dtype=float)
-        turn = self.angle - self.depth / self.pitch_radius * np.tan(u)
-        return np.where(self.speed(u) < 0, -1.0, 1.0) * 1j * np.exp(1j * (turn - u))
-
-    def turning(self, t: ArrayLike) -> Real:
-        """1 + q sec^2 u: how fast the tangent turns to the right, rad/rad."""
-        secant = 1 / np.cos(np.asarray(t, dtype=float))
-        return 1 + self.depth / self.pitch_radius * secant**2
-
-    def derivative_bound(self, order: int, a: float, b: float) -> float:
-        """Sum of the moduli of all terms of the derivative, at the end where tan is largest."""
-        tan = _tangent_derivatives(np.tan(max(abs(a), abs(b))), order)
-        q = abs(self.depth) / self.pitch_radius
-        phase = [0.0, *(q * d + float(k == 1) for k, d in enumerate(tan) if k)]
-        turn = _exponential_derivatives(phase, order - 1)
-        rho, depth = abs(self.tip_radius), abs(self.depth)
-        speed = _speed_derivatives(rho, rho * q, depth * q, tan)
-        return float(sum(n * turn[k] * speed[order - 1 - k] for k, n in enumerate(_BINOMIALS[order - 1])))
+    def _rolled(self, u: Any, lib: ModuleType = np) -> tuple[Any, Any, Any, Any]:
+        secant = 1 / lib.cos(u)
+        return self.depth * lib.tan(u), self.depth * secant + self.tip_radius, self.depth * secant**2, self.tip_radius
 
     def cusp(self) -> float | None:
         """The first parameter in the domain, by size, at which the speed is not positive; else None."""
@@ -92,28 +144,9 @@ class TrochoidFillet(Fillet, Record):
         return inside[0] if inside else None
 
 
-def _tangent_derivatives(tan: Real, order: int) -> list[Real]:
-    """tan u and its derivatives up to ``order`` (at most 4), from the value of tan u."""
-    square = 1 + tan * tan
-    if order == 1:
-        return [tan, square]
-    table = [tan, square, 2 * tan * square, square * (2 + 6 * tan**2), square * (16 * tan + 24 * tan**3)]
-    return table[: order + 1]
-
-
-def _speed_derivatives(constant: float, square: float, cube: float, tan: list[Real]) -> list[Real]:
-    """constant + square sec^2 u + cube sec^3 u and its derivatives, from tan u and its derivatives."""
-    t, secant_cubed = tan[0], tan[1] ** 1.5
-    if len(tan) == 2:
-        return [constant + (square * tan[1] + cube * secant_cubed)]
-    cubes = [np.ones_like(t), 3 * t, 12 * t**2 + 3, 60 * t**3 + 33 * t]
-    result = [square * d + cube * secant_cubed * c for d, c in zip(tan[1:], cubes, strict=False)]
-    return [constant + result[0], *result[1:]]
-
-
-def _exponential_derivatives(exponent: list, order: int) -> list:
-    """exp(g) and its derivatives up to ``order`` from g and its derivatives (Bell recursion)."""
-    result = [np.exp(exponent[0])]
-    for n in range(1, order + 1):
-        result.append(sum(b * result[k] * exponent[n - k] for k, b in enumerate(_BINOMIALS[n - 1])))
-    return result
+def _secant_and_tangent(u: Any, order: int, lib: ModuleType = np) -> tuple[Series, Series]:
+    """Coefficients of sec u and tan u; at the angle farthest from 0 they bound those of all nearer ones."""
+    waves = (lib.cos(u), -lib.sin(u), -lib.cos(u), lib.sin(u))
+    cosine = [waves[k % 4] / FACTORIALS[k] for k in range(order + 1)]
+    secant = power(cosine, -1.0)
+    return secant, product([-waves[(k + 1) % 4] / FACTORIALS[k] for k in range(order + 1)], secant)

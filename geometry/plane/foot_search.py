@@ -8,8 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.curves.curve import Complex, Curve, Real
-from geometry.curves.cutter_fillet import CutterFillet
-from geometry.curves.trochoid import TrochoidFillet
 
 _FOOT_SAMPLES = 17
 _STEPS = 60
@@ -21,7 +19,9 @@ class FootSearch:
     """Feet on a curve without a closed form: every change of sign between samples, safeguarded Newton iteration."""
 
     def __init__(self, curve: Curve) -> None:
-        self.slopes = _slopes_of(curve)
+        # a curve may know a shorter way
+        known: Slopes | None = getattr(curve, "slopes", None)
+        self.slopes = known or _general_slopes(curve)
         self.parameters = np.linspace(*curve.domain, _FOOT_SAMPLES)
         self.samples = np.asarray(curve.point(self.parameters))
         self.middle = complex(np.mean(self.samples))
@@ -57,47 +57,11 @@ class FootSearch:
         return t
 
 
-def _slopes_of(curve: Curve) -> Slopes:
-    if isinstance(curve, TrochoidFillet):
-        return _fillet_slopes(curve)
-    if isinstance(curve, CutterFillet):
-        return _cutter_slopes(curve)
-    # a curve may know a shorter way
-    known: Slopes | None = getattr(curve, "slopes", None)
-    return known or _general_slopes(curve)
-
-
-def _cutter_slopes(fillet: CutterFillet) -> Slopes:
-    """Re(conj(tangent) (p - e)) along growing u, and its derivative: the tangent turns at -(1 - k th')."""
-
-    def slopes(points: Complex, t: Real) -> tuple[Real, Real]:
-        speed = fillet.speed(t)
-        gap = np.conj(fillet.tangent(t)) * (points - fillet.point(t)) * np.where(speed < 0, -1.0, 1.0)
-        return gap.real, -fillet.turning(t) * gap.imag - speed
-
-    return slopes
-
-
 def _general_slopes(curve: Curve) -> Slopes:
     """Half of the falling rate of the squared distance, Re(conj(c') (p - c)), and its derivative."""
 
     def slopes(points: Complex, t: Real) -> tuple[Real, Real]:
         gap, first = points - curve.point(t), curve.derivative(t)
         return (np.conj(first) * gap).real, (np.conj(curve.derivative(t, 2)) * gap).real - np.abs(first) ** 2
-
-    return slopes
-
-
-def _fillet_slopes(fillet: TrochoidFillet) -> Slopes:
-    """The same over the fillet's speed: its normals pass through the rack's pitch point.
-
-    Re(conj(tangent) (p - e)) = |p| sin(arg p - angle + u + q tan u) - r sin u.
-    """
-    q, r = fillet.depth / fillet.pitch_radius, fillet.pitch_radius
-
-    def slopes(points: Complex, t: Real) -> tuple[Real, Real]:
-        tan = np.tan(t)
-        turned = (points - fillet.centre) * np.exp(1j * (t + q * tan - fillet.angle))
-        return turned.imag - r * np.sin(t), turned.real * (1 + q * (1 + tan**2)) - r * np.cos(t)
 
     return slopes

@@ -15,13 +15,12 @@ from geometry.base.record import replace
 from geometry.base.roots import bracketed_root
 from geometry.curves.intersect import crossing_circle
 from geometry.curves.involute import Involute
-from geometry.curves.trochoid import TrochoidFillet
 
 if TYPE_CHECKING:
     from geometry.curves.cutter_fillet import CutterFillet
-    from geometry.curves.elliptic_fillet import EllipticFillet
+    from geometry.curves.trochoid import RackFillet
 
-GearFillet: TypeAlias = "TrochoidFillet | EllipticFillet | CutterFillet"
+GearFillet: TypeAlias = "RackFillet | CutterFillet"
 
 # rad: a few last digits of a polar angle
 _ROUNDING = 1e-15
@@ -29,11 +28,7 @@ _ROUNDING = 1e-15
 
 def joint_roll(fillet: GearFillet, base_radius: float) -> float:
     """Roll angle of the flank point cut by the end of the cutter's flank, rad; negative: undercut."""
-    if not isinstance(fillet, TrochoidFillet):
-        return float(fillet.pitch_radius * math.cos(fillet.end) - fillet.normal_length(fillet.end)) / base_radius
-    alpha = math.pi / 2 - fillet.end
-    reach = fillet.pitch_radius * math.sin(alpha) - fillet.depth / math.sin(alpha) - fillet.tip_radius
-    return reach / base_radius
+    return float(fillet.pitch_radius * math.cos(fillet.end) - fillet.normal_length(fillet.end)) / base_radius
 
 
 def fillet_flank_joint(fillet: GearFillet, flank: Involute) -> tuple[GearFillet, Involute]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from geometry.base.angles import involute_function
 from geometry.base.record import replace
 from geometry.curves.involute import Involute
-from geometry.curves.trochoid import TrochoidFillet
+from geometry.curves.trochoid import RackFillet, TrochoidFillet
 from geometry.gears.teeth.basic_rack import BasicRack
 from geometry.gears.teeth.involute_teeth import InvoluteTeeth
 from geometry.solids.bores import RoundBore
@@ -17,7 +17,6 @@ from geometry.solids.hub_holes import HubHoles
 
 if TYPE_CHECKING:
     from geometry.curves.cutter_fillet import CutterFillet
-    from geometry.curves.elliptic_fillet import EllipticFillet
     from geometry.gears.teeth.cutter import PinionCutter
 
 _NO_HOLES = HubHoles()
@@ -163,7 +162,7 @@ class SpurGear(InvoluteTeeth, dict=True):
         base_radius = self.reference_radius * math.cos(alpha_g)
         return Involute(base_radius, -half, 0.0, 1 + self.tip_radius / base_radius)
 
-    def fillet(self) -> TrochoidFillet | EllipticFillet | CutterFillet:
+    def fillet(self) -> RackFillet | CutterFillet:
         """The lower root fillet of tooth 1 as far as the rounding reaches, whether cut away or not."""
         if self.cutter is not None:
             return self._cutter_fillet(replace(self.cutter, widening=self._widening))
