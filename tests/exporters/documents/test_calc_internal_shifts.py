@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import math
 import re
+from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -72,6 +73,14 @@ kind = "internal_gear_pair"
 first = "ring"
 second = "pinion"
 """
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _coarse_pictures() -> Iterator[None]:
+    """Chords of contours on pages as long as lines need to be there at all: finer ones take half of a page's time."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(internal_shift_choice, "_TOLERANCE", 1e-2)
+        yield
 
 
 def test_every_printed_formula_gives_its_value() -> None:
