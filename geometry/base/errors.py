@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import cached_property
 from typing import Literal, Self
 
 from geometry.base.record import Record
@@ -96,7 +97,7 @@ class ParameterError(Curable, GeometryError, ValueError):
         told = "".join(f", {name} {format_value(value)}" for name, value in self.numbers.items())
         return f"{self.name} = {format_value(self.value)}: {self.code}{told}"
 
-    def renamed(self, name: str, factor: float | None = None) -> Self:
+    def renamed(self, name: str, factor: float | None = None) -> ParameterError:
         """The same refusal under another name, its value and nearest times ``factor`` where one is given."""
         value = self.value * factor if factor is not None and isinstance(self.value, int | float) else self.value
 
@@ -104,7 +105,11 @@ class ParameterError(Curable, GeometryError, ValueError):
             found = self.nearest
             return found if found is None or factor is None else found.scaled(factor)
 
-        return type(self)(name, value, self.code, cure, **self.numbers)
+        return self.told_of(name, value, cure)
+
+    def told_of(self, name: str, value: object, nearest: Cure) -> ParameterError:
+        """The same refusal told of a parameter that can cure it, with the value that does."""
+        return type(self)(name, value, self.code, nearest, **self.numbers)
 
 
 class UndercutError(ParameterError):
@@ -113,6 +118,36 @@ class UndercutError(ParameterError):
 
 class PointedTipError(ParameterError):
     """Both flanks of a tooth meet below its tip circle."""
+
+
+class LateError(ParameterError):
+    """A refusal of which it is sought whom it blames when somebody asks, and only then: one of a trial is never asked.
+
+    ``seek``: finds what is told.
+    """
+
+    def __init__(self, seek: Callable[[], ParameterError]) -> None:
+        self._seek = seek
+        self._cure = lambda: self._told.nearest
+        Exception.__init__(self)
+
+    @cached_property
+    def _told(self) -> ParameterError:
+        return self._seek()
+
+    def __getattr__(self, name: str) -> object:
+        """Name, value, code and numbers of what is told."""
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self._told, name)
+
+    def renamed(self, name: str, factor: float | None = None) -> ParameterError:
+        """As any other one; whoever names it has asked."""
+        return self._told.renamed(name, factor)
+
+    def told_of(self, name: str, value: object, nearest: Cure) -> ParameterError:
+        """As any other one."""
+        return self._told.told_of(name, value, nearest)
 
 
 class OffsetError(ParameterError):

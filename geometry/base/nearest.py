@@ -6,12 +6,15 @@ import math
 from collections.abc import Callable, Iterable
 from typing import TypeVar
 
-from geometry.base.errors import GeometryError, Nearest, OffsetError, limit
+from geometry.base.errors import GeometryError, Nearest, OffsetError, limit, rounded
 from geometry.base.record import Record
 
 V = TypeVar("V")
 # trials of one search, those of the ends included: 2^-40 of the way is below what is printed
 MOST_TRIALS = 40
+# what is less than so much of the last digit that is told is nothing; so much of itself is sought no nearer; sizes so
+# far apart are not alike
+_NOTHING, _FINE, _ALIKE = 0.01, 1e-6, 4.0
 
 
 def kept(holds: Callable[[V], bool], value: V) -> bool:
@@ -65,8 +68,10 @@ def nearest(
             good, bad = (between, bad) if tried(between) else (good, between)
         return limit(good, given)
     rough, held = enough > 0 or share > 0, [good]
-    while left > 0 and abs(good - bad) > max(enough, share * abs(good), _told_apart(max(abs(good), abs(bad)), digits)):
-        middle = _roundest(*sorted((good, bad))) if rough else (good + bad) / 2
+    while left > 0:
+        near = max(enough, share * abs(good)) if rough else 0.0
+        if (middle := _between(good, bad, digits, near, round_ones=rough)) is None:
+            break
         if tried(middle):
             good = middle
             held.append(middle)
@@ -79,9 +84,25 @@ def nearest(
     return None
 
 
-def _told_apart(size: float, digits: int) -> float:
-    """A tenth of the last digit in which a limit of a size is told."""
-    return 0.1 * 10.0 ** -max(digits, 3 - math.floor(math.log10(size))) if size > 0 else 0.0
+def _between(one: float, other: float, digits: int, near: float, *, round_ones: bool) -> float | None:
+    """A number that halves the way from one to another, as it would be told or a round one; None: they are ``near``.
+
+    What is sought is far more often of the size of the smaller one than of the larger: sizes are halved first.
+    """
+    low, high = sorted((one, other))
+    if low < 0 < high:
+        return 0.0
+    nothing = _NOTHING * 10.0**-digits
+    small, large = sorted((abs(low), abs(high)))
+    told_apart = 0.1 * 10.0 ** -max(digits, 3 - math.floor(math.log10(large))) if round_ones and large > 0 else 0.0
+    if high - low <= max(near, nothing, told_apart, _FINE * large):
+        return None
+    if large > _ALIKE * (small := max(small, nothing)):
+        return math.copysign(2.0 ** _roundest(math.log2(small), math.log2(large)), low + high)
+    if round_ones:
+        return _roundest(low, high)
+    told = (rounded((low + high) / 2, up=up, digits=digits) for up in (False, True))
+    return next((value for value in told if low < value < high), None)
 
 
 def _roundest(low: float, high: float) -> float:
@@ -99,7 +120,7 @@ class Suspect(Record):
     value: float
     harmless: float
     works: Callable[[float], bool]
-    # after the point of what is told; an angle in rad wants 9
+    # after the point of what is sought; an angle in rad wants 7
     digits: int = 4
 
 

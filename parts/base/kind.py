@@ -269,7 +269,7 @@ class Kind(Generic[K, T]):
             if not isinstance(given, float) or not isinstance(limit, float):
                 return None
             way = math.copysign(abs(limit), limit - given)
-            return nearest(holds, given, [limit + way * further for further in _FURTHER], share=share)
+            return nearest(holds, limit, [limit + way * further for further in _FURTHER], share=share)
 
         def alone() -> Nearest | None:
             found, given = told.nearest, told.value

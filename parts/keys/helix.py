@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import wraps
+from functools import partial, wraps
 from typing import TYPE_CHECKING, Annotated, Literal, ParamSpec, TypeVar
 
 from msgspec import Meta, Struct
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import LateError, Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.gears.teeth.helix import Hand, Helix
 from parts.keys.accuracy import AccuracyKey
@@ -150,9 +150,6 @@ def told_in_keys(made: Callable[P, T]) -> Callable[P, T]:
         try:
             return made(*args, **kwargs)
         except ParameterError as refusal:
-            told = in_keys(refusal)
-            if told is refusal:
-                raise
-            raise told from refusal
+            raise LateError(partial(in_keys, refusal)) from refusal
 
     return wrapper

@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar, Literal, Protocol, TypeVar
 from msgspec import Meta, Struct
 from msgspec.structs import replace
 
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.errors import LateError, Nearest, ParameterError, limit
 from geometry.base.nearest import kept, nearest
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
@@ -299,6 +299,10 @@ def with_remedy(refusal: ParameterError, keys: K, fits: Callable[[K], bool]) -> 
 
     ``fits`` judges changed keys; the refused key is tried before the others. The refusal itself where none can.
     """
+    return LateError(partial(_remedied, refusal, keys, fits))
+
+
+def _remedied(refusal: ParameterError, keys: K, fits: Callable[[K], bool]) -> ParameterError:
     owner, _, key = refusal.name.rpartition(".")
     if isinstance(value_at(keys, owner), list):
         owner = f"{owner}[1]"
@@ -314,7 +318,7 @@ def with_remedy(refusal: ParameterError, keys: K, fits: Callable[[K], bool]) -> 
 
         found = nearest(works, given, (given * s for s in _SHARES))
         if found is not None:
-            return type(refusal)(path, given, refusal.code, found, **refusal.numbers)
+            return refusal.told_of(path, given, found)
     return refusal
 
 

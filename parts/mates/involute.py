@@ -416,7 +416,7 @@ class InvolutePair(GearPair[K, A, B], Generic[K, A, B, M]):
                 return Nearest(getattr(other.keys, key))
             return refusal.nearest and refusal.nearest.scaled(1 / cosine)
 
-        return type(refusal)(owner + key, getattr(one.keys, key), refusal.code, cure, **refusal.numbers)
+        return refusal.told_of(owner + key, getattr(one.keys, key), cure)
 
 
 class ExternalGearPair(InvolutePair[ExternalGearPairSpec, "SpurGear", "SpurGear", ExternalMating]):

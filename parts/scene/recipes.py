@@ -104,7 +104,7 @@ def _made_good(recipe: Recipe[Any], keys: Any, refusal: ParameterError) -> Param
             return None
         return nearest(works, float(str(refusal.value)), [own.value * share for share in _SMALLER])
 
-    return type(refusal)(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
+    return refusal.told_of(refusal.name, refusal.value, cure)
 
 
 def _named(table: Table, prefix: str) -> Table:

@@ -436,7 +436,7 @@ class BevelGear(Record, dict=True):
             check(self._changed(name, value))
             return True
 
-        digits = 9 if name.endswith("_angle") else 4
+        digits = 7 if name.endswith("_angle") else 4
         return error(name, given, code, lambda: nearest(holds, given, toward, digits=digits), **numbers)
 
     def _check_cones(self) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING, TypeVar
 
-from geometry.base.errors import GeometryError, Nearest, ParameterError, UndercutError, limit
+from geometry.base.errors import GeometryError, LateError, Nearest, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.base.record import Record, replace, with_value
@@ -153,11 +153,12 @@ def checked_gear(gear: SpurGear, helix_angle: float = 0.0) -> SpurGear:
     try:
         check_shaping(section)
     except ParameterError as refusal:
-        raise _told_of_cutter(gear, helix_angle, in_normal_modules(refusal, helix_angle)) from refusal
+        told = in_normal_modules(refusal, helix_angle)
+        raise LateError(partial(_told_of_cutter, gear, helix_angle, told)) from refusal
     try:
         tooth_side(section)
     except ParameterError as refusal:
-        raise _blamed(gear, helix_angle, refusal) from refusal
+        raise LateError(partial(_blamed, gear, helix_angle, refusal)) from refusal
     section.holes.check(section.root_radius)
     return section
 
@@ -256,7 +257,7 @@ def more_teeth(given: int, works: Callable[[int], bool]) -> Nearest | None:
 def refused_as(refusal: ParameterError, suspect: Suspect) -> ParameterError:
     """A refusal told of the suspect that can cure it, with the value that does."""
     cure = partial(nearest, suspect.works, suspect.value, suspect.harmless, digits=suspect.digits)
-    return type(refusal)(suspect.name, suspect.value, refusal.code, cure, **refusal.numbers)
+    return refusal.told_of(suspect.name, suspect.value, cure)
 
 
 def _blamed(gear: SpurGear, helix_angle: float, refusal: ParameterError) -> ParameterError:
@@ -295,7 +296,7 @@ def _told_of_cutter(gear: SpurGear, helix_angle: float, refusal: ParameterError)
         cut = with_value(gear, "cutter.pressure_angle", angle)
         return _builds(transverse_gear(with_value(cut, "rack.pressure_angle", angle), helix_angle))
 
-    angle = Suspect("pressure_angle", gear.pressure_angle, ISO_53_ANGLE, works_at, digits=9)
+    angle = Suspect("pressure_angle", gear.pressure_angle, ISO_53_ANGLE, works_at, digits=7)
     if cutter.addendum == CUTTER_ADDENDUM and angle.value > angle.harmless and blamed([angle], angle.name):
         # the usual height is not to blame
         return refused_as(refusal, angle)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import LateError, Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.base.record import replace
@@ -90,7 +91,7 @@ def checked_ring(gear: RingGear, normal: RingGear | None = None, helix_angle: fl
     try:
         check_made(gear)
     except ParameterError as refusal:
-        raise _blamed(normal or gear, helix_angle, refusal) from refusal
+        raise LateError(partial(_blamed, normal or gear, helix_angle, refusal)) from refusal
     check_rim(gear)
     return gear
 
@@ -146,7 +147,7 @@ def _blamed(gear: RingGear, helix_angle: float, refusal: ParameterError) -> Para
         return makes(transverse_ring(changed, helix_angle))
 
     if refusal.name == "cutter.number_of_teeth" and (teeth := _cutter_teeth(gear, builds)) is not None:
-        return type(refusal)(refusal.name, refusal.value, refusal.code, teeth, **refusal.numbers)
+        return refusal.told_of(refusal.name, refusal.value, teeth)
     found = blamed(_suspects(gear, helix_angle, builds), refusal.name)
     if found is not None:
         return refused_as(refusal, found)
@@ -185,7 +186,7 @@ def _suspects(gear: RingGear, helix_angle: float, builds: Callable[[RingGear], b
     # the reference circle always leaves an involute; what is between is found by the search for the boundary
     section = settled_ring(transverse_ring(gear, helix_angle))
     suspects.append(Suspect("tip_diameter", 2 * section.tip_radius, _harmless_tip(section), with_tip))
-    suspects.append(Suspect("pressure_angle", gear.pressure_angle, ISO_53_ANGLE, with_angle, digits=9))
+    suspects.append(Suspect("pressure_angle", gear.pressure_angle, ISO_53_ANGLE, with_angle, digits=7))
     return suspects
 
 

@@ -111,7 +111,7 @@ def _cam_of(keys: BarrelCamSpec) -> BarrelCam:
     if not stray + radius < INSIDE * inner:
         room = outer - (stray + radius) / INSIDE
         if table is not None and room <= 0 and stray > radius:
-            raise _straying(keys, table, stray)
+            raise _straying(keys, table, stray, INSIDE * inner - radius)
         if room <= 0:
             most = limit((2 * (stray + radius) / INSIDE + 2 * keys.groove_depth) * (1 + 1e-9), keys.outer_diameter)
             raise ParameterError("outer_diameter", keys.outer_diameter, "roller_too_big", most)
@@ -137,8 +137,8 @@ def _along_axis(keys: BarrelCamSpec, table: SwingingTable, low: float, high: flo
     return ParameterError("oscillating.start_angle_deg", given, "arm_along_axis", works)
 
 
-def _straying(keys: BarrelCamSpec, table: SwingingTable, stray: float) -> ParameterError:
-    """The refusal of a roller that its arm carries past the side of the barrel."""
+def _straying(keys: BarrelCamSpec, table: SwingingTable, stray: float, room: float) -> ParameterError:
+    """The refusal of a roller that its arm carries past the side of the barrel; ``room``: for its centre, mm."""
     key = "arm_length" if table.pivot_offset is None else "pivot_offset"
     given: float = getattr(table, key)
 
@@ -148,10 +148,13 @@ def _straying(keys: BarrelCamSpec, table: SwingingTable, stray: float) -> Parame
 
     # half the way between the ends of the swing
     middle = table.arm_length * (1 + math.cos(math.radians(keys.swing_deg / 2))) / 2
-    ends = [middle] if key == "pivot_offset" else [given * share for share in _SMALLER]
-    return ParameterError(
-        f"oscillating.{key}", given, "roller_strays", lambda: nearest(works, given, ends), stray=stray
-    )
+    if key == "pivot_offset":
+        bad, ends = given, [middle]
+    else:
+        # how far it strays grows with the arm
+        bad = given * room / stray
+        ends = [bad * share for share in (1 - 1e-6, *_SMALLER)]
+    return ParameterError(f"oscillating.{key}", given, "roller_strays", lambda: nearest(works, bad, ends), stray=stray)
 
 
 def _raised(keys: BarrelCamSpec, cam: BarrelCam) -> BarrelCam:

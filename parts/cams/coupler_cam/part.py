@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Meta
 
-from geometry.base.errors import Nearest, ParameterError, UndercutError
+from geometry.base.errors import LateError, Nearest, ParameterError, UndercutError
 from geometry.base.findings import Finding
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import Record
@@ -115,17 +116,15 @@ class Asked(Record):
     trials: Sequence[Any] = ()
 
 
-def to_blame(
-    keys: LinkageCamSpec, refusal: ParameterError, whole: Callable[[LinkageCamSpec], bool]
-) -> tuple[Asked, Nearest | None]:
-    """The first key of which another value gives a ``whole`` cam, and that value; else the first key and none."""
+def _to_blame(keys: LinkageCamSpec, refusal: ParameterError, whole: Callable[[LinkageCamSpec], bool]) -> ParameterError:
+    """The refusal told of the first key of which another value gives a ``whole`` cam; else of the first key."""
     fault = "undercut" if isinstance(refusal, UndercutError) else refusal.name
     asked = [key for name in _ASKED[fault] if (key := _asked(keys, name, refusal)) is not None]
     for key in asked:
         found = _nearest(keys, key, whole)
         if found is not None:
-            return key, found
-    return asked[0], None
+            return refusal.told_of(key.name, key.value, found)
+    return refusal.told_of(asked[0].name, asked[0].value, None)
 
 
 def _nearest(keys: LinkageCamSpec, key: Asked, whole: Callable[[LinkageCamSpec], bool]) -> Nearest | None:
@@ -281,8 +280,7 @@ class CouplerCam(DiskKind[LinkageCamSpec, "LinkageCam"]):
             if lost is not None:
                 raise undercut(cam, "follower_radius", keys.follower_radius, lost, None)
         except (LinkageError, UndercutError) as refusal:
-            key, works = to_blame(keys, refusal, _is_whole)
-            raise type(refusal)(key.name, key.value, refusal.code, works, **refusal.numbers) from refusal
+            raise LateError(partial(_to_blame, keys, refusal, _is_whole)) from refusal
         except ParameterError as refusal:
             raise refusal.renamed({"radius": "follower_radius"}.get(refusal.name, refusal.name)) from refusal
         _check_part(keys, cam)

@@ -209,7 +209,7 @@ def _fitted(keys: CamSpec, refusal: ParameterError) -> ParameterError:
         farther = [end * share for share in _SMALLER] if own.side == "at_most" else []
         return nearest(works, given, [end, *farther, *(end + (end - given) * share for share in _FARTHER)])
 
-    return type(refusal)(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
+    return refusal.told_of(refusal.name, refusal.value, cure)
 
 
 def _least_base(keys: CamSpec, motion: FollowerMotion) -> float:

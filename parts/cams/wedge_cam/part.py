@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct
 from msgspec.structs import replace
 
-from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, UndercutError, limit
+from geometry.base.errors import GeometryError, LateError, Nearest, OffsetError, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.plane.offset_region import OffsetRegion
@@ -263,14 +264,21 @@ def _check_holes(keys: WedgeCamSpec, cam: WedgeCam) -> None:
         most = 2 * (min([room, *others]) - _LEAST_WALL)
         outside = not _inside(cam, at)
         if outside or (most <= 0 and hole.diameter > most):
-            place = _nearest_place(cam, hole, holes[:index], outline)
-            works = None if place is None else Nearest(place)
-            code = "hole_outside_plate" if outside else "no_room_there"
-            if outside or place is not None:
-                raise ParameterError(f"{key}.x", hole.x, code, works, y=hole.y)
-            raise ParameterError(f"{key}.diameter", hole.diameter, code)
+            raise LateError(partial(_misplaced, cam, holes[: index + 1], key, outline, outside=outside))
         if hole.diameter > most:
             raise ParameterError(f"{key}.diameter", hole.diameter, "hole_reaches_edge", limit(most, hole.diameter))
+
+
+def _misplaced(
+    cam: WedgeCam, holes: list[WedgeHoleTable], key: str, outline: Profile, *, outside: bool
+) -> ParameterError:
+    """The refusal of the last of some holes, which has no room where it is: its place, else its size."""
+    *others, hole = holes
+    place = _nearest_place(cam, hole, others, outline)
+    code = "hole_outside_plate" if outside else "no_room_there"
+    if outside or place is not None:
+        return ParameterError(f"{key}.x", hole.x, code, None if place is None else Nearest(place), y=hole.y)
+    return ParameterError(f"{key}.diameter", hole.diameter, code)
 
 
 def _nearest_place(cam: WedgeCam, hole: WedgeHoleTable, others: list[WedgeHoleTable], outline: Profile) -> float | None:

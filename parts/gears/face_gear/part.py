@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 from msgspec import Meta
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import GeometryError, Nearest, ParameterError, limit
+from geometry.base.errors import GeometryError, LateError, Nearest, ParameterError, limit
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
 from geometry.gears.face.gear import FaceGear, form_length, sized, topped
@@ -244,7 +244,7 @@ def _cured(keys: FaceGearSpec, refusal: ParameterError) -> ParameterError:
             roomy = search(lambda value: not face_gear_findings(builds(value)))
             return Nearest(roomy.value) if roomy else search(lambda v: bool(builds(v)))
 
-        return ParameterError(key, given, refusal.code, cure, **refusal.numbers)
+        return refusal.told_of(key, given, cure)
 
     assert isinstance(refusal.value, float)
     own, suspects = cured(refusal.name, refusal.value, [refusal.value * s for s in _LOWER]), dict(_THINNED)
@@ -273,7 +273,7 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
         except ParameterError as error:
             if error.name not in ("addendum_coefficient", "dedendum_coefficient"):
                 raise
-            raise _cured(keys, error) from error
+            raise LateError(partial(_cured, keys, error)) from error
         inside, holes = gear.inner_radius, keys.hub_holes()
         room = inside - least_wall(inside)
         check_shape(keys, FaceGearSpec.hub_holes, room)

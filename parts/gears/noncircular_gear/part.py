@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -11,7 +10,7 @@ import numpy as np
 from msgspec import Meta
 from msgspec.structs import replace
 
-from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError, limit, rounded
+from geometry.base.errors import ConvergenceError, GeometryError, LateError, Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 from parts.base.kind import Others, Report
@@ -134,7 +133,7 @@ class NoncircularGearKind(WheelKind[NoncircularGearSpec, "NoncircularGear"]):
             most = limit(_MOST_SLENDER[key], math.inf)
             raise ParameterError(key, getattr(keys, key), "too_slender", most) from refusal
         except ParameterError as refusal:
-            raise _to_blame(keys, refusal) from refusal
+            raise LateError(partial(_to_blame, keys, refusal)) from refusal
         root = gear.root_radius
 
         def fits(changed: NoncircularGearSpec) -> bool:
@@ -288,15 +287,12 @@ def _to_blame(keys: NoncircularGearSpec, refusal: ParameterError) -> ParameterEr
     if refusal.name not in ("centrode", "undercut", "number_of_teeth", "profile_shift_coefficient"):
         return refusal
 
-    def told(key: str, value: object, cure: Callable[[], Nearest | None]) -> ParameterError:
-        return type(refusal)(key, value, refusal.code, cure, **refusal.numbers)
-
     def works(key: str, value: object) -> bool:
         return _builds(replaced(keys, key, value))
 
     if keys.centrode == "ratio" and refusal.name == "centrode":
         key = "ratio_cosines" if keys.ratio_cosines else "ratio_sines"
-        return told(key, getattr(keys, key), partial(_smaller_amplitudes, keys, key))
+        return refusal.told_of(key, getattr(keys, key), partial(_smaller_amplitudes, keys, key))
     thinning, shift = keys.circumferential_thinning, keys.profile_shift_coefficient
     found = blamed(
         (
@@ -306,7 +302,7 @@ def _to_blame(keys: NoncircularGearSpec, refusal: ParameterError) -> ParameterEr
         "circumferential_thinning",
     )
     if found is not None:
-        return told(found.name, found.value, partial(nearest, found.works, found.value, found.harmless))
+        return refusal.told_of(found.name, found.value, partial(nearest, found.works, found.value, found.harmless))
     z, key = keys.number_of_teeth, keys.slender_key
     slender = getattr(keys, key)
     # both gears of a pair would need more teeth
@@ -314,10 +310,10 @@ def _to_blame(keys: NoncircularGearSpec, refusal: ParameterError) -> ParameterEr
     if more is None and keys.centrode != "ratio" and slender is not None:
         end = next((value for value in _rounder(key, slender) if works(key, value)), None)
         if end is not None:
-            return told(key, slender, partial(nearest, partial(works, key), slender, end, digits=5))
+            return refusal.told_of(key, slender, partial(nearest, partial(works, key), slender, end, digits=5))
     if more is None:
-        return told("number_of_teeth", z, lambda: None)
-    return told("number_of_teeth", z, partial(nearest, partial(works, "number_of_teeth"), z, more))
+        return refusal.told_of("number_of_teeth", z, lambda: None)
+    return refusal.told_of("number_of_teeth", z, partial(nearest, partial(works, "number_of_teeth"), z, more))
 
 
 def _more_teeth(keys: NoncircularGearSpec) -> int | None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 
 from msgspec import Meta, Struct
 
-from geometry.base.errors import Nearest, ParameterError
+from geometry.base.errors import LateError, Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
@@ -119,7 +119,7 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
         gear = checked_gear(gear_of(keys), helix.angle)
         check_wheel(shape_of(keys), 2 * gear.root_radius, gear.holes)
     except ParameterError as refusal:
-        raise with_remedy(_whole(keys, refusal), keys, holes_fit) from refusal
+        raise with_remedy(LateError(partial(_whole, keys, refusal)), keys, holes_fit) from refusal
     _marks(keys, gear)
     return gear
 
@@ -148,7 +148,7 @@ def _whole(keys: SpurGearSpec, refusal: ParameterError) -> ParameterError:
             return own
         return nearest(builds, given, (0.5, 0.0)) if isinstance(given, float) else None
 
-    return type(refusal)(refusal.name, refusal.value, refusal.code, cure, **refusal.numbers)
+    return refusal.told_of(refusal.name, refusal.value, cure)
 
 
 @told_in_keys
@@ -348,5 +348,5 @@ def _standard_rack(profile: str, angle: float, relief: TipRelief | None) -> Basi
         def whole(tried: float) -> bool:
             return iso_53(profile, tried) is not None
 
-        cure = partial(nearest, whole, angle, ISO_53_ANGLE, digits=9)
+        cure = partial(nearest, whole, angle, ISO_53_ANGLE, digits=7)
         raise ParameterError("pressure_angle", angle, "standard_rack_pointed", cure, profile=profile) from refusal

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from msgspec import Meta, Struct, field
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.errors import LateError, Nearest, ParameterError, limit
 from geometry.base.findings import Finding
 from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Kind, Others, Report, diameters
@@ -188,6 +189,11 @@ def _check_bore(keys: WormSpec, holes: HubHoles, root: float) -> None:
         raise wide_bore(keys, room, "leaves_no_wall")
 
 
+def _cured(keys: WormSpec, told: WormSpec, refusal: ParameterError) -> ParameterError:
+    """The refusal in the key that alone cures it, as typed."""
+    return in_degrees(cured(refusal, told, ways_out(told, _LESSENED), [lambda worm: _made(worm) is not None]), keys)
+
+
 class WormKind(Kind[WormSpec, "WormBody"]):
     """A worm; the middle of its thread lies at z = 0, and its flat outline is the section there."""
 
@@ -211,8 +217,7 @@ class WormKind(Kind[WormSpec, "WormBody"]):
         try:
             return _made(told)
         except ParameterError as refusal:
-            found = cured(refusal, told, ways_out(told, _LESSENED), [lambda worm: _made(worm) is not None])
-            raise in_degrees(found, keys) from refusal
+            raise LateError(partial(_cured, keys, told, refusal)) from refusal
 
     def section(self, keys: WormSpec, thing: WormBody, offset: float) -> OffsetRegion:
         """The section across the axis in the middle of the thread."""

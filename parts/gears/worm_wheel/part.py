@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
 
-from geometry.base.errors import Nearest, ParameterError, limit
+from geometry.base.errors import LateError, Nearest, ParameterError, limit
 from geometry.base.record import Record, replace
 from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
@@ -253,7 +254,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
             drive = drive_of(keys)
             teeth = teeth_of(keys, drive)
         except ParameterError as refusal:
-            raise _cured(keys, refusal) from refusal
+            raise LateError(partial(_cured, keys, refusal)) from refusal
         return _about(keys, drive, teeth)
 
     def section(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> OffsetRegion:
