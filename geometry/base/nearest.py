@@ -14,7 +14,7 @@ V = TypeVar("V")
 MOST_TRIALS = 40
 # what is less than so much of the last digit that is told is nothing; so much of itself is sought no nearer; sizes so
 # far apart are not alike
-_NOTHING, _FINE, _ALIKE = 0.01, 1e-6, 4.0
+_NOTHING, _FINE, _ALIKE = 0.01, 1e-7, 4.0
 
 
 def kept(holds: Callable[[V], bool], value: V) -> bool:

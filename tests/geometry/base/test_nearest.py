@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from geometry.base.errors import GeometryError, Nearest, ParameterError, limit, rounded
+from geometry.base.errors import GeometryError, LateError, Nearest, ParameterError, limit, rounded
 from geometry.base.nearest import MOST_TRIALS, Suspect, blamed, nearest
 from tests.sampling import examples
 
@@ -141,6 +141,24 @@ def test_a_refusal_looks_for_its_cure_once_and_only_when_asked() -> None:
     assert (told.name, told.code, told.numbers) == ("angle_deg", "too_large", {"most": 3})
     assert told.value == pytest.approx(math.degrees(0.1))
     assert asked == [1]
+
+
+def test_whom_a_late_refusal_blames_is_sought_once_and_only_when_asked() -> None:
+    sought = []
+
+    def seek() -> ParameterError:
+        sought.append(1)
+        return ParameterError("tip", 2.0, "too_large", Nearest(1.0, "at_most"), most=1)
+
+    refusal = LateError(seek)
+    with pytest.raises(ParameterError) as caught:
+        raise refusal
+    assert sought == []
+    assert (caught.value.name, caught.value.value, caught.value.code) == ("tip", 2.0, "too_large")
+    assert refusal.nearest == Nearest(1.0, "at_most")
+    assert str(refusal.renamed("tip_angle", 2.0)) == "tip_angle = 4.0: too_large, most 1"
+    assert refusal.told_of("shift", 0.5, None).numbers == {"most": 1}
+    assert sought == [1]
 
 
 def test_the_blamed_one_is_the_first_that_cures() -> None:

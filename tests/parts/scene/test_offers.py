@@ -275,6 +275,34 @@ def test_the_search_is_counted_and_needs_no_clock(monkeypatch: pytest.MonkeyPatc
     assert max(asked) <= search.MOST_TRIALS
 
 
+@pytest.mark.parametrize(
+    ("name", "place", "value"),
+    [
+        ("belt_drive", ("parts", "wheel", "number_of_teeth"), 6),
+        ("laser_gear_set", ("parts", "z40", "bore_diameter"), 1e5),
+        ("cycloidal_reducer", ("parts", "eccentric", "diameter"), 0.44),
+        ("cycloidal_reducer", ("parts", "ring", "pin_diameter"), 8e3),
+        ("rack_and_pinion", ("parts", "pinion", "bore", "diameter"), 1e4),
+        ("bevel_differential", ("parts", "side", "circumferential_thinning"), 5.0),
+    ],
+)
+def test_a_trial_that_fails_seeks_no_cure(
+    name: str, place: tuple[str | int, ...], value: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One refusal is told by one or two searches: hundreds of trials went into cures that nobody asked for."""
+    trials, plain = [0], search.kept
+
+    def counted(holds: Any, tried: object) -> bool:
+        trials[0] += 1
+        return plain(holds, tried)
+
+    monkeypatch.setattr(search, "kept", counted)
+    refusal = refusal_of(put(scenes()[name], place, value))
+    assert refusal is not None
+    assert str(refusal)
+    assert 0 < trials[0] <= search.MOST_TRIALS * 1.2
+
+
 def test_a_wrong_offer_is_noticed() -> None:
     """The judge itself: an offer that does not build, one that is too timid, a sentence in one language."""
     raw = {"parts": {"p": {"kind": "plate", "width": 20.0, "height": 10.0, "corner_radius": 6.0}}}
