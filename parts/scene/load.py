@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar
 import msgspec
 from msgspec import Meta, Struct
 
-from geometry.base.errors import GeometryError, Nearest, ParameterError, PointedTipError
+from geometry.base.errors import GeometryError, Nearest, ParameterError
 from parts.base.content import NotAFileError, content
 from parts.base.materials import check_material
 from parts.base.part import Part
@@ -562,7 +562,7 @@ def _made(scene: SceneFile, specs: dict[str, MaterialKeys], source: str) -> tupl
         except ParameterError as refusal:
             from parts.scene.checks import beside_mates, unlike
 
-            if isinstance(refusal, PointedTipError) and (thing := beside_mates(key, specs, scene.mates, part_of)):
+            if refusal.code == "tooth_pointed" and (thing := beside_mates(key, specs, scene.mates, part_of)):
                 gears[key] = thing
                 continue
             if found := unlike(key, specs, scene.mates, part_of, source):

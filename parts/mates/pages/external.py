@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, Struct
 
-from geometry.base.errors import Nearest, ParameterError, PointedTipError
+from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record, replace
 from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.pairs.external import ExternalPair, external_pair, tip_beside
@@ -228,7 +228,7 @@ def _section_of(keys: PairKeys, index: int, normal: tuple[SpurGear, SpurGear], *
     try:
         return section_of(normal[index], helix)
     except ParameterError as error:
-        if beside and isinstance(error, PointedTipError):
+        if beside and error.code == "tooth_pointed":
             one, two = (transverse_gear(normal[i], helix) for i in (index, 1 - index))
             with suppress(ParameterError):
                 tip = tip_beside(one, two, keys.working_centre_distance)
