@@ -17,6 +17,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.approximation.tensor import clamped
 from geometry.base.errors import ConvergenceError, CuspError, ParameterError
 from geometry.base.record import Record, replace
 from geometry.curves.bounds import Bound
@@ -334,8 +335,7 @@ def _arc_and_turning(curve: Curve) -> ParameterMap | None:
 
 def _layout(degree: int, continuity: int, breaks: Real) -> _Layout:
     """Clamped knots at ``breaks`` and Chebyshev samples in every span."""
-    inner = np.repeat(breaks[1:-1], degree - continuity)
-    knots = np.concatenate([np.full(degree + 1, breaks[0]), inner, np.full(degree + 1, breaks[-1])])
+    knots = clamped(degree, breaks, degree - continuity)
     samples = degree + _EXTRA_SAMPLES
     share = (1 - np.cos(np.pi * (np.arange(samples) + 0.5) / samples)) / 2
     x = breaks[:-1, None] + np.diff(breaks)[:, None] * share

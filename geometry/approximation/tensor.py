@@ -12,9 +12,10 @@ from geometry.curves.curve import Complex, Real
 P = TypeVar("P", Real, Complex)
 
 
-def clamped(degree: int, breaks: Real) -> Real:
-    """Knots with single breaks between clamped ends."""
-    return np.concatenate([np.full(degree, breaks[0]), breaks, np.full(degree, breaks[-1])])
+def clamped(degree: int, breaks: Real, multiplicity: int = 1) -> Real:
+    """Knots with inner breaks of a multiplicity between clamped ends."""
+    inner = np.repeat(breaks[1:-1], multiplicity)
+    return np.concatenate([np.full(degree + 1, breaks[0]), inner, np.full(degree + 1, breaks[-1])])
 
 
 def greville(degree: int, knots: Real) -> Real:

@@ -97,19 +97,19 @@ def frames(levers: Levers, at: Moved) -> dict[str, Frame]:
     def fixed(value: complex) -> Series:
         return [value + still[0], *still[1:]]
 
-    found = {"1": Frame(still, [x / levers.crank for x in end])}
+    def held(group: Stone | Rods | Slider, joint: str, link: str) -> Frame:
+        """Of what the frame guides along a line, or holds by a pivot."""
+        if isinstance(group, Slider):
+            return Frame(at.points[joint], fixed(cmath.exp(1j * group.angle)))
+        return Frame(fixed(group.pivot), at.links[link])
+
     first, second = levers.first, levers.second
+    found = {"1": Frame(still, [x / levers.crank for x in end])}
     found["2"] = Frame(end, at.links["3" if isinstance(first, Stone) else "2"])
-    if isinstance(first, Slider):
-        found["3"] = Frame(at.points["B"], fixed(cmath.exp(1j * first.angle)))
-    else:
-        found["3"] = Frame(fixed(first.pivot), at.links["3"])
+    found["3"] = held(first, "B", "3")
     if second is not None:
         found["4"] = Frame(at.points["C"], at.links["4"])
-        if isinstance(second, Slider):
-            found["5"] = Frame(at.points["D"], fixed(cmath.exp(1j * second.angle)))
-        else:
-            found["5"] = Frame(fixed(second.pivot), at.links["5"])
+        found["5"] = held(second, "D", "5")
     return found
 
 

@@ -15,6 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from geometry.approximation.outline import Outline
+from geometry.approximation.tensor import clamped
 from geometry.base.record import replace
 from geometry.curves.bounds import Bound
 from geometry.curves.bspline import BSpline, basis_matrix
@@ -51,21 +52,16 @@ def turn_spline(twist: float, spans: int) -> BSpline:
         start, end = cmath.exp(1j * twist * a), cmath.exp(1j * (twist * a + delta))
         leaving, arriving = _bezier_ends(1j * delta), _bezier_ends(-1j * delta)
         poles += [start * leaving[k] for k in (1, 2, 3)] + [end * arriving[k] for k in (3, 2, 1)] + [end]
-    pieces = BSpline(_DEGREE, _knots(edges, _DEGREE), np.array(poles))
+    pieces = BSpline(_DEGREE, clamped(_DEGREE, edges, _DEGREE), np.array(poles))
     if spans == 1:
         return pieces
     # three derivatives are continuous at the inner knots: fewer poles hold the same curve
-    knots = _knots(edges, _DEGREE - 3)
+    knots = clamped(_DEGREE, edges, _DEGREE - 3)
     share = (1 - np.cos(np.pi * (np.arange(_DEGREE + 1) + 0.5) / (_DEGREE + 1))) / 2
     v = (edges[:-1, None] + np.diff(edges)[:, None] * share).ravel()
     found = np.linalg.lstsq(basis_matrix(_DEGREE, knots, v), pieces.point(v), rcond=None)[0]
     found[0], found[-1] = pieces.poles[0], pieces.poles[-1]
     return BSpline(_DEGREE, knots, np.asarray(found, dtype=np.complex128))
-
-
-def _knots(edges: Real, multiplicity: int) -> Real:
-    inner = np.repeat(edges[1:-1], multiplicity)
-    return np.concatenate([np.full(_DEGREE + 1, edges[0]), inner, np.full(_DEGREE + 1, edges[-1])])
 
 
 def _bezier_ends(rate: complex) -> list[complex]:
