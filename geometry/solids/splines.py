@@ -328,6 +328,7 @@ class InvoluteJoint(Record):
     ``shaft_diameters`` and ``hub_diameters``: of the inner and the outer circle; ``roundings``: of the corners at the
     root and the tips of the shaft and at the bottom of the hub's slots; inf: one arc from side to side; less where it
     would reach beyond a form diameter. Those lie ``form_clearance`` (c_F) mm beyond the tips of the mate.
+    ``hub_class`` and ``shaft_class``: of tolerance, 5H and 5f; they move nothing.
     """
 
     module: float
@@ -340,6 +341,12 @@ class InvoluteJoint(Record):
     standard: str
     name: str
     form_clearance: float = 0.0
+    hub_class: str = ""
+    shaft_class: str = ""
+
+    def named(self, *, is_shaft: bool) -> str:
+        """The designation of its shaft or hub, with the class of tolerance that has."""
+        return "×".join(filter(None, (self.name, self.shaft_class if is_shaft else self.hub_class)))
 
     @property
     def hub_reach(self) -> float:
@@ -394,6 +401,11 @@ class InvoluteJoint(Record):
         spanned = max(1, round((math.tan(middle) - flank.base_half_angle) / angle + 1))
         span = 2 * base * (angle * (spanned - 1) + flank.base_half_angle)
         return SplineMeasures(thickness, pin_diameter, over, spanned, span)
+
+    def of_width(self, width: float, *, is_shaft: bool, pin_diameter: float) -> SplineMeasures:
+        """What is measured where teeth, or spaces, are so wide on the reference circle, mm."""
+        play = (width - self.thickness) / 2 * math.cos(self.pressure_angle)
+        return self.measured(play, is_shaft=is_shaft, pin_diameter=pin_diameter)
 
     def _form(self, diameters: tuple[float, float], root: float, crest: float) -> SplineForm:
         flank, (inner, outer) = self._flank(), (diameter / 2 for diameter in diameters)

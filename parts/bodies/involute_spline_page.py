@@ -6,7 +6,8 @@ import math
 from typing import Annotated
 
 from geometry.base.angles import inverse_involute, involute_function
-from geometry.solids.splines import InvoluteJoint
+from geometry.solids.spline_fits import ISO_GRADES, SideLimits, grade_of, side_limits
+from geometry.solids.splines import InvoluteJoint, SplineMeasures
 from parts.base.texts import N_
 from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps
 from parts.keys.base import mm
@@ -15,6 +16,12 @@ from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
 
 TOPIC = "involute-spline"
+# the effective limit at most material, the other one, the actual ones and what pins tell at those, greatest first
+_TOOTH = ("greatest_effective_tooth", "least_effective_tooth", "greatest_tooth", "least_tooth",
+          "greatest_over_pins", "least_over_pins")  # fmt: skip
+_SPACE = ("least_effective_space", "greatest_effective_space", "greatest_space", "least_space",
+          "greatest_between_pins", "least_between_pins")  # fmt: skip
+_SPANS = ("greatest_span", "least_span")
 
 
 class InvoluteSplineKeys(InvoluteSplineTable, kw_only=True, tag=False, forbid_unknown_fields=True):
@@ -66,7 +73,9 @@ def sheet(keys: InvoluteSplineKeys) -> Sheet:
     page.add("spline_height", sides.height, "({d_a} - {D_a}) / 2")
     for is_shaft in (True, False):
         _measured_steps(page, joint, keys, is_shaft=is_shaft)
-    bearing_steps(page, sides, keys.torque, keys.length, keys.load_share)
+    # the length is that of the deviations too
+    length = keys.length if keys.torque is not None or not (joint.hub_class or joint.shaft_class) else None
+    bearing_steps(page, sides, keys.torque, length, keys.load_share)
     return page
 
 
@@ -111,3 +120,53 @@ def _measured_steps(page: Sheet, joint: InvoluteJoint, keys: InvoluteSplineKeys,
         page.add("teeth_spanned", found.teeth_spanned)
         formula = "cos({alpha}) * (pi * {m} * ({k} - 1) + {s_m} + {d} * inv({alpha}))"
         page.add("span", found.span, formula)
+    limits = side_limits(joint, is_shaft=is_shaft, length=keys.length)
+    if limits is not None:
+        _limit_steps(page, joint, limits, found, is_shaft=is_shaft)
+
+
+def _limit_steps(
+    page: Sheet, joint: InvoluteJoint, limits: SideLimits, found: SplineMeasures, *, is_shaft: bool
+) -> None:
+    """The limits of a class, and what is measured at each of them with the pins of the nominal size."""
+    page.section(N_("Limits of the shaft") if is_shaft else N_("Limits of the hub"))
+    told = joint.shaft_class if is_shaft else joint.hub_class
+    page.add("spline_class", told)
+    standard, sign = joint.standard, "-" if is_shaft else "+"
+    page.add("spline_deviation", 1000 * limits.deviation, "", standard)
+    if (units := limits.units) is not None:
+        share, *error = ISO_GRADES[grade_of(told) - 4]
+        reference = joint.module * joint.teeth
+        formula = "0.45 * cbrt({d}) + 0.001 * {d}" if reference <= 500 else "0.004 * {d} + 2.1"
+        page.add("diameter_tolerance_unit", units.of_diameter, formula, standard)
+        page.add("width_tolerance_unit", units.of_width, "0.45 * cbrt({s}) + 0.001 * {s}", standard)
+        formula = f"{share:g} * {{i_d}} + {4 * share:g} * {{i_s}}"
+        page.add("spline_total", 1000 * limits.total, formula, standard)
+        usual = units.length == reference / 2
+        page.add("spline_teeth_length", units.length, "{d} / 2" if usual else "", given=not usual)
+        page.add("spline_pitch_error", units.pitch, f"{error[0]:g} * sqrt(pi * {{d}} / 2) + {error[1]:g}", standard)
+        formula = f"{error[2]:g} * ({{m}} + 0.0125 * {{d}}) + {error[3]:g}"
+        page.add("spline_profile_error", units.profile, formula, standard)
+        page.add("spline_helix_error", units.helix, f"{error[4]:g} * sqrt({{l_t}}) + {error[5]:g}", standard)
+        formula = "0.6 * sqrt({F_p}**2 + {F_alpha}**2 + {F_beta}**2)"
+        page.add("spline_variation", 1000 * limits.variation, formula, standard)
+    else:
+        page.add("spline_total", 1000 * limits.total, "", standard)
+        page.add("spline_variation", 1000 * limits.variation, "", standard)
+    names = _TOOTH if is_shaft else _SPACE
+    near, far = limits.effective[::-1] if is_shaft else limits.effective
+    page.add(names[0], near, "{s} + {es} / 1000")
+    if limits.units is not None:
+        page.add(names[1], far, f"{{near}} {sign} ({{TL}} - {{lam}}) / 1000")
+    page.add(names[2], limits.actual[1], "{near} - {lam} / 1000" if is_shaft else "{near} + {TL} / 1000")
+    page.add(names[3], limits.actual[0], "{near} - {TL} / 1000" if is_shaft else "{near} + {lam} / 1000")
+    aslant = " * cos(pi / (2 * {z}))" if joint.teeth % 2 else ""
+    for width, over, span, key in zip(limits.actual[::-1], names[4:], _SPANS, ("most", "least"), strict=True):
+        angle = f"{{{key}}} / {{d}} + inv({{alpha}})"
+        angle += " + {D} / {d_b} - pi / {z}" if is_shaft else " - {D} / {d_b}"
+        measured = joint.of_width(width, is_shaft=is_shaft, pin_diameter=found.pin_diameter)
+        page.add(over, measured.over_pins, f"{{d_b}}{aslant} / cos(arcinv({angle})) {'+' if is_shaft else '-'} {{D}}")
+        if is_shaft:
+            # over as many teeth as the nominal one
+            along = found.span + (width - found.thickness) * math.cos(joint.pressure_angle)
+            page.add(span, along, f"cos({{alpha}}) * (pi * {{m}} * ({{k}} - 1) + {{{key}}} + {{d}} * inv({{alpha}}))")

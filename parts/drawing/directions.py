@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from geometry.solids.bores import KeywayBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
+from geometry.solids.spline_fits import side_limits
 from geometry.solids.splines import InvoluteJoint, SplineBore
 from parts.drawing.places import apart, circled
 from parts.drawing.working import Subject
 
 # rad: what is one direction
 _SAME = 1e-9
+# um: what a limit that is told in um is off by
+_ROUNDED = 1e-6
 # of a bore where no key turns it
 _USUAL = math.pi / 2
 # words for what stands in the very direction
@@ -77,14 +81,33 @@ def involute_data(bore: SplineBore, subject: Subject, *, is_shaft: bool) -> tupl
     if not isinstance(joint := bore.joint, InvoluteJoint):
         return ()
     measured = joint.measured(-bore.clearance if is_shaft else bore.clearance, is_shaft=is_shaft)
+    pin = measured.pin_diameter
+    limits = side_limits(joint, is_shaft=is_shaft)
+    thickness, size = subject.say(measured.thickness), subject.say(measured.over_pins)
+    if limits is not None:
+        pinned = [joint.of_width(width, is_shaft=is_shaft, pin_diameter=pin).over_pins for width in limits.actual]
+        thickness, size = _span(subject, limits.actual), _span(subject, pinned)
     line = subject.words(
         "involute_shaft" if is_shaft else "involute_hub",
-        name=subject.words(f"spline_{joint.standard}", name=joint.name),
+        name=subject.words(f"spline_{joint.standard}", name=joint.named(is_shaft=is_shaft)),
         module=subject.say(joint.module),
         teeth=joint.teeth,
         angle=subject.say(math.degrees(joint.pressure_angle)),
-        thickness=subject.say(measured.thickness),
-        pin=subject.say(measured.pin_diameter),
-        size=subject.say(measured.over_pins),
+        thickness=thickness,
+        pin=subject.say(pin),
+        size=size,
     )
-    return (line,)
+    if limits is None:
+        return (line,)
+    near = subject.say(_inwards(limits.effective)[1 if is_shaft else 0])
+    return line, subject.words("effective_tooth" if is_shaft else "effective_space", thickness=near)
+
+
+def _inwards(limits: Sequence[float]) -> tuple[float, float]:
+    """Both limits in whole um, none of them wider than it is."""
+    return math.ceil(limits[0] * 1000 - _ROUNDED) / 1000, math.floor(limits[1] * 1000 + _ROUNDED) / 1000
+
+
+def _span(subject: Subject, limits: Sequence[float]) -> str:
+    """Both limits of a size."""
+    return "…".join(map(subject.say, _inwards(limits)))

@@ -622,7 +622,8 @@ def spline_sizes(
     )
     side = form.flank.shifted(play).at((form.inner + form.outer) / 2 + play).conjugate() * 1j
     width = Size("spline.width", complex(-side.real, side.imag), side, "above")
-    note = Note(side, subject.words(f"spline_{joint.standard}", name=joint.name))
+    name = joint.name if isinstance(joint, StraightJoint) else joint.named(is_shaft=is_shaft)
+    note = Note(side, subject.words(f"spline_{joint.standard}", name=name))
     return (width,) if straight else (), rounds, note
 
 

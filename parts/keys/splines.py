@@ -25,7 +25,8 @@ _SMALL = ("chamfer", "root_rounding")
 # a number with or without a fit after it, and a fit or a class of tolerance alone
 _FIT = r"[A-WYZa-wyz]{1,2}\d{1,2}"
 _NUMBER = re.compile(rf"(\d+(?:\.\d+)?)(?:{_FIT}(?:/{_FIT})?)?")
-_CLASS = r"\d{1,2}[A-Za-z]"
+_CLASS = r"\d{1,2}(?:js|[A-WYZa-wyz])"
+_CLASSES = re.compile(rf"x({_CLASS})(?:/?({_CLASS}))?$")
 _FITS = re.compile(rf"{_FIT}(?:/{_FIT})?|{_CLASS}(?:/?{_CLASS})?")
 # GOST 6033 has the fit of the outer diameter beside it, before the module, where that centres
 _OUTER = re.compile(rf"\d+(?:\.\d+)?x?{_FIT}(?:/{_FIT})?x\d")
@@ -173,7 +174,8 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
     size: Annotated[
         str,
         Meta(
-            description="D x m of GOST 6033, d_B x m x z of DIN 5480, or 24z x 2m x 30R (P: flat root) of ISO 4156",
+            description="D x m of GOST 6033, d_B x m x z of DIN 5480, or 24z x 2m x 30R (P: flat root) of ISO 4156; the"
+            " last two with a class of tolerance at the end (9H/8f, 5H/5f) where limits of the teeth are wanted",
             examples=["8x0.5"],
         ),
     ]
@@ -211,7 +213,8 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
                 raise refusal
             if not _LEAST_TEETH <= int(iso[1]) <= _MOST_TEETH:
                 raise refusal
-            return standards.iso_4156(int(iso[1]), float(iso[2]), float(iso[3]), root)
+            made = standards.iso_4156(int(iso[1]), float(iso[2]), float(iso[3]), root)
+            return self._classed(made, plain[iso.end(4) :])
         numbers = _numbers(plain) or []
         if not gost and len(numbers) == 4 and numbers[2] == 30:
             # the pressure angle, which DIN 5480 had before z until 2006
@@ -223,7 +226,32 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
             raise refusal
         if gost:
             return standards.gost_6033(numbers[0], numbers[1], teeth[0], outer=outer, root=self.root)
-        return standards.din_5480(numbers[0], numbers[1], teeth[0])
+        return self._classed(standards.din_5480(numbers[0], numbers[1], teeth[0]), plain)
+
+    def _classed(self, joint: InvoluteJoint, tail: str) -> InvoluteJoint:
+        """A joint with the classes of tolerance that the tail of a plain designation has."""
+        from geometry.solids.spline_fits import CLASSES, MOST_REFERENCE
+
+        found = _CLASSES.search(tail)
+        if found is None:
+            return joint
+        grades, hubs, shafts = CLASSES[joint.standard]
+        told = {"hub_class": "", "shaft_class": ""}
+        for one in filter(None, found.groups()):
+            letter = one.lstrip("0123456789")
+            key = "hub_class" if letter in hubs else "shaft_class"
+            if int(one.removesuffix(letter)) not in grades or letter not in hubs + shafts or told[key]:
+                raise ParameterError(
+                    "bore.size", self.size, "no_such_spline_class", least=grades[0], most=grades[-1],
+                    hubs=", ".join(hubs), shafts=", ".join(shafts), standard=joint.standard,
+                    example=f"{grades[1]}H/{grades[1]}h",
+                )  # fmt: skip
+            told[key] = one
+        if joint.standard == "ISO 4156" and 2 * joint.reference_radius > MOST_REFERENCE:
+            raise ParameterError("bore.size", self.size, "spline_classes_end", most=MOST_REFERENCE)
+        if self.clearance > 0:
+            raise ParameterError("bore.clearance", self.clearance, "clearance_of_class", Nearest(0.0))
+        return replace(joint, hub_class=told["hub_class"], shaft_class=told["shaft_class"])
 
     def bore(self) -> SplineBore:
         """Its slots; refuses as ``joint`` does."""

@@ -98,3 +98,14 @@ def test_the_reference_circle_of_a_shaft_stands_on_its_view_and_on_its_section(b
     if bore:
         assert hatched_at(along, 10.0) == [(5.0, 8.9)]
     assert max(heights(along, VISIBLE)) == 9.9
+
+
+def test_a_class_of_tolerance_tells_limits_on_the_drawing_rounded_inwards() -> None:
+    """A.2 of ISO 4156-1: 1.593 to 1.626, told as 1.594 to 1.625, which lie within; without the class as before."""
+    size = {"shape": "involute_spline", "standard": "ISO 4156", "size": "25z x 1m x 30P"}
+    plain, classed = (drawing_of(DISC | {"bore": size | {"size": f"25z x 1m x 30P{tail}"}}) for tail in ("", " x 5H"))
+    told = " ".join(classed.requirements)
+    assert "1.594\u20261.625" in told
+    assert "least effective: 1.571" in told
+    assert "\u2026" not in " ".join(plain.requirements)
+    assert "effective" not in " ".join(plain.requirements)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -57,6 +58,44 @@ def test_no_other_splines_are_read(size: str, keys: dict[str, Any]) -> None:
     with pytest.raises(ParameterError) as caught:
         InvoluteSplineTable(size, **keys).joint()
     assert caught.value.code == "no_such_spline"
+
+
+@pytest.mark.parametrize(
+    ("size", "keys", "classes"),
+    [
+        ("INT/EXT 24z x 2,5m x 30R x 5H/5f", ISO, ("5H", "5f")),
+        ("EXT 24z x 2,5m x 37.5R x 5js", ISO, ("", "5js")),
+        ("24z x 2,5m x 30P", ISO, ("", "")),
+        ("DIN 5480 - N 120 x 3 x 38 x 9H", DIN, ("9H", "")),
+        ("W 120 x 3 x 30 x 38 x 8f", DIN, ("", "8f")),
+        ("120 x 3 x 38 x 9H 8f", DIN, ("9H", "8f")),
+        ("50x2x9H/9g GOST 6033-80", {}, ("", "")),
+    ],
+)
+def test_classes_of_tolerance_end_a_designation(size: str, keys: dict[str, Any], classes: tuple[str, str]) -> None:
+    made = InvoluteSplineTable(size, **keys).joint()
+    assert (made.hub_class, made.shaft_class) == classes
+    plain = InvoluteSplineTable(re.sub(r" x \d+(H|f|js).*", "", size), **keys).joint()
+    # they move nothing
+    assert (plain.shaft().outline(), plain.hub().outline()) == (made.shaft().outline(), made.hub().outline())
+
+
+@pytest.mark.parametrize(
+    ("size", "keys", "code"),
+    [
+        ("25z x 1m x 30P x 9H", ISO, "no_such_spline_class"),
+        ("25z x 1m x 30P x 5F", ISO, "no_such_spline_class"),
+        ("25z x 1m x 30P x 5f/5h", ISO, "no_such_spline_class"),
+        ("120x3x38x4H", DIN, "no_such_spline_class"),
+        ("120x3x38x8js", DIN, "no_such_spline_class"),
+        ("200z x 10m x 30P x 5h", ISO, "spline_classes_end"),
+        ("25z x 1m x 30P x 5h", ISO | {"clearance": 0.1}, "clearance_of_class"),
+    ],
+)
+def test_other_classes_are_refused(size: str, keys: dict[str, Any], code: str) -> None:
+    with pytest.raises(ParameterError) as caught:
+        InvoluteSplineTable(size, **keys).joint()
+    assert caught.value.code == code
 
 
 def test_centring_on_the_inner_diameter_is_told_as_such() -> None:
