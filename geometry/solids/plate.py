@@ -32,6 +32,8 @@ _ARC_SAMPLES = 24
 _LEAST_ROUNDING = 1e-9
 # what is left for a hole at a place that has no room for one, mm
 _LEAST_HOLE = 1e-3
+# mm, and the share of the smallest hole that is less: a thinner wall is none in a file
+_LEAST_WALL = 1e-6
 
 
 class PlateHole(Record):
@@ -88,23 +90,26 @@ class PlateOutline(Record):
 
     def check_holes(self, keys: Sequence[str]) -> None:
         """Refuse holes that touch each other or the edge; ``keys`` name the size of each."""
-        if self.holes and self.exists():
+        wall = _LEAST_WALL * min([1.0, *map(_size, self.holes)])
+        # an edge may be too short itself to be moved
+        inwards = -wall if PlateOutline(self.edges).exists(-wall) else 0.0
+        if self.holes and self.exists(inwards):
             return
         for count, hole in enumerate(self.holes, 1):
-            if not PlateOutline(self.edges, self.holes[:count]).exists():
-                size = hole.diameter if isinstance(hole, PlateHole) else hole.width
-                room = self._room(count)
+            if not PlateOutline(self.edges, self.holes[:count]).exists(inwards):
+                size = _size(hole)
+                room = self._room(count, inwards)
                 code = "hole_lies_outside" if room is None else "hole_reaches_edge"
                 raise ParameterError(keys[count - 1], size, code, room)
 
-    def _room(self, count: int) -> Nearest | None:
-        """What size of the last of so many holes still fits; none where nothing does."""
+    def _room(self, count: int, inwards: float) -> Nearest | None:
+        """What size of the last of so many holes still fits, all outlines moved so; none where nothing does."""
         hole = self.holes[count - 1]
         size = "diameter" if isinstance(hole, PlateHole) else "width"
 
         def fits(value: float) -> bool:
             smaller = replace(hole, diameter=value) if isinstance(hole, PlateHole) else replace(hole, width=value)
-            return PlateOutline(self.edges, (*self.holes[: count - 1], smaller)).exists()
+            return PlateOutline(self.edges, (*self.holes[: count - 1], smaller)).exists(inwards)
 
         given = float(getattr(hole, size))
         works = last_that_holds(fits, given, steps=30)
@@ -230,6 +235,11 @@ def _both(middle: complex, way: complex, square: float) -> list[complex]:
         return []
     half = math.sqrt(square)
     return [middle - half * way, middle + half * way]
+
+
+def _size(hole: PlateHole | PlateSlot) -> float:
+    """Its diameter or its width, mm."""
+    return hole.diameter if isinstance(hole, PlateHole) else hole.width
 
 
 def _refuse_crossings(profiles: Sequence[Profile]) -> None:

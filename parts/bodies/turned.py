@@ -464,12 +464,12 @@ def _pockets(keys: ShaftSpec) -> Iterator[Pocket]:
     Raises
     ------
     ParameterError
-        One leaves its step, or meets another one.
+        One leaves its step, or meets another one or a centre hole.
     """
     from geometry.solids.keyways import keyway_row
     from geometry.solids.turned import Pocket
 
-    z = 0.0
+    z, whole = 0.0, sum(step.length for step in keys.steps)
     for k, step in enumerate(keys.steps, 1):
         made: list[Pocket] = []
         for number, way in enumerate(step.keyways, 1):
@@ -492,6 +492,11 @@ def _pockets(keys: ShaftSpec) -> Iterator[Pocket]:
             cuts += [(g.at, g.at + g.width) for g in step.grooves]
             if any(ends[0] <= b and a <= ends[1] for a, b in cuts):
                 raise ParameterError(f"{name}.at", way.at, "keyway_beyond_step", length=step.length)
+            # a centre hole is widest at that end of the keyway which is nearer to its end face
+            inside = _inside(keys, min(z + ends[0], whole - z - ends[1]))
+            if floor <= inside:
+                cure = most_of(radius - inside, depth) if inside < rim else None
+                raise ParameterError(f"{name}.depth", depth, "groove_into_centre_hole", cure)
             turn = math.radians(way.angle_deg)
             found = Pocket(z + ends[0], z + ends[1], width, floor, turn, way.ends == "round")
             if any(

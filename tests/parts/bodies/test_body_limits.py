@@ -50,6 +50,9 @@ LIMITS: list[tuple[dict[str, Any], str, str, float, str, dict[str, float]]] = [
      "at_least", {}),
     (GROOVED | {"centre_holes": {"diameter": 2.0, "mouth": 15.0}}, f"{GR}.diameter", "groove_into_centre_hole",
      15.0 - 20.0 * math.tan(math.pi / 6), "at_least", {}),
+    # a keyway from 5 to 25 of 65 mm: its floor above the cone at its lower end
+    (KEYED | {"centre_holes": {"diameter": 2.0, "mouth": 15.0}}, f"{WAY}.depth", "groove_into_centre_hole",
+     2.5 + 5.0 * math.tan(math.pi / 6), "at_most", {}),
     # the cone of a centre hole is wider than its pilot and leaves a rim of both end faces
     (CENTRED, "centre_holes.mouth", "mouth_within_pilot", 2.0, "at_least", {"diameter": 2.0}),
     (CENTRED, "centre_holes.mouth", "leaves_no_wall", 18.0, "at_most", {}),
@@ -128,6 +131,15 @@ WITHOUT: list[tuple[dict[str, Any], str, float, float, str, dict[str, float]]] =
                          {"count": 1, "diameter": 4.0, "pitch_circle_diameter": 30.0}]},
      "holes[1].pitch_circle_diameter", 40.001, 40.0, "hole_reaches_edge", {}),
     (CARRIER, "hub_diameter", 79.999, 80.0, "hub_reaches_pins", {"circle": 80.0}),
+    # as it was: what touched an edge or a hole in one point was built, and its STEP was no valid solid
+    (PLATE | {"holes": [{"at": [20.0, 0.0], "diameter": 4.0}]}, "holes[1].diameter", 19.999, 20.0,
+     "hole_reaches_edge", {}),
+    (PLATE | {"holes": [{"at": [at, 0.0], "diameter": 4.0} for at in (0.0, 10.0)]}, "holes[2].diameter", 15.999, 16.0,
+     "hole_reaches_edge", {}),
+    (PLATE | {"slots": [{"start": [0.0, 10.0], "end": [8.0, 10.0], "width": 4.0}]}, "slots[1].width", 19.999, 20.0,
+     "hole_reaches_edge", {}),
+    (PLATE | {"engraved": [{"start": [0.0, 10.0], "end": [8.0, 10.0], "width": 4.0}]}, "engraved[1].width", 19.999,
+     20.0, "hole_reaches_edge", {}),
 ]  # fmt: skip
 
 
