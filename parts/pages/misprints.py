@@ -85,6 +85,22 @@ def printed_for_rise(law: str, lift: float, angle_deg: float) -> list[Message]:
     return [message(text, **row) for row in rows]
 
 
+# practicum, figures 4.12 and 5.9: H, the phases and E of its cams
+_CAMS = {"flat": [38.0, 120.0, 30.0, 120.0, 90.0, 2.0], "roller": [30.0, 130.0, 50.0, 130.0, 50.0, 3.0]}
+_ANGLE = N_("the practicum, lesson 4, prints tan ϑ = (V_qB ∓ e)/√(r_0² - e² + s_B): s_B stands behind the root")
+_OF_LESSON = {
+    "flat": N_("the practicum's γ_min = 45° of a flat follower is the slope of the tangent in the joint diagram: r_0 + "
+               "S + S'' ≥ 0; the pressure angle of the face is 0"),
+    "roller": N_("the practicum, lesson 5, 3.1 to 3.3, speaks of a flat follower's planes and of R_min = r_0 + ρ, as "
+                 "lesson 4: of a roller circles touch the profile, and R_min = r_0 - r"),
+}  # fmt: skip
+
+
+def printed_for_cam(kind: str, sizes: list[float]) -> list[Message]:
+    """What lessons 4 and 5 print wrongly, a remark each, of their own cams; empty for any other cam."""
+    return [message(text) for text in (_ANGLE, _OF_LESSON[kind])] if _CAMS.get(kind) == sizes else []
+
+
 # practicum, tables Д.1 and Е.1: degree and minute, what is printed, what is right
 _TABLES = (
     ("Д.1", 29, 50, "0.0529", "0.0528"),

@@ -34,6 +34,7 @@ from parts.cams.disk_cam.part import (
     largest_roller_radius,
     pressure_angles,
 )
+from parts.cams.disk_cam.scale_page import DrawnTable, scale_section
 from parts.cams.disk_cam.speed_page import speed_section
 from parts.pages.cam_steps import (
     DEFAULT_INTERVALS,
@@ -53,7 +54,7 @@ from parts.pages.cam_steps import (
     radius_step,
 )
 from parts.pages.inputs import PLACE, SceneKeys, calculation, chosen_part, given
-from parts.pages.misprints import printed_for_rise
+from parts.pages.misprints import printed_for_cam, printed_for_rise
 from parts.pages.page import Sheet
 
 # where the page of each kind is made of its keys as a table
@@ -77,6 +78,7 @@ class CamKeys(CamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     drawing: Drawing = "smooth"
     speed_rpm: Speed | None = None
     cutter_diameter: Cutter | None = None
+    drawn: DrawnTable | None = None
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -128,16 +130,24 @@ def disk_page(keys: CamKeys, cam: DiskCam) -> Sheet:
     page = Sheet(TOPIC, N_("Disk cam"))
     phases = phases_of(cam)
     characteristics(page, keys, cam)
+    if sorted(name for name, _ in phases.named()) == ["far", "near", "return", "rise"]:
+        worked = 360 - float(page.value_of("phi_n").value)
+        page.add("working_angle_deg", worked, "{phi_r} + {phi_f} + {phi_b}", LESSON_4)
     coefficient_steps(page, phases)
     sizes(page, keys, cam)
     roller_section(page, cam, keys.least_curvature_radius)
     page.data["phases"] = phases.data()
     page.tables.append(positions(cam, keys.step, speed_rpm=keys.speed_rpm, cutter_diameter=keys.cutter_diameter))
     finish(page, keys, cam, keys.least_transmission_angle_deg)
+    if keys.drawn is not None:
+        scale_section(page, cam, keys.drawn)
     for phase in cam.motion.phases:
         if phase.law is not None and cam.is_flat:
             angle = round(math.degrees(phase.angle), 9)
             page.notes += printed_for_rise(phase.law.name, phase.lift, angle)
+    angles = [round(math.degrees(phase.angle), 9) for phase in cam.motion.phases]
+    if not cam.swings:
+        page.notes += printed_for_cam(cam.kind, [cam.motion.lift, *angles, keys.follower_offset])
     return page
 
 

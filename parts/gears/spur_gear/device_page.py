@@ -88,6 +88,7 @@ def sheet(table: dict[str, Any], *, zero_only: bool = False) -> Sheet:
         return page
     _shifted_wheel(page, shifted, keys.profile_shift_coefficient is not None, rule)
     _measured(page, shifted, 2)
+    _compared(page)
     _conditions(page, zero, shifted)
     return page
 
@@ -158,6 +159,17 @@ def _measured(page: Sheet, gear: SpurGear, index: int) -> None:
         page.add("measured_base_thickness", profile_readings(gear, gear.base_radius).thickness, "", source, index)
     page.add("measured_tip_thickness", profile_readings(gear, gear.tip_radius).thickness, "", "practicum (1.3)", index)
     page.add("measured_form_diameter", limits.root_form_diameter(gear), "", "practicum, fig. 1.5", index)
+
+
+def _compared(page: Sheet) -> None:
+    """Part 4 of the form: what the shift has changed on the profile."""
+    rows = []
+    for name in ("S_t", "e_t", "P_t", "S_b", "S_a", "d_Ff"):
+        if f"{name}1" in page.by_symbol and f"{name}2" in page.by_symbol:
+            zero, shifted = (float(page.by_symbol[f"{name}{wheel}"].value) for wheel in (1, 2))
+            rows.append((name, zero, shifted, shifted - zero))
+    heads = ((N_("quantity"), ""), (N_("zero wheel"), "mm"), (N_("shifted wheel"), "mm"), (N_("difference"), "mm"))
+    page.table("comparison", N_("4) Comparison of the zero and the shifted wheel"), heads, rows)
 
 
 def _conditions(page: Sheet, zero: SpurGear, shifted: SpurGear) -> None:

@@ -44,6 +44,7 @@ _BLANK = "________"
 
 
 _TEETH = "numbers of teeth: of wheels 1, 2, … in a list, or by name, as teeth.2'=20; a worm's starts"
+_COUNTED = "turns of the driven link counted for one of the driver, below 0 the other way"
 _MESHES = "wheels in mesh, as 1-2, 2'-3 internal 3.5: kind and module where they differ, + or - of bevels"
 _Teeth = Annotated[int, Meta(ge=1)]
 
@@ -71,6 +72,7 @@ class TrainKeys(Struct, forbid_unknown_fields=True):
     ] = {}
     mesh_efficiency: Annotated[float, Meta(gt=0, le=1, description="efficiency of every mesh")] = 1.0
     module: Annotated[float, mm("module, for distances and forces", least=0.01, most=1000)] | None = None
+    counted_turns: Annotated[float, Meta(ge=-1e6, le=1e6, description=_COUNTED)] | None = None
 
 
 def sheet(table: dict[str, Any]) -> Sheet:
@@ -603,11 +605,19 @@ class _Page:
 
     def _experiment(self) -> None:
         """Practicum 3.2, 4: what to count, and the place for it."""
+        counted = self.keys.counted_turns
         if len(self.inputs) != 1:
+            if counted is not None:
+                raise ParameterError("counted_turns", counted, "of_one_driver", REMOVED)
             return
         page, ratio = self.page, self._ratio(self.train)
         page.section("4. Check by experiment")
         page.add("turns_of_driven", float(1 / ratio), "1 / {u_whole}", "practicum 3.2", symbol=f"n_{self.driven}")
-        page.add("turns_counted", _BLANK, symbol=f"n_{self.driven}")
+        if counted is None:
+            page.add("turns_counted", _BLANK, symbol=f"n_{self.driven}")
+        else:
+            page.add("turns_counted", counted, symbol=f"n'_{self.driven}", given=True)
+            off = abs(counted * ratio - 1) * 100
+            page.add("counted_difference_percent", float(off), "abs({n_counted} / {n} - 1) * 100", "practicum 3.2")
         page.data["exact"] = {"ratio": str(ratio), "driver": self.inputs[0], "driven": self.driven}
         page.signed = message("done by {blank} date {blank} signature of the teacher {blank}", blank=_BLANK)

@@ -90,6 +90,7 @@ SHEETS = [
     ("tmm42", "module=5", "number_of_teeth=20"),
     ("tmm42", "practicum_pair", "part=wheel"),
     ("train", "case=practicum_1"),
+    ("train", "case=practicum_1", "counted_turns=0.06"),
     ("planetary", "scheme=david", "teeth=[50,30,20,60]", "satellites=4"),
     ("planetary", "scheme=one_external_one_internal", "teeth=[18,36,20,72]", "helix_angle_deg=-20"),
     ("gear-pair", "practicum_pair", "speed_rpm=300"),
@@ -116,6 +117,10 @@ SHEETS = [
      "worm_length=20"),
     ("worm", "module=4", "number_of_teeth=40", "wheel_torque=200", "speed_rpm=960", "friction_coefficient=0.05"),
     ("cam", "practicum_flat_cam"),
+    ("cam", "practicum_flat_cam", "drawn.length=120", "drawn.greatest_ordinate=76", "drawn.pole_1=40",
+     "drawn.pole_2=30", "drawn.axis=40.5"),
+    ("cam", "practicum_roller_cam", "drawn.length=130", "drawn.greatest_ordinate=60", "drawn.pole_1=45",
+     "drawn.pole_2=35", "drawn.axis=50"),
     ("cam", "guidelines_cam", "step=2.5"),
     ("cam", "practicum_roller_cam"),
     ("cam", "linkage_cam"),
@@ -473,6 +478,35 @@ def refused(topic: str, *arguments: str) -> SceneError:
         (("gear-pair", *PAIR, "kind=external"), "gear-pair.kind", "unknown_pair", "external_gear_pair"),
         (("gear-pair", *PAIR, "measured_arc_of_action=1"), "gear-pair.measured_arc_of_action", "needs_other", None),
         (("gear-pair", "laser_gear"), "mates", "no_gear_pair", None),
+        (("cam", "practicum_flat_cam", "drawn.length=120"), "cam.drawn.greatest_ordinate", "missing_key", None),
+        (
+            (
+                "cam",
+                "print_cam_set",
+                "part=swing_cam",
+                "drawn.length=120",
+                "drawn.greatest_ordinate=76",
+                "drawn.pole_1=40",
+                "drawn.pole_2=40",
+            ),
+            "cam.drawn.length",
+            "drawn_is_one_translating_rise",
+            None,
+        ),
+        (
+            (
+                "train",
+                "meshes=1-2, 2-3 internal",
+                "teeth=[20,30,80]",
+                "carriers.H=2",
+                "speeds.1=100",
+                "speeds.3=-20",
+                "counted_turns=1",
+            ),
+            "train.counted_turns",
+            "of_one_driver",
+            None,
+        ),
         (("gear-pair", "practicum_pair", "mate=2"), "mate", "no_such_pair", 1),
         (("shift-choice", "first.number_of_teeth=13"), "shift-choice.second", "missing_key", None),
         (
@@ -560,6 +594,16 @@ def test_the_picture_is_written_in_the_language(tmp_path: Path) -> None:
     assert text.startswith("<svg")
     assert "однакове ковзання" in text
     assert text.count("<polyline") >= 8
+
+
+def test_both_wheels_of_the_device_are_compared() -> None:
+    # m 16, z 10: the shift xi = 7/17 makes S_t thicker by 2 x m tan 20 degrees, at 40 digits
+    table = json.loads(calculate("tmm42", ["module=16", "reference_diameter=160"], "json", "en"))
+    rows = {name: values for name, *values in (row.values() for row in table["comparison"])}
+    assert set(rows) == {"S_t", "e_t", "P_t", "S_b", "S_a", "d_Ff"}
+    assert rows["S_t"][2] == pytest.approx(4.795843086801725, rel=1e-12)
+    assert rows["e_t"][2] == pytest.approx(-rows["S_t"][2], rel=1e-12)
+    assert all(shifted - zero == pytest.approx(more, abs=1e-12) for zero, shifted, more in rows.values())
 
 
 def test_a_formula_cannot_use_what_is_not_known_yet() -> None:

@@ -393,3 +393,27 @@ def test_laws_by_the_names_of_other_books_are_offered_ours(name: str, capsys: py
     offered = line.rpartition("did you mean ")[2].rstrip("?\n")
     rows = calculated("follower=pointed", "lift=1", "base_circle_radius=40", phases(120, 30, 120, offered))["positions"]
     assert next(row["S"] for row in rows if row["phi"] == 30) == pytest.approx(OF_OTHER_BOOKS[name], abs=1e-14)
+
+
+def test_scales_of_a_drawing_give_the_motion_that_was_drawn() -> None:
+    # constant acceleration drawn by hand: y'' 20 over half of L 120, y' = y'' x / H_2, y = integral of y' / H_1
+    first, second, high = 45.0, 30.0, 20.0
+    rate, lift = high * 60 / second, high * 60**2 / (first * second)
+    data = calculated("follower=flat", "lift=38", "follower_offset=2", phases(120, 30, 120, "constant_acceleration"),
+                      "base_circle_radius=60", "drawn.length=120", f"drawn.greatest_ordinate={lift!r}",
+                      f"drawn.pole_1={first}", f"drawn.pole_2={second}", "drawn.axis=50")  # fmt: skip
+    values, turn = data["values"], math.radians(120)
+    assert values["angle_scale"] == pytest.approx(turn / 120, rel=1e-15)
+    assert values["rate_scale"] * rate == pytest.approx(2 * 38 / turn, rel=1e-14)
+    assert values["bend_scale"] * high == pytest.approx(4 * 38 / turn**2, rel=1e-14)
+    assert values["joint_factor"] == pytest.approx(values["bend_scale"] * lift / 38, rel=1e-14)
+    assert (values["drawn_offset"], values["drawn_radius"]) == pytest.approx((2 * lift / 38, 50 * 38 / lift), rel=1e-14)
+    assert values["working_angle_deg"] == 270
+
+
+def test_misprints_of_lessons_4_and_5_are_told_of_their_own_cams_alone() -> None:
+    for scene, told in (("practicum_flat_cam", "γ_min = 45°"), ("practicum_roller_cam", "R_min = r_0 - r")):
+        notes = calculated(scene)["notes"]
+        assert sum(told in note for note in notes) == 1
+        assert sum("s_B stands behind the root" in note for note in notes) == 1
+        assert not any("practicum" in note for note in calculated(scene, "lift=37")["notes"])

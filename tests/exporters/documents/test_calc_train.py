@@ -319,3 +319,13 @@ def test_speeds_are_taken_and_told_in_rpm_too() -> None:
     assert re.search(r"N_H = .* = 360 rpm", same)
     with pytest.raises(SceneError, match=r"speeds_rpm\.1"):
         calculate("train", [*words, "speeds_rpm.1=1440", "speeds.1=1"], "text", "en")
+
+
+@pytest.mark.parametrize(
+    ("counted", "off"), [("-0.0740741", 3.5e-5), ("-0.0777778", 5.00003), ("0.0740741", 200.00004)]
+)
+def test_counted_turns_are_compared_with_the_ratio(counted: str, off: float) -> None:
+    # exercise 2.10.7: u = -27/2
+    steps = {step["name"]: step for step in calculated("case=2.10.7", f"counted_turns={counted}")["steps"]}
+    assert steps["turns_counted"]["value"] == float(counted)
+    assert steps["counted_difference_percent"]["value"] == pytest.approx(off, rel=1e-5)
