@@ -158,6 +158,9 @@ def _limit_steps(
     page.add(names[0], near, "{s} + {es} / 1000")
     if limits.units is not None:
         page.add(names[1], far, f"{{near}} {sign} ({{TL}} - {{lam}}) / 1000")
+        if is_shaft and limits.deviation < 0:
+            tip = joint.shaft_diameters[1] + limits.deviation / math.tan(joint.pressure_angle)
+            page.add("greatest_shaft_tip", tip, "{d_a} + {es} / 1000 / tan({alpha})", standard)
     page.add(names[2], limits.actual[1], "{near} - {lam} / 1000" if is_shaft else "{near} + {TL} / 1000")
     page.add(names[3], limits.actual[0], "{near} - {TL} / 1000" if is_shaft else "{near} + {lam} / 1000")
     aslant = " * cos(pi / (2 * {z}))" if joint.teeth % 2 else ""
