@@ -159,7 +159,7 @@ def _distance(points: Complex, curves: Sequence[Curve], turns: Complex, trusted:
 def distance_to_curve(points: Complex, curve: Travelled) -> Real:
     """Distance of each point (n,) from one curve, mm: projection from its nearest of 65 samples."""
     if isinstance(curve, Arc | Line):
-        return _distance_to_plain(points, curve)
+        return distance_to_plain(points, curve)
     t = np.linspace(*curve.domain, _FINE_SAMPLES)
     return _projected(points, curve, t, _nearest_index(points, curve.point(t)), newton=True)
 
@@ -216,7 +216,7 @@ def _projected(points: Complex, curve: Travelled, samples: Real, start: NDArrayI
     Without ``newton`` the curvature's part of the slope is left out, which is little for points near the curve.
     """
     if isinstance(curve, Arc | Line):
-        return _distance_to_plain(points, curve)
+        return distance_to_plain(points, curve)
     ends = curve.point(samples[[0, -1]])
     found = np.abs(curve.point(_feet(points, curve, samples, start, newton=newton)) - points)
     # where a curve is shut, the nearest sample is its first and its last one: the foot may lie on either side
@@ -289,8 +289,8 @@ def _nearest_index(points: Complex, samples: Complex) -> NDArrayInt:
     return result
 
 
-def _distance_to_plain(points: Complex, arc: Arc | Line) -> Real:
-    """From what has the feet of points in closed form."""
+def distance_to_plain(points: Complex, arc: Arc | Line) -> Real:
+    """Distance of points (n,) from an edge, whose feet have a closed form, mm."""
     if isinstance(arc, Line):
         chord = arc.end - arc.start
         # of no length it is its start

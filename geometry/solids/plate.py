@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit
-from geometry.base.nearest import last_that_holds, moved
-from geometry.base.record import Record, replace
+from geometry.base.errors import GeometryError, OffsetError, ParameterError, limit
+from geometry.base.nearest import moved
+from geometry.base.record import Record
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex, Real, end_point, start_point
 from geometry.curves.line_arc import Arc, Line, arc_between
+from geometry.plane.measure import distance_to_plain
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, Segment, circle, joint_turn
 
@@ -27,13 +28,15 @@ if TYPE_CHECKING:
     from geometry.plane.distance import Flags
 
 Edge = Line | Arc
-_ARC_SAMPLES = 24
+_ARC_SAMPLES, _MOST_SAMPLES = 24, 4096
 # as a part of the edges beside it
 _LEAST_ROUNDING = 1e-9
 # what is left for a hole at a place that has no room for one, mm
 _LEAST_HOLE = 1e-3
 # mm, and the share of the smallest hole that is less: a thinner wall is none in a file
 _LEAST_WALL = 1e-6
+# of the reach
+_TOUCH = 1e-12
 
 
 class PlateHole(Record):
@@ -90,30 +93,15 @@ class PlateOutline(Record):
 
     def check_holes(self, keys: Sequence[str]) -> None:
         """Refuse holes that touch each other or the edge; ``keys`` name the size of each."""
-        wall = _LEAST_WALL * min([1.0, *map(_size, self.holes)])
-        # an edge may be too short itself to be moved
-        inwards = -wall if PlateOutline(self.edges).exists(-wall) else 0.0
-        if self.holes and self.exists(inwards):
-            return
-        for count, hole in enumerate(self.holes, 1):
-            if not PlateOutline(self.edges, self.holes[:count]).exists(inwards):
-                size = _size(hole)
-                room = self._room(count, inwards)
-                code = "hole_lies_outside" if room is None else "hole_reaches_edge"
-                raise ParameterError(keys[count - 1], size, code, room)
-
-    def _room(self, count: int, inwards: float) -> Nearest | None:
-        """What size of the last of so many holes still fits, all outlines moved so; none where nothing does."""
-        hole = self.holes[count - 1]
-        size = "diameter" if isinstance(hole, PlateHole) else "width"
-
-        def fits(value: float) -> bool:
-            smaller = replace(hole, diameter=value) if isinstance(hole, PlateHole) else replace(hole, width=value)
-            return PlateOutline(self.edges, (*self.holes[: count - 1], smaller)).exists(inwards)
-
-        given = float(getattr(hole, size))
-        works = last_that_holds(fits, given, steps=30)
-        return None if works < _LEAST_HOLE else limit(works * (1 - 1e-6), given)
+        sizes = [_size(hole) for hole in self.holes]
+        wall = 2 * _LEAST_WALL * min([1.0, *sizes])
+        for key, size, clear in zip(keys, sizes, _clearances(self.edges, self.holes).tolist(), strict=True):
+            if size > 0 and clear >= wall:
+                continue
+            room = size + 2 * (clear - wall)
+            if not (size > 0 and room >= _LEAST_HOLE):
+                raise ParameterError(key, size, "hole_lies_outside")
+            raise ParameterError(key, size, "hole_reaches_edge", limit(room * (1 - 1e-6), size))
 
     def exists(self, offset: float = 0.0) -> bool:
         """Whether there is such a section."""
@@ -124,9 +112,14 @@ class PlateOutline(Record):
         return True
 
     def _region(self, offset: float) -> Region:
-        outer = Profile(tuple(Segment(e, Label.BODY) for e in moved_edges(self.edges, offset)))
+        edges = moved_edges(self.edges, offset)
+        outer = Profile(tuple(Segment(e, Label.BODY) for e in edges))
         holes = tuple(h.profile(offset) for h in self.holes)
-        _refuse_crossings([outer, *holes])
+        _refuse_crossing(_polygon(outer, _ARC_SAMPLES))
+        clear = _clearances(edges, self.holes, offset)
+        # where they touch on purpose rounding may decide
+        if clear.size and clear.min() < -_TOUCH * outer.reach():
+            raise GeometryError("boundaries_cross" if clear.min() > -math.inf else "hole_lies_outside")
         return Region(outer, holes)
 
 
@@ -242,30 +235,66 @@ def _size(hole: PlateHole | PlateSlot) -> float:
     return hole.diameter if isinstance(hole, PlateHole) else hole.width
 
 
-def _refuse_crossings(profiles: Sequence[Profile]) -> None:
-    """Boundaries that cross themselves or each other, by the edges of fine polygons; holes inside the outline."""
-    polygons = [np.concatenate([_samples(s.curve) for s in p.period]) for p in profiles]
-    ends = [np.roll(polygon, -1) for polygon in polygons]
-    low = np.array([complex(p.real.min(), p.imag.min()) for p in polygons])
-    high = np.array([complex(p.real.max(), p.imag.max()) for p in polygons])
-    for index, polygon in enumerate(polygons):
-        # only where boxes overlap; pairs with those before have been looked at
-        near = (low.real <= high[index].real) & (low.imag <= high[index].imag)
-        near &= (high.real >= low[index].real) & (high.imag >= low[index].imag)
-        others = [int(k) for k in np.flatnonzero(near) if k >= index]
-        start, end = (np.concatenate([one[k] for k in others]) for one in (polygons, ends))
-        cross = _parted(polygon, ends[index], start, end) & _parted(start, end, polygon, ends[index]).T
-        if cross.any():
-            _, other = np.argwhere(cross)[0]
-            itself = other < len(polygon)
-            raise GeometryError("boundary_crosses_itself" if itself else "boundaries_cross")
-    for index, hole in enumerate(polygons[1:], 1):
-        point = hole[0]
-        boxed = (low.real <= point.real) & (low.imag <= point.imag) & (high.real >= point.real)
-        boxed &= high.imag >= point.imag
-        about = (polygons[k] for k in np.flatnonzero(boxed) if k not in (0, index))
-        if _winding(point, polygons[0]) != 1 or any(_winding(point, other) for other in about):
-            raise GeometryError("hole_lies_outside")
+def _clearances(edges: Sequence[Edge], holes: Sequence[PlateHole | PlateSlot], offset: float = 0.0) -> Real:
+    """How far each hole, grown by -``offset``, lies off the edge and the holes before it, mm (n,): below 0 it crosses.
+
+    Exact: distances between its middle line, a point where it is round, and theirs, less what is about these; -inf
+    where it lies outside.
+    """
+    if not holes:
+        return np.zeros(0)
+    ends = [(h.centre, h.centre) if isinstance(h, PlateHole) else (h.start, h.end) for h in holes]
+    start, end = np.array(ends, dtype=np.complex128).T
+    radius = np.array([_size(h) for h in holes]) / 2 - offset
+    outer = Profile(tuple(Segment(e, Label.BODY) for e in edges))
+    # chords that are nearer to their arcs than the middle of the smallest hole may be
+    sharpest = max((e.radius * e.sweep**2 for e in edges if isinstance(e, Arc)), default=0.0)
+    fine = math.ceil(math.sqrt(sharpest / (4 * max(radius.min(), _LEAST_WALL))))
+    polygon = _polygon(outer, min(max(_ARC_SAMPLES, fine), _MOST_SAMPLES))
+    inside = np.array([_winding(complex(place), polygon) == 1 for place in start])
+    off_edge = np.min([_off_edge(edge, start, end) for edge in edges], axis=0) - radius
+    between = _off_line(start, end, start[:, None], end[:, None]) - radius - radius[:, None]
+    before = np.where(np.tri(len(holes), k=-1, dtype=bool), between, np.inf).min(axis=1)
+    return np.where(inside, np.minimum(off_edge, before), -np.inf)
+
+
+def _off_edge(edge: Edge, start: Complex, end: Complex) -> Real:
+    """Distances of lines (n,) from an edge, mm: at their ends, at its own, where they cross it or are nearest to it."""
+    if isinstance(edge, Line):
+        return _off_line(np.array(edge.start), np.array(edge.end), start, end)
+    way = end - start
+    square = np.where(way == 0, 1.0, np.abs(way) ** 2)
+    middle = ((edge.centre - start) * np.conj(way)).real / square
+    half = np.sqrt(np.maximum(edge.radius**2 - np.abs(start + middle * way - edge.centre) ** 2, 0.0) / square)
+    shares = (np.zeros(start.shape), np.ones(start.shape), middle, middle - half, middle + half)
+    found = [distance_to_plain(start + np.clip(share, 0.0, 1.0) * way, edge) for share in shares]
+    return np.min(
+        [*found, *(_off_point(np.array(p), start, end) for p in (start_point(edge), end_point(edge)))], axis=0
+    )
+
+
+def _off_line(first: Complex, last: Complex, start: Complex, end: Complex) -> Real:
+    """Distances between lines from ``first`` to ``last`` and others, mm, all broadcast: 0 where they cross."""
+    along, way = last - first, end - start
+    across = (way * np.conj(along)).imag
+    share = ((first - start) * np.conj(along)).imag / np.where(across == 0, 1.0, across)
+    crossing = _off_point(start + np.clip(share, 0.0, 1.0) * way, first, last)
+    ends = [_off_point(p, first, last) for p in (start, end)] + [_off_point(p, start, end) for p in (first, last)]
+    return np.minimum.reduce([crossing, *ends])
+
+
+def _off_point(points: Complex, start: Complex, end: Complex) -> Real:
+    """Distances of points from lines, mm, all broadcast."""
+    way = end - start
+    share = ((points - start) * np.conj(way)).real / np.where(way == 0, 1.0, np.abs(way) ** 2)
+    return np.abs(points - start - np.clip(share, 0.0, 1.0) * way)
+
+
+def _refuse_crossing(polygon: Complex) -> None:
+    """Refuse a boundary that crosses itself, by the edges of a fine polygon."""
+    ends = np.roll(polygon, -1)
+    if (_parted(polygon, ends, polygon, ends) & _parted(polygon, ends, polygon, ends).T).any():
+        raise GeometryError("boundary_crosses_itself")
 
 
 def _parted(start: Complex, end: Complex, first: Complex, second: Complex) -> Flags:
@@ -280,12 +309,12 @@ def _parted(start: Complex, end: Complex, first: Complex, second: Complex) -> Fl
     return parted
 
 
-def _samples(curve: object) -> Complex:
-    """The start of a line, fine points of an arc without its end."""
-    assert isinstance(curve, Line | Arc)
-    if isinstance(curve, Line):
-        return np.array([curve.start])
-    return curve.point(np.linspace(*curve.domain, _ARC_SAMPLES + 1)[:-1])
+def _polygon(profile: Profile, count: int) -> Complex:
+    """The starts of its lines, so many points of each arc."""
+    return np.concatenate([
+        np.array([c.start]) if isinstance(c := s.curve, Line) else c.point(np.linspace(*c.domain, count + 1)[:-1])
+        for s in profile.period
+    ])  # fmt: skip
 
 
 def _winding(point: complex, polygon: Complex) -> int:

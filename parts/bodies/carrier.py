@@ -159,7 +159,9 @@ def _in_keys(keys: CarrierPlateSpec, refusal: ParameterError) -> ParameterError:
 def _works(keys: CarrierPlateSpec, name: str, value: float | None) -> bool:
     changed = replaced(keys, name, value)
     edges, holes, _ = _drawn(changed)
-    return outline_with_marks(edges, changed, holes)[0].exists()
+    whole, names = outline_with_marks(edges, changed, holes)
+    whole.check_holes(names)
+    return True
 
 
 def _directions(keys: CarrierPlateSpec) -> list[float]:

@@ -121,6 +121,65 @@ def test_holes_that_meet_something_are_refused(hole: PlateHole | PlateSlot) -> N
         outline.check_holes(["holes[1].diameter", "holes[2].diameter"])
 
 
+@examples(60)
+@given(
+    st.sampled_from(sorted(SHAPES)),
+    st.lists(st.tuples(st.floats(-0.2, 1.2), st.floats(-0.2, 1.2)), min_size=2, max_size=4),
+    st.booleans(),
+)
+def test_a_hole_may_be_as_large_as_geos_says_and_no_larger(
+    name: str, places: list[tuple[float, float]], slotted: bool
+) -> None:
+    """Of 0.01 %: chords of arcs had let holes overlap by a fiftieth of a millimetre."""
+    edges = SHAPES[name]
+    whole = polygon(edges)
+    low, high = complex(*whole.bounds[:2]), complex(*whole.bounds[2:])
+    found = [complex(low.real + x * (high - low).real, low.imag + y * (high - low).imag) for x, y in places]
+    # the first stands, the last is asked for
+    first, ends = PlateHole(found[0], 1.0), (found[1], found[-1] if slotted else found[1])
+    if (
+        not whole.contains(shapely.Point(first.centre.real, first.centre.imag).buffer(0.6))
+        or 0 < abs(ends[1] - ends[0]) < 0.1
+    ):
+        return
+    core = (
+        shapely.LineString([(z.real, z.imag) for z in ends]) if slotted else shapely.Point(ends[0].real, ends[0].imag)
+    )
+    off = shapely.distance(core, shapely.Point(first.centre.real, first.centre.imag)) - 0.5
+    room = 2 * min(shapely.distance(core, whole.exterior), off) if whole.contains(core) else -1.0
+
+    def check(size: float) -> None:
+        last = PlateSlot(*ends, size) if abs(ends[1] - ends[0]) > 0 else PlateHole(ends[0], size)
+        PlateOutline(edges, (first, last)).check_holes(["first", "last"])
+
+    if room > 0.02:
+        check(room * (1 - 1e-4) - 1e-4)
+    with pytest.raises(ParameterError) as caught:
+        check(max(room, 0.02) * (1 + 1e-4) + 1e-4)
+    assert caught.value.name == "last"
+    if room > 0.02:
+        assert caught.value.nearest is not None
+        assert caught.value.nearest.value == pytest.approx(room, rel=1e-4, abs=2e-4)
+
+
+def test_a_hole_that_reaches_a_hair_over_another_or_the_edge_is_refused() -> None:
+    square = rounded([(complex(x, y), 0.0) for x, y in ((-30, -30), (30, -30), (30, 30), (-30, 30))])
+    apart = cmath.rect(9.99, 0.58)
+    slanted = tuple(
+        Line(e.start * cmath.rect(1, 0.3), e.end * cmath.rect(1, 0.3)) for e in square if isinstance(e, Line)
+    )
+    for edges, holes in (
+        (square, (PlateHole(0j, 10.0), PlateHole(apart, 10.0))),
+        (slanted, (PlateHole(cmath.rect(25.001, 0.3), 10.0),)),
+    ):
+        outline = PlateOutline(edges, holes)
+        assert not outline.exists()
+        with pytest.raises(ParameterError) as caught:
+            outline.check_holes([f"holes[{k}].diameter" for k in range(1, len(holes) + 1)])
+        assert caught.value.nearest is not None
+        assert 9.97 < float(str(caught.value.nearest.value)) < 10.0
+
+
 def test_roundings_without_room_are_refused() -> None:
     with pytest.raises(GeometryError, match="roundings"):
         rounded([(0j, 3.0), (4 + 0j, 3.0), (4 + 4j, 3.0), (4j, 3.0)])
