@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from geometry.base.errors import GeometryError, OffsetError, ParameterError
@@ -137,15 +137,10 @@ def test_a_hole_may_be_as_large_as_geos_says_and_no_larger(
     found = [complex(low.real + x * (high - low).real, low.imag + y * (high - low).imag) for x, y in places]
     # the first stands, the last is asked for
     first, ends = PlateHole(found[0], 1.0), (found[1], found[-1] if slotted else found[1])
-    if (
-        not whole.contains(shapely.Point(first.centre.real, first.centre.imag).buffer(0.6))
-        or 0 < abs(ends[1] - ends[0]) < 0.1
-    ):
-        return
-    core = (
-        shapely.LineString([(z.real, z.imag) for z in ends]) if slotted else shapely.Point(ends[0].real, ends[0].imag)
-    )
-    off = shapely.distance(core, shapely.Point(first.centre.real, first.centre.imag)) - 0.5
+    point, *core_points = (shapely.Point(z.real, z.imag) for z in (first.centre, *ends))
+    assume(whole.contains(point.buffer(0.6)) and not 0 < abs(ends[1] - ends[0]) < 0.1)
+    core = shapely.LineString(core_points) if abs(ends[1] - ends[0]) > 0 else core_points[0]
+    off = shapely.distance(core, point) - 0.5
     room = 2 * min(shapely.distance(core, whole.exterior), off) if whole.contains(core) else -1.0
 
     def check(size: float) -> None:
