@@ -259,7 +259,7 @@ def _contact(page: Sheet, at: Position) -> None:
     page.add("path_speed", speed, "sqrt({F}**2 + {R}**2)")
     for name, part, symbol, key in (("contact_x2", place.real, "F", "19"), ("contact_y2", place.imag, "R", "20")):
         page.add(name, part, f"-{{r}} * {{{symbol}}} / {{w}}", f"Savvin ({key})")
-        page.mark_misprint(SAVVIN["19"])
+        page.mark_misprint(SAVVIN[key])
     page.add(
         "contact_x1",
         profile.real,

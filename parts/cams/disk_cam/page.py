@@ -204,6 +204,11 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
     exact = derived and abs(base - flat_base_radius(cam.motion).value - keys.least_curvature_radius) < 1e-12 * base
     told = ("{r_0} + {rho}", LESSON_4) if exact else ("", "")
     page.add("least_base_circle_radius", base, *told, given=keys.base_circle_radius is not None)
+    if isinstance(cam.mount, Translating):
+        # the profile's farthest point stands on the radius of the highest place of the follower, fig. 4.3
+        beside = 0.0 if cam.is_flat else cam.mount.offset
+        most = math.hypot(beside, cam.mount.start_height + cam.motion.lift) - cam.radius
+        page.add("greatest_cam_radius", most, *(("", "") if beside else ("{R_min} + {H}", LESSON_4)))
     reached(page, cam)
     page.add("least_curvature_radius", least_convex_radius(cam).value)
     if isinstance(cam.mount, Translating) and cam.kind in ("flat", "mushroom"):

@@ -63,6 +63,21 @@ def test_lesson_5(case: dict[str, Any], offset: float, side: str) -> None:
     assert values["transmission_angle_reached_deg"] == pytest.approx(60, abs=1e-9)
 
 
+@pytest.mark.parametrize("offset", [0.0, 6.0, -6.0])
+@pytest.mark.parametrize("kind", ["pointed", "roller", "mushroom", "flat"])
+def test_the_greatest_radius_of_lesson_4(kind: str, offset: float) -> None:
+    """Fig. 4.3: r_max = r_0 + h of a central follower; with an offset the farthest point of the profile tells."""
+    size = ("follower_radius=7",) if kind in ("roller", "mushroom") else ()
+    data = calculated(f"follower={kind}", "lift=18", f"follower_offset={offset}", *size, "base_circle_radius=55",
+                      phases(120, 30, 110, "sine"), "step=0.5")  # fmt: skip
+    found, least = (data["values"][f"{word}_radius"] for word in ("greatest_cam", "least_base_circle"))
+    assert found == pytest.approx(max(math.hypot(row["x"], row["y"]) for row in data["positions"]), rel=1e-12)
+    central = offset == 0 or kind == "flat"
+    assert (found == pytest.approx(least + 18, rel=1e-14)) == central
+    step = next(s for s in data["steps"] if s["name"] == "greatest_cam_radius")
+    assert (step["formula"] == "R_min + H") == central
+
+
 def rocker_angles(rows: list[dict[str, float]], distance: float, prime: float, sense: int) -> np.ndarray:
     """tan nu = (L (1 + sense psi') - d cos psi) / (d sin psi) of an arm of 80 mm, by the table's S and S'."""
     turn, rate = (np.radians([row[name] for row in rows]) for name in ("S", "S'"))

@@ -17,6 +17,7 @@ from exporters.documents.topics import calculate, sheet_of
 from geometry.base.record import replace
 from geometry.kinematics.linkage import Linkage, RockerDrive, RockerGuide, SliderDrive, SliderGuide
 from parts.base.texts import words
+from parts.pages.misprints import CASES
 from parts.pages.page import Known, Sheet, Step
 from tests.exporters.command.test_cli import complaint
 from tests.exporters.documents.test_calc import evaluated
@@ -241,6 +242,14 @@ def test_savvins_numbers_stand_beside_his_equations_and_misprints_are_told() -> 
                       "position_contact_pressure_angle_deg"}  # fmt: skip
     flat = {s.source for s in page_of("flat").steps()}
     assert {"Savvin (11)", "Savvin (15)", "Savvin (16)"} <= flat
+
+
+def test_what_is_printed_is_in_no_language() -> None:
+    """Formulas and numbers: what is said of them, which is translated, stands behind."""
+    assert not [p.text for case in CASES.values() for p in case.values() if re.search(r"[a-z]{2,} [a-z]{2,}", p.text)]
+    steps = {s.name: s for s in page_of("roller").steps()}
+    printed = [steps[name].printed for name in ("contact_x2", "contact_y2")]
+    assert [p and p.text for p in printed] == ["r·F/√(R² + F²)", "r·R/√(R² + F²)"]
 
 
 def test_the_printed_21_misses_the_roller() -> None:
