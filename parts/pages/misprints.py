@@ -30,12 +30,14 @@ def printed_for(case: str) -> Misprints:
 
 
 def printed_for_pair(
-    teeth: tuple[int, int], shifts: tuple[float, float], module: float, pressure_angle: float
+    teeth: tuple[int, int], shifts: tuple[float, float], module: float, pressure_angle: float, *, internal: bool = False
 ) -> Misprints:
     """What a source prints wrongly for exactly this pair, angle in rad; empty for any other."""
     if abs(pressure_angle - _USUAL) > _SAME:
         return {}
     pair = "{}/{} {}/{}".format(*teeth, *shifts)
+    if internal:
+        return printed_for(f"thesis {pair} {module}")
     return printed_for(f"practicum {pair} {module}") or printed_for(f"guidelines {pair}")
 
 

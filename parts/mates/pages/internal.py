@@ -39,7 +39,7 @@ from parts.pages.contact_steps import (
 )
 from parts.pages.force_steps import DrivenKeys, force_steps
 from parts.pages.inputs import checked, keys_of, refusal
-from parts.pages.misprints import printed_for
+from parts.pages.misprints import printed_for_pair
 from parts.pages.page import Sheet
 from parts.pages.roll_steps import pair_rolls
 from parts.texts.findings import finding_of
@@ -144,7 +144,8 @@ def _refused(error: ParameterError, keys: Struct) -> SceneError:
 
 def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> Sheet:
     pinion, ring = pair.pinion, pair.ring
-    printed = {} if helical.angle else printed_for("thesis {}/{} {}".format(*pair.teeth, pair.module))
+    shifts, angle = (pinion.profile_shift_coefficient, ring.profile_shift_coefficient), pinion.rack.pressure_angle
+    printed = {} if helical.angle else printed_for_pair(pair.teeth, shifts, pair.module, angle, internal=True)
     page = Sheet(TOPIC, N_("Internal gear pair"), printed=printed)
     page.section("Given")
     given_data(page, helical.normal, pinion, helical.angle, 1)

@@ -215,6 +215,15 @@ def test_only_the_printed_pair_is_flagged() -> None:
     assert not [s for s in values_of(words)["steps"] if "misprint" in s]
 
 
+@pytest.mark.parametrize(("more", "flagged"), [
+    ("", True), ("first.pressure_angle_deg=25 second.pressure_angle_deg=25", False),
+    ("first.profile_shift_coefficient=0.3 second.profile_shift_coefficient=0.3", False),
+])  # fmt: skip
+def test_only_the_printed_internal_pair_is_flagged(more: str, flagged: bool) -> None:
+    steps = values_of(f"gear-pair thesis_internal_pair {more}".strip())["steps"]
+    assert {s["name"] for s in steps if "misprint" in s} == ({"contact_ratio", "pitch"} if flagged else set())
+
+
 def test_the_misprinted_inequality_and_left_side_are_named() -> None:
     assert "x_min ≤ x ≤ x_0.3" in calculate("tmm42", ["module=10", "number_of_teeth=10"], "text", "uk")
     assert "(3.4) prints alpha_w" in calculate("gear-pair", ["practicum_pair"], "text", None)
