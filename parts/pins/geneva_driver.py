@@ -13,8 +13,8 @@ from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Others, Report
 from parts.base.links import owner_of
 from parts.keys.base import MOST_LENGTH, mm
-from parts.keys.holes import HoledKeys
-from parts.keys.pins import MARGIN, RoundPinKind, check_holes, holes_of, least_of, most_of
+from parts.keys.holes import HoledKeys, wide_bore
+from parts.keys.pins import MARGIN, RoundPinKind, check_holes, holes_of, least_of
 from parts.keys.splines import InvoluteSplineTable
 from parts.pins.geneva_wheel import GENEVA_WHEEL, GenevaWheelSpec
 
@@ -145,14 +145,14 @@ def _check(keys: GenevaDriverSpec, driver: GenevaDriver) -> None:
         raise ParameterError("plate_diameter", keys.plate_diameter, "pins_reach_edge", wide, diameter=2 * seats.reach)
     bored = driver.piece == "whole" or (driver.piece == "disc" and driver.has_bored_disc)
     if not bored and driver.piece == "disc" and driver.holes.bore is not None:
-        raise ParameterError("bore_diameter", keys.bore_diameter or None, "not_of_this_piece", Nearest(None))
+        key = "bore_diameter" if keys.bore_diameter else "bore"
+        raise ParameterError(key, keys.bore_diameter or None, "not_of_this_piece", Nearest(None))
     # its layers are bounded by lines and arcs
     if driver.piece == "whole" and isinstance(keys.bore, InvoluteSplineTable):
         raise ParameterError("bore.shape", "involute_spline", "not_of_this_piece")
     room = abs(disc.apex) - least_wall(disc.wheel.locking_radius) * (1 + MARGIN)
     if bored and driver.holes.bore_reach > room:
-        cure = most_of(2 * room, keys.bore_diameter) if keys.bore_diameter else None
-        raise ParameterError("bore_diameter", keys.bore_diameter or None, "bore_reaches_relief", cure)
+        raise wide_bore(keys, max(room, 0.0), "bore_reaches_relief")
     if driver.piece != "disc":
         every = HubHoles(driver.holes.bore, (seats, *driver.holes.round_holes))
         check_holes(keys, every, driver.plate_radius, own=1)

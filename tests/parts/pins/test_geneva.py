@@ -138,6 +138,26 @@ def test_what_cannot_be_is_refused_with_what_can(wheel: Keys, driver: Keys, key:
     make_parts(scene_from_dict({"parts": parts}, "t", "t"), "t")
 
 
+def test_a_bore_that_is_a_table_is_refused_by_its_own_size() -> None:
+    """What is offered builds."""
+
+    def refusal(driver: Keys) -> SceneError | None:
+        try:
+            make_parts(scene_from_dict({"parts": {"wheel": WHEEL, "driver": driver}}, "t", "t"), "t")
+        except SceneError as error:
+            return error
+        return None
+
+    refused = refusal(UNBORED | {"bore": {"shape": "square", "across_flats": 40.0}})
+    assert refused is not None
+    assert refused.nearest is not None
+    assert (refused.key, refused.value) == ("parts.driver.bore.across_flats", 40.0)
+    assert refusal(UNBORED | {"bore": {"shape": "square", "across_flats": refused.nearest.value}}) is None
+    designated = refusal(UNBORED | {"bore": {"shape": "spline", "size": "6x28x34"}})
+    assert designated is not None
+    assert (designated.key, designated.value) == ("parts.driver.bore.size", "6x28x34")
+
+
 @pytest.mark.parametrize("internal", [False, True], ids=["external", "internal"])
 def test_any_number_of_slots_makes_a_drive_from_two_keys(internal: bool) -> None:
     """Its contact is clear or touches; thick pins build too, or are refused with thinner ones that do."""
