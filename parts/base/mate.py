@@ -264,6 +264,10 @@ class MateKind(Generic[K, A, B]):
         """Tip radius (mm) that it wants of each after thinning; the smallest wins, None: as it is."""
         return None, None
 
+    def tip_beside(self, keys: K, part: Struct, other: Struct) -> tuple[float, ...]:
+        """Tip diameter (mm) that a part which is pointed alone keeps beside the other one, where it leaves it any."""
+        return ()
+
     def joined(self, keys: K) -> tuple[str, str, str, float]:
         """What a mating of it begins with: its name, both instances, and their direction, where its keys have one."""
         return self.name, keys.first, keys.second, getattr(keys, "direction_deg", 0.0)

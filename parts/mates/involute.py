@@ -19,6 +19,8 @@ from parts.mates.gear_pair import GearPair
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
+    from msgspec import Struct
+
     from geometry.base.findings import Finding
     from geometry.gears.mesh.search import MeshSearch, PairContact
     from geometry.gears.mesh.transmission_error import TransmissionError
@@ -424,6 +426,15 @@ class ExternalGearPair(InvolutePair[ExternalGearPairSpec, "SpurGear", "SpurGear"
 
     name, keys, mated, rolls = "external_gear_pair", ExternalGearPairSpec, ExternalMating, "external"
     joins = (("spur_gear", "spur_gear"),)
+
+    def tip_beside(self, keys: ExternalGearPairSpec, part: Struct, other: Struct) -> tuple[float, ...]:
+        """That of the pair of both as they are alone."""
+        from geometry.gears.pairs.external import tip_beside
+        from parts.gears.spur_gear.part import SpurGearSpec, bare_section
+
+        if not (isinstance(part, SpurGearSpec) and isinstance(other, SpurGearSpec)):
+            return ()
+        return (tip_beside(bare_section(part), bare_section(other), keys.working_centre_distance),)
 
     def paired(self, first: End[SpurGear], second: End[SpurGear], distance: float | None) -> ExternalPair:
         """Both gears."""

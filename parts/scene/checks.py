@@ -108,22 +108,17 @@ def check_fit(
 def beside_mates(
     part: str, specs: Mapping[str, MaterialKeys], mates: Sequence[MateKeys], part_of: PartOf
 ) -> object | None:
-    """A gear that alone is pointed, with the tip that its external mates leave it; None where it is pointed still."""
-    from geometry.gears.pairs.external import tip_beside
-    from parts.gears.spur_gear.part import SpurGearSpec, bare_section
-    from parts.mates.involute import ExternalGearPairSpec
-
+    """A part whose teeth alone are pointed, with the tip that its mates leave it; None where they are pointed still."""
     keys, tips = specs[part], list[float]()
     for mate in mates:
         pair = part_of[mate.first], part_of[mate.second]
-        other = specs[pair[pair[0] == part]]
-        if part not in pair or not isinstance(mate, ExternalGearPairSpec):
-            continue
-        if isinstance(keys, SpurGearSpec) and isinstance(other, SpurGearSpec):
+        if part in pair:
+            kind, other = MATES[str(mate.__struct_config__.tag)], specs[pair[pair[0] == part]]
             with suppress(ParameterError):
-                tips.append(tip_beside(bare_section(keys), bare_section(other), mate.working_centre_distance))
+                tips += kind.tip_beside(mate, keys, other)
     try:
-        return KINDS["spur_gear"].thing(tried(keys, "tip_diameter", min(tips)), specs) if tips else None
+        kind_of_part = KINDS[str(keys.__struct_config__.tag)]
+        return kind_of_part.thing(tried(keys, "tip_diameter", min(tips)), specs) if tips else None
     except ParameterError:
         return None
 
