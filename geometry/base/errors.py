@@ -123,11 +123,11 @@ class PointedTipError(ParameterError):
 class LateError(ParameterError):
     """A refusal of which it is sought whom it blames when somebody asks, and only then: one of a trial is never asked.
 
-    ``seek``: finds what is told.
+    ``seek``: finds what is told, of the same ``code``.
     """
 
-    def __init__(self, seek: Callable[[], ParameterError]) -> None:
-        self._seek = seek
+    def __init__(self, code: str, seek: Callable[[], ParameterError]) -> None:
+        self.code, self._seek = code, seek
         self._cure = lambda: self._told.nearest
         Exception.__init__(self)
 
@@ -136,7 +136,7 @@ class LateError(ParameterError):
         return self._seek()
 
     def __getattr__(self, name: str) -> object:
-        """Name, value, code and numbers of what is told."""
+        """Name, value and numbers of what is told."""
         if name.startswith("_"):
             raise AttributeError(name)
         return getattr(self._told, name)

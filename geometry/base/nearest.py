@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable
 from typing import TypeVar
 
-from geometry.base.errors import GeometryError, Nearest, OffsetError, limit, rounded
+from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterError, limit, rounded
 from geometry.base.record import Record
 
 V = TypeVar("V")
@@ -111,6 +111,18 @@ def _roundest(low: float, high: float) -> float:
     while (found := (math.floor(low / step) + 1) * step) >= high:
         step /= 2
     return found
+
+
+def nearer(refusal: ParameterError, holds: Callable[[float], bool]) -> ParameterError:
+    """The same refusal where more holds than it knew: its limit is sought between what was given and what it offers."""
+
+    def cure() -> Nearest | None:
+        own, given = refusal.nearest, refusal.value
+        if own is None or not (isinstance(own.value, float) and isinstance(given, float)):
+            return own
+        return nearest(holds, given, own.value)
+
+    return refusal.told_of(refusal.name, refusal.value, cure)
 
 
 class Suspect(Record):

@@ -211,16 +211,16 @@ class Kind(Generic[K, T]):
     def refused(
         self,
         keys: K,
-        others: Others,
         refusal: ParameterError,
         source: str,
         place: str,
+        make: Callable[[K], T],
         fits: Callable[[K, T], object] = lambda keys, thing: None,
     ) -> SceneError:
         """The refusal under the scene's key; what it offers has been tried once, and goes where it does not build.
 
-        ``fits`` refuses keys and their thing where what hangs on the part does not take them: what it offers for the
-        same key is tried then.
+        ``make``: its thing as it is in its scene; ``fits`` refuses keys and their thing where what hangs on the part
+        does not take them: what it offers for the same key is tried then.
         """
 
         # what an offer makes is asked for again by what hangs on it
@@ -230,7 +230,7 @@ class Kind(Generic[K, T]):
             key = repr(value)
             if key not in last:
                 changed = tried(keys, told.name, value)
-                thing = self.thing(changed, others)
+                thing = make(changed)
                 last.clear()
                 last[key] = changed, thing
             return last[key]

@@ -150,6 +150,6 @@ def told_in_keys(made: Callable[P, T]) -> Callable[P, T]:
         try:
             return made(*args, **kwargs)
         except ParameterError as refusal:
-            raise LateError(partial(in_keys, refusal)) from refusal
+            raise LateError(refusal.code, partial(in_keys, refusal)) from refusal
 
     return wrapper

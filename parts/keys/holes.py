@@ -299,7 +299,7 @@ def with_remedy(refusal: ParameterError, keys: K, fits: Callable[[K], bool]) -> 
 
     ``fits`` judges changed keys; the refused key is tried before the others. The refusal itself where none can.
     """
-    return LateError(partial(_remedied, refusal, keys, fits))
+    return LateError(refusal.code, partial(_remedied, refusal, keys, fits))
 
 
 def _remedied(refusal: ParameterError, keys: K, fits: Callable[[K], bool]) -> ParameterError:

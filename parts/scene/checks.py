@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from geometry.base.errors import GeometryError, Nearest, ParameterError
-from geometry.base.nearest import kept, nearest
+from geometry.base.nearest import kept, nearer, nearest
 from parts.base.mate import End, MateKeys, MateKind, Mating
 from parts.base.part import Part
 from parts.base.refusal import REMOVED, SceneError, placed
@@ -79,7 +79,7 @@ def check_fit(
         if name not in ends:
             spec = specs[name]
             try:
-                ends[name] = End(spec, KINDS[str(spec.__struct_config__.tag)].thing(spec, specs))
+                ends[name] = End(spec, thing_of(name, spec, specs, mates, part_of))
             except ParameterError as refusal:
                 raise refusal.renamed(f"{name}.{refusal.name}") from refusal
         return ends[name]
@@ -105,22 +105,38 @@ def check_fit(
             raise refusal.renamed(key if owner == part else f"{owner}.{key}") from refusal
 
 
-def beside_mates(
-    part: str, specs: Mapping[str, MaterialKeys], mates: Sequence[MateKeys], part_of: PartOf
-) -> object | None:
-    """A part whose teeth alone are pointed, with the tip that its mates leave it; None where they are pointed still."""
-    keys, tips = specs[part], list[float]()
-    for mate in mates:
-        pair = part_of[mate.first], part_of[mate.second]
-        if part in pair:
-            kind, other = MATES[str(mate.__struct_config__.tag)], specs[pair[pair[0] == part]]
-            with suppress(ParameterError):
-                tips += kind.tip_beside(mate, keys, other)
+def thing_of(
+    part: str, keys: MaterialKeys, specs: Mapping[str, MaterialKeys], mates: Sequence[MateKeys], part_of: PartOf
+) -> Any:
+    """What a part's keys make; where its teeth are pointed alone, with the tip that its mates leave it.
+
+    Raises
+    ------
+    ParameterError
+        It cannot be; of teeth that are pointed beside the mates too the value with which they are not.
+    """
+    kind = KINDS[str(keys.__struct_config__.tag)]
     try:
-        kind_of_part = KINDS[str(keys.__struct_config__.tag)]
-        return kind_of_part.thing(tried(keys, "tip_diameter", min(tips)), specs) if tips else None
-    except ParameterError:
-        return None
+        return kind.thing(keys, specs)
+    except ParameterError as refusal:
+        if refusal.code != "tooth_pointed":
+            raise
+        name, tips = refusal.name, list[float]()
+        for mate in mates:
+            pair = part_of[mate.first], part_of[mate.second]
+            if part in pair:
+                with suppress(ParameterError):
+                    other = specs[pair[pair[0] == part]]
+                    tips += MATES[str(mate.__struct_config__.tag)].tip_beside(mate, keys, other)
+        if not tips:
+            raise
+        with suppress(ParameterError):
+            return kind.thing(tried(keys, "tip_diameter", min(tips)), specs)
+
+        def works(value: float) -> bool:
+            return bool(thing_of(part, tried(keys, name, value), specs, mates, part_of))
+
+        raise nearer(refusal, works) from refusal
 
 
 def unlike(
@@ -152,7 +168,7 @@ def unlike(
 
             def works(value: object, key: str = key) -> None:
                 changed = {**specs, part: tried(keys, key, value)}
-                end = End(changed[part], KINDS[str(keys.__struct_config__.tag)].thing(changed[part], changed))
+                end = End(changed[part], thing_of(part, changed[part], changed, mates, part_of))
                 check_fit(part, {part: end}, changed, mates, part_of)
 
             if _holds(works, theirs.value):
@@ -187,7 +203,7 @@ def pair_refused(
     def works(value: object, held: Sequence[MateKeys]) -> None:
         changed = tried(spec, key, value)
         specs = {**{name: end.keys for name, end in ends.items()}, part: changed}
-        changed_end = End(changed, KINDS[ends[part].kind].thing(changed, specs))
+        changed_end = End(changed, thing_of(part, changed, specs, mates, part_of))
         check_fit(part, {**ends, part: changed_end}, specs, held, part_of)
 
     given, theirs = refusal.value, getattr(ends[part_of[mate.first]].keys, key, None)

@@ -557,18 +557,16 @@ def _made(scene: SceneFile, specs: dict[str, MaterialKeys], source: str) -> tupl
     # what is made from another part's keys looks for it in the scene
     for key, spec in sorted(specs.items(), key=lambda item: "of" in item[1].__struct_fields__):
         kind = KINDS[str(spec.__struct_config__.tag)]
+        make = partial(_thing, scene, specs, part_of, key)
         try:
-            gears[key] = kind.thing(spec, specs)
+            gears[key] = make(spec)
         except ParameterError as refusal:
-            from parts.scene.checks import beside_mates, unlike
+            from parts.scene.checks import unlike
 
-            if refusal.code == "tooth_pointed" and (thing := beside_mates(key, specs, scene.mates, part_of)):
-                gears[key] = thing
-                continue
             if found := unlike(key, specs, scene.mates, part_of, source):
                 raise found from refusal
             fits = partial(_check_fit, scene, specs, key)
-            raise kind.refused(spec, specs, refusal, source, f"parts.{key}", fits) from refusal
+            raise kind.refused(spec, refusal, source, f"parts.{key}", make, fits) from refusal
         except GeometryError as error:
             raise SceneError(source, f"parts.{key}", None, "no_outline", None, why=str(error)) from error
     matings: list[Mating] = []
@@ -582,6 +580,17 @@ def _made(scene: SceneFile, specs: dict[str, MaterialKeys], source: str) -> tupl
         for key, spec in specs.items()
     }
     return parts, matings
+
+
+def _thing(
+    scene: SceneFile, specs: dict[str, MaterialKeys], part_of: Mapping[str, str], part: str, keys: MaterialKeys
+) -> Any:
+    """What a part's keys make, beside its mates where there are any."""
+    if not scene.mates:
+        return KINDS[str(keys.__struct_config__.tag)].thing(keys, specs)
+    from parts.scene.checks import thing_of
+
+    return thing_of(part, keys, specs, scene.mates, part_of)
 
 
 def _check_fit(scene: SceneFile, specs: dict[str, MaterialKeys], part: str, keys: MaterialKeys, thing: object) -> None:

@@ -154,11 +154,11 @@ def checked_gear(gear: SpurGear, helix_angle: float = 0.0) -> SpurGear:
         check_shaping(section)
     except ParameterError as refusal:
         told = in_normal_modules(refusal, helix_angle)
-        raise LateError(partial(_told_of_cutter, gear, helix_angle, told)) from refusal
+        raise LateError(told.code, partial(_told_of_cutter, gear, helix_angle, told)) from refusal
     try:
         tooth_side(section)
     except ParameterError as refusal:
-        raise LateError(partial(_blamed, gear, helix_angle, refusal)) from refusal
+        raise LateError(refusal.code, partial(_blamed, gear, helix_angle, refusal)) from refusal
     section.holes.check(section.root_radius)
     return section
 

@@ -91,7 +91,7 @@ def checked_ring(gear: RingGear, normal: RingGear | None = None, helix_angle: fl
     try:
         check_made(gear)
     except ParameterError as refusal:
-        raise LateError(partial(_blamed, normal or gear, helix_angle, refusal)) from refusal
+        raise LateError(refusal.code, partial(_blamed, normal or gear, helix_angle, refusal)) from refusal
     check_rim(gear)
     return gear
 

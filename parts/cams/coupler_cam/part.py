@@ -280,7 +280,7 @@ class CouplerCam(DiskKind[LinkageCamSpec, "LinkageCam"]):
             if lost is not None:
                 raise undercut(cam, "follower_radius", keys.follower_radius, lost, None)
         except (LinkageError, UndercutError) as refusal:
-            raise LateError(partial(_to_blame, keys, refusal, _is_whole)) from refusal
+            raise LateError(refusal.code, partial(_to_blame, keys, refusal, _is_whole)) from refusal
         except ParameterError as refusal:
             raise refusal.renamed({"radius": "follower_radius"}.get(refusal.name, refusal.name)) from refusal
         _check_part(keys, cam)

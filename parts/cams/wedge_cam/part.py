@@ -264,19 +264,17 @@ def _check_holes(keys: WedgeCamSpec, cam: WedgeCam) -> None:
         most = 2 * (min([room, *others]) - _LEAST_WALL)
         outside = not _inside(cam, at)
         if outside or (most <= 0 and hole.diameter > most):
-            raise LateError(partial(_misplaced, cam, holes[: index + 1], key, outline, outside=outside))
+            code = "hole_outside_plate" if outside else "no_room_there"
+            raise LateError(code, partial(_misplaced, cam, holes[: index + 1], key, outline, code))
         if hole.diameter > most:
             raise ParameterError(f"{key}.diameter", hole.diameter, "hole_reaches_edge", limit(most, hole.diameter))
 
 
-def _misplaced(
-    cam: WedgeCam, holes: list[WedgeHoleTable], key: str, outline: Profile, *, outside: bool
-) -> ParameterError:
+def _misplaced(cam: WedgeCam, holes: list[WedgeHoleTable], key: str, outline: Profile, code: str) -> ParameterError:
     """The refusal of the last of some holes, which has no room where it is: its place, else its size."""
     *others, hole = holes
     place = _nearest_place(cam, hole, others, outline)
-    code = "hole_outside_plate" if outside else "no_room_there"
-    if outside or place is not None:
+    if code == "hole_outside_plate" or place is not None:
         return ParameterError(f"{key}.x", hole.x, code, None if place is None else Nearest(place), y=hole.y)
     return ParameterError(f"{key}.diameter", hole.diameter, code)
 

@@ -273,7 +273,7 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
         except ParameterError as error:
             if error.name not in ("addendum_coefficient", "dedendum_coefficient"):
                 raise
-            raise LateError(partial(_cured, keys, error)) from error
+            raise LateError(error.code, partial(_cured, keys, error)) from error
         inside, holes = gear.inner_radius, keys.hub_holes()
         room = inside - least_wall(inside)
         check_shape(keys, FaceGearSpec.hub_holes, room)

@@ -133,7 +133,7 @@ class NoncircularGearKind(WheelKind[NoncircularGearSpec, "NoncircularGear"]):
             most = limit(_MOST_SLENDER[key], math.inf)
             raise ParameterError(key, getattr(keys, key), "too_slender", most) from refusal
         except ParameterError as refusal:
-            raise LateError(partial(_to_blame, keys, refusal)) from refusal
+            raise LateError(refusal.code, partial(_to_blame, keys, refusal)) from refusal
         root = gear.root_radius
 
         def fits(changed: NoncircularGearSpec) -> bool:

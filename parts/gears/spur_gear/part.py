@@ -119,7 +119,8 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
         gear = checked_gear(gear_of(keys), helix.angle)
         check_wheel(shape_of(keys), 2 * gear.root_radius, gear.holes)
     except ParameterError as refusal:
-        raise with_remedy(LateError(partial(_whole, keys, refusal)), keys, holes_fit) from refusal
+        whole = LateError(refusal.code, partial(_whole, keys, refusal))
+        raise with_remedy(whole, keys, holes_fit) from refusal
     _marks(keys, gear)
     return gear
 

@@ -217,7 +217,7 @@ class WormKind(Kind[WormSpec, "WormBody"]):
         try:
             return _made(told)
         except ParameterError as refusal:
-            raise LateError(partial(_cured, keys, told, refusal)) from refusal
+            raise LateError(refusal.code, partial(_cured, keys, told, refusal)) from refusal
 
     def section(self, keys: WormSpec, thing: WormBody, offset: float) -> OffsetRegion:
         """The section across the axis in the middle of the thread."""

@@ -254,7 +254,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
             drive = drive_of(keys)
             teeth = teeth_of(keys, drive)
         except ParameterError as refusal:
-            raise LateError(partial(_cured, keys, refusal)) from refusal
+            raise LateError(refusal.code, partial(_cured, keys, refusal)) from refusal
         return _about(keys, drive, teeth)
 
     def section(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> OffsetRegion:

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError
+from geometry.base.nearest import nearer
 from geometry.base.record import Record, replace
 from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.pairs.external import ExternalPair, external_pair, tip_beside
@@ -21,6 +22,7 @@ from geometry.gears.teeth.helix import Helix
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import normal_share, transverse_gear
 from parts.base.refusal import REMOVED, SceneError
+from parts.base.schema import replaced
 from parts.base.texts import N_, in_context
 from parts.gears.ring_gear.part import RingGearSpec
 from parts.gears.spur_gear.page import (
@@ -224,16 +226,28 @@ def _section_of(keys: PairKeys, index: int, normal: tuple[SpurGear, SpurGear], *
 
     ``beside``: one that is pointed alone has the tip that its mate leaves it.
     """
-    helix = helix_of(keys.first).angle
+    helix, name = helix_of(keys.first).angle, GEARS[index]
     try:
         return section_of(normal[index], helix)
     except ParameterError as error:
+        told = error
         if beside and error.code == "tooth_pointed":
             one, two = (transverse_gear(normal[i], helix) for i in (index, 1 - index))
             with suppress(ParameterError):
                 tip = tip_beside(one, two, keys.working_centre_distance)
                 return section_of(replace(normal[index], given_tip_diameter=tip), helix)
-        raise refusal(TOPIC, error, GEARS[index], keys) from error
+            if error.name == "profile_shift_coefficient":
+                path = f"{name}.{error.name}"
+                told = nearer(error, lambda shift: _is_pair(replaced(keys, path, shift)))
+        raise refusal(TOPIC, told, name, keys) from error
+
+
+def _is_pair(keys: PairKeys) -> bool:
+    """Whether there is such a pair, both shifts as given."""
+    try:
+        return asked_pair(keys, (True, True)) is not None
+    except (ParameterError, SceneError):
+        return False
 
 
 def _shortened(gear: SpurGear, coefficient: float, helix: float) -> SpurGear:

@@ -214,7 +214,7 @@ def test_a_backlash_beside_two_thinned_gears_is_refused_by_its_key(wish: str) ->
 
 
 def test_a_gear_that_cannot_exist_is_no_fault_of_the_backlash() -> None:
-    asked = ["module=2.5", "first.number_of_teeth=9", "first.profile_shift_coefficient=0.689",
+    asked = ["module=2.5", "first.number_of_teeth=9", "first.profile_shift_coefficient=1.0",
              "second.number_of_teeth=12", "normal_backlash=0.1"]  # fmt: skip
     with pytest.raises(SceneError, match="pointed") as refused:
         calculate("gear-pair", asked, "text", "en")

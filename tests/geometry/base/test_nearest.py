@@ -150,9 +150,10 @@ def test_whom_a_late_refusal_blames_is_sought_once_and_only_when_asked() -> None
         sought.append(1)
         return ParameterError("tip", 2.0, "too_large", Nearest(1.0, "at_most"), most=1)
 
-    refusal = LateError(seek)
+    refusal = LateError("too_large", seek)
     with pytest.raises(ParameterError) as caught:
         raise refusal
+    assert refusal.code == "too_large"
     assert sought == []
     assert (caught.value.name, caught.value.value, caught.value.code) == ("tip", 2.0, "too_large")
     assert refusal.nearest == Nearest(1.0, "at_most")

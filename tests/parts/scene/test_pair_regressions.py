@@ -77,6 +77,22 @@ def test_a_gear_that_is_pointed_alone_is_made_with_the_tip_that_its_mate_leaves_
             make_parts(scene_from_dict(refused, "t", "t"), "t")
 
 
+def test_a_gear_that_is_pointed_beside_its_mate_too_is_offered_the_shift_that_the_mate_bears() -> None:
+    wheel = {"kind": "spur_gear", "module": 10.0, "number_of_teeth": 80, "profile_shift_coefficient": 0.891}
+    alone = {"parts": {"p": pair("external_gear_pair", wheel, {}, module=10.0, number_of_teeth=22,
+                                 profile_shift_coefficient=2.6)["parts"]["p"]}}  # fmt: skip
+    by_itself = offered(alone)
+    raw = pair("external_gear_pair", wheel, {}, module=10.0, number_of_teeth=22, profile_shift_coefficient=2.6)
+    beside = offered(raw)
+    assert beside > by_itself + 0.1
+    for shift, builds in ((beside, True), (beside * 1.001, False)):
+        raw["parts"]["p"]["profile_shift_coefficient"] = shift
+        if builds:
+            make_parts(scene_from_dict(raw, "t", "t"), "t")
+        else:
+            assert offered(raw) == pytest.approx(beside, abs=2e-4)
+
+
 def offered(raw: dict[str, Any]) -> float:
     with pytest.raises(SceneError) as refusal:
         checked(raw)
