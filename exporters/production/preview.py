@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 from textwrap import wrap
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -26,9 +26,6 @@ from parts.base.texts import words
 from parts.scene.standing import UPWARDS, Instance
 from parts.texts.findings import finding_text
 from parts.texts.quantities import quantity_name
-
-if TYPE_CHECKING:
-    from exporters.production.preview_labels import Label
 
 # letters of a line of the caption that fit beside a part, and above a scene
 _CAPTION_LETTERS, _WIDE_LETTERS = 42, 95
@@ -144,7 +141,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     seen = (1j * spare / 2, complex(2 * middle, 2 * middle - spare / 2))
     named = spread_labels(labels, Tops(loops, picture=seen))
     style = "font-family:sans-serif;font-size:{:.4g}px;text-anchor:middle;fill:#202830"
-    body += [_leader(one) for one in named if one and one.leads is not None]
+    body += [_leader(one.line, one.size) for one in named if one and one.line]
     body += [
         f'<text x="{one.x:.4g}" y="{one.y:.4g}" style="{style.format(one.size)}">{escaped(one.text)}</text>'
         for one in named if one
@@ -189,14 +186,11 @@ def _chains(plan: Plan, shift: complex, corner: complex, reach: float) -> list[s
     return lines
 
 
-def _leader(label: Label) -> str:
-    """The line from a word to what it names, from the side of its box that is nearer."""
-    assert label.leads is not None
-    left, top, right, low = label.box
-    x = min(max(label.leads.real, left), right)
-    y = min(max(label.leads.imag, top), low)
-    ends = f'x1="{x:.4g}" y1="{y:.4g}" x2="{label.leads.real:.4g}" y2="{label.leads.imag:.4g}"'
-    return f'<line {ends} style="stroke:#202830;stroke-width:{label.size / 20:.4g}"/>'
+def _leader(line: tuple[complex, complex], size: float) -> str:
+    """The line from a word, whose letters have a size, to what it names."""
+    start, end = line
+    ends = f'x1="{start.real:.4g}" y1="{start.imag:.4g}" x2="{end.real:.4g}" y2="{end.imag:.4g}"'
+    return f'<line {ends} style="stroke:#202830;stroke-width:{size / 20:.4g}"/>'
 
 
 def _together(names: Mapping[str, str], stand: Sequence[Instance]) -> dict[str, str]:

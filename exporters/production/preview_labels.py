@@ -18,8 +18,8 @@ _LETTER, _ROOM, _RINGS = 0.62, 0.15, 24
 _SMALL = 0.7
 # places along each side of a picture at which the uppermost part is known
 _CELLS = 200
-# how well a word can stand
-_BEST = 3
+# how well a word can stand; places of a part to which a line from its word is tried, and directions
+_BEST, _SPOTS, _DIRECTIONS = 3, 6, 24
 
 
 class Label(Record):
@@ -39,6 +39,14 @@ class Label(Record):
         """Left, top, right, bottom, with some room about it."""
         half, room = _LETTER * self.size * len(self.text) / 2, _ROOM * self.size
         return self.x - half - room, self.y - self.size - room, self.x + half + room, self.y + room
+
+    @property
+    def line(self) -> tuple[complex, complex] | None:
+        """From the side of its box that is nearer to what it names."""
+        if self.leads is None:
+            return None
+        left, top, right, low = self.box
+        return complex(min(max(self.leads.real, left), right), min(max(self.leads.imag, top), low)), self.leads
 
 
 class Tops:
@@ -104,11 +112,12 @@ class Tops:
         begin, end = self._picture
         return left >= begin.real and top >= begin.imag and right <= end.real and low <= end.imag
 
-    def spot(self, number: int) -> complex:
-        """A place where the part of this number is seen, in the midst of what is seen of it."""
+    def spots(self, number: int) -> list[complex]:
+        """Places where the part of this number is seen, first one in the midst of what is seen of it."""
         rows, columns = np.nonzero(self._top == number)
         at = self._low + self._step * (columns + 0.5 + 1j * (rows + 0.5))
-        return complex(at[np.abs(at - at.mean()).argmin()])
+        outwards: list[complex] = at[np.abs(at - at.mean()).argsort(kind="stable")].tolist()
+        return outwards[:: max(len(outwards) // _SPOTS, 1)][:_SPOTS]
 
     def _within(self, left: float, top: float, right: float, low: float) -> NDArray[np.int_]:
         """The uppermost parts in a box."""
@@ -122,12 +131,11 @@ def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Lab
 
     ``tops``: the parts of these words, in this order; one that is covered has no place for its word.
     """
-    made: list[Label | None] = []
+    made: list[Label | None] = [None] * len(wanted)
     taken = np.empty((0, 4))
     for number, label in enumerate(wanted):
         best, found = 0, None
         if any(other and other.text == label.text for other in made) or (tops and not tops.seen(number)):
-            made.append(None)
             continue
         for one in (label, replace(label, size=_SMALL * label.size)) if tops else (label,):
             for place in _apart(list(_places(one)), taken):
@@ -137,31 +145,80 @@ def spread_labels(wanted: Sequence[Label], tops: Tops | None = None) -> list[Lab
                     break
             if best > 1:
                 break
-        if tops and not best:
-            found = _led(label, tops.spot(number), tops, taken)
-        made.append(found)
+        made[number] = found
         taken = np.vstack([taken, found.box]) if found else taken
+    # lines are drawn where all other words are known
+    for number, label in enumerate(wanted):
+        if tops and tops.seen(number) and not any(other and other.text == label.text for other in made):
+            made[number] = _led(label, number, tops, [other for other in made if other])
     return made
 
 
-def _led(label: Label, spot: complex, tops: Tops, taken: Real) -> Label | None:
-    """A word beside all parts, with a line to a spot; None where the picture has no room."""
-    here = replace(label, x=spot.real, y=spot.imag, leads=spot)
-    return next((one for one in _apart(list(_places(here, 2 * _RINGS)), taken) if tops.free(one)), None)
+def _led(label: Label, number: int, tops: Tops, made: Sequence[Label]) -> Label | None:
+    """A word beside all parts, with a line to its own that crosses as few words and lines as can be; None: no room."""
+    taken = np.array([other.box for other in made]).reshape(-1, 4)
+    lines = [other.line for other in made if other.line]
+    least, found = math.inf, None
+    for spot in tops.spots(number):
+        here = replace(label, x=spot.real, y=spot.imag, leads=spot)
+        for place in _apart([one for one in _around(here) if tops.free(one)], taken):
+            if (crossed := _crossed(place, taken, lines)) < least:
+                least, found = crossed, place
+        if not least:
+            break
+    return found
+
+
+def _crossed(label: Label, taken: Real, lines: Sequence[tuple[complex, complex]]) -> int:
+    """How many words the line of one runs through, and how many lines it, or the word, crosses."""
+    assert label.line
+    own = np.array([label.box])
+    through = int(_runs(*label.line, taken).sum()) + sum(int(_runs(*line, own).sum()) for line in lines)
+    return through + sum(_meet(label.line, line) for line in lines)
+
+
+def _runs(start: complex, end: complex, boxes: Real) -> NDArray[np.bool_]:
+    """Through which boxes (rows of left, top, right, bottom) a line runs."""
+    ways = np.array([end.real - start.real, end.imag - start.imag])
+    # what is no way at all is as good as a very short one
+    ways = np.where(ways == 0, 1e-300, ways)
+    at = np.array([start.real, start.imag])
+    one, two = (boxes[:, :2] - at) / ways, (boxes[:, 2:] - at) / ways
+    first, last = np.minimum(one, two).max(axis=1), np.maximum(one, two).min(axis=1)
+    return np.asarray(np.maximum(first, 0.0) < np.minimum(last, 1.0))
+
+
+def _meet(one: tuple[complex, complex], two: tuple[complex, complex]) -> bool:
+    """Whether two lines cross."""
+
+    def parted(line: tuple[complex, complex], other: tuple[complex, complex]) -> bool:
+        sides = [((line[1] - line[0]).conjugate() * (point - line[0])).imag for point in other]
+        return sides[0] * sides[1] < 0
+
+    return parted(one, two) and parted(two, one)
 
 
 def _apart(places: Sequence[Label], taken: Real) -> list[Label]:
     """Those whose boxes share nothing with boxes (rows of left, top, right, bottom)."""
-    left, top, right, low = np.array([place.box for place in places]).T[:, :, None]
+    left, top, right, low = np.array([place.box for place in places]).reshape(-1, 4).T[:, :, None]
     shared = (left < taken[:, 2]) & (taken[:, 0] < right) & (top < taken[:, 3]) & (taken[:, 1] < low)
     return [place for place, covered in zip(places, shared.any(axis=1), strict=True) if not covered]
 
 
-def _places(label: Label, rings: int = _RINGS) -> Iterator[Label]:
+def _around(label: Label) -> Iterator[Label]:
+    """Places in all directions, ever farther."""
+    ways = np.exp(2j * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS).tolist()
+    for ring in range(1, 4 * _RINGS + 1):
+        for way in ways:
+            shift = ring / 2 * label.size * (1 + 2 * _ROOM) * way
+            yield replace(label, x=label.x + shift.real, y=label.y + shift.imag)
+
+
+def _places(label: Label) -> Iterator[Label]:
     """The wanted place, then places ever farther from it."""
     step, wide = label.size * (1 + 2 * _ROOM), _LETTER * label.size * len(label.text)
     shifts = [(0.0, 0.0)]
-    for ring in range(1, rings + 1):
+    for ring in range(1, _RINGS + 1):
         shifts += [(0.0, ring * step), (0.0, -ring * step)]
         for side in (1, -1):
             shifts += [(side * wide * share, k * step) for share in (0.6, 1.1, 1.7) for k in (ring, -ring)]

@@ -144,6 +144,28 @@ def test_a_name_that_has_no_place_stands_aside_with_a_line_to_what_it_names() ->
     assert min(abs(complex(x, y) - (50 + 50j)) for x in (left, right, pin.x) for y in (top, low)) > 44
 
 
+def test_a_line_to_what_it_names_runs_through_no_word() -> None:
+    """Eight pins in a disk of two halves, whose words stand between them and its edge; by shapely."""
+    turn = np.exp(2j * np.pi * np.arange(60) / 60)
+    pins = [50 + 50j + 20 * way + 2 * turn for way in np.exp(2j * np.pi * (np.arange(8) + 0.5) / 8)]
+    half = 45 * np.exp(1j * np.pi * np.arange(61) / 60)
+    halves = [[50 + 50j + half, *pins[:4]], [50 + 50j - half, *pins[4:]]]
+    tops = Tops([*([pin] for pin in pins), *halves], picture=(-20 - 20j, 120 + 120j))
+    wanted = [Label(f"pin {k}", 50.0, 50.0, 4.0) for k in range(8)]
+    wanted += [Label("a half of the disk", 50.0, 80.0, 4.0), Label("other half of disk", 50.0, 22.0, 4.0)]
+    made = [label for label in spread_labels(wanted, tops) if label]
+    lines = [(label, shapely.LineString([(at.real, at.imag) for at in label.line])) for label in made if label.line]
+    assert len(lines) == 8
+    crossing = [
+        (label.text, other.text)
+        for label, line in lines
+        for other in made
+        if other != label and line.intersects(shapely.box(*other.box))
+    ]
+    assert crossing == []
+    assert not any(one.crosses(two) for (_, one), (_, two) in itertools.combinations(lines, 2))
+
+
 def test_a_bevel_gear_that_lies_has_its_teeth_in_the_picture(tmp_path: Path) -> None:
     """Its area is that of all triangles of its own STL seen from the side, by shapely; its hub is no part of a hull."""
     gear = (
