@@ -22,6 +22,8 @@ for _case, _step, _gear, _text, _why in rows_of(__file__, "misprints"):
     CASES.setdefault(_case, {})[(_step, int(_gear)) if _gear else _step] = Printed(_text, _why)
 # the pressure angle of all pairs, and how near to it another one is, rad
 _USUAL, _SAME = math.radians(20), 1e-12
+# torque on either worm of the thesis, N*m
+_T_1 = 3.5
 
 
 def printed_for(case: str) -> Misprints:
@@ -41,11 +43,12 @@ def printed_for_pair(
     return printed_for(f"practicum {pair} {module}") or printed_for(f"guidelines {pair}")
 
 
-def printed_for_worm(worm: Worm, teeth: int, shift: float) -> Misprints:
-    """What the thesis prints wrongly for its two worm drives; empty for any other."""
+def printed_for_worm(worm: Worm, teeth: int, shift: float, worm_torque: float | None) -> Misprints:
+    """What the thesis prints wrongly for its two worm drives, numbers at its own torque, N*m; empty for any other."""
     same = (worm.module, worm.diameter_quotient, worm.number_of_starts, shift) == (5.0, 10.0, 1, 0.0)
     own = printed_for(f"worm {teeth}") if same else {}
-    return own and own | printed_for("worm")
+    loaded = math.isclose(worm_torque or _T_1, _T_1)
+    return own and (own if loaded else {}) | printed_for("worm")
 
 
 _QUADRANT = N_("arctg(x/y) and arcsin lose quadrants; atan2 (x, y) and the law of cosines do not")

@@ -191,7 +191,8 @@ def sheet(table: dict[str, Any]) -> Sheet:
         raise refusal(TOPIC, told, keys=keys)
     page = Sheet(TOPIC, N_("Worm drive") if drive else N_("Worm"))
     if drive:
-        page.printed = printed_for_worm(worm, drive.number_of_teeth, drive.profile_shift_coefficient)
+        on_worm = driving if keys.wheel_torque is None else keys.wheel_torque / drive.ratio
+        page.printed = printed_for_worm(worm, drive.number_of_teeth, drive.profile_shift_coefficient, on_worm)
     _given(page, keys, worm.diameter_quotient)
     _dimensions(page, worm, drive or None, keys.worm_length)
     _sections(page, worm, keys)
