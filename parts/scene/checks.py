@@ -130,8 +130,12 @@ def thing_of(
                     tips += MATES[str(mate.__struct_config__.tag)].tip_beside(mate, keys, other)
         if not tips:
             raise
-        with suppress(ParameterError):
+        try:
             return kind.thing(tried(keys, "tip_diameter", min(tips)), specs)
+        except ParameterError as other:
+            # what else is wrong with it, in a key that it has
+            if other.code != "tooth_pointed" and other.name != "tip_diameter":
+                raise
 
         def works(value: float) -> bool:
             return bool(thing_of(part, tried(keys, name, value), specs, mates, part_of))

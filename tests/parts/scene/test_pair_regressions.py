@@ -77,6 +77,18 @@ def test_a_gear_that_is_pointed_alone_is_made_with_the_tip_that_its_mate_leaves_
             make_parts(scene_from_dict(refused, "t", "t"), "t")
 
 
+def test_what_else_is_wrong_with_a_gear_that_is_pointed_alone_is_told_with_what_works() -> None:
+    wheel = {"kind": "spur_gear", "module": 10.0, "number_of_teeth": 45, "profile_shift_coefficient": 0.566}
+    holes = {"count": 6, "diameter": 60.0, "pitch_circle_diameter": 120.0}
+    pinion = {"module": 10.0, "number_of_teeth": 21, "profile_shift_coefficient": 1.27, "holes": holes}
+    with pytest.raises(SceneError) as refused:
+        make_parts(scene_from_dict(pair("external_gear_pair", wheel, **pinion), "t", "t"), "t")
+    assert refused.value.key == "parts.p.holes.diameter"
+    assert refused.value.nearest is not None
+    pinion["holes"] = {**holes, "diameter": refused.value.nearest.value}
+    make_parts(scene_from_dict(pair("external_gear_pair", wheel, **pinion), "t", "t"), "t")
+
+
 def test_a_gear_that_is_pointed_beside_its_mate_too_is_offered_the_shift_that_the_mate_bears() -> None:
     wheel = {"kind": "spur_gear", "module": 10.0, "number_of_teeth": 80, "profile_shift_coefficient": 0.891}
     alone = {"parts": {"p": pair("external_gear_pair", wheel, {}, module=10.0, number_of_teeth=22,
