@@ -18,7 +18,7 @@ from parts.texts.sheets import sheet_words
 # height of a row, and of one that is filled with a pen, mm
 ROW, PEN_ROW = 4.5, 7.0
 WIDTH = 126.0
-_COLUMNS = (76.0, 16.0, 34.0)
+_COLUMNS = (82.0, 12.0, 32.0)
 _INDENT = 1.2
 # steps of the calculation that the sheet's other rows say already
 _PHASES = {"rise_angle_deg", "return_angle_deg"}
