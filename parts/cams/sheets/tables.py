@@ -24,7 +24,10 @@ _INDENT = 1.2
 _PHASES = {"rise_angle_deg", "return_angle_deg"}
 # sizes that a scene gives, beside the characteristics
 _GIVEN = re.compile("curvature_reserve|(driven|guide|coupler|follower)_(?!swing).*")
-_LEFT_OUT = {"working_angle_deg", "lift_of_phase", "swing_of_phase_deg", "jerk_coefficient", "graphical_intervals"}
+_LEFT_OUT = {
+    "working_angle_deg", "lift_of_phase", "swing_of_phase_deg", "jerk_coefficient", "graphical_intervals",
+    "greatest_cam_radius",
+}  # fmt: skip
 
 
 class Grid(Record):

@@ -150,7 +150,7 @@ def test_both_views_of_the_roller_cam_tell_the_same_motion(tmp_path: Path) -> No
     ordinates = sorted((e.dxf for e in space.query('LINE[layer=="ORDINATE"]')), key=lambda e: e.start.x)
     low = min(e.start.y for e in ordinates)
     heights = [e.end.y - e.start.y for e in ordinates if abs(e.start.y - low) < 1e-9]
-    assert [0.2 * y for y in heights] == pytest.approx([*law[1:], *law[::-1][:-1]], abs=1e-8)
+    assert [0.4 * y for y in heights] == pytest.approx([*law[1:], *law[::-1][:-1]], abs=1e-8)
     # each follower stands at its angle, turned against the cam
     angles = [16.25 * k for k in range(9)] + [180 + 16.25 * k for k in range(9)]
     for roller, angle, way in zip(rollers, angles, ways, strict=True):
@@ -166,7 +166,7 @@ def test_scales_are_round_and_tied_by_the_lessons_formulas() -> None:
         return texts[texts.index(symbol) + 1]
 
     lift, rate, bend = (float(after(f"μS{k * chr(39)}").split()[0]) for k in range(3))
-    phi = math.radians(1.0)
+    phi = math.radians(2.0)
     assert after("μφ").startswith(f"{phi:.6f} rad/mm")
     assert float(after("H1").split()[0]) == pytest.approx(lift / (rate * phi), abs=5e-4)  # (4.3)
     assert float(after("H2").split()[0]) == pytest.approx(rate / (bend * phi), abs=5e-4)  # (4.4)
