@@ -10,7 +10,7 @@ from msgspec import Meta, Struct
 from msgspec.structs import replace as changed
 
 from geometry.base.errors import Cure, Nearest, ParameterError
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
 from parts.base.lookalikes import in_latin
 from parts.keys.base import degrees, part_mm
@@ -156,7 +156,9 @@ class StraightSplineTable(_SplineTable, tag="spline"):
                     STRAIGHT_JOINTS, key=lambda j: sum(abs(a - b) for a, b in zip(j.sizes, numbers, strict=False))
                 )
                 cure = Nearest(meant.name.replace("×", "x"), "meant") if len(numbers) > 2 else None
-                raise ParameterError("bore.size", self.size, "no_such_spline", cure, example="6x23x26")
+                raise ParameterError(
+                    "bore.size", self.size, "no_such_spline", cure, standard="GOST 1139, ISO 14", example="6x23x26"
+                )
             found = replace(like[0], centring=_CENTRING.get(plain[0], "inner"))
         chamfer = found.chamfer if self.chamfer is None else self.chamfer
         rounding = found.rounding if self.root_rounding is None else self.root_rounding
@@ -193,6 +195,23 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
         ParameterError
             None has it, or a key is that of another standard; the key below ``bore``.
         """
+        try:
+            return self._made()
+        except ParameterError as refusal:
+            others = (changed(self, standard=other) for other in _EXAMPLES if refusal.code == "no_such_spline")
+            meant = next((other.standard for other in others if kept(InvoluteSplineTable._is_made, other)), None)
+            if meant is None:
+                raise
+            told = {"size": self.size, "other": meant}
+            raise ParameterError(
+                "bore.standard", self.standard, "size_of_other_standard", Nearest(meant), **told
+            ) from None
+
+    def _is_made(self) -> bool:
+        return self._made() is not None
+
+    def _made(self) -> InvoluteJoint:
+        """The same, of its own standard."""
         from geometry.solids import spline_standards as standards
 
         gost = self.standard == "GOST 6033"
@@ -203,7 +222,8 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
         outer = gost and (self.centring == "outer" or _OUTER.match(plain) is not None)
         if outer and self.root == "fillet":
             raise ParameterError("bore.root", self.root, "centred_by_flat_roots", Nearest("flat"))
-        refusal = ParameterError("bore.size", self.size, "no_such_spline", None, example=_EXAMPLES[self.standard])
+        told = {"standard": self.standard, "example": _EXAMPLES[self.standard]}
+        refusal = ParameterError("bore.size", self.size, "no_such_spline", None, **told)
         if gost and plain[:1] in ("i", "I"):
             raise ParameterError("bore.size", self.size, "spline_centred_inside")
         if self.standard == "ISO 4156":

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from geometry.base.errors import ParameterError
+from geometry.base.errors import Nearest, ParameterError
 from parts.keys.splines import InvoluteSplineTable, StraightSplineTable
 
 CYRILLIC = "d-8\u00d736\u041d7/\u04358\u00d740\u041d12/\u043011\u00d77D9/f8 \u0413\u041e\u0421\u0422 1139-80"
@@ -48,6 +48,23 @@ def test_involute_splines_are_read_from_their_drawings(
 ) -> None:
     made = InvoluteSplineTable(size, **keys).joint()
     assert (made.name, made.roundings[1] > 0) == (name, rounded)
+
+
+@pytest.mark.parametrize(
+    ("size", "given", "meant"),
+    [
+        ("30x1x28x8f", "GOST 6033", "DIN 5480"),
+        ("24z x 2m x 30R x 5H", "DIN 5480", "ISO 4156"),
+        ("50x2", "ISO 4156", "GOST 6033"),
+    ],
+)
+def test_a_designation_of_another_standard_is_told_so(size: str, given: Any, meant: str) -> None:
+    with pytest.raises(ParameterError) as caught:
+        InvoluteSplineTable(size, standard=given).joint()
+    assert (caught.value.name, caught.value.code) == ("bore.standard", "size_of_other_standard")
+    assert caught.value.nearest == Nearest(meant)
+    made: Any = meant
+    assert InvoluteSplineTable(size, standard=made).joint().standard == meant
 
 
 @pytest.mark.parametrize(
