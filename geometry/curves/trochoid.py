@@ -126,6 +126,12 @@ class TrochoidFillet(RackFillet, Record):
         normal[0] = normal[0] + rho
         return [depth * x for x in tangent], normal, [rho, *[0.0] * (len(secant) - 1)]
 
+    def _point(self, u: Any, lib: ModuleType, exp: Callable[[Any], Any]) -> Any:
+        # n exp(-iu) without sec u, whose rounding a crossing that is all but tangent would magnify
+        shift = self.depth * lib.tan(u)
+        arm = self.pitch_radius - self.depth + 1j * shift - self.tip_radius * exp(-1j * u)
+        return self.centre + exp(1j * (self.angle - shift / self.pitch_radius)) * arm
+
     def _rolled(self, u: Any, lib: ModuleType = np) -> tuple[Any, Any, Any, Any]:
         secant = 1 / lib.cos(u)
         return self.depth * lib.tan(u), self.depth * secant + self.tip_radius, self.depth * secant**2, self.tip_radius

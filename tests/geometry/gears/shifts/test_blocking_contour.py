@@ -178,7 +178,7 @@ def test_every_point_of_every_line_is_on_it_and_the_sides_differ(teeth: tuple[in
         condition = known[name if line.level is None else f"{name} {line.level:g}"]
         for point in line.points[1:-1:5]:
             # an undercut that has only begun leaves the form circle half of the digits
-            assert abs(condition.margin(point.real, point.imag)) < 3e-8
+            assert abs(condition.margin(point.real, point.imag)) < 1e-8
             around = [condition.margin(point.real + dx, point.imag + dy)
                       for dx, dy in ((1e-3, 0), (-1e-3, 0), (0, 1e-3), (0, -1e-3))]  # fmt: skip
             assert min(around) < 0 < max(around)
