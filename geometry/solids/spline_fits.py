@@ -1,4 +1,4 @@
-"""Limits of tooth thickness and space width by the tolerance classes of ISO 4156-1 and DIN 5480-1; mm."""
+"""Limits of tooth thickness and space width by the tolerance classes of ISO 4156-1, DIN 5480-1, GOST 6033-80; mm."""
 
 from __future__ import annotations
 
@@ -13,7 +13,11 @@ from geometry.solids.splines import InvoluteJoint
 CLASSES: dict[str, tuple[range, tuple[str, ...], tuple[str, ...]]] = {
     "ISO 4156": (range(4, 8), ("H",), ("d", "e", "f", "h", "js", "k")),
     "DIN 5480": (range(5, 13), tuple("FGHJKM"), tuple("abcdefghjkmnprstuv")),
+    # its tables, where they could be read, are those of DIN 5480: 8f, 9d, 10d and 11c in all columns
+    "GOST 6033": (range(7, 12), ("H",), tuple("cdfgh")),
 }
+# other deviations of shafts by GOST 6033-80, of which no second source was found
+UNHELD = {"GOST 6033": tuple("aknpr")}
 # ISO 4156-1: the greatest m z of its deviations
 MOST_REFERENCE = 1000.0
 # of grades 4 to 7: T + lambda in tolerance units, what F_p, F_alpha and F_beta are made of, um
@@ -29,7 +33,7 @@ _ISO_DEVIATIONS = {
     80: (100, 60, 30), 120: (120, 72, 36), 180: (145, 85, 43), 250: (170, 100, 50), 315: (190, 110, 56),
     400: (210, 125, 62), 500: (230, 135, 68), 630: (260, 145, 76), 800: (290, 160, 80), 1000: (320, 170, 86),
 }  # fmt: skip
-# DIN 5480-1, table 7: the column is that of d_B up to, and one more for each of the first two m passed, mm
+# DIN 5480-1, table 7: the column is that of d_B (of m z in GOST 6033-80) up to, and one more for each m passed, mm
 _DIN_DIAMETERS, _DIN_MODULES = (12, 25, 50, 100, 200, 400), (1.5, 4)
 # deviations of the ninth column and their series: those of F to M of a hub, of a to v of a shaft are multiples of them
 _DIN_DEVIATIONS = {
@@ -104,7 +108,7 @@ def side_limits(joint: InvoluteJoint, *, is_shaft: bool, length: float | None = 
         return None
     letter = told.lstrip("0123456789")
     grade, way = grade_of(told), -1 if is_shaft else 1
-    if joint.standard == "DIN 5480":
+    if joint.standard != "ISO 4156":
         begin, actual, effective = _din(joint, grade, letter)
         return SideLimits(joint.thickness, begin / 1000, effective / 1000, (actual + effective) / 1000, way)
     share = ISO_GRADES[grade - 4][0]
@@ -142,9 +146,9 @@ def _iso_deviation(reference: float, letter: str, total: float) -> float:
 
 
 def _din(joint: InvoluteJoint, grade: int, letter: str) -> tuple[int, int, int]:
-    """A_e or A_s, T_act and T_eff of table 7, um."""
-    # D_f of the hub less its dedendum of 1.1 m is d_B - 1.1 m
-    diameter = joint.hub_diameters[0] + 2 * joint.module
+    """A_e or A_s, T_act and T_eff of table 7 (es, T and T_e less T of GOST), um."""
+    gost = joint.standard == "GOST 6033"
+    diameter = 2 * joint.reference_radius if gost else joint.hub_diameters[0] + 2 * joint.module
     column = bisect_left(_DIN_DIAMETERS, diameter) + bisect_left(_DIN_MODULES, joint.module)
     like = _DIN_BELOW.get(letter) or _DIN_LIKE.get(letter, letter)
     deviation = _DIN_DEVIATIONS[like][column] if like not in ("h", "H") else 0

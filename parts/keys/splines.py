@@ -176,8 +176,8 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
     size: Annotated[
         str,
         Meta(
-            description="D x m of GOST 6033, d_B x m x z of DIN 5480, or 24z x 2m x 30R (P: flat root) of ISO 4156; the"
-            " last two with a class of tolerance at the end (9H/8f, 5H/5f) where limits of the teeth are wanted",
+            description="D x m of GOST 6033, d_B x m x z of DIN 5480, or 24z x 2m x 30R (P: flat root) of ISO 4156;"
+            " with a class of tolerance at the end (9H/9g, 9H/8f, 5H/5f) where limits of the teeth are wanted",
             examples=["8x0.5"],
         ),
     ]
@@ -234,7 +234,7 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
             if not _LEAST_TEETH <= int(iso[1]) <= _MOST_TEETH:
                 raise refusal
             made = standards.iso_4156(int(iso[1]), float(iso[2]), float(iso[3]), root)
-            return self._classed(made, plain[iso.end(4) :])
+            return self._classed(made, plain, iso.end(4))
         numbers = _numbers(plain) or []
         if not gost and len(numbers) == 4 and numbers[2] == 30:
             # the pressure angle, which DIN 5480 had before z until 2006
@@ -245,27 +245,36 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
         if not teeth or teeth[0] < _LEAST_TEETH:
             raise refusal
         if gost:
-            return standards.gost_6033(numbers[0], numbers[1], teeth[0], outer=outer, root=self.root)
-        return self._classed(standards.din_5480(numbers[0], numbers[1], teeth[0]), plain)
+            made = standards.gost_6033(numbers[0], numbers[1], teeth[0], outer=outer, root=self.root)
+        else:
+            made = standards.din_5480(numbers[0], numbers[1], teeth[0])
+        return self._classed(made, plain)
 
-    def _classed(self, joint: InvoluteJoint, tail: str) -> InvoluteJoint:
-        """A joint with the classes of tolerance that the tail of a plain designation has."""
-        from geometry.solids.spline_fits import CLASSES, MOST_REFERENCE
+    def _classed(self, joint: InvoluteJoint, plain: str, begin: int = 0) -> InvoluteJoint:
+        """A joint with the classes that end its plain designation, that of the hub first; after ``begin`` letters."""
+        from geometry.solids.spline_fits import CLASSES, MOST_REFERENCE, UNHELD
 
-        found = _CLASSES.search(tail)
+        found = _CLASSES.search(plain, begin)
         if found is None:
             return joint
         grades, hubs, shafts = CLASSES[joint.standard]
-        told = {"hub_class": "", "shaft_class": ""}
+        unheld = UNHELD.get(joint.standard, ())
+        told, before = {"hub_class": "", "shaft_class": ""}, plain[: found.start(1)]
         for one in filter(None, found.groups()):
             letter = one.lstrip("0123456789")
             key = "hub_class" if letter in hubs else "shaft_class"
-            if int(one.removesuffix(letter)) not in grades or letter not in hubs + shafts or told[key]:
+            if key == "hub_class" and told["shaft_class"]:
+                right = f"{one}/{told['shaft_class']}"
+                raise ParameterError("bore.size", self.size, "spline_hub_first", Nearest(before + right), right=right)
+            if int(one.removesuffix(letter)) not in grades or letter not in hubs + shafts + unheld or told[key]:
                 raise ParameterError(
                     "bore.size", self.size, "no_such_spline_class", least=grades[0], most=grades[-1],
-                    hubs=", ".join(hubs), shafts=", ".join(shafts), standard=joint.standard,
-                    example=f"{grades[1]}H/{grades[1]}h",
+                    hubs=", ".join(hubs), shafts=", ".join(sorted(shafts + unheld)), standard=joint.standard,
+                    example=f"{grades[2]}H/{grades[2]}h",
                 )  # fmt: skip
+            if letter in unheld:
+                numbers = {"unheld": one, "standard": joint.standard, "shafts": ", ".join(shafts)}
+                raise ParameterError("bore.size", self.size, "spline_class_unheld", Nearest(before[:-1]), **numbers)
             told[key] = one
         if joint.standard == "ISO 4156" and 2 * joint.reference_radius > MOST_REFERENCE:
             raise ParameterError("bore.size", self.size, "spline_classes_end", most=MOST_REFERENCE)

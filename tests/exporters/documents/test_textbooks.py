@@ -31,6 +31,7 @@ def test_what_a_textbook_prints(case: dict[str, Any]) -> None:
     [
         ("size=25z x 1m x 30P x 5H/6e", "standard=ISO 4156", "length=20"),
         ("size=60z x 10m x 30R x 7H", "standard=ISO 4156", "torque=500", "length=40"),
+        ("size=50x2x9H/9g",),
         ("size=120x3x38x9H/8f", "standard=DIN 5480", "pin_diameter=6"),
     ],
 )

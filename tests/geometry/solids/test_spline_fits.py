@@ -1,4 +1,4 @@
-"""Tolerance classes of splines: table 7 of DIN 5480-1 by its series, limits as they are measured on teeth made so."""
+"""Tolerance classes of splines: tables of DIN 5480-1 and GOST 6033-80, limits as they are measured on teeth made so."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 
 from geometry.base.record import replace
 from geometry.solids.spline_fits import CLASSES, side_limits
-from geometry.solids.spline_standards import din_5480, iso_4156
+from geometry.solids.spline_standards import din_5480, gost_6033, iso_4156
 from geometry.solids.splines import InvoluteJoint
 
 # d_B, m, z of each of the nine columns, from the least to the greatest
@@ -94,3 +94,43 @@ def test_effective_limits_of_all_grades_begin_at_the_nominal_width() -> None:
         assert tight is not None
         assert 0 <= tight.actual[0] - joint.thickness < 0.001
     assert side_limits(iso_4156(40, 2.5, 37.5, "fillet"), is_shaft=True) is None
+
+
+# GOST 6033-80, 11c as a handbook prints it: D, m, z of its columns (m z up to 12, 25, 50, 100), then es, es_e, ei, um;
+# 26x1 has m z = 24
+PRINTED_11C = (
+    ((12, 1, 10), (-48, -85, -148)), ((26, 1, 24), (-54, -95, -166)), ((50, 1, 48), (-60, -105, -185)),
+    ((100, 1.5, 65), (-66, -116, -206)), ((25, 2, 11), (-60, -105, -185)), ((50, 2, 24), (-66, -116, -206)),
+    ((100, 2, 48), (-75, -135, -235)), ((50, 5, 8), (-75, -135, -235)), ((100, 5, 18), (-84, -152, -264)),
+)  # fmt: skip
+# cells of the standard's own tables that a scan has left whole, of any column of m up to 1.5, up to 4, above
+SCANNED = {
+    "8f": ((1.5, (-20, -37, -65)), (1.5, (-25, -45, -81)), (4, (-25, -45, -81)), (4, (-32, -58, -103))),
+    "9d": ((1.5, (-40, -63, -103)), (1.5, (-50, -80, -130)), (4, (-40, -63, -103)), (4, (-44, -70, -115)),
+           (4, (-56, -90, -146))),
+    "10d": ((10, (-56, -101, -181)),), "11c": ((1.5, (-66, -116, -206)),),
+}  # fmt: skip
+
+
+def gost(size: tuple[float, float, int], shaft: str) -> tuple[int, int, int]:
+    """es, es_e and ei of a shaft's class, um."""
+    made = gost_6033(*size, outer=False, root="flat")
+    limits = side_limits(classed(made, "", shaft), is_shaft=True)
+    assert limits is not None
+    near = limits.effective[1]
+    least, most = (round(1000 * (near - x) - 1000 * limits.deviation) for x in (limits.actual[1], limits.actual[0]))
+    return round(1000 * limits.deviation), -least, -most
+
+
+@pytest.mark.parametrize(("size", "printed"), PRINTED_11C)
+def test_limits_of_gost_6033_are_those_that_a_handbook_prints(
+    size: tuple[float, float, int], printed: tuple[int, int, int]
+) -> None:
+    assert gost(size, "11c") == printed
+
+
+@pytest.mark.parametrize("shaft", SCANNED)
+def test_limits_of_gost_6033_are_those_of_its_own_tables(shaft: str) -> None:
+    for module, printed in SCANNED[shaft]:
+        teeth = [math.floor(reference / module) for reference in (12, 25, 50, 100, 200, 400, 500)]
+        assert printed in [gost((module * (z + 1.5), module, z), shaft) for z in teeth if z >= 6]

@@ -86,7 +86,8 @@ def test_no_other_splines_are_read(size: str, keys: dict[str, Any]) -> None:
         ("DIN 5480 - N 120 x 3 x 38 x 9H", DIN, ("9H", "")),
         ("W 120 x 3 x 30 x 38 x 8f", DIN, ("", "8f")),
         ("120 x 3 x 38 x 9H 8f", DIN, ("9H", "8f")),
-        ("50x2x9H/9g GOST 6033-80", {}, ("", "")),
+        ("50x2x9H/9g GOST 6033-80", {}, ("9H", "9g")),
+        ("50xH7/g6x2 GOST 6033-80", {}, ("", "")),
     ],
 )
 def test_classes_of_tolerance_end_a_designation(size: str, keys: dict[str, Any], classes: tuple[str, str]) -> None:
@@ -106,6 +107,10 @@ def test_classes_of_tolerance_end_a_designation(size: str, keys: dict[str, Any],
         ("120x3x38x4H", DIN, "no_such_spline_class"),
         ("120x3x38x8js", DIN, "no_such_spline_class"),
         ("200z x 10m x 30P x 5h", ISO, "spline_classes_end"),
+        ("50x2x6H", {}, "no_such_spline_class"),
+        ("50x2x9e", {}, "no_such_spline_class"),
+        ("50x2x7H/7n", {}, "spline_class_unheld"),
+        ("50x2x9H", {"clearance": 0.1}, "clearance_of_class"),
         ("25z x 1m x 30P x 5h", ISO | {"clearance": 0.1}, "clearance_of_class"),
     ],
 )
@@ -113,6 +118,22 @@ def test_other_classes_are_refused(size: str, keys: dict[str, Any], code: str) -
     with pytest.raises(ParameterError) as caught:
         InvoluteSplineTable(size, **keys).joint()
     assert caught.value.code == code
+
+
+@pytest.mark.parametrize(
+    ("size", "keys", "right"),
+    [
+        ("50x2x8f/9H", {}, "50x2x9H/8f"),
+        ("50 x 2 x 7p", {}, "50x2"),
+        ("W 120 x 3 x 38 x 8f 9H", DIN, "W120x3x38x9H/8f"),
+        ("24z x 2m x 30R x 5f/5H", ISO, "24zx2mx30Rx5H/5f"),
+    ],
+)
+def test_what_is_told_instead_of_classes_is_read(size: str, keys: dict[str, Any], right: str) -> None:
+    with pytest.raises(ParameterError) as caught:
+        InvoluteSplineTable(size, **keys).joint()
+    assert caught.value.nearest == Nearest(right)
+    assert InvoluteSplineTable(right, **keys).joint().module > 0
 
 
 def test_centring_on_the_inner_diameter_is_told_as_such() -> None:
