@@ -26,8 +26,8 @@ TABLES: dict[str, StraightSplineTable | InvoluteSplineTable] = {
     "involute": InvoluteSplineTable("20x1", clearance=0.15),
 }
 BORES: dict[str, dict[str, Any]] = {
-    "straight": {"shape": "spline", "size": "D-6\u044523\u044526H7/f7", "clearance": 0.2, "angle_deg": 40.0},
-    "involute": {"shape": "involute_spline", "size": "20x1x9H", "clearance": 0.15},
+    "straight": {"shape": "spline", "size": "D-6\u044523\u044526", "clearance": 0.2, "angle_deg": 40.0},
+    "involute": {"shape": "involute_spline", "size": "20\u04451", "clearance": 0.15},
 }
 EXPORTS = ({"format": "dxf"}, {"format": "dxf", "name": "cut", "kerf": 0.2}, {"format": "svg"}, {"format": "stl"},
            {"format": "step"})  # fmt: skip
