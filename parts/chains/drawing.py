@@ -60,8 +60,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     assert isinstance(keys, SprocketSpec)
     page = sprocket_page.sheet(given(keys))
     teeth, *chain = rows_of(page, ("number_of_teeth", *_CHAIN))
-    standard = "GOST 591-69" if keys.tooth_form == "GOST 591" else "ISO 606"
-    form = DataRow(N_("profile of the teeth by"), "", standard_told(standard))
+    form = DataRow(N_("profile of the teeth by"), "", standard_told(part.thing.form.standard))
     beside = [DataRow(N_("centre distance"), "a", mate.distance, "mm") for mate in mates]
     others = [DataRow(N_("teeth of the other sprocket"), "z", mate.part.thing.number_of_teeth) for mate in mates]
     return DataTable(

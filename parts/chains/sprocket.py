@@ -1,4 +1,4 @@
-"""The part kind ``sprocket``: a wheel for a roller chain, with the teeth of ISO 606 or of GOST 591-69."""
+"""The part kind ``sprocket``: a wheel for a roller chain, with the teeth of ISO 606, GOST 591-69 or ANSI B29.1."""
 
 from __future__ import annotations
 
@@ -33,7 +33,10 @@ class SprocketSpec(WheelKeys, kw_only=True, tag_field="kind", tag="sprocket"):
     chain: (
         Annotated[
             str,
-            Meta(description="designation of ISO 606 (08B-1, 16A-2, 081) or GOST 13568 (PR-12.7-18.2), or give pitch"),
+            Meta(
+                description="designation of ISO 606 (08B-1, 16A-2, 081), ANSI (ANSI 40, 60-2) or "
+                "GOST 13568 (PR-12.7-18.2), or give pitch"
+            ),
             start("08B-1"),
         ]
         | None
@@ -51,7 +54,9 @@ class SprocketSpec(WheelKeys, kw_only=True, tag_field="kind", tag="sprocket"):
         Annotated[float, mm("from strand to strand of it", above=0, most=1000, example=13.92)] | None
     ) = None  # fmt: skip
     strands: Annotated[int, Meta(ge=1, le=3, description="strands of it: rows of teeth", examples=[1])] | None = None
-    tooth_form: Annotated[Literal["ISO 606", "GOST 591"], Meta(description="standard of the tooth form")] = "ISO 606"
+    tooth_form: Annotated[
+        Literal["ISO 606", "GOST 591", "ANSI B29.1"], Meta(description="standard of the tooth form")
+    ] = "ISO 606"
     form: Annotated[
         float, Meta(ge=0, le=1, description="ISO 606: 0 is the minimum tooth gap, 1 the maximum one")
     ] = 0.0  # fmt: skip
@@ -60,7 +65,7 @@ class SprocketSpec(WheelKeys, kw_only=True, tag_field="kind", tag="sprocket"):
         Annotated[
             float,
             mm(
-                "tip diameter; default: midway between the limits of ISO 606, or that of GOST 591",
+                "tip diameter; default: midway between the limits of ISO 606, or that of GOST 591 or ANSI B29.1",
                 above=0,
                 most=2 * MOST_LENGTH,
                 example=74.0,
@@ -84,14 +89,16 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
 
     def thing(self, keys: SprocketSpec, others: Others) -> Sprocket:
         """The sprocket, checked to have teeth that enter the chain, and holes within them."""
-        from geometry.gears.chains.sprocket import GostForm, IsoForm, Sprocket, checked_sprocket
+        from geometry.gears.chains.sprocket import AnsiForm, GostForm, IsoForm, Sprocket, checked_sprocket
 
         chain = chain_of_keys(keys)
-        gost = keys.tooth_form == "GOST 591"
-        for key, value, none in (("form", keys.form, 0.0), ("displaced", keys.displaced, False)):
-            if value and gost == (key == "form"):
-                raise ParameterError(key, value, "of_another_tooth_form", Nearest(none), form=keys.tooth_form)
-        form = GostForm(keys.displaced) if gost else IsoForm(keys.form)
+        told = keys.tooth_form
+        if keys.form and told != "ISO 606":
+            raise ParameterError("form", keys.form, "of_another_tooth_form", Nearest(0.0), form=told)
+        if keys.displaced and told != "GOST 591":
+            raise ParameterError("displaced", keys.displaced, "of_another_tooth_form", Nearest(False), form=told)
+        seated = AnsiForm() if told == "ANSI B29.1" else GostForm(keys.displaced)
+        form = IsoForm(keys.form) if told == "ISO 606" else seated
         sprocket = checked_sprocket(Sprocket(keys.number_of_teeth, chain, form, keys.tip_diameter))
         sprocket = replace(sprocket, face_width=_face_width(keys, sprocket))
         if keys.tooth_bevel > (most := 0.5 * sprocket.face_width * (1 - MARGIN) if keys.tooth_bevel else 0.0):

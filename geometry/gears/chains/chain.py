@@ -1,4 +1,6 @@
-"""Roller chains: sizes by designation, of ISO 606 (series A and B), of bicycles (081 to 085) and of GOST 13568-75."""
+"""Roller chains: sizes by designation, of ISO 606 (series A and B; numbers of ANSI B29.1), of bicycles (081 to 085)
+and of GOST 13568-75.
+"""
 
 from __future__ import annotations
 
@@ -36,6 +38,7 @@ _ISO = """
 28B 44.45 27.94 30.99 37.08 59.56 200.0
 32A 50.8 28.58 31.55 48.26 58.55 223.0
 32B 50.8 29.21 30.99 42.29 58.55 250.0
+36A 57.15 35.71 35.48 54.30 65.84 281.0
 40A 63.5 39.68 37.85 60.33 71.55 347.0
 40B 63.5 39.37 38.10 52.96 72.29 355.0
 48A 76.2 47.63 47.35 72.39 87.83 500.0
@@ -59,6 +62,9 @@ PR-50.8-227 50.8 28.58 31.75 48.3 58.55 227.0
 PR-63.5-354 63.5 39.68 38.10 60.4 0 354.0
 """
 
+# numbers of ANSI B29.1, whose chains are series A, and 085
+_ANSI = {"25": "04C", "35": "06C", "41": "085", "40": "08A", "50": "10A", "60": "12A", "80": "16A", "100": "20A",
+         "120": "24A", "140": "28A", "160": "32A", "180": "36A", "200": "40A", "240": "48A"}  # fmt: skip
 
 # a cross as it is typed, Cyrillic or the sign of multiplication; inches and spaces beside it
 _CROSS = str.maketrans("\u0425\u00d7", "XX", ' "\u2033')
@@ -95,13 +101,15 @@ def chains() -> dict[str, Chain]:
 
 
 def chain_of(designation: str) -> Chain | None:
-    """The chain of a designation: 08B, 08B-1, 16A-3, PR-12.7-18.2, 2PR-25.4-114; None: there is none.
+    """The chain of a designation: 08B, 08B-1, 16A-3, PR-12.7-18.2, 2PR-25.4-114, ANSI 40-2; None: there is none.
 
     Those of GOST may have Cyrillic letters, and commas in their numbers.
     """
     table, name = chains(), _plain(designation)
     if name in table:
         return table[name]
+    if ansi := re.fullmatch(r"(?:ANSI|NO\.?|#)?\s*(\d+)((?:-[123])?)", name):
+        name = f"{_ANSI.get(ansi[1], ansi[1])}{ansi[2] or '-1'}"
     if (iso := re.fullmatch(r"(\w+)-([123])", name)) and iso[1] in table:
         return _stranded(table[iso[1]], int(iso[2]))
     if gost := re.fullmatch(r"([23])PR-([\d.]+)-[\d.]+", name):

@@ -1,4 +1,4 @@
-"""Sprockets for roller chains: tooth gaps of tangent arcs and lines, by ISO 606 and by GOST 591-69.
+"""Sprockets for roller chains: tooth gaps of tangent arcs and lines, by ISO 606, GOST 591-69 and ANSI B29.1.
 
 A gap is told from its bottom to the tip circle as curves that follow one another smoothly: a radius above 0 bends into
 the material (a convex flank), one below 0 out of it (a seat), 0 is a line. Moved into the material, each stays of its
@@ -10,7 +10,7 @@ from __future__ import annotations
 import cmath
 import math
 from functools import lru_cache, partial
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from geometry.base.errors import OffsetError, ParameterError, PointedTipError, limit
 from geometry.base.findings import Finding
@@ -38,6 +38,7 @@ _ISO_TEETH = (9, 150)
 _USUAL_ROLLER = 0.55
 # of the height of a flank, that a bevel leaves
 _BEVEL_ENDS = 0.05
+INCH = 25.4
 
 
 class Piece(NamedTuple):
@@ -60,6 +61,8 @@ class Gap(NamedTuple):
 
 class IsoForm(Record):
     """The form of ISO 606: ``share`` 0 is the minimum gap, 1 the maximum, between them all its sizes go on evenly."""
+
+    standard: ClassVar[str] = "ISO 606"
 
     share: float = 0.0
 
@@ -90,41 +93,85 @@ class IsoForm(Record):
         return least + chain.pitch * (1 - 1.6 / teeth), least + 1.25 * chain.pitch
 
 
-class GostForm(Record):
-    """The form of GOST 591-69: seat, a wider arc, a line, the head's arc; ``displaced``: its seats are 0.03 t wider."""
+class SeatedForm(Record):
+    """Seat, a wider arc, a line, the head's arc: what GOST 591-69 and ANSI B29.1 have in common.
 
-    displaced: bool = False
+    ``play``: by how much a seat is wider than 0.5025 D, mm; ``far``: of the head's centre, in roller diameters.
+    """
+
+    standard: ClassVar[str]
+    play: ClassVar[float]
+    far: ClassVar[float]
 
     def seating_radius(self, roller: float) -> float:
-        """r = 0.5025 D + 0.05 mm."""
-        return 0.5025 * roller + 0.05
+        """r = 0.5025 D and the play, mm."""
+        return 0.5025 * roller + self.play
 
     def angles(self, teeth: int) -> tuple[float, float, float]:
         """alpha = 55 - 60 / z, beta = 18 - 56 / z, phi = 17 - 64 / z; in rad."""
         return math.radians(55 - 60 / teeth), math.radians(18 - 56 / teeth), math.radians(17 - 64 / teeth)
 
     def displacement(self, pitch: float) -> float:
-        """e = 0.03 t between the centres of both seats, mm."""
-        return 0.03 * pitch if self.displaced else 0.0
+        """Between the centres of both seats, mm."""
+        return 0.0
 
     def flank_radius(self, roller: float, teeth: int) -> float:
-        """r2 = D (1.24 cos phi + 0.8 cos beta - 1.3025) - 0.05 mm: of the head."""
+        """r2 = D (far cos phi + 0.8 cos beta - 1.3025) less the play, mm: of the head."""
         _, beta, phi = self.angles(teeth)
-        return roller * (1.24 * math.cos(phi) + 0.8 * math.cos(beta) - 1.3025) - 0.05
+        return roller * (self.far * math.cos(phi) + 0.8 * math.cos(beta) - 1.3025) - self.play
+
+    def straight(self, roller: float, teeth: int) -> float:
+        """D (far sin phi - 0.8 sin beta): the line between both arcs, mm."""
+        _, beta, phi = self.angles(teeth)
+        return roller * (self.far * math.sin(phi) - 0.8 * math.sin(beta))
 
     def gap(self, chain: Chain, teeth: int) -> Gap:
-        """r turns by alpha, r1 = 0.8 D + r by beta, then FG = D (1.24 sin phi - 0.8 sin beta) straight on."""
+        """r turns by alpha, r1 = 0.8 D + r by beta, then the line goes straight on."""
         roller, radius = chain.roller_diameter, self.seating_radius(chain.roller_diameter)
-        alpha, beta, phi = self.angles(teeth)
-        straight = roller * (1.24 * math.sin(phi) - 0.8 * math.sin(beta))
-        wide = Piece(0.0, self.displacement(chain.pitch) / 2)
-        curves = Piece(-radius, alpha), Piece(-0.8 * roller - radius, beta), Piece(0.0, straight)
-        return Gap(radius, (*((wide,) if self.displaced else ()), *curves), self.flank_radius(roller, teeth))
+        alpha, beta, _ = self.angles(teeth)
+        apart = self.displacement(chain.pitch)
+        wide = (Piece(0.0, apart / 2),) if apart else ()
+        curves = Piece(-radius, alpha), Piece(-0.8 * roller - radius, beta), Piece(0.0, self.straight(roller, teeth))
+        return Gap(radius, (*wide, *curves), self.flank_radius(roller, teeth))
 
     def tips(self, chain: Chain, teeth: int) -> tuple[float, float]:
         """The one diameter t (K + cot(180 deg / z)), mm, twice."""
-        one = chain.pitch * (height_coefficient(chain) + 1 / math.tan(math.pi / teeth))
+        one = chain.pitch * (self.height(chain) + 1 / math.tan(math.pi / teeth))
         return one, one
+
+    def height(self, chain: Chain) -> float:
+        """K."""
+        raise NotImplementedError
+
+
+class GostForm(SeatedForm):
+    """The form of GOST 591-69; ``displaced``: its seats are e = 0.03 t wider."""
+
+    standard: ClassVar[str] = "GOST 591-69"
+    play: ClassVar[float] = 0.05
+    far: ClassVar[float] = 1.24
+
+    displaced: bool = False
+
+    def displacement(self, pitch: float) -> float:
+        """E = 0.03 t, mm."""
+        return 0.03 * pitch if self.displaced else 0.0
+
+    def height(self, chain: Chain) -> float:
+        """By the pitch over the roller diameter."""
+        return height_coefficient(chain)
+
+
+class AnsiForm(SeatedForm):
+    """The form of ANSI B29.1: R = D_s / 2 with D_s = 1.005 D_r + 0.003 in, tips P (0.6 + cot(180 deg / N))."""
+
+    standard: ClassVar[str] = "ANSI B29.1"
+    play: ClassVar[float] = 0.0015 * INCH
+    far: ClassVar[float] = 1.4
+
+    def height(self, chain: Chain) -> float:
+        """0.6, of every chain."""
+        return 0.6
 
 
 def height_coefficient(chain: Chain) -> float:
@@ -158,7 +205,7 @@ class Sprocket(RoundTeeth):
     """
 
     chain: Chain
-    form: IsoForm | GostForm
+    form: IsoForm | SeatedForm
     given_tip_diameter: float | None = None
     holes: HubHoles = HubHoles()
     face_width: float = 0.0
@@ -214,10 +261,10 @@ class Sprocket(RoundTeeth):
     def over_pins(self) -> float:
         """M_R over two pins as thick as the rollers, in opposite gaps or, of odd teeth, in those nearest to it, mm.
 
-        ISO 606 has them on the pitch circle, d cos(90 deg / z) + d1; in seats of GOST 591 they lie where the chord is.
+        ISO 606 has them on the pitch circle, d cos(90 deg / z) + d1; in wider seats they lie where the chord is.
         """
         roller = self.chain.roller_diameter
-        if isinstance(self.form, GostForm):
+        if isinstance(self.form, SeatedForm):
             return self.root_chord + 2 * roller
         odd = math.cos(self.pitch_angle / 4) if self.number_of_teeth % 2 else 1.0
         return 2 * self.pitch_radius * odd + roller
@@ -230,20 +277,23 @@ class Sprocket(RoundTeeth):
         """
         off = self.pitch_angle / 4 if self.number_of_teeth % 2 else 0.0
         radius = self.form.seating_radius(self.chain.roller_diameter)
-        apart = self.form.displacement(self.chain.pitch) if isinstance(self.form, GostForm) else 0.0
+        apart = self.form.displacement(self.chain.pitch) if isinstance(self.form, SeatedForm) else 0.0
         return 2 * ((self.root_radius + radius) * math.cos(off) - radius) - apart * math.sin(off)
 
     @property
     def plate_room(self) -> float:
         """Diameter within which the chain's plates do not come, less what the standard leaves; 0: not known, mm.
 
-        d_g = p cot(180 deg / z) - 1.04 h2 - 0.76 of ISO 606, D_c = t cot(180 deg / z) - 1.3 h of GOST 591-69.
+        d_g = p cot(180 deg / z) - 1.04 h2 - 0.76 of ISO 606, D_c = t cot(180 deg / z) - 1.3 h of GOST 591-69,
+        P (cot(180 deg / N) - 1) - 0.030 in of ANSI B29.1, for which no height of plates is needed.
         """
-        if not self.chain.plate_height:
+        pitch, height = self.chain.pitch, self.chain.plate_height
+        circle = pitch / math.tan(math.pi / self.number_of_teeth)
+        if isinstance(self.form, AnsiForm):
+            return circle - pitch - 0.030 * INCH
+        if not height:
             return 0.0
-        circle = self.chain.pitch / math.tan(math.pi / self.number_of_teeth)
-        iso = isinstance(self.form, IsoForm)
-        return circle - (1.04 * self.chain.plate_height + 0.76 if iso else 1.3 * self.chain.plate_height)
+        return circle - (1.04 * height + 0.76 if isinstance(self.form, IsoForm) else 1.3 * height)
 
 
 class Flank(NamedTuple):
@@ -324,20 +374,20 @@ def limits_of(sprocket: Sprocket) -> TipLimits:
     """
     chain, teeth = sprocket.chain, sprocket.number_of_teeth
     if not sprocket.gap.flank_radius > 0:
-        # 0.05 mm of GOST 591-69 are more than the smallest rollers have
+        # the play of a seat is more than the smallest rollers have
         raise _toothless(sprocket)
     flank = flank_of(sprocket)
     start, pointed = abs(flank.start), flank.pointed_radius
     if not (sprocket.root_radius > 0 and flank.start.imag < 0 and start < pointed):
         raise _toothless(sprocket)
     given = sprocket.given_tip_diameter
-    if given is not None and isinstance(sprocket.form, GostForm):
+    if given is not None and isinstance(sprocket.form, SeatedForm):
         return _given_tip(given, (2 * start, 2 * pointed), start, pointed)
     least, most = sprocket.form.tips(chain, teeth)
     if given is not None:
         return _given_tip(given, (max(least, 2 * start), most), start, pointed)
     radius, highest = (least + most) / 4, pointed * (1 - _MARGIN)
-    if isinstance(sprocket.form, GostForm) and radius >= highest:
+    if isinstance(sprocket.form, SeatedForm) and radius >= highest:
         # displaced seats of many teeth leave none of the standard's height
         radius = _tip_of_land(flank, _THIN_LAND * chain.pitch)
     elif least / 2 >= highest:
@@ -448,13 +498,19 @@ def sprocket_findings(sprocket: Sprocket) -> tuple[Finding, ...]:
     return tuple(found)
 
 
-def face_width(chain: Chain, form: IsoForm | GostForm) -> float:
+def face_width(chain: Chain, form: IsoForm | SeatedForm) -> float:
     """Width of the teeth by the inner width of the chain, mm.
 
     ISO 606: 0.93 b1 (0.91 of several strands) to p = 12.7 mm, 0.95 b1 (0.93) above. GOST 591-69: 0.93 B - 0.15 mm,
-    of two and three strands 0.90 B - 0.15 mm.
+    of two and three strands 0.90 B - 0.15 mm. ANSI B29.1: the same less 0.006 in.
     """
+    part, less = width_parts(chain, form)
+    return part * chain.inner_width - less
+
+
+def width_parts(chain: Chain, form: IsoForm | SeatedForm) -> tuple[float, float]:
+    """Of the inner width of the chain, and how much less, mm: see ``face_width``."""
     single = chain.strands == 1
-    if isinstance(form, GostForm):
-        return (0.93 if single else 0.90) * chain.inner_width - 0.15
-    return (0.91 if chain.pitch <= 12.7 else 0.93) * chain.inner_width + (0.02 * chain.inner_width if single else 0.0)
+    if isinstance(form, SeatedForm):
+        return 0.93 if single else 0.90, 0.006 * INCH if isinstance(form, AnsiForm) else 0.15
+    return (0.93 if chain.pitch <= 12.7 else 0.95) - (0.0 if single else 0.02), 0.0

@@ -91,6 +91,8 @@ def test_a_step_file_of_bevelled_teeth_is_read_back(tmp_path: Path) -> None:
         (PLATE | {"face_width": 8.0}, "face_width", 7.749992),
         (PLATE | {"displaced": True}, "displaced", False),
         (PLATE | {"form": 0.5, "tooth_form": "GOST 591"}, "form", 0.0),
+        (PLATE | {"form": 0.5, "tooth_form": "ANSI B29.1"}, "form", 0.0),
+        (PLATE | {"displaced": True, "tooth_form": "ANSI B29.1"}, "displaced", False),
         (PLATE | {"tip_diameter": 77.0}, "tip_diameter", 76.480827),
         (PLATE | {"bore_diameter": 61.0}, "bore_diameter", 60.505767),
         (PLATE | {"chain": "08B-2", "face_chamfer": 0.5}, "face_chamfer", None),
@@ -112,11 +114,12 @@ def test_bad_keys_are_refused_with_what_works(keys: Keys, key: str, cure: object
 
 def test_files_take_rollers_and_one_that_does_not_is_caught(tmp_path: Path) -> None:
     parts = {"iso": PLATE, "gost": PLATE | {"tooth_form": "GOST 591", "number_of_teeth": 12, "chain": "ПР-12,7-18,2"}}
+    parts["ansi"] = PLATE | {"tooth_form": "ANSI B29.1", "chain": "ANSI 40"}
     exports = ({"format": "dxf"}, {"format": "dxf", "name": "cut", "kerf": 0.2}, {"format": "svg"}, {"format": "stl"})
     assert run("build", write_scene(tmp_path / "s.toml", parts, exports), "--out", tmp_path / "out") == 0
     built = tmp_path / "out" / "s"
     for entry in read_report(built)["files"]:
-        gap = 0.0025 * 8.51 + 0.05 if entry["part"] == "gost" else 0.0
+        gap = {"gost": 0.0025 * 8.51 + 0.05, "ansi": 0.0025 * 7.92 + 0.0381}.get(entry["part"], 0.0)
         off = entry["max_error"] + 1e-6
         assert entry["measured"]["roller_gap"] == pytest.approx(gap - entry["offset"], abs=off)
     sprocket, file = made(PLATE).thing, read_dxf(built / "iso.laser.dxf")
