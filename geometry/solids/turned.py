@@ -14,7 +14,7 @@ import numpy as np
 
 from geometry.approximation.outline import spline_outline
 from geometry.approximation.tensor import clamped, greville
-from geometry.base.errors import ParameterError, limit
+from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.placement import Placement2
 from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.bspline import basis_matrix
@@ -209,10 +209,8 @@ def half_section(corners: Sequence[Corner]) -> tuple[Piece, ...]:
             way = edge.end - edge.start
             left = ((end - begin) * way.conjugate()).real / abs(way)
             if left < -_SAME * abs(way):
-                corner = corners[k] if begin != edge.start else corners[(k + 1) % len(corners)]
-                number = numbers[k] if corner is corners[k] else numbers[(k + 1) % len(corners)]
-                key, value = ("chamfer", corner.chamfer) if corner.chamfer else ("fillet", corner.fillet)
-                raise ParameterError(f"points[{number}].{key}", value, "corner_longer_than_edge")
+                at, refusal = _longer(edges, corners, cuts, k)
+                raise refusal.renamed(f"points[{numbers[at]}].{refusal.name}")
             if left <= _SAME * abs(way):
                 continue
         found.append(Piece(begin, end, edge.centre, edge.convex))
@@ -220,6 +218,26 @@ def half_section(corners: Sequence[Corner]) -> tuple[Piece, ...]:
     found = [replace(p, start=before.end) for p, before in zip(found, [found[-1], *found[:-1]], strict=True)]
     _check(found)
     return tuple(found)
+
+
+def _longer(
+    edges: list[Piece], corners: list[Corner], cuts: list[tuple[complex, complex, Piece | None]], k: int
+) -> tuple[int, ParameterError]:
+    """The corner that cuts more off an edge than is left of it, of both the larger cut that a smaller one can cure."""
+    count = len(edges)
+    legs = [abs(begin - corner.at) for (_, begin, _), corner in zip(cuts, corners, strict=True)]
+
+    def room(j: int) -> float:
+        """What both edges of a corner have for its legs, mm."""
+        beside = (edges[j - 1], legs[j - 1]), (edges[j], legs[(j + 1) % count])
+        return min(abs(edge.end - edge.start) - other for edge, other in beside)
+
+    both = sorted((j for j in (k, (k + 1) % count) if legs[j]), key=lambda j: (room(j) > 0, legs[j]))
+    corner, leg = corners[both[-1]], legs[both[-1]]
+    key, size = ("chamfer", corner.chamfer) if corner.chamfer else ("fillet", corner.fillet)
+    most = room(both[-1]) * size / leg
+    cure = limit(most * (1 - _SAME), size, digits=6) if most > 0 else None
+    return both[-1], ParameterError(key, size, "corner_longer_than_edge", cure)
 
 
 def _signed(corners: Sequence[Corner]) -> float:
@@ -252,20 +270,22 @@ def _cut(before: Piece, after: Piece, corner: Corner, number: int) -> tuple[comp
     if not size:
         return corner.at, corner.at, None
     if before.centre is not None or after.centre is not None:
-        raise ParameterError(f"points[{number}].{key}", size, "corner_of_an_arc")
+        raise ParameterError(f"points[{number}].{key}", size, "corner_of_an_arc", Nearest(0.0))
     back, ahead = before.start - before.end, after.end - after.start
     back, ahead = back / abs(back), ahead / abs(ahead)
     turn = math.atan2((-back.conjugate() * ahead).imag, (-back.conjugate() * ahead).real)
     # on the axis half a section has no corner that the solid would have
     if abs(turn) < _SAME or corner.at.real == 0:
-        raise ParameterError(f"points[{number}].{key}", size, "corner_is_straight")
+        raise ParameterError(f"points[{number}].{key}", size, "corner_is_straight", Nearest(0.0))
     leg = size if key == "chamfer" else size * math.tan(abs(turn) / 2)
     ends = corner.at + leg * back, corner.at + leg * ahead
     if key == "chamfer":
         return (*ends, Piece(*ends))
     centre = ends[0] + size * (1j if turn > 0 else -1j) * -back
     if centre.real < 0:
-        raise ParameterError(f"points[{number}].fillet", size, "arc_about_beyond_axis")
+        # as far as the axis, for all grows with the radius
+        most = limit(size * corner.at.real / (corner.at.real - centre.real) * (1 - _SAME), size, digits=6)
+        raise ParameterError(f"points[{number}].fillet", size, "arc_about_beyond_axis", most)
     return (*ends, Piece(*ends, centre, turn > 0))
 
 

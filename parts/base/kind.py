@@ -14,7 +14,7 @@ from geometry.base.errors import GeometryError, Nearest, OffsetError, ParameterE
 from geometry.base.nearest import nearest
 from geometry.base.record import Record, field
 from parts.base.refusal import SceneError, placed
-from parts.base.schema import as_typed, tried, unit_of
+from parts.base.schema import as_typed, tried, unit_of, value_at
 from parts.base.texts import Text, Words
 
 if TYPE_CHECKING:
@@ -222,6 +222,26 @@ class Kind(Generic[K, T]):
         ``make``: its thing as it is in its scene; ``fits`` refuses keys and their thing where what hangs on the part
         does not take them: what it offers for the same key is tried then.
         """
+        told = self._told(keys, refusal, source, place, make, fits)
+        if refusal.code != "either_key" or told.nearest is not None:
+            return told
+        # what cannot be left out stands beside what can
+        owner, dot, own = refusal.name.rpartition(".")
+        name = owner + dot + next(str(key) for key in refusal.numbers.values() if key != own)
+        other = ParameterError(name, value_at(keys, name), refusal.code, Nearest(None), **refusal.numbers)
+        turned = self._told(keys, other, source, place, make, fits)
+        return told if turned.nearest is None else turned
+
+    def _told(
+        self,
+        keys: K,
+        refusal: ParameterError,
+        source: str,
+        place: str,
+        make: Callable[[K], T],
+        fits: Callable[[K, T], object],
+    ) -> SceneError:
+        """The same in the key that it names."""
 
         # what an offer makes is asked for again by what hangs on it
         last: dict[object, tuple[K, T]] = {}

@@ -17,7 +17,7 @@ from parts.base.part_keys import MaterialKeys
 from parts.base.texts import N_
 from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, either, mm, part_mm, start
 from parts.keys.holes import HolesTable, check_bore, hub_holes
-from parts.keys.pins import least_of, most_of, moved_region
+from parts.keys.pins import MARGIN, least_of, most_of, moved_region
 from parts.keys.splines import SplineTable
 
 if TYPE_CHECKING:
@@ -309,6 +309,10 @@ def _check_shaft(keys: ShaftSpec) -> None:
             room = step.length - step.chamfer
             if groove.at <= place or groove.at + groove.width >= room:
                 raise _groove_beyond(name, groove, place, room, step.length)
+            # both of its corners, and its walls
+            if groove.fillet > (widest := min(groove.width, step.diameter - groove.diameter) / 2):
+                cure = most_of(widest, groove.fillet)
+                raise ParameterError(f"{name}.fillet", groove.fillet, "corner_longer_than_edge", cure)
             place = groove.at + groove.width
             inside = 2 * _inside(keys, min(z + groove.at, whole - z - place))
             if groove.diameter <= inside:
@@ -423,12 +427,12 @@ def _outline(keys: ShaftSpec) -> Iterator[tuple[Corner, str]]:
         elif radius < before:
             yield Corner(complex(before, z), chamfer=steps[k - 1].chamfer), f"steps[{k}].chamfer"
             yield Corner(complex(radius, z), fillet=step.fillet), f"{own}.fillet"
-        for groove in sorted(step.grooves, key=lambda g: g.at):
-            depth, ends = groove.diameter / 2, (z + groove.at, z + groove.at + groove.width)
-            yield Corner(complex(radius, ends[0])), f"{own}.grooves"
-            yield Corner(complex(depth, ends[0]), fillet=groove.fillet), f"{own}.grooves"
-            yield Corner(complex(depth, ends[1]), fillet=groove.fillet), f"{own}.grooves"
-            yield Corner(complex(radius, ends[1])), f"{own}.grooves"
+        for number, groove in sorted(enumerate(step.grooves, 1), key=lambda pair: pair[1].at):
+            depth, ends, name = groove.diameter / 2, (z + groove.at, z + groove.at + groove.width), f"{own}.grooves"
+            yield Corner(complex(radius, ends[0])), name
+            yield Corner(complex(depth, ends[0]), fillet=groove.fillet), f"{name}[{number}].fillet"
+            yield Corner(complex(depth, ends[1]), fillet=groove.fillet), f"{name}[{number}].fillet"
+            yield Corner(complex(radius, ends[1])), name
         z, before = z + step.length, radius
     yield Corner(complex(before, z), chamfer=steps[-1].chamfer), f"steps[{len(steps)}].chamfer"
     yield from ((Corner(complex(at.real, z - at.imag)), "centre_holes.diameter") for at in low[::-1])
@@ -482,21 +486,21 @@ def _pockets(keys: ShaftSpec) -> Iterator[Pocket]:
                     raise refusal.renamed(f"steps[{k}].diameter") from refusal
                 width, depth = width or row.width, depth or row.shaft_depth
             floor = radius - depth
-            rim = math.sqrt(max(radius**2 - width**2 / 4, 0.0))
-            if not keys.bore_diameter / 2 < floor < rim:
-                raise ParameterError(f"{name}.depth", depth, "keyway_of_no_depth")
-            if width >= way.length and way.ends == "round":
-                raise ParameterError(f"{name}.length", way.length, "keyway_shorter_than_wide", width=width)
             ends = way.at, way.at + way.length
+            # a centre hole is widest at that end of the keyway which is nearer to its end face
+            inside = max(keys.bore_diameter / 2, _inside(keys, min(z + ends[0], whole - z - ends[1])))
+            rim = math.sqrt(max(radius**2 - width**2 / 4, 0.0))
+            if not inside < floor < rim:
+                code = "groove_into_centre_hole" if keys.bore_diameter / 2 < floor < rim else "keyway_of_no_depth"
+                near = most_of(radius - inside, depth) if floor < rim else least_of(radius - rim, depth)
+                raise ParameterError(f"{name}.depth", depth, code, near if inside < rim else None)
+            if width >= way.length and way.ends == "round":
+                least = least_of(width, way.length)
+                raise ParameterError(f"{name}.length", way.length, "keyway_shorter_than_wide", least, width=width)
             cuts = [(0.0, max(step.chamfer, step.fillet)), (step.length - max(step.chamfer, step.fillet), step.length)]
             cuts += [(g.at, g.at + g.width) for g in step.grooves]
             if any(ends[0] <= b and a <= ends[1] for a, b in cuts):
-                raise ParameterError(f"{name}.at", way.at, "keyway_beyond_step", length=step.length)
-            # a centre hole is widest at that end of the keyway which is nearer to its end face
-            inside = _inside(keys, min(z + ends[0], whole - z - ends[1]))
-            if floor <= inside:
-                cure = most_of(radius - inside, depth) if inside < rim else None
-                raise ParameterError(f"{name}.depth", depth, "groove_into_centre_hole", cure)
+                raise _keyway_beyond(name, way, cuts, step.length)
             turn = math.radians(way.angle_deg)
             found = Pocket(z + ends[0], z + ends[1], width, floor, turn, way.ends == "round")
             if any(
@@ -506,6 +510,21 @@ def _pockets(keys: ShaftSpec) -> Iterator[Pocket]:
             made.append(found)
             yield found
         z += step.length
+
+
+def _keyway_beyond(name: str, way: ShaftKeywayTable, cuts: list[tuple[float, float]], length: float) -> ParameterError:
+    """The refusal of a keyway that meets what is cut from its step, by its place or its length; ``cuts``: from, to."""
+    cuts, margin = sorted(cuts), 1e-3 * MARGIN * length
+    ends = [max(b for _, b in cuts[: k + 1]) + margin for k in range(len(cuts) - 1)]
+    rooms = [(low, after[0] - margin) for low, after in zip(ends, cuts[1:], strict=True)]
+    places = [min(max(way.at, low), high - way.length) for low, high in rooms if high - low >= way.length]
+    if places:
+        place = min(places, key=lambda place: abs(place - way.at))
+        cure = limit(place, way.at, digits=6)
+        return ParameterError(f"{name}.at", way.at, "keyway_beyond_step", cure, length=length)
+    room = next((high - way.at for low, high in rooms if low <= way.at < high), 0.0)
+    most = limit(room, way.length, digits=6) if room > 0 else None
+    return ParameterError(f"{name}.length", way.length, "keyway_beyond_step", most, length=length)
 
 
 def _meet(one: Pocket, other: Pocket, radius: float) -> bool:

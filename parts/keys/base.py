@@ -68,9 +68,8 @@ BoreDiameter = Annotated[float, mm("round bore; 0 is none", least=0, most=MOST_L
 
 
 def either(key: str, value: object, other: str, without: float | None = None) -> ParameterError:
-    """A refusal of two keys that exclude each other; the refused one works as ``without``."""
-    cure = None if without is None else Nearest(without)
-    return ParameterError(key, value, "either_key", cure, one=other, other=key.partition(".")[0])
+    """A refusal of two keys that exclude each other; the refused one works as ``without``, None: left out."""
+    return ParameterError(key, value, "either_key", Nearest(without), one=other, other=key.rpartition(".")[2])
 
 
 class MadeKeys(MaterialKeys, kw_only=True):

@@ -143,7 +143,7 @@ class StraightSplineTable(_SplineTable, tag="spline"):
             if self.size is None and value is None:
                 raise ParameterError(f"bore.{key}", None, "one_of_two_is_missing", other="size")
             if self.size is not None and value is not None:
-                raise ParameterError(f"bore.{key}", value, "either_key", one="size", other=key)
+                raise ParameterError(f"bore.{key}", value, "either_key", Nearest(None), one="size", other=key)
         if self.size is None:
             teeth, inner, outer, width = (value or 0 for value in given)
             found = StraightJoint(int(teeth), inner, outer, width, inner)

@@ -13,10 +13,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from functools import partial
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from geometry.base.record import Record, replace
 from geometry.base.series import Series, conjugate, derived, exponential, power, product, quotient, taylor
@@ -26,7 +25,7 @@ from geometry.laws.piece import LawPiece
 
 UPPER, LOWER = 1, -1
 # samples of a piece of the motion, and radii across a wall, between which an extreme is looked for
-_SAMPLES, _RADII = 65, 5
+_SAMPLES, _FINER, _RADII = 65, 17, 5
 _REFINEMENTS = 5
 # steps of a bracketed Newton iteration; it stops when nothing changes any more
 _STEPS = 60
@@ -117,7 +116,7 @@ class BarrelCam(Record):
         source = self.motion if piece is None else piece
         return self.guide.place(taylor(source.values(at, order)))
 
-    def distance_along(self, place: Series, side: int, radius: ArrayLike) -> Real:
+    def distance_along(self, place: Series, side: Real | float, radius: ArrayLike) -> Real:
         """rho at which a wall passes through the cylinder of ``radius`` mm; ``place``: p and p'.
 
         Root of rho^2 + y(rho)^2 = R^2 between 0 and R by Newton's steps, bisected where they leave the bracket.
@@ -144,19 +143,19 @@ class BarrelCam(Record):
             rho = after
         return rho
 
-    def _normal(self, place: Series, side: int, rho: Real) -> tuple[Complex, Complex, Real]:
+    def _normal(self, place: Series, side: Real | float, rho: Real) -> tuple[Complex, Complex, Real]:
         """w, the direction n from the roller's axis to the contact, and the sine by which a cone turns it."""
         w = rho + self.taper * self.radius_at(rho) - place[1]
         lean = self.taper * place[0].real / np.abs(w)
         return w, w / np.abs(w) * (1j * side * np.sqrt(1 - lean**2) - lean), lean
 
-    def _turn(self, w: Complex, lean: Real, side: int, rate: ArrayLike, aside: ArrayLike) -> Real:
+    def _turn(self, w: Complex, lean: Real, side: Real | float, rate: ArrayLike, aside: ArrayLike) -> Real:
         """How fast n turns while w has the ``rate`` and the roller's axis goes ``aside``."""
         square = np.abs(w) ** 2
         leaning = self.taper * np.asarray(aside) / np.sqrt(square) - lean * (np.conj(w) * rate).real / square
         return np.asarray((np.conj(w) * rate).imag / square + side * leaning / np.sqrt(1 - lean**2))
 
-    def _slope(self, w: Complex, normal: Complex, lean: Real, side: int, size: Real) -> Real:
+    def _slope(self, w: Complex, normal: Complex, lean: Real, side: Real | float, size: Real) -> Real:
         """How fast the contact goes aside along the roller's axis, dy / d rho."""
         turn = self._turn(w, lean, side, 1 + self.taper**2, 0.0)
         return np.asarray(self.taper * normal.real - size * normal.imag * turn)
@@ -220,7 +219,9 @@ class BarrelCam(Record):
         Where it stays positive, the wall's height is one-valued over the polar angle: nothing of it is undercut, for
         on that cylinder it is the one extreme of the heights that the roller reaches.
         """
-        place = self.place(angle, 2, piece)
+        return self._speed(self.place(angle, 2, piece), side, radius)
+
+    def _speed(self, place: Series, side: Real | float, radius: ArrayLike) -> Real:
         p, rate, second = place[0], place[1], 2 * place[2]
         rho = self.distance_along(place, side, radius)
         w, normal, lean = self._normal(place, side, rho)
@@ -236,37 +237,47 @@ class BarrelCam(Record):
         """The least speed of any edge between both cylinders, and the cam angle (rad) where it stands."""
         radii = np.linspace(self.inner, self.outer, _RADII)
 
-        def speed(piece: LawPiece, side: int, t: Real) -> Real:
-            return self.edge_speed(t[:, None], side, radii, piece).min(axis=1)
+        def speed(place: Series, side: Real) -> Real:
+            return self._speed([x[..., None] for x in place], side[..., None], radii).min(axis=-1)
 
         # where the roller rests the edges go round as fast as the cam
-        return self._least_over(speed, 1.0)
+        return self._least_over(speed, 2, 1.0)
 
     def _least_over(
-        self, function: Callable[[LawPiece, int, Real], Real], still: float, kind: PhaseKind | None = None
+        self, function: Callable[[Series, Real], Real], order: int, still: float, kind: PhaseKind | None = None
     ) -> tuple[float, float]:
-        """The least value over all moving pieces and walls, and its cam angle, rad; ``still``: where nothing moves."""
-        found = [
-            _least(partial(function, piece, side), piece)
-            for piece in self.motion.moving_pieces(kind)
-            for side in self.sides
-        ]
-        return min([(still, 0.0), *found], key=lambda least: least[0])
+        """The least value over all moving pieces and walls, and its cam angle, rad; ``still``: where nothing moves.
+
+        ``function``: of the series of the roller's place and of the wall. Of each piece and wall samples, then ever
+        finer ones about the least.
+        """
+        pieces, stack = self.motion.moving(kind), self.motion.stack
+        side = np.tile(np.array(self.sides, dtype=float), len(pieces))[:, None]
+        index = np.repeat(pieces, len(self.sides))[:, None]
+        rows = np.arange(len(index))
+        t = np.linspace(stack.starts[index[:, 0]], stack.ends[index[:, 0]], _SAMPLES, axis=-1)
+        best, where = np.full(len(index), still), np.zeros(len(index))
+        for _ in range(_REFINEMENTS if len(index) else 0):
+            of = np.broadcast_to(index, t.shape)
+            values = function(self.guide.place(taylor(stack.orders_at(of, t, range(order + 1)))), side)
+            at = np.argmin(values, axis=1)
+            best, where = values[rows, at], t[rows, at]
+            low, high = t[rows, np.maximum(at - 1, 0)], t[rows, np.minimum(at + 1, t.shape[1] - 1)]
+            t = np.linspace(low, high, _FINER, axis=-1)
+        return min([(still, 0.0), *zip(best.tolist(), where.tolist(), strict=True)], key=lambda least: least[0])
 
     def pressure_angle(self, angle: Real, radius: ArrayLike, piece: LawPiece, side: int = LOWER) -> Real:
         """Angle between the normal of the contact on a cylinder and the roller's way, rad."""
-        place = self.place(angle, 1, piece)
+        return self._pressure(self.place(angle, 1, piece), side, radius)
+
+    def _pressure(self, place: Series, side: Real | float, radius: ArrayLike) -> Real:
         normal = self.upright * self._normal(place, side, self.distance_along(place, side, radius))[1]
         way = _way(self.guide, place[0])
         return np.asarray(np.arccos(np.clip(np.abs((normal * np.conj(way)).real), 0.0, 1.0)))
 
     def greatest_pressure_angle(self, kind: PhaseKind) -> tuple[float, float]:
         """The greatest pressure angle of the rises or returns, rad, at the inner ends of the walls; and its angle."""
-
-        def minus(piece: LawPiece, side: int, t: Real) -> Real:
-            return -self.pressure_angle(t, self.inner, piece, side)
-
-        value, where = self._least_over(minus, 0.0, kind)
+        value, where = self._least_over(lambda place, side: -self._pressure(place, side, self.inner), 1, 0.0, kind)
         return abs(value), where
 
     def distance(self, points: Real, near: Real | None = None, width: float = 0.0) -> Real:
@@ -354,15 +365,3 @@ def _way(guide: Guide, place: Complex) -> Complex:
         return np.full(np.shape(place), 1j)
     arm = place - complex(guide.pivot_offset, guide.pivot_height)
     return np.asarray(-1j * math.copysign(1.0, guide.pivot_offset) * arm / np.abs(arm))
-
-
-def _least(function: Callable[[Real], Real], piece: LawPiece) -> tuple[float, float]:
-    """Least value on a piece and its place: samples, then ever finer ones about the least."""
-    low, high = piece.domain
-    t: NDArray[np.float64] = np.linspace(low, high, _SAMPLES)
-    for _ in range(_REFINEMENTS):
-        values = function(t)
-        index = int(np.argmin(values))
-        best = float(values[index]), float(t[index])
-        t = np.linspace(t[max(index - 1, 0)], t[min(index + 1, len(t) - 1)], 17)
-    return best

@@ -191,8 +191,13 @@ def lost_to_undercut(cam: DiskCam, grow: float = 0.0) -> float | None:
 
 
 def is_uncut(cam: DiskCam, grow: float = 0.0) -> bool:
-    """Whether nothing is lost to undercut, without asking how much where the envelope runs back."""
-    return is_whole(cam, grow) or lost_to_undercut(cam, grow) is None
+    """Whether nothing is lost to undercut, without asking how much: ``lost_to_undercut`` is None."""
+    if is_whole(cam, grow):
+        return True
+    if _folds(cam, grow):
+        return False
+    angles, _, points = _samples(cam, grow)
+    return not bool(_reached(cam, grow, angles, points).any())
 
 
 def _samples(cam: DiskCam, grow: float) -> tuple[Real, np.ndarray, Complex]:

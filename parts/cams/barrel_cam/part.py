@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING
 
 from msgspec.structs import replace as changed
 
-from geometry.base.errors import Nearest, OffsetError, ParameterError, UndercutError, limit, rounded
+from geometry.base.errors import LateError, Nearest, OffsetError, ParameterError, UndercutError, limit, rounded
 from geometry.base.findings import Finding
 from geometry.base.nearest import last_that_holds, nearest
 from geometry.base.record import replace
@@ -23,6 +24,7 @@ from parts.cams.barrel_cam.roller import (
     kept_apex,
     largest_radius,
     moved_cam,
+    takes_a_roller,
     taper,
     thinnest,
 )
@@ -184,22 +186,26 @@ def _check_roller(keys: BarrelCamSpec, cam: BarrelCam) -> None:
     speed, angle = cam.least_edge_speed()
     if speed >= LEAST_SPEED:
         return
-    at = math.degrees(angle)
-    most, play = 2 * largest_radius(cam, kept_apex(keys)) * (1 - 1e-6), keys.clearance
-    if most > 1.01 * play and rounded(most - play, up=False) > 0:
-        given = keys.roller_diameter
-        raise UndercutError("roller_diameter", given, "wall_undercut", limit(most - play, given), at=at)
-    if most > 0 and play > 0:
-        raise UndercutError("clearance", play, "wall_undercut", at=at)
+    code = "wall_undercut" if takes_a_roller(cam, kept_apex(keys)) else "roller_outruns_surface"
+    raise LateError(code, partial(_undercut, keys, cam, code, math.degrees(angle)))
+
+
+def _undercut(keys: BarrelCamSpec, cam: BarrelCam, code: str, at: float) -> ParameterError:
+    """The refusal of a cam whose walls are undercut at a cam angle, degrees."""
+    play = keys.clearance
+    if code == "wall_undercut":
+        most, given = 2 * largest_radius(cam, kept_apex(keys)) * (1 - 1e-6), keys.roller_diameter
+        if most > 1.01 * play and rounded(most - play, up=False) > 0:
+            return UndercutError("roller_diameter", given, code, limit(most - play, given), at=at)
+        return UndercutError("clearance", play, code, at=at)
     if not keys.swing_deg:
-        raise UndercutError("motion_table", None, "roller_outruns_surface", at=at)
+        return UndercutError("motion_table", None, code, at=at)
 
     def works(swing_deg: float) -> bool:
         return _is_guided(changed(keys, swing_deg=swing_deg))
 
     ends = [keys.swing_deg * share for share in _SMALLER]
-    cure = lambda: nearest(works, keys.swing_deg, ends)  # noqa: E731
-    raise UndercutError("swing_deg", keys.swing_deg, "roller_outruns_surface", cure, at=at)
+    return UndercutError("swing_deg", keys.swing_deg, code, lambda: nearest(works, keys.swing_deg, ends), at=at)
 
 
 def _holes_of(keys: BarrelCamSpec) -> HubHoles:

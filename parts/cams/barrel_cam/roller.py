@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -44,6 +45,12 @@ def kept_apex(keys: BarrelCamSpec) -> float | None:
     return keys.clearance if keys.roller_form == "conical" and keys.cone_angle_deg is None else None
 
 
+def takes_a_roller(cam: BarrelCam, apex_play: float | None = None) -> bool:
+    """Whether there is a roller, however small, that undercuts no wall: ``largest_radius`` is above 0."""
+    spare, least, most = _sizes(cam, apex_play)
+    return spare(least) > 0 or spare(most) >= 0
+
+
 @lru_cache(maxsize=64)
 def largest_radius(cam: BarrelCam, apex_play: float | None = None) -> float:
     """Radius of the roller whose walls are nearly undercut, mm; 0 if none is small enough, no more than has room.
@@ -51,6 +58,15 @@ def largest_radius(cam: BarrelCam, apex_play: float | None = None) -> float:
     ``apex_play``: mm by which the groove is wider than a cone that keeps its apex on the cam's axis.
     """
     from geometry.base.roots import bracketed_root
+
+    spare, least, most = _sizes(cam, apex_play)
+    if spare(most) >= 0:
+        return most
+    return bracketed_root(spare, least, most).value if spare(least) > 0 else 0.0
+
+
+def _sizes(cam: BarrelCam, apex_play: float | None) -> tuple[Callable[[float], float], float, float]:
+    """What a roller's radius leaves of the least edge speed, and the least and the greatest that are looked at, mm."""
     from geometry.cams.barrel.cam import LEAST_SPEED
 
     def spare(radius: float) -> float:
@@ -65,9 +81,7 @@ def largest_radius(cam: BarrelCam, apex_play: float | None = None) -> float:
     elif cam.taper:
         # a cone of this angle must reach the floor
         least += cam.taper * (cam.reference - math.sqrt(cam.inner**2 - (stray + cam.radius) ** 2))
-    if spare(most) >= 0:
-        return most
-    return bracketed_root(spare, least, most).value if spare(least) > 0 else 0.0
+    return spare, least, most
 
 
 def thinnest(cam: BarrelCam) -> float:

@@ -152,7 +152,7 @@ def _ring_of(keys: RingGearSpec) -> RingGear:
     from geometry.gears.teeth.ring import RingGear, RoundedRoot
 
     if keys.cutter is not None and keys.rounded_root is not None:
-        raise either("rounded_root.dedendum_coefficient", keys.rounded_root.dedendum_coefficient, "cutter")
+        raise either("rounded_root", keys.rounded_root, "cutter")
     angle, rim = math.radians(keys.pressure_angle_deg), keys.outer_diameter
     height = keys.addendum_coefficient + _CLEARANCE
     root: PinionCutter | RoundedRoot = PinionCutter(keys.module, 25, angle, addendum=height)

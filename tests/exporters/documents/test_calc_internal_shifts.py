@@ -396,7 +396,7 @@ def test_the_pair_of_the_power_module(tmp_path: Path, capsys: pytest.CaptureFixt
         ),
         (
             f"{GIVEN} second.cutter.number_of_teeth=20 second.rounded_root.full_round=true",
-            "shift-choice.second.rounded_root.dedendum_coefficient",
+            "shift-choice.second.rounded_root",
             "either_key",
             None,
         ),

@@ -10,7 +10,7 @@ import pytest
 
 from parts.base.part import Part
 from parts.scene.load import make_parts, scene_from_dict
-from tests.parts.limits import check_limit, check_refused, offset_limits, refused, scene_of, with_key
+from tests.parts.limits import check_limit, check_offer, check_refused, offset_limits, refused, scene_of, with_key
 
 
 def steps(*rows: dict[str, Any], **more: Any) -> dict[str, Any]:
@@ -35,6 +35,9 @@ PLATE: dict[str, Any] = {"kind": "plate", "width": 60.0, "height": 40.0, "face_w
 CARRIER: dict[str, Any] = {"kind": "carrier_plate", "number_of_pins": 3, "pin_circle_diameter": 80.0,
                            "pin_diameter": 6.0, "face_width": 4.0}  # fmt: skip
 WAY, GR = "steps[1].keyways[1]", "steps[1].grooves[1]"
+# a keyway between the chamfer of its step and a groove's walls at 10 and 12
+BETWEEN = steps(step(20.0, 40.0, chamfer=1.0, grooves=[GROOVE], keyways=[
+    {"at": 15.0, "length": 10.0, "width": 3.0, "depth": 1.5}]), step(28.0, 25.0))  # fmt: skip
 # degrees between keyways of half a width of 0.3 and a floor at 0.65 of the radius
 APART = math.degrees(2 * math.atan(3 / 6.5))
 UNLIKE = math.degrees(math.asin(3 / math.sqrt(82)) + math.atan(1 / 9))
@@ -68,6 +71,40 @@ LIMITS: list[tuple[dict[str, Any], str, str, float, str, dict[str, float]]] = [
     (SHAFT, "steps[1].chamfer", "chamfer_leaves_nothing_of_step", 10.0, "at_most", {}),
     (SHAFT | {"bore_diameter": 6.0}, "steps[1].chamfer", "chamfer_leaves_nothing_of_step", 7.0, "at_most", {}),
     (SHAFT | {"bore_diameter": 6.0}, "steps[3].chamfer", "chamfer_leaves_nothing_of_step", 9.0, "at_most", {}),
+    # a floor below the rim and above the bore; longer than its round ends are wide
+    (KEYED, f"{WAY}.depth", "keyway_of_no_depth", 10 - RIM, "at_least", {}),
+    (TUBE, f"{WAY}.depth", "keyway_of_no_depth", 5.5, "at_most", {}),
+    (KEYED, f"{WAY}.length", "keyway_shorter_than_wide", 6.0, "at_least", {"width": 6.0}),
+    # off the chamfer or the fillet of its step, whichever is larger, at both ends; a groove's walls at 10 and 12
+    (KEYED, f"{WAY}.at", "keyway_beyond_step", 1.0, "at_least", {"length": 40.0}),
+    (KEYED, f"{WAY}.at", "keyway_beyond_step", 19.0, "at_most", {"length": 40.0}),
+    (steps(step(20.0, 40.0, fillet=1.5, keyways=KEYED["steps"][0]["keyways"]), step(28.0, 25.0)), f"{WAY}.at",
+     "keyway_beyond_step", 1.5, "at_least", {"length": 40.0}),
+    (BETWEEN, f"{WAY}.at", "keyway_beyond_step", 12.0, "at_least", {"length": 40.0}),
+    (steps(step(20.0, 40.0, grooves=[GROOVE], keyways=[{"at": 3.0, "length": 6.0, "width": 3.0, "depth": 1.5}])),
+     f"{WAY}.at", "keyway_beyond_step", 4.0, "at_most", {"length": 40.0}),
+    # a rounding as high as the step beside it, less that one's chamfer; as long as its own step, less a chamfer there
+    (steps(step(20.0, 40.0, fillet=1.0), step(28.0, 25.0)), "steps[1].fillet", "corner_longer_than_edge", 4.0,
+     "at_most", {}),
+    (steps(step(20.0, 40.0, fillet=1.0), step(28.0, 25.0, chamfer=1.5)), "steps[1].fillet", "corner_longer_than_edge",
+     2.5, "at_most", {}),
+    (steps(step(20.0, 3.0, chamfer=0.5, fillet=1.0), step(28.0, 25.0)), "steps[1].fillet", "corner_longer_than_edge",
+     2.5, "at_most", {}),
+    (steps(step(20.0, 3.0, chamfer=0.5, fillet=1.0), step(28.0, 25.0)), "steps[1].chamfer", "corner_longer_than_edge",
+     2.0, "at_most", {}),
+    # both roundings of a groove's bottom, 2 wide; its walls, 0.8 deep
+    (GROOVED, f"{GR}.fillet", "corner_longer_than_edge", 1.0, "at_most", {}),
+    (steps(step(20.0, 40.0, grooves=[GROOVE | {"diameter": 18.4}])), f"{GR}.fillet", "corner_longer_than_edge", 0.8,
+     "at_most", {}),
+    (TURNED, "points[2].chamfer", "corner_longer_than_edge", 8.0, "at_most", {}),
+    # touches lines that meet at 60 degrees: as long as the shorter one's 10, by tan(30)
+    ({"kind": "turned", "points": [{"r": 5.0, "z": 0.0}, {"r": 15.0, "z": 0.0}, {"r": 10.0, "z": 5 * math.sqrt(3)},
+                                   {"r": 5.0, "z": 5 * math.sqrt(3)}]},
+     "points[2].fillet", "corner_longer_than_edge", 10 * math.tan(math.pi / 6), "at_most", {}),
+    # a hollow rounding between a cone and a face that is 3 wide, about a point of the axis
+    ({"kind": "turned", "points": [{"r": 0.0, "z": 0.0}, {"r": 20.0, "z": 0.0}, {"r": 20.0, "z": 30.0},
+                                   {"r": 3.0, "z": 10.0}, {"r": 0.0, "z": 10.0}]},
+     "points[4].fillet", "arc_about_beyond_axis", 3 / math.tan(math.atan2(20, 17) / 2), "at_most", {}),
     (PLATE, "corner_radius", "rounding_above_half_side", 20.0, "at_most", {}),
     (PLATE | {"engraved": [{"start": [0, 0], "end": [5, 0], "width": 1.0}]}, "engraved[1].depth",
      "engraved_too_deep", 2.0, "at_most", {}),
@@ -89,6 +126,11 @@ def test_a_limit_is_told_and_holds(
     check_limit(scene_of(part), f"parts.p.{key}", code, limit, side, **numbers)
 
 
+def test_a_keyway_that_no_place_is_long_enough_for_is_shorter_where_it_is() -> None:
+    """From the groove to the chamfer there are 27 mm, behind its place 24."""
+    check_offer(scene_of(BETWEEN), f"parts.p.{WAY}.length", 30.0, "keyway_beyond_step", 24.0, "at_most", length=40.0)
+
+
 # limits of which no value is told: key, the last value that is made, the first that is refused, its code, numbers
 WITHOUT: list[tuple[dict[str, Any], str, float, float, str, dict[str, float]]] = [
     # grooves between both chamfers of their step, behind the one before
@@ -96,19 +138,6 @@ WITHOUT: list[tuple[dict[str, Any], str, float, float, str, dict[str, float]]] =
     (GROOVED, f"{GR}.at", 36.999, 37.0, "groove_beyond_step", {"least": 1.0, "length": 40.0}),
     (steps(step(20.0, 40.0, grooves=[GROOVE | {"at": 20.0}, GROOVE])), "steps[1].grooves[1].at", 12.001, 12.0,
      "groove_beyond_step", {"least": 12.0, "length": 40.0}),
-    # a floor below the rim and above the bore
-    (KEYED, f"{WAY}.depth", 10 - RIM + 1e-6, 10 - RIM - 1e-6, "keyway_of_no_depth", {}),
-    (TUBE, f"{WAY}.depth", 5.499, 5.5, "keyway_of_no_depth", {}),
-    (KEYED, f"{WAY}.length", 6.001, 6.0, "keyway_shorter_than_wide", {"width": 6.0}),
-    # off the chamfer or the fillet of its step, whichever is larger, at both ends
-    (KEYED, f"{WAY}.at", 1.001, 1.0, "keyway_beyond_step", {"length": 40.0}),
-    (KEYED, f"{WAY}.at", 18.999, 19.0, "keyway_beyond_step", {"length": 40.0}),
-    (steps(step(20.0, 40.0, fillet=1.5, keyways=KEYED["steps"][0]["keyways"]), step(28.0, 25.0)), f"{WAY}.at", 1.501,
-     1.5, "keyway_beyond_step", {"length": 40.0}),
-    # a groove's walls at 10 and 12
-    (GROOVED | {"steps": [GROOVED["steps"][0] | {"keyways": [{"at": 15.0, "length": 10.0, "width": 3.0,
-                                                              "depth": 1.5}]}]},
-     f"{WAY}.at", 12.001, 12.0, "keyway_beyond_step", {"length": 40.0}),
     # two alike beside each other: a corner of each floor in the plane between them
     (KEYED | {"steps": [KEYED["steps"][0] | {"keyways": [KEYED["steps"][0]["keyways"][0] | {"angle_deg": a}
                                                          for a in (0.0, 90.0)]}]},
@@ -168,6 +197,11 @@ def test_a_groove_is_named_as_it_is_written() -> None:
 REFUSED: list[tuple[dict[str, Any], str, object, str, object]] = [
     (CENTRED, "bore_diameter", 3.0, "either_key", 0.0),
     (CARRIER | {"outer_diameter": 100.0}, "hub_diameter", 50.0, "is_round_already", None),
+    # beside an arc, and on the axis, where the solid has no corner
+    ({"kind": "turned", "points": [{"r": 0.0, "z": 0.0, "arc": 5.0}, {"r": 5.0, "z": 5.0}, {"r": 0.0, "z": 5.0}]},
+     "points[2].fillet", 0.5, "corner_of_an_arc", 0.0),
+    ({"kind": "turned", "points": [{"r": 0.0, "z": 0.0}, {"r": 5.0, "z": 5.0}, {"r": 0.0, "z": 5.0}]},
+     "points[1].chamfer", 0.5, "corner_is_straight", 0.0),
     (CARRIER, "directions_deg", [0.0, 90.0], "not_one_a_pin", ...),
     # no key that is as wide as DIN 6885 wants it is known for a shaft of 3
     (steps(step(20.0, 40.0, keyways=[{"at": 5.0, "length": 20.0}])), "steps[1].diameter", 3.0, "no_keyway_row", ...),

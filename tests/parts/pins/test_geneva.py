@@ -130,7 +130,7 @@ def test_what_cannot_be_is_refused_with_what_can(wheel: Keys, driver: Keys, key:
         make_parts(scene_from_dict({"parts": parts}, "t", "t"), "t")
     owner, _, name = refused.value.key.removeprefix("parts.").partition(".")
     assert (name, refused.value.code) == (key, code)
-    if code in ("needs_distance_or_crank", "either_key"):
+    if code == "needs_distance_or_crank":
         return
     found = refused.value.nearest
     assert found is not None

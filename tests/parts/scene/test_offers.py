@@ -18,6 +18,8 @@ from typing import Any
 import pytest
 
 from geometry.base import nearest as search
+from geometry.cams.barrel.cam import BarrelCam
+from geometry.cams.plane import undercut
 from parts.base.refusal import SceneError, sentence
 from parts.scene.load import make_parts, scene_from_dict
 from tests.offered import Raw, at, cam, put, scenes, spoiled
@@ -227,6 +229,30 @@ def test_what_stands_beside_a_limit_moves_it(name: str, place: str, value: float
     assert judged(raw, refusal) == []
 
 
+@pytest.mark.parametrize(
+    ("name", "key", "value", "told"),
+    [
+        ("bevel_pair", "pinion.mounting_distance", 0.7, "pinion.mounting_distance"),
+        ("new key", "gear.width", 10.0, "gear.width"),
+        ("new sprocket", "gear.pitch", 10.0, "gear.pitch"),
+        ("new geneva_wheel", "gear.crank_radius", 30.0, "gear.crank_radius"),
+        # of both the one that can be left out: an oval so slender is concave, a worm so steep has no root
+        ("new noncircular_gear", "gear.eccentricity", 0.7, "gear.eccentricity"),
+        ("new noncircular_gear", "gear.eccentricity", 0.1, "gear.axis_ratio"),
+        ("worm", "worm.lead_angle_deg", 30.0, "worm.lead_angle_deg"),
+    ],
+)
+def test_of_two_keys_that_exclude_each_other_one_is_left_out(name: str, key: str, value: float, told: str) -> None:
+    """Before: nothing was offered, or to leave out the one for which the other cannot stand."""
+    raw = put(scenes()[name], ("parts", *key.split(".")), value)
+    refusal = refusal_of(raw)
+    assert refusal is not None
+    assert (refusal.key, refusal.code) == (f"parts.{told}", "either_key")
+    assert refusal.nearest is not None
+    assert refusal.nearest.value is None
+    assert judged(raw, refusal) == []
+
+
 def test_a_size_that_two_mates_have_otherwise_is_the_one_to_change() -> None:
     """The ring's pins, which the disc and the loose pin both have as they were."""
     path = resources.files("parts.scenes") / "cycloidal_reducer.toml"
@@ -301,6 +327,35 @@ def test_a_trial_that_fails_seeks_no_cure(
     assert refusal is not None
     assert str(refusal)
     assert 0 < trials[0] <= search.MOST_TRIALS * 1.2
+
+
+@pytest.mark.parametrize(
+    ("name", "place", "value", "owner", "asked", "most"),
+    [
+        # the largest roller of a barrel, sought by its slowest edge
+        ("swinging barrel", "p.outer_diameter", 1e-6, BarrelCam, "least_edge_speed", 40),
+        ("barrel", "p.outer_diameter", 1.4, BarrelCam, "least_edge_speed", 40),
+        # a sweep where a disk cam runs back; what it loses where it crosses itself
+        ("swinging mushroom", "p.base_circle_radius", 1e-3, undercut, "_reached", 2),
+        ("groove", "p.base_circle_radius", 1e-3, undercut, "_looped", 3),
+    ],
+)
+def test_a_trial_does_not_ask_how_much_is_wrong(
+    name: str, place: str, value: float, owner: Any, asked: str, most: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Before: 143, 145, 28 and 56 times; whether a wall is undercut at all tells whether a value works."""
+    times, plain = [0], getattr(owner, asked)
+
+    def counted(*given: Any) -> Any:
+        times[0] += 1
+        return plain(*given)
+
+    monkeypatch.setattr(owner, asked, counted)
+    undercut.kept_arcs.cache_clear()
+    refusal = refusal_of(put(scenes()[name], ("parts", *place.split(".")), value))
+    assert refusal is not None
+    assert str(refusal)
+    assert 0 < times[0] <= most
 
 
 def test_a_wrong_offer_is_noticed() -> None:
