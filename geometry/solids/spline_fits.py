@@ -8,6 +8,7 @@ from string import ascii_letters
 
 from geometry.base.record import Record
 from geometry.solids.splines import InvoluteJoint
+from geometry.solids.zones import deviation
 
 # grades, and the letters of hubs and of shafts
 CLASSES: dict[str, tuple[range, tuple[str, ...], tuple[str, ...]]] = {
@@ -27,12 +28,6 @@ ISO_GRADES = (
     (25.0, 5.0, 12.5, 4.0, 25.0, 1.25, 6.3),
     (40.0, 7.1, 18.0, 6.3, 40.0, 2.0, 10.0),
 )
-# m z up to, mm, and -es_v of d, e and f there, um: those of ISO 286-1
-_ISO_DEVIATIONS = {
-    3: (20, 14, 6), 6: (30, 20, 10), 10: (40, 25, 13), 18: (50, 32, 16), 30: (65, 40, 20), 50: (80, 50, 25),
-    80: (100, 60, 30), 120: (120, 72, 36), 180: (145, 85, 43), 250: (170, 100, 50), 315: (190, 110, 56),
-    400: (210, 125, 62), 500: (230, 135, 68), 630: (260, 145, 76), 800: (290, 160, 80), 1000: (320, 170, 86),
-}  # fmt: skip
 # DIN 5480-1, table 7: the column is that of d_B (of m z in GOST 6033-80) up to, and one more for each m passed, mm
 _DIN_DIAMETERS, _DIN_MODULES = (12, 25, 50, 100, 200, 400), (1.5, 4)
 # deviations of the ninth column and their series: those of F to M of a hub, of a to v of a shaft are multiples of them
@@ -115,8 +110,15 @@ def side_limits(joint: InvoluteJoint, *, is_shaft: bool, length: float | None = 
     units = _iso_units(joint, grade, joint.reference_radius if length is None else length)
     total = share * units.of_diameter + 4 * share * units.of_width
     variation = 0.6 * math.hypot(units.pitch, units.profile, units.helix)
-    deviation = _iso_deviation(2 * joint.reference_radius, letter, total)
-    return SideLimits(joint.thickness, deviation / 1000, variation / 1000, total / 1000, way, units)
+    es = _iso_deviation(2 * joint.reference_radius, letter, total)
+    return SideLimits(joint.thickness, es / 1000, variation / 1000, total / 1000, way, units)
+
+
+def greatest_tip(joint: InvoluteJoint, limits: SideLimits) -> float | None:
+    """D_ee max of a shaft of ISO 4156 whose teeth are thinner than nominal, mm; None where it is the nominal one."""
+    if joint.standard != "ISO 4156" or limits.way > 0 or limits.deviation >= 0:
+        return None
+    return joint.shaft_diameters[1] + limits.deviation / math.tan(joint.pressure_angle)
 
 
 def grade_of(told: str) -> int:
@@ -141,8 +143,7 @@ def _iso_deviation(reference: float, letter: str, total: float) -> float:
         return math.ceil(total / 2 if letter == "js" else total)
     if letter in ("h", "H"):
         return 0
-    ends = list(_ISO_DEVIATIONS)
-    return -_ISO_DEVIATIONS[ends[bisect_left(ends, reference)]]["def".index(letter)]
+    return -deviation(letter, reference)
 
 
 def _din(joint: InvoluteJoint, grade: int, letter: str) -> tuple[int, int, int]:

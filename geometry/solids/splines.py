@@ -258,6 +258,23 @@ class SplineForm(Record):
         return [Line(near, _DIAGONAL * complex(along, -math.sqrt((circle - along) * (circle + along))))], near
 
 
+class Fit(Record):
+    """Tolerance zones of a hub and of its shaft, H7 and f7, empty where none is told: of a size d, D or b, mm."""
+
+    symbol: str
+    size: float
+    hub: str = ""
+    shaft: str = ""
+
+    def zone(self, is_shaft: bool | None) -> str:
+        """That of one of them, or of both."""
+        return _both(self.hub, self.shaft, is_shaft)
+
+
+def _both(hub: str, shaft: str, is_shaft: bool | None) -> str:
+    return "/".join(filter(None, (hub, shaft))) if is_shaft is None else shaft if is_shaft else hub
+
+
 class StraightJoint(Record):
     """z x d x D with teeth ``width`` (b) wide; ``root``: d1, the inner diameter of a shaft that does not centre there.
 
@@ -274,6 +291,7 @@ class StraightJoint(Record):
     rounding: float = 0.0
     centring: Centring = "inner"
     standard: str = ""
+    fits: tuple[Fit, ...] = ()
 
     @property
     def sizes(self) -> tuple[float, float, float, float]:
@@ -295,6 +313,14 @@ class StraightJoint(Record):
         """Its designation, with the teeth's width where no standard has it."""
         sizes = "×".join(f"{size:g}" for size in self.sizes[: 3 if self.standard else 4])
         return f"{_LETTERS[self.centring]}-{sizes}" if self.standard else sizes
+
+    def named(self, *, is_shaft: bool | None = None) -> str:
+        """The same with the zones of its shaft, of its hub or of both, where it has some."""
+        if not self.fits:
+            return self.name
+        zones = {fit.symbol: fit.zone(is_shaft) for fit in self.fits}
+        told = zip(self.sizes, ("", *_LETTERS.values()), strict=True)
+        return f"{_LETTERS[self.centring]}-" + "×".join(f"{size:g}{zones.get(symbol, '')}" for size, symbol in told)
 
     def shaft(self) -> SplineForm:
         """Its teeth: form 3 of GOST 1139, its root at d, where that centres, else form 2, its root at d1."""
@@ -328,7 +354,7 @@ class InvoluteJoint(Record):
     ``shaft_diameters`` and ``hub_diameters``: of the inner and the outer circle; ``roundings``: of the corners at the
     root and the tips of the shaft and at the bottom of the hub's slots; inf: one arc from side to side; less where it
     would reach beyond a form diameter. Those lie ``form_clearance`` (c_F) mm beyond the tips of the mate.
-    ``hub_class`` and ``shaft_class``: of tolerance, 5H and 5f; they move nothing.
+    ``hub_class`` and ``shaft_class``: of tolerance, 5H and 5f, ``fits``: of the outer diameter; they move nothing.
     """
 
     module: float
@@ -343,10 +369,13 @@ class InvoluteJoint(Record):
     form_clearance: float = 0.0
     hub_class: str = ""
     shaft_class: str = ""
+    fits: tuple[Fit, ...] = ()
 
-    def named(self, *, is_shaft: bool) -> str:
-        """The designation of its shaft or hub, with the class of tolerance that has."""
-        return "×".join(filter(None, (self.name, self.shaft_class if is_shaft else self.hub_class)))
+    def named(self, *, is_shaft: bool | None = None) -> str:
+        """The designation of its shaft, of its hub or of both, with the tolerances that has."""
+        size, *more = self.name.split("×")
+        zones = (fit.zone(is_shaft) for fit in self.fits)
+        return "×".join(filter(None, (size, *zones, *more, _both(self.hub_class, self.shaft_class, is_shaft))))
 
     @property
     def hub_reach(self) -> float:

@@ -6,10 +6,10 @@ import math
 from typing import Annotated
 
 from geometry.base.angles import inverse_involute, involute_function
-from geometry.solids.spline_fits import ISO_GRADES, SideLimits, grade_of, side_limits
+from geometry.solids.spline_fits import ISO_GRADES, SideLimits, grade_of, greatest_tip, side_limits
 from geometry.solids.splines import InvoluteJoint, SplineMeasures
 from parts.base.texts import N_
-from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps
+from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps, fit_tables
 from parts.keys.base import mm
 from parts.keys.splines import InvoluteSplineTable
 from parts.pages.inputs import calculation
@@ -47,7 +47,7 @@ def sheet(keys: InvoluteSplineKeys) -> Sheet:
     reference, alpha = joint.module * joint.teeth, joint.pressure_angle
     page = Sheet(TOPIC, N_("Involute spline"))
     page.section("Given")
-    page.add("spline_designation", joint.name)
+    page.add("spline_designation", joint.named())
     page.add("module", joint.module)
     page.add("number_of_teeth", joint.teeth)
     page.add("spline_pressure_angle_deg", math.degrees(alpha))
@@ -76,6 +76,7 @@ def sheet(keys: InvoluteSplineKeys) -> Sheet:
     # the length is that of the deviations too
     length = keys.length if keys.torque is not None or not (joint.hub_class or joint.shaft_class) else None
     bearing_steps(page, sides, keys.torque, length, keys.load_share)
+    fit_tables(page, joint.fits)
     return page
 
 
@@ -158,8 +159,7 @@ def _limit_steps(
     page.add(names[0], near, "{s} + {es} / 1000")
     if limits.units is not None:
         page.add(names[1], far, f"{{near}} {sign} ({{TL}} - {{lam}}) / 1000")
-        if is_shaft and limits.deviation < 0:
-            tip = joint.shaft_diameters[1] + limits.deviation / math.tan(joint.pressure_angle)
+        if (tip := greatest_tip(joint, limits)) is not None:
             page.add("greatest_shaft_tip", tip, "{d_a} + {es} / 1000 / tan({alpha})", standard)
     page.add(names[2], limits.actual[1], "{near} - {lam} / 1000" if is_shaft else "{near} + {TL} / 1000")
     page.add(names[3], limits.actual[0], "{near} - {TL} / 1000" if is_shaft else "{near} + {lam} / 1000")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geometry.solids.splines import SplineBore
 from parts.base.texts import N_
-from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps
+from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps, fit_tables
 from parts.keys.splines import StraightSplineTable
 from parts.pages.inputs import calculation
 from parts.pages.page import Sheet
@@ -27,7 +27,7 @@ def sheet(keys: SplineKeys) -> Sheet:
     joint = keys.joint()
     page = Sheet(TOPIC, N_("Straight-sided spline"))
     page.section("Given")
-    page.add("spline_designation", joint.name)
+    page.add("spline_designation", joint.named())
     page.add("number_of_teeth", joint.teeth)
     page.add("spline_inner_diameter", joint.inner)
     page.add("spline_outer_diameter", joint.outer)
@@ -43,4 +43,5 @@ def sheet(keys: SplineKeys) -> Sheet:
     page.add("spline_height", sides.height, "({D} - {d}) / 2 - 2 * {c}")
     page.add("spline_clearance", bore.clearance)
     bearing_steps(page, sides, keys.torque, keys.length, keys.load_share)
+    fit_tables(page, joint.fits)
     return page

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Annotated, NamedTuple
 
 from msgspec import Meta
 
 from geometry.base.errors import ParameterError
+from geometry.solids.splines import Fit
+from geometry.solids.zones import zone_limits
+from parts.base.texts import N_
 from parts.keys.base import mm, size
 from parts.pages.page import Sheet
 
@@ -42,3 +46,25 @@ def bearing_steps(page: Sheet, sides: Sides, torque: float | None, length: float
     page.add("load_share", load_share, given=True)
     stress = 2000 * torque / (load_share * sides.teeth * sides.mean_diameter * sides.height * length)
     page.add("spline_bearing_stress", stress, "2000 * {T} / ({psi} * {z} * {d_m} * {h} * {l})")
+
+
+def fit_tables(page: Sheet, fits: Sequence[Fit]) -> None:
+    """Deviations and limits of all sizes that have a zone of tolerance, and the clearances of those that have two."""
+    rows, clearances = list[tuple[str | float, ...]](), list[tuple[str | float, ...]]()
+    for fit in fits:
+        found = []
+        for part, zone in ((N_("hub"), fit.hub), (N_("shaft"), fit.shaft)):
+            if zone:
+                lower, upper = zone_limits(zone, fit.size)
+                rows.append((fit.symbol, part, zone, 1000 * upper, 1000 * lower, fit.size + upper, fit.size + lower))
+                found.append((lower, upper))
+        if len(found) == 2:
+            hub, shaft = found
+            clearances.append((fit.symbol, fit.zone(None), 1000 * (hub[0] - shaft[1]), 1000 * (hub[1] - shaft[0])))
+    if rows:
+        heads = [(N_("size"), ""), (N_("part"), ""), (N_("zone"), ""), (N_("upper deviation"), "um")]
+        heads += [(N_("lower deviation"), "um"), (N_("greatest"), "mm"), (N_("least"), "mm")]
+        page.table("limits", N_("Limits by zones of tolerance, ISO 286-1"), heads, rows)
+    if clearances:
+        heads = [(N_("size"), ""), (N_("zone"), ""), (N_("least"), "um"), (N_("greatest"), "um")]
+        page.table("clearances", N_("Clearances; what is below 0 is interference"), heads, clearances)

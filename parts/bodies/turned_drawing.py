@@ -19,7 +19,7 @@ from geometry.solids.splines import SplineBore
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket, Splined
 from parts.bodies.details import detailed
 from parts.bodies.turned import ShaftSpec, TurnedSpec
-from parts.drawing.directions import directions, involute_data
+from parts.drawing.directions import directions, spline_data
 from parts.drawing.font import MINUS
 from parts.drawing.places import apart
 from parts.drawing.revolved import Loop, below, block, closed, outer_of, outlined, seen_circles, seen_edges
@@ -91,7 +91,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
         found.append(_spline_section(half, spline, bore, f"{cut.letter}-{cut.letter}", subject))
     square = [c.letter for c in found[0].cuts if not all(p.round_ends for p in _crossed(half, c.at))]
     more = [subject.words("square_keyways", letter=letter) for letter in square]
-    more += [line for bore in bores for line in involute_data(bore, subject, is_shaft=True)]
+    more += [line for bore in bores for line in spline_data(bore, subject, is_shaft=True)]
     return PartDrawing(tuple(found), requirements(subject, *more, *directions(holes, subject, "")))
 
 

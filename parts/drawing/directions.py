@@ -7,8 +7,9 @@ from collections.abc import Sequence
 
 from geometry.solids.bores import KeywayBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
-from geometry.solids.spline_fits import side_limits
-from geometry.solids.splines import InvoluteJoint, SplineBore
+from geometry.solids.spline_fits import greatest_tip, side_limits
+from geometry.solids.splines import InvoluteJoint, SplineBore, StraightJoint
+from geometry.solids.zones import zone_limits
 from parts.drawing.places import apart, circled
 from parts.drawing.working import Subject
 
@@ -32,7 +33,7 @@ def directions(
     """
     bore, found = holes.bore, list[str]()
     if isinstance(bore, SplineBore):
-        found += involute_data(bore, subject, is_shaft=False)
+        found += spline_data(bore, subject, is_shaft=False)
 
     def tell(key: str, angle: float, count: int, start: str, **sizes: object) -> None:
         step = math.tau / max(count, 1)
@@ -76,10 +77,17 @@ def _turned(angle: float, count: int) -> bool:
     return min(angle % step, step - angle % step) > _SAME
 
 
-def involute_data(bore: SplineBore, subject: Subject, *, is_shaft: bool) -> tuple[str, ...]:
-    """What an involute spline is made by; nothing of a straight one."""
-    if not isinstance(joint := bore.joint, InvoluteJoint):
-        return ()
+def spline_data(bore: SplineBore, subject: Subject, *, is_shaft: bool) -> tuple[str, ...]:
+    """What an involute spline is made by, and the limits of sizes with a zone of tolerance."""
+    joint = bore.joint
+    zones = [(fit.symbol, fit.size, zone) for fit in joint.fits if (zone := fit.zone(is_shaft))]
+    sizes = [f"{symbol} {_span(subject, [size + x for x in zone_limits(zone, size)])}" for symbol, size, zone in zones]
+    lines = (subject.words("spline_limits", sizes="; ".join(sizes)),) if sizes else ()
+    return lines if isinstance(joint, StraightJoint) else (*_involute(joint, bore, subject, is_shaft=is_shaft), *lines)
+
+
+def _involute(joint: InvoluteJoint, bore: SplineBore, subject: Subject, *, is_shaft: bool) -> tuple[str, ...]:
+    """What an involute spline is made by."""
     measured = joint.measured(-bore.clearance if is_shaft else bore.clearance, is_shaft=is_shaft)
     pin = measured.pin_diameter
     limits = side_limits(joint, is_shaft=is_shaft)
@@ -100,7 +108,10 @@ def involute_data(bore: SplineBore, subject: Subject, *, is_shaft: bool) -> tupl
     if limits is None:
         return (line,)
     near = subject.say(_inwards(limits.effective)[1 if is_shaft else 0])
-    return line, subject.words("effective_tooth" if is_shaft else "effective_space", thickness=near)
+    told = line, subject.words("effective_tooth" if is_shaft else "effective_space", thickness=near)
+    if (tip := greatest_tip(joint, limits)) is None:
+        return told
+    return *told, subject.words("greatest_tip", size=subject.say(_inwards((tip, tip))[1]))
 
 
 def _inwards(limits: Sequence[float]) -> tuple[float, float]:

@@ -613,17 +613,20 @@ def spline_sizes(
     form, play = (joint.shaft(), -bore.clearance) if is_shaft else (bore.form, 0.0)
     straight = joint if isinstance(joint, StraightJoint) else None
     # a diameter is told where its circle is: at the teeth, or between them
-    step, fit = 360 / joint.teeth, wishes.shaft if is_shaft else wishes.bore
+    step, usual = 360 / joint.teeth, wishes.shaft if is_shaft else wishes.bore
     places = [90 + step * k for k in range(1, joint.teeth)]
-    inner, outer = (fit if straight and straight.centring == name else "" for name in ("inner", "outer"))
+    zones = {fit.symbol: fit.zone(is_shaft) for fit in joint.fits}
+    inner, outer = (
+        zones.get(symbol) or (usual if straight and straight.centring == name else "")
+        for name, symbol in (("inner", "d"), ("outer", "D"))
+    )
     rounds = (
         Round("spline.outer_diameter", 0j, form.outer + play, after=outer, angles=tuple(places)),
         Round("spline.inner_diameter", 0j, form.inner + play, after=inner, angles=tuple(p + step / 2 for p in places)),
     )
     side = form.flank.shifted(play).at((form.inner + form.outer) / 2 + play).conjugate() * 1j
-    width = Size("spline.width", complex(-side.real, side.imag), side, "above")
-    name = joint.name if isinstance(joint, StraightJoint) else joint.named(is_shaft=is_shaft)
-    note = Note(side, subject.words(f"spline_{joint.standard}", name=name))
+    width = Size("spline.width", complex(-side.real, side.imag), side, "above", "", zones.get("b", ""))
+    note = Note(side, subject.words(f"spline_{joint.standard}", name=joint.named(is_shaft=is_shaft)))
     return (width,) if straight else (), rounds, note
 
 

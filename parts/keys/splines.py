@@ -16,20 +16,20 @@ from parts.base.lookalikes import in_latin
 from parts.keys.base import degrees, part_mm
 
 if TYPE_CHECKING:
-    from geometry.solids.splines import Centring, InvoluteJoint, SplineBore, StraightJoint
+    from geometry.solids.splines import Centring, Fit, InvoluteJoint, SplineBore, StraightJoint
     from parts.base.readback import Probe
 
 _OWN = ("teeth", "inner_diameter", "outer_diameter", "width")
 # sizes that nothing else of a splined step follows
 _SMALL = ("chamfer", "root_rounding")
-# a number with or without a fit after it, and a fit or a class of tolerance alone
+# a number with or without zones of tolerance after it, and a class of tolerance alone
 _FIT = r"[A-WYZa-wyz]{1,2}\d{1,2}"
-_NUMBER = re.compile(rf"(\d+(?:\.\d+)?)(?:{_FIT}(?:/{_FIT})?)?")
+_NUMBER = re.compile(rf"(\d+(?:\.\d+)?)({_FIT}(?:/{_FIT})?)?")
 _CLASS = r"\d{1,2}(?:js|[A-WYZa-wyz])"
 _CLASSES = re.compile(rf"x({_CLASS})(?:/?({_CLASS}))?$")
-_FITS = re.compile(rf"{_FIT}(?:/{_FIT})?|{_CLASS}(?:/?{_CLASS})?")
-# GOST 6033 has the fit of the outer diameter beside it, before the module, where that centres
-_OUTER = re.compile(rf"\d+(?:\.\d+)?x?{_FIT}(?:/{_FIT})?x\d")
+_ALONE = re.compile(rf"{_CLASS}(?:/?{_CLASS})?")
+# zones with a sign before them, as GOST 6033 has them
+_APART = re.compile(rf"x(?={_FIT})")
 # what stands before z x d x D and d_B x m x z: the surface that centres, shaft (W) or hub (N)
 _PREFIX = re.compile(r"(?:[dDb]-?|[WN])?")
 _ISO = re.compile(
@@ -56,11 +56,41 @@ def _plain(size: str, *standards: str) -> str:
     return re.sub(rf"^(?:{named})-?|(?:{named})(?:-\d+)?$", "", plain)
 
 
-def _numbers(plain: str) -> list[float] | None:
-    """The numbers of a plain designation, without its fits; None: it is none."""
-    parts = [part for part in _PREFIX.sub("", plain, 1).split("x") if not _FITS.fullmatch(part)]
+def _sizes(plain: str) -> list[tuple[float, str]]:
+    """The numbers of a plain designation, each with the zones beside it; nothing where it is none."""
+    parts = [part for part in _APART.sub("", _PREFIX.sub("", plain, 1)).split("x") if not _ALONE.fullmatch(part)]
     found = [_NUMBER.fullmatch(part) for part in parts]
-    return None if None in found else [float(match[1]) for match in found if match]
+    return [] if None in found else [(float(match[1]), match[2] or "") for match in found if match]
+
+
+def _fit(symbol: str, size: float, zones: str, designation: str) -> Fit:
+    """The zones beside a size of a designation, that of the hub first."""
+    from geometry.solids.splines import Fit
+    from geometry.solids.zones import GRADES, HOLES, MOST_SIZE, SHAFTS, split_zone
+
+    if size > MOST_SIZE:
+        raise ParameterError("bore.size", designation, "spline_zones_end", most=MOST_SIZE)
+    told: dict[str, str] = {}
+    for zone in zones.split("/"):
+        letter, grade = split_zone(zone)
+        part = "hub" if letter in HOLES else "shaft"
+        if part == "hub" and "shaft" in told:
+            right = f"{zone}/{told['shaft']}"
+            cure = Nearest(designation.replace(zones, right)) if zones in designation else None
+            raise ParameterError("bore.size", designation, "spline_hub_first", cure, right=right)
+        if letter not in HOLES + SHAFTS or grade not in GRADES or part in told:
+            raise ParameterError(
+                "bore.size", designation, "no_such_spline_zone", zone=zone, least=GRADES[0], most=GRADES[-1],
+                hubs=", ".join(HOLES), shafts=", ".join(SHAFTS),
+            )  # fmt: skip
+        told[part] = zone
+    return Fit(symbol, size, **told)
+
+
+def _check_clearance(clearance: float) -> None:
+    """Refuse one beside tolerances, which tell how far the sides stand off."""
+    if clearance > 0:
+        raise ParameterError("bore.clearance", clearance, "clearance_of_class", Nearest(0.0))
 
 
 class _SplineTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
@@ -104,7 +134,8 @@ class StraightSplineTable(_SplineTable, tag="spline"):
         Annotated[
             str,
             Meta(
-                description="designation z x d x D, with d-, D- or b- before it where that centres; or give the sizes",
+                description="designation z x d x D, with d-, D- or b- before it where that centres; with zones of"
+                " tolerance (d-8x36H7/f7x40H12/a11x7D9/f8) where limits are wanted; or give the sizes",
                 examples=["6x11x14"],
             ),
         ]
@@ -149,9 +180,10 @@ class StraightSplineTable(_SplineTable, tag="spline"):
             found = StraightJoint(int(teeth), inner, outer, width, inner)
         else:
             plain = _plain(self.size, "GOST 1139", "ISO 14")
-            numbers = _numbers(plain) or []
+            sizes = _sizes(plain)
+            numbers = [number for number, _ in sizes]
             like = [j for j in STRAIGHT_JOINTS if numbers in ([j.teeth, j.inner, j.outer], [*j.sizes])]
-            if not like:
+            if not like or sizes[0][1]:
                 meant = min(
                     STRAIGHT_JOINTS, key=lambda j: sum(abs(a - b) for a, b in zip(j.sizes, numbers, strict=False))
                 )
@@ -159,7 +191,13 @@ class StraightSplineTable(_SplineTable, tag="spline"):
                 raise ParameterError(
                     "bore.size", self.size, "no_such_spline", cure, standard="GOST 1139, ISO 14", example="6x23x26"
                 )
-            found = replace(like[0], centring=_CENTRING.get(plain[0], "inner"))
+            beside = zip(("d", "D", "b"), sizes[1:], strict=False)
+            fits = tuple(_fit(symbol, size, zones, self.size) for symbol, (size, zones) in beside if zones)
+            found = replace(like[0], centring=_CENTRING.get(plain[0], "inner"), fits=fits)
+            if found.centring != "inner" and fits and fits[0].symbol == "d" and fits[0].shaft:
+                raise ParameterError("bore.size", self.size, "zone_of_free_root", zone=fits[0].shaft)
+            if fits:
+                _check_clearance(self.clearance)
         chamfer = found.chamfer if self.chamfer is None else self.chamfer
         rounding = found.rounding if self.root_rounding is None else self.root_rounding
         return replace(found, chamfer=chamfer, rounding=rounding)
@@ -219,7 +257,9 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
             if value != usual and not gost:
                 raise ParameterError(f"bore.{key}", value, "of_another_spline", Nearest(usual), standard=self.standard)
         plain = _plain(self.size, self.standard)
-        outer = gost and (self.centring == "outer" or _OUTER.match(plain) is not None)
+        sizes = [] if self.standard == "ISO 4156" else _sizes(plain)
+        numbers, zones = [number for number, _ in sizes], [zone for _, zone in sizes]
+        outer = gost and (self.centring == "outer" or any(zones[:1]))
         if outer and self.root == "fillet":
             raise ParameterError("bore.root", self.root, "centred_by_flat_roots", Nearest("flat"))
         told = {"standard": self.standard, "example": _EXAMPLES[self.standard]}
@@ -235,17 +275,24 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
                 raise refusal
             made = standards.iso_4156(int(iso[1]), float(iso[2]), float(iso[3]), root)
             return self._classed(made, plain, iso.end(4))
-        numbers = _numbers(plain) or []
         if not gost and len(numbers) == 4 and numbers[2] == 30:
             # the pressure angle, which DIN 5480 had before z until 2006
             del numbers[2]
-        if len(numbers) != (2 if gost else 3) or not min(numbers) > 0 or numbers[0] / numbers[1] > _MOST_TEETH:
+        if (
+            len(numbers) != (2 if gost else 3)
+            or any(zones[1 if gost else 0 :])
+            or not min(numbers) > 0
+            or numbers[0] / numbers[1] > _MOST_TEETH
+        ):
             raise refusal
         teeth = [z for z in standards.teeth_of(numbers[0], numbers[1]) if gost or z == numbers[2]]
         if not teeth or teeth[0] < _LEAST_TEETH:
             raise refusal
         if gost:
             made = standards.gost_6033(numbers[0], numbers[1], teeth[0], outer=outer, root=self.root)
+            if zones[0]:
+                _check_clearance(self.clearance)
+                made = replace(made, fits=(_fit("D", numbers[0], zones[0], self.size),))
         else:
             made = standards.din_5480(numbers[0], numbers[1], teeth[0])
         return self._classed(made, plain)
@@ -278,8 +325,7 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
             told[key] = one
         if joint.standard == "ISO 4156" and 2 * joint.reference_radius > MOST_REFERENCE:
             raise ParameterError("bore.size", self.size, "spline_classes_end", most=MOST_REFERENCE)
-        if self.clearance > 0:
-            raise ParameterError("bore.clearance", self.clearance, "clearance_of_class", Nearest(0.0))
+        _check_clearance(self.clearance)
         return replace(joint, hub_class=told["hub_class"], shaft_class=told["shaft_class"])
 
     def bore(self) -> SplineBore:

@@ -40,3 +40,19 @@ def test_formulas_of_the_limits_of_a_spline_give_them(words: tuple[str, ...]) ->
     assert sum(step.name.startswith(("least_", "greatest_")) for step in steps) >= 5
     for step in steps:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), step.name
+
+
+def test_limits_of_a_straight_spline_are_those_of_a_worked_example() -> None:
+    """A Ukrainian coursework, d-6x18x22: 0.018/-0.018 on d, -0.3/-0.43 on D, 0.01/0.028 and -0.03/-0.048 on b."""
+    page = sheet_of("spline", ("size=d-6x18H7/h7x22H12/a11x5F8/d8",))[0]
+    limits, clearances = (next(t for t in page.tables if t.name == name) for name in ("limits", "clearances"))
+    told = {labels[:2]: row for labels, row in zip(limits.labels, limits.rows, strict=True)}
+    assert told["d", "hub"] == pytest.approx((18, 0, 18.018, 18))
+    assert told["d", "shaft"] == pytest.approx((0, -18, 18, 17.982))
+    assert told["D", "hub"] == pytest.approx((210, 0, 22.21, 22))
+    assert told["D", "shaft"] == pytest.approx((-300, -430, 21.7, 21.57))
+    assert told["b", "hub"] == pytest.approx((28, 10, 5.028, 5.01))
+    assert told["b", "shaft"] == pytest.approx((-30, -48, 4.97, 4.952))
+    assert [row for _, row in zip(clearances.labels, clearances.rows, strict=True)] == [
+        pytest.approx(pair) for pair in ((0, 36), (300, 640), (40, 76))
+    ]

@@ -109,3 +109,34 @@ def test_a_class_of_tolerance_tells_limits_on_the_drawing_rounded_inwards() -> N
     assert "least effective: 1.571" in told
     assert "\u2026" not in " ".join(plain.requirements)
     assert "effective" not in " ".join(plain.requirements)
+
+
+def test_zones_of_a_straight_spline_stand_on_its_sizes_and_their_limits_beside_them() -> None:
+    size = {"shape": "spline", "size": "d-8x36H7/f7x40H12/a11x7D9/f8"}
+    shaft = {"kind": "shaft", "steps": [{"diameter": 40.0, "length": 20.0, "spline": size}]}
+    for part, zones, limits, name in (
+        (DISC | {"bore": size}, {"36H7", "40H12", "7D9"},
+         "Limits: d 36\u202636.025; D 40\u202640.25; b 7.04\u20267.076.", "d-8\u00d736H7\u00d740H12\u00d77D9"),
+        (shaft, {"36f7", "40a11", "7f8"}, "Limits: d 35.95\u202635.975; D 39.53\u202639.69; b 6.965\u20266.987.",
+         "d-8\u00d736f7\u00d740a11\u00d77f8"),
+    ):  # fmt: skip
+        drawing = drawing_of(part)
+        view = next(v for v in drawing.views if any(s.name == "spline.width" for s in v.sizes))
+        told = {f"{s.value:g}{s.after}" for s in (*view.sizes, *view.rounds) if s.name.startswith("spline.")}
+        assert told == zones
+        assert limits in drawing.requirements
+        assert any(note.text.startswith(name) for note in view.notes)
+
+
+def test_the_outer_diameter_of_thinner_teeth_is_told_by_iso_4156() -> None:
+    """A.5 of ISO 4156-1: 25.93 of 26 for 6e; h and a hub keep theirs."""
+    size = {"shape": "involute_spline", "standard": "ISO 4156"}
+    told = {}
+    for tail in ("6e", "6h", "5H/6e"):
+        step = {"diameter": 26.0, "length": 20.0, "spline": size | {"size": f"25z x 1m x 30R x {tail}"}}
+        told[tail] = drawing_of({"kind": "shaft", "steps": [step]}).requirements
+    assert "Outer diameter, greatest: 25.93." in told["6e"]
+    assert "Outer diameter, greatest: 25.93." in told["5H/6e"]
+    assert not any("Outer diameter" in line for line in told["6h"])
+    hub = drawing_of(DISC | {"bore": size | {"size": "25z x 1m x 30R x 5H/6e"}}).requirements
+    assert not any("Outer diameter" in line for line in hub)

@@ -31,6 +31,75 @@ def test_straight_splines_are_read_from_their_drawings(size: str, joint: tuple[o
 
 
 @pytest.mark.parametrize(
+    ("size", "whole", "hub", "shaft"),
+    [
+        ("d-8x36H7/e8x40H12/a11x7D9/f8", "d-8x36H7/e8x40H12/a11x7D9/f8", "d-8x36H7x40H12x7D9", "d-8x36e8x40a11x7f8"),
+        (CYRILLIC, "d-8x36H7/e8x40H12/a11x7D9/f8", "d-8x36H7x40H12x7D9", "d-8x36e8x40a11x7f8"),
+        ("D-8x36x40H8/h7x7F10/h9", "D-8x36x40H8/h7x7F10/h9", "D-8x36x40H8x7F10", "D-8x36x40h7x7h9"),
+        ("b-8x36x40H12x7D9", "b-8x36x40H12x7D9", "b-8x36x40H12x7D9", "b-8x36x40x7"),
+        ("8 x 36 x js6 x 40", "d-8x36js6x40x7", "d-8x36x40x7", "d-8x36js6x40x7"),
+        ("D-8x36x40", "D-8x36x40", "D-8x36x40", "D-8x36x40"),
+    ],
+)
+def test_zones_of_straight_splines_are_told_as_gost_1139_writes_them(
+    size: str, whole: str, hub: str, shaft: str
+) -> None:
+    made = StraightSplineTable(size).joint()
+    told = made.named(), made.named(is_shaft=False), made.named(is_shaft=True)
+    assert tuple(name.replace("\u00d7", "x") for name in told) == (whole, hub, shaft)
+    # they move nothing
+    plain = StraightSplineTable(made.name).joint()
+    assert (plain.shaft().outline(), plain.hub().outline()) == (made.shaft().outline(), made.hub().outline())
+
+
+@pytest.mark.parametrize(
+    ("size", "code", "right"),
+    [
+        ("d-8x36f7/H7x40", "spline_hub_first", "d-8x36H7/f7x40"),
+        ("d-8x36H7/c7x40", "no_such_spline_zone", None),
+        ("d-8x36H7/H7x40", "no_such_spline_zone", None),
+        ("d-8x36H13x40", "no_such_spline_zone", None),
+        ("d-8x36G7x40", "no_such_spline_zone", None),
+        ("D-8x36H11/a11x40H8/h7", "zone_of_free_root", None),
+        ("8H7x36x40", "no_such_spline", "d-8x36x40"),
+    ],
+)
+def test_other_zones_of_straight_splines_are_refused(size: str, code: str, right: str | None) -> None:
+    with pytest.raises(ParameterError) as caught:
+        StraightSplineTable(size).joint()
+    assert (caught.value.name, caught.value.code) == ("bore.size", code)
+    assert (caught.value.nearest.value if caught.value.nearest else None) == right
+    if right:
+        assert StraightSplineTable(right).joint().inner == 36.0
+
+
+def test_zones_and_a_clearance_are_not_told_both() -> None:
+    for table in (StraightSplineTable("8x36H7x40", clearance=0.1), InvoluteSplineTable("50xH7x2", clearance=0.1)):
+        with pytest.raises(ParameterError) as caught:
+            table.joint()
+        assert (caught.value.name, caught.value.code) == ("bore.clearance", "clearance_of_class")
+        assert caught.value.nearest == Nearest(0.0)
+
+
+@pytest.mark.parametrize(
+    ("size", "code"),
+    [("50xg6/H7x2", "spline_hub_first"), ("50xP7/g6x2", "no_such_spline_zone"), ("50x2xH7/g6", "no_such_spline"),
+     ("505xH7x8", "spline_zones_end")],
+)  # fmt: skip
+def test_zones_of_the_outer_diameter_stand_beside_it(size: str, code: str) -> None:
+    """GOST 6033: 50xH7/g6x2, with the classes of the teeth at the end where they are told."""
+    made = InvoluteSplineTable("50xH7/g6x2x9H/9h").joint()
+    assert made.named() == "50\u00d7H7/g6\u00d72\u00d79H/9h"
+    assert (made.named(is_shaft=True), made.named(is_shaft=False)) == (
+        "50\u00d7g6\u00d72\u00d79h",
+        "50\u00d7H7\u00d72\u00d79H",
+    )
+    with pytest.raises(ParameterError) as caught:
+        InvoluteSplineTable(size).joint()
+    assert (caught.value.name, caught.value.code) == ("bore.size", code)
+
+
+@pytest.mark.parametrize(
     ("size", "keys", "name", "rounded"),
     [
         ("50x2x9H/9g GOST 6033-80", {}, "50\u00d72", False),
