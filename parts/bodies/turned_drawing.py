@@ -19,7 +19,7 @@ from geometry.solids.splines import SplineBore
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket, Splined
 from parts.bodies.details import detailed
 from parts.bodies.turned import ShaftSpec, TurnedSpec
-from parts.drawing.directions import directions, spline_data
+from parts.drawing.directions import directions, spline_data, tip_zone
 from parts.drawing.font import MINUS
 from parts.drawing.places import apart
 from parts.drawing.revolved import Loop, below, block, closed, outer_of, outlined, seen_circles, seen_edges
@@ -157,7 +157,9 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
     low, high = half.heights()
     axes = [Line(complex(low), complex(high))]
     wishes = subject.wishes
-    fits = Fits(wishes.shaft, wishes.bore) if is_shaft else Fits("", wishes.bore, wishes.tip)
+    bored = [*zip(half.splines, _spline_bores(subject), strict=True)]
+    tips = tuple((spline.low, spline.high, tip_zone(bore.joint, wishes.shaft)) for spline, bore in bored)
+    fits = Fits(wishes.shaft, wishes.bore, own=tips) if is_shaft else Fits("", wishes.bore, wishes.tip)
     told = turned_sizes(loop, fits, subject.language, lambda curve: curve not in inner)
     sizes = [*told.sizes]
     shown = dict[tuple[float, float], int]()
@@ -180,7 +182,7 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
                 strokes += [(VISIBLE, wall if way > 0 else wall.mirrored()) for wall in (near, far)]
             axes.append(level((low, high), way * radius))
         sizes.append(circle_size("holes", centres, low))
-    for spline, bore in zip(half.splines, _spline_bores(subject), strict=True):
+    for spline, bore in bored:
         # teeth are not cut along their shaft (GOST 2.409)
         for way in (1, -1):
             root, _, around = bar((spline.low, spline.high), *(way * radius for radius in spline.radii))

@@ -86,6 +86,16 @@ def spline_data(bore: SplineBore, subject: Subject, *, is_shaft: bool) -> tuple[
     return lines if isinstance(joint, StraightJoint) else (*_involute(joint, bore, subject, is_shaft=is_shaft), *lines)
 
 
+def tip_zone(joint: StraightJoint | InvoluteJoint, usual: str) -> str:
+    """The zone of D of a shaft, by its designation or as usual; none where its limit is told beside the views."""
+    for fit in joint.fits:
+        if fit.symbol == "D" and fit.shaft:
+            return fit.shaft
+    if isinstance(joint, StraightJoint) or (limits := side_limits(joint, is_shaft=True)) is None:
+        return usual
+    return usual if greatest_tip(joint, limits) is None else ""
+
+
 def _involute(joint: InvoluteJoint, bore: SplineBore, subject: Subject, *, is_shaft: bool) -> tuple[str, ...]:
     """What an involute spline is made by."""
     measured = joint.measured(-bore.clearance if is_shaft else bore.clearance, is_shaft=is_shaft)

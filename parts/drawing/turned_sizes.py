@@ -26,11 +26,15 @@ _MOST = 16
 
 
 class Fits(Record):
-    """Tolerance zones of outer and inner cylinders, of the largest one (None: as the others); grooves have none."""
+    """Tolerance zones of outer and inner cylinders, of the largest one (None: as the others); grooves have none.
+
+    ``own``: those of outer cylinders between two heights, mm.
+    """
 
     outer: str = ""
     inner: str = ""
     largest: str | None = None
+    own: tuple[tuple[float, float, str], ...] = ()
 
 
 class _Edge(Record):
@@ -284,12 +288,15 @@ def _groove(edges: Sequence[_Edge], k: int) -> bool:
 def _zone(edges: Sequence[_Edge], k: int, fits: Fits, turn: float) -> str:
     """The tolerance zone of a cylinder: of a hole where material stands about it; a boss in a recess has none."""
     edge = edges[k]
-    start, _ = edge.ends
+    start, end = edge.ends
     if fits.largest is not None and abs(start.imag - max(e.ends[0].imag for e in edges)) < _NONE:
         return fits.largest
     if _groove(edges, k):
         return ""
-    return fits.outer if edge.outer else fits.inner if _has_about(edge, turn) else ""
+    if edge.outer:
+        middle = (start.real + end.real) / 2
+        return next((zone for low, high, zone in fits.own if low < middle < high), fits.outer)
+    return fits.inner if _has_about(edge, turn) else ""
 
 
 def _has_about(edge: _Edge, turn: float) -> bool:

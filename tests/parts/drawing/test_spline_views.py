@@ -126,15 +126,23 @@ def test_zones_of_a_straight_spline_stand_on_its_sizes_and_their_limits_beside_t
         assert told == zones
         assert limits in drawing.requirements
         assert any(note.text.startswith(name) for note in view.notes)
+        # no other view has another zone of one of them
+        for size_of in (s for v in drawing.views for s in (*v.sizes, *v.rounds) if s.value in (36.0, 40.0)):
+            assert f"{size_of.value:g}{size_of.after}" in zones
 
 
 def test_the_outer_diameter_of_thinner_teeth_is_told_by_iso_4156() -> None:
     """A.5 of ISO 4156-1: 25.93 of 26 for 6e; h and a hub keep theirs."""
     size = {"shape": "involute_spline", "standard": "ISO 4156"}
-    told = {}
+    told, zones = {}, {}
     for tail in ("6e", "6h", "5H/6e"):
         step = {"diameter": 26.0, "length": 20.0, "spline": size | {"size": f"25z x 1m x 30R x {tail}"}}
-        told[tail] = drawing_of({"kind": "shaft", "steps": [step]}).requirements
+        drawing = drawing_of({"kind": "shaft", "steps": [step, {"diameter": 20.0, "length": 9.0}]})
+        told[tail] = drawing.requirements
+        zones[tail] = {(s.value, s.after) for s in drawing.views[0].sizes if s.before == "\u00d8"}
+    # a limit and a zone from 26 on are not told both
+    assert zones["6e"] == {(26.0, ""), (20.0, "h11")}
+    assert zones["6h"] == {(26.0, "h11"), (20.0, "h11")}
     assert "Outer diameter, greatest: 25.93." in told["6e"]
     assert "Outer diameter, greatest: 25.93." in told["5H/6e"]
     assert not any("Outer diameter" in line for line in told["6h"])
