@@ -5,12 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from contextlib import suppress
+from functools import partial
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
 from msgspec.structs import replace as changed
 
 from geometry.base.errors import ParameterError, limit
+from geometry.base.nearest import nearest
 from geometry.gears.worms import strength
 from geometry.gears.worms.contact import AxisErrors, contact_under
 from geometry.gears.worms.drive import WormDrive
@@ -97,6 +99,9 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     tip_rounding: Annotated[float, mm("radius of the thread's tip edges in the axial section", least=0, most=1000)] = (
         0.0
     )
+    ball_diameter: (
+        Annotated[float, mm("balls or wires in its spaces; default: 1.67 m", above=0, most=10_000)] | None
+    ) = None
     worm_length: Annotated[float, mm("threaded length b1", above=0, most=100_000)] | None = None
     face_width: Annotated[float, mm("width b2 of the wheel's rim", above=0, most=100_000)] | None = None
     outer_diameter: Annotated[float, mm("d_ae2, outside of the wheel's throat", above=0, most=200_000)] | None = None
@@ -198,7 +203,8 @@ def sheet(table: dict[str, Any]) -> Sheet:
     _sections(page, worm, keys)
     with suppress(ParameterError):
         # of a thread that has room for its corners
-        _measures(page, thread_of(worm, keys.tip_rounding))
+        thread = thread_of(worm, keys.tip_rounding)
+        _measures(page, thread, keys)
     if drive:
         if any(x is not None for x in (keys.face_width, keys.worm_length, keys.outer_diameter)):
             _lengths(page, drive, keys)
@@ -299,15 +305,21 @@ def _sections(page: Sheet, worm: Worm, keys: WormKeys) -> None:
     page.add("thread_tip_thickness", worm.tip_thickness, "")
 
 
-def _measures(page: Sheet, thread: Thread) -> None:
-    """What is read on the thread: its chord, and over balls."""
-    chord, ball = reference_chord(thread), BALL * thread.worm.module
+def _measures(page: Sheet, thread: Thread, keys: WormKeys) -> None:
+    """What is read on the thread: its chord, and over balls or wires."""
+    chord, usual = reference_chord(thread), BALL * thread.worm.module
     page.section("Measured")
     page.add("thread_chord", chord.thickness)
     page.add("thread_chord_height", chord.height)
+    ball = usual if keys.ball_diameter is None else keys.ball_diameter
     if (size := over_balls(thread, ball)) is not None:
-        page.add("ball_diameter", ball, f"{BALL} * {{m}}", _GOST)
+        usual_told = ("", "") if keys.ball_diameter is not None else (f"{BALL} * {{m}}", _GOST)
+        page.add("ball_diameter", ball, *usual_told, given=keys.ball_diameter is not None)
         page.add("over_balls", size)
+    elif keys.ball_diameter is not None:
+        cure = partial(nearest, lambda one: over_balls(thread, one) is not None, ball, usual)
+        told = ParameterError("ball_diameter", ball, "no_pin_touches_there", cure)
+        raise refusal(TOPIC, told, keys=keys)
 
 
 def _lengths(page: Sheet, drive: WormDrive, keys: WormKeys) -> None:

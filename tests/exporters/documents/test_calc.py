@@ -813,6 +813,15 @@ def test_every_number_of_the_thesis_worm_drives(drive: str) -> None:
     assert seen == {*WORM_NAMES, *WORM_WIDTHS, "m_without_cos_gamma_mm"}
 
 
+@pytest.mark.parametrize(("ball", "cure"), [("0.5", "at least 1.6833 mm"), ("30", "at most 4.8934 mm")])
+def test_balls_that_touch_no_flank_of_a_worm_are_refused(ball: str, cure: str) -> None:
+    words = ("module=2", "diameter_quotient=15.5")
+    with pytest.raises(SceneError, match=f"worm.ball_diameter = .*{cure} works"):
+        calculate("worm", (*words, f"ball_diameter={ball}"), "json", "en")
+    near = cure.split()[2]
+    assert "over_balls" in json.loads(calculate("worm", (*words, f"ball_diameter={near}"), "json", "en"))["values"]
+
+
 def test_a_worm_is_told_by_its_lead_angle_as_in_scenes(capsys: pytest.CaptureFixture[str]) -> None:
     lead = math.degrees(math.atan2(2, 8))
     words = "worm module=2 number_of_starts=2 number_of_teeth=30"
