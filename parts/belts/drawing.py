@@ -12,7 +12,7 @@ from parts.belts.pulley import TIMING_PULLEY, TimingPulleySpec
 from parts.drawing.disk_views import disk_drawing
 from parts.drawing.wheel_views import Groove, circle_of
 from parts.drawing.working import VISIBLE, PartDrawing, Size, Subject
-from parts.pages.data_table import DataRow, DataTable, Mated, rows_of
+from parts.pages.data_table import DataRow, DataTable, Mated, distance_rows, rows_of
 from parts.pages.inputs import SceneKeys, given
 
 _GROOVE = ("pulley_groove_depth", "groove_floor_width", "groove_corner_width", "groove_angle_deg",
@@ -52,7 +52,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     assert isinstance(keys, TimingPulleySpec)
     page = pulley_page.sheet(given(keys))
     belt = (DataRow(N_("timing belt"), "", keys.belt),) if isinstance(keys.belt, str) else ()
-    beside = [DataRow(N_("centre distance"), "a", mate.distance, "mm") for mate in mates]
+    beside = distance_rows(mates, "a")
     others = [DataRow(N_("teeth of the other pulley"), "z", mate.part.thing.number_of_teeth) for mate in mates]
     return DataTable(
         (

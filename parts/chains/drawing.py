@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 from geometry.base.record import replace
@@ -11,10 +10,9 @@ from parts.base.texts import N_
 from parts.chains import page as sprocket_page
 from parts.chains.sprocket import SPROCKET, SprocketSpec
 from parts.drawing.disk_views import disk_drawing
-from parts.drawing.extent import reach
 from parts.drawing.wheel_views import Groove
 from parts.drawing.working import PartDrawing, Size, Subject
-from parts.pages.data_table import DataRow, DataTable, Mated, rows_of, standard_told
+from parts.pages.data_table import DataRow, DataTable, Mated, distance_rows, rows_of, standard_told
 from parts.pages.inputs import SceneKeys, given
 
 _GAP = ("seating_radius", "seating_angle_deg", "chain_flank_radius", "gap_radius", "joining_radius", "head_radius",
@@ -37,9 +35,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     )  # fmt: skip
     section, *others = made.views
     if bevel is not None:
-        # the section ends where the face does
-        up = reach(subject.part.section(0.0).region.outer, math.pi / 2)
-        ends = complex(0.0, up - bevel[0]), complex(bevel[1], up)
+        ends = complex(0.0, sprocket.bevel_radius), complex(bevel[1], sprocket.tip_radius)
         extra = Size("tooth_bevel", *ends, "above"), Size("tooth_bevel.depth", *ends, "left")
         section = replace(section, sizes=(*section.sizes, *extra))
     if not grooves:
@@ -61,7 +57,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     page = sprocket_page.sheet(given(keys))
     teeth, *chain = rows_of(page, ("number_of_teeth", *_CHAIN))
     form = DataRow(N_("profile of the teeth by"), "", standard_told(part.thing.form.standard))
-    beside = [DataRow(N_("centre distance"), "a", mate.distance, "mm") for mate in mates]
+    beside = distance_rows(mates, "a")
     others = [DataRow(N_("teeth of the other sprocket"), "z", mate.part.thing.number_of_teeth) for mate in mates]
     return DataTable(
         (

@@ -11,7 +11,7 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
 from parts.drawing.directions import directions
 from parts.drawing.extent import reach
-from parts.drawing.wheel_views import Groove, Wheel, wheel_views
+from parts.drawing.wheel_views import PITCH, Groove, Wheel, wheel_views
 from parts.drawing.working import PartDrawing, Round, Subject, requirements
 
 
@@ -38,6 +38,12 @@ def disk_drawing(
         Round(name.removesuffix("_diameter"), 0j, subject.part.circles[name] / 2, angles=(-60.0, -120.0, -30.0, 210.0))
         for name in circles
     )
-    tip = (reach(outline, math.pi / 2), reach(outline, -math.pi / 2)) if rim is None else (rim, rim)
-    wheel = replace(bare, tip=tip, rounds=rounds, stands=False, grooves=grooves, bevel=bevel)
+    radii, root = subject.part.circles, None
+    tip = reach(outline, math.pi / 2), reach(outline, -math.pi / 2)
+    if PITCH in (one.name for one in rounds):
+        # teeth are not cut (GOST 2.402)
+        tip, root = (radii[circles[0]] / 2,) * 2, radii["root_diameter"] / 2
+    if rim is not None:
+        tip = rim, rim
+    wheel = replace(bare, tip=tip, root=root, rounds=rounds, stands=False, grooves=grooves, bevel=bevel)
     return PartDrawing(wheel_views(wheel, subject), requirements(subject, *directions(holes, subject, zero, teeth)))

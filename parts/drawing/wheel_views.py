@@ -44,6 +44,8 @@ from parts.texts.sheets import counted_words
 # a view of a bore is so high on paper at least, mm
 _LEAST_BORE = 25.0
 _UP = math.pi / 2
+# the name of the circle that is drawn as an axis is
+PITCH = "pitch"
 # mm, what is no length
 _NONE = 1e-9
 # mm within which a wall is an edge's own; the least turn of a corner that is seen, rad
@@ -99,6 +101,23 @@ class Wheel(Record):
     runs: bool = False
     grooves: tuple[Groove, ...] = ()
     bevel: tuple[float, float] | None = None
+
+    @property
+    def reference(self) -> float | None:
+        """Radius of its pitch line, which may be a circle that is shown with its size."""
+        return self.pitch or next((one.radius for one in self.rounds if one.name == PITCH), None)
+
+    @property
+    def sunk(self) -> tuple[Groove, ...]:
+        """The grooves in which teeth stand: between flanges."""
+        return tuple(g for g in self.grooves if self.root is not None and g.radius > self.root)
+
+    def rows(self) -> list[tuple[float, float]]:
+        """Between which its teeth stand along the axis, mm."""
+        if self.sunk:
+            return [(g.low, g.high) for g in self.sunk]
+        edges = [0.0, *(z for g in self.grooves for z in (g.low, g.high)), self.shape.face_width]
+        return list(zip(edges[::2], edges[1::2], strict=True))
 
     @property
     def turn(self) -> float:
@@ -264,8 +283,14 @@ def _loops(wheel: Wheel, bore: float, tip: float) -> tuple[Loop, Loop, Loop]:
     if wheel.root is None:
         return loop, loop, ()
     if crown is None:
-        solid = closed(_half(wheel, bore, wheel.root, toothed=True))
-        return loop, solid, (Line(1j * wheel.root, complex(width, wheel.root)),)
+        lines = [level(row, wheel.root) for row in wheel.rows()]
+        if wheel.sunk:
+            cut = replace(wheel, grooves=tuple(replace(g, radius=wheel.root) for g in wheel.sunk))
+            walls = [Line(complex(z, wheel.root), complex(z, g.radius))
+                     for g in wheel.sunk for z in (g.low, g.high) if 0 < z < width]  # fmt: skip
+            return loop, closed(_half(cut, bore, tip, toothed=False)), (*lines, *walls)
+        solid = closed(_half(replace(wheel, bevel=None), bore, wheel.root, toothed=True))
+        return loop, solid, tuple(lines)
     edge = crown.distance - math.sqrt((crown.root - width / 2) * (crown.root + width / 2))
     solid = closed(_half(wheel, bore, edge, toothed=True))
     tips, roots = (crown.top(Line(complex(width, y), 1j * y), r) for y, r in ((tip, crown.throat), (edge, crown.root)))
@@ -298,8 +323,8 @@ def section_view(wheel: Wheel, subject: Subject) -> View:
         hatched.append(tuple(placed(solid)))
         strokes += outlined(placed(loop))
         strokes += [(VISIBLE, line) for line in placed((*root, *seen_edges(loop, cut=True)))]
-        if wheel.pitch is not None:
-            axes.append(level(at.rim, way * wheel.pitch))
+        if wheel.reference is not None:
+            axes += [level(row, way * wheel.reference) for row in wheel.rows()]
         cut_holes(holes, wheel.turn, way, at.web, (strokes, hatched, axes))
     strokes += [(VISIBLE, edge) for edge in (*edges, *spline.roots)]
     sizes, notes = tuple(_section_sizes(wheel, subject)), _section_notes(wheel, subject, at, -bores[1])
@@ -404,8 +429,8 @@ def _section_notes(wheel: Wheel, subject: Subject, at: _Levels, wall: float) -> 
     """Signs of roughness of the teeth, or of the outside, and of the bore, whose wall stands at a height."""
     found = []
     text = subject.rough(subject.wishes.flank_roughness)
-    if wheel.pitch is not None:
-        found.append(Note(complex(wheel.shape.face_width, wheel.pitch), text, is_rough=True, goes_on=True))
+    if wheel.reference is not None and not wheel.sunk:
+        found.append(Note(complex(wheel.shape.face_width, wheel.reference), text, is_rough=True, goes_on=True))
     elif wheel.runs or (not wheel.stands and wheel.outline is not None):
         found.append(Note(complex(0.7 * wheel.shape.face_width, wheel.tip[0]), text, is_rough=True))
     if wheel.holes.bore is not None:
@@ -467,7 +492,7 @@ def face_view(wheel: Wheel, subject: Subject) -> View:
     strokes += [(AXIS, circle_of(group.pitch_circle_diameter / 2)) for group in circled(wheel.holes)]
     axes = (*axis_cross(tip), *hole_axes(wheel.holes, turn))
     rounds = [*group_rounds(wheel.holes, turn, subject), *wheel.rounds]
-    strokes += [(THIN, circle_of(one.radius)) for one in wheel.rounds]
+    strokes += [(AXIS if one.name == PITCH else THIN, circle_of(one.radius)) for one in wheel.rounds]
     notes = []
     if (spokes := wheel.holes.spokes) is not None:
         text = subject.words("spokes_of", count=spokes.count, width=subject.say(spokes.width))

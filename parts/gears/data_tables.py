@@ -88,9 +88,8 @@ def _gear(part: Part, mates: Sequence[Mated]) -> DataTable:
     basic, own = _basic_rack(keys)
     shift = rows_of(page, (*own, *_RELIEF, *_SHIFT))
     first = (*rows_of(page, _TEETH), *hand, *basic, *shift, *grade_rows(keys.accuracy))
-    apart = [m for m in mates if m.part.kind != "rack" and part.kind != "rack"]
-    beside = _at_distances(apart, DataRow(N_("centre distance"), "a_w", 0.0, "mm"))
-    others = mate_rows([m for m in mates if m not in apart])
+    beside = _at_distances(mates, DataRow(N_("centre distance"), "a_w", 0.0, "mm"))
+    others = mate_rows([m for m in mates if m.distance is None])
     return DataTable((first, _control(page, keys.accuracy), (*rows_of(page, _REFERENCE), *beside, *others)))
 
 
@@ -192,9 +191,10 @@ def _at_distances(mates: Sequence[Mated], distance: DataRow) -> list[DataRow]:
     """Each centre distance, and below it what meshes there."""
     groups: dict[float, list[Mated]] = {}
     for mate in mates:
-        groups.setdefault(round(mate.distance, 9), []).append(mate)
+        if mate.distance is not None:
+            groups.setdefault(round(mate.distance, 9), []).append(mate)
     return [row for group in groups.values()
-            for row in (replace(distance, value=group[0].distance), *mate_rows(group))]  # fmt: skip
+            for row in (replace(distance, value=group[0].distance or 0.0), *mate_rows(group))]  # fmt: skip
 
 
 def mate_rows(mates: Sequence[Mated]) -> list[DataRow]:

@@ -264,24 +264,30 @@ def _beside(curve: Curve, half: float, shown: float) -> bool:
     return bool(xs.max() <= -half + shown + 1e-6 or xs.min() >= half - shown - 1e-6 or np.ptp(xs) > half)
 
 
-def _with_thread(sizes: Sequence[Size], half: float, high: float) -> list[Size]:
-    """Lengths with that of the thread, from ``-half`` to ``half``, for one from the end of the shaft (GOST 2.406)."""
+def _with_thread(sizes: Sequence[Size], half: float, ends: tuple[complex, complex], root: float) -> list[Size]:
+    """Lengths with that of the thread, from ``-half`` to ``half``, for one from the end of the shaft (GOST 2.406).
+
+    ``ends``: of the shaft, below the axis; where it goes on at the radius of the ``root``, it has no corner there.
+    """
+    found = [*sizes]
 
     def ends_at(place: float) -> Size | None:
-        return next((s for s in sizes if s.side == "below" and abs(s.end.real - place) < _NONE), None)
+        return next((s for s in found if s.side == "below" and abs(s.end.real - place) < _NONE), None)
 
+    for place in (-half, half):
+        if ends[0].real + _NONE < place < ends[1].real - _NONE and ends_at(place) is None:
+            found.append(Size(f"thread_end.{len(found)}", ends[0], complex(place, -root), "below"))
     before, last = ends_at(-half), ends_at(half)
     if before is None or last is None:
-        return [*sizes]
+        return found
     thread = replace(last, name="thread_length", start=before.end)
-    told = before if abs(high - half) < _NONE else last
-    return [thread if size is told else size for size in sizes]
+    told = before if abs(ends[1].real - half) < _NONE else last
+    return [thread if size is told else size for size in found]
 
 
 def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
     """The worm with its shaft from outside, and its bore where that is not round."""
     worm, half, wishes = body.thread.worm, body.length / 2, subject.wishes
-    top = float(body.end_height(worm.tip_radius))
     outside = [complex(z, r) for z, r in body.envelope()]
     loop = closed([complex(outside[0].real, 0), *outside, complex(outside[-1].real, 0)])
     strokes: list[Stroke] = []
@@ -301,7 +307,7 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
         root = level((-half, half), -worm.root_radius)
         sizes.append(Size("thread_length", root.start, root.end, "below"))
     else:
-        sizes = _with_thread(sizes, half, high)
+        sizes = _with_thread(sizes, half, (outside[0].conjugate(), outside[-1].conjugate()), worm.root_radius)
     bore = bore_of(keys)
     made = None if bore is None else bore.bore()
     if made is not None:
@@ -310,7 +316,8 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
         strokes += [(HIDDEN, edge) for edge in (*keyway_edges(made, low, high), *spline_cut(made, low, high).roots)]
         if isinstance(made, RoundBore):
             sizes.append(Size("bore_diameter", complex(high, -down), complex(high, up), "right", "Ø", wishes.bore))
-    rough = [Note(complex(top / 2, worm.tip_radius), subject.rough(wishes.flank_roughness), is_rough=True)]
+    pitch = complex(half, worm.reference_radius)
+    rough = [Note(pitch, subject.rough(wishes.flank_roughness), is_rough=True, goes_on=True)]
     if made is not None:
         rough.append(bore_note((low, high), -down, subject.rough(wishes.bore_roughness)))
     view = View(tuple(strokes), (), (Line(complex(low), complex(high)),), tuple(sizes), notes=tuple(rough))

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 from geometry.base.record import Record, replace
 from parts.base.part import Part
-from parts.base.texts import Text, Words, in_context, message, words
+from parts.base.texts import N_, Text, Words, in_context, message, words
 from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, plain_width
 from parts.drawing.cells import INDENT, wrapped, write_cell, write_lines
 from parts.drawing.font import MINUS
@@ -52,10 +52,10 @@ class DataRow(Record):
 
 
 class Mated(Record):
-    """A part that meshes with the one that is drawn, and the distance of their axes, mm."""
+    """A part that meshes with the one that is drawn, and the distance of their axes, mm; None: they have none."""
 
     part: Part
-    distance: float
+    distance: float | None
 
 
 class DataTable(Record):
@@ -84,6 +84,12 @@ def rows_of(page: Sheet, names: Iterable[str]) -> tuple[DataRow, ...]:
     """The steps of these names that the calculation has, in the order of the names."""
     steps = page.steps()
     return tuple(row_of(step) for name in names for step in steps if step.name == name)
+
+
+def distance_rows(mates: Iterable[Mated], symbol: str) -> list[DataRow]:
+    """How far the axes of mates are, each distance once."""
+    distances = {round(mate.distance, 9): mate.distance for mate in mates if mate.distance is not None}
+    return [DataRow(N_("centre distance"), symbol, distance, "mm") for distance in distances.values()]
 
 
 def own_rows(page: Sheet, names: Iterable[str]) -> tuple[DataRow, ...]:

@@ -7,13 +7,14 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from parts.base.part import Part
-from parts.mates.involute import GearMating
-from parts.mates.worm import WormMating
 from parts.pages.data_table import DataTable, Mated
 from parts.scene.placing import Placing
 
 if TYPE_CHECKING:
     from parts.scene.load import SceneFile
+
+# what rolls on each other about axes that meet, or about one axis alone
+_WITHOUT_DISTANCE = ("bevel", "rack")
 
 
 def part_table(part: Part, scene: SceneFile, placing: Placing, parts: Mapping[str, Part]) -> DataTable | None:
@@ -22,8 +23,9 @@ def part_table(part: Part, scene: SceneFile, placing: Placing, parts: Mapping[st
         return None
     mates = []
     for placed in placing.mates:
-        ends = placed.first.part, placed.second.part
-        if part.id in ends and isinstance(placed.mating, GearMating | WormMating):
-            mates.append(Mated(parts[ends[ends[0] == part.id]], placed.mating.distance))
+        ends, mating = (placed.first.part, placed.second.part), placed.mating
+        if part.id in ends and mating.rolls not in (None, "parallel"):
+            distance = None if mating.rolls in _WITHOUT_DISTANCE else mating.distance
+            mates.append(Mated(parts[ends[ends[0] == part.id]], distance))
     made: DataTable | None = importlib.import_module(part.made_by.data_table).data_table(part, scene, mates)
     return made

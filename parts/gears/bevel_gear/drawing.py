@@ -175,13 +175,13 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
         *rows("outer_module", "number_of_teeth"), DataRow(N_("type of tooth"), "", _TYPES[gear.tooth_type]),
         *rows("spiral_angle_deg"), *([] if straight else [hand_row(gear.hand)]), *rows("cutter_radius"),
         *rack,
-        *rows("profile_shift_coefficient", "thickness_coefficient", "pitch_cone_angle_deg", "tip_cone_angle_deg"),
+        *rows("profile_shift_coefficient", "thickness_coefficient", "pitch_cone_angle_deg"),
         *grade_rows(keys.accuracy),
     )  # fmt: skip
     control = with_limits(rows(*(_CHORD if straight else _NORMAL_CHORD)), keys.accuracy)
     last = rows(
         "shaft_angle_deg", "mean_module", "mean_normal_module", "outer_cone_distance", "mean_cone_distance",
-        "mean_pitch_diameter", "face_width", "root_cone_angle_deg", "outer_depth",
+        "mean_pitch_diameter", "root_cone_angle_deg", "outer_depth",
     )  # fmt: skip
     beside = mate_rows(mates) or [DataRow(N_("teeth of the mate"), "z", keys.mate_number_of_teeth)]
     return DataTable((first, control, (*last, *beside)))

@@ -12,7 +12,7 @@ from parts.drawing.working import PartDrawing, Subject
 from parts.gears.cycloidal_gear import page as cycloidal_gear_page
 from parts.gears.cycloidal_gear.part import CycloidalGearSpec
 from parts.keys.wheel import shape_of
-from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, own_rows
+from parts.pages.data_table import DataRow, DataTable, Mated, chosen_columns, distance_rows, own_rows
 from parts.pages.inputs import SceneKeys, given
 
 _TEETH = ("module", "number_of_teeth", "tip_rolling_radius", "root_rolling_radius", "reference_thickness",
@@ -38,7 +38,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     keys |= {"tip_rolling_diameter": 2 * part.thing.tip_rolling_radius, "rows": _ROWS}
     page = cycloidal_gear_page.sheet(keys | {"circumferential_thinning": part.thing.circumferential_thinning})
     begins = DataRow(N_("x of the points"), "x", N_("through the middle of a tooth"))
-    beside = [DataRow(N_("centre distance"), "a_w", mate.distance, "mm") for mate in mates]
+    beside = distance_rows(mates, "a_w")
     tips = next(table for table in page.tables if table.name == "tip_flank")
     roots = next(table for table in page.tables if table.name == "root_flank")
     # one flank from the fillet to the tip; where both meet on the pitch circle they have one point

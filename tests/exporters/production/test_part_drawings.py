@@ -101,6 +101,9 @@ PARTS |= {
                "roller_diameter": 10.0, "bore_diameter": 12.0, "phases": PARTS["cam"]["phases"]},
 }  # fmt: skip
 
+# steps beside the thread as thick as its root: no corner stands where it ends
+PARTS["worm on its root"] = {"kind": "worm", "module": 4.0, "thread_length": 50.0, "shaft_below": [
+    {"diameter": 30.4, "length": 6.0}], "shaft_above": [{"diameter": 30.4, "length": 8.0}]}  # fmt: skip
 PARTS["box"] = {"kind": "layered", "layers": [
     {"thickness": 4.0, "polygons": [{"points": [[-30, -20], [30, -20], [30, 20], [-30, 20]], "corner_radius": 5.0}],
      "circles": [{"diameter": 4.0, "at": [-24.0, -14.0]}, {"diameter": 4.0, "at": [24.0, 14.0]}]},
@@ -150,6 +153,7 @@ SIZES: dict[str, list[float]] = {
     "rack": [15 * 2 * math.pi, math.pi, 15, 12 + 2.5 + 2, 12 + 2.5],
     "cam": [80, 10, 18, 30, 12],
     "worm": [48, 25, 8, 50, 70, 1],
+    "worm on its root": [48, 30.4, 6, 50, 64],
     "wheel": [136, 128, 25, 30, 15, 16],
     "bevel": bevel_sizes(),
     # 1 and 1.25 modules about the pitch plane, m z1 / 2 below the pinion's axis
@@ -294,6 +298,25 @@ def test_every_dimension_measures_the_model_and_no_word_stands_over_a_line(
     audit = ezdxf.readfile(dxf).audit()
     assert not audit.errors
     assert not audit.fixes
+
+
+@pytest.mark.sampled(1)
+@pytest.mark.parametrize("name", ["sprocket", "pulley", "clock"])
+def test_teeth_of_round_wheels_are_not_cut_and_their_pitch_circle_is_an_axis(tmp_path: Path, name: str) -> None:
+    """GOST 2.402: both were hatched to where the face ends, and all circles one thin line."""
+    file = drawn(tmp_path, {key: value for key, value in PARTS[name].items() if key != "flanges"})
+    document = ezdxf.readfile(file)
+    space, scale = document.modelspace(), 1 / document.header["$DIMLFAC"]
+    # z p / pi and p / sin(180 deg / z), m z; below them the roots
+    pitch, root = {
+        "sprocket": (12.7 / math.sin(math.pi / 12), 12.7 / math.sin(math.pi / 12) - 8.51),
+        "pulley": (90 / math.pi, 90 / math.pi - 3.33),
+        "clock": (60.0, 55.0),
+    }[name]
+    circles = {round(c.dxf.radius, 5): c.dxf for c in space.query("CIRCLE[layer=='CENTRE']")}
+    axis = circles[round(pitch / 2 * scale, 5)].center.y
+    heights = [abs(p.y - axis) for line in space.query("LINE[layer=='HATCH']") for p in (line.dxf.start, line.dxf.end)]
+    assert max(heights) == pytest.approx(root / 2 * scale, abs=1e-6)
 
 
 def words(file: Path) -> set[str]:

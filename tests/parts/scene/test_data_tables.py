@@ -31,7 +31,7 @@ from parts.scene.placing import place
 TOPICS = {"spur_gear": "spur", "ring_gear": "ring", "rack": "rack", "worm": "worm", "worm_wheel": "worm",
           "bevel_gear": "bevel", "face_gear": "face-gear",
           "noncircular_gear": "noncircular", "cycloidal_disc": "cycloidal", "lantern_gear": "lantern",
-          "cycloidal_gear": "cycloidal-gear", "timing_pulley": "pulley"}  # fmt: skip
+          "cycloidal_gear": "cycloidal-gear", "timing_pulley": "pulley", "sprocket": "sprocket"}  # fmt: skip
 CAMS = (
     "practicum_roller_cam",
     "practicum_flat_cam",
@@ -43,7 +43,7 @@ CAMS = (
 )
 TOOTHED = ("practicum_pair", "helical_pair", "rack_and_pinion", "thesis_internal_pair", "worm_set_print", "bevel_pair",
            "spiral_bevel_pair", "face_gear_pair")  # fmt: skip
-ROUND = ("oval_gears", "cycloidal_reducer", "lantern_pair", "clock_gears", "belt_drive")
+ROUND = ("oval_gears", "cycloidal_reducer", "lantern_pair", "clock_gears", "belt_drive", "chain_drive")
 # what drawings call by other names than calculations do, which have the seeds'
 CALLED = {
     "profile shift coefficient": "profile shift coefficient (xi)",
@@ -53,6 +53,7 @@ CALLED = {
 }
 # what of a mate, and of the scene's keys, stands in a table, and is no step of the part's own calculation
 BESIDE = {"number of teeth of the face gear", "teeth of the mate", "drawing of the mate", "centre distance",
+          "teeth of the other sprocket", "teeth of the other pulley",
           "number of starts of the worm", "left end of the plate", "its lower edge"}  # fmt: skip
 
 
@@ -104,6 +105,25 @@ def test_a_face_gear_tells_how_its_own_teeth_are_thinned_and_no_backlash_of_half
     thinning = rows["thinning of the tooth, arc"]
     assert isinstance(thinning, float)
     assert 2 * thinning * math.cos(math.radians(20)) == pytest.approx(0.1, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("address", "rows"),
+    [("chain_drive", {"centre distance": 208.0, "teeth of the other sprocket": 21}),
+     ("belt_drive", {"teeth of the other pulley": 60}),
+     ("bevel_pair", {"teeth of the mate": 40, "drawing of the mate": "wheel"}),
+     ("face_gear_pair", {"teeth of the mate": 60, "drawing of the mate": "wheel"}),
+     ("crossed_helical_pair", {"teeth of the mate": 24, "drawing of the mate": "wheel"})],
+)  # fmt: skip
+def test_the_other_part_of_every_drive_stands_in_the_table(address: str, rows: dict[str, Any]) -> None:
+    """Of gears on parallel axes and of worms alone it did; axes that meet have no distance."""
+    found = tables(address)
+    _, table, _ = found.get("printed_pinion") or found["pinion"]
+    said = {words("en").say(row.name): row.value for part in table.parts for row in part}
+    told = {name: value if isinstance(value, int | float) else words("en").say(value) for name, value in said.items()}
+    for name, value in rows.items():
+        assert told[name] == (pytest.approx(value, abs=1e-9) if isinstance(value, float) else value)
+    assert ("centre distance" in told) == (address not in ("bevel_pair", "face_gear_pair"))
 
 
 def named(step: dict[str, Any]) -> tuple[str, str]:
