@@ -113,6 +113,7 @@ def kudryavtsev(first_teeth: int, second_teeth: int) -> TableShift:
     """Kudryavtsev's shifts for an external pair, z1 <= z2; practicum, appendices А to Г.
 
     Up to u = 2 tables В.1 and А.1; beyond, up to 5, x1 and Delta y from Б.1 and x2 from Г.1, linear between its rows.
+    Both are headed for u = 2 too: there Г.1 has what В.1 has not.
 
     Raises
     ------
@@ -120,7 +121,7 @@ def kudryavtsev(first_teeth: int, second_teeth: int) -> TableShift:
         The pair is not in the tables; names the nearest number of teeth that is.
     """
     _check_order(first_teeth, second_teeth)
-    if second_teeth <= 2 * first_teeth:
+    if second_teeth < 2 * first_teeth or (first_teeth, second_teeth) in _table_v():
         return _from_v(first_teeth, second_teeth)
     return _from_g(first_teeth, second_teeth)
 
@@ -182,7 +183,7 @@ def _from_g(first_teeth: int, second_teeth: int) -> TableShift:
     table, (shortening, first) = _table_g(), _table_b().get(first_teeth, (None, None))
     rows = sorted(z2 for z1, z2 in table if z1 == first_teeth)
     if first is None or not rows or not rows[0] <= second_teeth <= rows[-1] or second_teeth > 5 * first_teeth:
-        fits = [pair for pair in table if 2 * pair[0] < pair[1] <= 5 * pair[0]]
+        fits = [pair for pair in table if 2 * pair[0] <= pair[1] <= 5 * pair[0]]
         raise _not_there("Г.1", first_teeth, second_teeth, _nearest(fits, first_teeth, second_teeth))
     if second_teeth in rows:
         mending = _mending("Г.1", first_teeth, second_teeth)

@@ -45,6 +45,8 @@ from parts.pages.roll_steps import pair_rolls
 from parts.texts.findings import finding_of
 
 TOPIC = "gear-pair"
+# mm, radii that are printed rightly
+_SAME = 1e-9
 
 
 class InternalKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
@@ -146,6 +148,14 @@ def _internal_page(pair: InternalPair, keys: InternalKeys, helical: Helical) -> 
     pinion, ring = pair.pinion, pair.ring
     shifts, angle = (pinion.profile_shift_coefficient, ring.profile_shift_coefficient), pinion.rack.pressure_angle
     printed = {} if helical.angle else printed_for_pair(pair.teeth, shifts, pair.module, angle, internal=True)
+    # with the clearance and the tips of the thesis its circles are right
+    circles = {("root_radius", 1): pinion.root_radius, ("root_radius", 2): ring.root_radius,
+               ("tip_radius", 2): ring.tip_radius}  # fmt: skip
+    printed = {
+        key: told
+        for key, told in printed.items()
+        if not (isinstance(key, tuple) and key in circles and abs(float(told.text) - circles[key]) < _SAME)
+    }
     page = Sheet(TOPIC, N_("Internal gear pair"), printed=printed)
     page.section("Given")
     given_data(page, helical.normal, pinion, helical.angle, 1)

@@ -41,8 +41,13 @@ _SHEET = (
 )
 _DRAWN = "length of the crank on the drawing; default: 30 mm, on a sheet what gives a round scale"
 _SECOND = "number of another position whose plans the sheet has too"
+_MEASURED = (
+    "lengths that you measured on your own plans, drawn to the scales of velocity_scale and acceleration_scale, by "
+    "the names of their vectors, pi for π: measured.pd=35.8 measured.pid=0.1"
+)
 _Mass = Annotated[float, Meta(ge=0, le=1e9, extra={"unit": "kg"})]
 _Inertia = Annotated[float, Meta(ge=0, le=1e9, extra={"unit": "kg*m2"})]
+_OnPaper = Annotated[float, Meta(ge=0, le=10_000, extra={"unit": "mm"})]
 _Place = Annotated[float, Meta(ge=-_MOST, le=_MOST, extra={"unit": "mm"})]
 
 
@@ -103,6 +108,7 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     drawn_crank: Annotated[float, mm(_DRAWN, above=0, most=1000)] | None = None
     velocity_scale: Annotated[float, Meta(gt=0, le=1e6, description="m/s for 1 mm of the plan")] | None = None
     acceleration_scale: Annotated[float, Meta(gt=0, le=1e9, description="m/s2 for 1 mm of the plan")] | None = None
+    measured: Annotated[dict[str, _OnPaper], Meta(description=_MEASURED)] | None = None
     force_scale: Annotated[float, Meta(gt=0, le=1e12, description="N for 1 mm of the plans of forces")] | None = None
     picture: Annotated[str, Meta(description="SVG file of scheme, plans and diagrams to write")] | None = None
     sheet: Annotated[str, Meta(description=_SHEET)] | None = None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -46,6 +47,8 @@ _DRAWN_CRANK, _SHARE = 30.0, 0.5 + 0.5j
 _CHOICE = ("code", "assignment", "variant")
 # keys of the sheet alone
 _OF_SHEET = ("sheet", "paper", "title_block", "second_position")
+# percent that a plan may be off (guidelines, 2.2.2, 7), and how finely it is read, mm
+_TOLERANCE, _READ = 3.0, 0.1
 
 
 def sheet(table: dict[str, Any]) -> Sheet:
@@ -69,7 +72,7 @@ def sheet(table: dict[str, Any]) -> Sheet:
 
 def _is_example(table: Mapping[str, Any]) -> bool:
     digits = "".join(filter(str.isdigit, str(table.get("code", ""))))
-    return digits == EXAMPLE["code"] and set(table) <= {"code", "picture", "positions", *_OF_SHEET}
+    return digits == EXAMPLE["code"] and set(table) <= {"code", "picture", "positions", "measured", *_OF_SHEET}
 
 
 def _chosen(keys: LeverKeys, table: Mapping[str, Any]) -> tuple[dict[str, Any], int | None]:
@@ -163,6 +166,7 @@ class _Page:
         self._accelerations()
         self._over_a_turn()
         plans = self._plans()
+        self._measured(plans)
         forces = self._forces()
         run = self._flywheel()
         self._picture(plans, run, forces)
@@ -300,6 +304,8 @@ class _Page:
         if "C" in at.points:
             self._accelerated("C", f"{{l_C}} * {turned} / 1000")
             self._about("4", N_("D about C"), abs(complex(at.place("D") - at.place("C"))), "l_4")
+            if isinstance(self.levers.second, Rods):
+                self._about("5", N_("D about O5"), self.levers.second.rocker, "l_5")
             self._accelerated("D")
 
     def _accelerated(self, name: str, formula: str = "") -> None:
@@ -461,6 +467,49 @@ class _Page:
             self.page.tables.append(plan.table(key, message(title, scale=plan.scale), unit))
         return speeds, changes
 
+    def _measured(self, plans: tuple[Plan, Plan]) -> None:
+        """Lengths that were measured on a student's own plans beside the exact ones."""
+        given, known = self.keys.measured or {}, [v.name for plan in plans for v in plan.vectors]
+        lengths = {re.sub("^pi", "π", name): length for name, length in given.items()}
+        for typed, name in zip(given, lengths, strict=True):
+            if name not in known:
+                raise ParameterError(f"measured.{typed}", given[typed], "no_such_vector", None, known=known)
+        if not lengths:
+            return
+        beyond = [
+            self._compared(plans[0], lengths, "measured_velocities", N_("Measured on the plan of velocities"), "m/s"),
+            self._compared(
+                plans[1], lengths, "measured_accelerations", N_("Measured on the plan of accelerations"), "m/s2"
+            ),
+        ]
+        if not any(beyond):
+            self.page.note("what was measured is within the {most:g} % that the guidelines allow", most=_TOLERANCE)
+
+    def _compared(self, plan: Plan, lengths: Mapping[str, float], key: str, title: Text, unit: str) -> bool:
+        """A table of one plan's vectors, and whether any is off by more than the guidelines allow."""
+        rows, beyond = [], False
+        for vector in (v for v in plan.vectors if v.name in lengths):
+            exact, length = abs(vector.end - vector.start), lengths[vector.name]
+            right, read = exact / plan.scale, length * plan.scale
+            off = 100 * (read / exact - 1) if exact else math.inf
+            rows.append((vector.name, length, right, read, exact, off))
+            if abs(off) <= _TOLERANCE:
+                continue
+            beyond = True
+            if abs(length - right) <= _READ:
+                text = N_(
+                    "{vector}: {read:g} mm, to which a plan is read, is more than {most:g} % of its {right:.3g} mm"
+                )
+                self.page.note(text, vector=vector.name, read=_READ, most=_TOLERANCE, right=right)
+            else:
+                text = N_("{vector} is off by {off:.2g} %, more than the {most:g} % that the guidelines allow")
+                self.page.note(text, vector=vector.name, off=off, most=_TOLERANCE)
+        heads = ((N_("vector"), ""), (N_("measured"), "mm"), (N_("on the plan"), "mm"), (N_("value measured"), unit),
+                 (N_("value"), unit), (N_("difference"), "%"))  # fmt: skip
+        if rows:
+            self.page.table(key, title, heads, rows)
+        return beyond
+
     def _picture(self, plans: tuple[Plan, Plan], run: Run | None, forces: list[tuple[Text, Plan]]) -> None:
         fixed = {"O1": 0j}
         if not isinstance(self.levers.first, Slider):
@@ -573,6 +622,10 @@ class _Page:
                 normal = ends[one] - rate**2 * rod
                 found += [Vector(f"{one.lower()}n{link}", ends[one], normal)]
                 found += [Vector(f"n{link}{two.lower()}", normal, ends[two])]
+        for link, group, end in (("3", self.levers.first, "B"), ("5", self.levers.second, "D")):
+            if isinstance(group, Rods):
+                normal = -(float(at.turning(link)[0]) ** 2) * complex(at.place(end) - group.pivot) / 1000
+                found += [Vector(f"πn{link}", 0j, normal), Vector(f"n{link}{end.lower()}", normal, ends[end])]
         return found
 
     def _notes(self) -> None:

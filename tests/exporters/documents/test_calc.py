@@ -221,7 +221,25 @@ def test_only_the_printed_pair_is_flagged() -> None:
 ])  # fmt: skip
 def test_only_the_printed_internal_pair_is_flagged(more: str, flagged: bool) -> None:
     steps = values_of(f"gear-pair thesis_internal_pair {more}".strip())["steps"]
-    assert {s["name"] for s in steps if "misprint" in s} == ({"contact_ratio", "pitch"} if flagged else set())
+    names = {"contact_ratio", "pitch", "root_radius", "tip_radius"}
+    assert {s["name"] for s in steps if "misprint" in s} == (names if flagged else set())
+
+
+def test_a_number_that_the_source_prints_rightly_is_not_flagged() -> None:
+    """The thesis's d_f and d_a2 follow from its c* = 0.2 and its 0.2 for the ring's tips: with those they are right."""
+    data = json.loads((PUBLISHED / "power_module.json").read_text(encoding="utf-8"))
+    printed = next(case["printed"] for case in data["cases"] if case["id"] == "004.gear.geometry")
+    words = (
+        "gear-pair thesis_internal_pair first.basic_rack.tip_clearance_coefficient=0.2 "
+        f"second.tip_diameter={printed['d_a2_mm']} second.rounded_root.dedendum_coefficient=1.2"
+    )
+    for more, flagged in (("gear-pair thesis_internal_pair", True), (words, False)):
+        steps = values_of(more)["steps"]
+        for name, gear, key in (("root_radius", "first", "d_f1_mm"), ("root_radius", "second", "d_f2_mm"),
+                                ("tip_radius", "second", "d_a2_mm")):  # fmt: skip
+            step = next(s for s in steps if (s["name"], s.get("gear")) == (name, gear))
+            assert (step["value"] == pytest.approx(printed[key] / 2)) == (not flagged)
+            assert (f": {printed[key] / 2:g} ({key[:-3]} = {printed[key]:g}:" in step.get("misprint", "")) == flagged
 
 
 def test_the_misprinted_inequality_and_left_side_are_named() -> None:

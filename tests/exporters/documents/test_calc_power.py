@@ -355,7 +355,7 @@ def test_misprints_stand_beside_the_right_values_and_only_there(module: dict[str
     assert marked == {
         "worm_pitch_diameter", "worm_radial_force", "thesis_least_module", "thesis_contact_stress", "contact_stress",
         "pair_least_module", "pair_allowed_contact", "overlap_ratio", "preload", "thesis_worm_radial_force",
-        "turn_capacity", "radial_stiffness",
+        "turn_capacity", "axial_stiffness", "radial_stiffness",
     }  # fmt: skip
     # of the thesis's own chain, not of what stands beside it
     assert [s["value"] for s in module["steps"] if s["name"] == "preload" and "misprint" in s] == [
