@@ -18,6 +18,8 @@ from parts.keys.base import MadeKeys, degrees, either, mm
 if TYPE_CHECKING:
     from geometry.gears.pairs.common_face import CommonFace
 
+# what STEP calls one height or one place, ten times, mm
+_FINEST = 1e-6
 HelixAngle = Annotated[
     float,
     degrees(
@@ -79,19 +81,26 @@ def same_helix(first: ToothedKeys, second: ToothedKeys) -> float:
     return one
 
 
-def checked_teeth(keys: ToothedKeys) -> Helix:
+def checked_teeth(keys: ToothedKeys, number_of_teeth: int) -> Helix:
     """The helix of a part's keys, which belong together.
 
     Raises
     ------
     ParameterError
-        Two helices without an angle, or a tip corner that is broken twice.
+        Two helices without an angle, one that no file could tell, or a tip corner that is broken twice.
     """
     if keys.tip_chamfer > 0 and keys.tip_rounding > 0:
         raise either("tip_rounding", keys.tip_rounding, "tip_chamfer", 0.0)
     helix = helix_of(keys)
     if helix.double and helix.angle == 0:
         raise ParameterError("double_helical", True, "double_helical_without_angle", Nearest(False))
+    # how far a helix moves teeth, mm, and the least that each file tells: four steps of an STL's float32
+    moved = keys.face_width / (2 if helix.double else 1) * math.tan(helix.angle)
+    told = max(_FINEST, 2.0**-22 * math.pi * keys.module * (number_of_teeth + 4))
+    if 0 < moved < told:
+        raise ParameterError(
+            "helix_angle_deg", keys.helix_angle_deg, "helix_not_told", Nearest(0.0), by=moved, told=told
+        )
     return helix
 
 

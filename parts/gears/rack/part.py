@@ -66,7 +66,7 @@ def checked_rack_part(keys: RackSpec) -> Rack:
 
     basic = basic_rack_of(keys.basic_rack, math.radians(keys.pressure_angle_deg))
     body = keys.body_height if keys.body_height is not None else _BODY * keys.module
-    helix, holes = checked_teeth(keys), None
+    helix, holes = checked_teeth(keys, keys.number_of_teeth), None
     if (row := keys.holes) is not None:
         if helix.angle:
             raise ParameterError("holes.count", row.count, "no_holes_in_helical_rack")

@@ -104,7 +104,7 @@ def checked_ring_gear(keys: RingGearSpec) -> RingGear:
         return True
 
     try:
-        gear = _with_rim(keys, checked_ring(section, normal, checked_teeth(keys).angle))
+        gear = _with_rim(keys, checked_ring(section, normal, checked_teeth(keys, keys.number_of_teeth).angle))
     except ParameterError as refusal:
         raise with_remedy(refusal, keys, keeps_rim) from refusal
     _marks(keys, gear)
@@ -132,7 +132,7 @@ def settled_section(keys: RingGearSpec) -> RingGear:
     from geometry.gears.teeth.ring_made import settled_ring
     from geometry.gears.teeth.transverse_ring import transverse_ring
 
-    return settled_ring(transverse_ring(_ring_of(keys), checked_teeth(keys).angle))
+    return settled_ring(transverse_ring(_ring_of(keys), checked_teeth(keys, keys.number_of_teeth).angle))
 
 
 def _with_rim(keys: RingGearSpec, gear: RingGear) -> RingGear:

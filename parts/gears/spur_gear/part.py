@@ -108,7 +108,7 @@ def checked_spur_gear(keys: SpurGearSpec) -> SpurGear:
     ParameterError
         The gear cannot exist; names the key and the nearest value that works.
     """
-    helix = checked_teeth(keys)
+    helix = checked_teeth(keys, keys.number_of_teeth)
     _check_face_chamfer(keys)
 
     def holes_fit(changed: SpurGearSpec) -> bool:
@@ -249,7 +249,7 @@ def gear_of(keys: SpurGearSpec) -> SpurGear:
     ParameterError
         Its rack cannot exist, or two keys exclude each other.
     """
-    checked_teeth(keys)
+    checked_teeth(keys, keys.number_of_teeth)
     bore_of(keys)
     _check_unused(keys)
     cutter = None if keys.cutter is None else cutter_of(keys.cutter, keys.module, math.radians(keys.pressure_angle_deg))

@@ -279,3 +279,18 @@ def test_a_refused_shift_is_told_in_normal_modules_and_its_remedy_works() -> Non
 
 def test_the_built_in_scene_loads() -> None:
     assert make_parts(load_scene("helical_gears"), "helical_gears")[0]
+
+
+@pytest.mark.parametrize("more", [{}, {"double_helical": True}, {"module": 0.01, "face_width": 0.05}])
+@pytest.mark.parametrize(("kind", "teeth"), [("spur_gear", 20), ("ring_gear", 60), ("rack", 6)])
+def test_the_least_helix_that_is_taken_is_told_by_every_file(
+    kind: str, teeth: int, more: dict[str, Any], tmp_path: Path
+) -> None:
+    """Four steps of float32 at the rim, a millionth of a mm at least; beside a bore, which stands upright."""
+    keys = {"kind": kind, "module": 2.0, "number_of_teeth": teeth, "face_width": 10.0} | more
+    keys |= {"bore_diameter": 2 * keys["module"]} if kind == "spur_gear" else {}
+    moved = max(1e-6, 4 * 2.0**-23 * math.pi / 2 * keys["module"] * (teeth + 4))
+    half = keys["face_width"] / (2 if "double_helical" in more else 1)
+    keys["helix_angle_deg"] = math.degrees(math.atan(1.001 * moved / half))
+    scene = write(tmp_path, {"p": keys}, *(f'format = "{name}"' for name in ("stl", "step", "3mf")))
+    assert main(["build", str(scene), "--out", str(tmp_path), "--quiet"]) == 0

@@ -302,6 +302,14 @@ def test_a_double_helix_has_an_angle_and_a_tip_one_kind_of_corner() -> None:
     check_refused(corner, "parts.p.tip_rounding", 0.2, "either_key", 0.0)
 
 
+@pytest.mark.parametrize("kind", ["spur_gear", "ring_gear", "rack"])
+@pytest.mark.parametrize("angle", [1e-9, -3e-7])
+def test_a_helix_that_no_file_tells_is_refused(kind: str, angle: float) -> None:
+    """Walls that stand upright to the last digit of an STL failed their read-back as screws."""
+    keys = GEAR | {"kind": kind, "number_of_teeth": 60, "helix_angle_deg": angle}
+    check_refused(scene_of(keys), "parts.p.helix_angle_deg", angle, "helix_not_told", 0.0)
+
+
 WORM: dict[str, Any] = {"kind": "worm", "module": 4.0, "thread_length": 50.0}
 
 
