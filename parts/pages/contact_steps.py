@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from geometry.base.angles import involute_function
+from geometry.base.angles import inverse_involute, involute_function
 from geometry.base.record import Record
 from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.pairs.external import ExternalPair
@@ -22,6 +22,8 @@ from parts.texts.findings import finding_of
 
 ISO = "ISO 21771"
 Pair = ExternalPair | InternalPair
+# less is none, mm
+_PLAY = 1e-9
 
 
 class Helical(Record):
@@ -218,13 +220,37 @@ def speed_steps(
 def backlash_steps(
     page: Sheet, pair: Pair | RackPair, circumferential: float, helical: Helical, formulas: tuple[str, str] = ("", "")
 ) -> None:
-    """j_t, j_n and the bottom clearances; ``formulas`` of j_t and of these."""
+    """j_t, j_n, what they let move, and the bottom clearances; ``formulas`` of j_t and of these."""
     page.section("Backlash and clearance")
     page.add("circumferential_backlash", circumferential, formulas[0], "ISO 21771")
     cosine = " * cos({beta_b})" if helical.angle else ""
     formula = f"{{j_wt}} * cos({{alpha_w}}){cosine}"
     page.add("normal_backlash", helical.normal_backlash(pair), formula, "ISO 21771")
+    if circumferential > _PLAY:
+        _played(page, pair, circumferential)
     page.both("bottom_clearance_at_root", pair.tip_clearances, formulas[1], ISO)
+
+
+def _played(page: Sheet, pair: Pair | RackPair, backlash: float) -> None:
+    """What a backlash lets move: each gear while the other is held, the axes until teeth touch on both sides."""
+    if isinstance(pair, RackPair):
+        page.add("angular_backlash_deg", math.degrees(backlash / pair.gear.reference_radius), "{j_wt} / {r1}", ISO, 1)
+        page.add(
+            "radial_backlash",
+            backlash / (2 * math.tan(pair.rack.rack.pressure_angle)),
+            "{j_wt} / (2 * tan({alpha}))",
+            ISO,
+        )
+        return
+    turns = [math.degrees(backlash / radius) for radius in pair.working_radii]
+    page.both("angular_backlash_deg", turns, "{j_wt} / {r_w#}", ISO)
+    distance, angle = pair.working_centre_distance, pair.working_pressure_angle
+    tight = involute_function(angle) - pair.sign * backlash / (2 * distance)
+    if tight > 0:
+        moved = pair.sign * distance * (1 - math.cos(angle) / math.cos(inverse_involute(tight)))
+        less, sign = ("-", "") if pair.sign > 0 else ("+", "-")
+        there = f"arcinv(inv({{alpha_w}}) {less} {{j_wt}} / (2 * {{a_w}}))"
+        page.add("radial_backlash", moved, f"{sign}{{a_w}} * (1 - cos({{alpha_w}}) / cos({there}))", ISO)
 
 
 def limit_steps(page: Sheet, pair: Pair | RackPair, gears: Sequence[SpurGear], helical: Helical) -> None:

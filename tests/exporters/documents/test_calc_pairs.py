@@ -435,3 +435,39 @@ def test_a_mate_at_a_distance_of_its_own_has_its_sheet(tmp_path: Any) -> None:
     assert ("profile_shift_sum", 0) not in values
     for step in sheet.steps():
         assert not step.formula or evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), step.name
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "first.number_of_teeth=20 second.number_of_teeth=40 circumferential_backlash=0.2",
+        "first.number_of_teeth=20 second.number_of_teeth=40 helix_angle_deg=20 normal_backlash=0.1",
+        "kind=internal_gear_pair first.number_of_teeth=20 second.number_of_teeth=60 normal_backlash=0.1",
+        "first.number_of_teeth=20 second.kind=rack second.number_of_teeth=10 normal_backlash=0.1",
+        "first.number_of_teeth=20 second.kind=rack second.number_of_teeth=10 helix_angle_deg=25 normal_backlash=0.1",
+    ],
+)
+def test_what_a_backlash_lets_move(words: str) -> None:
+    """Relations of KHK, j_t / r and j_t / (2 tan alpha_w), which is the first term of the exact way of the axes."""
+    page, values = sheet_for(f"gear-pair module=5 {words}"), values_of(f"gear-pair module=5 {words}")["values"]
+    backlash = values["circumferential_backlash"]
+    radius = values.get("working_radius", values["reference_radius"])["first"]
+    assert math.radians(values["angular_backlash_deg"]["first"]) * radius == pytest.approx(backlash)
+    angle = values.get("working_pressure_angle_deg", values.get("transverse_pressure_angle_deg", 20.0))
+    usual = backlash / (2 * math.tan(math.radians(angle)))
+    assert values["radial_backlash"] == pytest.approx(usual, rel=1e-9 if "rack" in words else 0.01)
+    for step in page.steps():
+        if step.name in ("angular_backlash_deg", "radial_backlash"):
+            assert step.formula
+            assert evaluated(step) == pytest.approx(step.value, rel=1e-9)
+
+
+def test_axes_nearer_by_the_radial_backlash_leave_none() -> None:
+    gears = "gear-pair module=5 first.number_of_teeth=20 second.number_of_teeth=40"
+    radial = values_of(f"{gears} circumferential_backlash=0.2")["values"]["radial_backlash"]
+    own = ("circumferential_thinning=0.1", "profile_shift_coefficient=0")
+    told = " ".join((gears, *(f"{gear}.{key}" for gear in ("first", "second") for key in own)))
+    nearer = values_of(f"{told} working_centre_distance={150 - radial + 1e-6!r}")["values"]
+    assert 0 <= nearer["circumferential_backlash"] < 2e-6
+    with pytest.raises(SceneError, match="overlap"):
+        values_of(f"{told} working_centre_distance={150 - radial - 1e-5!r}")
