@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping
@@ -13,13 +12,14 @@ import numpy as np
 
 from geometry.base.errors import OffsetError, ParameterError
 from geometry.base.record import Record, replace
-from geometry.curves.curve import Curve
+from geometry.curves.curve import Complex, Curve, Real
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile
 from geometry.solids.bores import Bore, RoundBore
 
 if TYPE_CHECKING:
+    from geometry.plane.distance import Flags
     from geometry.solids.windows import RoundHoles, Spokes
 
 _INSIDE = 1 - 1e-6
@@ -203,35 +203,31 @@ class HubHoles(Record):
 def _wall(group: RoundHoles, centres: list[complex], other: Profile) -> float:
     """Least material between round holes about ``centres`` and another hole, mm; not positive where they meet."""
     radius = group.diameter / 2
-    walls = []
-    for centre, distance in zip(centres, distance_to_profile(np.array(centres), other).tolist(), strict=True):
-        swallowed = distance > radius and encloses(other, centre)
-        walls.append((-distance if swallowed else distance) - radius)
-    return min(walls)
+    places = np.array(centres)
+    distances = distance_to_profile(places, other)
+    swallowed = (distances > radius) & encloses(other, places)
+    return float(np.where(swallowed, -distances, distances).min()) - radius
 
 
-def encloses(profile: Profile, point: complex) -> bool:
-    """Whether a closed profile of lines and arcs runs round a point that is not on it."""
-    return abs(sum(_seen_turn(s.curve, point) for s in profile.segments())) > math.pi
+def encloses(profile: Profile, points: Complex) -> Flags:
+    """Whether a closed profile of lines and arcs runs round each of points (n,) that are not on it."""
+    turns = np.add.reduce([_seen_turn(s.curve, points) for s in profile.segments()])
+    return np.asarray(np.abs(turns) > math.pi)
 
 
-def _seen_turn(curve: Curve, point: complex) -> float:
-    """Angle by which a line or arc turns about a point, rad."""
-    if not isinstance(curve, Arc):
-        ends = curve.point(np.array(curve.domain)) - point
-        return cmath.phase(ends[1] / ends[0])
-    pieces = 1 + int(abs(curve.sweep) / (math.pi / 2))
-    angles = (curve.start_angle + curve.sweep * k / pieces for k in range(pieces + 1))
-    joints = [curve.centre + cmath.rect(curve.radius, angle) for angle in angles]
-    total = 0.0
-    for start, end in itertools.pairwise(joints):
-        total += cmath.phase((end - point) / (start - point))
+def _seen_turn(curve: Curve, points: Complex) -> Real:
+    """Angles by which a line or arc turns about points, rad."""
+    pieces = 1 + int(abs(curve.sweep) / (math.pi / 2)) if isinstance(curve, Arc) else 1
+    joints = curve.point(np.linspace(*curve.domain, pieces + 1))
+    spokes = joints - points[:, None]
+    total = np.angle(spokes[:, 1:] * np.conj(spokes[:, :-1]))
+    if isinstance(curve, Arc):
         # between chord and arc the chord is on the wrong side of the point
-        beyond = ((point - start) * (end - start).conjugate()).imag
         sense = math.copysign(1.0, curve.sweep)
-        if abs(point - curve.centre) < curve.radius and sense * beyond < 0:
-            total += sense * 2 * math.pi
-    return total
+        beyond = sense * (-spokes[:, :-1] * np.conj(np.diff(joints))).imag < 0
+        within = np.abs(points - curve.centre) < curve.radius
+        total = total + sense * 2 * math.pi * (beyond & within[:, None])
+    return np.asarray(total.sum(axis=1))
 
 
 class Holed(Protocol):

@@ -142,7 +142,16 @@ def _in_keys(keys: CarrierPlateSpec, refusal: ParameterError) -> ParameterError:
 
     A seat is as wide as its pin and its clearance; arms follow from their pins.
     """
-    name = refusal.name
+    name, code = refusal.name, refusal.code
+    circles = {"pin_diameter": keys.pin_circle_diameter}
+    if keys.spacers is not None:
+        circles["spacers.diameter"] = keys.spacers.pitch_circle_diameter
+    if name in circles and keys.bore_diameter > 0:
+        # of a hole and the bore that meet the one that has to change less
+        size, bore, room = float(str(refusal.value)), keys.bore_diameter, circles[name]
+        least = (room - size) * _SHARES[0]
+        if (room - bore) / size < (room - size) / bore < 1 and kept(partial(_works, keys, "bore_diameter"), least):
+            name, code = "bore_diameter", "hole_reaches_edge"
     if name == "pin_diameter" and keys.seat_clearance and kept(partial(_works, keys, "seat_clearance"), 0.0):
         name = "seat_clearance"
     given = float(str(value_at(keys, name)))
@@ -153,7 +162,7 @@ def _in_keys(keys: CarrierPlateSpec, refusal: ParameterError) -> ParameterError:
     typed = value_at(keys, boss) if boss != refusal.name else None
     if typed is not None and kept(partial(_works, keys, boss), None):
         return ParameterError(name, given, "no_wall_in_boss", cure, key=boss.rpartition(".")[2], boss=typed)
-    return ParameterError(name, given, refusal.code, cure, **refusal.numbers)
+    return ParameterError(name, given, code, cure, **refusal.numbers)
 
 
 def _works(keys: CarrierPlateSpec, name: str, value: float | None) -> bool:

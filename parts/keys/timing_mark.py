@@ -79,9 +79,9 @@ def _rooms(holes: HubHoles, centres: Sequence[complex], inside: float) -> list[f
 
     from geometry.plane.measure import distance_to_profile
 
-    found = [inside - abs(centre) for centre in centres]
+    places = np.array(centres)
+    found = inside - np.abs(places)
     for profile in holes.profiles():
-        distances = distance_to_profile(np.array(centres), profile).tolist()
-        signed = [-d if encloses(profile, c) else d for d, c in zip(distances, centres, strict=True)]
-        found = [min(one, other) for one, other in zip(found, signed, strict=True)]
-    return found
+        distances = distance_to_profile(places, profile)
+        found = np.minimum(found, np.where(encloses(profile, places), -distances, distances))
+    return found.tolist()

@@ -76,6 +76,17 @@ class NoncircularGearPair(GearPair[NoncircularGearPairSpec, "NoncircularGear", "
     name, keys = "noncircular_gear_pair", NoncircularGearPairSpec
     joins = (("noncircular_gear", "noncircular_gear"),)
 
+    def check(self, keys: NoncircularGearPairSpec, first: Any, second: Any) -> None:
+        """Both tell one ratio: what else makes them a pair their centrodes tell."""
+        super().check(keys, first, second)
+        if not first.centrode == second.centrode == "ratio":
+            return
+        for key in ("ratio_cosines", "ratio_sines"):
+            mine, theirs = ([*(getattr(own, key) or ())] for own in (first, second))
+            both = zip(mine, theirs, strict=False)
+            if len(mine) != len(theirs) or not all(math.isclose(a, b, rel_tol=1e-9, abs_tol=1e-9) for a, b in both):
+                raise ParameterError(key, theirs, "other_centrode_shape", Nearest(mine or None))
+
     def build(self, end: End[Any]) -> object:
         """All teeth of the gear; there is one centre distance."""
         return end.thing.outline

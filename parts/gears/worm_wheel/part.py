@@ -59,6 +59,7 @@ _USEFUL, _TIP = 0.25, 0.02
 # how near to the widest a default width is, part of it
 _NEAR = 5e-3
 # more teeth that are tried
+_NEARER = (1 / 8, 1 / 4, 1 / 2, 3 / 4, 1.0)
 _MORE_TEETH = (1.1, 1.25, 1.5, 2.0, 3.0)
 # an outside is reached that near, mm; below so many degrees a corner is sharp: a throat wraps a third of the worm
 _REACHED, _SHARP = 1e-3, 29.9
@@ -215,6 +216,9 @@ def _cured(keys: WormWheelSpec, refusal: ParameterError) -> ParameterError:
     ways = {**ways_out(keys, *less, hob), "number_of_teeth": more, "outer_diameter": ()}
     if quotient < hob < math.inf:
         ways = {"hob_diameter_quotient": (quotient,), **ways}
+    if refusal.code == "asks_for_shift" and refusal.nearest is not None:
+        last, middle = float(str(refusal.nearest.value)), keys.module * (quotient + keys.number_of_teeth) / 2
+        ways["working_centre_distance"] = [last + share * (middle - last) for share in _NEARER]
     return cured(refusal, keys, ways, (_stands, _begins, _is_made), _of_use, NEAR)
 
 

@@ -28,7 +28,7 @@ def test_what_lies_inside_a_hole() -> None:
             places = middle + size * (rng.random(30) - 0.5 + 1j * (rng.random(30) - 0.5)) * 1.5
             for z in places.tolist():
                 if np.abs(ring - z).min() > 1e-3 * size:
-                    assert encloses(profile, z) == polygon.contains(shapely.Point(z.real, z.imag)), name
+                    assert encloses(profile, np.array([z])) == polygon.contains(shapely.Point(z.real, z.imag)), name
 
 
 def least_wall(one: Profile, other: Profile) -> float:

@@ -131,6 +131,22 @@ def test_a_keyway_that_no_place_is_long_enough_for_is_shorter_where_it_is() -> N
     check_offer(scene_of(BETWEEN), f"parts.p.{WAY}.length", 30.0, "keyway_beyond_step", 24.0, "at_most", length=40.0)
 
 
+@pytest.mark.parametrize(
+    ("part", "key", "value", "limit"),
+    [
+        # pins of 6 on a circle of 80 reach to 37: a bore just too wide was told as pins of 0.9999
+        (CARRIER, "bore_diameter", 79.0, 74.0),
+        (CARRIER, "bore_diameter", 90.0, 74.0),
+        (CARRIER | {"outer_diameter": 100.0}, "bore_diameter", 79.0, 74.0),
+        (CARRIER | {"bore_diameter": 20.0}, "pin_diameter", 66.0, 60.0),
+    ],
+)
+def test_of_a_bore_and_the_pins_that_it_meets_the_one_is_told_that_has_to_change_less(
+    part: dict[str, Any], key: str, value: float, limit: float
+) -> None:
+    check_offer(scene_of(part), f"parts.p.{key}", value, "hole_reaches_edge", limit, "at_most")
+
+
 # limits of which no value is told: key, the last value that is made, the first that is refused, its code, numbers
 WITHOUT: list[tuple[dict[str, Any], str, float, float, str, dict[str, float]]] = [
     # grooves between both chamfers of their step, behind the one before

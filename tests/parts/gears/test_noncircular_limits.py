@@ -126,6 +126,32 @@ def test_a_bore_leaves_a_rim_to_the_roots() -> None:
     assert refused(with_key(scene_of(ELLIPSE), "parts.p.bore_diameter", root * (1 - 1e-4))) is None
 
 
+@pytest.mark.parametrize(
+    ("key", "given", "told", "works"),
+    [
+        ("a.ratio_cosines", [0.3], "b.ratio_cosines", [0.3]),
+        ("b.ratio_cosines", [0.3], "b.ratio_cosines", [0.2]),
+        ("b.ratio_cosines", [0.2, 0.0], "b.ratio_cosines", [0.2]),
+        ("b.ratio_sines", [0.1], "b.ratio_sines", None),
+        # no rack rolls on it, nor is there such a ratio: what its mate has is told
+        ("a.ratio_cosines", [0.9], "a.ratio_cosines", [0.2]),
+        ("b.ratio_cosines", [1.5], "b.ratio_cosines", [0.2]),
+    ],
+)
+def test_a_ratio_is_that_of_the_mate(key: str, given: list[float], told: str, works: list[float] | None) -> None:
+    """As it was: told by the centrode, which follows, and without what works."""
+    raw = {"parts": {"a": RATIO, "b": RATIO | {"role": "mate"}},
+           "mates": [{"kind": "noncircular_gear_pair", "first": "a", "second": "b"}], "exports": []}  # fmt: skip
+    assert refused(raw) is None
+    wrong = with_key(raw, f"parts.{key}", given)
+    found = refused(wrong)
+    assert found is not None
+    assert (found.key, found.code) == (f"mates[1]: parts.{told}", "other_centrode_shape")
+    assert found.nearest is not None
+    assert found.nearest.value == works
+    assert refused(with_key(wrong, found.key, works or GONE)) is None
+
+
 @pytest.mark.parametrize("role", ["driver", "mate"])
 def test_the_table_of_a_gear_follows_its_own_angle(role: str) -> None:
     """About its focus an ellipse has r = p / (1 - e cos phi), its like r_2 = 2 a - r_1, with i = r_1 / r_2."""
