@@ -49,6 +49,11 @@ class FlangesTable(Struct, forbid_unknown_fields=True):
     above: Annotated[bool, Meta(description="one at the upper face")] = True
 
 
+_OUTER_DIAMETER = mm(
+    "outer diameter; default: that of the belt's pitch line", above=0, most=2 * MOST_LENGTH, example=31.0
+)
+
+
 class TimingPulleySpec(WheelKeys, kw_only=True, tag_field="kind", tag="timing_pulley"):
     """Keys of ``timing_pulley``."""
 
@@ -58,13 +63,7 @@ class TimingPulleySpec(WheelKeys, kw_only=True, tag_field="kind", tag="timing_pu
                   start("T5")]
         | BeltTable
     )  # fmt: skip
-    outer_diameter: (
-        Annotated[
-            float,
-            mm("outer diameter; default: that of the belt's pitch line", above=0, most=2 * MOST_LENGTH, example=31.0),
-        ]
-        | None
-    ) = None
+    outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
     clearance: Annotated[
         float, mm("how far the walls of the grooves stand off those of the standard, for printing", least=0, most=100)
     ] = 0.0

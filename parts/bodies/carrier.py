@@ -30,16 +30,28 @@ _SIZES = ("pin_diameter", "spacers.diameter", "bore_diameter")
 _SHARES = (0.95, 0.9, 0.75, 0.5, 0.25, 0.1, 0.03, 0.01)
 
 
+_BOSS_DIAMETER = part_mm("of the arm's round end; default: 2.4 holes", above=0, example=8.0)
+
+
 class PinHolesTable(Struct, forbid_unknown_fields=True):
     """Holes on a circle, each in the round end of an arm of its own: of spacers between both plates."""
 
     count: Annotated[int, Meta(ge=1, le=200, description="number of holes", examples=[3])]
     pitch_circle_diameter: Annotated[PinCircle, Meta(examples=[60.0])]
     diameter: Annotated[PinDiameter, Meta(examples=[3.0])]
-    boss_diameter: (
-        Annotated[float, part_mm("of the arm's round end; default: 2.4 holes", above=0, example=8.0)] | None
-    ) = None
+    boss_diameter: Annotated[float, _BOSS_DIAMETER] | None = None
     start_deg: Direction = 0.0
+
+
+_DIRECTIONS = Meta(
+    min_length=1,
+    max_length=200,
+    description="of each pin; default: equally spaced, the first on +x",
+    examples=[[0.0, 117.0, 243.0]],
+)
+_CARRIER_PLATE_BOSS_DIAMETER = part_mm("of each arm's round end; default: 2.4 pins", above=0, example=15.0)
+_HUB_DIAMETER = part_mm("of the middle; default: as the arms need it", above=0, example=40.0)
+_OUTER_DIAMETER = mm("a round plate in place of arms", above=0, most=2 * MOST_LENGTH, example=100.0)
 
 
 class CarrierPlateSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="carrier_plate"):
@@ -48,22 +60,11 @@ class CarrierPlateSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     number_of_pins: Annotated[int, Meta(ge=1, le=200, description="number of satellites", examples=[3])]
     pin_circle_diameter: Annotated[PinCircle, Meta(examples=[80.0])]
     pin_diameter: Annotated[PinDiameter, Meta(examples=[6.0])]
-    directions_deg: (
-        Annotated[list[Direction], Meta(min_length=1, max_length=200,
-                                        description="of each pin; default: equally spaced, the first on +x",
-                                        examples=[[0.0, 117.0, 243.0]])]
-        | None
-    ) = None  # fmt: skip
+    directions_deg: Annotated[list[Direction], _DIRECTIONS] | None = None
     seat_clearance: Annotated[float, mm("radius of a hole beyond the pin's", least=-10, most=100)] = 0.0
-    boss_diameter: (
-        Annotated[float, part_mm("of each arm's round end; default: 2.4 pins", above=0, example=15.0)] | None
-    ) = None
-    hub_diameter: (
-        Annotated[float, part_mm("of the middle; default: as the arms need it", above=0, example=40.0)] | None
-    ) = None
-    outer_diameter: (
-        Annotated[float, mm("a round plate in place of arms", above=0, most=2 * MOST_LENGTH, example=100.0)] | None
-    ) = None
+    boss_diameter: Annotated[float, _CARRIER_PLATE_BOSS_DIAMETER] | None = None
+    hub_diameter: Annotated[float, _HUB_DIAMETER] | None = None
+    outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
     bore_diameter: BoreDiameter = 0.0
     spacers: PinHolesTable | None = None
 

@@ -24,19 +24,16 @@ _SPACE = ("least_effective_space", "greatest_effective_space", "greatest_space",
 _SPANS = ("greatest_span", "least_span")
 
 
+_PIN_DIAMETER = mm("pin; default: it touches in the middle of the contact", above=0, most=1000, example=3.5)
+
+
 class InvoluteSplineKeys(InvoluteSplineTable, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the spline, its pins and its load."""
 
     torque: Torque = None
     length: Length = None
     load_share: LoadShare = 0.75
-    pin_diameter: (
-        Annotated[
-            float,
-            mm("pin; default: it touches in the middle of the contact", above=0, most=1000, example=3.5),
-        ]
-        | None
-    ) = None
+    pin_diameter: Annotated[float, _PIN_DIAMETER] | None = None
 
 
 @calculation(TOPIC, InvoluteSplineKeys)

@@ -37,16 +37,18 @@ class PolygonTable(Struct, forbid_unknown_fields=True):
     corner_radius: Annotated[float, part_mm("rounding of the corners", least=0)] = 0.0
 
 
+_ARC = part_mm(
+    "radius of the arc to the next point: above 0 bulges out of the outline, below 0 into it; 0: a line",
+    least=-MOST_LENGTH,
+)
+
+
 class OutlinePoint(Struct, forbid_unknown_fields=True, kw_only=True):
     """A corner of an outline of lines and arcs."""
 
     x: _Place
     y: _Place
-    arc: Annotated[
-        float,
-        part_mm("radius of the arc to the next point: above 0 bulges out of the outline, below 0 into it; 0: a line",
-           least=-MOST_LENGTH),
-    ] = 0.0  # fmt: skip
+    arc: Annotated[float, _ARC] = 0.0
 
 
 class OutlineTable(Struct, forbid_unknown_fields=True):
@@ -83,16 +85,19 @@ _HAND = [
 ]  # fmt: skip
 
 
+_LAYERS = Meta(
+    min_length=1,
+    max_length=100,
+    description="from the lowest upwards; contours of neighbours are the same, apart, or within each other",
+)
+
+
 class LayeredSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="layered"):
     """Keys of ``layered``."""
 
     layers: Annotated[
         list[LayerTable],
-        Meta(
-            min_length=1,
-            max_length=100,
-            description="from the lowest upwards; contours of neighbours are the same, apart, or within each other",
-        ),
+        _LAYERS,
         start(_BOX, (_HAND, N_("the hand of a clock: flat, of lines and arcs, for the laser"))),
     ]
 

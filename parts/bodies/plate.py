@@ -53,19 +53,26 @@ Slots = Annotated[
 ]
 
 
+_ENGRAVED = Meta(
+    max_length=1000,
+    description="slots in the upper face, not cut",
+    examples=[[{"start": [20.0, 0.0], "end": [28.0, 0.0], "width": 1.0}]],
+)
+
+
 class FlatKeys(MadeKeys, kw_only=True):
     """Keys of every flat body of lines and arcs."""
 
     holes: HolesAt = field(default_factory=list)
     slots: Slots = field(default_factory=list)
-    engraved: Annotated[
-        list[EngravedTable],
-        Meta(
-            max_length=1000,
-            description="slots in the upper face, not cut",
-            examples=[[{"start": [20.0, 0.0], "end": [28.0, 0.0], "width": 1.0}]],
-        ),
-    ] = field(default_factory=list)
+    engraved: Annotated[list[EngravedTable], _ENGRAVED] = field(default_factory=list)
+
+
+_BEYOND_AXLES = part_mm(
+    "least distance from each hole of an axle (`axis_of`) to the edge: the plate grows as they need it",
+    above=0,
+    example=10.0,
+)
 
 
 class PlateSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="plate"):
@@ -75,17 +82,7 @@ class PlateSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="pla
     height: Annotated[float, part_mm("along y", above=0, example=90.0)]
     centre: Annotated[tuple[_Place, _Place], mm("x, y of the middle")] = (0.0, 0.0)
     corner_radius: Annotated[float, part_mm("rounding of the corners", least=0)] = 0.0
-    beyond_axles: (
-        Annotated[
-            float,
-            part_mm(
-                "least distance from each hole of an axle (`axis_of`) to the edge: the plate grows as they need it",
-                above=0,
-                example=10.0,
-            ),
-        ]
-        | None
-    ) = None
+    beyond_axles: Annotated[float, _BEYOND_AXLES] | None = None
 
 
 def checked_outline(

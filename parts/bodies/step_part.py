@@ -24,29 +24,28 @@ _Place = Annotated[float, mm("a coordinate in the file", least=-_MOST, most=_MOS
 _Way = Annotated[float, Meta(ge=-_MOST, le=_MOST)]
 
 
+_FILE = Meta(
+    pattern=r"\.([sS][tT][eE]?[pP])\Z",
+    max_length=200,
+    description="STEP file, beside the scene's file or in a folder there; needs the extra cad",
+    examples=["motor.step"],
+)
+_SOLID = Meta(ge=1, le=1000, description="which of the file's solids, from 1 on, where it has several", examples=[2])
+_ORIGIN = mm("the part's origin in the file, which mates place")
+_AXIS = Meta(description="direction of the part's axis in the file")
+
+
 class StepPartSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="step_part"):
     """Keys of ``step_part``."""
 
-    file: Annotated[
-        str,
-        Meta(
-            pattern=r"\.([sS][tT][eE]?[pP])\Z",
-            max_length=200,
-            description="STEP file, beside the scene's file or in a folder there; needs the extra cad",
-            examples=["motor.step"],
-        ),
-    ]
-    solid: (
-        Annotated[int, Meta(ge=1, le=1000, description="which of the file's solids, from 1 on, where it has several",
-                            examples=[2])]
-        | None
-    ) = None  # fmt: skip
-    origin: Annotated[tuple[_Place, _Place, _Place], mm("the part's origin in the file, which mates place")] = (
+    file: Annotated[str, _FILE]
+    solid: Annotated[int, _SOLID] | None = None
+    origin: Annotated[tuple[_Place, _Place, _Place], _ORIGIN] = (
         0.0,
         0.0,
         0.0,
     )
-    axis: Annotated[tuple[_Way, _Way, _Way], Meta(description="direction of the part's axis in the file")] = (
+    axis: Annotated[tuple[_Way, _Way, _Way], _AXIS] = (
         0.0,
         0.0,
         1.0,

@@ -56,17 +56,18 @@ _RING = [
 _BALL = [{"r": 0.0, "z": 0.0, "arc": 5.0}, {"r": 0.0, "z": 10.0}]
 
 
+_POINTS = Meta(
+    min_length=2,
+    max_length=1000,
+    description="the corners of half the section, one after the other; the last one is joined to the first",
+)
+
+
 class TurnedSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="turned"):
     """Keys of ``turned``."""
 
     points: Annotated[
-        list[PointTable],
-        Meta(
-            min_length=2,
-            max_length=1000,
-            description="the corners of half the section, one after the other; the last one is joined to the first",
-        ),
-        start(_RING, (_BALL, N_("a ball: half a circle, by the radius of its arc"))),
+        list[PointTable], _POINTS, start(_RING, (_BALL, N_("a ball: half a circle, by the radius of its arc")))
     ]
     holes: HolesTable | list[HolesTable] | None = None
 
@@ -80,6 +81,9 @@ class GrooveTable(Struct, forbid_unknown_fields=True, kw_only=True):
     fillet: Annotated[float, part_mm("rounding of its bottom", least=0)] = 0.0
 
 
+_SHAFT_KEYWAY_DEPTH = part_mm("depth t1 in the shaft; default: the standard's", above=0, example=3.5)
+
+
 class ShaftKeywayTable(Struct, forbid_unknown_fields=True, kw_only=True):
     """A keyway by a standard, or of your own width and depth."""
 
@@ -87,9 +91,7 @@ class ShaftKeywayTable(Struct, forbid_unknown_fields=True, kw_only=True):
     length: Annotated[float, part_mm("length of the keyway, its round ends included", above=0)]
     standard: Literal["DIN 6885", "GOST 23360"] = "DIN 6885"
     width: Annotated[float, part_mm("width b; default: the standard's", above=0, example=6.0)] | None = None
-    depth: Annotated[float, part_mm("depth t1 in the shaft; default: the standard's", above=0, example=3.5)] | None = (
-        None
-    )
+    depth: Annotated[float, _SHAFT_KEYWAY_DEPTH] | None = None
     angle_deg: Annotated[float, degrees("direction of its middle", least=-360, most=360)] = 90.0
     ends: Annotated[Literal["round", "square"], Meta(description="as an end mill or a disk leaves them")] = "round"
 
@@ -110,18 +112,16 @@ class StepTable(Struct, forbid_unknown_fields=True, kw_only=True):
     spline: SplineTable | None = None
 
 
+_CENTRE_HOLES_MOUTH = mm("of the cone at the end face; default: 2.12 diameters", above=0, most=1000, example=4.25)
+_CENTRE_HOLES_DEPTH = mm("of the pilot behind the cone; default: one diameter", least=0, most=1000, example=2.0)
+
+
 class CentreHolesTable(Struct, forbid_unknown_fields=True):
     """Centre holes in both ends: a pilot with a tip of 120 degrees behind a cone of 60 degrees."""
 
     diameter: Annotated[float, mm("diameter of the pilot", above=0, most=1000, example=2.0)]
-    mouth: (
-        Annotated[float, mm("of the cone at the end face; default: 2.12 diameters", above=0, most=1000, example=4.25)]
-        | None
-    ) = None
-    depth: (
-        Annotated[float, mm("of the pilot behind the cone; default: one diameter", least=0, most=1000, example=2.0)]
-        | None
-    ) = None
+    mouth: Annotated[float, _CENTRE_HOLES_MOUTH] | None = None
+    depth: Annotated[float, _CENTRE_HOLES_DEPTH] | None = None
 
 
 _STEPS = [{"diameter": 12.0, "length": 20.0, "chamfer": 0.5}, {"diameter": 20.0, "length": 30.0}]
@@ -133,17 +133,14 @@ _WHOLE = [
 ]
 
 
+_SHAFT_STEPS = Meta(min_length=1, max_length=200, description="from the lower end upwards")
+
+
 class ShaftSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="shaft"):
     """Keys of ``shaft``."""
 
     steps: Annotated[
-        list[StepTable],
-        Meta(
-            min_length=1,
-            max_length=200,
-            description="from the lower end upwards",
-        ),
-        start(_STEPS, (_WHOLE, N_("keyways, a fillet, a groove for a ring, a spline"))),
+        list[StepTable], _SHAFT_STEPS, start(_STEPS, (_WHOLE, N_("keyways, a fillet, a groove for a ring, a spline")))
     ]
     bore_diameter: BoreDiameter = 0.0
     centre_holes: CentreHolesTable | None = None

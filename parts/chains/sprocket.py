@@ -26,33 +26,31 @@ _SIZES = ("pitch", "roller_diameter", "inner_width", "plate_height", "transverse
 _Length = float | None
 
 
+_CHAIN = Meta(
+    description="designation of ISO 606 (08B-1, 16A-2, 081), ANSI (ANSI 40, 60-2) or "
+    "GOST 13568 (PR-12.7-18.2), or give pitch"
+)
+_ROLLER_DIAMETER = mm("diameter of its rollers, or of bushes without them", above=0, most=1000, example=8.51)
+_INNER_WIDTH = mm("width between its inner plates", above=0, most=1000, example=7.75)
+_TRANSVERSE_PITCH = mm("from strand to strand of it", above=0, most=1000, example=13.92)
+_TIP_DIAMETER = mm(
+    "tip diameter; default: midway between the limits of ISO 606, or that of GOST 591 or ANSI B29.1",
+    above=0,
+    most=2 * MOST_LENGTH,
+    example=74.0,
+)
+
+
 class SprocketSpec(WheelKeys, kw_only=True, tag_field="kind", tag="sprocket"):
     """Keys of ``sprocket``."""
 
     number_of_teeth: Annotated[int, Meta(ge=6, le=200, description="number of teeth z", examples=[17])]
-    chain: (
-        Annotated[
-            str,
-            Meta(
-                description="designation of ISO 606 (08B-1, 16A-2, 081), ANSI (ANSI 40, 60-2) or "
-                "GOST 13568 (PR-12.7-18.2), or give pitch"
-            ),
-            start("08B-1"),
-        ]
-        | None
-    ) = None
+    chain: Annotated[str, _CHAIN, start("08B-1")] | None = None
     pitch: Annotated[float, mm("pitch of a chain of your own", above=0, most=1000, example=12.7)] | None = None
-    roller_diameter: (
-        Annotated[float, mm("diameter of its rollers, or of bushes without them", above=0, most=1000, example=8.51)]
-        | None
-    ) = None
-    inner_width: (
-        Annotated[float, mm("width between its inner plates", above=0, most=1000, example=7.75)] | None
-    ) = None  # fmt: skip
+    roller_diameter: Annotated[float, _ROLLER_DIAMETER] | None = None
+    inner_width: Annotated[float, _INNER_WIDTH] | None = None
     plate_height: Annotated[float, mm("height of its plates", above=0, most=1000, example=11.81)] | None = None
-    transverse_pitch: (
-        Annotated[float, mm("from strand to strand of it", above=0, most=1000, example=13.92)] | None
-    ) = None  # fmt: skip
+    transverse_pitch: Annotated[float, _TRANSVERSE_PITCH] | None = None
     strands: Annotated[int, Meta(ge=1, le=3, description="strands of it: rows of teeth", examples=[1])] | None = None
     tooth_form: Annotated[
         Literal["ISO 606", "GOST 591", "ANSI B29.1"], Meta(description="standard of the tooth form")
@@ -61,18 +59,7 @@ class SprocketSpec(WheelKeys, kw_only=True, tag_field="kind", tag="sprocket"):
         float, Meta(ge=0, le=1, description="ISO 606: 0 is the minimum tooth gap, 1 the maximum one")
     ] = 0.0  # fmt: skip
     displaced: Annotated[bool, Meta(description="GOST 591: with displaced centres of the seats, e = 0.03 t")] = False
-    tip_diameter: (
-        Annotated[
-            float,
-            mm(
-                "tip diameter; default: midway between the limits of ISO 606, or that of GOST 591 or ANSI B29.1",
-                above=0,
-                most=2 * MOST_LENGTH,
-                example=74.0,
-            ),
-        ]
-        | None
-    ) = None
+    tip_diameter: Annotated[float, _TIP_DIAMETER] | None = None
     tooth_bevel: Annotated[
         float, mm("bevel of the teeth at both faces, along the axis at their tips; ISO 606: 0.13 p", least=0, most=1000)
     ] = 0.0

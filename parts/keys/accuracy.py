@@ -8,6 +8,12 @@ from msgspec import Meta, Struct
 
 from parts.keys.base import mm
 
+_DEVIATIONS = Meta(
+    description="drawing: limits of what is measured on the teeth, from the size in the table, read there",
+    examples=[[-0.1, -0.2]],
+    extra={"unit": "mm"},
+)
+
 
 class AccuracyTable(Struct, forbid_unknown_fields=True):
     """An accuracy grade on a drawing. The program holds no tables of standards: give the source with the grade."""
@@ -20,11 +26,7 @@ class AccuracyTable(Struct, forbid_unknown_fields=True):
     deviations: (
         Annotated[
             tuple[Annotated[float, mm("", least=-100, most=100)], Annotated[float, mm("", least=-100, most=100)]],
-            Meta(
-                description="drawing: limits of what is measured on the teeth, from the size in the table, read there",
-                examples=[[-0.1, -0.2]],
-                extra={"unit": "mm"},
-            ),
+            _DEVIATIONS,
         ]
         | None
     ) = None

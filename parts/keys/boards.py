@@ -18,6 +18,13 @@ _LEAST = 1.0
 _MOST_COPIES = 1000
 
 
+_COPIES = Meta(
+    description="pieces of a part, or of an instance, in a set; default: as many as it has instances",
+    examples=[{"wheel": 2}],
+)
+_PARTS = Meta(min_length=1, description="the parts that are laid on it", examples=[["wheel"]])
+
+
 class LaidKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     """Keys of boards and beds."""
 
@@ -27,17 +34,8 @@ class LaidKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     sets: Annotated[
         int, Meta(ge=1, le=_MOST_COPIES, description="number of sets laid out: one for each group of a class")
     ] = 1
-    copies: Annotated[
-        dict[str, Annotated[int, Meta(ge=0, le=_MOST_COPIES)]],
-        Meta(
-            description="pieces of a part, or of an instance, in a set; default: as many as it has instances",
-            examples=[{"wheel": 2}],
-        ),
-    ] = {}
-    parts: (
-        Annotated[list[str], Meta(min_length=1, description="the parts that are laid on it", examples=[["wheel"]])]
-        | None
-    ) = None
+    copies: Annotated[dict[str, Annotated[int, Meta(ge=0, le=_MOST_COPIES)]], _COPIES] = {}
+    parts: Annotated[list[str], _PARTS] | None = None
 
     @property
     def across(self) -> float:
@@ -45,32 +43,27 @@ class LaidKeys(Struct, forbid_unknown_fields=True, kw_only=True):
         raise NotImplementedError
 
 
+_THICKNESS = mm(
+    "parts of this thickness are cut from it; a single board gives its thickness to all flat parts that have none",
+    above=0,
+    most=10_000,
+    example=3.0,
+)
+_FEED = size("mm/s", "speed of the cut, from which its time is computed", above=0, most=10_000, example=12.0)
+
+
 class BoardSpec(LaidKeys, kw_only=True):
     """Keys of ``[boards.NAME]``."""
 
     height: Annotated[float, part_mm("along y", least=_LEAST, example=400.0)]
-    thickness: Annotated[
-        float,
-        mm(
-            "parts of this thickness are cut from it; a single board gives its thickness to all flat parts "
-            "that have none",
-            above=0,
-            most=10_000,
-            example=3.0,
-        ),
-    ]
+    thickness: Annotated[float, _THICKNESS]
     kerf: Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)] = (
         0.0
     )
     grain: Annotated[bool, Meta(description="its grain runs along x: parts lie as drawn, or turned by half a turn")] = (
         False
     )
-    feed: (
-        Annotated[
-            float, size("mm/s", "speed of the cut, from which its time is computed", above=0, most=10_000, example=12.0)
-        ]
-        | None
-    ) = None
+    feed: Annotated[float, _FEED] | None = None
 
     @property
     def across(self) -> float:

@@ -26,14 +26,14 @@ _MARK, _CLEAR = 0.3, 0.08
 _MOST_HEIGHT, _WIDE = 8.0, 1 / 8
 
 
+_HEIGHT = mm("height of the digits; default: as the room allows", above=0, most=1000, example=2.0)
+
+
 class ToothMarkTable(Struct, forbid_unknown_fields=True):
     """A mark at tooth 1 (of a ring: at space 1) and the number of teeth, engraved in the upper face."""
 
     depth: Depth = 0.4
-    height: (
-        Annotated[float, mm("height of the digits; default: as the room allows", above=0, most=1000, example=2.0)]
-        | None
-    ) = None
+    height: Annotated[float, _HEIGHT] | None = None
 
 
 def check_depth(key: str, depth: float, thickness: float) -> None:

@@ -38,6 +38,9 @@ class RoundBoreTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag=
         return RoundBore(self.diameter)
 
 
+_CORNER_RADIUS = part_mm("at the keyway's bottom; default: the standard's largest", least=0, example=0.16)
+
+
 class KeywayTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="keyway"):
     """Round bore with keyways by a standard, or of your own width and depth."""
 
@@ -47,10 +50,7 @@ class KeywayTable(Struct, forbid_unknown_fields=True, tag_field="shape", tag="ke
     angle_deg: Direction = 90.0
     width: Annotated[float, part_mm("width b; default: the standard's", above=0, example=2.0)] | None = None
     depth: Annotated[float, part_mm("depth t2 in the hub; default: the standard's", above=0, example=1.0)] | None = None
-    corner_radius: (
-        Annotated[float, part_mm("at the keyway's bottom; default: the standard's largest", least=0, example=0.16)]
-        | None
-    ) = None
+    corner_radius: Annotated[float, _CORNER_RADIUS] | None = None
 
     def bore(self) -> Bore:
         """The keyway of the standard, each size replaced by one that is given; of one's own where both are."""

@@ -112,56 +112,31 @@ StretchTable = (
 )
 
 
+_DIAGRAM = Meta(min_length=1, max_length=200, description="its acceleration, in any scale")
+_FIRST_HALF = Meta(min_length=1, max_length=100, description="acceleration up to the greatest velocity, above the axis")
+_SECOND_HALF = Meta(min_length=1, max_length=100, description="deceleration after it, drawn above the axis too")
+_CONDITIONS = Meta(min_length=2, max_length=32, description="polynomial: [place u from 0 to 1, order, s^(order)(u)]")
+_POLES = Meta(min_length=4, max_length=60, description="of a B-spline, from 0 to the lift")
+_KNOTS = Meta(max_length=56, description="inner knots, 0 to 1; default: equal spans")
+_SINE_CONSTANT_COSINE = Meta(description="SCCA: shares of the phase, 0 to 1; the rest of it is at constant velocity")
+_RAMP = Meta(ge=0, lt=0.5, description="trapezoid, modified ones: share of each ramp, usual 0.125")
+
+
 class LawTable(Struct, forbid_unknown_fields=True):
     """A law of your own: diagram, first_half with second_half, conditions, poles, sine_constant_cosine or name."""
 
-    diagram: (
-        Annotated[list[StretchTable], Meta(min_length=1, max_length=200, description="its acceleration, in any scale")]
-        | None
-    ) = None
+    diagram: Annotated[list[StretchTable], _DIAGRAM] | None = None
     balance: Annotated[bool, Meta(description="scale what lies below the axis so that the diagram closes")] = False
-    first_half: (
-        Annotated[
-            list[StretchTable],
-            Meta(min_length=1, max_length=100, description="acceleration up to the greatest velocity, above the axis"),
-        ]
-        | None
-    ) = None
-    second_half: (
-        Annotated[
-            list[StretchTable],
-            Meta(min_length=1, max_length=100, description="deceleration after it, drawn above the axis too"),
-        ]
-        | None
-    ) = None
+    first_half: Annotated[list[StretchTable], _FIRST_HALF] | None = None
+    second_half: Annotated[list[StretchTable], _SECOND_HALF] | None = None
     first_share: Annotated[float, Meta(gt=0, lt=1, description="of the phase that the first half takes")] = 0.5
-    conditions: (
-        Annotated[
-            list[tuple[Plain, int, Plain]],
-            Meta(min_length=2, max_length=32, description="polynomial: [place u from 0 to 1, order, s^(order)(u)]"),
-        ]
-        | None
-    ) = None
-    poles: (
-        Annotated[list[Plain], Meta(min_length=4, max_length=60, description="of a B-spline, from 0 to the lift")]
-        | None
-    ) = None
+    conditions: Annotated[list[tuple[Plain, int, Plain]], _CONDITIONS] | None = None
+    poles: Annotated[list[Plain], _POLES] | None = None
     degree: Annotated[int, Meta(ge=3, le=9, description="of the B-spline")] = 5
-    knots: (
-        Annotated[list[Plain], Meta(max_length=56, description="inner knots, 0 to 1; default: equal spans")] | None
-    ) = None
-    sine_constant_cosine: (
-        Annotated[
-            tuple[Plain, Plain, Plain],
-            Meta(description="SCCA: shares of the phase, 0 to 1; the rest of it is at constant velocity"),
-        ]
-        | None
-    ) = None
+    knots: Annotated[list[Plain], _KNOTS] | None = None
+    sine_constant_cosine: Annotated[tuple[Plain, Plain, Plain], _SINE_CONSTANT_COSINE] | None = None
     name: LawName | None = None
-    ramp: (
-        Annotated[float, Meta(ge=0, lt=0.5, description="trapezoid, modified ones: share of each ramp, usual 0.125")]
-        | None
-    ) = None
+    ramp: Annotated[float, _RAMP] | None = None
     reverse: Annotated[bool, Meta(description="run backwards: first and second half exchanged")] = False
 
 

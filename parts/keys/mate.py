@@ -54,20 +54,16 @@ class GearPairKeys(MateKeys, kw_only=True):
     direction_deg: Direction = 0.0
 
 
+_NORMAL_BACKLASH = backlash(
+    "normal backlash j_bn = j_wt cos(alpha_wt) cos(beta_b), at right angles to the flanks: thins both gears by half"
+)
+
+
 class InvolutePairKeys(GearPairKeys, kw_only=True):
     """Two gears with involute teeth."""
 
     working_centre_distance: Distance | None = None
-    normal_backlash: (
-        Annotated[
-            float,
-            backlash(
-                "normal backlash j_bn = j_wt cos(alpha_wt) cos(beta_b), at right angles to the flanks: "
-                "thins both gears by half"
-            ),
-        ]
-        | None
-    ) = None
+    normal_backlash: Annotated[float, _NORMAL_BACKLASH] | None = None
 
     def leaves(self, backlash: float) -> bool:
         """Whether gears with so much normal backlash, mm, may be thinned to what is asked for."""

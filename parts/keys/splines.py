@@ -127,34 +127,26 @@ class _SplineTable(Struct, forbid_unknown_fields=True, tag_field="shape"):
         return (SplineProbe(self.bore(), height),)
 
 
+_SIZE = Meta(
+    description="designation z x d x D, with d-, D- or b- before it where that centres; with zones of"
+    " tolerance (d-8x36H7/f7x40H12/a11x7D9/f8) where limits are wanted; or give the sizes",
+    examples=["6x11x14"],
+)
+_TEETH = Meta(ge=2, le=200, description="number of teeth z", examples=[6], extra={"aside": True})
+_CHAMFER = part_mm("of the tips of a shaft and the mouths of slots; default: the standard's", least=0, example=0.3)
+_ROOT_ROUNDING = part_mm("at the root of a shaft; default: the standard's", least=0, example=0.2)
+
+
 class StraightSplineTable(_SplineTable, tag="spline"):
     """Straight-sided spline by GOST 1139 or ISO 14, or by teeth, inner_diameter, outer_diameter and width."""
 
-    size: (
-        Annotated[
-            str,
-            Meta(
-                description="designation z x d x D, with d-, D- or b- before it where that centres; with zones of"
-                " tolerance (d-8x36H7/f7x40H12/a11x7D9/f8) where limits are wanted; or give the sizes",
-                examples=["6x11x14"],
-            ),
-        ]
-        | None
-    ) = None
-    teeth: (
-        Annotated[int, Meta(ge=2, le=200, description="number of teeth z", examples=[6], extra={"aside": True})] | None
-    ) = None
+    size: Annotated[str, _SIZE] | None = None
+    teeth: Annotated[int, _TEETH] | None = None
     inner_diameter: Annotated[float, part_mm("between the teeth, d", above=0, example=11.0, aside=True)] | None = None
     outer_diameter: Annotated[float, part_mm("over the teeth, D", above=0, example=14.0, aside=True)] | None = None
     width: Annotated[float, part_mm("width of a tooth, b", above=0, example=3.0, aside=True)] | None = None
-    chamfer: (
-        Annotated[float, part_mm("of the tips of a shaft and the mouths of slots; default: the standard's", least=0,
-                                 example=0.3)]
-        | None
-    ) = None  # fmt: skip
-    root_rounding: (
-        Annotated[float, part_mm("at the root of a shaft; default: the standard's", least=0, example=0.2)] | None
-    ) = None
+    chamfer: Annotated[float, _CHAMFER] | None = None
+    root_rounding: Annotated[float, _ROOT_ROUNDING] | None = None
     clearance: Clearance = 0.0
     angle_deg: Direction = 90.0
 
@@ -208,17 +200,17 @@ class StraightSplineTable(_SplineTable, tag="spline"):
         return _bored(self, size)
 
 
+_INVOLUTE_SPLINE_SIZE = Meta(
+    description="D x m of GOST 6033, d_B x m x z of DIN 5480, or 24z x 2m x 30R (P: flat root) of ISO 4156;"
+    " with a class of tolerance at the end (9H/9g, 9H/8f, 5H/5f) where limits of the teeth are wanted",
+    examples=["8x0.5"],
+)
+
+
 class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
     """Involute spline by GOST 6033, DIN 5480 or ISO 4156."""
 
-    size: Annotated[
-        str,
-        Meta(
-            description="D x m of GOST 6033, d_B x m x z of DIN 5480, or 24z x 2m x 30R (P: flat root) of ISO 4156;"
-            " with a class of tolerance at the end (9H/9g, 9H/8f, 5H/5f) where limits of the teeth are wanted",
-            examples=["8x0.5"],
-        ),
-    ]
+    size: Annotated[str, _INVOLUTE_SPLINE_SIZE]
     standard: Standard = "GOST 6033"
     centring: Annotated[Literal["sides", "outer"], Meta(description="GOST 6033: what centres")] = "sides"
     root: Annotated[Literal["flat", "fillet"], Meta(description="GOST 6033: bottom of the spaces")] = "flat"

@@ -22,16 +22,14 @@ if TYPE_CHECKING:
 PLACES = 200
 
 
+_DISTANCE = part_mm("from the axis to its centre; default: between bore and base circle", above=0, example=22.0)
+
+
 class TimingMarkTable(Struct, forbid_unknown_fields=True):
     """A hole from the axis towards the follower at cam angle 0: the roller's centre, the point, or a flat's normal."""
 
     diameter: Annotated[float, mm("of the mark", above=0, most=1000, example=3.0)]
-    distance: (
-        Annotated[
-            float, part_mm("from the axis to its centre; default: between bore and base circle", above=0, example=22.0)
-        ]
-        | None
-    ) = None
+    distance: Annotated[float, _DISTANCE] | None = None
 
 
 def with_timing_mark(holes: HubHoles, table: TimingMarkTable | None, cam: DiskCam, inside: float) -> HubHoles:

@@ -28,12 +28,13 @@ _OPPOSITE = ("profile_shift_coefficient", "thickness_coefficient")
 _ROUNDING = 1e-9
 
 
+_NORMAL_BACKLASH = backlash("normal backlash at the outer end: thins both gears by half")
+
+
 class BevelPairSpec(GearPairKeys, tag="bevel_pair", kw_only=True):
     """Keys of ``bevel_pair``."""
 
-    normal_backlash: Annotated[float, backlash("normal backlash at the outer end: thins both gears by half")] | None = (
-        None
-    )
+    normal_backlash: Annotated[float, _NORMAL_BACKLASH] | None = None
 
 
 class BevelMating(Touching):

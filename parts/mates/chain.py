@@ -30,22 +30,18 @@ _MOST_LINKS = 10_000
 _TOO_MANY = 2
 
 
+_NUMBER_OF_LINKS = Meta(ge=6, le=_MOST_LINKS, description="links of the chain, even at best", examples=[100])
+_CENTRE_DISTANCE = mm(
+    "centre distance; default: the greatest for number_of_links, with the chain taut", above=0, most=1e6, example=458.0
+)
+
+
 class ChainDriveSpec(MateKeys, tag="chain_drive", kw_only=True):
     """Keys of ``chain_drive``."""
 
     second: Annotated[str, Meta(description="instance that the chain drives, or that drives it")]
-    number_of_links: (
-        Annotated[int, Meta(ge=6, le=_MOST_LINKS, description="links of the chain, even at best", examples=[100])]
-        | None
-    ) = None
-    centre_distance: (
-        Annotated[
-            float,
-            mm("centre distance; default: the greatest for number_of_links, with the chain taut", above=0, most=1e6,
-               example=458.0),
-        ]
-        | None
-    ) = None  # fmt: skip
+    number_of_links: Annotated[int, _NUMBER_OF_LINKS] | None = None
+    centre_distance: Annotated[float, _CENTRE_DISTANCE] | None = None
     direction_deg: Direction = 0.0
     height: Annotated[float, height("second above the first; default: the rows of teeth face each other")] | None = None
 

@@ -21,12 +21,13 @@ if TYPE_CHECKING:
     from geometry.gears.mesh.search import PairContact
 
 
+_NORMAL_BACKLASH = backlash("backlash along the pitch circles: thins both gears by half of it")
+
+
 class CycloidalGearPairSpec(GearPairKeys, tag="cycloidal_gear_pair", kw_only=True):
     """Keys of ``cycloidal_gear_pair``."""
 
-    normal_backlash: (
-        Annotated[float, backlash("backlash along the pitch circles: thins both gears by half of it")] | None
-    ) = None
+    normal_backlash: Annotated[float, _NORMAL_BACKLASH] | None = None
 
 
 class CycloidalGearMating(Toothed):

@@ -50,21 +50,17 @@ class CoaxialSpec(AboveKeys, tag="coaxial", kw_only=True):
     rotation_deg: _Turn = 0.0
 
 
+_OFFSET = mm(
+    "x, y, z of the axis in the carrier's frame; default: where other mates have put it", example=[40.0, 0.0, 0.0]
+)
+
+
 class CarriedSpec(MateKeys, tag="carried", kw_only=True):
     """Keys of ``carried``."""
 
     first: Annotated[str, Meta(description="the carrier: an instance that is already placed")]
     second: Annotated[str, Meta(description="instance whose axis goes round with it, free to turn")]
-    offset: (
-        Annotated[
-            tuple[_Shift, _Shift, _Shift],
-            mm(
-                "x, y, z of the axis in the carrier's frame; default: where other mates have put it",
-                example=[40.0, 0.0, 0.0],
-            ),
-        ]
-        | None
-    ) = None
+    offset: Annotated[tuple[_Shift, _Shift, _Shift], _OFFSET] | None = None
 
 
 class PinSeatSpec(MateKeys, tag="pin_seat", kw_only=True):

@@ -43,16 +43,15 @@ class InternalGearPairSpec(InvolutePairKeys, tag="internal_gear_pair"):
     """Keys of ``internal_gear_pair``."""
 
 
+_WORKING_CENTRE_DISTANCE = mm(
+    "from the gear's axis to the rack's datum line; default: r + x m", above=0, most=1e6, example=60.5
+)
+
+
 class RackPairSpec(InvolutePairKeys, tag="rack_pair", kw_only=True):
     """Keys of ``rack_pair``."""
 
-    working_centre_distance: (
-        Annotated[
-            float,
-            mm("from the gear's axis to the rack's datum line; default: r + x m", above=0, most=1e6, example=60.5),
-        ]
-        | None
-    ) = None
+    working_centre_distance: Annotated[float, _WORKING_CENTRE_DISTANCE] | None = None
 
 
 class GearMating(Toothed):

@@ -19,12 +19,13 @@ if TYPE_CHECKING:
     from geometry.gears.noncircular.pairing import Pairing
 
 
+_NORMAL_BACKLASH = backlash("backlash along the line of action: thins both gears by half of it")
+
+
 class NoncircularGearPairSpec(GearPairKeys, tag="noncircular_gear_pair", kw_only=True):
     """Keys of ``noncircular_gear_pair``."""
 
-    normal_backlash: (
-        Annotated[float, backlash("backlash along the line of action: thins both gears by half of it")] | None
-    ) = None
+    normal_backlash: Annotated[float, _NORMAL_BACKLASH] | None = None
 
 
 class NoncircularMating(Toothed):

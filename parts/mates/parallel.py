@@ -15,18 +15,17 @@ _MOST = 1e6
 _Shift = Annotated[float, mm("a coordinate of the second's axis from the first's", least=-_MOST, most=_MOST)]
 
 
+_OFFSET = mm(
+    "x, y, z of its axis at the start, along the scene's axes; default: where other mates put it",
+    example=[40.0, 0.0, 0.0],
+)
+
+
 class ParallelSpec(MateKeys, tag="parallel", kw_only=True):
     """Keys of ``parallel``."""
 
     second: Annotated[str, Meta(description="instance that turns alike; other mates carry its axis")]
-    offset: (
-        Annotated[
-            tuple[_Shift, _Shift, _Shift],
-            mm("x, y, z of its axis at the start, along the scene's axes; default: where other mates put it",
-               example=[40.0, 0.0, 0.0]),
-        ]
-        | None
-    ) = None  # fmt: skip
+    offset: Annotated[tuple[_Shift, _Shift, _Shift], _OFFSET] | None = None
     rotation_deg: Annotated[float, degrees("turn of the second against the first", least=-36_000, most=36_000)] = 0.0
 
 

@@ -29,6 +29,18 @@ _GENEVA_WHEEL: dict[str, object] = {
 }  # fmt: skip
 
 
+_RELIEF_CLEARANCE = mm(
+    "gap to the wheel's tips at the bottom of a relief; default: a tenth of the pin, at most half the room",
+    least=0,
+    most=100,
+    example=0.6,
+)
+_PLATE_DIAMETER = mm(
+    "of the crank plate; default: half a pin beyond the pins", above=0, most=2 * MOST_LENGTH, example=72.0
+)
+_PIN_LENGTH = mm("of pins of one piece; default: that of the disc", least=0.01, most=10_000, example=10.0)
+
+
 class GenevaDriverSpec(HoledKeys, kw_only=True, tag_field="kind", tag="geneva_driver"):
     """Keys of ``geneva_driver``."""
 
@@ -38,27 +50,11 @@ class GenevaDriverSpec(HoledKeys, kw_only=True, tag_field="kind", tag="geneva_dr
         Literal["whole", "plate", "disc"],
         Meta(description="all of one piece, or cut from boards: the crank plate with holes for pins, the locking disc"),
     ] = "whole"
-    relief_clearance: (
-        Annotated[
-            float,
-            mm("gap to the wheel's tips at the bottom of a relief; default: a tenth of the pin, at most half the room",
-               least=0, most=100, example=0.6),
-        ]
-        | None
-    ) = None  # fmt: skip
+    relief_clearance: Annotated[float, _RELIEF_CLEARANCE] | None = None
     plate_thickness: Annotated[float, mm("thickness of the crank plate", least=0.01, most=10_000)] = 3.0
-    plate_diameter: (
-        Annotated[
-            float, mm("of the crank plate; default: half a pin beyond the pins", above=0, most=2 * MOST_LENGTH,
-                      example=72.0),
-        ]
-        | None
-    ) = None  # fmt: skip
+    plate_diameter: Annotated[float, _PLATE_DIAMETER] | None = None
     face_width: Annotated[float, mm("thickness of the locking disc", least=0.01, most=10_000)] = 10.0
-    pin_length: (
-        Annotated[float, mm("of pins of one piece; default: that of the disc", least=0.01, most=10_000, example=10.0)]
-        | None
-    ) = None
+    pin_length: Annotated[float, _PIN_LENGTH] | None = None
     seat_clearance: Annotated[float, mm("radius of a hole for a pin beyond the pin's", least=-10, most=100)] = 0.0
 
 

@@ -32,56 +32,32 @@ _DISCS = (0.8, 0.9, 0.95, 0.98, 0.99)
 _ONLY_EXTERNAL = ("bore_diameter", "bore", "spokes", "web", "hub", "face_chamfer")
 
 
+_CENTRE_DISTANCE = part_mm("between the axes of driver and wheel; or give crank_radius", above=0)
+_CRANK_RADIUS = part_mm("from the driver's axis to a pin, in place of centre_distance", above=0, example=30.0)
+_PIN_DIAMETER = part_mm("diameter of each pin; default: an eighth of the crank radius", least=0.01, example=3.75)
+_END_CLEARANCE = mm("gap at the end of a slot; default: a tenth of the pin", least=0, most=100, example=0.6)
+_LOCKING_DIAMETER = part_mm(
+    "of the driver's disc; default: leaves tips as thick as the pin, at most a fifth of the disc's radius",
+    above=0,
+    example=48.75,
+)
+_OUTER_DIAMETER = mm("of an internal wheel; default: two pins beyond", above=0, most=2 * MOST_LENGTH, example=240.0)
+
+
 class GenevaWheelSpec(WheelKeys, kw_only=True, tag_field="kind", tag="geneva_wheel"):
     """Keys of ``geneva_wheel``."""
 
     number_of_slots: Annotated[int, Meta(ge=3, le=100, description="number of slots n", examples=[6])]
-    centre_distance: (
-        Annotated[float, part_mm("between the axes of driver and wheel; or give crank_radius", above=0), start(60.0)]
-        | None
-    ) = None
-    crank_radius: (
-        Annotated[
-            float,
-            part_mm("from the driver's axis to a pin, in place of centre_distance", above=0, example=30.0),
-        ]
-        | None
-    ) = None
-    pin_diameter: (
-        Annotated[
-            float, part_mm("diameter of each pin; default: an eighth of the crank radius", least=0.01, example=3.75)
-        ]
-        | None
-    ) = None
+    centre_distance: Annotated[float, _CENTRE_DISTANCE, start(60.0)] | None = None
+    crank_radius: Annotated[float, _CRANK_RADIUS] | None = None
+    pin_diameter: Annotated[float, _PIN_DIAMETER] | None = None
     internal: Annotated[bool, Meta(description="slots open inwards, the driver turns within the wheel")] = False
     slot_clearance: Annotated[float, mm("width of a slot beyond the pin's diameter", least=0, most=100)] = 0.0
-    end_clearance: (
-        Annotated[
-            float,
-            mm("gap at the end of a slot; default: a tenth of the pin", least=0, most=100, example=0.6),
-        ]
-        | None
-    ) = None
-    locking_diameter: (
-        Annotated[
-            float,
-            part_mm(
-                "of the driver's disc; default: leaves tips as thick as the pin, at most a fifth of the disc's radius",
-                above=0,
-                example=48.75,
-            ),
-        ]
-        | None
-    ) = None
+    end_clearance: Annotated[float, _END_CLEARANCE] | None = None
+    locking_diameter: Annotated[float, _LOCKING_DIAMETER] | None = None
     locking_clearance: Annotated[float, mm("gap between that disc and the wheel's arcs", least=0, most=100)] = 0.0
     tip_rounding: Annotated[float, mm("radius between a slot and the tip circle", least=0, most=1000)] = 0.0
-    outer_diameter: (
-        Annotated[
-            float,
-            mm("of an internal wheel; default: two pins beyond", above=0, most=2 * MOST_LENGTH, example=240.0),
-        ]
-        | None
-    ) = None
+    outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
 
 
 class GenevaWheelKind(WheelKind[GenevaWheelSpec, "GenevaWheel"]):

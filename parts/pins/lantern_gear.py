@@ -17,6 +17,11 @@ if TYPE_CHECKING:
     from geometry.gears.teeth.tooth import ToothSide
 
 
+_TIP_DIAMETER = mm(
+    "tip diameter; default: a tip land of a tenth of the pitch", above=0, most=2 * MOST_LENGTH, example=220.0
+)
+
+
 class LanternGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="lantern_gear"):
     """Keys of ``lantern_gear``."""
 
@@ -28,18 +33,7 @@ class LanternGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="lantern_ge
     pin_diameter: PinDiameter
     pin_clearance: Annotated[float, mm("gap between flank and pin along the normal", least=0, most=100)] = 0.0
     root_clearance: Annotated[float, mm("radius of the root beyond pin and pin_clearance", least=0, most=100)] = 0.0
-    tip_diameter: (
-        Annotated[
-            float,
-            mm(
-                "tip diameter; default: a tip land of a tenth of the pitch",
-                above=0,
-                most=2 * MOST_LENGTH,
-                example=220.0,
-            ),
-        ]
-        | None
-    ) = None
+    tip_diameter: Annotated[float, _TIP_DIAMETER] | None = None
 
 
 class LanternGearKind(WheelKind[LanternGearSpec, "LanternGear"]):

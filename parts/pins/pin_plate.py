@@ -35,6 +35,9 @@ if TYPE_CHECKING:
 _PIN_LENGTH = 10.0
 
 
+_OUTER_DIAMETER = mm("outside; default: pin circle + 2 pins", above=0, most=2 * MOST_LENGTH, example=60.0)
+
+
 class PinPlateKeys(HoledKeys, kw_only=True):
     """Keys of every plate with pins."""
 
@@ -48,10 +51,10 @@ class PinPlateKeys(HoledKeys, kw_only=True):
     seat_clearance: Annotated[
         float, mm("radius of a hole for a pin beyond the pin's (solid pins: of flat files)", least=-10, most=100)
     ] = 0.0
-    outer_diameter: (
-        Annotated[float, mm("outside; default: pin circle + 2 pins", above=0, most=2 * MOST_LENGTH, example=60.0)]
-        | None
-    ) = None
+    outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
+
+
+_OUTPUT_PLATE_PIN_LENGTH = mm("how far solid pins stand out; default: 10", least=0.01, most=10_000, example=10.0)
 
 
 class OutputPlateSpec(PinPlateKeys, kw_only=True, tag_field="kind", tag="output_plate"):
@@ -60,10 +63,13 @@ class OutputPlateSpec(PinPlateKeys, kw_only=True, tag_field="kind", tag="output_
     number_of_pins: Annotated[int, Meta(ge=1, le=200, description="number of output pins", examples=[6])]
     pin_circle_diameter: Annotated[PinCircle, Meta(examples=[44.0])]
     pin_diameter: Annotated[PinDiameter, Meta(examples=[6.0])]
-    pin_length: (
-        Annotated[float, mm("how far solid pins stand out; default: 10", least=0.01, most=10_000, example=10.0)] | None
-    ) = None
+    pin_length: Annotated[float, _OUTPUT_PLATE_PIN_LENGTH] | None = None
     start_deg: Direction = 0.0
+
+
+_LANTERN_WHEEL_OUTER_DIAMETER = mm(
+    "outside of the plates; default: pin circle + 2 pins", above=0, most=2 * MOST_LENGTH, example=100.0
+)
 
 
 class LanternWheelSpec(PinPlateKeys, kw_only=True, tag_field="kind", tag="lantern_wheel"):
@@ -75,13 +81,7 @@ class LanternWheelSpec(PinPlateKeys, kw_only=True, tag_field="kind", tag="lanter
     ]
     face_width: Annotated[float, mm("free length of the pins between the plates", least=0.01, most=10_000)] = 10.0
     plate_thickness: Annotated[float, mm("thickness of each plate", least=0.01, most=10_000)] = 3.0
-    outer_diameter: (
-        Annotated[
-            float,
-            mm("outside of the plates; default: pin circle + 2 pins", above=0, most=2 * MOST_LENGTH, example=100.0),
-        ]
-        | None
-    ) = None
+    outer_diameter: Annotated[float, _LANTERN_WHEEL_OUTER_DIAMETER] | None = None
 
 
 K = TypeVar("K", bound=PinPlateKeys)

@@ -19,6 +19,12 @@ if TYPE_CHECKING:
     from geometry.solids.pin_ring import PinRing
 
 
+_INNER_DIAMETER = part_mm("inside of the ring; default: the pin circle (holes: free of them)", least=0, example=83.0)
+_OUTER_DIAMETER = mm(
+    "outside; default: pin circle + 3 pins, or beyond the holes", above=0, most=2 * MOST_LENGTH, example=110.0
+)
+
+
 class PinRingSpec(MadeKeys, kw_only=True, tag_field="kind", tag="pin_ring"):
     """Keys of ``pin_ring``."""
 
@@ -30,25 +36,8 @@ class PinRingSpec(MadeKeys, kw_only=True, tag_field="kind", tag="pin_ring"):
         Meta(description="seats for loose pins, pins of one piece with the ring, or a plate with holes for them"),
     ] = "half_round"
     seat_clearance: Annotated[float, mm("radius of a seat or hole beyond the pin's", least=-10, most=100)] = 0.0
-    inner_diameter: (
-        Annotated[
-            float,
-            part_mm("inside of the ring; default: the pin circle (holes: free of them)", least=0, example=83.0),
-        ]
-        | None
-    ) = None
-    outer_diameter: (
-        Annotated[
-            float,
-            mm(
-                "outside; default: pin circle + 3 pins, or beyond the holes",
-                above=0,
-                most=2 * MOST_LENGTH,
-                example=110.0,
-            ),
-        ]
-        | None
-    ) = None
+    inner_diameter: Annotated[float, _INNER_DIAMETER] | None = None
+    outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
     holes: RimHolesTable | list[RimHolesTable] | None = None
 
 

@@ -50,6 +50,14 @@ _CAM_KEYS = (
 )  # fmt: skip
 
 
+_SLOT_START = mm(
+    "of the slot, above the roller's centre or the flat face; default: as near as the parts allow",
+    above=0,
+    most=10_000,
+    example=36.0,
+)
+
+
 class CamModelKeys(RecipeKeys, kw_only=True, tag="cam_model"):
     """Keys of ``cam_model``."""
 
@@ -72,18 +80,7 @@ class CamModelKeys(RecipeKeys, kw_only=True, tag="cam_model"):
     guide_pin_spacing: Annotated[float, mm("between the axes of these pins", above=0, most=1000)] = 10.0
     roller_pin_diameter: Annotated[float, mm("of the roller's pin", least=0.5, most=100)] = 3.0
     stem_width: Annotated[float, mm("width of the follower's stem", above=0, most=1000)] = 12.0
-    slot_start: (
-        Annotated[
-            float,
-            mm(
-                "of the slot, above the roller's centre or the flat face; default: as near as the parts allow",
-                above=0,
-                most=10_000,
-                example=36.0,
-            ),
-        ]
-        | None
-    ) = None
+    slot_start: Annotated[float, _SLOT_START] | None = None
     cam_angle_deg: Annotated[float, degrees("cam angle at which it is drawn", least=-360, most=360)] = 0.0
     material: Material | None = None
     density: Density | None = None

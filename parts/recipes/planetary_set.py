@@ -48,6 +48,20 @@ _RIM, _SCREW, _MARGIN, _HANDLE, _MARK = 14.0, 4.0, 12.0, 25.0, 1.0
 _MOST_TURNS = 10_000
 
 
+_WORKING_CENTRE_DISTANCE = part_mm(
+    "centre distance of both meshes; default: as the teeth need it", above=0, example=48.0
+)
+_SHIFTS = Meta(description="shift of each wheel as in teeth; default: least that work", examples=[[0.0, 0.0, 0.0]])
+_NORMAL_BACKLASH = mm("normal backlash of both meshes", least=0, most=100, example=0.1)
+_TURNS = Meta(
+    ge=-_MOST_TURNS,
+    le=_MOST_TURNS,
+    examples=[4.0],
+    extra={"unit": "turns"},
+    description="how far the driver is turned; default: until what it drives has turned once, of a differential 1",
+)
+
+
 class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     """Keys of ``planetary_set``."""
 
@@ -66,21 +80,9 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     identical: Annotated[bool, Meta(description="both rims of all satellites are clocked alike")] = True
     module: Annotated[float, mm("module of the mesh 1-2", least=0.01, most=1000)] = 2.0
     second_module: Annotated[float, mm("module of the mesh 2'-3", least=0.01, most=1000, example=2.0)] | None = None
-    working_centre_distance: (
-        Annotated[float, part_mm("centre distance of both meshes; default: as the teeth need it", above=0,
-                            example=48.0)]
-        | None
-    ) = None  # fmt: skip
-    shifts: (
-        Annotated[
-            list[Annotated[float, Meta(ge=-10, le=10)]],
-            Meta(description="shift of each wheel as in teeth; default: least that work", examples=[[0.0, 0.0, 0.0]]),
-        ]
-        | None
-    ) = None
-    normal_backlash: Annotated[float, mm("normal backlash of both meshes", least=0, most=100, example=0.1)] | None = (
-        None
-    )
+    working_centre_distance: Annotated[float, _WORKING_CENTRE_DISTANCE] | None = None
+    shifts: Annotated[list[Annotated[float, Meta(ge=-10, le=10)]], _SHIFTS] | None = None
+    normal_backlash: Annotated[float, _NORMAL_BACKLASH] | None = None
     helix_angle_deg: HelixAngle = 0.0
     hand: Annotated[Literal["right", "left"], Meta(description="hand of wheel 1; of the others as they mesh")] = "right"
     double_helical: Double = False
@@ -92,15 +94,7 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
         Literal["first", "second", "carrier", "none"],
         Meta(description="what stands still: wheel 1, wheel 3, the carrier, or none: a differential"),
     ] = "second"
-    turns: (
-        Annotated[
-            float,
-            Meta(ge=-_MOST_TURNS, le=_MOST_TURNS, examples=[4.0], extra={"unit": "turns"},
-                 description="how far the driver is turned; default: until what it drives has turned once, of a "
-                 "differential 1"),
-        ]
-        | None
-    ) = None  # fmt: skip
+    turns: Annotated[float, _TURNS] | None = None
     direction_deg: Annotated[float, degrees("direction of the first satellite", least=-360, most=360)] = 0.0
     face_width: Annotated[float, mm("face width of every wheel", least=0.1, most=10_000)] = 10.0
     plate_thickness: Annotated[float, mm("thickness of carrier, frame and crank", least=0.1, most=10_000)] = 4.0

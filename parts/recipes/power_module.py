@@ -53,25 +53,24 @@ _RACE_SCREWS, _RACE_START = 32, 1.875
 _DESIGNATION, _STANDARD = N_("KRB.PM.25.33.13.00.{number}"), N_("GOST {number}")
 
 
+_ORIENTATION = Meta(
+    description="cranks keep the platform parallel: plates 11 and 16, ring 14, its guide 13, cranks 34 and "
+    "pins 35, without 15 and 57; idlers too: wheels 11, 14, 16 with idlers 36 between, their pins 37, links "
+    "38, post 39; thesis: its wheels 11, 14, 16, axle 13"
+)
+_SECOND_ARM = mm("O2O3; must be what ring and pinion give", above=0, most=1000, example=72.0)
+
+
 class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
     """Keys of ``power_module``: its drivers."""
 
-    orientation: Annotated[
-        Literal["cranks", "thesis", "idlers"],
-        Meta(
-            description="cranks keep the platform parallel: plates 11 and 16, ring 14, its guide 13, cranks 34 and "
-            "pins 35, without 15 and 57; idlers too: wheels 11, 14, 16 with idlers 36 between, their pins 37, links "
-            "38, post 39; thesis: its wheels 11, 14, 16, axle 13"
-        ),
-    ] = "cranks"
+    orientation: Annotated[Literal["cranks", "thesis", "idlers"], _ORIENTATION] = "cranks"
     module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = DRIVERS["module"]
     teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="of the pinion 19 and of the ring 21")] = (
         int(DRIVERS["teeth_19"]),
         int(DRIVERS["teeth_21"]),
     )
-    second_arm: (
-        Annotated[float, mm("O2O3; must be what ring and pinion give", above=0, most=1000, example=72.0)] | None
-    ) = None
+    second_arm: Annotated[float, _SECOND_ARM] | None = None
     wheel_module: Annotated[float, mm("module of the thesis's wheels 11, 14, 16", least=0.1, most=100)] = DRIVERS[
         "wheel_module"
     ]

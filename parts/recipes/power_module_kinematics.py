@@ -33,6 +33,11 @@ IDLER_SHIFT = 0.3
 _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 
 
+_TEETH = Meta(
+    description=("of the pinion 19 and of the ring 21; O1O2 and O2O3 are half their difference times the module")
+)
+
+
 class PowerModuleKinematicsKeys(RecipeKeys, kw_only=True, tag="power_module_kinematics"):
     """Keys of ``power_module_kinematics``."""
 
@@ -41,14 +46,7 @@ class PowerModuleKinematicsKeys(RecipeKeys, kw_only=True, tag="power_module_kine
         Meta(description="what turns the platform; thesis: its wheels 6, 7, 8, which do not keep it parallel"),
     ] = "cranks"
     module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = 3.0
-    teeth: Annotated[
-        tuple[_Teeth, _Teeth],
-        Meta(
-            description=(
-                "of the pinion 19 and of the ring 21; O1O2 and O2O3 are half their difference times the module"
-            )
-        ),
-    ] = (96, 144)
+    teeth: Annotated[tuple[_Teeth, _Teeth], _TEETH] = (96, 144)
     wheel_module: Annotated[float, mm("module of the wheels that turn the platform", least=0.1, most=100)] = 2.0
     face_width: Annotated[float, mm("of ring and pinion", least=1, most=1000)] = 25.0
     wheel_width: Annotated[float, mm("of the wheels, links and cranks that turn the platform", least=1, most=1000)] = (

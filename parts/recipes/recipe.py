@@ -20,14 +20,13 @@ Table = dict[str, Any]
 Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 
 
+_NAME = Meta(pattern=IDENTIFIER, description="the ids of all its parts begin with it, as in a_sun", examples=["a"])
+
+
 class RecipeKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=True):
     """Keys of every assembly."""
 
-    name: (
-        Annotated[str, Meta(pattern=IDENTIFIER, description="the ids of all its parts begin with it, as in a_sun",
-                            examples=["a"])]
-        | None
-    ) = None  # fmt: skip
+    name: Annotated[str, _NAME] | None = None
 
 
 class Expansion(Draft):

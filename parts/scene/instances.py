@@ -28,55 +28,43 @@ if TYPE_CHECKING:
 _Coordinate = Annotated[float, mm("a coordinate of the place", least=-1_000_000, most=1_000_000)]
 
 
+_AT = Meta(min_length=3, max_length=3, description="place [x, y, z] of the part, in mm")
+_ROTATION = degrees("rotation about the part's axis, counter-clockwise", least=-36_000, most=36_000)
+_AXIS = Meta(
+    min_length=3,
+    max_length=3,
+    description="direction [x, y, z] of the part's axis, of any length; default: upwards",
+    examples=[[1.0, 0.0, 0.0]],
+)
+_SUBASSEMBLY = Meta(
+    pattern=IDENTIFIER, description="what it is assembled with, in the product tree", examples=["drive"]
+)
+
+
 class InstanceSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[instances.ID]``."""
 
     part: Annotated[str, Meta(description="the part that stands here; default: the part of the same id")] | None = None
-    at: (
-        Annotated[list[_Coordinate], Meta(min_length=3, max_length=3, description="place [x, y, z] of the part, in mm")]
-        | None
-    ) = None
-    rotation_deg: (
-        Annotated[float, degrees("rotation about the part's axis, counter-clockwise", least=-36_000, most=36_000)]
-        | None
-    ) = None  # fmt: skip
-    axis: (
-        Annotated[
-            list[Annotated[float, Meta(ge=-1e6, le=1e6)]],
-            Meta(
-                min_length=3,
-                max_length=3,
-                description="direction [x, y, z] of the part's axis, of any length; default: upwards",
-                examples=[[1.0, 0.0, 0.0]],
-            ),
-        ]
-        | None
-    ) = None
+    at: Annotated[list[_Coordinate], _AT] | None = None
+    rotation_deg: Annotated[float, _ROTATION] | None = None
+    axis: Annotated[list[Annotated[float, Meta(ge=-1e6, le=1e6)]], _AXIS] | None = None
     held: Annotated[bool, Meta(description="stands still, as the frame does: a ring that is screwed on")] | None = None
-    subassembly: (
-        Annotated[str, Meta(pattern=IDENTIFIER, description="what it is assembled with, in the product tree",
-                            examples=["drive"])]
-        | None
-    ) = None  # fmt: skip
+    subassembly: Annotated[str, _SUBASSEMBLY] | None = None
 
     title: Title | None = None
+
+
+_COUNT = Meta(ge=1, le=1000, description=("number of equal ones: ID_1, ID_2 ..."), examples=[3])
+_ABOUT = Meta(min_length=2, max_length=2, description="with count: [x, y] of the axis about which they stand, in mm")
+_STEP = degrees("with count: from each to the next; default: 360 / count", least=-360, most=360)
 
 
 class InstanceTable(InstanceSpec, forbid_unknown_fields=True):
     """Keys of ``[instances.ID]`` as they stand in a file: one instance, or several."""
 
-    count: (
-        Annotated[int, Meta(ge=1, le=1000, description=("number of equal ones: ID_1, ID_2 ..."), examples=[3])] | None
-    ) = None
-    about: (
-        Annotated[list[_Coordinate], Meta(min_length=2, max_length=2,
-                                          description="with count: [x, y] of the axis about which they stand, in mm")]
-        | None
-    ) = None  # fmt: skip
-    step_deg: (
-        Annotated[float, degrees("with count: from each to the next; default: 360 / count", least=-360, most=360)]
-        | None
-    ) = None
+    count: Annotated[int, _COUNT] | None = None
+    about: Annotated[list[_Coordinate], _ABOUT] | None = None
+    step_deg: Annotated[float, _STEP] | None = None
 
 
 class Group(Record):
@@ -90,6 +78,9 @@ class Group(Record):
         return index * self.step_deg
 
 
+_TRAVEL = mm("for a slide, instead of turns: how far it travels along its x axis", least=-1e6, most=1e6)
+
+
 class DriveSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[drives]]``."""
 
@@ -98,10 +89,7 @@ class DriveSpec(Struct, forbid_unknown_fields=True):
         float,
         Meta(ge=-10_000, le=10_000, description="how far it is turned, counter-clockwise", extra={"unit": "turns"}),
     ] = 1.0
-    travel: (
-        Annotated[float, mm("for a slide, instead of turns: how far it travels along its x axis", least=-1e6, most=1e6)]
-        | None
-    ) = None
+    travel: Annotated[float, _TRAVEL] | None = None
 
 
 def instance_specs(

@@ -57,49 +57,47 @@ else:
     Language, Format, Purpose = Literal[languages()], Literal[FORMATS], Literal[PURPOSES]
 
 
+_NOTES = Meta(
+    max_length=50,
+    description="how to put together and use what is made, a paragraph each: SCENE.notes.txt",
+    examples=[["Glue the crank to the shaft."]],
+)
+
+
 class SceneInfo(Struct, forbid_unknown_fields=True):
     """Keys of ``[scene]``."""
 
     title: Annotated[str, Meta(max_length=500, description="what the scene shows")] = ""
     language: Annotated[Language, Meta(description="language of reports")] = ENGLISH
-    notes: Annotated[
-        list[Annotated[str, Meta(pattern=r"\S", max_length=2000)]],
-        Meta(
-            max_length=50,
-            description="how to put together and use what is made, a paragraph each: SCENE.notes.txt",
-            examples=[["Glue the crank to the shaft."]],
-        ),
-    ] = []
+    notes: Annotated[list[Annotated[str, Meta(pattern=r"\S", max_length=2000)]], _NOTES] = []
+
+
+_FORMAT = Meta(
+    description="file format; sheet: DXF and SVG of a drawing; motion, glb: what the drives move, as an "
+    "animated SVG, and its solids as glTF; csv: the parts list",
+    examples=["dxf"],
+)
+_PURPOSE = Meta(
+    description="dxf: laser (arcs) or drawing (splines); dxf, svg: board (all flat parts laid on boards); "
+    "3mf: plate (all parts laid on beds); sheet, pdf: meshing (picture of each pair), "
+    "generating (device TMM-42), cam (diagrams, least radius, profile), train (scheme, plans of "
+    "velocities) or parts_list (GOST 2.106); pdf: model (outlines 1:1 on sheets to be glued together); "
+    "dxf, svg, pdf: part (working drawing of each part) or assembly (drawing of the whole scene)",
+    examples=["laser"],
+)
+_TOLERANCE = mm("largest deviation from the exact curve", least=1e-7, most=1.0, example=0.005)
+_PARTS = Meta(min_length=1, description="parts to export; default: all", examples=[["gear"]])
+_PITCH_CURVE = Meta(
+    description='dxf with purpose = "drawing": the path of the follower\'s centre too, on the layer PITCH_CURVE'
+)
 
 
 class ExportSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[exports]]``."""
 
-    format: Annotated[
-        Format,
-        Meta(
-            description="file format; sheet: DXF and SVG of a drawing; motion, glb: what the drives move, as an "
-            "animated SVG, and its solids as glTF; csv: the parts list",
-            examples=["dxf"],
-        ),
-    ]
-    purpose: (
-        Annotated[
-            Purpose,
-            Meta(
-                description="dxf: laser (arcs) or drawing (splines); dxf, svg: board (all flat parts laid on boards); "
-                "3mf: plate (all parts laid on beds); sheet, pdf: meshing (picture of each pair), "
-                "generating (device TMM-42), cam (diagrams, least radius, profile), train (scheme, plans of "
-                "velocities) or parts_list (GOST 2.106); pdf: model (outlines 1:1 on sheets to be glued together); "
-                "dxf, svg, pdf: part (working drawing of each part) or assembly (drawing of the whole scene)",
-                examples=["laser"],
-            ),
-        ]
-        | None
-    ) = None
-    tolerance: (
-        Annotated[float, mm("largest deviation from the exact curve", least=1e-7, most=1.0, example=0.005)] | None
-    ) = None
+    format: Annotated[Format, _FORMAT]
+    purpose: Annotated[Purpose, _PURPOSE] | None = None
+    tolerance: Annotated[float, _TOLERANCE] | None = None
     kerf: Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)] = (
         0.0
     )
@@ -112,17 +110,9 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     ] = "arcs"
     dxf_version: Annotated[Literal["R2000", "R12"], Meta(description="dxf only")] = "R2000"
     name: Annotated[Identifier, Meta(examples=["laser"])] | None = None
-    parts: (
-        Annotated[list[str], Meta(min_length=1, description="parts to export; default: all", examples=[["gear"]])]
-        | None
-    ) = None
+    parts: Annotated[list[str], _PARTS] | None = None
     assembly: Annotated[bool, Meta(description="step, 3mf: one file of all instances in their places")] = False
-    pitch_curve: Annotated[
-        bool,
-        Meta(
-            description='dxf with purpose = "drawing": the path of the follower\'s centre too, on the layer PITCH_CURVE'
-        ),
-    ] = False
+    pitch_curve: Annotated[bool, _PITCH_CURVE] = False
     author: Annotated[str, Meta(max_length=200, description="step: the author, for its header")] = ""
     organisation: Annotated[str, Meta(max_length=200, description="step: school, group or firm, for its header")] = ""
     shared: Annotated[bool, Meta(description="step: equal surfaces are written once; false: one for each face")] = True
@@ -142,25 +132,22 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
         return self.purpose in PURPOSES_LAID.values()
 
 
+_WORKSPACE = Meta(
+    ge=1,
+    le=100_000,
+    description=(
+        "with interference: checks the solids at all positions of each drive by itself, in at most "
+        "this many poses a pair"
+    ),
+    examples=[400],
+)
+
+
 class ChecksSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[checks]``."""
 
     interference: Annotated[bool, Meta(description="contact and interference of every mate")] = False
-    workspace: (
-        Annotated[
-            int,
-            Meta(
-                ge=1,
-                le=100_000,
-                description=(
-                    "with interference: checks the solids at all positions of each drive by itself, in at most "
-                    "this many poses a pair"
-                ),
-                examples=[400],
-            ),
-        ]
-        | None
-    ) = None
+    workspace: Annotated[int, _WORKSPACE] | None = None
     transmission_error: Annotated[
         bool, Meta(description="transmission error of each mate: peak to peak from the exact contact, without load")
     ] = False

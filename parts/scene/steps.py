@@ -17,51 +17,38 @@ from parts.base.schema import converted
 from parts.keys.base import mm
 from parts.scene.instances import Group, InstanceSpec, check_instance
 
+_BRING = Meta(
+    min_length=1,
+    description="instances or groups that come in, with all that earlier steps have joined to them",
+    examples=[["wheel"]],
+)
+_ALONG = Meta(
+    min_length=3,
+    max_length=3,
+    description="direction [x, y, z] in which they come from outside; default: each straight to the axis of `to`",
+    examples=[[0.0, 0.0, -1.0]],
+)
+_OUTWARDS = mm(
+    "then each moves by this away from the axis of `to`, below 0 towards it", least=-1e6, most=1e6, example=8.0
+)
+_ONE_HOLE = Meta(
+    description=("`to` is turned on for each: all go in where the first does, like a row of balls through one hole")
+)
+_OPENED = mm(
+    "for turned parts like a snap ring: by how much its radius is opened on the way", above=0, most=1e3, example=1.5
+)
+
 
 class StepSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[steps]]``."""
 
-    bring: Annotated[
-        list[str],
-        Meta(
-            min_length=1,
-            description="instances or groups that come in, with all that earlier steps have joined to them",
-            examples=[["wheel"]],
-        ),
-    ]
+    bring: Annotated[list[str], _BRING]
     to: Annotated[str, Meta(description="an instance of what they are joined to", examples=["frame"])]
-    along: (
-        Annotated[
-            list[Annotated[float, Meta(ge=-1e6, le=1e6)]],
-            Meta(
-                min_length=3,
-                max_length=3,
-                description="direction [x, y, z] in which they come from outside; default: each straight to the axis "
-                "of `to`",
-                examples=[[0.0, 0.0, -1.0]],
-            ),
-        ]
-        | None
-    ) = None
-    outwards: (
-        Annotated[float, mm("then each moves by this away from the axis of `to`, below 0 towards it", least=-1e6,
-                            most=1e6, example=8.0)]
-        | None
-    ) = None  # fmt: skip
-    one_hole: Annotated[
-        bool,
-        Meta(
-            description=(
-                "`to` is turned on for each: all go in where the first does, like a row of balls through one hole"
-            )
-        ),
-    ] = False
+    along: Annotated[list[Annotated[float, Meta(ge=-1e6, le=1e6)]], _ALONG] | None = None
+    outwards: Annotated[float, _OUTWARDS] | None = None
+    one_hole: Annotated[bool, _ONE_HOLE] = False
     screwed: Annotated[bool, Meta(description="turned in by its thread: a worm past its wheel")] = False
-    opened: (
-        Annotated[float, mm("for turned parts like a snap ring: by how much its radius is opened on the way", above=0,
-                            most=1e3, example=1.5)]
-        | None
-    ) = None  # fmt: skip
+    opened: Annotated[float, _OPENED] | None = None
 
     @property
     def one_by_one(self) -> bool:

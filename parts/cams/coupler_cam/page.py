@@ -49,6 +49,9 @@ _NOTES = (
 )  # fmt: skip
 
 
+_POSITION = degrees("cam angle worked out in numbers; default: middle of the first rise", least=0, below=360)
+
+
 class LinkageKeys(LinkageCamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of a linkage cam, the step of its table, and the position that is worked out in numbers."""
 
@@ -56,13 +59,7 @@ class LinkageKeys(LinkageCamSpec, kw_only=True, tag=False, forbid_unknown_fields
     intervals: Intervals = DEFAULT_INTERVALS
     drawing: Drawing = "smooth"
     speed_rpm: Speed | None = None
-    position_deg: (
-        Annotated[
-            float,
-            degrees("cam angle worked out in numbers; default: middle of the first rise", least=0, below=360),
-        ]
-        | None
-    ) = None
+    position_deg: Annotated[float, _POSITION] | None = None
 
 
 @calculation(TOPIC, LinkageKeys)

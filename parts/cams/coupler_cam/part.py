@@ -51,6 +51,18 @@ if TYPE_CHECKING:
 _USUAL_PRESSURE_ANGLE, _USUAL_TRANSMISSION_ANGLE = 45.0, 40.0
 
 
+_COUPLER_POINT = mm(
+    "roller's centre, tip, arc's centre or a point of the face, from joint A, +x towards joint B", example=[6.0, 16.0]
+)
+_PLATE_DIAMETER = part_mm("width of a flat or mushroom face about coupler_point", above=0, example=60.0)
+_MOTION_TABLE = Meta(
+    min_length=3,
+    max_length=2000,
+    description="in place of phases: [cam angle deg, travel mm or deg]",
+    examples=[[[0.0, 0.0], [120.0, 10.0], [240.0, 5.0]]],
+)
+
+
 class LinkageCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="linkage_cam"):
     """Keys of ``linkage_cam``."""
 
@@ -58,36 +70,17 @@ class LinkageCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag
     driven: DrivenRocker | DrivenSlider
     coupler_length: Annotated[float, part_mm("from joint A to joint B", above=0, example=43.0)]
     guide: GuidingRocker | GuidingSlider
-    coupler_point: Annotated[
-        tuple[Coordinate, Coordinate],
-        mm(
-            "roller's centre, tip, arc's centre or a point of the face, from joint A, +x towards joint B",
-            example=[6.0, 16.0],
-        ),
-    ]
+    coupler_point: Annotated[tuple[Coordinate, Coordinate], _COUPLER_POINT]
     follower_direction_deg: Annotated[
         float,
         degrees("stem, or normal of a flat face, away from the cam, from the coupler's +x", least=-360, most=360),
     ] = 0.0
     follower_radius: Annotated[float, part_mm("radius of the roller or mushroom", least=0), start(6.0)] = 0.0
-    plate_diameter: (
-        Annotated[float, part_mm("width of a flat or mushroom face about coupler_point", above=0, example=60.0)] | None
-    ) = None
+    plate_diameter: Annotated[float, _PLATE_DIAMETER] | None = None
     lift: Annotated[float, part_mm("travel of a driven slider", least=0)] = 0.0
     swing_deg: Annotated[float, degrees("swing of a driven rocker", least=0, below=180), start(24.0)] = 0.0
     phases: Annotated[Phases, with_own_laws(turn("sine"))] | None = None
-    motion_table: (
-        Annotated[
-            list[tuple[float, float]],
-            Meta(
-                min_length=3,
-                max_length=2000,
-                description="in place of phases: [cam angle deg, travel mm or deg]",
-                examples=[[[0.0, 0.0], [120.0, 10.0], [240.0, 5.0]]],
-            ),
-        ]
-        | None
-    ) = None
+    motion_table: Annotated[list[tuple[float, float]], _MOTION_TABLE] | None = None
     table_tolerance: TableTolerance = 0.0
     least_curvature_radius: Annotated[float, part_mm("rho: least convex radius of the cam", least=0)] = 0.0
 

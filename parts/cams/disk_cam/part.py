@@ -68,20 +68,17 @@ _FARTHER = (0.01, 0.1, 0.3, 1.0)
 _TOWARDS_PIVOT = (1 / 2, 1 / 4, 3 / 4, 1 / 8, 7 / 8, 3 / 8, 5 / 8, 1 / 16, 15 / 16, 1 / 64, 1 / 256, 1 / 1024, 1 / 4096)
 
 
+_CENTRE_DISTANCE = part_mm(
+    "from the cam's axis to the pivot; default: of the smallest cam by least_transmission_angle_deg",
+    above=0,
+    example=90.0,
+)
+
+
 class OscillatingTable(Struct, forbid_unknown_fields=True):
     """A follower that swings about a pivot on +x."""
 
-    centre_distance: (
-        Annotated[
-            float,
-            part_mm(
-                "from the cam's axis to the pivot; default: of the smallest cam by least_transmission_angle_deg",
-                above=0,
-                example=90.0,
-            ),
-        ]
-        | None
-    ) = None
+    centre_distance: Annotated[float, _CENTRE_DISTANCE] | None = None
     arm_length: Annotated[
         float, part_mm("from the pivot to the roller's centre; not for flat", least=0), start(80.0)
     ] = 0.0
@@ -96,6 +93,9 @@ class OscillatingTable(Struct, forbid_unknown_fields=True):
         return 1 if self.sense == "against" else -1
 
 
+_PLATE_DIAMETER = part_mm("round plate of a translating flat or mushroom follower", above=0, example=60.0)
+
+
 class CamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="cam"):
     """Keys of ``cam``."""
 
@@ -107,10 +107,7 @@ class CamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="cam")
     table_tolerance: TableTolerance = 0.0
     follower_radius: FollowerRadius = 0.0
     follower_offset: FollowerOffset = 0.0
-    plate_diameter: (
-        Annotated[float, part_mm("round plate of a translating flat or mushroom follower", above=0, example=60.0)]
-        | None
-    ) = None
+    plate_diameter: Annotated[float, _PLATE_DIAMETER] | None = None
     oscillating: OscillatingTable | None = None
     base_circle_radius: BaseCircle | None = None
     least_transmission_angle_deg: LeastTransmission | None = None

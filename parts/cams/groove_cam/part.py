@@ -56,6 +56,13 @@ _LEAST_WALL = 0.05
 _USUAL_CLEARANCE = (0.0, 0.02)
 
 
+_BASE_CIRCLE_RADIUS = part_mm("circle inside the groove; default: by least_transmission_angle_deg", above=0)
+_LEAST_TRANSMISSION_ANGLE = degrees("gamma_min = 90 - pressure angle, both ways", above=0, below=90, example=60.0)
+_OUTER_DIAMETER = mm(
+    "of the disk; default: a rim of half the groove's width", above=0, most=2 * MOST_LENGTH, example=160.0
+)
+
+
 class GrooveCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="groove_cam"):
     """Keys of ``groove_cam``."""
 
@@ -70,29 +77,10 @@ class GrooveCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag=
     table_tolerance: TableTolerance = 0.0
     follower_offset: FollowerOffset = 0.0
     oscillating: OscillatingTable | None = None
-    base_circle_radius: (
-        Annotated[
-            float,
-            part_mm("circle inside the groove; default: by least_transmission_angle_deg", above=0),
-            start(30.0),
-        ]
-        | None
-    ) = None
-    least_transmission_angle_deg: (
-        Annotated[
-            float,
-            degrees("gamma_min = 90 - pressure angle, both ways", above=0, below=90, example=60.0),
-        ]
-        | None
-    ) = None
+    base_circle_radius: Annotated[float, _BASE_CIRCLE_RADIUS, start(30.0)] | None = None
+    least_transmission_angle_deg: Annotated[float, _LEAST_TRANSMISSION_ANGLE] | None = None
     roller_clearance: Annotated[float, mm("groove's width less the roller's diameter", least=0, most=100)] = 0.0
-    outer_diameter: (
-        Annotated[
-            float,
-            mm("of the disk; default: a rim of half the groove's width", above=0, most=2 * MOST_LENGTH, example=160.0),
-        ]
-        | None
-    ) = None
+    outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
 
 
 class GrooveDisk(Record):

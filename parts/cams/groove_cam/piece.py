@@ -27,18 +27,15 @@ _GROOVE_CAM: dict[str, object] = {
 }  # fmt: skip
 
 
+_THICKNESS = mm("of the plate; default: groove_depth, of the floor what is left", least=0.01, most=10_000, example=3.0)
+
+
 class GroovePieceSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="groove_piece"):
     """Keys of ``groove_piece``."""
 
     of: Annotated[str, Meta(description="the part of kind groove_cam that the plate is a layer of")]
     piece: Annotated[Literal["core", "ring", "floor"], Meta(description="which of the three plates", examples=["core"])]
-    thickness: (
-        Annotated[
-            float,
-            mm("of the plate; default: groove_depth, of the floor what is left", least=0.01, most=10_000, example=3.0),
-        ]
-        | None
-    ) = None
+    thickness: Annotated[float, _THICKNESS] | None = None
 
 
 class GroovePiece(Record):

@@ -41,42 +41,28 @@ if TYPE_CHECKING:
     from parts.base.readback import Probe
 
 
+_ROLLER_DISTANCE = part_mm(
+    "between the rollers of a translating follower; default: by the base circle", above=0, example=96.0
+)
+_ROLLER_ANGLE = degrees(
+    "between the arms of a swinging follower; default: by the base circle", above=0, below=360, example=300.0
+)
+_BASE_CIRCLE_RADIUS = part_mm("of this cam; default: that of the first", above=0, example=30.0)
+_FACE_WIDTH = mm("thickness; default: that of the first", least=0.01, most=10_000, example=8.0)
+_BORE_DIAMETER = part_mm("round bore; default: that of the first", least=0, example=12.0)
+
+
 class ConjugateCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="conjugate_cam"):
     """Keys of ``conjugate_cam``."""
 
     of: Annotated[str, Meta(description="the first cam: a part of kind cam with a roller")]
-    roller_distance: (
-        Annotated[
-            float,
-            part_mm(
-                "between the rollers of a translating follower; default: by the base circle", above=0, example=96.0
-            ),
-        ]
-        | None
-    ) = None
-    roller_angle_deg: (
-        Annotated[
-            float,
-            degrees(
-                "between the arms of a swinging follower; default: by the base circle",
-                above=0,
-                below=360,
-                example=300.0,
-            ),
-        ]
-        | None
-    ) = None
-    base_circle_radius: (
-        Annotated[float, part_mm("of this cam; default: that of the first", above=0, example=30.0)] | None
-    ) = None
+    roller_distance: Annotated[float, _ROLLER_DISTANCE] | None = None
+    roller_angle_deg: Annotated[float, _ROLLER_ANGLE] | None = None
+    base_circle_radius: Annotated[float, _BASE_CIRCLE_RADIUS] | None = None
     follower_radius: Annotated[float, part_mm("second roller; default: the first", above=0, example=7.0)] | None = None
     arm_length: Annotated[float, part_mm("second arm; default: the first", above=0, example=80.0)] | None = None
-    face_width: (
-        Annotated[float, mm("thickness; default: that of the first", least=0.01, most=10_000, example=8.0)] | None
-    ) = None
-    bore_diameter: Annotated[float, part_mm("round bore; default: that of the first", least=0, example=12.0)] | None = (
-        None
-    )
+    face_width: Annotated[float, _FACE_WIDTH] | None = None
+    bore_diameter: Annotated[float, _BORE_DIAMETER] | None = None
     bore: BoreTable | None = None
     holes: HolesTable | list[HolesTable] | None = None
     timing_mark: TimingMarkTable | None = None

@@ -28,6 +28,16 @@ _LEAST_WALL = 0.05
 _STEM, _PIN, _SHAFT = 12.0, 4.0, 10.0
 
 
+_STEM_WIDTH = part_mm(f"of the guided stem; default: {_STEM:g}, or what a frame has", above=0, example=_STEM)
+_PIN_DIAMETER = part_mm(f"rollers: holes of their pins; default: {_PIN:g}, or half of a roller", above=0, example=_PIN)
+_SHAFT_DIAMETER = part_mm(
+    f"rollers: width of the slot for the cam's shaft; default: {_SHAFT:g}, or half of a base circle",
+    above=0,
+    example=_SHAFT,
+)
+_THICKNESS = mm("of the plate; default: face_width of the cam", least=0.01, most=10_000, example=3.0)
+
+
 class YokeFrameSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="yoke_frame"):
     """Keys of ``yoke_frame``."""
 
@@ -36,37 +46,12 @@ class YokeFrameSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", 
     wall: Annotated[float, part_mm("width of the frame's bars, or about pins and slot", least=_LEAST_WALL)] = 8.0
     side_clearance: Annotated[float, part_mm("flat: beside the cam in the window", least=0.01)] = 2.0
     corner_radius: Annotated[float, part_mm("of the frame's outer corners", least=0)] = 0.0
-    stem_width: (
-        Annotated[
-            float,
-            part_mm(f"of the guided stem; default: {_STEM:g}, or what a frame has", above=0, example=_STEM),
-        ]
-        | None
-    ) = None
+    stem_width: Annotated[float, _STEM_WIDTH] | None = None
     stem_above: Annotated[float, part_mm("length of the stem above the frame; 0 is none", least=0)] = 60.0
     stem_below: Annotated[float, part_mm("length of the stem below the frame; 0 is none", least=0)] = 0.0
-    pin_diameter: (
-        Annotated[
-            float,
-            part_mm(f"rollers: holes of their pins; default: {_PIN:g}, or half of a roller", above=0, example=_PIN),
-        ]
-        | None
-    ) = None
-    shaft_diameter: (
-        Annotated[
-            float,
-            part_mm(
-                f"rollers: width of the slot for the cam's shaft; default: {_SHAFT:g}, or half of a base circle",
-                above=0,
-                example=_SHAFT,
-            ),
-        ]
-        | None
-    ) = None
-    thickness: (
-        Annotated[float, mm("of the plate; default: face_width of the cam", least=0.01, most=10_000, example=3.0)]
-        | None
-    ) = None
+    pin_diameter: Annotated[float, _PIN_DIAMETER] | None = None
+    shaft_diameter: Annotated[float, _SHAFT_DIAMETER] | None = None
+    thickness: Annotated[float, _THICKNESS] | None = None
 
 
 class YokeFrame(Record):

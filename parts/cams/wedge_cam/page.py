@@ -32,15 +32,15 @@ from parts.texts.findings import finding_message
 _ROWS, _MOST_ROWS = 36, 3600
 
 
+_STEP = mm("step of the table over the travel; default: a round one", above=0, most=1000)
+_PLATE_VELOCITY = Meta(gt=0, le=1e6, description="of the plate: adds velocities", extra={"unit": "mm/s"})
+
+
 class WedgeKeys(WedgeCamSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of a wedge cam, the step of its table, and how fast the plate goes."""
 
-    step: Annotated[float, mm("step of the table over the travel; default: a round one", above=0, most=1000)] | None = (
-        None
-    )
-    plate_velocity: (
-        Annotated[float, Meta(gt=0, le=1e6, description="of the plate: adds velocities", extra={"unit": "mm/s"})] | None
-    ) = None
+    step: Annotated[float, _STEP] | None = None
+    plate_velocity: Annotated[float, _PLATE_VELOCITY] | None = None
 
 
 @calculation(TOPIC, WedgeKeys)

@@ -28,12 +28,13 @@ _GOST, _GOST_SPIRAL, _ISO = "GOST 19624-74", "GOST 19326-73", "ISO 23509"
 _RIGHT = 1e-9
 
 
+_NORMAL_BACKLASH = mm("normal backlash at the outer end, half of it by each gear", least=0, most=100)
+
+
 class BevelKeys(BevelGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the first gear, which tell the second one too, and what both have together."""
 
-    normal_backlash: (
-        Annotated[float, mm("normal backlash at the outer end, half of it by each gear", least=0, most=100)] | None
-    ) = None
+    normal_backlash: Annotated[float, _NORMAL_BACKLASH] | None = None
     speed_rpm: Speed = None
     torque: Torque = None
     power: Power = None

@@ -51,17 +51,44 @@ TipClearance = Annotated[float, in_modules("tip clearance", least=0, most=1)]
 TipRadius = Annotated[float, in_modules("tip rounding of the crown gear that cuts it", least=0.001, most=2)]
 
 
+_FACE_WIDTH = mm(
+    "length of the teeth b along the pitch cone; default: the lesser of 0.3 R_e and 10 m",
+    least=0.01,
+    most=10_000,
+    example=12.0,
+)
+_SPIRAL_ANGLE = degrees(
+    "spiral angle beta_m at the mean cone distance; 0 is zerol, without it teeth are straight",
+    least=0,
+    most=50,
+    example=35.0,
+)
+_TOOTH_LINE = Meta(
+    description="tooth line with spiral_angle_deg, on the crown gear: an arc of the cutter, or straight (skew)"
+)
+_CUTTER_RADIUS = mm(
+    "radius of the tooth line's arc, r_c0; default: the mean cone distance R_m", above=0, most=_MOST, example=60.0
+)
+_TIP_CONE = Meta(
+    description="tip cone: parallel to the mate's root cone, for one clearance along the face (GOST 19624, ISO "
+    "23509, Gleason); or through the apex of the others"
+)
+_RIM_THICKNESS = mm("rim below the outer root, along the back cone; default: 2.5 m", above=0, most=_MOST, example=5.0)
+_MOUNTING_DISTANCE = mm(
+    "from the apex to the back face; it sets hub_length, or without a hub rim_thickness",
+    above=0,
+    most=_MOST,
+    example=50.0,
+)
+
+
 class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="bevel_gear"):
     """Keys of ``bevel_gear``."""
 
     module: OuterModule
     number_of_teeth: Teeth
     mate_number_of_teeth: MateTeeth
-    face_width: (
-        Annotated[float, mm("length of the teeth b along the pitch cone; default: the lesser of 0.3 R_e and 10 m",
-                            least=0.01, most=10_000, example=12.0)]
-        | None
-    ) = None  # fmt: skip
+    face_width: Annotated[float, _FACE_WIDTH] | None = None
     shaft_angle_deg: ShaftAngle = 90.0
     pressure_angle_deg: BevelAngle = 20.0
     profile_shift_coefficient: Shift = 0.0
@@ -69,51 +96,21 @@ class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_
     addendum_coefficient: Addendum = 1.0
     tip_clearance_coefficient: TipClearance = 0.2
     tip_radius_coefficient: TipRadius = 0.2
-    spiral_angle_deg: (
-        Annotated[
-            float,
-            degrees("spiral angle beta_m at the mean cone distance; 0 is zerol, without it teeth are straight",
-                    least=0, most=50, example=35.0),
-        ]
-        | None
-    ) = None  # fmt: skip
+    spiral_angle_deg: Annotated[float, _SPIRAL_ANGLE] | None = None
     hand: Annotated[
         Literal["right", "left"],
         Meta(description="hand of the spiral: right where teeth run off clockwise outwards, seen from the apex"),
     ] = "right"
-    tooth_line: Annotated[
-        Literal["arc", "straight"],
-        Meta(
-            description="tooth line with spiral_angle_deg, on the crown gear: an arc of the cutter, or straight (skew)"
-        ),
-    ] = "arc"
-    cutter_radius: (
-        Annotated[float, mm("radius of the tooth line's arc, r_c0; default: the mean cone distance R_m",
-                            above=0, most=_MOST, example=60.0)]
-        | None
-    ) = None  # fmt: skip
-    tip_cone: Annotated[
-        Literal["parallel", "apex"],
-        Meta(
-            description="tip cone: parallel to the mate's root cone, for one clearance along the face (GOST 19624, ISO "
-            "23509, Gleason); or through the apex of the others"
-        ),
-    ] = "parallel"
+    tooth_line: Annotated[Literal["arc", "straight"], _TOOTH_LINE] = "arc"
+    cutter_radius: Annotated[float, _CUTTER_RADIUS] | None = None
+    tip_cone: Annotated[Literal["parallel", "apex"], _TIP_CONE] = "parallel"
     circumferential_thinning: Annotated[
         float, mm("thinning of the tooth along the outer pitch circle, for backlash", least=0, most=1000)
     ] = 0.0
-    rim_thickness: (
-        Annotated[float, mm("rim below the outer root, along the back cone; default: 2.5 m", above=0, most=_MOST,
-                            example=5.0)]
-        | None
-    ) = None  # fmt: skip
+    rim_thickness: Annotated[float, _RIM_THICKNESS] | None = None
     hub_diameter: Annotated[float, mm("hub behind the rim; 0 is none", least=0, most=_MOST)] = 0.0
     hub_length: Annotated[float, mm("length of the hub behind the rim", least=0, most=10_000)] = 0.0
-    mounting_distance: (
-        Annotated[float, mm("from the apex to the back face; it sets hub_length, or without a hub rim_thickness",
-                            above=0, most=_MOST, example=50.0)]
-        | None
-    ) = None  # fmt: skip
+    mounting_distance: Annotated[float, _MOUNTING_DISTANCE] | None = None
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
     holes: HolesTable | list[HolesTable] | None = None

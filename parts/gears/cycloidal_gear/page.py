@@ -30,13 +30,15 @@ _OF_MATE = {
 _SOURCE = "Litvin, Fuentes, Gear Geometry, 13"
 
 
+_MATE_ADDENDUM_COEFFICIENT = in_modules(
+    "height of the mate's tips; default: as here", least=0.001, most=10, example=1.0
+)
+
+
 class CycloidalGearKeys(CycloidalGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the gear, what its mate has of its own, and how long the table is."""
 
-    mate_addendum_coefficient: (
-        Annotated[float, in_modules("height of the mate's tips; default: as here", least=0.001, most=10, example=1.0)]
-        | None
-    ) = None
+    mate_addendum_coefficient: Annotated[float, _MATE_ADDENDUM_COEFFICIENT] | None = None
     mate_circumferential_thinning: Annotated[
         float, mm("thinning of the mate's teeth, arc of the pitch circle", least=0, most=1000)
     ] = 0.0

@@ -18,46 +18,33 @@ if TYPE_CHECKING:
     from geometry.gears.teeth.tooth import ToothSide
 
 
+_MATE_NUMBER_OF_TEETH = Meta(ge=4, le=2000, description="of the mate, whose straight root flanks its tips touch")
+_TIP_ROLLING_DIAMETER = part_mm(
+    "circle that rolls outside and draws the tips' flanks; default: half the mate's pitch diameter",
+    above=0,
+    example=8.0,
+)
+_ROOT_ROLLING_DIAMETER = part_mm(
+    "circle that rolls inside and draws the root flanks; default: half the pitch diameter, straight flanks",
+    above=0,
+    example=60.0,
+)
+_ROOT_ROUNDING = mm(
+    "fillet; default: a fifth of the module, half the depth, or the full round", least=0, most=1000, example=0.4
+)
+
+
 class CycloidalGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="cycloidal_gear"):
     """Keys of ``cycloidal_gear``."""
 
     module: Annotated[float, mm("module m", least=0.01, most=1000, example=2.0)]
     number_of_teeth: Annotated[int, Meta(ge=4, le=2000, description="number of teeth z", examples=[60])]
-    mate_number_of_teeth: (
-        Annotated[
-            int,
-            Meta(ge=4, le=2000, description="of the mate, whose straight root flanks its tips touch"),
-            start(8),
-        ]
-        | None
-    ) = None
-    tip_rolling_diameter: (
-        Annotated[
-            float,
-            part_mm(
-                "circle that rolls outside and draws the tips' flanks; default: half the mate's pitch diameter",
-                above=0, example=8.0
-            ),
-        ]
-        | None
-    ) = None  # fmt: skip
-    root_rolling_diameter: (
-        Annotated[
-            float,
-            part_mm(
-                "circle that rolls inside and draws the root flanks; default: half the pitch diameter, straight flanks",
-                above=0, example=60.0
-            ),
-        ]
-        | None
-    ) = None  # fmt: skip
+    mate_number_of_teeth: Annotated[int, _MATE_NUMBER_OF_TEETH, start(8)] | None = None
+    tip_rolling_diameter: Annotated[float, _TIP_ROLLING_DIAMETER] | None = None
+    root_rolling_diameter: Annotated[float, _ROOT_ROLLING_DIAMETER] | None = None
     addendum_coefficient: Annotated[float, in_modules("height of the tips", least=0.001, most=10)] = 1.0
     dedendum_coefficient: Annotated[float, in_modules("depth of the roots", least=0.001, most=10)] = 1.25
-    root_rounding: (
-        Annotated[float, mm("fillet; default: a fifth of the module, half the depth, or the full round", least=0,
-                            most=1000, example=0.4)]
-        | None
-    ) = None  # fmt: skip
+    root_rounding: Annotated[float, _ROOT_ROUNDING] | None = None
     circumferential_thinning: Annotated[
         float, mm("thinning of each tooth for backlash, arc of the pitch circle", least=0, most=1000)
     ] = 0.0

@@ -62,6 +62,37 @@ Teeth = Annotated[int, Meta(ge=8, le=10_000, description="number of teeth z2 of 
 PinionTeeth = Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z1 of its pinion", examples=[20])]
 
 
+_ADDENDUM_COEFFICIENT = in_modules(
+    "addendum above the pitch plane; default: 1, or less where z1 is small", least=0.1, most=3, example=1.0
+)
+_DEDENDUM_COEFFICIENT = in_modules(
+    "dedendum below it, the addendum of the shaper; default: 1.25, or what its tooth takes from 1.05 on",
+    least=0.1,
+    most=3,
+    example=1.25,
+)
+_TIP_RADIUS_COEFFICIENT = in_modules(
+    "rounding of the shaper's tip; default: 0.2, or what it takes", least=0, most=2, example=0.2
+)
+_SHAPER_NUMBER_OF_TEETH = Meta(
+    ge=3,
+    le=10_000,
+    examples=[22],
+    description="teeth z0 of the shaper; one to three more than the pinion's crown the flanks, which then "
+    "touch at points in the middle of the face; default: the pinion's",
+)
+_INNER_DIAMETER = mm(
+    "where the teeth begin; default: beyond the undercut and where the pinion still has its involute",
+    above=0,
+    most=MOST_LENGTH,
+    example=121.0,
+)
+_OUTER_DIAMETER = mm(
+    "where the teeth end; default: where their tips are 0.4 m thick", above=0, most=MOST_LENGTH, example=132.0
+)
+_PLATE_THICKNESS = mm("plate below the root; default: 2.5 m", least=0.01, most=10_000, example=5.0)
+
+
 class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="face_gear"):
     """Keys of ``face_gear``."""
 
@@ -72,70 +103,16 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     pinion_profile_shift_coefficient: Annotated[
         float, in_modules("profile shift x1 of its pinion, with which its own teeth go along", least=-2, most=3)
     ] = 0.0
-    addendum_coefficient: (
-        Annotated[
-            float,
-            in_modules("addendum above the pitch plane; default: 1, or less where z1 is small", least=0.1, most=3,
-                       example=1.0),
-        ]
-        | None
-    ) = None  # fmt: skip
-    dedendum_coefficient: (
-        Annotated[
-            float,
-            in_modules(
-                "dedendum below it, the addendum of the shaper; default: 1.25, or what its tooth takes from 1.05 on",
-                least=0.1,
-                most=3,
-                example=1.25,
-            ),
-        ]
-        | None
-    ) = None  # fmt: skip
-    tip_radius_coefficient: (
-        Annotated[
-            float,
-            in_modules("rounding of the shaper's tip; default: 0.2, or what it takes", least=0, most=2, example=0.2),
-        ]
-        | None
-    ) = None
-    shaper_number_of_teeth: (
-        Annotated[
-            int,
-            Meta(
-                ge=3, le=10_000, examples=[22],
-                description="teeth z0 of the shaper; one to three more than the pinion's crown the flanks, which then "
-                "touch at points in the middle of the face; default: the pinion's",
-            ),
-        ]
-        | None
-    ) = None  # fmt: skip
-    inner_diameter: (
-        Annotated[
-            float,
-            mm("where the teeth begin; default: beyond the undercut and where the pinion still has its involute",
-               above=0, most=MOST_LENGTH, example=121.0),
-        ]
-        | None
-    ) = None  # fmt: skip
-    outer_diameter: (
-        Annotated[
-            float,
-            mm(
-                "where the teeth end; default: where their tips are 0.4 m thick",
-                above=0,
-                most=MOST_LENGTH,
-                example=132.0,
-            ),
-        ]
-        | None
-    ) = None
+    addendum_coefficient: Annotated[float, _ADDENDUM_COEFFICIENT] | None = None
+    dedendum_coefficient: Annotated[float, _DEDENDUM_COEFFICIENT] | None = None
+    tip_radius_coefficient: Annotated[float, _TIP_RADIUS_COEFFICIENT] | None = None
+    shaper_number_of_teeth: Annotated[int, _SHAPER_NUMBER_OF_TEETH] | None = None
+    inner_diameter: Annotated[float, _INNER_DIAMETER] | None = None
+    outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
     circumferential_thinning: Annotated[
         float, mm("thinning of the teeth along the pinion's reference circle, for backlash", least=0, most=1000)
     ] = 0.0
-    plate_thickness: (
-        Annotated[float, mm("plate below the root; default: 2.5 m", least=0.01, most=10_000, example=5.0)] | None
-    ) = None
+    plate_thickness: Annotated[float, _PLATE_THICKNESS] | None = None
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
     holes: HolesTable | list[HolesTable] | None = None

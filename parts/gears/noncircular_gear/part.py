@@ -38,57 +38,38 @@ _MOST_SLENDER = {"axis_ratio": 20.0, "eccentricity": 0.9999}
 _ROUND = {"axis_ratio": 1.0, "eccentricity": 0.0}
 
 
+_CENTRODE = Meta(
+    description="driver's centrode: oval about its middle, ellipse about a focus, or by its ratio", examples=["oval"]
+)
+_CENTRE_DISTANCE = mm("of the pair, in place of the module", above=0, most=100_000, example=90.0)
+_MATE_NUMBER_OF_TEETH = Meta(ge=3, le=MOST_TEETH, description="of the other gear; default: as many", examples=[30])
+_AXIS_RATIO = Meta(ge=1, le=20, description="oval: long over short radius; ellipse: of its axes")
+_ECCENTRICITY = Meta(ge=0, lt=1, description="e of r = p/(1 - e cos n phi), in place of axis_ratio", examples=[0.2])
+_LOBES = Meta(ge=1, le=20, description="lobes n; default: oval 2, else 1; for oval and ratio", examples=[2])
+_RATIO_COSINES = Meta(
+    max_length=20, description="ratio: a_k of 1 + sum a_k cos k n phi + b_k sin k n phi", examples=[[0.3]]
+)
+_RATIO_SINES = Meta(max_length=20, description="ratio: b_k", examples=[[0.1]])
+
+
 class NoncircularGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="noncircular_gear"):
     """Keys of ``noncircular_gear``."""
 
-    centrode: Annotated[
-        Literal["oval", "focal_ellipse", "ratio"],
-        Meta(
-            description="driver's centrode: oval about its middle, ellipse about a focus, or by its ratio",
-            examples=["oval"],
-        ),
-    ]
+    centrode: Annotated[Literal["oval", "focal_ellipse", "ratio"], _CENTRODE]
     number_of_teeth: Annotated[
         int, Meta(ge=3, le=MOST_TEETH, description="number of teeth of this gear", examples=[30])
     ]
     module: Annotated[float, mm("module m; or give centre_distance", least=0.01, most=1000), start(2.0)] | None = None
-    centre_distance: (
-        Annotated[float, mm("of the pair, in place of the module", above=0, most=100_000, example=90.0)] | None
-    ) = None
+    centre_distance: Annotated[float, _CENTRE_DISTANCE] | None = None
     role: Annotated[
         Literal["driver", "mate"], Meta(description="driver: tooth 1 on +x; mate: the gear that rolls on the driver")
     ] = "driver"
-    mate_number_of_teeth: (
-        Annotated[int, Meta(ge=3, le=MOST_TEETH, description="of the other gear; default: as many", examples=[30])]
-        | None
-    ) = None
-    axis_ratio: (
-        Annotated[
-            float, Meta(ge=1, le=20, description="oval: long over short radius; ellipse: of its axes"), start(1.5)
-        ]
-        | None
-    ) = None
-    eccentricity: (
-        Annotated[
-            float, Meta(ge=0, lt=1, description="e of r = p/(1 - e cos n phi), in place of axis_ratio", examples=[0.2])
-        ]
-        | None
-    ) = None
-    lobes: (
-        Annotated[
-            int, Meta(ge=1, le=20, description="lobes n; default: oval 2, else 1; for oval and ratio", examples=[2])
-        ]
-        | None
-    ) = None
-    ratio_cosines: (
-        Annotated[list[_Amplitude], Meta(max_length=20,
-                                         description="ratio: a_k of 1 + sum a_k cos k n phi + b_k sin k n phi",
-                                         examples=[[0.3]])]
-        | None
-    ) = None  # fmt: skip
-    ratio_sines: Annotated[list[_Amplitude], Meta(max_length=20, description="ratio: b_k", examples=[[0.1]])] | None = (
-        None
-    )
+    mate_number_of_teeth: Annotated[int, _MATE_NUMBER_OF_TEETH] | None = None
+    axis_ratio: Annotated[float, _AXIS_RATIO, start(1.5)] | None = None
+    eccentricity: Annotated[float, _ECCENTRICITY] | None = None
+    lobes: Annotated[int, _LOBES] | None = None
+    ratio_cosines: Annotated[list[_Amplitude], _RATIO_COSINES] | None = None
+    ratio_sines: Annotated[list[_Amplitude], _RATIO_SINES] | None = None
     profile_shift_coefficient: Annotated[
         float, in_modules("shift x of the rack's datum line; its mate has -x", least=-1, most=1)
     ] = 0.0

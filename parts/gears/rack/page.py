@@ -22,13 +22,14 @@ table_from = part_of_kind("rack")
 _ISO = "ISO 21771"
 
 
+_MEASURED_OVER_PIN = mm("size from the rack's back over a pin, measured on the part", above=0, most=100_000)
+
+
 class RackKeys(RackSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the topic: those of a rack, and what is measured."""
 
     pin_diameter: Annotated[float, mm("pin in a space", above=0, most=10_000)] | None = None
-    measured_over_pin: (
-        Annotated[float, mm("size from the rack's back over a pin, measured on the part", above=0, most=100_000)] | None
-    ) = None
+    measured_over_pin: Annotated[float, _MEASURED_OVER_PIN] | None = None
     kerf: Annotated[float, mm("full width of a cut that was not corrected for", least=0, most=10)] | None = None
 
 

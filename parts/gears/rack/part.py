@@ -23,17 +23,19 @@ if TYPE_CHECKING:
 _BODY = 2.5
 
 
+_DEPTH = mm("centres below the root line; default: the middle of the body", above=0, most=100_000, example=2.5)
+
+
 class RackHolesTable(Struct, forbid_unknown_fields=True):
     """A row of round holes in the body, symmetric about the middle."""
 
     count: Annotated[int, Meta(ge=1, le=1000, description="number of holes", examples=[5])]
     diameter: Annotated[float, mm("diameter of each hole", above=0, most=100_000, example=2.5)]
     spacing: Annotated[float, mm("from hole to hole", above=0, most=100_000)] = 20.0
-    depth: (
-        Annotated[float, mm("centres below the root line; default: the middle of the body", above=0, most=100_000,
-                            example=2.5)]
-        | None
-    ) = None  # fmt: skip
+    depth: Annotated[float, _DEPTH] | None = None
+
+
+_BODY_HEIGHT = mm("body below the root line; default: 2.5 m", above=0, most=100_000, example=6.0)
 
 
 class RackSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="rack"):
@@ -42,9 +44,7 @@ class RackSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field=
     number_of_teeth: Annotated[int, Meta(ge=1, le=500, description="number of teeth", examples=[23])]
     pressure_angle_deg: Annotated[float, degrees("pressure angle", least=5, most=40)] = 20.0
     basic_rack: RackName | RackTable = "ISO 53 A"
-    body_height: (
-        Annotated[float, mm("body below the root line; default: 2.5 m", above=0, most=100_000, example=6.0)] | None
-    ) = None
+    body_height: Annotated[float, _BODY_HEIGHT] | None = None
     circumferential_thinning: Annotated[
         float, mm("thinning of each tooth for backlash, on the datum line", least=0, most=1000)
     ] = 0.0

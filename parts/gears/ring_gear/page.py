@@ -37,6 +37,9 @@ table_from = part_of_kind("ring_gear")
 _GOST, _ISO = "GOST 19274", "ISO 21771"
 
 
+_MEASURED_BETWEEN_PINS = mm("size between pins or balls measured on the part", above=0, most=100_000)
+
+
 class RingKeys(RingGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the topic: those of a ring, and what is measured."""
 
@@ -44,9 +47,7 @@ class RingKeys(RingGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True
     pin_diameter: Annotated[float, mm("pin or ball", above=0, most=10_000)] | None = None
     kerf: Annotated[float, mm("full width of a cut that was not corrected for", least=0, most=10)] | None = None
     measured_span: Annotated[float, mm("span measured on the part", above=0, most=100_000)] | None = None
-    measured_between_pins: (
-        Annotated[float, mm("size between pins or balls measured on the part", above=0, most=100_000)] | None
-    ) = None
+    measured_between_pins: Annotated[float, _MEASURED_BETWEEN_PINS] | None = None
     diameter: Annotated[float, mm("circle on which the tooth is measured", above=0, most=100_000)] | None = None
 
 

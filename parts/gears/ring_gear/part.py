@@ -50,6 +50,17 @@ class RimHolesTable(HolesTable, forbid_unknown_fields=True):
     pitch_circle_diameter: Annotated[PitchCircle, Meta(examples=[140.0])]
 
 
+_TIP_DIAMETER = mm(
+    "tip diameter; default: d - 2 (h_a - x - k) m, k of tip_rule (KHK: 0), no deeper than can be cut",
+    above=0,
+    most=100_000,
+    example=117.0,
+)
+_OUTER_DIAMETER = mm(
+    "outside of the rim; default: root diameter + 5 m, or holes + 2 m", above=0, most=200_000, example=140.0
+)
+
+
 class RingGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="ring_gear"):
     """Keys of ``ring_gear``."""
 
@@ -62,24 +73,9 @@ class RingGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
     cutter: CutterTable | None = None
     rounded_root: RoundedRootTable | None = None
     tip_rule: Literal["GOST 19274", "KHK"] = "GOST 19274"
-    tip_diameter: (
-        Annotated[
-            float,
-            mm(
-                "tip diameter; default: d - 2 (h_a - x - k) m, k of tip_rule (KHK: 0), no deeper than can be cut",
-                above=0,
-                most=100_000,
-                example=117.0,
-            ),
-        ]
-        | None
-    ) = None
+    tip_diameter: Annotated[float, _TIP_DIAMETER] | None = None
     thinning_method: Literal["wider_cutter_tooth", "deeper_cut"] = "wider_cutter_tooth"
-    outer_diameter: (
-        Annotated[float, mm("outside of the rim; default: root diameter + 5 m, or holes + 2 m", above=0, most=200_000,
-                            example=140.0)]
-        | None
-    ) = None  # fmt: skip
+    outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
     holes: RimHolesTable | list[RimHolesTable] | None = None
     tooth_mark: ToothMarkTable | None = None
 

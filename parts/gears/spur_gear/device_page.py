@@ -32,6 +32,9 @@ _SEEN = 0.001
 _SOURCES = {1: "practicum, table 1.1", 2: "practicum, table 1.2"}
 
 
+_PROFILE_SHIFT_COEFFICIENT = in_modules("shift of the second wheel; default (17 - z) / 17", least=-3, most=3)
+
+
 class Tmm42Keys(Struct, forbid_unknown_fields=True):
     """Keys of the topic: what stands on the device's rack and disk."""
 
@@ -39,9 +42,7 @@ class Tmm42Keys(Struct, forbid_unknown_fields=True):
     reference_diameter: Annotated[float, mm("reference diameter of the disk", above=0, most=100_000)] | None = None
     number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth, d / m")] | None = None
     pressure_angle_deg: PressureAngle = 20.0
-    profile_shift_coefficient: (
-        Annotated[float, in_modules("shift of the second wheel; default (17 - z) / 17", least=-3, most=3)] | None
-    ) = None
+    profile_shift_coefficient: Annotated[float, _PROFILE_SHIFT_COEFFICIENT] | None = None
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:

@@ -28,6 +28,9 @@ _LESSON = "practicum, fig. 3.3"
 table_from = part_of_kind("spur_gear")
 
 
+_MEASURED_OVER_PINS = mm("size over pins or balls measured on the part", above=0, most=100_000)
+
+
 class SpurKeys(SpurGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the topic: those of a spur gear, and what is measured."""
 
@@ -35,9 +38,7 @@ class SpurKeys(SpurGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True
     pin_diameter: Annotated[float, mm("pin or ball", above=0, most=10_000)] | None = None
     kerf: Annotated[float, mm("full width of a cut that was not corrected for", least=0, most=10)] | None = None
     measured_span: Annotated[float, mm("span measured on the part", above=0, most=100_000)] | None = None
-    measured_over_pins: (
-        Annotated[float, mm("size over pins or balls measured on the part", above=0, most=100_000)] | None
-    ) = None
+    measured_over_pins: Annotated[float, _MEASURED_OVER_PINS] | None = None
     diameter: Annotated[float, mm("circle on which the tooth is measured", above=0, most=100_000)] | None = None
 
 

@@ -53,16 +53,17 @@ if TYPE_CHECKING:
 _TABLE_TIP_RADIUS = 0.38
 
 
+_TIP_RADIUS_COEFFICIENT = in_modules(
+    "tip rounding; default: the least of 0.38, c/(1 - sin a), full round", least=0, most=2, example=0.38
+)
+
+
 class RackTable(Struct, forbid_unknown_fields=True):
     """A cutting rack of your own, in modules."""
 
     addendum_coefficient: Annotated[float, in_modules("addendum of the basic rack", least=0.1, most=3)] = 1.0
     tip_clearance_coefficient: Annotated[float, in_modules("tip clearance", least=0, most=1)] = 0.25
-    tip_radius_coefficient: (
-        Annotated[float, in_modules("tip rounding; default: the least of 0.38, c/(1 - sin a), full round", least=0,
-                                    most=2, example=0.38)]
-        | None
-    ) = None  # fmt: skip
+    tip_radius_coefficient: Annotated[float, _TIP_RADIUS_COEFFICIENT] | None = None
 
 
 class ReliefTable(Struct, forbid_unknown_fields=True):
@@ -72,6 +73,9 @@ class ReliefTable(Struct, forbid_unknown_fields=True):
         float, in_modules("depth normal to the flank at the rack's tip line", least=0, most=0.3, example=0.02)
     ]
     height_coefficient: Annotated[float, in_modules("height of the relieved part", least=0.01, most=3)] = 0.45
+
+
+_TIP_DIAMETER = mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=100_000, example=50.0)
 
 
 class SpurGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="spur_gear"):
@@ -84,9 +88,7 @@ class SpurGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
     pressure_angle_deg: PressureAngle = 20.0
     basic_rack: RackName | RackTable = "ISO 53 A"
     cutter: CutterTable | None = None
-    tip_diameter: (
-        Annotated[float, mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=100_000, example=50.0)] | None
-    ) = None
+    tip_diameter: Annotated[float, _TIP_DIAMETER] | None = None
     thinning_method: Literal["wider_rack_tooth", "deeper_cut"] = "wider_rack_tooth"
     tip_relief: ReliefTable | None = None
     bore_diameter: BoreDiameter = 0.0

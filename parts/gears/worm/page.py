@@ -76,13 +76,17 @@ _Factor = Annotated[float, Meta(gt=0, le=100)]
 _Life = Annotated[float, Meta(gt=0, le=10)]
 
 
+_NUMBER_OF_TEETH = Meta(ge=8, le=10_000, description="teeth of the wheel, z2; without it a worm alone")
+_BALL_DIAMETER = mm("balls or wires in its spaces; default: 1.67 m", above=0, most=10_000)
+_WHEEL_TORQUE = size("N*m", "torque T2 on the wheel, in place of T1", above=0, most=1e9)
+_FORM_FACTOR = Meta(gt=0, le=10, description="form factor Y_F2 of the wheel's teeth: adds their strength")
+
+
 class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     """Keys of a worm drive and of what it carries."""
 
     module: AxialModule
-    number_of_teeth: (
-        Annotated[int, Meta(ge=8, le=10_000, description="teeth of the wheel, z2; without it a worm alone")] | None
-    ) = None
+    number_of_teeth: Annotated[int, _NUMBER_OF_TEETH] | None = None
     number_of_starts: Starts = 1
     diameter_quotient: WormQuotient | None = None
     lead_angle_deg: LeadAngle | None = None
@@ -99,9 +103,7 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     tip_rounding: Annotated[float, mm("radius of the thread's tip edges in the axial section", least=0, most=1000)] = (
         0.0
     )
-    ball_diameter: (
-        Annotated[float, mm("balls or wires in its spaces; default: 1.67 m", above=0, most=10_000)] | None
-    ) = None
+    ball_diameter: Annotated[float, _BALL_DIAMETER] | None = None
     worm_length: Annotated[float, mm("threaded length b1", above=0, most=100_000)] | None = None
     face_width: Annotated[float, mm("width b2 of the wheel's rim", above=0, most=100_000)] | None = None
     outer_diameter: Annotated[float, mm("d_ae2, outside of the wheel's throat", above=0, most=200_000)] | None = None
@@ -113,18 +115,13 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     wheel_axial_error: AxialError = 0.0
     speed_rpm: Annotated[float, size("rpm", "speed of the worm", above=0, most=1e6)] | None = None
     torque: Annotated[float, size("N*m", "torque T1 on the worm", above=0, most=1e9)] | None = None
-    wheel_torque: Annotated[float, size("N*m", "torque T2 on the wheel, in place of T1", above=0, most=1e9)] | None = (
-        None
-    )
+    wheel_torque: Annotated[float, _WHEEL_TORQUE] | None = None
     power: Annotated[float, size("W", "power that the worm takes in, by its speed, in place of its torque", above=0,
                                  most=1e9)] | None = None  # fmt: skip
     friction_coefficient: Annotated[
         float, Meta(ge=0, le=1, description="friction of the flanks; without it no losses")
     ] = 0.0
-    form_factor: (
-        Annotated[float, Meta(gt=0, le=10, description="form factor Y_F2 of the wheel's teeth: adds their strength")]
-        | None
-    ) = None
+    form_factor: Annotated[float, _FORM_FACTOR] | None = None
     width_factor: Annotated[_Factor, Meta(description="K_beta: uneven load along the rim")] = 1.5
     speed_factor: Annotated[_Factor, Meta(description="K_v: load of the motion itself")] = 1.1
     tensile_strength: Annotated[float, size("MPa", "tensile strength of the wheel's rim", above=0, most=10_000)] = 200.0

@@ -69,6 +69,24 @@ Steps = Annotated[
 ]
 
 
+_END_ANGLE = degrees(
+    "cone that cuts the thread at both ends, from the end's plane; 0 cuts it plainly; default: 20",
+    least=0,
+    most=60,
+    example=20.0,
+)
+_THREAD_ENDS = Meta(
+    description="how the thread ends: cut by a cone (end_angle_deg), thin in the end; blunt, by an axial plane "
+    "where it is whole; run_out, where the tool leaves the spaces: then the shaft may be of any diameter"
+)
+_RUN_OUT = degrees(
+    "turn of the worm within which the tool leaves, of thread_ends run_out; default: 90",
+    least=10,
+    most=120,
+    example=90.0,
+)
+
+
 class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="worm"):
     """Keys of ``worm``."""
 
@@ -88,28 +106,9 @@ class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field
     tip_rounding: Annotated[float, mm("radius of the thread's tip edges in the axial section", least=0, most=1000)] = (
         0.0
     )
-    end_angle_deg: (
-        Annotated[
-            float,
-            degrees(
-                "cone that cuts the thread at both ends, from the end's plane; 0 cuts it plainly; default: 20",
-                least=0, most=60, example=20.0,
-            ),
-        ]
-        | None
-    ) = None  # fmt: skip
-    thread_ends: Annotated[
-        Literal["cut", "blunt", "run_out"],
-        Meta(
-            description="how the thread ends: cut by a cone (end_angle_deg), thin in the end; blunt, by an axial plane "
-            "where it is whole; run_out, where the tool leaves the spaces: then the shaft may be of any diameter"
-        ),
-    ] = "cut"
-    run_out_deg: (
-        Annotated[float, degrees("turn of the worm within which the tool leaves, of thread_ends run_out; default: 90",
-                                 least=10, most=120, example=90.0)]
-        | None
-    ) = None  # fmt: skip
+    end_angle_deg: Annotated[float, _END_ANGLE] | None = None
+    thread_ends: Annotated[Literal["cut", "blunt", "run_out"], _THREAD_ENDS] = "cut"
+    run_out_deg: Annotated[float, _RUN_OUT] | None = None
     shaft_below: Steps = field(default_factory=list)
     shaft_above: Steps = field(default_factory=list)
     bore_diameter: BoreDiameter = 0.0

@@ -65,6 +65,11 @@ _MORE_TEETH = (1.1, 1.25, 1.5, 2.0, 3.0)
 _REACHED, _SHARP = 1e-3, 29.9
 
 
+_OUTER_DIAMETER = mm(
+    "d_ae2, outside of the throat; default: the largest by GOST 19650", above=0, most=200_000, example=66.0
+)
+
+
 class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="worm_wheel"):
     """Keys of ``worm_wheel``: those of its worm first."""
 
@@ -90,11 +95,7 @@ class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_fie
                             least=0.01, most=10_000, example=14.0)]
         | None
     ) = None  # type: ignore[assignment]  # fmt: skip
-    outer_diameter: (
-        Annotated[float, mm("d_ae2, outside of the throat; default: the largest by GOST 19650", above=0, most=200_000,
-                            example=66.0)]
-        | None
-    ) = None  # fmt: skip
+    outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
     spokes: SpokesTable | None = None
     web: WebTable | None = None
     hub: HubTable | None = None

@@ -62,25 +62,19 @@ TOPIC = "gear-pair"
 OTHER_KINDS = (("second.kind", "ring_gear"), ("second.kind", "rack"), ("kind", "crossed_helical_pair"))
 
 
+_SHIFTS = Meta(description="profile shifts by a table: Kudryavtsev's of the practicum, or least wear of the guidelines")
+_CIRCUMFERENTIAL_BACKLASH = mm("wanted backlash, arc on the working circle", least=0, most=1000)
+
+
 class PairKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
     """Keys of the topic. A key of a gear without first. or second. before it goes to both."""
 
     first: SpurGearSpec
     second: SpurGearSpec
-    shifts: (
-        Annotated[
-            Literal["practicum", "guidelines"],
-            Meta(
-                description="profile shifts by a table: Kudryavtsev's of the practicum, or least wear of the guidelines"
-            ),
-        ]
-        | None
-    ) = None
+    shifts: Annotated[Literal["practicum", "guidelines"], _SHIFTS] | None = None
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
-    circumferential_backlash: (
-        Annotated[float, mm("wanted backlash, arc on the working circle", least=0, most=1000)] | None
-    ) = None
+    circumferential_backlash: Annotated[float, _CIRCUMFERENTIAL_BACKLASH] | None = None
     side_clearance_class: Annotated[Literal["H", "E", "D", "C", "B", "A"], Meta(description="GOST 1643")] | None = None
     tip_shortening_coefficient: Annotated[float, in_modules("given tip shortening", least=0, most=3)] | None = None
     measured_arc_of_action: Annotated[float, mm("arc dd' measured off a drawing", above=0, most=1e6)] | None = None

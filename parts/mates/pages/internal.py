@@ -58,14 +58,15 @@ class InternalKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
 
 
+_WORKING_CENTRE_DISTANCE = mm("wanted distance from axis to datum line", above=0, most=100_000)
+
+
 class RackKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
     """Keys of a gear and its rack."""
 
     first: SpurGearSpec
     second: RackSpec
-    working_centre_distance: (
-        Annotated[float, mm("wanted distance from axis to datum line", above=0, most=100_000)] | None
-    ) = None
+    working_centre_distance: Annotated[float, _WORKING_CENTRE_DISTANCE] | None = None
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
 
 

@@ -59,6 +59,9 @@ _NAMES: Mapping[Bearing, str] = {
 _ACROSS, _LIFT = (N_("force across the axis, N"), N_("force and moment that lift a ball most, times all balls, N"))
 
 
+_GROOVE_RADIUS = mm("radius of the grooves; default: r_groove of the assembly", above=0, most=1000, example=4.16)
+
+
 class LoadKeys(TwoDiskKeys, kw_only=True):
     """Keys of the load, and of what holds it."""
 
@@ -78,10 +81,7 @@ class LoadKeys(TwoDiskKeys, kw_only=True):
     x: _Place | None = None
     y: _Place | None = None
     elbow: Annotated[Literal[1, -1], Meta(description="sign of beta at the place x, y; default: 1")] | None = None
-    groove_radius: (
-        Annotated[float, mm("radius of the grooves; default: r_groove of the assembly", above=0, most=1000,
-                            example=4.16)] | None
-    ) = None  # fmt: skip
+    groove_radius: Annotated[float, _GROOVE_RADIUS] | None = None
     ball_diameter: Annotated[_Length, Meta(description="diameter of a ball")] = 8.0
     ball_pressure_limit: Annotated[
         float, size("MPa", "greatest pressure on a ball at rest, ISO 76", above=0, most=100_000)

@@ -54,19 +54,16 @@ _MOST_TEETH_OFF = 3
 FAULTS = sentences_of(__file__, "planetary_faults")
 
 
+_TEETH = Meta(description="a set to judge: z1, z2, z3, or z1, z2, z2', z3")
+
+
 class PlanetaryKeys(Struct, forbid_unknown_fields=True):
     """Keys of the topic."""
 
     scheme: Annotated[SchemeName, Meta(description="scheme of the practicum's figure 2.1")] = "james"
     ratio: Annotated[float, Meta(ge=-1e9, le=1e9, description="wanted ratio, driver to driven")] | None = None
     ratio_tolerance_percent: Annotated[float, Meta(ge=0, le=50, description="how far the ratio may be off")] = 0.5
-    teeth: (
-        Annotated[
-            list[Annotated[int, Meta(ge=3, le=100_000)]],
-            Meta(description="a set to judge: z1, z2, z3, or z1, z2, z2', z3"),
-        ]
-        | None
-    ) = None
+    teeth: Annotated[list[Annotated[int, Meta(ge=3, le=100_000)]], _TEETH] | None = None
     satellites: Annotated[int, Meta(ge=1, le=10_000, description="number of satellites")] = 3
     driver: Annotated[Place, Meta(description="the driving link: wheel 1, wheel 3 or the carrier")] = "first"
     held: Annotated[Place, Meta(description="the held link: wheel 1, wheel 3 or the carrier")] = "second"

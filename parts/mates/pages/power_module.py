@@ -39,6 +39,11 @@ _BESIDE_THE_THESIS = (
 _MAP_BANDS, _MAP_POINTS = 48, ((0.0, 1), (0.35, 6), (0.65, 10), (0.92, 14))
 
 
+_PIVOT_CIRCLE = mm(
+    "radius of the circle of the cranks' pivots; default: r_pivots of the assembly", above=0, most=1e4, example=51.0
+)
+
+
 class PowerModuleKeys(LoadKeys, kw_only=True):
     """Keys of the topic; defaults are the thesis's."""
 
@@ -57,10 +62,7 @@ class PowerModuleKeys(LoadKeys, kw_only=True):
     pitch_error: Annotated[_Play, Meta(description="total pitch error of each of the three wheels")] = 0.0
     wheel_backlash: Annotated[_Play, Meta(description="play of each mesh of the idlers")] = 0.05
     pin_clearance: Annotated[_Play, Meta(description="play of each pin of a crank, diametral")] = 0.02
-    pivot_circle: (
-        Annotated[float, mm("radius of the circle of the cranks' pivots; default: r_pivots of the assembly", above=0,
-                            most=1e4, example=51.0)] | None
-    ) = None  # fmt: skip
+    pivot_circle: Annotated[float, _PIVOT_CIRCLE] | None = None
     picture: Annotated[str, Meta(description="SVG file of the error map to write")] | None = None
 
     @property

@@ -49,13 +49,13 @@ _MESHES = "wheels in mesh, as 1-2, 2'-3 internal 3.5: kind and module where they
 _Teeth = Annotated[int, Meta(ge=1)]
 
 
+_CASE = Meta(description="a train of the sources to start from, as practicum_1, 2.10.2, trains_7")
+
+
 class TrainKeys(Struct, forbid_unknown_fields=True):
     """Keys of the topic."""
 
-    case: (
-        Annotated[str, Meta(description="a train of the sources to start from, as practicum_1, 2.10.2, trains_7")]
-        | None
-    ) = None
+    case: Annotated[str, _CASE] | None = None
     teeth: Annotated[list[_Teeth] | dict[str, _Teeth], Meta(description=_TEETH)] | None = None
     meshes: Annotated[str, Meta(description=_MESHES)] = ""
     shafts: Annotated[str, Meta(description="wheels of one shaft, as 2-3, H-5; 2 and 2' need no such word")] = ""
