@@ -70,3 +70,8 @@ def zone_limits(zone: str, size: float) -> tuple[float, float]:
         case _:
             lower = -deviation(letter, size) - tolerance
     return lower / 1000, (lower + tolerance) / 1000
+
+
+def side_symmetry(width: float) -> float:
+    """The tolerance T of the symmetry of straight sides, mm, of GOST 1139-80 and ISO 14: IT7 of their width."""
+    return zone_limits("H7", width)[1]

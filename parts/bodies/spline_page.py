@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from geometry.solids.splines import SplineBore
+from geometry.solids.zones import side_symmetry
 from parts.base.texts import N_
 from parts.bodies.spline_steps import Length, LoadShare, Sides, Torque, bearing_steps, fit_tables
 from parts.keys.splines import StraightSplineTable
@@ -37,6 +38,8 @@ def sheet(keys: SplineKeys) -> Sheet:
     shaft = joint.shaft()
     page.add("spline_root_diameter", 2 * shaft.inner)
     page.add("spline_rounding", joint.rounding)
+    if joint.standard:
+        page.add("spline_symmetry", side_symmetry(joint.width), source=joint.standard)
     height = (joint.outer - joint.inner) / 2 - 2 * joint.chamfer
     sides = Sides(joint.teeth, (joint.outer + joint.inner) / 2, height)
     page.add("spline_mean_diameter", sides.mean_diameter, "({D} + {d}) / 2")

@@ -9,7 +9,7 @@ from geometry.solids.bores import KeywayBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.spline_fits import greatest_tip, side_limits
 from geometry.solids.splines import InvoluteJoint, SplineBore, StraightJoint
-from geometry.solids.zones import zone_limits
+from geometry.solids.zones import side_symmetry, zone_limits
 from parts.drawing.places import apart, circled
 from parts.drawing.working import Subject
 
@@ -83,7 +83,10 @@ def spline_data(bore: SplineBore, subject: Subject, *, is_shaft: bool) -> tuple[
     zones = [(fit.symbol, fit.size, zone) for fit in joint.fits if (zone := fit.zone(is_shaft))]
     sizes = [f"{symbol} {_span(subject, [size + x for x in zone_limits(zone, size)])}" for symbol, size, zone in zones]
     lines = (subject.words("spline_limits", sizes="; ".join(sizes)),) if sizes else ()
-    return lines if isinstance(joint, StraightJoint) else (*_involute(joint, bore, subject, is_shaft=is_shaft), *lines)
+    if isinstance(joint, InvoluteJoint):
+        return *_involute(joint, bore, subject, is_shaft=is_shaft), *lines
+    symmetry = subject.words("spline_symmetry", size=subject.say(side_symmetry(joint.width)))
+    return (*lines, symmetry) if joint.fits else ()
 
 
 def tip_zone(joint: StraightJoint | InvoluteJoint, usual: str) -> str:

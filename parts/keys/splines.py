@@ -63,20 +63,20 @@ def _sizes(plain: str) -> list[tuple[float, str]]:
     return [] if None in found else [(float(match[1]), match[2] or "") for match in found if match]
 
 
-def _fit(symbol: str, size: float, zones: str, designation: str) -> Fit:
-    """The zones beside a size of a designation, that of the hub first."""
+def _fit(table: StraightSplineTable | InvoluteSplineTable, symbol: str, size: float, zones: str) -> Fit:
+    """The zones beside a size of its designation, that of the hub first."""
     from geometry.solids.splines import Fit
     from geometry.solids.zones import GRADES, HOLES, MOST_SIZE, SHAFTS, split_zone
 
+    designation, told = table.size or "", dict[str, str]()
     if size > MOST_SIZE:
         raise ParameterError("bore.size", designation, "spline_zones_end", most=MOST_SIZE)
-    told: dict[str, str] = {}
     for zone in zones.split("/"):
         letter, grade = split_zone(zone)
         part = "hub" if letter in HOLES else "shaft"
         if part == "hub" and "shaft" in told:
             right = f"{zone}/{told['shaft']}"
-            cure = Nearest(designation.replace(zones, right)) if zones in designation else None
+            cure = _if_made(table, designation.replace(zones, right))
             raise ParameterError("bore.size", designation, "spline_hub_first", cure, right=right)
         if letter not in HOLES + SHAFTS or grade not in GRADES or part in told:
             raise ParameterError(
@@ -85,6 +85,15 @@ def _fit(symbol: str, size: float, zones: str, designation: str) -> Fit:
             )  # fmt: skip
         told[part] = zone
     return Fit(symbol, size, **told)
+
+
+def _if_made(table: StraightSplineTable | InvoluteSplineTable, size: str) -> Cure:
+    """Another designation, where that has a joint."""
+    return lambda: Nearest(size) if size != table.size and kept(_has_joint, changed(table, size=size)) else None
+
+
+def _has_joint(table: StraightSplineTable | InvoluteSplineTable) -> bool:
+    return table.joint() is not None
 
 
 def _check_clearance(clearance: float) -> None:
@@ -184,7 +193,7 @@ class StraightSplineTable(_SplineTable, tag="spline"):
                     "bore.size", self.size, "no_such_spline", cure, standard="GOST 1139, ISO 14", example="6x23x26"
                 )
             beside = zip(("d", "D", "b"), sizes[1:], strict=False)
-            fits = tuple(_fit(symbol, size, zones, self.size) for symbol, (size, zones) in beside if zones)
+            fits = tuple(_fit(self, symbol, size, zones) for symbol, (size, zones) in beside if zones)
             found = replace(like[0], centring=_CENTRING.get(plain[0], "inner"), fits=fits)
             if found.centring != "inner" and fits and fits[0].symbol == "d" and fits[0].shaft:
                 raise ParameterError("bore.size", self.size, "zone_of_free_root", zone=fits[0].shaft)
@@ -284,7 +293,7 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
             made = standards.gost_6033(numbers[0], numbers[1], teeth[0], outer=outer, root=self.root)
             if zones[0]:
                 _check_clearance(self.clearance)
-                made = replace(made, fits=(_fit("D", numbers[0], zones[0], self.size),))
+                made = replace(made, fits=(_fit(self, "D", numbers[0], zones[0]),))
         else:
             made = standards.din_5480(numbers[0], numbers[1], teeth[0])
         return self._classed(made, plain)
@@ -304,7 +313,8 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
             key = "hub_class" if letter in hubs else "shaft_class"
             if key == "hub_class" and told["shaft_class"]:
                 right = f"{one}/{told['shaft_class']}"
-                raise ParameterError("bore.size", self.size, "spline_hub_first", Nearest(before + right), right=right)
+                cure = _if_made(self, before + right)
+                raise ParameterError("bore.size", self.size, "spline_hub_first", cure, right=right)
             if int(one.removesuffix(letter)) not in grades or letter not in hubs + shafts + unheld or told[key]:
                 raise ParameterError(
                     "bore.size", self.size, "no_such_spline_class", least=grades[0], most=grades[-1],
@@ -313,7 +323,9 @@ class InvoluteSplineTable(_SplineTable, tag="involute_spline"):
                 )  # fmt: skip
             if letter in unheld:
                 numbers = {"unheld": one, "standard": joint.standard, "shafts": ", ".join(shafts)}
-                raise ParameterError("bore.size", self.size, "spline_class_unheld", Nearest(before[:-1]), **numbers)
+                raise ParameterError(
+                    "bore.size", self.size, "spline_class_unheld", _if_made(self, before[:-1]), **numbers
+                )
             told[key] = one
         if joint.standard == "ISO 4156" and 2 * joint.reference_radius > MOST_REFERENCE:
             raise ParameterError("bore.size", self.size, "spline_classes_end", most=MOST_REFERENCE)

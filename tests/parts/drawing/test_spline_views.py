@@ -125,6 +125,7 @@ def test_zones_of_a_straight_spline_stand_on_its_sizes_and_their_limits_beside_t
         told = {f"{s.value:g}{s.after}" for s in (*view.sizes, *view.rounds) if s.name.startswith("spline.")}
         assert told == zones
         assert limits in drawing.requirements
+        assert "Tolerance of the symmetry of the sides: T 0.015." in drawing.requirements
         assert any(note.text.startswith(name) for note in view.notes)
         # no other view has another zone of one of them
         for size_of in (s for v in drawing.views for s in (*v.sizes, *v.rounds) if s.value in (36.0, 40.0)):

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import re
+from random import Random
 from typing import Any
 
 import pytest
+from msgspec.structs import replace as changed
 
 from geometry.base.errors import Nearest, ParameterError
+from geometry.solids.spline_standards import STRAIGHT_JOINTS
 from parts.keys.splines import InvoluteSplineTable, StraightSplineTable
 
 CYRILLIC = "d-8\u00d736\u041d7/\u04358\u00d740\u041d12/\u043011\u00d77D9/f8 \u0413\u041e\u0421\u0422 1139-80"
 DIN: dict[str, Any] = {"standard": "DIN 5480"}
 ISO: dict[str, Any] = {"standard": "ISO 4156"}
+STANDARDS = ("GOST 6033", "DIN 5480", "ISO 4156")
 
 
 @pytest.mark.parametrize(
@@ -233,3 +237,88 @@ def test_round_roots_do_not_centre_by_the_fit_of_the_outer_diameter() -> None:
     with pytest.raises(ParameterError) as caught:
         InvoluteSplineTable("50xH7/h6x2", root="fillet").joint()
     assert caught.value.code == "centred_by_flat_roots"
+
+
+ZONES = [
+    "H7",
+    "H8",
+    "H12",
+    "D9",
+    "F10",
+    "f7",
+    "f8",
+    "a11",
+    "h7",
+    "js6",
+    "Js7",
+    "k7",
+    "n6",
+    "G7",
+    "c9",
+    "H13",
+    "H7/f7",
+    "f7/H7",
+    "H7/H7",
+    "f7/f7",
+    "D9/f8",
+    "H07",
+    "H7/",
+    "H7/f7/g6",
+    "ZC8",
+]
+CLASSES = [
+    "9H",
+    "8f",
+    "9H/9g",
+    "9g/9H",
+    "7n",
+    "7H/7n",
+    "12H",
+    "9h9H",
+    "9H8f",
+    "5H/5f",
+    "5js",
+    "8js",
+    "9H/9H",
+    "10d",
+    "07H",
+    "9I",
+]
+
+
+def drawn(random: Random) -> StraightSplineTable | InvoluteSplineTable:
+    """A designation with any zones and classes."""
+
+    def beside(size: str) -> str:
+        return size + random.choice(("", "x")) + random.choice(ZONES) if random.random() < 0.4 else size
+
+    if random.random() < 0.5:
+        first, *sizes = (f"{x:g}" for x in random.choice(STRAIGHT_JOINTS).sizes)
+        parts = [first, *map(beside, sizes)]
+        return StraightSplineTable(random.choice(("", "d-", "D-", "b-", "D")) + random.choice("x*").join(parts))
+    tail = random.choice(("", *(f"x{one}" for one in CLASSES)))
+    diameter, module, teeth = random.choice((("50", "2", 24), ("20", "1", 18), ("600", "10", 58), ("120", "3", 38)))
+    match random.choice(STANDARDS):
+        case "ISO 4156":
+            return InvoluteSplineTable(f"{teeth}zx{module}mx30{random.choice('PR')}{tail}", "ISO 4156")
+        case "DIN 5480":
+            return InvoluteSplineTable(f"{diameter}x{module}x{teeth}{tail}", "DIN 5480")
+    return InvoluteSplineTable(f"{beside(diameter)}x{module}{tail}")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_any_designation_is_read_back_by_its_name_or_refused_with_what_is_read(seed: int) -> None:
+    random, made, cures = Random(seed), 0, list[StraightSplineTable | InvoluteSplineTable]()
+    for table in (drawn(random) for _ in range(400)):
+        try:
+            joint = table.joint()
+        except ParameterError as refusal:
+            if refusal.name == "bore.size" and refusal.nearest is not None:
+                cures.append(changed(table, size=refusal.nearest.value))
+            continue
+        made += 1
+        assert changed(table, size=joint.named()).joint() == joint
+        assert all(changed(table, size=joint.named(is_shaft=one)).joint().name == joint.name for one in (True, False))
+    assert made > 40
+    assert len(cures) > 5
+    assert all(table.joint() for table in cures)
