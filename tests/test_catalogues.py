@@ -31,7 +31,6 @@ CYRILLIC = re.compile("[\u0400-\u04ff]")
 # where Ukrainian letters stand in the code, and why
 CYRILLIC_PLACES = {
     "parts/pages/contact_steps.py": "the practicum's tables Д.1, Е.1",
-    "parts/mates/pages/external.py": "the practicum's table А.1",
     "parts/gears/spur_gear/involute_page.py": "the practicum's tables Д.1, Е.1",
     "parts/pages/misprints.py": "the practicum's tables Д.1, Е.1",
     "geometry/plane/letters.py": "the letters that are engraved",

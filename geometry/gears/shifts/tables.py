@@ -121,9 +121,16 @@ def kudryavtsev(first_teeth: int, second_teeth: int) -> TableShift:
         The pair is not in the tables; names the nearest number of teeth that is.
     """
     _check_order(first_teeth, second_teeth)
-    if second_teeth < 2 * first_teeth or (first_teeth, second_teeth) in _table_v():
-        return _from_v(first_teeth, second_teeth)
-    return _from_g(first_teeth, second_teeth)
+    return (_from_v if _is_of_v(first_teeth, second_teeth) else _from_g)(first_teeth, second_teeth)
+
+
+def shortening_table(first_teeth: int, second_teeth: int) -> str:
+    """The practicum's table that has Delta y of a pair, z1 <= z2."""
+    return "А.1" if _is_of_v(first_teeth, second_teeth) else "Б.1"
+
+
+def _is_of_v(first_teeth: int, second_teeth: int) -> bool:
+    return second_teeth < 2 * first_teeth or (first_teeth, second_teeth) in _table_v()
 
 
 def guidelines(first_teeth: int, second_teeth: int) -> TableShift:

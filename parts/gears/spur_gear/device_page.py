@@ -7,6 +7,7 @@ the paper disk are given; the zero wheel and the shifted wheel follow.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Annotated, Any
 
 from msgspec import Meta, Struct
@@ -27,8 +28,15 @@ from parts.pages.inputs import PLACE, SceneKeys, checked, part_of_kind, refusal
 from parts.pages.page import Sheet
 
 TOPIC = "tmm42"
+_MEASURED = (
+    "what you measured on your own disk, by the symbols of the page: measured.S_t1=15.5 measured.e_t1=15.8 of the zero "
+    "wheel, measured.S_b2=18.8 of the shifted one"
+)
+_OnPaper = Annotated[float, Meta(ge=0, le=100_000, extra={"unit": "mm"})]
 # mm: loss of the involute that its four decimals show
 _SEEN = 0.001
+# what is read off a profile, by its symbol
+_READINGS = ("S_t", "e_t", "P_t", "S_b", "S_a", "d_Ff")
 _SOURCES = {1: "practicum, table 1.1", 2: "practicum, table 1.2"}
 
 
@@ -43,6 +51,7 @@ class Tmm42Keys(Struct, forbid_unknown_fields=True):
     number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth, d / m")] | None = None
     pressure_angle_deg: PressureAngle = 20.0
     profile_shift_coefficient: Annotated[float, _PROFILE_SHIFT_COEFFICIENT] | None = None
+    measured: Annotated[dict[str, _OnPaper], Meta(description=_MEASURED)] | None = None
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -84,12 +93,14 @@ def sheet(table: dict[str, Any], *, zero_only: bool = False) -> Sheet:
     page.add("disk_diameter", 2 * max(zero.tip_radius, shifted.tip_radius))
     _zero_wheel(page, zero)
     _measured(page, zero, 1)
-    if zero_only:
-        _conditions(page, zero, shifted)
-        return page
-    _shifted_wheel(page, shifted, keys.profile_shift_coefficient is not None, rule)
-    _measured(page, shifted, 2)
-    _compared(page)
+    if not zero_only:
+        _shifted_wheel(page, shifted, keys.profile_shift_coefficient is not None, rule)
+        _measured(page, shifted, 2)
+        _compared(page)
+    try:
+        _students(page, keys.measured or {})
+    except ParameterError as error:
+        raise refusal(TOPIC, error, keys=keys) from error
     _conditions(page, zero, shifted)
     return page
 
@@ -165,12 +176,32 @@ def _measured(page: Sheet, gear: SpurGear, index: int) -> None:
 def _compared(page: Sheet) -> None:
     """Part 4 of the form: what the shift has changed on the profile."""
     rows = []
-    for name in ("S_t", "e_t", "P_t", "S_b", "S_a", "d_Ff"):
+    for name in _READINGS:
         if f"{name}1" in page.by_symbol and f"{name}2" in page.by_symbol:
             zero, shifted = (float(page.by_symbol[f"{name}{wheel}"].value) for wheel in (1, 2))
             rows.append((name, zero, shifted, shifted - zero))
     heads = ((N_("quantity"), ""), (N_("zero wheel"), "mm"), (N_("shifted wheel"), "mm"), (N_("difference"), "mm"))
     page.table("comparison", N_("4) Comparison of the zero and the shifted wheel"), heads, rows)
+
+
+def _students(page: Sheet, measured: Mapping[str, float]) -> None:
+    """What a student measured on a disk, and S_t + e_t of it, beside the generated profile."""
+    known = [f"{name}{wheel}" for wheel in (1, 2) for name in _READINGS if f"{name}{wheel}" in page.by_symbol]
+    for name, length in measured.items():
+        if name not in known:
+            raise ParameterError(f"measured.{name}", length, "no_such_name", None, known=known)
+    found = dict(measured)
+    for wheel in (1, 2):
+        parts = f"S_t{wheel}", f"e_t{wheel}"
+        if measured.keys() >= {*parts}:
+            found.setdefault(f"P_t{wheel}", sum(measured[part] for part in parts))
+    exact = {name: float(page.by_symbol[name].value) for name in known if name in found}
+    rows = ((name, found[name], right, found[name] - right, 100 * (found[name] / right - 1))
+            for name, right in exact.items())  # fmt: skip
+    heads = ((N_("quantity"), ""), (N_("measured"), "mm"), (N_("on the profile"), "mm"), (N_("difference"), "mm"),
+             (N_("relative difference"), "%"))  # fmt: skip
+    if found:
+        page.table("measured", N_("Measured on your own disk"), heads, rows)
 
 
 def _conditions(page: Sheet, zero: SpurGear, shifted: SpurGear) -> None:

@@ -16,7 +16,7 @@ from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.pairs.external import ExternalPair, external_pair, tip_beside
 from geometry.gears.pairs.side_clearance import guaranteed_normal_backlash, normal_from_circumferential
 from geometry.gears.shifts.choice import shifts_for_distance
-from geometry.gears.shifts.tables import TableShift, guidelines, kudryavtsev
+from geometry.gears.shifts.tables import TableShift, guidelines, kudryavtsev, shortening_table
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.helix import Helix
 from geometry.gears.teeth.spur import SpurGear
@@ -152,6 +152,10 @@ def external_sheet(table: dict[str, Any]) -> Sheet:
         page = _page(asked_pair(keys, shifts_given))
         if found is not None:
             page.note("shifts by table {table}", table=found.table)
+        if found is not None and found.tip_shortening is not None and keys.tip_shortening_coefficient is None:
+            text = N_("table {table} rounds Δy to {shortening:g}: tip_shortening_coefficient={shortening:g} takes that")
+            table_of = shortening_table(keys.first.number_of_teeth, keys.second.number_of_teeth)
+            page.note(text, table=table_of, shortening=found.tip_shortening)
         if found is not None and found.mended is not None:
             printed = " / ".join(f"{v:.3f}" for v in found.mended.printed)
             page.note("the table prints {shifts} for this pair: a misprint", shifts=printed)
@@ -351,7 +355,8 @@ def _mesh(page: Sheet, asked: Asked) -> None:
         page.add("tip_shortening_coefficient", shortening, "{x_n1} + {x_n2} - {y}", "GOST 16532-70")
     else:
         page.add("exact_tip_shortening_coefficient", shortening, "{x_n1} + {x_n2} - {y}", "GOST 16532-70")
-        page.add("tip_shortening_coefficient", asked.given_shortening, "", "practicum, table А.1")
+        table = shortening_table(*sorted(gear.number_of_teeth for gear in pair.gears))
+        page.add("tip_shortening_coefficient", asked.given_shortening, "", f"practicum, table {table}")
     page.add("working_radius", pair.working_radii[0], "{a_w} / ({u} + 1)", "practicum (3.5)", 1)
     page.add("working_radius", pair.working_radii[1], "{a_w} * {u} / ({u} + 1)", "practicum (3.6)", 2)
 

@@ -473,7 +473,7 @@ class _Page:
         lengths = {re.sub("^pi", "π", name): length for name, length in given.items()}
         for typed, name in zip(given, lengths, strict=True):
             if name not in known:
-                raise ParameterError(f"measured.{typed}", given[typed], "no_such_vector", None, known=known)
+                raise ParameterError(f"measured.{typed}", given[typed], "no_such_name", None, known=known)
         if not lengths:
             return
         beyond = [

@@ -195,6 +195,48 @@ def test_the_practicum_and_the_guidelines(case: dict[str, Any]) -> None:
         assert case["printed"].split()[0] in steps[0]["misprint"]
 
 
+def test_what_a_student_measured_on_the_disk_stands_beside_the_profile() -> None:
+    """Lesson 1, 3.2, 9: thicknesses and space widths by the formulas of tables 1.1 and 1.2; z 10, m 10, xi 7/17."""
+    words = "tmm42 module=10 reference_diameter=100"
+    told = values_of(f"{words} measured.e_t1=15.8 measured.S_t1=15.5 measured.S_t2=18.8 measured.e_t2=12.5")["measured"]
+    alpha, pitch = math.radians(20), 10 * math.pi
+    thick = pitch / 2 + 2 * 10 * 7 / 17 * math.tan(alpha)
+    right = {"S_t1": (15.5, pitch / 2), "e_t1": (15.8, pitch / 2), "P_t1": (31.3, pitch), "S_t2": (18.8, thick),
+             "e_t2": (12.5, pitch - thick), "P_t2": (31.3, pitch)}  # fmt: skip
+    assert [row["quantity"] for row in told] == [*right]
+    for row, (length, exact) in zip(told, right.values(), strict=True):
+        wanted = [length, exact, length - exact, 100 * (length / exact - 1)]
+        assert [*row.values()][1:] == pytest.approx(wanted, rel=1e-9, abs=1e-9)
+    # both halves of a pitch are needed for it, a pitch that was measured is kept
+    assert [r["quantity"] for r in values_of(f"{words} measured.S_t2=18.5")["measured"]] == ["S_t2"]
+    whole = values_of(f"{words} measured.S_t2=18.5 measured.e_t2=12.8 measured.P_t2=31.4")["measured"]
+    assert [r["measured"] for r in whole] == [18.5, 12.8, 31.4]
+    assert "measured" not in values_of(words)
+    with pytest.raises(SceneError) as refused:
+        sheet_for(f"{words} measured.W1=30")
+    assert (refused.value.key, refused.value.code) == ("tmm42.measured.W1", "no_such_name")
+
+
+@pytest.mark.parametrize(
+    ("teeth", "table", "shortening"),
+    [("13/21", "А.1", 0.16), ("12/50", "Б.1", 0.17), ("14/28", "А.1", 0.175), ("10/20", "Б.1", 0.15)],
+)
+def test_the_tables_shortening_is_told_and_taken(teeth: str, table: str, shortening: float) -> None:
+    """The practicum takes the shortening from table А.1 or Б.1, rounded; here it is exact where none is given."""
+    first, second = teeth.split("/")
+    words = f"gear-pair first.number_of_teeth={first} second.number_of_teeth={second} module=10 shifts=practicum"
+    plain, given = values_of(words), values_of(f"{words} tip_shortening_coefficient={shortening}")
+    note = f"table {table} rounds Δy to {shortening:g}: tip_shortening_coefficient={shortening:g} takes that"
+    assert note in plain["notes"]
+    assert note not in given["notes"]
+    assert plain["values"]["tip_shortening_coefficient"] == pytest.approx(shortening, abs=6e-4)
+    step = next(s for s in given["steps"] if s["name"] == "tip_shortening_coefficient")
+    assert (step["value"], step["source"]) == (shortening, f"practicum, table {table}")
+    shift = given["values"]["profile_shift_coefficient"]["first"]
+    tip = 10 * (int(first) / 2 + 1 + shift - shortening)
+    assert given["values"]["tip_radius"]["first"] == pytest.approx(tip, rel=1e-12)
+
+
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("case", [c for c in PRACTICUM if "table2_1" in c["id"]], ids=lambda c: c["id"])
 def test_the_doubtful_rows_of_table_2_1_are_told_where_shifts_are_chosen(case: dict[str, Any]) -> None:

@@ -358,8 +358,8 @@ def test_the_scheme_shows_every_position_by_its_number(count: int, tmp_path: Pat
         (("crank_length=30", "frame_length=30", "lever_length=90"), "frame_length", "stone_through_pivot", None),
         (("assignment=1", "rod_length=50"), "rod_length", "rod_does_not_reach", 200.8801),
         (("assignment=4", "coupler_length=900"), "coupler_length", "rods_do_not_close", 517.9994),
-        (("assignment=4", "measured.pe=30"), "pe", "no_such_vector", None),
-        (("assignment=8", "measured.pid=30"), "pid", "no_such_vector", None),
+        (("assignment=4", "measured.pe=30"), "pe", "no_such_name", None),
+        (("assignment=8", "measured.pid=30"), "pid", "no_such_name", None),
     ],
 )  # fmt: skip
 def test_wrong_input_is_refused_by_its_key(keys: tuple[str, ...], key: str, code: str, nearest: object) -> None:
