@@ -25,8 +25,9 @@ from parts.scene.standing import Instance
 T = TypeVar("T")
 # seconds for a turn of the first drive, and for a loop at least and at most; turns of the fastest in a loop at most
 _SECONDS, _LEAST, _MOST, _MOST_TURNS = 4.0, 4.0, 60.0, 20
-# values of a way at first, and at most; of the tolerance what outlines and ways may take
-_VALUES, MOST_VALUES, SHARE = 60, 16_000, 0.5
+# values of a way at first, and for a turn of the fastest: of an even way with fewer, each next turn could be taken for
+# one backwards; values at most; of the tolerance what outlines and ways may take
+_VALUES, _A_TURN, MOST_VALUES, SHARE = 60, 4, 16_000, 0.5
 # times at which a file is held against exact poses
 TIMES = np.concatenate([[0.0, 1.0], np.arange(1, 48) * (math.sqrt(5) - 1) / 2 % 1.0])
 
@@ -77,16 +78,23 @@ class Film(Record, FileJob):
             ways = [x[1::2] - (x[:-1:2] + x[2::2]) / 2 for x in (places, angles)]
             return (places[::2], angles[::2]), float((np.abs(ways[0]) + reach * np.abs(ways[1])).max())
 
-        (places, angles), off = self.near_enough(at, MOST_VALUES)
+        (places, angles), off = self.near_enough(at)
         return places, angles, off
 
-    def near_enough(self, at: Callable[[Real], tuple[T, float]], most: int) -> tuple[T, float]:
+    @property
+    def _least(self) -> int:
+        """Values of a way at first."""
+        fastest = max((abs(rate) for i in self.instances for rate in self.course.rates.get(i.id, ())), default=0)
+        return max(_VALUES, math.ceil(_A_TURN * fastest * self.loop))
+
+    def near_enough(self, at: Callable[[Real], tuple[T, float]], most: int | None = None) -> tuple[T, float]:
         """What is found at so many even shares of the loop that it is as near as asked, and how far it is off, mm.
 
         ``at``: what is found at every other one of some shares, and how far it is off at those between, where an even
         way is off the most; ``most``: values.
         """
-        count = _VALUES
+        most = most or max(MOST_VALUES, self._least)
+        count = min(self._least, most)
         while True:
             found, off = at(np.linspace(0, 1, 2 * count + 1))
             if off <= SHARE * self.tolerance / 2 or count >= most:

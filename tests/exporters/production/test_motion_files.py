@@ -96,6 +96,26 @@ def test_a_loop_that_would_take_too_long_is_cut_and_said() -> None:
     assert told(flat) == (False, 20.0)
 
 
+@pytest.mark.parametrize("turns", [65.0, -130.0])
+def test_a_pinion_of_many_turns_goes_the_right_way_round(tmp_path: Path, turns: float) -> None:
+    """A rack's whole way is one loop: more turns than values would be seen as fewer ones backwards."""
+    kept = resolved(load_scene("rack_and_pinion")) | {
+        "drives": [{"instance": "pinion", "turns": turns}],
+        "exports": [{"format": "motion"}, {"format": "glb", "tolerance": 0.1}],
+        "checks": {},
+    }
+    plan = plan_build(scene_from_resolved(kept, "m"), "m", [], [])
+    assert build(plan, tmp_path).well
+    (file,) = tmp_path.glob("*.motion.svg")
+    starts = {i.id: i for i in plan.placing.instances}
+    for share in (0.0, 0.003, 0.5, 1.0):
+        assert at(file, "pinion", share)[1] == pytest.approx(
+            math.degrees(starts["pinion"].rotation) + 360 * turns * share, abs=1e-6
+        )
+        way = abs(at(file, "rack", share)[0] - starts["rack"].centre)
+        assert way == pytest.approx(abs(turns) * share * math.pi * 36, abs=1e-5)
+
+
 SPOILED = (
     (r'values="[-\d.]+;', 'values="1.5;'),
     (r'(type="translate".*values="([-\d.]+,[-\d.]+;){7})[-\d.]+', r"\g<1>1.5"),
