@@ -689,7 +689,7 @@ def _page(text: str, options: argparse.Namespace) -> None:
     if options.out is None:
         print(text, end="")
     else:
-        from exporters.production.moving import write_whole
+        from exporters.formats.whole import write_whole
 
         _check_free(options)
         write_whole(options.out, text)
@@ -697,10 +697,10 @@ def _page(text: str, options: argparse.Namespace) -> None:
 
 def _check_free(options: argparse.Namespace) -> None:
     """Refuse a file that exists already: before a page is made, which may take a while, and before it is written."""
-    if options.out is not None and (options.out.exists() or options.out.is_symlink()):
-        from parts.base.refusal import SceneError
+    if options.out is not None:
+        from exporters.formats.whole import check_free
 
-        raise SceneError(str(options.out), "", None, "file_exists")
+        check_free(options.out)
 
 
 def _schema(options: argparse.Namespace) -> int:

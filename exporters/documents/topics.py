@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import importlib
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct
 
 from exporters.documents.render import FORMATS, render
+from exporters.formats.whole import beside, check_free
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.kind import MOST_OFFERS
 from parts.base.psv import rows_of
@@ -61,6 +61,9 @@ def calculate(topic: str, words: Sequence[str], form: str, language: str | None)
             raise SceneError(PLACE, name, value, "not_one_of", meant(value, known), known=known)
     sheet, spoken = sheet_of(topic, words, language)
     language = language or spoken
+    for asked in (sheet.picture_file, sheet.paper_file):
+        if asked is not None:
+            check_free(Path(asked))
     if sheet.picture_file is not None and sheet.picture is not None:
         _write_picture(sheet.picture, Path(sheet.picture_file), told(language))
     if sheet.paper_file is not None and sheet.paper is not None:
@@ -78,22 +81,11 @@ def _home(topic: str) -> str:
     return home
 
 
-@contextmanager
-def _beside(file: Path) -> Iterator[Path]:
-    """A folder whose files come to stand beside a file once all are made; where one fails, what was there stays."""
-    from tempfile import TemporaryDirectory
-
-    with TemporaryDirectory(prefix=".higherpair-", dir=file.parent) as folder:
-        yield Path(folder)
-        for made in sorted(Path(folder).iterdir()):
-            os.replace(made, file.parent / made.name)
-
-
 def _write_picture(picture: Picture, file: Path, words: Words) -> None:
     """Write a picture as the ending of its file says."""
     from parts.pages.contour_picture import ContourPicture
 
-    with _beside(file) as folder:
+    with beside(file) as folder:
         if file.suffix.lower() == ".dxf" and isinstance(picture, ContourPicture):
             from exporters.documents.contour_dxf import write_contour_dxf
 
@@ -127,7 +119,9 @@ def _write_paper(pages: Sequence[Expected], file: Path, title: str, topic: str) 
         parts = [
             (file if k == 0 else file.with_suffix(f".{k + 1}{file.suffix}"), [page]) for k, page in enumerate(pages)
         ]
-    with _beside(file) as folder:
+    for name, _ in parts:
+        check_free(name)
+    with beside(file) as folder:
         for name, shown in parts:
             write_sheets(folder / name.name, [page.canvas for page in shown], title)
             verdict = verify_sheets(folder / name.name, shown, _PAPER_TOLERANCE)

@@ -30,7 +30,7 @@ _FONT = "arial.ttf"
 # short ones (2) fit sheets. Its unicode, which every version has, holds Cyrillic; its font after GOST 2.304 the rest
 _STYLE, _SYMBOLS_STYLE = "unicode", "lc_opengost-ar"
 _OF_UNICODE = re.compile(r"[\u0020-\u00ff\u0400-\u04ff\u2032\u2033]*")
-_LINE_TYPES = {2: "DASHED2", 4: "CENTER2"}
+_LINE_TYPES = {2: "DASHED2", 4: "CENTER2", 6: "DIVIDE2"}
 # what letters leave free on either side, parts of their height: programs fit what is black between two points
 BEARING = 0.07
 # how words are turned whose base line does not run to the right, degrees

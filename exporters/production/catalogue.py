@@ -21,9 +21,10 @@ from pathlib import Path
 from typing import Any
 
 from exporters import __version__
+from exporters.formats.whole import write_whole
 from exporters.production.build import build
 from exporters.production.check_lines import has_bad_verdict
-from exporters.production.moving import clear, hash_of, write_whole
+from exporters.production.moving import clear, hash_of
 from exporters.production.plan import plan_build
 from exporters.production.report import whole_report
 from geometry.base.record import Record

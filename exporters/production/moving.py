@@ -216,16 +216,3 @@ def _locked(folder: Path) -> Iterator[None]:
 def hash_of(file: Path) -> str:
     """The SHA-256 of a file's bytes, by which reports know it."""
     return hashlib.sha256(file.read_bytes()).hexdigest()
-
-
-def write_whole(file: Path, text: str) -> None:
-    """Write a text in UTF-8: all of it, or nothing and what was there stays."""
-    beside = file.with_name(f"{file.name}{_STAGING}{os.getpid()}")
-    try:
-        beside.write_text(text, encoding="utf-8", newline="\n")
-        os.replace(beside, file)
-    except OSError as error:
-        raise type(error)(error.errno, error.strerror, str(file)) from error
-    finally:
-        with suppress(OSError):
-            beside.unlink(missing_ok=True)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
 from parts.base.materials import density_of
-from parts.base.texts import told_in
+from parts.base.texts import told_in, words
 
 if TYPE_CHECKING:
     import cadquery
@@ -61,7 +61,7 @@ class Part(Record, dict=True):
         from parts.solids import naming
 
         # a title in a script without letters here is left out
-        names = (label if isinstance(label, str) else self.name, self.made_by.numbers(self.keys), self.id)
+        names = (label if isinstance(label, str) else self.name, self.numbers, self.id)
         text = next(name for name in names if name and not unknown_letters(name))
         made = naming.named(self.section(offset), self.section(min(offset, 0.0)), text, gap or 0.0)
         strange = unknown_letters(names[0])
@@ -105,7 +105,12 @@ class Part(Record, dict=True):
     @property
     def name(self) -> str:
         """Its title and its numbers, or its id."""
-        return " ".join(filter(None, (self.title, self.made_by.numbers(self.keys)))) or self.id
+        return " ".join(filter(None, (self.title, self.numbers))) or self.id
+
+    @property
+    def numbers(self) -> str:
+        """What its kind tells it by, as the scene's language writes numbers."""
+        return words(self.language).decimal(self.made_by.numbers(self.keys))
 
     @cached_property
     def body(self) -> Callable[[float], Body | FacedBody]:

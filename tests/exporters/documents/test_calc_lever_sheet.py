@@ -204,7 +204,7 @@ def test_words_that_the_title_block_does_not_hold_are_refused(tmp_path: Path) ->
 def test_a_sheet_that_is_not_what_it_should_be_is_not_left(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Negative control: a writer that loses a line is caught; what stood there stays."""
+    """Negative control: a writer that loses a line is caught. What stands there already is never replaced."""
     from exporters.drawings import sheets
 
     def lose(file: Path, canvas: Any) -> dict[str, int]:
@@ -218,9 +218,16 @@ def test_a_sheet_that_is_not_what_it_should_be_is_not_left(
 
     monkeypatch.setattr(sheets, "write_sheet_dxf", lose)
     file = tmp_path / "lever.dxf"
-    file.write_text("mine", "utf-8")
     assert main(["calc", "lever", "code=1071", f"sheet={file.as_posix()}"]) == 1
     told = capsys.readouterr().err
     assert "no line from" in told
     assert file.as_posix() in told
+    assert [*tmp_path.iterdir()] == []
+    monkeypatch.undo()
+    file.write_text("mine", "utf-8")
+    for key in ("sheet", "picture"):
+        asked = file if key == "sheet" else file.rename(tmp_path / "lever.svg")
+        assert main(["calc", "lever", "code=1071", f"{key}={asked.as_posix()}"]) == 2
+        told = capsys.readouterr().err
+        assert f"{asked.as_posix()}: exists already" in told
     assert [one.read_text("utf-8") for one in tmp_path.iterdir()] == ["mine"]

@@ -237,3 +237,14 @@ def test_a_label_that_tells_other_numbers_is_told(tmp_path: Path, label: str, co
     report = json.loads((tmp_path / "s/report.json").read_text("utf-8"))
     for found in (report["parts"]["g"]["findings"], *(file["findings"] for file in report["files"])):
         assert [one["code"] for one in found if one["code"].startswith("label")] == codes
+
+
+def test_engraved_numbers_have_the_mark_of_the_scenes_language(tmp_path: Path) -> None:
+    """m 2,5 in Ukrainian, as on its drawing: it was 2.5."""
+    told = {}
+    for language, label in (("uk", "true"), ("uk", '"z 22 m 2,5"'), ("en", "true"), ("en", '"z 22 m 2.5"')):
+        text = f'[scene]\nlanguage = "{language}"\n[parts.g]\nkind = "spur_gear"\nmodule = 2.5\nnumber_of_teeth = 22\n'
+        (tmp_path / "s.toml").write_text(f'{text}label = {label}\n[[exports]]\nformat = "svg"\n', encoding="utf-8")
+        assert main(["build", str(tmp_path / "s.toml"), "--out", str(tmp_path), "-q", "--no-verify"]) == 0
+        told[language, label] = (tmp_path / "s/g.svg").read_bytes()
+    assert told["uk", "true"] == told["uk", '"z 22 m 2,5"'] != told["en", "true"] == told["en", '"z 22 m 2.5"']

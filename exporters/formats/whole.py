@@ -1,0 +1,44 @@
+"""Files written where the command was told to: what is there already is refused; all of them come, or nothing."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+
+def check_free(file: Path) -> None:
+    """Refuse a file that exists already: what it holds may be somebody's work.
+
+    Raises
+    ------
+    SceneError
+        It exists.
+    """
+    if file.exists() or file.is_symlink():
+        from parts.base.refusal import SceneError
+
+        raise SceneError(str(file), "", None, "file_exists")
+
+
+@contextmanager
+def beside(file: Path) -> Iterator[Path]:
+    """A folder whose files come to stand beside a file once all are made; where one fails, what was there stays."""
+    folder = file.with_name(f".writing-{os.getpid()}-{file.name}")
+    try:
+        folder.mkdir()
+        yield folder
+        for made in sorted(folder.iterdir()):
+            os.replace(made, file.parent / made.name)
+    except OSError as error:
+        raise type(error)(error.errno, error.strerror, str(file)) from error
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def write_whole(file: Path, text: str) -> None:
+    """Write a text in UTF-8: all of it, or nothing and what was there stays."""
+    with beside(file) as folder:
+        (folder / file.name).write_text(text, encoding="utf-8", newline="\n")
