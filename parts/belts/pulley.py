@@ -24,17 +24,17 @@ if TYPE_CHECKING:
     from parts.base.readback import Probe
 
 
+_LINE_OFFSET = mm("pitch line of the belt over the outer circle of the pulley", least=0, most=100, example=0.5)
+_GROOVE_WIDTH = mm("their width between the corners on the outer circle", above=0, most=1000, example=3.32)
+
+
 class BeltTable(Struct, forbid_unknown_fields=True):
     """A belt of your own, its grooves with straight flanks."""
 
     pitch: Annotated[float, mm("pitch", above=0, most=1000, example=5.0)]
-    line_offset: Annotated[
-        float, mm("pitch line of the belt over the outer circle of the pulley", least=0, most=100, example=0.5)
-    ]
+    line_offset: Annotated[float, _LINE_OFFSET]
     groove_depth: Annotated[float, mm("depth of the grooves", above=0, most=1000, example=1.95)]
-    groove_width: Annotated[
-        float, mm("their width between the corners on the outer circle", above=0, most=1000, example=3.32)
-    ]
+    groove_width: Annotated[float, _GROOVE_WIDTH]
     groove_angle_deg: Annotated[float, degrees("angle between their flanks", least=1, most=120)] = 50.0
     root_radius: Annotated[float, mm("their root radius at most", least=0, most=1000, example=0.4)] = 0.0
     tip_radius: Annotated[float, mm("rounding of the tips", least=0, most=1000, example=0.6)] = 0.0
@@ -52,6 +52,7 @@ class FlangesTable(Struct, forbid_unknown_fields=True):
 _OUTER_DIAMETER = mm(
     "outer diameter; default: that of the belt's pitch line", above=0, most=2 * MOST_LENGTH, example=31.0
 )
+_CLEARANCE = mm("how far the walls of the grooves stand off those of the standard, for printing", least=0, most=100)
 
 
 class TimingPulleySpec(WheelKeys, kw_only=True, tag_field="kind", tag="timing_pulley"):
@@ -64,9 +65,7 @@ class TimingPulleySpec(WheelKeys, kw_only=True, tag_field="kind", tag="timing_pu
         | BeltTable
     )  # fmt: skip
     outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
-    clearance: Annotated[
-        float, mm("how far the walls of the grooves stand off those of the standard, for printing", least=0, most=100)
-    ] = 0.0
+    clearance: Annotated[float, _CLEARANCE] = 0.0
     flanges: FlangesTable | None = None
     face_width: Annotated[float, mm("width of the teeth between the flanges", least=0.01, most=10_000)] = 10.0
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 _SHAFT_DIAMETER = part_mm("of the shaft whose key it is by DIN 6885 and GOST 23360", above=0, example=18.0)
 _CHAMFER = part_mm("of the edges of both faces; default: the standards' least", least=0, example=0.25)
+_FORM = Meta(description="A (1 of GOST 23360): both ends round, B (2): none, C (3): the right one")
 
 
 class KeySpec(MaterialKeys, kw_only=True, tag_field="kind", tag="key"):
@@ -32,10 +33,7 @@ class KeySpec(MaterialKeys, kw_only=True, tag_field="kind", tag="key"):
     shaft_diameter: Annotated[float, _SHAFT_DIAMETER, start(18.0)] | None = None
     width: Annotated[float, part_mm("width b, or give shaft_diameter", above=0, example=6.0)] | None = None
     height: Annotated[float, part_mm("height h, or give shaft_diameter", above=0, example=6.0)] | None = None
-    form: Annotated[
-        Literal["A", "B", "C"],
-        Meta(description="A (1 of GOST 23360): both ends round, B (2): none, C (3): the right one"),
-    ] = "A"
+    form: Annotated[Literal["A", "B", "C"], _FORM] = "A"
     chamfer: Annotated[float, _CHAMFER] | None = None
 
 

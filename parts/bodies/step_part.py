@@ -33,6 +33,8 @@ _FILE = Meta(
 _SOLID = Meta(ge=1, le=1000, description="which of the file's solids, from 1 on, where it has several", examples=[2])
 _ORIGIN = mm("the part's origin in the file, which mates place")
 _AXIS = Meta(description="direction of the part's axis in the file")
+_ROTATION = degrees("turn of the part's x axis about its axis", least=-36_000, most=36_000)
+_HELD = Meta(description="texts of files by their names, as reports keep them; what it lacks is read", examples=[{}])
 
 
 class StepPartSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="step_part"):
@@ -40,23 +42,10 @@ class StepPartSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="step_part"
 
     file: Annotated[str, _FILE]
     solid: Annotated[int, _SOLID] | None = None
-    origin: Annotated[tuple[_Place, _Place, _Place], _ORIGIN] = (
-        0.0,
-        0.0,
-        0.0,
-    )
-    axis: Annotated[tuple[_Way, _Way, _Way], _AXIS] = (
-        0.0,
-        0.0,
-        1.0,
-    )
-    rotation_deg: Annotated[float, degrees("turn of the part's x axis about its axis", least=-36_000, most=36_000)] = (
-        0.0
-    )
-    held: Annotated[
-        dict[str, str],
-        Meta(description="texts of files by their names, as reports keep them; what it lacks is read", examples=[{}]),
-    ] = field(default_factory=dict)
+    origin: Annotated[tuple[_Place, _Place, _Place], _ORIGIN] = (0.0, 0.0, 0.0)
+    axis: Annotated[tuple[_Way, _Way, _Way], _AXIS] = (0.0, 0.0, 1.0)
+    rotation_deg: Annotated[float, _ROTATION] = 0.0
+    held: Annotated[dict[str, str], _HELD] = field(default_factory=dict)
 
 
 class StepPart(Kind[StepPartSpec, "FacedBody"]):

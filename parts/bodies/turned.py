@@ -96,6 +96,10 @@ class ShaftKeywayTable(Struct, forbid_unknown_fields=True, kw_only=True):
     ends: Annotated[Literal["round", "square"], Meta(description="as an end mill or a disk leaves them")] = "round"
 
 
+_GROOVES = Meta(max_length=100, examples=[[{"at": 2.0, "width": 1.1, "diameter": 11.5}]])
+_KEYWAYS = Meta(max_length=100, examples=[[{"at": 4.0, "length": 12.0}]])
+
+
 class StepTable(Struct, forbid_unknown_fields=True, kw_only=True):
     """A step of a shaft."""
 
@@ -103,12 +107,8 @@ class StepTable(Struct, forbid_unknown_fields=True, kw_only=True):
     length: Annotated[float, part_mm("length along the axis", above=0)]
     chamfer: _Chamfer = 0.0
     fillet: _Fillet = 0.0
-    grooves: Annotated[
-        list[GrooveTable], Meta(max_length=100, examples=[[{"at": 2.0, "width": 1.1, "diameter": 11.5}]])
-    ] = field(default_factory=list)
-    keyways: Annotated[list[ShaftKeywayTable], Meta(max_length=100, examples=[[{"at": 4.0, "length": 12.0}]])] = field(
-        default_factory=list
-    )
+    grooves: Annotated[list[GrooveTable], _GROOVES] = field(default_factory=list)
+    keyways: Annotated[list[ShaftKeywayTable], _KEYWAYS] = field(default_factory=list)
     spline: SplineTable | None = None
 
 

@@ -54,16 +54,17 @@ class FollowerSpec(FlatKeys, forbid_unknown_fields=True, tag_field="kind", tag="
     pin_diameter: Pin = 0.0
 
 
+_ARM_LENGTH = part_mm("to the roller's centre, tip, arc's centre or a flat bar's end", above=0, example=60.0)
+_SENSE = Meta(description="as the cam's: which side of the arm looks at the cam")
+_SLOTS = Meta(examples=[[{"start": [28.0, 0.0], "end": [36.0, 0.0], "width": 3.0}]])
+
+
 class FollowerArmSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="follower_arm"):
     """Keys of ``follower_arm``."""
 
     end: End
-    arm_length: Annotated[
-        float, part_mm("to the roller's centre, tip, arc's centre or a flat bar's end", above=0, example=60.0)
-    ]
-    sense: Annotated[
-        Literal["against", "with"], Meta(description="as the cam's: which side of the arm looks at the cam")
-    ] = "against"
+    arm_length: Annotated[float, _ARM_LENGTH]
+    sense: Annotated[Literal["against", "with"], _SENSE] = "against"
     width: Annotated[float, part_mm("width of the arm; of a roller's arm its round end", above=0)] = 10.0
     boss_diameter: Annotated[float, part_mm("of the round end about the pivot", above=0)] = 16.0
     pivot_diameter: Annotated[float, part_mm("hole for the pivot", least=0)] = 6.0
@@ -73,9 +74,7 @@ class FollowerArmSpec(FlatKeys, forbid_unknown_fields=True, kw_only=True, tag_fi
     tip_height: Annotated[float, part_mm("height of a tip, or of a mushroom's centre, over the arm", least=0)] = 10.0
     pin_diameter: Pin = 0.0
     holes: Annotated[HolesAt, Meta(examples=[[{"at": [20.0, 0.0], "diameter": 3.0}]])] = field(default_factory=list)
-    slots: Annotated[Slots, Meta(examples=[[{"start": [28.0, 0.0], "end": [36.0, 0.0], "width": 3.0}]])] = field(
-        default_factory=list
-    )
+    slots: Annotated[Slots, _SLOTS] = field(default_factory=list)
 
 
 class RollerSpec(BoredKeys, forbid_unknown_fields=True, tag_field="kind", tag="roller"):

@@ -39,6 +39,10 @@ _TIP_DIAMETER = mm(
     most=2 * MOST_LENGTH,
     example=74.0,
 )
+_TOOTH_FORM = Meta(description="standard of the tooth form")
+_FORM = Meta(ge=0, le=1, description="ISO 606: 0 is the minimum tooth gap, 1 the maximum one")
+_TOOTH_BEVEL = mm("bevel of the teeth at both faces, along the axis at their tips; ISO 606: 0.13 p", least=0, most=1000)
+_FACE_WIDTH = mm("of a row of teeth; 0: by the inner width of the chain", least=0, most=10_000)
 
 
 class SprocketSpec(WheelKeys, kw_only=True, tag_field="kind", tag="sprocket"):
@@ -52,20 +56,12 @@ class SprocketSpec(WheelKeys, kw_only=True, tag_field="kind", tag="sprocket"):
     plate_height: Annotated[float, mm("height of its plates", above=0, most=1000, example=11.81)] | None = None
     transverse_pitch: Annotated[float, _TRANSVERSE_PITCH] | None = None
     strands: Annotated[int, Meta(ge=1, le=3, description="strands of it: rows of teeth", examples=[1])] | None = None
-    tooth_form: Annotated[
-        Literal["ISO 606", "GOST 591", "ANSI B29.1"], Meta(description="standard of the tooth form")
-    ] = "ISO 606"
-    form: Annotated[
-        float, Meta(ge=0, le=1, description="ISO 606: 0 is the minimum tooth gap, 1 the maximum one")
-    ] = 0.0  # fmt: skip
+    tooth_form: Annotated[Literal["ISO 606", "GOST 591", "ANSI B29.1"], _TOOTH_FORM] = "ISO 606"
+    form: Annotated[float, _FORM] = 0.0
     displaced: Annotated[bool, Meta(description="GOST 591: with displaced centres of the seats, e = 0.03 t")] = False
     tip_diameter: Annotated[float, _TIP_DIAMETER] | None = None
-    tooth_bevel: Annotated[
-        float, mm("bevel of the teeth at both faces, along the axis at their tips; ISO 606: 0.13 p", least=0, most=1000)
-    ] = 0.0
-    face_width: Annotated[float, mm("of a row of teeth; 0: by the inner width of the chain", least=0, most=10_000)] = (
-        0.0
-    )
+    tooth_bevel: Annotated[float, _TOOTH_BEVEL] = 0.0
+    face_width: Annotated[float, _FACE_WIDTH] = 0.0
 
 
 class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):

@@ -46,22 +46,18 @@ _CONE_ANGLE = degrees(
 )
 _LENGTH = part_mm("length of the barrel; default: the groove and end_margin", above=0, example=60.0)
 _END_MARGIN = part_mm("material between the groove and each end; default: the roller's radius", above=0, example=8.0)
+_FORM = Meta(description="groove: moves the roller both ways; end: a spring holds it", examples=["groove"])
+_ROLLER_FORM = Meta(description="conical: thinner towards the cam's axis, so that it rolls and hardly slides")
 
 
 class BarrelCamSpec(MaterialKeys, forbid_unknown_fields=True, tag_field="kind", tag="barrel_cam"):
     """Keys of ``barrel_cam``."""
 
-    form: Annotated[
-        Literal["groove", "end"],
-        Meta(description="groove: moves the roller both ways; end: a spring holds it", examples=["groove"]),
-    ]
+    form: Annotated[Literal["groove", "end"], _FORM]
     outer_diameter: Annotated[float, part_mm("diameter of the barrel", above=0, example=60.0)]
     roller_diameter: Annotated[float, _ROLLER_DIAMETER]
     groove_depth: Annotated[float, part_mm("depth of the groove, or width of the track", above=0, example=8.0)]
-    roller_form: Annotated[
-        Literal["cylindrical", "conical"],
-        Meta(description="conical: thinner towards the cam's axis, so that it rolls and hardly slides"),
-    ] = "cylindrical"
+    roller_form: Annotated[Literal["cylindrical", "conical"], _ROLLER_FORM] = "cylindrical"
     cone_angle_deg: Annotated[float, _CONE_ANGLE] | None = None
     lift: Annotated[float, part_mm("lift H along the axis", least=0), start(20.0)] = 0.0
     swing_deg: Swing = 0.0

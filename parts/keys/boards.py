@@ -23,6 +23,7 @@ _COPIES = Meta(
     examples=[{"wheel": 2}],
 )
 _PARTS = Meta(min_length=1, description="the parts that are laid on it", examples=[["wheel"]])
+_SETS = Meta(ge=1, le=_MOST_COPIES, description="number of sets laid out: one for each group of a class")
 
 
 class LaidKeys(Struct, forbid_unknown_fields=True, kw_only=True):
@@ -31,9 +32,7 @@ class LaidKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     width: Annotated[float, part_mm("along x", least=_LEAST, example=600.0)]
     margin: Annotated[float, part_mm("left free along its edges", least=0)] = 5.0
     gap: Annotated[float, part_mm("least distance between two cuts; the web is less by the kerf", least=0)] = 2.0
-    sets: Annotated[
-        int, Meta(ge=1, le=_MOST_COPIES, description="number of sets laid out: one for each group of a class")
-    ] = 1
+    sets: Annotated[int, _SETS] = 1
     copies: Annotated[dict[str, Annotated[int, Meta(ge=0, le=_MOST_COPIES)]], _COPIES] = {}
     parts: Annotated[list[str], _PARTS] | None = None
 
@@ -50,6 +49,8 @@ _THICKNESS = mm(
     example=3.0,
 )
 _FEED = size("mm/s", "speed of the cut, from which its time is computed", above=0, most=10_000, example=12.0)
+_KERF = mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)
+_GRAIN = Meta(description="its grain runs along x: parts lie as drawn, or turned by half a turn")
 
 
 class BoardSpec(LaidKeys, kw_only=True):
@@ -57,12 +58,8 @@ class BoardSpec(LaidKeys, kw_only=True):
 
     height: Annotated[float, part_mm("along y", least=_LEAST, example=400.0)]
     thickness: Annotated[float, _THICKNESS]
-    kerf: Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)] = (
-        0.0
-    )
-    grain: Annotated[bool, Meta(description="its grain runs along x: parts lie as drawn, or turned by half a turn")] = (
-        False
-    )
+    kerf: Annotated[float, _KERF] = 0.0
+    grain: Annotated[bool, _GRAIN] = False
     feed: Annotated[float, _FEED] | None = None
 
     @property

@@ -40,13 +40,14 @@ Module = Annotated[
 ]
 
 
+_CIRCUMFERENTIAL_THINNING = mm("thinning of each tooth for backlash, arc on the reference circle", least=0, most=1000)
+
+
 class ToothedKeys(MadeKeys, forbid_unknown_fields=True, kw_only=True):
     """Keys of everything with involute teeth on parallel axes, straight or helical."""
 
     module: Module
-    circumferential_thinning: Annotated[
-        float, mm("thinning of each tooth for backlash, arc on the reference circle", least=0, most=1000)
-    ] = 0.0
+    circumferential_thinning: Annotated[float, _CIRCUMFERENTIAL_THINNING] = 0.0
     tip_chamfer: Annotated[float, mm("radial height of a 45 degree tip chamfer", least=0, most=1000)] = 0.0
     tip_rounding: Annotated[float, mm("radius of the tip corner", least=0, most=1000)] = 0.0
     helix_angle_deg: HelixAngle = 0.0

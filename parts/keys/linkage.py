@@ -16,17 +16,17 @@ Coordinate = Annotated[float, part_mm("a coordinate", least=-MOST_LENGTH)]
 Direction = Annotated[float, degrees("of the guide, from +x counter-clockwise", least=-360, most=360)]
 
 
+_START_ANGLE = degrees("at S = 0, from +x counter-clockwise", least=-360, most=360, example=167.0)
+_SENSE = Meta(description="how the rocker turns while the follower rises")
+
+
 class DrivenRocker(Struct, forbid_unknown_fields=True, tag_field="member", tag="rocker"):
     """Rocker with joint A at its end, whose angle is start_angle_deg and the motion."""
 
     pivot: Annotated[tuple[Coordinate, Coordinate], mm("x, y of its pivot", example=[91.0, 26.0])]
     length: Annotated[float, part_mm("from the pivot to joint A", above=0, example=58.0)]
-    start_angle_deg: Annotated[
-        float, degrees("at S = 0, from +x counter-clockwise", least=-360, most=360, example=167.0)
-    ]
-    sense: Annotated[
-        Literal["counter_clockwise", "clockwise"], Meta(description="how the rocker turns while the follower rises")
-    ] = "clockwise"
+    start_angle_deg: Annotated[float, _START_ANGLE]
+    sense: Annotated[Literal["counter_clockwise", "clockwise"], _SENSE] = "clockwise"
 
 
 class DrivenSlider(Struct, forbid_unknown_fields=True, tag_field="member", tag="slider"):
@@ -36,14 +36,18 @@ class DrivenSlider(Struct, forbid_unknown_fields=True, tag_field="member", tag="
     direction_deg: Direction = 90.0
 
 
+_ASSEMBLY = Meta(description="side of the line from joint A to the pivot on which B stands")
+
+
 class GuidingRocker(Struct, forbid_unknown_fields=True, tag_field="member", tag="rocker"):
     """Rocker with joint B at its end."""
 
     pivot: Annotated[tuple[Coordinate, Coordinate], mm("x, y of its pivot", example=[62.0, 124.0])]
     length: Annotated[float, part_mm("from the pivot to joint B", above=0, example=68.0)]
-    assembly: Annotated[
-        Literal["left", "right"], Meta(description="side of the line from joint A to the pivot on which B stands")
-    ] = "left"
+    assembly: Annotated[Literal["left", "right"], _ASSEMBLY] = "left"
+
+
+_GUIDING_SLIDER_ASSEMBLY = Meta(description="B ahead of joint A's foot on the line or behind it")
 
 
 class GuidingSlider(Struct, forbid_unknown_fields=True, tag_field="member", tag="slider"):
@@ -51,9 +55,7 @@ class GuidingSlider(Struct, forbid_unknown_fields=True, tag_field="member", tag=
 
     through: Annotated[tuple[Coordinate, Coordinate], mm("x, y of any point of the line", example=[0.0, 60.0])]
     direction_deg: Direction = 0.0
-    assembly: Annotated[
-        Literal["forward", "backward"], Meta(description="B ahead of joint A's foot on the line or behind it")
-    ] = "forward"
+    assembly: Annotated[Literal["forward", "backward"], _GUIDING_SLIDER_ASSEMBLY] = "forward"
 
 
 def drive_of(table: DrivenRocker | DrivenSlider) -> Drive:

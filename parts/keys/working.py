@@ -39,6 +39,10 @@ def _rough(meaning: str) -> Meta:
     return Meta(ge=0.012, le=100, description=f"roughness Ra of {meaning}", extra={"unit": "um"})
 
 
+_Requirement = Annotated[str, Meta(pattern=r"\S", max_length=300, description="words")]
+_REQUIREMENTS = Meta(max_length=12, description="technical requirements, a line each, added to those of the drawing")
+
+
 class WorkingTable(Struct, forbid_unknown_fields=True, frozen=True):
     """What a working drawing says beside the part's own sizes."""
 
@@ -54,10 +58,7 @@ class WorkingTable(Struct, forbid_unknown_fields=True, frozen=True):
     bore_roughness: Annotated[float, _rough("bores")] = 1.6
     shaft_roughness: Annotated[float, _rough("steps of a shaft, where it is not that of all surfaces")] | None = None
     teeth: Annotated[int, Meta(ge=0, le=10_000, description="teeth drawn exactly; the others are circles")] = 0
-    requirements: Annotated[
-        list[Annotated[str, Meta(pattern=r"\S", max_length=300, description="words")]],
-        Meta(max_length=12, description="technical requirements, a line each, added to those of the drawing"),
-    ] = []
+    requirements: Annotated[list[_Requirement], _REQUIREMENTS] = []
 
 
 # the keys of tolerance zones

@@ -26,13 +26,14 @@ _ROUNDING = 1e-12
 _Eccentric = Annotated[float, direction("direction of the eccentric, from the pins' axis")]
 
 
+_TURNED_LOBES = Meta(ge=-10_000, le=10_000, description="turns the disc on by whole lobes: for holes that must line up")
+
+
 class CycloidalPairSpec(MateKeys, tag="cycloidal_pair", kw_only=True):
     """Keys of ``cycloidal_pair``."""
 
     direction_deg: _Eccentric = 0.0
-    turned_lobes: Annotated[
-        int, Meta(ge=-10_000, le=10_000, description="turns the disc on by whole lobes: for holes that must line up")
-    ] = 0
+    turned_lobes: Annotated[int, _TURNED_LOBES] = 0
     height: Height | None = None
 
 

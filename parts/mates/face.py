@@ -29,12 +29,13 @@ if TYPE_CHECKING:
 _ROUNDING = 1e-9
 
 
+_PINION_OFFSET = mm("how far the middle of the pinion's face is off that of the gear's, outwards", least=-1e4, most=1e4)
+
+
 class FaceGearPairSpec(GearPairKeys, tag="face_gear_pair", kw_only=True):
     """Keys of ``face_gear_pair``."""
 
-    pinion_offset: Annotated[
-        float, mm("how far the middle of the pinion's face is off that of the gear's, outwards", least=-1e4, most=1e4)
-    ] = 0.0
+    pinion_offset: Annotated[float, _PINION_OFFSET] = 0.0
     normal_backlash: Annotated[float, backlash("normal backlash: thins both gears by half")] | None = None
 
 

@@ -25,14 +25,15 @@ if TYPE_CHECKING:
 FOLLOWERS = ("follower", "follower_arm", "roller")
 
 
+_DIRECTION = direction("direction in which a translating follower rises; for an arm 90 puts its pivot at +x")
+
+
 class CamFollowerSpec(MateKeys, tag="cam_follower", kw_only=True):
     """Keys of ``cam_follower``."""
 
     first: Annotated[str, Meta(description="instance of a cam that is already placed")]
     second: Annotated[str, Meta(description="its follower, follower_arm or roller")]
-    direction_deg: Annotated[
-        float, direction("direction in which a translating follower rises; for an arm 90 puts its pivot at +x")
-    ] = 90.0
+    direction_deg: Annotated[float, _DIRECTION] = 90.0
     height: Annotated[float, height("how far the follower's lower face stands above the cam's", 10_000)] = 0.0
 
 

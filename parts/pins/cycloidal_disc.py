@@ -37,6 +37,10 @@ class OutputHolesTable(Struct, forbid_unknown_fields=True):
     start_deg: Direction = 0.0
 
 
+_PIN_CLEARANCE = mm("moves the profile into the disc along its normals (equidistant)", least=-10, most=100)
+_PIN_CIRCLE_SHIFT = mm("radius of the generating pin circle less than the true one", least=-10, most=100)
+
+
 class CycloidalDiscSpec(HubbedKeys, kw_only=True, tag_field="kind", tag="cycloidal_disc"):
     """Keys of ``cycloidal_disc``."""
 
@@ -44,12 +48,8 @@ class CycloidalDiscSpec(HubbedKeys, kw_only=True, tag_field="kind", tag="cycloid
     pin_circle_diameter: PinCircle
     pin_diameter: PinDiameter
     eccentricity: Annotated[float, part_mm("eccentricity e; below R / (z + 1)", above=0, example=2.5)]
-    pin_clearance: Annotated[
-        float, mm("moves the profile into the disc along its normals (equidistant)", least=-10, most=100)
-    ] = 0.0
-    pin_circle_shift: Annotated[
-        float, mm("radius of the generating pin circle less than the true one", least=-10, most=100)
-    ] = 0.0
+    pin_clearance: Annotated[float, _PIN_CLEARANCE] = 0.0
+    pin_circle_shift: Annotated[float, _PIN_CIRCLE_SHIFT] = 0.0
     output_holes: OutputHolesTable | None = None
 
 

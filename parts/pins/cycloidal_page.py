@@ -24,13 +24,13 @@ _CURVE = "Shin, Kwon, Mech. Mach. Theory 41 (2006)"
 _ZOOMS, _SAMPLES = 8, 65
 
 
+_STEP = degrees("step of the table, eccentric's angle from a pin", least=0.1, most=90)
+
+
 class DiscKeys(CycloidalDiscSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of a disc, and the step of its table."""
 
-    step: Annotated[
-        float,
-        degrees("step of the table, eccentric's angle from a pin", least=0.1, most=90),
-    ] = 10.0
+    step: Annotated[float, _STEP] = 10.0
 
 
 @calculation(TOPIC, DiscKeys)

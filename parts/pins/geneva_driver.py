@@ -39,6 +39,7 @@ _PLATE_DIAMETER = mm(
     "of the crank plate; default: half a pin beyond the pins", above=0, most=2 * MOST_LENGTH, example=72.0
 )
 _PIN_LENGTH = mm("of pins of one piece; default: that of the disc", least=0.01, most=10_000, example=10.0)
+_PIECE = Meta(description="all of one piece, or cut from boards: the crank plate with holes for pins, the locking disc")
 
 
 class GenevaDriverSpec(HoledKeys, kw_only=True, tag_field="kind", tag="geneva_driver"):
@@ -46,10 +47,7 @@ class GenevaDriverSpec(HoledKeys, kw_only=True, tag_field="kind", tag="geneva_dr
 
     of: Annotated[str, Meta(description="the part of kind geneva_wheel that it drives")]
     number_of_pins: Annotated[int, Meta(ge=1, le=5, description="even pins: steps of the wheel in a turn")] = 1
-    piece: Annotated[
-        Literal["whole", "plate", "disc"],
-        Meta(description="all of one piece, or cut from boards: the crank plate with holes for pins, the locking disc"),
-    ] = "whole"
+    piece: Annotated[Literal["whole", "plate", "disc"], _PIECE] = "whole"
     relief_clearance: Annotated[float, _RELIEF_CLEARANCE] | None = None
     plate_thickness: Annotated[float, mm("thickness of the crank plate", least=0.01, most=10_000)] = 3.0
     plate_diameter: Annotated[float, _PLATE_DIAMETER] | None = None

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 _TIP_DIAMETER = mm(
     "tip diameter; default: a tip land of a tenth of the pitch", above=0, most=2 * MOST_LENGTH, example=220.0
 )
+_PIN_CIRCLE_DIAMETER = part_mm("pin circle of the lantern: its pitch circle", least=0.1, example=80.0)
 
 
 class LanternGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="lantern_gear"):
@@ -27,9 +28,7 @@ class LanternGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="lantern_ge
 
     number_of_teeth: Annotated[int, Meta(ge=3, le=1000, description="number of teeth z", examples=[30])]
     number_of_pins: Annotated[int, Meta(ge=3, le=1000, description="number of pins N of the lantern", examples=[12])]
-    pin_circle_diameter: Annotated[
-        float, part_mm("pin circle of the lantern: its pitch circle", least=0.1, example=80.0)
-    ]
+    pin_circle_diameter: Annotated[float, _PIN_CIRCLE_DIAMETER]
     pin_diameter: PinDiameter
     pin_clearance: Annotated[float, mm("gap between flank and pin along the normal", least=0, most=100)] = 0.0
     root_clearance: Annotated[float, mm("radius of the root beyond pin and pin_clearance", least=0, most=100)] = 0.0

@@ -36,6 +36,8 @@ _PIN_LENGTH = 10.0
 
 
 _OUTER_DIAMETER = mm("outside; default: pin circle + 2 pins", above=0, most=2 * MOST_LENGTH, example=60.0)
+_PINS = Meta(description="pins of one piece with the plate, or holes for loose pins (flat files: holes)")
+_SEAT_CLEARANCE = mm("radius of a hole for a pin beyond the pin's (solid pins: of flat files)", least=-10, most=100)
 
 
 class PinPlateKeys(HoledKeys, kw_only=True):
@@ -44,13 +46,8 @@ class PinPlateKeys(HoledKeys, kw_only=True):
     number_of_pins: int
     pin_circle_diameter: PinCircle
     pin_diameter: PinDiameter
-    pins: Annotated[
-        Literal["solid", "holes"],
-        Meta(description="pins of one piece with the plate, or holes for loose pins (flat files: holes)"),
-    ] = "solid"
-    seat_clearance: Annotated[
-        float, mm("radius of a hole for a pin beyond the pin's (solid pins: of flat files)", least=-10, most=100)
-    ] = 0.0
+    pins: Annotated[Literal["solid", "holes"], _PINS] = "solid"
+    seat_clearance: Annotated[float, _SEAT_CLEARANCE] = 0.0
     outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
 
 
@@ -70,15 +67,14 @@ class OutputPlateSpec(PinPlateKeys, kw_only=True, tag_field="kind", tag="output_
 _LANTERN_WHEEL_OUTER_DIAMETER = mm(
     "outside of the plates; default: pin circle + 2 pins", above=0, most=2 * MOST_LENGTH, example=100.0
 )
+_PIN_CIRCLE_DIAMETER = part_mm("circle of the pins' centres: the pitch circle", least=0.1, example=80.0)
 
 
 class LanternWheelSpec(PinPlateKeys, kw_only=True, tag_field="kind", tag="lantern_wheel"):
     """Keys of ``lantern_wheel``."""
 
     number_of_pins: Annotated[int, Meta(ge=3, le=1000, description="number of pins N", examples=[12])]
-    pin_circle_diameter: Annotated[
-        float, part_mm("circle of the pins' centres: the pitch circle", least=0.1, example=80.0)
-    ]
+    pin_circle_diameter: Annotated[float, _PIN_CIRCLE_DIAMETER]
     face_width: Annotated[float, mm("free length of the pins between the plates", least=0.01, most=10_000)] = 10.0
     plate_thickness: Annotated[float, mm("thickness of each plate", least=0.01, most=10_000)] = 3.0
     outer_diameter: Annotated[float, _LANTERN_WHEEL_OUTER_DIAMETER] | None = None

@@ -23,6 +23,7 @@ _INNER_DIAMETER = part_mm("inside of the ring; default: the pin circle (holes: f
 _OUTER_DIAMETER = mm(
     "outside; default: pin circle + 3 pins, or beyond the holes", above=0, most=2 * MOST_LENGTH, example=110.0
 )
+_PINS = Meta(description="seats for loose pins, pins of one piece with the ring, or a plate with holes for them")
 
 
 class PinRingSpec(MadeKeys, kw_only=True, tag_field="kind", tag="pin_ring"):
@@ -31,10 +32,7 @@ class PinRingSpec(MadeKeys, kw_only=True, tag_field="kind", tag="pin_ring"):
     number_of_pins: PinCount
     pin_circle_diameter: PinCircle
     pin_diameter: PinDiameter
-    pins: Annotated[
-        Literal["half_round", "fixed", "holes"],
-        Meta(description="seats for loose pins, pins of one piece with the ring, or a plate with holes for them"),
-    ] = "half_round"
+    pins: Annotated[Literal["half_round", "fixed", "holes"], _PINS] = "half_round"
     seat_clearance: Annotated[float, mm("radius of a seat or hole beyond the pin's", least=-10, most=100)] = 0.0
     inner_diameter: Annotated[float, _INNER_DIAMETER] | None = None
     outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None

@@ -56,6 +56,7 @@ _SLOT_START = mm(
     most=10_000,
     example=36.0,
 )
+_CLEARANCE = mm("of the slot on its pins and of holes on the dowels that turn in them", least=0, most=5)
 
 
 class CamModelKeys(RecipeKeys, kw_only=True, tag="cam_model"):
@@ -72,9 +73,7 @@ class CamModelKeys(RecipeKeys, kw_only=True, tag="cam_model"):
     least_transmission_angle_deg: LeastTransmission | None = None
     least_curvature_radius: LeastCurvature = 0.0
     plate_thickness: Annotated[float, mm("of all flat parts", least=0.5, most=100)] = 3.0
-    clearance: Annotated[
-        float, mm("of the slot on its pins and of holes on the dowels that turn in them", least=0, most=5)
-    ] = 0.2
+    clearance: Annotated[float, _CLEARANCE] = 0.2
     axle_diameter: Annotated[float, mm("of the cam's axle", least=_LEAST_AXLE, most=200)] = 6.0
     guide_pin_diameter: Annotated[float, mm("of the two pins in the follower's slot", least=0.5, most=100)] = 4.0
     guide_pin_spacing: Annotated[float, mm("between the axes of these pins", above=0, most=1000)] = 10.0

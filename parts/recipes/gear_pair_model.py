@@ -20,18 +20,17 @@ _BESIDE, _WALL, _CORNER = 10.0, 5.0, 5.0
 _WHEELS = ("pinion", "wheel")
 
 
+_TEETH = Meta(description="z1, z2", examples=[[13, 21]])
+_Shift = Annotated[float, Meta(ge=-10, le=10)]
+_SHIFTS = Meta(description="profile shift coefficients x1, x2", examples=[[0.694, 0.384]])
+
+
 class GearPairModelKeys(RecipeKeys, kw_only=True, tag="gear_pair_model"):
     """Keys of ``gear_pair_model``."""
 
-    teeth: Annotated[
-        tuple[Annotated[int, Meta(ge=3, le=10_000)], Annotated[int, Meta(ge=3, le=10_000)]],
-        Meta(description="z1, z2", examples=[[13, 21]]),
-    ]
+    teeth: Annotated[tuple[Annotated[int, Meta(ge=3, le=10_000)], Annotated[int, Meta(ge=3, le=10_000)]], _TEETH]
     module: Annotated[float, mm("of both gears", least=0.01, most=1000)] = 4.0
-    shifts: Annotated[
-        tuple[Annotated[float, Meta(ge=-10, le=10)], Annotated[float, Meta(ge=-10, le=10)]],
-        Meta(description="profile shift coefficients x1, x2", examples=[[0.694, 0.384]]),
-    ] = (0.0, 0.0)
+    shifts: Annotated[tuple[_Shift, _Shift], _SHIFTS] = (0.0, 0.0)
     normal_backlash: Annotated[float, mm("normal backlash of the pair", least=0, most=100)] = 0.1
     plate_thickness: Annotated[float, mm("of all flat parts", least=0.5, most=100)] = 3.0
     clearance: Annotated[float, mm("of the gears' bores on the dowels", least=0, most=5)] = 0.2

@@ -60,23 +60,21 @@ _TURNS = Meta(
     extra={"unit": "turns"},
     description="how far the driver is turned; default: until what it drives has turned once, of a differential 1",
 )
+_SCHEME = Meta(description="scheme of the practicum's figure 2.1, as in calc planetary")
+_TEETH = Meta(description="numbers of teeth z1, z2, z3, or with two rims z1, z2, z2', z3", examples=[[24, 24, 72]])
+_SPACING = Meta(description="satellites equally spaced, or as equally as alike ones can be")
+_DRIVER = Meta(description="what is driven: wheel 1, wheel 3, the carrier, or none of them here")
+_HELD = Meta(description="what stands still: wheel 1, wheel 3, the carrier, or none: a differential")
+_FRAME = Meta(description="with shaft and crank, and a base under the ring, which stands on feet; marks engraved")
 
 
 class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     """Keys of ``planetary_set``."""
 
-    scheme: Annotated[
-        Literal["james", "one_external_one_internal", "two_internal", "david"],
-        Meta(description="scheme of the practicum's figure 2.1, as in calc planetary"),
-    ] = "james"
-    teeth: Annotated[
-        list[Annotated[int, Meta(ge=3, le=10_000)]],
-        Meta(description="numbers of teeth z1, z2, z3, or with two rims z1, z2, z2', z3", examples=[[24, 24, 72]]),
-    ]
+    scheme: Annotated[Literal["james", "one_external_one_internal", "two_internal", "david"], _SCHEME] = "james"
+    teeth: Annotated[list[Annotated[int, Meta(ge=3, le=10_000)]], _TEETH]
     satellites: Annotated[int, Meta(ge=1, le=1000, description="number of satellites")] = 3
-    spacing: Annotated[
-        Literal["equal", "unequal"], Meta(description="satellites equally spaced, or as equally as alike ones can be")
-    ] = "equal"
+    spacing: Annotated[Literal["equal", "unequal"], _SPACING] = "equal"
     identical: Annotated[bool, Meta(description="both rims of all satellites are clocked alike")] = True
     module: Annotated[float, mm("module of the mesh 1-2", least=0.01, most=1000)] = 2.0
     second_module: Annotated[float, mm("module of the mesh 2'-3", least=0.01, most=1000, example=2.0)] | None = None
@@ -86,14 +84,8 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     helix_angle_deg: HelixAngle = 0.0
     hand: Annotated[Literal["right", "left"], Meta(description="hand of wheel 1; of the others as they mesh")] = "right"
     double_helical: Double = False
-    driver: Annotated[
-        Literal["first", "second", "carrier", "none"],
-        Meta(description="what is driven: wheel 1, wheel 3, the carrier, or none of them here"),
-    ] = "first"
-    held: Annotated[
-        Literal["first", "second", "carrier", "none"],
-        Meta(description="what stands still: wheel 1, wheel 3, the carrier, or none: a differential"),
-    ] = "second"
+    driver: Annotated[Literal["first", "second", "carrier", "none"], _DRIVER] = "first"
+    held: Annotated[Literal["first", "second", "carrier", "none"], _HELD] = "second"
     turns: Annotated[float, _TURNS] | None = None
     direction_deg: Annotated[float, degrees("direction of the first satellite", least=-360, most=360)] = 0.0
     face_width: Annotated[float, mm("face width of every wheel", least=0.1, most=10_000)] = 10.0
@@ -102,9 +94,7 @@ class PlanetarySetKeys(RecipeKeys, kw_only=True, tag="planetary_set"):
     pin_diameter: Annotated[float, mm("of the satellites' pins", above=0, most=10_000)] = 6.0
     shaft_diameter: Annotated[float, mm("of the suns' shaft", above=0, most=10_000)] = 8.0
     clearance: Annotated[float, mm("of bores on the pins and shafts that turn in them", least=0, most=100)] = 0.0
-    frame: Annotated[
-        bool, Meta(description="with shaft and crank, and a base under the ring, which stands on feet; marks engraved")
-    ] = False
+    frame: Annotated[bool, _FRAME] = False
     material: Material | None = None
     density: Density | None = None
 

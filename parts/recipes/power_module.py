@@ -59,6 +59,15 @@ _ORIENTATION = Meta(
     "38, post 39; thesis: its wheels 11, 14, 16, axle 13"
 )
 _SECOND_ARM = mm("O2O3; must be what ring and pinion give", above=0, most=1000, example=72.0)
+_TEETH = Meta(description="of the pinion 19 and of the ring 21")
+_WHEEL_MODULE = mm("module of the thesis's wheels 11, 14, 16", least=0.1, most=100)
+_WORM_QUOTIENT = Meta(ge=4, le=30, description="q = d1 / m of both worms")
+_WORM_TEETH = Meta(description="of the worm wheels 25 (I) and 23 (II)")
+_WHEEL_WIDTH = mm("of the wheels 11 and 16, or of plates, ring and cranks", least=1, most=1000)
+_DISK_THICKNESS = mm("of disk 2, and with its gaps of disk 3", least=1, most=1000)
+_AXIAL_GAP = mm("between planes that turn against each other", least=0.1, most=100)
+_CLEARANCE = mm("radius of bores that turn on something, beyond it", least=0.01, most=1)
+_BALLS = Meta(ge=8, le=2000, description="balls of both rows of each circle together")
 
 
 class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
@@ -66,41 +75,24 @@ class PowerModuleKeys(RecipeKeys, kw_only=True, tag="power_module"):
 
     orientation: Annotated[Literal["cranks", "thesis", "idlers"], _ORIENTATION] = "cranks"
     module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = DRIVERS["module"]
-    teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="of the pinion 19 and of the ring 21")] = (
-        int(DRIVERS["teeth_19"]),
-        int(DRIVERS["teeth_21"]),
-    )
+    teeth: Annotated[tuple[_Teeth, _Teeth], _TEETH] = (int(DRIVERS["teeth_19"]), int(DRIVERS["teeth_21"]))
     second_arm: Annotated[float, _SECOND_ARM] | None = None
-    wheel_module: Annotated[float, mm("module of the thesis's wheels 11, 14, 16", least=0.1, most=100)] = DRIVERS[
-        "wheel_module"
-    ]
+    wheel_module: Annotated[float, _WHEEL_MODULE] = DRIVERS["wheel_module"]
     worm_module: Annotated[float, mm("module of worms and worm wheels", least=0.1, most=100)] = DRIVERS["worm_module"]
-    worm_quotient: Annotated[float, Meta(ge=4, le=30, description="q = d1 / m of both worms")] = DRIVERS[
-        "worm_quotient"
-    ]
-    worm_teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="of the worm wheels 25 (I) and 23 (II)")] = (
+    worm_quotient: Annotated[float, _WORM_QUOTIENT] = DRIVERS["worm_quotient"]
+    worm_teeth: Annotated[tuple[_Teeth, _Teeth], _WORM_TEETH] = (
         int(DRIVERS["worm_teeth_25"]),
         int(DRIVERS["worm_teeth_23"]),
     )
     worm_wheel_width: Annotated[float, mm("of the worm wheels' rims", least=1, most=1000)] = DRIVERS["worm_wheel_width"]
     worm_length: Annotated[float, mm("of the worms' threads", least=1, most=5000)] = DRIVERS["worm_length"]
     face_width: Annotated[float, mm("of ring and pinion", least=1, most=1000)] = DRIVERS["face_width"]
-    wheel_width: Annotated[float, mm("of the wheels 11 and 16, or of plates, ring and cranks", least=1, most=1000)] = (
-        DRIVERS["wheel_width"]
-    )
-    disk_thickness: Annotated[float, mm("of disk 2, and with its gaps of disk 3", least=1, most=1000)] = DRIVERS[
-        "disk_thickness"
-    ]
-    axial_gap: Annotated[float, mm("between planes that turn against each other", least=0.1, most=100)] = DRIVERS[
-        "axial_gap"
-    ]
-    clearance: Annotated[float, mm("radius of bores that turn on something, beyond it", least=0.01, most=1)] = DRIVERS[
-        "clearance"
-    ]
+    wheel_width: Annotated[float, _WHEEL_WIDTH] = DRIVERS["wheel_width"]
+    disk_thickness: Annotated[float, _DISK_THICKNESS] = DRIVERS["disk_thickness"]
+    axial_gap: Annotated[float, _AXIAL_GAP] = DRIVERS["axial_gap"]
+    clearance: Annotated[float, _CLEARANCE] = DRIVERS["clearance"]
     ball: Annotated[float, mm("diameter of all balls", least=1, most=100)] = DRIVERS["ball"]
-    balls: Annotated[int, Meta(ge=8, le=2000, description="balls of both rows of each circle together")] = int(
-        DRIVERS["balls"]
-    )
+    balls: Annotated[int, _BALLS] = int(DRIVERS["balls"])
     platform_size: Annotated[float, mm("side of the platform", above=0, most=5000)] = DRIVERS["platform_size"]
     turns_of_disk: Annotated[Turns, Meta(description="how far disk 2 is turned")] = 1.0
     turns_of_ring: Annotated[Turns, Meta(description="how far wheel 21 is turned")] = -2.0

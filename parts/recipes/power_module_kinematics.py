@@ -36,22 +36,19 @@ _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 _TEETH = Meta(
     description=("of the pinion 19 and of the ring 21; O1O2 and O2O3 are half their difference times the module")
 )
+_ORIENTATION = Meta(description="what turns the platform; thesis: its wheels 6, 7, 8, which do not keep it parallel")
+_WHEEL_WIDTH = mm("of the wheels, links and cranks that turn the platform", least=1, most=1000)
 
 
 class PowerModuleKinematicsKeys(RecipeKeys, kw_only=True, tag="power_module_kinematics"):
     """Keys of ``power_module_kinematics``."""
 
-    orientation: Annotated[
-        Literal["cranks", "idlers", "thesis"],
-        Meta(description="what turns the platform; thesis: its wheels 6, 7, 8, which do not keep it parallel"),
-    ] = "cranks"
+    orientation: Annotated[Literal["cranks", "idlers", "thesis"], _ORIENTATION] = "cranks"
     module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = 3.0
     teeth: Annotated[tuple[_Teeth, _Teeth], _TEETH] = (96, 144)
     wheel_module: Annotated[float, mm("module of the wheels that turn the platform", least=0.1, most=100)] = 2.0
     face_width: Annotated[float, mm("of ring and pinion", least=1, most=1000)] = 25.0
-    wheel_width: Annotated[float, mm("of the wheels, links and cranks that turn the platform", least=1, most=1000)] = (
-        15.0
-    )
+    wheel_width: Annotated[float, _WHEEL_WIDTH] = 15.0
     disk_thickness: Annotated[float, mm("of disks and platform", least=1, most=1000)] = 30.0
     axial_gap: Annotated[float, mm("between planes that turn against each other", least=0.1, most=100)] = 5.0
     clearance: Annotated[float, mm("of bores and holes on what turns in them", least=0, most=5)] = 0.5

@@ -37,14 +37,17 @@ _Q, _ADDENDUM, _DEDENDUM, _THREAD = 10.0, 1.0, 1.2, 20.0
 _BEARING, _NECK, _COLLAR = 6.0, 6.0, 5.0
 
 
+_TEETH = Meta(description="of the pinion and of the ring; O1O2 is half their difference times the module")
+_DRIVE = Meta(description="what turns disk 2 and the ring, behind the base")
+_WormWheelTeeth = Annotated[int, Meta(ge=20, le=1000)]
+_WORM_WHEEL_TEETH = Meta(description="of the worm wheels of disk 2 and of the ring; their worms have one start")
+
+
 class PowerTableKeys(RecipeKeys, kw_only=True, tag="power_table"):
     """Keys of ``power_table``."""
 
     module: Annotated[float, mm("module of ring and pinion", least=0.1, most=100)] = 2.25
-    teeth: Annotated[
-        tuple[Annotated[int, Meta(ge=8, le=1000)], Annotated[int, Meta(ge=8, le=1000)]],
-        Meta(description="of the pinion and of the ring; O1O2 is half their difference times the module"),
-    ] = (32, 48)
+    teeth: Annotated[tuple[Annotated[int, Meta(ge=8, le=1000)], Annotated[int, Meta(ge=8, le=1000)]], _TEETH] = (32, 48)
     second_arm: Annotated[float, mm("O2O3; default: as O1O2", above=0, most=1000, example=18.0)] | None = None
     normal_backlash: Annotated[float, mm("of ring and pinion", least=0, most=10)] = 0.15
     plate_thickness: Annotated[float, mm("of all flat parts", least=0.5, most=100)] = 4.0
@@ -53,14 +56,9 @@ class PowerTableKeys(RecipeKeys, kw_only=True, tag="power_table"):
     pin_diameter: Annotated[float, mm("of the cranks' pins", least=0.5, most=100)] = 4.0
     axle_diameter: Annotated[float, mm("of the shaft of disk 2, and of the axle of disk 3", least=1, most=200)] = 8.0
     fit: Annotated[float, mm("how much thinner rods are than the holes in which they are glued", least=0, most=2)] = 0.0
-    drive: Annotated[
-        Literal["hand_cranks", "worms"], Meta(description="what turns disk 2 and the ring, behind the base")
-    ] = "hand_cranks"
+    drive: Annotated[Literal["hand_cranks", "worms"], _DRIVE] = "hand_cranks"
     worm_module: Annotated[float, mm("module of the worms", least=0.2, most=50)] = 2.0
-    worm_wheel_teeth: Annotated[
-        tuple[Annotated[int, Meta(ge=20, le=1000)], Annotated[int, Meta(ge=20, le=1000)]],
-        Meta(description="of the worm wheels of disk 2 and of the ring; their worms have one start"),
-    ] = (30, 24)
+    worm_wheel_teeth: Annotated[tuple[_WormWheelTeeth, _WormWheelTeeth], _WORM_WHEEL_TEETH] = (30, 24)
     worm_thinning: Annotated[float, mm("of the wheels' teeth, along the worms, for backlash", least=0, most=5)] = 0.2
     platform_axle_diameter: Annotated[float, mm("of the platform's axle", least=0.5, most=200)] = 6.0
     platform_size: Annotated[float, mm("side of the platform", above=0, most=2000)] = 84.0

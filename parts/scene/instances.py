@@ -79,16 +79,14 @@ class Group(Record):
 
 
 _TRAVEL = mm("for a slide, instead of turns: how far it travels along its x axis", least=-1e6, most=1e6)
+_TURNS = Meta(ge=-10_000, le=10_000, description="how far it is turned, counter-clockwise", extra={"unit": "turns"})
 
 
 class DriveSpec(Struct, forbid_unknown_fields=True):
     """Keys of ``[[drives]]``."""
 
     instance: Annotated[str, Meta(description="the instance that is driven")]
-    turns: Annotated[
-        float,
-        Meta(ge=-10_000, le=10_000, description="how far it is turned, counter-clockwise", extra={"unit": "turns"}),
-    ] = 1.0
+    turns: Annotated[float, _TURNS] = 1.0
     travel: Annotated[float, _TRAVEL] | None = None
 
 

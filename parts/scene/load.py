@@ -90,6 +90,9 @@ _PARTS = Meta(min_length=1, description="parts to export; default: all", example
 _PITCH_CURVE = Meta(
     description='dxf with purpose = "drawing": the path of the follower\'s centre too, on the layer PITCH_CURVE'
 )
+_KERF = mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)
+_OFFSET = mm("moves every outline: positive out of the material, negative into it", least=-10, most=10)
+_CURVES = Meta(description='dxf, svg: arcs, or straight lines only; purpose = "drawing" has true splines')
 
 
 class ExportSpec(Struct, forbid_unknown_fields=True):
@@ -98,16 +101,9 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     format: Annotated[Format, _FORMAT]
     purpose: Annotated[Purpose, _PURPOSE] | None = None
     tolerance: Annotated[float, _TOLERANCE] | None = None
-    kerf: Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)] = (
-        0.0
-    )
-    offset: Annotated[
-        float, mm("moves every outline: positive out of the material, negative into it", least=-10, most=10)
-    ] = 0.0
-    curves: Annotated[
-        Literal["arcs", "lines"],
-        Meta(description='dxf, svg: arcs, or straight lines only; purpose = "drawing" has true splines'),
-    ] = "arcs"
+    kerf: Annotated[float, _KERF] = 0.0
+    offset: Annotated[float, _OFFSET] = 0.0
+    curves: Annotated[Literal["arcs", "lines"], _CURVES] = "arcs"
     dxf_version: Annotated[Literal["R2000", "R12"], Meta(description="dxf only")] = "R2000"
     name: Annotated[Identifier, Meta(examples=["laser"])] | None = None
     parts: Annotated[list[str], _PARTS] | None = None

@@ -61,6 +61,9 @@ _MOTION_TABLE = Meta(
     description="in place of phases: [cam angle deg, travel mm or deg]",
     examples=[[[0.0, 0.0], [120.0, 10.0], [240.0, 5.0]]],
 )
+_FOLLOWER_DIRECTION = degrees(
+    "stem, or normal of a flat face, away from the cam, from the coupler's +x", least=-360, most=360
+)
 
 
 class LinkageCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="linkage_cam"):
@@ -71,10 +74,7 @@ class LinkageCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag
     coupler_length: Annotated[float, part_mm("from joint A to joint B", above=0, example=43.0)]
     guide: GuidingRocker | GuidingSlider
     coupler_point: Annotated[tuple[Coordinate, Coordinate], _COUPLER_POINT]
-    follower_direction_deg: Annotated[
-        float,
-        degrees("stem, or normal of a flat face, away from the cam, from the coupler's +x", least=-360, most=360),
-    ] = 0.0
+    follower_direction_deg: Annotated[float, _FOLLOWER_DIRECTION] = 0.0
     follower_radius: Annotated[float, part_mm("radius of the roller or mushroom", least=0), start(6.0)] = 0.0
     plate_diameter: Annotated[float, _PLATE_DIAMETER] | None = None
     lift: Annotated[float, part_mm("travel of a driven slider", least=0)] = 0.0

@@ -73,18 +73,16 @@ _CENTRE_DISTANCE = part_mm(
     above=0,
     example=90.0,
 )
+_ARM_LENGTH = part_mm("from the pivot to the roller's centre; not for flat", least=0)
+_SENSE = Meta(description="how the follower rises: against or with the cam's turning")
 
 
 class OscillatingTable(Struct, forbid_unknown_fields=True):
     """A follower that swings about a pivot on +x."""
 
     centre_distance: Annotated[float, _CENTRE_DISTANCE] | None = None
-    arm_length: Annotated[
-        float, part_mm("from the pivot to the roller's centre; not for flat", least=0), start(80.0)
-    ] = 0.0
-    sense: Annotated[
-        Literal["against", "with"], Meta(description="how the follower rises: against or with the cam's turning")
-    ] = "against"
+    arm_length: Annotated[float, _ARM_LENGTH, start(80.0)] = 0.0
+    sense: Annotated[Literal["against", "with"], _SENSE] = "against"
     face_offset: Annotated[float, part_mm("flat face nearer to the axis than the pivot", least=-MOST_LENGTH)] = 0.0
 
     @property

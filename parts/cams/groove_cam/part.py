@@ -61,15 +61,14 @@ _LEAST_TRANSMISSION_ANGLE = degrees("gamma_min = 90 - pressure angle, both ways"
 _OUTER_DIAMETER = mm(
     "of the disk; default: a rim of half the groove's width", above=0, most=2 * MOST_LENGTH, example=160.0
 )
+_GROOVE_DEPTH = mm("from the upper face to the groove's floor, below face_width", above=0, most=10_000, example=5.0)
 
 
 class GrooveCamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="groove_cam"):
     """Keys of ``groove_cam``."""
 
     follower_radius: Annotated[float, part_mm("radius of the roller", above=0, example=8.0)]
-    groove_depth: Annotated[
-        float, mm("from the upper face to the groove's floor, below face_width", above=0, most=10_000, example=5.0)
-    ]
+    groove_depth: Annotated[float, _GROOVE_DEPTH]
     lift: Lift = 0.0
     swing_deg: Swing = 0.0
     phases: Annotated[Phases, with_own_laws(turn("sine"))] | None = None

@@ -60,35 +60,36 @@ class WedgePhaseTable(Struct, forbid_unknown_fields=True):
     share: Annotated[float, Meta(gt=0, le=1, description="of the lift, in this phase")] = 1.0
 
 
+_PIVOT_HEIGHT = part_mm("of the pivot over the plate's lower edge", least=-MOST_LENGTH, example=50.0)
+_SIDE = Meta(description="the plate's friction pulls the arm, or pushes it")
+
+
 class WedgeArmTable(Struct, forbid_unknown_fields=True):
     """A follower that swings about a pivot in the frame."""
 
     arm_length: Annotated[float, part_mm("from the pivot to the roller's centre", above=0, example=80.0)]
-    pivot_height: Annotated[
-        float, part_mm("of the pivot over the plate's lower edge", least=-MOST_LENGTH, example=50.0)
-    ]
-    side: Annotated[
-        Literal["trailing", "leading"], Meta(description="the plate's friction pulls the arm, or pushes it")
-    ] = "trailing"
+    pivot_height: Annotated[float, _PIVOT_HEIGHT]
+    side: Annotated[Literal["trailing", "leading"], _SIDE] = "trailing"
+
+
+_X = part_mm("along the travel from the follower's starting place", least=-MOST_LENGTH, example=20.0)
 
 
 class WedgeHoleTable(Struct, forbid_unknown_fields=True):
     """A round hole of the plate."""
 
     diameter: Annotated[float, part_mm("of the hole", above=0, example=5.0)]
-    x: Annotated[
-        float, part_mm("along the travel from the follower's starting place", least=-MOST_LENGTH, example=20.0)
-    ]
+    x: Annotated[float, _X]
     y: Annotated[float, part_mm("above the plate's lower edge", above=0, example=8.0)]
+
+
+_FOLLOWER = Meta(description="shape of the follower's end; flat cannot", examples=["roller"])
 
 
 class WedgeCamSpec(MadeKeys, forbid_unknown_fields=True, tag_field="kind", tag="wedge_cam"):
     """Keys of ``wedge_cam``."""
 
-    follower: Annotated[
-        Literal["pointed", "roller", "mushroom", "flat"],
-        Meta(description="shape of the follower's end; flat cannot", examples=["roller"]),
-    ]
+    follower: Annotated[Literal["pointed", "roller", "mushroom", "flat"], _FOLLOWER]
     phases: Annotated[list[WedgePhaseTable], Meta(min_length=1, max_length=100), with_own_laws(_START)]
     base_height: Annotated[float, part_mm("of the plate under the follower at S = 0", above=0, example=15.0)]
     lift: Annotated[float, part_mm("lift H of a sliding follower", least=0), start(20.0)] = 0.0

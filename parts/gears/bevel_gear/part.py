@@ -80,6 +80,8 @@ _MOUNTING_DISTANCE = mm(
     most=_MOST,
     example=50.0,
 )
+_HAND = Meta(description="hand of the spiral: right where teeth run off clockwise outwards, seen from the apex")
+_CIRCUMFERENTIAL_THINNING = mm("thinning of the tooth along the outer pitch circle, for backlash", least=0, most=1000)
 
 
 class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="bevel_gear"):
@@ -97,16 +99,11 @@ class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_
     tip_clearance_coefficient: TipClearance = 0.2
     tip_radius_coefficient: TipRadius = 0.2
     spiral_angle_deg: Annotated[float, _SPIRAL_ANGLE] | None = None
-    hand: Annotated[
-        Literal["right", "left"],
-        Meta(description="hand of the spiral: right where teeth run off clockwise outwards, seen from the apex"),
-    ] = "right"
+    hand: Annotated[Literal["right", "left"], _HAND] = "right"
     tooth_line: Annotated[Literal["arc", "straight"], _TOOTH_LINE] = "arc"
     cutter_radius: Annotated[float, _CUTTER_RADIUS] | None = None
     tip_cone: Annotated[Literal["parallel", "apex"], _TIP_CONE] = "parallel"
-    circumferential_thinning: Annotated[
-        float, mm("thinning of the tooth along the outer pitch circle, for backlash", least=0, most=1000)
-    ] = 0.0
+    circumferential_thinning: Annotated[float, _CIRCUMFERENTIAL_THINNING] = 0.0
     rim_thickness: Annotated[float, _RIM_THICKNESS] | None = None
     hub_diameter: Annotated[float, mm("hub behind the rim; 0 is none", least=0, most=_MOST)] = 0.0
     hub_length: Annotated[float, mm("length of the hub behind the rim", least=0, most=10_000)] = 0.0

@@ -33,15 +33,14 @@ _SOURCE = "Litvin, Fuentes, Gear Geometry, 13"
 _MATE_ADDENDUM_COEFFICIENT = in_modules(
     "height of the mate's tips; default: as here", least=0.001, most=10, example=1.0
 )
+_MATE_CIRCUMFERENTIAL_THINNING = mm("thinning of the mate's teeth, arc of the pitch circle", least=0, most=1000)
 
 
 class CycloidalGearKeys(CycloidalGearSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the gear, what its mate has of its own, and how long the table is."""
 
     mate_addendum_coefficient: Annotated[float, _MATE_ADDENDUM_COEFFICIENT] | None = None
-    mate_circumferential_thinning: Annotated[
-        float, mm("thinning of the mate's teeth, arc of the pitch circle", least=0, most=1000)
-    ] = 0.0
+    mate_circumferential_thinning: Annotated[float, _MATE_CIRCUMFERENTIAL_THINNING] = 0.0
     rows: Annotated[int, Meta(ge=2, le=2000, description="rows of each table of the flank")] = 9
 
 

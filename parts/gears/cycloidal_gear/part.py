@@ -32,6 +32,7 @@ _ROOT_ROLLING_DIAMETER = part_mm(
 _ROOT_ROUNDING = mm(
     "fillet; default: a fifth of the module, half the depth, or the full round", least=0, most=1000, example=0.4
 )
+_CIRCUMFERENTIAL_THINNING = mm("thinning of each tooth for backlash, arc of the pitch circle", least=0, most=1000)
 
 
 class CycloidalGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="cycloidal_gear"):
@@ -45,9 +46,7 @@ class CycloidalGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="cycloida
     addendum_coefficient: Annotated[float, in_modules("height of the tips", least=0.001, most=10)] = 1.0
     dedendum_coefficient: Annotated[float, in_modules("depth of the roots", least=0.001, most=10)] = 1.25
     root_rounding: Annotated[float, _ROOT_ROUNDING] | None = None
-    circumferential_thinning: Annotated[
-        float, mm("thinning of each tooth for backlash, arc of the pitch circle", least=0, most=1000)
-    ] = 0.0
+    circumferential_thinning: Annotated[float, _CIRCUMFERENTIAL_THINNING] = 0.0
 
 
 class CycloidalGearKind(WheelKind[CycloidalGearSpec, "CycloidalGear"]):

@@ -50,34 +50,30 @@ _RATIO_COSINES = Meta(
     max_length=20, description="ratio: a_k of 1 + sum a_k cos k n phi + b_k sin k n phi", examples=[[0.3]]
 )
 _RATIO_SINES = Meta(max_length=20, description="ratio: b_k", examples=[[0.1]])
+_NUMBER_OF_TEETH = Meta(ge=3, le=MOST_TEETH, description="number of teeth of this gear", examples=[30])
+_ROLE = Meta(description="driver: tooth 1 on +x; mate: the gear that rolls on the driver")
+_PROFILE_SHIFT_COEFFICIENT = in_modules("shift x of the rack's datum line; its mate has -x", least=-1, most=1)
+_CIRCUMFERENTIAL_THINNING = mm("thinning of each tooth for backlash, arc of the centrode", least=0, most=1000)
 
 
 class NoncircularGearSpec(WheelKeys, kw_only=True, tag_field="kind", tag="noncircular_gear"):
     """Keys of ``noncircular_gear``."""
 
     centrode: Annotated[Literal["oval", "focal_ellipse", "ratio"], _CENTRODE]
-    number_of_teeth: Annotated[
-        int, Meta(ge=3, le=MOST_TEETH, description="number of teeth of this gear", examples=[30])
-    ]
+    number_of_teeth: Annotated[int, _NUMBER_OF_TEETH]
     module: Annotated[float, mm("module m; or give centre_distance", least=0.01, most=1000), start(2.0)] | None = None
     centre_distance: Annotated[float, _CENTRE_DISTANCE] | None = None
-    role: Annotated[
-        Literal["driver", "mate"], Meta(description="driver: tooth 1 on +x; mate: the gear that rolls on the driver")
-    ] = "driver"
+    role: Annotated[Literal["driver", "mate"], _ROLE] = "driver"
     mate_number_of_teeth: Annotated[int, _MATE_NUMBER_OF_TEETH] | None = None
     axis_ratio: Annotated[float, _AXIS_RATIO, start(1.5)] | None = None
     eccentricity: Annotated[float, _ECCENTRICITY] | None = None
     lobes: Annotated[int, _LOBES] | None = None
     ratio_cosines: Annotated[list[_Amplitude], _RATIO_COSINES] | None = None
     ratio_sines: Annotated[list[_Amplitude], _RATIO_SINES] | None = None
-    profile_shift_coefficient: Annotated[
-        float, in_modules("shift x of the rack's datum line; its mate has -x", least=-1, most=1)
-    ] = 0.0
+    profile_shift_coefficient: Annotated[float, _PROFILE_SHIFT_COEFFICIENT] = 0.0
     pressure_angle_deg: PressureAngle = 20.0
     basic_rack: RackName | RackTable = "ISO 53 A"
-    circumferential_thinning: Annotated[
-        float, mm("thinning of each tooth for backlash, arc of the centrode", least=0, most=1000)
-    ] = 0.0
+    circumferential_thinning: Annotated[float, _CIRCUMFERENTIAL_THINNING] = 0.0
 
     @property
     def slender_key(self) -> str:

@@ -36,6 +36,7 @@ class RackHolesTable(Struct, forbid_unknown_fields=True):
 
 
 _BODY_HEIGHT = mm("body below the root line; default: 2.5 m", above=0, most=100_000, example=6.0)
+_CIRCUMFERENTIAL_THINNING = mm("thinning of each tooth for backlash, on the datum line", least=0, most=1000)
 
 
 class RackSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="rack"):
@@ -45,9 +46,7 @@ class RackSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field=
     pressure_angle_deg: Annotated[float, degrees("pressure angle", least=5, most=40)] = 20.0
     basic_rack: RackName | RackTable = "ISO 53 A"
     body_height: Annotated[float, _BODY_HEIGHT] | None = None
-    circumferential_thinning: Annotated[
-        float, mm("thinning of each tooth for backlash, on the datum line", least=0, most=1000)
-    ] = 0.0
+    circumferential_thinning: Annotated[float, _CIRCUMFERENTIAL_THINNING] = 0.0
     tip_chamfer: Annotated[float, mm("height of a 45 degree tip chamfer", least=0, most=1000)] = 0.0
     holes: RackHolesTable | None = None
 

@@ -34,12 +34,13 @@ _RIM = 2.5
 _CLEARANCE = 0.25
 
 
+_DEDENDUM_COEFFICIENT = in_modules("depth of the root below the reference", least=0.1, most=3)
+
+
 class RoundedRootTable(Struct, forbid_unknown_fields=True):
     """A root that no cutter made, for laser and printer: arcs tangent to flanks and root circle."""
 
-    dedendum_coefficient: Annotated[float, in_modules("depth of the root below the reference", least=0.1, most=3)] = (
-        1.25
-    )
+    dedendum_coefficient: Annotated[float, _DEDENDUM_COEFFICIENT] = 1.25
     radius_coefficient: Annotated[float, in_modules("radius of the arcs; 0 with full_round", least=0, most=2)] = 0.0
     full_round: Annotated[bool, Meta(description="one arc from flank to flank, the largest there is")] = True
 
@@ -59,15 +60,14 @@ _TIP_DIAMETER = mm(
 _OUTER_DIAMETER = mm(
     "outside of the rim; default: root diameter + 5 m, or holes + 2 m", above=0, most=200_000, example=140.0
 )
+_PROFILE_SHIFT_COEFFICIENT = in_modules("profile shift x_2, positive away from the axis", least=-10, most=10)
 
 
 class RingGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="ring_gear"):
     """Keys of ``ring_gear``."""
 
     number_of_teeth: Annotated[int, Meta(ge=4, le=10_000, description="number of teeth z_2", examples=[60])]
-    profile_shift_coefficient: Annotated[
-        float, in_modules("profile shift x_2, positive away from the axis", least=-10, most=10)
-    ] = 0.0
+    profile_shift_coefficient: Annotated[float, _PROFILE_SHIFT_COEFFICIENT] = 0.0
     pressure_angle_deg: Annotated[float, degrees("pressure angle of the cutter", least=5, most=45)] = 20.0
     addendum_coefficient: Annotated[float, in_modules("addendum h_a", least=0.1, most=3)] = 1.0
     cutter: CutterTable | None = None

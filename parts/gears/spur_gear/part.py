@@ -66,25 +66,25 @@ class RackTable(Struct, forbid_unknown_fields=True):
     tip_radius_coefficient: Annotated[float, _TIP_RADIUS_COEFFICIENT] | None = None
 
 
+_DEPTH_COEFFICIENT = in_modules("depth normal to the flank at the rack's tip line", least=0, most=0.3, example=0.02)
+
+
 class ReliefTable(Struct, forbid_unknown_fields=True):
     """Flanking of the tooth tip (practicum, figure 1.4; GOST 13755), in modules."""
 
-    depth_coefficient: Annotated[
-        float, in_modules("depth normal to the flank at the rack's tip line", least=0, most=0.3, example=0.02)
-    ]
+    depth_coefficient: Annotated[float, _DEPTH_COEFFICIENT]
     height_coefficient: Annotated[float, in_modules("height of the relieved part", least=0.01, most=3)] = 0.45
 
 
 _TIP_DIAMETER = mm("tip diameter; default: d + 2 (h_a + x) m", above=0, most=100_000, example=50.0)
+_PROFILE_SHIFT_COEFFICIENT = in_modules("profile shift x (xi in the sources)", least=-10, most=10)
 
 
 class SpurGearSpec(ToothedKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="spur_gear"):
     """Keys of ``spur_gear``."""
 
     number_of_teeth: Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z", examples=[23])]
-    profile_shift_coefficient: Annotated[
-        float, in_modules("profile shift x (xi in the sources)", least=-10, most=10)
-    ] = 0.0
+    profile_shift_coefficient: Annotated[float, _PROFILE_SHIFT_COEFFICIENT] = 0.0
     pressure_angle_deg: PressureAngle = 20.0
     basic_rack: RackName | RackTable = "ISO 53 A"
     cutter: CutterTable | None = None

@@ -80,6 +80,8 @@ _NUMBER_OF_TEETH = Meta(ge=8, le=10_000, description="teeth of the wheel, z2; wi
 _BALL_DIAMETER = mm("balls or wires in its spaces; default: 1.67 m", above=0, most=10_000)
 _WHEEL_TORQUE = size("N*m", "torque T2 on the wheel, in place of T1", above=0, most=1e9)
 _FORM_FACTOR = Meta(gt=0, le=10, description="form factor Y_F2 of the wheel's teeth: adds their strength")
+_TIP_ROUNDING = mm("radius of the thread's tip edges in the axial section", least=0, most=1000)
+_FRICTION_COEFFICIENT = Meta(ge=0, le=1, description="friction of the flanks; without it no losses")
 
 
 class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
@@ -100,9 +102,7 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     fillet_coefficient: Fillet = 0.2
     grinding_wheel_diameter: GrindingWheel = 300.0
     axial_thinning: Annotated[float, mm("thinning of the thread, axial, for backlash", least=0, most=1000)] = 0.0
-    tip_rounding: Annotated[float, mm("radius of the thread's tip edges in the axial section", least=0, most=1000)] = (
-        0.0
-    )
+    tip_rounding: Annotated[float, _TIP_ROUNDING] = 0.0
     ball_diameter: Annotated[float, _BALL_DIAMETER] | None = None
     worm_length: Annotated[float, mm("threaded length b1", above=0, most=100_000)] | None = None
     face_width: Annotated[float, mm("width b2 of the wheel's rim", above=0, most=100_000)] | None = None
@@ -118,9 +118,7 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     wheel_torque: Annotated[float, _WHEEL_TORQUE] | None = None
     power: Annotated[float, size("W", "power that the worm takes in, by its speed, in place of its torque", above=0,
                                  most=1e9)] | None = None  # fmt: skip
-    friction_coefficient: Annotated[
-        float, Meta(ge=0, le=1, description="friction of the flanks; without it no losses")
-    ] = 0.0
+    friction_coefficient: Annotated[float, _FRICTION_COEFFICIENT] = 0.0
     form_factor: Annotated[float, _FORM_FACTOR] | None = None
     width_factor: Annotated[_Factor, Meta(description="K_beta: uneven load along the rim")] = 1.5
     speed_factor: Annotated[_Factor, Meta(description="K_v: load of the motion itself")] = 1.1

@@ -68,15 +68,14 @@ _REACHED, _SHARP = 1e-3, 29.9
 _OUTER_DIAMETER = mm(
     "d_ae2, outside of the throat; default: the largest by GOST 19650", above=0, most=200_000, example=66.0
 )
+_NUMBER_OF_TEETH = Meta(ge=_LEAST_TEETH, le=10_000, description="teeth of the wheel, z2", examples=[30])
 
 
 class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="worm_wheel"):
     """Keys of ``worm_wheel``: those of its worm first."""
 
     module: AxialModule
-    number_of_teeth: Annotated[
-        int, Meta(ge=_LEAST_TEETH, le=10_000, description="teeth of the wheel, z2", examples=[30])
-    ]
+    number_of_teeth: Annotated[int, _NUMBER_OF_TEETH]
     number_of_starts: Starts = 1
     diameter_quotient: Quotient = 10.0
     profile_shift_coefficient: WheelShift = 0.0

@@ -28,14 +28,13 @@ _POWER = "power that the driving pulley takes in, by its speed: in place of its 
 
 
 _NUMBER_OF_BELT_TEETH = Meta(ge=6, le=10_000, description="teeth of the belt", examples=[100])
+_MATE_NUMBER_OF_TEETH = Meta(ge=6, le=500, description="number of teeth of the driven pulley", examples=[40])
 
 
 class BeltKeys(TimingPulleySpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the driving pulley, the teeth of the other one, the belt's length and what it carries."""
 
-    mate_number_of_teeth: Annotated[
-        int, Meta(ge=6, le=500, description="number of teeth of the driven pulley", examples=[40])
-    ]
+    mate_number_of_teeth: Annotated[int, _MATE_NUMBER_OF_TEETH]
     number_of_belt_teeth: Annotated[int, _NUMBER_OF_BELT_TEETH] | None = None
     centre_distance: Annotated[float, mm("centre distance", above=0, most=1e6, example=150.0)] | None = None
     speed_rpm: Annotated[float, size("rpm", _SPEED, above=0, most=1e6)] | None = None

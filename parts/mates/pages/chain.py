@@ -31,14 +31,13 @@ _LOAD, _MOUNTED = 1.15, 0.995
 
 
 _NUMBER_OF_LINKS = Meta(ge=6, le=10_000, description="links of the chain", examples=[100])
+_MATE_NUMBER_OF_TEETH = Meta(ge=6, le=200, description="number of teeth of the driven sprocket", examples=[38])
 
 
 class ChainKeys(SprocketSpec, kw_only=True, tag=False, forbid_unknown_fields=True):
     """Keys of the driving sprocket, the teeth of the other one, the chain's length and what it carries."""
 
-    mate_number_of_teeth: Annotated[
-        int, Meta(ge=6, le=200, description="number of teeth of the driven sprocket", examples=[38])
-    ]
+    mate_number_of_teeth: Annotated[int, _MATE_NUMBER_OF_TEETH]
     number_of_links: Annotated[int, _NUMBER_OF_LINKS] | None = None
     centre_distance: Annotated[float, mm("centre distance", above=0, most=1e6, example=458.0)] | None = None
     speed_rpm: Annotated[float, size("rpm", _SPEED, above=0, most=1e6)] | None = None

@@ -26,6 +26,9 @@ _SOURCE = "ISO 21771"
 _WHOLE = 1e-9
 
 
+_FRICTION_COEFFICIENT = Meta(ge=0, le=1, description="friction of the flanks; without it no losses")
+
+
 class CrossedKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
     """Keys of two helical gears on crossed axes."""
 
@@ -34,9 +37,7 @@ class CrossedKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     normal_backlash: Annotated[float, mm("wanted normal backlash", least=0, most=1000)] | None = None
     shaft_angle_deg: ShaftAngle | None = None
-    friction_coefficient: Annotated[
-        float, Meta(ge=0, le=1, description="friction of the flanks; without it no losses")
-    ] = 0.0
+    friction_coefficient: Annotated[float, _FRICTION_COEFFICIENT] = 0.0
 
 
 def crossed_sheet(table: dict[str, Any]) -> Sheet:

@@ -56,15 +56,18 @@ def _length(text: str) -> Meta:
     return mm(text, above=0, most=_MOST)
 
 
+_FIRST = Meta(description="what A joins: stone in a lever, rod and rocker, slider")
+_FIRST_SIDE = Meta(description="on which side of AB the pivot O3 lies: 1 left, -1 right")
+_DRIVE_ANGLE = degrees("direction from O1 to the axis of the wheel that drives it", least=-360, most=360)
+
+
 class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     """Keys of the topic; those of an assignment stand for what is not given."""
 
     code: Annotated[int | str, Meta(description=_CODE)] | None = None
     assignment: Annotated[int, Meta(description="number of an assignment of the guidelines, 1 to 10")] | None = None
     variant: Annotated[int, Meta(description="its row, 1 to 10")] | None = None
-    first: Annotated[
-        Literal["stone", "rods", "slider"], Meta(description="what A joins: stone in a lever, rod and rocker, slider")
-    ] = "stone"
+    first: Annotated[Literal["stone", "rods", "slider"], _FIRST] = "stone"
     second: Annotated[Literal["slider", "rocker", "none"], Meta(description="what the lever drives")] = "none"
     crank_length: Annotated[float, _length("crank O1A")] | None = None
     start_angle_deg: Annotated[float, degrees("angle of the crank from +x", least=-36_000, most=36_000)] = 0.0
@@ -75,9 +78,7 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     frame_angle_deg: Annotated[float, degrees("direction from O1 to O3", least=-360, most=360)] = 0.0
     coupler_length: Annotated[float, _length("rod AB")] | None = None
     lever_length: Annotated[float, _length("lever O3B")] | None = None
-    first_side: Annotated[
-        Literal[1, -1], Meta(description="on which side of AB the pivot O3 lies: 1 left, -1 right")
-    ] = 1
+    first_side: Annotated[Literal[1, -1], _FIRST_SIDE] = 1
     arm_length: Annotated[float, _length("arm O3C of the lever, for CD; default: as long as O3B")] | None = None
     arm_angle_deg: Annotated[float, degrees("direction of O3C against the lever", least=-360, most=360)] = 0.0
     rod_length: Annotated[float, _length("second rod CD")] | None = None
@@ -100,9 +101,7 @@ class LeverKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     resisted: Annotated[Literal["forward", "backward", "both"], Meta(description=_WAYS)] = "both"
     drive_radius: Annotated[float, mm(_TOOTHED, above=0, most=_MOST)] | None = None
     drive_pressure_angle_deg: Annotated[float, degrees("working pressure angle of that wheel", least=0, most=60)] = 20.0
-    drive_angle_deg: Annotated[
-        float, degrees("direction from O1 to the axis of the wheel that drives it", least=-360, most=360)
-    ] = -90.0
+    drive_angle_deg: Annotated[float, _DRIVE_ANGLE] = -90.0
     unevenness: Annotated[float, Meta(gt=0, le=0.5, description="delta: gives the flywheel")] | None = None
     positions: Annotated[int, Meta(ge=2, le=720, description="positions of the crank in the table")] = 12
     drawn_crank: Annotated[float, mm(_DRAWN, above=0, most=1000)] | None = None

@@ -60,6 +60,7 @@ _ACROSS, _LIFT = (N_("force across the axis, N"), N_("force and moment that lift
 
 
 _GROOVE_RADIUS = mm("radius of the grooves; default: r_groove of the assembly", above=0, most=1000, example=4.16)
+_BALL_PRESSURE_LIMIT = size("MPa", "greatest pressure on a ball at rest, ISO 76", above=0, most=100_000)
 
 
 class LoadKeys(TwoDiskKeys, kw_only=True):
@@ -83,9 +84,7 @@ class LoadKeys(TwoDiskKeys, kw_only=True):
     elbow: Annotated[Literal[1, -1], Meta(description="sign of beta at the place x, y; default: 1")] | None = None
     groove_radius: Annotated[float, _GROOVE_RADIUS] | None = None
     ball_diameter: Annotated[_Length, Meta(description="diameter of a ball")] = 8.0
-    ball_pressure_limit: Annotated[
-        float, size("MPa", "greatest pressure on a ball at rest, ISO 76", above=0, most=100_000)
-    ] = 4200.0
+    ball_pressure_limit: Annotated[float, _BALL_PRESSURE_LIMIT] = 4200.0
 
     @property
     def given(self) -> tuple[float, float] | None:

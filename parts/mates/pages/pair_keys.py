@@ -26,6 +26,10 @@ M = TypeVar("M", bound=MateKeys)
 _SECOND = {"external_gear_pair": "spur_gear", "internal_gear_pair": "ring_gear", "rack_pair": "rack"}
 
 
+_FACE_WIDTH = mm("helical: common face width, for the overlap ratio; 0 is none of it", least=0, most=10_000)
+_LEAST_CONTACT_RATIO = Meta(ge=0.5, le=3, description="contact ratio to keep, of helical teeth the total one")
+
+
 class ChoiceKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     """What a choice of shifts is asked of any pair of gears."""
 
@@ -34,13 +38,9 @@ class ChoiceKeys(Struct, forbid_unknown_fields=True, kw_only=True):
     basic_rack: RackName | RackTable = "ISO 53 A"
     helix_angle_deg: HelixAngle = 0.0
     double_helical: Double = False
-    face_width: Annotated[
-        float, mm("helical: common face width, for the overlap ratio; 0 is none of it", least=0, most=10_000)
-    ] = 0.0
+    face_width: Annotated[float, _FACE_WIDTH] = 0.0
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
-    least_contact_ratio: Annotated[
-        float, Meta(ge=0.5, le=3, description="contact ratio to keep, of helical teeth the total one")
-    ] = 1.1
+    least_contact_ratio: Annotated[float, _LEAST_CONTACT_RATIO] = 1.1
     least_tip_thickness: Annotated[float, in_modules("transverse tip thickness to keep", least=0, most=1)] = 0.3
     allow_undercut: Annotated[bool, Meta(description="undercut that stays below the active flank is legal")] = False
     pole_inside: Annotated[bool, Meta(description="the pole must lie inside the active line of action")] = False

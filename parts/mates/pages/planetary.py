@@ -55,6 +55,8 @@ FAULTS = sentences_of(__file__, "planetary_faults")
 
 
 _TEETH = Meta(description="a set to judge: z1, z2, z3, or z1, z2, z2', z3")
+_SPACING = Meta(description="satellites equally spaced, or as equally as alike ones can be")
+_TEETH_OFF = Meta(ge=0, le=_MOST_TEETH_OFF, description="teeth that coaxiality may be off, made up by shifts")
 
 
 class PlanetaryKeys(Struct, forbid_unknown_fields=True):
@@ -67,18 +69,14 @@ class PlanetaryKeys(Struct, forbid_unknown_fields=True):
     satellites: Annotated[int, Meta(ge=1, le=10_000, description="number of satellites")] = 3
     driver: Annotated[Place, Meta(description="the driving link: wheel 1, wheel 3 or the carrier")] = "first"
     held: Annotated[Place, Meta(description="the held link: wheel 1, wheel 3 or the carrier")] = "second"
-    spacing: Annotated[
-        Literal["equal", "unequal"], Meta(description="satellites equally spaced, or as equally as alike ones can be")
-    ] = "equal"
+    spacing: Annotated[Literal["equal", "unequal"], _SPACING] = "equal"
     identical: Annotated[bool, Meta(description="both rims of all satellites are clocked alike")] = True
     module: Annotated[float, mm("module of the mesh 1-2", least=0.01, most=1000)] = 1.0
     second_module: Annotated[float, mm("module of the mesh 2'-3", least=0.01, most=1000)] | None = None
     least_teeth: Annotated[int, Meta(ge=3, le=1000, description="least number of teeth of any wheel")] = 11
     most_teeth: Annotated[int, Meta(ge=3, le=1000, description="greatest number of teeth of any wheel")] = 150
     largest_diameter: Annotated[float, mm("what the whole set may take across", above=0)] | None = None
-    teeth_off: Annotated[
-        int, Meta(ge=0, le=_MOST_TEETH_OFF, description="teeth that coaxiality may be off, made up by shifts")
-    ] = 1
+    teeth_off: Annotated[int, _TEETH_OFF] = 1
     least_gap: Annotated[float, mm("gap to keep between satellites' tips", least=0, most=10_000)] = 0.0
     working_centre_distance: Annotated[float, mm("wanted centre distance", above=0, most=100_000)] | None = None
     pressure_angle_deg: Annotated[float, degrees("pressure angle", least=5, most=45)] = 20.0

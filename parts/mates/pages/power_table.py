@@ -33,20 +33,19 @@ _Arm = Annotated[float, mm("length", above=0, most=_MOST)]
 _Place = Annotated[float, mm("coordinate", least=-_MOST, most=_MOST)]
 
 
+_PAIR_TEETH = Meta(description="teeth of disk 3's pinion and of the ring")
+_WORM_RATIOS = Meta(description="teeth of the worm wheels for one start")
+_ORIENTATION_TEETH = Meta(description="teeth of the wheels 6 (and 7) and 8 of the thesis")
+
+
 class TwoDiskKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     """Keys of the mechanism."""
 
     arms: Annotated[tuple[_Arm, _Arm], mm("L1 = O1O2 and L2 = O2O3", example=[72.0, 72.0])] | None = None
-    pair_teeth: Annotated[tuple[_Teeth, _Teeth], Meta(description="teeth of disk 3's pinion and of the ring")] = (
-        96, 144,
-    )  # fmt: skip
-    worm_ratios: Annotated[tuple[_Teeth, _Teeth], Meta(description="teeth of the worm wheels for one start")] = (
-        128, 106,
-    )  # fmt: skip
+    pair_teeth: Annotated[tuple[_Teeth, _Teeth], _PAIR_TEETH] = (96, 144)
+    worm_ratios: Annotated[tuple[_Teeth, _Teeth], _WORM_RATIOS] = (128, 106)
     orientation: Annotated[Orientation, Meta(description="what turns the platform")] = "cranks"
-    orientation_teeth: Annotated[
-        tuple[_Teeth, _Teeth], Meta(description="teeth of the wheels 6 (and 7) and 8 of the thesis")
-    ] = (36, 36)
+    orientation_teeth: Annotated[tuple[_Teeth, _Teeth], _ORIENTATION_TEETH] = (36, 36)
 
     @property
     def lengths(self) -> tuple[float, float]:

@@ -50,6 +50,8 @@ _Teeth = Annotated[int, Meta(ge=1)]
 
 
 _CASE = Meta(description="a train of the sources to start from, as practicum_1, 2.10.2, trains_7")
+_SPEEDS = Meta(description="angular velocities of the driving links in rad/s, as speeds.1=120")
+_TORQUES = Meta(description="torques of the loads in N m, counter-clockwise above 0, as torques.H=-4")
 
 
 class TrainKeys(Struct, forbid_unknown_fields=True):
@@ -63,13 +65,9 @@ class TrainKeys(Struct, forbid_unknown_fields=True):
     held: Annotated[Name, Meta(description="held wheels or carriers, with commas between them")] = ""
     driver: Annotated[Name, Meta(description="driving link; default: the first wheel")] = ""
     driven: Annotated[Name, Meta(description="driven link; default: the last one that is not held")] = ""
-    speeds: Annotated[
-        dict[str, float], Meta(description="angular velocities of the driving links in rad/s, as speeds.1=120")
-    ] = {}
+    speeds: Annotated[dict[str, float], _SPEEDS] = {}
     speeds_rpm: Annotated[dict[str, float], Meta(description="the same in rpm, as speeds_rpm.1=1150")] = {}
-    torques: Annotated[
-        dict[str, float], Meta(description="torques of the loads in N m, counter-clockwise above 0, as torques.H=-4")
-    ] = {}
+    torques: Annotated[dict[str, float], _TORQUES] = {}
     mesh_efficiency: Annotated[float, Meta(gt=0, le=1, description="efficiency of every mesh")] = 1.0
     module: Annotated[float, mm("module, for distances and forces", least=0.01, most=1000)] | None = None
     counted_turns: Annotated[float, Meta(ge=-1e6, le=1e6, description=_COUNTED)] | None = None
