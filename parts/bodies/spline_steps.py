@@ -57,10 +57,10 @@ def fit_tables(page: Sheet, fits: Sequence[Fit]) -> None:
             if zone:
                 lower, upper = zone_limits(zone, fit.size)
                 rows.append((fit.symbol, part, zone, 1000 * upper, 1000 * lower, fit.size + upper, fit.size + lower))
-                found.append((lower, upper))
+                found.append((1000 * lower, 1000 * upper))
         if len(found) == 2:
             hub, shaft = found
-            clearances.append((fit.symbol, fit.zone(None), 1000 * (hub[0] - shaft[1]), 1000 * (hub[1] - shaft[0])))
+            clearances.append((fit.symbol, fit.zone(None), hub[0] - shaft[1], hub[1] - shaft[0]))
     if rows:
         heads = [(N_("size"), ""), (N_("part"), ""), (N_("zone"), ""), (N_("upper deviation"), "um")]
         heads += [(N_("lower deviation"), "um"), (N_("greatest"), "mm"), (N_("least"), "mm")]

@@ -23,9 +23,9 @@ _OWN = ("teeth", "inner_diameter", "outer_diameter", "width")
 # sizes that nothing else of a splined step follows
 _SMALL = ("chamfer", "root_rounding")
 # a number with or without zones of tolerance after it, and a class of tolerance alone
-_FIT = r"[A-WYZa-wyz]{1,2}\d{1,2}"
+_FIT = r"[A-WYZa-wyz]{1,2}[1-9]\d?"
 _NUMBER = re.compile(rf"(\d+(?:\.\d+)?)({_FIT}(?:/{_FIT})?)?")
-_CLASS = r"\d{1,2}(?:js|[A-WYZa-wyz])"
+_CLASS = r"[1-9]\d?(?:js|[A-WYZa-wyz])"
 _CLASSES = re.compile(rf"x({_CLASS})(?:/?({_CLASS}))?$")
 _ALONE = re.compile(rf"{_CLASS}(?:/?{_CLASS})?")
 # zones with a sign before them, as GOST 6033 has them

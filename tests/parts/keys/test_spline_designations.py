@@ -66,6 +66,7 @@ def test_zones_of_straight_splines_are_told_as_gost_1139_writes_them(
         ("d-8x36G7x40", "no_such_spline_zone", None),
         ("D-8x36H11/a11x40H8/h7", "zone_of_free_root", None),
         ("8H7x36x40", "no_such_spline", "d-8x36x40"),
+        ("8x36H07x40", "no_such_spline", None),
     ],
 )
 def test_other_zones_of_straight_splines_are_refused(size: str, code: str, right: str | None) -> None:
