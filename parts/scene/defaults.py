@@ -70,8 +70,11 @@ def filled_in(raw: Table, source: str, export_keys: type[Struct], takes: Takes) 
             tables[name] = {key: filled(name, f"{name}.{key}", table) for key, table in raw[name].items()}
     for key, value in raw["defaults"].items():
         if key not in used:
-            near = meant(key, known)
-            raise SceneError(source, f"defaults.{key}", value, "nothing_takes_it", near, known=sorted(known))
+            # of exports that have the key none takes it: laser files alone have a kerf
+            others = known - {key}
+            raise SceneError(
+                source, f"defaults.{key}", value, "nothing_takes_it", meant(key, others), known=sorted(others)
+            )
     return tables, origins
 
 

@@ -138,3 +138,13 @@ def test_a_refusal_names_where_the_key_stands(old: str, new: str, told: str, tmp
         plan_build(load_scene(str(file)), str(file), [], [])
     assert refused.value.key == told
     assert "\n" not in str(refused.value)
+
+
+def test_a_key_that_no_export_takes_is_not_offered_itself() -> None:
+    """Of a mesh's export: "did you mean kerf?" was said of kerf."""
+    text = '[defaults]\nkerf = 0.2\n[parts.g]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 22\n'
+    text += '[[exports]]\nformat = "stl"\n'
+    with pytest.raises(SceneError) as refused:
+        scene_from_toml(text.encode(), "s", "s")
+    assert refused.value.key == "defaults.kerf"
+    assert "kerf" not in str(refused.value).partition("= 0.2")[2]
