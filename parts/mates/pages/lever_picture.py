@@ -79,8 +79,8 @@ class Run(Record, eq=False):
 
 class LeverPicture(Record, eq=False):
     """``points`` in the first position, their ``paths`` over a turn, mm, ``fixed`` pivots; ``blocks``: points of links
-    that slide, and the directions of their guides; ``diagram``: angle (deg), travel (mm), velocity (m/s) and
-    acceleration (m/s^2) of the output; ``forces``: plans of forces under their titles;
+    that slide, and the directions of their guides; ``series``: symbol, unit and values over the
+    ``angle`` (deg) of travel, velocity and acceleration of the output; ``forces``: plans of forces under their titles;
     ``positions``: how many equidistant ones of the crank are shown together, the first of them bold.
     """
 
@@ -90,7 +90,8 @@ class LeverPicture(Record, eq=False):
     blocks: Mapping[str, complex]
     velocities: Plan
     accelerations: Plan
-    diagram: tuple[Real, Real, Real, Real]
+    angle: Real
+    series: tuple[tuple[str, str, Real], ...]
     run: Run | None = None
     forces: tuple[tuple[Text, Plan], ...] = ()
     positions: int = 1
@@ -173,10 +174,8 @@ class LeverPicture(Record, eq=False):
             yield written(x + share * (x - x0), y + share * (y - y0) + 4, str(number), INK, 13, "middle")
 
     def _diagrams(self, words: Words) -> Iterator[str]:
-        angle, *curves = self.diagram
-        third = _SIDE / 3
-        names = (("S", "mm"), ("V", "m/s"), ("a", "m/s2"))
-        for number, ((name, unit), values) in enumerate(zip(names, curves, strict=True)):
+        angle, third = self.angle, _SIDE / 3
+        for number, (name, unit, values) in enumerate(self.series):
             low, high = min(float(values.min()), 0.0), max(float(values.max()), 0.0)
             high = high if high > low else low + 1
             top = number * third + 14

@@ -521,8 +521,9 @@ class _Page:
         if self._slides:
             blocks[self._output] = self.way
         points = {name: complex(place) for name, place in shown[0].items()}
+        angles = self.keys.start_angle_deg + 360 * np.arange(self.fine) / self.fine
         self.page.picture = LeverPicture(
-            points, shown[1], fixed, blocks, *plans, self._diagram(), run, tuple(forces), self.keys.positions
+            points, shown[1], fixed, blocks, *plans, angles, self._series(), run, tuple(forces), self.keys.positions
         )
 
     def _centres(self, at: Moved) -> dict[str, Complex]:
@@ -556,7 +557,7 @@ class _Page:
         if self.number is not None:
             title = message(N_("Kinematic study of the mechanism: {machine}"), machine=message(MACHINES[self.number]))
         drawing = LeverDrawing(
-            title, picture, self.drawn, self.levers.crank / self.drawn, self._output, self._series(), second,
+            title, picture, self.drawn, self.levers.crank / self.drawn, self._output, second,
             self.lever, keys.speed, given, keys.paper, block if keys.title_block else None,
         )  # fmt: skip
 
@@ -571,20 +572,11 @@ class _Page:
 
     def _series(self) -> tuple[tuple[str, str, Real], ...]:
         """Travel, velocity and acceleration of the output over the turn, along its guide or about its pivot."""
-        if self._slides:
-            _, *found = self._diagram()
-            return tuple(zip(("S", "V", "a"), ("mm", "m/s", "m/s2"), found, strict=True))
         place, *rates = (values[:-1] for values in self._travelled())
-        found = [np.degrees(place - place.min()), *rates]
-        return tuple(zip(("ψ", "ω", "ε"), ("deg", "rad/s", "rad/s2"), found, strict=True))
-
-    def _diagram(self) -> tuple[Real, Real, Real, Real]:
-        """Angle (deg), travel (mm), velocity and acceleration of the output along its way."""
-        turn, name = self.turn, self._output
-        angles = self.keys.start_angle_deg + 360 * np.arange(self.fine) / self.fine
-        travel = self._along(turn.place(name))
-        speed, change = (self._along(x / 1000) for x in (turn.velocity(name), turn.acceleration(name)))
-        return angles, travel - travel.min(), speed, change
+        travel = place - place.min()
+        if self._slides:
+            return ("S", "mm", 1000 * travel), ("V", "m/s", rates[0]), ("a", "m/s2", rates[1])
+        return ("ψ", "deg", np.degrees(travel)), ("ω", "rad/s", rates[0]), ("ε", "rad/s2", rates[1])
 
     def _velocity_vectors(self, at: Moved) -> list[Vector]:
         ends = {name: complex(at.velocity(name)) / 1000 for name in at.points}

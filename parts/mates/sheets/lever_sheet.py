@@ -49,8 +49,8 @@ _RUN_PAPER = "A3"
 
 class LeverDrawing(Record, eq=False):
     """What the sheets show. ``drawn_crank``: mm of the crank on paper, which gives the ``scale``, mm for one there;
-    ``output``: the point of the output; ``series``: symbol, unit, values over the turn of its travel, velocity and
-    acceleration; ``second``: another position, its plans; ``speed`` of the crank, rad/s; ``given``: scales by keys.
+    ``output``: the point of the output; ``second``: another position, its plans; ``speed`` of the crank, rad/s;
+    ``given``: scales by keys.
     """
 
     title: Text
@@ -58,7 +58,6 @@ class LeverDrawing(Record, eq=False):
     drawn_crank: float
     scale: float
     output: str
-    series: tuple[tuple[str, str, Real], ...]
     second: tuple[int, Plan, Plan] | None
     lever: tuple[LeverForce, ...]
     speed: float
@@ -77,7 +76,7 @@ class LeverDrawing(Record, eq=False):
         told, shown = words(language), self.picture
         pieces = [self._scheme(told), *self._plans(told)]
         over = told.say(N_("Output over a turn"))
-        pieces.append(_diagrams(over, shown.diagram[0], [[one] for one in self.series], shown.positions, told))
+        pieces.append(_diagrams(over, shown.angle, [[one] for one in shown.series], shown.positions, told))
         for title, plan in shown.forces:
             heads = (told.say(title), _scaled("F", plan.scale, "N", told))
             pieces.append(self._sized(_chain(plan, heads), "force_scale"))

@@ -313,6 +313,29 @@ def test_the_picture_shows_scheme_plans_and_diagrams(tmp_path: Path) -> None:
     assert np.allclose(np.array(sizes) / sizes[0], np.array(sorted([300, 1080, 270, 756])) / 270, rtol=1e-3)
 
 
+@pytest.mark.parametrize(("assignment", "link"), [(10, "5"), (1, None)])
+def test_the_diagrams_are_those_of_what_the_output_does(assignment: int, link: str | None, tmp_path: Path) -> None:
+    """A rocker turns: its angle, angular velocity and acceleration, as its sheet has them; a slider travels."""
+    file = tmp_path / "lever.svg"
+    own = [f"assignment={assignment}", "positions=720", f"picture={file}"]
+    rows = json.loads(calculate("lever", own, "json", "en"))["positions"]
+    calculate("lever", own, "text", "en")
+    told = [e.text for e in ET.parse(file).iter() if e.tag.endswith("}text") and e.text and " … " in e.text]
+    names = [f"ψ, °=φ_{link}", f"ω, rad/s=ω_{link}", f"ε, rad/s²=ε_{link}"]
+    if link is None:
+        names = ["S, mm=S_D", "V, m/s=V_D", "a, m/s²=a_D"]
+    for text, name in zip(told, names, strict=True):
+        head, column = name.split("=")
+        values = np.array([row[column] for row in rows])
+        if column.startswith("φ"):
+            values = np.degrees(np.unwrap(np.radians(values)))
+            values -= values.min()
+        shown, ends = text.split("  ")
+        assert shown == head
+        low, high = map(float, ends.split(" … "))
+        assert (low, high) == pytest.approx((min(values.min(), 0), max(values.max(), 0)), rel=1e-3)
+
+
 @pytest.mark.parametrize("count", [12, 8])
 def test_the_scheme_shows_every_position_by_its_number(count: int, tmp_path: Path) -> None:
     file = tmp_path / "lever.svg"

@@ -23,7 +23,8 @@ PATHS = {"A": np.exp(1j * TURN), "B": 3 + 1j * np.cos(TURN)}
 # of the velocity plan: two vectors from the pole, the third between their ends, and one too short for an arrow
 SPEEDS = Plan((Vector("a", 0j, 3 + 4j), Vector("b", 0j, -3 + 4j), Vector("ba", 3 + 4j, -3 + 4j),
                Vector("s", 0j, -0.02 + 0j)), 1.0)  # fmt: skip
-TRAVEL = (ANGLE, 20 + 10 * np.sin(TURN), 2 * np.cos(TURN) - 1, -3 - np.sin(TURN))
+TRAVEL = (20 + 10 * np.sin(TURN), 2 * np.cos(TURN) - 1, -3 - np.sin(TURN))
+SERIES = tuple(zip(("S", "V", "a"), ("mm", "m/s", "m/s2"), TRAVEL, strict=True))
 RUN = Run(ANGLE, 50 + 50 * np.cos(TURN), 50.0, 30 * np.sin(TURN), 10 * np.cos(TURN), np.sin(TURN) - 5)
 COLOURS = ("#c03020", "#2060c0", "#209050", "#a06000", "#8030a0", "#008090", "#606060", "#d06090")
 
@@ -32,7 +33,7 @@ COLOURS = ("#c03020", "#2060c0", "#209050", "#a06000", "#8030a0", "#008090", "#6
 def drawn(stone: bool = False, run: bool = True) -> ET.Element:
     # the stone lies along O3A, the block at B along a guide at 30 degrees
     blocks = {"A": 2j, "B": np.exp(1j * np.pi / 6)} if stone else {}
-    picture = LeverPicture(POINTS, PATHS, FIXED, blocks, SPEEDS, SPEEDS, TRAVEL, RUN if run else None)
+    picture = LeverPicture(POINTS, PATHS, FIXED, blocks, SPEEDS, SPEEDS, ANGLE, SERIES, RUN if run else None)
     return ET.fromstring(picture.svg(words("en")))
 
 
@@ -205,7 +206,7 @@ def test_names_stand_off_lines_and_off_each_other(assignment: int, tmp_path: Pat
 
 def test_colours_of_a_plan_begin_anew_after_the_last() -> None:
     many = Plan(tuple(Vector(f"v{k}", 0j, np.exp(0.5j * k)) for k in range(10)), 1.0)
-    picture = LeverPicture(POINTS, PATHS, FIXED, {}, many, SPEEDS, TRAVEL)
+    picture = LeverPicture(POINTS, PATHS, FIXED, {}, many, SPEEDS, ANGLE, SERIES)
     lines = panel("Plan of velocities", ET.fromstring(picture.svg(words("en")))).iter(f"{SVG}polyline")
     assert [style(line)["stroke"] for line in lines] == [*COLOURS, *COLOURS[:2]]
 
@@ -217,7 +218,9 @@ def test_plans_of_forces_stand_behind_the_other_panels() -> None:
         return (z - (2 + 1.5j)) * side() / 4 + side() * (0.5 - 0.5j)
 
     chain_of = (Vector("R_12", 0j, 4 + 0j), Vector("G_2", 4 + 0j, 4 + 3j), Vector("R_32", 4 + 3j, 0j))
-    picture = LeverPicture(POINTS, PATHS, FIXED, {}, SPEEDS, SPEEDS, TRAVEL, None, (("Links", Plan(chain_of, 1.0)),))
+    picture = LeverPicture(
+        POINTS, PATHS, FIXED, {}, SPEEDS, SPEEDS, ANGLE, SERIES, None, (("Links", Plan(chain_of, 1.0)),)
+    )
     root = ET.fromstring(picture.svg(words("en")))
     groups = list(root.iter(f"{SVG}g"))
     assert [str(next(iter(g)).text) for g in groups][4:] == ["Links"]
@@ -246,9 +249,9 @@ def test_diagrams_of_the_output_stand_one_under_another_about_their_own_axes() -
         zero = float(axes[k].attrib["y1"])
         assert (axes[k].attrib["x1"], axes[k].attrib["y2"]) == ("0", axes[k].attrib["y1"])
         run = chain(lines[k]).imag
-        values = TRAVEL[k + 1][::10]
+        values = TRAVEL[k][::10]
         unit = np.ptp(run) / np.ptp(values)
-        on_graph(lines[k], TRAVEL[k + 1], zero, unit)
+        on_graph(lines[k], TRAVEL[k], zero, unit)
         top, bottom = zero - high * unit, zero - low * unit
         tops.append((top, bottom))
         # its words stand above it, below the one before
@@ -296,16 +299,17 @@ def test_curves_in_one_field_have_one_scale(
 def test_what_rounding_leaves_of_nothing_is_told_as_0() -> None:
     resisting = np.maximum(RUN.resisting, 1e-14)
     run = Run(ANGLE, resisting, RUN.driving, RUN.gained, RUN.of_links, RUN.of_flywheel)
-    picture = LeverPicture(POINTS, PATHS, FIXED, {}, SPEEDS, SPEEDS, TRAVEL, run)
+    picture = LeverPicture(POINTS, PATHS, FIXED, {}, SPEEDS, SPEEDS, ANGLE, SERIES, run)
     texts = [t.text for t in panel("Reduced", ET.fromstring(picture.svg(words("en")))).iter(f"{SVG}text")]
     assert texts[1] == "M_c  0 … 100"
 
 
 def test_an_output_that_rests_is_drawn_on_its_axis() -> None:
     still = np.zeros(361)
+    rests = ("S", "mm", still), ("V", "m/s", still), ("a", "m/s2", still)
     run = Run(ANGLE + 30, still, 0.0, still, still, still)
     picture = LeverPicture({"A": 1j}, {"A": np.full(361, 1j)}, {"O1": 1j}, {}, Plan((), 1.0), Plan((), 1.0),
-                           (ANGLE + 30, still, still, still), run)  # fmt: skip
+                           ANGLE + 30, rests, run)  # fmt: skip
     root = ET.fromstring(picture.svg(words("en")))
     for name in ("Output", "Reduced", "Gained"):
         group = panel(name, root)
