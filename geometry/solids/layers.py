@@ -17,7 +17,8 @@ import numpy as np
 from geometry.base.errors import GeometryError, OffsetError, ParameterError
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
-from geometry.curves.line_arc import Arc
+from geometry.curves.line_arc import Arc, Line
+from geometry.plane.measure import distance_to_plain
 from geometry.plane.profile import Label, Profile, Region, Segment
 from geometry.solids.body import Body, BodyBuilder
 from geometry.solids.plate import Edge, moved_edges
@@ -52,6 +53,25 @@ class Contour(Record, dict=True):
         """Least and greatest x, least and greatest y."""
         x, y = self.points.real, self.points.imag
         return float(x.min()), float(x.max()), float(y.min()), float(y.max())
+
+    @cached_property
+    def _lines(self) -> tuple[Complex, Complex]:
+        """Starts and ends of its lines."""
+        lines = [e for e in self.edges if isinstance(e, Line)]
+        return np.array([e.start for e in lines], complex), np.array([e.end for e in lines], complex)
+
+    def span(self, place: complex) -> tuple[float, float]:
+        """Least and greatest distance of the contour from a place, mm."""
+        start, end = self._lines
+        share = ((place - start) * np.conj(end - start)).real / np.maximum(np.abs(end - start) ** 2, 1e-300)
+        found = [np.abs(start + np.clip(share, 0.0, 1.0) * (end - start) - place), np.abs(start - place)]
+        for arc in (e for e in self.edges if isinstance(e, Arc)):
+            found += [distance_to_plain(np.array([place]), arc), np.abs(arc.point(np.array(arc.domain)) - place)]
+            # opposite to the foot
+            if arc.foot(np.array([2 * arc.centre - place]))[1][0]:
+                found.append(np.array([abs(place - arc.centre) + arc.radius]))
+        every = np.concatenate(found)
+        return float(every.min()), float(every.max())
 
     def moved(self, offset: float, *, hole: bool) -> Profile:
         """The boundary of the material within it, or about it, moved ``offset`` mm out of that."""
@@ -89,16 +109,21 @@ class Layers(Record, dict=True):
         Raises
         ------
         ParameterError
-            ``layers[k]``.
+            ``layers[k].contours[i]``; ``other``: that one which it meets.
         """
         for number, layer in enumerate(self.layers, 1):
+            own = [(f"layers[{number}].contours[{k}]", c) for k, c in enumerate(layer.contours, 1)]
             above = self.layers[number].contours if number < len(self.layers) else ()
-            both = tuple(dict.fromkeys((*layer.contours, *above)))
-            if len(set(layer.contours)) < len(layer.contours) or any(_crosses(a, b) for a, b in combinations(both, 2)):
-                raise ParameterError(f"layers[{number}]", None, "contours_cross")
+            beside = [(f"layers[{number + 1}].contours[{k}]", c) for k, c in enumerate(above, 1)]
+            for (one, first), (two, second) in combinations([*own, *beside], 2):
+                # what goes on is one wall
+                same = first == second and two.startswith(f"layers[{number}].")
+                if same or (first != second and _crosses(first, second)):
+                    raise ParameterError(two, None, "contours_cross", other=one)
         for number, (low, high) in enumerate(pairwise(self._depths), 1):
-            if any(high.get(c, hole) != hole for c, hole in low.items()):
-                raise ParameterError(f"layers[{number}]", None, "contours_cross")
+            for k, (contour, hole) in enumerate(low.items(), 1):
+                if high.get(contour, hole) != hole:
+                    raise ParameterError(f"layers[{number}].contours[{k}]", None, "contour_turns")
         if len(set(self._pieces().values())) > 1:
             raise ParameterError("layers", None, "layers_fall_apart")
         return self
@@ -216,6 +241,10 @@ def _crosses(one: Contour, two: Contour) -> bool:
     if one.circle is not None and two.circle is not None:
         distance = abs(one.circle[0] - two.circle[0])
         return abs(one.circle[1] - two.circle[1]) <= distance <= one.circle[1] + two.circle[1]
+    for round_one, other in ((one, two), (two, one)):
+        if round_one.circle is not None:
+            least, greatest = other.span(round_one.circle[0])
+            return least <= round_one.circle[1] <= greatest
     p, q = one.points, two.points
     u, v = np.roll(p, -1) - p, np.roll(q, -1) - q
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta, Struct, field
@@ -10,6 +11,7 @@ from msgspec import Meta, Struct, field
 from geometry.base.errors import GeometryError, ParameterError, limit
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
+from parts.base.schema import value_at
 from parts.base.texts import N_
 from parts.bodies.plate import Slots
 from parts.keys.base import MOST_LENGTH, mm, part_mm, start
@@ -67,6 +69,9 @@ class LayerTable(Struct, forbid_unknown_fields=True, kw_only=True):
     outlines: Annotated[list[OutlineTable], Meta(max_length=1000)] = field(default_factory=list)
 
 
+# kinds of contours of a layer, in the order in which they are numbered
+_CONTOURS = ("circles", "polygons", "slots", "outlines")
+
 _BOX = [
     {"thickness": 4.0, "polygons": [{"points": [[-30, -20], [30, -20], [30, 20], [-30, 20]], "corner_radius": 5.0}]},
     {"thickness": 8.0, "circles": [{"diameter": 30.0}, {"diameter": 20.0}]},
@@ -112,12 +117,19 @@ class Layered(Kind[LayeredSpec, "Layers"]):
         """The layers, checked to have contours that neither cross nor touch."""
         from geometry.solids.layers import Layer, Layers
 
-        made = []
+        made, places = [], dict[str, str]()
         for number, table in enumerate(keys.layers, 1):
             if not (table.circles or table.polygons or table.slots or table.outlines):
                 raise ParameterError(f"layers[{number}]", None, "layer_of_nothing")
             made.append(Layer(table.thickness, tuple(_contours(table, f"layers[{number}]"))))
-        return Layers(tuple(made)).checked()
+            names = (f"{key}[{k}]" for key in _CONTOURS for k, _ in enumerate(getattr(table, key), 1))
+            places |= {f"layers[{number}].contours[{k}]": f"layers[{number}].{n}" for k, n in enumerate(names, 1)}
+        try:
+            return Layers(tuple(made)).checked()
+        except ParameterError as refusal:
+            if refusal.name not in places:
+                raise
+            raise _in_keys(keys, Layers(tuple(made)), refusal, places) from refusal
 
     def section(self, keys: LayeredSpec, thing: Layers, offset: float) -> OffsetRegion:
         """The layer with the largest outline."""
@@ -142,6 +154,36 @@ class Layered(Kind[LayeredSpec, "Layers"]):
         low_x, high_x, low_y, high_y = (f(c.box[k] for layer in thing.layers for c in layer.contours)
                                         for k, f in enumerate((min, max, min, max)))  # fmt: skip
         return Report(quantities={"width": high_x - low_x, "height": high_y - low_y, "length": thing.heights[-1]})
+
+
+def _in_keys(keys: LayeredSpec, layers: Layers, refusal: ParameterError, places: dict[str, str]) -> ParameterError:
+    """The refusal of a contour in the keys, of two that cross by a circle with the diameter that crosses none."""
+    names = [refusal.name, *(str(other) for other in refusal.numbers.values())]
+    numbers = {key: places[str(other)] for key, other in refusal.numbers.items()}
+    for name, other in zip(names, reversed(names), strict=True):
+        layer, index = (int(number) - 1 for number in re.findall(r"\d+", name))
+        contour, table = layers.layers[layer].contours[index], value_at(keys, places[name])
+        if isinstance(table, CircleTable) and refusal.code == "contours_cross":
+            # in a layer beside this one the same contour goes on
+            beside = [c for one in layers.layers[max(layer - 1, 0) : layer + 2] for c in one.contours if c != contour]
+            near = [*beside, *(c for k, c in enumerate(layers.layers[layer].contours) if k != index)]
+            radius = _free_radius([c.span(complex(*table.at)) for c in near], table.diameter / 2)
+            cure = None if radius is None else limit(2 * radius, table.diameter, digits=6)
+            told = {"other": places[other]}
+            return ParameterError(f"{places[name]}.diameter", table.diameter, refusal.code, cure, **told)
+    return ParameterError(places[refusal.name], None, refusal.code, **numbers)
+
+
+def _free_radius(spans: list[tuple[float, float]], radius: float) -> float | None:
+    """The radius nearest to another one that lies in no span, mm; None: in none of them it lies."""
+    found, margin = [], 1e-9
+    for end, way in ((0, -1), (1, 1)):
+        free = radius
+        for span in sorted(spans, key=lambda span: way * span[1 - end]):
+            if span[0] - margin * radius <= free <= span[1] + margin * radius:
+                free = span[end] * (1 + way * margin)
+        found.append(free)
+    return min((r for r in found if r > 0 and r != radius), key=lambda r: abs(r - radius), default=None)
 
 
 def _contours(table: LayerTable, place: str) -> list[Contour]:

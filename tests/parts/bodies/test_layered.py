@@ -13,6 +13,7 @@ from exporters.command.cli import main
 from exporters.command.new import new_scene
 from parts.base.refusal import SceneError
 from parts.scene.load import make_parts, scene_from_dict, scene_from_toml
+from tests.parts.limits import check_limit, refused, scene_of, with_key
 
 Keys = dict[str, Any]
 SQUARE = {"points": [[-30, -20], [30, -20], [30, 20], [-30, 20]]}
@@ -119,3 +120,47 @@ def _toml(value: Any) -> str:
 def test_what_is_no_body_is_refused(layers: list[Keys], word: str) -> None:
     with pytest.raises(SceneError, match=word):
         made(layers)
+
+
+ROUND = SQUARE | {"corner_radius": 5.0}
+# the limit worked out by hand: off the sides, out of the corners, out of the rounded ones, beside another circle
+CROSSING: list[tuple[list[Keys], str, float, str, str]] = [
+    ([{"thickness": 1, "polygons": [SQUARE], "circles": [{"diameter": 9.0}]}], "layers[1].circles[1]", 40.0, "at_most",
+     "layers[1].polygons[1]"),
+    ([{"thickness": 1, "polygons": [SQUARE]}, {"thickness": 1, "circles": [{"diameter": 9e1}]}], "layers[2].circles[1]",
+     2 * math.hypot(30, 20), "at_least", "layers[1].polygons[1]"),
+    ([{"thickness": 1, "circles": [{"diameter": 90.0}]}, {"thickness": 1, "polygons": [ROUND]}], "layers[1].circles[1]",
+     2 * (math.hypot(25, 15) + 5), "at_least", "layers[2].polygons[1]"),
+    ([{"thickness": 1, "circles": [{"diameter": 50.0}, {"diameter": 10.0, "at": [12.0, 0.0]}]}],
+     "layers[1].circles[2]", 26.0, "at_most", "layers[1].circles[1]"),
+    ([{"thickness": 1, "circles": [{"diameter": 50.0}], "slots": [{"start": [-6, 0], "end": [6, 0], "width": 4.0}]}],
+     "layers[1].circles[1]", 16.0, "at_least", "layers[1].slots[1]"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("layers", "circle", "limit", "side", "other"), CROSSING)
+def test_a_circle_that_crosses_a_contour_is_told_the_diameter_that_does_not(
+    layers: list[Keys], circle: str, limit: float, side: str, other: str
+) -> None:
+    """Before: the layer was told, and nothing that works; chords of arcs left rounded corners more room."""
+    raw, key = scene_of({"kind": "layered", "layers": layers}), f"parts.p.{circle}.diameter"
+    check_limit(raw, key, "contours_cross", limit, side)
+    beyond = refused(with_key(raw, key, limit * (1.001 if side == "at_most" else 0.999)))
+    assert beyond is not None
+    assert beyond.numbers["other"] == other
+
+
+def test_contours_that_meet_are_told_by_both_names() -> None:
+    """Two polygons, without a size to change; one circle told twice; an outline that is a hole in the next layer."""
+    kite = {"points": [[-25, -25], [25, -25], [0, 35]]}
+    for layers, key, code, told in (
+        ([{"thickness": 1, "polygons": [SQUARE]}, {"thickness": 1, "polygons": [kite]}], "layers[2].polygons[1]",
+         "contours_cross", {"other": "layers[1].polygons[1]"}),
+        ([{"thickness": 1, "circles": [{"diameter": 8.0}] * 2}], "layers[1].circles[2].diameter", "contours_cross",
+         {"other": "layers[1].circles[1]"}),
+        ([{"thickness": 1, "polygons": [SQUARE], "circles": [{"diameter": 8.0}]},
+          {"thickness": 1, "circles": [{"diameter": 8.0}]}], "layers[1].circles[1]", "contour_turns", {}),
+    ):  # fmt: skip
+        found = refused(scene_of({"kind": "layered", "layers": layers}))
+        assert found is not None
+        assert (found.key, found.code, found.numbers) == (f"parts.p.{key}", code, told)
