@@ -29,7 +29,6 @@ _BOSS, _HUB = 2.4, 1.05
 _SIZES = ("pin_diameter", "spacers.diameter", "bore_diameter")
 _SHARES = (0.95, 0.9, 0.75, 0.5, 0.25, 0.1, 0.03, 0.01)
 
-
 _BOSS_DIAMETER = part_mm("of the arm's round end; default: 2.4 holes", above=0, example=8.0)
 
 

@@ -23,7 +23,6 @@ _SPACE = ("least_effective_space", "greatest_effective_space", "greatest_space",
           "greatest_between_pins", "least_between_pins")  # fmt: skip
 _SPANS = ("greatest_span", "least_span")
 
-
 _PIN_DIAMETER = mm("pin; default: it touches in the middle of the contact", above=0, most=1000, example=3.5)
 
 

@@ -89,7 +89,6 @@ _HAND = [
     },
 ]  # fmt: skip
 
-
 _LAYERS = Meta(
     min_length=1,
     max_length=100,

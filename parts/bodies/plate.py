@@ -52,7 +52,6 @@ Slots = Annotated[
     Meta(max_length=1000, examples=[[{"start": [0.0, 28.0], "end": [0.0, 36.0], "width": 3.0}]]),
 ]
 
-
 _ENGRAVED = Meta(
     max_length=1000,
     description="slots in the upper face, not cut",

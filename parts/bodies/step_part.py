@@ -23,7 +23,6 @@ _MOST, MOST_BYTES = 1e6, 8_000_000
 _Place = Annotated[float, mm("a coordinate in the file", least=-_MOST, most=_MOST)]
 _Way = Annotated[float, Meta(ge=-_MOST, le=_MOST)]
 
-
 _FILE = Meta(
     pattern=r"\.([sS][tT][eE]?[pP])\Z",
     max_length=200,

@@ -55,7 +55,6 @@ _RING = [
 
 _BALL = [{"r": 0.0, "z": 0.0, "arc": 5.0}, {"r": 0.0, "z": 10.0}]
 
-
 _POINTS = Meta(
     min_length=2,
     max_length=1000,
@@ -131,7 +130,6 @@ _WHOLE = [
     {"diameter": 25.0, "length": 15.0, "grooves": [{"at": 6.0, "width": 1.3, "diameter": 23.9}]},
     {"diameter": 20.0, "length": 30.0, "spline": {"shape": "spline", "size": "6x16x20"}},
 ]
-
 
 _SHAFT_STEPS = Meta(min_length=1, max_length=200, description="from the lower end upwards")
 

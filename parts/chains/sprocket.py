@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 _SIZES = ("pitch", "roller_diameter", "inner_width", "plate_height", "transverse_pitch", "strands")
 _Length = float | None
 
-
 _CHAIN = Meta(
     description="designation of ISO 606 (08B-1, 16A-2, 081), ANSI (ANSI 40, 60-2) or "
     "GOST 13568 (PR-12.7-18.2), or give pitch"

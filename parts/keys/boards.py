@@ -17,7 +17,6 @@ _LEAST = 1.0
 # a class of forty with hundreds of pins each
 _MOST_COPIES = 1000
 
-
 _COPIES = Meta(
     description="pieces of a part, or of an instance, in a set; default: as many as it has instances",
     examples=[{"wheel": 2}],

@@ -25,7 +25,6 @@ _MARK, _CLEAR = 0.3, 0.08
 # of digits where no key says it, mm; of that height, the width of the mark
 _MOST_HEIGHT, _WIDE = 8.0, 1 / 8
 
-
 _HEIGHT = mm("height of the digits; default: as the room allows", above=0, most=1000, example=2.0)
 
 

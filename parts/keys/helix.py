@@ -39,7 +39,6 @@ Module = Annotated[
     float, mm("module m; the normal module where helix_angle_deg is not 0", least=0.01, most=1000, example=2.0)
 ]
 
-
 _CIRCUMFERENTIAL_THINNING = mm("thinning of each tooth for backlash, arc on the reference circle", least=0, most=1000)
 
 

@@ -111,7 +111,6 @@ StretchTable = (
     | PointsTable
 )
 
-
 _DIAGRAM = Meta(min_length=1, max_length=200, description="its acceleration, in any scale")
 _FIRST_HALF = Meta(min_length=1, max_length=100, description="acceleration up to the greatest velocity, above the axis")
 _SECOND_HALF = Meta(min_length=1, max_length=100, description="deceleration after it, drawn above the axis too")

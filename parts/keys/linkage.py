@@ -15,7 +15,6 @@ if TYPE_CHECKING:
 Coordinate = Annotated[float, part_mm("a coordinate", least=-MOST_LENGTH)]
 Direction = Annotated[float, degrees("of the guide, from +x counter-clockwise", least=-360, most=360)]
 
-
 _START_ANGLE = degrees("at S = 0, from +x counter-clockwise", least=-360, most=360, example=167.0)
 _SENSE = Meta(description="how the rocker turns while the follower rises")
 

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 # places along the ray that are tried where one is refused
 PLACES = 200
 
-
 _DISTANCE = part_mm("from the axis to its centre; default: between bore and base circle", above=0, example=22.0)
 
 

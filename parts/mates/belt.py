@@ -26,7 +26,6 @@ _ROUNDING = 1e-9
 # half the width of the belt in pictures, in pitches
 _DRAWN = 0.15
 
-
 _NUMBER_OF_BELT_TEETH = Meta(ge=6, le=_MOST_TEETH, description="teeth of the belt", examples=[100])
 _CENTRE_DISTANCE = mm(
     "centre distance; default: that at which a belt of number_of_belt_teeth is taut", above=0, most=1e6, example=150.0

@@ -29,7 +29,6 @@ _MOST_LINKS = 10_000
 # links that are too many: two fewer go round as well
 _TOO_MANY = 2
 
-
 _NUMBER_OF_LINKS = Meta(ge=6, le=_MOST_LINKS, description="links of the chain, even at best", examples=[100])
 _CENTRE_DISTANCE = mm(
     "centre distance; default: the greatest for number_of_links, with the chain taut", above=0, most=1e6, example=458.0

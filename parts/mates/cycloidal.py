@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 _ROUNDING = 1e-12
 _Eccentric = Annotated[float, direction("direction of the eccentric, from the pins' axis")]
 
-
 _TURNED_LOBES = Meta(ge=-10_000, le=10_000, description="turns the disc on by whole lobes: for holes that must line up")
 
 

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 # of the module
 _ROUNDING = 1e-9
 
-
 _PINION_OFFSET = mm("how far the middle of the pinion's face is off that of the gear's, outwards", least=-1e4, most=1e4)
 
 

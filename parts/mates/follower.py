@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 # parts that may follow a cam
 FOLLOWERS = ("follower", "follower_arm", "roller")
 
-
 _DIRECTION = direction("direction in which a translating follower rises; for an arm 90 puts its pivot at +x")
 
 

@@ -14,7 +14,6 @@ from parts.keys.base import degrees, mm
 _MOST = 1e6
 _Shift = Annotated[float, mm("a coordinate of the second's axis from the first's", least=-_MOST, most=_MOST)]
 
-
 _OFFSET = mm(
     "x, y, z of its axis at the start, along the scene's axes; default: where other mates put it",
     example=[40.0, 0.0, 0.0],

@@ -23,7 +23,6 @@ table_from = part_of_kind("cycloidal_disc")
 _CURVE = "Shin, Kwon, Mech. Mach. Theory 41 (2006)"
 _ZOOMS, _SAMPLES = 8, 65
 
-
 _STEP = degrees("step of the table, eccentric's angle from a pin", least=0.1, most=90)
 
 

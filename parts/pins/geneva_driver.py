@@ -28,7 +28,6 @@ _GENEVA_WHEEL: dict[str, object] = {
     "kind": "geneva_wheel", "number_of_slots": 6, "centre_distance": 60.0, "pin_diameter": 6.0,
 }  # fmt: skip
 
-
 _RELIEF_CLEARANCE = mm(
     "gap to the wheel's tips at the bottom of a relief; default: a tenth of the pin, at most half the room",
     least=0,

@@ -31,7 +31,6 @@ _PIN, _TIP, _MOST_OF_TIP, _GAP = 1 / 8, 1.0, 1 / 6, 0.1
 _DISCS = (0.8, 0.9, 0.95, 0.98, 0.99)
 _ONLY_EXTERNAL = ("bore_diameter", "bore", "spokes", "web", "hub", "face_chamfer")
 
-
 _CENTRE_DISTANCE = part_mm("between the axes of driver and wheel; or give crank_radius", above=0)
 _CRANK_RADIUS = part_mm("from the driver's axis to a pin, in place of centre_distance", above=0, example=30.0)
 _PIN_DIAMETER = part_mm("diameter of each pin; default: an eighth of the crank radius", least=0.01, example=3.75)

@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 # of solid pins beyond the plate where no key says it, mm
 _PIN_LENGTH = 10.0
 
-
 _OUTER_DIAMETER = mm("outside; default: pin circle + 2 pins", above=0, most=2 * MOST_LENGTH, example=60.0)
 _PINS = Meta(description="pins of one piece with the plate, or holes for loose pins (flat files: holes)")
 _SEAT_CLEARANCE = mm("radius of a hole for a pin beyond the pin's (solid pins: of flat files)", least=-10, most=100)

@@ -49,7 +49,6 @@ _CAM_KEYS = (
     "base_circle_radius", "least_transmission_angle_deg", "least_curvature_radius",
 )  # fmt: skip
 
-
 _SLOT_START = mm(
     "of the slot, above the roller's centre or the flat face; default: as near as the parts allow",
     above=0,

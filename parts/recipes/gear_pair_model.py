@@ -19,7 +19,6 @@ from parts.recipes.recipe import Expansion, Recipe, RecipeKeys
 _BESIDE, _WALL, _CORNER = 10.0, 5.0, 5.0
 _WHEELS = ("pinion", "wheel")
 
-
 _TEETH = Meta(description="z1, z2", examples=[[13, 21]])
 _Shift = Annotated[float, Meta(ge=-10, le=10)]
 _SHIFTS = Meta(description="profile shift coefficients x1, x2", examples=[[0.694, 0.384]])

@@ -47,7 +47,6 @@ _WHEELS = {
 _RIM, _SCREW, _MARGIN, _HANDLE, _MARK = 14.0, 4.0, 12.0, 25.0, 1.0
 _MOST_TURNS = 10_000
 
-
 _WORKING_CENTRE_DISTANCE = part_mm(
     "centre distance of both meshes; default: as the teeth need it", above=0, example=48.0
 )

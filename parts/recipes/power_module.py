@@ -52,7 +52,6 @@ _RACE_SCREWS, _RACE_START = 32, 1.875
 
 _DESIGNATION, _STANDARD = N_("KRB.PM.25.33.13.00.{number}"), N_("GOST {number}")
 
-
 _ORIENTATION = Meta(
     description="cranks keep the platform parallel: plates 11 and 16, ring 14, its guide 13, cranks 34 and "
     "pins 35, without 15 and 57; idlers too: wheels 11, 14, 16 with idlers 36 between, their pins 37, links "

@@ -32,7 +32,6 @@ _WALL, _BOSS, _RIM, _LINK, _GUIDE = 8.0, 8.0, 20.0, 24.0, 2.0
 IDLER_SHIFT = 0.3
 _Teeth = Annotated[int, Meta(ge=12, le=1000)]
 
-
 _TEETH = Meta(
     description=("of the pinion 19 and of the ring 21; O1O2 and O2O3 are half their difference times the module")
 )

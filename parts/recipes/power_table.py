@@ -36,7 +36,6 @@ _MARK = 0.4
 _Q, _ADDENDUM, _DEDENDUM, _THREAD = 10.0, 1.0, 1.2, 20.0
 _BEARING, _NECK, _COLLAR = 6.0, 6.0, 5.0
 
-
 _TEETH = Meta(description="of the pinion and of the ring; O1O2 is half their difference times the module")
 _DRIVE = Meta(description="what turns disk 2 and the ring, behind the base")
 _WormWheelTeeth = Annotated[int, Meta(ge=20, le=1000)]

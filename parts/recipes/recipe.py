@@ -19,7 +19,6 @@ Table = dict[str, Any]
 # how far something is driven
 Turns = Annotated[float, Meta(ge=-1000, le=1000, extra={"unit": "turns"})]
 
-
 _NAME = Meta(pattern=IDENTIFIER, description="the ids of all its parts begin with it, as in a_sun", examples=["a"])
 
 

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
 _Coordinate = Annotated[float, mm("a coordinate of the place", least=-1_000_000, most=1_000_000)]
 
-
 _AT = Meta(min_length=3, max_length=3, description="place [x, y, z] of the part, in mm")
 _ROTATION = degrees("rotation about the part's axis, counter-clockwise", least=-36_000, most=36_000)
 _AXIS = Meta(

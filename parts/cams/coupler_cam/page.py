@@ -48,7 +48,6 @@ _NOTES = (
      "that is fixed to the connecting rod"),
 )  # fmt: skip
 
-
 _POSITION = degrees("cam angle worked out in numbers; default: middle of the first rise", least=0, below=360)
 
 

@@ -50,7 +50,6 @@ if TYPE_CHECKING:
 # usual limits, degrees: the pressure angle of a follower that turns, and the transmission angle of a linkage
 _USUAL_PRESSURE_ANGLE, _USUAL_TRANSMISSION_ANGLE = 45.0, 40.0
 
-
 _COUPLER_POINT = mm(
     "roller's centre, tip, arc's centre or a point of the face, from joint A, +x towards joint B", example=[6.0, 16.0]
 )

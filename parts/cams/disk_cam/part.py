@@ -67,7 +67,6 @@ _FARTHER = (0.01, 0.1, 0.3, 1.0)
 # shares of the way to a face that stands upright at which a base circle is tried
 _TOWARDS_PIVOT = (1 / 2, 1 / 4, 3 / 4, 1 / 8, 7 / 8, 3 / 8, 5 / 8, 1 / 16, 15 / 16, 1 / 64, 1 / 256, 1 / 1024, 1 / 4096)
 
-
 _CENTRE_DISTANCE = part_mm(
     "from the cam's axis to the pivot; default: of the smallest cam by least_transmission_angle_deg",
     above=0,

@@ -55,7 +55,6 @@ _LEAST_WALL = 0.05
 # usual play of a roller in its groove, part of its diameter: with less it jams, with more it knocks
 _USUAL_CLEARANCE = (0.0, 0.02)
 
-
 _BASE_CIRCLE_RADIUS = part_mm("circle inside the groove; default: by least_transmission_angle_deg", above=0)
 _LEAST_TRANSMISSION_ANGLE = degrees("gamma_min = 90 - pressure angle, both ways", above=0, below=90, example=60.0)
 _OUTER_DIAMETER = mm(

@@ -26,7 +26,6 @@ _GROOVE_CAM: dict[str, object] = {
     "groove_depth": 5.0,
 }  # fmt: skip
 
-
 _THICKNESS = mm("of the plate; default: groove_depth, of the floor what is left", least=0.01, most=10_000, example=3.0)
 
 

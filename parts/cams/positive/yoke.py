@@ -27,7 +27,6 @@ _LEAST_WALL = 0.05
 # usual sizes where there is room, mm
 _STEM, _PIN, _SHAFT = 12.0, 4.0, 10.0
 
-
 _STEM_WIDTH = part_mm(f"of the guided stem; default: {_STEM:g}, or what a frame has", above=0, example=_STEM)
 _PIN_DIAMETER = part_mm(f"rollers: holes of their pins; default: {_PIN:g}, or half of a roller", above=0, example=_PIN)
 _SHAFT_DIAMETER = part_mm(

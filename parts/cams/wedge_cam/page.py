@@ -31,7 +31,6 @@ from parts.texts.findings import finding_message
 # rows of a table by default, about, and at most
 _ROWS, _MOST_ROWS = 36, 3600
 
-
 _STEP = mm("step of the table over the travel; default: a round one", above=0, most=1000)
 _PLATE_VELOCITY = Meta(gt=0, le=1e6, description="of the plate: adds velocities", extra={"unit": "mm/s"})
 

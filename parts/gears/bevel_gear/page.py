@@ -27,7 +27,6 @@ table_from = part_of_kind("bevel_gear")
 _GOST, _GOST_SPIRAL, _ISO = "GOST 19624-74", "GOST 19326-73", "ISO 23509"
 _RIGHT = 1e-9
 
-
 _NORMAL_BACKLASH = mm("normal backlash at the outer end, half of it by each gear", least=0, most=100)
 
 

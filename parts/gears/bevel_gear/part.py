@@ -50,7 +50,6 @@ Addendum = Annotated[float, in_modules("addendum of the basic rack", least=0.1, 
 TipClearance = Annotated[float, in_modules("tip clearance", least=0, most=1)]
 TipRadius = Annotated[float, in_modules("tip rounding of the crown gear that cuts it", least=0.001, most=2)]
 
-
 _FACE_WIDTH = mm(
     "length of the teeth b along the pitch cone; default: the lesser of 0.3 R_e and 10 m",
     least=0.01,

@@ -29,7 +29,6 @@ _OF_MATE = {
 }
 _SOURCE = "Litvin, Fuentes, Gear Geometry, 13"
 
-
 _MATE_ADDENDUM_COEFFICIENT = in_modules(
     "height of the mate's tips; default: as here", least=0.001, most=10, example=1.0
 )

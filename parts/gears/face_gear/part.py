@@ -61,7 +61,6 @@ Module = Annotated[float, mm("module m, that of the pinion", least=0.01, most=10
 Teeth = Annotated[int, Meta(ge=8, le=10_000, description="number of teeth z2 of the face gear", examples=[60])]
 PinionTeeth = Annotated[int, Meta(ge=3, le=10_000, description="number of teeth z1 of its pinion", examples=[20])]
 
-
 _ADDENDUM_COEFFICIENT = in_modules(
     "addendum above the pitch plane; default: 1, or less where z1 is small", least=0.1, most=3, example=1.0
 )

@@ -37,7 +37,6 @@ _OFFERS = 6
 _MOST_SLENDER = {"axis_ratio": 20.0, "eccentricity": 0.9999}
 _ROUND = {"axis_ratio": 1.0, "eccentricity": 0.0}
 
-
 _CENTRODE = Meta(
     description="driver's centrode: oval about its middle, ellipse about a focus, or by its ratio", examples=["oval"]
 )

@@ -21,7 +21,6 @@ TOPIC = "rack"
 table_from = part_of_kind("rack")
 _ISO = "ISO 21771"
 
-
 _MEASURED_OVER_PIN = mm("size from the rack's back over a pin, measured on the part", above=0, most=100_000)
 
 

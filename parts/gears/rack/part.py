@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 # modules below the root line where no body was asked for
 _BODY = 2.5
 
-
 _DEPTH = mm("centres below the root line; default: the middle of the body", above=0, most=100_000, example=2.5)
 
 

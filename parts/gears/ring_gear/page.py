@@ -36,7 +36,6 @@ TOPIC = "ring"
 table_from = part_of_kind("ring_gear")
 _GOST, _ISO = "GOST 19274", "ISO 21771"
 
-
 _MEASURED_BETWEEN_PINS = mm("size between pins or balls measured on the part", above=0, most=100_000)
 
 

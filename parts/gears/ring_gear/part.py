@@ -33,7 +33,6 @@ _RIM = 2.5
 # modules between a default cutter's addendum and the ring's: the tip clearance of ISO 53 A
 _CLEARANCE = 0.25
 
-
 _DEDENDUM_COEFFICIENT = in_modules("depth of the root below the reference", least=0.1, most=3)
 
 

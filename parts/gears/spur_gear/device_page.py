@@ -39,7 +39,6 @@ _SEEN = 0.001
 _READINGS = ("S_t", "e_t", "P_t", "S_b", "S_a", "d_Ff")
 _SOURCES = {1: "practicum, table 1.1", 2: "practicum, table 1.2"}
 
-
 _PROFILE_SHIFT_COEFFICIENT = in_modules("shift of the second wheel; default (17 - z) / 17", least=-3, most=3)
 
 

@@ -27,7 +27,6 @@ TOPIC = "spur"
 _LESSON = "practicum, fig. 3.3"
 table_from = part_of_kind("spur_gear")
 
-
 _MEASURED_OVER_PINS = mm("size over pins or balls measured on the part", above=0, most=100_000)
 
 

@@ -52,7 +52,6 @@ if TYPE_CHECKING:
 # the radius that ISO 53 gives at the usual clearance; the default for racks given as a table
 _TABLE_TIP_RADIUS = 0.38
 
-
 _TIP_RADIUS_COEFFICIENT = in_modules(
     "tip rounding; default: the least of 0.38, c/(1 - sin a), full round", least=0, most=2, example=0.38
 )

@@ -75,7 +75,6 @@ _GOST, _THESIS = "GOST 19650", "thesis, 2.2"
 _Factor = Annotated[float, Meta(gt=0, le=100)]
 _Life = Annotated[float, Meta(gt=0, le=10)]
 
-
 _NUMBER_OF_TEETH = Meta(ge=8, le=10_000, description="teeth of the wheel, z2; without it a worm alone")
 _BALL_DIAMETER = mm("balls or wires in its spaces; default: 1.67 m", above=0, most=10_000)
 _WHEEL_TORQUE = size("N*m", "torque T2 on the wheel, in place of T1", above=0, most=1e9)

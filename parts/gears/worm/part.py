@@ -68,7 +68,6 @@ Steps = Annotated[
     ),
 ]
 
-
 _END_ANGLE = degrees(
     "cone that cuts the thread at both ends, from the end's plane; 0 cuts it plainly; default: 20",
     least=0,

@@ -64,7 +64,6 @@ _MORE_TEETH = (1.1, 1.25, 1.5, 2.0, 3.0)
 # an outside is reached that near, mm; below so many degrees a corner is sharp: a throat wraps a third of the worm
 _REACHED, _SHARP = 1e-3, 29.9
 
-
 _OUTER_DIAMETER = mm(
     "d_ae2, outside of the throat; default: the largest by GOST 19650", above=0, most=200_000, example=66.0
 )

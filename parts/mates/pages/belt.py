@@ -26,7 +26,6 @@ _SPEED = "speed of the driving pulley: adds the speed of the belt"
 _TORQUE = "torque on the driving pulley: adds the pull of the belt"
 _POWER = "power that the driving pulley takes in, by its speed: in place of its torque"
 
-
 _NUMBER_OF_BELT_TEETH = Meta(ge=6, le=10_000, description="teeth of the belt", examples=[100])
 _MATE_NUMBER_OF_TEETH = Meta(ge=6, le=500, description="number of teeth of the driven pulley", examples=[40])
 

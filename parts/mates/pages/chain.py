@@ -29,7 +29,6 @@ _POWER = "power that the driving sprocket takes in, by its speed: in place of it
 # textbooks: the shaft's load by the force of a drive that lies, and how much nearer it is mounted for the slack strand
 _LOAD, _MOUNTED = 1.15, 0.995
 
-
 _NUMBER_OF_LINKS = Meta(ge=6, le=10_000, description="links of the chain", examples=[100])
 _MATE_NUMBER_OF_TEETH = Meta(ge=6, le=200, description="number of teeth of the driven sprocket", examples=[38])
 

@@ -25,7 +25,6 @@ _SOURCE = "ISO 21771"
 # of the path of contact, mm: flanks end where tips do
 _WHOLE = 1e-9
 
-
 _FRICTION_COEFFICIENT = Meta(ge=0, le=1, description="friction of the flanks; without it no losses")
 
 

@@ -61,7 +61,6 @@ from parts.texts.findings import finding_of
 TOPIC = "gear-pair"
 OTHER_KINDS = (("second.kind", "ring_gear"), ("second.kind", "rack"), ("kind", "crossed_helical_pair"))
 
-
 _SHIFTS = Meta(description="profile shifts by a table: Kudryavtsev's of the practicum, or least wear of the guidelines")
 _CIRCUMFERENTIAL_BACKLASH = mm("wanted backlash, arc on the working circle", least=0, most=1000)
 

@@ -58,7 +58,6 @@ _NAMES: Mapping[Bearing, str] = {
 }
 _ACROSS, _LIFT = (N_("force across the axis, N"), N_("force and moment that lift a ball most, times all balls, N"))
 
-
 _GROOVE_RADIUS = mm("radius of the grooves; default: r_groove of the assembly", above=0, most=1000, example=4.16)
 _BALL_PRESSURE_LIMIT = size("MPa", "greatest pressure on a ball at rest, ISO 76", above=0, most=100_000)
 

@@ -53,7 +53,6 @@ _MOST_TEETH_OFF = 3
 # what a mesh may not keep
 FAULTS = sentences_of(__file__, "planetary_faults")
 
-
 _TEETH = Meta(description="a set to judge: z1, z2, z3, or z1, z2, z2', z3")
 _SPACING = Meta(description="satellites equally spaced, or as equally as alike ones can be")
 _TEETH_OFF = Meta(ge=0, le=_MOST_TEETH_OFF, description="teeth that coaxiality may be off, made up by shifts")

@@ -38,7 +38,6 @@ _BESIDE_THE_THESIS = (
 )  # fmt: skip
 _MAP_BANDS, _MAP_POINTS = 48, ((0.0, 1), (0.35, 6), (0.65, 10), (0.92, 14))
 
-
 _PIVOT_CIRCLE = mm(
     "radius of the circle of the cranks' pivots; default: r_pivots of the assembly", above=0, most=1e4, example=51.0
 )

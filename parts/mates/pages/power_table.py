@@ -32,7 +32,6 @@ _Teeth = Annotated[int, Meta(ge=1, le=10_000)]
 _Arm = Annotated[float, mm("length", above=0, most=_MOST)]
 _Place = Annotated[float, mm("coordinate", least=-_MOST, most=_MOST)]
 
-
 _PAIR_TEETH = Meta(description="teeth of disk 3's pinion and of the ring")
 _WORM_RATIOS = Meta(description="teeth of the worm wheels for one start")
 _ORIENTATION_TEETH = Meta(description="teeth of the wheels 6 (and 7) and 8 of the thesis")

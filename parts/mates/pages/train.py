@@ -48,7 +48,6 @@ _COUNTED = "turns of the driven link counted for one of the driver, below 0 the 
 _MESHES = "wheels in mesh, as 1-2, 2'-3 internal 3.5: kind and module where they differ, + or - of bevels"
 _Teeth = Annotated[int, Meta(ge=1)]
 
-
 _CASE = Meta(description="a train of the sources to start from, as practicum_1, 2.10.2, trains_7")
 _SPEEDS = Meta(description="angular velocities of the driving links in rad/s, as speeds.1=120")
 _TORQUES = Meta(description="torques of the loads in N m, counter-clockwise above 0, as torques.H=-4")
