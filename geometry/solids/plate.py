@@ -10,7 +10,6 @@ import cmath
 import math
 from collections.abc import Sequence
 from functools import partial
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,9 +23,6 @@ from geometry.plane.measure import distance_to_plain
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, Segment, circle, joint_turn
 
-if TYPE_CHECKING:
-    from geometry.plane.distance import Flags
-
 Edge = Line | Arc
 _ARC_SAMPLES, _MOST_SAMPLES = 24, 4096
 # as a part of the edges beside it
@@ -37,6 +33,8 @@ _LEAST_HOLE = 1e-3
 _LEAST_WALL = 1e-6
 # of the reach
 _TOUCH = 1e-12
+# edges that meet so near to an end of one, part of the greatest place, or so flat, rad, do not cross
+_AT_END, _ANGLE = 1e-9, 1e-4
 
 
 class PlateHole(Record):
@@ -115,7 +113,7 @@ class PlateOutline(Record):
         edges = moved_edges(self.edges, offset)
         outer = Profile(tuple(Segment(e, Label.BODY) for e in edges))
         holes = tuple(h.profile(offset) for h in self.holes)
-        _refuse_crossing(_polygon(outer, _ARC_SAMPLES))
+        _refuse_crossing(edges)
         clear = _clearances(edges, self.holes, offset)
         # where they touch on purpose rounding may decide
         if clear.size and clear.min() < -_TOUCH * outer.reach():
@@ -290,23 +288,44 @@ def _off_point(points: Complex, start: Complex, end: Complex) -> Real:
     return np.abs(points - start - np.clip(share, 0.0, 1.0) * way)
 
 
-def _refuse_crossing(polygon: Complex) -> None:
-    """Refuse a boundary that crosses itself, by the edges of a fine polygon."""
-    ends = np.roll(polygon, -1)
-    if (_parted(polygon, ends, polygon, ends) & _parted(polygon, ends, polygon, ends).T).any():
-        raise GeometryError("boundary_crosses_itself")
+def _refuse_crossing(edges: Sequence[Edge]) -> None:
+    """Refuse a boundary that crosses itself: two edges that meet within both at an angle."""
+    low, high = np.array([_box(e) for e in edges]).T
+    size = float(np.abs([low, high]).max())
+    beside = (low.real[:, None] <= high.real) & (high.real[:, None] >= low.real)
+    beside &= (low.imag[:, None] <= high.imag) & (high.imag[:, None] >= low.imag)
+    for i, j in np.argwhere(np.triu(beside, 1)).tolist():
+        one, two = edges[i], edges[j]
+        for place in _crossings(one, two):
+            first, second = (_way_within(e, place, _AT_END * size) for e in (one, two))
+            if first is not None and second is not None and abs((first.conjugate() * second).imag) > _ANGLE:
+                raise GeometryError("boundary_crosses_itself")
 
 
-def _parted(start: Complex, end: Complex, first: Complex, second: Complex) -> Flags:
-    """Whether the line of each edge (n,) has the ends of each other edge (m,) on different sides, (n, m)."""
-    way, x, y = end - start, start.real, start.imag
+def _box(edge: Edge) -> tuple[complex, complex]:
+    """The lowest and the highest corner of the rectangle about an edge."""
+    ends = [start_point(edge), end_point(edge)]
+    if isinstance(edge, Arc):
+        farthest = (edge.centre + edge.radius * 1j**k for k in range(4))
+        ends += [place for place in farthest if _is_along(edge, place)]
+    x, y = [end.real for end in ends], [end.imag for end in ends]
+    return complex(min(x), min(y)), complex(max(x), max(y))
 
-    def side(points: Complex) -> Real:
-        across = way.real[:, None] * (points.imag - y[:, None])
-        return across - way.imag[:, None] * (points.real - x[:, None])
 
-    parted: Flags = side(first) * side(second) < 0
-    return parted
+def _is_along(arc: Arc, place: complex) -> bool:
+    """Whether a place of its circle lies on an arc."""
+    turn = cmath.phase((place - arc.centre) * (start_point(arc) - arc.centre).conjugate())
+    return math.copysign(1.0, arc.sweep) * turn % math.tau < abs(arc.sweep)
+
+
+def _way_within(edge: Edge, place: complex, near: float) -> complex | None:
+    """Direction of an edge at a place of its whole line or circle; None beyond its ends, or so near to one."""
+    if min(abs(place - start_point(edge)), abs(place - end_point(edge))) <= near:
+        return None
+    if isinstance(edge, Arc):
+        return 1j * (place - edge.centre) / edge.radius if _is_along(edge, place) else None
+    way = edge.end - edge.start
+    return way / abs(way) if 0 < ((place - edge.start) * way.conjugate()).real < abs(way) ** 2 else None
 
 
 def _polygon(profile: Profile, count: int) -> Complex:

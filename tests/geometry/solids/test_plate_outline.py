@@ -317,3 +317,23 @@ def test_many_holes_lie_clear_or_meet_as_geos_has_them(seed: int) -> None:
         seen[clear] += 1
         found += [hole] if clear else []
     assert min(seen.values()) > 5
+
+
+@pytest.mark.parametrize("beyond", [-1.0, -0.3, -0.01, -1e-6, 1e-6, 0.01, 0.3])
+def test_an_outline_crosses_itself_where_its_lines_and_arcs_do(beyond: float) -> None:
+    """A disk with a notch whose point ends so near to its rim, or ``beyond``: chords of it were 0.4 mm within."""
+    radius, mouth = 50.0, math.radians(3)
+    # the point stands amid two of the places that were looked at
+    tip = cmath.rect(radius + beyond, math.pi + math.radians(354 / 48))
+    begin, end = (cmath.rect(radius, a) for a in (mouth, -mouth))
+    rim = Arc(0j, radius, mouth, math.tau - 2 * mouth)
+    outline = PlateOutline((rim, Line(end, tip), Line(tip, begin)))
+    if beyond < 0:
+        area = abs(profile_area(outline.region().region.outer))
+        # less the notch, and the segment at its mouth that the rim leaves out
+        notch = abs(((begin - tip).conjugate() * (end - tip)).imag) / 2
+        segment = radius**2 * (mouth - math.sin(mouth) * math.cos(mouth))
+        assert area == pytest.approx(math.pi * radius**2 - notch - segment, rel=1e-9)
+    else:
+        with pytest.raises(GeometryError, match="boundary_crosses_itself"):
+            outline.region()
