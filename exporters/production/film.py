@@ -23,8 +23,10 @@ from parts.scene.shapes import Shape
 from parts.scene.standing import Instance
 
 T = TypeVar("T")
-# seconds for a turn of the first drive, and for a loop at least and at most; turns of the fastest in a loop at most
-_SECONDS, _LEAST, _MOST, _MOST_TURNS = 4.0, 4.0, 60.0, 20
+# seconds for a turn of the first drive, and for a loop at least and at most
+_SECONDS, _LEAST, _MOST = 4.0, 4.0, 60.0
+# turns of the fastest in a loop at most, and in the only run of what slides or turns unevenly: no eye follows more
+_MOST_TURNS, _MOST_ONCE = 20, 100
 # values of a way at first, and for a turn of the fastest: of an even way with fewer, each next turn could be taken for
 # one backwards; values at most; of the tolerance what outlines and ways may take
 _VALUES, _A_TURN, MOST_VALUES, SHARE = 60, 4, 16_000, 0.5
@@ -78,7 +80,7 @@ class Film(Record, FileJob):
             ways = [x[1::2] - (x[:-1:2] + x[2::2]) / 2 for x in (places, angles)]
             return (places[::2], angles[::2]), float((np.abs(ways[0]) + reach * np.abs(ways[1])).max())
 
-        (places, angles), off = self.near_enough(at)
+        (places, angles), off = self.near_enough(at, MOST_VALUES)
         return places, angles, off
 
     @property
@@ -87,14 +89,13 @@ class Film(Record, FileJob):
         fastest = max((abs(rate) for i in self.instances for rate in self.course.rates.get(i.id, ())), default=0)
         return max(_VALUES, math.ceil(_A_TURN * fastest * self.loop))
 
-    def near_enough(self, at: Callable[[Real], tuple[T, float]], most: int | None = None) -> tuple[T, float]:
+    def near_enough(self, at: Callable[[Real], tuple[T, float]], most: int) -> tuple[T, float]:
         """What is found at so many even shares of the loop that it is as near as asked, and how far it is off, mm.
 
         ``at``: what is found at every other one of some shares, and how far it is off at those between, where an even
         way is off the most; ``most``: values.
         """
-        most = most or max(MOST_VALUES, self._least)
-        count = min(self._least, most)
+        count = self._least
         while True:
             found, off = at(np.linspace(0, 1, 2 * count + 1))
             if off <= SHARE * self.tolerance / 2 or count >= most:
@@ -157,8 +158,6 @@ def film(made: type[Film], asked: Request) -> Film:
 
 def _loop(course: Course, instances: Sequence[Instance], parts: dict[str, Part]) -> tuple[Fraction, bool]:
     """The share of the drives' run after which the picture is as it was; no more than a viewer will watch."""
-    if course.once & {i.id for i in instances}:
-        return Fraction(1), False
     rates, fastest = set(), Fraction(0)
     for instance in instances:
         chain = course.rates.get(instance.id, ())
@@ -167,6 +166,8 @@ def _loop(course: Course, instances: Sequence[Instance], parts: dict[str, Part])
         # what is round, or looks alike in parts of a turn, about the axis on which it turns, comes again the sooner
         alike = shape.count(0.0, shape.reach) if instance.id in course.spins else 1
         rates |= {*chain[1:], *(rate * alike for rate in chain[:1])}
+    if course.once & {i.id for i in instances}:
+        return min(Fraction(1), _MOST_ONCE / fastest), False
     period = common_period(rates)
     most = _MOST_TURNS / fastest if fastest else period
     return (period, True) if period <= most else (most, False)

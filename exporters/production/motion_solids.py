@@ -11,7 +11,7 @@ from exporters.formats.glb import SolidTrack, write_glb
 from exporters.formats.motion_svg import even_values
 from exporters.formats.read_glb import read_glb
 from exporters.formats.svg import fill
-from exporters.production.film import SHARE, TIMES, Film
+from exporters.production.film import MOST_VALUES, SHARE, TIMES, Film
 from exporters.production.jobs import Job, Made
 from exporters.verification.judge import held
 from exporters.verification.verdict import Verdict, of_readable
@@ -86,7 +86,7 @@ class SolidFilm(Film):
             aside = np.linalg.norm(places[1::2] - (places[:-1:2] + places[2::2]) / 2, axis=1)
             return (places, turns), float((aside + reach * angles).max())
 
-        (places, turns), off = self.near_enough(at)
+        (places, turns), off = self.near_enough(at, MOST_VALUES)
         run = float(np.abs(np.diff(places, axis=0)).sum() + reach * _angles(turns).sum())
         far = float(np.abs(places).max())
         track = SolidTrack(instance.id, instance.part, places[::2], turns[::2])

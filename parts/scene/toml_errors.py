@@ -19,6 +19,12 @@ _BARE = re.compile(rf"([\w-]+)\s*=\s*((?:[{_TYPOGRAPHIC}]|[^\W\d_])[^#,\]}}\"']*
 # a list without brackets, a number with its unit, a key that is not in Latin letters
 _BARE_LIST = re.compile(r"\s*([\w.-]+)\s*=\s*(-?[\d.]+(?:\s*[,;]\s*-?[\d.]+)+)\s*(?:#.*)?")
 _UNIT = re.compile(r"\s*([\w.-]+)\s*=\s*(-?\d+(?:\.\d+)?)\s*[^\W\d_]+\.?\s*(?:#.*)?")
+# a number, text or list that would be one but for a colon, a lone point, a printed minus or degree, or for what other
+# languages end a line with
+_ALMOST = re.compile(
+    r"\s*([\w.-]+)\s*[=:]\s*(?:([-+\u2212\u2013]?)(\d*)(\.?)(\d*)|(\"[^\"]*\"|true|false|\[[^\]]*\]))"
+    r"\s*\u00b0?\s*;?\s*(?://.*|#.*)?"
+)
 _NOT_LATIN = re.compile(r"\s*(\w*[^\W\x00-\x7f]\w*)\s*=")
 # the header of a table, and what a name in it is made of
 _TABLE = re.compile(r"\s*\[\[?([^\[\]\"'#]+)\]\]?\s*(?:#.*)?")
@@ -82,6 +88,11 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return "no_brackets", {"line": number, "key": found[1], "value": row}
     if (found := _UNIT.fullmatch(line)) and look_alike(line) is None:
         return "number_with_unit", {"line": number, "key": found[1], "value": found[2]}
+    if (found := _ALMOST.fullmatch(line)) and look_alike(line) is None:
+        key, sign, whole, point, rest, other = found.groups("")
+        value = other or f"{sign and ('+' if sign == '+' else '-')}{whole or 0}{point and f'.{rest or 0}'}"
+        if (other or whole or rest) and not re.match(rf"\s*{re.escape(key)} *= *{re.escape(value)}\s*(#|$)", line):
+            return "small_letters", {"line": number, "key": key, "value": value}
     if (found := _NOT_LATIN.match(line)) and found.end(1) > column and look_alike(found[1]) is None:
         return "key_not_latin", {"line": number, "key": found[1]}
     if (found := _TABLE.fullmatch(line)) and look_alike(found[1]) is None:

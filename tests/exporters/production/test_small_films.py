@@ -85,6 +85,17 @@ def test_a_slide_that_goes_there_only_is_shown_once() -> None:
     assert (film.loop, film.closes, film.turns, film.seconds) == (1, False, 7.0, 28.0)
 
 
+def test_of_a_slide_no_more_is_shown_than_can_be_followed() -> None:
+    """The first hundred turns of the pinion, whichever the drive."""
+    kept = resolved(load_scene("rack_and_pinion"))
+    for turns, shown in ((99.5, 99.5), (-400.0, -100.0)):
+        drive = {"instance": "pinion", "turns": turns}
+        scene = scene_from_resolved(kept | {"drives": [drive], "exports": [{"format": "motion"}]}, "r")
+        (film,) = plan_build(scene, "r", [], []).sheets
+        assert isinstance(film, Film)
+        assert (film.closes, film.turns, film.seconds) == (False, pytest.approx(shown), 60.0)
+
+
 def test_the_page_holds_all_that_moves_and_no_more() -> None:
     """About each place a circle of what is drawn there and 3 hundredths: the base to the left, the tip all round."""
     text = made("motion")[1].decode()
