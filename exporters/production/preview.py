@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 from textwrap import wrap
-from typing import Any, TypeAlias
+from typing import Any, Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
@@ -20,7 +20,6 @@ from geometry.base.errors import GeometryError
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Approximation, Contour
 from geometry.plane.profile import Profile, Region
-from geometry.solids.turned import HalfSection
 from parts.base.part import Part
 from parts.base.texts import words
 from parts.scene.standing import UPWARDS, Instance
@@ -45,6 +44,15 @@ _MANY, _LAST_NUMBER = 6, re.compile(r"[ _]\d+$")
 Outlines: TypeAlias = tuple[Approximation, ...]
 
 
+@runtime_checkable
+class _Turned(Protocol):
+    """What is turned, by its axial section; half sections themselves load all of solids."""
+
+    def chords(self, chord: float) -> Complex:
+        """The half section by chords, r + iz."""
+        ...
+
+
 def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) -> Path:
     """The filled part, its circles with their diameters, and what was noticed."""
     remarks = [finding_text(language, f) for f in part.findings]
@@ -59,7 +67,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
         line for row in (part.title or part.id, *rows, *remarks) for line in wrap(told.decimal(row), _CAPTION_LETTERS)
     ]
     # what is turned is known by its axial section, which lies below the view along its axis
-    half = part.thing.chords(reach / 1000) if isinstance(part.thing, HalfSection) else np.zeros(0, complex)
+    half = part.thing.chords(reach / 1000) if isinstance(part.thing, _Turned) else np.zeros(0, complex)
     across, length = (2 * float(half.real.max()), float(np.ptp(half.imag))) if len(half) else (0.0, 0.0)
     low = max(2 * middle, text * 1.7 * (len(caption) + 1))
     lines = [head(middle, max(text * 24, length - 2 * reach), low - 2 * middle + across * 1.08)]

@@ -354,6 +354,15 @@ NOT_OF_A_GEAR = ("parts.base.densities",
                  "exporters.production.check")  # fmt: skip
 
 
+def test_a_flat_file_of_a_gear_loads_nothing_of_solids_but_its_keys(tmp_path: Path) -> None:
+    """Its picture did, for what is turned."""
+    write_scene(tmp_path / "one.toml", {"a": part_keys(GEAR)}, ALL)
+    loaded = loaded_by("build", "one.toml", "--format", "dxf", cwd=tmp_path)
+    solids = {name for name in loaded if name.startswith("geometry.solids.")}
+    assert solids <= {f"geometry.solids.{name}" for name in ("bores", "hub_holes", "wheel")}
+    assert not [name for name in loaded if name.startswith("parts.solids")]
+
+
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("words", "never"),
