@@ -290,7 +290,12 @@ def _check_shaft(keys: ShaftSpec) -> None:
     z, whole = 0.0, sum(step.length for step in keys.steps)
     if keys.bore_diameter and keys.centre_holes is not None:
         raise either("bore_diameter", keys.bore_diameter, "centre_holes", 0.0)
+    radii = [0.0, *map(_radius, keys.steps), 0.0]
     for k, step in enumerate(keys.steps, 1):
+        if radii[k - 1] < radii[k] > radii[k + 1] and step.chamfer > step.length / 2:
+            # of a step that stands out at both of its ends
+            most = most_of(step.length / 2, step.chamfer)
+            raise ParameterError(f"steps[{k}].chamfer", step.chamfer, "corner_longer_than_edge", most)
         least = min([step.diameter, *(g.diameter for g in step.grooves)])
         if keys.bore_diameter >= least:
             most = most_of(least, keys.bore_diameter)

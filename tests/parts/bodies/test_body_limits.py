@@ -92,6 +92,9 @@ LIMITS: list[tuple[dict[str, Any], str, str, float, str, dict[str, float]]] = [
      2.5, "at_most", {}),
     (steps(step(20.0, 3.0, chamfer=0.5, fillet=1.0), step(28.0, 25.0)), "steps[1].chamfer", "corner_longer_than_edge",
      2.0, "at_most", {}),
+    # one chamfer at both ends of a step that stands out
+    (steps(step(20.0, 40.0), step(28.0, 1.8, chamfer=0.5), step(20.0, 9.0)), "steps[2].chamfer",
+     "corner_longer_than_edge", 0.9, "at_most", {}),
     # both roundings of a groove's bottom, 2 wide; its walls, 0.8 deep
     (GROOVED, f"{GR}.fillet", "corner_longer_than_edge", 1.0, "at_most", {}),
     (steps(step(20.0, 40.0, grooves=[GROOVE | {"diameter": 18.4}])), f"{GR}.fillet", "corner_longer_than_edge", 0.8,
