@@ -9,8 +9,9 @@ from geometry.base.tolerance import DRAWN_ROUNDING
 from geometry.curves.curve import Complex, Real
 from parts.base.readback import refuse_if
 
-# samples of each span of a spline: polynomials up to this degree less one come back exactly
-_SAMPLES = 8
+# samples of each span: polynomials up to this degree less one come back exactly,
+# arcs of a right angle to 1e-12 of their radius
+_SAMPLES = 12
 # ends of neighbouring curves in one file meet this well: mm, and a part of its size (files carry 15 digits)
 _JOINT, _DIGITS = 2 * DRAWN_ROUNDING, 1e-9
 

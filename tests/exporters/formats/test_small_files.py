@@ -203,26 +203,35 @@ def test_ends_meet_as_well_as_a_drawing_s_digits(gap: float, closed: bool) -> No
 
 
 def test_polynomials_come_back_from_their_samples() -> None:
-    """Of degree 7, span by span; run backwards they are polynomials of 1 - t."""
+    """Of degree 11, span by span; run backwards they are polynomials of 1 - t."""
     rng = np.random.default_rng(3)
     share = nodes()
-    assert (share[0], share[-1], len(share)) == (0.0, 1.0, 8)
-    assert share + share[::-1] == pytest.approx(np.ones(8))
-    first = rng.normal(size=8) + 1j * rng.normal(size=8)
-    second = rng.normal(size=8) + 1j * rng.normal(size=8)
+    assert (share[0], share[-1], len(share)) == (0.0, 1.0, 12)
+    assert share + share[::-1] == pytest.approx(np.ones(12))
+    first = rng.normal(size=12) + 1j * rng.normal(size=12)
+    second = rng.normal(size=12) + 1j * rng.normal(size=12)
     # the second runs from the end of the first to its beginning
     second[0] = first[0]
     second[1:] *= (first.sum() - first[0]) / second[1:].sum()
-    spans = [np.vander(share, 8, increasing=True) @ c for c in (first, second)]
+    spans = [np.vander(share, 12, increasing=True) @ c for c in (first, second)]
     (loop,) = smooth_loops(spans)
     t = np.linspace(0, 1, 11)
-    made = np.vander(t, 8, increasing=True) @ loop.coefficients.T
-    exact = np.vander(t, 8, increasing=True) @ np.array([first, second]).T
+    made = np.vander(t, 12, increasing=True) @ loop.coefficients.T
+    exact = np.vander(t, 12, increasing=True) @ np.array([first, second]).T
     assert made[:, 0] == pytest.approx(exact[:, 0], abs=1e-8)
     assert made[:, 1] == pytest.approx(exact[::-1, 1], abs=1e-8)
     assert loop.points[0] == pytest.approx(first[0])
     assert SmoothLoop(np.array([[1 + 2j, 5], [4 - 7j, 1], [-2 + 0j, 3]])).size == 6.0
     assert Loop(np.array([3 + 0j, -3]), np.array([1.0, 1.0]), "").size == pytest.approx(9 * math.pi)
+
+
+@pytest.mark.parametrize(("turn", "off"), [(1.0, 1e-14), (math.pi / 2, 1e-12)])
+def test_arcs_come_back_from_their_samples(turn: float, off: float) -> None:
+    """By eight of them one of a radian was 1.5e-9 of its radius off: arcs of wheels of 2 m failed their read-back."""
+    there = np.exp(1j * turn * nodes())
+    (loop,) = smooth_loops([there, there[-1] + (there[0] - there[-1]) * nodes()])
+    made = np.vander(np.linspace(0, 1, 101), 12, increasing=True) @ loop.coefficients.T[:, :1]
+    assert np.abs(np.abs(made) - 1).max() < off
 
 
 PRISM = np.array([[x, y, z] for z in (0.0, 4.0) for x, y in ((0, 0), (6, 0), (6, 3), (0, 3))])
