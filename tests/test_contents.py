@@ -14,6 +14,9 @@ LISTED = cache(listed)
 SLOW = ("calc power-module orientation", "calc power-module load=2000",
         "calc planetary scheme=one_external", "calc shift-choice first.number_of_teeth=17",
         "calc shift-choice kind=internal_gear_pair module=2 first.number_of_teeth=20",
+        "calc power-module module=4", "calc power-module force_x=600",
+        "calc worm module=2 number_of_teeth=40 outer_diameter=99",
+        "calc worm module=2 number_of_teeth=40 face_width=200",
          "recipe power_module")  # fmt: skip
 CASES = [
     pytest.param(kind, name, marks=pytest.mark.heavy) if f"{kind} {name}".startswith(SLOW) else (kind, name)

@@ -166,8 +166,11 @@ def test_teeth_stay_in_spaces_wherever_the_drives_stand() -> None:
 
 @pytest.mark.parametrize("beside", [pytest.param(19.0, marks=pytest.mark.heavy), 21.5, 23.0])
 def test_what_a_satellite_strikes_as_it_comes_round_is_found(beside: float) -> None:
-    """A post beside the ring's axis: struck or not as meshes in 240 places by Rodrigues have it."""
+    """A post beside the ring's axis: struck or not as meshes in 120 places by Rodrigues have it."""
     raw = differential(("ring", 1.0), ("left", 1.0))
+    # one satellite is enough
+    del raw["instances"]["two"]
+    raw["mates"] = [mate for mate in raw["mates"] if "two" not in (mate["first"], mate["second"])]
     raw["parts"]["post"] = {"kind": "plate", "width": 4.0, "height": 4.0, "face_width": 40.0}
     raw["instances"]["post"] = {"part": "post", "at": [0.0, beside + 2.0, 10.0]}
     raw["instances"]["left"]["at"] = [0.0, 0.0, 0.0]
@@ -177,7 +180,7 @@ def test_what_a_satellite_strikes_as_it_comes_round_is_found(beside: float) -> N
     solids = meshes(parts)
     post = solids["post"].transform(frame(next(i for i in placing.instances if i.id == "post")))
     common = max(
-        (solids["satellite"].transform(frames(placing, t, t)["one"]) ^ post).volume() for t in np.linspace(0, 1, 240)
+        (solids["satellite"].transform(frames(placing, t, t)["one"]) ^ post).volume() for t in np.linspace(0, 1, 120)
     )
     struck = {frozenset((x["first"], x["second"])) for x in told.get("solids", [])}
     assert (frozenset(("one", "post")) in struck) is (common > 1e-3)
