@@ -20,6 +20,7 @@ from parts.keys.spline_probe import SplineProbe
 from parts.keys.splines import InvoluteSplineTable, StraightSplineTable
 from parts.scene.load import make_parts, scene_from_dict
 from tests.exporters.making import read_report, run, write_scene
+from tests.sampling import some_of
 
 TABLES: dict[str, StraightSplineTable | InvoluteSplineTable] = {
     "straight": StraightSplineTable("D-6x23x26", clearance=0.2, angle_deg=40.0),
@@ -47,7 +48,8 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of the files of both, one with a chamfer."""
     root = tmp_path_factory.mktemp("spline")
     roller = {"kind": "roller", "diameter": 40.0, "face_width": 6.0}
-    parts = {name: roller | {"bore": bore, "face_chamfer": 0.5} for name, bore in BORES.items()}
+    parts = {name: roller | {"bore": bore} for name, bore in BORES.items()}
+    parts["straight"]["face_chamfer"] = 0.5
     assert run("build", write_scene(root / "s.toml", parts, EXPORTS), "--out", root / "out") == 0
     return root / "out" / "s"
 
@@ -82,8 +84,9 @@ ROWS: dict[str, list[tuple[float, float, str]]] = {
 def test_shafts_of_several_splines_and_of_any_number_of_teeth_are_whole(tmp_path: Path) -> None:
     """Every plane, cylinder and involute is found in the STEP, whose volume is that of all sections."""
     parts: dict[str, dict[str, Any]] = {}
-    wanted = dict.fromkeys(ROWS, 0.0)
-    for name, row in ROWS.items():
+    drawn = dict(some_of(ROWS.items(), 2))
+    wanted = dict.fromkeys(drawn, 0.0)
+    for name, row in drawn.items():
         steps = []
         for diameter, length, size in row:
             shape = "spline" if "-" in size else "involute_spline"

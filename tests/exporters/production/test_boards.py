@@ -249,6 +249,7 @@ def copied(folder: Path, to: Path) -> Path:
     return to / "set.board.1.dxf"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("spoil", "words"), [
     ("moved", "is off the other|deviates by"), ("engraved", "an engraved line comes after a closed contour"),
     ("order", "comes after the layer that follows its own"),

@@ -183,7 +183,7 @@ def test_damage_is_noticed(roller_file: Path, tmp_path: Path, damage: str) -> No
 
 def test_a_slider_is_drawn_on_its_line(tmp_path: Path) -> None:
     """Four linkages with two sliders: a line and a rectangle each, the lines in their directions turned back."""
-    job = jobs(CASES["slider"], tolerance=1e-2)[0]
+    job = jobs(CASES["slider"], intervals=4, tolerance=1e-2)[0]
     file = tmp_path / job.path
     job.write({}, file)
     lines = [(complex(*e.dxf.start.vec2), complex(*e.dxf.end.vec2))

@@ -691,7 +691,7 @@ def test_holes_at_many_places_are_numbered_and_stand_in_a_table(tmp_path: Path) 
     assert len(sizes(tmp_path / job.path)) == 2 + 8 + 2
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize(("teeth", "mate", "shaft"), [(20, 40, 90.0), (40, 20, 90.0), (14, 30, 60.0), (30, 20, 120.0)])
 def test_cones_of_a_bevel_gear_stand_on_its_picture(teeth: int, mate: int, shaft: float, tmp_path: Path) -> None:
     """GOST 2.405: the angles of tips and back cone, off the arcs of the file and the edges that they end at.

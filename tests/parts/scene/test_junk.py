@@ -78,7 +78,7 @@ def test_the_sound_scene_is_sound() -> None:
     assert survives(sound())
 
 
-@examples(40, deadline=PATIENCE)
+@examples(20, deadline=PATIENCE)
 @given(st.sampled_from(["", "scene", "parts", "gear", "exports"]), keys, values)
 def test_junk_at_one_key(table: str, key: str, value: Any) -> None:
     raw = sound()

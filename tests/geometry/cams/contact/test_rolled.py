@@ -104,6 +104,7 @@ def chords_within(points: np.ndarray, error: float) -> np.ndarray:
     return np.array(kept)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("law", ["cosine", "polynomial_345"])
 @pytest.mark.parametrize("base", [1e-4, 3e-3, 0.02])
 def test_chords_that_cut_flanks_off_down_to_the_axis_are_no_fault_and_a_wrong_vertex_is(law: str, base: float) -> None:

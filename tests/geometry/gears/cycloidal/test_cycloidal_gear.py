@@ -108,6 +108,7 @@ def test_a_parallel_is_that_of_a_buffer(gear: CycloidalGear, offset: float) -> N
     assert exact.symmetric_difference(thick).area < 2e-5 * exact.length
 
 
+@pytest.mark.sampled(2)
 @EVERY_PAIR
 def test_mates_touch_all_round_and_pushed_ones_overlap(gears: tuple[CycloidalGear, CycloidalGear]) -> None:
     pair, push = CycloidalPair(*gears), 1e-4
@@ -133,7 +134,7 @@ def test_contact_is_found_beside_the_cusps_too(gears: tuple[CycloidalGear, Cyclo
     assert np.abs(gaps).max() < 1e-9 * MODULE
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @EVERY_PAIR
 def test_gaps_of_a_pair_are_those_of_its_polygons(gears: tuple[CycloidalGear, CycloidalGear]) -> None:
     """An oracle without our search: outlines of many corners, set in place by shapely, at some drive angles."""

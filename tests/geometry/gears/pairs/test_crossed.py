@@ -94,7 +94,7 @@ def _least_gap(pair: CrossedPair, side: int) -> float:
                               options={"xatol": 1e-10, "fatol": 1e-16, "maxiter": 4000}).fun)  # fmt: skip
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", CASES)
 def test_gaps_between_helicoids_are_half_the_backlash_wherever_the_pair_stands(name: str) -> None:
     bare = _bare(CASES[name], thinning=0.08)
@@ -170,7 +170,7 @@ def test_a_gear_that_cannot_drive_gives_nothing_however_rough_the_flanks_are() -
     assert 0 < pair.efficiency(1.0, back=True) < 1
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("name", CASES)
 def test_sections_of_whole_teeth_find_the_gap_of_the_closed_form_and_no_less(name: str) -> None:
     pair = crossed_pair(_bare(CASES[name]))

@@ -147,6 +147,7 @@ DISCS = {
 EVERY = pytest.mark.parametrize("disc", DISCS.values(), ids=DISCS.keys())
 
 
+@pytest.mark.sampled(2)
 @EVERY
 def test_nothing_of_the_driver_runs_into_the_wheel(disc: GenevaDisc) -> None:
     """By polygons; the least gap is the one that the exact search finds, and so is a relief that is too shallow."""
@@ -166,6 +167,7 @@ def test_a_relief_without_clearance_touches_what_is_swept(disc: GenevaDisc) -> N
     assert GenevaContact(replace(disc, relief_clearance=0.0)).result().worst.gap == pytest.approx(0.0, abs=1e-7)
 
 
+@pytest.mark.sampled(2)
 @EVERY
 def test_without_clearances_pin_or_disc_touch_all_the_time(disc: GenevaDisc) -> None:
     tight = replace(disc, wheel=replace(disc.wheel, slot_clearance=0.0, locking_clearance=0.0))

@@ -20,12 +20,15 @@ from parts.scene.placing import place
 from parts.solids.mesh import body_mesh, mesh_outlines
 from tests.exporters.making import read_report, write_scene
 from tests.exporters.spoil import Records, change_stl, corner_shifted, triangle_flipped
+from tests.sampling import some_of
 
 PINION: dict[str, Any] = {
     "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 12, "mate_number_of_teeth": 18,
      "profile_shift_coefficient": 0.2,
     "hub_diameter": 16.0, "hub_length": 4.0, "bore_diameter": 6.0,
 }  # fmt: skip
+# as large, with half of the teeth
+COARSE = PINION | {"module": 4.0, "number_of_teeth": 6, "mate_number_of_teeth": 9}
 WHEEL: dict[str, Any] = {
     "kind": "bevel_gear", "module": 2.0, "number_of_teeth": 18, "mate_number_of_teeth": 12,
      "profile_shift_coefficient": -0.2,
@@ -185,8 +188,8 @@ def test_check_tells_ratio_contact_and_turns(tmp_path: Path, capsys: pytest.Capt
 
 
 def test_files_hold_what_they_declare_and_spoiled_ones_are_found(tmp_path: Path) -> None:
-    exports = [{"format": "step"}, {"format": "stl", "tolerance": 0.02}]
-    file = write_scene(tmp_path / "s.toml", {"pinion": PINION}, exports)
+    exports = [{"format": "step"}, {"format": "stl", "tolerance": 0.05}]
+    file = write_scene(tmp_path / "s.toml", {"pinion": COARSE}, exports)
     out = tmp_path / "out"
     assert main(["build", str(file), "--out", str(out)]) == 0
     folder = out / "s"
@@ -201,7 +204,7 @@ def test_files_hold_what_they_declare_and_spoiled_ones_are_found(tmp_path: Path)
     (folder / "pinion.step").write_text(whole)
     assert main(["verify", str(folder / "pinion.step")]) == 0
     mesh = (folder / "pinion.stl").read_bytes()
-    for change in (corner_shifted, triangle_flipped, tip_pressed_in):
+    for change in some_of((corner_shifted, triangle_flipped, tip_pressed_in)):
         change_stl(folder / "pinion.stl", change, 0.4, 0.05)
         assert main(["verify", str(folder / "pinion.stl")]) == 1, change.__name__
         (folder / "pinion.stl").write_bytes(mesh)
@@ -213,7 +216,7 @@ def test_files_hold_what_they_declare_and_spoiled_ones_are_found(tmp_path: Path)
 )
 def test_faces_much_wider_than_usual_are_written_and_read_back(tmp_path: Path, keys: dict[str, Any]) -> None:
     """R_e is 21.6: the more of it a face takes, the more spans its flanks and all beside them have."""
-    file = write_scene(tmp_path / "s.toml", {"pinion": PINION | {"bore_diameter": 1.0} | keys}, [{"format": "step"}])
+    file = write_scene(tmp_path / "s.toml", {"pinion": COARSE | {"bore_diameter": 1.0} | keys}, [{"format": "step"}])
     assert main(["build", str(file), "--out", str(tmp_path / "out")]) == 0
     (entry,) = read_report(tmp_path / "out" / "s")["files"]
     assert entry["max_error"] < 3e-8

@@ -61,6 +61,7 @@ def turned(parts: Any, stand: Any, *shares: float) -> list[Any]:
     return solids
 
 
+@pytest.mark.sampled(1)
 @pytest.mark.parametrize("shaper", [14, 16])
 def test_meshes_of_both_keep_half_of_the_backlash_all_over_a_pitch(shaper: int) -> None:
     """By meshes alone, turned step by step in their ratio; beside it they clash."""
@@ -243,7 +244,7 @@ def test_hub_web_and_holes_weigh_what_they_are() -> None:
     assert solid.bounding_box()[2::3] == pytest.approx((-4.0, bodies[0].levels()[1]), abs=1e-5)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("diameter", "above", "pinion_hub", "code"),
     [(34.0, 0.3, 0.0, 0), (34.0, 8.0, 0.0, 1), (34.0, 8.0, 6.0, 1), (34.0, 0.3, 6.0, 0), (24.0, 8.0, 6.0, 1)],
