@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 ENGLISH = "en"
 DOMAIN = "higherpair"
+# of printed numbers: a hyphen is shorter
+MINUS = "\N{MINUS SIGN}"
 LOCALE = Path(__file__).parents[1] / "locale"
 # what plural rules say of a number with a fraction: that of a negative count, which no text has
 _FRACTION = -1
@@ -161,9 +163,10 @@ class Words(NamedTuple):
         return told.format(**said) if said else told
 
     def decimal(self, number: str) -> str:
-        """A number, or a formula with numbers, as the language prints it on drawings: 0.5 or 0,5."""
-        # points of indices stay
-        return re.sub(r"(?<=\d)\.(?=\d)", self.term("decimal point", "."), number)
+        """A number, or words with numbers, as the language prints it on drawings: 0.5 or 0,5, with a true minus."""
+        # points of indices stay, and hyphens of ranges and names
+        told = re.sub(r"(?<=\d)\.(?=\d)", self.term("decimal point", "."), number)
+        return re.sub(r"(?<![\w)}\]-])-(?=\d)", MINUS, told)
 
 
 @cache

@@ -17,10 +17,10 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.keyways import depth_deviation
 from geometry.solids.splines import SplineBore
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket, Splined
+from parts.base.texts import MINUS
 from parts.bodies.details import detailed
 from parts.bodies.turned import ShaftSpec, TurnedSpec
 from parts.drawing.directions import directions, spline_data, tip_zone
-from parts.drawing.font import MINUS
 from parts.drawing.places import apart
 from parts.drawing.revolved import Loop, below, block, closed, outer_of, outlined, seen_circles, seen_edges
 from parts.drawing.turned_sizes import Fits, SectionCorner, bores, listed_corners, seats, turned_sizes

@@ -15,6 +15,7 @@ import numpy as np
 from geometry.approximation.outline import CadCurve
 from geometry.base.record import Record, replace
 from geometry.curves.line_arc import Arc, Line
+from parts.base.texts import MINUS
 from parts.drawing.canvas import (
     SMALL_TEXT,
     TEXT_HEIGHT,
@@ -32,7 +33,6 @@ from parts.drawing.canvas import (
     text_of,
     text_width,
 )
-from parts.drawing.font import MINUS
 from parts.drawing.hatching import hatching
 from parts.drawing.ink import FREE, Ink, Role
 from parts.drawing.working import AXIS, TURNED, VISIBLE, Angle, Cut, Note, Round, Side, Size, Slant, View, number_text

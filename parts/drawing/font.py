@@ -8,8 +8,6 @@ from functools import cache
 from pathlib import Path
 
 FONT = Path(__file__).parent / "fonts" / "DejaVuSansCondensed.ttf"
-# of numbers: a hyphen is shorter
-MINUS = "\N{MINUS SIGN}"
 # height of a capital as a part of the font's size
 CAPITAL = 1493 / 2048
 

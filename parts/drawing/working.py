@@ -15,7 +15,6 @@ from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.base.part import Part
 from parts.drawing.canvas import decimal
-from parts.drawing.font import MINUS
 from parts.drawing.ink import chords
 from parts.keys.working import WorkingTable
 from parts.texts.sheets import sheet_words, view_letter
@@ -212,7 +211,7 @@ class Subject(Record):
 def number_text(value: float, language: str, digits: int = _DECIMALS) -> str:
     """A number as drawings have it: so many decimals at most, none that are zero."""
     text = f"{value:.{digits}f}"
-    return decimal(text.rstrip("0").rstrip(".") if "." in text else text, language).replace("-", MINUS)
+    return decimal(text.rstrip("0").rstrip(".") if "." in text else text, language)
 
 
 def requirements(subject: Subject, *more: str) -> tuple[str, ...]:

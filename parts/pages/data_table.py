@@ -15,7 +15,6 @@ from parts.base.part import Part
 from parts.base.texts import N_, Text, Words, in_context, message, words
 from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, plain_width
 from parts.drawing.cells import INDENT, wrapped, write_cell, write_lines
-from parts.drawing.font import MINUS
 from parts.pages.page import Sheet, Step, Table, shortest, unit_text
 from parts.pages.symbols import head_text, lowered, symbol_text
 from parts.pages.terms import TERMS
@@ -114,12 +113,8 @@ def standard_told(name: str) -> Text:
 def value_text(row: DataRow, told: Words) -> str:
     """What stands in the last column."""
     if isinstance(row.value, float):
-        return _printed(sexagesimal(row.value) if row.unit == "deg" else rounded(row.value, row.unit), told)
-    return _printed(str(row.value), told) if isinstance(row.value, int) else told.say(row.value)
-
-
-def _printed(number: str, told: Words) -> str:
-    return told.decimal(number).replace("-", MINUS)
+        return told.decimal(sexagesimal(row.value) if row.unit == "deg" else rounded(row.value, row.unit))
+    return told.decimal(str(row.value)) if isinstance(row.value, int) else told.say(row.value)
 
 
 def rounded(value: float, unit: str) -> str:
@@ -214,7 +209,7 @@ def _write_value(canvas: Canvas, row: DataRow, cell: Box, told: Words) -> None:
     if row.deviations is None:
         write_lines(canvas, text, cell, TEXT_HEIGHT)
         return
-    limits = [_printed(f"{value:+.3f}" if value else "0", told) for value in row.deviations]
+    limits = [told.decimal(f"{value:+.3f}" if value else "0") for value in row.deviations]
     wide = max(plain_width(limit, SMALL_TEXT) for limit in limits)
     middle = cell.right - INDENT - wide
     write_cell(canvas, text, Box(cell.left, cell.low, middle, cell.high), TEXT_HEIGHT)
@@ -232,7 +227,7 @@ def _draw_positions(canvas: Canvas, corner: complex, table: Table, told: Words, 
     heads = [", ".join(filter(None, (_head(name, told), unit_text(unit, told)))) for name, unit in table.heads]
     for number, rows in enumerate(blocks):
         left = corner.real + number * side
-        for line, row in enumerate([heads, *([_printed(text, told) for text in position_texts(row)] for row in rows)]):
+        for line, row in enumerate([heads, *([told.decimal(text) for text in position_texts(row)] for row in rows)]):
             y = corner.imag - _POSITION * line
             canvas.line("TABLE" if line else "FRAME", complex(left, y), complex(left + side, y))
             for text, a, b in zip(row, edges, edges[1:], strict=False):

@@ -106,7 +106,7 @@ def test_numbers_on_the_sheet_are_those_of_the_calculation(name: str) -> None:
 
     def said(value: float, digits: int) -> str:
         text = f"{value:.{digits}f}"
-        text = text.lstrip("-") if float(text) == 0 else text
+        text = text.lstrip("-") if float(text) == 0 else text.replace("-", "\N{MINUS SIGN}")
         return text.replace(".", ",") if language == "uk" else text
 
     values = data["values"]

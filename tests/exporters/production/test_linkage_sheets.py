@@ -144,7 +144,7 @@ def test_the_table_of_positions_holds_the_calculations_numbers(language: str) ->
             row["y"],
         )
         cells = [f"{x:.2f}".replace(".", "," if language == "uk" else ".") for x in values]
-        cells = ["0" + c[2:] if re.fullmatch("-0[.,]00", c) else c for c in cells]
+        cells = ["0" + c[2:] if re.fullmatch("-0[.,]00", c) else c.replace("-", "\N{MINUS SIGN}") for c in cells]
         start = [str(angles().index(row["phi"])), *cells]
         assert any(texts[k : k + len(start)] == start for k in range(len(texts))), start
         seen += 1

@@ -114,7 +114,10 @@ def test_a_line_that_is_off_is_seen(tmp_path: Path, layer: str, index: int) -> N
 
 @pytest.mark.parametrize(
     ("driver", "distances", "ratios"),
-    [("a", (50.0, 70.0), {"12": "-1.5", "13": "2"}), ("c", (70.0, 50.0), {"12": "-0.75", "13": "0.5"})],
+    [
+        ("a", (50.0, 70.0), {"12": "\N{MINUS SIGN}1.5", "13": "2"}),
+        ("c", (70.0, 50.0), {"12": "\N{MINUS SIGN}0.75", "13": "0.5"}),
+    ],
 )
 def test_axes_stand_apart_as_the_gears_do_and_every_ratio_is_told(
     tmp_path: Path, driver: str, distances: tuple[float, float], ratios: dict[str, str]
@@ -150,5 +153,5 @@ def test_clock_gears_and_lanterns_are_gears_too(tmp_path: Path, scene: str, teet
     assert build(plan_build(scene_from_dict(raw, "s", "s"), "s", [], []), tmp_path).well
     (file,) = tmp_path.glob("*.train.dxf")
     texts = [text.dxf.text for text in ezdxf.readfile(file).modelspace().query("TEXT")]
-    (ratio,) = (float(texts[k + 2]) for k, text in enumerate(texts) if text == "u")
+    (ratio,) = (float(texts[k + 2].replace("\N{MINUS SIGN}", "-")) for k, text in enumerate(texts) if text == "u")
     assert ratio == pytest.approx(-teeth[1] / teeth[0], rel=1e-5)

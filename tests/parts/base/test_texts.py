@@ -56,6 +56,12 @@ def test_only_points_of_numbers_become_commas() -> None:
     assert words("en").decimal("50.5") == "50.5"
 
 
+def test_printed_numbers_below_zero_have_a_true_minus() -> None:
+    assert words("uk").decimal("x = -0.5 (-3)") == "x = \N{MINUS SIGN}0,5 (\N{MINUS SIGN}3)"
+    for name in ("08B-1", "9-36", "1e-05", "D-8x32", "5 - 3", "2026-11-29"):
+        assert words("en").decimal(name) == name
+
+
 @pytest.mark.parametrize(("count", "told"), COUNTS.items())
 def test_ukrainian_counts(count: float, told: str) -> None:
     assert words("uk").say(counted("{n:.9g} time", "{n:.9g} times", by="n", n=count)) == told

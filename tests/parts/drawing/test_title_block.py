@@ -13,6 +13,7 @@ import pytest
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
 from parts.drawing.canvas import Canvas
+from parts.drawing.cells import wrapped
 from parts.drawing.title_block import TITLE_BLOCK, TitleBlock, draw_title_block
 from parts.scene.files import built_in_scenes
 from parts.scene.load import scene_from_dict
@@ -112,6 +113,15 @@ def test_long_words_stay_in_their_cells() -> None:
         assert text.box.right <= canvas.frame.right
     names = [t for t in canvas.texts if t.box.left > canvas.frame.right - 121 and t.box.right < canvas.frame.right - 49]
     assert all(canvas.frame.low <= t.runs[0].at.imag <= canvas.frame.low + 55 for t in names)
+
+
+def test_a_number_stays_at_its_symbol() -> None:
+    """Lines end at common spaces alone."""
+    text = "Wheel of the second stage z\u00a0136 m\u00a02.25 x\u00a00.125"
+    for width in range(18, 120, 3):
+        rows = wrapped(text, width, 5.0)
+        assert " ".join(rows) == text
+        assert all(row.count("\u00a0") == sum(row.count(letter + "\u00a0") for letter in "zmx") for row in rows)
 
 
 @pytest.mark.heavy
