@@ -1026,10 +1026,11 @@ def test_specific_pressure_is_that_of_the_textbooks(
         ("gear-pair", "ring_gear", "internal_gear_pair"),
         ("gear-pair", "rack", "rack_pair"),
         # as in test_calc_internal_shifts, so that one search serves both
-        (
+        pytest.param(
             "shift-choice second.cutter.number_of_teeth=25 working_centre_distance=40.5",
             "ring_gear",
             "internal_gear_pair",
+            marks=pytest.mark.heavy,
         ),
     ],
 )

@@ -7,6 +7,7 @@ import math
 import re
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import ezdxf
@@ -16,6 +17,7 @@ from exporters.command.cli import main
 from exporters.documents.topics import calculate
 from parts.base.refusal import SceneError
 from tests.exporters.documents.test_calc_lever import value
+from tests.sampling import some_of
 
 Lines = dict[str, list[tuple[complex, complex]]]
 LOADS = ("masses.1=5", "centres.1=20", "masses.2=8", "masses.3=20", "masses.4=10", "masses.5=40", "resistance=2000")
@@ -98,10 +100,17 @@ def test_the_crank_stands_in_all_positions_of_a_turn(tmp_path: Path) -> None:
     assert sum(text == "Plan of velocities, position 5" or "position 5" in text for text, _ in read.words) == 2
 
 
-def test_zhukovskys_lever_on_paper_gives_the_balancing_moment(tmp_path: Path) -> None:
+@cache
+def loaded() -> tuple[Read, dict[str, Any]]:
+    """The sheet of loaded links and its page."""
+    keys = ("assignment=4", "variant=2", "force_scale=25", *LOADS)
+    with TemporaryDirectory() as folder:
+        return drawn(Path(folder), *keys), data(*keys)
+
+
+def test_zhukovskys_lever_on_paper_gives_the_balancing_moment() -> None:
     """Moments of forces about the pole, with dividers: their sum is -M_b ω_1."""
-    keys = ("assignment=4", "variant=2", *LOADS)
-    read, page = drawn(tmp_path, *keys), data(*keys)
+    read, page = loaded()
     tips = [(pole, tip) for pole, tip in read.lines["VELOCITY"]]
     total, count = 0.0, 0
     title = next(at for text, at in read.words if text == "Zhukovsky's lever")
@@ -117,9 +126,8 @@ def test_zhukovskys_lever_on_paper_gives_the_balancing_moment(tmp_path: Path) ->
     assert -total / value(page, "ω_1") == pytest.approx(value(page, "M_b"), rel=1e-4)
 
 
-def test_plans_of_forces_close_on_paper(tmp_path: Path) -> None:
-    keys = ("assignment=4", "variant=2", "force_scale=25", *LOADS)
-    read, page = drawn(tmp_path, *keys), data(*keys)
+def test_plans_of_forces_close_on_paper() -> None:
+    read, page = loaded()
     assert read.scale("F") == 25
     # the last one is what link 4 passes on to link 5, across the polygon
     *sizes, across = [row["value"] / 25 for row in page["force_plan_45"]]
@@ -173,7 +181,7 @@ def refused(*keys: str) -> SceneError:
 
 def test_what_fits_no_sheet_is_refused_by_its_key_with_what_works(tmp_path: Path) -> None:
     sheet = f"sheet={(tmp_path / 'lever.dxf').as_posix()}"
-    for key, bad in (("drawn_crank", "900"), ("velocity_scale", "0.005"), ("paper", "A4")):
+    for key, bad in some_of((("drawn_crank", "900"), ("velocity_scale", "0.005"), ("paper", "A4"))):
         told = refused("code=1071", f"{key}={bad}", sheet)
         assert told.key == f"lever.{key}"
         assert told.nearest is not None

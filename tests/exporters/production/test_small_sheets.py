@@ -20,6 +20,7 @@ from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
 from parts.drawing.canvas import Canvas, Paper, Stroke, draw
 from parts.drawing.expected import Circle, Expected, Meshing
+from tests.sampling import some_of
 
 TOLERANCE = 1e-3
 PAPER = Paper(2.0, 60 + 70j)
@@ -169,7 +170,7 @@ def test_a_sheet_is_what_it_was_made_of(file: Path) -> None:
 
 
 def test_a_sheet_is_no_other_one(file: Path) -> None:
-    for name, (change, said) in CHANGES.items():
+    for name, (change, said) in some_of(CHANGES.items(), 6):
         failures = verify_sheets(file, [change(expected())], TOLERANCE).failures
         assert any(said in failure for failure in failures), (name, failures)
 

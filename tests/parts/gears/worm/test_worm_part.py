@@ -127,6 +127,7 @@ def test_the_flat_section_is_that_of_the_screw_surfaces(form: str) -> None:
             )
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", [
     name if name in ("plain ends", *SHORT) else pytest.param(name, marks=pytest.mark.heavy) for name in EXTREMES
 ])  # fmt: skip

@@ -242,6 +242,7 @@ def _dear(keys: dict[str, Any], key: str) -> Any:
     return pytest.param(keys, key, marks=pytest.mark.heavy)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("keys", "key"),
     [
