@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from pathlib import Path
 from textwrap import wrap
-from typing import Any, Protocol, TypeAlias, runtime_checkable
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -44,15 +44,6 @@ _MANY, _LAST_NUMBER = 6, re.compile(r"[ _]\d+$")
 Outlines: TypeAlias = tuple[Approximation, ...]
 
 
-@runtime_checkable
-class _Turned(Protocol):
-    """What is turned, by its axial section; half sections themselves load all of solids."""
-
-    def chords(self, chord: float) -> Complex:
-        """The half section by chords, r + iz."""
-        ...
-
-
 def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) -> Path:
     """The filled part, its circles with their diameters, and what was noticed."""
     remarks = [finding_text(language, f) for f in part.findings]
@@ -67,8 +58,8 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
         line for row in (part.title or part.id, *rows, *remarks) for line in wrap(told.decimal(row), _CAPTION_LETTERS)
     ]
     # what is turned is known by its axial section, which lies below the view along its axis
-    half = part.thing.chords(reach / 1000) if isinstance(part.thing, _Turned) else np.zeros(0, complex)
-    across, length = (2 * float(half.real.max()), float(np.ptp(half.imag))) if len(half) else (0.0, 0.0)
+    half = part.made_by.axial_section(part.thing, reach / 1000)
+    across, length = (0.0, 0.0) if half is None else (2 * float(half.real.max()), float(np.ptp(half.imag)))
     low = max(2 * middle, text * 1.7 * (len(caption) + 1))
     lines = [head(middle, max(text * 24, length - 2 * reach), low - 2 * middle + across * 1.08)]
     lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
@@ -91,7 +82,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
         line = f"fill:none;stroke:{colour};stroke-width:{reach / 600:.4g};stroke-dasharray:{dash}"
         lines.append(f'<circle cx="{number(middle)}" cy="{number(middle)}" r="{number(diameter / 2)}" style="{line}"/>')
     lines += _cross(middle, reach)
-    if len(half):
+    if half is not None:
         lines += _axial(half, complex(middle - reach, low + across / 2), shade, reach)
     lines += _caption(caption, 2 * middle + text, text)
     file = folder / f"{part.id}.preview.svg"

@@ -35,7 +35,7 @@ _ABOVE = {
 }
 # mm, to which all of these go
 MOST_SIZE = 500
-HOLES, SHAFTS = ("D", "F", "H"), ("a", "d", "e", "f", "g", "h", "js", "k", "n")
+HOLES, SHAFTS = ("D", "F", "H", "JS"), ("a", "d", "e", "f", "g", "h", "js", "k", "n")
 
 
 def deviation(letter: str, size: float) -> int:
@@ -44,9 +44,9 @@ def deviation(letter: str, size: float) -> int:
 
 
 def split_zone(zone: str) -> tuple[str, int]:
-    """The letter of a zone, Js of GOST as js, and its grade."""
+    """The letter of a zone, JS where GOST has Js, and its grade."""
     letter = zone.rstrip(digits)
-    return ("js" if letter == "Js" else letter), int(zone[len(letter) :])
+    return ("JS" if letter == "Js" else letter), int(zone[len(letter) :])
 
 
 def zone_limits(zone: str, size: float) -> tuple[float, float]:
@@ -61,7 +61,7 @@ def zone_limits(zone: str, size: float) -> tuple[float, float]:
             lower = deviation(letter.lower(), size)
         case "k" | "n":
             lower = _ABOVE[letter][step] if letter == "n" or grade < 8 else 0
-        case "js":
+        case "js" | "JS":
             lower = -tolerance / 2
         case "h":
             lower = -tolerance

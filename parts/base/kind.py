@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from geometry.base.findings import Finding
+    from geometry.curves.curve import Complex
     from geometry.plane.offset_region import OffsetRegion
     from geometry.plane.profile import Profile
     from geometry.solids.body import Body
@@ -142,6 +143,10 @@ class Kind(Generic[K, T]):
         from geometry.solids.sketch import sketch_of_body
 
         return sketch_of_body(solid)
+
+    def axial_section(self, thing: T, chord: float) -> Complex | None:
+        """Half of what is turned, r + iz, by chords at most so many mm off its arcs; None: it is not turned."""
+        return None
 
     def moments(self, solid: Body | FacedBody) -> Moments:
         """Volume, centre and inertia of a solid of the kind, by exact integrals."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta, Struct, field
@@ -71,6 +70,8 @@ class LayerTable(Struct, forbid_unknown_fields=True, kw_only=True):
 
 # kinds of contours of a layer, in the order in which they are numbered
 _CONTOURS = ("circles", "polygons", "slots", "outlines")
+# of a contour: its layer, which of its contours it is, from 0 on, and its key
+_Spot = tuple[int, int, str]
 
 _BOX = [
     {"thickness": 4.0, "polygons": [{"points": [[-30, -20], [30, -20], [30, 20], [-30, 20]], "corner_radius": 5.0}]},
@@ -116,13 +117,16 @@ class Layered(Kind[LayeredSpec, "Layers"]):
         """The layers, checked to have contours that neither cross nor touch."""
         from geometry.solids.layers import Layer, Layers
 
-        made, places = [], dict[str, str]()
+        made, places = [], dict[str, _Spot]()
         for number, table in enumerate(keys.layers, 1):
             if not (table.circles or table.polygons or table.slots or table.outlines):
                 raise ParameterError(f"layers[{number}]", None, "layer_of_nothing")
             made.append(Layer(table.thickness, tuple(_contours(table, f"layers[{number}]"))))
             names = (f"{key}[{k}]" for key in _CONTOURS for k, _ in enumerate(getattr(table, key), 1))
-            places |= {f"layers[{number}].contours[{k}]": f"layers[{number}].{n}" for k, n in enumerate(names, 1)}
+            places |= {
+                f"layers[{number}].contours[{k + 1}]": (number - 1, k, f"layers[{number}].{name}")
+                for k, name in enumerate(names)
+            }
         try:
             return Layers(tuple(made)).checked()
         except ParameterError as refusal:
@@ -155,22 +159,20 @@ class Layered(Kind[LayeredSpec, "Layers"]):
         return Report(quantities={"width": high_x - low_x, "height": high_y - low_y, "length": thing.heights[-1]})
 
 
-def _in_keys(keys: LayeredSpec, layers: Layers, refusal: ParameterError, places: dict[str, str]) -> ParameterError:
+def _in_keys(keys: LayeredSpec, layers: Layers, refusal: ParameterError, places: dict[str, _Spot]) -> ParameterError:
     """The refusal of a contour in the keys, of two that cross by a circle with the diameter that crosses none."""
-    names = [refusal.name, *(str(other) for other in refusal.numbers.values())]
-    numbers = {key: places[str(other)] for key, other in refusal.numbers.items()}
-    for name, other in zip(names, reversed(names), strict=True):
-        layer, index = (int(number) - 1 for number in re.findall(r"\d+", name))
-        contour, table = layers.layers[layer].contours[index], value_at(keys, places[name])
+    meeting = [places[refusal.name], *(places[str(other)] for other in refusal.numbers.values())]
+    for (layer, index, key), (_, _, other) in zip(meeting, reversed(meeting), strict=True):
+        contour, table = layers.layers[layer].contours[index], value_at(keys, key)
         if isinstance(table, CircleTable) and refusal.code == "contours_cross":
             # in a layer beside this one the same contour goes on
             beside = [c for one in layers.layers[max(layer - 1, 0) : layer + 2] for c in one.contours if c != contour]
             near = [*beside, *(c for k, c in enumerate(layers.layers[layer].contours) if k != index)]
             radius = _free_radius([c.span(complex(*table.at)) for c in near], table.diameter / 2)
             cure = None if radius is None else limit(2 * radius, table.diameter, digits=6)
-            told = {"other": places[other]}
-            return ParameterError(f"{places[name]}.diameter", table.diameter, refusal.code, cure, **told)
-    return ParameterError(places[refusal.name], None, refusal.code, **numbers)
+            return ParameterError(f"{key}.diameter", table.diameter, refusal.code, cure, other=other)
+    numbers = {name: places[str(other)][2] for name, other in refusal.numbers.items()}
+    return ParameterError(meeting[0][2], None, refusal.code, **numbers)
 
 
 def _free_radius(spans: list[tuple[float, float]], radius: float) -> float | None:

@@ -21,6 +21,7 @@ from parts.keys.pins import MARGIN, least_of, most_of, moved_region
 from parts.keys.splines import SplineTable
 
 if TYPE_CHECKING:
+    from geometry.curves.curve import Complex
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.faced import FacedBody
     from geometry.solids.sketch import Sketch
@@ -184,6 +185,10 @@ class _Turned(Kind[K, "HalfSection"]):
         from geometry.solids.sketch import sketch_of_turned
 
         return sketch_of_turned(thing, is_shaft=isinstance(keys, ShaftSpec))
+
+    def axial_section(self, thing: HalfSection, chord: float) -> Complex:
+        """It without its holes and pockets."""
+        return thing.chords(chord)
 
     def height(self, keys: K, thing: HalfSection) -> float:
         """From its lowest to its highest place."""

@@ -58,8 +58,9 @@ _SEEN = 33
 _USEFUL, _TIP = 0.25, 0.02
 # how near to the widest a default width is, part of it
 _NEAR = 5e-3
-# more teeth that are tried
+# distances that are tried: shares of the way from the last one that a shift reaches to the one without shift
 _NEARER = (1 / 8, 1 / 4, 1 / 2, 3 / 4, 1.0)
+# more teeth that are tried
 _MORE_TEETH = (1.1, 1.25, 1.5, 2.0, 3.0)
 # an outside is reached that near, mm; below so many degrees a corner is sharp: a throat wraps a third of the worm
 _REACHED, _SHARP = 1e-3, 29.9

@@ -19,6 +19,7 @@ from geometry.kinematics.kinetostatics import frames, reduced_inertia
 from geometry.kinematics.levers import Moved, Rods, Slider, Stone, swing
 from parts.base.refusal import REMOVED
 from parts.base.texts import N_, Text, message
+from parts.keys.base import either
 from parts.keys.title import TitleBlockTable
 from parts.mates.pages.contour_marks import checked_picture
 from parts.mates.pages.lever_forces import ForcePage, Forces, LeverForce, asked, weighs
@@ -470,10 +471,15 @@ class _Page:
     def _measured(self, plans: tuple[Plan, Plan]) -> None:
         """Lengths that were measured on a student's own plans beside the exact ones."""
         given, known = self.keys.measured or {}, [v.name for plan in plans for v in plan.vectors]
-        lengths = {re.sub("^pi", "π", name): length for name, length in given.items()}
-        for typed, name in zip(given, lengths, strict=True):
+        typed_as = dict[str, str]()
+        for typed, length in given.items():
+            name = re.sub("^pi", "π", typed)
             if name not in known:
-                raise ParameterError(f"measured.{typed}", given[typed], "no_such_name", None, known=known)
+                raise ParameterError(f"measured.{typed}", length, "no_such_name", None, known=known)
+            if name in typed_as:
+                raise either(f"measured.{typed}", length, f"measured.{typed_as[name]}")
+            typed_as[name] = typed
+        lengths = {name: given[typed] for name, typed in typed_as.items()}
         if not lengths:
             return
         beyond = [

@@ -382,6 +382,8 @@ def test_the_scheme_shows_every_position_by_its_number(count: int, tmp_path: Pat
         (("assignment=4", "coupler_length=900"), "coupler_length", "rods_do_not_close", 517.9994),
         (("assignment=4", "measured.pe=30"), "pe", "no_such_name", None),
         (("assignment=8", "measured.pid=30"), "pid", "no_such_name", None),
+        # πd told twice: it was a traceback
+        (("assignment=4", "measured.πd=30", "measured.pid=30"), "pid", "either_key", None),
     ],
 )  # fmt: skip
 def test_wrong_input_is_refused_by_its_key(keys: tuple[str, ...], key: str, code: str, nearest: object) -> None:

@@ -43,6 +43,9 @@ def test_straight_splines_are_read_from_their_drawings(size: str, joint: tuple[o
         ("b-8x36x40H12x7D9", "b-8x36x40H12x7D9", "b-8x36x40H12x7D9", "b-8x36x40x7"),
         ("8 x 36 x js6 x 40", "d-8x36js6x40x7", "d-8x36x40x7", "d-8x36js6x40x7"),
         ("D-8x36x40", "D-8x36x40", "D-8x36x40", "D-8x36x40"),
+        # Js, or JS, is a hub's, as all holes' letters are capital
+        ("b-8x36x40x7Js10/f9", "b-8x36x40x7Js10/f9", "b-8x36x40x7Js10", "b-8x36x40x7f9"),
+        ("b-8x36x40x7JS10/js7", "b-8x36x40x7JS10/js7", "b-8x36x40x7JS10", "b-8x36x40x7js7"),
     ],
 )
 def test_zones_of_straight_splines_are_told_as_gost_1139_writes_them(
@@ -240,51 +243,10 @@ def test_round_roots_do_not_centre_by_the_fit_of_the_outer_diameter() -> None:
     assert caught.value.code == "centred_by_flat_roots"
 
 
-ZONES = [
-    "H7",
-    "H8",
-    "H12",
-    "D9",
-    "F10",
-    "f7",
-    "f8",
-    "a11",
-    "h7",
-    "js6",
-    "Js7",
-    "k7",
-    "n6",
-    "G7",
-    "c9",
-    "H13",
-    "H7/f7",
-    "f7/H7",
-    "H7/H7",
-    "f7/f7",
-    "D9/f8",
-    "H07",
-    "H7/",
-    "H7/f7/g6",
-    "ZC8",
-]
-CLASSES = [
-    "9H",
-    "8f",
-    "9H/9g",
-    "9g/9H",
-    "7n",
-    "7H/7n",
-    "12H",
-    "9h9H",
-    "9H8f",
-    "5H/5f",
-    "5js",
-    "8js",
-    "9H/9H",
-    "10d",
-    "07H",
-    "9I",
-]
+ZONES = ["H7", "H8", "H12", "D9", "F10", "f7", "f8", "a11", "h7", "js6", "Js7", "k7", "n6", "G7", "c9", "H13",
+         "H7/f7", "f7/H7", "H7/H7", "f7/f7", "D9/f8", "H07", "H7/", "H7/f7/g6", "ZC8"]  # fmt: skip
+CLASSES = ["9H", "8f", "9H/9g", "9g/9H", "7n", "7H/7n", "12H", "9h9H", "9H8f", "5H/5f", "5js", "8js", "9H/9H",
+           "10d", "07H", "9I"]  # fmt: skip
 
 
 def drawn(random: Random) -> StraightSplineTable | InvoluteSplineTable:
