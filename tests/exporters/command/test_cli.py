@@ -457,7 +457,7 @@ def test_output_in_ukrainian(tmp_path: Path, ukrainian: Path, capsys: pytest.Cap
     out = capsys.readouterr().out
     assert "Шестерня [b]" in out
     assert "похибка" in out
-    assert "зуб підрізаний" in out
+    assert "зубець підрізаний" in out
     assert "undercut" not in out
     picture = (tmp_path / "o" / "uk" / "g.preview.svg").read_text(encoding="utf-8")
     assert "діаметр вершин" in picture

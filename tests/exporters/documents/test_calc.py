@@ -417,7 +417,7 @@ def test_the_scene_gives_the_language(tmp_path: Path, capsys: pytest.CaptureFixt
         '[scene]\nlanguage = "uk"\n[parts.a]\nkind = "spur_gear"\nmodule = 2.0\nnumber_of_teeth = 23\n', "utf-8"
     )
     assert run("calc", "spur", scene) == 0
-    assert "товщина зуба" in capsys.readouterr().out
+    assert "товщина зубця" in capsys.readouterr().out
     assert run("calc", "spur", scene, "--language", "en") == 0
     assert "tooth thickness" in capsys.readouterr().out
 
