@@ -53,7 +53,7 @@ REMOVED = Nearest(None)
 # so many of a list are told, of one that is longer than that
 _FEW, _LONG = 8, 10
 # words of other books for our keys and values, to which no letter leads
-_SYNONYMS = {word: ours.split(", ") for word, ours in rows_of(__file__, "synonyms")}
+SYNONYMS = {word: ours.split(", ") for word, ours in rows_of(__file__, "synonyms")}
 
 
 def meant(word: object, known: Collection[str]) -> Nearest | None:
@@ -62,9 +62,9 @@ def meant(word: object, known: Collection[str]) -> Nearest | None:
 
     word = None if word is None else in_latin(str(word))
     plain = "" if word is None else re.sub("[ _-]+", "_", word.lower())
-    if plain in _SYNONYMS and word not in known:
+    if plain in SYNONYMS and word not in known:
         # letters lead such a word astray
-        match = [name for name in _SYNONYMS[plain] if name in known]
+        match = [name for name in SYNONYMS[plain] if name in known]
     else:
         # among many words some have half of its letters by chance, and so has one of two letters that ends in one
         least = 0.6 if len(known) > _LONG else 0.5

@@ -59,7 +59,7 @@ def as_written(table: object) -> Iterator[None]:
     try:
         yield
     except SceneError as refusal:
-        if refusal.value == 0 and isinstance(held := _lookup(table, list(map(str, _steps(refusal.key)))), float):
+        if refusal.value == 0 and isinstance(held := looked_up(table, list(map(str, steps_of(refusal.key)))), float):
             refusal.value = held
         raise
 
@@ -105,7 +105,7 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         owner, name = _owner(kind, keys, table), unknown.group(1)
         tag = owner.__struct_config__.tag_field
         known = ([tag] if tag else []) + [f.encode_name for f in own_first(owner)]
-        around = _lookup(table, keys)
+        around = looked_up(table, keys)
         # hardly a key that stands there already
         like = meant(name, [key for key in known if key not in around]) or meant(name, known)
         see = f"higherpair new {owner.__struct_config__.tag}" if tag == "kind" else ""
@@ -113,14 +113,14 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     if missing := re.search(r"missing required field `(.*?)`", message):
         name = missing.group(1)
         owner = _owner(kind, keys, table)
-        _check_misspelt(name, _lookup(table, keys), source, where, owner.__struct_encode_fields__)
+        _check_misspelt(name, looked_up(table, keys), source, where, owner.__struct_encode_fields__)
         what = _tags_of(kind, [*keys, name], table) or described_key(owner, name)
         return SceneError(source, f"{where}.{name}", None, "missing_key" if what else "missing", None, what=what)
     allowed, words = _tags_of(kind, keys, table), _tag_words_of(kind, keys, table)
     if allowed is None and (named := [i for i, k in enumerate(keys) if not k.isdigit()]):
         owner, name = _owner(kind, keys[: named[-1]], table), keys[named[-1]]
         allowed, words = described_key(owner, name), _words_of(owner, name)
-    value, wrong_type = _lookup(table, keys), re.match(r"Expected `(.*?)`, got `(.*?)`", message)
+    value, wrong_type = looked_up(table, keys), re.match(r"Expected `(.*?)`, got `(.*?)`", message)
     nearest = meant(value, words) if isinstance(value, str) and message.startswith("Invalid") else None
     allowed = _with_form(allowed, message, kind, keys, table)
     if wrong_type:
@@ -142,7 +142,7 @@ def _with_form(
         span = counted("exactly {n} number", "exactly {n} numbers", "n", n=int(pair.group(1)))
         told = next((m.description for m in _metas(field.type) if m.description), "") if field is not None else ""
         allowed = Message(told) if told else allowed
-        if isinstance(held := _lookup(table, keys), list) and len(held) > int(pair.group(1)):
+        if isinstance(held := looked_up(table, keys), list) and len(held) > int(pair.group(1)):
             span = message("{range}, with a decimal point, since a comma parts them", range=span)
     elif long := re.match(r"Expected `(str|array)` of length (<=|>=) (\d+)", said):
         most, number = long.group(2) == "<=", int(long.group(3))
@@ -194,10 +194,10 @@ def type_words(types: str) -> Message:
     whole = " | ".join(names)
     if whole in _TYPES:
         return Message(_TYPES[whole])
-    return _either([Message(_TYPES.get(name, name)) for name in names])
+    return either([Message(_TYPES.get(name, name)) for name in names])
 
 
-def _either(choices: list[Message]) -> Message:
+def either(choices: list[Message]) -> Message:
     """Several choices, one after the other."""
     made = choices[0]
     for choice in choices[1:]:
@@ -209,19 +209,19 @@ def _owner(kind: type[Struct], keys: list[str], table: object) -> type[Struct]:
     """The struct that holds the last key of a path; of several, the one whose tag stands in the table."""
     structs = [kind]
     for key in keys:
-        table = _lookup(table, [key])
-        structs = _structs_of(_types_of(kind).get(key)) or structs
+        table = looked_up(table, [key])
+        structs = structs_of(_types_of(kind).get(key)) or structs
         # items of a list are told apart by their own tags
         tag = table.get(structs[0].__struct_config__.tag_field) if isinstance(table, dict) else None
         kind = next((s for s in structs if s.__struct_config__.tag == tag), structs[0])
     return kind
 
 
-def _structs_of(kind: object) -> list[type[Struct]]:
+def structs_of(kind: object) -> list[type[Struct]]:
     """The structs that a type allows, those in a list too."""
     if isinstance(kind, type) and issubclass(kind, Struct):
         return [kind]
-    return list(dict.fromkeys(s for a in get_args(kind) for s in _structs_of(a)))
+    return list(dict.fromkeys(s for a in get_args(kind) for s in structs_of(a)))
 
 
 def _tagged_at(kind: type[Struct], keys: list[str], table: object) -> list[type[Struct]]:
@@ -231,7 +231,7 @@ def _tagged_at(kind: type[Struct], keys: list[str], table: object) -> list[type[
         above -= 1
     if above < 0:
         return []
-    structs = _structs_of(_types_of(_owner(kind, keys[:above], table)).get(keys[above]))
+    structs = structs_of(_types_of(_owner(kind, keys[:above], table)).get(keys[above]))
     return structs if structs and structs[0].__struct_config__.tag_field == keys[-1] else []
 
 
@@ -258,7 +258,8 @@ def _one_of(words: Iterable[object]) -> Message:
     )
 
 
-def _lookup(table: object, keys: list[str]) -> Any:
+def looked_up(table: object, keys: list[str]) -> Any:
+    """What stands at a place in plain tables; None where there is no such place."""
     for key in keys:
         if isinstance(table, dict):
             table = table.get(key)
@@ -291,12 +292,12 @@ def described(kind: object) -> Message | None:
     if not metas:
         if isinstance(kind, type) and issubclass(kind, Struct):
             return message("table: {what}", what=Message(phrase_of(kind)))
-        tagged = [s for s in _structs_of(kind) if s.__struct_config__.tag]
+        tagged = [s for s in structs_of(kind) if s.__struct_config__.tag]
         if len(tagged) > 1:
             field = tagged[0].__struct_config__.tag_field
             return message("table with {key} = {choices}", key=field, choices=_one_of(_tags(tagged)))
         found = [d for d in (described(a) for a in get_args(kind)) if d is not None]
-        return _either([d for i, d in enumerate(found) if d not in found[:i]]) if found else None
+        return either([d for i, d in enumerate(found) if d not in found[:i]]) if found else None
     inner = described(get_args(kind)[0])
     # a key tells its own meaning of a type that has one
     meaning = [Message(m.description) for m in metas if m.description][-1:]
@@ -326,6 +327,11 @@ def _span(meta: Meta, kind: object) -> Message | None:
     if not ends:
         return Message(unit) if unit else None
     return in_unit(listed(ends), ends[-1].numbers.get("limit", 0), unit)
+
+
+def has_key(kind: type[Struct], name: str) -> bool:
+    """Whether a table of those keys has one of that name."""
+    return name in kind.__struct_encode_fields__
 
 
 def own_first(kind: type[Struct]) -> list[msgspec.structs.FieldInfo]:
@@ -366,7 +372,7 @@ def untold(kind: type[Struct], named: Collection[str] = (), place: str = "") -> 
         for table in tables:
             yield from untold(table, (), name)
         # those of a list are told by the example of the list
-        yield from (f"{name} has no docstring" for s in _structs_of(field.type) if s not in tables and not s.__doc__)
+        yield from (f"{name} has no docstring" for s in structs_of(field.type) if s not in tables and not s.__doc__)
 
 
 def phrase_of(kind: type[Struct]) -> str:
@@ -374,7 +380,7 @@ def phrase_of(kind: type[Struct]) -> str:
     return (kind.__doc__ or "").splitlines()[0].rstrip(".").replace("``", "")
 
 
-def _steps(path: str) -> list[str | int]:
+def steps_of(path: str) -> list[str | int]:
     """The keys and indices of a place as refusals write it: ``holes[2].diameter``."""
     return [int(number) - 1 if number else key for number, key in re.findall(r"\[(\d+)\]|([^.[]+)", path)]
 
@@ -387,7 +393,7 @@ def replaced(keys: object, path: str, value: object) -> Any:
     ParameterError
         There is no such place.
     """
-    return _replaced(keys, _steps(path), value, path)
+    return _replaced(keys, steps_of(path), value, path)
 
 
 def tried(keys: S, path: str, value: object) -> S:
@@ -427,7 +433,7 @@ def _replaced(held: object, steps: list[str | int], value: object, path: str) ->
 
 def value_at(keys: object, path: str) -> Any:
     """What stands at a key, at any depth; None where there is no such place."""
-    for step in _steps(path):
+    for step in steps_of(path):
         if isinstance(step, int):
             keys = keys[step] if isinstance(keys, list | tuple) and step < len(keys) else None
         else:
@@ -443,10 +449,10 @@ def as_typed(keys: Struct, refusal: ParameterError) -> ParameterError:
 
 def unit_of(kind: type[Struct], path: str) -> str:
     """The unit of a key, at any depth; empty where it has none."""
-    names = [s for s in _steps(path) if isinstance(s, str)]
+    names = [s for s in steps_of(path) if isinstance(s, str)]
     owners = [kind]
     for name in names[:-1]:
-        owners = [s for o in owners if (found := _types_of(o).get(name)) for s in _structs_of(found)]
+        owners = [s for o in owners if (found := _types_of(o).get(name)) for s in structs_of(found)]
     return _unit(next((found for o in owners if (found := _types_of(o).get(names[-1]))), None))
 
 

@@ -110,6 +110,18 @@ def default_names(export_keys: type[Struct]) -> list[str]:
     return sorted({name for keys in (*kinds, *_PLAIN.values(), export_keys) for name in _names(keys)})
 
 
+def defaults_take(name: str, raw: Table, export_keys: type[Struct]) -> bool:
+    """Whether some table of a scene would take a key of its ``[defaults]``; the scene may be wrong in any way."""
+    for table in (*_KINDS, *_PLAIN, "exports"):
+        held = raw.get(table)
+        rows = held.values() if isinstance(held, dict) else held if isinstance(held, list) else ()
+        for row in rows:
+            keys = _keys_of(table, row, export_keys) if isinstance(row, dict) else None
+            if keys is not None and name in _names(keys):
+                return True
+    return False
+
+
 def _names(keys: type[Struct]) -> set[str]:
     return set(keys.__struct_encode_fields__) - _OWN
 

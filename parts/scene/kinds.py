@@ -49,8 +49,12 @@ def _kind(
 
 def _home(kind: object) -> str:
     """The tables that have such a kind; "": none have."""
+    return next((where for where, kinds in homes().items() if isinstance(kind, str) and kind in kinds), "")
+
+
+def homes() -> dict[str, Index[Any]]:
+    """The kinds of the tables that have some, by the header of such a table."""
     from parts.mates.registry import MATES
     from parts.recipes.registry import RECIPES
 
-    homes: dict[str, Index[Any]] = {"[parts.NAME]": KINDS, "[[mates]]": MATES, "[[assemblies]]": RECIPES}
-    return next((where for where, kinds in homes.items() if isinstance(kind, str) and kind in kinds), "")
+    return {"[parts.NAME]": KINDS, "[[mates]]": MATES, "[[assemblies]]": RECIPES}

@@ -33,6 +33,7 @@ from parts.scene.instances import (
     DriveSpec,
     Group,
     InstanceSpec,
+    InstanceTable,
     check_instance,
     drive_spec,
     instance_specs,
@@ -253,8 +254,22 @@ def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | No
 
 def scene_from_dict(raw: dict[str, Any], source: str, name: str, language: str | None = None) -> SceneFile:
     """Validate the tables of a scene, its assemblies told out."""
-    with as_written(raw):
-        return _validated(plain_numbers(raw, source, ""), source, name, language)
+    try:
+        with as_written(raw):
+            return _validated(plain_numbers(raw, source, ""), source, name, language)
+    except SceneError as refusal:
+        if refusal.code not in ("unknown_key", "unknown_table", "nothing_takes_it"):
+            raise
+        from parts.scene.homes import at_home
+
+        raise at_home(refusal, raw, _PLAIN) from refusal
+
+
+# the tables of a scene that are of no kind: their headers and keys
+_PLAIN: dict[str, type[Struct]] = {
+    "[scene]": SceneInfo, "[checks]": ChecksSpec, "[[exports]]": ExportSpec, "[instances.NAME]": InstanceTable,
+    "[[drives]]": DriveSpec, "[[steps]]": StepSpec, "[boards.NAME]": BoardSpec, "[beds.NAME]": BedSpec,
+}  # fmt: skip
 
 
 def _validated(raw: dict[str, Any], source: str, name: str, language: str | None = None) -> SceneFile:
@@ -322,7 +337,8 @@ def _check_tables(raw: dict[str, Any], source: str) -> None:
     tables |= {key: list for key in ("assemblies", "mates", "drives", "steps", "exports")}
     for key, value in raw.items():
         if key not in tables:
-            raise SceneError(source, key, None, "unknown_table", meant(key, tables), known=list(tables))
+            told = None if isinstance(value, dict | list) else value
+            raise SceneError(source, key, told, "unknown_table", meant(key, tables), known=list(tables))
         if not isinstance(value, tables[key]):
             code = "not_a_list" if tables[key] is list else "not_a_named_table" if key in _NAMED else "not_a_table"
             raise SceneError(source, key, value, code, None, key=key, example=_NAMED.get(key))
