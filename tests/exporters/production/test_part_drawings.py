@@ -736,7 +736,8 @@ def test_the_line_of_a_face_width_ends_beside_no_other_line(tmp_path: Path) -> N
     gear = {"kind": "bevel_gear", "module": 2.0, "number_of_teeth": 30, "mate_number_of_teeth": 20,
      "bore_diameter": 10.0,
             "hub_diameter": 24.0, "hub_length": 8.0}  # fmt: skip
-    document = ezdxf.readfile(drawn(tmp_path, gear))
+    # the paper and scale that it takes by itself
+    document = ezdxf.readfile(drawn(tmp_path, gear, paper="A3", scale="1:1"))
     lines: dict[bool, list[shapely.LineString]] = {True: [], False: []}
     for one in document.modelspace().query("DIMENSION"):
         slope = one.dxf.angle % 90 if one.dimtype != ANGULAR else 0.0
