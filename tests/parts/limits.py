@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from geometry.base.errors import GeometryError, OffsetError
-from parts.base.refusal import SceneError
+from parts.base.refusal import SceneError, sentence
 from parts.scene.load import make_parts, scene_from_dict
 from tests.offered import GONE, Raw, at, put
 from tests.parts.scene.test_offers import place_of
@@ -79,7 +79,10 @@ def check_offer(raw: Raw, key: str, value: float, code: str, limit: float, side:
 
 
 def check_refused(raw: Raw, key: str, value: object, code: str, works: object, **numbers: object) -> None:
-    """Holds a value of a key to be refused by its code with a value of its own, which is built; ``...``: with none."""
+    """Holds a value of a key to be refused by its code with a value of its own, which is built; ``...``: with none.
+
+    Its line is told in both languages: a sentence may ask for what its numbers are not.
+    """
     wrong = with_key(raw, key, value)
     refusal = refused(wrong)
     assert refusal is not None
@@ -87,6 +90,7 @@ def check_refused(raw: Raw, key: str, value: object, code: str, works: object, *
     assert refusal.value == (None if value is GONE else value)
     for name, told in numbers.items():
         assert refusal.numbers[name] == told, name
+    assert all(refusal.key in sentence(refusal, language) for language in ("en", "uk"))
     found = refusal.nearest
     if works is ...:
         assert found is None
