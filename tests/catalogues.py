@@ -33,6 +33,7 @@ from parts.base.reasons import SUBJECTS, sentences
 from parts.base.registry import KINDS
 from parts.base.schema import phrase_of
 from parts.base.texts import DOMAIN, LOCALE
+from parts.drawing.names import KIND_NAMES
 from parts.drawing.title_block import LABELS
 from parts.mates.pages.planetary import FAULTS
 from parts.mates.registry import MATES
@@ -118,7 +119,7 @@ def _marked() -> Iterator[tuple[str | None, str, str]]:
 
 def _kept_in_data() -> Iterator[tuple[str | None, str, str]]:
     """What needs no mark: sentences by code, plain texts, and of units those that are words."""
-    tables = (*map(sentences, SUBJECTS), FINDINGS, checks.MATES, checks.CONDITIONS, SHEETS, LABELS, FAULTS)
+    tables = (*map(sentences, SUBJECTS), FINDINGS, checks.MATES, checks.CONDITIONS, SHEETS, LABELS, KIND_NAMES, FAULTS)
     for text in (text for table in tables for text in table.values()):
         yield (None, text, "") if isinstance(text, str) else (text.context or None, text.msgid, text.many)
     yield from ((None, text, "") for text in (*_plain_texts(), *_ARGPARSE))

@@ -34,6 +34,7 @@ from parts.drawing.canvas import Canvas, decimal, scale_text
 from parts.drawing.choice import Asked
 from parts.drawing.expected import Circle, Expected, Meshing
 from parts.drawing.font import missing_letters
+from parts.drawing.names import drawn_names
 from parts.drawing.parts_list import form_of, mass_text
 from parts.drawing.table import Row
 from parts.drawing.title_block import FORM_1, TITLE_BLOCK, check_held, draw_title_block, draw_turned, title_block_of
@@ -282,8 +283,8 @@ def _add_title_block(
     if part is not None:
         more["material"] = given.material or material_told(part.material, words(language))
         if export.purpose == "part":
-            more["name"] = given.name or part.title or part.id
-            more["designation"] = given.designation or part.designation or ""
+            name, designation = drawn_names(part, language)
+            more |= {"name": given.name or name, "designation": given.designation or designation}
     scale = scale_text(expected.paper.scale, language)
     form = form_of(number[0]) if export.purpose == "parts_list" else FORM_1
     block = title_block_of(replace(given, **more), scale, *number)

@@ -11,6 +11,7 @@ from geometry.base.errors import Nearest
 from parts.base.materials import material_told
 from parts.base.refusal import SceneError
 from parts.base.texts import words
+from parts.drawing.names import drawn_names
 from parts.drawing.parts_list import SECTIONS, ListRow
 
 if TYPE_CHECKING:
@@ -68,9 +69,9 @@ def check_positions(parts: Mapping[str, Part], language: str, source: str) -> No
 def _told(part: Part, language: str) -> tuple[str, str, str, str, str]:
     """Section, designation, name, standard and material: of one position all are alike."""
     keys, told = part.keys, words(language)
-    name = part.title or part.id
+    name, designation = drawn_names(part, language)
     # what neither a drawing nor a standard describes, and is only a length of a rod, is told by its sizes
     if part.stock is not None and not (keys.designation or keys.standard or keys.position):
         name = f"{name} {part.stock.told(told)}"
     section = "standard" if keys.standard else "parts"
-    return section, keys.designation or "", name, keys.standard or "", material_told(part.material, told)
+    return section, "" if keys.standard else designation, name, keys.standard or "", material_told(part.material, told)

@@ -12,7 +12,9 @@ import pytest
 from exporters.command.cli import main
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
-from parts.scene.load import scene_from_toml
+from parts.base.registry import KINDS
+from parts.drawing.names import KIND_NAMES, drawn_names
+from parts.scene.load import make_parts, scene_from_toml
 
 LIST = """
 [scene]
@@ -208,3 +210,21 @@ def test_what_a_list_does_not_take_is_refused_by_key(export: str, key: str) -> N
     with pytest.raises(SceneError) as refused:
         scene_from_toml(text.encode(), "s", "s")
     assert refused.value.key == key
+
+
+def test_what_has_no_title_is_called_by_its_kind_in_the_language_of_the_drawing() -> None:
+    """Its id is the designation then; solids of any form have no such name."""
+    raw = """
+    [parts.disc]
+    kind = "spur_gear"
+    module = 2.0
+    number_of_teeth = 20
+    [parts.ball]
+    kind = "turned"
+    points = [{ r = 0.0, z = 0.0 }, { r = 5.0, z = 0.0 }, { r = 5.0, z = 5.0 }, { r = 0.0, z = 5.0 }]
+    """
+    parts, _ = make_parts(scene_from_toml(raw.encode(), "s.toml", "s"), "s")
+    for language, name in (("en", "Gear"), ("uk", "Колесо зубчасте")):
+        assert drawn_names(parts["disc"], language) == (name, "disc")
+        assert drawn_names(parts["ball"], language) == ("ball", "")
+    assert set(KINDS) - set(KIND_NAMES) == {"turned", "layered", "step_part"}
