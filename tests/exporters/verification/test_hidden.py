@@ -272,7 +272,8 @@ SAID: dict[str, dict[str, str]] = {
 
 @pytest.mark.parametrize("name", SAID)
 def test_what_is_hidden_is_told(name: str, good: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    for spoil in some_of(SPOILT[name], 4):
+    # a STEP is held against the kernel too, which takes a second
+    for spoil in some_of(SPOILT[name], 4) if name == "g.step" else SPOILT[name]:
         said = next((words for end, words in SAID[name].items() if spoil.endswith(end)), "")
         assert re.search(f"FAILED.*{said}", found(name, spoil, good, tmp_path, capsys), re.DOTALL), spoil
 
