@@ -48,7 +48,7 @@ _THICKNESS = mm(
     example=3.0,
 )
 _FEED = size("mm/s", "speed of the cut, from which its time is computed", above=0, most=10_000, example=12.0)
-_KERF = mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)
+Kerf = Annotated[float, mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)]
 _GRAIN = Meta(description="its grain runs along x: parts lie as drawn, or turned by half a turn")
 
 
@@ -57,7 +57,7 @@ class BoardSpec(LaidKeys, kw_only=True):
 
     height: Annotated[float, part_mm("along y", least=_LEAST, example=400.0)]
     thickness: Annotated[float, _THICKNESS]
-    kerf: Annotated[float, _KERF] = 0.0
+    kerf: Kerf = 0.0
     grain: Annotated[bool, _GRAIN] = False
     feed: Annotated[float, _FEED] | None = None
 

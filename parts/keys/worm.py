@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 K = TypeVar("K", bound=Struct)
 AxialModule = Annotated[float, mm("axial module of the worm", above=0, most=1000, example=2.0)]
 Starts = Annotated[int, Meta(ge=1, le=50, description="starts of the worm, z1")]
+TipRounding = Annotated[float, mm("radius of the thread's tip edges in the axial section", least=0, most=1000)]
 Quotient = Annotated[float, Meta(gt=0, le=1000, description="q = d1 / m")]
 # of a worm that gives neither q nor a lead angle
 USUAL_QUOTIENT = 10.0

@@ -23,7 +23,7 @@ from parts.base.registry import KINDS
 from parts.base.schema import as_written, converted, plain_numbers, value_at, without_none
 from parts.base.texts import ENGLISH, Message, languages
 from parts.keys.base import DEVICE_NAMES, IDENTIFIER, Identifier, mm
-from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, LaidKeys, check_laid
+from parts.keys.boards import PURPOSES_LAID, BedSpec, BoardSpec, Kerf, LaidKeys, check_laid
 from parts.keys.sheet import CamSpeed, CellsKey, Intervals, MateNumber, PaperKey, RackStep, ScaleKey, check_sheet_keys
 from parts.keys.title import TitleBlockKey
 from parts.keys.working import WorkingTable
@@ -91,7 +91,6 @@ _PARTS = Meta(min_length=1, description="parts to export; default: all", example
 _PITCH_CURVE = Meta(
     description='dxf with purpose = "drawing": the path of the follower\'s centre too, on the layer PITCH_CURVE'
 )
-_KERF = mm("full width of the cut; the path runs half of it outside the part", least=0, most=10)
 _OFFSET = mm("moves every outline: positive out of the material, negative into it", least=-10, most=10)
 _CURVES = Meta(description='dxf, svg: arcs, or straight lines only; purpose = "drawing" has true splines')
 
@@ -102,7 +101,7 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     format: Annotated[Format, _FORMAT]
     purpose: Annotated[Purpose, _PURPOSE] | None = None
     tolerance: Annotated[float, _TOLERANCE] | None = None
-    kerf: Annotated[float, _KERF] = 0.0
+    kerf: Kerf = 0.0
     offset: Annotated[float, _OFFSET] = 0.0
     curves: Annotated[Literal["arcs", "lines"], _CURVES] = "arcs"
     dxf_version: Annotated[Literal["R2000", "R12"], Meta(description="dxf only")] = "R2000"

@@ -40,6 +40,7 @@ from parts.keys.worm import (
     HobThinning,
     LeadAngle,
     Starts,
+    TipRounding,
     WheelDistance,
     WheelShift,
     WormAngle,
@@ -79,7 +80,6 @@ _NUMBER_OF_TEETH = Meta(ge=8, le=10_000, description="teeth of the wheel, z2; wi
 _BALL_DIAMETER = mm("balls or wires in its spaces; default: 1.67 m", above=0, most=10_000)
 _WHEEL_TORQUE = size("N*m", "torque T2 on the wheel, in place of T1", above=0, most=1e9)
 _FORM_FACTOR = Meta(gt=0, le=10, description="form factor Y_F2 of the wheel's teeth: adds their strength")
-_TIP_ROUNDING = mm("radius of the thread's tip edges in the axial section", least=0, most=1000)
 _FRICTION_COEFFICIENT = Meta(ge=0, le=1, description="friction of the flanks; without it no losses")
 
 
@@ -101,7 +101,7 @@ class WormKeys(Struct, kw_only=True, forbid_unknown_fields=True):
     fillet_coefficient: Fillet = 0.2
     grinding_wheel_diameter: GrindingWheel = 300.0
     axial_thinning: Annotated[float, mm("thinning of the thread, axial, for backlash", least=0, most=1000)] = 0.0
-    tip_rounding: Annotated[float, _TIP_ROUNDING] = 0.0
+    tip_rounding: TipRounding = 0.0
     ball_diameter: Annotated[float, _BALL_DIAMETER] | None = None
     worm_length: Annotated[float, mm("threaded length b1", above=0, most=100_000)] | None = None
     face_width: Annotated[float, mm("width b2 of the wheel's rim", above=0, most=100_000)] | None = None

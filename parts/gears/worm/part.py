@@ -26,6 +26,7 @@ from parts.keys.worm import (
     GrindingWheel,
     LeadAngle,
     Starts,
+    TipRounding,
     WormAngle,
     WormHand,
     WormQuotient,
@@ -84,7 +85,6 @@ _RUN_OUT = degrees(
     most=120,
     example=90.0,
 )
-_TIP_ROUNDING = mm("radius of the thread's tip edges in the axial section", least=0, most=1000)
 
 
 class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field="kind", tag="worm"):
@@ -103,7 +103,7 @@ class WormSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_field
     fillet_coefficient: Fillet = 0.2
     grinding_wheel_diameter: GrindingWheel = 300.0
     axial_thinning: Annotated[float, mm("thinning of the thread, axial, for backlash", least=0, most=1000)] = 0.0
-    tip_rounding: Annotated[float, _TIP_ROUNDING] = 0.0
+    tip_rounding: TipRounding = 0.0
     end_angle_deg: Annotated[float, _END_ANGLE] | None = None
     thread_ends: Annotated[Literal["cut", "blunt", "run_out"], _THREAD_ENDS] = "cut"
     run_out_deg: Annotated[float, _RUN_OUT] | None = None
