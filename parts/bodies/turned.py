@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 from msgspec import Meta, Struct, field
 
 from geometry.base.errors import Nearest, OffsetError, ParameterError, limit
+from geometry.base.findings import Finding
+from geometry.base.record import Record
 from parts.base.kind import Kind, Others, Report
 from parts.base.part_keys import MaterialKeys
 from parts.base.texts import N_
@@ -19,11 +21,13 @@ from parts.keys.base import MOST_LENGTH, BoreDiameter, degrees, either, mm, part
 from parts.keys.holes import HolesTable, check_bore, hub_holes
 from parts.keys.pins import MARGIN, least_of, most_of, moved_region
 from parts.keys.splines import SplineTable
+from parts.keys.threads import Thread
 
 if TYPE_CHECKING:
     from geometry.curves.curve import Complex
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.faced import FacedBody
+    from geometry.solids.metric_threads import MetricThread
     from geometry.solids.sketch import Sketch
     from geometry.solids.turned import Corner, HalfSection, Pocket, Splined
     from parts.base.readback import Probe
@@ -110,6 +114,7 @@ class StepTable(Struct, forbid_unknown_fields=True, kw_only=True):
     grooves: Annotated[list[GrooveTable], _GROOVES] = field(default_factory=list)
     keyways: Annotated[list[ShaftKeywayTable], _KEYWAYS] = field(default_factory=list)
     spline: SplineTable | None = None
+    thread: Thread | None = None
 
 
 _CENTRE_HOLES_MOUTH = mm("of the cone at the end face; default: 2.12 diameters", above=0, most=1000, example=4.25)
@@ -212,7 +217,9 @@ class _Turned(Kind[K, "HalfSection"]):
         """Its sizes."""
         inner, outer = thing.radii()
         bore = {"bore_diameter": 2 * inner} if inner > 0 else {}
-        return Report(quantities={"outer_diameter": 2 * outer, **bore, "length": self.height(keys, thing)})
+        told = [part.thread for part in threaded(keys)] if isinstance(keys, ShaftSpec) else []
+        remarks = tuple(Finding("cosmetic_thread", thread.diameter, thread.pitch) for thread in told)
+        return Report(remarks, quantities={"outer_diameter": 2 * outer, **bore, "length": self.height(keys, thing)})
 
 
 def _seam(pockets: tuple[Pocket, ...]) -> float:
@@ -260,6 +267,7 @@ class Shaft(_Turned[ShaftSpec]):
         from geometry.solids.turned import HalfSection, half_section
 
         _check_shaft(keys)
+        tuple(threaded(keys))
         splines = tuple(_splines(keys))
         corners, owners = zip(*_outline(keys), strict=True)
         try:
@@ -390,7 +398,7 @@ def _splines(keys: ShaftSpec) -> Iterator[Splined]:
         if abs(2 * form.outer - step.diameter) > _SAME:
             cure = Nearest(round(2 * form.outer, 9))
             raise ParameterError(f"{name}.diameter", step.diameter, "not_over_spline", cure)
-        for key in ("chamfer", "fillet", "grooves", "keyways"):
+        for key in ("chamfer", "fillet", "grooves", "keyways", "thread"):
             if given := getattr(step, key):
                 raise ParameterError(f"{name}.{key}", given, "beside_spline", Nearest(None))
         root = form.inner - made.clearance
@@ -408,6 +416,43 @@ def _splines(keys: ShaftSpec) -> Iterator[Splined]:
                     continue
                 raise ParameterError(f"{own}.diameter", beside.diameter, "ends_amid_spline", **told)
         yield Splined(z - step.length, z, form, made.clearance, made.angle)
+
+
+class Threaded(Record):
+    """A thread on a step of a shaft, between two heights, mm; the solid is a cylinder there."""
+
+    low: float
+    high: float
+    thread: MetricThread
+
+
+def threaded(keys: ShaftSpec) -> Iterator[Threaded]:
+    """The threads of all steps.
+
+    Raises
+    ------
+    ParameterError
+        There is no such thread, the step is not as thick as it, or a hole leaves no wall.
+    """
+    from parts.keys.threads import thread_of
+
+    z = 0.0
+    for k, step in enumerate(keys.steps, 1):
+        z += step.length
+        if step.thread is None:
+            continue
+        try:
+            thread = thread_of(step.thread)
+        except ParameterError as refusal:
+            raise refusal.renamed(f"steps[{k}].thread") from refusal
+        if abs(thread.diameter - step.diameter) > _SAME:
+            cure = Nearest(thread.diameter)
+            raise ParameterError(f"steps[{k}].diameter", step.diameter, "not_of_thread", cure, thread=step.thread)
+        mouth = _mouth(keys) if k in (1, len(keys.steps)) else 0.0
+        for key, hole in (("bore_diameter", keys.bore_diameter), ("centre_holes.mouth", mouth)):
+            if hole >= thread.root_diameter:
+                raise ParameterError(key, hole, "leaves_no_wall", most_of(thread.root_diameter, hole))
+        yield Threaded(z - step.length, z, thread)
 
 
 def _mouth(keys: ShaftSpec) -> float:

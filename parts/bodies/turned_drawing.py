@@ -17,13 +17,14 @@ from geometry.solids.hub_holes import HubHoles
 from geometry.solids.keyways import depth_deviation
 from geometry.solids.splines import SplineBore
 from geometry.solids.turned import HalfSection, Hole, Piece, Pocket, Splined
+from parts.base.part import Part
 from parts.base.texts import MINUS
 from parts.bodies.details import detailed
-from parts.bodies.turned import ShaftSpec, TurnedSpec
+from parts.bodies.turned import ShaftSpec, Threaded, TurnedSpec, threaded
 from parts.drawing.directions import directions, spline_data, tip_zone
 from parts.drawing.places import apart
 from parts.drawing.revolved import Loop, below, block, closed, outer_of, outlined, seen_circles, seen_edges
-from parts.drawing.turned_sizes import Fits, SectionCorner, bores, listed_corners, seats, turned_sizes
+from parts.drawing.turned_sizes import Fits, Own, SectionCorner, bores, listed_corners, seats, turned_sizes
 from parts.drawing.wheel_views import (
     apart_sizes,
     axis_cross,
@@ -55,8 +56,11 @@ from parts.drawing.working import (
     requirements,
 )
 from parts.keys.holes import hub_holes
+from parts.keys.threads import thread_words
 
 _SAME = 1e-9
+# mm: where a thread ends, what is its diameter
+_SMOOTH = 1e-6
 # a section of a keyway is so high on paper at least, mm
 _LEAST_SECTION = 20.0
 # parts of a section's largest size: what is drawn too small in it, and how large its half is at most where that is
@@ -72,7 +76,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     """A ring, or a hollow shaft, in section; a solid shaft as it is seen."""
     half = subject.part.thing
     assert isinstance(half, HalfSection)
-    loop = tuple(_curve(piece) for piece in half.pieces)
+    loop = _loop(subject.part)
     is_shaft, hollow, keys = subject.part.kind == "shaft", half.radii()[0] > 0, subject.part.keys
     holes = hub_holes(None, keys.holes, None) if isinstance(keys, TurnedSpec) else HubHoles()
     whole = _long_view(half, loop, holes, subject, is_shaft=is_shaft, cut=_is_cut(half, loop, is_shaft=is_shaft))
@@ -108,11 +112,32 @@ def _is_cut(half: HalfSection, loop: Loop, *, is_shaft: bool) -> bool:
     return half.radii()[0] > 0 or not (is_shaft or (not half.holes and all(is_outer(c) for c in off_axis)))
 
 
-def told_corners(half: HalfSection, *, is_shaft: bool) -> tuple[SectionCorner, ...]:
+def told_corners(part: Part) -> tuple[SectionCorner, ...]:
     """The corners that a table tells, of a solid shaft those from outside; none where they have sizes."""
-    loop = tuple(_curve(piece) for piece in half.pieces)
-    cut, is_outer = _is_cut(half, loop, is_shaft=is_shaft), outer_of(loop)
+    assert isinstance(part.thing, HalfSection)
+    loop = _loop(part)
+    cut, is_outer = _is_cut(part.thing, loop, is_shaft=part.kind == "shaft"), outer_of(loop)
     return listed_corners(loop, lambda curve: cut or is_outer(curve))
+
+
+def _threads(part: Part) -> list[Threaded]:
+    return [*threaded(part.keys)] if isinstance(part.keys, ShaftSpec) else []
+
+
+def _loop(part: Part) -> Loop:
+    """Half the section as it is drawn, with a corner where a thread ends amid a cylinder."""
+    assert isinstance(part.thing, HalfSection)
+    found, threads = list[Line | Arc](), _threads(part)
+    for curve in map(_curve, part.thing.pieces):
+        if isinstance(curve, Line) and abs(curve.start.imag - curve.end.imag) < _SAME:
+            way, r = curve.end.real - curve.start.real, curve.start.imag
+            low, high = sorted((curve.start.real, curve.end.real))
+            ends = {z for one in threads if abs(2 * r - one.thread.diameter) < _SMOOTH for z in (one.low, one.high)}
+            amid = sorted((z for z in ends if low + _SMOOTH < z < high - _SMOOTH), reverse=way < 0)
+            found += [Line(a, b) for a, b in pairwise([curve.start, *(complex(z, r) for z in amid), curve.end])]
+        else:
+            found.append(curve)
+    return tuple(found)
 
 
 def _swapped(point: complex) -> complex:
@@ -158,10 +183,14 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
     axes = [Line(complex(low), complex(high))]
     wishes = subject.wishes
     bored = [*zip(half.splines, _spline_bores(subject), strict=True)]
-    tips = tuple((spline.low, spline.high, tip_zone(bore.joint, wishes.shaft)) for spline, bore in bored)
-    fits = Fits(wishes.shaft, wishes.bore, own=tips) if is_shaft else Fits("", wishes.bore, wishes.tip)
+    own = [Own(s.low, s.high, s.radii[1], tip_zone(bore.joint, wishes.shaft)) for s, bore in bored]
+    threads = _threads(subject.part)
+    own += [_designated(one, subject) for one in threads]
+    strokes += _thread_lines(threads, (upper, below(lower)), cut=cut)
+    fits = Fits(wishes.shaft, wishes.bore, own=tuple(own)) if is_shaft else Fits("", wishes.bore, wishes.tip)
     told = turned_sizes(loop, fits, subject.language, lambda curve: curve not in inner)
-    sizes = [*told.sizes]
+    # what a table has instead of diameters tells no thread
+    sizes = [*told.sizes, *(_thread_size(one, k) for k, one in enumerate(own, 1) if listed and one.before != "Ø")]
     shown = dict[tuple[float, float], int]()
     for pocket in half.pockets:
         if pocket not in notched:
@@ -198,6 +227,38 @@ def _long_view(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject,
     rough = (*_rough(bores(loop, lambda curve: curve not in inner), loop, subject), *_rough_seats(loop, subject))
     notes = (*rough, *numbers)
     return View(tuple(strokes), hatched, tuple(axes), tuple(sizes), told.rounds, notes, cuts=cuts)
+
+
+def _designated(one: Threaded, subject: Subject) -> Own:
+    after = thread_words(one.thread, subject.say(one.thread.pitch))
+    return Own(one.low, one.high, one.thread.diameter / 2, after, "M")
+
+
+def _thread_size(one: Own, number: int) -> Size:
+    at = (one.low + one.high) / 2
+    ends = complex(at, -one.radius), complex(at, one.radius)
+    return Size(f"thread.{number}", *ends, "left", one.before, one.after)
+
+
+def _thread_lines(threads: Sequence[Threaded], halves: Sequence[Loop], *, cut: bool) -> Iterator[Stroke]:
+    """Threads by GOST 2.311 (ISO 6410): a thin line at the minor diameter, a thick one where it ends on a cylinder."""
+    for one in threads:
+        root, tip = one.thread.minor_diameter / 2, one.thread.diameter / 2
+        for way, loop in zip((1, -1), halves, strict=True):
+            for a, b in _material_at(loop, way * root):
+                if (low := max(a, one.low)) < (high := min(b, one.high)) - _SMOOTH:
+                    yield THIN, Line(complex(low, way * root), complex(high, way * root))
+            corners = [end_point(c) for c, after in pairwise([*loop, loop[0]]) if _goes_on(c, after)]
+            for z in {p.real for p in corners if min(abs(p.real - one.low), abs(p.real - one.high)) < _SMOOTH}:
+                yield VISIBLE, Line(complex(z, way * (root if cut else 0.0)), complex(z, way * tip))
+
+
+def _goes_on(one: Line | Arc, other: Line | Arc) -> bool:
+    """Whether a line along the axis goes on as another one."""
+    return (
+        isinstance(one, Line) and isinstance(other, Line) and abs(one.end - other.start) < _SAME
+        and max(abs(p.imag - one.end.imag) for p in (one.start, other.end)) < _SAME
+    )  # fmt: skip
 
 
 def _enlarged(half: HalfSection, view: View, subject: Subject) -> Iterator[View]:
@@ -293,19 +354,23 @@ def _rough_seats(loop: Loop, subject: Subject) -> Iterator[Note]:
 
 def _walls(loop: Loop, hole: Hole) -> Iterator[tuple[Line, Line]]:
     """The walls of an axial hole in the section's plane, the nearer and the farther one, in each wall of the part."""
-    sides: list[list[Line]] = []
-    for radius in (abs(hole.centre) - hole.radius, abs(hole.centre) + hole.radius):
-        places = []
-        for curve in loop:
-            points = curve.point(np.linspace(*curve.domain, 2 if isinstance(curve, Line) else 65))
-            for a, b in zip(points[:-1].tolist(), points[1:].tolist(), strict=True):
-                if (a.imag > radius) != (b.imag > radius):
-                    places.append(a.real + (b.real - a.real) * (radius - a.imag) / (b.imag - a.imag))
-        places.sort()
-        sides.append(
-            [Line(complex(a, radius), complex(b, radius)) for a, b in zip(places[::2], places[1::2], strict=True)]
-        )
+    sides = [
+        [Line(complex(a, radius), complex(b, radius)) for a, b in _material_at(loop, radius)]
+        for radius in (abs(hole.centre) - hole.radius, abs(hole.centre) + hole.radius)
+    ]
     yield from zip(*sides, strict=False)
+
+
+def _material_at(loop: Loop, radius: float) -> list[tuple[float, float]]:
+    """From where to where along the axis there is material at a distance from it."""
+    places = []
+    for curve in loop:
+        points = curve.point(np.linspace(*curve.domain, 2 if isinstance(curve, Line) else 65))
+        for a, b in zip(points[:-1].tolist(), points[1:].tolist(), strict=True):
+            if (a.imag > radius) != (b.imag > radius):
+                places.append(a.real + (b.real - a.real) * (radius - a.imag) / (b.imag - a.imag))
+    places.sort()
+    return list(zip(places[::2], places[1::2], strict=True))
 
 
 def _face(half: HalfSection, loop: Loop, holes: HubHoles, subject: Subject) -> View:
@@ -484,7 +549,24 @@ def _keyway(
         start, end = cmath.phase(walls[-1]), cmath.phase(pieces[(k + 1) % len(pieces)][1][0])
         rims.append(Arc(0j, radius, start, (end - start) % math.tau))
     bore = [circle_of(inner)] if inner > 0 else list[Arc]()
+    thin = [arc for one in _threads(subject.part) if one.low < here[0].low < one.high
+            for arc in _three_quarters(one.thread.minor_diameter / 2, [walls for _, walls in pieces])]  # fmt: skip
     return View(
-        tuple((VISIBLE, curve) for curve in (*rims, *bore)), (tuple(rims), *((hole,) for hole in bore)),
+        (*((VISIBLE, curve) for curve in (*rims, *bore)), *((THIN, arc) for arc in thin)),
+        (tuple(rims), *((hole,) for hole in bore)),
         axis_cross(radius), tuple(sizes), (), (), title, _LEAST_SECTION,
     )  # fmt: skip
+
+
+def _three_quarters(radius: float, cuts: Sequence[Sequence[complex]]) -> Iterator[Arc]:
+    """A thread along its axis: three quarters of a circle, the gap about the first keyway, without what keyways cut."""
+    begin = cmath.phase(sum(cuts[0])) + math.pi / 4
+    gaps = [(0.0, 0.0), (1.5 * math.pi, math.tau)]
+    for walls in cuts[1:]:
+        half = math.asin(min(1.0, abs(walls[0] - walls[-1]) / 2 / radius))
+        middle = (cmath.phase(sum(walls)) - begin) % math.tau
+        if min(map(abs, walls)) < radius and middle < 1.5 * math.pi:
+            gaps.append((middle - half, middle + half))
+    for (_, low), (high, _) in pairwise(sorted(gaps)):
+        if high > low:
+            yield Arc(0j, radius, begin + low, high - low)

@@ -27,7 +27,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     """
     half = part.thing
     assert isinstance(half, HalfSection)
-    corners = told_corners(half, is_shaft=part.kind == "shaft")
+    corners = told_corners(part)
     if not corners:
         return None
     if len(corners) > _MOST:

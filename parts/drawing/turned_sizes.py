@@ -25,16 +25,26 @@ _NONE, _SMOOTH, _DIGITS = 1e-9, 1e-6, 7
 _MOST = 16
 
 
+class Own(Record):
+    """An outer cylinder between two heights, of a radius, mm; what stands before and after its diameter."""
+
+    low: float
+    high: float
+    radius: float
+    after: str
+    before: str = "Ø"
+
+
 class Fits(Record):
     """Tolerance zones of outer and inner cylinders, of the largest one (None: as the others); grooves have none.
 
-    ``own``: those of outer cylinders between two heights, mm.
+    ``own``: outer cylinders with zones, or signs, of their own.
     """
 
     outer: str = ""
     inner: str = ""
     largest: str | None = None
-    own: tuple[tuple[float, float, str], ...] = ()
+    own: tuple[Own, ...] = ()
 
 
 class _Edge(Record):
@@ -285,18 +295,22 @@ def _groove(edges: Sequence[_Edge], k: int) -> bool:
     return edge.runs_along() and all(way * (far.imag - start.imag) > _NONE for far in (before.ends[0], after.ends[1]))
 
 
-def _zone(edges: Sequence[_Edge], k: int, fits: Fits, turn: float) -> str:
-    """The tolerance zone of a cylinder: of a hole where material stands about it; a boss in a recess has none."""
+def _zone(edges: Sequence[_Edge], k: int, fits: Fits, turn: float) -> tuple[str, str]:
+    """The sign and the tolerance zone of a cylinder.
+
+    It is that of a hole where material stands about it; a boss in a recess has none.
+    """
     edge = edges[k]
     start, end = edge.ends
+    middle = complex((start.real + end.real) / 2, start.imag)
+    for one in fits.own if edge.outer else ():
+        if one.low < middle.real < one.high and abs(middle.imag - one.radius) < _SMOOTH:
+            return one.before, one.after
     if fits.largest is not None and abs(start.imag - max(e.ends[0].imag for e in edges)) < _NONE:
-        return fits.largest
+        return "Ø", fits.largest
     if _groove(edges, k):
-        return ""
-    if edge.outer:
-        middle = (start.real + end.real) / 2
-        return next((zone for low, high, zone in fits.own if low < middle < high), fits.outer)
-    return fits.inner if _has_about(edge, turn) else ""
+        return "Ø", ""
+    return "Ø", fits.outer if edge.outer else fits.inner if _has_about(edge, turn) else ""
 
 
 def _has_about(edge: _Edge, turn: float) -> bool:
@@ -313,7 +327,7 @@ def _diameters(edges: Sequence[_Edge], fits: Fits, turn: float, language: str) -
     xs = [end.real for edge in edges for end in edge.ends]
     middle = (min(xs) + max(xs)) / 2
     # for each size the places at which it is, of edges and of their corners
-    seen: dict[tuple[float, bool], dict[str, list[tuple[int, complex]]]] = {}
+    seen: dict[tuple[float, bool], dict[tuple[str, str], list[tuple[int, complex]]]] = {}
     for k in sorted(range(len(edges)), key=lambda k: not edges[k].runs_along()):
         edge = edges[k]
         if edge.stands() or not edge.told:
@@ -324,7 +338,7 @@ def _diameters(edges: Sequence[_Edge], fits: Fits, turn: float, language: str) -
                 other.runs_along() and corner in _near(other, corner) for other in edges
             )
             zones = seen.setdefault((_radius(corner.imag), edge.outer), {})
-            zone = _zone(edges, k, fits, turn) if edge.runs_along() else ""
+            zone = _zone(edges, k, fits, turn) if edge.runs_along() else ("Ø", "")
             if corner.imag < _NONE or at_cylinder or (zones and not edge.runs_along()):
                 continue
             zones.setdefault(zone, []).append((k, corner))
@@ -338,7 +352,7 @@ def _diameters(edges: Sequence[_Edge], fits: Fits, turn: float, language: str) -
         name = f"{'outer' if edge.outer else 'inner'}_diameter.{number}"
         count = 1 + sum(not _goes_on(edges, one, two) for (one, _), (two, _) in pairwise(places))
         ends = complex(at, -corner.imag), complex(at, corner.imag)
-        yield Size(name, *ends, side, "Ø", zone, counted_words(language, "places_of", count))
+        yield Size(name, *ends, side, *zone, counted_words(language, "places_of", count))
 
 
 def _goes_on(edges: Sequence[_Edge], first: int, last: int) -> bool:
