@@ -131,6 +131,7 @@ SHEETS = [
     ("spline", "size=d-6x23x26", "torque=150", "length=30"),
     ("involute-spline", "size=45x2", "torque=500", "length=40", "clearance=0.05"),
     ("involute-spline", "size=20x1", "root=fillet", "pin_diameter=2.2"),
+    ("thread", "thread=M20x1.5-6g-LH"),
     ("sprocket", "chain=16A-2", "number_of_teeth=18"),
     ("sprocket", "pitch=12.7", "roller_diameter=8.51", "face_width=5", "number_of_teeth=9", "form=0.5",
      "tip_diameter=41"),
@@ -326,7 +327,9 @@ def evaluated(step: Step, spoilt: float = 0.0) -> float:
 def test_every_printed_formula_gives_its_value(words: tuple[str, ...]) -> None:
     sheet = sheet_for(" ".join(words))
     checked = [step for step in sheet.steps() if step.formula]
-    assert len(checked) >= {"cam": 4, "pulley": 2, "planetary": 4, "involute": 0, "spline": 3}.get(words[0], 8)
+    assert len(checked) >= {"cam": 4, "pulley": 2, "planetary": 4, "involute": 0, "spline": 3, "thread": 8}.get(
+        words[0], 8
+    )
     for step in checked:
         assert evaluated(step) == pytest.approx(step.value, rel=1e-9, abs=1e-9), (step.name, step.formula)
 
