@@ -132,6 +132,7 @@ class CentreHolesTable(Struct, forbid_unknown_fields=True):
 _STEPS = [{"diameter": 12.0, "length": 20.0, "chamfer": 0.5}, {"diameter": 20.0, "length": 30.0}]
 
 _WHOLE = [
+    {"diameter": 12.0, "length": 10.0, "chamfer": 1.5, "thread": "M12"},
     {"diameter": 17.0, "length": 22.0, "chamfer": 1.0, "fillet": 0.8, "keyways": [{"at": 3.0, "length": 16.0}]},
     {"diameter": 25.0, "length": 15.0, "grooves": [{"at": 6.0, "width": 1.3, "diameter": 23.9}]},
     {"diameter": 20.0, "length": 30.0, "spline": {"shape": "spline", "size": "6x16x20"}},
@@ -144,7 +145,7 @@ class ShaftSpec(MaterialKeys, kw_only=True, tag_field="kind", tag="shaft"):
     """Keys of ``shaft``."""
 
     steps: Annotated[
-        list[StepTable], _SHAFT_STEPS, start(_STEPS, (_WHOLE, N_("keyways, a fillet, a groove for a ring, a spline")))
+        list[StepTable], _SHAFT_STEPS, start(_STEPS, (_WHOLE, N_("a thread, keyways, a fillet, a groove, a spline")))
     ]
     bore_diameter: BoreDiameter = 0.0
     centre_holes: CentreHolesTable | None = None

@@ -303,11 +303,14 @@ def test_new_shows_a_ball_and_all_that_a_step_of_a_shaft_may_have() -> None:
     assert ball == pytest.approx(4 / 3 * math.pi * 125, rel=3e-3)
     steps, shaft, top = shown("shaft", "steps")
     assert set(StepTable.__struct_fields__) <= set(re.findall(r"(\w+) = ", steps))
-    assert top == pytest.approx(67.0, abs=1e-9)
-    # cylinders less the chamfer, the keyway of 5 x 3, the groove, and what is beside six teeth 4 wide
+    assert top == pytest.approx(77.0, abs=1e-9)
+    # cylinders less the chamfers, the keyway of 5 x 3, the groove, and what is beside six teeth 4 wide
     strips = [2 * math.sqrt(r * r - 4) + r * r * math.asin(2 / r) for r in (8, 10)]
     gaps = math.pi * (100 - 64) - 6 * (strips[1] - strips[0])
     taken = (
-        math.pi * 17 * 0.5 + 3 * (16 * 5 - (4 - math.pi) * 2.5**2) + math.pi / 4 * (25**2 - 23.9**2) * 1.3 + 30 * gaps
+        math.pi * (17 * 0.5 + 1.5**2 * 5.5)
+        + 3 * (16 * 5 - (4 - math.pi) * 2.5**2)
+        + math.pi / 4 * (25**2 - 23.9**2) * 1.3
+        + 30 * gaps
     )
-    assert shaft == pytest.approx(math.pi / 4 * (17**2 * 22 + 25**2 * 15 + 20**2 * 30) - taken, rel=2e-3)
+    assert shaft == pytest.approx(math.pi / 4 * (12**2 * 10 + 17**2 * 22 + 25**2 * 15 + 20**2 * 30) - taken, rel=2e-3)
