@@ -9,9 +9,10 @@ from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 
-from exporters.production.jobs import FileJob
+from exporters.production.jobs import FileJob, Made
 from exporters.production.request import Request
 from geometry.base.errors import Nearest
+from geometry.base.findings import Finding
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from parts.base.part import Part
@@ -71,6 +72,12 @@ class Film(Record, FileJob):
     def tolerance(self) -> float:
         """Of outlines or solids, and of ways, together, mm."""
         return float(self.export.tolerance or 0.0)
+
+    def findings(self, made: Made) -> tuple[Finding, ...]:
+        """Whether it shows less than the drives do."""
+        if self.loop >= 1 or self.closes:
+            return ()
+        return (Finding("film_cut_short", 100 * float(self.loop), 100.0),)
 
     def ways(self, instance: Instance, reach: float) -> tuple[Any, Any, float]:
         """Places and angles at even shares of the loop, and how far what is straight between them is off, mm."""

@@ -9,7 +9,7 @@ from msgspec.structs import replace as with_keys
 
 from exporters.production.jobs import AssemblyJob, FileJob, Job, assembly_name
 from exporters.production.request import Request
-from geometry.base.errors import GeometryError, OffsetError, ParameterError
+from geometry.base.errors import GeometryError, OffsetError, ParameterError, format_value
 from geometry.base.record import Record, replace
 from geometry.plane.offset_region import OffsetRegion
 from parts.base.part import Part
@@ -158,9 +158,16 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
                 continue
             path = "" if export.assembly else _file_name(part_id, export, [e for _, e in exports])
             _take(path, where, taken, source)
-            job = Job(parts[part_id], export, _section(parts[part_id], export, source, where), path, where)
-            if job.kind.is_solid:
-                _check_body(job, source)
+            try:
+                job = Job(parts[part_id], export, _section(parts[part_id], export, source, where), path, where)
+                if job.kind.is_solid:
+                    _check_body(job, source)
+            except SceneError as refusal:
+                others = [p for p in asked.wanted if not parts[p].made_by.unmoved]
+                if refusal.code != "of_part" or not others or part_id in others:
+                    raise
+                numbers = {**refusal.numbers, "others": [format_value(p) for p in others]}
+                raise SceneError(source, refusal.key, refusal.value, "of_part_alone", None, "", **numbers) from refusal
             made.append(job)
         if not export.assembly:
             jobs += made

@@ -126,6 +126,10 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
     if wrong_type:
         if isinstance(value, str) and (comma := re.fullmatch(r"\s*(-?\d+),(\d+)\s*", value)):
             return SceneError(source, where, value, "comma_in_number", None, whole=comma.group(1), part=comma.group(2))
+        if {*wrong_type.group(1).split(" | ")} - {"null"} == {"str"} and type(value) in (int, float):
+            quoted = format_value(format_value(value))
+            code = "number_not_quoted" if allowed is None else "number_not_quoted_of"
+            return SceneError(source, where, value, code, None, last=keys[-1], quoted=quoted, allowed=allowed)
         code = "wrong_type" if allowed is None else "wrong_type_of"
         return SceneError(source, where, value, code, nearest, type=type_words(wrong_type.group(1)), allowed=allowed)
     return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Protocol
 
 from geometry.base.errors import GeometryError, Nearest, ParameterError, rounded
-from geometry.base.nearest import nearest
+from geometry.base.nearest import kept, nearest
 from parts.base.refusal import REMOVED
 
 
@@ -53,9 +54,11 @@ def shared_thinning(
 
     def whole(value: float) -> bool:
         """Whether whole teeth are left."""
-        thinning = each(value)
-        for index in free:
-            build(index, thinning)
+        return all(stands(each(value), index) for index in free)
+
+    def stands(thinning: float, index: int) -> bool:
+        """Whether whole teeth are left of one gear."""
+        build(index, thinning)
         return True
 
     if not free:
@@ -72,6 +75,10 @@ def shared_thinning(
             whole(backlash)
     except GeometryError as refusal:
         raise ParameterError(
-            "mate.normal_backlash", backlash, "backlash_leaves_no_teeth", lambda: nearest(whole, backlash, least)
+            "mate.normal_backlash",
+            backlash,
+            "backlash_leaves_no_teeth",
+            lambda: nearest(whole, backlash, least),
+            gears=[k + 1 for k in free if not kept(partial(stands, each(backlash)), k)],
         ) from refusal
     return found if 0 in free else 0.0, found if 1 in free else 0.0

@@ -198,6 +198,11 @@ def pair_refused(
     owner, _, key = refusal.name.partition(".")
     if owner == "mate":
         told = placed(source, place, refusal.renamed(key), unit_of(kind.keys, key))
+        gears = refusal.numbers.get("gears")
+        if refusal.code == "backlash_leaves_no_teeth" and isinstance(gears, list):
+            # here gears have names
+            ends_of = (mate.first, mate.second)
+            told.numbers["gears"] = [part_of[end] for k, end in enumerate(ends_of, 1) if k in gears]
         told.offer(lambda: _tried(refusal, lambda value: mated(ends, [tried(mate, key, value)], part_of)))
         return told
     owner, key = ("first", key) if owner == "first" else ("second", refusal.name)

@@ -42,7 +42,9 @@ def text_of(raw: bytes) -> str:
         # of UTF-16 without a mark the same half of each Latin letter
         zero = raw.index(b"\0")
         raise UnicodeDecodeError("utf-8", raw, zero, zero + 1, "no text")
-    return raw.decode("utf-8-sig")
+    text = raw.decode("utf-8-sig")
+    # old editors of the Mac end lines so, which all editors of today read
+    return text if "\n" in text else text.replace("\r", "\n")
 
 
 def tables_of(raw: bytes) -> dict[str, Any]:

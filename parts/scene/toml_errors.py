@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from typing import Any
 
 from parts.base.lookalikes import look_alike
@@ -70,6 +71,8 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return None
     number, column = int(at[1]), int(at[2]) - 1
     line = text.split("\n")[number - 1]
+    if hidden := next((c for c in line if unicodedata.category(c) == "Cf"), None):
+        return "hidden_character", {"line": number, "letter": f"U+{ord(hidden):04X}"}
     if why.startswith("Cannot overwrite a value") and (found := re.match(r"\s*([\w.-]+)\s*=", line)):
         return "key_twice", {"line": number, "key": found[1]}
     if why.startswith(("Invalid hex value", "Unescaped")):

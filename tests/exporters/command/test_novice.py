@@ -79,3 +79,116 @@ def test_it_is_told_in_ukrainian_too(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert line(tmp_path, capsys, text, "uk").endswith("kerf належить до [defaults] або [[exports]]")
     text = PAIR.replace("[parts.a]", "[parts.a]\ndiameter_quotient = 2")
     assert 'diameter_quotient належить до [parts.NAME] виду "worm_wheel", "worm"' in line(tmp_path, capsys, text, "uk")
+
+
+def test_a_backlash_that_leaves_no_teeth_names_the_gears_and_the_greatest_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = PAIR.replace('second = "b"', 'second = "b"\nnormal_backlash = {}')
+    told = line(tmp_path, capsys, text.format(9.0))
+    assert told == "mates[1].normal_backlash = 9.0: leaves no whole teeth of gear a, b; at most 2.267 mm works"
+    assert "не лишає цілих зубців колеса a, b" in line(tmp_path, capsys, text.format(9.0), "uk")
+    # between the limits of both only the smaller one is named
+    assert "of gear a; at most 2.267 mm works" in line(tmp_path, capsys, text.format(2.3))
+    file = tmp_path / "x.toml"
+    file.write_text(text.format(2.267))
+    assert main(["check", str(file)]) == 0
+
+
+@pytest.mark.parametrize("letter", ["\u200b", "\ufeff"], ids=["U+200B", "U+FEFF"])
+def test_a_character_that_nobody_sees_is_named_by_its_line(
+    letter: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = PAIR.replace("number_of_teeth = 17", f"number_of_teeth ={letter}17")
+    name = f"U+{ord(letter):04X}"
+    told = line(tmp_path, capsys, text)
+    assert told.endswith(f"line 4: has a character that nobody sees ({name}); type the line anew")
+    assert f"рядок 4: містить невидимий символ ({name})" in line(tmp_path, capsys, text, "uk")
+    # within words it stands as it was typed
+    (tmp_path / "x.toml").write_text(PAIR.replace("[parts.a]", f'[parts.a]\ntitle = "a{letter}b"'), encoding="utf-8")
+    assert main(["check", str(tmp_path / "x.toml")]) == 0
+
+
+def test_lines_that_end_as_on_old_macs_are_read(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "x.toml").write_bytes(PAIR.replace("\n", "\r").encode())
+    assert main(["check", str(tmp_path / "x.toml")]) == 0
+    capsys.readouterr()
+    wrong = PAIR.replace("\n", "\r").replace("= 17", "= 1,7").encode()
+    assert line(tmp_path, capsys, wrong).endswith("line 4: a number has a comma; write 1.7 with a point")
+
+
+def test_a_designation_without_quotes_is_told_as_it_is_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = '[parts.w]\nkind = "sprocket"\nnumber_of_teeth = 17\nchain = 40\n[[exports]]\nformat = "dxf"\n'
+    assert line(tmp_path, capsys, text).endswith('; write chain = "40"')
+    assert line(tmp_path, capsys, text, "uk").endswith('; напишіть chain = "40"')
+    told = line(tmp_path, capsys, PAIR.replace("[parts.a]", "[parts.a]\nmaterial = 40"))
+    assert told.endswith('; write material = "40"')
+
+
+WORM = '[parts.w]\nkind = "worm"\nmodule = 2.0\nnumber_of_starts = 1\ndiameter_quotient = 10.0\nthread_length = 30.0\n'
+
+
+@pytest.mark.parametrize(("language", "told"), [("en", "or leave it out of this export"), ("uk", "не включайте її")])
+def test_what_takes_no_offset_is_told_how_to_be_left_out(
+    language: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, gears = tmp_path / "x.toml", PAIR.partition("[[mates]]")[0]
+    export = '[[exports]]\nformat = "stl"\noffset = -0.05\n'
+    command = ["build", str(file), "--out", str(tmp_path / "out"), "--language", language]
+    file.write_text(WORM + gears + export)
+    assert main(command) == 2
+    said = capsys.readouterr().err
+    assert told in said
+    assert 'parts = ["a", "b"]' in said
+    # alone it cannot be left out
+    file.write_text(WORM + export)
+    assert main(command) == 2
+    assert told not in capsys.readouterr().err
+    file.write_text(WORM + gears + export + 'parts = ["a", "b"]\n')
+    assert main(command) == 0
+
+
+FILM = """[parts.pinion]
+kind = "spur_gear"
+module = 1.0
+number_of_teeth = 12
+face_width = 3.0
+[parts.bar]
+kind = "rack"
+module = 1.0
+number_of_teeth = 20
+face_width = 3.0
+[[mates]]
+kind = "rack_pair"
+first = "pinion"
+second = "bar"
+[[drives]]
+instance = "pinion"
+turns = 120.5
+[[exports]]
+format = "motion"
+tolerance = 0.5
+"""
+
+
+@pytest.mark.parametrize(
+    ("language", "told"),
+    [
+        ("en", "note: x.motion.svg: shows the first 82.6 % of what the drives do"),
+        ("uk", "показано лише перші 82.6 % руху приводів"),
+    ],
+)
+def test_a_film_that_shows_less_than_the_drives_do_says_so(
+    language: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "x.toml"
+    command = ["build", str(file), "--out", str(tmp_path / "out"), "--language", language]
+    file.write_text(FILM)
+    assert main(command) == 0
+    assert told in capsys.readouterr().out
+    # all of them are shown
+    file.write_text(FILM.replace("120.5", "99.5"))
+    assert main(command) == 0
+    assert "%" not in capsys.readouterr().out
