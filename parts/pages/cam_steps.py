@@ -30,6 +30,9 @@ _LAWS = (
     N_("sine-constant-cosine acceleration"),
     N_("polynomial of degree {degree}"),
     N_("B-spline of degree {degree}"),
+    N_("straight flanks and nose"),
+    N_("arc flanks and nose"),
+    N_("eccentric circle"),
 )
 _RADII: dict[FollowerKind, Text] = {
     FollowerKind.ROLLER: N_("radius of the roller"),
@@ -269,7 +272,7 @@ def positions(
     columns, heads = motion_columns(motion, degrees, swings=cam.swings, speed=angular_speed(speed_rpm))
     slope = np.degrees(cam.pressure_angle(angle))
     if beyond is None:
-        profile, bend = cam.profile_point(angle), cam.curvature_radius(angle)
+        profile, bend = cam.profile_point(angle), straightened(cam.curvature_radius(angle), cam.base_radius)
     else:
         profile, bend = outer_points(cam, angle, beyond), -(cam.pitch_curvature_radius(angle) + beyond)
     turned = np.exp(1j * turn)

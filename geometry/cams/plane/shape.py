@@ -22,6 +22,9 @@ from geometry.plane.profile import Label, Profile, Segment
 # rows of a table in one segment: those who sample a segment see each row
 _BLOCK_ROWS = 32
 _SLIVER = 1e-12
+# points of a curve at which it is looked at, how near they are to a line or an arc, by the cam's size, and the turning
+# that is none
+_PLAIN_SAMPLES, _PLAIN, _PLAIN_BEND = 33, 1e-13, 1e-8
 
 
 class CamShape(Record):
@@ -127,7 +130,26 @@ def _segments(cam: DiskCam, piece: LawPiece | _Cut, grow: float) -> list[Segment
         return [Segment(Arc(0j, abs(first), cmath.phase(first), piece.start - piece.end), Label.DWELL)]
     if isinstance(piece, _Cut):
         curve = curve.trimmed(piece.start, piece.end)
+    if (plain := _plain(curve)) is not None:
+        return [Segment(plain, Label.CAM)]
     return [Segment(curve.trimmed(a, b), Label.CAM) for a, b in pairwise(curve.quiet_edges())]
+
+
+def _plain(curve: Curve) -> Line | Arc | None:
+    """The line or the arc that a curve is but for rounding."""
+    t = np.linspace(*curve.domain, _PLAIN_SAMPLES)
+    points, bends = curve.point(t), curve.curvature(t)
+    first, last, bend = complex(points[0]), complex(points[-1]), float(bends.mean())
+    near, chord = _PLAIN * float(np.abs(points).max()), last - first
+    if not np.abs(bends - bend).max() * abs(chord) < _PLAIN_BEND or not abs(chord) > near:
+        return None
+    if abs(bend * chord) < _PLAIN_BEND:
+        off = ((points - first) * np.conj(chord)).imag / abs(chord)
+        return Line(first, last) if np.abs(off).max() < near else None
+    centre = complex((points[[0, -1]] + 1j * curve.tangent(t[[0, -1]]) / bend).mean())
+    turned = np.unwrap(np.angle(points - centre))
+    arc = Arc(centre, abs(first - centre), float(turned[0]), float(turned[-1] - turned[0]))
+    return arc if np.abs(np.abs(points - centre) - arc.radius).max() < near else None
 
 
 def _table_segments(cam: DiskCam, start: float, end: float, grow: float) -> list[Segment]:

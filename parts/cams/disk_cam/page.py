@@ -24,8 +24,10 @@ from geometry.cams.plane.synthesis import (
     oscillating_start_angles,
     roller_prime_radius,
 )
+from geometry.laws.contour import Contour
 from parts.base.refusal import SceneError, meant
 from parts.base.texts import N_
+from parts.cams.disk_cam.contour import contour_of
 from parts.cams.disk_cam.graphical_page import graphical_section
 from parts.cams.disk_cam.part import (
     CAM,
@@ -135,6 +137,8 @@ def disk_page(keys: CamKeys, cam: DiskCam) -> Sheet:
         page.add("working_angle_deg", worked, "{phi_r} + {phi_f} + {phi_b}", LESSON_4)
     coefficient_steps(page, phases)
     sizes(page, keys, cam)
+    if keys.contour is not None:
+        contour_section(page, contour_of(keys), cam)
     roller_section(page, cam, keys.least_curvature_radius)
     page.data["phases"] = phases.data()
     page.tables.append(positions(cam, keys.step, speed_rpm=keys.speed_rpm, cutter_diameter=keys.cutter_diameter))
@@ -213,6 +217,20 @@ def sizes(page: Sheet, keys: CamKeys, cam: DiskCam) -> None:
     page.add("least_curvature_radius", least_convex_radius(cam).value)
     if isinstance(cam.mount, Translating) and cam.kind in ("flat", "mushroom"):
         page.add("least_plate_diameter", cam.least_plate_diameter())
+
+
+def contour_section(page: Sheet, shape: Contour, cam: DiskCam) -> None:
+    """The sizes of an outline of arcs and lines, those that followed among them, and where the contact changes."""
+    page.section("Contour")
+    page.add("nose_radius", shape.nose_radius)
+    page.add("nose_distance", shape.centre_distance, "{R_min} + {H} - {r_n}")
+    if shape.is_eccentric:
+        return
+    if shape.curvature:
+        page.add("flank_radius", 1 / shape.curvature)
+    change = shape.nose_normal if cam.is_flat else shape.change(cam.radius)
+    page.add("nose_change_deg", math.degrees(change))
+    page.add("nose_change_lift", float(cam.motion.value(change)))
 
 
 def roller_section(page: Sheet, cam: DiskCam, least_curvature_radius: float) -> None:

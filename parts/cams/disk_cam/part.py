@@ -20,6 +20,7 @@ from geometry.solids.wheel import WheelShape
 from parts.base.kind import Others, Report
 from parts.base.schema import replaced
 from parts.base.texts import N_
+from parts.cams.disk_cam.contour import ContourTable, contour_motion
 from parts.cams.wheel import DiskKeys, Turned, check_disk, inner_radius, marked_holes
 from parts.keys.base import MOST_LENGTH, part_mm, start
 from parts.keys.cam import (
@@ -102,6 +103,7 @@ class CamSpec(DiskKeys, forbid_unknown_fields=True, tag_field="kind", tag="cam")
     phases: Annotated[Phases, with_own_laws(turn("polynomial_345"))] | None = None
     motion_table: MotionTable | None = None
     table_tolerance: TableTolerance = 0.0
+    contour: ContourTable | None = None
     follower_radius: FollowerRadius = 0.0
     follower_offset: FollowerOffset = 0.0
     plate_diameter: Annotated[float, _PLATE_DIAMETER] | None = None
@@ -130,7 +132,8 @@ def cam_of(keys: CamSpec) -> DiskCam:
 
     swing, base = keys.oscillating, keys.base_circle_radius
     check_stroke(keys, swing is not None, tabled=keys.motion_table is not None)
-    motion, kind = motion_of(keys, swing is not None), FollowerKind(keys.follower)
+    kind = FollowerKind(keys.follower)
+    motion = motion_of(keys, swing is not None) if keys.contour is None else contour_motion(keys)
     try:
         if swing is None:
             base = _least_base(keys, motion) if base is None else base

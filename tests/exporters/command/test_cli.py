@@ -61,7 +61,7 @@ DAILY = {
     "barrel_cam": "svg", "bevel_pair": "stl", "clock_gears": "dxf", "crossed_helical_pair": "3mf",
     "face_gear_pair": "stl", "conjugate_cams": "svg", "cycloidal_reducer": "dxf", "groove_cam": "svg",
     "guidelines_cam": "svg", "helical_gears": "stl", "helical_pair": "3mf", "idler_train": "3mf",
-    "geneva_drive": "dxf", "chain_drive": "dxf", "belt_drive": "stl", "spline_joint": "3mf",
+    "contour_cams": "dxf", "geneva_drive": "dxf", "chain_drive": "dxf", "belt_drive": "stl", "spline_joint": "3mf",
     "lantern_pair": "step", "laser_cam_model": "dxf", "laser_gear": "dxf", "laser_gear_set": "svg",
     "linkage_cam": "svg", "practicum_flat_cam": "stl", "practicum_pair": "dxf",
     "practicum_roller_cam": "stl", "print_cam_set": "stl", "print_gear": "stl", "rack_and_pinion": "sheet",
