@@ -296,7 +296,6 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
         strokes += [(VISIBLE, edge if way > 0 else edge.mirrored()) for edge in seen_edges(loop, cut=False)]
         roots = [complex(z, way * r) for z, r in body.root_line()]
         strokes += [(THIN, Line(a, b)) for a, b in pairwise(roots)]
-        strokes.append((AXIS, level((-half, half), way * worm.reference_radius)))
     low, high = body.ends()
     # the requirements tell the angle of the cones at the thread's ends, the table its depth
     cones = [c for c in loop if abs(c.start.imag - c.end.imag) > _NONE and abs(c.start.real - c.end.real) > _NONE
@@ -320,7 +319,8 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
     rough = [Note(pitch, subject.rough(wishes.flank_roughness), is_rough=True, goes_on=True)]
     if made is not None:
         rough.append(bore_note((low, high), -down, subject.rough(wishes.bore_roughness)))
-    view = View(tuple(strokes), (), (Line(complex(low), complex(high)),), tuple(sizes), notes=tuple(rough))
+    axes = (level((low, high), 0), *(level((-half, half), way * worm.reference_radius) for way in (1, -1)))
+    view = View(tuple(strokes), (), axes, tuple(sizes), notes=tuple(rough))
     if made is None or isinstance(made, RoundBore):
         return (view,)
     return seen_along(view, high, subject), bore_view(made, subject)
