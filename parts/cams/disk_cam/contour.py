@@ -21,8 +21,9 @@ _TRIED = (0.9, 1.1, 0.75, 4 / 3, 0.5, 2.0, 0.25, 4.0, 0.1, 10.0, -1.0)
 _FLANK_RADIUS = part_mm(
     "above 0 convex, below 0 hollow; default: straight flanks, or the arcs of lift, nose radius and angle",
     least=-MOST_LENGTH,
+    example=80.0,
 )
-_RISE_ANGLE = degrees("cam angle of the rise, half of the whole action", above=0, most=180)
+_RISE_ANGLE = degrees("cam angle of the rise, half of the whole action", above=0, most=180, example=75.0)
 
 
 class ContourTable(Struct, forbid_unknown_fields=True):

@@ -331,7 +331,7 @@ def test_the_diagrams_are_those_of_what_the_output_does(assignment: int, link: s
             values -= values.min()
         shown, ends = text.split("  ")
         assert shown == head
-        low, high = map(float, ends.split(" … "))
+        low, high = (float(end.replace("\u2212", "-")) for end in ends.split(" … "))
         assert (low, high) == pytest.approx((min(values.min(), 0), max(values.max(), 0)), rel=1e-3)
 
 

@@ -181,11 +181,12 @@ def test_meshing_is_as_large_as_its_paper_allows(name: str, paper: str) -> None:
 
 
 def test_styles_of_dashes_are_those_of_the_standard() -> None:
-    """GOST 2.303: dashes of 2 to 8 mm, 1 to 2 apart; dash and dot of 5 to 30 mm, 3 to 5 apart."""
+    """GOST 2.303: dashes of 2 to 8 mm, 1 to 2 apart; dash and dot of 5 to 30 mm, 3 to 5 apart, two dots 4 to 6."""
     for style in STYLES.values():
         if len(style.dashes) == 2:
             assert 2 <= style.dashes[0] <= 8
             assert 1 <= style.dashes[1] <= 2
         elif style.dashes:
             assert 5 <= style.dashes[0] <= 30
-            assert 3 <= sum(style.dashes[1:]) <= 5
+            dots = len(style.dashes) // 2 - 1
+            assert 2 + dots <= sum(style.dashes[1:]) <= 4 + dots

@@ -263,7 +263,7 @@ def test_diagrams_of_the_output_stand_one_under_another_about_their_own_axes() -
     assert np.diff([b for _, b in tops]) == pytest.approx([side() / 3] * 2, abs=0.1)
     assert tops[-1][1] < side()
     assert tops[0][1] - tops[0][0] > 0.7 * side() / 3
-    assert [t.text for t in texts] == ["S, mm  0 … 30", "V, m/s  -3 … 1", "a, m/s²  -4 … 0"]
+    assert [t.text for t in texts] == ["S, mm  0 … 30", "V, m/s  −3 … 1", "a, m/s²  −4 … 0"]
 
 
 @pytest.mark.parametrize(
@@ -271,7 +271,7 @@ def test_diagrams_of_the_output_stand_one_under_another_about_their_own_axes() -
     [
         ("Reduced", (RUN.resisting, np.full(361, 50.0)), 0, 100, ("M_c  0 … 100", "M_d  50 … 50")),
         ("Gained", (RUN.gained, RUN.of_links, RUN.of_flywheel), -30, 30,
-         ("ΔT  -30 … 30", "ΔT_l  -10 … 10", "ΔT_m  -6 … -4")),
+         ("ΔT  −30 … 30", "ΔT_l  −10 … 10", "ΔT_m  −6 … −4")),
     ],
 )  # fmt: skip
 def test_curves_in_one_field_have_one_scale(
