@@ -337,7 +337,11 @@ def _check_tables(raw: dict[str, Any], source: str) -> None:
     for key, value in raw.items():
         if key not in tables:
             told = None if isinstance(value, dict | list) else value
-            raise SceneError(source, key, told, "unknown_table", meant(key, tables), known=list(tables))
+            near = meant(key, tables)
+            if near is None and (key == "kind" or (isinstance(value, dict) and "kind" in value)):
+                name = _NAMED["parts"] if key == "kind" else key
+                raise SceneError(source, key, told, "part_outside_parts", None, name=name)
+            raise SceneError(source, key, told, "unknown_table", near, known=list(tables))
         if not isinstance(value, tables[key]):
             code = "not_a_list" if tables[key] is list else "not_a_named_table" if key in _NAMED else "not_a_table"
             raise SceneError(source, key, value, code, None, key=key, example=_NAMED.get(key))

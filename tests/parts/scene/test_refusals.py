@@ -165,6 +165,9 @@ def test_a_wrong_key_is_named_with_its_value_and_a_remedy(name: str) -> None:
         (b"[scene]\ntitel='x'\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "did you mean title"),
         (b"[sceen]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "did you mean scene"),
         (b"[gears]\n[parts.g]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "unknown table"),
+        # a part without parts before its name, or without a header
+        (b"[gear]\nkind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "stand under [parts.gear]"),
+        (b"kind='spur_gear'\nmodule=1\nnumber_of_teeth=20\n", "stand under [parts.gear]"),
     ],
     ids=lambda value: repr(value)[:25],
 )
