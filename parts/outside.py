@@ -22,10 +22,11 @@ from parts.texts.quantities import QUANTITIES, add_quantities
 __all__ = ["add_catalogue", "add_kind", "add_mate"]
 
 
-def add_kind(kind: Kind[Any, Any]) -> None:
+def add_kind(kind: Kind[Any, Any], called: str = "") -> None:
     """A kind of part, with the sentences of its refusals and remarks and the names of its quantities.
 
-    ``list`` tells it by the first line of what its keys say of themselves.
+    ``list`` tells it by the first line of what its keys say of themselves; ``called``: what drawings call a part that
+    has no title, in its catalogue in the context "name of a part"; without it they call it by its id.
 
     Raises
     ------
@@ -37,7 +38,7 @@ def add_kind(kind: Kind[Any, Any]) -> None:
     _refuse_taken(kind.reasons, _told(kind.reasons))
     _refuse_taken(kind.findings, FINDINGS)
     _refuse_taken(kind.quantities, QUANTITIES)
-    KINDS.add(kind.name, kind, phrase_of(kind.keys))
+    KINDS.add(kind.name, kind, phrase_of(kind.keys), called)
     add_reasons(kind.reasons)
     add_findings(kind.findings)
     add_quantities(kind.quantities)

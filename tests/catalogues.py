@@ -33,7 +33,7 @@ from parts.base.reasons import SUBJECTS, sentences
 from parts.base.registry import KINDS
 from parts.base.schema import phrase_of
 from parts.base.texts import DOMAIN, LOCALE
-from parts.drawing.names import KIND_NAMES
+from parts.drawing.names import NAME_OF_PART
 from parts.drawing.title_block import LABELS
 from parts.mates.pages.planetary import FAULTS
 from parts.mates.registry import MATES
@@ -119,10 +119,11 @@ def _marked() -> Iterator[tuple[str | None, str, str]]:
 
 def _kept_in_data() -> Iterator[tuple[str | None, str, str]]:
     """What needs no mark: sentences by code, plain texts, and of units those that are words."""
-    tables = (*map(sentences, SUBJECTS), FINDINGS, checks.MATES, checks.CONDITIONS, SHEETS, LABELS, KIND_NAMES, FAULTS)
+    tables = (*map(sentences, SUBJECTS), FINDINGS, checks.MATES, checks.CONDITIONS, SHEETS, LABELS, FAULTS)
     for text in (text for table in tables for text in table.values()):
         yield (None, text, "") if isinstance(text, str) else (text.context or None, text.msgid, text.many)
     yield from ((None, text, "") for text in (*_plain_texts(), *_ARGPARSE))
+    yield from ((NAME_OF_PART, text, "") for text in KINDS.called.values())
     yield None, "expected %s argument", "expected %s arguments"
     yield from (("index", text, "") for text in INDICES.values())
     yield from (("unit", text, "") for text, _ in UNITS.values() if any(map(str.isalpha, text)))

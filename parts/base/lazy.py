@@ -37,13 +37,19 @@ class Registry(Mapping[str, E], Generic[E]):
 
 
 class Index(Registry[E], Generic[E]):
-    """A registry that says what each entry is before that is loaded: rows of its name, its place and a phrase."""
+    """A registry that says what each entry is before that is loaded: rows of its name, its place and a phrase.
+
+    A fourth cell is what one is called.
+    """
 
     def __init__(self, rows: Sequence[Sequence[str]]) -> None:
-        super().__init__({name: home for name, home, _ in rows})
-        self.phrases = {name: phrase for name, _, phrase in rows}
+        super().__init__({name: home for name, home, *_ in rows})
+        self.phrases = {name: phrase for name, _, phrase, *_ in rows}
+        self.called = {name: called for name, _, _, *more in rows for called in more}
 
-    def add(self, name: str, entry: E, phrase: str) -> None:
-        """One more entry, from outside, and what it is."""
+    def add(self, name: str, entry: E, phrase: str, called: str = "") -> None:
+        """One more entry, from outside, what it is, and what one is called."""
         self.register(name, entry)
         self.phrases[name] = phrase
+        if called:
+            self.called[name] = called

@@ -1,4 +1,4 @@
-"""The kinds of parts, a row of ``kinds.psv`` each: where the kind is found, and what it is in a phrase."""
+"""The kinds of parts, a row of ``kinds.psv`` each: where the kind is found, what it is and what it is called."""
 
 from __future__ import annotations
 

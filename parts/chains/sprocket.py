@@ -71,7 +71,7 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
 
     def thing(self, keys: SprocketSpec, others: Others) -> Sprocket:
         """The sprocket, checked to have teeth that enter the chain, and holes within them."""
-        from geometry.gears.chains.sprocket import AnsiForm, GostForm, IsoForm, Sprocket, checked_sprocket
+        from geometry.gears.chains.sprocket import AnsiForm, GostForm, IsoForm, SeatedForm, Sprocket, checked_sprocket
 
         chain = chain_of_keys(keys)
         told = keys.tooth_form
@@ -79,9 +79,12 @@ class SprocketKind(WheelKind[SprocketSpec, "Sprocket"]):
             raise ParameterError("form", keys.form, "of_another_tooth_form", Nearest(0.0), form=told)
         if keys.displaced and told != "GOST 591":
             raise ParameterError("displaced", keys.displaced, "of_another_tooth_form", Nearest(False), form=told)
-        seated = AnsiForm() if told == "ANSI B29.1" else GostForm(keys.displaced)
-        form = IsoForm(keys.form) if told == "ISO 606" else seated
-        sprocket = checked_sprocket(Sprocket(keys.number_of_teeth, chain, form, keys.tip_diameter))
+        forms: dict[str, IsoForm | SeatedForm] = {
+            "ISO 606": IsoForm(keys.form),
+            "GOST 591": GostForm(keys.displaced),
+            "ANSI B29.1": AnsiForm(),
+        }
+        sprocket = checked_sprocket(Sprocket(keys.number_of_teeth, chain, forms[told], keys.tip_diameter))
         sprocket = replace(sprocket, face_width=_face_width(keys, sprocket))
         if keys.tooth_bevel > (most := 0.5 * sprocket.face_width * (1 - MARGIN) if keys.tooth_bevel else 0.0):
             raise ParameterError("tooth_bevel", keys.tooth_bevel, "chamfers_meet", most_of(most, keys.tooth_bevel))

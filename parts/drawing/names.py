@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from parts.base.psv import sentences_of
-from parts.base.texts import words
+from parts.base.registry import KINDS
+from parts.base.texts import in_context, words
 
 if TYPE_CHECKING:
     from parts.base.part import Part
 
-KIND_NAMES = sentences_of(__file__, "names")
+# which of the meanings of a word like "Cam" is told
+NAME_OF_PART = "name of a part"
 
 
 def drawn_names(part: Part, language: str) -> tuple[str, str]:
     """Its name and its designation, empty where it has none; one of a kind without a name is called by its id."""
-    kind = KIND_NAMES.get(part.kind)
-    if part.title is not None or kind is None:
+    called = KINDS.called.get(part.kind)
+    if part.title is not None or called is None:
         return part.title or part.id, part.designation or ""
-    return words(language).say(kind), part.designation or part.id
+    return words(language).say(in_context(NAME_OF_PART, called)), part.designation or part.id

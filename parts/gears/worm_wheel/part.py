@@ -68,6 +68,12 @@ _REACHED, _SHARP = 1e-3, 29.9
 _OUTER_DIAMETER = mm(
     "d_ae2, outside of the throat; default: the largest by GOST 19650", above=0, most=200_000, example=66.0
 )
+_FACE_WIDTH = mm(
+    "width b2 of the rim; default: the largest by GOST 19650 that has whole teeth",
+    least=0.01,
+    most=10_000,
+    example=14.0,
+)
 _NUMBER_OF_TEETH = Meta(ge=_LEAST_TEETH, le=10_000, description="teeth of the wheel, z2", examples=[30])
 
 
@@ -89,11 +95,7 @@ class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_fie
     hob_rounding_coefficient: HobRounding = 0.2
     hob_diameter_quotient: HobQuotient | None = None
     axial_thinning: HobThinning = 0.0
-    face_width: (
-        Annotated[float, mm("width b2 of the rim; default: the largest by GOST 19650 that has whole teeth",
-                            least=0.01, most=10_000, example=14.0)]
-        | None
-    ) = None  # type: ignore[assignment]  # fmt: skip
+    face_width: Annotated[float, _FACE_WIDTH] | None = None  # type: ignore[assignment]
     outer_diameter: Annotated[float, _OUTER_DIAMETER] | None = None
     spokes: SpokesTable | None = None
     web: WebTable | None = None

@@ -13,7 +13,7 @@ from exporters.command.cli import main
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
 from parts.base.registry import KINDS
-from parts.drawing.names import KIND_NAMES, drawn_names
+from parts.drawing.names import drawn_names
 from parts.scene.load import make_parts, scene_from_toml
 
 LIST = """
@@ -227,4 +227,4 @@ def test_what_has_no_title_is_called_by_its_kind_in_the_language_of_the_drawing(
     for language, name in (("en", "Gear"), ("uk", "Колесо зубчасте")):
         assert drawn_names(parts["disc"], language) == (name, "disc")
         assert drawn_names(parts["ball"], language) == ("ball", "")
-    assert set(KINDS) - set(KIND_NAMES) == {"turned", "layered", "step_part"}
+    assert set(KINDS) - set(KINDS.called) == {"turned", "layered", "step_part"}

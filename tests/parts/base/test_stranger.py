@@ -89,6 +89,7 @@ def known(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         KINDS._homes,
         KINDS._loaded,
         KINDS.phrases,
+        KINDS.called,
         MATES._homes,
         MATES._loaded,
         MATES.phrases,
@@ -103,7 +104,7 @@ def known(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     folder = tmp_path / "locale" / "uk" / "LC_MESSAGES"
     folder.mkdir(parents=True)
     (folder / "polygon.mo").write_bytes(compiled(stranger.LOCALE / "uk" / "LC_MESSAGES" / "polygon.po"))
-    add_kind(stranger.POLYGON_PLATE)
+    add_kind(stranger.POLYGON_PLATE, "Polygon")
     add_mate(stranger.POLYGON_STACK)
     add_catalogue("polygon", tmp_path / "locale")
     monkeypatch.chdir(tmp_path)
@@ -213,6 +214,19 @@ def test_the_mate_places_checks_and_refuses(tmp_path: Path, capsys: pytest.Captu
     assert "as many sides as the plate below" in text
     code, text = told(capsys, "build", scene(tmp_path, sides=5, language="uk"))
     assert "стільки ж сторін" in text
+
+
+@pytest.mark.parametrize(("language", "called"), [("en", "Polygon"), ("uk", "Багатокутник")])
+def test_it_is_called_by_its_name_where_it_has_no_title(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], language: str, called: str
+) -> None:
+    file = Path(scene(tmp_path, language=language))
+    file.write_text(file.read_text("utf-8") + '\n[[exports]]\nformat = "csv"\n', encoding="utf-8")
+    code, text = told(capsys, "build", str(file), "--format", "csv")
+    assert code == 0, text
+    (table,) = (tmp_path / "out" / "plates").glob("*.csv")
+    rows = table.read_text("utf-8-sig").splitlines()
+    assert sum(called in row for row in rows) == 2
 
 
 def test_it_is_calculated(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
