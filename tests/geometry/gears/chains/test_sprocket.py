@@ -107,8 +107,8 @@ def test_callipers_find_the_chord_between_roots(form: IsoForm | SeatedForm, teet
     other = gap * cmath.rect(1.0, sprocket.pitch_angle * (teeth // 2))
     found = float(np.min(np.abs(gap[:, None] - other)))
     assert sprocket.root_chord == pytest.approx(found, abs=1e-4)
-    # no point lies nearer, but for the rounding of the one that is nearest
-    assert sprocket.root_chord <= found * (1 + 1e-15)
+    # no point lies nearer, of the seats of ANSI but for the rounding of the one that is nearest
+    assert sprocket.root_chord <= found * (1 + 1e-15 * isinstance(form, AnsiForm))
     if isinstance(form, SeatedForm):
         assert sprocket.over_pins == pytest.approx(found + 2 * 11.91, abs=1e-4)
 
