@@ -87,11 +87,6 @@ def fault_of(who: str, what: str) -> str:
     return fault("{who}: {what}", who=who, what=what)
 
 
-def in_every_language(msgid: str) -> dict[str, str]:
-    """A text as a key of a scene has it in all languages, ``{ en = "Sun", uk = "..." }``."""
-    return {language: words(language).text(msgid) for language in languages()}
-
-
 def counted(one: str, many: str, /, by: str, **numbers: object) -> Message:
     """A text whose form follows the number called ``by``, given here or by ``filled``."""
     return Message(one, numbers, many, by)

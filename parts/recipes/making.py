@@ -10,7 +10,6 @@ from msgspec.structs import replace
 
 from geometry.base.errors import ParameterError
 from geometry.base.nearest import kept, nearest
-from parts.base.texts import in_every_language
 from parts.recipes.names import NAMES
 from parts.recipes.recipe import Expansion, RecipeKeys, Table
 
@@ -65,7 +64,7 @@ class Making:
         """Give parts their titles and positions, and instances their titles."""
         for part, table in self.found.parts.items():
             known = self.names[part]
-            table |= {"title": in_every_language(known.title)}
+            table |= {"title": known.title}
             if known.position:
                 table["position"] = int(known.position)
         self.found.name_instances(self.names)

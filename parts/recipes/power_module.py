@@ -28,7 +28,7 @@ from msgspec.structs import replace
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import nearest
-from parts.base.texts import N_, Message, in_every_language, words
+from parts.base.texts import N_, Message, words
 from parts.keys.base import mm
 from parts.pages.module_rules import CONDITIONS, DRIVERS, M4, M8, M10, M12, Condition, of_orientation, sizes, valued
 from parts.recipes.making import Making, behind, front, place
@@ -229,7 +229,7 @@ class _Making(Making):
             else:
                 table["designation"] = told.text(_DESIGNATION, number=f"{position:02}")
             table |= {"material": known.material, "colour": known.colour, "position": position,
-                      "title": in_every_language(known.title)}  # fmt: skip
+                      "title": known.title}  # fmt: skip
         self.found.name_instances(NAMES["power_module, instances"])
 
     def put(self, kind: str, first: str, second: str, part: str = "", **keys: object) -> None:

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Generic, TypeVar
 from msgspec import Meta, Struct
 
 from geometry.base.record import Draft, Record, field
-from parts.base.texts import in_every_language
+from parts.base.texts import Message
 from parts.keys.base import IDENTIFIER
 from parts.recipes.names import Named
 
@@ -29,7 +29,10 @@ class RecipeKeys(Struct, forbid_unknown_fields=True, tag_field="kind", kw_only=T
 
 
 class Expansion(Draft):
-    """Tables as a scene file has them; ``origins``: for places in them (``parts.sun.module``), the recipe's key."""
+    """Tables as a scene file has them, but that titles are texts.
+
+    ``origins``: for places in them (``parts.sun.module``), the recipe's key.
+    """
 
     parts: dict[str, Table] = field(default_factory=dict)
     instances: dict[str, Table] = field(default_factory=dict)
@@ -44,10 +47,9 @@ class Expansion(Draft):
         for name, table in self.instances.items():
             stem, _, number = name.rpartition("_")
             if name in titles:
-                table["title"] = in_every_language(titles[name])
+                table["title"] = titles[name]
             elif number.isdigit() and stem != table["part"] and stem in titles:
-                told = in_every_language(titles[stem])
-                table["title"] = {key: f"{title} {number}" for key, title in told.items()}
+                table["title"] = Message("{title} {number}", {"title": Message(titles[stem]), "number": number})
 
 
 K = TypeVar("K", bound=RecipeKeys)

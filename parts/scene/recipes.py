@@ -8,6 +8,7 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import kept, nearest
 from parts.base.refusal import SceneError, placed
 from parts.base.schema import converted, tried, unit_of
+from parts.base.texts import ENGLISH, Words, languages, words
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 from parts.scene.kinds import assembly_kind
 from parts.scene.language import in_one
@@ -33,20 +34,22 @@ def told_out(raw: dict[str, Any], source: str) -> tuple[dict[str, Any], dict[str
     origins: dict[str, str] = {}
     named: dict[str, dict[str, Table]] = {"parts": {}, "instances": {}}
     listed: dict[str, list[Table]] = {"mates": [], "drives": [], "steps": []}
+    asked = raw.get("scene", {}).get("language", ENGLISH)
+    told = words(asked if asked in languages() else ENGLISH)
     for number, table in enumerate(raw["assemblies"], 1):
         place = f"assemblies[{number}]"
         prefix, made = _made(in_one(raw, table, source, place), source, place)
         for name, found in named.items():
             for key, own in getattr(made, name).items():
                 if prefix + key in found:
-                    told = {"part": prefix + key}
-                    raise SceneError(source, f"{place}.name", table.get("name"), "assemblies_share", None, "", **told)
-                found[prefix + key] = _named(own, prefix)
+                    part, own_name = prefix + key, table.get("name")
+                    raise SceneError(source, f"{place}.name", own_name, "assemblies_share", None, "", part=part)
+                found[prefix + key] = _named(own, prefix, told)
                 origins[f"{name}.{prefix}{key}"] = f"{place}: {name}.{prefix}{key}"
         before = {name: len(rows) for name, rows in listed.items()}
         for name, rows in listed.items():
             for own in getattr(made, name):
-                rows.append(_named(own, prefix))
+                rows.append(_named(own, prefix, told))
                 origins[f"{name}[{len(rows)}]"] = f"{place}: {name}[{len(rows)}]"
         for there, origin in made.origins.items():
             head, _, rest = there.partition(".")
@@ -107,9 +110,11 @@ def _made_good(recipe: Recipe[Any], keys: Any, refusal: ParameterError) -> Param
     return refusal.told_of(refusal.name, refusal.value, cure)
 
 
-def _named(table: Table, prefix: str) -> Table:
-    """A table with the assembly's name before every id in it."""
+def _named(table: Table, prefix: str, told: Words) -> Table:
+    """A table with the assembly's name before every id in it, its title in the scene's language."""
     found = dict(table)
+    if "title" in found:
+        found["title"] = told.say(found["title"])
     for key in [key for key in _NAMING if table.get(key) is not None]:
         found[key] = [prefix + one for one in table[key]] if isinstance(table[key], list) else prefix + table[key]
     if isinstance(holes := table.get("holes"), list):
