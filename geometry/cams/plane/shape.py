@@ -139,6 +139,9 @@ def _plain(curve: Curve) -> Line | Arc | None:
     """The line or the arc that a curve is but for rounding."""
     t = np.linspace(*curve.domain, _PLAIN_SAMPLES)
     points, bends = curve.point(t), curve.curvature(t)
+    # a curve with a cusp is neither
+    if not np.isfinite(bends).all():
+        return None
     first, last, bend = complex(points[0]), complex(points[-1]), float(bends.mean())
     near, chord = _PLAIN * float(np.abs(points).max()), last - first
     if not np.abs(bends - bend).max() * abs(chord) < _PLAIN_BEND or not abs(chord) > near:
