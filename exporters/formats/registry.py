@@ -22,7 +22,7 @@ from geometry.plane.contour import Approximation
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
-from parts.scene.formats import FileKind, file_kind
+from parts.scene.formats import FileKind
 from parts.scene.load import ExportSpec
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ class Content(Record):
     @property
     def kind(self) -> FileKind:
         """The kind of file."""
-        return file_kind(self.export.format, self.export.purpose)
+        return self.export.kind
 
     @property
     def decimals(self) -> int:

@@ -92,9 +92,8 @@ class BoardJob(Record, PartsJob):
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back: every piece whole and in its place, on the board, clear of the others."""
-        parts = {m.part.id: m.part for m in self.members}
-        expected = ExpectedBoard(self.board, parts, self.pieces, self.offset)
-        return verify_board(file, self.members[0].kind, expected, declared, self.members[0].tolerance)
+        expected = ExpectedBoard(self.board, self.parts, self.pieces, self.offset)
+        return verify_board(file, self.export.kind, expected, declared, self.tolerance)
 
 
 def board_jobs(

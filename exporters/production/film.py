@@ -68,11 +68,6 @@ class Film(Record, FileJob):
         names = [instance.id for instance in self.instances]
         return {"part": None, "instances": names, "drive": self.turns, "closes": self.closes, "seconds": self.seconds}
 
-    @property
-    def tolerance(self) -> float:
-        """Of outlines or solids, and of ways, together, mm."""
-        return float(self.export.tolerance or 0.0)
-
     def findings(self, made: Made) -> tuple[Finding, ...]:
         """Whether it shows less than the drives do."""
         if self.loop >= 1 or self.closes:

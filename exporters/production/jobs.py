@@ -20,9 +20,11 @@ from parts.scene.load import ExportSpec
 from parts.scene.standing import Instance
 
 if TYPE_CHECKING:
+    from exporters.verification.assembly import ExpectedAssembly
     from exporters.verification.verdict import Verdict
     from geometry.solids.body import Body
     from geometry.solids.faced import FacedBody
+    from parts.base.part import Part
 
 # teeth lose their shape where the tolerance is a larger part of the module
 _COARSE_SHARE = 0.05
@@ -48,6 +50,11 @@ class FileJob:
     def members(self) -> tuple[Job, ...]:
         """None."""
         return ()
+
+    @property
+    def tolerance(self) -> float:
+        """Of all that is in it together, mm."""
+        return float(self.export.tolerance or 0.0)
 
     @property
     def label(self) -> str:
@@ -89,6 +96,11 @@ class PartsJob(FileJob):
     """Several parts in one file; the paths of its members' own files are not used."""
 
     __slots__ = ()
+
+    @property
+    def parts(self) -> dict[str, Part]:
+        """Those in it, by their ids."""
+        return {m.part.id: m.part for m in self.members}
 
     @property
     def offset(self) -> float:
@@ -245,7 +257,7 @@ class AssemblyJob(Record, PartsJob):
 
     def write(self, made: Made, file: Path) -> dict[str, int]:
         """Write one prototype per part and an occurrence of it for every instance; counts of what is in the file."""
-        write = REGISTRY[self.members[0].kind.name].write_assembly
+        write = REGISTRY[self.export.kind.name].write_assembly
         assert write is not None
         places = [(i.id, i.part, i.scene_from_part, i.subassembly) for i in self.instances]
         shapes = {m.part.id: made[m.shape_key] for m in self.members}
@@ -258,14 +270,20 @@ class AssemblyJob(Record, PartsJob):
         more = (Finding("offset_in_mesh", self.export.offset, 2 * self.export.offset),) if meets else ()
         return (*super().findings(made), *more)
 
+    @property
+    def expected(self) -> ExpectedAssembly:
+        """What its file must hold."""
+        from exporters.verification.assembly import ExpectedAssembly
+
+        return ExpectedAssembly(self.name, self.parts, self.offset, self.instances)
+
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back and measure every part in its place."""
         from exporters.verification import judge
-        from exporters.verification.assembly import expected_of, verify_assembly
+        from exporters.verification.assembly import verify_assembly
 
-        expected = expected_of(self.name, {m.part.id: m.part for m in self.members}, self.offset, self.instances)
-        kind = self.members[0].kind
-        verdict = verify_assembly(file, kind, expected, declared, self.members[0].tolerance)
+        kind = self.export.kind
+        verdict = verify_assembly(file, kind, self.expected, declared, self.tolerance)
         return judge.signed(file, kind, self.export.author, self.export.organisation, verdict)
 
 

@@ -18,7 +18,7 @@ from parts.base.refusal import REMOVED, SceneError, meant, placed
 from parts.base.texts import N_, Message, Text, filled, message
 from parts.keys.boards import PURPOSES_LAID
 from parts.keys.sheet import on_sheet
-from parts.scene.formats import FORMATS, OF_SCENES, Form, file_kind
+from parts.scene.formats import FORMATS, OF_SCENES, Form
 from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
 
@@ -152,7 +152,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
         for part_id in asked.wanted:
             if only_parts and part_id not in only_parts:
                 continue
-            if not (export.parts or file_kind(export.format, export.purpose).is_solid or _is_flat(parts[part_id])):
+            if not (export.parts or export.kind.is_solid or _is_flat(parts[part_id])):
                 left_out.append(_no_outline(where, part_id))
                 flat.append(where)
                 continue
@@ -317,7 +317,7 @@ def _assembly_path(scene: SceneFile, export: ExportSpec, exports: list[ExportSpe
 def _section(part: Part, export: ExportSpec, source: str, place: str, gap: float | None = None) -> OffsetRegion:
     """The exact section with the export's kerf or offset, refused in the export's own key; ``gap``: its board's, mm."""
     try:
-        offset, kind = export.kerf / 2 if export.kerf else export.offset, file_kind(export.format, export.purpose)
+        offset, kind = export.kerf / 2 if export.kerf else export.offset, export.kind
         if not (kind.is_solid or _is_flat(part)):
             raise SceneError(source, f"{place}.parts", part.id, "no_flat_outline")
         return part.cut(offset, gap) if kind.form is Form.ARCS else part.section(offset)

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from exporters.boards.nest import QUARTERS, Laid, Room, lacking, largest_scale, nest
 from exporters.production.boards import different_boards
 from exporters.production.jobs import AssemblyJob, Job, Made, assembly_name, several
 from exporters.production.request import Request
-from exporters.verification.assembly import expected_of
+from exporters.verification.assembly import ExpectedAssembly
 from exporters.verification.board import BoardPiece
-from exporters.verification.plate import ExpectedPlate, verify_plate
-from exporters.verification.verdict import Verdict
 from geometry.base.errors import rounded
 from geometry.base.findings import Finding
+from geometry.base.record import replace
 from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.base.texts import Message, listed
@@ -62,11 +60,10 @@ class PlateJob(AssemblyJob):
         """Remarks on what is on it."""
         return (*super().findings(made), *several(self.export, self.times))
 
-    def verify(self, file: Path, declared: float) -> Verdict:
-        """Read it back: every part in its place, on the bed, clear of the others."""
-        parts = {m.part.id: m.part for m in self.members}
-        expected = ExpectedPlate(self.bed, expected_of(self.name, parts, self.offset, self.instances))
-        return verify_plate(file, self.members[0].kind, expected, declared, self.members[0].tolerance)
+    @property
+    def expected(self) -> ExpectedAssembly:
+        """What its file must hold: all of it on the bed, each piece clear of the others."""
+        return replace(super().expected, bed=self.bed)
 
 
 def plate_jobs(asked: Request, job_of: Callable[[Part], Job]) -> list[PlateJob]:

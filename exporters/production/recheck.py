@@ -138,9 +138,10 @@ def _held(
         verdict = verify_part(file, kind, used[0], offset, declared, tolerance, also, path)
     else:
         from exporters.production.plates import instances_of
-        from exporters.verification.assembly import expected_of, verify_assembly
+        from exporters.verification.assembly import ExpectedAssembly, verify_assembly
 
-        if "bed" in entry:
+        bed = scene.beds[entry["bed"]] if "bed" in entry else None
+        if bed is not None:
             stand = instances_of(entry["pieces"])
         else:
             placed = {i.id: i for i in place(scene.instances, scene.drives, parts, matings, source).instances}
@@ -148,11 +149,7 @@ def _held(
         if not kind.assembly or not stand:
             raise KeyError(f"an assembly of {len(stand)} instances, format {kind.format}")
         used = [parts[i.part] for i in stand]
-        expected = expected_of(assembly_name(scene.name), {part.id: part for part in used}, offset, stand)
-        if "bed" in entry:
-            from exporters.verification.plate import ExpectedPlate, verify_plate
-
-            return verify_plate(file, kind, ExpectedPlate(scene.beds[entry["bed"]], expected), declared, tolerance)
+        expected = ExpectedAssembly(assembly_name(scene.name), {part.id: part for part in used}, offset, stand, bed)
         verdict = verify_assembly(file, kind, expected, declared, tolerance)
     verdict = signed(file, kind, str(entry.get("author", "")), str(entry.get("organisation", "")), verdict)
     if kind.form is not Form.FACES or verdict.failures or find_spec("OCP") is None:

@@ -86,7 +86,7 @@ class SheetJob(Record, FileJob):
 
     def verify(self, file: Path, declared: float) -> Verdict:
         """Read it back and measure."""
-        return verify_sheets(file, self.pages, float(self.export.tolerance or 0.0))
+        return verify_sheets(file, self.pages, self.tolerance)
 
     def findings(self, made: Made) -> tuple[Finding, ...]:
         """What the drawings remark on."""

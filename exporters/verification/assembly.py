@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +16,7 @@ from geometry.base.record import Record
 from parts.base.part import Part
 from parts.base.readback import ReadBack
 from parts.base.texts import N_, fault, fault_of, unless
+from parts.keys.boards import BedSpec
 from parts.scene.formats import FileKind
 from parts.scene.standing import Instance
 
@@ -24,7 +25,7 @@ _PLACE, _DIGITS = 1e-9, 1e-13
 
 
 class ExpectedAssembly(Record):
-    """What an assembly file must hold: its title, parts by name; of each occurrence part, place (3, 4), sub-assembly.
+    """What an assembly file must hold: its title, parts by name, instances of them; the ``bed`` that it must lie on.
 
     The boundaries of the parts are moved ``offset`` mm out of the material.
     """
@@ -32,13 +33,8 @@ class ExpectedAssembly(Record):
     title: str
     parts: dict[str, Part]
     offset: float
-    occurrences: dict[str, tuple[str, NDArray[np.float64], str]]
-
-
-def expected_of(title: str, parts: dict[str, Part], offset: float, instances: Iterable[Instance]) -> ExpectedAssembly:
-    """What a file of some parts, moved ``offset`` mm out of the material, and of these instances must hold."""
-    places = {i.id: (i.part, i.scene_from_part.matrix(), i.subassembly or "") for i in instances}
-    return ExpectedAssembly(title, parts, offset, places)
+    instances: Sequence[Instance]
+    bed: BedSpec | None = None
 
 
 @of_readable
@@ -46,36 +42,31 @@ def verify_assembly(
     file: Path, kind: FileKind, expected: ExpectedAssembly, declared: float, tolerance: float
 ) -> Verdict:
     """Read an assembly file back and hold it against what it must be; see ``exporters.verification.judge``."""
-    return judged(ASSEMBLY_READERS[kind.name](file), kind, expected, declared, tolerance)
+    found = ASSEMBLY_READERS[kind.name](file)
+    verdict = _judged(found, kind, expected, declared, tolerance)
+    if expected.bed is None or verdict.failures:
+        return verdict
+    from exporters.verification.plate import on_bed
+
+    return on_bed(found, expected.bed, declared, verdict)
 
 
-def judged(
+def _judged(
     found: ReadAssembly, kind: FileKind, expected: ExpectedAssembly, declared: float, tolerance: float
 ) -> Verdict:
-    """What was read of an assembly file against what it must be."""
-
-    def check(shape: ReadBack, part: Part) -> Verdict:
-        exact = part.body(expected.offset)
-        verdict = held(shape, kind, exact, declared, tolerance)
-        said = probed(shape, part, expected.offset, declared, verdict)
-        more = {f"{part.id}.{k}": v for k, v in said.measured.items() if k not in verdict.measured}
-        return Verdict(verdict.measured | more, (*said.failures, *said_failures(shape, kind, part)))
-
-    return _verdict(found, expected, check)
-
-
-def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[ReadBack, Part], Verdict]) -> Verdict:
+    stand = {instance.id: instance for instance in expected.instances}
     named = N_('it is named "{title}" instead of "{wanted}"')
     failures = unless(found.title == expected.title, named, title=found.title, wanted=expected.title)
     failures += _name_failures(fault("part"), [p.name for p in found.prototypes], list(expected.parts))
-    failures += _name_failures(fault("instance"), [o.name for o in found.occurrences], list(expected.occurrences))
+    failures += _name_failures(fault("instance"), [o.name for o in found.occurrences], list(stand))
     measured: dict[str, float] = {"parts": len(found.prototypes), "instances": len(found.occurrences)}
     reach = {name: part.body(expected.offset).reach() for name, part in expected.parts.items()}
     worst_place = 0.0
     for name, index, placed, within in found.occurrences:
-        if name not in expected.occurrences:
+        if name not in stand:
             continue
-        part, place, wanted = expected.occurrences[name]
+        part, place = stand[name].part, stand[name].scene_from_part.matrix()
+        wanted = stand[name].subassembly or ""
         prototype = found.prototypes[index].name
         told = N_("instance {name} is {prototype} instead of {part}")
         failures += unless(prototype == part, told, name=name, prototype=prototype, part=part)
@@ -90,7 +81,7 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[R
     for index, (name, shape, colour) in enumerate(found.prototypes):
         if name not in expected.parts:
             continue
-        verdict = check(shape, expected.parts[name])
+        verdict = _of_part(shape, kind, expected.parts[name], expected.offset, declared, tolerance)
         share = verdict.measured.get("volume", 0.0) * sum(o.prototype == index for o in found.occurrences)
         volume, bound = volume + share, bound + share * verdict.measured.get("volume_bound", 0.0)
         failures += [fault_of(name, failure) for failure in verdict.failures]
@@ -101,6 +92,14 @@ def _verdict(found: ReadAssembly, expected: ExpectedAssembly, check: Callable[[R
         # what the probes say, under the part's name
         measured |= {key: value for key, value in verdict.measured.items() if key.startswith(f"{name}.")}
     return Verdict(measured | ({"volume_bound": bound / volume} if bound else {}), tuple(failures))
+
+
+def _of_part(shape: ReadBack, kind: FileKind, part: Part, offset: float, declared: float, tolerance: float) -> Verdict:
+    """A part of the file as a file of its own; what its probes say stands under its name."""
+    verdict = held(shape, kind, part.body(offset), declared, tolerance)
+    said = probed(shape, part, offset, declared, verdict)
+    more = {f"{part.id}.{k}": v for k, v in said.measured.items() if k not in verdict.measured}
+    return Verdict(verdict.measured | more, (*said.failures, *said_failures(shape, kind, part)))
 
 
 def _name_failures(what: str, found: list[str], expected: list[str]) -> list[str]:

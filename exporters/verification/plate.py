@@ -1,38 +1,18 @@
-"""Plates read back: an assembly in its places, all of it on the bed, each piece clear of the others."""
+"""Plates read back: beside being an assembly in its places, all of it on the bed, each piece clear of the others."""
 
 from __future__ import annotations
-
-from pathlib import Path
 
 import numpy as np
 
 from exporters.formats.read_assembly import ReadAssembly
-from exporters.formats.reading import ASSEMBLY_READERS
-from exporters.verification.assembly import ExpectedAssembly, judged
-from exporters.verification.verdict import Verdict, of_readable
-from geometry.base.record import Record, replace
+from exporters.verification.verdict import Verdict
+from geometry.base.record import replace
 from parts.base.texts import N_, unless
 from parts.keys.boards import BedSpec
-from parts.scene.formats import FileKind
 
 
-class ExpectedPlate(Record):
-    """What a plate's file must hold, and the bed that it must lie on."""
-
-    bed: BedSpec
-    pieces: ExpectedAssembly
-
-
-@of_readable
-def verify_plate(file: Path, kind: FileKind, expected: ExpectedPlate, declared: float, tolerance: float) -> Verdict:
-    """Read a plate back and hold it against what it must be, within a declared error, mm."""
-    found = ASSEMBLY_READERS[kind.name](file)
-    verdict = judged(found, kind, expected.pieces, declared, tolerance)
-    return verdict if verdict.failures else _on_bed(found, expected.bed, declared, verdict)
-
-
-def _on_bed(found: ReadAssembly, bed: BedSpec, declared: float, verdict: Verdict) -> Verdict:
-    """Where the file's own vertices stand, each within the declared error, mm."""
+def on_bed(found: ReadAssembly, bed: BedSpec, declared: float, verdict: Verdict) -> Verdict:
+    """A good verdict with where the file's own vertices stand, each within the declared error, mm."""
     import shapely
 
     hulls, failures = [], list[str]()

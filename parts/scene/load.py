@@ -28,7 +28,7 @@ from parts.keys.sheet import CamSpeed, CellsKey, Intervals, MateNumber, PaperKey
 from parts.keys.title import TitleBlockKey
 from parts.keys.working import WorkingTable
 from parts.scene.files import MOST_BYTES, built_in_scenes, tables_of, text_of
-from parts.scene.formats import ASSEMBLY_FORMATS, FORMATS, PURPOSES, Form, file_kind, tolerances_of
+from parts.scene.formats import ASSEMBLY_FORMATS, FORMATS, PURPOSES, FileKind, Form, file_kind, tolerances_of
 from parts.scene.instances import (
     DriveSpec,
     Group,
@@ -121,6 +121,11 @@ class ExportSpec(Struct, forbid_unknown_fields=True):
     paper: PaperKey | None = None
     scale: ScaleKey | None = None
     drawing: WorkingTable | None = None
+
+    @property
+    def kind(self) -> FileKind:
+        """The kind of file that its format and purpose ask for."""
+        return file_kind(self.format, self.purpose)
 
     @property
     def is_laid(self) -> bool:
@@ -315,7 +320,7 @@ def _takes(source: str, table: dict[str, Any], key: str, value: object) -> bool:
         spec = _export_spec(own, {}, source, "exports")
     except SceneError:
         return False
-    if key == "tolerance" and file_kind(spec.format, spec.purpose).is_cad:
+    if key == "tolerance" and spec.kind.is_cad:
         return False
     try:
         _export_spec({**own, key: value}, {}, source, "exports")
@@ -504,7 +509,7 @@ def _export_spec(table: object, parts: dict[str, MaterialKeys], source: str, pla
             source, f"{place}.purpose", spec.purpose, "wrong_purpose", near, format=spec.format, known=list(purposes)
         )
     check_sheet_keys(spec, source, place)
-    kind = file_kind(spec.format, spec.purpose)
+    kind = spec.kind
     if spec.kerf and kind.form is Form.TRIANGLES:
         refuse("kerf", "kerf_of_a_print", offset=spec.kerf / 2)
     if spec.pitch_curve and kind.form is not Form.SPLINES:

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from exporters.production.recheck import recheck
-from exporters.verification.assembly import expected_of, verify_assembly
+from exporters.verification.assembly import ExpectedAssembly, verify_assembly
 from geometry.base.record import replace
 from parts.base.part import Part
 from parts.base.readback import Probe, Probed, ReadBack
@@ -203,7 +203,7 @@ def test_what_the_probes_of_its_parts_say_counts_for_an_assembly(train_3mf: Path
     asked = parts | {"planet": replace(planet, made_by=Asking())}
     kind = file_kind("3mf", None)
     good, found = (
-        verify_assembly(train_3mf, kind, expected_of("train", p, 0.0, stand), 0.1, 0.1) for p in (parts, asked)
+        verify_assembly(train_3mf, kind, ExpectedAssembly("train", p, 0.0, stand), 0.1, 0.1) for p in (parts, asked)
     )
     assert not good.failures
     assert found.failures == ("planet: it does not fit",)

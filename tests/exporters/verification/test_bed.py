@@ -28,7 +28,7 @@ def judged(places: Places, turn: Any = PLAIN) -> tuple[dict[str, Any], list[str]
     part = SimpleNamespace(part=SimpleNamespace(faces=lambda: FACES))
     rows = [Occurrence(f"p{k}", 0, np.column_stack([turn, at])) for k, at in enumerate(places)]
     found = cast("Any", SimpleNamespace(prototypes=[part], occurrences=rows))
-    verdict = plate._on_bed(found, cast("Any", BED), DECLARED, Verdict({"before": 1.0}, ()))
+    verdict = plate.on_bed(found, cast("Any", BED), DECLARED, Verdict({"before": 1.0}, ()))
     assert verdict.measured["before"] == 1.0
     return dict(verdict.measured), [words("en").say(one) for one in verdict.failures]
 

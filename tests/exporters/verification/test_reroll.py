@@ -15,7 +15,7 @@ from exporters.formats.read_dxf import read_dxf
 from exporters.production.build import build
 from exporters.production.plan import plan_build
 from exporters.production.recheck import recheck
-from exporters.verification.assembly import expected_of, verify_assembly
+from exporters.verification.assembly import ExpectedAssembly, verify_assembly
 from exporters.verification.judge import probed
 from exporters.verification.verdict import Verdict
 from geometry.base.series import taylor
@@ -173,7 +173,7 @@ def test_the_cams_of_an_assembly_are_rolled(tmp_path: Path) -> None:
     instances = place(scene.instances, scene.drives, parts, matings, "t").instances
     # the same outline, rolled over by the follower of the other
     parts["cam"].__dict__["probes"] = wrong["cam"].probes
-    expected = expected_of("laser_cam_model", parts, 0.0, instances)
+    expected = ExpectedAssembly("laser_cam_model", parts, 0.0, instances)
     verdict = verify_assembly(tmp_path / "o" / "laser_cam_model.3mf", FILE_KINDS["3mf"], expected, made.max_error, 0.01)
     assert any("lift is wrong" in failure for failure in verdict.failures)
 
