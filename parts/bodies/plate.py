@@ -94,7 +94,7 @@ def checked_outline(
     try:
         whole.check_holes(names)
     except ParameterError as refusal:
-        raise _of_axle(keys, refusal) from refusal
+        raise _by_place(keys, refusal) from refusal
     for number, mark in enumerate(keys.engraved, 1):
         check_depth(f"engraved[{number}]", mark.depth, keys.face_width)
     return PlateOutline(edges, whole.holes[: len(names) - len(keys.engraved)])
@@ -114,15 +114,21 @@ def outline_with_marks(
     return PlateOutline(edges, (*holes, *slots, *marks)), names
 
 
-def _of_axle(keys: FlatKeys, refusal: ParameterError) -> ParameterError:
-    """A refusal of a hole as its axle tells it: that hole cannot be moved, and its size is not what is wrong."""
-    number = re.fullmatch(r"holes\[(\d+)\]\.diameter", refusal.name)
-    hole = keys.holes[int(number[1]) - 1] if number else None
-    if number is None or hole is None or hole.axis_of is None or hole.at is None:
+def _by_place(keys: FlatKeys, refusal: ParameterError) -> ParameterError:
+    """A refusal of what lies wrong in the key of its place, not of its size; a hole for an axle cannot be moved."""
+    found = re.fullmatch(r"(?P<place>(?P<key>holes|slots|engraved)\[(?P<number>\d+)\])\.\w+", refusal.name)
+    if found is None:
         return refusal
-    x, y = (round(value, 4) + 0.0 for value in hole.at)
-    place = f"holes[{number[1]}].axis_of"
-    return ParameterError(place, hole.axis_of, "hole_of_axle_outside", axle=hole.axis_of, x=x, y=y)
+    table = getattr(keys, found["key"])[int(found["number"]) - 1]
+    if isinstance(table, HoleAtTable) and table.axis_of is not None and table.at is not None:
+        x, y = (round(value, 4) + 0.0 for value in table.at)
+        told = {"axle": table.axis_of, "x": x, "y": y}
+        return ParameterError(f"{found['place']}.axis_of", table.axis_of, "hole_of_axle_outside", **told)
+    if refusal.code != "hole_lies_outside":
+        return refusal
+    if isinstance(table, SlotTable):
+        return ParameterError(found["place"], {"start": [*table.start], "end": [*table.end]}, refusal.code)
+    return ParameterError(f"{found['place']}.at", [*table.at], refusal.code)
 
 
 def _slots(key: str, tables: Sequence[SlotTable], names: list[str]) -> tuple[PlateSlot, ...]:

@@ -376,3 +376,22 @@ def test_a_side_that_is_too_short_for_its_axles_is_told_how_long_it_has_to_be() 
     assert max(p.real for p in corners) == pytest.approx(37.0)
     assert min(p.real for p in corners) == pytest.approx(-25.0)
     assert max(p.imag for p in corners) == pytest.approx(20.0)
+
+
+def test_what_is_cut_where_no_part_is_is_told_by_its_place() -> None:
+    """In a plate of 60 x 40; what lies within and is too large is told by its size."""
+    slot = {"start": [0.0, 0.0], "end": [50.0, 0.0], "width": 2.0}
+    cases: dict[str, tuple[dict[str, Any], str, object]] = {
+        "holes": ({"at": [45.0, 0.0], "diameter": 3.0}, ".at", [45.0, 0.0]),
+        "slots": (slot, "", {"start": [0.0, 0.0], "end": [50.0, 0.0]}),
+        "engraved": (slot | {"depth": 1.0}, "", {"start": [0.0, 0.0], "end": [50.0, 0.0]}),
+    }
+    for key, (table, place, value) in cases.items():
+        found = refused(scene_of(PLATE | {key: [table]}))
+        assert found is not None
+        assert (found.key, found.code) == (f"parts.p.{key}[1]{place}", "hole_lies_outside")
+        assert found.value == value
+        assert found.nearest is None
+    within = refused(scene_of(PLATE | {"holes": [{"at": [20.0, 0.0], "diameter": 30.0}]}))
+    assert within is not None
+    assert (within.key, within.code) == ("parts.p.holes[1].diameter", "hole_reaches_edge")
