@@ -68,7 +68,7 @@ def test_arms_that_have_no_room_make_a_round_plate() -> None:
         ({"outer_diameter": 84.0}, "pin_diameter", "hole_reaches_edge"),
         ({"directions_deg": [0.0, 90.0]}, "directions_deg", "not_one_a_pin"),
         ({"engraved": [{"start": [0, 5], "end": [5, 5], "width": 1.0, "depth": 6.0}]}, "engraved[1].depth", ""),
-        ({"engraved": [{"start": [0, 50], "end": [5, 50], "width": 1.0}]}, "engraved[1].width", ""),
+        ({"engraved": [{"start": [0, 50], "end": [5, 50], "width": 1.0}]}, "engraved[1]", ""),
     ],
 )
 def test_what_is_no_plate_is_refused(keys: dict[str, Any], key: str, code: str) -> None:
