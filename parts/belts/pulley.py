@@ -14,7 +14,8 @@ from geometry.solids.wheel import Rim, check_wheel
 from parts.base.kind import Others, Report
 from parts.base.lookalikes import in_latin
 from parts.keys.base import MOST_LENGTH, degrees, mm, part_mm, start
-from parts.keys.pins import check_holes, holes_of
+from parts.keys.holes import holes_of
+from parts.keys.pins import check_holes
 from parts.keys.wheel import WheelKeys, WheelKind
 
 if TYPE_CHECKING:

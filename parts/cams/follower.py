@@ -20,7 +20,7 @@ from parts.base.kind import Others, Report
 from parts.bodies.plate import Extruded, FlatKeys, HolesAt, Slots, checked_outline
 from parts.cams.wheel import Turned
 from parts.keys.base import MOST_LENGTH, degrees, part_mm
-from parts.keys.holes import BoredKeys, check_shape, wide_bore
+from parts.keys.holes import BoredKeys, check_shape, holes_of, wide_bore
 from parts.keys.wheel import FaceChamfer, FaceChamferTable, HubTable, shape_of
 
 if TYPE_CHECKING:
@@ -245,7 +245,7 @@ class Roller(Turned[RollerSpec, "FollowerEnd"]):
         from geometry.cams.plane.disk import FollowerKind
 
         end = FollowerEnd(FollowerKind.ROLLER, keys.diameter / 2)
-        check_shape(keys, RollerSpec.hub_holes, end.radius)
+        check_shape(keys, holes_of, end.radius)
         holes = self.holes(keys, end)
         if not holes.bore_reach < end.radius:
             raise wide_bore(keys, end.radius, "no_wall_in_roller")
@@ -258,7 +258,7 @@ class Roller(Turned[RollerSpec, "FollowerEnd"]):
 
     def holes(self, keys: RollerSpec, thing: FollowerEnd) -> HubHoles:
         """The bore."""
-        return keys.hub_holes()
+        return holes_of(keys)
 
     def inside(self, thing: FollowerEnd) -> float:
         """All of it."""

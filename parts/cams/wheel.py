@@ -15,7 +15,7 @@ from geometry.solids.wheel import WheelShape, check_wheel, wheel_body, wheel_sec
 from parts.base.kind import Kind
 from parts.base.part_keys import MaterialKeys
 from parts.base.schema import replaced
-from parts.keys.holes import check_holes, check_shape, wide_bore, wide_holes
+from parts.keys.holes import check_holes, check_shape, holes_of, wide_bore, wide_holes
 from parts.keys.timing_mark import TimingMarkTable, with_timing_mark
 from parts.keys.wheel import HubbedKeys, shape_of
 
@@ -49,14 +49,14 @@ def inner_radius(cam: DiskCam) -> float:
 
 def marked_holes(keys: DiskKeys, cam: DiskCam) -> HubHoles:
     """Bore, holes and timing mark of a cam."""
-    return with_timing_mark(keys.hub_holes(), keys.timing_mark, cam, inner_radius(cam))
+    return with_timing_mark(holes_of(keys), keys.timing_mark, cam, inner_radius(cam))
 
 
 def check_disk(keys: DiskKeys, cam: DiskCam, within: Within = "base_circle") -> HubHoles:
     """The holes with the mark, which stay ``within`` the circle that is surely material; the body can be."""
-    holes, inside = keys.hub_holes(), inner_radius(cam)
+    holes, inside = holes_of(keys), inner_radius(cam)
     wall, beyond = _WITHIN[within]
-    check_shape(keys, type(keys).hub_holes, inside)
+    check_shape(keys, holes_of, inside)
     if not holes.bore_reach < inside:
 
         def beside(path: str, size: float) -> bool:
@@ -64,8 +64,8 @@ def check_disk(keys: DiskKeys, cam: DiskCam, within: Within = "base_circle") -> 
 
         raise wide_bore(keys, inside, wall, beside)
     if holes.reach > inside:
-        raise wide_holes(keys, type(keys).hub_holes, inside, beyond, lambda k: bool(check_disk(k, cam, within).number))
-    check_holes(keys, type(keys).hub_holes, inside)
+        raise wide_holes(keys, holes_of, inside, beyond, lambda k: bool(check_disk(k, cam, within).number))
+    check_holes(keys, holes_of, inside)
     marked = with_timing_mark(holes, keys.timing_mark, cam, inside)
     check_wheel(shape_of(keys), 2 * inside, marked)
     return marked

@@ -12,7 +12,8 @@ from geometry.base.record import replace
 from geometry.solids.wheel import Rim, check_wheel
 from parts.base.kind import Others, Report, diameters
 from parts.keys.base import MOST_LENGTH, either, mm, start
-from parts.keys.pins import MARGIN, check_holes, holes_of, most_of
+from parts.keys.holes import holes_of
+from parts.keys.pins import MARGIN, check_holes, most_of
 from parts.keys.wheel import WheelKeys, WheelKind
 
 if TYPE_CHECKING:

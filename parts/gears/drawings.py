@@ -58,7 +58,7 @@ from parts.gears.worm.part import WormSpec
 from parts.gears.worm_wheel.part import WheelThing, WormWheelSpec
 from parts.keys.engraving import digits_height
 from parts.keys.helix import ToothedKeys, helix_of
-from parts.keys.holes import bore_of, hub_holes
+from parts.keys.holes import bore_of, holes_of
 from parts.keys.wheel import shape_of, wheel_shape
 
 # mm, what is no length; how long marks of the teeth's direction are, and how far apart: parts of what has room
@@ -82,7 +82,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
             return disk_drawing(subject, shape, thing.holes, "zero_x", circles)
         case WormWheelSpec() as keys:
             views = wheel_views(_worm_wheel(keys, thing), subject)
-            more = directions(keys.hub_holes(), subject, "zero_tooth", keys.number_of_teeth)
+            more = directions(holes_of(keys), subject, "zero_tooth", keys.number_of_teeth)
         case RingGearSpec() as keys:
             views = _ring(keys, thing, subject)
             more = _engraved(keys, subject) + directions(thing.holes, subject, "zero_space", keys.number_of_teeth)
@@ -133,7 +133,7 @@ def _thread_words(keys: WormSpec, subject: Subject) -> tuple[str, ...]:
     words = {"cut": "thread_ends", "blunt": "thread_ends_blunt", "run_out": "thread_run_out"}[keys.thread_ends]
     angle = (keys.run_out_deg if keys.thread_ends == "run_out" else keys.end_angle_deg) or 0.0
     ends = subject.words(words, angle=subject.say(angle), length=subject.say(keys.thread_length))
-    found = directions(hub_holes(bore_of(keys), None, None), subject, "zero_thread", keys.number_of_starts)
+    found = directions(holes_of(keys), subject, "zero_thread", keys.number_of_starts)
     return (() if keys.thread_ends == "cut" and not keys.end_angle_deg else (ends,)) + found
 
 
@@ -149,7 +149,7 @@ def _worm_wheel(keys: WormWheelSpec, thing: WheelThing) -> Wheel:
     shape, a = wheel_shape(teeth.width, keys.web, keys.hub, 0.0), drive.centre_distance
     edge = float(teeth.tip_radius(teeth.width / 2))
     crown = Crown(a, drive.throat_radius, a - drive.root_radius)
-    return Wheel(shape, keys.hub_holes(), (edge, edge), None, drive.root_radius, drive.reference_radius, crown)
+    return Wheel(shape, holes_of(keys), (edge, edge), None, drive.root_radius, drive.reference_radius, crown)
 
 
 def _ring(keys: RingGearSpec, ring: RingGear, subject: Subject) -> tuple[View, ...]:

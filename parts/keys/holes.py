@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Annotated, ClassVar, Literal, Protocol, TypeVar
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, Protocol, TypeVar
 
 from msgspec import Meta, Struct
 from msgspec.structs import replace
@@ -17,6 +17,9 @@ from geometry.solids.hub_holes import HubHoles
 from parts.base.schema import replaced, value_at
 from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, BoreDiameter, MadeKeys, degrees, either, part_mm
 from parts.keys.splines import InvoluteSplineTable, StraightSplineTable
+
+if TYPE_CHECKING:
+    from geometry.solids.windows import RoundHoles
 
 K = TypeVar("K", bound=Struct)
 # part of the room for a bore that it takes at most
@@ -226,25 +229,29 @@ def bore_of(keys: Bored) -> BoreTable | None:
     return RoundBoreTable(keys.bore_diameter) if keys.bore_diameter else keys.bore
 
 
+def holes_of(keys: Bored, *own: RoundHoles) -> HubHoles:
+    """Bore, holes and windows by the keys of a part, which need not have them all; ``own`` groups stand first.
+
+    Raises
+    ------
+    ParameterError
+        Both ``bore`` and ``bore_diameter`` are given, or a keyway has no row in its standard.
+    """
+    found = hub_holes(bore_of(keys), getattr(keys, "holes", None), getattr(keys, "spokes", None))
+    return HubHoles(found.bore, (*own, *found.round_holes), found.spokes)
+
+
 class BoredKeys(MadeKeys, kw_only=True):
     """Keys of a part with a bore."""
 
     bore_diameter: BoreDiameter = 0.0
     bore: BoreTable | None = None
 
-    def hub_holes(self) -> HubHoles:
-        """The bore and what else is cut about it; refuses as ``bore_of`` and ``hub_holes`` do."""
-        return hub_holes(bore_of(self), None, None)
-
 
 class HoledKeys(BoredKeys, kw_only=True):
     """Keys of a part with a bore and round holes about it."""
 
     holes: HolesTable | list[HolesTable] | None = None
-
-    def hub_holes(self) -> HubHoles:
-        """Bore and holes."""
-        return hub_holes(bore_of(self), self.holes, None)
 
 
 def wide_bore(

@@ -14,11 +14,10 @@ from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Region
 from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.wheel import check_wheel
-from geometry.solids.windows import RoundHoles
 from parts.base.kind import Kind
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import part_mm
-from parts.keys.holes import BoredKeys, with_remedy
+from parts.keys.holes import BoredKeys, holes_of, with_remedy
 from parts.keys.wheel import HubbedKeys, shape_of
 
 LobeCount = Annotated[int, Meta(ge=2, le=1000, description="number of lobes z of the disc", examples=[11])]
@@ -37,18 +36,6 @@ def most_of(value: float, given: float) -> Nearest:
 def least_of(value: float, given: float) -> Nearest:
     """A lower limit, a little more than ``value``."""
     return limit(value * (1 + MARGIN), given, digits=6)
-
-
-def holes_of(keys: BoredKeys, *own: RoundHoles) -> HubHoles:
-    """Bore and holes by the keys of a part; ``own`` groups stand before the others.
-
-    Raises
-    ------
-    ParameterError
-        Both ``bore`` and ``bore_diameter`` are given, or a keyway has no row in its standard.
-    """
-    found = keys.hub_holes()
-    return HubHoles(found.bore, (*own, *found.round_holes), found.spokes)
 
 
 def check_holes(keys: BoredKeys, holes: HubHoles, radius: float, own: int = 0, centre: float = 0.0) -> None:

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Protocol, TypeVar
 from msgspec import Struct
 
 from geometry.base.record import replace
-from geometry.solids.hub_holes import Holed, HubHoles
+from geometry.solids.hub_holes import Holed
 from geometry.solids.wheel import Hub, Rim, Web, WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind
 from parts.keys.base import mm, part_mm
-from parts.keys.holes import HoledKeys, SpokesTable, bore_of, hub_holes
+from parts.keys.holes import HoledKeys, SpokesTable
 
 if TYPE_CHECKING:
     from geometry.gears.teeth.tooth import ToothSide
@@ -58,10 +58,6 @@ class WheelKeys(HubbedKeys, kw_only=True):
 
     spokes: SpokesTable | None = None
     web: WebTable | None = None
-
-    def hub_holes(self) -> HubHoles:
-        """Bore, holes and windows."""
-        return hub_holes(bore_of(self), self.holes, self.spokes)
 
 
 class Bodied(Protocol):

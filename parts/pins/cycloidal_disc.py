@@ -17,8 +17,8 @@ from geometry.solids.wheel import check_wheel
 from geometry.solids.windows import RoundHoles
 from parts.base.kind import Others, Report, diameters
 from parts.keys.base import mm, part_mm
-from parts.keys.holes import Direction
-from parts.keys.pins import MARGIN, LobeCount, PinCircle, PinDiameter, check_holes, holes_of, most_of
+from parts.keys.holes import Direction, holes_of
+from parts.keys.pins import MARGIN, LobeCount, PinCircle, PinDiameter, check_holes, most_of
 from parts.keys.wheel import HubbedKeys, WheelKind, shape_of
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Others, Report
 from parts.base.links import owner_of
 from parts.keys.base import MOST_LENGTH, mm
-from parts.keys.holes import HoledKeys, wide_bore
-from parts.keys.pins import MARGIN, RoundPinKind, check_holes, holes_of, least_of
+from parts.keys.holes import HoledKeys, holes_of, wide_bore
+from parts.keys.pins import MARGIN, RoundPinKind, check_holes, least_of
 from parts.keys.splines import InvoluteSplineTable
 from parts.pins.geneva_wheel import GENEVA_WHEEL, GenevaWheelSpec
 

@@ -14,7 +14,8 @@ from geometry.base.record import replace
 from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Others, Report, diameters
 from parts.keys.base import MOST_LENGTH, either, mm, part_mm, start
-from parts.keys.pins import MARGIN, holes_of, least_of, moved_region, wheel_holes
+from parts.keys.holes import holes_of
+from parts.keys.pins import MARGIN, least_of, moved_region, wheel_holes
 from parts.keys.wheel import WheelKeys, WheelKind
 
 if TYPE_CHECKING:

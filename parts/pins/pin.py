@@ -10,8 +10,8 @@ from geometry.solids.hub_holes import HubHoles, least_wall
 from parts.base.kind import Others, Report, Stock
 from parts.base.part_keys import MaterialKeys
 from parts.keys.base import BoreDiameter, mm, part_mm
-from parts.keys.holes import BoredKeys, check_bore
-from parts.keys.pins import RoundPinKind, check_holes, holes_of, most_of
+from parts.keys.holes import BoredKeys, check_bore, holes_of
+from parts.keys.pins import RoundPinKind, check_holes, most_of
 
 if TYPE_CHECKING:
     from geometry.solids.pin_plates import RoundDisc

@@ -15,14 +15,13 @@ from geometry.solids.hub_holes import HubHoles, least_wall
 from geometry.solids.windows import RoundHoles
 from parts.base.kind import Others, Report
 from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, mm, part_mm
-from parts.keys.holes import Direction, HoledKeys
+from parts.keys.holes import Direction, HoledKeys, holes_of
 from parts.keys.pins import (
     MARGIN,
     PinCircle,
     PinDiameter,
     RoundPinKind,
     check_holes,
-    holes_of,
     least_of,
     most_of,
 )

@@ -24,7 +24,7 @@ from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
 from parts.drawing.shown import shown_pieces
 from parts.drawing.wheel_views import bore_cut, bore_view, seen_along, spline_cut
 from parts.drawing.working import VISIBLE, Note, PartDrawing, Side, Size, Stroke, Subject, View, requirements
-from parts.keys.holes import bore_of, hub_holes
+from parts.keys.holes import holes_of
 
 # pieces of a wall in the plane of the section; steps to the cam angle at which it passes there, rad that are none
 _PIECES, _STEPS, _SETTLED = 24, 60, 1e-13
@@ -39,7 +39,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     """Section through +x, where cam angle 0 stands, and -x; bore; the outer cylinder unrolled."""
     keys, body = subject.part.keys, subject.part.thing
     assert isinstance(keys, BarrelCamSpec)
-    holes = hub_holes(bore_of(keys), None, None)
+    holes = holes_of(keys)
     section = _section(body, holes, subject)
     more = directions(holes, subject, "zero_development")
     made = holes.bore

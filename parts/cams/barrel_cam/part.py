@@ -13,7 +13,7 @@ from geometry.base.findings import Finding
 from geometry.base.nearest import last_that_holds, nearest
 from geometry.base.record import replace
 from geometry.plane.offset_region import OffsetRegion
-from geometry.solids.hub_holes import HubHoles, least_wall
+from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
 from parts.base.schema import replaced
 from parts.cams.barrel_cam.roller import (
@@ -39,7 +39,7 @@ from parts.keys.cam import (
     stroke_quantity,
     table_quantities,
 )
-from parts.keys.holes import bore_of, check_shape, hub_holes, wide_bore
+from parts.keys.holes import bore_of, check_shape, holes_of, wide_bore
 
 if TYPE_CHECKING:
     from geometry.cams.barrel.body import BarrelBody
@@ -208,25 +208,21 @@ def _undercut(keys: BarrelCamSpec, cam: BarrelCam, code: str, at: float) -> Para
     return UndercutError("swing_deg", keys.swing_deg, code, lambda: nearest(works, keys.swing_deg, ends), at=at)
 
 
-def _holes_of(keys: BarrelCamSpec) -> HubHoles:
-    return hub_holes(bore_of(keys), None, None)
-
-
 def _body_of(keys: BarrelCamSpec, cam: BarrelCam) -> BarrelBody:
     from geometry.cams.barrel.body import BarrelBody
 
-    check_shape(keys, _holes_of, cam.inner)
+    check_shape(keys, holes_of, cam.inner)
     low, high = cam.height_range()
     margin = low - cam.radius
     length = high + cam.radius + margin if cam.is_groove else end_height(cam)
-    bores = _holes_of(keys).profiles(0.0)
+    bores = holes_of(keys).profiles(0.0)
     hub = None if keys.hub is None else (keys.hub.diameter / 2, keys.hub.below, keys.hub.above)
     return BarrelBody(cam, length, bores[0] if bores else None, hub, keys.web_thickness)
 
 
 def _check_hub(keys: BarrelCamSpec, body: BarrelBody) -> None:
     """Bore, hub and web fit each other and the barrel."""
-    cam, reach, wall = body.cam, _holes_of(keys).bore_reach, least_wall(body.cam.outer)
+    cam, reach, wall = body.cam, holes_of(keys).bore_reach, least_wall(body.cam.outer)
     if reach > 0 and not reach + wall <= cam.inner:
         raise _wide(keys, reach, cam.inner - wall, "no_wall_to_floor")
     low = cam.height_range()[0] - cam.radius
@@ -272,8 +268,8 @@ def _moved(keys: BarrelCamSpec, body: BarrelBody, offset: float) -> BarrelBody:
         raise OffsetError(
             offset, "walls_undercut", last_that_holds(lambda moved: guides(moved_cam(cam, moved)), offset)
         )
-    bores = _holes_of(keys).profiles(offset)
-    bore_reach = _holes_of(keys).bore_reach
+    bores = holes_of(keys).profiles(offset)
+    bore_reach = holes_of(keys).bore_reach
     if bores and not bore_reach - offset + wall <= moved.inner:
         raise OffsetError(offset, "no_wall_to_floor", (bore_reach + wall - cam.inner) / 2 * (1 - 1e-9))
     hub = None if body.hub is None else (body.hub[0] + offset, *body.hub[1:])

@@ -42,6 +42,7 @@ from parts.drawing.working import (
 from parts.gears.bevel_gear import page as bevel_page
 from parts.gears.bevel_gear.part import BevelGearSpec
 from parts.gears.data_tables import grade_rows, hand_row, mate_rows, with_limits
+from parts.keys.holes import holes_of
 from parts.pages.data_table import DataRow, DataTable, Mated, own_rows, sexagesimal, standard_told
 from parts.pages.inputs import SceneKeys, given
 
@@ -60,7 +61,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     """The gear in section, and its bore where that is not round."""
     keys, gear = subject.part.keys, subject.part.thing
     assert isinstance(keys, BevelGearSpec)
-    holes, low, high = keys.hub_holes(), gear.blank.hub_length, gear.mounting_distance - gear.front.imag
+    holes, low, high = holes_of(keys), gear.blank.hub_length, gear.mounting_distance - gear.front.imag
     wheel = Wheel(gear.core_shape, holes, (_tips(gear)[0].imag,) * 2, None)
     axes = [Line(0j, complex(gear.mounting_distance))]
     up, down = bore_radii(holes.bore)

@@ -18,12 +18,11 @@ from parts.base.refusal import REMOVED
 from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import BoreDiameter, degrees, either, in_modules, mm
 from parts.keys.helix import told_in_keys
-from parts.keys.holes import BoreTable, HolesTable, bore_of, check_holes, check_shape, hub_holes, wide_bore
+from parts.keys.holes import BoreTable, HolesTable, check_holes, check_shape, holes_of, wide_bore
 
 if TYPE_CHECKING:
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.faced import FacedBody
-    from geometry.solids.hub_holes import HubHoles
     from geometry.solids.sketch import Sketch
 
 _MOST = 100_000.0
@@ -112,10 +111,6 @@ class BevelGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_
     holes: HolesTable | list[HolesTable] | None = None
     accuracy: AccuracyKey = None
 
-    def hub_holes(self) -> HubHoles:
-        """Bore and holes."""
-        return hub_holes(bore_of(self), self.holes, None)
-
 
 def bevel_gear(keys: BevelGearSpec, blank: Blank) -> BevelGear:
     """The gear of its keys, not yet checked."""
@@ -148,8 +143,8 @@ def _lined(keys: BevelGearSpec, gear: BevelGear) -> BevelGear:
 @told_in_keys
 def _made(keys: BevelGearSpec) -> BevelGear:
     """The gear with its blank, checked to exist."""
-    check_shape(keys, BevelGearSpec.hub_holes)
-    holes = keys.hub_holes()
+    check_shape(keys, holes_of)
+    holes = holes_of(keys)
     usual = _USUAL_RIM * keys.module
     rim = usual if keys.rim_thickness is None else keys.rim_thickness
     gear = bevel_gear(keys, Blank(rim, keys.hub_diameter, keys.hub_length, holes))
@@ -167,7 +162,7 @@ def _made(keys: BevelGearSpec) -> BevelGear:
     if holes.bore_reach > gear.bore_room:
         raise wide_bore(keys, gear.bore_room, "leaves_no_wall")
     if holes.round_holes:
-        check_holes(keys, BevelGearSpec.hub_holes, root_radius=gear.core_radius)
+        check_holes(keys, holes_of, root_radius=gear.core_radius)
         try:
             check_wheel(gear.core_shape, 2 * gear.core_radius, holes)
         except ParameterError as refusal:

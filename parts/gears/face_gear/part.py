@@ -25,10 +25,9 @@ from parts.keys.holes import (
     BoreTable,
     HolesTable,
     SpokesTable,
-    bore_of,
     check_holes,
     check_shape,
-    hub_holes,
+    holes_of,
     wide_bore,
 )
 from parts.keys.wheel import HubTable, WebTable, wheel_shape
@@ -38,7 +37,6 @@ if TYPE_CHECKING:
     from geometry.gears.teeth.spur import SpurGear
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.faced import FacedBody
-    from geometry.solids.hub_holes import HubHoles
     from geometry.solids.sketch import Sketch
 
 # part of the largest rounding of a shaper's tooth that it has at most; the plate below the root, the least tip, modules
@@ -118,10 +116,6 @@ class FaceGearSpec(MaterialKeys, forbid_unknown_fields=True, kw_only=True, tag_f
     spokes: SpokesTable | None = None
     web: WebTable | None = None
     hub: HubTable | None = None
-
-    def hub_holes(self) -> HubHoles:
-        """Bore, holes and windows."""
-        return hub_holes(bore_of(self), self.holes, self.spokes)
 
 
 # keys of the shaper as its owner has them
@@ -250,12 +244,12 @@ class FaceGearKind(Kind[FaceGearSpec, FaceGear]):
             if error.name not in ("addendum_coefficient", "dedendum_coefficient"):
                 raise
             raise LateError(error.code, partial(_cured, keys, error)) from error
-        inside, holes = gear.inner_radius, keys.hub_holes()
+        inside, holes = gear.inner_radius, holes_of(keys)
         room = inside - least_wall(inside)
-        check_shape(keys, FaceGearSpec.hub_holes, room)
+        check_shape(keys, holes_of, room)
         if holes.bore_reach > room:
             raise wide_bore(keys, room, "leaves_no_wall")
-        check_holes(keys, FaceGearSpec.hub_holes, root_radius=inside)
+        check_holes(keys, holes_of, root_radius=inside)
         shape = wheel_shape(gear.thickness, keys.web, keys.hub, 0.0)
         check_wheel(shape, 2 * inside, holes)
         return replace(gear, holes=holes, hub=shape.hub, web=shape.web)

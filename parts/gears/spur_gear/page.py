@@ -10,12 +10,12 @@ from msgspec import Meta
 from geometry.base.record import replace
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.cutter import PinionCutter
-from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS
+from geometry.gears.teeth.limits import LEAST_TIP_THICKNESS, checked_gear
 from geometry.gears.teeth.ring import RingGear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import base_helix_angle, helix_angle_at, transverse_angle
 from parts.base.texts import N_
-from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, rack_findings, section_of
+from parts.gears.spur_gear.part import SpurGearSpec, checked_spur_gear, gear_of, rack_findings
 from parts.keys.base import mm
 from parts.pages.inputs import calculation, part_of_kind
 from parts.pages.measured_steps import Asked, measured_steps
@@ -46,7 +46,7 @@ def sheet(keys: SpurKeys) -> Sheet:
     """The calculation of one gear."""
     helix = math.radians(keys.helix_angle_deg)
     normal = checked_spur_gear(keys) if helix == 0 else gear_of(keys)
-    gear = section_of(normal, helix)
+    gear = checked_gear(normal, helix)
     page = Sheet(TOPIC, N_("External gear"))
     page.section("Given")
     given_data(page, normal, gear, helix)

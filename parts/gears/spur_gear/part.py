@@ -159,17 +159,6 @@ def bare_section(keys: SpurGearSpec) -> SpurGear:
     return transverse_gear(gear_of(keys), helix_of(keys).angle)
 
 
-def section_of(normal: SpurGear, helix: float) -> SpurGear:
-    """The transverse section of a gear in normal data, checked to exist; ``helix`` in rad.
-
-    Raises
-    ------
-    ParameterError
-        The gear cannot exist; names the key and the nearest value that works.
-    """
-    return checked_gear(normal, helix)
-
-
 class SpurGearKind(Kind[SpurGearSpec, SpurGear]):
     """An external gear; a mate may have shortened its tip."""
 

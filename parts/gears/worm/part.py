@@ -16,7 +16,7 @@ from parts.base.kind import Kind, Others, Report, diameters
 from parts.base.part_keys import MaterialKeys
 from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import BoreDiameter, degrees, mm
-from parts.keys.holes import BoreTable, bore_of, check_shape, hub_holes, wide_bore
+from parts.keys.holes import BoreTable, check_shape, holes_of, wide_bore
 from parts.keys.worm import (
     Addendum,
     AxialModule,
@@ -141,8 +141,8 @@ def _made(keys: WormSpec) -> WormBody:
     _check_ends(keys)
     thread = thread_of(worm_of(keys, keys.fillet_coefficient, keys.axial_thinning), keys.tip_rounding)
     root = thread.worm.root_radius
-    holes = _holes_of(keys)
-    check_shape(keys, _holes_of, root)
+    holes = holes_of(keys)
+    check_shape(keys, holes_of, root)
     _check_shaft(keys, root)
     _check_bore(keys, holes, root)
     bores = holes.profiles(0.0)
@@ -171,10 +171,6 @@ def _check_shaft(keys: WormSpec, root: float) -> None:
             if step.chamfer > most_chamfer:
                 cure = limit(most_chamfer, step.chamfer)
                 raise ParameterError(f"{place}.chamfer", step.chamfer, "chamfer_leaves_nothing_of_step", cure)
-
-
-def _holes_of(keys: WormSpec) -> HubHoles:
-    return hub_holes(bore_of(keys), None, None)
 
 
 def _check_bore(keys: WormSpec, holes: HubHoles, root: float) -> None:

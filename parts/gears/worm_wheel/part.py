@@ -14,7 +14,7 @@ from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
 from parts.keys.accuracy import AccuracyKey
 from parts.keys.base import mm
-from parts.keys.holes import HoledKeys, SpokesTable, bore_of, check_holes, check_shape, hub_holes, wide_bore
+from parts.keys.holes import HoledKeys, SpokesTable, check_holes, check_shape, holes_of, wide_bore
 from parts.keys.wheel import HubTable, WebTable, wheel_shape
 from parts.keys.worm import (
     NEAR,
@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     from geometry.gears.worms.wheel_measures import WormWheel
     from geometry.plane.offset_region import OffsetRegion
     from geometry.solids.faced import FacedBody
-    from geometry.solids.hub_holes import HubHoles
     from geometry.solids.sketch import Sketch
 
 # part of the root's radius at which the core ends whose place the teeth take
@@ -101,10 +100,6 @@ class WormWheelSpec(HoledKeys, forbid_unknown_fields=True, kw_only=True, tag_fie
     web: WebTable | None = None
     hub: HubTable | None = None
     accuracy: AccuracyKey = None
-
-    def hub_holes(self) -> HubHoles:
-        """Bore, holes and windows."""
-        return hub_holes(bore_of(self), self.holes, self.spokes)
 
 
 class WheelThing(Record):
@@ -230,13 +225,13 @@ def _about(keys: WormWheelSpec, drive: WormDrive, teeth: WormTeeth) -> WheelThin
     from geometry.plane.profile import Label, circle
     from geometry.solids.wheel import check_wheel, wheel_body, wheel_sections
 
-    holes = keys.hub_holes()
+    holes = holes_of(keys)
     shape = wheel_shape(teeth.width, keys.web, keys.hub, 0.0)
     room = drive.root_radius - least_wall(drive.root_radius)
-    check_shape(keys, WormWheelSpec.hub_holes, room)
+    check_shape(keys, holes_of, room)
     if holes.bore_reach > room:
         raise wide_bore(keys, room, "leaves_no_wall")
-    check_holes(keys, WormWheelSpec.hub_holes, root_radius=drive.root_radius)
+    check_holes(keys, holes_of, root_radius=drive.root_radius)
     check_wheel(shape, 2 * drive.root_radius, holes)
     reach = max(holes.bore_reach, holes.beside_bore()[1], *(t.diameter / 2 for t in (keys.hub,) if t), *(
         t.rim_diameter / 2 for t in (keys.web,) if t
@@ -269,7 +264,7 @@ class WormWheelKind(Kind[WormWheelSpec, WheelThing]):
         from geometry.plane.profile import Region
 
         outline = thing.teeth.outline(0.0)
-        return OffsetRegion(Region(outline, keys.hub_holes().profiles(0.0)), 0.0, ())
+        return OffsetRegion(Region(outline, holes_of(keys).profiles(0.0)), 0.0, ())
 
     def solid(self, keys: WormWheelSpec, thing: WheelThing, offset: float) -> FacedBody:
         """The teeth about their core."""

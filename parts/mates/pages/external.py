@@ -19,6 +19,7 @@ from geometry.gears.shifts.choice import shifts_for_distance
 from geometry.gears.shifts.tables import TableShift, guidelines, kudryavtsev, shortening_table
 from geometry.gears.teeth import limits, measurement
 from geometry.gears.teeth.helix import Helix
+from geometry.gears.teeth.limits import checked_gear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import normal_share, transverse_gear
 from parts.base.refusal import REMOVED, SceneError
@@ -34,7 +35,7 @@ from parts.gears.spur_gear.page import (
     rule_step,
     thickness_formula,
 )
-from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings, section_of
+from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings
 from parts.gears.thinning import shared_thinning
 from parts.keys.base import in_modules, mm
 from parts.keys.helix import helix_of, in_keys, same_helix
@@ -225,14 +226,14 @@ def _section_of(keys: PairKeys, index: int, normal: tuple[SpurGear, SpurGear], *
     """
     helix, name = helix_of(keys.first).angle, GEARS[index]
     try:
-        return section_of(normal[index], helix)
+        return checked_gear(normal[index], helix)
     except ParameterError as error:
         told = error
         if beside and error.code == "tooth_pointed":
             one, two = (transverse_gear(normal[i], helix) for i in (index, 1 - index))
             with suppress(ParameterError):
                 tip = tip_beside(one, two, keys.working_centre_distance)
-                return section_of(replace(normal[index], given_tip_diameter=tip), helix)
+                return checked_gear(replace(normal[index], given_tip_diameter=tip), helix)
             if error.name == "profile_shift_coefficient":
                 path = f"{name}.{error.name}"
                 told = nearer(error, lambda shift: _is_pair(replaced(keys, path, shift)))
@@ -279,7 +280,7 @@ def _thinned(keys: PairKeys, normal: tuple[SpurGear, SpurGear], helix: float) ->
 
     def build(index: int, thinning: float) -> SpurGear:
         tip = 2 * bare.gears[index].tip_radius
-        return section_of(replace(normal[index], circumferential_thinning=thinning, given_tip_diameter=tip), helix)
+        return checked_gear(replace(normal[index], circumferential_thinning=thinning, given_tip_diameter=tip), helix)
 
     try:
         asked_of = shared_thinning(wanted, normal, build, math.cos(alpha), bare.normal_backlash, share)
