@@ -17,6 +17,7 @@ from typing import Any
 
 import pytest
 from hypothesis import core, is_hypothesis_test, settings
+from hypothesis.internal.conjecture import providers
 
 from tests.sampling import chosen, some_of, take_all_examples
 
@@ -30,10 +31,22 @@ if _SEED := os.environ.get("HYPOTHESIS_SEED", ""):
     core.global_force_seed = int(_SEED)
 settings.register_profile("ours", derandomize=not _SEED, deadline=None)
 settings.load_profile("ours")
+# nor do they depend on what a worker has imported so far: hypothesis parses every file of the product for its numbers
+# and words, three seconds of each worker, and draws of those it has found; a test names the words it wants
+providers._get_local_constants = lambda: providers._local_constants
 
 
 # as much garbage as a heavy test makes: looked for sooner, it costs each run seconds and frees nothing
 gc.set_threshold(50_000, 20, 20)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """What is told is listed behind the tests of the pages, by the worker that has made the pages."""
+    behind = max((k for k, item in enumerate(items) if "/documents/test_calc" in item.nodeid), default=len(items)) + 1
+    for item in [item for item in items[behind:] if "/test_contents.py::" in item.nodeid]:
+        items.remove(item)
+        items.insert(behind, item)
+        behind += 1
 
 
 def pytest_collection_finish() -> None:
