@@ -8,7 +8,7 @@ import gc
 import os
 import signal
 import sys
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache
 from itertools import pairwise
@@ -23,7 +23,6 @@ from parts.base.texts import ENGLISH, N_, NC_, Words, languages, words
 
 if TYPE_CHECKING:
     from exporters.production.plan import Plan
-    from parts.base.part import Part
     from parts.scene.load import SceneFile
 
 DONE, FAILED, INTERRUPTED = 0, 1, 130
@@ -511,19 +510,9 @@ def _print_json(asked: Sequence[object], found: Sequence[object]) -> None:
         print(json.dumps(found[0] if len(asked) == 1 else found, indent=1, ensure_ascii=False))
 
 
-def _mate_for(parts: Iterable[Part]) -> str:
-    """The first kind of mate that joins one of the parts to another; what none is for can be fixed."""
-    from parts.mates.registry import MATES
-
-    kinds = {part.made_by.name for part in parts}
-    mates = (mate for mate in MATES.values() if mate.joins and any(kinds & {*pair} for pair in mate.joins))
-    return next((mate.name for mate in mates), "fixed")
-
-
 def _check(options: argparse.Namespace) -> int:
     from exporters.production.check import scene_checks
     from exporters.production.check_lines import check_lines, has_bad_verdict, names_of
-    from parts.base.refusal import SceneError
     from parts.scene.checks import check_solids, check_workspace
     from parts.scene.load import in_keys_of_file, make_parts
     from parts.scene.placing import place
@@ -533,8 +522,6 @@ def _check(options: argparse.Namespace) -> int:
         with in_keys_of_file(scene.origins):
             parts, matings = make_parts(scene, address)
             placing = place(scene.instances, scene.drives, parts, matings, address)
-            if len(placing.instances) < 2:
-                raise SceneError(address, "mates", None, "nothing_to_check", mate=_mate_for(parts.values()))
             check_solids(parts, address)
             check_workspace(scene.checks.workspace, placing, address)
         asked, names = scene.checks, names_of(scene.instances, parts)

@@ -121,6 +121,10 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         owner, name = _owner(kind, keys[: named[-1]], table), keys[named[-1]]
         allowed, words = described_key(owner, name), _words_of(owner, name)
     value, wrong_type = looked_up(table, keys), re.match(r"Expected `(.*?)`, got `(.*?)`", message)
+    if path and path.group(1).endswith("[...]"):
+        # msgspec does not tell which entry of such a table it is
+        name = _wrong_entry(_types_of(_owner(kind, keys[:-1], table)).get(keys[-1]), value)
+        where, value = f"{where}.{name}", value[name]
     nearest = meant(value, words) if isinstance(value, str) and message.startswith("Invalid") else None
     allowed = _with_form(allowed, message, kind, keys, table)
     if wrong_type:
@@ -133,6 +137,16 @@ def _explained(text: str, table: dict[str, Any], kind: type[Struct], source: str
         code = "wrong_type" if allowed is None else "wrong_type_of"
         return SceneError(source, where, value, code, nearest, type=type_words(wrong_type.group(1)), allowed=allowed)
     return SceneError(source, where, value, "not_allowed", nearest, allowed=allowed or message)
+
+
+def _wrong_entry(kind: object, table: Mapping[str, Any]) -> str:
+    """The first key of a table of any keys whose value alone is refused."""
+    for key, value in table.items():
+        try:
+            msgspec.convert({key: value}, kind)
+        except msgspec.ValidationError:
+            return key
+    raise AssertionError(table)
 
 
 def _with_form(

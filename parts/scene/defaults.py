@@ -41,7 +41,7 @@ def filled_in(raw: Table, source: str, export_keys: type[Struct], takes: Takes) 
     Raises
     ------
     SceneError
-        Nothing in the scene takes a key.
+        Nothing in the scene takes a key, or each table has its own.
     """
     tables = {key: value for key, value in raw.items() if key != "defaults"}
     origins: dict[str, str] = {}
@@ -69,6 +69,8 @@ def filled_in(raw: Table, source: str, export_keys: type[Struct], takes: Takes) 
         else:
             tables[name] = {key: filled(name, f"{name}.{key}", table) for key, table in raw[name].items()}
     for key, value in raw["defaults"].items():
+        if key in _OWN:
+            raise SceneError(source, f"defaults.{key}", value, "not_one_for_all")
         if key not in used:
             # of exports that have the key none takes it: laser files alone have a kerf
             others = known - {key}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -219,8 +219,8 @@ def load_scene(address: str, language: str | None = None) -> SceneFile:
     except NotAFileError:
         raise SceneError(address, "", None, "not_a_file", None, most=MOST_BYTES) from None
     except FileNotFoundError:
-        known = [*built_in, *([f"{address}.toml"] if os.path.isfile(f"{address}.toml") else [])]
-        raise SceneError(address, "", None, "no_such_scene", meant(address, known), known=list(built_in)) from None
+        found = _meant_scene(path, address, built_in)
+        raise SceneError(address, "", None, "no_such_scene", found, known=list(built_in)) from None
     except OSError as error:
         raise SceneError(address, "", None, "unreadable", None, why=Message(error.strerror or str(error))) from None
     except ValueError as error:
@@ -233,6 +233,15 @@ def load_scene(address: str, language: str | None = None) -> SceneFile:
     if name.partition(".")[0].lower() in DEVICE_NAMES:
         raise SceneError(address, "", None, "device_name")
     return scene_from_toml(raw_bytes, str(path), name, language)
+
+
+def _meant_scene(path: Path, address: str, built_in: Collection[str]) -> Nearest | None:
+    """The file without whose ending it was typed, one of nearly that name beside it, or a built-in scene."""
+    if whole := next((name for name in (f"{address}.toml", f"{address}.txt") if os.path.isfile(name)), None):
+        return Nearest(whole, "meant")
+    if near := meant(path.stem, [file.stem for file in path.parent.glob("*.toml")]):
+        return Nearest(str(path.with_name(f"{near.value}.toml")), "meant")
+    return meant(address, built_in)
 
 
 def scene_from_toml(raw_bytes: bytes, source: str, name: str, language: str | None = None) -> SceneFile:

@@ -15,15 +15,15 @@ SENTENCES = tuple(sentence for (sentence,) in rows_of(__file__, "toml_errors"))
 
 
 # a key whose words have no quotes, and one whose quotes are not closed
-_TYPOGRAPHIC = "“”„«»‘’"
+_TYPOGRAPHIC = "“”„«»‘’`"
 _BARE = re.compile(rf"([\w-]+)\s*=\s*((?:[{_TYPOGRAPHIC}]|[^\W\d_])[^#,\]}}\"']*)")
 # a list without brackets, a number with its unit, a key that is not in Latin letters
-_BARE_LIST = re.compile(r"\s*([\w.-]+)\s*=\s*(-?[\d.]+(?:\s*[,;]\s*-?[\d.]+)+)\s*(?:#.*)?")
-_UNIT = re.compile(r"\s*([\w.-]+)\s*=\s*(-?\d+(?:\.\d+)?)\s*[^\W\d_]+\.?\s*(?:#.*)?")
-# a number, text or list that would be one but for a colon, a lone point, a printed minus or degree, or for what other
-# languages end a line with
+_BARE_LIST = re.compile(r"\s*([\w.-]+)\s*=\s*\(?\s*(-?[\d.]+(?:\s*[,;]\s*-?[\d.]+)+)\s*\)?\s*(?:#.*)?")
+_UNIT = re.compile(r"\s*([\w.-]+)\s*=\s*(-?\d+(?:\.\d+)?)(\s*)(?:%|[^\W\d_]+(?:/[^\W\d_]+)?[²³]?\.?)\s*(?:#.*)?")
+# a number, text or list that would be one but for a colon, a second sign, a lone point, a first 0, a printed minus or
+# degree, or for what other languages end a line with
 _ALMOST = re.compile(
-    r"\s*([\w.-]+)\s*[=:]\s*(?:([-+\u2212\u2013]?)(\d*)(\.?)(\d*)|(\"[^\"]*\"|true|false|\[[^\]]*\]))"
+    r"\s*([\w.-]+)\s*(?::=?|==?)\s*(?:([-+\u2212\u2013]?)(\d*)(\.?)(\d*)|(\"[^\"]*\"|true|false|\[[^\]]*\]))"
     r"\s*\u00b0?\s*;?\s*(?://.*|#.*)?"
 )
 _NOT_LATIN = re.compile(r"\s*(\w*[^\W\x00-\x7f]\w*)\s*=")
@@ -34,6 +34,9 @@ _NAME = re.compile(r"\s*[A-Za-z0-9_-]*\s*")
 _YES = ("yes", bytes.fromhex("0442 0430 043a").decode("utf-16-be"))
 _NO = ("no", bytes.fromhex("043d 0456").decode("utf-16-be"))
 _OPEN = re.compile(r"""\s*([\w.-]+)\s*=\s*("[^"]*|'[^']*)""")
+_NO_VALUE = re.compile(r"\s*([\w.-]+)\s*=?\s*(?:#.*)?")
+# what other languages begin a comment with
+_COMMENT = re.compile(r"\s*(?://|/\*|--|;)")
 
 
 def told_toml(text: str, why: str) -> Text:
@@ -68,13 +71,24 @@ def _as_typed(what: str) -> str:
 def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
     """What people type who know no TOML, on the line that is none: its code and what the sentence of that needs."""
     if (at := re.search(r"line (\d+), column (\d+)\)$", why)) is None:
-        return None
+        # quotes that nothing closes up to the end
+        rows = enumerate(text.split("\n"), 1)
+        opened = next(((number, found[1]) for number, row in rows if (found := _OPEN.fullmatch(row.rstrip()))), None)
+        return None if opened is None else ("quote_not_closed", {"line": opened[0], "key": opened[1]})
     number, column = int(at[1]), int(at[2]) - 1
     line = text.split("\n")[number - 1]
     if hidden := next((c for c in line if unicodedata.category(c) == "Cf"), None):
         return "hidden_character", {"line": number, "letter": f"U+{ord(hidden):04X}"}
     if why.startswith("Cannot overwrite a value") and (found := re.match(r"\s*([\w.-]+)\s*=", line)):
         return "key_twice", {"line": number, "key": found[1]}
+    if why.startswith("Cannot declare") and (found := _TABLE.fullmatch(line)):
+        return "table_twice", {"line": number, "table": found[1].strip()}
+    if why.startswith("Invalid statement") and _COMMENT.match(line):
+        return "comment_of_others", {"line": number}
+    if why.startswith("Unclosed array") and line[column : column + 1] == ";":
+        return "semicolon", {"line": number}
+    if (found := _NO_VALUE.fullmatch(line)) and look_alike(found[1]) is None:
+        return "no_value", {"line": number, "key": found[1]}
     if why.startswith(("Invalid hex value", "Unescaped")):
         return "backslash", {"line": number}
     if found := re.search(r"=\s*(-?\d+),(\d+)\s*(#.*)?$", line):
@@ -89,11 +103,12 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
     if found := _BARE_LIST.fullmatch(line):
         row = ", ".join(re.split(r"\s*[,;]\s*", found[2]))
         return "no_brackets", {"line": number, "key": found[1], "value": row}
-    if (found := _UNIT.fullmatch(line)) and look_alike(line) is None:
+    # a letter right behind a digit may be meant for one
+    if (found := _UNIT.fullmatch(line)) and look_alike(found[1] if found[3] else line) is None:
         return "number_with_unit", {"line": number, "key": found[1], "value": found[2]}
     if (found := _ALMOST.fullmatch(line)) and look_alike(line) is None:
         key, sign, whole, point, rest, other = found.groups("")
-        value = other or f"{sign and ('+' if sign == '+' else '-')}{whole or 0}{point and f'.{rest or 0}'}"
+        value = other or f"{sign and ('+' if sign == '+' else '-')}{whole.lstrip('0') or 0}{point and f'.{rest or 0}'}"
         if (other or whole or rest) and not re.match(rf"\s*{re.escape(key)} *= *{re.escape(value)}\s*(#|$)", line):
             return "small_letters", {"line": number, "key": key, "value": value}
     if (found := _NOT_LATIN.match(line)) and found.end(1) > column and look_alike(found[1]) is None:
@@ -103,4 +118,6 @@ def slip(text: str, why: str) -> tuple[str, dict[str, Any]] | None:
         return None if wrong is None else ("name_not_latin", {"line": number, "name": wrong})
     if found := _OPEN.fullmatch(line.rstrip()):
         return "quote_not_closed", {"line": number, "key": found[1]}
+    if line[column : column + 1] == "\u00a0":
+        return "hidden_character", {"line": number, "letter": "U+00A0"}
     return None

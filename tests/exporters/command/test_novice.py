@@ -192,3 +192,73 @@ def test_a_film_that_shows_less_than_the_drives_do_says_so(
     file.write_text(FILM.replace("120.5", "99.5"))
     assert main(command) == 0
     assert "%" not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "told"),
+    [
+        ('"spur_gear"', '"spur_gear\u200b"', "did you mean spur_gear?"),
+        ('"spur_gear"', '"\ufeffspur_gear"', "did you mean spur_gear?"),
+        ('first = "a"', 'first = "a\u200d"', "did you mean a?"),
+        ('"dxf"', '"dx\u00adf"', "did you mean dxf?"),
+    ],
+)
+def test_a_character_that_nobody_sees_in_a_name_is_told(
+    right: str, wrong: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (letter,) = {*wrong} - {*right}
+    said = line(tmp_path, capsys, PAIR.replace(right, wrong, 1))
+    assert said.endswith(f"; it has a character that nobody sees (U+{ord(letter):04X}); {told}")
+    assert "; тут є невидимий символ (" in line(tmp_path, capsys, PAIR.replace(right, wrong, 1), "uk")
+
+
+@pytest.mark.parametrize(
+    ("typed", "stands", "told"),
+    [
+        ("pinoin.toml", "pinion.toml", "pinion.toml"),
+        ("PINION.toml", "pinion.toml", "pinion.toml"),
+        ("pinion.toml", "pinion.toml.txt", "pinion.toml.txt"),
+        ("моє колесо", "моє колесо.toml", "моє колесо.toml"),
+        # another one beside it is not meant
+        ("practicum_par", "pinion.toml", "practicum_pair"),
+        ("nosuch.toml", "clock.toml", None),
+    ],
+)
+def test_a_file_of_nearly_that_name_is_meant(
+    typed: str, stands: str, told: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    for folder in (".", "мої сцени"):
+        (tmp_path / folder).mkdir(exist_ok=True)
+        monkeypatch.chdir(tmp_path)
+        (tmp_path / folder / stands).write_text(PAIR)
+        asked = str(Path(folder) / typed)
+        assert main(["check", asked]) == 2
+        said = capsys.readouterr().err
+        assert said.startswith(f"higherpair: {asked}: no such file or built-in scene")
+        if told is None:
+            assert "did you mean" not in said
+        elif told == stands or folder == ".":
+            assert said.endswith(f"; did you mean {Path(folder) / told}?\n")
+
+
+@pytest.mark.parametrize("key", ['kind = "spur_gear"', 'format = "dxf"', 'title = "x"'])
+def test_what_each_table_has_of_its_own_is_no_default(
+    key: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = line(tmp_path, capsys, f"[defaults]\n{key}\n{PAIR}")
+    assert said == f"defaults.{key}: is not one for all: give it in each part, mate or export itself"
+
+
+@pytest.mark.parametrize(
+    ("keys", "told"),
+    [
+        (["measured.pb=20", "measured.pd=-1"], "lever.measured.pd = -1: is not allowed; lengths that you measured"),
+        (["masses.2=heavy"], 'lever.masses.2 = "heavy": must be a number; masses of links'),
+    ],
+)
+def test_an_entry_of_a_table_of_any_names_is_told_by_its_name(
+    keys: list[str], told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["calc", "lever", "code=1071", *keys]) == 2
+    assert capsys.readouterr().err.startswith(f"higherpair: calc: {told}")

@@ -256,7 +256,7 @@ WRONG = [
     (AB + instance("x", 'part = "aa"'), "instances.x.part", "did you mean a"),
     (AB + instance("x", "at = [0, 0, 0]"), "instances.x.part", "is missing"),
     (AB + instance("a", 'part = "b"'), "instances.a.part", "is itself a part"),
-    (AB + INB.format("") + INB.format(""), "s.toml", "is not TOML"),
+    (AB + INB.format("") + INB.format(""), "s.toml", "[instances.x] stands there a second time"),
     (AB + instance("x y", 'part = "b"').replace("x y", '"x y"'), "instances.x y", "letters"),
     (AB + "[instances]\nx = 3\n", "instances.x", "under a name, like [instances.left]"),
     ("instances = 3\n" + AB, "instances", "[instances.left]"),

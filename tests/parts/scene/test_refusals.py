@@ -413,7 +413,7 @@ def test_a_board_of_no_pieces_is_refused() -> None:
 
 
 @pytest.mark.parametrize(("line", "kept"), [
-    ("kind spur_gear", "'='"), ("module = ", ""), ("[parts.g", "']'"), ("[parts.g]\n[parts.g]", "parts.g"),
+    ("kind spur_gear", "'='"), ("module = *", ""), ("[parts.g", "']'"), ('[parts.g]\n[parts."g"]', "parts.g"),
     ("a = [1", ""), ("a = {b = 1", ""), ('a = "1" b', ""),
     ("a = 2026-13-01", ""), ('a = "\x01"', "'\\x01'"),
 ])  # fmt: skip
@@ -457,6 +457,26 @@ def test_what_is_no_toml_is_told_in_the_language_of_the_scene(
         ("[parts.my wheel]", "line 2: my wheel is no name"),
         ("[parts.wheel+]", "line 2: wheel+ is no name"),
         ("module = 2.0\nmodule = 3.0", "line 3: module stands there a second time; remove one"),
+        (
+            "[parts.g]\n[parts.g]  # too",
+            "line 3: [parts.g] stands there a second time; give it another name",
+        ),
+        ("module =  # mm", "line 2: module has no value"),
+        ("module", "line 2: module has no value"),
+        ("module == 2", "line 2: write module = 2"),
+        ("module := 2", "line 2: write module = 2"),
+        ("module = 02", "line 2: write module = 2"),
+        ("module = 007.50", "line 2: write module = 7.50"),
+        ("kind = `plate`", 'line 2: words stand in straight quotes: kind = "plate"'),
+        ("kind = 'plate\"", "line 2: the quotes of kind are not closed"),
+        ("share = 20%", "line 2: numbers stand without units: share = 20"),
+        ("speed = 0.5 м/с", "line 2: numbers stand without units: speed = 0.5"),
+        ("area = 3 mm²  # of all", "line 2: numbers stand without units: area = 3"),
+        ("at = (0, -1.5, 3)", "line 2: a list stands in brackets: at = [0, -1.5, 3]"),
+        ("table = [[0, 1], [60; 4.5]]", "line 2: commas part the items of a list, not semicolons"),
+        ("// a cam", "line 2: a comment begins with #"),
+        ("; a cam", "line 2: a comment begins with #"),
+        ("\u00a0module = 2.0", "line 2: has a character that nobody sees (U+00A0)"),
         ("lift = 30,5", "line 2: a number has a comma; write 30.5 with a point"),
         ("lift = .5", "line 2: write lift = 0.5"),
         ("lift = -2.  # down", "line 2: write lift = -2.0"),
