@@ -45,6 +45,7 @@ _PAIRS = 4
 _TRIALS = 10
 _NOTHING = (math.inf, math.inf, math.inf)
 QUARTERS, HALVES = (0, 1, 2, 3), (0, 2)
+Side = Literal["width", "height"]
 
 
 class Room(Record):
@@ -94,22 +95,16 @@ def largest_scale(geometry: BaseGeometry, room: Room) -> float:
     return max(min(inner.real / size.real, inner.imag / size.imag) for size in sizes)
 
 
-def lacking(room: Room, wide: float, high: float) -> Literal["width", "height"]:
+def lacking(room: Room, wide: float, high: float) -> Side:
     """Which side of a room has to grow for a box that it does not hold, mm: by less where either would do.
 
     The width where neither does alone.
     """
-    inner = room.inner
-    grown: list[tuple[float, Literal["width", "height"]]] = []
-    for size in (_turned(complex(wide, high), turn) for turn in room.turns):
-        if size.imag <= inner.imag:
-            grown.append((size.real - inner.real, "width"))
-        if size.real <= inner.real:
-            grown.append((size.imag - inner.imag, "height"))
-    return min(grown, key=lambda one: one[0], default=(0.0, "width"))[1]
+    sides: tuple[Side, Side] = "width", "height"
+    return min(sides, key=lambda side: least_side(room, side, wide, high) - getattr(room, side))
 
 
-def least_side(room: Room, side: Literal["width", "height"], wide: float, high: float) -> float:
+def least_side(room: Room, side: Side, wide: float, high: float) -> float:
     """The least width or height of a room, its other side kept, that holds a box, mm; infinite where none does."""
     inner, sizes = room.inner, [_turned(complex(wide, high), turn) for turn in room.turns]
     if side == "width":

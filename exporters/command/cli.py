@@ -541,10 +541,9 @@ def _check(options: argparse.Namespace) -> int:
         title = [] if len(options.scenes) == 1 else [f"{scene.name}:"]
         lines = check_lines(checks, language, names)
         if options.steps:
-            from exporters.production.check_lines import in_rows
             from exporters.production.order import steps_told
 
-            lines += steps_told(scene.steps, names, in_rows, language)
+            lines += steps_told(scene.steps, names, language)
         print("\n".join(title + (lines or [words(language).text("no mates; no solids run into each other")])))
     return FAILED if any(has_bad_verdict(checks) for checks, *_ in found) else WRONG_INPUT if refused else DONE
 
@@ -616,9 +615,8 @@ def _list(options: argparse.Namespace) -> int:
 
     _check_language(options)
     told = words(_language(options))
-    kinds = {kind: told.text(phrase) for kind, phrase in KINDS.phrases.items()}
-    mates = {kind: told.text(phrase) for kind, phrase in MATES.phrases.items()}
-    assemblies = {kind: told.text(phrase) for kind, phrase in RECIPES.phrases.items()}
+    indices = KINDS.phrases, MATES.phrases, RECIPES.phrases
+    kinds, mates, assemblies = ({name: told.text(text) for name, text in index.items()} for index in indices)
     scenes = {name: title_of(file, _language(options)) for name, file in built_in_scenes().items()}
     if options.json:
         tables = {"parts": kinds, "mates": mates, "assemblies": assemblies, "scenes": scenes, "materials": DENSITIES}

@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from geometry.base.record import Draft, Record, field
+from geometry.base.record import Draft, Record, field, replace
 from geometry.curves.curve import Complex
 from parts.base.readback import ReadError, refuse_if
 from parts.drawing.canvas import STYLES, Style
@@ -196,7 +196,7 @@ class _Reader:
         elif name == "Tj":
             self._say(operands[0])
         elif name == "d":
-            self._set(dashes=tuple(map(float, operands[0].split())))
+            self.look = replace(self.look, dashes=tuple(map(float, operands[0].split())))
         elif name == "S":
             dashes = tuple(d / _POINT for d in self.look.dashes)
             strokes = tuple(tuple(pieces) for pieces in self.strokes)
@@ -209,10 +209,10 @@ class _Reader:
 
     def _numbers(self, name: str, numbers: list[float]) -> None:
         if name == "w":
-            self._set(width=numbers[0])
+            self.look = replace(self.look, width=numbers[0])
         elif name in ("RG", "G"):
             shades = numbers if name == "RG" else numbers * 3
-            self._set(colour="#" + "".join(f"{round(255 * x):02x}" for x in shades))
+            self.look = replace(self.look, colour="#" + "".join(f"{round(255 * x):02x}" for x in shades))
         elif name == "cm":
             origin = self._on(complex(*numbers[4:])) * _POINT
             one, two = ((self._on(complex(*numbers[k : k + 2])) - self._on(0j)) * _POINT for k in (0, 2))
@@ -236,17 +236,13 @@ class _Reader:
         a, b, c, d, e, f = self.frame
         return complex(a * point.real + c * point.imag + e, b * point.real + d * point.imag + f) / _POINT
 
-    def _set(self, **more: object) -> None:
-        values = {name: getattr(self.look, name) for name in ("colour", "width", "dashes")}
-        self.look = _Look(**{**values, **more})
-
     def _state(self, body: bytes) -> None:
         if strange := set(re.findall(rb"/(\w+)", body)) - _STATE:
             raise ReadError(f"draws lines with {strange.pop().decode()}, which may hide them")
         if (width := re.search(rb"/LW ([\d.]+)", body)) is not None:
-            self._set(width=float(width[1]))
+            self.look = replace(self.look, width=float(width[1]))
         if (dashes := re.search(rb"/D \[\[([^\]]*)\] [\d.]+\]", body)) is not None:
-            self._set(dashes=tuple(map(float, dashes[1].split())))
+            self.look = replace(self.look, dashes=tuple(map(float, dashes[1].split())))
 
     def _say(self, raw: bytes) -> None:
         if self.font is None:

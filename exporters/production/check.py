@@ -19,7 +19,7 @@ from parts.scene.instances import DriveSpec
 from parts.scene.placing import Closeness, Condition, PlacedMate, Placing
 from parts.scene.standing import Instance
 from parts.texts.checks import OFF_CENTRE, called, condition_message
-from parts.texts.findings import finding_text
+from parts.texts.findings import findings_told
 
 if TYPE_CHECKING:
     from geometry.gears.mesh.search import PairContact
@@ -118,10 +118,7 @@ def check_pair(
     ``second_turn`` (rad) and ``centre_shift`` (mm): how far the pair stands off the exact one; ``tolerance`` in mm.
     """
     found, told = _contact(mating, second_turn, centre_shift, tolerance), pair_quantities(mating)
-    findings = [
-        {"code": f.code, "value": f.value, "limit": f.limit, "text": finding_text(language, f)}
-        for f in mating.findings()
-    ]
+    findings = findings_told(language, mating.findings())
     if found is None:
         return told | ({"findings": findings} if findings else {})
     worst = found.worst

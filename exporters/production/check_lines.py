@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from itertools import groupby, product
 from types import MappingProxyType
 from typing import Any
@@ -12,12 +11,10 @@ from typing import Any
 from parts.base.part import Part
 from parts.base.texts import N_, Message, Words, counted, filled, listed, message, words
 from parts.scene.instances import InstanceSpec
-from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS, called, pairs_counted
+from parts.texts.checks import GEAR_PAIR, MATES, VERDICTS, called, in_rows, pairs_counted
 
 # gaps below this are rounding, mm
 _ROUNDING = 1e-9
-# the number that a name ends in, without zeros in front
-_NUMBERED = re.compile(r"(?<!\d)[1-9]\d*$", re.ASCII)
 _ERROR = N_("transmission error (peak to peak, first turns {sense}): {value:.3g} mm on the line of action, {motion}")
 _SENSES = {"clockwise": N_("clockwise"), "counter_clockwise": N_("counter-clockwise")}
 
@@ -197,23 +194,6 @@ def _without_repeats(mates: list[dict[str, Any]]) -> list[dict[str, Any]]:
         shown.setdefault(key, mate)
         seconds.setdefault(key, []).append(mate["second"])
     return [{**mate, "second": ", ".join(in_rows(seconds[key]))} for key, mate in shown.items()]
-
-
-def in_rows(names: Iterable[str]) -> Iterator[str]:
-    """Names as they are, three or more that count on by their last number as the first ... the last."""
-    rows: list[list[str]] = []
-    open_rows: dict[tuple[str, int], list[str]] = {}
-    for name in names:
-        found = _NUMBERED.search(name)
-        stem, number = (name[: found.start()], int(found[0])) if found else (name, 0)
-        row = open_rows.pop((stem, number), None)
-        if row is None:
-            rows.append(row := [])
-        row.append(name)
-        if found:
-            open_rows[stem, number + 1] = row
-    for row in rows:
-        yield from row if len(row) < 3 else [f"{row[0]} ... {row[-1]}"]
 
 
 def _transmission(mate: dict[str, Any], told: Words) -> list[str]:

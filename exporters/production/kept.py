@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from exporters.production.moving import hash_of
-from geometry.base.record import Record
 from parts.base.texts import N_, words
 
 _FITS = N_("{path} in the folder is of an earlier build of this same scene; it was not replaced")
@@ -41,17 +40,13 @@ def kept_lines(report: dict[str, Any] | None, language: str) -> list[str]:
     return lines
 
 
-class Failure(Record):
-    """Why the last build of a file failed; ``fits``: what lies in its place is of the same scene."""
+def failure_of(report: dict[str, Any], name: str) -> tuple[str, bool] | None:
+    """Why the last build of a file failed, and whether what lies in its place is of the same scene.
 
-    why: str
-    fits: bool
-
-
-def failure_of(report: dict[str, Any], name: str) -> Failure | None:
-    """Why ``verify`` cannot vouch for a file whose last build failed; None for any other file."""
+    None for any other file: ``verify`` cannot vouch for this one.
+    """
     for failed in report.get("failed", []):
         if failed.get("path") == name:
             kept = failed.get("kept") or {}
-            return Failure("; ".join(failed.get("failures", [])), bool(kept.get("fits_scene")))
+            return "; ".join(failed.get("failures", [])), bool(kept.get("fits_scene"))
     return None

@@ -8,7 +8,7 @@ from pathlib import Path
 from textwrap import wrap
 from typing import TYPE_CHECKING
 
-from exporters.production.check_lines import in_rows, names_of
+from exporters.production.check_lines import names_of
 from exporters.production.jobs import several
 from exporters.production.laid import laid_jobs, lying_on
 from exporters.production.order import steps_told
@@ -40,7 +40,7 @@ def write_notes(plan: Plan, folder: Path) -> Path:
     if plan.scene.steps:
         names = names_of(plan.scene.instances, plan.parts)
         lines.append("")
-        for step in steps_told(plan.scene.steps, names, in_rows, scene.language):
+        for step in steps_told(plan.scene.steps, names, scene.language):
             lines += wrap(step, _LINE, subsequent_indent="    ")
     if rows := stock_rows(plan.scene, plan.parts):
         lines += ["", told.text("To be cut from rods and tubes, mm (diameter × length):"), *_stock(plan, rows, told)]

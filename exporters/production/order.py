@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
@@ -13,7 +13,7 @@ from parts.base.texts import N_, Message, Words, counted, filled, listed, messag
 from parts.scene.assembly_order import order_found
 from parts.scene.placing import Placing
 from parts.scene.steps import StepSpec
-from parts.texts.checks import pairs_counted
+from parts.texts.checks import in_rows, pairs_counted
 
 # the ways along the axes of a scene
 _WAYS = {
@@ -63,16 +63,11 @@ def order_lines(found: Mapping[str, Any], told: Words) -> Iterator[str]:
     yield told.text(text, steps=steps, pairs=pairs)
 
 
-def steps_told(
-    steps: Sequence[StepSpec],
-    names: Mapping[str, str],
-    rows: Callable[[Iterable[str]], Iterable[str]],
-    language: str,
-) -> Iterator[str]:
-    """The order of assembly, a line for each step; ``rows`` shortens names that count on."""
+def steps_told(steps: Sequence[StepSpec], names: Mapping[str, str], language: str) -> Iterator[str]:
+    """The order of assembly, a line for each step."""
     told = words(language)
     for number, step in enumerate(steps, 1):
-        things = ", ".join(rows(names.get(name, name) for name in step.bring))
+        things = ", ".join(in_rows(names.get(name, name) for name in step.bring))
         to = names.get(step.to, step.to)
         yield told.text("{number}. {things} to {to}: {way}", number=number, things=things, to=to, way=_way(step))
 

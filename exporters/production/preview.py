@@ -23,6 +23,7 @@ from geometry.plane.profile import Profile, Region
 from parts.base.part import Part
 from parts.base.texts import words
 from parts.scene.standing import UPWARDS, Instance
+from parts.texts.checks import in_rows
 from parts.texts.findings import finding_text
 from parts.texts.quantities import quantity_name
 
@@ -92,7 +93,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
 
 def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str, Any], folder: Path) -> Path:
     """All instances in their places, the upper ones last, and what the checks found."""
-    from exporters.production.check_lines import caption_lines, in_rows, names_of
+    from exporters.production.check_lines import caption_lines, names_of
     from exporters.production.preview_labels import Label, Tops, spread_labels
 
     language = plan.scene.scene.language

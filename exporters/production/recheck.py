@@ -95,8 +95,9 @@ def _rechecked(file: Path) -> Recheck:
     except (KeyError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError, GeometryError) as error:
         raise SceneError(source, "", None, "damaged_report", None, why=str(error)) from error
     if failure is not None:
-        code = "last_build_failed" if failure.fits else "last_build_failed_otherwise"
-        raise SceneError(str(file), "", None, code, None, why=failure.why)
+        why, fits = failure
+        code = "last_build_failed" if fits else "last_build_failed_otherwise"
+        raise SceneError(str(file), "", None, code, None, why=why)
     code = "not_in_report" if entries else "not_in_empty_report"
     raise SceneError(str(file), "", None, code, None, name=NAME, known=[str(path) for path in entries])
 

@@ -15,13 +15,12 @@ from exporters.production.jobs import Written
 from exporters.production.moving import hash_of
 from exporters.production.plan import Plan
 from exporters.verification.verdict import judges
-from geometry.base.findings import Finding
 from parts.base.content import content
 from parts.base.part import Part
 from parts.base.texts import ENGLISH, languages, words
 from parts.scene.load import resolved
 from parts.scene.standing import UPWARDS, Instance
-from parts.texts.findings import finding_text
+from parts.texts.findings import findings_told
 
 NAME = "report.json"
 # of a longer one the end is missing
@@ -53,7 +52,7 @@ def write_report(
                 **part.circles,
                 **part.quantities,
                 **_mass(part, written),
-                "findings": _findings(part.findings, language),
+                "findings": findings_told(language, part.findings),
             }
             for part in plan.parts.values()
         },
@@ -180,7 +179,7 @@ def _entry(item: Written, language: str) -> dict[str, Any]:
         "entities": item.entities,
         "bytes": item.file.stat().st_size,
         "sha256": hash_of(item.file),
-        "findings": _findings(item.findings, language),
+        "findings": findings_told(language, item.findings),
     }
 
 
@@ -200,10 +199,6 @@ def _placement(instance: Instance) -> dict[str, Any]:
         "placed_by": instance.placed_by,
         **({} if instance.axis == UPWARDS else {"axis": list(instance.axis)}),
     }
-
-
-def _findings(found: tuple[Finding, ...], language: str) -> list[dict[str, Any]]:
-    return [{"code": f.code, "value": f.value, "limit": f.limit, "text": finding_text(language, f)} for f in found]
 
 
 def _versions(written: list[Written]) -> dict[str, str]:

@@ -16,7 +16,7 @@ from exporters.formats.read_step import ReadSolid
 from exporters.formats.readback import ReadMesh
 from exporters.verification.area import told_verdict
 from exporters.verification.samples import edge_points, inner_points
-from exporters.verification.topology import doubled_normals, topology_failures
+from exporters.verification.topology import doubled_normals, edge_lengths, topology_failures
 from exporters.verification.verdict import Verdict, deviation_failures, volume_bound
 from geometry.curves.curve import Real
 from parts.base.texts import N_, unless
@@ -54,12 +54,11 @@ def verify_faced_mesh(mesh: ReadMesh, body: Faced, declared: float, tolerance: f
     bound = declared * float(sizes.sum()) / 2 + 1e-9 * exact
     told = N_("volume {volume:.9g} mm^3 instead of {exact:.9g} mm^3")
     failures += unless(abs(volume - exact) <= bound, told, volume=volume, exact=exact)
-    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
     measured = count | {
         "volume": volume,
         "volume_error": volume / exact - 1,
         "max_deviation": deviation,
-        "shortest_edge": float(edges.min()),
+        "shortest_edge": float(edge_lengths(corners).min()),
         "least_triangle_area": float(sizes.min() / 2),
     }
     return Verdict(measured, tuple(failures))

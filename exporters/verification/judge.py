@@ -9,12 +9,11 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias, cast
 
-import numpy as np
-
 from exporters.formats.reading import READERS
 from exporters.verification.verdict import Verdict, of_readable
 from geometry.base.findings import Finding
 from geometry.base.record import replace
+from parts.base.lazy import Registry
 from parts.base.part import Part
 from parts.base.readback import Probe, ReadBack, ReadError
 from parts.base.texts import N_, fault_of, unless
@@ -23,7 +22,7 @@ from parts.scene.formats import FileKind, Form
 if TYPE_CHECKING:
     from exporters.formats.read_drawing import ReadDrawing
     from exporters.formats.read_step import ReadSolid
-    from exporters.formats.readback import ReadMesh, ReadOutlines
+    from exporters.formats.readback import ReadMesh
     from geometry.plane.profile import Profile, Region
     from geometry.solids.body import Body
     from geometry.solids.measured import Faced
@@ -56,12 +55,12 @@ def verify_part(
         verdict = _with_paths(cast("ReadDrawing", found), pitch_curve, declared, tolerance, verdict)
     if found.names() is not None and not same_shade(found.colour, part.colour):
         raise ReadError(f"{part.id} is coloured {found.colour} instead of {part.colour}")
-    verdict = replace(verdict, failures=(*verdict.failures, *said_failures(found, kind, part)))
+    verdict = verdict.also(said_failures(found, kind, part))
     if also is not None and not verdict.failures:
         try:
             also(file)
         except ReadError as refusal:
-            return replace(verdict, failures=(str(refusal),))
+            return verdict.also([str(refusal)])
     return probed(found, part, offset, declared, verdict)
 
 
@@ -85,7 +84,8 @@ def held(
     """
     if name is not None and (names := found.names()) is not None and names != (name,):
         raise ReadError(f"the file names its parts {', '.join(names) or 'nothing'} instead of {name}")
-    return _HELD[kind.form](found, exact, declared, tolerance)
+    is_faced = kind.is_solid and cast("Body | Faced", exact).is_faced
+    return _HELD["faced " * is_faced + kind.form.name](found, exact, declared, tolerance)
 
 
 def said_failures(found: ReadBack, kind: FileKind, part: Part) -> list[str]:
@@ -118,32 +118,16 @@ def signed(file: Path, kind: FileKind, author: str, organisation: str, verdict: 
     try:
         found = read_signature(file)
     except (ReadError, OSError) as error:
-        return replace(verdict, failures=(str(error),))
+        return verdict.also([str(error)])
     wrong = list[str]()
     for what, own, told in zip(("author", "organisation"), found, (author, organisation), strict=True):
         wrong += unless(own == told, 'its {what} is "{own}" instead of "{told}"', what=what, own=own, told=told)
-    return replace(verdict, failures=tuple(wrong))
+    return verdict.also(wrong)
 
 
 def same_shade(found: str | None, expected: str | None) -> bool:
     """Whether a colour is the one asked for; a part that asks for none may have any."""
     return expected is None or (found is not None and found[:7].lower() == expected.lower())
-
-
-def _outlines(found: ReadOutlines, region: Region, declared: float, tolerance: float) -> Verdict:
-    from exporters.verification.outlines import stroke_failures, verify_loops
-
-    verdict = verify_loops(found.loops, region.profiles(), region.layers(), declared, tolerance)
-    return replace(
-        verdict,
-        failures=(*verdict.failures, *stroke_failures(found.strokes, [np.array(s) for s in region.strokes], declared)),
-    )
-
-
-def _drawing(found: ReadDrawing, region: Region, declared: float, tolerance: float) -> Verdict:
-    from exporters.verification.outlines import verify_samples
-
-    return verify_samples(found.loops(), region.profiles(), declared, tolerance)
 
 
 def _with_paths(
@@ -156,39 +140,24 @@ def _with_paths(
         return verdict
     wanted = [] if pitch_curve is None else [pitch_curve]
     own = verify_samples(found.path_loops(), wanted, declared, tolerance)
-    measured = dict(verdict.measured)
+    measured = {}
     if "max_deviation" in own.measured and wanted:
-        measured["max_deviation"] = max(measured["max_deviation"], own.measured["max_deviation"])
-    failures = (fault_of(N_("pitch curve"), failure) for failure in own.failures)
-    return replace(verdict, measured=measured, failures=(*verdict.failures, *failures))
+        measured["max_deviation"] = max(verdict.measured["max_deviation"], own.measured["max_deviation"])
+    return verdict.also((fault_of(N_("pitch curve"), failure) for failure in own.failures), measured)
 
 
-def _mesh(found: ReadMesh, body: Body | Faced, declared: float, tolerance: float) -> Verdict:
-    if body.is_faced:
-        from exporters.verification.faces import verify_faced_mesh
-
-        return verify_faced_mesh(found, body, declared, tolerance)
-    from exporters.verification.mesh import verify_mesh
-
-    return verify_mesh(found, body, declared, tolerance)
-
-
-def _solid(found: ReadSolid, body: Body | Faced, declared: float, tolerance: float) -> Verdict:
-    if body.is_faced:
-        from exporters.verification.faces import verify_faced_solid
-
-        return verify_faced_solid(found, body, declared, tolerance)
-    from exporters.verification.solid import verify_solid
-
-    return verify_solid(found, body, declared, tolerance)
-
-
-_HELD: dict[Form, Callable[..., Verdict]] = {
-    Form.ARCS: _outlines,
-    Form.SPLINES: _drawing,
-    Form.TRIANGLES: _mesh,
-    Form.FACES: _solid,
-}
+_HERE = "exporters.verification"
+# by the form of the file, and whether its part is told by faces: each is loaded when a file asks for it
+_HELD: Registry[Callable[..., Verdict]] = Registry(
+    {
+        "ARCS": f"{_HERE}.outlines:verify_outlines",
+        "SPLINES": f"{_HERE}.outlines:verify_drawing",
+        "TRIANGLES": f"{_HERE}.mesh:verify_mesh",
+        "FACES": f"{_HERE}.solid:verify_solid",
+        "faced TRIANGLES": f"{_HERE}.faces:verify_faced_mesh",
+        "faced FACES": f"{_HERE}.faces:verify_faced_solid",
+    }
+)
 
 
 def probed(found: ReadBack, part: Part, offset: float, declared: float, verdict: Verdict) -> Verdict:
@@ -208,10 +177,9 @@ def with_probes(found: ReadBack, probes: Iterable[Probe], offset: float, declare
             said = probe.run(found, offset, declared)
         except ReadError as refusal:
             wrong = fault_of(probe.name, str(refusal)) if probe.name else str(refusal)
-            verdict = replace(verdict, failures=(*verdict.failures, wrong))
+            verdict = verdict.also([wrong])
             continue
-        measured = verdict.measured | {f"{mark}{key}": value for key, value in said.measured.items()}
-        verdict = Verdict(measured, (*verdict.failures, *said.failures))
+        verdict = verdict.also(said.failures, {f"{mark}{key}": value for key, value in said.measured.items()})
         for finding in said.findings:
             known = worst.get(finding.code)
             if known is None or finding.value / finding.limit > known.value / known.limit:

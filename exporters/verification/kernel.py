@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from exporters.verification.verdict import Verdict
-from geometry.base.record import replace
 from geometry.solids.mass import body_moments
 from parts.base.texts import N_, unless
 from parts.solids.kernel import solids_of, volume_of
@@ -40,5 +39,4 @@ def judged_by_kernel(file: Path, bodies: Sequence[Body | Faced], verdict: Verdic
     near = abs(found / exact - 1) <= _VOLUME + verdict.measured["volume_bound"]
     told = N_("the kernel finds {found:.12g} mm^3 instead of {exact:.12g} mm^3")
     failures += unless(near, told, found=found, exact=exact)
-    measured = verdict.measured | {"kernel_volume_error": found / exact - 1, "kernel_tolerance": loose}
-    return replace(verdict, measured=measured, failures=(*verdict.failures, *failures))
+    return verdict.also(failures, {"kernel_volume_error": found / exact - 1, "kernel_tolerance": loose})

@@ -29,7 +29,7 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
     failures = topology_failures(mesh)
     if failures:
         return Verdict(count, tuple(failures))
-    corners = mesh.vertices[mesh.triangles]
+    corners = mesh.faces()
     measured = count | {"volume": float(np.einsum("ij,ij->i", corners[:, 0], doubled_normals(corners)).sum() / 6)}
     levels = np.array(body.levels())
     index = np.abs(mesh.vertices[:, 2, None] - levels).argmin(axis=1)
@@ -38,7 +38,7 @@ def verify_mesh(mesh: ReadMesh, body: Body, declared: float, tolerance: float) -
         return Verdict(measured, (fault("a vertex stands off every face"),))
     heights = np.where(off, mesh.vertices[:, 2], levels[index])
     mesh = ReadMesh(np.column_stack([mesh.vertices[:, :2], heights]), mesh.triangles)
-    corners = mesh.vertices[mesh.triangles]
+    corners = mesh.faces()
     heights = corners[:, :, 2]
     low, high = heights.min(axis=1), heights.max(axis=1)
     upright = low != high

@@ -8,16 +8,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exporters.formats.readback import Loop
+from exporters.formats.readback import Loop, ReadOutlines
 from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.curves.curve import Complex, Real
 from geometry.plane.contour import Contour, edge_points, signed_area
 from geometry.plane.measure import distance_to_profile, profile_area, profile_disc
-from geometry.plane.profile import Profile
+from geometry.plane.profile import Profile, Region
 from parts.base.texts import N_, fault, unless
+
+if TYPE_CHECKING:
+    from exporters.formats.read_drawing import ReadDrawing
 
 # how many points of a file are measured: all edges get at least 3 between their ends
 _POINTS = 10_000
@@ -31,6 +35,17 @@ _ORDER = ("ENGRAVE", "CUT_INNER", "CUT_OUTER")
 _ROUGH = 16
 # points of an edge by which its shape is seen
 _SHAPE = 16
+
+
+def verify_outlines(found: ReadOutlines, region: Region, declared: float, tolerance: float) -> Verdict:
+    """Lines and arcs of a file, and what it engraves, against a section."""
+    verdict = verify_loops(found.loops, region.profiles(), region.layers(), declared, tolerance)
+    return verdict.also(stroke_failures(found.strokes, [np.array(s) for s in region.strokes], declared))
+
+
+def verify_drawing(found: ReadDrawing, region: Region, declared: float, tolerance: float) -> Verdict:
+    """True curves of a file against a section."""
+    return verify_samples(found.loops(), region.profiles(), declared, tolerance)
 
 
 def verify_loops(

@@ -6,7 +6,6 @@ import numpy as np
 
 from exporters.formats.read_assembly import ReadAssembly
 from exporters.verification.verdict import Verdict
-from geometry.base.record import replace
 from parts.base.texts import N_, unless
 from parts.keys.boards import BedSpec
 
@@ -37,4 +36,4 @@ def on_bed(found: ReadAssembly, bed: BedSpec, declared: float, verdict: Verdict)
             names, other = (found.occurrences[k].name for k in (a, b))
             told = N_("{names} and {other} stand {gap:.6g} mm apart instead of {wanted:g}")
             failures += unless(gap >= bed.gap - declared, told, names=names, other=other, gap=gap, wanted=bed.gap)
-    return replace(verdict, measured=verdict.measured | measured, failures=tuple(failures))
+    return verdict.also(failures, measured)

@@ -17,13 +17,17 @@ def doubled_normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
 
 
+def edge_lengths(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Of each triangle, (n, 3)."""
+    return np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+
+
 def topology_failures(mesh: ReadMesh) -> list[str]:
     """Watertight, manifold, consistently turned, no triangle without area."""
     t = mesh.triangles
     if np.any((t[:, 0] == t[:, 1]) | (t[:, 1] == t[:, 2]) | (t[:, 2] == t[:, 0])):
         return [fault("a triangle has two equal corners")]
-    corners = mesh.vertices[t]
-    doubled = np.linalg.norm(doubled_normals(corners), axis=1)
+    doubled = np.linalg.norm(doubled_normals(mesh.faces()), axis=1)
     if not np.all(doubled > 0):
         return [fault("a triangle has no area")]
     n = len(mesh.vertices)

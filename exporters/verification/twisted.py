@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from exporters.formats.readback import ReadMesh
-from exporters.verification.topology import Triangles, chains
+from exporters.verification.topology import Triangles, chains, edge_lengths
 from exporters.verification.verdict import Verdict, deviation_failures
 from geometry.plane.measure import distance_to_profile, profile_area, profile_length
 from geometry.solids.body import Body, Wall
@@ -58,5 +58,5 @@ def verify_twisted(
     points = np.concatenate([mesh.vertices[np.unique(triangles)], inside])
     deviation = float(distance_to_profile(body.moved_back(wall, points), profile, trusted=declared).max())
     failures += deviation_failures(deviation, declared, tolerance, profile.reach())
-    edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
-    return Verdict({"max_deviation": deviation, "shortest_edge": float(edges.min())}, tuple(failures))
+    shortest = float(edge_lengths(corners).min())
+    return Verdict({"max_deviation": deviation, "shortest_edge": shortest}, tuple(failures))

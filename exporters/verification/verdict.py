@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import wraps
+from types import MappingProxyType
 from typing import ParamSpec
 
 from geometry.base.findings import Finding
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from parts.base.readback import ReadError
 from parts.base.texts import N_, unless
 
@@ -23,6 +24,10 @@ class Verdict(Record):
     measured: dict[str, float]
     failures: tuple[str, ...]
     findings: tuple[Finding, ...] = ()
+
+    def also(self, failures: Iterable[str], measured: Mapping[str, float] = MappingProxyType({})) -> Verdict:
+        """With what else is wrong, and was measured."""
+        return replace(self, measured={**self.measured, **measured}, failures=(*self.failures, *failures))
 
 
 P = ParamSpec("P")

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
 
 from parts.base.psv import sentences_of
 from parts.base.texts import N_, Message, Text, counted, filled
 
+# the number that a name ends in, without zeros in front
+_NUMBERED = re.compile(r"(?<!\d)[1-9]\d*$", re.ASCII)
 # by the kind of mate, with the numbers that its mating tells
 MATES = sentences_of(__file__, "mates")
 # a pair of involute gears, of whatever kind
@@ -32,6 +35,23 @@ def add_mates(table: Mapping[str, Text]) -> None:
 def called(row: Mapping[str, object], names: Mapping[str, str]) -> dict[str, object]:
     """What a sentence tells, instances by their names."""
     return {key: names.get(told, told) if isinstance(told, str) else told for key, told in row.items()}
+
+
+def in_rows(names: Iterable[str]) -> Iterator[str]:
+    """Names as they are, three or more that count on by their last number as the first ... the last."""
+    rows: list[list[str]] = []
+    open_rows: dict[tuple[str, int], list[str]] = {}
+    for name in names:
+        found = _NUMBERED.search(name)
+        stem, number = (name[: found.start()], int(found[0])) if found else (name, 0)
+        row = open_rows.pop((stem, number), None)
+        if row is None:
+            rows.append(row := [])
+        row.append(name)
+        if found:
+            open_rows[stem, number + 1] = row
+    for row in rows:
+        yield from row if len(row) < 3 else [f"{row[0]} ... {row[-1]}"]
 
 
 def pairs_counted(count: int) -> Message:

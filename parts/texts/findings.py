@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 from geometry.base.findings import Finding
 from parts.base.psv import sentences_of
@@ -26,6 +27,11 @@ def finding_of(gear: int, finding: Finding) -> Message:
     """A finding of gear 1 or 2; of the pair where the number is 0."""
     told = finding_message(finding)
     return message("gear {number}: {finding}", number=gear, finding=told) if gear else told
+
+
+def findings_told(language: str, findings: Iterable[Finding]) -> list[dict[str, Any]]:
+    """Findings as plain data."""
+    return [{"code": f.code, "value": f.value, "limit": f.limit, "text": finding_text(language, f)} for f in findings]
 
 
 def finding_text(language: str, finding: Finding) -> str:

@@ -6,10 +6,11 @@ from typing import Any
 
 import pytest
 
-from exporters.production.check_lines import caption_lines, check_lines, has_bad_verdict, in_rows
+from exporters.production.check_lines import caption_lines, check_lines, has_bad_verdict
 from exporters.production.plan import plan_build
 from parts.base.refusal import SceneError
 from parts.scene.load import scene_from_toml
+from parts.texts.checks import in_rows
 
 NAMES = {"a": "Gear A", "b": "Gear B", "pin_1": "Pin 1", "pin_2": "Pin 2", "pin_3": "Pin 3"}
 PAIR: dict[str, Any] = {

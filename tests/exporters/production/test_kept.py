@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from exporters.production.kept import Failure, failure_of, kept_lines
+from exporters.production.kept import failure_of, kept_lines
 from exporters.verification import judge
 from exporters.verification.verdict import Verdict
 from tests.exporters.making import part_keys, read_report, run, write_scene
@@ -125,8 +125,8 @@ def test_why_a_file_is_not_vouched_for() -> None:
         {"path": "d.dxf"},
     ]
     report = {"failed": failed}
-    assert failure_of(report, "a.dxf") == Failure("bent; open", True)
-    assert failure_of(report, "b.dxf") == Failure("bent", False)
-    assert failure_of(report, "c.dxf") == failure_of(report, "d.dxf") == Failure("", False)
+    assert failure_of(report, "a.dxf") == ("bent; open", True)
+    assert failure_of(report, "b.dxf") == ("bent", False)
+    assert failure_of(report, "c.dxf") == failure_of(report, "d.dxf") == ("", False)
     assert failure_of(report, "e.dxf") is None
     assert failure_of({}, "a.dxf") is None

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from exporters.production.check_lines import check_lines, in_rows
+from exporters.production.check_lines import check_lines
 from exporters.production.order import hindered_told, order_lines, steps_told
 from parts.base.texts import words
 from parts.scene.steps import StepSpec
@@ -28,15 +28,15 @@ NAMES = {"a": "Gear A", "pin_1": "Pin 1", "pin_2": "Pin 2", "pin_3": "Pin 3"}
     ({"along": [0.0, 1.0, 0.0], "screwed": True}, "along y, turned in by its thread"),
 ])  # fmt: skip
 def test_each_way_has_its_words(keys: dict[str, Any], way: str) -> None:
-    (line,) = steps_told([StepSpec(bring=["pin_1", "pin_2", "pin_3"], to="a", **keys)], NAMES, in_rows, "en")
+    (line,) = steps_told([StepSpec(bring=["pin_1", "pin_2", "pin_3"], to="a", **keys)], NAMES, "en")
     assert line == f"1. Pin 1 ... Pin 3 to Gear A: {way}"
 
 
 def test_steps_are_numbered_and_names_that_nobody_gave_are_ids() -> None:
     steps = [StepSpec(bring=["x", "pin_1"], to="y"), StepSpec(bring=["y"], to="a")]
-    lines = [*steps_told(steps, NAMES, in_rows, "en")]
+    lines = [*steps_told(steps, NAMES, "en")]
     assert lines == ["1. x, Pin 1 to y: each straight to its axis", "2. y to Gear A: each straight to its axis"]
-    assert [*steps_told(steps, NAMES, in_rows, "uk")] != lines
+    assert [*steps_told(steps, NAMES, "uk")] != lines
 
 
 HINDERED = {"step": 2, "coming": "a", "standing": "x", "volume": 1.23456, "verdict": "overlap"}
