@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -47,32 +48,28 @@ class _Page:
 
     def __init__(self, drawing: Any, colours: dict[str, int]) -> None:
         self.drawing, self.space, self.colours = drawing, drawing.modelspace(), colours
-        self.counts: dict[str, int] = {}
+        self.counts = Counter[str]()
 
-    def _on(self, kind: str, layer: str) -> dict[str, Any]:
+    def _add(self, kind: str, layer: str, *shape: Any, **looks: Any) -> None:
         if layer not in self.drawing.layers:
             self.drawing.layers.add(layer, color=self.colours[layer])
-        self.counts[kind] = self.counts.get(kind, 0) + 1
-        return {"layer": layer}
+        self.counts[kind] += 1
+        getattr(self.space, f"add_{kind.lower()}")(*shape, dxfattribs={"layer": layer, **looks})
 
     def polyline(self, points: Iterable[complex], layer: str) -> None:
-        attributes = self._on("LWPOLYLINE", layer)
-        self.space.add_lwpolyline([(p.real * SCALE, p.imag * SCALE) for p in points], dxfattribs=attributes)
+        self._add("LWPOLYLINE", layer, [(p.real * SCALE, p.imag * SCALE) for p in points])
 
     def line(self, start: complex, end: complex, layer: str) -> None:
         """mm."""
-        attributes = self._on("LINE", layer)
-        self.space.add_line((start.real, start.imag), (end.real, end.imag), dxfattribs=attributes)
+        self._add("LINE", layer, (start.real, start.imag), (end.real, end.imag))
 
     def circle(self, centre: complex, layer: str) -> None:
         """mm."""
-        attributes = self._on("CIRCLE", layer)
-        self.space.add_circle((centre.real, centre.imag), 2.0, dxfattribs=attributes)
+        self._add("CIRCLE", layer, (centre.real, centre.imag), 2.0)
 
     def text(self, at: complex, text: str, layer: str) -> None:
         """mm."""
-        attributes = {**self._on("TEXT", layer), "insert": (at.real, at.imag)}
-        self.space.add_text(text, height=_TEXT, dxfattribs=attributes)
+        self._add("TEXT", layer, text, insert=(at.real, at.imag), height=_TEXT)
 
 
 def _layer(name: str, level: float | None) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from exporters.drawings.dashes import dashes_of
-from exporters.formats.svg import number, save
+from exporters.formats.svg import GROUND, number, page_head, save
 from geometry.approximation.outline import CadCurve
 from geometry.base.tolerance import DRAWN_DECIMALS
 from geometry.curves.bspline import BSpline
@@ -64,20 +65,19 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
                 drawing.linetypes.add(kind, [sum(style.dashes), *signed])
         drawing.layers.add(name, color=style.aci, linetype=kind, lineweight=round(style.width * 100))
     space = drawing.modelspace()
-    counts: dict[str, int] = {}
+    counts = Counter[str]()
     spaces: dict[tuple[str, int], BaseLayout] = {}
     for one in canvas.dimensions:
         block = _add_dimension(drawing, one)
         spaces |= {("strokes", k): block for k in one.strokes} | {("texts", k): block for k in one.texts}
-        counts["DIMENSION"] = counts.get("DIMENSION", 0) + 1
+        counts["DIMENSION"] += 1
     for index, stroke in enumerate(canvas.strokes):
         dashes = STYLES[stroke.layer].dashes
         pieces, line_type = [stroke.curve], "BYLAYER"
         if dashes and isinstance(stroke.curve, BSpline):
             pieces, line_type = [*dashes_of(stroke.curve, dashes)], "CONTINUOUS"
         for piece in pieces:
-            kind = add_curve(spaces.get(("strokes", index), space), piece, stroke.layer, line_type)
-            counts[kind] = counts.get(kind, 0) + 1
+            counts[add_curve(spaces.get(("strokes", index), space), piece, stroke.layer, line_type)] += 1
     for index, run in ((k, run) for k, text in enumerate(canvas.texts) for run in text.runs):
         entity = spaces.get(("texts", index), space).add_text(
             run.text, height=round(run.height, DRAWN_DECIMALS), dxfattribs={"layer": "TEXT", "style": _style(run)}
@@ -85,7 +85,7 @@ def write_sheet_dxf(file: Path, canvas: Canvas) -> dict[str, int]:
         free = BEARING * run.height
         left, right = place_of(run.at + free * run.way), place_of(run.at + (run.width - free) * run.way)
         entity.set_placement(left, right, align=TextEntityAlignment.FIT)
-        counts["TEXT"] = counts.get("TEXT", 0) + 1
+        counts["TEXT"] += 1
     # all stands within the frame; ezdxf takes a corner at 0, 0 for none
     frame = canvas.reach
     space.reset_extents((frame.left, frame.low, 0.0), (frame.right, frame.high, 0.0))
@@ -136,12 +136,7 @@ def _style(run: Run) -> str:
 
 def write_sheet_svg(file: Path, canvas: Canvas) -> dict[str, int]:
     """SVG in mm: a group for each layer, its curves as paths; text with its length stated."""
-    width, height = number(canvas.width), number(canvas.height)
-    lines = [
-        '<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" version="1.1" '
-        f'width="{width}mm" height="{height}mm" viewBox="0 0 {width} {height}">',
-        '<rect width="100%" height="100%" style="fill:#ffffff"/>',
-    ]
+    lines = [page_head(canvas.width, canvas.height), GROUND]
     for name in canvas.layers:
         curves, style = [s.curve for s in canvas.strokes if s.layer == name], STYLES[name]
         dashes = f";stroke-dasharray:{' '.join(map(number, style.dashes))}" if style.dashes else ""

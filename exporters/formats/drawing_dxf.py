@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -25,14 +26,13 @@ def write_drawing_dxf(file: Path, boundaries: Sequence[Outline], paths: Sequence
     drawing = new_drawing()
     drawing.layers.add(_LAYER, color=7, lineweight=50)
     space = drawing.modelspace()
-    counts: dict[str, int] = {}
+    counts = Counter[str]()
     corners: list[complex] = []
     if paths:
         drawing.layers.add(_PITCH, color=8, lineweight=25)
     for layer, outlines in ((_LAYER, boundaries), (_PITCH, paths)):
         for curve in (one for outline in outlines for one in outline.curves()):
-            kind = add_curve(space, curve, layer)
-            counts[kind] = counts.get(kind, 0) + 1
+            counts[add_curve(space, curve, layer)] += 1
             corners += _box(curve)
     x, y = [c.real for c in corners], [c.imag for c in corners]
     space.reset_extents((min(x), min(y), 0.0), (max(x), max(y), 0.0))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from html import escape
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,8 @@ _PICTURE_DECIMALS = 6
 # of numbers that are rounded already
 _MOST_DIGITS = 12
 _MARGIN = 2.0
+# what pictures stand on
+GROUND = '<rect width="100%" height="100%" style="fill:#ffffff"/>'
 # arcs of more than 100 degrees
 _LONG_BULGE = float(np.tan(np.radians(25)))
 
@@ -59,11 +62,6 @@ def stroke_data(points: Complex, origin: complex) -> str:
     """Absolute M and L commands through points that are rounded already."""
     places = zip((origin.real + points.real).tolist(), (origin.imag - points.imag).tolist(), strict=True)
     return "M" + " L".join(f"{number(x, _MOST_DIGITS)},{number(y, _MOST_DIGITS)}" for x, y in places)
-
-
-def head(middle: float, extra_width: float = 0.0, extra_height: float = 0.0) -> str:
-    """The opening of a picture 2 ``middle`` mm wide and high, the origin in its middle, and what is added."""
-    return page_head(2 * middle + extra_width, 2 * middle + extra_height)
 
 
 def page_head(wide: float, high: float, left: float = 0.0, top: float = 0.0) -> str:
@@ -130,6 +128,11 @@ def number(value: float, decimals: int = DRAWN_DECIMALS) -> str:
     text = f"{value:.{decimals}f}"
     text = text.rstrip("0").rstrip(".") if decimals else text
     return "0" if text == "-0" else text
+
+
+def escaped(text: str) -> str:
+    """A text as it stands in an SVG."""
+    return escape(text, quote=False)
 
 
 def save(file: Path, lines: list[str]) -> None:

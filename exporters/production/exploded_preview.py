@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exporters.formats.svg import fill, save
+from exporters.formats.svg import escaped, fill, save
 from exporters.production.plan import Plan
-from exporters.production.preview import escaped
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Real
 from geometry.solids.sketch import Layer, Sketch, round_ring, sketch_of_body

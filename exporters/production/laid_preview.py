@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from exporters.formats.svg import fill, page_head, path_data, save, stroke_data
+from exporters.formats.svg import GROUND, escaped, fill, page_head, path_data, save, stroke_data
 from exporters.production.boards import BoardJob
 from exporters.production.laid import laid_jobs, lying_on
 from exporters.production.plan import Plan
-from exporters.production.preview import PER_EDGE, escaped, outlines_of
+from exporters.production.preview import PER_EDGE, outlines_of
 from geometry.base.record import Record
 from geometry.curves.curve import Complex
 from geometry.plane.contour import Contour
@@ -66,7 +66,7 @@ def _preview(job: LaidJob, title: str, fills: Mapping[str, str], file: Path, tol
     corner = complex(room, across + room)
     lines = [
         page_head(wide + 2 * room, bottom),
-        '<rect width="100%" height="100%" style="fill:#ffffff"/>',
+        GROUND,
         f'<rect x="{room:.4g}" y="{room:.4g}" width="{width:.6g}" height="{across:.6g}" '
         f'style="fill:#faf6ee;stroke:#202830;stroke-width:{2 * line:.4g}"/>',
     ]

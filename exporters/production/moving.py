@@ -192,7 +192,6 @@ def _locked(folder: Path) -> Iterator[None]:
     """Hold the lock of a folder, which the system takes back when its holder dies."""
     if sys.platform == "win32":
         # a folder cannot be locked there, and a file in it would stay
-        import hashlib
         import msvcrt
         import tempfile
 

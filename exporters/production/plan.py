@@ -147,7 +147,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             _take(sheets[-1].path, where, taken, source)
             continue
         if export.pitch_curve and not any(parts[p].pitch_curve for p in asked.wanted):
-            raise SceneError(source, f"{where}.pitch_curve", True, "no_pitch_curve", REMOVED)
+            raise asked.refused("pitch_curve", True, "no_pitch_curve", REMOVED)
         made = []
         for part_id in asked.wanted:
             if only_parts and part_id not in only_parts:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+from exporters.formats.svg import GROUND, escaped, save
+
 Series = tuple[str, list[float], list[float]]
 
 # the field of the curves ends at _RIGHT, the key stands beside it
@@ -26,7 +28,7 @@ def write_loglog(file: Path, title: str, axes: tuple[str, str], series: list[Ser
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:g}" height="{height:g}">',
-        '<rect width="100%" height="100%" style="fill:#ffffff"/>',
+        GROUND,
         _text(_LEFT, 18, title),
         _text(_LEFT, _HEIGHT - 10, axes[0]),
         _text(8, _TOP - 8, axes[1]),
@@ -39,7 +41,7 @@ def write_loglog(file: Path, title: str, axes: tuple[str, str], series: list[Ser
         lines.append(f'<polyline points="{path}" style="fill:none;stroke:{colour};stroke-width:1.5"/>')
         lines += [f'<circle cx="{x:.2f}" cy="{y:.2f}" r="3" style="fill:{colour}"/>' for x, y in places]
         lines.append(_text(_RIGHT + 14, _TOP + _LINE * (index + 1), name, colour))
-    file.write_text("\n".join([*lines, "</svg>", ""]), encoding="utf-8", newline="\n")
+    save(file, lines)
 
 
 def _positive(xs: list[float], ys: list[float]) -> list[tuple[float, float]]:
@@ -71,5 +73,5 @@ def _grid(x_axis: tuple[int, int], y_axis: tuple[int, int]) -> list[str]:
 
 
 def _text(x: float, y: float, text: str, colour: str = "#202830") -> str:
-    safe = text.replace("&", "&amp;").replace("<", "&lt;")
-    return f'<text x="{x:.2f}" y="{y:.2f}" style="font-family:sans-serif;font-size:12px;fill:{colour}">{safe}</text>'
+    style = f"font-family:sans-serif;font-size:12px;fill:{colour}"
+    return f'<text x="{x:.2f}" y="{y:.2f}" style="{style}">{escaped(text)}</text>'

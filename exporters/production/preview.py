@@ -6,14 +6,13 @@ import cmath
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from html import escape
 from pathlib import Path
 from textwrap import wrap
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from exporters.formats.svg import fill, head, number, path_data, save, stroke_data
+from exporters.formats.svg import GROUND, escaped, fill, number, page_head, path_data, save, stroke_data
 from exporters.production.plan import Plan
 from geometry.approximation.chords import approximate_profile
 from geometry.base.errors import GeometryError
@@ -62,8 +61,7 @@ def part_preview(part: Part, boundaries: Outlines, folder: Path, language: str) 
     half = part.made_by.axial_section(part.thing, reach / 1000)
     across, length = (0.0, 0.0) if half is None else (2 * float(half.real.max()), float(np.ptp(half.imag)))
     low = max(2 * middle, text * 1.7 * (len(caption) + 1))
-    lines = [head(middle, max(text * 24, length - 2 * reach), low - 2 * middle + across * 1.08)]
-    lines.append('<rect width="100%" height="100%" style="fill:#ffffff"/>')
+    lines = [page_head(2 * middle + max(text * 24, length - 2 * reach), low + across * 1.08), GROUND]
     cut, plain = part.cut(0.0).region, part.section(0.0).region
     tags = [approximate_profile(p, reach / 1000, arcs=True) for p in cut.apart[len(plain.apart) :]]
     data = " ".join(path_data(b.geometry, corner) for b in reversed((*tags, *boundaries)))
@@ -161,7 +159,7 @@ def scene_preview(plan: Plan, outlines: Mapping[str, Outlines], checks: dict[str
     rows = [line for row in rows for line in wrap(told.decimal(row), _WIDE_LETTERS)]
     caption = size * 1.7 * (len(rows) + 1)
     file = folder / scene_preview_name(plan)
-    lines = [head(middle, extra_height=caption - spare), '<rect width="100%" height="100%" style="fill:#ffffff"/>']
+    lines = [page_head(2 * middle, 2 * middle + caption - spare), GROUND]
     lines.append(f'<g transform="translate(0 {number(caption - spare / 2)})">')
     save(file, [*lines, *body, "</g>", *_caption(rows, size, size)])
     return file
@@ -310,8 +308,3 @@ def _caption(rows: list[str], left: float, size: float) -> list[str]:
         f'<text x="{left:.4g}" y="{(i + 1.5) * size * 1.7:.4g}" style="{style}">{escaped(row)}</text>'
         for i, row in enumerate(rows)
     ]
-
-
-def escaped(text: str) -> str:
-    """A text as it stands in an SVG."""
-    return escape(text, quote=False)

@@ -21,6 +21,7 @@ from geometry.curves.curve import Complex, Curve, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import distance_to_curve
 from geometry.solids.sketch import Layer, Ring, Sketch, crossing, hatched, reaching, round_ring, stacked
+from parts.drawing.revolved import closed
 from parts.drawing.shown import SAMPLES, shown_pieces
 from parts.drawing.working import AXIS, VISIBLE
 
@@ -33,8 +34,10 @@ Stroke = tuple[str, Curve]
 Spot = tuple[complex, float]
 
 
-class Shown(Record):
-    """An instance that is drawn: of which part, what of it, and where it stands in the frame of the view."""
+class Shown(Record, dict=True):
+    """An instance that is drawn: of which part, what of it, and where it stands in the frame of the view; and what it
+    hides there.
+    """
 
     id: str
     part: str
@@ -61,18 +64,7 @@ class Shown(Record):
         """Whether its axis points at the viewer or away."""
         return abs(self.axis[2]) > 1 - _PARALLEL
 
-    def checked(self) -> Shown:
-        """Itself, where it can be drawn.
-
-        Raises
-        ------
-        ParameterError
-            Its axis is oblique to the view.
-        """
-        if not self.stands and abs(self.axis[2]) > _PARALLEL:
-            raise ParameterError("purpose", "assembly", "assembly_axis_oblique", instance=self.id)
-        return self
-
+    @cached_property
     def faced(self) -> tuple[Sketch, Placement2]:
         """The sketch of one that stands, its upper side to the viewer, and how its plane lies in the view's."""
         sketch = self.sketch if self.axis[2] > 0 else self.sketch.turned_over()
@@ -92,89 +84,34 @@ class Shown(Record):
         """A point s + iz of a plane along the axis of one that lies, in the view."""
         return self.centre + self.along * (point.imag - 1j * point.real)
 
-
-class Drawn(Record):
-    """What a view has of an assembly, model mm: lines by layer, hatched loops and axes by part, places on parts.
-
-    ``spots``: for each part, points on it that are seen with their distance from all lines, the farthest first.
-    """
-
-    strokes: tuple[Stroke, ...]
-    hatched: tuple[tuple[tuple[Line | Arc, ...], ...], ...]
-    axes: tuple[Line, ...]
-    spots: dict[str, tuple[Spot, ...]]
-
-
-def seen(shown: Sequence[Shown], view: Placement3) -> list[Shown]:
-    """Instances in the frame of a view."""
-    return [Shown(one.id, one.part, one.sketch, view @ one.place).checked() for one in shown]
-
-
-def along_axes(shown: Sequence[Shown]) -> Drawn:
-    """What is seen, each line as far as nothing stands before it."""
-    strokes: list[Stroke] = []
-    axes: list[Line] = []
-    covers = _Covers(tuple(_Cover(one) for one in shown))
-    for one in shown:
-        edges = [piece for height, curve in _edges(one) for piece in _visible(curve, height, one, covers)]
-        if not edges:
-            continue
-        strokes += [(VISIBLE, piece) for piece in edges]
-        top = _height(one)
-        for layer, curve in _pitches(one):
-            strokes += [(layer, piece) for piece in _visible(curve, top, one, covers)]
-        axes += _axes(one)
-    lines = _Lines(strokes)
-    spots: dict[str, tuple[Spot, ...]] = {}
-    for one, cover in zip(shown, covers.all, strict=True):
-        if len(spots.get(one.part, ())) >= _ENOUGH:
-            continue
-        found = cover.places
-        for other in covers.near(found, cover.reach[1] - cover.tall) if len(found) else ():
-            if other is not cover:
-                found = found[~other.hides(found, cover.top(found))]
-        spots[one.part] = (*spots.get(one.part, ()), *_farthest(found, lines.room(found, one.centre, cover.reach[0])))
-    return Drawn(_once(strokes, _stroke_place), (), _once(axes, _place), spots)
-
-
-class _Cover(Record, dict=True):
-    """What an instance hides in a view."""
-
-    one: Shown
-
-    @cached_property
-    def faced(self) -> tuple[Sketch, Placement2]:
-        """The sketch of one that stands, and how its plane lies in the view's."""
-        return self.one.faced()
-
     @cached_property
     def reach(self) -> tuple[float, float]:
         """How far it reaches from its origin in the view, and its highest place, mm."""
-        if not self.one.stands:
-            return float(np.abs(self.silhouette.points - self.one.centre).max()), self.one.depth
+        if not self.stands:
+            return float(np.abs(self.silhouette.points - self.centre).max()), self.depth
         sketch = self.faced[0]
         rings = [ring for layer in sketch.layers for ring in (*layer.lower, *layer.upper)]
-        return max(float(np.abs(ring.points).max()) for ring in rings), sketch.layers[-1].high + self.one.depth
+        return max(float(np.abs(ring.points).max()) for ring in rings), sketch.layers[-1].high + self.depth
 
     @property
     def tall(self) -> float:
         """From its lowest to its highest place, mm."""
-        layers = self.one.sketch.layers
-        return layers[-1].high - layers[0].low if self.one.stands else 0.0
+        layers = self.sketch.layers
+        return layers[-1].high - layers[0].low if self.stands else 0.0
 
     def hides(self, points: Complex, heights: np.ndarray | float) -> np.ndarray:
         """Whether it stands before points of the view's plane at heights."""
-        one, (reach, top) = self.one, self.reach
+        reach, top = self.reach
         found = np.zeros(len(points), dtype=bool)
-        near = (np.abs(points - one.centre) <= reach + _SAME) & (np.asarray(heights) < top - _SAME)
+        near = (np.abs(points - self.centre) <= reach + _SAME) & (np.asarray(heights) < top - _SAME)
         if not near.any():
             return found
-        if not one.stands:
+        if not self.stands:
             found[near] = self.silhouette.holds(points[near])
             return found
         sketch, placement = self.faced
         places = np.asarray(placement.inverse().apply(points[near]))
-        levels = np.broadcast_to(heights - one.depth, points.shape)[near]
+        levels = np.broadcast_to(heights - self.depth, points.shape)[near]
         inner = np.zeros(len(places), dtype=bool)
         for level in np.unique(levels):
             inner[levels == level] = sketch.covers(places[levels == level], float(level))
@@ -184,18 +121,15 @@ class _Cover(Record, dict=True):
     @cached_property
     def silhouette(self) -> Ring:
         """The outline of one that lies."""
-        one = self.one
-        cuts = reaching(one.flat(-1j * one.along))
+        cuts = reaching(self.flat(-1j * self.along))
         sides: list[complex] = []
         back: list[complex] = []
-        for layer in one.sketch.layers:
+        for layer in self.sketch.layers:
             for z, rings in ((layer.low, layer.lower), (layer.high, layer.upper)):
                 if ends := cuts(rings):
-                    sides.append(one.laid(complex(ends[1], z)))
-                    back.append(one.laid(complex(ends[0], z)))
-        ring = [*sides, *back[::-1]]
-        corners = [p for p, q in zip(ring, [*ring[1:], ring[0]], strict=True) if abs(p - q) > _SAME]
-        return Ring(tuple(Line(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)))
+                    sides.append(self.laid(complex(ends[1], z)))
+                    back.append(self.laid(complex(ends[0], z)))
+        return Ring(closed([*sides, *back[::-1]], _SAME))
 
     @cached_property
     def places(self) -> Complex:
@@ -212,16 +146,15 @@ class _Cover(Record, dict=True):
     @property
     def _upper(self) -> tuple[list[tuple[Ring, ...]], Placement2]:
         """The upper rings of its layers, or its outline, and how their plane lies in the view."""
-        if not self.one.stands:
+        if not self.stands:
             return [(self.silhouette,)], Placement2()
         sketch, placement = self.faced
         return [layer.upper for layer in sketch.layers], placement
 
     def top(self, points: Complex) -> np.ndarray:
         """Height of its highest place at points that are on it."""
-        one = self.one
-        if not one.stands:
-            return np.full(len(points), one.depth)
+        if not self.stands:
+            return np.full(len(points), self.depth)
         sketch, placement = self.faced
         places = np.asarray(placement.inverse().apply(points))
         found = np.full(len(points), -np.inf)
@@ -230,21 +163,75 @@ class _Cover(Record, dict=True):
             if not len(left):
                 break
             found[left[layer.at_high.hold(places[left])]] = layer.high
-        return np.asarray(found + one.depth)
+        return np.asarray(found + self.depth)
+
+
+class Drawn(Record):
+    """What a view has of an assembly, model mm: lines by layer, hatched loops and axes by part, places on parts.
+
+    ``spots``: for each part, points on it that are seen with their distance from all lines, the farthest first.
+    """
+
+    strokes: tuple[Stroke, ...]
+    hatched: tuple[tuple[tuple[Line | Arc, ...], ...], ...]
+    axes: tuple[Line, ...]
+    spots: dict[str, tuple[Spot, ...]]
+
+
+def seen(shown: Sequence[Shown], view: Placement3) -> list[Shown]:
+    """Instances in the frame of a view.
+
+    Raises
+    ------
+    ParameterError
+        An axis is oblique to the view.
+    """
+    found = [Shown(one.id, one.part, one.sketch, view @ one.place) for one in shown]
+    for one in found:
+        if not one.stands and abs(one.axis[2]) > _PARALLEL:
+            raise ParameterError("purpose", "assembly", "assembly_axis_oblique", instance=one.id)
+    return found
+
+
+def along_axes(shown: Sequence[Shown]) -> Drawn:
+    """What is seen, each line as far as nothing stands before it."""
+    strokes: list[Stroke] = []
+    axes: list[Line] = []
+    covers = _Covers(tuple(shown))
+    for one in shown:
+        edges = [piece for height, curve in _edges(one) for piece in _visible(curve, height, one, covers)]
+        if not edges:
+            continue
+        strokes += [(VISIBLE, piece) for piece in edges]
+        top = _height(one)
+        for layer, curve in _pitches(one):
+            strokes += [(layer, piece) for piece in _visible(curve, top, one, covers)]
+        axes += _axes(one)
+    lines = _Lines(strokes)
+    spots: dict[str, tuple[Spot, ...]] = {}
+    for one in shown:
+        if len(spots.get(one.part, ())) >= _ENOUGH:
+            continue
+        found = one.places
+        for other in covers.near(found, one.reach[1] - one.tall) if len(found) else ():
+            if other is not one:
+                found = found[~other.hides(found, one.top(found))]
+        spots[one.part] = (*spots.get(one.part, ()), *_farthest(found, lines.room(found, one.centre, one.reach[0])))
+    return Drawn(_once(strokes, _stroke_place), (), _once(axes, _place), spots)
 
 
 class _Covers(Record, dict=True):
     """All that hides in a view."""
 
-    all: tuple[_Cover, ...]
+    all: tuple[Shown, ...]
 
     @cached_property
     def _rounds(self) -> tuple[Complex, np.ndarray, np.ndarray]:
         """Centres, reaches and tops."""
-        reaches = np.array([cover.reach for cover in self.all])
-        return np.array([cover.one.centre for cover in self.all]), reaches[:, 0], reaches[:, 1]
+        reaches = np.array([one.reach for one in self.all])
+        return np.array([one.centre for one in self.all]), reaches[:, 0], reaches[:, 1]
 
-    def near(self, points: Complex, height: float) -> list[_Cover]:
+    def near(self, points: Complex, height: float) -> list[Shown]:
         """Those that may stand before points at a height."""
         centres, reaches, tops = self._rounds
         middle = (points.real.min() + points.real.max()) / 2 + 0.5j * (points.imag.min() + points.imag.max())
@@ -256,7 +243,7 @@ class _Covers(Record, dict=True):
 def _edges(one: Shown) -> Iterator[tuple[float, Curve]]:
     """The lines of an instance, with their heights."""
     if one.stands:
-        sketch, placement = one.faced()
+        sketch, placement = one.faced
         for height, ring in sketch.edges():
             yield from ((height + one.depth, curve) for curve in _placed(ring, placement))
         return
@@ -290,7 +277,7 @@ def _height(one: Shown) -> float:
     """Of the upper end of its teeth, or of its axis."""
     if not one.stands or one.sketch.pitch is None:
         return one.depth
-    return _toothed(one.faced()[0])[1] + one.depth
+    return _toothed(one.faced[0])[1] + one.depth
 
 
 def _toothed(sketch: Sketch) -> tuple[float, float]:
@@ -314,16 +301,16 @@ def _axes(one: Shown) -> Iterator[Line]:
 def _visible(curve: Curve, height: float, one: Shown, covers: _Covers) -> Iterator[Curve]:
     """The pieces of an edge that nothing hides."""
     points = curve.point(np.linspace(*curve.domain, SAMPLES))
-    near = [cover for cover in covers.near(points, height) if cover.one.stands or cover.one is not one]
+    near = [other for other in covers.near(points, height) if other.stands or other is not one]
 
     def hidden(t: np.ndarray) -> np.ndarray:
         points = curve.point(t)
         found = np.zeros(len(t), dtype=bool)
-        for cover in near:
+        for other in near:
             left = np.flatnonzero(~found)
             if not len(left):
                 break
-            found[left] = cover.hides(points[left], height)
+            found[left] = other.hides(points[left], height)
         return found
 
     return shown_pieces(curve, hidden)
@@ -410,7 +397,7 @@ def _is_whole(sketch: Sketch) -> bool:
 
 def _cut_across(one: Shown) -> Iterator[Cut]:
     """A part cut across its axis."""
-    sketch, placement = one.faced()
+    sketch, placement = one.faced
     layer = next((k for k in sketch.layers if k.low < -one.depth < k.high), None)
     if layer is None:
         return

@@ -186,6 +186,10 @@ class Text(Record):
     box: Box
     answer: bool | None = None
 
+    def moved(self, by: complex) -> Text:
+        """The same elsewhere."""
+        return replace(self, runs=tuple(replace(r, at=r.at + by) for r in self.runs), box=self.box.moved(by))
+
     def asked(self) -> Iterator[Text]:
         """What students see of it: nothing of an answer, the name alone of a size in the picture."""
         if self.answer is None and _SIZE.match(self.text):
@@ -380,6 +384,13 @@ class Canvas(Draft):
     def write_rising(self, text: str, at: complex, height: float, most: float, way: complex = 1j) -> None:
         """A line of text turned to be read from the right or as its ``way`` is, from the beginning of its base line."""
         self.texts.append(rising_text(text, at, height, most, way))
+
+    def take(self, other: Canvas, by: complex) -> None:
+        """All strokes and texts of another one, moved."""
+        paper = Paper(1.0, by)
+        self.strokes += [replace(s, curve=paper.scaled(s.curve)) for s in other.strokes]
+        self.texts += [text.moved(by) for text in other.texts]
+        self.max_error, self.sampled = max(self.max_error, other.max_error), self.sampled or other.sampled
 
     def obstacles(self) -> Complex:
         """Points on all strokes, about half a millimetre apart."""

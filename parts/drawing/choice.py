@@ -7,7 +7,7 @@ from functools import cache
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record
-from parts.drawing.canvas import SCALES, Canvas, scale_name
+from parts.drawing.canvas import FRAME, FRAME_LEFT, SCALES, Canvas, scale_name
 from parts.keys.sheet import scale_value
 
 # width and height of the upright sheet, mm; GOST 2.301, whose A4 stands upright only
@@ -28,10 +28,10 @@ class Asked(Record):
     by_hand: bool = False
 
 
-def blank(name: str, *, upright: bool, band: float = 0.0) -> Canvas:
+def blank(name: str, *, upright: bool, band: float = 0.0, margins: tuple[float, float] = (FRAME_LEFT, FRAME)) -> Canvas:
     """An empty sheet."""
     width, height = PAPERS[name] if upright else PAPERS[name][::-1]
-    return Canvas(width, height, name, band=band)
+    return Canvas(width, height, name, band=band, margins=margins)
 
 
 def sheet_for(asked: Asked, greatest: Callable[[Canvas], float], least: float) -> tuple[Canvas, float]:

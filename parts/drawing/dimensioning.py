@@ -655,9 +655,8 @@ def moved(view: Laid, canvas: Canvas, shift: complex, tolerance: float) -> None:
     curves = fitted(canvas, [curve for _, curve in view.view.strokes], view.scale, tolerance)
     for (layer, _), curve in zip(view.view.strokes, curves, strict=True):
         draw(canvas, layer, [curve], Paper(view.scale, shift))
-    strokes, texts, paper, own = len(canvas.strokes), len(canvas.texts), Paper(1.0, shift), view.canvas
-    canvas.strokes += [replace(s, curve=paper.scaled(s.curve)) for s in own.strokes]
-    canvas.texts += [_shifted(text, shift) for text in own.texts]
+    strokes, texts = len(canvas.strokes), len(canvas.texts)
+    canvas.take(view.canvas, shift)
     canvas.dimensions += [
         replace(
             one,
@@ -668,10 +667,5 @@ def moved(view: Laid, canvas: Canvas, shift: complex, tolerance: float) -> None:
             texts=range(one.texts.start + texts, one.texts.stop + texts),
             vertex=None if one.vertex is None else one.vertex + shift,
         )
-        for one in own.dimensions
+        for one in view.canvas.dimensions
     ]
-
-
-def _shifted(text: Text, shift: complex) -> Text:
-    runs = tuple(replace(run, at=run.at + shift) for run in text.runs)
-    return replace(text, runs=runs, box=text.box.moved(shift))

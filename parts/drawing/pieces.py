@@ -8,7 +8,7 @@ import numpy as np
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record, replace
-from parts.drawing.canvas import TEXT_HEIGHT, Box, Canvas, Paper, Stroke
+from parts.drawing.canvas import TEXT_HEIGHT, Box, Canvas
 from parts.drawing.choice import PAPERS, blank
 from parts.drawing.title_block import TITLE_BLOCK
 
@@ -102,7 +102,7 @@ def _spread(page: _Page) -> None:
     for piece, corner in page.laid:
         left = room.left + shares[0] * (corner.real - room.left)
         top = room.high - shares[1] * (room.high - corner.imag)
-        _put(page.canvas, piece, complex(left - piece.room.left, top - piece.room.high))
+        page.canvas.take(piece.canvas, complex(left - piece.room.left, top - piece.room.high))
 
 
 def _too_large(piece: Piece, paper: str) -> ParameterError:
@@ -156,14 +156,3 @@ def _left(free: Sequence[Box], taken: Box) -> list[Box]:
     return [
         b for k, b in enumerate(cut) if not any(b.within(o) and (b != o or n < k) for n, o in enumerate(cut) if n != k)
     ]
-
-
-def _put(canvas: Canvas, piece: Piece, by: complex) -> None:
-    """A piece on a sheet, moved."""
-    place, one = Paper(1.0, by), piece.canvas
-    canvas.strokes += [Stroke(s.layer, place.scaled(s.curve)) for s in one.strokes]
-    for text in one.texts:
-        runs = tuple(replace(run, at=run.at + by) for run in text.runs)
-        canvas.texts.append(replace(text, runs=runs, box=text.box.moved(by)))
-    canvas.max_error = max(canvas.max_error, one.max_error)
-    canvas.sampled = canvas.sampled or one.sampled

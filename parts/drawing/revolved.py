@@ -22,9 +22,9 @@ _SAMPLES = 129
 _SMOOTH = 1e-6
 
 
-def closed(points: Sequence[complex]) -> tuple[Line, ...]:
-    """A closed chain of lines, without those of no length."""
-    ring = [p for p, q in pairwise([*points, points[0]]) if abs(p - q) > 1e-9]
+def closed(points: Sequence[complex], least: float = 1e-9) -> tuple[Line, ...]:
+    """A closed chain of lines, without those of no length: below the ``least``, mm."""
+    ring = [p for p, q in pairwise([*points, points[0]]) if abs(p - q) > least]
     return tuple(Line(a, b) for a, b in pairwise([*ring, ring[0]]))
 
 

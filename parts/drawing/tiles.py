@@ -12,7 +12,7 @@ import numpy as np
 from geometry.base.record import replace
 from geometry.curves.line_arc import Arc, Line
 from parts.drawing.canvas import TEXT_HEIGHT, TITLE_TEXT, Box, Canvas, Paper, draw
-from parts.drawing.choice import PAPERS
+from parts.drawing.choice import blank
 from parts.drawing.expected import Expected
 from parts.drawing.table import Row, Table
 from parts.texts.sheets import sheet_words
@@ -22,6 +22,7 @@ MARGIN, _CAPTION, OVERLAP = 8.0, 9.0, 10.0
 # half of a register mark, the side of the square to measure, mm
 _MARK, SQUARE = 4.0, 100.0
 _NEAR = 1e-9
+_MARGINS = (MARGIN, MARGIN)
 Edge = Line | Arc
 
 
@@ -39,14 +40,9 @@ def model_pages(
     return [_cover(title, rows, paper, language), *pages]
 
 
-def _blank(paper: str, *, upright: bool) -> Canvas:
-    width, height = PAPERS[paper] if upright else PAPERS[paper][::-1]
-    return Canvas(width, height, paper, margins=(MARGIN, MARGIN))
-
-
 def _cover(title: str, rows: list[Row], paper: str, language: str) -> Expected:
     """How to print, the square that must measure 100 mm, and how many sheets each part has."""
-    canvas = _blank(paper, upright=True)
+    canvas = blank(paper, upright=True, margins=_MARGINS)
     frame = canvas.frame
     wide, at = frame.wide, complex(frame.left, frame.high - 2 * TITLE_TEXT)
     canvas.write(title, at, TITLE_TEXT, wide)
@@ -73,7 +69,7 @@ def _tiles(name: str, edges: Sequence[Edge], paper: str, language: str) -> list[
     left, right, low, high = points.real.min(), points.real.max(), points.imag.min(), points.imag.max()
     layouts = []
     for upright in (True, False):
-        frame = _blank(paper, upright=upright).frame
+        frame = blank(paper, upright=upright, margins=_MARGINS).frame
         wide, tall = frame.wide - OVERLAP, frame.tall - _CAPTION - OVERLAP
         layouts.append((math.ceil((right - left) / wide), math.ceil((high - low) / tall), upright, wide, tall))
     columns, rows, upright, wide, tall = min(layouts, key=lambda one: one[0] * one[1])
@@ -81,7 +77,7 @@ def _tiles(name: str, edges: Sequence[Edge], paper: str, language: str) -> list[
     found = []
     for row in reversed(range(rows)):
         for column in range(columns):
-            canvas = _blank(paper, upright=upright)
+            canvas = blank(paper, upright=upright, margins=_MARGINS)
             frame, near = canvas.frame, corner + complex(column * wide, row * tall)
             # the cell's corner lies half of the overlap within the area
             origin = complex(frame.left, frame.low) + complex(OVERLAP, OVERLAP) / 2 - near
@@ -93,7 +89,7 @@ def _tiles(name: str, edges: Sequence[Edge], paper: str, language: str) -> list[
             if rows * columns > 1:
                 _marks(canvas, cell, origin)
             cross = [Line(-_MARK * way, _MARK * way) for way in (1, 1j)]
-            if _holds(cell, _MARK):
+            if Box(-_MARK, -_MARK, _MARK, _MARK).within(cell):
                 draw(canvas, "CENTRE_MARK", cross, Paper(1.0, origin))
             place = {"row": rows - row, "column": column + 1, "rows": rows, "columns": columns}
             key = "model_tile" if rows * columns > 1 else "model_whole"
@@ -101,10 +97,6 @@ def _tiles(name: str, edges: Sequence[Edge], paper: str, language: str) -> list[
             canvas.write(text, complex(frame.left + 2.0, frame.high - 6.0), TEXT_HEIGHT, frame.wide - 4.0)
             found.append(Expected(canvas, Paper(1.0, origin), (), {"CUT": list(pieces)}))
     return found
-
-
-def _holds(cell: Box, reach: float) -> bool:
-    return cell.left <= -reach and cell.right >= reach and cell.low <= -reach and cell.high >= reach
 
 
 def _marks(canvas: Canvas, cell: Box, origin: complex) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from geometry.base.record import Record
-from geometry.curves.curve import Curve
+from geometry.curves.curve import end_point, start_point
 from geometry.gears.pictures.meshing import Body, MeshingPicture
 from parts.drawing.canvas import SCALES, Box, Canvas, Paper, text_width
 from parts.drawing.choice import Asked, sheet_for
@@ -113,9 +113,9 @@ def _window(picture: MeshingPicture, module: float, depth: int) -> Box:
     points: list[complex] = [picture.on_line(s) for s in (picture.start, picture.end, picture.pole)]
     for s in (picture.start, picture.end):
         for body in picture.bodies:
-            points += [ends_of(c)[k] for c in body.tooth_at(s) for k in (0, 1)]
+            points += [end(c) for c in body.tooth_at(s) for end in (start_point, end_point)]
     for body in picture.bodies:
-        points += [ends_of(c)[k] for c in body.chain(picture.shown, TEETH) for k in (0, 1)]
+        points += [end(c) for c in body.chain(picture.shown, TEETH) for end in (start_point, end_point)]
     arc = picture.arc_of_action
     points += [complex(arc.point(t)) for t in (0.0, arc.sweep / 2, arc.sweep)]
     # room for the dimension arcs inside the bodies
@@ -125,12 +125,6 @@ def _window(picture: MeshingPicture, module: float, depth: int) -> Box:
     if depth >= 2:
         points += [b.centre for b in picture.bodies if b.centre is not None]
     return Box.of(points).grown(0.6 * module)
-
-
-def ends_of(curve: Curve) -> tuple[complex, complex]:
-    """First and last point of a curve."""
-    a, b = curve.domain
-    return complex(curve.point(a)), complex(curve.point(b))
 
 
 def is_up(body: Body, window: Box) -> bool:

@@ -10,13 +10,14 @@ import math
 from itertools import pairwise
 
 from geometry.base.record import Record, replace
+from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.pictures.meshing import CIRCLES, Body, MeshingPicture
 from parts.drawing.canvas import SQUARE, Box, Canvas, Paper, Stroke, decimal, draw, fitted, scale_text
 from parts.drawing.choice import Asked
 from parts.drawing.labels import Labeller
 from parts.drawing.table import Row, Table
-from parts.drawing.view import BREAK, GAP, LEAD, TEETH, View, ends_of, is_up, layout
+from parts.drawing.view import BREAK, GAP, LEAD, TEETH, View, is_up, layout
 from parts.texts.sheets import sheet_words
 
 # how far inside a body its dimension arc runs, mm on paper
@@ -125,10 +126,10 @@ def _circles(
             continue
         if is_up(body, view.window):
             arc = Arc(body.centre, radius, math.pi / 2 - fan[1], fan[0] + fan[1])
-            ends = ends_of(arc)[1], ends_of(arc)[0]
+            ends = end_point(arc), start_point(arc)
         else:
             arc = Arc(body.centre, radius, -math.pi / 2 - fan[0], fan[0] + fan[1])
-            ends = ends_of(arc)
+            ends = start_point(arc), end_point(arc)
         canvas.arc(layer, _arc(view.paper, arc))
         found.append((name, (view.paper.point(ends[0]), view.paper.point(ends[1]))))
     return found
