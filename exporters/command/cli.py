@@ -312,13 +312,13 @@ def _parser(told: Words) -> Parser:
     scene = told.text("a built-in scene or a scene file (.toml)")
     of_scenes = told.text("built-in scenes or scene files (.toml)")
     results = told.text("write the results to OUT/<scene name> (default: out)")
+    one_scene = argument_of("scene", metavar=shown("SCENE"), help=scene)
+    scenes = argument_of("scenes", nargs="+", metavar=shown("SCENE"), help=of_scenes)
     # what arguments of one kind share
-    scenes: dict[str, Any] = {"nargs": "+", "metavar": shown("SCENE"), "help": of_scenes}
     out: dict[str, Any] = {"default": "out", "type": Path}
     repeated: dict[str, Any] = {"action": "append", "default": []}
 
-    build = command("build", told.text("make the files of a scene"), _build, as_json, quiet)
-    build.add_argument("scenes", **scenes)
+    build = command("build", told.text("make the files of a scene"), _build, as_json, quiet, scenes)
     build.add_argument("--out", help=results, **out)
     build.add_argument("--part", metavar=shown("ID"), help=told.text("only this part (may be repeated)"), **repeated)
     build.add_argument("--format", metavar="F", help=told.text("only this format (may be repeated)"), **repeated)
@@ -328,8 +328,7 @@ def _parser(told: Words) -> Parser:
     build.set_defaults(several=("scenes", str))
 
     meaning = told.text("build a scene for every combination of the values of some keys")
-    catalogue = command("catalogue", meaning, _catalogue, quiet)
-    catalogue.add_argument("scene", metavar=shown("SCENE"), help=scene)
+    catalogue = command("catalogue", meaning, _catalogue, quiet, one_scene)
     values = told.text("values 1,2,5 or a range 8:200 or 0.5:2:0.25, ends included (may be repeated)")
     catalogue.add_argument("--vary", action="append", required=True, metavar=shown("PART.KEY=VALUES"), help=values)
     workers = catalogue.add_mutually_exclusive_group()
@@ -339,8 +338,7 @@ def _parser(told: Words) -> Parser:
     catalogue.add_argument("--out", help=results, **out)
 
     meaning = told.text("check contact and interference of the pairs of a scene")
-    check = command("check", meaning, _check, as_json, quiet)
-    check.add_argument("scenes", **scenes)
+    check = command("check", meaning, _check, as_json, quiet, scenes)
     steps = told.text("print the order of assembly too, if the scene has one")
     check.add_argument("--steps", action="store_true", help=steps)
     check.set_defaults(several=("scenes", str))
@@ -351,8 +349,7 @@ def _parser(told: Words) -> Parser:
     verify.set_defaults(several=("files", Path))
 
     meaning = told.text("measure error against run time, over a ladder of tolerances")
-    converge = command("converge", meaning, _converge)
-    converge.add_argument("scene", metavar=shown("SCENE"), help=scene)
+    converge = command("converge", meaning, _converge, one_scene)
     converge.add_argument("--out", help=results, **out)
     converge.add_argument("--part", metavar=shown("ID"), help=told.text("only this part"), **repeated)
     converge.add_argument("--format", metavar="F", help=told.text("only this format"), **repeated)

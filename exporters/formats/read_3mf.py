@@ -104,11 +104,10 @@ def _model(file: Path) -> ElementTree.Element:
     """The root of the model in a whole package, in mm."""
     try:
         with zipfile.ZipFile(file) as package:
-            inside, most = sum(entry.file_size for entry in package.infolist()), _most_inside(file)
-            if inside > most:
-                raise ReadError(
-                    f"the 3MF package unpacks to {inside} bytes; at most {most} are read of one of its size"
-                )
+            inside = sum(entry.file_size for entry in package.infolist())
+            most = min(MOST_READ_BYTES, max(_SMALL, _DENSEST * file.stat().st_size))
+            told = f"the 3MF package unpacks to {inside} bytes; at most {most} are read of one of its size"
+            refuse_if(inside > most, told)
             if package.testzip() is not None:
                 raise ReadError("the 3MF package is damaged")
             names = [name.lower() for name in package.namelist()]
@@ -136,10 +135,6 @@ def _check_known(root: ElementTree.Element) -> None:
             refuse_if(name not in known, f"a <{tag}> of the 3MF has {name}, which is not read here")
             if (allowed := known[name]) and value not in allowed:
                 raise ReadError(f'a <{tag}> of the 3MF has {name} = "{value}"')
-
-
-def _most_inside(file: Path) -> int:
-    return min(MOST_READ_BYTES, max(_SMALL, _DENSEST * file.stat().st_size))
 
 
 def _mesh(item: ElementTree.Element, colour: str | None = None) -> ReadMesh:

@@ -111,7 +111,6 @@ class FileFormat(Record, Generic[S]):
     ``shape``: the boundaries, approximated within a tolerance of which the rounding has taken its share already.
     """
 
-    name: str
     rounding: Callable[[Content], float]
     shape: Callable[[Content, float], S]
     write: Callable[[Content, S, Path], dict[str, int]]
@@ -316,13 +315,10 @@ def _write_step_assembly(
 
 
 REGISTRY: dict[str, FileFormat[Any]] = {
-    row.name: row
-    for row in (
-        FileFormat("dxf", _flat_rounding, _arcs, _write_laser),
-        FileFormat("drawing", _drawing_rounding, _splines, _write_drawing_dxf),
-        FileFormat("svg", _flat_rounding, _arcs, _write_laser),
-        FileFormat("stl", _mesh_rounding, _chords, _write_stl),
-        FileFormat("3mf", lambda c: _TEXT_ROUNDINGS * _mesh_rounding(c), _chords, _write_3mf, _write_3mf_assembly),
-        FileFormat("step", _step_rounding, _solid_curves, _write_step, _write_step_assembly),
-    )
+    "dxf": FileFormat(_flat_rounding, _arcs, _write_laser),
+    "drawing": FileFormat(_drawing_rounding, _splines, _write_drawing_dxf),
+    "svg": FileFormat(_flat_rounding, _arcs, _write_laser),
+    "stl": FileFormat(_mesh_rounding, _chords, _write_stl),
+    "3mf": FileFormat(lambda c: _TEXT_ROUNDINGS * _mesh_rounding(c), _chords, _write_3mf, _write_3mf_assembly),
+    "step": FileFormat(_step_rounding, _solid_curves, _write_step, _write_step_assembly),
 }

@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from functools import partial
 from multiprocessing import get_context, parent_process
 from pathlib import Path
 from typing import Any
@@ -27,7 +28,6 @@ from exporters.production.check_lines import has_bad_verdict
 from exporters.production.moving import clear, hash_of
 from exporters.production.plan import plan_build
 from exporters.production.report import whole_report
-from geometry.base.record import Record
 from parts.base.refusal import SceneError, explained
 from parts.base.texts import words
 from parts.scene.load import SceneFile, resolved, scene_from_resolved
@@ -43,14 +43,6 @@ _COLUMNS = {"file": "path", "format": "format", "purpose": "purpose", "part": "p
 _PATIENCE = 20
 
 
-class Task(Record):
-    """A variant to be built from a scene, and the folder of the catalogue: all that a worker needs."""
-
-    variant: Variant
-    source: str
-    folder: Path
-
-
 def catalogue(
     scene: SceneFile,
     source: str,
@@ -60,9 +52,9 @@ def catalogue(
     progress: Callable[[str], None] = lambda name: None,
 ) -> list[dict[str, Any]]:
     """Build every variant in a folder of its own and write ``catalogue.csv`` and ``catalogue.json``; its entries."""
-    tasks = [Task(variant, source, folder.resolve()) for variant in variants(scene, axes)]
+    made = partial(entry_of, source=source, catalogue_folder=folder.resolve())
     entries = []
-    for entry in (executor.map if executor else map)(entry_of, tasks):
+    for entry in (executor.map if executor else map)(made, variants(scene, axes)):
         entries.append(entry)
         progress(entry["folder"])
     folder.mkdir(parents=True, exist_ok=True)
@@ -71,19 +63,19 @@ def catalogue(
     return entries
 
 
-def entry_of(task: Task) -> dict[str, Any]:
-    """What the catalogue says of a variant, which is built where it is not finished."""
-    told = {"folder": task.variant.name, "keys": task.variant.values}
-    folder = task.folder / task.variant.name
+def entry_of(variant: Variant, source: str, catalogue_folder: Path) -> dict[str, Any]:
+    """What the catalogue says of a variant of a scene, which is built where it is not finished."""
+    told = {"folder": variant.name, "keys": variant.values}
+    folder = catalogue_folder / variant.name
     try:
-        scene = scene_from_resolved(task.variant.scene, task.source)
+        scene = scene_from_resolved(variant.scene, source)
         clear(folder)
         report = whole_report(folder)
         if not _is_finished(report, resolved(scene), folder):
-            build(plan_build(scene, task.source, [], []), folder)
+            build(plan_build(scene, source, [], []), folder)
             report = whole_report(folder)
     except SceneError as error:
-        why = words(task.variant.scene["scene"]["language"]).say(explained(error))
+        why = words(variant.scene["scene"]["language"]).say(explained(error))
         return {**told, "verdict": REFUSED, "key": error.key, "why": why, "files": []}
     made = report or {}
     good = not made["failed"] and not has_bad_verdict(made["checks"])

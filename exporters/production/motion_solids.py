@@ -142,13 +142,10 @@ class SolidFilm(Film):
         places, angles = self.poses(instance, shares)
         laid = np.array(Placement3.towards(instance.axis, 0.0).rotation)
         turned = np.stack([np.cos(angles), -np.sin(angles), np.sin(angles), np.cos(angles)], axis=-1).reshape(-1, 2, 2)
-        own = np.concatenate([np.einsum("tij,nj->tni", turned, probes[:, :2]), _heights(probes, len(shares))], axis=-1)
+        heights = np.broadcast_to(probes[None, :, 2:], (len(shares), len(probes), 1))
+        own = np.concatenate([np.einsum("tij,nj->tni", turned, probes[:, :2]), heights], axis=-1)
         at = np.column_stack([places.real, places.imag, np.full(len(shares), instance.at[2])])
         return np.asarray(own @ laid.T + at[:, None])
-
-
-def _heights(probes: Real, count: int) -> Real:
-    return np.broadcast_to(probes[None, :, 2:], (count, len(probes), 1))
 
 
 def _quaternions(turned: Real) -> Real:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Real
+from geometry.curves.line_arc import lines_cross
 
 # width of a letter and room about a word, part of the letters' height; places tried above and below, and to each side
 _LETTER, _ROOM, _RINGS = 0.62, 0.15, 24
@@ -174,7 +175,7 @@ def _crossed(label: Label, taken: Real, lines: Sequence[tuple[complex, complex]]
     assert label.line
     own = np.array([label.box])
     through = int(_runs(*label.line, taken).sum()) + sum(int(_runs(*line, own).sum()) for line in lines)
-    return through + sum(_meet(label.line, line) for line in lines)
+    return through + sum(lines_cross(*label.line, *line) for line in lines)
 
 
 def _runs(start: complex, end: complex, boxes: Real) -> NDArray[np.bool_]:
@@ -186,16 +187,6 @@ def _runs(start: complex, end: complex, boxes: Real) -> NDArray[np.bool_]:
     one, two = (boxes[:, :2] - at) / ways, (boxes[:, 2:] - at) / ways
     first, last = np.minimum(one, two).max(axis=1), np.maximum(one, two).min(axis=1)
     return np.asarray(np.maximum(first, 0.0) < np.minimum(last, 1.0))
-
-
-def _meet(one: tuple[complex, complex], two: tuple[complex, complex]) -> bool:
-    """Whether two lines cross."""
-
-    def parted(line: tuple[complex, complex], other: tuple[complex, complex]) -> bool:
-        sides = [((line[1] - line[0]).conjugate() * (point - line[0])).imag for point in other]
-        return sides[0] * sides[1] < 0
-
-    return parted(one, two) and parted(two, one)
 
 
 def _apart(places: Sequence[Label], taken: Real) -> list[Label]:

@@ -254,7 +254,9 @@ def generating_sheets(wanted: Request, asked: Asked) -> list[tuple[str, Expected
     if not ids:
         raise wanted.refused("purpose", export.purpose, "shows_external_gears")
     gears = [checked_spur_gear(scene.parts[part]) for part in ids]
-    table = tmm42.table_from(scene, source, {"part": _most_shifted(ids, gears)})
+    # the wheel of table 1.2
+    most = max(range(len(ids)), key=lambda k: abs(gears[k].profile_shift_coefficient))
+    table = tmm42.table_from(scene, source, {"part": ids[most]})
     if abs(table.get("profile_shift_coefficient", math.inf) - practicum_undercut(gears[0]).limit) < 1e-12:
         # the very shift of (1.2), which the table then derives
         table.pop("profile_shift_coefficient")
@@ -316,11 +318,6 @@ def _check_wheel(spec: SpurGearSpec, place: str, source: str) -> None:
     if spec.helix_angle_deg:
         place, given = f"{place}.helix_angle_deg", spec.helix_angle_deg
         raise SceneError(source, place, given, "device_cuts_straight_teeth", Nearest(0.0), "degrees")
-
-
-def _most_shifted(ids: list[str], gears: list[Any]) -> str:
-    """The wheel of table 1.2."""
-    return max(zip(ids, gears, strict=True), key=lambda pair: abs(pair[1].profile_shift_coefficient))[0]
 
 
 def _meshing(mating: Toothed, picture: MeshingPicture, scene: SceneFile, asked: Asked) -> Expected:

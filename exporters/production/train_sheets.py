@@ -79,7 +79,8 @@ def train_picture(
     names = {body: str(number) for number, body in enumerate((b for b in bodies if b not in bare), 1)}
     names |= {body: f"H{number}" if len(bare) > 1 else "H" for number, body in enumerate(bare, 1)}
     heights = _unfolded(stands, meshes, bodies, axes)
-    rates = {body: train.moving.courses[body].rate * _sense(stands, body, frame) for body in bodies}
+    # told against an axis that points the other way
+    rates = {body: train.moving.courses[body].rate * (parallel(stands.axis(body), frame.axis) or 1) for body in bodies}
     on_which = {body: bodies.index(carrier) for body, carrier in carriers.items()}
     links = tuple(Link(names[b], heights[b], rates[b] / rates[driver], on_which.get(b)) for b in bodies)
     levels, rings = _levels(rims, meshes, stand), {_ring(mesh) for mesh in meshes}
@@ -166,11 +167,6 @@ def _axis(joint: Support | Group, frame: Instance) -> complex:
     laid = Placement3.towards(frame.axis, 0.0, frame.at)
     x, y, _ = laid.inverse().apply(np.array([joint.at.real, joint.at.imag, joint.z])).tolist()
     return complex(x, y)
-
-
-def _sense(stands: Tree, body: str, frame: Instance) -> int:
-    """-1 where a body turns about an axis that points against that of an instance."""
-    return parallel(stands.axis(body), frame.axis) or 1
 
 
 def _levels(rims: Sequence[str], meshes: Sequence[Rolling], stand: Mapping[str, Instance]) -> dict[str, int]:

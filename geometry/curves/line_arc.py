@@ -120,6 +120,15 @@ class Arc(Curve, Record):
         return replace(self, centre=self.centre.conjugate(), start_angle=-self.start_angle - self.sweep)
 
 
+def lines_cross(a: complex, b: complex, c: complex, d: complex) -> bool:
+    """Whether the lines from a to b and from c to d cross."""
+
+    def side(a: complex, b: complex, p: complex) -> float:
+        return ((b - a).conjugate() * (p - a)).imag
+
+    return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
+
+
 def arc_between(centre: complex, start: complex, end: complex, turns_left: bool) -> Arc:
     """The arc about ``centre`` from ``start`` to ``end``; its radius is that of ``start``."""
     spoke = start - centre

@@ -12,7 +12,7 @@ import numpy as np
 
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
-from geometry.curves.line_arc import Arc, Line
+from geometry.curves.line_arc import Arc, Line, lines_cross
 from parts.drawing.assembly_views import Drawn
 from parts.drawing.canvas import SCALES, TITLE_TEXT, Box, Canvas, Paper, Stroke, Text, text_of, text_width
 from parts.drawing.choice import Asked, sheet_for
@@ -327,7 +327,7 @@ def _size_lines(canvas: Canvas) -> Iterator[tuple[complex, complex]]:
 
 def _runs_over(leader: _Leader, lines: Sequence[tuple[complex, complex]]) -> int:
     """How many lines a leader, or its shelf, crosses."""
-    return sum(_crossed(one.start, one.end, *other) for one in leader.lines() for other in lines)
+    return sum(lines_cross(one.start, one.end, *other) for one in leader.lines() for other in lines)
 
 
 def _sides(numbers: Sequence[_Numbered], box: Box) -> tuple[list[_Numbered], list[_Numbered]]:
@@ -445,13 +445,4 @@ def _off(one: complex, other: complex) -> float:
 
 def _cross(one: _Leader, two: _Leader) -> bool:
     """Whether two leaders cross."""
-    return _crossed(one.spot, one.elbow, two.spot, two.elbow)
-
-
-def _crossed(a: complex, b: complex, c: complex, d: complex) -> bool:
-    """Whether the lines from a to b and from c to d cross."""
-
-    def side(a: complex, b: complex, p: complex) -> float:
-        return ((b - a).conjugate() * (p - a)).imag
-
-    return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
+    return lines_cross(one.spot, one.elbow, two.spot, two.elbow)

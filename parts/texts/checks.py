@@ -61,10 +61,8 @@ def pairs_counted(count: int) -> Message:
 
 def condition_message(code: str, first: str, second: str, value: float, required: float, tolerance: float) -> Message:
     """A condition of a mate as a sentence."""
+    numbers: dict[str, object] = {"value": value, "required": required, "tolerance": tolerance}
     if code == "train":
-        turns = (counted("{n:.9g} time", "{n:.9g} times", by="n", n=n) for n in (value, required))
-        return filled(
-            CONDITIONS[code], first=first, second=second, **dict(zip(("value", "required"), turns, strict=True))
-        )
-    numbers = {"value": value, "required": required, "tolerance": tolerance}
+        turned = {"value": value, "required": required}
+        numbers |= {key: counted("{n:.9g} time", "{n:.9g} times", by="n", n=n) for key, n in turned.items()}
     return filled(CONDITIONS[code], first=first, second=second, **numbers)

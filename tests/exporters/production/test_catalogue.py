@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 from exporters.production import catalogue
-from exporters.production.catalogue import Task, entry_of
+from exporters.production.catalogue import entry_of
 from exporters.production.moving import hash_of
 from exporters.verification import judge
 from exporters.verification.verdict import Verdict
@@ -143,15 +143,15 @@ def test_a_folder_is_kept_only_where_its_report_vouches_for_all_of_it(
 ) -> None:
     scene = scene_in(tmp_path, "svg")
     (variant,) = variants(load_scene(str(scene)), axes_of(["g.number_of_teeth=23"], load_scene(str(scene))))
-    task = Task(variant, str(scene), tmp_path / "o")
-    told = entry_of(task)
+    task = variant, str(scene), tmp_path / "o"
+    told = entry_of(*task)
     assert (told["verdict"], told["key"], told["why"]) == ("ok", None, "")
     file = tmp_path / "o" / variant.name / "report.json"
     report = json.loads(file.read_text("utf-8"))
     change(report)
     file.write_text(json.dumps(report), encoding="utf-8")
     before = file.stat().st_ino
-    assert entry_of(task)["files"] == told["files"]
+    assert entry_of(*task)["files"] == told["files"]
     assert (file.stat().st_ino != before) is again
 
 
