@@ -21,6 +21,7 @@ _MARKS = {
     "unless": "-t",
     "counted": "tp",
     "in_context": "ct",
+    ".unless": "-t",
     ".text": "t",
     ".plural": "tp",
     ".term": "ct",

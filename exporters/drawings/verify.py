@@ -16,10 +16,10 @@ from geometry.approximation.outline import CadCurve
 from geometry.curves.curve import Complex, Real
 from geometry.curves.line_arc import Arc, Line
 from geometry.plane.measure import distance_to_curve, distance_to_curves
-from parts.base.texts import N_, fault, unless
+from parts.base.texts import N_, fault
 from parts.drawing.canvas import Box, Canvas, Run
 from parts.drawing.expected import Expected, Meshing
-from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText
+from parts.drawing.readback import PER_CURVE, ReadSheet, ReadText, Taken
 
 # share of the paper's size that numbers of a file may be off
 _ROUNDING = 1e-11
@@ -38,35 +38,32 @@ def verify_sheets(file: Path, pages: Sequence[Expected], tolerance: float) -> Ve
     measured: dict[str, float] = {}
     failures: list[str] = []
     for sheet, expected in zip(sheets, pages, strict=True):
-        found: dict[str, float] = {}
-        _check(sheet, expected, tolerance + sheet_rounding(file), found, failures)
-        measured |= {name: max(value, measured.get(name, value)) for name, value in found.items()}
+        taken = _taken(sheet, expected, tolerance + sheet_rounding(file))
+        failures += taken.failures
+        measured |= {name: max(value, measured.get(name, value)) for name, value in taken.measured.items()}
     return Verdict(measured, tuple(failures))
 
 
-def _check(
-    sheet: ReadSheet, expected: Expected, tolerance: float, measured: dict[str, float], failures: list[str]
-) -> None:
+def _taken(sheet: ReadSheet, expected: Expected, tolerance: float) -> Taken:
     canvas = expected.canvas
+    reach = max([canvas.width, canvas.height, *(c.radius for c in expected.circles)])
+    taken = Taken(tolerance + _ROUNDING * reach)
     off = max(abs(sheet.width - canvas.width), abs(sheet.height - canvas.height))
     told = N_("has paper of {width:g} x {height:g} mm instead of {paper}")
-    failures += unless(off <= _PAPER, told, width=sheet.width, height=sheet.height, paper=canvas.paper)
-    reach = max([canvas.width, canvas.height, *(c.radius for c in expected.circles)])
-    allowed = tolerance + _ROUNDING * reach
-    _check_circles(sheet, expected, allowed, measured, failures)
-    _check_curves(sheet, expected, allowed, measured, failures)
+    taken.unless(off <= _PAPER, told, width=sheet.width, height=sheet.height, paper=canvas.paper)
+    _check_circles(sheet, expected, taken)
+    _check_curves(sheet, expected, taken)
     if expected.meshing is not None:
-        _check_meshing(sheet, expected.meshing, allowed, measured, failures)
+        _check_meshing(sheet, expected.meshing, taken)
     if expected.measures is not None:
-        expected.measures.check(sheet, allowed, measured, failures)
-    _check_words(sheet, canvas, measured, failures)
-    _check_strokes(sheet, canvas, allowed, failures)
-    _check_frame(sheet, canvas.reach.grown(allowed), failures)
+        expected.measures.check(sheet, taken)
+    _check_words(sheet, canvas, taken)
+    _check_strokes(sheet, canvas, taken)
+    _check_frame(sheet, canvas.reach.grown(taken.allowed), taken)
+    return taken
 
 
-def _check_circles(
-    sheet: ReadSheet, expected: Expected, allowed: float, measured: dict[str, float], failures: list[str]
-) -> None:
+def _check_circles(sheet: ReadSheet, expected: Expected, taken: Taken) -> None:
     worst = 0.0
     for circle in expected.circles:
         if circle.centre is None:
@@ -80,14 +77,12 @@ def _check_circles(
             off = min((float(np.abs(r - circle.radius).max()) for r in spokes), default=math.inf)
         worst = max(worst, off)
         told = N_("{layer}: no circle of {radius:.6f} mm within {off:.3g} mm")
-        failures += unless(off <= allowed, told, layer=circle.layer, radius=circle.radius, off=off)
-    measured["circles"] = float(len(expected.circles))
-    measured["circle_deviation"] = worst
+        taken.unless(off <= taken.allowed, told, layer=circle.layer, radius=circle.radius, off=off)
+    taken.measured["circles"] = float(len(expected.circles))
+    taken.measured["circle_deviation"] = worst
 
 
-def _check_curves(
-    sheet: ReadSheet, expected: Expected, allowed: float, measured: dict[str, float], failures: list[str]
-) -> None:
+def _check_curves(sheet: ReadSheet, expected: Expected, taken: Taken) -> None:
     """Every curve of an outline lies on its exact one and reaches both of its ends; missing ones are missed strokes."""
     worst, paper = 0.0, expected.paper
     for layer, curves in expected.curves.items():
@@ -98,64 +93,62 @@ def _check_curves(
             off = float(distance_to_curves(model, [curve]).max())
             ends = np.abs(curve.point(np.array(curve.domain))[:, None] - model).min(1).max()
             worst = max(worst, off * paper.scale, float(ends) * paper.scale)
-    measured["max_deviation"] = worst
-    failures += unless(worst <= allowed, "outlines deviate by {worst:.3g} mm from the exact ones", worst=worst)
+    taken.measured["max_deviation"] = worst
+    taken.unless(worst <= taken.allowed, "outlines deviate by {worst:.3g} mm from the exact ones", worst=worst)
 
 
-def _check_meshing(
-    sheet: ReadSheet, wanted: Meshing, allowed: float, measured: dict[str, float], failures: list[str]
-) -> None:
+def _check_meshing(sheet: ReadSheet, wanted: Meshing, taken: Taken) -> None:
     """The line of action touches the base circles; the contact ratio by both ways of measuring."""
     actions, actives = ([x for x in sheet.lines if x.layer == name] for name in ("LINE_OF_ACTION", "ACTIVE_LINE"))
     arcs = [a for a in sheet.arcs if a.layer == "ARC_OF_ACTION"]
     pitches = [a.radius * a.sweep for a in sheet.arcs if a.layer == "WORKING_PITCH"]
     pitches += [abs(x.end - x.start) for x in sheet.lines if x.layer == "WORKING_PITCH"]
     if not (actions and actives and arcs and pitches):
-        failures.append(fault("the line of action, its active part, the arc of action or the pitch is missing"))
+        taken.failures.append(fault("the line of action, its active part, the arc of action or the pitch is missing"))
         return
     action, active = actions[0], actives[0]
     way = (action.end - action.start) / abs(action.end - action.start)
     for centre, radius in wanted.tangents:
         off = abs(abs(((centre - action.start) / way).imag) - radius)
         told = N_("the line of action misses the base circle of {radius:.6f} mm by {off:.3g} mm")
-        failures += unless(off <= 2 * allowed + 1e-9 * radius, told, radius=radius, off=off)
+        taken.unless(off <= 2 * taken.allowed + 1e-9 * radius, told, radius=radius, off=off)
     for point in (active.start, active.end):
         off = abs(((point - action.start) / way).imag)
-        failures += unless(off <= 2 * allowed, "the active line leaves the line of action by {off:.3g} mm", off=off)
+        taken.unless(off <= 2 * taken.allowed, "the active line leaves the line of action by {off:.3g} mm", off=off)
     base_pitch = 2 * math.pi * wanted.tangents[0][1] / wanted.teeth
     length, arc = abs(active.end - active.start), arcs[0].radius * arcs[0].sweep
-    measured["contact_ratio_by_line"] = length / base_pitch
-    measured["contact_ratio_by_arc"] = arc / pitches[0]
+    taken.measured["contact_ratio_by_line"] = length / base_pitch
+    taken.measured["contact_ratio_by_arc"] = arc / pitches[0]
     for name, value, right in (
         ("active line of action", length, wanted.active_length),
         ("arc of action", arc, wanted.arc_length),
         ("working pitch", pitches[0], wanted.pitch_length),
     ):
         told = N_("the {name} measures {value:.6f} mm instead of {right:.6f} mm")
-        failures += unless(abs(value - right) <= 2 * allowed, told, name=name, value=value, right=right)
+        taken.unless(abs(value - right) <= 2 * taken.allowed, told, name=name, value=value, right=right)
     for name in ("contact_ratio_by_line", "contact_ratio_by_arc"):
-        found, told = measured[name], N_("{name} measures {found:.7f} instead of {wanted:.7f}")
-        near = abs(found - wanted.contact_ratio) <= max(1e-6, 4 * allowed / wanted.pitch_length)
-        failures += unless(near, told, name=name, found=found, wanted=wanted.contact_ratio)
+        found, told = taken.measured[name], N_("{name} measures {found:.7f} instead of {wanted:.7f}")
+        near = abs(found - wanted.contact_ratio) <= max(1e-6, 4 * taken.allowed / wanted.pitch_length)
+        taken.unless(near, told, name=name, found=found, wanted=wanted.contact_ratio)
 
 
-def _check_words(sheet: ReadSheet, canvas: Canvas, measured: dict[str, float], failures: list[str]) -> None:
+def _check_words(sheet: ReadSheet, canvas: Canvas, taken: Taken) -> None:
     """All words stand where they should and none beside, none over another, all in the frame."""
-    _check_places(sheet, canvas, failures)
+    _check_places(sheet, canvas, taken)
     # a rounding less than each: neighbours may touch
     boxes = [_box(t).grown(-sheet.rounding) for t in sheet.texts]
     for index, (box, one) in enumerate(zip(boxes, sheet.texts, strict=True)):
-        failures += unless(box.within(canvas.reach), "{text} leaves the frame", text=one.text)
+        taken.unless(box.within(canvas.reach), "{text} leaves the frame", text=one.text)
         over = (other.text for place, other in zip(boxes[:index], sheet.texts, strict=False) if box.overlaps(place))
-        failures += [fault("{text} stands over {other}", text=one.text, other=other) for other in over]
-    measured["words"] = float(len(boxes))
+        taken.failures += [fault("{text} stands over {other}", text=one.text, other=other) for other in over]
+    taken.measured["words"] = float(len(boxes))
 
 
-def _check_places(sheet: ReadSheet, canvas: Canvas, failures: list[str]) -> None:
+def _check_places(sheet: ReadSheet, canvas: Canvas, taken: Taken) -> None:
     """Every word is at its place, as long, as high and turned as it should be."""
     runs = [run for text in canvas.texts for run in text.runs]
     missing = Counter(run.text for run in runs) - Counter(t.text for t in sheet.texts)
-    failures += unless(not missing, "words are missing: {missing}", missing=", ".join(sorted(missing)))
+    taken.unless(not missing, "words are missing: {missing}", missing=", ".join(sorted(missing)))
     for text in sorted({run.text for run in runs if run.text not in missing} | {t.text for t in sheet.texts}):
         wanted = _rows(_marks(run) for run in runs if run.text == text)
         found = _rows(_marks(t) for t in sheet.texts if t.text == text)
@@ -164,8 +157,8 @@ def _check_places(sheet: ReadSheet, canvas: Canvas, failures: list[str]) -> None
         away, strange = _unmatched(wanted, found, sheet.rounding * max(1.0, longest / _PER_PLACE))
         lost = N_("{text} does not stand at {at} mm as it should")
         more = N_("{text} stands at {at} mm where it should not")
-        failures += [fault(lost, text=text, at=_told(wanted[k, 0])) for k in away]
-        failures += [fault(more, text=text, at=_told(found[k, 0])) for k in strange]
+        taken.failures += [fault(lost, text=text, at=_told(wanted[k, 0])) for k in away]
+        taken.failures += [fault(more, text=text, at=_told(found[k, 0])) for k in strange]
 
 
 def _marks(words: Run | ReadText) -> tuple[complex, complex, complex]:
@@ -173,7 +166,7 @@ def _marks(words: Run | ReadText) -> tuple[complex, complex, complex]:
     return words.at, words.at + words.width * words.way, words.at + 1j * words.height * words.way
 
 
-def _check_strokes(sheet: ReadSheet, canvas: Canvas, allowed: float, failures: list[str]) -> None:
+def _check_strokes(sheet: ReadSheet, canvas: Canvas, taken: Taken) -> None:
     """Every line of every layer is there, and none beside; they are held all along, by what is known of them first."""
     for layer in {s.layer: None for s in canvas.strokes} | {name: None for name, _ in sheet.samples}:
         curves = [s.curve for s in canvas.strokes if s.layer == layer]
@@ -181,13 +174,13 @@ def _check_strokes(sheet: ReadSheet, canvas: Canvas, allowed: float, failures: l
         wanted, found = _rows(_trace(*_sampled(c)) for c in curves), _rows(map(_trace, samples))
 
         def follows(k: int, n: int, curves: list[CadCurve] = curves, samples: list[Complex] = samples) -> bool:
-            return _follows(samples[n], curves[k], allowed)
+            return _follows(samples[n], curves[k], taken.allowed)
 
-        away, strange = _unmatched(wanted, found, allowed, follows)
+        away, strange = _unmatched(wanted, found, taken.allowed, follows)
         lost = N_("{layer}: no line from {start} to {end} mm")
         more = N_("{layer}: a line too many from {start} to {end} mm")
         for text, row in (*((lost, wanted[k]) for k in away), *((more, found[k]) for k in strange)):
-            failures.append(fault(text, layer=layer, start=_told(row[0]), end=_told(row[2])))
+            taken.failures.append(fault(text, layer=layer, start=_told(row[0]), end=_told(row[2])))
 
 
 def _sampled(curve: CadCurve) -> tuple[Complex, bool]:
@@ -259,8 +252,8 @@ def _box(text: ReadText) -> Box:
     return Box.of((text.at, far))
 
 
-def _check_frame(sheet: ReadSheet, frame: Box, failures: list[str]) -> None:
+def _check_frame(sheet: ReadSheet, frame: Box, taken: Taken) -> None:
     """Nothing is drawn beyond the frame."""
     for layer, points in sheet.samples:
         held = len(points) == frame.grown(1e-9).holds(points)
-        failures += unless(held, "{layer}: a curve leaves the frame", layer=layer)
+        taken.unless(held, "{layer}: a curve leaves the frame", layer=layer)

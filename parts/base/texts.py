@@ -4,8 +4,8 @@ A text is a msgid, or a ``Message``: a msgid with the numbers for its ``{name}``
 language is known. Data keep texts; ``words(language).say(text)`` tells them. English reads no file.
 
 The marks that the extraction finds (``python -m tests.catalogues``): ``N_``, ``NC_``, ``message``, ``fault``,
-``unless``, ``counted``, ``in_context`` and the methods ``text``, ``plural``, ``term``, ``note`` and ``section``, where
-their msgids are literals.
+``unless``, ``counted``, ``in_context`` and the methods ``unless``, ``text``, ``plural``, ``term``, ``note`` and
+``section``, where their msgids are literals.
 """
 
 from __future__ import annotations

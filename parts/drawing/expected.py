@@ -8,14 +8,14 @@ from geometry.base.findings import Finding
 from geometry.base.record import Record, field
 from geometry.curves.curve import Curve
 from parts.drawing.canvas import Canvas, Paper
-from parts.drawing.readback import ReadSheet
+from parts.drawing.readback import ReadSheet, Taken
 
 
 class Measures(Protocol):
     """What else is measured off a sheet of one family of parts."""
 
-    def check(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
-        """Add what is measured, and what is wrong; ``allowed`` in mm on paper."""
+    def check(self, sheet: ReadSheet, taken: Taken) -> None:
+        """Add what is measured, and what is wrong."""
         ...
 
 

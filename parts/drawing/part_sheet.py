@@ -13,13 +13,13 @@ from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc
 from geometry.plane.measure import distance_to_curve
-from parts.base.texts import N_, fault, unless
+from parts.base.texts import N_, fault
 from parts.drawing.canvas import SCALES, SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text, text_width
 from parts.drawing.cells import wrapped
 from parts.drawing.choice import Asked, blank, sheet_for
 from parts.drawing.dimensioning import Laid, laid, moved, rough_sign
 from parts.drawing.expected import Expected
-from parts.drawing.readback import ReadSheet
+from parts.drawing.readback import ReadSheet, Taken
 from parts.drawing.title_block import TITLE_BLOCK, turned_box
 from parts.drawing.working import PartDrawing, Stroke, View, number_text
 from parts.texts.sheets import sheet_words
@@ -56,7 +56,7 @@ class PartMeasures(Record):
     canvas: Canvas
     outlines: tuple[tuple[Paper, str, Curve], ...]
 
-    def check(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+    def check(self, sheet: ReadSheet, taken: Taken) -> None:
         """Hold the file against the model."""
         worst = 0.0
         drawn = {name: [points for layer, points in sheet.samples if layer == name] for name, _ in sheet.samples}
@@ -70,22 +70,22 @@ class PartMeasures(Record):
                 model = (drawn[layer][k] - paper.origin) / paper.scale
                 off = min(off, float(distance_to_curve(model, curve).max()) * paper.scale)
             worst = max(worst, off)
-        measured["max_deviation"] = worst
-        failures += unless(worst <= allowed, "outlines deviate by {worst:.3g} mm from the exact ones", worst=worst)
+        taken.measured["max_deviation"] = worst
+        taken.unless(worst <= taken.allowed, "outlines deviate by {worst:.3g} mm from the exact ones", worst=worst)
         if sheet.dimensions is None:
             return
         wanted = self.canvas.dimensions
         if len(sheet.dimensions) != len(wanted):
-            failures.append(
+            taken.failures.append(
                 fault("{count} dimensions instead of {wanted}", count=len(sheet.dimensions), wanted=len(wanted))
             )
             return
         off = max((abs(a.value - b.value) for a, b in zip(sheet.dimensions, wanted, strict=True)), default=0.0)
-        measured["dimensions"], measured["dimension_deviation"] = float(len(wanted)), off
-        failures += unless(off <= _SAME, "a dimension measures {off:.3g} beside the model", off=off)
+        taken.measured["dimensions"], taken.measured["dimension_deviation"] = float(len(wanted)), off
+        taken.unless(off <= _SAME, "a dimension measures {off:.3g} beside the model", off=off)
         told = N_("a dimension says {text} instead of {other}")
         for read, one in zip(sheet.dimensions, wanted, strict=True):
-            failures += unless(read.text == one.text, told, text=read.text, other=one.text)
+            taken.unless(read.text == one.text, told, text=read.text, other=one.text)
 
 
 class Block(Record):

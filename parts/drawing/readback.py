@@ -8,7 +8,7 @@ import numpy as np
 
 from geometry.base.record import Draft, Record, field
 from geometry.curves.curve import Complex
-from parts.base.texts import fault
+from parts.base.texts import fault, unless
 
 # samples of each curve, or of each smooth span of it
 PER_CURVE = 13
@@ -79,6 +79,18 @@ class ReadSheet(Draft):
         """An arc with its samples; angles in rad."""
         self.arcs.append(ReadArc(layer, centre, radius, abs(sweep)))
         self.samples.append((layer, centre + radius * np.exp(1j * (first + sweep * np.linspace(0, 1, PER_CURVE)))))
+
+
+class Taken(Draft):
+    """What is measured off a sheet, and what is wrong with it; ``allowed``: mm on paper that all may be off."""
+
+    allowed: float
+    measured: dict[str, float] = field(default_factory=dict)
+    failures: list[str] = field(default_factory=list)
+
+    def unless(self, well: object, msgid: str, /, **numbers: object) -> None:
+        """What is wrong with the sheet where it is not well in something."""
+        self.failures += unless(well, msgid, **numbers)
 
 
 def lines_missing(layer: str, found: Sized, wanted: Sized) -> str:

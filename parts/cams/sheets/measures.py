@@ -8,9 +8,9 @@ import numpy as np
 
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Curve, Real
-from parts.base.texts import N_, fault, unless
+from parts.base.texts import N_, fault
 from parts.drawing.canvas import Paper
-from parts.drawing.readback import ReadLine, ReadSheet
+from parts.drawing.readback import ReadLine, ReadSheet, Taken
 
 _SAMPLES = 257
 _SECTIONS = 64
@@ -33,7 +33,7 @@ class CamMeasures(Record):
     offset: float = 0.0
     least_radius: float = 0.0
 
-    def check(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+    def check(self, sheet: ReadSheet, taken: Taken) -> None:
         """Add what is measured, and what is wrong."""
         worst = 0.0
         for layer, curves in self.curves.items():
@@ -43,14 +43,14 @@ class CamMeasures(Record):
                 ends = curve.point(np.array(curve.domain))
                 worst = max(worst, float(distance_by_sections(points, curve).max()))
                 worst = max(worst, float(np.abs(ends[:, None] - points).min(axis=1).max()))
-        measured["diagram_deviation"] = worst
-        failures += unless(worst <= allowed, "diagrams deviate by {worst:.3g} mm from the exact ones", worst=worst)
-        self._check_lines(sheet, allowed, measured, failures)
-        self._check_lift(sheet, allowed, measured, failures)
+        taken.measured["diagram_deviation"] = worst
+        taken.unless(worst <= taken.allowed, "diagrams deviate by {worst:.3g} mm from the exact ones", worst=worst)
+        self._check_lines(sheet, taken)
+        self._check_lift(sheet, taken)
         if self.joint is not None:
-            self._check_radius(sheet, allowed, measured, failures)
+            self._check_radius(sheet, taken)
 
-    def _check_lines(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+    def _check_lines(self, sheet: ReadSheet, taken: Taken) -> None:
         """Every line of the construction is there, whichever way it runs."""
         worst = 0.0
         rows: dict[str, tuple[Complex, Complex]] = {}
@@ -66,36 +66,36 @@ class CamMeasures(Record):
                 off = float(np.minimum(along, back).min())
             worst = max(worst, off)
             at = f"({start.real:.3f}, {start.imag:.3f}) - ({end.real:.3f}, {end.imag:.3f})"
-            failures += unless(off <= allowed, "{layer}: no line {at} within {off:.3g} mm", layer=layer, at=at, off=off)
-        measured["lines"] = float(len(self.lines))
-        measured["line_deviation"] = worst
+            taken.unless(off <= taken.allowed, "{layer}: no line {at} within {off:.3g} mm", layer=layer, at=at, off=off)
+        taken.measured["lines"] = float(len(self.lines))
+        taken.measured["line_deviation"] = worst
 
-    def _check_lift(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+    def _check_lift(self, sheet: ReadSheet, taken: Taken) -> None:
         """The highest ordinate of S times mu_S is the stroke."""
         heights = [points.imag for name, points in sheet.samples if name == "DIAGRAM_LIFT"]
         if not heights:
             return
         every = np.concatenate(heights)
-        measured["lift_by_diagram"] = lift = float(every.max() - every.min()) * self.lift_scale
+        taken.measured["lift_by_diagram"] = lift = float(every.max() - every.min()) * self.lift_scale
         # an extreme within a curve lies between its samples: of a table of points only
-        near = lift <= self.lift + 2 * allowed * self.lift_scale
+        near = lift <= self.lift + 2 * taken.allowed * self.lift_scale
         told = N_("the diagram of S measures {measured:.6f} instead of {lift:.6f}")
-        failures += unless(near, told, measured=lift, lift=self.lift)
+        taken.unless(near, told, measured=lift, lift=self.lift)
 
-    def _check_radius(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+    def _check_radius(self, sheet: ReadSheet, taken: Taken) -> None:
         """The lowest point in which a tangent at gamma_min meets the line of the offset is the nearest axis."""
         assert self.joint is not None
         tangents = [x for x in sheet.lines if x.layer == "GAMMA_TANGENT"]
         if not tangents:
-            failures.append(fault("the tangents of the joint diagram are missing"))
+            taken.failures.append(fault("the tangents of the joint diagram are missing"))
             return
         model = [self._height(x) for x in tangents]
         height = min(*model, 0.0)
-        measured["least_radius_by_diagram"] = found = math.hypot(self.offset, height)
+        taken.measured["least_radius_by_diagram"] = found = math.hypot(self.offset, height)
         off = abs(found - self.least_radius) * self.joint.scale
         text = f"{found:.6f} mm instead of {self.least_radius:.6f} mm"
         # the ends of a line carry its middle
-        failures += unless(off <= 8 * allowed, "the tangents give the least radius {text}", text=text)
+        taken.unless(off <= 8 * taken.allowed, "the tangents give the least radius {text}", text=text)
 
     def _height(self, line: ReadLine) -> float:
         assert self.joint is not None

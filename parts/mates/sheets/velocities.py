@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from geometry.base.record import Record
-from parts.base.texts import N_, unless
+from parts.base.texts import N_
 from parts.drawing.canvas import Box, Canvas, standard_scale
 from parts.drawing.labels import Labeller
-from parts.drawing.readback import ReadLine, ReadSheet, lines_missing
+from parts.drawing.readback import ReadLine, ReadSheet, Taken, lines_missing
 from parts.mates.sheets.train_picture import TrainPicture
 
 # a link that turns less than this share of the fastest is a point on the pole line, which no divider measures, and so
@@ -127,29 +127,29 @@ class PlanMeasures(Record):
 
     plans: Plans
 
-    def check(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+    def check(self, sheet: ReadSheet, taken: Taken) -> None:
         """The ratio of every link by both plans; each line where it belongs."""
         links, driver = self.plans.train.links, self.plans.train.driver
         for layer, wanted in (("VELOCITY", self.plans.spans()), ("ANGULAR_VELOCITY", self.plans.rays())):
             found = [x for x in sheet.lines if x.layer == layer]
             if len(found) != len(wanted):
-                failures.append(lines_missing(layer, found, wanted))
+                taken.failures.append(lines_missing(layer, found, wanted))
                 continue
             off = max(max(abs(x.start - a), abs(x.end - b)) for x, (_, a, b) in zip(found, wanted, strict=True))
-            measured[f"{layer.lower()}_deviation"] = off
-            failures += unless(off <= allowed, "{layer}: a line is {off:.3g} mm off", layer=layer, off=off)
+            taken.measured[f"{layer.lower()}_deviation"] = off
+            taken.unless(off <= taken.allowed, "{layer}: a line is {off:.3g} mm off", layer=layer, off=off)
             slopes = {link: _slope(line) for line, (link, _, _) in zip(found, wanted, strict=True)}
             for link, slope in slopes.items():
                 if link == driver or not abs(slope) > _LEAST * max(map(abs, slopes.values())):
                     continue
                 name = f"ratio_{links[driver].name}_{links[link].name}_by_{layer.lower()}"
                 ratio, right = slopes[driver] / slope, float(1 / links[link].rate)
-                measured[name] = ratio
+                taken.measured[name] = ratio
                 # the guidelines read it off a drawing: within a thousandth, where the dividers' points allow it
                 least = min(abs((x.end - x.start).real) for x in found)
-                near = abs(ratio / right - 1) <= max(1e-3, 8 * allowed / max(least, 1e-300))
+                near = abs(ratio / right - 1) <= max(1e-3, 8 * taken.allowed / max(least, 1e-300))
                 told = N_("{name} measures {ratio:.6g} instead of {right:.6g}")
-                failures += unless(near, told, name=name, ratio=ratio, right=right)
+                taken.unless(near, told, name=name, ratio=ratio, right=right)
 
 
 def _slope(line: ReadLine) -> float:

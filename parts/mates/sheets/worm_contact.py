@@ -14,12 +14,11 @@ from geometry.base.record import Record, replace
 from geometry.curves.bspline import BSpline, basis_matrix
 from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.field import Field
-from parts.base.texts import unless
 from parts.drawing.canvas import Box, Canvas, Paper, decimal, scale_text
 from parts.drawing.choice import Asked, sheet_for
 from parts.drawing.expected import Expected
 from parts.drawing.labels import Labeller
-from parts.drawing.readback import ReadSheet, lines_missing
+from parts.drawing.readback import ReadSheet, Taken, lines_missing
 from parts.drawing.table import Row, Table
 from parts.mates.worm import WormMating
 from parts.texts.sheets import sheet_words
@@ -91,14 +90,14 @@ class WormMeasures(Record):
 
     curves: tuple[_View, ...]
 
-    def check(self, sheet: ReadSheet, allowed: float, measured: dict[str, float], failures: list[str]) -> None:
+    def check(self, sheet: ReadSheet, taken: Taken) -> None:
         """Deviation of lines of contact and of the fields' borders on paper, mm."""
         worst = 0.0
         for layer in (_NOW, _LATER, *_FIELDS, _TOOTH):
             wanted = [curve for curve in self.curves if curve.layer == layer]
             found = [points for name, points in sheet.samples if name == layer]
             if len(found) < len(wanted):
-                failures.append(lines_missing(layer, found, wanted))
+                taken.failures.append(lines_missing(layer, found, wanted))
                 continue
             # files keep the order of drawing within a layer
             for points, curve in zip(found, wanted, strict=False):
@@ -109,8 +108,8 @@ class WormMeasures(Record):
                 at = np.clip(heights[some], low, high)
                 off = np.abs(model[some] - curve.points(at, curve.line.exact(at))).max()
                 worst = max(worst, curve.paper.scale * float(max(off, ends)))
-        measured["contact_line_deviation"] = worst
-        failures += unless(worst <= allowed, "lines of contact are {worst:.3g} mm off", worst=worst)
+        taken.measured["contact_line_deviation"] = worst
+        taken.unless(worst <= taken.allowed, "lines of contact are {worst:.3g} mm off", worst=worst)
 
 
 def worm_sheet(mating: WormMating, field: Field, title: str, asked: Asked) -> Expected:

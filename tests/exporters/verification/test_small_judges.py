@@ -14,7 +14,7 @@ from exporters.drawings.verify import _check_circles
 from exporters.formats.read_solid import Model
 from exporters.verification import area
 from exporters.verification.board import BoardPiece
-from parts.drawing.readback import ReadSheet
+from parts.drawing.readback import ReadSheet, Taken
 
 
 @pytest.mark.parametrize("turn_deg", [-90, 0, 90, 180, 270, 360, 450])
@@ -60,8 +60,7 @@ def test_a_pitch_line_is_one_of_the_lines_of_its_layer(radius: float, found: boo
         sheet.add_line("AXES", start, end)
     sheet.add_line("THIN", 0 + 10.002j, 9 + 10.002j)
     circles = [SimpleNamespace(layer="AXES", radius=radius, centre=None)]
-    measured: dict[str, float] = {}
-    failures: list[str] = []
-    _check_circles(sheet, cast("Any", SimpleNamespace(circles=circles)), 1e-3, measured, failures)
-    assert len(failures) == (not found)
-    assert measured == {"circles": 1, "circle_deviation": pytest.approx(5e-4 if found else 2e-3)}
+    taken = Taken(1e-3)
+    _check_circles(sheet, cast("Any", SimpleNamespace(circles=circles)), taken)
+    assert len(taken.failures) == (not found)
+    assert taken.measured == {"circles": 1, "circle_deviation": pytest.approx(5e-4 if found else 2e-3)}

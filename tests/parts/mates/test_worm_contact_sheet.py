@@ -12,7 +12,7 @@ import pytest
 from exporters.production.plan import plan_build
 from geometry.curves.line_arc import Line
 from parts.drawing.labels import nearest
-from parts.drawing.readback import ReadSheet
+from parts.drawing.readback import ReadSheet, Taken
 from parts.mates.sheets.worm_contact import WormMeasures
 from parts.scene.load import scene_from_toml
 from tests.exporters.production.test_worm_sheet import PAIR
@@ -147,10 +147,9 @@ def test_damage_is_told() -> None:
     measures = WormMeasures(tuple(wanted))
 
     def told() -> tuple[float, list[str]]:
-        measured: dict[str, float] = {}
-        failures: list[str] = []
-        measures.check(sheet, 1e-3, measured, failures)
-        return measured["contact_line_deviation"], failures
+        taken = Taken(1e-3)
+        measures.check(sheet, taken)
+        return taken.measured["contact_line_deviation"], taken.failures
 
     off, failures = told()
     assert off < 1e-3
