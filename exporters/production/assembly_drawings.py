@@ -22,7 +22,6 @@ from parts.drawing.extent import farthest
 from parts.drawing.working import AXIS, VISIBLE, Size
 from parts.scene.parts_list import list_rows
 from parts.scene.placing import PlacedMate, Placing
-from parts.scene.standing import UPWARDS
 
 # what is one place, mm
 _SAME = 1e-6
@@ -74,10 +73,7 @@ def _line_of_centres(placing: Placing, wanted: set[str]) -> tuple[complex, compl
 def _pitch_lines(placing: Placing, wanted: set[str], centre: complex, way: complex) -> Iterator[tuple[str, Curve]]:
     """The pitch lines of chains that run upright: arcs through their seated pins, and straight strands between."""
     for mate in placing.mates:
-        if mate.first.axis != UPWARDS or not {mate.first.part, mate.second.part} <= wanted:
-            continue
-        found = mate.mating.rollers((mate.first.centre, mate.first.rotation), mate.direction)
-        if found is None:
+        if not {mate.first.part, mate.second.part} <= wanted or (found := mate.rollers()) is None:
             continue
         pins, ends = (found[0] - centre) / way, list[complex]()
         for axis in ((one.centre - centre) / way for one in (mate.first, mate.second)):

@@ -23,17 +23,13 @@ from geometry.base.errors import Nearest, rounded
 from geometry.base.findings import Finding
 from geometry.base.record import Record, replace
 from geometry.plane.contour import Approximation, Contour
-from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Profile, Region
-from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.keys.boards import BoardSpec
 from parts.scene.boards import parts_of_board, pieces_of
 from parts.scene.load import ExportSpec
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from shapely.geometry.base import BaseGeometry
 
 # outlines are laid as chords so near to them, mm; places are told to so many decimals
@@ -96,11 +92,7 @@ class BoardJob(Record, PartsJob):
         return verify_board(file, self.export.kind, expected, declared, self.tolerance)
 
 
-def board_jobs(
-    asked: Request,
-    section: Callable[[Part, ExportSpec, str, str, float], OffsetRegion],
-    layouts: dict[object, list[Laid]],
-) -> list[BoardJob]:
+def board_jobs(asked: Request, layouts: dict[object, list[Laid]]) -> list[BoardJob]:
     """The files of one export: every board of every table, counted through.
 
     ``layouts``: those that are made already, which exports of one scene share.
@@ -114,12 +106,10 @@ def board_jobs(
     parts, export, source = asked.parts, asked.export, asked.source
     for name, board in asked.scene.boards.items():
         place = f"boards.{name}"
-        own = with_keys(export, kerf=board.kerf)
+        own = replace(asked, export=with_keys(export, kerf=board.kerf), where=place)
         wanted = [p for p in parts_of_board(board, parts, source, place) if p in asked.wanted]
         counts = pieces_of(board, wanted, asked.scene.instances, source, place)
-        jobs = {
-            p: Job(parts[p], own, section(parts[p], own, source, place, board.gap), "", asked.where) for p in counts
-        }
+        jobs = {p: Job(parts[p], own.export, own.section(parts[p], board.gap), "", asked.where) for p in counts}
         key = (name, tuple(counts), export.tolerance)
         if key not in layouts:
             layouts[key] = _laid_out(board, jobs, counts, source, place)
@@ -127,7 +117,7 @@ def board_jobs(
         for pieces, times in different_boards(laid):
             members = tuple(jobs[p] for p in dict.fromkeys(piece.part for piece in pieces))
             path = f"{asked.stem}.{len(found) + 1}.{export.format}"
-            found.append(BoardJob(own, name, board, members, pieces, times, path, asked.where))
+            found.append(BoardJob(own.export, name, board, members, pieces, times, path, asked.where))
     return found
 
 

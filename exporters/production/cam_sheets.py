@@ -34,7 +34,7 @@ def cam_sheets(wanted: Request, asked: Asked) -> list[tuple[str, Expected]]:
     for part in export.parts or []:
         if part not in cams:
             code, told = "draws_only" if cams else "draws_only_what_is_not_here", {"kinds": _DRAWN, "known": cams}
-            raise wanted.refused("parts", part, code, meant(part, cams), **told)
+            raise wanted.refused("parts", part, code, meant(part, cams), "", **told)
     if not cams:
         raise wanted.refused("purpose", export.purpose, "draws_only_what_is_not_here", kinds=_DRAWN)
     intervals, found = export.intervals or INTERVALS, []

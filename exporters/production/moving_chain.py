@@ -12,7 +12,6 @@ from geometry.base.record import Record
 from geometry.curves.curve import Complex
 from parts.scene.placing import PlacedMate
 from parts.scene.relative_path import Course
-from parts.scene.standing import UPWARDS
 
 # half of the width of a link between its ends, by that at its ends; stands in a pitch
 _WAIST, _STANDS = 0.6, 16
@@ -34,10 +33,10 @@ class MovingChain(Record, dict=True):
 
     def _pins(self) -> tuple[Complex, float]:
         """Pins (t, links) in order at even shares of a pitch, and half of the width of a link, mm."""
-        first, mating, rows, half = self.mate.first, self.mate.mating, list[Complex](), 0.0
-        step = math.copysign(2 * math.pi / mating.teeth[0], self.pitches)
+        rows, half = list[Complex](), 0.0
+        step = math.copysign(2 * math.pi / self.mate.mating.teeth[0], self.pitches)
         for share in np.linspace(0, 1, _STANDS + 1).tolist():
-            found = mating.rollers((first.centre, first.rotation + share * step), self.mate.direction)
+            found = self.mate.rollers(share * step)
             assert found is not None
             pins, half = found
             rows.append(pins if not rows else np.roll(pins, -int(np.abs(pins - rows[-1][0]).argmin())))
@@ -59,9 +58,7 @@ def moving_chains(mates: Sequence[PlacedMate], course: Course, loop: float) -> I
     """The chains that run upright about axes that stay, through whole pitches in a loop."""
     for mate in mates:
         rates = course.rates.get(mate.first.id, ())
-        pose = mate.first.centre, mate.first.rotation
-        known = len(rates) == 1 and mate.first.id not in course.once and mate.first.axis == UPWARDS
-        if not known or mate.mating.rollers(pose, mate.direction) is None:
+        if len(rates) != 1 or mate.first.id in course.once or mate.rollers() is None:
             continue
         pitches = loop * float(rates[0]) * mate.mating.teeth[0]
         if round(pitches) and math.isclose(pitches, round(pitches), rel_tol=1e-9):

@@ -8,17 +8,15 @@ from typing import TYPE_CHECKING, Any
 from msgspec.structs import replace as with_keys
 
 from exporters.production.jobs import AssemblyJob, FileJob, Job, assembly_name
-from exporters.production.request import Request
-from geometry.base.errors import GeometryError, OffsetError, ParameterError, format_value
+from exporters.production.request import Request, is_flat
+from geometry.base.errors import format_value
 from geometry.base.record import Record, replace
-from geometry.plane.offset_region import OffsetRegion
 from parts.base.part import Part
-from parts.base.reasons import reason
-from parts.base.refusal import REMOVED, SceneError, meant, placed
-from parts.base.texts import N_, Message, Text, filled, message
+from parts.base.refusal import REMOVED, SceneError, meant
+from parts.base.texts import N_, Message, Text, message
 from parts.keys.boards import PURPOSES_LAID
 from parts.keys.sheet import on_sheet
-from parts.scene.formats import FORMATS, OF_SCENES, Form
+from parts.scene.formats import FORMATS, OF_SCENES
 from parts.scene.load import ExportSpec, SceneFile, default_export, in_keys_of_file, make_parts
 from parts.scene.placing import Placing, place
 
@@ -121,7 +119,7 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
             continue
         asked = Request(scene, placing, parts, export, where, source)
         if on_sheet(export.format, export.purpose):
-            bodies = [p for p in asked.wanted if export.purpose == "model" and not _is_flat(parts[p])]
+            bodies = [p for p in asked.wanted if export.purpose == "model" and not is_flat(parts[p])]
             if bodies and export.parts:
                 raise asked.refused("parts", bodies[0], "no_flat_outline")
             left_out += [_no_outline(where, p) for p in bodies]
@@ -152,23 +150,20 @@ def _planned(scene: SceneFile, source: str, only_parts: list[str], only_formats:
         for part_id in asked.wanted:
             if only_parts and part_id not in only_parts:
                 continue
-            if not (export.parts or export.kind.is_solid or _is_flat(parts[part_id])):
+            if not (export.parts or export.kind.is_solid or is_flat(parts[part_id])):
                 left_out.append(_no_outline(where, part_id))
                 flat.append(where)
                 continue
             path = "" if export.assembly else _file_name(part_id, export, [e for _, e in exports])
             _take(path, where, taken, source)
             try:
-                job = Job(parts[part_id], export, _section(parts[part_id], export, source, where), path, where)
-                if job.kind.is_solid:
-                    _check_body(job, source)
+                made.append(asked.job(parts[part_id], path))
             except SceneError as refusal:
                 others = [p for p in asked.wanted if not parts[p].made_by.unmoved]
                 if refusal.code != "of_part" or not others or part_id in others:
                     raise
                 numbers = {**refusal.numbers, "others": [format_value(p) for p in others]}
                 raise SceneError(source, refusal.key, refusal.value, "of_part_alone", None, "", **numbers) from refusal
-            made.append(job)
         if not export.assembly:
             jobs += made
         else:
@@ -205,24 +200,14 @@ def _laid(asked: Request, layouts: dict[object, list[Any]]) -> Sequence[BoardJob
     if asked.export.purpose == "board":
         from exporters.production.boards import board_jobs
 
-        return board_jobs(asked, _section, layouts)
+        return board_jobs(asked, layouts)
     from exporters.production.plates import plate_jobs
 
-    def solid(part: Part) -> Job:
-        job = Job(part, asked.export, _section(part, asked.export, asked.source, asked.where), "", asked.where)
-        _check_body(job, asked.source)
-        return job
-
-    return plate_jobs(asked, solid)
+    return plate_jobs(asked)
 
 
 # the purposes of sheets that show one part each
 _OF_ONE = ("cam", "model", "part")
-
-
-def _is_flat(part: Part) -> bool:
-    """Whether flat files can hold a part."""
-    return part.made_by.has_outline or part.is_plate
 
 
 def _no_outline(where: str, part: str) -> LeftOut:
@@ -264,22 +249,6 @@ def _take(path: str, where: str, taken: dict[str, Text], source: str) -> None:
     taken[path.lower()] = where
 
 
-def _check_body(job: Job, source: str) -> None:
-    """Refuse a solid that does not exist, in the key that asks for it."""
-    try:
-        _ = job.body
-    except ParameterError as refusal:
-        if refusal.name == "offset":
-            why = filled(reason(refusal.code), **refusal.numbers)
-            raise SceneError(
-                source, f"{job.place}.offset", refusal.value, "of_part", refusal.nearest, "mm",
-                part=job.part.id, why=why,
-            ) from refusal  # fmt: skip
-        from parts.scene.checks import solid_refused
-
-        raise solid_refused(job.part, refusal, source) from refusal
-
-
 def _wanted_exports(scene: SceneFile, source: str, only_formats: list[str]) -> list[tuple[str, ExportSpec]]:
     """The scene's exports with their places; formats asked for on the command line alone get their defaults."""
     exports = [(f"exports[{i + 1}]", e) for i, e in enumerate(scene.exports)]
@@ -312,22 +281,3 @@ def _assembly_path(scene: SceneFile, export: ExportSpec, exports: list[ExportSpe
     parts = {p.lower() for e in alike if not e.assembly for p in e.parts or scene.parts}
     word = ".assembly" if scene.name.lower() in parts else ""
     return f"{scene.name}{word}.{export.format}"
-
-
-def _section(part: Part, export: ExportSpec, source: str, place: str, gap: float | None = None) -> OffsetRegion:
-    """The exact section with the export's kerf or offset, refused in the export's own key; ``gap``: its board's, mm."""
-    try:
-        offset, kind = export.kerf / 2 if export.kerf else export.offset, export.kind
-        if not (kind.is_solid or _is_flat(part)):
-            raise SceneError(source, f"{place}.parts", part.id, "no_flat_outline")
-        return part.cut(offset, gap) if kind.form is Form.ARCS else part.section(offset)
-    except OffsetError as error:
-        key, given, cure = "offset", export.offset, error.nearest
-        if export.kerf:
-            key, given, cure = "kerf", export.kerf, cure and cure.scaled(2)
-        why = filled(reason(error.code))
-        raise SceneError(source, f"{place}.{key}", given, "of_part", cure, "mm", part=part.id, why=why) from error
-    except ParameterError as error:
-        raise placed(source, f"parts.{part.id}", error) from error
-    except GeometryError as error:
-        raise SceneError(source, f"parts.{part.id}", None, "no_outline", None, why=str(error)) from error

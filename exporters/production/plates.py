@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from exporters.boards.nest import QUARTERS, Laid, Room, lacking, largest_scale, nest
@@ -15,7 +15,6 @@ from exporters.verification.board import BoardPiece
 from geometry.base.errors import rounded
 from geometry.base.findings import Finding
 from geometry.base.record import replace
-from parts.base.part import Part
 from parts.base.refusal import SceneError
 from parts.base.texts import Message, listed
 from parts.keys.boards import BedSpec
@@ -66,7 +65,7 @@ class PlateJob(AssemblyJob):
         return replace(super().expected, bed=self.bed)
 
 
-def plate_jobs(asked: Request, job_of: Callable[[Part], Job]) -> list[PlateJob]:
+def plate_jobs(asked: Request) -> list[PlateJob]:
     """The files of one export: every plate of every bed, counted through.
 
     Raises
@@ -81,7 +80,7 @@ def plate_jobs(asked: Request, job_of: Callable[[Part], Job]) -> list[PlateJob]:
         made = [p for p, part in asked.parts.items() if export.parts or not part.is_bought]
         wanted = [p for p in bed.parts or made if p in asked.wanted]
         counts = pieces_of(bed, wanted, scene.instances, asked.source, place)
-        jobs = {p: job_of(asked.parts[p]) for p in counts}
+        jobs = {p: asked.job(asked.parts[p]) for p in counts}
         feet = {p: _footprint(job) for p, job in jobs.items()}
         laid = _laid_out(bed, feet, counts, asked.source, place)
         for pieces, times in different_boards(laid):

@@ -169,9 +169,7 @@ def _chains(plan: Plan, shift: complex, corner: complex, reach: float) -> list[s
     """The rollers of every chain that runs upright, and the line through their centres."""
     lines, line = [], f"stroke-width:{reach / 600:.4g}"
     for mate in plan.placing.mates:
-        pose = mate.first.centre, mate.first.rotation
-        found = mate.mating.rollers(pose, mate.direction) if mate.first.axis == UPWARDS else None
-        if found is None:
+        if (found := mate.rollers()) is None:
             continue
         centres, radius = found[0] + shift, found[1]
         data = path_data(Contour(centres, np.zeros(len(centres))), corner)

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +21,7 @@ from geometry.base.record import Record
 from geometry.gears.pictures.meshing import MeshingPicture, meshing_picture
 from geometry.gears.teeth.limits import practicum_undercut
 from geometry.gears.teeth.transverse import overlap_ratio
+from parts.base.lazy import Registry
 from parts.base.mate import Toothed
 from parts.base.materials import material_told
 from parts.base.part import Part
@@ -99,17 +99,20 @@ class SheetJob(Record, FileJob):
         return worst, "sampled" if any(canvas.sampled for canvas in canvases) else "certified"
 
 
-# what makes the sheets of a purpose, in this room: made(request, asked) gives each with the word of its name
-_MAKERS = {
-    "model": ("paper_models", "paper_models"),
-    "generating": ("sheets", "generating_sheets"),
-    "cam": ("cam_sheets", "cam_sheets"),
-    "parts_list": ("parts_lists", "list_pages"),
-    "part": ("part_drawings", "part_drawings"),
-    "assembly": ("assembly_drawings", "assembly_drawings"),
-    "train": ("train_sheets", "train_sheets"),
-    "meshing": ("sheets", "meshing_sheets"),
-}
+_HERE = "exporters.production"
+# what makes the sheets of a purpose: each with the word of its name
+_MAKERS: Registry[Callable[[Request, Asked], list[tuple[str, Expected]]]] = Registry(
+    {
+        "model": f"{_HERE}.paper_models:paper_models",
+        "generating": f"{_HERE}.sheets:generating_sheets",
+        "cam": f"{_HERE}.cam_sheets:cam_sheets",
+        "parts_list": f"{_HERE}.parts_lists:list_pages",
+        "part": f"{_HERE}.part_drawings:part_drawings",
+        "assembly": f"{_HERE}.assembly_drawings:assembly_drawings",
+        "train": f"{_HERE}.train_sheets:train_sheets",
+        "meshing": f"{_HERE}.sheets:meshing_sheets",
+    }
+)
 
 
 def sheet_jobs(wanted: Request) -> list[SheetJob]:
@@ -125,14 +128,12 @@ def sheet_jobs(wanted: Request) -> list[SheetJob]:
     # the rounding of the file's numbers takes its share first
     share = sheet_rounding(Path(f"sheet.{export.format}"))
     asked = Asked(language, tolerance - share, _band(export), export.paper, export.scale, export.cells == "empty")
-    module, name = _MAKERS[export.purpose or "meshing"]
-    made: list[tuple[str, Expected]]
     try:
         if export.format == "pdf":
             from exporters.drawings.pdf import check_pdf
 
             check_pdf(tolerance)
-        made = getattr(import_module(f"exporters.production.{module}"), name)(wanted, asked)
+        made = _MAKERS[export.purpose or "meshing"](wanted, asked)
     except ParameterError as error:
         raise placed(wanted.source, wanted.where, error, unit_of(ExportSpec, error.name)) from error
     for number, (word, expected) in enumerate(made, 1):

@@ -23,6 +23,7 @@ from parts.scene.standing import UPWARDS, Instance
 if TYPE_CHECKING:
     from fractions import Fraction
 
+    from geometry.curves.curve import Complex
     from parts.base.mate import Mating
     from parts.scene.train import Train
 
@@ -67,6 +68,11 @@ class PlacedMate(Record):
         """Direction of the line of centres as placed, about the first's axis from its x as it is laid, rad."""
         first, second = seen_from(self.first, self.second)
         return self.mating.centres_direction(second.centre - first.centre, second.axis)
+
+    def rollers(self, turned: float = 0.0) -> tuple[Complex, float] | None:
+        """The rollers of a chain that runs upright, its first ``turned`` on, rad, and their radius, mm; else None."""
+        pose = self.first.centre, self.first.rotation + turned
+        return self.mating.rollers(pose, self.direction) if self.first.axis == UPWARDS else None
 
 
 class Closeness(Record):
