@@ -9,6 +9,7 @@ import re
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import takewhile
+from pathlib import Path
 from textwrap import wrap
 from typing import Any
 
@@ -144,7 +145,7 @@ def new_mate(kind: str, language: str = ENGLISH) -> str:
     if mate.joins is not None:
         pairs = (told.text("{first} and {second}", first=a, second=b) for a, b in mate.joins)
         who = told.text(" or ").join(pairs)
-    scene = built_in_scenes().get(kind)
+    scene = _scene_of(kind)
     whole = [] if scene is None else [f"# {told.text('A whole scene of it: {command}', command=_NEW + scene.name)}"]
     lines = [
         f"# {told.text(MATES.phrases[kind])}.",
@@ -156,6 +157,17 @@ def new_mate(kind: str, language: str = ENGLISH) -> str:
         *_keys(fields_of(keys), told, {"first": _OWN, "second": _OTHER}),
     ]
     return "\n".join(lines) + "\n"
+
+
+def _scene_of(kind: str) -> Path | None:
+    """The built-in scene of a kind of mate: that of its name, else the shortest with the fewest other kinds."""
+    ranks = {}
+    for name, file in built_in_scenes().items():
+        text = file.read_text(encoding="utf-8")
+        mates = [mate for mate in MATES if f'kind = "{mate}"' in text]
+        if kind in mates:
+            ranks[file] = name != kind, len(mates), len(text)
+    return min(ranks, key=ranks.__getitem__, default=None)
 
 
 def new_assembly(kind: str, language: str = ENGLISH) -> str:

@@ -615,7 +615,20 @@ def _check_fit(scene: SceneFile, specs: dict[str, MaterialKeys], part: str, keys
     from parts.scene.checks import check_fit
 
     part_of = {key: str(spec.part) for key, spec in scene.instances.items()}
-    check_fit(part, {part: End(keys, thing)}, {**specs, part: keys}, scene.mates, part_of)
+    check_fit(part, {part: End(keys, thing)}, _changed(scene.origins, specs, part, keys), scene.mates, part_of)
+
+
+def _changed(
+    origins: Mapping[str, str], specs: dict[str, MaterialKeys], part: str, keys: MaterialKeys
+) -> dict[str, MaterialKeys]:
+    """The keys of all parts with other ones of one: what it has from ``[defaults]`` changes for all that have it."""
+    made = {**specs, part: keys}
+    for name in keys.__struct_fields__:
+        value, given = getattr(keys, name), f": defaults.{name}"
+        if value != getattr(specs[part], name) and origins.get(f"parts.{part}.{name}", "").endswith(given):
+            for other in [p for p in specs if p != part and origins.get(f"parts.{p}.{name}", "").endswith(given)]:
+                made[other] = msgspec.structs.replace(made[other], **{name: value})
+    return made
 
 
 # keys of parts, instances and drives that are told where they are given

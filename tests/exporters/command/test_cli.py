@@ -384,11 +384,22 @@ def test_new_prints_every_mate_with_its_keys(kind: str, capsys: pytest.CaptureFi
     assert {"first", "second"} <= set(table)
 
 
-def test_a_mate_of_which_there_is_a_scene_names_the_command_that_prints_it(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("new", "bevel_pair") == 0
-    command = next(line for line in capsys.readouterr().out.splitlines() if line.startswith("# A whole scene"))
-    assert run(*command.partition("higherpair ")[2].split()) == 0
-    assert "[parts.pinion]" in capsys.readouterr().out
+@pytest.mark.parametrize("kind", MATES)
+def test_a_mate_of_which_there_is_a_scene_names_the_command_that_prints_it(
+    kind: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One of its own name, or any that has it."""
+    assert run("new", kind) == 0
+    said = capsys.readouterr().out.splitlines()
+    commands = [line.partition("higherpair ")[2] for line in said if line.startswith("# A whole scene")]
+    having = [
+        name for name, file in built_in_scenes().items() if f'kind = "{kind}"' in file.read_text(encoding="utf-8")
+    ]
+    assert bool(commands) is bool(having)
+    for told in commands:
+        assert kind not in having or told == f"new {kind}.toml"
+        assert run(*told.split()) == 0
+        assert f'kind = "{kind}"' in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("kind", KINDS)

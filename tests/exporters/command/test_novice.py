@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -262,3 +263,45 @@ def test_an_entry_of_a_table_of_any_names_is_told_by_its_name(
 ) -> None:
     assert main(["calc", "lever", "code=1071", *keys]) == 2
     assert capsys.readouterr().err.startswith(f"higherpair: calc: {told}")
+
+
+SPROCKETS = """[defaults]
+chain = "06B1"
+[parts.a]
+kind = "sprocket"
+number_of_teeth = 19
+[parts.b]
+kind = "sprocket"
+number_of_teeth = 38
+[[mates]]
+kind = "chain_drive"
+first = "a"
+second = "b"
+number_of_links = 80
+[[exports]]
+format = "dxf"
+"""
+
+
+def test_what_is_offered_for_a_default_is_tried_on_all_that_have_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # before: tried on one part, whose mate was still wrong, so nothing was offered
+    said = line(tmp_path, capsys, SPROCKETS)
+    assert said.startswith('parts.a: defaults.chain = "06B1": is no chain')
+    assert said.endswith("; did you mean 06B-1?")
+    # in each part by itself one line is not enough
+    own = SPROCKETS.replace('[defaults]\nchain = "06B1"\n', "").replace('"sprocket"', '"sprocket"\nchain = "06B1"')
+    assert "did you mean" not in line(tmp_path, capsys, own)
+
+
+def test_a_number_offered_for_a_default_works(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    teeth = "number_of_teeth = 20\nmate_number_of_teeth = 20\n"
+    head = f"[defaults]\nmodule = 3.0\nhub_diameter = 30.0\nhub_length = 10.0\nface_width = {{}}\n{teeth}"
+    parts = '[parts.a]\nkind = "bevel_gear"\n[parts.b]\nkind = "bevel_gear"\n'
+    text = head + parts + '[[mates]]\nkind = "bevel_pair"\nfirst = "a"\nsecond = "b"\n[[exports]]\nformat = "stl"\n'
+    said = line(tmp_path, capsys, text.format("60.0"))
+    offer = re.search(r"; at most ([\d.]+) mm works$", said)
+    assert offer is not None, said
+    (tmp_path / "x.toml").write_text(text.format(offer[1]))
+    assert main(["check", str(tmp_path / "x.toml")]) == 0
