@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import lru_cache
 from inspect import get_annotations
@@ -15,10 +15,12 @@ import msgspec
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Nearest, ParameterError, format_value
+from geometry.base.nearest import nearest
 from parts.base.refusal import SceneError, in_unit, meant
 from parts.base.texts import N_, Message, counted, listed, message
 
 S = TypeVar("S", bound=Struct)
+K = TypeVar("K")
 
 
 # XML has no place for them, whatever writes it
@@ -427,6 +429,19 @@ def tried(keys: S, path: str, value: object) -> S:
         return msgspec.convert(without_none(msgspec.to_builtins(changed)), type(keys))
     except msgspec.ValidationError as error:
         raise ParameterError(path, value, "not_allowed", allowed=str(error)) from error
+
+
+def nearest_key(
+    keys: K,
+    path: str,
+    given: float,
+    toward: float | Iterable[float],
+    whole: Callable[[K], object],
+    *,
+    digits: int = 4,
+) -> Nearest | None:
+    """The value of a key nearest to the ``given`` one with which what the keys make is ``whole``; see ``nearest``."""
+    return nearest(lambda value: bool(whole(replaced(keys, path, value))), given, toward, digits=digits)
 
 
 def without_none(held: object) -> Any:

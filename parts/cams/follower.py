@@ -17,6 +17,7 @@ from geometry.plane.profile import Label, Profile, Region, circle
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape, check_wheel
 from parts.base.kind import Others, Report
+from parts.base.schema import nearest_key
 from parts.bodies.plate import Extruded, FlatKeys, HolesAt, Slots, checked_outline
 from parts.cams.wheel import Turned
 from parts.keys.base import MOST_LENGTH, degrees, part_mm
@@ -133,7 +134,7 @@ def _edges(keys: F, edges_of: Callable[[F], tuple[Edge, ...]], sizes: Iterable[s
 
     def lesser(name: str) -> Nearest | None:
         given: float = getattr(keys, name)
-        return nearest(lambda v: whole(replace(keys, **{name: v})), given, [given * share for share in _SMALLER])
+        return nearest_key(keys, name, given, [given * share for share in _SMALLER], whole)
 
     try:
         edges = edges_of(keys)

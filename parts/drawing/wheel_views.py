@@ -703,14 +703,19 @@ def _leftmost(corner: Arc) -> float:
 
 def wheel_views(wheel: Wheel, subject: Subject) -> tuple[View, ...]:
     """Section, face, and the bore where it is not round."""
-    section, face = section_view(wheel, subject), face_view(wheel, subject)
-    bore = wheel.holes.bore
+    views = section_view(wheel, subject), face_view(wheel, subject)
+    return with_bore(views, wheel.holes.bore, levels(wheel.shape).hub[1], subject, wheel.turn)
+
+
+def with_bore(
+    views: tuple[View, ...], bore: Bore | None, end: float, subject: Subject, others: float | None = None
+) -> tuple[View, ...]:
+    """Views, the first along the axis, and that of a bore which is not round, seen from beyond an ``end`` of the axis.
+
+    ``others``: as of ``bore_view``.
+    """
     if bore is None or isinstance(bore, RoundBore):
-        return section, face
-    return seen_along(section, levels(wheel.shape).hub[1], subject), face, bore_view(bore, subject, wheel.turn)
-
-
-def seen_along(view: View, end: float, subject: Subject) -> View:
-    """A view along the axis with the arrow of the view of its bore, from beyond the ``end`` of the axis."""
+        return views
     arrow = Note(complex(end), subject.letter(), looks=-1)
-    return replace(view, notes=(*view.notes, arrow))
+    along = replace(views[0], notes=(*views[0].notes, arrow))
+    return along, *views[1:], bore_view(bore, subject, others)

@@ -24,7 +24,6 @@ from parts.drawing.wheel_views import (
     Wheel,
     bore_note,
     bore_radii,
-    bore_view,
     circle_of,
     exact_teeth,
     hole_round,
@@ -32,9 +31,9 @@ from parts.drawing.wheel_views import (
     level,
     ring_face,
     ring_section,
-    seen_along,
     spline_cut,
     wheel_views,
+    with_bore,
 )
 from parts.drawing.working import (
     AXIS,
@@ -321,6 +320,4 @@ def _worm(keys: WormSpec, body: WormBody, subject: Subject) -> tuple[View, ...]:
         rough.append(bore_note((low, high), -down, subject.rough(wishes.bore_roughness)))
     axes = (level((low, high), 0), *(level((-half, half), way * worm.reference_radius) for way in (1, -1)))
     view = View(tuple(strokes), (), axes, tuple(sizes), notes=tuple(rough))
-    if made is None or isinstance(made, RoundBore):
-        return (view,)
-    return seen_along(view, high, subject), bore_view(made, subject)
+    return with_bore((view,), made, high, subject)

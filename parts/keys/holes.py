@@ -14,7 +14,7 @@ from geometry.base.errors import LateError, Nearest, ParameterError, limit
 from geometry.base.nearest import kept, nearest
 from geometry.solids.bores import Bore, FlatBore, KeywayBore, PolygonBore, RoundBore
 from geometry.solids.hub_holes import HubHoles
-from parts.base.schema import replaced, value_at
+from parts.base.schema import nearest_key, value_at
 from parts.keys.base import LEAST_LENGTH, MOST_LENGTH, BoreDiameter, MadeKeys, degrees, either, part_mm
 from parts.keys.splines import InvoluteSplineTable, StraightSplineTable
 
@@ -319,11 +319,7 @@ def _remedied(refusal: ParameterError, keys: K, fits: Callable[[K], bool]) -> Pa
     sizes = {f: v for f in table.__struct_fields__ if isinstance(v := getattr(table, f), float) and f not in _TURNS}
     for name in sorted(sizes, key=lambda f: f != key):
         path, given = f"{owner}.{name}", sizes[name]
-
-        def works(value: float, path: str = path) -> bool:
-            return fits(replaced(keys, path, value))
-
-        found = nearest(works, given, (given * s for s in _SHARES))
+        found = nearest_key(keys, path, given, (given * s for s in _SHARES), fits)
         if found is not None:
             return refusal.told_of(path, given, found)
     return refusal

@@ -22,7 +22,7 @@ from parts.drawing.directions import directions
 from parts.drawing.extent import farthest
 from parts.drawing.revolved import Loop, below, closed, outlined, seen_edges
 from parts.drawing.shown import shown_pieces
-from parts.drawing.wheel_views import bore_cut, bore_view, seen_along, spline_cut
+from parts.drawing.wheel_views import bore_cut, spline_cut, with_bore
 from parts.drawing.working import VISIBLE, Note, PartDrawing, Side, Size, Stroke, Subject, View, requirements
 from parts.keys.holes import holes_of
 
@@ -42,12 +42,9 @@ def part_drawing(subject: Subject) -> PartDrawing:
     holes = holes_of(keys)
     section = _section(body, holes, subject)
     more = directions(holes, subject, "zero_development")
-    made = holes.bore
     told = body.length if body.cam.is_groove else _wall(body.cam, LOWER, body.cam.outer, math.pi)
-    views = [section, _development(subject, told)]
-    if made is not None and not isinstance(made, RoundBore):
-        views = [seen_along(section, _ends(body)[1], subject), bore_view(made, subject, _TURNED), views[1]]
-    return PartDrawing(tuple(views), requirements(subject, *more))
+    views = with_bore((section,), holes.bore, _ends(body)[1], subject, _TURNED)
+    return PartDrawing((*views, _development(subject, told)), requirements(subject, *more))
 
 
 def _ends(body: BarrelBody) -> tuple[float, float]:

@@ -6,16 +6,14 @@ import math
 from functools import partial
 from typing import TYPE_CHECKING
 
-from msgspec.structs import replace as changed
-
 from geometry.base.errors import LateError, Nearest, OffsetError, ParameterError, UndercutError, limit, rounded
 from geometry.base.findings import Finding
-from geometry.base.nearest import last_that_holds, nearest
+from geometry.base.nearest import last_that_holds
 from geometry.base.record import replace
 from geometry.plane.offset_region import OffsetRegion
 from geometry.solids.hub_holes import least_wall
 from parts.base.kind import Kind, Others, Report
-from parts.base.schema import replaced
+from parts.base.schema import nearest_key, replaced
 from parts.cams.barrel_cam.roller import (
     INSIDE,
     check_cone,
@@ -117,12 +115,8 @@ def _cam_of(keys: BarrelCamSpec) -> BarrelCam:
         if room <= 0:
             most = limit((2 * (stray + radius) / INSIDE + 2 * keys.groove_depth) * (1 + 1e-9), keys.outer_diameter)
             raise ParameterError("outer_diameter", keys.outer_diameter, "roller_too_big", most)
-
-        def works(depth: float) -> bool:
-            return _is_guided(changed(keys, groove_depth=depth))
-
         ends = [room * share for share in (1 - 1e-9, *_SMALLER)]
-        cure = lambda: nearest(works, keys.groove_depth, ends)  # noqa: E731
+        cure = partial(nearest_key, keys, "groove_depth", keys.groove_depth, ends, _is_guided)
         raise ParameterError("groove_depth", keys.groove_depth, "floor_too_narrow", cure)
     check_cone(keys, cam, stray)
     return _raised(keys, cam)
@@ -143,11 +137,6 @@ def _straying(keys: BarrelCamSpec, table: SwingingTable, stray: float, room: flo
     """The refusal of a roller that its arm carries past the side of the barrel; ``room``: for its centre, mm."""
     key = "arm_length" if table.pivot_offset is None else "pivot_offset"
     given: float = getattr(table, key)
-
-    def works(value: float) -> bool:
-        _cam_of(changed(keys, oscillating=changed(table, **{key: value})))
-        return True
-
     # half the way between the ends of the swing
     middle = table.arm_length * (1 + math.cos(math.radians(keys.swing_deg / 2))) / 2
     if key == "pivot_offset":
@@ -156,7 +145,9 @@ def _straying(keys: BarrelCamSpec, table: SwingingTable, stray: float, room: flo
         # how far it strays grows with the arm
         bad = given * room / stray
         ends = [bad * share for share in (1 - 1e-6, *_SMALLER)]
-    return ParameterError(f"oscillating.{key}", given, "roller_strays", lambda: nearest(works, bad, ends), stray=stray)
+    place = f"oscillating.{key}"
+    cure = partial(nearest_key, keys, place, bad, ends, _cam_of)
+    return ParameterError(place, given, "roller_strays", cure, stray=stray)
 
 
 def _raised(keys: BarrelCamSpec, cam: BarrelCam) -> BarrelCam:
@@ -200,12 +191,9 @@ def _undercut(keys: BarrelCamSpec, cam: BarrelCam, code: str, at: float) -> Para
         return UndercutError("clearance", play, code, at=at)
     if not keys.swing_deg:
         return UndercutError("motion_table", None, code, at=at)
-
-    def works(swing_deg: float) -> bool:
-        return _is_guided(changed(keys, swing_deg=swing_deg))
-
     ends = [keys.swing_deg * share for share in _SMALLER]
-    return UndercutError("swing_deg", keys.swing_deg, code, lambda: nearest(works, keys.swing_deg, ends), at=at)
+    cure = partial(nearest_key, keys, "swing_deg", keys.swing_deg, ends, _is_guided)
+    return UndercutError("swing_deg", keys.swing_deg, code, cure, at=at)
 
 
 def _body_of(keys: BarrelCamSpec, cam: BarrelCam) -> BarrelBody:

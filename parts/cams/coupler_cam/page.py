@@ -14,10 +14,8 @@ from geometry.kinematics.linkage import RockerDrive, RockerGuide, SliderDrive, S
 from parts.base.texts import N_, message
 from parts.cams.coupler_cam.part import LINKAGE_CAM, LinkageCamSpec, linkage_findings
 from parts.cams.coupler_cam.position_page import position_at, position_steps
-from parts.cams.disk_cam.graphical_page import graphical_section
-from parts.cams.disk_cam.page import roller_section
+from parts.cams.disk_cam.page import finish, phases_of, roller_section
 from parts.cams.disk_cam.part import pressure_angles
-from parts.cams.disk_cam.speed_page import speed_section
 from parts.cams.wheel import inner_radius
 from parts.keys.base import degrees
 from parts.keys.linkage import DrivenSlider
@@ -26,12 +24,10 @@ from parts.pages.cam_steps import (
     TOPIC,
     Drawing,
     Intervals,
-    Phases,
     Speed,
     Step,
     cam_angles,
     coefficient_steps,
-    impact_notes,
     phase_steps,
     positions,
     radius_step,
@@ -66,8 +62,7 @@ def sheet(keys: LinkageKeys) -> Sheet:
     """The calculation of a linkage cam."""
     cam = LINKAGE_CAM.thing(keys, {})
     title = N_("Cam with its follower on a connecting rod")
-    motion, page = cam.motion, Sheet(TOPIC, title)
-    phases = Phases(motion.phases, motion.lift, cam.swings, left_rows=motion.left_rows)
+    page, phases = Sheet(TOPIC, title), phases_of(cam)
     page.section("Characteristics")
     phase_steps(page, phases)
     radius_step(page, cam.kind, cam.radius)
@@ -79,11 +74,7 @@ def sheet(keys: LinkageKeys) -> Sheet:
     page.data["phases"] = phases.data()
     page.tables.append(positions(cam, keys.step, speed_rpm=keys.speed_rpm))
     page.tables.append(linkage_table(cam, keys.step))
-    graphical_section(page, cam, None, keys.intervals, keys.drawing)
-    if keys.speed_rpm is not None:
-        speed_section(page, cam.motion, keys.speed_rpm, slides=not cam.swings)
-    page.notes += _NOTES
-    impact_notes(page, cam.motion)
+    finish(page, keys, cam, None, _NOTES)
     told = [f for f in linkage_findings(keys, cam) if not f.code.endswith("_impact")]
     page.notes += [finding_message(f) for f in told]
     return page

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Protocol
 from msgspec import Struct
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.base.nearest import nearest
-from parts.base.schema import replaced
+from parts.base.schema import nearest_key
 from parts.keys.base import MOST_LENGTH, degrees, either, part_mm
 
 if TYPE_CHECKING:
@@ -146,11 +145,7 @@ def _told(keys: ContourKeys, refusal: ParameterError) -> ParameterError:
 
 def _working(keys: ContourKeys, key: str, value: float) -> Nearest | None:
     """The nearest value of a key with which the follower moves."""
-
-    def moves(tried: float) -> bool:
-        return bool(_motion(replaced(keys, key, tried)).pieces)
-
     ways = [value * share for share in _TRIED]
     if key == "contour.rise_angle_deg":
         ways = [way for way in ways if 0 < way < 180]
-    return nearest(moves, value, ways)
+    return nearest_key(keys, key, value, ways, lambda changed: _motion(changed).pieces)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import importlib
 import math
+from collections.abc import Sequence
 from contextlib import suppress
 from typing import Any
 
@@ -155,11 +156,14 @@ def disk_page(keys: CamKeys, cam: DiskCam) -> Sheet:
     return page
 
 
-def finish(page: Sheet, keys: Any, cam: DiskCam, transmission_angle_deg: float | None) -> None:
-    """The graphical method (its least radius by this angle), velocities, and the remarks on the motion."""
+def finish(
+    page: Sheet, keys: Any, cam: DiskCam, transmission_angle_deg: float | None, notes: Sequence[str] = ()
+) -> None:
+    """The graphical method (its least radius by this angle), velocities, ``notes`` and the remarks on the motion."""
     graphical_section(page, cam, transmission_angle_deg, keys.intervals, keys.drawing)
     if keys.speed_rpm is not None:
         speed_section(page, cam.motion, keys.speed_rpm, slides=not cam.swings)
+    page.notes += notes
     impact_notes(page, cam.motion)
 
 

@@ -9,7 +9,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Annotated, Literal, Protocol, TypeVar
 
 from msgspec import Meta, Struct
-from msgspec.structs import replace
 
 from geometry.base.errors import ConvergenceError, Cure, Nearest, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
@@ -18,7 +17,7 @@ from geometry.plane.profile import Profile
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape
 from parts.base.kind import Others, Report
-from parts.base.schema import replaced
+from parts.base.schema import nearest_key, replaced
 from parts.base.texts import N_
 from parts.cams.disk_cam.contour import ContourTable, contour_motion
 from parts.cams.wheel import DiskKeys, Turned, check_disk, inner_radius, marked_holes
@@ -195,16 +194,14 @@ def _fits(keys: CamSpec) -> bool:
 def _fitted(keys: CamSpec, refusal: ParameterError) -> ParameterError:
     """The refusal of a size with the nearest one that gives a whole cam too, from its own limit on."""
 
-    def works(value: float) -> bool:
-        return _fits(replaced(keys, refusal.name, value))
-
     def cure() -> Nearest | None:
         own = refusal.nearest
         if own is None or not isinstance(own.value, float) or own.side == "exactly":
             return own
         end, given = own.value, float(str(refusal.value))
         farther = [end * share for share in _SMALLER] if own.side == "at_most" else []
-        return nearest(works, given, [end, *farther, *(end + (end - given) * share for share in _FARTHER)])
+        ends = [end, *farther, *(end + (end - given) * share for share in _FARTHER)]
+        return nearest_key(keys, refusal.name, given, ends, _fits)
 
     return refusal.told_of(refusal.name, refusal.value, cure)
 
@@ -535,14 +532,10 @@ class Cam(DiskKind[CamSpec, "DiskCam"]):
                 cure = limit(least * (1 + _SPARE), base)
                 raise UndercutError("base_circle_radius", base, "undercut_hollow", cure, radius=base - least)
             assert lost is not None
-
-            def works(value: float) -> bool:
-                return _fits(replace(keys, base_circle_radius=value))
-
-            found = (
-                limit(least * (1 + _SPARE), base) if hollow else lambda: nearest(works, base, larger_bases(base, cam))
+            larger = partial(nearest_key, keys, "base_circle_radius", base, larger_bases(base, cam), _fits)
+            raise undercut(
+                cam, "base_circle_radius", base, lost, limit(least * (1 + _SPARE), base) if hollow else larger
             )
-            raise undercut(cam, "base_circle_radius", base, lost, found)
         check_face(keys, cam, plain=keys.follower in ("flat", "mushroom") and keys.oscillating is None)
         check_disk(keys, cam)
         return cam

@@ -10,13 +10,14 @@ from msgspec.structs import replace
 
 from geometry.base.errors import OffsetError, ParameterError, UndercutError, limit
 from geometry.base.findings import Finding
-from geometry.base.nearest import moved, nearest
+from geometry.base.nearest import moved
 from geometry.base.record import Record
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
 from geometry.solids.hub_holes import HubHoles
 from geometry.solids.wheel import WheelShape, wheel_body, wheel_sections
 from parts.base.kind import Kind, Others, Report
+from parts.base.schema import nearest_key
 from parts.cams.disk_cam.part import (
     CamSpec,
     OscillatingTable,
@@ -163,12 +164,9 @@ def _check_walls(keys: GrooveCamSpec, cam: DiskCam) -> None:
     if (refusal := by_impact(keys, cam.motion, whole, swings=cam.swings, both=True)) is not None:
         raise refusal
     base = cam.base_radius
-
-    def works(value: float) -> bool:
-        return whole(replace(keys, base_circle_radius=value))
-
     code = "undercut_inner_wall" if max(lost, key=lambda wall: lost[wall]) == "inner" else "undercut_outer_wall"
-    raise UndercutError("base_circle_radius", base, code, lambda: nearest(works, base, larger_bases(base)))
+    cure = partial(nearest_key, keys, "base_circle_radius", base, larger_bases(base), whole)
+    raise UndercutError("base_circle_radius", base, code, cure)
 
 
 def _outer_radius(keys: GrooveCamSpec, reach: float, chamfer: float) -> float:

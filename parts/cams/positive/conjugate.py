@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 from msgspec import Meta
 from msgspec.structs import replace
 
 from geometry.base.errors import Nearest, ParameterError, UndercutError, limit, rounded
-from geometry.base.nearest import nearest
 from geometry.base.placement import Placement2
 from geometry.base.record import Record
 from geometry.plane.profile import Profile
@@ -18,6 +18,7 @@ from geometry.solids.wheel import WheelShape, check_wheel
 from parts.base.kind import Others, Report
 from parts.base.links import owner_of
 from parts.base.part_keys import MaterialKeys
+from parts.base.schema import nearest_key
 from parts.cams.disk_cam.part import EVEN_CAM, CamSpec, cam_findings, cam_of, cam_quantities, larger_bases
 from parts.cams.wheel import Turned, inner_radius
 from parts.keys.base import degrees, mm, part_mm
@@ -141,13 +142,12 @@ def _nearest_distance(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam, ke
     usual = _distance_of_base(first, first.base_radius, radius, keys.arm_length)
     end = math.degrees(usual) if key == "roller_angle_deg" else usual
 
-    def works(value: float) -> bool:
-        changed = replace(keys, **{key: value})
+    def whole(changed: ConjugateCamSpec) -> bool:
         cam = _pair(changed, owner, first).cam
         _checked_holes(changed, owner, first, inner_radius(cam))
         return is_uncut(cam)
 
-    return nearest(works, getattr(keys, key), end)
+    return nearest_key(keys, key, getattr(keys, key), end, whole)
 
 
 def _distance_of_base(first: DiskCam, base: float, radius: float, arm_length: float | None) -> float:
@@ -187,12 +187,11 @@ def _check_whole(keys: ConjugateCamSpec, owner: CamSpec, first: DiskCam, pair: C
         return
     found = inner_radius(pair.cam)
 
-    def works(base: float) -> bool:
-        return is_uncut(_pair(replace(keys, base_circle_radius=base), owner, first).cam)
+    def whole(changed: ConjugateCamSpec) -> bool:
+        return is_uncut(_pair(changed, owner, first).cam)
 
-    raise UndercutError(
-        "base_circle_radius", found, "undercut_second", lambda: nearest(works, found, larger_bases(found))
-    )
+    cure = partial(nearest_key, keys, "base_circle_radius", found, larger_bases(found), whole)
+    raise UndercutError("base_circle_radius", found, "undercut_second", cure)
 
 
 def _holes_of(keys: ConjugateCamSpec, owner: CamSpec) -> HubHoles:

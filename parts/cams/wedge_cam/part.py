@@ -16,7 +16,7 @@ from geometry.base.nearest import Suspect, blamed, nearest
 from geometry.plane.offset_region import OffsetRegion
 from geometry.plane.profile import Label, Profile, Region, circle
 from parts.base.kind import Kind, Others, Report
-from parts.base.schema import replaced
+from parts.base.schema import nearest_key, replaced
 from parts.keys.base import MOST_LENGTH, MadeKeys, part_mm, start
 from parts.keys.cam import (
     LAW_AT_REST,
@@ -200,12 +200,8 @@ def _mount(keys: WedgeCamSpec, motion: WedgeMotion) -> Upright | Swinging:
         return Upright(height)
     drop, length = height - arm.pivot_height, arm.arm_length
     if not abs(drop) < length:
-
-        def works(value: float) -> bool:
-            return _fits(replace(keys, oscillating=replace(arm, arm_length=value)))
-
         ends = [abs(drop) * share for share in _LONGER]
-        cure = lambda: nearest(works, length, ends)  # noqa: E731
+        cure = partial(nearest_key, keys, "oscillating.arm_length", length, ends, _fits)
         raise ParameterError("oscillating.arm_length", length, "arm_does_not_reach_plate", cure)
     side, start = 1 if arm.side == "trailing" else -1, math.asin(drop / length)
     low, high = motion.extremes()
@@ -217,7 +213,7 @@ def _mount(keys: WedgeCamSpec, motion: WedgeMotion) -> Upright | Swinging:
 def _most(keys: WedgeCamSpec, key: str) -> Nearest | None:
     """The greatest lift or swing that leaves a whole profile."""
     value: float = getattr(keys, key)
-    return nearest(lambda v: _fits(replace(keys, **{key: v})), value, [value * share for share in _SMALLER])
+    return nearest_key(keys, key, value, [value * share for share in _SMALLER], _fits)
 
 
 def _refusal(keys: WedgeCamSpec, cam: WedgeCam, fault: str, travel: float) -> UndercutError:

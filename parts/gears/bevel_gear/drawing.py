@@ -18,13 +18,12 @@ from parts.drawing.wheel_views import (
     Wheel,
     bore_note,
     bore_radii,
-    bore_view,
     circle_sizes,
     cut_holes,
     face_view,
     keyway_edges,
-    seen_along,
     spline_cut,
+    with_bore,
 )
 from parts.drawing.working import (
     AXIS,
@@ -108,10 +107,8 @@ def part_drawing(subject: Subject) -> PartDrawing:
     )  # fmt: skip
     more = directions(holes, subject, "zero_tooth", keys.number_of_teeth)
     others = (face_view(wheel, subject),) if holes.round_holes else ()
-    if holes.bore is None or is_round:
-        return PartDrawing((view, *others), requirements(subject, *more))
-    bored = bore_view(holes.bore, subject, wheel.turn if others else None)
-    return PartDrawing((seen_along(view, high, subject), *others, bored), requirements(subject, *more))
+    views = with_bore((view, *others), holes.bore, high, subject, wheel.turn if others else None)
+    return PartDrawing(views, requirements(subject, *more))
 
 
 def _place(gear: BevelGear, place: complex) -> complex:

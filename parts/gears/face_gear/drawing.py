@@ -7,11 +7,12 @@ from collections.abc import Sequence
 from geometry.base.record import replace
 from geometry.curves.line_arc import Line
 from parts.base.part import Part
-from parts.base.texts import N_, Message
+from parts.base.texts import N_
 from parts.drawing.directions import directions
 from parts.drawing.revolved import Loop, below, closed, outlined
 from parts.drawing.wheel_views import Wheel, circle_of, levels, wheel_views
 from parts.drawing.working import AXIS, VISIBLE, Note, PartDrawing, Size, Subject, requirements
+from parts.gears.data_tables import mate_rows
 from parts.gears.face_gear import page as face_page
 from parts.gears.face_gear.part import FaceGearSpec
 from parts.pages.data_table import DataRow, DataTable, Mated, rows_of
@@ -63,10 +64,7 @@ def data_table(part: Part, scene: SceneKeys, mates: Sequence[Mated]) -> DataTabl
     teeth = DataRow(N_("number of teeth of the face gear"), "z", keys.number_of_teeth)
     control = rows_of(page, ("face_tooth_depth",))
     last = rows_of(page, ("circumferential_thinning", "cutter_teeth", "undercut_diameter", "pointed_diameter"))
-    beside = [
-        DataRow(N_("teeth of the mate"), "z", keys.pinion_number_of_teeth),
-        *rows_of(page, ("profile_shift_coefficient",)),
-    ]
-    drawings = dict.fromkeys(getattr(m.part.keys, "designation", None) or m.part.title or m.part.id for m in mates)
-    beside += [DataRow(N_("drawing of the mate"), "", Message("{name}", {"name": name})) for name in drawings]
+    pinion = DataRow(N_("teeth of the mate"), "z", keys.pinion_number_of_teeth)
+    # its teeth, which all mates have, stand before its shift
+    beside = pinion, *rows_of(page, ("profile_shift_coefficient",)), *mate_rows(mates)[1:]
     return DataTable(((first[0], teeth, *first[1:]), control, (*last, *beside)))
