@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal, Protocol
 from msgspec import Meta, Struct
 
 from geometry.base.errors import Cure, Nearest, ParameterError
+from geometry.base.findings import Finding
 from geometry.base.nearest import kept
 from geometry.base.record import Record, replace
 from parts.keys.base import MOST_LENGTH, degrees, part_mm, start
@@ -156,6 +157,11 @@ def motion_of(keys: Moved, swings: bool) -> FollowerMotion:
     _check_whole_turn(phases)
     _check_return(phases)
     return follower_motion(with_joins(made, closed=True))
+
+
+def steep(steepest: float, usual: float, code: str = "steep_pressure_angle") -> list[Finding]:
+    """The remark that a pressure angle is greater than usual, degrees."""
+    return [Finding(code, steepest, usual)] if steepest > usual + 1e-9 else []
 
 
 def stroke_quantity(lift: float, *, swings: bool) -> dict[str, float]:

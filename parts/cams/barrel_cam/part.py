@@ -34,6 +34,7 @@ from parts.keys.cam import (
     check_stroke,
     motion_of,
     rough_law,
+    steep,
     stroke_quantity,
     table_quantities,
 )
@@ -307,8 +308,7 @@ def _findings(keys: BarrelCamSpec, cam: BarrelCam) -> tuple[Finding, ...]:
     # a groove pushes both ways, a spring takes the return of an end cam
     kinds = (PhaseKind.RISE, PhaseKind.RETURN) if cam.is_groove else (PhaseKind.RISE,)
     steepest = math.degrees(max(cam.greatest_pressure_angle(kind)[0] for kind in kinds))
-    if steepest > usual + 1e-9:
-        found.append(Finding("steep_groove" if cam.is_groove else "steep_track", steepest, usual))
+    found += steep(steepest, usual, "steep_groove" if cam.is_groove else "steep_track")
     limit = _USUAL_ROLLER_SHARE * largest_radius(cam, kept_apex(keys))
     if cam.radius > limit:
         found.append(Finding("large_groove_roller", cam.radius, limit))

@@ -13,7 +13,7 @@ from geometry.cams.plane.synthesis import least_convex_radius
 from geometry.kinematics.linkage import RockerDrive, RockerGuide, SliderDrive, SliderGuide
 from parts.base.texts import N_, message
 from parts.cams.coupler_cam.part import LINKAGE_CAM, LinkageCamSpec, linkage_findings
-from parts.cams.coupler_cam.position_page import position_at, position_steps
+from parts.cams.coupler_cam.position_page import point, position_at, position_steps
 from parts.cams.disk_cam.page import finish, phases_of, roller_section
 from parts.cams.disk_cam.part import pressure_angles
 from parts.cams.wheel import inner_radius
@@ -100,25 +100,20 @@ def _linkage(page: Sheet, keys: LinkageKeys, cam: LinkageCam) -> None:
     linkage = cam.mount.linkage
     drive, guide = linkage.drive, linkage.guide
     if isinstance(drive, RockerDrive):
-        page.add("driven_pivot_x", drive.pivot.real)
-        page.add("driven_pivot_y", drive.pivot.imag)
+        point(page, ("driven_pivot_x", "driven_pivot_y"), drive.pivot)
         page.add("driven_length", drive.length)
         page.add("driven_start_angle_deg", math.degrees(drive.start_angle))
     elif isinstance(drive, SliderDrive) and isinstance(keys.driven, DrivenSlider):
-        page.add("driven_start_x", drive.start.real)
-        page.add("driven_start_y", drive.start.imag)
+        point(page, ("driven_start_x", "driven_start_y"), drive.start)
         page.add("driven_direction_deg", keys.driven.direction_deg)
     page.add("coupler_length", linkage.coupler_length)
     if isinstance(guide, RockerGuide):
-        page.add("guide_pivot_x", guide.pivot.real)
-        page.add("guide_pivot_y", guide.pivot.imag)
+        point(page, ("guide_pivot_x", "guide_pivot_y"), guide.pivot)
         page.add("guide_length", guide.length)
     elif isinstance(guide, SliderGuide):
-        page.add("guide_through_x", guide.point.real)
-        page.add("guide_through_y", guide.point.imag)
+        point(page, ("guide_through_x", "guide_through_y"), guide.point)
         page.add("guide_direction_deg", math.degrees(guide.direction))
-    page.add("coupler_point_x", cam.mount.point.real)
-    page.add("coupler_point_y", cam.mount.point.imag)
+    point(page, ("coupler_point_x", "coupler_point_y"), cam.mount.point)
     if str(cam.kind) in ("flat", "mushroom"):
         page.add("follower_direction_deg", math.degrees(cam.mount.direction))
 
@@ -159,8 +154,8 @@ def linkage_table(cam: LinkageCam, step: float) -> Table:
         assert isinstance(guide, SliderGuide)
         across = np.abs((turn * np.exp(-1j * guide.direction)).real)
     columns = [degrees, np.degrees(np.unwrap(np.angle(turn)))]
-    for point in (joint, far, place):
-        columns += [point.real, point.imag]
+    for at in (joint, far, place):
+        columns += [at.real, at.imag]
     columns += [np.degrees(np.arcsin(np.minimum(across, 1.0))), np.degrees(cam.contact_pressure_angle(angle))]
     columns.append(cam.sliding_velocity(angle))
     heads = [("phi", "deg"), ("theta", "deg"), ("x_A", "mm"), ("y_A", "mm"), ("x_B", "mm"), ("y_B", "mm"),

@@ -36,6 +36,7 @@ from parts.keys.cam import (
     TableTolerance,
     check_stroke,
     motion_of,
+    steep,
     stroke_key,
     stroke_quantity,
     table_quantities,
@@ -242,8 +243,7 @@ def linkage_findings(keys: LinkageCamSpec, cam: LinkageCam) -> tuple[Finding, ..
 
     found = impact_findings(cam.motion, swings=cam.swings)
     steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
-    if steepest > _USUAL_PRESSURE_ANGLE + 1e-9:
-        found.append(Finding("steep_pressure_angle", steepest, _USUAL_PRESSURE_ANGLE))
+    found += steep(steepest, _USUAL_PRESSURE_ANGLE)
     transmission = math.degrees(cam.mount.linkage.transmission_angle())
     if transmission < _USUAL_TRANSMISSION_ANGLE:
         found.append(Finding("small_transmission_angle", transmission, _USUAL_TRANSMISSION_ANGLE))

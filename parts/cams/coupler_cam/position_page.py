@@ -74,7 +74,7 @@ def position_at(cam: LinkageCam, angle: float) -> Position:
     )
 
 
-def _pair(page: Sheet, names: Names, value: complex, formulas: Names = ("", ""), sources: Names = ("", "")) -> None:
+def point(page: Sheet, names: Names, value: complex, formulas: Names = ("", ""), sources: Names = ("", "")) -> None:
     """x and y of a point or a velocity."""
     for name, part, formula, source in zip(names, (value.real, value.imag), formulas, sources, strict=True):
         page.add(name, part, formula, source)
@@ -113,22 +113,22 @@ def _drive(page: Sheet, at: Position) -> None:
     if isinstance(drive, SliderDrive):
         for pair, value, start, order in zip(names, at.joint, ("{x_O} + ", "", ""), ("S", "S1", "S2"), strict=True):
             up = start.replace("x", "y")
-            _pair(page, pair, value, (f"{start}{{{order}}} * cos({{delta_1}})", f"{up}{{{order}}} * sin({{delta_1}})"))
+            point(page, pair, value, (f"{start}{{{order}}} * cos({{delta_1}})", f"{up}{{{order}}} * sin({{delta_1}})"))
         return
     assert isinstance(drive, RockerDrive)
     sign, minus = ("+", "-") if drive.sense > 0 else ("-", "")
     plus = "-" if drive.sense < 0 else ""
     angle = math.degrees(drive.start_angle + drive.sense * at.lift[0])
     page.add("driven_angle_deg", angle, f"{{psi_0}} {sign} {{S}}")
-    _pair(page, names[0], at.joint[0], ("{x_O} + {l_1} * cos({psi})", "{y_O} + {l_1} * sin({psi})"))
+    point(page, names[0], at.joint[0], ("{x_O} + {l_1} * cos({psi})", "{y_O} + {l_1} * sin({psi})"))
     first = (f"{minus}{{l_1}} * sin({{psi}}) * {{S1}}", f"{plus}{{l_1}} * cos({{psi}}) * {{S1}}")
-    _pair(page, names[1], at.joint[1], first)
+    point(page, names[1], at.joint[1], first)
     other = "-" if drive.sense > 0 else "+"
     second = (
         f"-{{l_1}} * ({{S1}}**2 * cos({{psi}}) {sign} {{S2}} * sin({{psi}}))",
         f"-{{l_1}} * ({{S1}}**2 * sin({{psi}}) {other} {{S2}} * cos({{psi}}))",
     )
-    _pair(page, names[2], at.joint[2], second)
+    point(page, names[2], at.joint[2], second)
 
 
 def _guide(page: Sheet, at: Position) -> None:
@@ -153,7 +153,7 @@ def _guide(page: Sheet, at: Position) -> None:
         mu = "arccos(abs({h}) / {b})"
         across = abs((at.turn * cmath.exp(-1j * guide.direction)).real)
     page.add("transmission_angle_deg", math.degrees(math.asin(min(1.0, across))), mu)
-    _pair(page, ("joint_b_x", "joint_b_y"), at.far[0], ("{x_A} + {b} * cos({theta})", "{y_A} + {b} * sin({theta})"))
+    point(page, ("joint_b_x", "joint_b_y"), at.far[0], ("{x_A} + {b} * cos({theta})", "{y_A} + {b} * sin({theta})"))
     _turning(page, at, rocks=isinstance(guide, RockerGuide))
 
 
@@ -182,7 +182,7 @@ def _turning(page: Sheet, at: Position, *, rocks: bool) -> None:
         down = "({b} * cos({theta} - {delta}))"
         first = f"({{x_A1}} * sin({{delta}}) - {{y_A1}} * cos({{delta}})) / {down}"
     page.add("coupler_velocity", at.rates[0], first)
-    _pair(
+    point(
         page,
         ("joint_b_x1", "joint_b_y1"),
         at.far[1],
@@ -203,14 +203,14 @@ def _follower(page: Sheet, at: Position) -> None:
         "{x_A} + {xi_p} * cos({theta}) - {eta_p} * sin({theta})",
         "{y_A} + {xi_p} * sin({theta}) + {eta_p} * cos({theta})",
     )
-    _pair(page, ("reference_x", "reference_y"), at.centre[0], first)
+    point(page, ("reference_x", "reference_y"), at.centre[0], first)
     second = (f"{{x_A1}} - {{omega_2}} * {y}", f"{{y_A1}} + {{omega_2}} * {x}")
-    _pair(page, ("reference_x1", "reference_y1"), at.centre[1], second)
+    point(page, ("reference_x1", "reference_y1"), at.centre[1], second)
     third = (
         f"{{x_A2}} - {{eps_2}} * {y} - {{omega_2}}**2 * {x}",
         f"{{y_A2}} + {{eps_2}} * {x} - {{omega_2}}**2 * {y}",
     )
-    _pair(page, ("reference_x2", "reference_y2"), at.centre[2], third)
+    point(page, ("reference_x2", "reference_y2"), at.centre[2], third)
     theta = float(page.known["theta"].value)
     if at.cam.is_flat:
         page.add("follower_angle_deg", theta + math.degrees(at.cam.mount.direction) - 90, "{theta} + {tau} - pi / 2")
@@ -229,7 +229,7 @@ def _relative(page: Sheet, at: Position) -> None:
     )
     for value, (order, x, y, sources) in zip(at.turned, rows, strict=True):
         formulas = (f"{y} * {sin} + {x} * {cos}", f"{y} * {cos} - {x} * {sin}")
-        _pair(page, (f"savvin_a{order}", f"savvin_b{order}"), value, formulas, sources)
+        point(page, (f"savvin_a{order}", f"savvin_b{order}"), value, formulas, sources)
 
 
 def _contact(page: Sheet, at: Position) -> None:
@@ -238,7 +238,7 @@ def _contact(page: Sheet, at: Position) -> None:
     profile = complex(cam.profile_point(at.angle))
     speed = abs(at.turned[1])
     if kind == "pointed":
-        _pair(page, ("contact_x1", "contact_y1"), profile, ("{A}", "{B}"), ("Savvin (4)", "Savvin (5)"))
+        point(page, ("contact_x1", "contact_y1"), profile, ("{A}", "{B}"), ("Savvin (4)", "Savvin (5)"))
         page.add("path_speed", speed, "sqrt({A1}**2 + {B1}**2)")
         page.add("sliding_velocity", float(cam.sliding_velocity(at.angle)), "{w}")
         return
@@ -253,7 +253,7 @@ def _contact(page: Sheet, at: Position) -> None:
     if cam.is_flat:
         page.add("contact_x2", place.real, "{F} / {W}", "Savvin (11)")
         formulas = (f"{{A}} + {{xi_2}} * cos({_BETWEEN})", f"{{B}} + {{xi_2}} * sin({_BETWEEN})")
-        _pair(page, ("contact_x1", "contact_y1"), profile, formulas, ("Savvin (15)", "Savvin (16)"))
+        point(page, ("contact_x1", "contact_y1"), profile, formulas, ("Savvin (15)", "Savvin (16)"))
         page.add("sliding_velocity", float(cam.sliding_velocity(at.angle)), "{R}")
         return
     page.add("path_speed", speed, "sqrt({F}**2 + {R}**2)")
@@ -292,7 +292,7 @@ def _pressure(page: Sheet, at: Position) -> None:
         across = f"({{xi_2}} * sin({_BETWEEN}){'' if cam.is_flat else f' + {{eta_2}} * cos({_BETWEEN})'})"
         along = f"({{xi_2}} * cos({_BETWEEN}){'' if cam.is_flat else f' - {{eta_2}} * sin({_BETWEEN})'})"
         relatives = (f"{{A1}} - {{W}} * {across}", f"{{B1}} + {{W}} * {along}")
-        _pair(page, ("relative_x1", "relative_y1"), relative, relatives, ("Savvin (4)", "Savvin (5)"))
+        point(page, ("relative_x1", "relative_y1"), relative, relatives, ("Savvin (4)", "Savvin (5)"))
         more = ("", "") if cam.is_flat else (
             " - {eta_2} * {omega_2} * cos({alpha_2})", " - {eta_2} * {omega_2} * sin({alpha_2})"
         )  # fmt: skip
@@ -300,7 +300,7 @@ def _pressure(page: Sheet, at: Position) -> None:
             f"{{x_021}} - {{xi_2}} * {{omega_2}} * sin({{alpha_2}}){more[0]}",
             f"{{y_021}} + {{xi_2}} * {{omega_2}} * cos({{alpha_2}}){more[1]}",
         )
-        _pair(page, ("contact_velocity_x", "contact_velocity_y"), velocity, speed, ("Savvin (23)", "Savvin (24)"))
+        point(page, ("contact_velocity_x", "contact_velocity_y"), velocity, speed, ("Savvin (23)", "Savvin (24)"))
         formula = "arctan(-{xi_21} / {eta_21})"
     normal = complex(cam.normal(at.angle)) * cmath.exp(-1j * at.angle)
     leaning = abs(relative.imag) > _STILL * abs(contact)

@@ -40,6 +40,7 @@ from parts.keys.cam import (
     check_stroke,
     motion_of,
     rough_law,
+    steep,
     stroke_quantity,
     table_quantities,
     turn,
@@ -480,8 +481,7 @@ def cam_findings(spec: CamSpec, cam: DiskCam) -> tuple[Finding, ...]:
     swings = spec.oscillating is not None
     found += impact_findings(cam.motion, swings=swings)
     steepest = math.degrees(greatest_pressure_angle(cam, PhaseKind.RISE).value)
-    if steepest > USUAL_PRESSURE_ANGLE[swings] + 1e-9:
-        found.append(Finding("steep_pressure_angle", steepest, USUAL_PRESSURE_ANGLE[swings]))
+    found += steep(steepest, USUAL_PRESSURE_ANGLE[swings])
     asked = spec.least_transmission_angle_deg
     if asked is not None and not cam.is_flat:
         # a swinging follower's is kept both ways, a sliding one's on the rise

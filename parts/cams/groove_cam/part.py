@@ -38,6 +38,7 @@ from parts.keys.cam import (
     Phases,
     Swing,
     TableTolerance,
+    steep,
     turn,
 )
 from parts.keys.law import with_own_laws
@@ -237,8 +238,7 @@ def _findings(spec: GrooveCamSpec, disk: GrooveDisk) -> tuple[Finding, ...]:
         if not disk.cam.motion.moving_pieces(kind):
             continue
         steepest = math.degrees(greatest_pressure_angle(disk.cam, kind).value)
-        if steepest > usual + 1e-9:
-            found.append(Finding(code, steepest, usual))
+        found += steep(steepest, usual, code)
     share = spec.roller_clearance / (2 * spec.follower_radius)
     if not _USUAL_CLEARANCE[0] < share <= _USUAL_CLEARANCE[1]:
         found.append(Finding("roller_play", spec.roller_clearance, _USUAL_CLEARANCE[1] * 2 * spec.follower_radius))

@@ -21,7 +21,7 @@ from parts.drawing.choice import Asked
 from parts.drawing.labels import Labeller
 
 # strokes of the hatching along a border, mm
-_HATCH, _HATCH_STEP = 4.0, 2.5
+HATCH, HATCH_STEP = 4.0, 2.5
 _MARK = 0.7
 
 
@@ -32,12 +32,93 @@ class Joint(Record):
     axis on the line of the offset; ``centre``: the cam's own axis; ``return_line`` for form closure.
     """
 
+    picture: CamPicture
     order: int
     offset: float
     borders: tuple[tuple[float, float], ...]
     least: complex
     centre: complex
     return_line: tuple[float, float] | None
+
+    def window(self) -> Box:
+        """What must be seen, model mm."""
+        low, high = self.picture.cam.motion.extremes(self.order)
+        depth = min(self.least.imag, self.centre.imag)
+        least, most = self.picture.cam.motion.extremes(0)
+        tall, wide = most - depth, max(high - low, 0.3 * (most - depth))
+        return Box(
+            min(low, self.offset, 0.0) - 0.12 * wide,
+            min(depth, least) - 0.1 * tall,
+            max(high, self.offset, 0.0) + 0.12 * wide,
+            max(most, 0.0) + 0.08 * tall,
+        )
+
+    def draw(self, canvas: Canvas, paper: Paper, window: Box, asked: Asked) -> Drawn:
+        """The diagram with its axes, positions, tangents, admissible region and centres; names come with ``name``.
+
+        By hand: the axes alone.
+        """
+        drawn, to = Drawn(), paper.point
+        canvas.line("AXIS", to(1j * window.low), to(1j * window.high))
+        canvas.line("AXIS", to(complex(window.left, 0)), to(complex(window.right, 0)))
+        for tip, way in ((to(1j * window.high), 1j), (to(complex(window.right, 0)), 1.0)):
+            canvas.arrow("AXIS", tip, way)
+        if asked.by_hand:
+            return drawn
+        for piece in self.picture.cam.motion.pieces:
+            curve = joint_diagram(piece, self.order, paper.origin, paper.scale)
+            if curve is not None:
+                drawn.add(canvas, "JOINT_DIAGRAM", curve, asked.tolerance)
+        for point in _points(self):
+            canvas.arc("JOINT_DIAGRAM", Arc(to(point), _MARK, 0.0, 2 * math.pi))
+        for a, slope in self.borders:
+            start, end = _clipped(-1j * a, 1 + 1j * slope, window)
+            drawn.line(canvas, "GAMMA_TANGENT", to(start), to(end))
+        _hatch(canvas, self, paper, window)
+        if self.return_line is not None:
+            a, slope = self.return_line
+            ends = _clipped(-1j * a, 1 + 1j * slope, window)
+            if ends[0] != ends[1]:
+                drawn.line(canvas, "RETURN_TANGENT", to(ends[0]), to(ends[1]))
+        if self.offset:
+            low, high = (to(complex(self.offset, y)) for y in (window.low, window.high))
+            drawn.line(canvas, "OFFSET_AXIS", low, high)
+        for point in dict.fromkeys((0j, self.least, self.centre)):
+            canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
+        drawn.line(canvas, "DIMENSION", to(0j), to(self.least))
+        _angle(canvas, self, paper)
+        return drawn
+
+    def name(self, labels: Labeller, paper: Paper, window: Box, *, by_hand: bool) -> None:
+        """Names of axes, positions, centres and sizes; by hand of the axes alone."""
+        to, say = paper.point, self.picture.say
+        labels.name("S", to(1j * window.high), prefer=1 - 1j)
+        labels.name("S" + "'" * self.order, to(complex(window.right, 0)), prefer=-1 + 1j)
+        labels.name("S_{0}", to(0j), SMALL_TEXT, prefer=-1 - 1j)
+        if by_hand:
+            name_asked(labels, self.picture, to(complex(window.right, 0)))
+            return
+        if self.offset:
+            text = f"E = {say(self.offset)}"
+            labels.name(text, to(complex(self.offset, window.high)), SMALL_TEXT, prefer=1 - 1j, answer=False)
+        is_least = abs(self.centre - self.least) < 1e-9 * abs(self.least)
+        radius = abs(self.least)
+        name = "O'_{1}" if self.offset and self.order == 1 else "O_{1}"
+        labels.name(name, to(self.least), prefer=1 - 1j)
+        if not is_least:
+            labels.name("O", to(self.centre), prefer=1 - 1j)
+            if self.order == 2:
+                labels.name(f"R_{{min}} = {say(abs(self.centre))}", to((self.centre + self.least) / 2), prefer=1 + 0j)
+        labels.name(f"r_{{0}} = {say(radius)}", to(self.least / 2), prefer=1 + 0j)
+        if self.picture.gamma is not None:
+            symbol = "γ_{min}" if self.picture.asked or self.order == 2 else "γ"
+            centre, arc = _angle_arc(self, paper, self.picture.gamma)
+            text = f"{symbol} = {angle_text(self.picture)}"
+            labels.name(text, centre + arc, prefer=arc, answer=False if self.picture.asked else None)
+        angles = np.array([p.angle for p in self.picture.positions])
+        points = self.picture.cam.motion.value(angles, self.order) + 1j * self.picture.cam.motion.value(angles)
+        for text, point in numbered(self.picture, [to(point) for point in points.tolist()]):
+            labels.name(text, point, SMALL_TEXT, prefer=complex(point.real - paper.origin.real, 0.1))
 
 
 def joint_of(picture: CamPicture) -> Joint | None:
@@ -48,7 +129,8 @@ def joint_of(picture: CamPicture) -> Joint | None:
         return None
     if cam.is_flat:
         radius = flat_base_radius(cam.motion).value
-        return Joint(2, mount.offset, ((radius, -1.0),), complex(0, -radius), complex(0, -mount.start_height), None)
+        least, centre = complex(0, -radius), complex(0, -mount.start_height)
+        return Joint(picture, 2, mount.offset, ((radius, -1.0),), least, centre, None)
     if picture.gamma is None:
         return None
     limit = math.pi / 2 - picture.gamma
@@ -57,21 +139,7 @@ def joint_of(picture: CamPicture) -> Joint | None:
     back = None
     if cam.motion.moving_pieces(PhaseKind.RETURN):
         back = axis_region(cam.motion, limit, limit).lines[-1]
-    return Joint(1, mount.offset, region.lines, least, complex(mount.offset, -mount.start_height), back)
-
-
-def joint_window(picture: CamPicture, joint: Joint) -> Box:
-    """What must be seen, model mm."""
-    low, high = picture.cam.motion.extremes(joint.order)
-    depth = min(joint.least.imag, joint.centre.imag)
-    least, most = picture.cam.motion.extremes(0)
-    tall, wide = most - depth, max(high - low, 0.3 * (most - depth))
-    return Box(
-        min(low, joint.offset, 0.0) - 0.12 * wide,
-        min(depth, least) - 0.1 * tall,
-        max(high, joint.offset, 0.0) + 0.12 * wide,
-        max(most, 0.0) + 0.08 * tall,
-    )
+    return Joint(picture, 1, mount.offset, region.lines, least, complex(mount.offset, -mount.start_height), back)
 
 
 def joint_paper(window: Box, area: Box) -> tuple[Paper, Box]:
@@ -84,85 +152,15 @@ def joint_paper(window: Box, area: Box) -> tuple[Paper, Box]:
     return Paper(scale, area.middle - scale * middle), seen
 
 
-def draw_joint(canvas: Canvas, picture: CamPicture, joint: Joint, paper: Paper, window: Box, asked: Asked) -> Drawn:
-    """The diagram with its axes, positions, tangents, admissible region and centres; names come with ``name_joint``.
-
-    By hand: the axes alone.
-    """
-    drawn, to = Drawn(), paper.point
-    canvas.line("AXIS", to(1j * window.low), to(1j * window.high))
-    canvas.line("AXIS", to(complex(window.left, 0)), to(complex(window.right, 0)))
-    for tip, way in ((to(1j * window.high), 1j), (to(complex(window.right, 0)), 1.0)):
-        canvas.arrow("AXIS", tip, way)
-    if asked.by_hand:
-        return drawn
-    for piece in picture.cam.motion.pieces:
-        curve = joint_diagram(piece, joint.order, paper.origin, paper.scale)
-        if curve is not None:
-            drawn.add(canvas, "JOINT_DIAGRAM", curve, asked.tolerance)
-    for point in _points(picture, joint):
-        canvas.arc("JOINT_DIAGRAM", Arc(to(point), _MARK, 0.0, 2 * math.pi))
-    for a, slope in joint.borders:
-        start, end = _clipped(-1j * a, 1 + 1j * slope, window)
-        drawn.line(canvas, "GAMMA_TANGENT", to(start), to(end))
-    _hatch(canvas, joint, paper, window)
-    if joint.return_line is not None:
-        a, slope = joint.return_line
-        ends = _clipped(-1j * a, 1 + 1j * slope, window)
-        if ends[0] != ends[1]:
-            drawn.line(canvas, "RETURN_TANGENT", to(ends[0]), to(ends[1]))
-    if joint.offset:
-        drawn.line(canvas, "OFFSET_AXIS", to(complex(joint.offset, window.low)), to(complex(joint.offset, window.high)))
-    for point in dict.fromkeys((0j, joint.least, joint.centre)):
-        canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
-    drawn.line(canvas, "DIMENSION", to(0j), to(joint.least))
-    _angle(canvas, picture, joint, paper)
-    return drawn
-
-
-def _points(picture: CamPicture, joint: Joint) -> list[complex]:
+def _points(joint: Joint) -> list[complex]:
     """Numbered points: (S^(order), S), on both sides of a jump where there is one."""
-    motion = picture.cam.motion
-    angles = np.array([p.angle for p in picture.positions])
+    motion = joint.picture.cam.motion
+    angles = np.array([p.angle for p in joint.picture.positions])
     before = np.nextafter(np.where(angles == 0, 2 * math.pi, angles), 0)
     points = []
     for at in (angles, before):
         points += (motion.value(at, joint.order) + 1j * motion.value(at)).tolist()
     return points
-
-
-def name_joint(
-    labels: Labeller, picture: CamPicture, joint: Joint, paper: Paper, window: Box, *, by_hand: bool
-) -> None:
-    """Names of axes, positions, centres and sizes; by hand of the axes alone."""
-    to, say = paper.point, picture.say
-    labels.name("S", to(1j * window.high), prefer=1 - 1j)
-    labels.name("S" + "'" * joint.order, to(complex(window.right, 0)), prefer=-1 + 1j)
-    labels.name("S_{0}", to(0j), SMALL_TEXT, prefer=-1 - 1j)
-    if by_hand:
-        name_asked(labels, picture, to(complex(window.right, 0)))
-        return
-    if joint.offset:
-        text = f"E = {say(joint.offset)}"
-        labels.name(text, to(complex(joint.offset, window.high)), SMALL_TEXT, prefer=1 - 1j, answer=False)
-    is_least = abs(joint.centre - joint.least) < 1e-9 * abs(joint.least)
-    radius = abs(joint.least)
-    name = "O'_{1}" if joint.offset and joint.order == 1 else "O_{1}"
-    labels.name(name, to(joint.least), prefer=1 - 1j)
-    if not is_least:
-        labels.name("O", to(joint.centre), prefer=1 - 1j)
-        if joint.order == 2:
-            labels.name(f"R_{{min}} = {say(abs(joint.centre))}", to((joint.centre + joint.least) / 2), prefer=1 + 0j)
-    labels.name(f"r_{{0}} = {say(radius)}", to(joint.least / 2), prefer=1 + 0j)
-    if picture.gamma is not None:
-        symbol = "γ_{min}" if picture.asked or joint.order == 2 else "γ"
-        centre, arc = _angle_arc(joint, paper, picture.gamma)
-        text = f"{symbol} = {angle_text(picture)}"
-        labels.name(text, centre + arc, prefer=arc, answer=False if picture.asked else None)
-    angles = np.array([p.angle for p in picture.positions])
-    points = picture.cam.motion.value(angles, joint.order) + 1j * picture.cam.motion.value(angles)
-    for text, point in numbered(picture, [to(point) for point in points.tolist()]):
-        labels.name(text, point, SMALL_TEXT, prefer=complex(point.real - paper.origin.real, 0.1))
 
 
 def name_asked(labels: Labeller, picture: CamPicture, point: complex) -> None:
@@ -193,20 +191,21 @@ def _hatch(canvas: Canvas, joint: Joint, paper: Paper, window: Box) -> None:
         way = (end - start) / abs(end - start)
         # the region lies below: on the right of a line that runs to the right
         inward = way * cmath.exp(-1j * math.radians(60))
-        for k in range(1, int(length / _HATCH_STEP)):
-            foot = start + way * (k * _HATCH_STEP / paper.scale)
-            tip = foot + inward * (_HATCH / paper.scale)
+        for k in range(1, int(length / HATCH_STEP)):
+            foot = start + way * (k * HATCH_STEP / paper.scale)
+            tip = foot + inward * (HATCH / paper.scale)
             inside = all(p.imag <= s * p.real - b + 1e-9 for b, s in joint.borders for p in (foot, tip))
             if inside and tip.imag >= window.low:
                 canvas.line("HATCH", paper.point(foot), paper.point(tip))
 
 
-def _angle(canvas: Canvas, picture: CamPicture, joint: Joint, paper: Paper) -> None:
-    if picture.gamma is None:
+def _angle(canvas: Canvas, joint: Joint, paper: Paper) -> None:
+    gamma = joint.picture.gamma
+    if gamma is None:
         return
-    centre, arc = _angle_arc(joint, paper, picture.gamma)
-    start = 0.0 if joint.order == 1 else math.pi - picture.gamma
-    canvas.arc("DIMENSION", Arc(centre, abs(arc), start, picture.gamma))
+    centre, arc = _angle_arc(joint, paper, gamma)
+    start = 0.0 if joint.order == 1 else math.pi - gamma
+    canvas.arc("DIMENSION", Arc(centre, abs(arc), start, gamma))
 
 
 def _angle_arc(joint: Joint, paper: Paper, gamma: float) -> tuple[complex, complex]:

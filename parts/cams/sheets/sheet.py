@@ -5,7 +5,7 @@ from __future__ import annotations
 from geometry.base.record import Draft, Record, field
 from geometry.curves.curve import Curve
 from parts.cams.sheets.diagrams import LEFT, RIGHT, Drawn, draw_diagrams, heights_of
-from parts.cams.sheets.joint import Joint, draw_joint, joint_of, joint_paper, joint_window, name_joint
+from parts.cams.sheets.joint import Joint, joint_of, joint_paper
 from parts.cams.sheets.links import linkage_cam_of, position_grid
 from parts.cams.sheets.measures import CamMeasures
 from parts.cams.sheets.picture import CamPicture, scales_of
@@ -17,7 +17,7 @@ from parts.cams.sheets.profile import (
     profile_side,
     reach_of,
 )
-from parts.cams.sheets.swing import draw_swing, name_swing, swing_of, swing_window
+from parts.cams.sheets.swing import swing_of
 from parts.cams.sheets.tables import ROW, WIDTH, Grid, characteristics, draw_grid, graphical_grid, legend, scale_rows
 from parts.drawing.canvas import SMALL_TEXT, TEXT_HEIGHT, Box, Canvas, Paper, scale_text
 from parts.drawing.choice import Asked, blank, sheet_for
@@ -81,13 +81,13 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) 
     ParameterError
         The paper is too small for the scale that is asked for.
     """
-    joint, swing, linked = joint_of(picture), swing_of(picture), linkage_cam_of(picture)
+    joint, linked = joint_of(picture), linkage_cam_of(picture)
+    diagram = joint or swing_of(picture)
     first = characteristics(calculation, picture)
     graphical = graphical_grid(calculation, picture)
     places = None if linked is None else position_grid(picture, linked)
     tall = sum(g.height for g in (first, graphical, places) if g) + _SMALL_GRIDS + (_GRID_GAP if places else 0.0)
-    has_joint = joint is not None or swing is not None
-    layout, paper = _layout(picture, tall, asked, has_joint=has_joint)
+    layout, paper = _layout(picture, tall, asked, has_joint=diagram is not None)
     pages = [layout.diagrams.page, layout.profile.page][: 1 if layout.tables else 2]
     scales = scales_of(picture, layout.diagrams.area.wide - LEFT - RIGHT,
                        heights_of(layout.diagrams.area))  # fmt: skip
@@ -99,13 +99,11 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) 
     page.drawn.append(made)
     page.circles += circles
     page.curves |= curves
-    page, window = layout.joint.page, None
-    if joint is not None:
-        page.joint, window = joint_paper(joint_window(picture, joint), layout.joint.area)
-        page.drawn.append(draw_joint(page.canvas, picture, joint, page.joint, window, asked))
-    elif swing is not None:
-        page.joint, window = joint_paper(swing_window(picture, swing), layout.joint.area)
-        page.drawn.append(draw_swing(page.canvas, picture, swing, page.joint, window, asked))
+    page = layout.joint.page
+    seen = None if diagram is None else joint_paper(diagram.window(), layout.joint.area)
+    if diagram is not None and seen is not None:
+        page.joint = seen[0]
+        page.drawn.append(diagram.draw(page.canvas, *seen, asked))
     _captions(picture, layout, paper)
     scale = None if page.joint is None else page.joint.scale
     lines = legend(picture, has_return=joint is not None and joint.return_line is not None)
@@ -117,11 +115,8 @@ def cam_sheet(name: str, picture: CamPicture, calculation: Sheet, asked: Asked) 
         number_positions(layout.profile.page.canvas, picture, paper)
     labels = Labeller(layout.profile.page.canvas, layout.profile.area.grown(2.0))
     name_profile(labels, picture, paper, by_hand=asked.by_hand, base_given=base_given)
-    labels = Labeller(page.canvas, layout.joint.area)
-    if joint is not None and page.joint is not None and window is not None:
-        name_joint(labels, picture, joint, page.joint, window, by_hand=asked.by_hand)
-    elif swing is not None and page.joint is not None:
-        name_swing(labels, picture, swing, page.joint, by_hand=asked.by_hand)
+    if diagram is not None and seen is not None:
+        diagram.name(Labeller(page.canvas, layout.joint.area), *seen, by_hand=asked.by_hand)
     lift = scales.lift, picture.cam.motion.lift * picture.unit
     # what students draw cannot be measured yet
     return [

@@ -16,7 +16,7 @@ from geometry.cams.motion.guides import Oscillating
 from geometry.cams.plane.synthesis import oscillating_axis
 from geometry.curves.line_arc import Arc
 from parts.cams.sheets.diagrams import Drawn
-from parts.cams.sheets.joint import angle_text, name_asked
+from parts.cams.sheets.joint import HATCH, HATCH_STEP, angle_text, name_asked
 from parts.cams.sheets.picture import CamPicture
 from parts.cams.sheets.rocker import draw_faces, faces_box, from_pivot, name_numbers, name_rocker, rocker_region
 from parts.drawing.canvas import SMALL_TEXT, Box, Canvas, Paper
@@ -25,7 +25,6 @@ from parts.drawing.labels import Labeller
 
 # half-planes of the region's border on each piece that moves
 _PLANES = 181
-_HATCH, _HATCH_STEP = 4.0, 2.5
 
 
 class Swing(Record):
@@ -35,11 +34,78 @@ class Swing(Record):
     cam must be convex, all of the turn); ``lowest`` roller centre, or foot of ``least`` on the lowest face.
     """
 
+    picture: CamPicture
     pivot: complex
     lowest: complex
     least: complex
     least_radius: float
     planes: tuple[tuple[complex, complex], ...]
+
+    def window(self) -> Box:
+        """What must be seen, model mm."""
+        points = [0j, self.pivot, self.lowest, self.least]
+        if self.picture.cam.is_flat:
+            points += faces_box(self.picture).corners
+        else:
+            points += [foot for foot, _ in self.planes]
+        for curve in _curves(self.picture, Paper(1.0, 0j)):
+            points += curve.point(np.linspace(*curve.domain, 33)).tolist()
+        box = Box.of(points)
+        return box.grown(0.12 * max(box.wide, box.tall))
+
+    def draw(self, canvas: Canvas, paper: Paper, window: Box, asked: Asked) -> Drawn:
+        """Arms, the diagram, the region's border with its hatching, both axes; by hand the axes alone."""
+        drawn, to, mount = Drawn(), paper.point, self.picture.cam.swing
+        if asked.by_hand:
+            drawn.line(canvas, "AXIS", to(0j), to(self.pivot))
+            for point in (0j, self.pivot):
+                canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
+            return drawn
+        for curve in _curves(self.picture, paper):
+            drawn.add(canvas, "JOINT_DIAGRAM", curve, asked.tolerance)
+        drawn.line(canvas, "AXIS", to(0j), to(self.pivot))
+        if self.picture.cam.is_flat:
+            draw_faces(canvas, drawn, self.picture, paper)
+        else:
+            start, sweep = cmath.phase(self.lowest - self.pivot), -mount.sense * self.picture.cam.motion.extremes()[1]
+            if sweep:
+                canvas.arc("CENTRE", Arc(to(self.pivot), paper.scale * mount.arm_length, start, sweep))
+            for foot, end in _arms(self.picture):
+                drawn.line(canvas, "CONSTRUCTION", to(self.pivot), to(end))
+                drawn.line(canvas, "ORDINATE", to(end), to(foot))
+                canvas.arc("JOINT_DIAGRAM", Arc(to(foot), 0.7, 0.0, 2 * math.pi))
+        border = _border(self, window)
+        for a, b in border:
+            drawn.line(canvas, "GAMMA_TANGENT", to(a), to(b))
+        _hatch(canvas, border, paper, window)
+        drawn.line(canvas, "DIMENSION", to(self.lowest), to(self.least))
+        for point in (0j, self.pivot, self.lowest, self.least):
+            canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
+        return drawn
+
+    def name(self, labels: Labeller, paper: Paper, window: Box, *, by_hand: bool) -> None:
+        """Names of axes, pivot, radius, numbers of positions; by hand of the axes alone."""
+        to, say = paper.point, self.picture.say
+        labels.name("O", to(0j), prefer=-1 - 1j)
+        labels.name("C", to(self.pivot), prefer=1 - 1j)
+        if by_hand:
+            name_asked(labels, self.picture, to(self.pivot))
+            return
+        if not self.picture.cam.is_flat:
+            labels.name("B_{0}", to(self.lowest), SMALL_TEXT, prefer=1 - 1j)
+        labels.name("O_{1}", to(self.least), prefer=-1 - 1j)
+        # the smallest cam of a roller's arm stands at a distance of its own
+        radius = f"{'r_{0}' if self.picture.cam.is_flat else 'r_{0d}'} = {say(self.least_radius)}"
+        labels.name(radius, to((self.lowest + self.least) / 2), SMALL_TEXT, prefer=-1 + 0j)
+        if self.picture.cam.is_flat:
+            name_rocker(labels, self.picture, paper, self.least)
+            return
+        if self.picture.gamma is not None:
+            symbol = "γ_{min}" if self.picture.asked else "γ"
+            text = f"{symbol} = {angle_text(self.picture)}"
+            point = self.least + 0.25 * (self.lowest - self.least)
+            labels.name(text, to(point), prefer=1 + 0j, answer=False if self.picture.asked else None)
+        name_numbers(labels, self.picture, [to(foot) for foot, _ in _arms(self.picture)], to(self.pivot))
 
 
 def swing_of(picture: CamPicture) -> Swing | None:
@@ -52,7 +118,7 @@ def swing_of(picture: CamPicture) -> Swing | None:
         if found is None:
             return None
         least, foot, base, region = found
-        return Swing(complex(mount.centre_distance), foot, least, base, region)
+        return Swing(picture, complex(mount.centre_distance), foot, least, base, region)
     if picture.gamma is None:
         return None
     limit = math.pi / 2 - picture.gamma
@@ -72,20 +138,7 @@ def swing_of(picture: CamPicture) -> Swing | None:
                 normal = math.tan(limit) * 1j * along + side * along
                 planes.append((foot, (placed(normal) - pivot) / abs(normal)))
     least = placed(cmath.rect(best.centre_distance, best.start_angle))
-    return Swing(pivot, lowest, least, best.prime_radius, tuple(planes))
-
-
-def swing_window(picture: CamPicture, swing: Swing) -> Box:
-    """What must be seen, model mm."""
-    points = [0j, swing.pivot, swing.lowest, swing.least]
-    if picture.cam.is_flat:
-        points += faces_box(picture).corners
-    else:
-        points += [foot for foot, _ in swing.planes]
-    for curve in _curves(picture, Paper(1.0, 0j)):
-        points += curve.point(np.linspace(*curve.domain, 33)).tolist()
-    box = Box.of(points)
-    return box.grown(0.12 * max(box.wide, box.tall))
+    return Swing(picture, pivot, lowest, least, best.prime_radius, tuple(planes))
 
 
 def _curves(picture: CamPicture, paper: Paper) -> list[ArmCurve]:
@@ -99,37 +152,6 @@ def _curves(picture: CamPicture, paper: Paper) -> list[ArmCurve]:
         ArmCurve(p, p.start, p.end, origin, paper.scale, mount.arm_length, mount.sense, direction)
         for p in picture.cam.motion.moving_pieces()
     ]
-
-
-def draw_swing(canvas: Canvas, picture: CamPicture, swing: Swing, paper: Paper, window: Box, asked: Asked) -> Drawn:
-    """Arms, the diagram, the region's border with its hatching, both axes; by hand the axes alone."""
-    drawn, to, mount = Drawn(), paper.point, picture.cam.swing
-    if asked.by_hand:
-        drawn.line(canvas, "AXIS", to(0j), to(swing.pivot))
-        for point in (0j, swing.pivot):
-            canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
-        return drawn
-    for curve in _curves(picture, paper):
-        drawn.add(canvas, "JOINT_DIAGRAM", curve, asked.tolerance)
-    drawn.line(canvas, "AXIS", to(0j), to(swing.pivot))
-    if picture.cam.is_flat:
-        draw_faces(canvas, drawn, picture, paper)
-    else:
-        start, sweep = cmath.phase(swing.lowest - swing.pivot), -mount.sense * picture.cam.motion.extremes()[1]
-        if sweep:
-            canvas.arc("CENTRE", Arc(to(swing.pivot), paper.scale * mount.arm_length, start, sweep))
-        for foot, end in _arms(picture):
-            drawn.line(canvas, "CONSTRUCTION", to(swing.pivot), to(end))
-            drawn.line(canvas, "ORDINATE", to(end), to(foot))
-            canvas.arc("JOINT_DIAGRAM", Arc(to(foot), 0.7, 0.0, 2 * math.pi))
-    border = _border(swing, window)
-    for a, b in border:
-        drawn.line(canvas, "GAMMA_TANGENT", to(a), to(b))
-    _hatch(canvas, border, paper, window)
-    drawn.line(canvas, "DIMENSION", to(swing.lowest), to(swing.least))
-    for point in (0j, swing.pivot, swing.lowest, swing.least):
-        canvas.arc("DIMENSION", Arc(to(point), 0.9, 0.0, 2 * math.pi))
-    return drawn
 
 
 def _arms(picture: CamPicture) -> list[tuple[complex, complex]]:
@@ -175,33 +197,8 @@ def _hatch(canvas: Canvas, border: list[tuple[complex, complex]], paper: Paper, 
         way, length = (b - a) / abs(b - a), abs(b - a) * paper.scale
         while gone < length:
             foot = a + way * gone / paper.scale
-            tip = foot + way * cmath.exp(1j * math.radians(60)) * _HATCH / paper.scale
+            tip = foot + way * cmath.exp(1j * math.radians(60)) * HATCH / paper.scale
             if window.left < tip.real < window.right and window.low < tip.imag < window.high:
                 canvas.line("HATCH", paper.point(foot), paper.point(tip))
-            gone += _HATCH_STEP
+            gone += HATCH_STEP
         gone -= length
-
-
-def name_swing(labels: Labeller, picture: CamPicture, swing: Swing, paper: Paper, *, by_hand: bool) -> None:
-    """Names of axes, pivot, radius, numbers of positions; by hand of the axes alone."""
-    to, say = paper.point, picture.say
-    labels.name("O", to(0j), prefer=-1 - 1j)
-    labels.name("C", to(swing.pivot), prefer=1 - 1j)
-    if by_hand:
-        name_asked(labels, picture, to(swing.pivot))
-        return
-    if not picture.cam.is_flat:
-        labels.name("B_{0}", to(swing.lowest), SMALL_TEXT, prefer=1 - 1j)
-    labels.name("O_{1}", to(swing.least), prefer=-1 - 1j)
-    # the smallest cam of a roller's arm stands at a distance of its own
-    radius = f"{'r_{0}' if picture.cam.is_flat else 'r_{0d}'} = {say(swing.least_radius)}"
-    labels.name(radius, to((swing.lowest + swing.least) / 2), SMALL_TEXT, prefer=-1 + 0j)
-    if picture.cam.is_flat:
-        name_rocker(labels, picture, paper, swing.least)
-        return
-    if picture.gamma is not None:
-        symbol = "γ_{min}" if picture.asked else "γ"
-        text = f"{symbol} = {angle_text(picture)}"
-        point = swing.least + 0.25 * (swing.lowest - swing.least)
-        labels.name(text, to(point), prefer=1 + 0j, answer=False if picture.asked else None)
-    name_numbers(labels, picture, [to(foot) for foot, _ in _arms(picture)], to(swing.pivot))

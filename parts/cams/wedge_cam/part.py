@@ -25,6 +25,7 @@ from parts.keys.cam import (
     check_dwell,
     check_stroke,
     rough_law,
+    steep,
     stroke_key,
     stroke_quantity,
 )
@@ -370,9 +371,7 @@ def wedge_findings(keys: WedgeCamSpec, cam: WedgeCam) -> tuple[Finding, ...]:
             code, unit = ("wedge_swung", math.degrees(1.0)) if swings else ("wedge", 1.0)
             found.append(Finding(f"{code}_{name}_impact", size * unit, at))
             break
-    usual, steepest = USUAL_PRESSURE_ANGLE[swings], math.degrees(_greatest_pressure_angle(cam))
-    if steepest > usual + 1e-9:
-        found.append(Finding("steep_pressure_angle", steepest, usual))
+    found += steep(math.degrees(_greatest_pressure_angle(cam)), USUAL_PRESSURE_ANGLE[swings])
     return tuple(found)
 
 

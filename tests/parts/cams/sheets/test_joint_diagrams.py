@@ -13,9 +13,9 @@ import pytest
 
 from geometry.curves.line_arc import Arc, Line
 from parts.cams.disk_cam.part import CAM
-from parts.cams.sheets.joint import draw_joint, joint_of, joint_paper, joint_window, name_joint
+from parts.cams.sheets.joint import joint_of, joint_paper
 from parts.cams.sheets.picture import CamPicture, cam_picture
-from parts.cams.sheets.swing import draw_swing, name_swing, swing_of, swing_window
+from parts.cams.sheets.swing import swing_of
 from parts.drawing.canvas import SMALL_TEXT, Box, Canvas
 from parts.drawing.choice import Asked, blank
 from parts.drawing.labels import Labeller, nearest
@@ -58,17 +58,13 @@ class Drawn:
     def __init__(self, made: CamPicture, *, by_hand: bool = False) -> None:
         self.canvas: Canvas = blank("A2", upright=True)
         asked = Asked("en", 1e-4, by_hand=by_hand)
-        joint, swing = joint_of(made), swing_of(made)
-        self.box = joint_window(made, joint) if joint else swing_window(made, swing)
+        diagram = joint_of(made) or swing_of(made)
+        assert diagram is not None
+        self.box = diagram.window()
         self.paper, self.window = joint_paper(self.box, AREA)
-        if joint is not None:
-            draw_joint(self.canvas, made, joint, self.paper, self.window, asked)
-            self.strokes = list(self.canvas.strokes)
-            name_joint(Labeller(self.canvas, AREA), made, joint, self.paper, self.window, by_hand=by_hand)
-        else:
-            draw_swing(self.canvas, made, swing, self.paper, self.window, asked)
-            self.strokes = list(self.canvas.strokes)
-            name_swing(Labeller(self.canvas, AREA), made, swing, self.paper, by_hand=by_hand)
+        diagram.draw(self.canvas, self.paper, self.window, asked)
+        self.strokes = list(self.canvas.strokes)
+        diagram.name(Labeller(self.canvas, AREA), self.paper, self.window, by_hand=by_hand)
 
     def lines(self, layer: str) -> list[tuple[complex, complex]]:
         found = [s.curve for s in self.strokes if s.layer == layer and isinstance(s.curve, Line)]
