@@ -42,7 +42,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     # the sign of the teeth stands on them, not on the flanges
     teeth = complex((low + high) / 2, pulley.outer_radius)
     notes = tuple(replace(note, at=teeth) if note.at.imag == radius else note for note in section.notes)
-    seen = replace(face, strokes=(*face.strokes, (VISIBLE, circle_of(radius))))
+    seen = face.plus([(VISIBLE, circle_of(radius))])
     return replace(made, views=(replace(section, sizes=sizes, notes=notes), seen, *others))
 
 

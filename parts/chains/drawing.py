@@ -36,8 +36,7 @@ def part_drawing(subject: Subject) -> PartDrawing:
     section, *others = made.views
     if bevel is not None:
         ends = complex(0.0, sprocket.bevel_radius), complex(bevel[1], sprocket.tip_radius)
-        extra = Size("tooth_bevel", *ends, "above"), Size("tooth_bevel.depth", *ends, "left")
-        section = replace(section, sizes=(*section.sizes, *extra))
+        section = section.plus(sizes=(Size("tooth_bevel", *ends, "above"), Size("tooth_bevel.depth", *ends, "left")))
     if not grooves:
         return replace(made, views=(section, *others))
     first = grooves[0]

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Iterable
 from functools import cached_property
 from typing import Literal
 
-from geometry.base.record import Record
+from geometry.base.record import Record, replace
 from geometry.curves.curve import Complex, Curve
 from geometry.curves.line_arc import Arc, Line
 from parts.base.part import Part
@@ -175,6 +176,16 @@ class View(Record, dict=True):
     def chords(self) -> tuple[Complex, ...]:
         """Chords along each of its strokes, (2, n), model mm."""
         return tuple(chords(curve) for _, curve in self.strokes)
+
+    def plus(
+        self, strokes: Iterable[Stroke] = (), hatched: Iterable[tuple[Line | Arc, ...]] = (), axes: Iterable[Line] = (),
+        sizes: Iterable[Size] = (), rounds: Iterable[Round] = (), notes: Iterable[Note] = (),
+    ) -> View:  # fmt: skip
+        """The same with more of these behind its own."""
+        return replace(
+            self, strokes=(*self.strokes, *strokes), hatched=(*self.hatched, *hatched), axes=(*self.axes, *axes),
+            sizes=(*self.sizes, *sizes), rounds=(*self.rounds, *rounds), notes=(*self.notes, *notes),
+        )  # fmt: skip
 
 
 class PartDrawing(Record):

@@ -105,26 +105,11 @@ class FixedMating(Mating):
         }
 
 
-class CoaxialMating(Mating):
-    """Two instances on one axis; the solids tell whether they run into each other."""
-
-    rotation: float
-
-    bond = "turning"
-
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
-        """On the axis of the first."""
-        return centre, rotation + self.rotation
-
-    def standing(self, first: Pose, second: Pose) -> Standing:
-        """How far the axes are apart; the second is free to turn."""
-        return Standing(0.0, abs(second[0] - first[0]), 0.0, 0.0)
-
-
 class CarriedMating(Mating):
-    """A link whose axis stands on another one, free to turn: a satellite on its carrier."""
+    """A link that turns about an axis of another one: a satellite on its carrier, a wheel about a shaft."""
 
     offset: complex | None
+    rotation: float = 0.0
 
     bond = "turning"
 
@@ -132,7 +117,7 @@ class CarriedMating(Mating):
         """About its place on the carrier, turned with it as it is placed."""
         if self.offset is None:
             raise ParameterError("offset", None, "place_on_carrier", None)
-        return centre + self.offset * cmath.rect(1.0, rotation), rotation
+        return centre + self.offset * cmath.rect(1.0, rotation), rotation + self.rotation
 
     def standing(self, first: Pose, second: Pose) -> Standing | None:
         """How far the axis is from its place, mm (added to the distance); wherever it stands where none is told."""
@@ -170,10 +155,10 @@ class Coaxial(MateKind[CoaxialSpec, Any, Any]):
 
     name, keys = "coaxial", CoaxialSpec
 
-    def mating(self, keys: CoaxialSpec, first: End[Any], second: End[Any]) -> CoaxialMating:
+    def mating(self, keys: CoaxialSpec, first: End[Any], second: End[Any]) -> CarriedMating:
         """Whatever the parts are."""
         turn = math.radians(keys.rotation_deg)
-        return CoaxialMating(*self.joined(keys), height=keys.height, rotation=turn)
+        return CarriedMating(*self.joined(keys), height=keys.height, offset=0j, rotation=turn)
 
 
 class Carried(MateKind[CarriedSpec, Any, Any]):

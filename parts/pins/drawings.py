@@ -31,6 +31,7 @@ from parts.drawing.working import (
     PartDrawing,
     Round,
     Size,
+    Stroke,
     Subject,
     View,
     requirements,
@@ -85,24 +86,20 @@ def _plates(made: PinPlate, subject: Subject) -> tuple[View, ...]:
     pin = block(thick, end, circle - radius, circle + radius)
     pins = [pin, below(pin)]
     sizes = [
-        *section.sizes,
         Size("pin_length", complex(thick, -circle - radius), complex(end, -circle - radius), "below"),
         Size("pin_circle_diameter", complex(end, -circle), complex(end, circle), "right", "Ø"),
     ]
-    strokes, hatched = list(section.strokes), [*section.hatched, *pins]
-    length = end
+    strokes, hatched, length = list[Stroke](), list(pins), end
     if isinstance(subject.part.keys, LanternWheelSpec):
         other, length = Placement2(0.0, complex(end)), end + thick
         strokes += [(layer, curve.placed(other)) for layer, curve in section.strokes]
         hatched += [tuple(curve.placed(other) for curve in loop) for loop in section.hatched]
         sizes.append(Size("width", -1j * outer, complex(length, -outer), "below"))
     strokes += [(VISIBLE, line) for bar in pins for line in bar]
-    axes = [Line(complex(axis.start), complex(max(axis.end.real, length), axis.end.imag)) for axis in section.axes]
-    axes += [Line(complex(0.0, way * circle), complex(length, way * circle)) for way in (1, -1)]
-    notes = (*section.notes, _runs(thick + made.length / 2, circle + radius, subject))
-    section = replace(
-        section, strokes=tuple(strokes), hatched=tuple(hatched), axes=tuple(axes), sizes=tuple(sizes), notes=notes
-    )
+    longer = tuple(Line(a.start, complex(max(a.end.real, length), a.end.imag)) for a in section.axes)
+    axes = [Line(complex(0.0, way * circle), complex(length, way * circle)) for way in (1, -1)]
+    runs = _runs(thick + made.length / 2, circle + radius, subject)
+    section = replace(section, axes=longer).plus(strokes, hatched, axes, sizes, notes=[runs])
     return section, _with_pins(face, made, subject), *others
 
 
@@ -111,14 +108,11 @@ def _with_pins(face: View, made: PinPlate, subject: Subject) -> View:
     bore = made.holes.bore
     turn = 0.0 if bore is None or isinstance(bore, RoundBore) else math.pi / 2 - bore.angle
     centres = [centre * complex(math.cos(turn), math.sin(turn)) for centre in made.pins.centres()]
-    strokes = [*face.strokes, *((VISIBLE, circle_of(made.pin_radius, centre)) for centre in centres)]
+    strokes: list[Stroke] = [(VISIBLE, circle_of(made.pin_radius, centre)) for centre in centres]
     strokes.append((AXIS, circle_of(made.pins.pitch_circle_diameter / 2)))
     told = hole_round("pin_diameter", centres, made.pin_radius, subject, "pins_of")
-    axes = [
-        *face.axes,
-        *(Line(c * (1 - made.pin_radius / abs(c)), c * (1 + made.pin_radius / abs(c))) for c in centres),
-    ]
-    return replace(face, strokes=tuple(strokes), axes=tuple(axes), rounds=(*face.rounds, told))
+    axes = [Line(c * (1 - made.pin_radius / abs(c)), c * (1 + made.pin_radius / abs(c))) for c in centres]
+    return face.plus(strokes, axes=axes, rounds=[told])
 
 
 def _ring(ring: PinRing, subject: Subject) -> tuple[View, ...]:
@@ -138,8 +132,7 @@ def _ring(ring: PinRing, subject: Subject) -> tuple[View, ...]:
         Size("inner_diameter", complex(width, -inner), complex(width, inner), "right", "Ø"),
         Size("pin_circle_diameter", -1j * circle, 1j * circle, "left", "Ø"),
     ]
-    notes = (_runs(width / 2, -begins, subject),)
-    section = replace(section, axes=(*section.axes, *axes), sizes=(*section.sizes, *sizes), notes=notes)
+    section = replace(section, notes=(_runs(width / 2, -begins, subject),)).plus(axes=axes, sizes=sizes)
     seats = ring.region(0.0).holes[0]
     centres = ring.pin_centres()
     words = subject.words("seats_of" if is_seat else "pins_of", count=len(centres))
@@ -148,8 +141,8 @@ def _ring(ring: PinRing, subject: Subject) -> tuple[View, ...]:
     angles = tuple(way + turn for turn in (0.0, 30.0, -30.0, 60.0, -60.0))
     told = Round("pins", best, radius, words + ("R" if is_seat else "Ø"), is_radius=is_seat, angles=angles)
     face = ring_face(outer, ring.holes, subject)
-    strokes = [*face.strokes, *((VISIBLE, s.curve) for s in seats.segments()), (AXIS, circle_of(circle))]
-    return section, replace(face, strokes=tuple(strokes), rounds=(told, *face.rounds))
+    strokes = [*((VISIBLE, s.curve) for s in seats.segments()), (AXIS, circle_of(circle))]
+    return section, replace(face, rounds=(told, *face.rounds)).plus(strokes)
 
 
 def _eccentric(disc: RoundDisc, subject: Subject) -> PartDrawing:
@@ -164,7 +157,7 @@ def _eccentric(disc: RoundDisc, subject: Subject) -> PartDrawing:
     size = Size("eccentricity", 0j, middle, "below")
     told = Round("diameter", middle, radius, angles=(45.0, 60.0, 30.0, 135.0))
     axes = [*axis_cross(radius), Line(middle - 1.05j * radius, middle + 1.05j * radius)]
-    face = replace(face, axes=tuple(axes), sizes=(*face.sizes, size), rounds=(told, *face.rounds))
+    face = replace(face, axes=tuple(axes), rounds=(told, *face.rounds)).plus(sizes=[size])
     return replace(made, views=(section, face, *others))
 
 

@@ -66,8 +66,7 @@ def _ring(wheel: GenevaWheel, subject: Subject) -> PartDrawing:
     section = ring_section(subject.part.face_width, (wheel.tip_radius, end, outer), wheel.holes, subject)
     face = ring_face(outer, wheel.holes, subject)
     told = Round("tip_diameter", 0j, wheel.tip_radius, angles=(-60.0, -120.0, -30.0, 210.0))
-    strokes = [*face.strokes, *((VISIBLE, edge) for edge in wheel.outline())]
-    face = replace(face, strokes=tuple(strokes), rounds=(told, *face.rounds))
+    face = replace(face, rounds=(told, *face.rounds)).plus((VISIBLE, edge) for edge in wheel.outline())
     slots = wheel.drive.number_of_slots
     return PartDrawing((section, face), requirements(subject, *directions(wheel.holes, subject, "zero_slot", slots)))
 
@@ -89,17 +88,10 @@ def _with_slots(face: View, wheel: GenevaWheel, language: str) -> View:
     if wheel.tip_rounding > 0 and isinstance(corner, Arc):
         rounds.append(round_("tip_rounding", corner.centre, corner.radius, arc_angles(corner), 2 * slots))
     mouth = wheel.drive.mouth_radius
-    sizes = (
-        Size(
-            "slot_width",
-            complex(mouth, -half),
-            complex(mouth, half),
-            "right",
-            places=counted_words(language, "places_of", slots),
-        ),
-        Size("slot_end", 0j, complex(wheel.slot_end + sense * half), "below"),
-    )
-    return replace(face, sizes=(*face.sizes, *sizes), rounds=(*face.rounds, *rounds))
+    places = counted_words(language, "places_of", slots)
+    width = Size("slot_width", complex(mouth, -half), complex(mouth, half), "right", places=places)
+    end = Size("slot_end", 0j, complex(wheel.slot_end + sense * half), "below")
+    return face.plus(sizes=(width, end), rounds=rounds)
 
 
 def _with_reliefs(face: View, driver: GenevaDriver) -> View:
@@ -108,18 +100,15 @@ def _with_reliefs(face: View, driver: GenevaDriver) -> View:
     rounds = [Round("locking_disc", 0j, disc.wheel.locking_radius, "R", is_radius=True,
                     angles=tuple(math.degrees(middle) + turn for turn in (0.0, 20.0, -20.0)))]  # fmt: skip
     relief = disc.relief()
+    # where it meets the locking arc after it
+    corner = complex(relief.point(relief.domain[1]))
     if isinstance(relief, Arc):
         rounds.append(Round("relief", relief.centre, relief.radius, "R", is_radius=True, angles=arc_angles(relief)))
     sizes = (
         Size("relief_apex", 0j, complex(disc.apex), "above"),
-        Size("disc_corners", _relief_end(relief).conjugate(), _relief_end(relief), "right"),
+        Size("disc_corners", corner.conjugate(), corner, "right"),
     )
-    return replace(face, sizes=(*face.sizes, *sizes), rounds=(*face.rounds, *rounds))
-
-
-def _relief_end(relief: Line | Arc) -> complex:
-    """Where a relief meets the locking arc after it."""
-    return complex(relief.point(relief.domain[1]))
+    return face.plus(sizes=sizes, rounds=rounds)
 
 
 def _crank(driver: GenevaDriver, subject: Subject) -> PartDrawing:
@@ -130,18 +119,15 @@ def _crank(driver: GenevaDriver, subject: Subject) -> PartDrawing:
     holes = HubHoles(driver.holes.bore, (*own, *driver.holes.round_holes))
     section, face, *others = wheel_views(Wheel(WheelShape(thick), holes, (outer, outer), None, stands=False), subject)
     crank = disc.drive.crank_radius
-    strokes = [*face.strokes, *((VISIBLE, edge) for edge in disc.outline()), (AXIS, circle_of(crank))]
-    rounds = list(face.rounds)
+    face = face.plus([*((VISIBLE, edge) for edge in disc.outline()), (AXIS, circle_of(crank))])
     if is_whole:
-        strokes += [(VISIBLE, circle_of(driver.pin_radius, centre)) for centre in disc.pin_centres()]
+        pins = [(VISIBLE, circle_of(driver.pin_radius, centre)) for centre in disc.pin_centres()]
         count = disc.number_of_pins
         told = f"{sheet_words(subject.language, 'pins_of', count=count) if count > 1 else ''}Ø"
-        rounds.append(Round("pin_diameter", complex(crank), driver.pin_radius, told, angles=(45.0, -45.0)))
-        section = _with_disc(section, driver)
-    face = replace(face, strokes=tuple(strokes), rounds=tuple(rounds))
-    if is_whole:
+        one = Round("pin_diameter", complex(crank), driver.pin_radius, told, angles=(45.0, -45.0))
         size = Size("crank_radius", 0j, complex(crank), "below")
-        face = _with_reliefs(replace(face, sizes=(*face.sizes, size)), driver)
+        section = _with_disc(section, driver)
+        face = _with_reliefs(face.plus(pins, sizes=[size], rounds=[one]), driver)
     words = requirements(subject, *directions(holes, subject, "zero_pin"))
     return PartDrawing((section, face, *others), words)
 
@@ -160,15 +146,9 @@ def _with_disc(section: View, driver: GenevaDriver) -> View:
     if disc.number_of_pins % 2 == 0:
         lower = [*upper, *pins]
     bars = [*upper, *pins, *(below(bar) for bar in lower)]
-    strokes = [*section.strokes, *((VISIBLE, line) for bar in bars for line in bar)]
+    strokes = [(VISIBLE, line) for bar in bars for line in bar]
     sizes = [Size("disc_height", complex(0.0, -radius), complex(ends[0], -radius), "below")]
     if ends[0] != ends[1]:
         sizes.append(Size("pin_height", complex(0.0, crank + pin), complex(ends[1], crank + pin), "above"))
-    axes = [*section.axes, Line(complex(0.0, crank), complex(ends[1], crank)), Line(0j, complex(max(ends)))]
-    return replace(
-        section,
-        strokes=tuple(strokes),
-        hatched=(*section.hatched, *bars),
-        axes=tuple(axes),
-        sizes=(*section.sizes, *sizes),
-    )
+    axes = Line(complex(0.0, crank), complex(ends[1], crank)), Line(0j, complex(max(ends)))
+    return section.plus(strokes, bars, axes, sizes)

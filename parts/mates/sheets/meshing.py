@@ -13,7 +13,7 @@ from geometry.base.record import Record, replace
 from geometry.curves.curve import end_point, start_point
 from geometry.curves.line_arc import Arc, Line
 from geometry.gears.pictures.meshing import CIRCLES, Body, MeshingPicture
-from parts.drawing.canvas import SQUARE, Box, Canvas, Paper, Stroke, decimal, draw, fitted, scale_text
+from parts.drawing.canvas import SQUARE, Box, Canvas, decimal, draw, fitted, scale_text
 from parts.drawing.choice import Asked
 from parts.drawing.labels import Labeller
 from parts.drawing.table import Row, Table
@@ -61,8 +61,8 @@ def meshing_canvas(picture: MeshingPicture, module: float, facts: Facts, asked: 
         ends = [_circles(canvas, body, _fan(body, view.window), view) for body in picture.bodies]
         _teeth(canvas, picture, view, asked.tolerance)
         _lines(canvas, picture, view)
-        canvas.arc("ARC_OF_ACTION", _arc(view.paper, picture.arc_of_action))
-        canvas.strokes += [_stroke("WORKING_PITCH", view.paper, picture.pitch)]
+        canvas.add("ARC_OF_ACTION", view.paper.scaled(picture.arc_of_action))
+        canvas.add("WORKING_PITCH", view.paper.scaled(picture.pitch))
         dimensions = _dimensions(canvas, picture, view)
     rows = list(facts.rows)
     for index, body in enumerate(picture.bodies, 1):
@@ -121,7 +121,7 @@ def _circles(
         layer, radius = f"CIRCLE_{name.upper()}", body.radii[name]
         if body.centre is None:
             line = Line(complex(-fan[0], radius), complex(fan[1], radius))
-            canvas.strokes.append(_stroke(layer, view.paper, line))
+            canvas.add(layer, view.paper.scaled(line))
             found.append((name, (view.paper.point(line.start), view.paper.point(line.end))))
             continue
         if is_up(body, view.window):
@@ -130,7 +130,7 @@ def _circles(
         else:
             arc = Arc(body.centre, radius, -math.pi / 2 - fan[0], fan[0] + fan[1])
             ends = start_point(arc), end_point(arc)
-        canvas.arc(layer, _arc(view.paper, arc))
+        canvas.add(layer, view.paper.scaled(arc))
         found.append((name, (view.paper.point(ends[0]), view.paper.point(ends[1]))))
     return found
 
@@ -161,7 +161,7 @@ def _squares(canvas: Canvas, picture: MeshingPicture, view: View) -> None:
     canvas.squares(Box(at.real - left, at.imag - below, at.real + right, at.imag + above))
     canvas.line("CENTRE", to(complex(0, window.low)), to(complex(0, window.high)))
     canvas.line("TANGENT", to(complex(window.left, pole.imag)), to(complex(window.right, pole.imag)))
-    canvas.arc("DIMENSION", Arc(at, 0.8, 0.0, 2 * math.pi))
+    _mark(canvas, at)
 
 
 def _lines(canvas: Canvas, picture: MeshingPicture, view: View) -> None:
@@ -175,7 +175,7 @@ def _lines(canvas: Canvas, picture: MeshingPicture, view: View) -> None:
         for start, end in pairwise(points):
             canvas.line("DIMENSION", start, end)
         canvas.line("CENTRE", points[-1], axis + way * _AXIS)
-        canvas.arc("DIMENSION", Arc(axis, 0.8, 0.0, 2 * math.pi))
+        _mark(canvas, axis)
     pole = picture.on_line(picture.pole)
     canvas.line("TANGENT", to(complex(window.left, pole.imag)), to(complex(window.right, pole.imag)))
     low, high = _clipped(picture, window)
@@ -186,10 +186,15 @@ def _lines(canvas: Canvas, picture: MeshingPicture, view: View) -> None:
             canvas.line("DIMENSION", to(body.centre), to(point))
     for point in _marks(picture):
         if view.holds(point):
-            canvas.arc("DIMENSION", Arc(to(point), 0.8, 0.0, 2 * math.pi))
+            _mark(canvas, to(point))
     radius = _angle_radius(picture, view)
     phase = cmath.phase(picture.direction)
     canvas.arc("DIMENSION", Arc(to(pole), radius, phase, math.pi - phase))
+
+
+def _mark(canvas: Canvas, at: complex) -> None:
+    """A point, on paper."""
+    canvas.arc("DIMENSION", Arc(at, 0.8, 0.0, 2 * math.pi))
 
 
 def _broken(picture: MeshingPicture, view: View) -> dict[int, tuple[complex, complex]]:
@@ -233,30 +238,25 @@ def _marks(picture: MeshingPicture) -> list[complex]:
 
 def _dimensions(canvas: Canvas, picture: MeshingPicture, view: View) -> dict[str, complex]:
     """Arcs inside the bodies that carry d d' and p_w, with lines out to where these lie; the middle of each."""
-    first, second = picture.bodies
-    scale = view.paper.scale
-    inner = first.radii["base"] if view.shows(first, "base") else first.radii["root"]
-    radius = min(first.radii["root"], inner) - _INSIDE / scale
-    found = {}
-    if radius > 0:
-        arc = picture.arc_of_action
-        found["arc"] = _dimension_arc(canvas, view, arc, radius)
-    mark = picture.pitch
+    (first, second), inside, to = picture.bodies, _INSIDE / view.paper.scale, view.paper.point
+
+    def within(body: Body) -> float:
+        inner = body.radii["base" if view.shows(body, "base") else "root"]
+        return min(body.radii["root"], inner) - inside
+
+    found, mark, beyond = {}, picture.pitch, second.radii["root"] + inside
+    if (radius := within(first)) > 0:
+        found["arc"] = _dimension_arc(canvas, view, picture.arc_of_action, radius)
     if isinstance(mark, Line):
-        depth = second.radii["root"] + _INSIDE / scale
-        start, end = complex(mark.start.real, depth), complex(mark.end.real, depth)
-        for a, b in ((mark.start, start), (mark.end, end)):
-            canvas.line("DIMENSION", view.paper.point(a), view.paper.point(b))
-        canvas.line("DIMENSION", view.paper.point(start), view.paper.point(end))
-        canvas.arrow("DIMENSION", view.paper.point(start), -1)
-        canvas.arrow("DIMENSION", view.paper.point(end), 1)
-        found["pitch"] = view.paper.point((start + end) / 2)
-        return found
-    outside = picture.kind == "internal"
-    radii = second.radii
-    inner = radii["base"] if view.shows(second, "base") else radii["root"]
-    radius = radii["root"] + _INSIDE / scale if outside else min(radii["root"], inner) - _INSIDE / scale
-    if radius > 0:
+        ends = [(end, complex(end.real, beyond)) for end in (mark.start, mark.end)]
+        for outer, inner in ends:
+            canvas.line("DIMENSION", to(outer), to(inner))
+        start, end = (to(inner) for _, inner in ends)
+        canvas.line("DIMENSION", start, end)
+        canvas.arrow("DIMENSION", start, -1)
+        canvas.arrow("DIMENSION", end, 1)
+        found["pitch"] = to((ends[0][1] + ends[1][1]) / 2)
+    elif (radius := beyond if picture.kind == "internal" else within(second)) > 0:
         found["pitch"] = _dimension_arc(canvas, view, mark, radius)
     return found
 
@@ -264,7 +264,7 @@ def _dimensions(canvas: Canvas, picture: MeshingPicture, view: View) -> dict[str
 def _dimension_arc(canvas: Canvas, view: View, arc: Arc, radius: float) -> complex:
     """An arc about the same centre with arrows at its ends; its middle on paper."""
     shown = Arc(arc.centre, radius, arc.start_angle, arc.sweep)
-    canvas.arc("DIMENSION", _arc(view.paper, shown))
+    canvas.add("DIMENSION", view.paper.scaled(shown))
     for t, sense in ((0.0, -1), (arc.sweep, 1)):
         inner, outer = complex(shown.point(t)), complex(arc.point(t))
         canvas.line("DIMENSION", view.paper.point(outer), view.paper.point(inner))
@@ -309,13 +309,3 @@ def _names(
     if "pitch" in dimensions:
         length = decimal(f"{picture.working_pitch:.3f}", language)
         labels.name(f"p_{{w}} = {length}", dimensions["pitch"], prefer=1j)
-
-
-def _arc(paper: Paper, arc: Arc) -> Arc:
-    made = paper.scaled(arc)
-    assert isinstance(made, Arc)
-    return made
-
-
-def _stroke(layer: str, paper: Paper, curve: Arc | Line) -> Stroke:
-    return Stroke(layer, paper.scaled(curve))
