@@ -100,3 +100,9 @@ def valued(made_of: str, known: Mapping[str, float]) -> float:
     """What a rule or a condition comes to."""
     value: float = eval(_code(made_of), {"__builtins__": {}, **_KNOWN}, dict(known))
     return value
+
+
+def listed(made_of: str, known: Mapping[str, object]) -> list[tuple[float, ...]]:
+    """What points or holes come to that are made of such sizes; empty of no words."""
+    values: list[tuple[float, ...]] = eval(_code(made_of or "[]"), {"__builtins__": {}, **_KNOWN}, dict(known))
+    return values

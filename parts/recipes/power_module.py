@@ -28,17 +28,30 @@ from msgspec.structs import replace
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import nearest
+from parts.base.psv import rows_of
 from parts.base.texts import N_, Message, words
 from parts.keys.base import mm
-from parts.pages.module_rules import CONDITIONS, DRIVERS, M4, M8, M10, M12, Condition, of_orientation, sizes, valued
+from parts.pages.module_rules import (
+    CONDITIONS,
+    DRIVERS,
+    M4,
+    M8,
+    M10,
+    M12,
+    Condition,
+    listed,
+    of_orientation,
+    sizes,
+    valued,
+)
 from parts.recipes.making import Making, behind, front, place
 from parts.recipes.names import NAMES
 from parts.recipes.power_module_kinematics import IDLER_SHIFT
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
 _Teeth = Annotated[int, Meta(ge=12, le=1000)]
-# of the M20 nut: radius, height; across flats of M8 and M12, height of their heads and nuts
-_NUT_20, _HEX_8, _HEX_12 = (17.0, 8.0), (13.0, 5.3), (18.0, 7.5, 10.8)
+# across flats of M8 and M12, height of their heads and nuts
+_HEX_8, _HEX_12 = (13.0, 5.3), (18.0, 7.5, 10.8)
 # step of a casting from one level to the next, play of what is turned by hand, mm
 _STEP, _PLAY = 1.0, 0.05
 # radius of the platform axle's thread under nut 47, and of axle 13
@@ -49,6 +62,10 @@ _SNAP = 1.5
 _FLANGE, _GUIDE_SCREWS, _DEEP = 8.0, 20, 10.0
 # guide 5: how many screws, where the first is, degrees
 _RACE_SCREWS, _RACE_START = 32, 1.875
+# disk 3: how deep its recess for screws is
+_RECESS = 17.0
+# what is turned, a row of ``module_bodies.psv`` each: points of half a section and holes, made of sizes and of these
+_BODIES = {name: (points, holes) for name, points, holes in rows_of(__file__, "module_bodies")}
 
 _DESIGNATION, _STANDARD = N_("KRB.PM.25.33.13.00.{number}"), N_("GOST {number}")
 
@@ -234,12 +251,14 @@ class _Making(Making):
 
     def put(self, kind: str, first: str, second: str, part: str = "", **keys: object) -> None:
         """An instance by its first mate, in the sub-assembly that grows."""
+        self._made(part or second)
         super().put(kind, first, second, part, **keys)
         self.found.instances[second]["subassembly"] = self.within
 
     def _set(self, first: str, part: str, z: float, at: complex = 0j, name: str = "", **more: object) -> None:
         """An instance or a group of them (``count``), one body with another; ``z``: its lower face."""
         name = name or part
+        self._made(part)
         self.found.instances[name] = {"part": part, "subassembly": self.within, **more}
         self.low[name] = z
         self.mate("fixed", first, name, offset=place(at, z - self.low[first]))
@@ -257,23 +276,17 @@ class _Making(Making):
         self.found.parts[name] = table | ({"holes": list(holes)} if holes else {})
         return name
 
-    def _tube(self, name: str, inner: float, outer: float, height: float, *holes: Table) -> str:
-        return self._turned(name, [(inner, 0), (outer, 0), (outer, height), (inner, height)], *holes)
+    def _made(self, name: str) -> None:
+        """A part of the table of what is turned, where it is needed first."""
+        if name in _BODIES and name not in self.found.parts:
+            points, holes = (listed(made_of, _SHAPES | self.s) for made_of in _BODIES[name])
+            self._turned(name, points, *(_holes(int(count), *where) for count, *where in holes))
 
     def _layers(self, name: str, layers: Sequence[tuple[float, Table]]) -> str:
         """A part of layers: thickness and contours of each; what is of no thickness is left out; its name."""
         rows = [{"thickness": round(thick, 6), **table} for thick, table in layers if thick > 1e-9]
         self.found.parts[name] = {"kind": "layered", "layers": rows}
         return name
-
-    def _screw(
-        self, name: str, diameter: float, length: float, head: tuple[float, float], *, down: bool = False
-    ) -> str:
-        """Shank and round head, its tip below; ``down``: its head below; its name."""
-        shank, (wide, high) = diameter / 2, head
-        points = [(0.0, 0.0), (shank, 0.0), (shank, length), (wide / 2, length), (wide / 2, length + high)]
-        points += [(0.0, length + high)]
-        return self._turned(name, [(r, length + high - z) for r, z in points] if down else points)
 
     # -- what stands still
 
@@ -285,15 +298,10 @@ class _Making(Making):
         }  # fmt: skip
         self._layers("body", self._casting())
         # the guide about the balls of disk 2 closes the opening of the lip, its screws in that
-        count, inner, outer, high = _GUIDE_SCREWS, s["r_20_in"], s["r_open"] - keys.clearance, s["h_5"]
-        radius, groove = s["r_groove"], s["h_groove"]
-        self._set("body", self._turned("guide_6", [
-            (inner, 0), (outer, 0), (outer, high - _FLANGE), (s["r_6"], high - _FLANGE), (s["r_6"], high),
-            (inner, high), (inner, s["z_ball"] + groove, -radius), (inner, s["z_ball"] - groove),
-        ], _holes(count, M8[0], s["r_6_screws"])), 0.0)  # fmt: skip
-        self._circle("body", "guide_6_screw", self._screw("screw_51", 8, 16, M8[1:]), count, s["r_6_screws"], high - 16)
+        self._set("body", "guide_6", 0.0)
+        self._circle("body", "guide_6_screw", "screw_51", _GUIDE_SCREWS, s["r_6_screws"], s["h_5"] - 16)
         # what holds the central wheel
-        self._set("body", self._tube("spacer_18", 10.0, s["r_18"], s["h_18"], _holes(6, 8, s["r_54"])), s["z_boss"])
+        self._set("body", "spacer_18", s["z_boss"])
         if self.cranks:
             self._body_plate()
         elif self.idlers:
@@ -301,7 +309,6 @@ class _Making(Making):
         else:
             self._wheel("central_wheel", keys.wheel_width, 2 * _AXLE, holes=_holes(6, M8[0], s["r_54"]))
             self._set("body", "central_wheel", s["z_16"])
-        self._screw("screw_54", 8, 75, M8[1:])
         self._circle("body", "central_screw", "screw_54", 6, s["r_54"], s["z_boss"] + s["h_18"] + s["h_54"] - 75)
         # to the bed
         self._hex("bolt_42", 12, 45, _HEX_12[:2])
@@ -396,7 +403,7 @@ class _Making(Making):
     def _outer_disk(self) -> None:
         s, keys = self.s, self.keys
         self.within = "outer_disk_unit"
-        t, arm, ball = keys.disk_thickness, s["arm"], keys.ball
+        t, arm = keys.disk_thickness, s["arm"]
         seat = 2 * s["r_33_out"]
         behind = [_round(8, at) for at in _on_circle(12, s["r_53"])]
         front = [_round(4, at) for at in _on_circle(16, s["r_53"], 11.25)]
@@ -419,17 +426,12 @@ class _Making(Making):
         self.low["disk_2"] = 0.0
         self.put("coaxial", "body", "disk_2", height=round(-self.low["body"], 6))
         # shields
-        self._tube("shield_7", s["r_7_in"], s["r_7_out"], s["h_shield"], _holes(16, M4[0], s["r_53"], 11.25))
         self._set("disk_2", "shield_7", t)
-        self._tube("shield_8", s["r_3"] - 6, s["r_8_out"], s["h_shield"], _holes(16, M4[0], s["r_8"]))
         self._set("disk_2", "shield_8", t, arm)
-        self._screw("screw_59", 4, 6, M4[1:])
-        self._screw("screw_59_down", 4, 6, M4[1:], down=True)
         tip = t + s["h_shield"] - 6
         self._circle("disk_2", "shield_7_screw", "screw_59", 16, s["r_53"], tip, 11.25)
         self._circle("shield_8", "shield_8_screw", "screw_59", 16, s["r_8"], tip)
         # rings that hold the balls of disk 3
-        self._tube("protective_ring", s["r_33_in"], s["r_33_out"], s["h_33"], _holes(12, M4[0], s["r_59"]))
         rear, fore = s["seat_33"] - s["h_33"], t - s["seat_33"]
         self._set("disk_2", "protective_ring", fore, arm, name="protective_ring_1")
         self._set("disk_2", "protective_ring", rear, arm, name="protective_ring_2")
@@ -441,7 +443,6 @@ class _Making(Making):
             self._set("disk_2", "plug", z, complex(arm + s["r_59"]), name=f"plug_{k}")
         self._circle("protective_ring_1", "front_clip", "screw_59", 12, s["r_59"], fore + s["h_33"] - 6)
         self._circle("protective_ring_2", "rear_clip", "screw_59_down", 12, s["r_59"], rear - M4[2])
-        self._turned("ball", [(0.0, 0.0, ball / 2), (0.0, ball)])
         self._cage("small_cage", s["r_small"], int(s["small_balls"]))
         for k, z in enumerate((s["z_upper"], s["z_lower"]), 1):
             self._row("disk_2", "small", k, z, arm)
@@ -458,16 +459,8 @@ class _Making(Making):
             (h - (40 - wide + 1) - (25 - s["h_5"] + 1), {"circles": [*edges, *passing]}),
             (25 - s["h_5"] + 1, {"circles": [*edges, *passing, *guides]}),
         ]), -h)  # fmt: skip
-        self._screw("screw_53", 8, 45, M8[1:])
-        self._screw("screw_53_down", 8, 45, M8[1:], down=True)
         self._circle("disk_2", "spacer_24_screw", "screw_53_down", 12, s["r_53"], -h - M8[2])
-        low, aside, radius, quarter = s["z_race"], s["e_quarter"], s["r_groove"], s["h_quarter"]
-        wall, middle = s["r_large"] + aside - radius, s["z_ball"] - low - aside
-        self._set("disk_2", self._turned("guide_5", [
-            (s["r_2"], 0), (wall, 0), (wall, middle, -radius), (s["r_5"], middle + quarter),
-            (s["r_5"], s["h_5"] - low), (s["r_2"], s["h_5"] - low),
-        ], _holes(_RACE_SCREWS, M8[0], s["r_41"], _RACE_START)), low)  # fmt: skip
-        self._screw("screw_52", 8, 25, M8[1:])
+        self._set("disk_2", "guide_5", s["z_race"])
         self._circle("disk_2", "guide_5_screw", "screw_52", _RACE_SCREWS, s["r_41"], s["h_5"] - 25, _RACE_START)
         self._worm_wheel("worm_wheel_25", 0, s["r_25_in"], [
             _holes(24, M8[0], s["r_41"]), _holes(24, 8, s["r_20_screws"]),
@@ -475,11 +468,7 @@ class _Making(Making):
         self._set("disk_2", "worm_wheel_25", -h - wide)
         self._hex("bolt_41", 8, 40, _HEX_8, down=True)
         self._circle("disk_2", "worm_wheel_25_bolt", "bolt_41", 24, s["r_41"], -h - wide - _HEX_8[1])
-        inner, middle, high = s["r_20_in"], s["r_large"] - aside + math.sqrt(radius**2 - aside**2), s["h_20"]
-        self._turned("bearing_ring", [
-            (middle, 0), (s["r_20"], 0), (s["r_20"], high), (middle, high, -radius), (inner, high + aside - quarter),
-            (inner, quarter - aside, -radius),
-        ], _holes(24, M8[0], s["r_20_screws"]))  # fmt: skip
+        high = s["h_20"]
         for k, z in enumerate((s["z_20"], s["z_20"] - high), 1):
             self._set("disk_2", "bearing_ring", z, name=f"bearing_ring_{k}")
         self._circle("disk_2", "bearing_screw", "screw_53_down", 24, s["r_20_screws"], s["z_20"] - high - M8[2])
@@ -496,13 +485,7 @@ class _Making(Making):
         z = -s["h_24"]
         self.low["ring"] = z
         self.put("coaxial", "body", "ring", height=round(z - self.low["body"], 6))
-        half, low, high = keys.ball / 2, s["z_23"] + keys.worm_wheel_width, s["h_22"]
-        mid, groove = s["z_20"] - low, s["h_groove"]
-        self._set("ring", self._turned("spacer_22", [
-            (s["r_22_in"], 0), (s["r_21"], 0), (s["r_21"], mid - half - 2), (s["r_5"], mid - half - 2),
-            (s["r_5"], mid - groove, -s["r_groove"]), (s["r_5"], mid + groove), (s["r_5"], mid + half + 2),
-            (s["r_21"], mid + half + 2), (s["r_21"], high), (s["r_22_in"], high),
-        ], _holes(12, 8, s["r_21_screws"])), low)  # fmt: skip
+        self._set("ring", "spacer_22", s["z_23"] + keys.worm_wheel_width)
         self._circle("ring", "ring_screw", "screw_53", 12, s["r_21_screws"], z + keys.face_width - 45)
         self._row("ring", "large", 2, s["z_20"])
         self._worm_wheel("worm_wheel_23", 1, s["r_22_in"], [_holes(12, M8[0], s["r_21_screws"])])
@@ -526,24 +509,10 @@ class _Making(Making):
         z = -s["h_24"]
         self._moving("carried", "disk_2", "pinion", "", complex(arm), z)
         self.mate("internal_gear_pair", "ring", "pinion")
-        screws = _holes(6, M12[0], s["r_56"], 30.0)
-        self._tube("sleeve_17", 20.0, s["r_56"] + 9, s["gap_21"] + 0.5, third, screws)
         self._set("pinion", "sleeve_17", z + keys.face_width)
-        high, groove, floor = t - 1.0, s["h_groove"], 17.0
-        rows = [s["z_lower"] - 0.5, s["z_upper"] - 0.5]
-        self._set("pinion", self._turned("disk_3", [
-            (20.0, 0.0), (s["r_3"], 0.0),
-            *(p for row in rows for p in ((s["r_3"], row - groove, -s["r_groove"]), (s["r_3"], row + groove))),
-            (s["r_3"], high), (s["r_56"] + 11, high), (s["r_56"] + 11, high - floor), (s["r_56"] - 11, high - floor),
-            (s["r_56"] - 11, high), (0.0, high), (0.0, 6.0), (20.0, 6.0),
-        ], third, screws), 0.5)  # fmt: skip
-        self._screw("screw_56", 12, 35, M12[1:])
-        self._circle("pinion", "disk_3_screw", "screw_56", 6, s["r_56"], t - 0.5 - floor - 35, 30.0)
-        self._tube(
-            "cover_12", s["r_journal"] + 7, s["r_journal"] + 25, s["h_12"], _holes(4, M8[0], s["r_journal"] + 16, 45)
-        )
+        self._set("pinion", "disk_3", 0.5)
+        self._circle("pinion", "disk_3_screw", "screw_56", 6, s["r_56"], t - 0.5 - _RECESS - 35, 30.0)
         self._set("pinion", "cover_12", z - s["h_12"], complex(arm))
-        self._screw("screw_51_down", 8, 16, M8[1:], down=True)
         self._circle("cover_12", "cover_12_screw", "screw_51_down", 4, s["r_journal"] + 16, z - s["h_12"] - M8[2], 45)
 
     # -- what turns the platform: the wheels of the thesis
@@ -565,8 +534,8 @@ class _Making(Making):
             (10.0, z + keys.face_width + 10 - end), (0.0, z + keys.face_width + 10 - end), (0.0, 17.0), (7.0, 17.0),
         ]), end)  # fmt: skip
         self._nut_46()
-        self._set("pinion", self._tube("spacer_15", 7.0, 14.0, 5.0), end - 5)
-        self._set("pinion", self._screw("screw_57", 14, 20, (21.0, 14.0), down=True), end - 5 - 14)
+        self._set("pinion", "spacer_15", end - 5)
+        self._set("pinion", "screw_57", end - 5 - 14)
 
     def _platform_wheel(self) -> None:
         """Wheel 11, in mesh with wheel 14, or with the idler between."""
@@ -585,18 +554,14 @@ class _Making(Making):
 
     def _nut_46(self) -> None:
         """On what is clamped to the pinion in its middle."""
-        self._set("pinion", self._tube("nut_46", 10.0, *_NUT_20), self.keys.face_width - self.s["h_24"])
+        self._set("pinion", "nut_46", self.keys.face_width - self.s["h_24"])
 
     # -- what keeps it parallel: an idler on each arm
 
     def _post(self) -> None:
         """What holds wheel 16 over the link of arm O1O2."""
         s, keys = self.s, self.keys
-        top, neck = s["z_16"] + keys.wheel_width - s["z_39"], s["r_neck"]
-        self._set("body", self._turned("post", [
-            (0, 0), (s["r_18"], 0), (s["r_18"], s["h_54"]), (neck, s["h_54"]), (neck, s["z_16"] - s["z_39"]),
-            (s["r_end"], s["z_16"] - s["z_39"]), (s["r_end"], top), (0, top),
-        ], _holes(6, M8[0], s["r_54"])), s["z_39"])  # fmt: skip
+        self._set("body", "post", s["z_39"])
         self._wheel("central_wheel", keys.wheel_width, 2 * s["r_end"])
         self._set("post", "central_wheel", s["z_16"])
 
@@ -608,9 +573,6 @@ class _Making(Making):
         self.part("idler", kind="spur_gear", module=keys.wheel_module, number_of_teeth=teeth,
                   profile_shift_coefficient=IDLER_SHIFT, bore_diameter=2 * (s["r_37"] + keys.clearance),
                   face_width=keys.wheel_width)  # fmt: skip
-        head, shank = s["h_37"], s["h_37"] + keys.wheel_width + 2 * s["play_36"] + s["h_38"]
-        self._screw("idler_pin", 2 * s["r_37"], shank - head, (2 * s["r_37"] + 6, head))
-        self._screw("idler_pin_down", 2 * s["r_37"], shank - head, (2 * s["r_37"] + 6, head), down=True)
         turning = 2 * (s["r_neck"] + keys.clearance)
         self._set("disk_2", self._layers("link", [(s["h_38"], {
             "slots": [{"start": [0.0, 0.0], "end": [s["arm"], 0.0], "width": 2 * s["r_38"]}],
@@ -622,7 +584,7 @@ class _Making(Making):
         self.put("external_gear_pair", "idler_1", "satellite_wheel")
         self.mate("carried", "disk_2", "satellite_wheel")
         self._set("pinion", "link", s["z_38"], name="link_2")
-        low = s["z_11"] - s["play_36"] - head
+        low = s["z_11"] - s["play_36"] - s["h_37"]
         self._set("pinion", "idler_pin_down", low, complex(s["arm"] / 2), name="idler_pin_2")
 
     def _idler(self, number: int, wheel: str, holder: str, **more: object) -> None:
@@ -648,42 +610,24 @@ class _Making(Making):
     def _body_plate(self) -> None:
         """Plate 16 with the pins of the first cranks; pins and cranks of both planes are alike."""
         s, keys = self.s, self.keys
-        thick, r, collar, sunk = keys.wheel_width, s["r_35"], s["h_collar"], s["r_54"] + 7.5
-        self._set("body", self._turned("body_plate", [
-            (10.0, 0), (s["r_11"], 0), (s["r_11"], thick), (sunk, thick), (sunk, s["h_54"]), (10.0, s["h_54"]),
-        ], _holes(3, 2 * r, s["r_pivots"]), _holes(6, M8[0], s["r_54"])), s["z_16"])  # fmt: skip
-        self._turned("crank_pin", [
-            (0, 0), (r, 0), (r, thick), (s["r_34"], thick), (s["r_34"], thick + collar), (r, thick + collar),
-            (r, 2 * thick + collar), (0, 2 * thick + collar),
-        ])  # fmt: skip
-        self._pins("body_plate", s["z_16"] + thick, 0.0)
-        turning = 2 * (r + keys.clearance)
-        self._layers("crank", [(thick, {
+        self._set("body", "body_plate", s["z_16"])
+        self._pins("body_plate", s["z_16"] + keys.wheel_width, 0.0)
+        turning = 2 * (s["r_35"] + keys.clearance)
+        self._layers("crank", [(keys.wheel_width, {
             "slots": [{"start": [0.0, 0.0], "end": [s["arm"], 0.0], "width": 2 * s["r_34"]}],
             "circles": [_round(turning), _round(turning, s["arm"])],
         })])  # fmt: skip
 
     def _ring_between_cranks(self) -> None:
         """Guide 13 on the pinion, ring 14 in it, the first cranks behind it and the second before it."""
-        s, keys, z = self.s, self.keys, -self.s["h_24"]
-        low, front, floor = s["z_14"], z + keys.face_width + 10, z - s["h_13"]
-        back, step = z - s["gap_13"] - low, s["r_13_step"]
-        rim = [(s["r_13_out"], back), (step, back)] if step < s["r_13_out"] else []
-        self._set("pinion", self._turned("ring_guide", [
-            (0, floor - low), (s["r_13"], floor - low), (s["r_13"], 0), (s["r_13_out"], 0), *rim,
-            (step, z - low), (10.0, z - low), (10.0, front - low), (0, front - low),
-        ], _holes(1, 2 * s["r_window"], s["arm"])), low)  # fmt: skip
+        s, low = self.s, self.s["z_14"]
+        self._set("pinion", "ring_guide", low)
         self._nut_46()
         self.within = "platform_unit"
-        pins = [_holes(3, 2 * s["r_35"], s["r_pivots"], start) for start in (0.0, 60.0)]
-        self._turned("free_ring", [
-            (s["r_14_in"], 0), (s["r_13"] - keys.clearance, 0), (s["r_13"] - keys.clearance, keys.wheel_width),
-            (s["r_14_in"], keys.wheel_width),
-        ], *pins)  # fmt: skip
         self._moving("carried", "disk_2", "free_ring", "free_ring", complex(s["arm"]), low)
         self.mate("parallel", "body", "free_ring")
         self._pins("free_ring", low, 0.0, behind=True)
-        self._pins("free_ring", low + keys.wheel_width, 60.0)
+        self._pins("free_ring", low + self.keys.wheel_width, 60.0)
         for k, at in enumerate(self._pivots(0.0), 1):
             self._moving("parallel", "disk_2", f"first_crank_{k}", "crank", at, s["z_34_rear"])
         for k, at in enumerate(self._pivots(60.0), 1):
@@ -692,12 +636,7 @@ class _Making(Making):
 
     def _platform_plate(self) -> None:
         """Plate 11 about nut 47, as parallel as the ring."""
-        s, keys = self.s, self.keys
-        recess, high, low = s["r_47"] + 3, s["h_11"], s["z_11"] + keys.wheel_width - s["h_11"]
-        rear = high - keys.wheel_width
-        self._turned("platform_plate", [
-            (recess, 0), (s["r_11"], 0), (s["r_11"], high), (_THREAD_47, high), (_THREAD_47, rear), (recess, rear),
-        ], _holes(3, 2 * s["r_35"], s["r_pivots"], 60.0))  # fmt: skip
+        low = self.s["z_11"] + self.keys.wheel_width - self.s["h_11"]
         self._on_axle("platform_plate", low)
         self.mate("parallel", "free_ring", "platform_plate")
         self._pins("platform_plate", low, 60.0, behind=True)
@@ -720,9 +659,9 @@ class _Making(Making):
             (r, shoulder), (r, flange), (s["r_55"] + 10, flange),
             (s["r_55"] + 10, flange + 12), (r, flange + 12), (r, flange + 18), (0, flange + 18),
         ], _holes(6, 10, s["r_55"])), end)  # fmt: skip
-        self._set(first, self._tube("nut_47", _THREAD_47, s["r_47"], s["h_47"]), s["z_47"])
+        self._set(first, "nut_47", s["z_47"])
         top = -s["h_24"] - 1
-        self._set(first, self._tube("spacer_10", r, r + 6, top - clamped), clamped)
+        self._set(first, self._turned("spacer_10", _tube(r, r + 6, top - clamped)), clamped)
         half = keys.platform_size / 2
         side, screws = _square(half, 10.0), _on_circle(6, s["r_55"])
         sunk = M10[2] + 1
@@ -731,7 +670,6 @@ class _Making(Making):
             (hold, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[0], at) for at in screws)]}),
             (sunk, {"polygons": [side], "circles": [_round(2 * r), *(_round(M10[1] + 1, at) for at in screws)]}),
         ]), s["z_4"])  # fmt: skip
-        self._screw("screw_55", 10, 30, M10[1:])
         self._circle(first, "platform_screw", "screw_55", 6, s["r_55"], s["z_4"] + hold - 30)
 
     # -- worms
@@ -748,25 +686,17 @@ class _Making(Making):
             shaft_above=[{"diameter": 2 * radius, "length": round(length, 6)} for radius, length in steps],
             shaft_below=[{"diameter": 2 * r, "length": round(s["x_end"] + s["w_seat"] - 5 + 2 - start, 6)}],
         )  # fmt: skip
-        seat, bore = s["h_seat"], r + _PLAY
-        self._turned("end_cover", [
-            (bore, 0), (seat, 0), (seat, s["w_seat"]), (seat + 3, s["w_seat"]), (seat + 3, s["w_seat"] + flange),
-            (bore, s["w_seat"] + flange),
-        ])  # fmt: skip
-        self._tube("spacer_28", bore, s["r_28"], cover - start - 2)
-        self._tube("snap_ring", r - _SNAP + _PLAY, r + 4, 1.8)
-        self._turned("screw_49", [(0, 0), (3, 0), (4, 1), (4, 12), (0, 12)])
-        self._turned("screw_49_up", [(0, 0), (4, 0), (4, 11), (3, 12), (0, 12)])
         for worm, wheel, direction in ((1, "worm_wheel_25", 90.0), (2, "worm_wheel_23", -90.0)):
             self.within = f"worm_{worm}_unit"
             self.put("worm_pair", wheel, f"worm_{worm}", "worm", direction_deg=direction)
             way = 1 if worm == 1 else -1
             for part, x in (("end_cover", cover), ("spacer_28", start + 1), ("snap_ring", out + 0.3)):
+                self._made(part)
                 self.found.instances[f"{part}_{worm}"] = {
                     "part": part, "at": [round(way * x, 6), round(way * s[f"a_{worm}"], 6), round(s[f"z_{worm}"], 6)],
                     "axis": [float(way), 0.0, 0.0], "held": True, "subassembly": self.within,
                 }  # fmt: skip
-            low = s["z_1"] + seat if worm == 1 else s["z_2"] - seat - 12
+            low = s["z_1"] + s["h_seat"] if worm == 1 else s["z_2"] - s["h_seat"] - 12
             for k, at in enumerate(self._set_screws(worm), 1):
                 self._set("body", f"screw_49{'_up' * (worm == 2)}", low, at, name=f"set_screw_{worm}_{k}")
 
@@ -933,6 +863,28 @@ def _about(arm: float, radius: float) -> list[complex]:
 def _around(half: float) -> list[complex]:
     """Corners and middles of a square."""
     return [complex(x * half, y * half) for x in (-1, 0, 1) for y in (-1, 0, 1) if x or y]
+
+
+def _tube(inner: float, outer: float, height: float) -> list[tuple[float, float]]:
+    return [(inner, 0), (outer, 0), (outer, height), (inner, height)]
+
+
+def _screw(diameter: float, length: float, wide: float, high: float) -> list[tuple[float, float]]:
+    """Shank and round head, its tip below."""
+    shank, top = diameter / 2, length + high
+    return [(0.0, 0.0), (shank, 0.0), (shank, length), (wide / 2, length), (wide / 2, top), (0.0, top)]
+
+
+def _turned_over(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    return [(r, points[-1][1] - z) for r, z in points]
+
+
+# what the table of bodies is made of beside the module's sizes
+_SHAPES: dict[str, object] = {
+    "tube": _tube, "screw": _screw, "turned_over": _turned_over, "flange": _FLANGE, "guide_screws": _GUIDE_SCREWS,
+    "race_screws": _RACE_SCREWS, "race_start": _RACE_START, "recess": _RECESS, "thread": _THREAD_47, "play": _PLAY,
+    "snap": _SNAP,
+}  # fmt: skip
 
 
 def _holes(count: int, diameter: float, radius: float, start: float = 0.0) -> Table:
