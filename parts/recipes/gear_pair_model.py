@@ -40,10 +40,7 @@ class GearPairModelKeys(RecipeKeys, kw_only=True, tag="gear_pair_model"):
 
 def _expanded(keys: GearPairModelKeys) -> Expansion:
     """The tables of one model: the pinion at the origin; the frame comes under both axles, wherever they stand."""
-    thick, making = (
-        keys.plate_thickness,
-        Making("gear_pair_model", keys.plate_thickness, keys),
-    )
+    thick, making = keys.plate_thickness, Making("gear_pair_model", keys.plate_thickness, keys)
     # named by what students are given
     for number, (wheel, teeth, shift) in enumerate(zip(_WHEELS, keys.teeth, keys.shifts, strict=True), 1):
         making.part(

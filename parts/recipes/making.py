@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TypeVar
@@ -158,4 +160,14 @@ def place(at: complex, height: float) -> list[float]:
 
 def hole(at: complex, diameter: float) -> Table:
     """A round hole of a plate."""
-    return {"at": [round(at.real, 6), round(at.imag, 6)], "diameter": diameter}
+    return {"at": place(at, 0.0)[:2], "diameter": diameter}
+
+
+def on_circle(count: int, radius: float, start: float = 0.0) -> list[complex]:
+    """Places about an axis; ``start``: the direction of the first, degrees."""
+    return [cmath.rect(radius, math.radians(start) + 2 * math.pi * k / count) for k in range(count)]
+
+
+def holes_on(count: int, diameter: float, radius: float, start: float = 0.0) -> Table:
+    """Holes there."""
+    return {"count": count, "diameter": diameter, "pitch_circle_diameter": 2 * radius, "start_deg": round(start, 9)}

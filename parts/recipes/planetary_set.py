@@ -6,7 +6,6 @@ face; the first wheel that is placed stands at height 0.
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Sequence
 from fractions import Fraction
@@ -30,7 +29,7 @@ from parts.base.part_keys import Density, Material
 from parts.keys.base import degrees, mm, part_mm
 from parts.keys.helix import Double, HelixAngle
 from parts.keys.mate import further
-from parts.recipes.making import Making, hole
+from parts.recipes.making import Making, hole, holes_on, on_circle
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table
 
 # what meshes keep where their shifts are chosen: tip thickness, modules, and contact ratio
@@ -263,8 +262,7 @@ def _wheel_keys(made: _Set, wheel: _Wheel) -> Table:
         table["double_helical"] = True
     if wheel.is_ring and keys.frame:
         screws, outside = _rim(made, wheel)
-        holes = {"count": 4, "diameter": _SCREW, "start_deg": 45.0, "pitch_circle_diameter": 2 * screws}
-        table |= {"outer_diameter": 2 * outside, "holes": holes}
+        table |= {"outer_diameter": 2 * outside, "holes": holes_on(4, _SCREW, screws, 45.0)}
     elif not wheel.is_ring:
         turns = wheel in made.wheels[1:3]
         table["bore_diameter"] = keys.pin_diameter + keys.clearance if turns else keys.shaft_diameter
@@ -404,7 +402,7 @@ def _add_frame(made: _Set, making: Making) -> None:
     screws, outside = _rim(made, ring)
     floor, top = made.low - 2 * gap - thick, made.high + 2 * gap + thick
     half, arm = outside + _MARGIN, round(max(0.8 * made.distance, 3 * keys.shaft_diameter, 3 * keys.pin_diameter), 1)
-    feet = [cmath.rect(screws, math.radians(45 + 90 * k)) for k in range(4)]
+    feet = on_circle(4, screws, 45.0)
     making.plate(
         "base", 2 * half, [hole(0j, keys.shaft_diameter + keys.clearance), *(hole(at, _SCREW) for at in feet)],
         corner_radius=_MARGIN, engraved=[{"start": [outside + 2, 0.0], "end": [half - 2, 0.0], "width": 1.5}],

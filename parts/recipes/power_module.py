@@ -44,7 +44,7 @@ from parts.pages.module_rules import (
     sizes,
     valued,
 )
-from parts.recipes.making import Making, behind, front, place
+from parts.recipes.making import Making, behind, front, holes_on, on_circle, place
 from parts.recipes.names import NAMES
 from parts.recipes.power_module_kinematics import IDLER_SHIFT
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
@@ -280,7 +280,7 @@ class _Making(Making):
         """A part of the table of what is turned, where it is needed first."""
         if name in _BODIES and name not in self.found.parts:
             points, holes = (listed(made_of, _SHAPES | self.s) for made_of in _BODIES[name])
-            self._turned(name, points, *(_holes(int(count), *where) for count, *where in holes))
+            self._turned(name, points, *(holes_on(int(count), *where) for count, *where in holes))
 
     def _layers(self, name: str, layers: Sequence[tuple[float, Table]]) -> str:
         """A part of layers: thickness and contours of each; what is of no thickness is left out; its name."""
@@ -307,7 +307,7 @@ class _Making(Making):
         elif self.idlers:
             self._post()
         else:
-            self._wheel("central_wheel", keys.wheel_width, 2 * _AXLE, holes=_holes(6, M8[0], s["r_54"]))
+            self._wheel("central_wheel", keys.wheel_width, 2 * _AXLE, holes=holes_on(6, M8[0], s["r_54"]))
             self._set("body", "central_wheel", s["z_16"])
         self._circle("body", "central_screw", "screw_54", 6, s["r_54"], s["z_boss"] + s["h_18"] + s["h_54"] - 75)
         # to the bed
@@ -339,13 +339,13 @@ class _Making(Making):
                 polygons = self._wall((low + high) / 2)
                 if high <= s["z_boss"]:
                     circles.append(_round(s["arm"] + 6))
-                    circles += [_round(8, at) for at in _on_circle(6, s["r_54"])]
+                    circles += [_round(8, at) for at in on_circle(6, s["r_54"])]
                 for rows in seats:
                     polygons += _seat_at(rows, (low + high) / 2)
             else:
                 circles.append(_round(2 * s["r_open"]))
                 if high > top - _DEEP:
-                    circles += [_round(8, at) for at in _on_circle(_GUIDE_SCREWS, s["r_6_screws"])]
+                    circles += [_round(8, at) for at in on_circle(_GUIDE_SCREWS, s["r_6_screws"])]
             # set screws: of worm I from the front, of worm II, which lies under wheel 25, through the floor
             if low >= s["z_1"] + s["h_seat"]:
                 circles += [_round(8, at) for at in self._set_screws(1)]
@@ -405,15 +405,15 @@ class _Making(Making):
         self.within = "outer_disk_unit"
         t, arm = keys.disk_thickness, s["arm"]
         seat = 2 * s["r_33_out"]
-        behind = [_round(8, at) for at in _on_circle(12, s["r_53"])]
-        front = [_round(4, at) for at in _on_circle(16, s["r_53"], 11.25)]
-        own = [_round(4, at + arm) for at in _on_circle(16, s["r_8"])]
+        behind = [_round(8, at) for at in on_circle(12, s["r_53"])]
+        front = [_round(4, at) for at in on_circle(16, s["r_53"], 11.25)]
+        own = [_round(4, at + arm) for at in on_circle(16, s["r_8"])]
         # out of the bore a hole through which both rows come in; the first screw of either ring 33 holds its plug
-        clips = [_round(4, at + arm) for at in _on_circle(12, s["r_59"])[1:]]
+        clips = [_round(4, at + arm) for at in on_circle(12, s["r_59"])[1:]]
         bore = _radial(s["r_32"], s["r_59"], s["w_32"] / 2, arm)
         # the flange under the balls of the body, through which the screws of guide 5 go
         edge, rest = _round(2 * s["r_2"]), [_round(2 * s["r_5"])]
-        rest += [_round(M8[0], at) for at in _on_circle(_RACE_SCREWS, s["r_41"], _RACE_START)]
+        rest += [_round(M8[0], at) for at in on_circle(_RACE_SCREWS, s["r_41"], _RACE_START)]
         low, high, thread, race = s["seat_33"], t - s["seat_33"], s["h_thread"], s["z_race"]
         levels = sorted({0.0, low, thread, high, t, race})
         self._layers("disk_2", [
@@ -450,10 +450,10 @@ class _Making(Making):
         self._row("disk_2", "large", 1, s["z_ball"])
         # ring 24 with the worm wheel and the outer races
         h, wide = s["h_24"], keys.worm_wheel_width
-        edges, through = [_round(2 * s["r_24"]), _round(2 * s["r_24_in"])], _on_circle(12, s["r_53"])
+        edges, through = [_round(2 * s["r_24"]), _round(2 * s["r_24_in"])], on_circle(12, s["r_53"])
         passing = [_round(M8[0], at) for at in through]
-        bolts = [_round(8, at) for at in _on_circle(24, s["r_41"])]
-        guides = [_round(8, at) for at in _on_circle(_RACE_SCREWS, s["r_41"], _RACE_START)]
+        bolts = [_round(8, at) for at in on_circle(24, s["r_41"])]
+        guides = [_round(8, at) for at in on_circle(_RACE_SCREWS, s["r_41"], _RACE_START)]
         self._set("disk_2", self._layers("spacer_24", [
             (40 - wide + 1, {"circles": [*edges, *passing, *bolts]}),
             (h - (40 - wide + 1) - (25 - s["h_5"] + 1), {"circles": [*edges, *passing]}),
@@ -463,7 +463,7 @@ class _Making(Making):
         self._set("disk_2", "guide_5", s["z_race"])
         self._circle("disk_2", "guide_5_screw", "screw_52", _RACE_SCREWS, s["r_41"], s["h_5"] - 25, _RACE_START)
         self._worm_wheel("worm_wheel_25", 0, s["r_25_in"], [
-            _holes(24, M8[0], s["r_41"]), _holes(24, 8, s["r_20_screws"]),
+            holes_on(24, M8[0], s["r_41"]), holes_on(24, 8, s["r_20_screws"]),
         ])  # fmt: skip
         self._set("disk_2", "worm_wheel_25", -h - wide)
         self._hex("bolt_41", 8, 40, _HEX_8, down=True)
@@ -480,7 +480,7 @@ class _Making(Making):
         self.within = "ring_unit"
         self.part(
             "ring", kind="ring_gear", module=keys.module, number_of_teeth=keys.teeth[1], face_width=keys.face_width,
-            outer_diameter=2 * s["r_21"], holes=_holes(12, M8[0], s["r_21_screws"]),
+            outer_diameter=2 * s["r_21"], holes=holes_on(12, M8[0], s["r_21_screws"]),
         )  # fmt: skip
         z = -s["h_24"]
         self.low["ring"] = z
@@ -488,7 +488,7 @@ class _Making(Making):
         self._set("ring", "spacer_22", s["z_23"] + keys.worm_wheel_width)
         self._circle("ring", "ring_screw", "screw_53", 12, s["r_21_screws"], z + keys.face_width - 45)
         self._row("ring", "large", 2, s["z_20"])
-        self._worm_wheel("worm_wheel_23", 1, s["r_22_in"], [_holes(12, M8[0], s["r_21_screws"])])
+        self._worm_wheel("worm_wheel_23", 1, s["r_22_in"], [holes_on(12, M8[0], s["r_21_screws"])])
         self._set("ring", "worm_wheel_23", s["z_23"])
         self._circle("ring", "worm_wheel_23_screw", "screw_53_down", 12, s["r_21_screws"], s["z_23"] - M8[2])
 
@@ -499,11 +499,11 @@ class _Making(Making):
         self.within = "inner_disk_unit"
         t, arm = keys.disk_thickness, s["arm"]
         bore = 2 * (s["r_journal"] + keys.clearance)
-        third = _holes(1, bore, arm)
+        third = holes_on(1, bore, arm)
         self.part(
             "pinion", kind="spur_gear", module=keys.module, number_of_teeth=keys.teeth[0], face_width=keys.face_width,
-            bore_diameter=20.0, holes=[third, _holes(6, 12, s["r_56"], 30.0), *(
-                _holes(1, 8, abs(at), math.degrees(cmath.phase(at))) for at in _about(arm, s["r_journal"] + 16)
+            bore_diameter=20.0, holes=[third, holes_on(6, 12, s["r_56"], 30.0), *(
+                holes_on(1, 8, abs(at), math.degrees(cmath.phase(at))) for at in _about(arm, s["r_journal"] + 16)
             )],
         )  # fmt: skip
         z = -s["h_24"]
@@ -605,7 +605,7 @@ class _Making(Making):
         self._circle(first, f"{first}_pin{'_rear' * behind}", "crank_pin", 3, self.s["r_pivots"], low, start)
 
     def _pivots(self, start: float) -> list[complex]:
-        return _on_circle(3, self.s["r_pivots"], start)
+        return on_circle(3, self.s["r_pivots"], start)
 
     def _body_plate(self) -> None:
         """Plate 16 with the pins of the first cranks; pins and cranks of both planes are alike."""
@@ -658,12 +658,12 @@ class _Making(Making):
             *((radius, z - end) for radius, z in neck), (_THREAD_47, s["z_47"] - 2 - end), (_THREAD_47, shoulder),
             (r, shoulder), (r, flange), (s["r_55"] + 10, flange),
             (s["r_55"] + 10, flange + 12), (r, flange + 12), (r, flange + 18), (0, flange + 18),
-        ], _holes(6, 10, s["r_55"])), end)  # fmt: skip
+        ], holes_on(6, 10, s["r_55"])), end)  # fmt: skip
         self._set(first, "nut_47", s["z_47"])
         top = -s["h_24"] - 1
         self._set(first, self._turned("spacer_10", _tube(r, r + 6, top - clamped)), clamped)
         half = keys.platform_size / 2
-        side, screws = _square(half, 10.0), _on_circle(6, s["r_55"])
+        side, screws = _square(half, 10.0), on_circle(6, s["r_55"])
         sunk = M10[2] + 1
         hold = s["h_4"] - sunk
         self._set(first, self._layers("platform", [
@@ -851,13 +851,9 @@ def _hexagon(across: float) -> Table:
     return {"points": [_pair(cmath.rect(across / math.sqrt(3), math.pi * k / 3)) for k in range(6)]}
 
 
-def _on_circle(count: int, radius: float, start: float = 0.0) -> list[complex]:
-    return [cmath.rect(radius, math.radians(start) + 2 * math.pi * k / count) for k in range(count)]
-
-
 def _about(arm: float, radius: float) -> list[complex]:
     """Four places about the axis O3."""
-    return [arm + at for at in _on_circle(4, radius, 45.0)]
+    return [arm + at for at in on_circle(4, radius, 45.0)]
 
 
 def _around(half: float) -> list[complex]:
@@ -885,10 +881,6 @@ _SHAPES: dict[str, object] = {
     "race_screws": _RACE_SCREWS, "race_start": _RACE_START, "recess": _RECESS, "thread": _THREAD_47, "play": _PLAY,
     "snap": _SNAP,
 }  # fmt: skip
-
-
-def _holes(count: int, diameter: float, radius: float, start: float = 0.0) -> Table:
-    return {"count": count, "diameter": diameter, "pitch_circle_diameter": 2 * radius, "start_deg": round(start, 9)}
 
 
 def _seat_at(seat: tuple[complex, complex, float, float, float], z: float) -> list[Table]:

@@ -13,7 +13,6 @@ first, so that no axle crosses a plane of cranks whose pivots' circle is smaller
 
 from __future__ import annotations
 
-import cmath
 import math
 from typing import Annotated, Literal
 
@@ -22,7 +21,7 @@ from msgspec import Meta
 from geometry.base.errors import ParameterError, limit
 from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
-from parts.recipes.making import Making, hole, place, refused_by
+from parts.recipes.making import Making, hole, holes_on, on_circle, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Turns
 
 # mm: walls between holes, boss of a crank about its pin, rim beyond the ring's teeth, the idler's link about its axles,
@@ -161,19 +160,15 @@ class _Making(Making):
         self.part(
             "pinion", kind="spur_gear", module=keys.module, number_of_teeth=keys.teeth[0], face_width=keys.face_width,
             bore_diameter=0.0 if keys.orientation == "cranks" else keys.satellite_axle_diameter,
-            holes={"count": 1, "diameter": turning, "pitch_circle_diameter": 2 * sizes.arm},
+            holes=holes_on(1, turning, sizes.arm),
         )  # fmt: skip
         # the body stands behind all else
-        low = (
-            self.planes[{"thesis": 1, "idlers": 2, "cranks": 4}[keys.orientation]]
-            - keys.axial_gap
-            - keys.disk_thickness
-        )
+        last = self.planes[{"thesis": 1, "idlers": 2, "cranks": 4}[keys.orientation]]
+        self.low = low = last - keys.axial_gap - keys.disk_thickness
         reach = 2 * (sizes.arm + sizes.disk_3 + _RIM)
         post = 2 * (sizes.posts + keys.pin_diameter + _WALL) if keys.orientation == "cranks" else 0.0
         self.plate("body", math.ceil(max(reach, post)), [], face_width=disk)
         self.found.instances["body"] = {"part": "body", "at": [0.0, 0.0, round(low, 6)], "held": True}
-        self.low = low
         self.put("coaxial", "body", "disk_2", height=-low)
         self.put("coaxial", "body", "ring", height=self.gears - low)
         self.put("carried", "disk_2", "pinion", offset=place(arm, self.gears))
@@ -197,26 +192,27 @@ class _Making(Making):
             number_of_teeth=teeth, bore_diameter=bore, face_width=width, profile_shift_coefficient=shift,
         )  # fmt: skip
 
+    def _three(self, teeth: int, wide: float, shift: float = 0.0) -> None:
+        """Wheels about O1, O2 and O3, that in the middle so wide."""
+        keys = self.keys
+        turning = keys.satellite_axle_diameter + 2 * keys.clearance
+        self._wheel("central_wheel", teeth, keys.satellite_axle_diameter, keys.wheel_width, shift)
+        self._wheel("satellite_wheel", teeth, turning, wide, shift)
+        self._wheel("platform_wheel", teeth, keys.platform_axle_diameter, keys.wheel_width, shift)
+
     def _axles(self, last: float, top: float) -> None:
         """The axle 13 on the pinion, and the post on the body that holds the central wheel, up to ``top``."""
         keys = self.keys
-        self.pin("satellite_axle", keys.satellite_axle_diameter, -self.gears_end(last))
+        self.pin("satellite_axle", keys.satellite_axle_diameter, self.gears + keys.face_width - last)
         self.fix("pinion", "satellite_axle", 0j, last - self.gears)
         self.pin("post", keys.satellite_axle_diameter, top - self.low - keys.disk_thickness)
         self.fix("body", "post", 0j, keys.disk_thickness)
-
-    def gears_end(self, last: float) -> float:
-        """From the front of the pinion back to a plane, below 0."""
-        return last - self.gears - self.keys.face_width
 
     def _wheels(self) -> None:
         """The thesis's 16, 14, 11."""
         keys, (teeth, _) = self.keys, self.sizes.wheels
         front, rear = self.planes[0], self.planes[1]
-        turning = keys.satellite_axle_diameter + 2 * keys.clearance
-        self._wheel("central_wheel", teeth, keys.satellite_axle_diameter, keys.wheel_width)
-        self._wheel("satellite_wheel", teeth, turning, 2 * keys.wheel_width + keys.axial_gap)
-        self._wheel("platform_wheel", teeth, keys.platform_axle_diameter, keys.wheel_width)
+        self._three(teeth, 2 * keys.wheel_width + keys.axial_gap)
         self._axles(rear, rear + keys.wheel_width)
         self.fix("body", "central_wheel", 0j, rear - self.low)
         self.put("external_gear_pair", "central_wheel", "satellite_wheel")
@@ -231,9 +227,7 @@ class _Making(Making):
         front, rear, behind = self.planes[:3]
         turning = keys.satellite_axle_diameter + 2 * keys.clearance
         small = keys.pin_diameter + 2 * keys.clearance
-        self._wheel("central_wheel", teeth, keys.satellite_axle_diameter, keys.wheel_width, -IDLER_SHIFT)
-        self._wheel("satellite_wheel", teeth, turning, keys.wheel_width, -IDLER_SHIFT)
-        self._wheel("platform_wheel", teeth, keys.platform_axle_diameter, keys.wheel_width, -IDLER_SHIFT)
+        self._three(teeth, keys.wheel_width, -IDLER_SHIFT)
         self._wheel("idler", few, small, keys.wheel_width, IDLER_SHIFT)
         self._axles(behind, rear + keys.wheel_width)
         self.fix("body", "central_wheel", 0j, rear - self.low)
@@ -266,8 +260,7 @@ class _Making(Making):
         arm, axle, pin = complex(sizes.arm), keys.platform_axle_diameter, keys.pin_diameter
         flange, upper, spider, lower = self.planes[:4]
         ends, holes = (2 * sizes.boss,) * 2, (pin + 2 * keys.clearance,) * 2
-        posts = [cmath.rect(sizes.posts, 2 * math.pi * k / 3) for k in range(3)]
-        pivots = [cmath.rect(sizes.pivots, math.pi / 3 + 2 * math.pi * k / 3) for k in range(3)]
+        posts, pivots = on_circle(3, sizes.posts), on_circle(3, sizes.pivots, 60.0)
         self.plate("hub", 2 * sizes.hub, [hole(arm, axle + 2 * keys.clearance)], face_width=thick + keys.axial_gap)
         self.fix("pinion", "hub", 0j, flange - self.gears)
         self.hang_flange(pin, sizes.posts, sizes.pivots, sizes.boss, sizes.hub + keys.clearance)

@@ -11,7 +11,6 @@ the base; a worm is pushed in along its axis, the thin journal first, and held b
 
 from __future__ import annotations
 
-import cmath
 import math
 from typing import Annotated, Literal
 
@@ -20,7 +19,7 @@ from msgspec import Meta
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
-from parts.recipes.making import Making, front, hole, place, refused_by
+from parts.recipes.making import Making, front, hole, holes_on, on_circle, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
 # modules: what a ring's root is beyond its reference circle at most, with its clearance; a rim beyond that, mm
@@ -216,8 +215,7 @@ class _Making(Making):
     def _body(self) -> None:
         """The base on its feet, the guide about the ring's stack, and the posts of the first cranks."""
         sizes, keys = self.sizes, self.keys
-        corners = [cmath.rect(math.sqrt(2) * (sizes.half - _FOOT), math.pi / 4 + k * math.pi / 2) for k in range(4)]
-        posts = [sizes.posts * cmath.exp(2j * math.pi * k / 3) for k in range(3)]
+        corners, posts = on_circle(4, math.sqrt(2) * (sizes.half - _FOOT), 45.0), on_circle(3, sizes.posts)
         fixed = [hole(at, _FOOT) for at in corners] + [hole(at, keys.pin_diameter) for at in posts]
         slots = {"slots": self._slots()} if keys.drive == "worms" else {}
         self.plate("base", 2 * sizes.half, [hole(0j, sizes.tube + keys.clearance), *fixed], square=True, **slots)
@@ -239,14 +237,14 @@ class _Making(Making):
         """Back disk, rim and ring, one body on four dowels; the tube in it."""
         sizes, keys, thick = self.sizes, self.keys, self.keys.plate_thickness
         circle = sizes.ring - _RIM / 2
-        dowels = [cmath.rect(circle, math.pi / 4 + k * math.pi / 2) for k in range(4)]
+        dowels = on_circle(4, circle, 45.0)
         holes = [hole(at, keys.pin_diameter) for at in dowels]
         self.plate("back", 2 * sizes.ring, [hole(0j, sizes.tube), *holes])
         self.plate("rim", 2 * sizes.ring, [hole(0j, 2 * (sizes.disk + keys.clearance)), *holes])
         self.part(
             "ring", kind="ring_gear", module=keys.module, number_of_teeth=keys.teeth[1], face_width=thick,
             outer_diameter=2 * sizes.ring, tooth_mark=self.mark,
-            holes={"count": 4, "diameter": keys.pin_diameter, "start_deg": 45.0, "pitch_circle_diameter": 2 * circle},
+            holes=holes_on(4, keys.pin_diameter, circle, 45.0),
         )  # fmt: skip
         self.put("coaxial", "base", "ring", height=self.ring)
         self.fix("ring", "back", 0j, self.back - self.ring)
@@ -274,8 +272,7 @@ class _Making(Making):
         self.fix("disk_2", "axle", arm, 0.0)
         self.part(
             "pinion", kind="spur_gear", module=keys.module, number_of_teeth=keys.teeth[0], face_width=thick,
-            bore_diameter=shaft + keys.clearance, tooth_mark=self.mark,
-            holes={"count": 1, "diameter": axle, "start_deg": 0.0, "pitch_circle_diameter": 2 * sizes.second_arm},
+            bore_diameter=shaft + keys.clearance, tooth_mark=self.mark, holes=holes_on(1, axle, sizes.second_arm),
         )  # fmt: skip
         self.put("carried", "disk_2", "pinion", offset=place(arm, self.pinion - self.disk))
         self.mate("internal_gear_pair", "ring", "pinion", normal_backlash=keys.normal_backlash)
@@ -295,17 +292,15 @@ class _Making(Making):
         turning = (keys.pin_diameter + keys.clearance,) * 2
         self.crank("first_crank", sizes.arm, turning, (2 * sizes.boss,) * 2)
         self.pin("upper_pin", keys.pin_diameter, self.flange + thick - self.first_cranks)
-        posts = [sizes.posts * cmath.exp(2j * math.pi * k / 3) for k in range(3)]
-        self.hang_cranks("first_crank", "first_crank", "disk_2", posts, self.first_cranks - self.disk,
-                    [("flange", "upper_pin", self.first_cranks - self.flange)])  # fmt: skip
+        posts, pins = on_circle(3, sizes.posts), [("flange", "upper_pin", self.first_cranks - self.flange)]
+        self.hang_cranks("first_crank", "first_crank", "disk_2", posts, self.first_cranks - self.disk, pins)
 
     def _second_stage(self) -> None:
         """The platform on its axle, hung on the flange by cranks as long as O2O3."""
         sizes, keys, thick = self.sizes, self.keys, self.keys.plate_thickness
-        pivots = [cmath.rect(sizes.pivots, math.pi / 3 + 2 * math.pi * k / 3) for k in range(3)]
-        holes = [hole(0j, keys.platform_axle_diameter + keys.clearance)]
-        holes += [hole(at, keys.pin_diameter) for at in pivots]
-        self.plate("platform", keys.platform_size, holes, square=True)
+        pivots, middle = on_circle(3, sizes.pivots, 60.0), hole(0j, keys.platform_axle_diameter + keys.clearance)
+        around = [hole(at, keys.pin_diameter) for at in pivots]
+        self.plate("platform", keys.platform_size, [middle, *around], square=True)
         self.put("carried", "pinion", "platform", offset=place(complex(sizes.second_arm), self.platform - self.pinion))
         self.mate("parallel", "flange", "platform")
         turning = (keys.pin_diameter + keys.clearance,) * 2
