@@ -12,6 +12,7 @@ from msgspec.structs import replace
 
 from geometry.base.errors import ParameterError
 from geometry.base.nearest import kept, nearest
+from parts.base.psv import rows_of
 from parts.recipes.names import NAMES
 from parts.recipes.recipe import Expansion, RecipeKeys, Table
 
@@ -21,6 +22,8 @@ WAYS: Mapping[str, tuple[float, float, float]] = {
     "front": (0.0, 0.0, -1.0), "behind": (0.0, 0.0, 1.0), "right": (-1.0, 0.0, 0.0), "left": (1.0, 0.0, 0.0),
     "back": (0.0, -1.0, 0.0), "fore": (0.0, 1.0, 0.0),
 }  # fmt: skip
+# orders of assembly, a step or some a row
+_ORDERS = rows_of(__file__, "orders")
 # rounding of a square plate's corners, mm
 _CORNER = 10.0
 
@@ -54,7 +57,7 @@ class Making:
     """An expansion that grows; ``recipe``: whose names its parts have, ``keys``: that may say what all are made of."""
 
     def __init__(self, recipe: str, thickness: float, keys: RecipeKeys) -> None:
-        self.found, self.names, self.thickness = Expansion(), NAMES[recipe], thickness
+        self.found, self.recipe, self.names, self.thickness = Expansion(), recipe, NAMES[recipe], thickness
         given = {key: getattr(keys, key, None) for key in ("material", "density")}
         self.material = {key: value for key, value in given.items() if value is not None}
 
@@ -132,25 +135,19 @@ class Making:
         """One more mate of what stands."""
         self.found.mates.append({"kind": kind, "first": first, "second": second, **keys})
 
-    def bring(self, to: str, *steps: tuple[str, ...], **more: object) -> None:
-        """Steps of the order of assembly: each from where its things come (``WAYS``), and what they are."""
-        for way, *things in steps:
-            along = {"along": list(WAYS[way])} if way in WAYS else {}
-            self.found.steps.append({"bring": things, "to": to, **along, **more})
+    def order(self, choice: str, **ways: Table) -> None:
+        """The order of assembly in ``orders.psv``, for a choice of the recipe; ``ways``: what is said of its steps."""
+        for recipe, choices, to, steps, how in _ORDERS:
+            if recipe != self.recipe or (choices and choice not in choices.split()):
+                continue
+            for way, things in (part.split(maxsplit=1) for part in steps.split(";")):
+                along = {"along": list(WAYS[way])} if way in WAYS else {}
+                more = along | ways.get(how, {how: True} if how else {})
+                self.found.steps += [{"bring": one.split(), "to": to, **more} for one in things.split(",")]
 
     def fix(self, first: str, second: str, at: complex, height: float, part: str = "") -> None:
         """One body with the first; ``height`` above its lower face."""
         self.put("fixed", first, second, part, offset=place(at, height))
-
-
-def front(*things: str) -> list[tuple[str, str]]:
-    """Steps that bring one thing after the other from the front."""
-    return [("front", one) for one in things]
-
-
-def behind(*things: str) -> list[tuple[str, str]]:
-    """The same from behind."""
-    return [("behind", one) for one in things]
 
 
 def place(at: complex, height: float) -> list[float]:

@@ -44,7 +44,7 @@ from parts.pages.module_rules import (
     sizes,
     valued,
 )
-from parts.recipes.making import Making, behind, front, holes_on, on_circle, place
+from parts.recipes.making import Making, holes_on, on_circle, place
 from parts.recipes.names import NAMES
 from parts.recipes.power_module_kinematics import IDLER_SHIFT
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
@@ -226,7 +226,9 @@ class _Making(Making):
         self._platform()
         self._worms()
         self.drive(self.keys, disk_2="turns_of_disk", ring="turns_of_ring")
-        self._order()
+        inwards = self.s["r_small"] - self.s["r_3"] - self.keys.ball / 2 - _PLAY
+        self.order(self.keys.orientation, inwards={"outwards": inwards, "one_hole": True},
+                   outwards={"outwards": self.keys.ball}, opened={"opened": _SNAP})  # fmt: skip
         self.name_all()
         self.told("ring", "pinion", number_of_teeth="teeth")
         self.told("worm", thread_length="worm_length")
@@ -699,70 +701,6 @@ class _Making(Making):
             low = s["z_1"] + s["h_seat"] if worm == 1 else s["z_2"] - s["h_seat"] - 12
             for k, at in enumerate(self._set_screws(worm), 1):
                 self._set("body", f"screw_49{'_up' * (worm == 2)}", low, at, name=f"set_screw_{worm}_{k}")
-
-    # -- how it is put together
-
-    def _order(self) -> None:
-        """The order of assembly: the units, then what they go into."""
-        s = self.s
-        self.bring("disk_2", *front("disk_3", "small_cage_1"))
-        # along the hole past the edge of disk 3, then into its groove; the rear cage comes in over its balls
-        inwards = s["r_small"] - s["r_3"] - self.keys.ball / 2 - _PLAY
-        self.bring("small_cage_1", ("front", "small_ball_1"), outwards=inwards, one_hole=True)
-        self.bring("disk_3", ("behind", "small_ball_2"), outwards=inwards, one_hole=True)
-        rest = behind(
-            "protective_ring_2", "rear_clip", "spacer_24", "spacer_24_screw", "worm_wheel_25", "worm_wheel_25_bolt"
-        )
-        self.bring("disk_2", *behind("small_cage_2"), *front("plug_1"), *behind("plug_2"),
-                   *front("protective_ring_1", "front_clip"), *rest)  # fmt: skip
-        self.bring("ring", ("behind", "spacer_22"), ("front", "ring_screw"), ("behind", "large_cage_2"))
-        self.bring("large_cage_2", ("sides", "large_ball_2"))
-        self.bring("ring", ("front", "bearing_ring_1"), ("behind", "bearing_ring_2"))
-        self._order_within()
-        bolts, nuts = ([f"{name}_{k}" for k in range(1, 9)] for name in ("bolt_42", "nut_44"))
-        cranks = [("front", *(f"first_crank_{k}" for k in (1, 2, 3)))] if self.cranks else []
-        holders = {"idlers": ["post"], "thesis": ["central_wheel"], "cranks": ["body_plate", "body_plate_pin"]}
-        held = holders[self.keys.orientation]
-        self.bring("body", ("front", *bolts), ("behind", *nuts), *front("spacer_18", *held, "central_screw"), *cranks,
-                   *front("ring", "guide_6", "guide_6_screw", "large_cage_1"))  # fmt: skip
-        # down inside of the ring of balls, then out into the groove of guide 6
-        self.bring("large_cage_1", ("front", "large_ball_1"), outwards=self.keys.ball)
-        self.bring(
-            "body", *front("guide_5", "guide_5_screw", "shield_7", "shield_7_screw", "platform", "platform_screw")
-        )
-        for worm, side in ((1, "right"), (2, "left")):
-            self.bring(f"worm_{worm}", (side, f"spacer_28_{worm}"))
-            self.bring("body", (side, f"worm_{worm}"), screwed=True)
-            self.bring("body", (side, f"end_cover_{worm}"))
-            # over the shaft beyond its groove
-            self.bring("body", (side, f"snap_ring_{worm}"), opened=_SNAP)
-        self.bring("body", ("front", "set_screw_1_1", "set_screw_1_2"), ("behind", "set_screw_2_1", "set_screw_2_2"))
-
-    def _order_within(self) -> None:
-        """What is within ring 21 and disk 2; guide 13 is wider than the tips of the ring: it comes in from behind.
-
-        Worm wheel 23 may cover the screws of both bearing rings: it comes after them.
-        """
-        axle = "ring_guide" if self.cranks else "satellite_axle"
-        self.bring("pinion", *behind("cover_12", "cover_12_screw", axle), *front("nut_46"))
-        self.bring(
-            "ring", *behind("pinion"), *front("sleeve_17", "disk_2"),
-            *behind("bearing_screw", "worm_wheel_23", "worm_wheel_23_screw"),
-            *front("disk_3_screw", "shield_8", "shield_8_screw", "platform_axle"), *behind("spacer_10"),
-        )  # fmt: skip
-        if self.cranks:
-            self.bring("platform_plate", ("behind", "platform_plate_pin_rear"))
-            self.bring("free_ring", ("front", "free_ring_pin"), ("behind", "free_ring_pin_rear"))
-            seconds = [f"second_crank_{k}" for k in (1, 2, 3)]
-            self.bring("ring", *behind("platform_plate", "nut_47"), ("behind", *seconds), *behind("free_ring"))
-        elif self.idlers:
-            self.bring("link_2", *behind("idler_2", "idler_pin_2"))
-            # wheel 16 lies on its link until the post goes into it
-            self.bring("link_1", *front("central_wheel", "idler_1", "idler_pin_1"))
-            last = "nut_47", "link_2", "platform_wheel", "satellite_wheel", "link_1", "spacer_15", "screw_57"
-            self.bring("ring", *behind(*last))
-        else:
-            self.bring("ring", *behind("satellite_wheel", "spacer_15", "screw_57", "platform_wheel", "nut_47"))
 
     # -- bodies
 

@@ -19,7 +19,7 @@ from msgspec import Meta
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.part_keys import Density, Material
 from parts.keys.base import mm
-from parts.recipes.making import Making, front, hole, holes_on, on_circle, place, refused_by
+from parts.recipes.making import Making, hole, holes_on, on_circle, place, refused_by
 from parts.recipes.recipe import Expansion, Recipe, RecipeKeys, Table, Turns
 
 # modules: what a ring's root is beyond its reference circle at most, with its clearance; a rim beyond that, mm
@@ -197,7 +197,7 @@ class _Making(Making):
         self._first_stage()
         self._second_stage()
         (self._worms if self.keys.drive == "worms" else self._hand_cranks)()
-        self._order()
+        self.order(self.keys.drive)
         self.drive(self.keys, disk_2="turns_of_disk", ring="turns_of_ring")
         self.told("ring", "pinion", number_of_teeth="teeth")
         self.told("pinion", bore_diameter="axle_diameter")
@@ -377,35 +377,6 @@ class _Making(Making):
         middle = sizes.beside + _BEARING + gap + _COLLAR / 2
         self.pin(f"{name}_collar", core + 3, _COLLAR, thin + keys.fit)
         self._upright(f"{name}_collar", complex(far, -side * middle), plane, _COLLAR)
-
-    def _order(self) -> None:
-        """How it is put together: from the front, the drives from behind."""
-        three, four = (1, 2, 3), (1, 2, 3, 4)
-
-        def each(name: str, numbers: tuple[int, ...]) -> tuple[str, ...]:
-            return tuple(f"{name}_{k}" for k in numbers)
-
-        self.bring("base", ("front", "guide"), ("front", *each("post", three)), ("behind", *each("foot", four)))
-        self.bring("back", ("front", *each("dowel", four)), ("front", "rim"), ("behind", "tube"))
-        self.bring("disk_2", ("behind", "shaft"), ("front", "axle"))
-        self.bring("pinion", ("front", *each("hub", (1, 2))), ("front", "platform_axle"))
-        self.bring("flange", ("behind", *each("upper_pin", three)), ("front", *each("flange_pin", three)))
-        self.bring("platform", ("behind", *each("platform_pin", three)))
-        first, second = each("first_crank", three), each("second_crank", three)
-        self.bring("base", *front("back", "disk_2", "ring", "pinion"), ("front", *first), *front("flange"),
-                   ("front", *second), *front("platform"))  # fmt: skip
-        if self.keys.drive == "hand_cranks":
-            for name in ("ring", "disk"):
-                self.bring(f"{name}_hand_crank", ("behind", f"{name}_handle"))
-                self.bring("base", ("behind", f"{name}_hand_crank"))
-            return
-        bearings = [f"{name}_{end}_bearing" for name in ("ring", "disk") for end in ("thick", "thin")]
-        self.bring("base", ("behind", *bearings))
-        # both wheels first: that of disk 2 goes past where the worm of the ring will lie
-        self.bring("base", ("behind", "ring_worm_wheel"), ("behind", "disk_worm_wheel"))
-        for name, thick, thin in (("ring", "back", "fore"), ("disk", "fore", "back")):
-            self.bring("base", (thick, f"{name}_worm"), screwed=True)
-            self.bring("base", (thin, f"{name}_collar"))
 
     def _upright(self, name: str, middle: complex, height: float, length: float) -> None:
         """A part that stands still with its axis along -y."""
