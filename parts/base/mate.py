@@ -158,7 +158,11 @@ class Mating(Joined, kw_only=True):
         raise NotImplementedError
 
     def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
-        """Axis (mm) and rotation (rad) of the second where the first stands so."""
+        """Axis (mm) and rotation (rad) of the second where the first stands so: at the distance, turned as it must."""
+        return centre + cmath.rect(self.distance, direction), self.second_rotation(rotation, direction)
+
+    def second_rotation(self, rotation: float, direction: float) -> float:
+        """Rotation (rad) of the second where the first stands so, in the middle of any play."""
         raise NotImplementedError
 
     def second_axis(self, direction: float) -> Vector:
@@ -208,6 +212,10 @@ class Touching(Mating, kw_only=True):
     module: float = 1.0
     normal_backlash: float = 0.0
     has_contact: bool = True
+
+    def allowed(self, share: float, tolerance: float | None) -> float:
+        """The gap that counts as contact, mm: as asked, else a share of the length that tolerances go by."""
+        return share * self.module if tolerance is None else tolerance
 
 
 class Toothed(Touching, kw_only=True):

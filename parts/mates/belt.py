@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError, limit
-from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Toothed
+from parts.base.mate import End, MateKeys, MateKind, Pose, Standing
 from parts.keys.base import mm
 from parts.keys.mate import Direction, height
+from parts.mates.wrapped import Wrapped, gap_away
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -42,21 +43,18 @@ class BeltDriveSpec(MateKeys, tag="belt_drive", kw_only=True):
     height: Annotated[float, height("second above the first; default: teeth face each other")] | None = None
 
 
-class BeltMating(Toothed):
+class BeltMating(Wrapped):
     """Two pulleys of one belt."""
 
     mesh: BeltMesh
 
     def _groove(self, rotation: float, direction: float) -> float:
-        """Phase of the first's groove that is nearest to the side away from the second, rad."""
-        step = self.mesh.pulleys[0].pitch_angle
-        return math.pi + math.remainder(rotation - direction + step / 2 - math.pi, step)
+        return gap_away(rotation, direction, self.mesh.pulleys[0].pitch_angle)
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
-        """Beyond the line of centres, where its grooves take the belt's teeth."""
+    def second_rotation(self, rotation: float, direction: float) -> float:
+        """Where its grooves take the belt's teeth."""
         phase = self.mesh.drive.second_phase(self._groove(rotation, direction), self.mesh.pitch)
-        turned = direction + phase - self.mesh.pulleys[1].pitch_angle / 2
-        return centre + cmath.rect(self.distance, direction), turned
+        return direction + phase - self.mesh.pulleys[1].pitch_angle / 2
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and the second's turn off where its grooves take the belt's teeth."""
@@ -102,17 +100,12 @@ class BeltDriveKind(MateKind[BeltDriveSpec, "Pulley", "Pulley"]):
             named, own = (getattr(end.keys, "belt", None) for end in (first, second))
             raise ParameterError("belt", own, "not_of_the_belt", Nearest(named) if isinstance(named, str) else None)
         mesh = belt_mesh((one, two), keys.number_of_belt_teeth, keys.centre_distance)
-        above = one.middle - two.middle if keys.height is None else keys.height
         return BeltMating(
             *self.joined(keys),
-            height=above,
+            height=one.middle - two.middle if keys.height is None else keys.height,
             distance=mesh.centre_distance,
             module=one.belt.pitch / math.pi,
-            # the belt turns both the same way
-            rolls="internal",
             teeth=(one.number_of_teeth, two.number_of_teeth),
-            # the belt alone touches them
-            has_contact=False,
             mesh=mesh,
         )
 

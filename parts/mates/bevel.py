@@ -10,7 +10,7 @@ from msgspec import Struct
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
-from parts.base.mate import End, LaidStanding, Pose, Touching
+from parts.base.mate import End, LaidStanding, Touching
 from parts.keys.mate import GearPairKeys, backlash
 from parts.mates.gear_pair import GearPair
 from parts.mates.sizes import same_size, same_sizes
@@ -53,12 +53,12 @@ class BevelMating(Touching):
         aside = cmath.rect(-math.sin(angle), direction)
         return aside.real, aside.imag, math.cos(angle)
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+    def second_rotation(self, rotation: float, direction: float) -> float:
         """Where a space of the second stands on the tooth, or a tooth on the space, of the first."""
         first, second = self.pair.gears
         ahead = math.remainder(rotation - direction, math.tau / first.number_of_teeth)
         turn = math.pi / second.number_of_teeth - ahead * first.number_of_teeth / second.number_of_teeth
-        return centre + cmath.rect(self.distance, direction), direction + math.pi + turn
+        return direction + math.pi + turn
 
     def laid_standing(self, first: Placement3, second: Placement3) -> LaidStanding:
         """In the frame of the first, where its tooth is on +x: apexes, axes, and how far the second is turned off."""
@@ -71,7 +71,7 @@ class BevelMating(Touching):
         apex = seen.apply(np.array([0.0, 0.0, other.mounting_distance])) - np.array([0.0, 0.0, one.mounting_distance])
         x, y, z = seen.z
         direction = cmath.phase(complex(-x, -y))
-        _, right = self.second_pose(0j, 0.0, direction)
+        right = self.second_rotation(0.0, direction)
         off = Placement3.towards(self.second_axis(direction), right).inverse() @ seen
         arm = other.cone_distance * math.sin(other.involute.base)
         return LaidStanding(

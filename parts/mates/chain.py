@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 from msgspec import Meta
 
 from geometry.base.errors import Nearest, ParameterError, limit
-from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Toothed
+from parts.base.mate import End, MateKeys, MateKind, Pose, Standing
 from parts.keys.base import mm
 from parts.keys.mate import Direction, height
 from parts.mates.sizes import same_size, same_sizes
+from parts.mates.wrapped import Wrapped, gap_away
 
 if TYPE_CHECKING:
     from geometry.base.findings import Finding
@@ -45,7 +46,7 @@ class ChainDriveSpec(MateKeys, tag="chain_drive", kw_only=True):
     height: Annotated[float, height("second above the first; default: the rows of teeth face each other")] | None = None
 
 
-class ChainMating(Toothed):
+class ChainMating(Wrapped):
     """Two sprockets of one chain."""
 
     mesh: ChainMesh
@@ -56,13 +57,11 @@ class ChainMating(Toothed):
         return direction + play.middle - self.mesh.sprockets[1].pitch_angle / 2, play.half
 
     def _seat(self, rotation: float, direction: float) -> float:
-        """Phase of the first's seat that is nearest to the side away from the second, rad."""
-        step = self.mesh.sprockets[0].pitch_angle
-        return math.pi + math.remainder(rotation - direction + step / 2 - math.pi, step)
+        return gap_away(rotation, direction, self.mesh.sprockets[0].pitch_angle)
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
-        """Beyond the line of centres, where its seats take the rollers."""
-        return centre + cmath.rect(self.distance, direction), self._second(rotation, direction)[0]
+    def second_rotation(self, rotation: float, direction: float) -> float:
+        """Where its seats take the rollers."""
+        return self._second(rotation, direction)[0]
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and the second's turn off the middle of its play."""
@@ -115,17 +114,12 @@ class ChainDriveKind(MateKind[ChainDriveSpec, "Sprocket", "Sprocket"]):
         same_sizes(("pitch", "roller_diameter"), two.chain, one.chain, "not_of_the_chain")
         same_size("strands", two.strands, one.strands, "not_of_the_chain")
         mesh = chain_mesh((one, two), keys.number_of_links, keys.centre_distance)
-        above = (one.face_width - two.face_width) / 2 if keys.height is None else keys.height
         return ChainMating(
             *self.joined(keys),
-            height=above,
+            height=(one.face_width - two.face_width) / 2 if keys.height is None else keys.height,
             distance=mesh.centre_distance,
             module=one.chain.pitch / math.pi,
-            # the chain turns both the same way
-            rolls="internal",
             teeth=mesh.teeth,
-            # the chain alone touches them
-            has_contact=False,
             mesh=mesh,
         )
 

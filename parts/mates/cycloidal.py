@@ -59,10 +59,10 @@ class CycloidalMating(Touching):
         """The ring."""
         return (self.first,)
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
-        """The disc's centre towards the eccentric, a valley at the pin that it points to."""
+    def second_rotation(self, rotation: float, direction: float) -> float:
+        """A valley at the pin to which the eccentric points."""
         turned = self.disc.rotation(direction - rotation) + self.turned_lobes * self.disc.pitch_angle
-        return centre + cmath.rect(self.distance, direction), rotation + turned
+        return rotation + turned
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Eccentric distance, and the disc's turn off the middle of its play."""
@@ -140,7 +140,7 @@ class BearingMating(Touching):
         from geometry.plane.profile import Label
 
         gap = self.bore_diameter / 2 - self.module - abs(distance_off)
-        allowed = PIN_CONTACT_TOLERANCE * self.module if tolerance is None else tolerance
+        allowed = self.allowed(PIN_CONTACT_TOLERANCE, tolerance)
         return stated_contact(gap, allowed, (Label.BODY, Label.BORE), complex(self.distance + self.module))
 
     def quantities(self) -> dict[str, Any]:
@@ -179,7 +179,7 @@ class OutputMating(Touching):
 
         arm = self.output.pitch_circle_diameter / 2
         gap = self.gap - distance_off - 2 * arm * abs(math.sin(phase_off / 2))
-        allowed = PIN_CONTACT_TOLERANCE * self.module if tolerance is None else tolerance
+        allowed = self.allowed(PIN_CONTACT_TOLERANCE, tolerance)
         return stated_contact(gap, allowed, (Label.HOLE, Label.PIN), complex(arm + self.module))
 
     def findings(self) -> tuple[Finding, ...]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Struct
@@ -36,9 +35,9 @@ class CycloidalGearMating(Toothed):
     gears: CycloidalPair
     in_scheme = True
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
-        """The second beyond the line of centres, a space where the first has a tooth."""
-        return centre + cmath.rect(self.distance, direction), self.gears.second_rotation(rotation, direction)
+    def second_rotation(self, rotation: float, direction: float) -> float:
+        """A space where the first has a tooth."""
+        return self.gears.second_rotation(rotation, direction)
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and the second's turn off the middle of the backlash."""

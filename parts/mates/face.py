@@ -10,7 +10,7 @@ from geometry.base.errors import Nearest, ParameterError
 from geometry.base.findings import Finding
 from geometry.base.record import replace
 from geometry.base.tolerance import CONTACT_TOLERANCE
-from parts.base.mate import End, LaidStanding, Pose, Touching
+from parts.base.mate import End, LaidStanding, Touching
 from parts.keys.base import mm
 from parts.keys.helix import helix_of
 from parts.keys.mate import GearPairKeys, backlash
@@ -52,12 +52,12 @@ class FaceMating(Touching):
         """Towards the gear's axis."""
         return -math.cos(direction), -math.sin(direction), 0.0
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+    def second_rotation(self, rotation: float, direction: float) -> float:
         """Where a tooth of the pinion stands in a space of the gear."""
         gear = self.pair.gear
         pitch = math.tau / gear.number_of_teeth
         ahead = math.remainder(rotation + pitch / 2 - direction, pitch)
-        return centre + cmath.rect(self.distance, direction), direction + math.pi - ahead * self.pair.ratio
+        return direction + math.pi - ahead * self.pair.ratio
 
     def laid_standing(self, first: Placement3, second: Placement3) -> LaidStanding:
         """In the frame of the first, where its tooth is on +x: axes, and how far the pinion is turned off."""
@@ -70,7 +70,7 @@ class FaceMating(Touching):
         x, y, z = axis = seen.z
         apart = float(np.linalg.norm(np.cross(meet - seen.apply(np.zeros(3)), axis)))
         direction = cmath.phase(complex(-x, -y))
-        _, right = self.second_pose(0j, 0.0, direction)
+        right = self.second_rotation(0.0, direction)
         off = Placement3.towards(self.second_axis(direction), right).inverse() @ seen
         arm = pinion.base_radius
         return LaidStanding(

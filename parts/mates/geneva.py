@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -33,12 +32,11 @@ class GenevaMating(Toothed):
 
     def partner(self, driver: str, rotation: float, direction: float) -> float:
         """The wheel's rotation, dwells included."""
-        return self.disc.drive.wheel_rotation(rotation, direction)
+        return self.second_rotation(rotation, direction)
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
-        """The wheel beyond the line of centres, turned as the driver stands."""
-        turned = self.disc.drive.wheel_rotation(rotation, direction)
-        return centre + cmath.rect(self.distance, direction), turned
+    def second_rotation(self, rotation: float, direction: float) -> float:
+        """As the driver stands."""
+        return self.disc.drive.wheel_rotation(rotation, direction)
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and the wheel's turn off the middle of its play."""

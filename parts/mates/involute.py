@@ -72,17 +72,9 @@ class GearMating(Toothed):
             "normal_backlash": self.normal_backlash,
         }
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
-        """The second beyond the line of centres, a tooth of one in a space of the other."""
-        return centre + cmath.rect(self.distance, direction), self._middle(rotation, direction)
-
     def _turned(self, first: Pose, second: Pose, gear: SpurGear | RingGear) -> Standing:
         """Centre distance, and the second gear's turn off the middle of its backlash."""
         return self.turned_off(first, second, gear.pitch_angle, gear.base_radius, self.pair.normal_backlash)
-
-    def _middle(self, rotation: float, direction: float) -> float:
-        """Rotation of the second in the middle of the backlash."""
-        raise NotImplementedError
 
     def _mesh(self, phase_off: float, distance_off: float) -> MeshSearch:
         """The mesh, the second that far (rad, or mm of a rack) and the distance that many mm off."""
@@ -123,7 +115,8 @@ class ExternalMating(GearMating):
 
     pair: ExternalPair
 
-    def _middle(self, rotation: float, direction: float) -> float:
+    def second_rotation(self, rotation: float, direction: float) -> float:
+        """A tooth of one in a space of the other."""
         return self.pair.second_rotation(rotation, direction)
 
     def standing(self, first: Pose, second: Pose) -> Standing:
@@ -157,7 +150,8 @@ class InternalMating(GearMating):
         """Whether the ring is the placed one."""
         return self.teeth[0] > self.teeth[1]
 
-    def _middle(self, rotation: float, direction: float) -> float:
+    def second_rotation(self, rotation: float, direction: float) -> float:
+        """A tooth of one in a space of the other."""
         if self.ring_first:
             return self.pair.pinion_rotation(rotation, direction)
         return self.pair.second_rotation(rotation, direction + math.pi)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -36,10 +35,9 @@ class LanternMating(Toothed):
         """Turns of the gear for one of the lantern."""
         return -self.gear.number_of_pins / self.gear.number_of_teeth
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
-        """The gear beyond the line of centres; where a pin stands on it, a space does."""
-        turned = direction + math.pi - self.gear.pitch_angle / 2 + (rotation - direction) * self.ratio
-        return centre + cmath.rect(self.distance, direction), turned
+    def second_rotation(self, rotation: float, direction: float) -> float:
+        """Where a pin stands on the line of centres, a space does."""
+        return direction + math.pi - self.gear.pitch_angle / 2 + (rotation - direction) * self.ratio
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and the gear's turn off the middle of its play."""

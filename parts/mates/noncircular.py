@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -40,9 +39,9 @@ class NoncircularMating(Toothed):
         turned = self.gears.second_rotation if driver == self.first else self.gears.first_rotation
         return turned(rotation, direction)
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
-        """The second gear beyond the line of centres, its centrode on that of the first."""
-        return centre + cmath.rect(self.distance, direction), self.gears.second_rotation(rotation, direction)
+    def second_rotation(self, rotation: float, direction: float) -> float:
+        """Its centrode on that of the first."""
+        return self.gears.second_rotation(rotation, direction)
 
     def standing(self, first: Pose, second: Pose) -> Standing:
         """Centre distance, and the second gear's turn off the middle of its backlash: only this phase fits."""

@@ -11,6 +11,7 @@ from msgspec import Meta
 from geometry.base.errors import ParameterError
 from parts.base.mate import End, MateKeys, MateKind, Pose, Standing, Touching
 from parts.keys.mate import direction, height
+from parts.mates.follower import travelled
 
 if TYPE_CHECKING:
     from geometry.cams.plane.disk import DiskCam
@@ -61,16 +62,14 @@ class ConjugateMating(Touching):
         """Verdict over one turn: the gaps under both rollers; ``phase_off`` rad: the second disk's turn."""
         from geometry.cams.contact.positive import conjugate_contact
 
-        allowed = _CONTACT * self.module if tolerance is None else tolerance
-        return conjugate_contact(self.cam, self.other.pair, allowed, second_turn=phase_off)
+        return conjugate_contact(self.cam, self.other.pair, self.allowed(_CONTACT, tolerance), second_turn=phase_off)
 
     def quantities(self) -> dict[str, Any]:
         """How both rollers stand on their follower."""
         from geometry.cams.contact.positive import between_rollers
 
-        found = between_rollers(self.cam, self.other.pair)
-        swings = self.cam.swings
-        return {"between_rollers": math.degrees(found) if swings else found, "unit": "deg" if swings else "mm"}
+        found = travelled(between_rollers(self.cam, self.other.pair), swings=self.cam.swings)
+        return {"between_rollers": found["travel"], "unit": found["unit"]}
 
 
 class YokeMating(Touching):
@@ -99,8 +98,7 @@ class YokeMating(Touching):
         """Verdict over one turn of the cam; ``phase_off``: mm by which the frame stands too far out."""
         from geometry.cams.contact.positive import yoke_contact
 
-        allowed = _CONTACT * self.module if tolerance is None else tolerance
-        breadth = self.frame.breadth - self.frame.play
+        breadth, allowed = self.frame.breadth - self.frame.play, self.allowed(_CONTACT, tolerance)
         return yoke_contact(self.cam, breadth, self.frame.play, allowed, out=phase_off)
 
     def quantities(self) -> dict[str, Any]:

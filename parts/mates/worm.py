@@ -11,7 +11,7 @@ from msgspec import Struct
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.nearest import nearest
-from parts.base.mate import End, MateKind, Pose, Touching
+from parts.base.mate import End, MateKind, Touching
 from parts.keys.mate import GearPairKeys
 from parts.keys.worm import AngleError, AxialError, DistanceError, quotient_of
 from parts.mates.sizes import same_sizes
@@ -72,14 +72,14 @@ class WormMating(Touching):
         axis = cmath.rect(math.cos(self.errors.angle), direction - math.pi / 2)
         return axis.real, axis.imag, math.sin(self.errors.angle)
 
-    def second_pose(self, centre: complex, rotation: float, direction: float) -> Pose:
+    def second_rotation(self, rotation: float, direction: float) -> float:
         """Where a thread of the worm stands in the space that faces it."""
         from geometry.gears.worms.contact import turn_for
 
         pitch = 2 * math.pi / self.wheel.number_of_teeth
         ahead = math.remainder(rotation + pitch / 2 - direction, pitch)
         turn = self.worm.sign * ahead * self.drive.ratio + turn_for(self.wheel, self.errors)
-        return centre + cmath.rect(self.distance, direction), direction + math.pi + turn
+        return direction + math.pi + turn
 
     def contact(self, phase_off: float, distance_off: float, tolerance: float | None) -> PairContact:
         """Verdict over one pitch, in sections across the wheel's axis."""

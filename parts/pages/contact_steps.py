@@ -201,18 +201,15 @@ def speed_steps(
     """What depends on time: speeds of gears and of their working circles, of sliding at both ends of contact."""
     page.section("Speeds")
     page.add("gear_speed", speed_rpm, gear=1, given=True)
-    if isinstance(pair, RackPair):
-        radius, circle = pair.gear.reference_radius, "{r1}"
-    else:
-        radius, circle = pair.working_radii[0], "{r_w1}"
+    if not isinstance(pair, RackPair):
         page.add("gear_speed", speed_rpm / pair.gear_ratio, "{n1} / {u}", "ISO 21771", 2)
     # helical teeth end their contact at one face later than at the other
     later = " + 2 * pi * {eps_beta} / {z#}" if helical.angle else ""
     for gear, one in enumerate(pair.gears, 1):
         turned = math.degrees(active / one.base_radius + helical.face.overlap_ratio * one.pitch_angle)
         page.add("angle_of_action_deg", turned, f"{{g}} / {{r_b#}}{later}", "ISO 21771", gear)
-    speed = math.pi * speed_rpm / 30 * radius
-    page.add("pitch_speed", speed, f"pi * {{n1}} / 30 * {circle}", "ISO 21771")
+    speed = math.pi * speed_rpm / 30 * pair.working_radii[0]
+    page.add("pitch_speed", speed, "pi * {n1} / 30 * {r_w1}", "ISO 21771")
     page.add("sliding_speed_at_start", factors[0] * speed, "{K_gf} * {v_w}", "ISO 21771")
     page.add("sliding_speed_at_end", factors[1] * speed, "{K_ga} * {v_w}", "ISO 21771")
 
@@ -233,17 +230,12 @@ def backlash_steps(
 
 def _played(page: Sheet, pair: Pair | RackPair, backlash: float) -> None:
     """What a backlash lets move: each gear while the other is held, the axes until teeth touch on both sides."""
-    if isinstance(pair, RackPair):
-        page.add("angular_backlash_deg", math.degrees(backlash / pair.gear.reference_radius), "{j_wt} / {r1}", ISO, 1)
-        page.add(
-            "radial_backlash",
-            backlash / (2 * math.tan(pair.rack.rack.pressure_angle)),
-            "{j_wt} / (2 * tan({alpha}))",
-            ISO,
-        )
-        return
     turns = [math.degrees(backlash / radius) for radius in pair.working_radii]
     page.both("angular_backlash_deg", turns, "{j_wt} / {r_w#}", ISO)
+    if isinstance(pair, RackPair):
+        moved = backlash / (2 * math.tan(pair.working_pressure_angle))
+        page.add("radial_backlash", moved, "{j_wt} / (2 * tan({alpha}))", ISO)
+        return
     distance, angle = pair.working_centre_distance, pair.working_pressure_angle
     tight = involute_function(angle) - pair.sign * backlash / (2 * distance)
     if tight > 0:

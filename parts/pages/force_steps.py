@@ -85,20 +85,16 @@ def force_steps(page: Sheet, pair: ExternalPair | InternalPair | RackPair, helic
     torque = driving_torque(page, keys)
     if torque is None:
         return
-    gear = pair.gears[0]
-    if isinstance(pair, RackPair):
-        radius, circle, angle = gear.reference_radius, "{r1}", gear.rack.pressure_angle
-    else:
-        radius, circle, angle = pair.working_radii[0], "{r_w1}", pair.working_pressure_angle
+    radius = pair.working_radii[0]
     if not isinstance(pair, RackPair):
         page.add("gear_torque", torque * pair.gear_ratio, "{T1} * {u}", gear=2)
-    helix = math.atan(math.tan(helical.angle) * radius / gear.reference_radius)
-    forces = tooth_forces(torque, radius, angle, helix, double=helical.face.helix.double)
-    page.add("circumferential_force", forces.circumferential, f"1000 * {{T1}} / {circle}")
+    helix = math.atan(math.tan(helical.angle) * radius / pair.gears[0].reference_radius)
+    forces = tooth_forces(torque, radius, pair.working_pressure_angle, helix, double=helical.face.helix.double)
+    page.add("circumferential_force", forces.circumferential, "1000 * {T1} / {r_w1}")
     page.add("radial_force", forces.radial, "{F_t} * tan({alpha_w})")
     whole = "sqrt({F_t}**2 + {F_r}**2)"
     if helical.angle:
-        slant = f"{{F_t}} * {circle} / {{r1}} * tan(abs({{beta}}))"
+        slant = "{F_t} * {r_w1} / {r1} * tan(abs({beta}))"
         page.add("axial_force", forces.axial, "" if helical.face.helix.double else slant)
         # both halves of double helical teeth together
         last = f"({slant})" if helical.face.helix.double else "{F_a}"

@@ -44,6 +44,16 @@ class RackPair(Record, dict=True):
         return (self.gear,)
 
     @property
+    def working_radii(self) -> tuple[float]:
+        """The reference circle is always the working circle, mm."""
+        return (self.gear.reference_radius,)
+
+    @property
+    def working_pressure_angle(self) -> float:
+        """That of the rack, rad."""
+        return self.rack.rack.pressure_angle
+
+    @property
     def module(self) -> float:
         """m, mm."""
         return self.gear.module

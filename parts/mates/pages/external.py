@@ -12,13 +12,11 @@ from msgspec import Meta, Struct
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.nearest import nearer
 from geometry.base.record import Record, replace
-from geometry.gears.pairs.common_face import CommonFace
 from geometry.gears.pairs.external import ExternalPair, external_pair, tip_beside
 from geometry.gears.pairs.side_clearance import guaranteed_normal_backlash, normal_from_circumferential
 from geometry.gears.shifts.choice import shifts_for_distance
 from geometry.gears.shifts.tables import TableShift, guidelines, kudryavtsev, shortening_table
 from geometry.gears.teeth import limits, measurement
-from geometry.gears.teeth.helix import Helix
 from geometry.gears.teeth.limits import checked_gear
 from geometry.gears.teeth.spur import SpurGear
 from geometry.gears.teeth.transverse import normal_share, transverse_gear
@@ -38,7 +36,7 @@ from parts.gears.spur_gear.page import (
 from parts.gears.spur_gear.part import SpurGearSpec, gear_of, rack_findings
 from parts.gears.thinning import shared_thinning
 from parts.keys.base import in_modules, mm
-from parts.keys.helix import helix_of, in_keys, same_helix
+from parts.keys.helix import common_face, helix_of, in_keys, same_helix
 from parts.mates.pages.crossed import CrossedKeys, crossed_sheet
 from parts.mates.pages.internal import InternalKeys, RackKeys, internal_sheet, rack_sheet
 from parts.mates.pages.pair_keys import GEARS, kind_of_pair, merged, pair_table
@@ -82,25 +80,13 @@ class PairKeys(DrivenKeys, forbid_unknown_fields=True, kw_only=True):
 
 
 class Asked(Record):
-    """The pair of a calculation in its transverse section, its normal gears, and how its data came about."""
+    """The pair of a calculation in its transverse section, its normal gears, and whether its shifts follow."""
 
+    keys: PairKeys
     pair: ExternalPair
     normal: tuple[SpurGear, SpurGear]
-    face: CommonFace
-    wanted_distance: bool
-    given_shortening: float | None
-    keys: PairKeys
-    shifts_follow: bool = False
-
-    @property
-    def helix(self) -> float:
-        """Helix angle, rad."""
-        return self.face.helix.angle
-
-    @property
-    def helical(self) -> Helical:
-        """What its steps need beside the pair."""
-        return Helical(self.normal[0], self.face)
+    helical: Helical
+    shifts_follow: bool
 
 
 def table_from(scene: SceneKeys, source: str, table: dict[str, Any]) -> dict[str, Any]:
@@ -196,14 +182,11 @@ def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
     follow = keys.working_centre_distance is not None and not all(shifts_given)
     if keys.working_centre_distance is not None and follow:
         one, two = (transverse_gear(g, helix) for g in normal)
-        fixed = [
-            g.profile_shift_coefficient if is_given else None
-            for g, is_given in zip((one, two), shifts_given, strict=True)
-        ]
-        x1, x2 = shifts_for_distance(one, two, keys.working_centre_distance, fixed[0], fixed[1])
-        first, second = (
-            replace(g, profile_shift_coefficient=x / math.cos(helix)) for g, x in zip(normal, (x1, x2), strict=True)
+        fixed = (
+            g.profile_shift_coefficient if known else None for g, known in zip((one, two), shifts_given, strict=True)
         )
+        found = zip(normal, shifts_for_distance(one, two, keys.working_centre_distance, *fixed), strict=True)
+        first, second = (replace(g, profile_shift_coefficient=x / math.cos(helix)) for g, x in found)
         normal = first, second
     normal = _thinned(keys, normal, helix)
     if keys.tip_shortening_coefficient is not None:
@@ -213,10 +196,7 @@ def asked_pair(keys: PairKeys, shifts_given: tuple[bool, ...]) -> Asked:
     distance = None if follow else keys.working_centre_distance
     gears = [_section_of(keys, index, normal, beside=not follow) for index in range(2)]
     pair = external_pair(gears[0], gears[1], distance)
-    width = min(keys.first.face_width, keys.second.face_width)
-    face = CommonFace(Helix(helix, double=keys.first.double_helical), normal[0].module, width)
-    wanted = keys.working_centre_distance is not None
-    return Asked(pair, normal, face, wanted, keys.tip_shortening_coefficient, keys, follow)
+    return Asked(keys, pair, normal, Helical(normal[0], common_face(keys.first, keys.second)), follow)
 
 
 def _section_of(keys: PairKeys, index: int, normal: tuple[SpurGear, SpurGear], *, beside: bool) -> SpurGear:
@@ -306,14 +286,14 @@ def _page(asked: Asked) -> Sheet:
     pair, (one, two) = asked.pair, asked.pair.gears
     keys = asked.keys
     shifts = (keys.first.profile_shift_coefficient, keys.second.profile_shift_coefficient)
-    plain = not (asked.helix or asked.wanted_distance or pair.normal_backlash)
+    plain = not (asked.helical.angle or keys.working_centre_distance or pair.normal_backlash)
     teeth, angle = (one.number_of_teeth, two.number_of_teeth), one.rack.pressure_angle
     printed = printed_for_pair(teeth, shifts, one.module, angle) if plain else {}
     is_practicums = ("working_centre_distance", 0) in printed
     page = Sheet(TOPIC, N_("External gear pair"), printed=printed)
     page.section("Given")
     for index, (normal, gear) in enumerate(zip(asked.normal, pair.gears, strict=True), 1):
-        given_data(page, normal, gear, asked.helix, index)
+        given_data(page, normal, gear, asked.helical.angle, index)
     _mesh(page, asked)
     _radii(page, asked)
     _thicknesses(page, asked)
@@ -331,7 +311,7 @@ def _page(asked: Asked) -> Sheet:
     formulas = "{p_w} - {S_w1} - {S_w2}", "{a_w} - {r_f#} - {r_a~}"
     backlash_steps(page, pair, pair.circumferential_backlash, asked.helical, formulas)
     page.section(in_context("pair", "Limits"))
-    if not asked.helix:
+    if not asked.helical.angle:
         for index, gear in enumerate((one, two), 1):
             if gear.cutter is None:
                 rule_step(page, gear, index)
@@ -345,18 +325,18 @@ def _page(asked: Asked) -> Sheet:
 
 def _mesh(page: Sheet, asked: Asked) -> None:
     """(3.2) to (3.6), from the shifts to the distance or the other way round."""
-    pair = asked.pair
+    pair, keys = asked.pair, asked.keys
     page.section("Meshing")
     # with shifts of one's own the distance leaves backlash
     total = "profile_shift_sum" if asked.shifts_follow else "tight_profile_shift_sum"
-    meshing_steps(page, pair, asked.helical, total if asked.wanted_distance else "")
-    shortening = pair.tip_shortening_coefficient / math.cos(asked.helix)
-    if asked.given_shortening is None:
+    meshing_steps(page, pair, asked.helical, "" if keys.working_centre_distance is None else total)
+    shortening = pair.tip_shortening_coefficient / math.cos(asked.helical.angle)
+    if keys.tip_shortening_coefficient is None:
         page.add("tip_shortening_coefficient", shortening, "{x_n1} + {x_n2} - {y}", "GOST 16532-70")
     else:
         page.add("exact_tip_shortening_coefficient", shortening, "{x_n1} + {x_n2} - {y}", "GOST 16532-70")
         table = shortening_table(*sorted(gear.number_of_teeth for gear in pair.gears))
-        page.add("tip_shortening_coefficient", asked.given_shortening, "", f"practicum, table {table}")
+        page.add("tip_shortening_coefficient", keys.tip_shortening_coefficient, "", f"practicum, table {table}")
     page.add("working_radius", pair.working_radii[0], "{a_w} / ({u} + 1)", "practicum (3.5)", 1)
     page.add("working_radius", pair.working_radii[1], "{a_w} * {u} / ({u} + 1)", "practicum (3.6)", 2)
 
@@ -365,9 +345,9 @@ def _radii(page: Sheet, asked: Asked) -> None:
     """(3.7) to (3.14)."""
     gears = asked.pair.gears
     page.section("Radii")
-    radii = (gears[0].reference_radius, gears[1].reference_radius)
+    radii = [gear.reference_radius for gear in gears]
     page.both("reference_radius", radii, "{m} * {z#} / 2", ("practicum (3.7)", "practicum (3.8)"))
-    radii = (gears[0].base_radius, gears[1].base_radius)
+    radii = [gear.base_radius for gear in gears]
     page.both("base_radius", radii, "{r#} * cos({alpha})", ("practicum (3.9)", "practicum (3.10)"))
     for index, gear in enumerate(gears, 1):
         source = f"practicum (3.{10 + index})"
@@ -395,11 +375,11 @@ def _thicknesses(page: Sheet, asked: Asked) -> None:
     for index, gear in enumerate(gears, 1):
         formula, source = thickness_formula(gear), f"practicum (3.{15 + index})"
         page.add("reference_thickness", gear.reference_thickness, formula, source, index)
-    values = (measurement.base_thickness(gears[0]), measurement.base_thickness(gears[1]))
+    values = [measurement.base_thickness(gear) for gear in gears]
     page.both("base_thickness", values, "2 * {r_b#} * ({S#} / (2 * {r#}) + inv({alpha}))", "ISO 21771")
-    one, two = (measurement.thickness_at(g, r) for g, r in zip(gears, pair.working_radii, strict=True))
+    values = [measurement.thickness_at(g, r) for g, r in zip(gears, pair.working_radii, strict=True)]
     formula = "2 * {r_w#} * ({S#} / (2 * {r#}) + inv({alpha}) - inv({alpha_w}))"
-    page.both("working_thickness", (one, two), formula, "ISO 21771")
+    page.both("working_thickness", values, formula, "ISO 21771")
     for index, gear in enumerate(gears, 1):
         angle = math.degrees(measurement.angle_at(gear, gear.tip_radius))
         page.add("tip_pressure_angle_deg", angle, "arccos({r_b#} / {r_a#})", f"practicum (3.{17 + index})", index)
@@ -407,7 +387,7 @@ def _thicknesses(page: Sheet, asked: Asked) -> None:
         formula = "2 * {r_a#} * ({S#} / (2 * {r#}) + inv({alpha}) - inv({alpha_a#}))"
         formula = formula if gear.rack.relief is None else ""
         page.add("tip_thickness", limits.tip_thickness(gear), formula, "ISO 21771", index)
-        normal_tip_step(page, gear, limits.tip_thickness(gear), asked.helix, index, "r")
+        normal_tip_step(page, gear, limits.tip_thickness(gear), asked.helical.angle, index, "r")
 
 
 # the kinds of pairs that have a sheet: their keys, and what makes it of a table of them

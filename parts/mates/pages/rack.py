@@ -34,6 +34,8 @@ def rack_page(pair: RackPair, topic: str, helical: Helical, keys: DrivenKeys) ->
         page.add("circumferential_thinning", rack.circumferential_thinning, gear=2)
     heading(page, helical, N_("Meshing"))
     page.add("reference_radius", gear.reference_radius, "{m} * {z1} / 2", "practicum (3.7)", 1)
+    # on a rack it is the working circle
+    page.name("r_w", "r", 1)
     nominal = gear.reference_radius + gear.profile_shift_coefficient * gear.module
     formula = "{r1} + {x_n1} * {m_n}" if abs(nominal - pair.distance) < 1e-12 * nominal else ""
     page.add("rack_distance", pair.distance, formula, "ISO 21771")
