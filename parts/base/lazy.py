@@ -10,7 +10,7 @@ E = TypeVar("E")
 
 
 class Registry(Mapping[str, E], Generic[E]):
-    """Names, and for each the place of its entry, ``module:NAME``."""
+    """Names, and for each the place of its entry, ``module:NAME``; of a class the one entry is made of it."""
 
     def __init__(self, homes: Mapping[str, str]) -> None:
         self._homes, self._loaded = dict(homes), dict[str, E]()
@@ -19,7 +19,8 @@ class Registry(Mapping[str, E], Generic[E]):
         """The entry of a name."""
         if name not in self._loaded:
             module, _, attribute = self._homes[name].partition(":")
-            self._loaded[name] = getattr(import_module(module), attribute)
+            found = getattr(import_module(module), attribute)
+            self._loaded[name] = found() if isinstance(found, type) else found
         return self._loaded[name]
 
     def register(self, name: str, entry: E) -> None:

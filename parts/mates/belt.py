@@ -110,9 +110,6 @@ class BeltDriveKind(MateKind[BeltDriveSpec, "Pulley", "Pulley"]):
         )
 
 
-BELT_DRIVE = BeltDriveKind()
-
-
 def belt_mesh(
     pulleys: tuple[Pulley, Pulley], teeth: int | None, distance: float | None, prefix: str = "mate."
 ) -> BeltMesh:

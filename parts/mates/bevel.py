@@ -172,6 +172,3 @@ def _check_lines(first: End[BevelGear], second: End[BevelGear]) -> None:
     # the mean cone distance is that of the face
     same_sizes(("face_width", "cutter_radius"), second.thing, first.thing, "not_of_its_mate")
     same_size("hand", second.thing.hand, first.thing.opposite().hand, "not_of_its_mate")
-
-
-BEVEL_PAIR = BevelPairKind()

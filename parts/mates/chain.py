@@ -124,9 +124,6 @@ class ChainDriveKind(MateKind[ChainDriveSpec, "Sprocket", "Sprocket"]):
         )
 
 
-CHAIN_DRIVE = ChainDriveKind()
-
-
 def chain_mesh(
     sprockets: tuple[Sprocket, Sprocket], links: int | None, distance: float | None, prefix: str = "mate."
 ) -> ChainMesh:

@@ -253,6 +253,3 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
             if refusal.name == "working_centre_distance":
                 raise refusal.renamed(f"mate.{refusal.name}") from refusal
             raise
-
-
-CROSSED_HELICAL_PAIR = CrossedHelicalPair()

@@ -282,6 +282,3 @@ class OutputPins(MateKind[OutputPinsSpec, "CycloidalDisc", "PinPlate"]):
             output=disc.output,
             plate=plate,
         )
-
-
-CYCLOIDAL_PAIR, ECCENTRIC_BEARING, OUTPUT_PINS = CycloidalPair(), EccentricBearing(), OutputPins()

@@ -113,6 +113,3 @@ class CycloidalGearPair(GearPair[CycloidalGearPairSpec, "CycloidalGear", "Cycloi
             normal_backlash=gears.normal_backlash,
             gears=gears,
         )
-
-
-CYCLOIDAL_GEAR_PAIR = CycloidalGearPair()

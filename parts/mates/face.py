@@ -180,6 +180,3 @@ class FaceGearPairKind(GearPair[FaceGearPairSpec, "FaceGear", "SpurGear"]):
             teeth=(gear.number_of_teeth, pinion.number_of_teeth),
             pair=pair,
         )
-
-
-FACE_GEAR_PAIR = FaceGearPairKind()

@@ -198,6 +198,3 @@ class PinSeat(MateKind[PinSeatSpec, "PinRing | PinPlate | GenevaDriver", "RoundD
             raise ParameterError("mate.number", keys.number, "fewer_seats", Nearest(len(centres), "at_most"))
         same_size("diameter", 2 * second.thing.radius, 2 * holder.pin_radius, "not_of_the_seats")
         return _fixed(self.name, keys, centres[keys.number - 1], keys.height)
-
-
-FIXED, COAXIAL, CARRIED, PIN_SEAT = Fixed(), Coaxial(), Carried(), PinSeat()

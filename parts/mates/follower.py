@@ -211,6 +211,3 @@ def _check_reach(cam: DiskCam, end: FollowerEnd) -> None:
     far = reach_from_pivot(cam)
     if not end.reach[1] >= far:
         raise ParameterError("arm_length", end.reach[1], "contact_over_bar", limit(far, 0.0))
-
-
-CAM_FOLLOWER = CamFollower()

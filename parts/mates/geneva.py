@@ -91,6 +91,3 @@ class GenevaPair(MateKind[GenevaPairSpec, "GenevaDriver", "GenevaWheel"]):
             has_contact=driver.piece != "plate",
             disc=driver.disc,
         )
-
-
-GENEVA_PAIR = GenevaPair()

@@ -492,6 +492,3 @@ class RackGearPair(InvolutePair[RackPairSpec, "SpurGear", "Rack", RackMating]):
         from geometry.gears.pairs.rack import rack_pair
 
         return rack_pair(first.thing, second.thing, distance)
-
-
-EXTERNAL, INTERNAL, RACK = ExternalGearPair(), InternalGearPair(), RackGearPair()

@@ -103,6 +103,3 @@ class LanternPair(MateKind[LanternPairSpec, "PinPlate", "LanternGear"]):
             has_contact=lantern.solid,
             gear=gear,
         )
-
-
-LANTERN_PAIR = LanternPair()

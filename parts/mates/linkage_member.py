@@ -90,6 +90,3 @@ class LinkageMember(MateKind[LinkageMemberSpec, "LinkageCam", Any]):
             member=keys.member,
             cam=cam,
         )
-
-
-LINKAGE_MEMBER = LinkageMember()

@@ -168,6 +168,3 @@ def _unlike(first: End[NoncircularGear], second: End[NoncircularGear], one: Pair
 def _described(pairing: Pairing) -> str:
     z_1, z_2 = pairing.teeth
     return f"z {z_1}/{z_2}, a {pairing.centre_distance:.6g} mm"
-
-
-NONCIRCULAR_GEAR_PAIR = NoncircularGearPair()

@@ -60,6 +60,3 @@ class Parallel(MateKind[ParallelSpec, Any, Any]):
         turn = math.radians(keys.rotation_deg)
         # both turn alike against whatever carries both
         return ParallelMating(*self.joined(keys), height=z, rolls="parallel", offset=offset, rotation=turn)
-
-
-PARALLEL = Parallel()

@@ -148,6 +148,3 @@ class CamYoke(MateKind[CamYokeSpec, "DiskCam", "YokeFrame"]):
             cam=cam,
             frame=frame,
         )
-
-
-CONJUGATE_CAMS, CAM_YOKE = ConjugateCams(), CamYoke()

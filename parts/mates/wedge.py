@@ -143,6 +143,3 @@ def _least_plate(cam: WedgeCam) -> float:
 
     slope = max(float(np.abs(p.value(p.extremes(1), 1)).max()) for p in cam.motion.pieces)
     return 2 * cam.radius * slope / math.hypot(1.0, slope)
-
-
-WEDGE_FOLLOWER = WedgeFollower()

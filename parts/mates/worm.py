@@ -176,6 +176,3 @@ def _long(wheel: WheelThing, body: WormBody, distance: float) -> Nearest | None:
         return wheel.teeth.room((length - body.lost) / 2, distance) >= body.start[1]
 
     return nearest(clear, body.length, body.length + 2 * wheel.teeth.outer_radius)
-
-
-WORM_PAIR = WormPair()

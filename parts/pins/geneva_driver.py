@@ -118,9 +118,6 @@ class GenevaDriverKind(RoundPinKind[GenevaDriverSpec, "GenevaDriver"]):
         return Report(circles=circles, quantities=quantities, findings=findings, flat_findings=flat)
 
 
-GENEVA_DRIVER = GenevaDriverKind()
-
-
 def _check(keys: GenevaDriverSpec, driver: GenevaDriver) -> None:
     """Pins within the plate, a bore beside the reliefs, holes that only a plate has."""
     disc, seats = driver.disc, driver.seats

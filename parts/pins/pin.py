@@ -89,6 +89,3 @@ class Eccentric(RoundPinKind[EccentricSpec, "RoundDisc"]):
     def report(self, keys: EccentricSpec, thing: RoundDisc) -> Report:
         """Its sizes."""
         return Report(quantities={"diameter": keys.diameter, "eccentricity": keys.eccentricity})
-
-
-PIN, ECCENTRIC = Pin(), Eccentric()

@@ -140,9 +140,6 @@ class LanternWheel(_Plate[LanternWheelSpec]):
         return thing.thickness * (2 if thing.solid else 1) + (thing.length if thing.solid else 0.0)
 
 
-OUTPUT_PLATE, LANTERN_WHEEL = OutputPlate(), LanternWheel()
-
-
 def _checked(keys: PinPlateKeys, start: float, thickness: float, length: float) -> PinPlate:
     """A plate whose pins stand beside each other, within its edge and off its holes; ``start`` in rad, sizes in mm."""
     from geometry.solids.pin_plates import PinPlate, pin_reach

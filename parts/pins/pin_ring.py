@@ -57,9 +57,6 @@ class PinRingKind(RoundPinKind[PinRingSpec, "PinRing"]):
         return Report(circles=circles, quantities=quantities)
 
 
-PIN_RING = PinRingKind()
-
-
 def _checked(keys: PinRingSpec) -> PinRing:
     """The ring of the keys; what is wrong with its holes is told of the key that alone can cure it."""
     try:

@@ -13,7 +13,7 @@ from parts.base.mate import End
 from parts.base.texts import N_
 from parts.gears.spur_gear.part import SPUR_GEAR, SpurGearSpec
 from parts.keys.base import mm
-from parts.mates.crossed import CROSSED_HELICAL_PAIR, CrossedHelicalPairSpec, CrossedMating, ShaftAngle
+from parts.mates.crossed import CrossedHelicalPair, CrossedHelicalPairSpec, CrossedMating, ShaftAngle
 from parts.mates.pages.pair_keys import GEARS, mate_of, pair_mated, pair_table
 from parts.pages.force_steps import DrivenKeys, asked_torque, torque_steps
 from parts.pages.inputs import checked, refusal
@@ -72,7 +72,7 @@ def _pair(keys: CrossedKeys) -> CrossedPair:
             raise refusal(TOPIC, error, name, keys) from error
     mate = mate_of(CrossedHelicalPairSpec, keys)
     try:
-        CROSSED_HELICAL_PAIR.check(mate, keys.first, keys.second)
+        CrossedHelicalPair().check(mate, keys.first, keys.second)
         mating = pair_mated(mate, ends["first"], ends["second"])
     except ParameterError as error:
         owner, _, key = error.name.rpartition(".")
