@@ -35,6 +35,7 @@ from parts.base.schema import phrase_of
 from parts.base.texts import DOMAIN, LOCALE
 from parts.drawing.names import NAME_OF_PART
 from parts.drawing.title_block import LABELS
+from parts.mates.pages.lever_tasks import MACHINES
 from parts.mates.pages.planetary import FAULTS
 from parts.mates.registry import MATES
 from parts.pages.cam_steps import law_text
@@ -137,6 +138,7 @@ def _plain_texts() -> Iterator[str]:
     yield from QUANTITIES.values()
     yield from (one.title for recipe in NAMES.values() for one in recipe.values() if one.title)
     yield from (row.reason for row in (*RULES, *CONDITIONS))
+    yield from MACHINES.values()
     yield from (printed.why for case in CASES.values() for printed in case.values())
     # the rest are symbols
     yield from (style.name for style in STYLES.values() if re.search("[a-z]{4}", style.name))

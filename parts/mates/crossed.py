@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import cmath
 import math
-from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec.structs import replace as changed
 
 from geometry.base.errors import Nearest, ParameterError
-from geometry.base.nearest import kept, nearest
+from geometry.base.nearest import kept
 from geometry.base.record import replace
 from parts.base.mate import End, LaidStanding, MateKind, Pose, Touching
 from parts.gears.thinning import shared_thinning
 from parts.keys.base import MadeKeys, degrees
 from parts.keys.helix import helix_of
 from parts.keys.mate import InvolutePairKeys
+from parts.mates.gear_pair import as_far_as_teeth_follow
 from parts.mates.sizes import same_sizes
 
 if TYPE_CHECKING:
@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 
 # between axes that are parallel, rad
 _PARALLEL = 1e-7
-# share of an angle or a distance that is one step; a contact ratio that is some
-_STEP, _TINY = 1e-3, 1e-12
 
 ShaftAngle = Annotated[
     float,
@@ -215,22 +213,16 @@ class CrossedHelicalPair(MateKind[CrossedHelicalPairSpec, "SpurGear", "SpurGear"
             if not alone:
                 return None
             own = tried(key, None)
-            wanted = min(1.0, own.contact_ratio)
             if key == "shaft_angle_deg":
                 toward = math.degrees(abs(own.shaft_angle))
             else:
                 toward = own.working_centre_distance if keys.leaves(own.normal_backlash) else own.touching_distance
 
-            def holds(value: float, ratio: float = wanted) -> bool:
+            def ratio(value: float) -> float:
                 pair = tried(key, value)
-                return pair.contact_ratio >= ratio and keys.leaves(pair.normal_backlash)
+                return pair.contact_ratio if keys.leaves(pair.normal_backlash) else 0.0
 
-            found = nearest(holds, given, toward)
-            if found is None or not isinstance(found.value, float):
-                return found
-            beyond = found.value + math.copysign(_STEP * found.value, given - found.value)
-            # where teeth that follow each other with interruptions run too, this is no limit, but what to take
-            return Nearest(found.value) if kept(partial(holds, ratio=_TINY), beyond) else found
+            return as_far_as_teeth_follow(ratio, min(1.0, own.contact_ratio), given, toward, math.inf)
 
         raise ParameterError(f"mate.{key}", given, code, cure)
 

@@ -78,7 +78,8 @@ class CamFollowerMating(Touching):
             return None
         from geometry.cams.contact.follower import CONTACT_TOLERANCE, follower_contact
 
-        allowed, beyond = self.allowed(CONTACT_TOLERANCE, tolerance), self.groove and self.groove.outer()
+        allowed = self.allowed(CONTACT_TOLERANCE, tolerance)
+        beyond = None if self.groove is None else self.groove.outer()
         return follower_contact(self.cam, self.end, allowed, out=phase_off, beyond=beyond)
 
     def quantities(self) -> dict[str, Any]:

@@ -2,14 +2,32 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from typing import Any, TypeVar
 
+from geometry.base.errors import Nearest
+from geometry.base.nearest import kept, nearest
 from geometry.base.record import replace
 from parts.base.mate import End, MateKeys, MateKind
 
 K = TypeVar("K", bound=MateKeys)
 A = TypeVar("A")
 B = TypeVar("B")
+# one step of a value, of its size or of a largest one: a longer one may pass over all that runs with interruptions
+_STEP = 1e-3
+
+
+def as_far_as_teeth_follow(
+    ratio: Callable[[float], float], wanted: float, given: float, toward: float, step: float
+) -> Nearest | None:
+    """The value nearest to the given one at which the contact ratio is the wanted one; ``step``: a small one there."""
+    found = nearest(lambda at: ratio(at) >= wanted, given, toward)
+    if found is None or not isinstance(found.value, float):
+        return found
+    beyond = found.value + math.copysign(_STEP * min(found.value, step), given - found.value)
+    # where nearer ones run too, with interruptions, this is no limit, but what to take
+    return Nearest(found.value) if kept(lambda at: ratio(at) > 0, beyond) else found
 
 
 class GearPair(MateKind[K, A, B]):

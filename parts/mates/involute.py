@@ -10,12 +10,12 @@ import math
 from typing import TYPE_CHECKING, Annotated, Any, Generic, TypeVar
 
 from geometry.base.errors import ConvergenceError, GeometryError, Nearest, ParameterError
-from geometry.base.nearest import kept, nearest
+from geometry.base.nearest import nearest
 from geometry.base.record import replace
 from parts.base.mate import End, Pose, Standing, Toothed
 from parts.keys.base import mm
 from parts.keys.mate import InvolutePairKeys
-from parts.mates.gear_pair import GearPair
+from parts.mates.gear_pair import GearPair, as_far_as_teeth_follow
 from parts.mates.sizes import same_size
 
 if TYPE_CHECKING:
@@ -246,8 +246,6 @@ class RackMating(GearMating):
 
 A = TypeVar("A")
 B = TypeVar("B")
-# one step of a distance, mm, or share of one below 1 mm: a longer one may pass over all that runs with interruptions
-_STEP = 1e-3
 K = TypeVar("K", bound=InvolutePairKeys)
 M = TypeVar("M", bound=GearMating)
 
@@ -381,19 +379,13 @@ class InvolutePair(GearPair[K, A, B], Generic[K, A, B, M]):
             except ParameterError:
                 # shifts without a distance of their own
                 return touching
-            wanted = min(1.0, nominal.pair.contact_ratio)
 
             def ratio(at: float) -> float:
                 made = self.made(keys, first, second, at)
                 return made.pair.contact_ratio if keys.leaves(made.normal_backlash) else 0.0
 
             toward = nominal.distance if keys.leaves(nominal.normal_backlash) else nominal.pair.touching_distance
-            found = nearest(lambda at: ratio(at) >= wanted, distance, toward)
-            if found is None or not isinstance(found.value, float):
-                return found
-            beyond = found.value + math.copysign(_STEP * min(found.value, 1.0), distance - found.value)
-            # where nearer ones run too, with interruptions, this is no limit, but what to take
-            return Nearest(found.value) if kept(lambda at: ratio(at) > 0, beyond) else found
+            return as_far_as_teeth_follow(ratio, min(1.0, nominal.pair.contact_ratio), distance, toward, 1.0)
 
         raise ParameterError("mate.working_centre_distance", distance, code, cure, **numbers)
 

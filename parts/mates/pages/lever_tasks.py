@@ -10,26 +10,14 @@ from functools import cache
 
 from geometry.base.errors import Nearest, ParameterError
 from parts.base.psv import rows_of
-from parts.base.texts import N_
 
-MACHINES = {
-    1: N_("screen"), 2: N_("shaping machine"), 3: N_("slotting machine"), 4: N_("swinging conveyor"),
-    5: N_("swinging conveyor"), 6: N_("swinging conveyor"), 7: N_("swinging conveyor"), 8: N_("compressor"),
-    9: N_("compressor"), 10: N_("knotter"),
-}  # fmt: skip
+MACHINES: dict[int, str] = {}
 # what the assumed schemes have beside the columns: where O3 lies as seen from O1, how the links join
-_SCHEMES: dict[int, dict[str, str | float]] = {
-    1: {"first": "stone", "frame_angle_deg": 180.0, "arm_angle_deg": -90.0, "second": "slider"},
-    2: {"first": "stone", "frame_angle_deg": 270.0, "arm_angle_deg": 0.0, "second": "slider"},
-    3: {"first": "stone", "frame_angle_deg": 270.0, "arm_angle_deg": 180.0, "second": "slider"},
-    4: {"first": "rods", "frame_angle_deg": 0.0, "arm_angle_deg": 0.0, "second": "slider"},
-    5: {"first": "rods", "frame_angle_deg": 0.0, "arm_angle_deg": 0.0, "second": "slider"},
-    6: {"first": "rods", "frame_angle_deg": 0.0, "arm_angle_deg": 0.0, "second": "slider"},
-    7: {"first": "rods", "frame_angle_deg": 0.0, "arm_angle_deg": 0.0, "second": "slider"},
-    8: {"first": "slider", "second": "none"},
-    9: {"first": "slider", "second": "none"},
-    10: {"first": "stone", "frame_angle_deg": 270.0, "arm_angle_deg": 0.0, "second": "rocker"},
-}
+_SCHEMES: dict[int, dict[str, str | float]] = {}
+for _number, _machine, _first, _second, *_angles in rows_of(__file__, "lever_schemes"):
+    MACHINES[int(_number)] = _machine
+    _told = zip(("frame_angle_deg", "arm_angle_deg"), _angles, strict=True)
+    _SCHEMES[int(_number)] = {"first": _first, "second": _second} | {key: float(angle) for key, angle in _told if angle}
 # plans of the worked example: record-book number 10-71, drawn crank 30 mm, 0.1 (m/s)/mm, 3 (m/s2)/mm
 EXAMPLE = {"code": "1071", "drawn_crank": 30.0, "velocity_scale": 0.1, "acceleration_scale": 3.0}
 

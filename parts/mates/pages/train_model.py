@@ -5,9 +5,11 @@ Wheels are named as the sources name them: 1, 2, 2', 3; what is named by the sam
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from typing import TypeVar
 
 from geometry.base.errors import Nearest, ParameterError
 from geometry.base.record import Record
@@ -119,6 +121,9 @@ class Stage(Record):
     held: str = ""
 
 
+S = TypeVar("S", bound=Leg | Stage)
+
+
 def parsed(
     teeth: Mapping[str, int], meshes: str, shafts: str = "", carriers: Mapping[str, str] | None = None, held: str = ""
 ) -> Train:
@@ -215,17 +220,8 @@ def _body(bodies: Mapping[str, str], name: str, key: str) -> str:
 def stages(train: Train, driver: str, driven: str) -> tuple[Stage, ...] | None:
     """The stages one after the other from a driver to the driven link; None: the train is no such row of stages."""
     start, end = train.bodies[driver], train.bodies[driven]
-    steps: dict[str, list[Stage]] = {}
-    for stage in (*_fixed(train), *_planetary(train)):
-        steps.setdefault(train.bodies[stage.start], []).append(stage)
-    ways: dict[str, tuple[Stage, ...]] = {start: ()}
-    waiting = [start]
-    for body in waiting:
-        for stage in steps.get(body, []):
-            after = train.bodies[stage.end]
-            if after not in ways and not train.still(after):
-                ways[after] = (*ways[body], stage)
-                waiting.append(after)
+    moving = [stage for stage in (*_fixed(train), *_planetary(train)) if not train.still(train.bodies[stage.end])]
+    ways = _ways(train, moving, start)
     return _joined(ways[end]) if end in ways and end != start else None
 
 
@@ -268,10 +264,7 @@ def _planetary(train: Train) -> list[Stage]:
             way = next((ways[body] for body in ways if train.still(body)), ())
             if not way:
                 continue
-            ratio = Fraction(1)
-            for leg in way:
-                ratio *= leg.ratio
-            if ratio != 1:
+            if (ratio := math.prod((leg.ratio for leg in way), start=Fraction(1))) != 1:
                 run = 1 - ratio
                 found.append(Stage(way[0].start, name, way, run, name, way[-1].end))
                 found.append(Stage(name, way[0].start, way, 1 / run, name, way[-1].end))
@@ -283,15 +276,15 @@ def _named(train: Train, carrier: str) -> str:
     return next((n for n, body in train.bodies.items() if body == carrier and n not in train.teeth), carrier)
 
 
-def _ways(train: Train, legs: Sequence[Leg], start: str) -> dict[str, tuple[Leg, ...]]:
-    """The shortest way from a body through meshes of one carrier to each body, the nearest first."""
-    ways: dict[str, tuple[Leg, ...]] = {start: ()}
+def _ways(train: Train, steps: Sequence[S], start: str) -> dict[str, tuple[S, ...]]:
+    """The shortest way from a body, through meshes of one carrier or by stages, to each body, the nearest first."""
+    ways: dict[str, tuple[S, ...]] = {start: ()}
     waiting = [start]
     for body in waiting:
-        for leg in legs:
-            after = train.bodies[leg.end]
-            if train.bodies[leg.start] == body and after not in ways:
-                ways[after] = (*ways[body], leg)
+        for step in steps:
+            after = train.bodies[step.end]
+            if train.bodies[step.start] == body and after not in ways:
+                ways[after] = (*ways[body], step)
                 waiting.append(after)
     return ways
 
