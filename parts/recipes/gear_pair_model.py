@@ -42,14 +42,12 @@ def _expanded(keys: GearPairModelKeys) -> Expansion:
     """The tables of one model: the pinion at the origin; the frame comes under both axles, wherever they stand."""
     thick, making = keys.plate_thickness, Making("gear_pair_model", keys.plate_thickness, keys)
     # named by what students are given
-    for number, (wheel, teeth, shift) in enumerate(zip(_WHEELS, keys.teeth, keys.shifts, strict=True), 1):
+    for wheel, teeth, shift in zip(_WHEELS, keys.teeth, keys.shifts, strict=True):
         making.part(
             wheel, kind="spur_gear", module=keys.module, number_of_teeth=teeth, profile_shift_coefficient=shift,
             face_width=keys.plate_thickness, bore_diameter=keys.axle_diameter + keys.clearance,
             label=f"z {teeth} m {keys.module:g}",
         )  # fmt: skip
-        making.told(wheel, number_of_teeth=f"teeth[{number}]", profile_shift_coefficient=f"shifts[{number}]",
-                    face_width="plate_thickness")  # fmt: skip
     beside = max(_BESIDE, keys.axle_diameter / 2 + _WALL)
     making.part(
         "frame", kind="plate", face_width=thick, corner_radius=_CORNER, width=2 * beside, height=2 * beside,
@@ -60,8 +58,6 @@ def _expanded(keys: GearPairModelKeys) -> Expansion:
     making.mate("external_gear_pair", *_WHEELS, normal_backlash=keys.normal_backlash)
     for number, wheel in enumerate(_WHEELS, 1):
         making.put("coaxial", wheel, f"axle_{number}", "axle", height=-thick)
-    making.told("frame", face_width="plate_thickness")
-    making.told("axle", diameter="axle_diameter")
     making.name_all()
     return making.found
 

@@ -22,8 +22,8 @@ WAYS: Mapping[str, tuple[float, float, float]] = {
     "front": (0.0, 0.0, -1.0), "behind": (0.0, 0.0, 1.0), "right": (-1.0, 0.0, 0.0), "left": (1.0, 0.0, 0.0),
     "back": (0.0, -1.0, 0.0), "fore": (0.0, 1.0, 0.0),
 }  # fmt: skip
-# orders of assembly, a step or some a row
-_ORDERS = rows_of(__file__, "orders")
+# orders of assembly, a step or some a row; what keys of parts are keys of their recipe
+_ORDERS, _ORIGINS = rows_of(__file__, "orders"), rows_of(__file__, "origins")
 # rounding of a square plate's corners, mm
 _CORNER = 10.0
 
@@ -58,6 +58,8 @@ class Making:
 
     def __init__(self, recipe: str, thickness: float, keys: RecipeKeys) -> None:
         self.found, self.recipe, self.names, self.thickness = Expansion(), recipe, NAMES[recipe], thickness
+        for parts, key, own in (row for name, *row in _ORIGINS if name == recipe):
+            self.told(*parts.split(), **{key: own})
         given = {key: getattr(keys, key, None) for key in ("material", "density")}
         self.material = {key: value for key, value in given.items() if value is not None}
 

@@ -45,6 +45,8 @@ _WHEELS = {
 # the engraved mark of a carrier
 _RIM, _SCREW, _MARGIN, _HANDLE, _MARK = 14.0, 4.0, 12.0, 25.0, 1.0
 _MOST_TURNS = 10_000
+# of the wheels 1, 2, 2', 3
+Shifts = tuple[float, float, float, float]
 
 _WORKING_CENTRE_DISTANCE = part_mm(
     "centre distance of both meshes; default: as the teeth need it", above=0, example=48.0
@@ -205,9 +207,7 @@ def _hands(keys: PlanetarySetKeys, scheme: Scheme) -> tuple[Hand, Hand, Hand, Ha
     return first, rim, rim, rim if scheme.internal[1] else other[rim]
 
 
-def _fitted(
-    keys: PlanetarySetKeys, one: PlanetarySet, places: tuple[Fraction, ...]
-) -> tuple[float, tuple[float, float, float, float]]:
+def _fitted(keys: PlanetarySetKeys, one: PlanetarySet, places: tuple[Fraction, ...]) -> tuple[float, Shifts]:
     """Distance and shifts as ``calc planetary`` chooses them."""
     beta = abs(math.radians(keys.helix_angle_deg))
     fitting = Fitting(iso_53("A"), _WISH, least_angle(places), 0.0, keys.working_centre_distance, beta)
@@ -220,9 +220,7 @@ def _fitted(
     return fit.distance, fit.shifts
 
 
-def _given_shifts(
-    keys: PlanetarySetKeys, one: PlanetarySet, places: tuple[Fraction, ...]
-) -> tuple[float, tuple[float, float, float, float]]:
+def _given_shifts(keys: PlanetarySetKeys, one: PlanetarySet, places: tuple[Fraction, ...]) -> tuple[float, Shifts]:
     """Shifts that the scene gives, held against one distance."""
     given = keys.shifts or []
     if len(given) != len(keys.teeth):
@@ -231,7 +229,10 @@ def _given_shifts(
     shifts = (x1, x2, rest[0] if one.scheme.double else x2, rest[-1])
     found = []
     angle = transverse_angle(ISO_53_ANGLE, math.radians(keys.helix_angle_deg))
-    for span, reference, total in zip(one.spans, one.distances, _totals(one, shifts), strict=True):
+    inside = one.scheme.internal
+    # sums of the shifts of both meshes, or differences where one is internal
+    totals = shifts[0] + (-shifts[1] if inside[0] else shifts[1]), shifts[3] + (-shifts[2] if inside[1] else shifts[2])
+    for span, reference, total in zip(one.spans, one.distances, totals, strict=True):
         value = involute_function(angle) + 2 * math.tan(ISO_53_ANGLE) * total / span
         if value < 0:
             raise ParameterError("shifts", given, "shifts_leave_no_angle")
@@ -241,13 +242,6 @@ def _given_shifts(
     if abs(found[0] - found[1]) > PLACED_MM:
         raise ParameterError("shifts", given, "shifts_not_coaxial", first=found[0], second=found[1])
     return found[0], shifts
-
-
-def _totals(one: PlanetarySet, shifts: tuple[float, float, float, float]) -> tuple[float, float]:
-    """Sums of the shifts of both meshes, or differences where one is internal."""
-    x1, x2, x2p, x3 = shifts
-    inside1, inside2 = one.scheme.internal
-    return x1 - x2 if inside1 else x1 + x2, x3 - x2p if inside2 else x3 + x2p
 
 
 def _wheel_keys(made: _Set, wheel: _Wheel) -> Table:
@@ -382,8 +376,6 @@ def _add_carrier(made: _Set, making: Making) -> None:
     rim = made.chain[1]
     turning = {"kind": "coaxial", "first": "pin", "second": rim.id, "height": rim.height - bottom}
     _join(made, found, turning, ("pin", rim.id))
-    making.told("pin", diameter="pin_diameter")
-    making.told("carrier", pin_diameter="pin_diameter", bore_diameter="shaft_diameter", face_width="plate_thickness")
     for wheel in made.wheels:
         if not wheel.is_ring:
             turns = wheel in made.wheels[1:3]

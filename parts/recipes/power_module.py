@@ -230,10 +230,6 @@ class _Making(Making):
         self.order(self.keys.orientation, inwards={"outwards": inwards, "one_hole": True},
                    outwards={"outwards": self.keys.ball}, opened={"opened": _SNAP})  # fmt: skip
         self.name_all()
-        self.told("ring", "pinion", number_of_teeth="teeth")
-        self.told("worm", thread_length="worm_length")
-        self.told("worm", "worm_wheel_25", "worm_wheel_23", module="worm_module", diameter_quotient="worm_quotient")
-        self.told("worm_wheel_25", "worm_wheel_23", number_of_teeth="worm_teeth", face_width="worm_wheel_width")
         return self.found
 
     def name_all(self) -> None:

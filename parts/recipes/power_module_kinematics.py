@@ -139,8 +139,6 @@ class _Making(Making):
         {"cranks": self._cranks, "idlers": self._idlers, "thesis": self._wheels}[keys.orientation]()
         self.drive(keys, disk_2="turns_of_disk", ring="turns_of_ring")
         self.name_all()
-        self.told("platform", width="platform_size")
-        self.told("ring", "pinion", number_of_teeth="teeth")
         return self.found
 
     def _disks(self) -> None:

@@ -199,12 +199,6 @@ class _Making(Making):
         (self._worms if self.keys.drive == "worms" else self._hand_cranks)()
         self.order(self.keys.drive)
         self.drive(self.keys, disk_2="turns_of_disk", ring="turns_of_ring")
-        self.told("ring", "pinion", number_of_teeth="teeth")
-        self.told("pinion", bore_diameter="axle_diameter")
-        self.told("platform", width="platform_size")
-        self.told("disk_worm_wheel", "ring_worm_wheel", module="worm_module", number_of_teeth="worm_wheel_teeth",
-                  axial_thinning="worm_thinning")  # fmt: skip
-        self.told("disk_worm", "ring_worm", module="worm_module")
         self.name_all()
         return self.found
 
