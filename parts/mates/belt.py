@@ -27,7 +27,7 @@ _ROUNDING = 1e-9
 # half the width of the belt in pictures, in pitches
 _DRAWN = 0.15
 
-_NUMBER_OF_BELT_TEETH = Meta(ge=6, le=_MOST_TEETH, description="teeth of the belt", examples=[100])
+BeltTeeth = Annotated[int, Meta(ge=6, le=_MOST_TEETH, description="teeth of the belt", examples=[100])]
 _CENTRE_DISTANCE = mm(
     "centre distance; default: that at which a belt of number_of_belt_teeth is taut", above=0, most=1e6, example=150.0
 )
@@ -37,7 +37,7 @@ class BeltDriveSpec(MateKeys, tag="belt_drive", kw_only=True):
     """Keys of ``belt_drive``."""
 
     second: Annotated[str, Meta(description="instance that the belt drives, or that drives it")]
-    number_of_belt_teeth: Annotated[int, _NUMBER_OF_BELT_TEETH] | None = None
+    number_of_belt_teeth: BeltTeeth | None = None
     centre_distance: Annotated[float, _CENTRE_DISTANCE] | None = None
     direction_deg: Direction = 0.0
     height: Annotated[float, height("second above the first; default: teeth face each other")] | None = None

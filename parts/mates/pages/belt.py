@@ -14,7 +14,7 @@ from parts.base.texts import N_
 from parts.belts.pulley import TIMING_PULLEY, TimingPulleySpec
 from parts.belts.steps import belt_steps, circle_steps
 from parts.keys.base import mm, size
-from parts.mates.belt import BeltDriveSpec, belt_mesh
+from parts.mates.belt import BeltDriveSpec, BeltTeeth, belt_mesh
 from parts.mates.pages.drive_keys import drive_of_kind
 from parts.pages.force_steps import driving_torque
 from parts.pages.inputs import calculation
@@ -26,7 +26,6 @@ _SPEED = "speed of the driving pulley: adds the speed of the belt"
 _TORQUE = "torque on the driving pulley: adds the pull of the belt"
 _POWER = "power that the driving pulley takes in, by its speed: in place of its torque"
 
-_NUMBER_OF_BELT_TEETH = Meta(ge=6, le=10_000, description="teeth of the belt", examples=[100])
 _MATE_NUMBER_OF_TEETH = Meta(ge=6, le=500, description="number of teeth of the driven pulley", examples=[40])
 
 
@@ -34,7 +33,7 @@ class BeltKeys(TimingPulleySpec, kw_only=True, tag=False, forbid_unknown_fields=
     """Keys of the driving pulley, the teeth of the other one, the belt's length and what it carries."""
 
     mate_number_of_teeth: Annotated[int, _MATE_NUMBER_OF_TEETH]
-    number_of_belt_teeth: Annotated[int, _NUMBER_OF_BELT_TEETH] | None = None
+    number_of_belt_teeth: BeltTeeth | None = None
     centre_distance: Annotated[float, mm("centre distance", above=0, most=1e6, example=150.0)] | None = None
     speed_rpm: Annotated[float, size("rpm", _SPEED, above=0, most=1e6)] | None = None
     torque: Annotated[float, size("N*m", _TORQUE, above=0, most=1e9)] | None = None
