@@ -274,11 +274,12 @@ class _Making(Making):
         self.found.parts[name] = table | ({"holes": list(holes)} if holes else {})
         return name
 
-    def _made(self, name: str) -> None:
-        """A part of the table of what is turned, where it is needed first."""
-        if name in _BODIES and name not in self.found.parts:
-            points, holes = (listed(made_of, _SHAPES | self.s) for made_of in _BODIES[name])
-            self._turned(name, points, *(holes_on(int(count), *where) for count, *where in holes))
+    def _made(self, *names: str) -> None:
+        """Parts of the table of what is turned, where they are needed first: files have all in the order of making."""
+        for name in names:
+            if name in _BODIES and name not in self.found.parts:
+                points, holes = (listed(made_of, _SHAPES | self.s) for made_of in _BODIES[name])
+                self._turned(name, points, *(holes_on(int(count), *where) for count, *where in holes))
 
     def _layers(self, name: str, layers: Sequence[tuple[float, Table]]) -> str:
         """A part of layers: thickness and contours of each; what is of no thickness is left out; its name."""
@@ -427,6 +428,7 @@ class _Making(Making):
         self._set("disk_2", "shield_7", t)
         self._set("disk_2", "shield_8", t, arm)
         tip = t + s["h_shield"] - 6
+        self._made("screw_59", "screw_59_down")
         self._circle("disk_2", "shield_7_screw", "screw_59", 16, s["r_53"], tip, 11.25)
         self._circle("shield_8", "shield_8_screw", "screw_59", 16, s["r_8"], tip)
         # rings that hold the balls of disk 3
@@ -441,6 +443,7 @@ class _Making(Making):
             self._set("disk_2", "plug", z, complex(arm + s["r_59"]), name=f"plug_{k}")
         self._circle("protective_ring_1", "front_clip", "screw_59", 12, s["r_59"], fore + s["h_33"] - 6)
         self._circle("protective_ring_2", "rear_clip", "screw_59_down", 12, s["r_59"], rear - M4[2])
+        self._made("ball")
         self._cage("small_cage", s["r_small"], int(s["small_balls"]))
         for k, z in enumerate((s["z_upper"], s["z_lower"]), 1):
             self._row("disk_2", "small", k, z, arm)
@@ -457,6 +460,7 @@ class _Making(Making):
             (h - (40 - wide + 1) - (25 - s["h_5"] + 1), {"circles": [*edges, *passing]}),
             (25 - s["h_5"] + 1, {"circles": [*edges, *passing, *guides]}),
         ]), -h)  # fmt: skip
+        self._made("screw_53", "screw_53_down")
         self._circle("disk_2", "spacer_24_screw", "screw_53_down", 12, s["r_53"], -h - M8[2])
         self._set("disk_2", "guide_5", s["z_race"])
         self._circle("disk_2", "guide_5_screw", "screw_52", _RACE_SCREWS, s["r_41"], s["h_5"] - 25, _RACE_START)
@@ -572,6 +576,7 @@ class _Making(Making):
                   profile_shift_coefficient=IDLER_SHIFT, bore_diameter=2 * (s["r_37"] + keys.clearance),
                   face_width=keys.wheel_width)  # fmt: skip
         turning = 2 * (s["r_neck"] + keys.clearance)
+        self._made("idler_pin", "idler_pin_down")
         self._set("disk_2", self._layers("link", [(s["h_38"], {
             "slots": [{"start": [0.0, 0.0], "end": [s["arm"], 0.0], "width": 2 * s["r_38"]}],
             "circles": [_round(turning), _round(2 * s["r_37"], s["arm"] / 2), _round(turning, s["arm"])],
