@@ -193,6 +193,10 @@ def chord_parameters(curve: Curve, tolerance: float) -> tuple[Real, float, bool]
 
 def chords_of(curve: Curve, count: int) -> tuple[Real, float]:
     """Parameters of a given number of chords of near equal error, and that error, mm."""
+    if isinstance(curve, Line | Arc):
+        # of an arc R (1 - cos(step / 2)) = 2 R sin^2(step / 4)
+        error = 2 * curve.radius * math.sin(abs(curve.sweep) / count / 4) ** 2 if isinstance(curve, Arc) else 0.0
+        return np.linspace(*curve.domain, count + 1), error
     t = _equal_steps(curve, *_chord_density(curve)[:2], count)
     return t, chord_error(curve, t)
 
@@ -216,13 +220,12 @@ def _equal_steps(curve: Curve, nodes: Real, coordinate: Real, count: int) -> Rea
 
 
 def _arc_chords(arc: Arc, tolerance: float) -> tuple[Real, float, bool]:
-    """Equal chords of a circular arc: deviation R (1 - cos(step / 2)) = 2 R sin^2(step / 4)."""
+    """The fewest equal chords of a circular arc."""
     step = 4 * math.asin(min(math.sqrt(tolerance / (2 * arc.radius)), math.sin(math.pi / 6)))
     count = max(1, math.ceil(abs(arc.sweep) / step))
     if count > _MAX_CHORDS:
         raise ConvergenceError("chords for the tolerance", tolerance, _MAX_CHORDS)
-    error = 2 * arc.radius * math.sin(abs(arc.sweep) / count / 4) ** 2
-    return np.linspace(*arc.domain, count + 1), error, True
+    return *chords_of(arc, count), True
 
 
 def chord_error(curve: Curve, t: Real) -> float:

@@ -18,7 +18,7 @@ from geometry.approximation.chords import chord_parameters, chords_of
 from geometry.base.errors import ConvergenceError
 from geometry.base.record import Draft
 from geometry.curves.curve import Complex, Curve, Real
-from geometry.curves.line_arc import Arc, Line
+from geometry.curves.line_arc import Line
 from geometry.plane.contour import Approximation, Contour
 from geometry.plane.profile import Profile
 
@@ -38,13 +38,7 @@ class _Chords(Draft):
     def of(self, count: int) -> tuple[Complex, float]:
         """Points (count + 1,) of chords of near equal error, and that error, mm."""
         if count not in self.made:
-            if isinstance(self.curve, Line):
-                t, error = np.linspace(*self.curve.domain, count + 1), 0.0
-            elif isinstance(self.curve, Arc):
-                t = np.linspace(*self.curve.domain, count + 1)
-                error = 2 * self.curve.radius * math.sin(abs(self.curve.sweep) / count / 4) ** 2
-            else:
-                t, error = chords_of(self.curve, count)
+            t, error = chords_of(self.curve, count)
             self.made[count] = self.curve.point(t), error
         return self.made[count]
 

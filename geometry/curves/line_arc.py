@@ -56,6 +56,12 @@ class Line(Curve, Record):
     def placed(self, placement: Placement2) -> Line:
         return Line(placement.apply(self.start), placement.apply(self.end))
 
+    def foot(self, points: Complex) -> tuple[Real, NDArray[np.bool_]]:
+        """Parameters of the feet of points (n,) on the whole line, and which of them lie within its ends."""
+        chord = self.end - self.start
+        share = ((points - self.start) * chord.conjugate()).real / abs(chord) ** 2
+        return share, (share >= 0) & (share <= 1)
+
     def mirrored(self) -> Line:
         return Line(self.end.conjugate(), self.start.conjugate())
 

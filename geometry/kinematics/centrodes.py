@@ -19,6 +19,7 @@ from geometry.base.roots import bracketed_root
 from geometry.base.series import FACTORIALS, Series, majorant_power, power, quotient, sharpened
 from geometry.curves.curve import Real
 from geometry.kinematics.motion import Pose
+from geometry.plane.measure import panels
 
 _PANELS, _NODES = 64, 16
 _SAMPLES = 1025
@@ -148,11 +149,8 @@ class CentrodePair(Record):
     def mate_angle(self, angle: ArrayLike) -> Real:
         """phi_2, rad: the integral of the ratio by Gauss' rule on panels, to rounding for smooth centrodes."""
         at = np.atleast_1d(np.asarray(angle, dtype=float))
-        nodes, weights = np.polynomial.legendre.leggauss(_NODES)
-        edges = at[:, None] * np.linspace(0, 1, _PANELS + 1)
-        half = np.diff(edges)[..., None] / 2
-        t = (edges[:, :-1, None] + edges[:, 1:, None]) / 2 + half * nodes
-        return np.sum(self.ratio(t) * weights * half, axis=(1, 2)).reshape(np.shape(angle))
+        shares, weights = panels(np.linspace(0, 1, _PANELS + 1), _NODES)
+        return np.asarray((np.sum(self.ratio(at[:, None] * shares) * weights, axis=1) * at).reshape(np.shape(angle)))
 
     def mate_turns(self) -> float:
         """Turns of the second body for one of the first: a whole number over a whole number where both close."""

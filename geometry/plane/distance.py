@@ -152,10 +152,8 @@ def _interior_feet(curve: Curve, search: FootSearch | None, points: Complex, bes
     if isinstance(forward := _forward(curve), Involute):
         t, inside = _involute_foot(points, forward)
         t = t if forward is curve else -t
-    elif isinstance(curve, Arc):
+    elif isinstance(curve, Arc | Line):
         t, inside = curve.foot(points)
-    elif isinstance(curve, Line):
-        t, inside = _line_foot(points, curve)
     else:
         assert search is not None
         return search.feet(points, best)
@@ -180,12 +178,6 @@ def _involute_foot(points: Complex, curve: Involute) -> tuple[Real, Flags]:
     middle = (low + high) / 2
     roll = middle + np.mod(roll - middle + math.pi, 2 * math.pi) - math.pi
     return roll, (roll >= low) & (roll <= high) & (radius > curve.base_radius)
-
-
-def _line_foot(points: Complex, line: Line) -> tuple[Real, Flags]:
-    chord = line.end - line.start
-    share = ((points - line.start) * chord.conjugate()).real / abs(chord) ** 2
-    return share, (share >= 0) & (share <= 1)
 
 
 Evaluation = Callable[[Real, Indices], tuple[Real, Real]]

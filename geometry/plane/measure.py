@@ -55,7 +55,7 @@ def _area(profile: Profile) -> float:
     total = 0.0
     pole = start_point(profile.period[0].curve) if profile.count == 1 else 0j
     for segment in profile.period:
-        t, weights = _quadrature(segment.curve)
+        t, weights = quadrature(segment.curve)
         integrand = (np.conj(segment.curve.point(t) - pole) * segment.curve.derivative(t)).imag
         total += 0.5 * float(np.sum(integrand * weights))
     return total * profile.count
@@ -65,12 +65,12 @@ def profile_length(profile: Profile) -> float:
     """Length of a closed profile, mm."""
     total = 0.0
     for segment in profile.period:
-        t, weights = _quadrature(segment.curve)
+        t, weights = quadrature(segment.curve)
         total += float(np.sum(np.abs(segment.curve.derivative(t)) * weights))
     return total * profile.count
 
 
-def _quadrature(curve: Curve) -> tuple[Real, Real]:
+def quadrature(curve: Curve) -> tuple[Real, Real]:
     """Nodes and weights over a curve's domain."""
     return panels(panel_edges(curve, _GAUSS_PANELS), _GAUSS_POINTS)
 

@@ -6,13 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from geometry.base.record import Record, made_once
-from geometry.curves.curve import Complex, Real
-from geometry.plane.measure import gauss_rule, panel_edges, profile_length
+from geometry.curves.curve import Real
+from geometry.plane.measure import panels, profile_length, quadrature
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body, Wall
 
-_GAUSS_POINTS = 20
-_GAUSS_PANELS = 4
 # an upright wall's integrals are polynomials of degree 2 in z
 _HEIGHT_POINTS = 4
 # sections of a chamfer are smooth in z
@@ -66,15 +64,14 @@ def _wall_share(body: Body, wall: Wall) -> Real:
     one_section = None if chamfer else section_moments(lower)
     # the moments of three periods or more do not feel a turn
     moved = not chamfer and (lower.count < 3 or body.shear(wall) != 0)
-    nodes, weights = gauss_rule(_CHAMFER_POINTS if chamfer else _TURNED_POINTS if moved else _HEIGHT_POINTS)
+    count = _CHAMFER_POINTS if chamfer else _TURNED_POINTS if moved else _HEIGHT_POINTS
     share = np.zeros(10)
-    for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
-        z = (low + high) / 2 + (high - low) / 2 * node
+    for z, weight in zip(*(x.tolist() for x in panels(np.array([low, high]), count)), strict=True):
         section = one_section if one_section is not None else section_moments(body.section(wall, z))
         if moved:
             section = _moved(section, float(body.turn_at(wall, z)), complex(body.shift_at(wall, z)))
         a, x, y, xx, yy, xy = section.tolist()
-        share += weight * (high - low) / 2 * np.array([a, x, y, a * z, xx, yy, xy, a * z * z, x * z, y * z])
+        share += weight * np.array([a, x, y, a * z, xx, yy, xy, a * z * z, x * z, y * z])
     return share
 
 
@@ -91,15 +88,16 @@ def _moved(section: Real, angle: float, shift: complex) -> Real:
 
 def section_moments(profile: Profile) -> Real:
     """Integrals of 1, x, y, x^2, y^2, xy inside a profile, (6,); counter-clockwise positive."""
-    p, d, weights = _nodes(profile)
+    rules = [(s.curve, *quadrature(s.curve)) for s in profile.period]
+    p = np.concatenate([curve.point(t) for curve, t, _ in rules])
+    swept = (np.conj(p) * np.concatenate([curve.derivative(t) * weights for curve, t, weights in rules])).imag
     # divergence of (x f, y f) for f homogeneous of degree n is (n + 2) f
     if profile.count > 2:
         # three periods or more: the centre lies on the axis, both second moments are equal
-        cross = (np.conj(p) * d).imag * weights
-        polar = profile.count * float(np.sum(np.abs(p) ** 2 * cross)) / 4
-        return np.array([profile.count * cross.sum() / 2, 0, 0, polar / 2, polar / 2, 0])
+        polar = profile.count * float(np.sum(np.abs(p) ** 2 * swept)) / 4
+        return np.array([profile.count * swept.sum() / 2, 0, 0, polar / 2, polar / 2, 0])
     turn = np.exp(1j * profile.pitch_angle * np.arange(profile.count))[:, None]
-    p, cross = (turn * p).ravel(), np.tile((np.conj(p) * d).imag * weights, profile.count)
+    p, cross = (turn * p).ravel(), np.tile(swept, profile.count)
     x, y = p.real, p.imag
     return np.array(
         [
@@ -111,23 +109,6 @@ def section_moments(profile: Profile) -> Real:
             (x * y * cross).sum() / 4,
         ]
     )
-
-
-def _nodes(profile: Profile) -> tuple[Complex, Complex, Real]:
-    """Quadrature points of one period, derivatives by the share of each segment, and weights."""
-    x, w = gauss_rule(_GAUSS_POINTS)
-    points, slopes, weights = [], [], []
-    for segment in profile.period:
-        low, high = segment.curve.domain
-        edges = np.linspace(0, 1, _GAUSS_PANELS + 1)
-        if segment.curve.knots.size:
-            edges = (panel_edges(segment.curve, _GAUSS_PANELS) - low) / (high - low)
-        half = np.diff(edges)[:, None] / 2
-        t = low + (high - low) * ((edges[:-1, None] + edges[1:, None]) / 2 + half * x).ravel()
-        points.append(segment.curve.point(t))
-        slopes.append(segment.curve.derivative(t) * (high - low))
-        weights.append((half * w).ravel())
-    return np.concatenate(points), np.concatenate(slopes), np.concatenate(weights)
 
 
 def wall_area(body: Body) -> float:

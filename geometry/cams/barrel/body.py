@@ -12,7 +12,7 @@ from geometry.base.record import Record
 from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
-from geometry.plane.measure import gauss_rule
+from geometry.plane.measure import panels
 from geometry.plane.profile import Label, Profile, circle
 from geometry.solids.mass import Moments, column_integrals, moments_of, section_moments
 
@@ -149,11 +149,11 @@ def barrel_moments(body: BarrelBody) -> Moments:
     Under a wall, the integral over the polar angle becomes one over the cam angle with the speed of the wall's edge.
     The integrands are analytic on each piece of the motion: the number of panels is doubled until nothing changes.
     """
-    panels, across = _PANELS, _ACROSS
-    total = _integrals(body, panels, across)
-    while panels < _MOST_PANELS:
-        panels, across = 2 * panels, min(2 * across, _MOST_ACROSS)
-        finer = _integrals(body, panels, across)
+    along, across = _PANELS, _ACROSS
+    total = _integrals(body, along, across)
+    while along < _MOST_PANELS:
+        along, across = 2 * along, min(2 * across, _MOST_ACROSS)
+        finer = _integrals(body, along, across)
         done = np.abs(finer - total).max(initial=0.0) <= _SETTLED * np.abs(finer).max()
         alike = abs(finer[0] - total[0]) <= _SETTLED * abs(finer[0])
         total = finer
@@ -162,36 +162,23 @@ def barrel_moments(body: BarrelBody) -> Moments:
     return moments_of(total)
 
 
-def _integrals(body: BarrelBody, panels: int, across: int) -> Real:
+def _integrals(body: BarrelBody, along: int, across: int) -> Real:
     """Integrals of 1, x, y, z, xx, yy, xy, zz, xz, yz with so many panels a piece and nodes across the walls."""
     total = np.zeros(10)
     for profile, low, high in body.columns():
         total += column_integrals(section_moments(profile), low, high)
     cam = body.cam
-    nodes, weights = gauss_rule(across)
-    half = (cam.outer - cam.inner) / 2
-    radii = (cam.outer + cam.inner) / 2 + half * nodes
+    radii, weights = panels(np.array([cam.inner, cam.outer]), across)
     # a groove is what lies under its upper wall and not under its lower one; an end cam stands under its wall
     for side in cam.sides:
         sign = -side if cam.is_groove else 1
         base = 0.0 if cam.is_groove else body.web
-        for angles, share, piece in _panels(cam, panels):
+        for piece in cam.motion.pieces:
+            angles, share = panels(np.linspace(piece.start, piece.end, along + 1), _POINTS)
             polar, height, speed = _edges(cam, side, radii, angles, piece)
-            measure = half * weights * radii * speed * share[:, None]
+            measure = weights * radii * speed * share[:, None]
             total += sign * _under(radii * np.exp(1j * polar), base, height, measure)
     return total
-
-
-def _panels(cam: BarrelCam, panels: int) -> list[tuple[Real, Real, LawPiece]]:
-    """Nodes and weights over every piece of the motion."""
-    nodes, weights = gauss_rule(_POINTS)
-    found: list[tuple[Real, Real, LawPiece]] = []
-    for piece in cam.motion.pieces:
-        edges = np.linspace(piece.start, piece.end, panels + 1)
-        half = np.diff(edges)[:, None] / 2
-        angles = (edges[:-1, None] + edges[1:, None]) / 2 + half * nodes
-        found.append((angles.ravel(), (half * weights).ravel(), piece))
-    return found
 
 
 def _edges(cam: BarrelCam, side: int, radii: Real, angles: Real, piece: LawPiece) -> tuple[Real, Real, Real]:

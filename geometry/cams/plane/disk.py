@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from geometry.base.errors import Nearest, ParameterError, limit
 from geometry.base.record import Record
-from geometry.base.series import taylor
+from geometry.base.series import Series, taylor
 from geometry.cams.motion.follower_motion import TURN, FollowerMotion
 from geometry.cams.motion.guides import Mount, Oscillating, Translating, oscillating_start_angle
 from geometry.cams.plane.curves import CentreEnvelope, Faced, FaceEnvelope, Lift
@@ -103,18 +103,19 @@ class DiskCam(Record):
         s = taylor(self.motion.values(np.asarray(angle, dtype=float), 1))
         if self.is_flat:
             return np.exp(1j * self.mount.face(s)[1][0])
-        centre = self.mount.centre(s)
-        path = centre[1] - 1j * centre[0]
-        return 1j * path / np.abs(path)
+        return _across(self.mount.centre(s))
 
     def contact(self, angle: ArrayLike) -> Complex:
         """Contact point in the fixed frame, mm."""
-        at = np.asarray(angle, dtype=float)
-        if not self.is_flat:
-            return self.reference_point(at) - self.radius * self.normal(at)
-        s = taylor(self.motion.values(at, 1))
-        height, normal = self.mount.face(s)
-        return np.exp(1j * normal[0]) * (height[0] + 1j * height[1] / (normal[1] - 1.0))
+        return self.touched(taylor(self.motion.values(np.asarray(angle, dtype=float), 1)))
+
+    def touched(self, s: Series) -> Complex:
+        """The same where S and S' are given, mm."""
+        if self.is_flat:
+            height, normal = self.mount.face(s)
+            return np.exp(1j * normal[0]) * (height[0] + 1j * height[1] / (normal[1] - 1.0))
+        centre = self.mount.centre(s)
+        return centre[0] - self.radius * _across(centre)
 
     def profile_point(self, angle: ArrayLike) -> Complex:
         """The same point in the cam's frame, mm."""
@@ -228,6 +229,12 @@ class DiskCam(Record):
         if self.is_flat:
             return -self.swing.sense * FaceEnvelope(piece, self.mount, *piece.domain).reach(t)
         return self.radius * np.sin(self.pressure_angle(np.clip(t, piece.start, np.nextafter(piece.end, 0))))
+
+
+def _across(centre: Series) -> Complex:
+    """Unit normal of a centre's path in the cam's frame, as the fixed frame has it."""
+    path = centre[1] - 1j * centre[0]
+    return 1j * path / np.abs(path)
 
 
 def translating_cam(

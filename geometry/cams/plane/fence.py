@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 
 from geometry.base.record import Record
-from geometry.curves.curve import Complex, Real
+from geometry.base.roots import halved
+from geometry.curves.curve import Complex, Curve, Real
+from geometry.plane.distance import Flags
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile
 
@@ -87,11 +89,12 @@ class Fence(Record, dict=True):
             for index in np.unique(owners[edge]):
                 mine = np.flatnonzero(owners[edge] == index)
                 curve, start, to = self.profile.period[int(index)].curve, places[edge][mine], points[mine]
-                a, b = start, start + (curve.domain[1] - curve.domain[0]) / (_SAMPLES - 1)
-                for _ in range(_STEPS):
-                    middle = (a + b) / 2
-                    ahead = (np.conj(curve.derivative(middle)) * (to - curve.point(middle))).real > 0
-                    a, b = np.where(ahead, middle, a), np.where(ahead, b, middle)
+                end = start + (curve.domain[1] - curve.domain[0]) / (_SAMPLES - 1)
+
+                def ahead(t: Real, curve: Curve = curve, to: Complex = to) -> Flags:
+                    return np.asarray((np.conj(curve.derivative(t)) * (to - curve.point(t))).real > 0)
+
+                a, _ = halved(ahead, start, end, _STEPS)
                 spoke = to - curve.point(a)
                 nearer = np.abs(spoke) < best[mine]
                 best[mine] = np.where(nearer, np.abs(spoke), best[mine])

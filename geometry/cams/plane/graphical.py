@@ -240,20 +240,8 @@ def graphical_profile(cam: DiskCam, drawn: GraphicalMotion) -> Complex:
     The cam's own base circle with the drawn S and S': the point where the follower of that position touches, whose
     direction the drawn S' tells.
     """
-    points = []
-    for phase in drawn.phases:
-        for angle, s, rate in zip(phase.angles, phase.lift, phase.rate, strict=True):
-            series = [np.asarray(s), np.asarray(rate)]
-            mount = cam.mount
-            if cam.is_flat:
-                height, normal = mount.face(series)
-                at = np.exp(1j * normal[0]) * (height[0] + 1j * height[1] / (normal[1] - 1.0))
-            else:
-                centre = mount.centre(series)
-                path = centre[1] - 1j * centre[0]
-                at = centre[0] - 1j * cam.radius * path / abs(path)
-            points.append(complex(at * np.exp(-1j * angle)))
-    return np.array(points)
+    found = [cam.touched([phase.lift, phase.rate]) * np.exp(-1j * phase.angles) for phase in drawn.phases]
+    return np.concatenate(found)
 
 
 def graphical_profile_error(cam: DiskCam, drawn: GraphicalMotion) -> float:

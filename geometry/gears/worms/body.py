@@ -18,7 +18,7 @@ from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.gears.worms.band import CLEAR, Band
 from geometry.gears.worms.thread import FlankLine, SectionLine, Thread, line_offset, line_step
-from geometry.plane.measure import gauss_rule
+from geometry.plane.measure import panels
 from geometry.plane.profile import Label, Profile, circle
 from geometry.solids.mass import Moments, column_integrals, moments_of, section_moments
 
@@ -227,15 +227,12 @@ def _cut_threads(body: WormBody) -> Real:
     """The same integrals over threads between the cones."""
     worm = body.thread.worm
     n, p, sign = worm.number_of_starts, worm.parameter, worm.sign
-    total, (nodes, weights) = np.zeros(10), gauss_rule(_POINTS)
+    total = np.zeros(10)
     for _, line in body.thread.lines:
-        low, high = line.domain
-        t = (low + high) / 2 + (high - low) / 2 * nodes
+        t, weights = panels(np.array(line.domain), _POINTS)
         place = line.point(t)
-        radii = place.real
-        total += _rings(radii, place.imag / p, np.asarray(body.end_height(radii), float), n, p, sign) @ (
-            weights * (high - low) / 2 * line_step(line, t).real
-        )
+        end = np.asarray(body.end_height(place.real), float)
+        total += _rings(place.real, place.imag / p, end, n, p, sign) @ (weights * line_step(line, t).real)
     return total
 
 
@@ -258,9 +255,7 @@ def _rings(r: Real, a: Real, h: Real, n: int, p: float, sign: int) -> Real:
 
 def _cone(low: float, high: float, lower: float, upper: float) -> Real:
     """The same integrals over a frustum about the axis between two heights, with these radii."""
-    nodes, weights = gauss_rule(4)
-    z = (low + high) / 2 + (high - low) / 2 * nodes
+    z, w = panels(np.array([low, high]), 4)
     r = lower + (upper - lower) * (z - low) / (high - low) if high > low else np.zeros(4)
-    w = weights * (high - low) / 2 * math.pi
-    v, vz, vzz, polar = (float(np.sum(w * f)) for f in (r**2, r**2 * z, r**2 * z * z, r**4 / 4))
+    v, vz, vzz, polar = (math.pi * float(np.sum(w * f)) for f in (r**2, r**2 * z, r**2 * z * z, r**4 / 4))
     return np.array([v, 0.0, 0.0, vz, polar, polar, 0.0, vzz, 0.0, 0.0])

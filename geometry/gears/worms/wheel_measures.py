@@ -16,7 +16,7 @@ from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import BEYOND, Side, WormTeeth
-from geometry.plane.measure import gauss_rule
+from geometry.plane.measure import gauss_rule, panels
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body
 from geometry.solids.mass import Moments, body_moments
@@ -74,14 +74,9 @@ class WormWheel(Record, dict=True):
 
     def _integrals(self, points: int) -> Real:
         """Of the teeth's sections down to the axis over the heights: areas, polar moments, areas by squared heights."""
-        nodes, weights = gauss_rule(_ACROSS)
-        total = np.zeros(3)
-        for low, high in pairwise(self.teeth.breaks):
-            z = (low + high) / 2 + (high - low) / 2 * nodes
-            own, second = self._sections(z, points)
-            share = weights * (high - low) / 2
-            total += float(share @ own), float(share @ second), float(share @ (own * (z + self.middle) ** 2))
-        return total
+        z, weights = panels(np.array(self.teeth.breaks), _ACROSS)
+        own, second = self._sections(z, points)
+        return np.array([weights @ own, weights @ second, weights @ (own * (z + self.middle) ** 2)])
 
     def _sections(self, heights: Real, points: int) -> tuple[Real, Real]:
         """Areas and polar moments of the teeth's sections down to the axis, each (n,)."""
