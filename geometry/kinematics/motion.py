@@ -5,28 +5,7 @@ The common parameter t is time or the drive's angle (Savvin's "common parameter"
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Protocol
-
-from geometry.base.record import Record
 from geometry.base.series import Series
-from geometry.curves.curve import Real
 
+# Taylor coefficients of the origin (complex, mm) and of the angle alpha (rad)
 Pose = tuple[Series, Series]
-
-
-class PlaneMotion(Protocol):
-    """A moving frame, vectorised over t."""
-
-    def pose(self, t: Real, order: int) -> Pose:
-        """Taylor coefficients 0 to ``order`` of the origin (complex, mm) and of the angle alpha (rad)."""
-
-
-class GivenMotion(Record):
-    """Any motion, from a function (t, order) that returns its two series."""
-
-    function: Callable[[Real, int], Pose]
-
-    def pose(self, t: Real, order: int) -> Pose:
-        """What the function says."""
-        return self.function(t, order)

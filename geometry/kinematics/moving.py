@@ -4,7 +4,6 @@
 
     reducer = moving(james, (Drive("1"),))              # t: turns of link 1
     place, angle = reducer.pose("2", np.array([0.0, 0.3]), 2)
-    reducer.motion("2")                                 # a PlaneMotion: it carries a follower, or cuts a profile
 
 Turns add up as fractions, and whole turns are dropped before they become radians: no ratio is too large.
 """
@@ -39,7 +38,7 @@ from geometry.kinematics.mechanism import (
     tree,
     turns,
 )
-from geometry.kinematics.motion import GivenMotion, PlaneMotion, Pose
+from geometry.kinematics.motion import Pose
 
 if TYPE_CHECKING:
     from geometry.base.placement import Placement3, Vector
@@ -98,10 +97,6 @@ class Moving(Record):
         The turn since the start is within half a turn either way. A link on a tilted axis has none: KeyError.
         """
         return self.poses(t, order, (link,))[link]
-
-    def motion(self, link: str) -> PlaneMotion:
-        """The same as a motion of its own."""
-        return GivenMotion(lambda t, order: self.pose(link, t, order))
 
     def poses(self, t: Real, order: int, links: Iterable[str] | None = None) -> dict[str, Pose]:
         """The poses of these links, or of all that move in the plane."""

@@ -13,6 +13,9 @@ both sides of a roller.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Protocol
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -20,8 +23,26 @@ from geometry.base.errors import ParameterError
 from geometry.base.record import Record
 from geometry.base.series import FACTORIALS, Series, composed, conjugate, derived, exponential, product
 from geometry.curves.curve import Complex, Curve, Real, SeriesSpan, curvature_from_derivatives
-from geometry.kinematics.motion import PlaneMotion, Pose
+from geometry.kinematics.motion import Pose
 from geometry.laws.piece import sign_changes
+
+
+class PlaneMotion(Protocol):
+    """A moving frame, vectorised over t."""
+
+    def pose(self, t: Real, order: int) -> Pose:
+        """Taylor coefficients 0 to ``order`` of the origin (complex, mm) and of the angle alpha (rad)."""
+
+
+class GivenMotion(Record):
+    """Any motion, from a function (t, order) that returns its two series."""
+
+    function: Callable[[Real, int], Pose]
+
+    def pose(self, t: Real, order: int) -> Pose:
+        """What the function says."""
+        return self.function(t, order)
+
 
 _TIME_SAMPLES, _PROFILE_SAMPLES = 361, 257
 _BISECTIONS, _NEWTON_STEPS = 60, 12

@@ -11,9 +11,8 @@ from geometry.base.errors import ParameterError
 from geometry.base.series import FACTORIALS, Series
 from geometry.curves.curve import Complex, Real
 from geometry.kinematics.centrodes import CentrodePair, RatioCentrode, closing_distance
-from geometry.kinematics.motion import GivenMotion
 from tests.oracles.ellipses import FocalEllipse, Oval
-from tests.oracles.envelope import Rotation, instant_centre
+from tests.oracles.envelope import GivenMotion, Rotation, instant_centre
 
 ANGLES = np.linspace(-1, 12, 53)
 

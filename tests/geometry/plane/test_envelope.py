@@ -21,10 +21,10 @@ from geometry.curves.curve import Curve
 from geometry.curves.involute import Involute
 from geometry.curves.line_arc import Arc, Line
 from geometry.curves.trochoid import TrochoidFillet
-from geometry.kinematics.motion import GivenMotion, Pose
+from geometry.kinematics.motion import Pose
 from geometry.laws.named import polynomial_345, sine
 from tests import laws
-from tests.oracles.envelope import EnvelopeCurve, Pair, Rotation, Sliding, envelopes, instant_centre
+from tests.oracles.envelope import EnvelopeCurve, GivenMotion, Pair, Rotation, Sliding, envelopes, instant_centre
 
 PUBLISHED = json.loads((Path(__file__).parents[2] / "published" / "cams.json").read_text(encoding="utf-8"))
 CASES = {c["id"]: c for c in PUBLISHED["cases"]}

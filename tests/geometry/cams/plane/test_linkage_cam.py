@@ -22,13 +22,12 @@ from geometry.cams.plane.shape import cam_shape, whole_profile
 from geometry.cams.plane.undercut import is_whole, kept_arcs
 from geometry.curves.line_arc import Arc, Line
 from geometry.kinematics.linkage import Linkage, RockerDrive, RockerGuide, SliderDrive, SliderGuide, cosine_range
-from geometry.kinematics.motion import GivenMotion
 from geometry.laws.named import NAMED_LAWS
 from geometry.plane.measure import distance_to_profile
 from geometry.plane.profile import Profile
 from tests.geometry.cams.linkage_oracle import CASES, Case, centre, normal, pose, ridden_cam
 from tests.geometry.cams.oracle import MP
-from tests.oracles.envelope import EnvelopeCurve, Pair, Rotation, envelopes
+from tests.oracles.envelope import EnvelopeCurve, GivenMotion, Pair, Rotation, envelopes
 
 D = math.radians
 POINTED, ROLLER, MUSHROOM, FLAT = FollowerKind

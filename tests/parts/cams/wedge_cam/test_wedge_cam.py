@@ -18,13 +18,12 @@ from geometry.cams.contact.rolled import rolled_lift
 from geometry.cams.plane.disk import FollowerKind
 from geometry.cams.plane.wedge import Swinging, Upright, WedgeCam, WedgeMotion, wedge_fault, wedge_profile
 from geometry.curves.line_arc import Arc
-from geometry.kinematics.motion import GivenMotion
 from geometry.laws.piece import LawPiece
 from geometry.plane.measure import distance_to_profile
 from parts.base.part import Part
 from parts.cams.probes import outermost
 from tests.exporters.making import dxf_chains, read_report, run
-from tests.oracles.envelope import Pair, Sliding
+from tests.oracles.envelope import GivenMotion, Pair, Sliding
 from tests.parts.nearest import cured, refused
 from tests.parts.positive_scenes import Keys, parts_of, scene
 
