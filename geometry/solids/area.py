@@ -15,9 +15,8 @@ import numpy as np
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.plane.measure import panels
-from geometry.solids.charts import TURN, along_edges, arcs, axes_of, edge_rows, span_shares, spline_rows
+from geometry.solids.charts import TURN, along_edges, axes_of, edge_rows, smooth_shares, span_shares, spline_rows
 from geometry.solids.faces import (
-    Circular,
     Cone,
     Cylinder,
     Edges,
@@ -27,14 +26,13 @@ from geometry.solids.faces import (
     Plane,
     Solid,
     Sphere,
-    Spline,
     SplineSurface,
     Straight,
     Torus,
 )  # fmt: skip
 
-# nodes on a piece of an edge; arcs are cut into pieces no longer than this, rad
-_NODES, _PIECE = 12, math.pi / 4
+# nodes on a piece of an edge
+_NODES = 12
 # a seam that turns less than this round the axis of a torus runs round its tube, rad
 _SEAM = 1e-9
 # nodes each way on a piece of a spline surface, and fewer that must tell the same to this part, which the more of them
@@ -73,13 +71,8 @@ class _Runs(Record, eq=False):
 
 
 def _samples(solid: Solid, edges: Edges) -> _Samples:
-    shares = np.array([0.0, 1.0])
-    if isinstance(edges.curve, Circular):
-        shares = np.linspace(0, 1, max(1, math.ceil(float(arcs(solid, edges)[3].max()) / _PIECE)) + 1)
-    elif isinstance(edges.curve, Spline):
-        shares = span_shares(edges.curve.knots)
     # along a line every integrand is even
-    nodes, weights = panels(shares, 1 if isinstance(edges.curve, Straight) else _NODES)
+    nodes, weights = panels(smooth_shares(solid, edges), 1 if isinstance(edges.curve, Straight) else _NODES)
     return _Samples(*along_edges(solid, edges, nodes), weights)
 
 

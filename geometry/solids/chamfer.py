@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 
+from geometry.base.nearest import last_that_holds
 from geometry.base.record import made_once, replace
 from geometry.base.tolerance import TOLERANCES
 from geometry.curves.curve import Complex
@@ -24,8 +25,8 @@ _NO_BOW = 1e-11
 
 # an edge opens with the root of the depth: its pieces grow with this power of their number
 _OPENING_POWER = 4
-# within this share of the depth the place is found where an edge opens
-_OPENING_SHARE = 1e-4
+# within this share of the depth, so often halved, the place is found where an edge opens
+_OPENING_SHARE, _OPENING_STEPS = 1e-4, 14
 
 # the shares of the depth, up to 1, at which a chamfer is cut: its wall, its loops of the whole boundary and of its end
 Pieces = Callable[[Wall, int, int], Sequence[float]]
@@ -64,11 +65,9 @@ def opening(body: Body, wall: Wall, whole: int, end: int) -> float | None:
     corners = _corners(body.loop_profile(whole))
     if not opened(1.0):
         return None
-    low, high = (0.0, 0.0) if opened(_OPENING_SHARE) else (_OPENING_SHARE, 1.0)
-    while high - low > _OPENING_SHARE:
-        middle = (low + high) / 2
-        low, high = (low, middle) if opened(middle) else (middle, high)
-    return low
+    if opened(_OPENING_SHARE):
+        return 0.0
+    return last_that_holds(lambda share: not opened(share), 1.0, _OPENING_SHARE, _OPENING_STEPS)
 
 
 def _corners(profile: Profile) -> int:

@@ -6,6 +6,7 @@ and v the height, on tori and spheres the angle of the meridian from its outermo
 
 from __future__ import annotations
 
+import math
 from functools import lru_cache
 from itertools import pairwise
 
@@ -27,6 +28,7 @@ from geometry.solids.faces import (
     Plane,
     Solid,
     Sphere,
+    Spline,
     SplineSurface,
     Straight,
     Surface,
@@ -37,6 +39,8 @@ from geometry.solids.faces import (
 _LEAST_PART = 0.1
 
 TURN = 2 * np.pi
+# longer arcs are cut into pieces where integrals run along them, rad
+SHORT_ARC = math.pi / 4
 
 
 def axes_of(solid: Solid, frame: Frame, rows: int) -> tuple[Real, Real]:
@@ -123,6 +127,14 @@ def span_shares(knots: Real, pieces: int = 1) -> Real:
     places = distinct(knots)
     shares, spans = (places - places[0]) / (places[-1] - places[0]), len(places) - 1
     return np.interp(np.linspace(0, spans, spans * pieces + 1), np.arange(spans + 1), shares)
+
+
+def smooth_shares(solid: Solid, edges: Edges, pieces: int = 1) -> Real:
+    """Shares between which integrals along edges converge fast: spans, short arcs, each cut into so many pieces."""
+    if isinstance(edges.curve, Spline):
+        return span_shares(edges.curve.knots, pieces)
+    longest = float(arcs(solid, edges)[3].max()) if isinstance(edges.curve, Circular) else 0.0
+    return np.linspace(0, 1, pieces * max(1, math.ceil(longest / SHORT_ARC)) + 1)
 
 
 class Chart(Record, eq=False):

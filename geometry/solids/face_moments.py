@@ -16,13 +16,22 @@ from geometry.base.errors import ConvergenceError
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.plane.measure import gauss_rule, panels
-from geometry.solids.charts import Chart, along_edges, arcs, charts, edge_rows, patch_of, span_shares
+from geometry.solids.charts import (
+    SHORT_ARC,
+    Chart,
+    along_edges,
+    charts,
+    edge_rows,
+    patch_of,
+    smooth_shares,
+    span_shares,
+)
 from geometry.solids.faces import Circular, Edges, Extrusion, Solid, Spline, SplineSurface, Torus
 from geometry.solids.mass import Moments, moments_of
 from geometry.solids.unrolled import unrolled
 
-# nodes on a piece of an edge and across a face; arcs are cut into pieces no longer than this, rad
-_NODES, _ACROSS, _FLAT, _PIECE = 16, 28, 4, math.pi / 4
+# nodes on a piece of an edge and across a face
+_NODES, _ACROSS, _FLAT = 16, 28, 4
 # moments of a polynomial patch of degree p have degree 5 p - 1
 _RAISED, _AT_ONCE = 2.5, 200_000
 # pieces are halved until nothing changes by more than this part, and refused above the second one
@@ -108,14 +117,7 @@ class _Samples(Record, eq=False):
 
 def _samples(solid: Solid, edges: Edges, pieces: int) -> _Samples:
     curve = edges.curve
-    if isinstance(curve, Circular):
-        longest = float(arcs(solid, edges)[3].max())
-        breaks = np.linspace(0, 1, pieces * max(1, math.ceil(longest / _PIECE)) + 1)
-    elif isinstance(curve, Spline):
-        breaks = span_shares(curve.knots, pieces)
-    else:
-        breaks = np.linspace(0, 1, pieces + 1)
-    nodes, weights = panels(breaks, _NODES)
+    nodes, weights = panels(smooth_shares(solid, edges, pieces), _NODES)
     shares = np.concatenate([[0.0], nodes, [1.0]])
     points, steps = along_edges(solid, edges, shares)
     return _Samples(points, steps, np.concatenate([[0.0], weights, [0.0]]), not isinstance(curve, Circular | Spline))
@@ -140,7 +142,7 @@ def _charted(chart: Chart, loops: list[list[_Run]], *, along: bool) -> Real:
     for loop in loops:
         for side in unrolled(chart, [run.points for run in loop], along=along):
             if side.run is None:
-                count = max(1, math.ceil(abs(side.u[-1] - side.u[0]) / _PIECE))
+                count = max(1, math.ceil(abs(side.u[-1] - side.u[0]) / SHORT_ARC))
                 shares, steps = panels(np.linspace(0, 1, count + 1), _NODES)
                 length = side.u[-1] - side.u[0]
                 poles.append((side.u[0] + length * shares, np.full(len(shares), side.v[0]), steps * length))

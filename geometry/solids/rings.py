@@ -79,7 +79,9 @@ class Ring(Record, eq=False):
 
 
 class RingBuilder(SolidBuilder):
-    """Builds rings, and the faces between two of one period."""
+    """Builds rings, and the faces between two of one period; ``ahead``: where faces about the axis are cut open."""
+
+    ahead = AHEAD
 
     def ring(self, outline: Outline, z: float, turn: float = 0.0, shift: complex = 0j) -> Ring:
         """The ring of an outline at height z mm, turned (rad) and moved (mm)."""
@@ -107,11 +109,23 @@ class RingBuilder(SolidBuilder):
 
     def frame_at(self, z: float) -> Frame:
         """The upright frame at height z mm."""
-        return Frame(self.on_axis(z), UP, AHEAD)
+        return Frame(self.on_axis(z), UP, self.ahead)
 
     def pipe(self, radius: float) -> Cylinder:
         """The cylinder about the axis, its radius in mm."""
         return Cylinder(self.frame_at(0.0), radius)
+
+    def lathed(self, start: complex, end: complex) -> Cylinder | Cone:
+        """What a line of half a section, r + iz, sweeps about the axis; a cone's axis runs to where it is wider."""
+        narrow, wide = sorted((start, end), key=lambda place: place.real)
+        if narrow.real == wide.real:
+            return Cylinder(self.frame_at(start.imag), start.real)
+        slant = math.atan2(wide.real - narrow.real, abs(wide.imag - narrow.imag))
+        way = UP if wide.imag > narrow.imag else -UP
+        if narrow.real == 0:
+            # an apex is no place for a surface to begin
+            narrow = (narrow + wide) / 2
+        return Cone(Frame(self.on_axis(narrow.imag), way, self.ahead), narrow.real, slant)
 
     def cap(self, z: float, loops: Sequence[Loop], *, up: bool) -> None:
         """A plane face at height z mm."""

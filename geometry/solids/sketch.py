@@ -14,8 +14,10 @@ from itertools import pairwise
 import numpy as np
 
 from geometry.base.record import Record, replace
+from geometry.base.roots import halved
 from geometry.curves.curve import Complex, Curve, Real
 from geometry.curves.line_arc import Arc, Line
+from geometry.plane.distance import Flags
 from geometry.plane.profile import Label, Profile
 from geometry.solids.body import Body, Wall
 from geometry.solids.turned import HalfSection
@@ -91,15 +93,13 @@ class Ring(Record, dict=True):
         for number, (curve, t, side) in enumerate(zip(self.curves, samples, sides, strict=True)):
             # where two curves join on the line itself both have it on one side
             side[0] = sides[number - 1][-1]
-            for k in np.flatnonzero(side[1:] != side[:-1]):
-                low, high = t[k], t[k + 1]
-                for _ in range(_HALVINGS):
-                    middle = (low + high) / 2
-                    if (((complex(curve.point(middle)) - origin) / way).imag > 0) == side[k]:
-                        low = middle
-                    else:
-                        high = middle
-                found.append(((complex(curve.point(low)) - origin) / way).real)
+            at = np.flatnonzero(side[1:] != side[:-1])
+
+            def stays(places: Real, curve: Curve = curve, above: Flags = side[at]) -> Flags:
+                return np.asarray((((curve.point(places) - origin) / way).imag > 0) == above)
+
+            low, _ = halved(stays, t[at], t[at + 1], _HALVINGS)
+            found += ((curve.point(low) - origin) / way).real.tolist()
         return found
 
     def filled(self) -> Ring:

@@ -16,7 +16,18 @@ from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.solids.body import Body
 from geometry.solids.body_faces import BodyFaces
-from geometry.solids.faces import Index, Loop, Spline, SplineSurface, Straight, Use, turned_over
+from geometry.solids.faces import (
+    Circular,
+    Cone,
+    Cylinder,
+    Index,
+    Loop,
+    Spline,
+    SplineSurface,
+    Straight,
+    Use,
+    turned_over,
+)
 
 # parts of a side, from the root on
 FILLET, FLANK = 0, 1
@@ -73,6 +84,21 @@ class ToothedFaces(BodyFaces):
     def around(self, loop: int, left: bool) -> Loop:
         """The loop of a face, which runs about teeth where the core begins."""
         return self.rims[loop] if loop in self.rims else super().around(loop, left)
+
+    def circle_arcs(self, radius: float, z: float, start: Index, stop: Index) -> Index:
+        """Arcs about the axis at a height, mm, counter-clockwise."""
+        return self.add_edges(start, stop, Circular(self.frame_at(z), radius))
+
+    def skirt(
+        self, surface: Cylinder | Cone, rim: tuple[float, float], low: Index, way: Real, feet: Index, roots: Index,
+        over: list[Use],
+    ) -> None:  # fmt: skip
+        """Tooth by tooth the outside, from a circle (radius, height) with vertices ``low`` along ``way`` to teeth."""
+        lines = self.add_edges(low, feet, Straight(way))
+        arcs = self.circle_arcs(*rim, low, np.roll(low, -1))
+        around = [(arcs, True), (np.roll(lines, -1), True), (roots, False), *turned_over(over), (lines, False)]
+        self.bounded(surface, around)
+        self.rims[self.body.walls[0].lower] = arcs[::-1][None], np.full(len(arcs), False)
 
     def on_teeth(self, points: Real) -> Index:
         """Numbers of points (k, 3) of one tooth on all teeth, (n, k)."""

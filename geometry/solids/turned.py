@@ -34,6 +34,8 @@ from geometry.solids.faces import (
     Spline,
     Straight,
     Torus,
+    loop_of,
+    turned_over,
 )  # fmt: skip
 from geometry.solids.rings import UP, Ring, RingBuilder
 from geometry.solids.splines import SplineForm, involute_walls
@@ -404,8 +406,7 @@ class _Turned(RingBuilder):
             vertex = self.add_vertices(self.point(at))
             circle = None
             if at.real > 0:
-                shape = Circular(Frame(self.point(1j * at.imag), UP, self.ahead), at.real)
-                circle = self.add_edges(vertex, vertex, shape)
+                circle = self.add_edges(vertex, vertex, Circular(self.frame_at(at.imag), at.real))
             self.known[at] = vertex, circle
         return self.known[at]
 
@@ -430,17 +431,14 @@ class _Turned(RingBuilder):
             for at, is_outer in ((piece.start, up), (piece.end, not up)):
                 if at in self.rings:
                     level.loops.insert(0 if is_outer else 1, self.rings[at].loop(forwards=is_outer == up))
-                    continue
-                circle = self.corner(at)[1] if at.real else None
-                if circle is not None:
-                    level.loops.insert(0 if is_outer else 1, (circle[:, None], np.array([is_outer == up])))
+                elif at.real and (circle := self.corner(at)[1]) is not None:
+                    level.loops.insert(0 if is_outer else 1, loop_of([(circle, is_outer == up)]))
             self.levels.append(level)
             return
         (first, low), (last, high) = self.corner(piece.start), self.corner(piece.end)
         seam = self.add_edges(first, last, self._seam(piece))
         edges = [(low, True), (seam, True), (high, False), (seam, False)]
-        kept = [(e, way) for e, way in edges if e is not None]
-        loops = [(np.stack([e for e, _ in kept], axis=1), np.array([way for _, way in kept]))]
+        loops = [loop_of([(e, way) for e, way in edges if e is not None])]
         surface, along = self._surface(piece)
         if isinstance(surface, Cylinder):
             low_z, high_z = sorted((piece.start.imag, piece.end.imag))
@@ -456,21 +454,10 @@ class _Turned(RingBuilder):
 
     def _surface(self, piece: Piece) -> tuple[Cylinder | Cone | Sphere | Torus, bool]:
         """Its surface, and whether that looks out of the material."""
-        if piece.centre is not None:
-            if piece.centre.real == 0:
-                return Sphere(Frame(self.point(piece.centre), UP, self.ahead), piece.radius), piece.convex
-            middle = Frame(self.point(1j * piece.centre.imag), UP, self.ahead)
-            return Torus(middle, piece.centre.real, piece.radius), piece.convex
-        step, along = piece.end - piece.start, piece.end.imag > piece.start.imag
-        if step.real == 0:
-            return Cylinder(Frame(self.point(1j * piece.start.imag), UP, self.ahead), piece.start.real), along
-        narrow, wide = sorted((piece.start, piece.end), key=lambda p: p.real)
-        axis = UP if wide.imag > narrow.imag else -UP
-        slant = math.atan2(wide.real - narrow.real, abs(wide.imag - narrow.imag))
-        if narrow.real == 0:
-            # an apex is no place for a surface to begin
-            narrow = (narrow + wide) / 2
-        return Cone(Frame(self.point(1j * narrow.imag), axis, self.ahead), narrow.real, slant), along
+        if piece.centre is None:
+            return self.lathed(piece.start, piece.end), piece.end.imag > piece.start.imag
+        middle, off = self.frame_at(piece.centre.imag), piece.centre.real
+        return Torus(middle, off, piece.radius) if off else Sphere(middle, piece.radius), piece.convex
 
     def hole(self, hole: Hole) -> None:
         """A hole between two plane faces."""
@@ -487,11 +474,11 @@ class _Turned(RingBuilder):
             centre = self.add_points(np.array([hole.centre]), level.z)
             circle = self.add_edges(vertex, vertex, Circular(Frame(centre, UP, self.ahead), hole.radius))
             rings.append((vertex, circle, centre))
-            level.loops.append((circle[:, None], np.array([not level.up])))
+            level.loops.append(loop_of([(circle, not level.up)]))
         (top, above, _), (bottom, below, centre) = rings[1], rings[0]
         seam = self.add_edges(bottom, top, Straight(UP))
-        loop = np.stack([above, seam, below, seam], axis=1), np.array([True, False, False, True])
-        self.faces.append(Faces(Cylinder(Frame(centre, UP, self.ahead), hole.radius), (loop,), along=False))
+        wall = Cylinder(Frame(centre, UP, self.ahead), hole.radius)
+        self.bounded(wall, [(above, True), (seam, False), (below, False), (seam, True)], along=False)
 
     def pocket(self, pocket: Pocket, radius: float) -> Loop:
         """The faces of a pocket; the loop of its rim on the cylinder."""
@@ -532,13 +519,13 @@ class _Turned(RingBuilder):
                 above = Circular(Frame(self.on_axis(end), normal, out), radius)
             for found, corners, shape in zip(edges, (floor, rim), (below, above), strict=True):
                 found.append(self.add_edges(corners[k : k + 1], corners[after : after + 1], shape))
-            loop = np.stack([edges[0][k], ups[k : k + 1], edges[1][k], ups[after : after + 1]], axis=1)
             # seen from within the pocket the edge of its floor runs backwards
-            walls = loop, np.array([False, True, True, False])
-            self.faces.append(Faces(wall, (walls,), along=isinstance(wall, Plane)))
-        corner = self.vertex_point(floor[0])
-        self.faces.append(Faces(Plane(Frame(corner, out, UP)), ((np.stack(edges[0], axis=1), np.ones(4, bool)),)))
-        return np.stack(edges[1], axis=1)[:, ::-1], np.zeros(4, bool)
+            low, high = (edges[0][k], False), (edges[1][k], True)
+            around = [low, (ups[k : k + 1], True), high, (ups[after : after + 1], False)]
+            self.bounded(wall, around, along=isinstance(wall, Plane))
+        floor_plane = Plane(Frame(self.vertex_point(floor[0]), out, UP))
+        self.bounded(floor_plane, [(edge, True) for edge in edges[0]])
+        return loop_of(turned_over([(edge, True) for edge in edges[1]]))
 
     def vertex_point(self, vertex: int) -> Index:
         """The point of a vertex."""
@@ -547,5 +534,4 @@ class _Turned(RingBuilder):
     def close(self) -> None:
         """The plane faces with the holes in them."""
         for level in self.levels:
-            origin = self.on_axis(level.z)
-            self.faces.append(Faces(Plane(Frame(origin, UP, self.ahead)), tuple(level.loops), level.up))
+            self.cap(level.z, level.loops, up=level.up)

@@ -25,7 +25,7 @@ from geometry.gears.bevel.walls import wall_distance
 from geometry.plane.profile import Label, Profile, Segment
 from geometry.solids.body_faces import body_outlines
 from geometry.solids.faced import FacedBody, FacedSolid
-from geometry.solids.faces import Circular, Cone, Frame, Index, Straight, Use, turned_over
+from geometry.solids.faces import Cone, Frame, Index
 from geometry.solids.measured import Measured
 from geometry.solids.rings import AHEAD, UP
 from geometry.solids.splines import involute_walls
@@ -176,7 +176,7 @@ class _Bevel(ToothedFaces):
 
     def arc(self, place: complex, start: Index, end: Index) -> Index:
         """Arcs on the circle of a place of the blank, counter-clockwise."""
-        return self.add_edges(start, end, Circular(self.frame_at(self.height(place)), place.real))
+        return self.circle_arcs(place.real, self.height(place), start, end)
 
     def teeth(self) -> None:
         """Flanks, fillets, lands, and what both ends leave between them."""
@@ -195,16 +195,11 @@ class _Bevel(ToothedFaces):
         self.bounded(self.cone(gear.front, slant, up=True), [*made.over(1, tips[1]), (feet, False)], along=False)
         front = np.stack([feet, roots[1]], axis=1).reshape(1, -1)
         self.rims[self.body.walls[0].upper] = front, np.full(front.shape[1], True)
-        self._back_cone(outer[:, 0], roots[0], made.over(0, tips[0]), slant)
-
-    def _back_cone(self, feet: Index, roots: Index, over: list[Use], slant: float) -> None:
-        """From the teeth down to the rim, tooth by tooth."""
-        rim, at = self.gear.rim, self.place(feet)
+        # the back cone, from the teeth down to the rim
+        rim, at, over = gear.rim, self.place(outer[:, 0]), made.over(0, tips[0])
         plane: Complex = at[:, 0] + 1j * at[:, 1]
         low = self.add_vertices(self.add_points(np.asarray(plane / np.abs(plane) * rim.real), self.height(rim)))
         way = at - self.place(low)
-        lines = self.add_edges(low, feet, Straight(way / np.linalg.norm(way, axis=1)[:, None]))
-        arcs = self.arc(rim, low, np.roll(low, -1))
-        around = [(arcs, True), (np.roll(lines, -1), True), (roots, False), *turned_over(over), (lines, False)]
-        self.bounded(self.cone(rim, slant, up=True), around)
-        self.rims[self.body.walls[0].lower] = arcs[::-1][None], np.full(len(arcs), False)
+        way = way / np.linalg.norm(way, axis=1)[:, None]
+        circle = rim.real, self.height(rim)
+        self.skirt(self.cone(rim, slant, up=True), circle, low, way, outer[:, 0], roots[0], over)

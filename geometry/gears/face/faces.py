@@ -23,8 +23,9 @@ from geometry.gears.face.gear import FLANK, SIDES, FaceGear, Places
 from geometry.gears.face.walls import wall_distance
 from geometry.plane.profile import Label, Profile, Segment
 from geometry.solids.body_faces import body_outlines
+from geometry.solids.charts import span_shares
 from geometry.solids.faced import FacedBody, FacedSolid
-from geometry.solids.faces import Circular, Index, Plane, Straight, Use, turned_over
+from geometry.solids.faces import Plane
 from geometry.solids.measured import Measured
 from geometry.solids.rings import UP
 from geometry.solids.splines import involute_walls
@@ -115,7 +116,8 @@ def _spans(gear: FaceGear, which: int, axis: int, least: float) -> int:
     lines, spans, degree = np.linspace(0.0, 1.0, _LINES), 1, _DEGREES[axis]
     while spans <= _MOST_SPANS:
         breaks = _breaks(which, axis, spans)
-        knots, fine = clamped(degree, breaks), _between(breaks)
+        knots = clamped(degree, breaks)
+        fine = span_shares(knots, _SAMPLES)
 
         def at(own: Real) -> Places:
             return _places(gear, which, *((own, lines) if axis == 0 else (lines, own)))
@@ -142,12 +144,6 @@ def _breaks(which: int, axis: int, spans: int) -> Real:
     return even**_CLOSER if which == FLANK else 1 - (1 - even) ** _CLOSER
 
 
-def _between(breaks: Real) -> Real:
-    """Shares at which splines are held against what they stand for."""
-    spans = len(breaks) - 1
-    return np.interp(np.linspace(0, spans, _SAMPLES * spans + 1), np.arange(spans + 1), breaks)
-
-
 def _fitted(gear: FaceGear, tolerance: float) -> tuple[_Wall, ...]:
     """Fillet and flank; both have the same spans along the radius, where they share an edge."""
     least = max(tolerance / _MARGIN, _ROUNDING * gear.outer_radius)
@@ -169,7 +165,7 @@ def _fitted_wall(gear: FaceGear, which: int, across: int, along: int) -> _Wall:
     exact = _places(gear, which, *(greville(degree, own) for degree, own in zip(_DEGREES, knots, strict=True)))
     half = axis_poles(_DEGREES[1], knots[1], _spatial(gear, exact), 1)
     poles = axis_poles(_DEGREES[0], knots[0], half, 0)
-    fine = [_between(own) for own in breaks]
+    fine = [span_shares(own, _SAMPLES) for own in knots]
     rows, columns = (basis_matrix(*each) for each in zip(_DEGREES, knots, fine, strict=True))
     made = np.einsum("iu,uvc,jv->ijc", rows, poles, columns, optimize=True)
     error = _MARGIN * float(_off(gear, _places(gear, which, *fine), made).max())
@@ -201,32 +197,24 @@ class _Built(ToothedFaces):
         self.gear, self.walls = gear, walls
         self.radii = gear.outer_radius, gear.inner_radius
 
-    def arcs(self, end: int, z: float, start: Index, stop: Index) -> Index:
-        """Arcs at a height on the cylinder of an end, counter-clockwise."""
-        return self.add_edges(start, stop, Circular(self.frame_at(z), self.radii[end]))
-
     def teeth(self) -> None:
         """Flanks, fillets, tips, and what both ends leave between them."""
         gear, made = self.gear, self.sides({-1: self.walls, 1: self.walls})
         (outer, inner), radial = made.corners, made.radial
-        tips = [self.arcs(end, gear.height, made.corners[end][:, 2], made.corners[end][:, 3]) for end in (0, 1)]
+        tips = [
+            self.circle_arcs(radius, gear.height, at[:, 2], at[:, 3])
+            for radius, at in zip(self.radii, made.corners, strict=True)
+        ]
         self.bounded(Plane(self.frame_at(gear.height)),
                      [(tips[0], True), (radial[3], True), (tips[1], False), (radial[2], False)])  # fmt: skip
-        feet = self.arcs(1, gear.thickness, inner[:, 0], inner[:, 5])
+        feet = self.circle_arcs(self.radii[1], gear.thickness, inner[:, 0], inner[:, 5])
         self.bounded(self.pipe(self.radii[1]), [*made.over(1, tips[1]), (feet, False)], along=False)
-        roots = self.arcs(0, gear.thickness, outer[:, 5], np.roll(outer[:, 0], -1))
+        roots = self.circle_arcs(self.radii[0], gear.thickness, outer[:, 5], np.roll(outer[:, 0], -1))
         # the root and the plate within the teeth are one plane
         after = [np.roll(radial[0], -1), np.roll(feet, -1), np.roll(radial[5], -1)]
         ways = np.tile([True, True, True, False], len(self.turns))
         self.rims[self.body.walls[0].upper] = np.stack([roots, *after], axis=1).reshape(1, -1), ways
-        self._outside(outer[:, 0], roots, made.over(0, tips[0]))
-
-    def _outside(self, foot: Index, roots: Index, over: list[Use]) -> None:
-        """The outer cylinder, tooth by tooth."""
-        at = self.place(foot)
+        at = self.place(outer[:, 0])
         low = self.add_vertices(self.add_points(np.asarray(at[:, 0] + 1j * at[:, 1]), 0.0))
-        lines = self.add_edges(low, foot, Straight(UP))
-        arcs = self.arcs(0, 0.0, low, np.roll(low, -1))
-        around = [(arcs, True), (np.roll(lines, -1), True), (roots, False), *turned_over(over), (lines, False)]
-        self.bounded(self.pipe(self.radii[0]), around)
-        self.rims[self.body.walls[0].lower] = arcs[::-1][None], np.full(len(arcs), False)
+        over = made.over(0, tips[0])
+        self.skirt(self.pipe(self.radii[0]), (self.radii[0], 0.0), low, UP, outer[:, 0], roots, over)

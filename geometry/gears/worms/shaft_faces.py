@@ -13,8 +13,8 @@ from geometry.curves.curve import Real
 from geometry.curves.line_arc import Arc
 from geometry.gears.worms.body import WormBody
 from geometry.solids import faces as kinds
-from geometry.solids.faces import Circular, Frame, Index, Straight, Use, loop_of, turned_over
-from geometry.solids.rings import AHEAD, UP, Ring, RingBuilder
+from geometry.solids.faces import Circular, Index, Straight, Use, loop_of, turned_over
+from geometry.solids.rings import UP, Ring, RingBuilder
 
 
 class WormRings(RingBuilder):
@@ -157,15 +157,7 @@ class WormRings(RingBuilder):
     ) -> None:
         """A cylinder or a cone from a circle to the next one, outwards."""
         (z0, r0), (z1, r1) = before, after
-        surface: kinds.Surface
-        if r0 == r1:
-            surface = kinds.Cylinder(self.frame_at(z0), r0)
-        else:
-            # towards the wider end
-            way = math.copysign(1.0, (r1 - r0) * (z1 - z0))
-            z, r = (z0, r0) if r0 < r1 else (z1, r1)
-            frame = Frame(self.on_axis(z), way * UP, AHEAD)
-            surface = kinds.Cone(frame, r, math.atan2(abs(r1 - r0), abs(z1 - z0)))
+        surface = self.lathed(complex(r0, z0), complex(r1, z1))
         first = self._first(outer)
         straight = self.place(ring.starts[0]) - self.place(first)
         seam = self.add_edges(first, ring.starts[0], Straight(straight / np.linalg.norm(straight)))
