@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from geometry.base.errors import ParameterError
+from geometry.base.gauss import panels
 from geometry.base.record import Record
 from geometry.base.roots import bracketed_root
 from geometry.base.series import FACTORIALS, Series, majorant_power, power, quotient, sharpened
 from geometry.curves.curve import Real
 from geometry.kinematics.motion import Pose
-from geometry.plane.measure import panels
 
 _PANELS, _NODES = 64, 16
 _SAMPLES = 1025

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from geometry.base.gauss import panels
 from geometry.base.record import made_once
 from geometry.curves.curve import Complex, Curve, Real, start_point
 from geometry.curves.line_arc import Arc, Line
@@ -79,22 +79,6 @@ def panel_edges(curve: Curve, count: int) -> Real:
     """Parameters between which a curve is one smooth formula: its knots, or so many equal panels."""
     low, high = curve.domain
     return np.array([low, *curve.knots, high]) if curve.knots.size else np.linspace(low, high, count + 1)
-
-
-@lru_cache(maxsize=4)
-def gauss_rule(count: int) -> tuple[Real, Real]:
-    """Nodes and weights on [-1, 1] from the eigenvalues of the Jacobi matrix (Golub and Welsch, 1969)."""
-    k = np.arange(1, count)
-    off = k / np.sqrt(4.0 * k**2 - 1)
-    nodes, vectors = np.linalg.eigh(np.diag(off, 1) + np.diag(off, -1))
-    return nodes, 2 * vectors[0] ** 2
-
-
-def panels(breaks: Real, count: int) -> tuple[Real, Real]:
-    """Nodes and weights of Gauss's rule, ``count`` in each interval between breaks (n,): arrays (count (n - 1),)."""
-    nodes, weights = gauss_rule(count)
-    half = np.diff(breaks)[:, None] / 2
-    return ((breaks[:-1] + breaks[1:])[:, None] / 2 + half * nodes).ravel(), (half * weights).ravel()
 
 
 def distance_to_profile(points: Complex, profile: Profile, *, trusted: float = 0.0) -> Real:

@@ -12,9 +12,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from geometry.base.gauss import panels
 from geometry.base.record import Record
 from geometry.curves.curve import Real
-from geometry.plane.measure import panels
 from geometry.solids.charts import TURN, along_edges, axes_of, edge_rows, smooth_shares, span_shares, spline_rows
 from geometry.solids.faces import (
     Cone,

@@ -13,9 +13,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from geometry.base.errors import ConvergenceError
+from geometry.base.gauss import gauss_rule, panels
 from geometry.base.record import Record
 from geometry.curves.curve import Real
-from geometry.plane.measure import gauss_rule, panels
 from geometry.solids.charts import (
     SHORT_ARC,
     Chart,

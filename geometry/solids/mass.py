@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base.gauss import panels
 from geometry.base.record import Record, made_once
 from geometry.curves.curve import Real
-from geometry.plane.measure import panels, profile_length, quadrature
+from geometry.plane.measure import profile_length, quadrature
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body, Wall
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from geometry.base.gauss import panels
 from geometry.base.record import Record
 from geometry.cams.barrel.cam import LOWER, UPPER, BarrelCam
 from geometry.curves.curve import Complex, Real
 from geometry.laws.piece import LawPiece
-from geometry.plane.measure import panels
 from geometry.plane.profile import Label, Profile, circle
 from geometry.solids.mass import Moments, column_integrals, moments_of, section_moments
 

@@ -15,10 +15,10 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
+from geometry.base.gauss import gauss_rule
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.thread import SectionLine, Thread, line_offset, line_step
-from geometry.plane.measure import gauss_rule
 
 # Gauss's rule on each line, and over the angle of each cell
 _ALONG, _AROUND = 40, 24

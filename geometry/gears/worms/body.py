@@ -14,11 +14,11 @@ from typing import Literal
 import numpy as np
 
 from geometry.base.errors import ParameterError
+from geometry.base.gauss import panels
 from geometry.base.record import Record
 from geometry.curves.curve import Real
 from geometry.gears.worms.band import CLEAR, Band
 from geometry.gears.worms.thread import FlankLine, SectionLine, Thread, line_offset, line_step
-from geometry.plane.measure import panels
 from geometry.plane.profile import Label, Profile, circle
 from geometry.solids.mass import Moments, column_integrals, moments_of, section_moments
 

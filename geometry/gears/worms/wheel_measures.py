@@ -12,11 +12,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from geometry.base.gauss import gauss_rule, panels
 from geometry.base.record import Record
 from geometry.curves.curve import Complex, Real
 from geometry.gears.worms.hob import Cut
 from geometry.gears.worms.wheel import BEYOND, Side, WormTeeth
-from geometry.plane.measure import gauss_rule, panels
 from geometry.plane.profile import Profile
 from geometry.solids.body import Body
 from geometry.solids.mass import Moments, body_moments
