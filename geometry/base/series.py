@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from operator import mul
 from typing import Any
 
 import numpy as np
@@ -25,7 +26,7 @@ def taylor(derivatives: Sequence[Any]) -> Series:
 
 def product(a: Sequence[Any], b: Sequence[Any]) -> Series:
     """Coefficients of a product, as many as the shorter factor has."""
-    return [sum(a[j] * b[k - j] for j in range(k + 1)) for k in range(min(len(a), len(b)))]
+    return [sum(map(mul, a[: k + 1], b[k::-1])) for k in range(min(len(a), len(b)))]
 
 
 def conjugate(a: Sequence[Any]) -> Series:
@@ -42,7 +43,7 @@ def quotient(a: Sequence[Any], b: Sequence[Any]) -> Series:
     """Coefficients of a / b; b[0] must not vanish."""
     result: Series = []
     for k in range(min(len(a), len(b))):
-        result.append((a[k] - sum(b[j] * result[k - j] for j in range(1, k + 1))) / b[0])
+        result.append((a[k] - sum(map(mul, b[1 : k + 1], result[::-1]))) / b[0])
     return result
 
 
@@ -57,9 +58,9 @@ def power(a: Sequence[Any], exponent: float) -> Series:
 
 def exponential(a: Sequence[Any]) -> Series:
     """Coefficients of exp(a), from y' = a' y."""
-    y: Series = [np.exp(a[0])]
+    y, slopes = [np.exp(a[0])], derived(a)
     for k in range(1, len(a)):
-        y.append(sum(j * a[j] * y[k - j] for j in range(1, k + 1)) / k)
+        y.append(sum(map(mul, slopes[:k], y[::-1])) / k)
     return y
 
 

@@ -124,6 +124,9 @@ def _between(field: Field, one: complex, two: complex, tolerance: float, depth: 
         point = middle + t * normal
         return field(point.real, point.imag)
 
+    # where the line passes so near nothing is added, and how near exactly need not be known
+    if _crosses(along(-tolerance), along(tolerance)):
+        return []
     # a little more than half, which a right-angled corner of the line takes
     reach = 0.55 * length
     ends = along(-reach), along(reach)

@@ -72,14 +72,15 @@ class LawPiece(Record):
         if flat.size > _BLOCK:
             blocks = [self._values(part, orders) for part in np.array_split(flat, -(-flat.size // _BLOCK))]
             return [np.concatenate(parts).reshape(np.shape(t)) for parts in zip(*blocks, strict=True)]
-        # where t stands from the start and from the end, each to full digits
-        local, rest = powers((flat - self.start) / width, n), powers((self.end - flat) / width, n)
+        local, rest = powers(flat, self.start, self.end, width, n)
         angles = [wave.frequency * (flat - self.start) + wave.phase for wave in self.waves]
         result = []
         for order in orders:
             weights = _weights(self.coefficients, width, order)
             m = len(weights) - 1
-            total = np.add.reduce(weights * local[: m + 1] * rest[m::-1], axis=0)
+            terms = weights * local[: m + 1]
+            terms *= rest[m::-1]
+            total = np.add.reduce(terms, axis=0)
             for wave, angle in zip(self.waves, angles, strict=True):
                 total = total + wave.amplitude * wave.frequency**order * sine_derivative(angle, order)
             result.append(total.reshape(np.shape(t)))
@@ -143,17 +144,23 @@ def sine_derivative(angle: Real, order: int) -> Real:
     return (np.sin, np.cos, lambda x: -np.sin(x), lambda x: -np.cos(x))[kind](angle)
 
 
-def powers(x: Real, most: int) -> Real:
-    """x^0 to x^most, (most + 1, n)."""
-    result = np.empty((most + 1, len(x)))
-    result[0] = 1.0
-    # row by row: accumulate goes through long arrays against their order; short ones it takes at one call
-    if len(x) < _SHORT:
-        result[1:] = x
-        return np.multiply.accumulate(result, axis=0, out=result)
-    for k in range(most):
-        np.multiply(result[k], x, out=result[k + 1])
-    return result
+def powers(t: Real, start: Real | float, end: Real | float, width: Real | float, most: int) -> tuple[Real, Real]:
+    """x^0 to x^most, (most + 1, n), of where ``t`` stands from the start and from the end, each to full digits."""
+    both = np.empty((most + 1, 2, len(t)))
+    both[0] = 1.0
+    if most:
+        x = both[1]
+        np.subtract(t, start, out=x[0])
+        np.subtract(end, t, out=x[1])
+        x /= width
+        # row by row: accumulate goes through long arrays against their order; short ones it takes at one call
+        if len(t) < _SHORT:
+            both[2:] = x
+            np.multiply.accumulate(both[1:], axis=0, out=both[1:])
+        else:
+            for k in range(1, most):
+                np.multiply(both[k], x, out=both[k + 1])
+    return both[:, 0], both[:, 1]
 
 
 @lru_cache(maxsize=512)

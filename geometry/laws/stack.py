@@ -48,7 +48,7 @@ class _Form:
     def values(self, rows: Indices, t: Real, orders: Sequence[int], *, waves: bool = True) -> list[Real]:
         """Derivatives of several orders, which share their powers."""
         start, end, width = self._start[rows], self._end[rows], self._width[rows]
-        local, rest = powers((t - start) / width, self.degree), powers((end - t) / width, self.degree)
+        local, rest = powers(t, start, end, width, self.degree)
         angles = [rate[rows] * (t - start) + phase[rows] for rate, phase in self._angles] if waves else []
         result = []
         for order in orders:
